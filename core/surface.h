@@ -1,0 +1,38 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURFACE_H
+#define CORE_SURFACE_H
+
+#include <impinge/impinge.h>
+
+/* A surface under its maps, composed once
+ * =======================================
+ * g = phi_K( ... phi_1(f(u,v,t), t) ..., t). The rest of core sees only this: a
+ * domain, points, rates, inclusions. Immutable once built, so safe from many threads. */
+
+typedef struct surface surface;
+
+/* Takes over the instance `self` (destroys it in surface_free). NULL: no memory; the instance
+ * is destroyed then too. */
+surface *surface_new(const imp_surface_type *type, void *self);
+
+/* Puts a map on top of those already there; takes over `self`, also when it fails. */
+imp_code surface_add_map(surface *s, const imp_map_type *type, void *self);
+
+void surface_free(surface *s);
+
+const char *surface_type_name(const surface *s);
+
+/* Domain; time is what the type and all maps have in common: lo[2] > hi[2] if nothing. */
+void surface_domain(const surface *s, double lo[3], double hi[3]);
+
+/* As imp_surface_type.eval, maps applied. error may be NULL. */
+imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, double *error);
+
+/* Rate matrix of the composition (paper, section 5). */
+imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates);
+
+/* Inclusion of the composition; boxes from eval and rate where a part has no better. */
+imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3]);
+
+#endif

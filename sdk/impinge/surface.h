@@ -1,0 +1,364 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: MIT */
+#ifndef IMPINGE_SURFACE_H
+#define IMPINGE_SURFACE_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__FAST_MATH__)
+#error "Impinge bounds are proofs: -ffast-math (or -Ofast) breaks them. Remove the flag."
+#endif
+#if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0
+#error "Impinge bounds assume plain double arithmetic: build with SSE2, not x87."
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The surface ABI, version 1
+ * ==========================
+ *
+ * A plugin is one shared object that teaches Impinge one or more surface types
+ * or maps. It exports one symbol, `impinge_plugin`, and carries the same facts
+ * in an ELF note that the host reads before it runs any of the plugin's code.
+ *
+ *   surface   f(u, v, t) -> (x, y, z), continuous on a box of parameters
+ *   map       phi(x, y, z, t) -> (x, y, z), a motion or deformation of any surface
+ *
+ * The host pairs any surface with any other because each type answers three
+ * questions about itself, alone: where is a point (eval), how fast can it change
+ * over a region (rate), and optionally which quadratic does it follow there
+ * (include). The idea: B. Von Herzen, A. Barr, H. Zatz, "Geometric Collisions for
+ * Time-Dependent Parametric Surfaces", SIGGRAPH 1990 ("the paper").
+ *
+ * Most authors write one formula with <impinge/formula.h> and get all three.
+ *
+ * Rules for the whole ABI
+ *   - Structs that may grow begin with their size and only grow at the end; the
+ *     host reads no further than that size.
+ *   - The caller owns every output buffer. Nothing is freed across the boundary.
+ *   - Tables, names and texts live as long as the shared object is loaded.
+ *   - After create, an instance never changes. eval, rate, include and apply are
+ *     pure: no allocation, no errno, no change of rounding mode or of any other
+ *     floating-point setting, same answer every time, safe from many threads at
+ *     once [thread-safe]. create and destroy are called by one thread at a time
+ *     [main-thread].
+ *   - Rounding is to nearest. Every bound must hold in spite of rounding: pad
+ *     outward (<impinge/interval.h> has the helpers).
+ *
+ * Units: u, v are whatever the type's documentation says (often radians), t is
+ * the scene's time, lengths are the scene's length. Angles are radians. */
+
+#define IMP_ABI_MAJOR 1 /* differs: the host refuses the plugin */
+#define IMP_ABI_MINOR 0 /* the plugin's may be at most the host's */
+#define IMP_PLUGIN_MAGIC 0x31706D49u /* the bytes "Imp1" in a little-endian file */
+
+#if defined(__GNUC__)
+#define IMP_EXPORT __attribute__((visibility("default")))
+#else
+#define IMP_EXPORT
+#endif
+
+/* --- Answers ------------------------------------------------------------- */
+
+/* What a callback answers. Errors are answers, not exceptions: set no errno. */
+typedef int32_t imp_status;
+enum {
+    IMP_OK = 0,
+    IMP_DOMAIN = 1,    /* the region or point is outside the type's domain */
+    IMP_UNBOUNDED = 2, /* no finite rate over this region: the host splits it
+                          further and never takes it for clear */
+    IMP_PARAMETER = 3, /* create only: the parameters are wrong, see imp_complaint */
+    IMP_INTERNAL = 4   /* anything else, memory included; the query ends with an error */
+};
+
+/* --- Parameters of a type ------------------------------------------------- */
+
+typedef uint32_t imp_kind;
+enum {
+    IMP_NUMBER = 1,  /* finite double */
+    IMP_INTEGER = 2, /* whole number of at most 2^53 in magnitude */
+    IMP_BOOLEAN = 3,
+    IMP_STRING = 4, /* UTF-8, no NUL inside */
+    IMP_TABLE = 5   /* names to numbers, as in {"a": 1, "b": 2} */
+};
+
+enum {
+    IMP_MIN_OPEN = 1u << 0,  /* the value must be greater than min, not equal */
+    IMP_MAX_OPEN = 1u << 1,  /* the value must be less than max, not equal */
+    IMP_SCALAR_OK = 1u << 2, /* rank 1: a bare value stands for an array of one */
+    IMP_OPTIONAL = 1u << 3   /* may be left out and then is absent: `preset` is NULL */
+};
+
+#define IMP_RANK_MAX 3
+
+/* One row of a type's parameter table. A vector is an IMP_NUMBER of rank 1 and
+ * extent {3}; a list of points is rank 2 and extents {0, 3}. */
+typedef struct imp_parameter {
+    const char *name;     /* letters, digits, '_'; as written in scene files */
+    const char *unit;     /* "length", "rad", "rad/time", "1", ... */
+    const char *doc;      /* one line */
+    const char *preset;   /* default as JSON text; NULL: required, or IMP_OPTIONAL */
+    imp_kind kind;
+    uint32_t flags;       /* IMP_MIN_OPEN | ... */
+    uint32_t rank;        /* 0 for a single value, else the number of extents */
+    uint32_t extent[IMP_RANK_MAX]; /* 0: any number from 1 up */
+    double min, max;      /* of each number; -INFINITY and INFINITY: no limit */
+} imp_parameter;
+
+/* A parameter's value, checked by the host against its row: kind, rank, extents,
+ * range, finiteness. The arrays are the host's and die when create returns. */
+typedef struct imp_value {
+    size_t count;                 /* numbers or strings in all; 0: absent */
+    size_t extent[IMP_RANK_MAX];  /* as found; 1 beyond the rank */
+    const double *number;         /* NUMBER, INTEGER, BOOLEAN (0 or 1), TABLE: count, row-major */
+    const char *const *string;    /* STRING, TABLE (the names): count */
+} imp_value;
+
+/* How create says what is wrong, when it answers IMP_PARAMETER. The host has set
+ * struct_size, parameter = -1, element = -1, text = "". Say what was found and what is
+ * allowed; the host adds the place (file, line, JSON pointer). */
+typedef struct imp_complaint {
+    uint32_t struct_size;
+    int32_t parameter;  /* row of the parameter at fault, or -1 for the type as a whole */
+    int64_t element;    /* index along its first extent, or -1 */
+    char text[240];     /* NUL-terminated, one sentence */
+} imp_complaint;
+
+/* --- Regions, rates, models ------------------------------------------------ */
+
+/* A box in p = (u, v, t). Guaranteed: lo <= c <= hi, all finite; c - d <= lo and
+ * hi <= c + d in exact arithmetic; d == 0 exactly where lo == hi. Inside a region,
+ * s = (p - c) / d, so s is in [-1, 1]; s is 0 where d is 0. */
+typedef struct imp_region {
+    double lo[3], hi[3];
+    double c[3]; /* centre */
+    double d[3]; /* half-width, rounded up */
+} imp_region;
+
+/* A box in (x, y, z, t); lo <= hi, all finite. */
+typedef struct imp_box4 {
+    double lo[4], hi[4];
+} imp_box4;
+
+/* M[i][j] >= max over a region of |d f_i / d p_j| (paper, eq. 19). Finite, >= 0.
+ * Where f has a kink, the bound holds for difference quotients (Lipschitz). */
+typedef struct imp_rate_matrix {
+    double m[3][3];
+} imp_rate_matrix;
+
+/* The same for a map: bounds of |d phi_i / d (x, y, z, t)_j| over a box. */
+typedef struct imp_map_rates {
+    double m[3][4];
+} imp_map_rates;
+
+/* Index into imp_model.q of the coefficient of s_j s_k, j <= k. */
+enum { IMP_UU = 0, IMP_UV = 1, IMP_UT = 2, IMP_VV = 3, IMP_VT = 4, IMP_TT = 5 };
+
+/* An order-2 inclusion of one coordinate over a region. For every p in it, with s
+ * as above, both hold for the exact value g(p):
+ *
+ *   | g(p) - (a + sum_j b_j s_j + sum_{j<=k} q_jk s_j s_k) | <= e
+ *   lo <= g(p) <= hi
+ *
+ * and |g(p) - g(p')| <= sum_j rate_j |p_j - p'_j| inside the region. All finite,
+ * e >= 0, lo <= hi, rate >= 0, unless the callback answers IMP_UNBOUNDED: then rate
+ * may be INFINITY, lo -INFINITY, hi and e INFINITY, and what is finite still holds.
+ * The rate matrix alone is the case b = q = 0, e = sum_j M_ij d_j. */
+typedef struct imp_model {
+    double a;        /* length */
+    double b[3];     /* length, per unit of s */
+    double q[6];     /* length; order IMP_UU ... IMP_TT */
+    double e;        /* length */
+    double lo, hi;   /* length */
+    double rate[3];  /* length per unit of u, v, t */
+    uint32_t depends; /* bit j set: may depend on p_j. Clear: g does not depend on
+                         p_j over the region, and b_j, q_j., rate_j are 0 */
+    uint32_t reserved; /* 0 */
+} imp_model;
+
+/* --- Surface types ----------------------------------------------------------- */
+
+/* [thread-safe] means: called from any thread, many at once, on one instance. */
+typedef struct imp_surface_type {
+    uint32_t struct_size;
+    uint32_t parameter_count;
+    uint32_t parameter_size; /* sizeof(imp_parameter): the stride of the table */
+    uint32_t flags;          /* 0 */
+    const char *name;     /* letters, digits, '_', '-'; at most 63 bytes */
+    const char *summary;  /* one line */
+    const char *equation; /* how (x, y, z) follows from u, v, t and the parameters */
+    const char *source;   /* paper or book the equation comes from; may be NULL */
+    const char *example;  /* a surface as on the command line: "sphere radius=2" */
+    const imp_parameter *parameters;
+
+    /* Makes an instance from one value per row of the table, in its order. On
+     * IMP_OK sets *self (never NULL) and the host calls destroy once later; on any
+     * other answer *self is ignored and the plugin has kept nothing. [main-thread] */
+    imp_status (*create)(const imp_value *values, void **self, imp_complaint *why);
+    void (*destroy)(void *self); /* [main-thread] */
+
+    /* The whole parameter domain: finite lo <= hi for u and v. For t, lo may be
+     * -INFINITY and hi INFINITY; the host then asks only about the times it needs.
+     * [thread-safe] */
+    void (*domain)(const void *self, double lo[3], double hi[3]);
+
+    /* n points p[3*k] = (u, v, t), inside the domain, to x[3*k] = (x, y, z), and to
+     * error[3*k] the absolute error of each coordinate: |x - f(p)| <= error in exact
+     * arithmetic. error may be NULL: not wanted. [thread-safe] */
+    imp_status (*eval)(const void *self, size_t n, const double *p, double *x, double *error);
+
+    /* Rate matrix over a region inside the domain. [thread-safe] */
+    imp_status (*rate)(const void *self, const imp_region *region, imp_rate_matrix *rates);
+
+    /* Order-2 inclusion of x, y, z over a region inside the domain. May be NULL: the
+     * host then uses eval at the centre and rate. [thread-safe] */
+    imp_status (*include)(const void *self, const imp_region *region, imp_model model[3]);
+} imp_surface_type;
+
+/* --- Maps -------------------------------------------------------------------- */
+
+/* A map moves or deforms any surface: g(u,v,t) = phi(f(u,v,t), t). Fields shared
+ * with imp_surface_type mean the same. */
+typedef struct imp_map_type {
+    uint32_t struct_size;
+    uint32_t parameter_count;
+    uint32_t parameter_size;
+    uint32_t flags;
+    const char *name;
+    const char *summary;
+    const char *equation;
+    const char *source;
+    const char *example; /* "rotate axis=0,0,1 rate=2", as after a '!' */
+    const imp_parameter *parameters;
+    imp_status (*create)(const imp_value *values, void **self, imp_complaint *why);
+    void (*destroy)(void *self);
+
+    /* The times the map is defined for; -INFINITY and INFINITY if always. Space is
+     * not restricted: every (x, y, z) must have an image. [thread-safe] */
+    void (*time_domain)(const void *self, double *lo, double *hi);
+
+    /* n points p[4*k] = (x, y, z, t) to x[3*k], and errors as for a surface: the map's own,
+     * for exactly the given point. [thread-safe] */
+    imp_status (*eval)(const void *self, size_t n, const double *p, double *x, double *error);
+
+    /* Rates over a box of (x, y, z, t). [thread-safe] */
+    imp_status (*rate)(const void *self, const imp_box4 *box, imp_map_rates *rates);
+
+    /* Models of x, y, z and t over one region, to the models of phi over it. `in` and
+     * `out` do not overlap. May be NULL: the host then uses rate and the chain rule
+     * (paper, section 5: M_g[:,j] = P M_f[:,j], + p_t for j = t). [thread-safe] */
+    imp_status (*apply)(const void *self, const imp_model in[4], imp_model out[3]);
+} imp_map_type;
+
+/* --- The plugin ---------------------------------------------------------------- */
+
+#define IMP_SURFACE_FACTORY "impinge.surface/1"
+#define IMP_MAP_FACTORY "impinge.map/1"
+
+typedef struct imp_surface_factory {
+    uint32_t struct_size;
+    uint32_t count;
+    const imp_surface_type *const *types; /* count pointers */
+} imp_surface_factory;
+
+typedef struct imp_map_factory {
+    uint32_t struct_size;
+    uint32_t count;
+    const imp_map_type *const *types;
+} imp_map_factory;
+
+typedef struct imp_plugin {
+    uint32_t magic; /* IMP_PLUGIN_MAGIC */
+    uint32_t struct_size;
+    uint32_t abi_major, abi_minor;
+    const char *name;    /* of the plugin; at most 63 bytes */
+    const char *version; /* of the plugin */
+    const char *license; /* SPDX expression */
+    const char *author;
+    /* The factory of that id, or NULL for ids the plugin does not know. [main-thread] */
+    const void *(*get_factory)(const char *id);
+} imp_plugin;
+
+/* The one symbol a plugin exports; IMPINGE_PLUGIN defines it. */
+extern IMP_EXPORT const imp_plugin impinge_plugin;
+
+/* The same facts for a host that has not run any of our code yet. ELF note, owner
+ * "Impinge", type 1, descriptor: abi_major, abi_minor (32 bits each), then name and
+ * version, NUL-terminated. Written by the assembler because compilers give the section
+ * the wrong type. */
+#define IMP_NOTE_OWNER "Impinge"
+#define IMP_NOTE_TYPE 1
+#define IMP_TEXT_OF_(x) #x
+#define IMP_TEXT_OF(x) IMP_TEXT_OF_(x)
+#define IMP_NOTE_(NAME, VERSION)                                                          \
+    __asm__(".pushsection .note.impinge,\"a\",%note\n"                                    \
+            "\t.balign 4\n"                                                               \
+            "\t.long 771f-770f, 773f-772f, " IMP_TEXT_OF(IMP_NOTE_TYPE) "\n"              \
+            "770:\t.asciz \"" IMP_NOTE_OWNER "\"\n"                                       \
+            "771:\t.balign 4\n"                                                           \
+            "772:\t.long " IMP_TEXT_OF(IMP_ABI_MAJOR) ", " IMP_TEXT_OF(IMP_ABI_MINOR) "\n" \
+            "\t.asciz \"" NAME "\"\n"                                                     \
+            "\t.asciz \"" VERSION "\"\n"                                                  \
+            "773:\t.balign 4\n"                                                           \
+            "\t.popsection\n")
+
+/* Defines the plugin, once per shared object, at file scope. Strings are literals; GET_FACTORY
+ * is a function as in imp_plugin. One type per file? See IMPINGE_SURFACE_PLUGIN below. */
+#define IMPINGE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, GET_FACTORY)                        \
+    IMP_NOTE_(NAME, VERSION);                                                             \
+    const imp_plugin impinge_plugin = {                                                   \
+        IMP_PLUGIN_MAGIC, (uint32_t)sizeof(imp_plugin), IMP_ABI_MAJOR, IMP_ABI_MINOR,     \
+        NAME, VERSION, LICENSE, AUTHOR, GET_FACTORY}
+
+#define IMP_SINGLE_PLUGIN_(FACTORY, ID, NAME, VERSION, LICENSE, AUTHOR, TYPE)              \
+    static const FACTORY##_type *const imp_types_[] = {&(TYPE)};                          \
+    static const FACTORY##_factory imp_factory_ = {(uint32_t)sizeof(FACTORY##_factory), 1, \
+                                                   imp_types_};                           \
+    static const void *imp_get_factory_(const char *id) {                                 \
+        const char *want = ID;                                                            \
+        while (*want != '\0' && *want == *id) ++want, ++id;                               \
+        return *want == *id ? &imp_factory_ : NULL;                                       \
+    }                                                                                     \
+    IMPINGE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, imp_get_factory_)
+
+/* A plugin of one surface type, or of one map: TYPE is the static const struct. */
+#define IMPINGE_SURFACE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, TYPE) \
+    IMP_SINGLE_PLUGIN_(imp_surface, IMP_SURFACE_FACTORY, NAME, VERSION, LICENSE, AUTHOR, TYPE)
+#define IMPINGE_MAP_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, TYPE) \
+    IMP_SINGLE_PLUGIN_(imp_map, IMP_MAP_FACTORY, NAME, VERSION, LICENSE, AUTHOR, TYPE)
+
+/* --- Layout, frozen for version 1 on 64-bit machines --------------------------- */
+
+#ifdef __cplusplus
+#define IMP_LAYOUT(cond) static_assert(cond, "layout of the surface ABI, version 1")
+#else
+#define IMP_LAYOUT(cond) _Static_assert(cond, "layout of the surface ABI, version 1")
+#endif
+IMP_LAYOUT(sizeof(double) == 8 && sizeof(void *) == 8 && sizeof(size_t) == 8);
+IMP_LAYOUT(sizeof(imp_parameter) == 72 && offsetof(imp_parameter, kind) == 32);
+IMP_LAYOUT(offsetof(imp_parameter, extent) == 44 && offsetof(imp_parameter, min) == 56);
+IMP_LAYOUT(sizeof(imp_value) == 48 && offsetof(imp_value, number) == 32);
+IMP_LAYOUT(sizeof(imp_complaint) == 256 && offsetof(imp_complaint, text) == 16);
+IMP_LAYOUT(sizeof(imp_region) == 96 && offsetof(imp_region, c) == 48);
+IMP_LAYOUT(sizeof(imp_box4) == 64);
+IMP_LAYOUT(sizeof(imp_rate_matrix) == 72 && sizeof(imp_map_rates) == 96);
+IMP_LAYOUT(sizeof(imp_model) == 136 && offsetof(imp_model, q) == 32);
+IMP_LAYOUT(offsetof(imp_model, e) == 80 && offsetof(imp_model, rate) == 104);
+IMP_LAYOUT(offsetof(imp_model, depends) == 128);
+IMP_LAYOUT(sizeof(imp_surface_type) == 112 && offsetof(imp_surface_type, name) == 16);
+IMP_LAYOUT(offsetof(imp_surface_type, create) == 64 && offsetof(imp_surface_type, include) == 104);
+IMP_LAYOUT(sizeof(imp_map_type) == 112 && offsetof(imp_map_type, name) == 16);
+IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);
+IMP_LAYOUT(sizeof(imp_surface_factory) == 16 && sizeof(imp_map_factory) == 16);
+IMP_LAYOUT(sizeof(imp_plugin) == 56 && offsetof(imp_plugin, name) == 16);
+IMP_LAYOUT(offsetof(imp_plugin, get_factory) == 48);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* IMPINGE_SURFACE_H */
