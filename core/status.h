@@ -12,7 +12,7 @@
  * A function that can fail takes an imp_error (perhaps NULL) and answers an imp_code. It
  * says what went wrong once, where it is known best, by error_set; those above add the place. */
 
-#define STATUS_PRINTF_(format, first) __attribute__((format(printf, format, first)))
+#define STATUS_PRINTF_(text, first) __attribute__((format(printf, text, first)))
 
 /* Writes code and text, and answers `code`, so that a failure is one statement:
  *     return error_set(error, IMP_ERROR_FILE, "%s: no such file", path);
