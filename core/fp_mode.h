@@ -1,0 +1,66 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_FP_MODE_H
+#define CORE_FP_MODE_H
+
+#include <fenv.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+/* The floating-point mode of this thread
+ * ======================================
+ * Every bound in Impinge assumes rounding to nearest with subnormals kept. A shared object linked
+ * with -ffast-math switches subnormals off in its constructor, for the whole thread that
+ * loads it; a plugin's function may leave another rounding mode behind. Reading the mode
+ * costs about a nanosecond, so it is compared around every call out of core.
+ *
+ * The mode is what steers results: rounding, flush-to-zero, denormals-are-zero, traps. The sticky
+ * exception flags are not part of it. */
+
+typedef uint64_t fp_mode;
+
+#if defined(__x86_64__)
+
+#define FP_MODE_FLAGS 0x3Fu /* MXCSR bits 0 to 5: the sticky exception flags */
+
+static inline fp_mode fp_mode_read(void)
+{
+    return __builtin_ia32_stmxcsr() & ~FP_MODE_FLAGS;
+}
+
+static inline void fp_mode_restore(fp_mode mode)
+{
+    __builtin_ia32_ldmxcsr((uint32_t)mode);
+}
+
+#elif defined(__aarch64__)
+
+static inline fp_mode fp_mode_read(void)
+{
+    uint64_t fpcr;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(fpcr));
+    return fpcr;
+}
+
+static inline void fp_mode_restore(fp_mode mode)
+{
+    __asm__ volatile("msr fpcr, %0" : : "r"(mode));
+}
+
+#else /* what C can tell everywhere: the rounding mode */
+
+static inline fp_mode fp_mode_read(void) { return (fp_mode)fegetround(); }
+
+static inline void fp_mode_restore(fp_mode mode) { fesetround((int)mode); }
+
+#endif
+
+/* True if the mode still is `before`; otherwise puts it back and answers false. */
+static inline bool fp_mode_kept(fp_mode before)
+{
+    if (fp_mode_read() == before) return true;
+    fp_mode_restore(before);
+    return false;
+}
+
+#endif

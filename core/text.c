@@ -1,0 +1,122 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "text.h"
+
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool is_letter_or_digit(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+bool text_is_name(const char *s, const char *extra)
+{
+    if (!s) return false;
+    size_t n = 0;
+    for (; s[n] != '\0'; ++n) {
+        if (n == TEXT_NAME_MAX) return false;
+        if (!is_letter_or_digit(s[n]) && !strchr(extra, s[n])) return false;
+    }
+    return n > 0;
+}
+
+/* Length in bytes of the character of UTF-8 that s begins with; 0 if it is broken: a stray
+ * or missing continuation, an overlong form, a surrogate, or beyond U+10FFFF. */
+static size_t character_length(const unsigned char *s)
+{
+    if (s[0] < 0x80) return 1;
+    size_t n = s[0] >= 0xF0 ? 4 : s[0] >= 0xE0 ? 3 : 2;
+    if (s[0] < 0xC2 || s[0] > 0xF4) return 0;
+    for (size_t i = 1; i < n; ++i)
+        if ((s[i] & 0xC0) != 0x80) return 0;
+    bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
+    bool surrogate = s[0] == 0xED && s[1] > 0x9F;
+    bool beyond = s[0] == 0xF4 && s[1] > 0x8F;
+    return overlong || surrogate || beyond ? 0 : n;
+}
+
+/* The control characters are C0, DEL, and C1 (U+0080 to U+009F). */
+static bool is_control(const unsigned char *s)
+{
+    return s[0] < 0x20 || s[0] == 0x7F || (s[0] == 0xC2 && s[1] < 0xA0);
+}
+
+bool text_is_line(const char *s)
+{
+    if (!s) return false;
+    const unsigned char *p = (const unsigned char *)s;
+    while (*p) {
+        size_t n = character_length(p);
+        if (n == 0 || is_control(p)) return false;
+        p += n;
+    }
+    return true;
+}
+
+void text_clean(char *s)
+{
+    unsigned char *p = (unsigned char *)s;
+    while (*p) {
+        size_t n = character_length(p);
+        if (n == 0 || is_control(p)) {
+            memset(p, '?', n == 0 ? 1 : n);
+        }
+        p += n == 0 ? 1 : n;
+    }
+}
+
+void text_append(char *buffer, size_t size, const char *format, ...)
+{
+    size_t used = strlen(buffer);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(buffer + used, size - used, format, arguments);
+    va_end(arguments);
+}
+
+size_t text_characters(const char *s, size_t bytes)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < bytes; ++i)
+        if (((unsigned char)s[i] & 0xC0) != 0x80) ++n;
+    return n;
+}
+
+static size_t least(size_t a, size_t b) { return a < b ? a : b; }
+
+/* Dynamic programming over prefixes: after round i, row[i % 3][j] is the distance of the
+ * first i letters of a from the first j of b. Swaps of neighbours reach two rounds back. */
+size_t text_distance(const char *a, const char *b)
+{
+    size_t row[3][TEXT_NAME_MAX + 1];
+    size_t n = strlen(a), m = strlen(b);
+    if (n > TEXT_NAME_MAX || m > TEXT_NAME_MAX) return SIZE_MAX;
+    for (size_t j = 0; j <= m; ++j) row[0][j] = j;
+    for (size_t i = 1; i <= n; ++i) {
+        size_t *now = row[i % 3], *before = row[(i + 2) % 3], *earlier = row[(i + 1) % 3];
+        now[0] = i;
+        for (size_t j = 1; j <= m; ++j) {
+            size_t d = before[j - 1] + (a[i - 1] != b[j - 1]);
+            d = least(d, least(before[j], now[j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d = least(d, earlier[j - 2] + 1);
+            now[j] = d;
+        }
+    }
+    return row[n % 3][m];
+}
+
+void text_nearest_offer(text_nearest *search, const char *candidate)
+{
+    size_t allowed = (strlen(search->wanted) + 2) / 3;
+    size_t d = text_distance(search->wanted, candidate);
+    if (d > allowed || d >= strlen(candidate)) return;
+    if (search->best && search->distance <= d) return;
+    search->best = candidate;
+    search->distance = d;
+}

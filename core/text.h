@@ -1,0 +1,46 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_TEXT_H
+#define CORE_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Names and lines of text
+ * =======================
+ * What plugins and files call things is shown to people and written to JSON: it has to be
+ * legal, printable, and when it is nearly right we say what it was meant to be. */
+
+#define TEXT_NAME_MAX 63 /* bytes of a type's, parameter's or plugin's name */
+
+/* 1 to 63 letters of ASCII, digits, or characters of `extra`. NULL is no name. */
+bool text_is_name(const char *s, const char *extra);
+
+/* Valid UTF-8 without control characters: fit for a terminal and for JSON. NULL is no line. */
+bool text_is_line(const char *s);
+
+/* Makes a line of anything: control characters and broken UTF-8 become '?'. In place. */
+void text_clean(char *s);
+
+/* Appends to the NUL-terminated text in buffer[size]; what does not fit is cut. */
+void text_append(char *buffer, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Characters (not bytes) in the first `bytes` bytes of UTF-8. */
+size_t text_characters(const char *s, size_t bytes);
+
+/* Changes of one letter, insertions, removals and swaps of neighbours that turn a into b.
+ * Names longer than TEXT_NAME_MAX are infinitely far: SIZE_MAX. */
+size_t text_distance(const char *a, const char *b);
+
+/* Searches for the name that was meant: begin with {wanted}, offer all there are, read
+ * `best`. It stays NULL while nothing is near: at most one change in three letters. */
+typedef struct text_nearest {
+    const char *wanted;
+    const char *best;
+    size_t distance; /* of best; meaningless while best is NULL */
+} text_nearest;
+
+void text_nearest_offer(text_nearest *search, const char *candidate);
+
+#endif
