@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Modules, bottom-up, one per line: a module includes only what stands above it, which
+# tests/structure.bats checks. The registry side and the solver side both build on the
+# base and never include each other.
+
+core_base = \
+    core/impinge/impinge.h \
+    core/status.c core/status.h \
+    core/surface.h \
+    core/scene.h
+
+core_solver =
+
+core_registry =
+
+# Everything, internal symbols included: what the Check suites link.
+noinst_LTLIBRARIES += core/libcore.la
+core_libcore_la_SOURCES = $(core_base) $(core_solver) $(core_registry)
+core_libcore_la_LIBADD = $(JANSSON_LIBS) -lm
+
+# The same objects, public symbols only.
+#
+# -version-info CURRENT:REVISION:AGE, at each release (libtool's rule, not the version of
+# the package):
+#   code changed, interface the same        REVISION + 1
+#   interface grew, nothing lost            CURRENT + 1, REVISION 0, AGE + 1
+#   anything public removed or changed      CURRENT + 1, REVISION 0, AGE 0
+lib_LTLIBRARIES += libimpinge.la
+libimpinge_la_SOURCES =
+libimpinge_la_LIBADD = core/libcore.la
+libimpinge_la_LDFLAGS = $(AM_LDFLAGS) -version-info 0:0:0 -no-undefined \
+    -export-symbols-regex '^imp_'
+
+core_includedir = $(pkgincludedir)
+core_include_HEADERS = core/impinge/impinge.h
+
+pkgconfig_DATA += core/impinge.pc

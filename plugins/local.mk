@@ -1,0 +1,22 @@
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# One line per plugin: plugins/NAME.la is built from plugins/NAME.c, and from nothing else.
+
+plugin_LTLIBRARIES =
+
+plugin_ldflags = -avoid-version -shared -export-symbols-regex '^impinge_plugin$$'
+
+# Fresh links at the default: nothing but libm, and never anything of core.
+$(plugin_LTLIBRARIES): LIBS = -lm
+
+# Hosts load the .so itself; a .la beside it would only mislead.
+.PHONY: install-plugins-without-la uninstall-plugins
+install-plugins-without-la:
+	for plugin in $(plugin_LTLIBRARIES); do \
+	  rm -f "$(DESTDIR)$(plugindir)/$${plugin##*/}"; \
+	done
+uninstall-plugins:
+	for plugin in $(plugin_LTLIBRARIES:.la=.so); do \
+	  rm -f "$(DESTDIR)$(plugindir)/$${plugin##*/}"; \
+	done

@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# One line per suite: tests/NAME is built from tests/NAME.c and linked with everything in
+# core, internal symbols included.
+check_suites =
+
+# The same, with MPFI as the judge of bounds.
+mpfi_suites =
+
+# Command-line tests; the environment below tells them where things are.
+bats_suites =
+
+LDADD = core/libcore.la $(CHECK_LIBS) $(MPFI_LIBS) -lm
+
+TESTS =
+skipped_suites =
+if HAVE_CHECK
+check_PROGRAMS += $(check_suites)
+TESTS += $(check_suites)
+if HAVE_MPFI
+check_PROGRAMS += $(mpfi_suites)
+TESTS += $(mpfi_suites)
+else
+skipped_suites += $(mpfi_suites:%='% (MPFI not found)')
+endif
+else
+skipped_suites += $(check_suites:%='% (Check not found)') $(mpfi_suites:%='% (Check not found)')
+endif
+if HAVE_BATS
+TESTS += $(bats_suites)
+else
+skipped_suites += $(bats_suites:%='% (bats not found)')
+endif
+
+# IMPINGE is the command to test. The user's own plugins stay out of it.
+TEST_EXTENSIONS = .bats
+BATS_LOG_COMPILER = $(BATS) --tap
+AM_TESTS_ENVIRONMENT = \
+    IMPINGE='$(abs_top_builddir)/tools/impinge'; export IMPINGE; \
+    top_srcdir='$(abs_top_srcdir)'; export top_srcdir; \
+    top_builddir='$(abs_top_builddir)'; export top_builddir; \
+    CC='$(CC)'; export CC; \
+    MAKE='$(MAKE)'; export MAKE; \
+    XDG_DATA_HOME='$(abs_top_builddir)/tests/no-user-data'; export XDG_DATA_HOME; \
+    unset IMPINGE_PLUGIN_PATH;
+
+EXTRA_DIST += $(bats_suites) \
+    $(check_suites:=.c) $(mpfi_suites:=.c)
+
+check-local:
+	@for suite in $(skipped_suites); do echo "SKIP: $$suite"; done
