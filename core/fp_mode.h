@@ -23,15 +23,9 @@ typedef uint64_t fp_mode;
 
 #define FP_MODE_FLAGS 0x3Fu /* MXCSR bits 0 to 5: the sticky exception flags */
 
-static inline fp_mode fp_mode_read(void)
-{
-    return __builtin_ia32_stmxcsr() & ~FP_MODE_FLAGS;
-}
+static inline fp_mode fp_mode_read(void) { return __builtin_ia32_stmxcsr() & ~FP_MODE_FLAGS; }
 
-static inline void fp_mode_restore(fp_mode mode)
-{
-    __builtin_ia32_ldmxcsr((uint32_t)mode);
-}
+static inline void fp_mode_restore(fp_mode mode) { __builtin_ia32_ldmxcsr((uint32_t)mode); }
 
 #elif defined(__aarch64__)
 
@@ -42,10 +36,7 @@ static inline fp_mode fp_mode_read(void)
     return fpcr;
 }
 
-static inline void fp_mode_restore(fp_mode mode)
-{
-    __asm__ volatile("msr fpcr, %0" : : "r"(mode));
-}
+static inline void fp_mode_restore(fp_mode mode) { __asm__ volatile("msr fpcr, %0" : : "r"(mode)); }
 
 #else /* what C can tell everywhere: the rounding mode */
 

@@ -8,12 +8,17 @@
 core_base = \
     core/impinge/impinge.h \
     core/status.c core/status.h \
+    core/fp_mode.h \
+    core/text.c core/text.h \
+    core/place.c core/place.h \
     core/surface.h \
     core/scene.h
 
 core_solver =
 
-core_registry =
+core_registry = \
+    core/elf_file.c core/elf_file.h \
+    core/elf_probe.c core/elf_probe.h
 
 # Everything, internal symbols included: what the Check suites link.
 noinst_LTLIBRARIES += core/libcore.la
