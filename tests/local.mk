@@ -9,7 +9,9 @@ check_suites =
 mpfi_suites =
 
 # Command-line tests; the environment below tells them where things are.
-bats_suites =
+bats_suites = \
+    tests/structure.bats \
+    tests/install.bats
 
 LDADD = core/libcore.la $(CHECK_LIBS) $(MPFI_LIBS) -lm
 
@@ -45,8 +47,13 @@ AM_TESTS_ENVIRONMENT = \
     XDG_DATA_HOME='$(abs_top_builddir)/tests/no-user-data'; export XDG_DATA_HOME; \
     unset IMPINGE_PLUGIN_PATH;
 
-EXTRA_DIST += $(bats_suites) \
+EXTRA_DIST += $(bats_suites) tests/include_order \
     $(check_suites:=.c) $(mpfi_suites:=.c)
 
 check-local:
 	@for suite in $(skipped_suites); do echo "SKIP: $$suite"; done
+
+# With sanitizers a second full run is slow and tells nothing new of scripts and installation.
+.PHONY: check-sanitized
+check-sanitized:
+	$(MAKE) check TESTS='$(filter-out tests/structure.bats tests/install.bats,$(TESTS))'

@@ -1,6 +1,6 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
-#define _POSIX_C_SOURCE 200809L
+#include <config.h>
 
 #include "build_tree.h"
 
