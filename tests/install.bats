@@ -112,7 +112,7 @@ build_plugin() {
 
 @test "--with-plugindir is where plugins go" {
     cp "$build/config.cache" .
-    "$top_srcdir"/configure -q -C --prefix="$prefix" --with-plugindir="$PWD/elsewhere" CC="$CC" \
+    env -u PKG_CONFIG_PATH "$top_srcdir"/configure -q -C --prefix="$prefix" --with-plugindir="$PWD/elsewhere" CC="$CC" \
         CFLAGS=-O1
     [ "$(PKG_CONFIG_PATH=sdk sdk plugindir)" = "$PWD/elsewhere" ]
     make -s -n install-pluginLTLIBRARIES | grep -q "$PWD/elsewhere"
