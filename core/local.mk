@@ -9,6 +9,7 @@ core_base = \
     core/impinge/impinge.h \
     core/status.c core/status.h \
     core/fp_mode.h \
+    core/array.h \
     core/text.c core/text.h \
     core/place.c core/place.h \
     core/surface.h \
@@ -18,7 +19,14 @@ core_solver =
 
 core_registry = \
     core/elf_file.c core/elf_file.h \
-    core/elf_probe.c core/elf_probe.h
+    core/elf_probe.c core/elf_probe.h \
+    core/parameter_table.c core/parameter_table.h \
+    core/parameters.c core/parameters.h \
+    core/type_view.h \
+    core/plugin_check.c core/plugin_check.h \
+    core/plugin_file.c core/plugin_file.h \
+    core/search_path.c core/search_path.h \
+    core/registry.c core/registry.h
 
 # Everything, internal symbols included: what the Check suites link.
 noinst_LTLIBRARIES += core/libcore.la

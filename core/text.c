@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static bool is_letter_or_digit(char c)
@@ -77,6 +78,18 @@ void text_append(char *buffer, size_t size, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(buffer + used, size - used, format, arguments);
     va_end(arguments);
+}
+
+text_number text_of_number(double x)
+{
+    text_number text;
+    for (int digits = 15; digits <= 17; ++digits) {
+        snprintf(text.at, sizeof text.at, "%.*g", digits, x);
+        if (strtod(text.at, NULL) == x) break;
+    }
+    char *comma = strchr(text.at, ',');
+    if (comma) *comma = '.';
+    return text;
 }
 
 size_t text_characters(const char *s, size_t bytes)

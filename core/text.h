@@ -26,6 +26,12 @@ void text_clean(char *s);
 void text_append(char *buffer, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* The shortest decimal that reads back as x, with a point in every locale. */
+typedef struct text_number {
+    char at[32];
+} text_number;
+text_number text_of_number(double x);
+
 /* Characters (not bytes) in the first `bytes` bytes of UTF-8. */
 size_t text_characters(const char *s, size_t bytes);
 

@@ -1,0 +1,94 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "fp_mode.h"
+#include "plugin_check.h"
+#include "plugin_file.h"
+#include "text.h"
+
+#include <assert.h>
+#include <dlfcn.h>
+
+#define ENTRY "impinge_plugin"
+
+static imp_code step_read(plugin_file *plugin, const char *path, imp_error *error)
+{
+    if (elf_probe_file(path, false, &plugin->facts)) return IMP_SUCCESS;
+    const elf_check *check = elf_probe_refusal(&plugin->facts);
+    return error_set(error, IMP_ERROR_PLUGIN, "%s: %s", check->name, check->text);
+}
+
+/* RTLD_NOW: an undefined function is told here, not by a dead host at its first call.
+ * RTLD_LOCAL: plugins do not see each other. The constructors run here. */
+static imp_code step_load(plugin_file *plugin, const char *path, imp_error *error)
+{
+    fp_mode before = fp_mode_read();
+    plugin->handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    bool kept = fp_mode_kept(before);
+    if (!plugin->handle) {
+        const char *why = dlerror();
+        error_set(error, IMP_ERROR_PLUGIN, "load: %s", why ? why : "dlopen failed");
+        if (error) text_clean(error->text);
+        return IMP_ERROR_PLUGIN;
+    }
+    if (!kept)
+        return error_set(
+            error, IMP_ERROR_PLUGIN,
+            "load: loading it changes the floating-point mode, which breaks every "
+            "bound of every plugin; compile and link it without -ffast-math or -Ofast");
+    return IMP_SUCCESS;
+}
+
+static imp_code step_enter(plugin_file *plugin, const char *path, imp_error *error)
+{
+    (void)path;
+    plugin->entry = dlsym(plugin->handle, ENTRY);
+    if (!plugin->entry)
+        return error_set(error, IMP_ERROR_PLUGIN,
+                         "entry: does not export the symbol " ENTRY
+                         "; define it by the macro IMPINGE_PLUGIN, with default visibility");
+    return plugin_check_entry(plugin->entry, &plugin->facts, error);
+}
+
+static imp_code step_tables(plugin_file *plugin, const char *path, imp_error *error)
+{
+    (void)path;
+    fp_mode before = fp_mode_read();
+    plugin->surfaces = plugin->entry->get_factory(IMP_SURFACE_FACTORY);
+    plugin->maps = plugin->entry->get_factory(IMP_MAP_FACTORY);
+    if (!fp_mode_kept(before))
+        return error_set(error, IMP_ERROR_PLUGIN, "get_factory changes the floating-point mode");
+    return plugin_check_factories(plugin->surfaces, plugin->maps, error);
+}
+
+/* In this order. A step that must come before the plugin's code runs in this process belongs
+ * before step_load. */
+static imp_code (*const steps[])(plugin_file *, const char *, imp_error *) = {
+    step_read,
+    step_load,
+    step_enter,
+    step_tables,
+};
+
+imp_code plugin_file_open(plugin_file *plugin, const char *path, imp_error *error)
+{
+    assert(path[0] == '/');
+    *plugin = (plugin_file){.handle = NULL};
+    imp_code code = IMP_SUCCESS;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps && code == IMP_SUCCESS; ++i)
+        code = steps[i](plugin, path, error);
+    if (code != IMP_SUCCESS) plugin_file_close(plugin);
+    return code;
+}
+
+void plugin_file_close(plugin_file *plugin)
+{
+    fp_mode before = fp_mode_read();
+    if (plugin->handle) dlclose(plugin->handle);
+    fp_mode_restore(before);
+    plugin->handle = NULL;
+    plugin->entry = NULL;
+    plugin->surfaces = NULL;
+    plugin->maps = NULL;
+}
