@@ -8,6 +8,7 @@
 bats_require_minimum_version 1.5.0
 
 setup_file() {
+    unset MAKEFLAGS MFLAGS DESTDIR # of the make that runs us
     export prefix=$BATS_FILE_TMPDIR/prefix build=$BATS_FILE_TMPDIR/build
     mkdir "$build"
     cd "$build"
@@ -111,8 +112,9 @@ build_plugin() {
 }
 
 @test "--with-plugindir is where plugins go" {
+    unset PKG_CONFIG_PATH
     cp "$build/config.cache" .
-    env -u PKG_CONFIG_PATH "$top_srcdir"/configure -q -C --prefix="$prefix" --with-plugindir="$PWD/elsewhere" CC="$CC" \
+    "$top_srcdir"/configure -q -C --prefix="$prefix" --with-plugindir="$PWD/elsewhere" CC="$CC" \
         CFLAGS=-O1
     [ "$(PKG_CONFIG_PATH=sdk sdk plugindir)" = "$PWD/elsewhere" ]
     make -s -n install-pluginLTLIBRARIES | grep -q "$PWD/elsewhere"

@@ -138,6 +138,15 @@ IMPINGE_PLUGIN("smallest", "1", "MIT", "nobody", get_factory);'
     done
 }
 
+@test "clang finds nothing to warn of in any source" {
+    command -v clang >/dev/null || skip "clang not found"
+    local file
+    for file in "$top_srcdir"/{core,plugins,tools,tests}/*.c; do
+        clang -std=c11 -O2 -ffp-contract=off -Wall -Wextra -Werror -fsyntax-only -DPLUGINDIR='""' \
+            -I"$top_builddir" -I"$top_srcdir/sdk" -I"$top_srcdir/core" "$file"
+    done
+}
+
 # --- Arithmetic as written ------------------------------------------------------------------------
 
 @test "configure refuses flags that change floating-point arithmetic" {
