@@ -142,8 +142,9 @@ IMPINGE_PLUGIN("smallest", "1", "MIT", "nobody", get_factory);'
     command -v clang >/dev/null || skip "clang not found"
     local file
     for file in "$top_srcdir"/{core,plugins,tools,tests}/*.c; do
-        clang -std=c11 -O2 -ffp-contract=off -Wall -Wextra -Werror -fsyntax-only -DPLUGINDIR='""' \
-            -I"$top_builddir" -I"$top_srcdir/sdk" -I"$top_srcdir/core" "$file"
+        clang -std=c11 -O2 -ffp-contract=off -Wall -Wextra -Werror -fsyntax-only \
+            -DPLUGINDIR='""' -DPKGDATADIR='""' -I"$top_builddir" -I"$top_srcdir/sdk" \
+            -I"$top_srcdir/core" "$file"
     done
 }
 
