@@ -7,7 +7,7 @@ plugin_LTLIBRARIES =
 
 plugin_ldflags = -avoid-version -shared -export-symbols-regex '^impinge_plugin$$'
 
-# Fresh links at the default: nothing but libm, and never anything of core.
+# They link with libm and nothing else, whatever configure found for the host.
 $(plugin_LTLIBRARIES): LIBS = -lm
 
 # Hosts load the .so itself; a .la beside it would only mislead.

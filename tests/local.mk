@@ -9,7 +9,11 @@ check_suites =
 mpfi_suites =
 
 # Command-line tests; the environment below tells them where things are.
-bats_suites = \
+bats_suites =
+
+# Tests of the sources, the scripts and the installation.
+script_suites = \
+    tests/preparation.bats \
     tests/structure.bats \
     tests/install.bats
 
@@ -30,9 +34,9 @@ else
 skipped_suites += $(check_suites:%='% (Check not found)') $(mpfi_suites:%='% (Check not found)')
 endif
 if HAVE_BATS
-TESTS += $(bats_suites)
+TESTS += $(bats_suites) $(script_suites)
 else
-skipped_suites += $(bats_suites:%='% (bats not found)')
+skipped_suites += $(bats_suites:%='% (bats not found)') $(script_suites:%='% (bats not found)')
 endif
 
 # IMPINGE is the command to test. The user's own plugins stay out of it.
@@ -47,8 +51,7 @@ AM_TESTS_ENVIRONMENT = \
     XDG_DATA_HOME='$(abs_top_builddir)/tests/no-user-data'; export XDG_DATA_HOME; \
     unset IMPINGE_PLUGIN_PATH;
 
-EXTRA_DIST += $(bats_suites) tests/include_order \
-    $(check_suites:=.c) $(mpfi_suites:=.c)
+EXTRA_DIST += $(bats_suites) $(script_suites) tests/include_order
 
 check-local:
 	@for suite in $(skipped_suites); do echo "SKIP: $$suite"; done
@@ -56,4 +59,4 @@ check-local:
 # With sanitizers a second full run is slow and tells nothing new of scripts and installation.
 .PHONY: check-sanitized
 check-sanitized:
-	$(MAKE) check TESTS='$(filter-out tests/structure.bats tests/install.bats,$(TESTS))'
+	$(MAKE) check TESTS='$(filter-out $(script_suites),$(TESTS))'
