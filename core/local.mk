@@ -12,10 +12,22 @@ core_base = \
     core/array.h \
     core/text.c core/text.h \
     core/place.c core/place.h \
-    core/surface.h \
+    core/region.c core/region.h \
+    core/surface.c core/surface.h \
     core/scene.h
 
-core_solver =
+core_solver = \
+    core/vec.h \
+    core/node.c core/node.h \
+    core/scene_trees.h \
+    core/scene.c \
+    core/broad_phase.c core/broad_phase.h \
+    core/quadratic.c core/quadratic.h \
+    core/separation.c core/separation.h \
+    core/pair_heap.c core/pair_heap.h \
+    core/witness.c core/witness.h \
+    core/time_of_impact.c core/time_of_impact.h \
+    core/query.c
 
 core_registry = \
     core/elf_file.c core/elf_file.h \

@@ -1,0 +1,304 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "node.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "status.h"
+
+enum { CHUNK_NODES = 64 };
+
+typedef struct chunk {
+    struct chunk *next;
+    size_t used;
+    node nodes[CHUNK_NODES];
+} chunk;
+
+struct tree {
+    const surface *surface;
+    tree_kind kind;
+    double t_start, t_end;
+    node *root;
+    chunk *chunks;
+    uint64_t count;
+    size_t bytes;
+};
+
+/* --- Memory ------------------------------------------------------------------- */
+
+static node *node_alloc(tree *t)
+{
+    if (t->chunks == NULL || t->chunks->used == CHUNK_NODES) {
+        chunk *fresh = malloc(sizeof *fresh);
+        if (fresh == NULL) return NULL;
+        fresh->next = t->chunks;
+        fresh->used = 0;
+        t->chunks = fresh;
+        t->bytes += sizeof *fresh;
+    }
+    node *n = &t->chunks->nodes[t->chunks->used++];
+    memset(n, 0, sizeof *n);
+    t->count += 1;
+    return n;
+}
+
+/* Takes back the node that node_alloc gave last. */
+static void node_unalloc(tree *t)
+{
+    t->chunks->used -= 1;
+    t->count -= 1;
+}
+
+/* --- Faults of plugins ---------------------------------------------------------- */
+
+static imp_code fault(const tree *t, const imp_region *r, const char *what, imp_error *error)
+{
+    return error_set(error, IMP_ERROR_PLUGIN,
+                     "type '%s' over u [%.17g, %.17g], v [%.17g, %.17g], t [%.17g, %.17g]: %s",
+                     surface_type_name(t->surface), r->lo[0], r->hi[0], r->lo[1], r->hi[1],
+                     r->lo[2], r->hi[2], what);
+}
+
+static imp_code status_fault(const tree *t, const imp_region *r, imp_status status,
+                             imp_error *error)
+{
+    switch (status) {
+    case IMP_DOMAIN:
+        return fault(t, r, "answers that the region is outside its domain", error);
+    case IMP_INTERNAL:
+        return fault(t, r, "reports an internal error", error);
+    default:
+        return fault(t, r, "answers a status that does not exist here", error);
+    }
+}
+
+/* The first promise of imp_model that a coordinate breaks, or NULL. Infinite values come only with
+ * IMP_UNBOUNDED. */
+static const char *model_breach(const imp_model *m, bool may_be_infinite)
+{
+    const double limit = may_be_infinite ? INFINITY : 0x1.fffffffffffffp1023;
+    if (!(m->e >= 0)) return "the remainder is negative or NaN";
+    if (!(m->lo <= m->hi)) return "the range is inverted or NaN";
+    if (m->e > limit || m->hi > limit || -m->lo > limit) return "a bound is infinite";
+    double sum = fabs(m->a);
+    for (int j = 0; j < 3; ++j) sum += fabs(m->b[j]);
+    for (int k = 0; k < 6; ++k) sum += fabs(m->q[k]);
+    if (!(sum <= limit) && !may_be_infinite) return "a coefficient is infinite or NaN";
+    for (int j = 0; j < 3; ++j)
+        if (!may_be_infinite && !(m->rate[j] >= 0 && m->rate[j] <= limit))
+            return "a rate is negative, infinite or NaN";
+    return NULL;
+}
+
+static const char *rates_breach(const imp_rate_matrix *rates)
+{
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (!(rates->m[i][j] >= 0 && rates->m[i][j] < INFINITY))
+                return "a rate is negative, infinite or NaN";
+    return NULL;
+}
+
+/* --- Nodes of models -------------------------------------------------------------- */
+
+static void take_model(node *n, int i, const imp_model *m)
+{
+    quadratic3 *f = &n->f;
+    f->a[i] = m->a;
+    f->bu[i] = m->b[0], f->bv[i] = m->b[1], f->bt[i] = m->b[2];
+    f->quu[i] = m->q[IMP_UU], f->quv[i] = m->q[IMP_UV], f->qut[i] = m->q[IMP_UT];
+    f->qvv[i] = m->q[IMP_VV], f->qvt[i] = m->q[IMP_VT], f->qtt[i] = m->q[IMP_TT];
+    n->e[i] = m->e;
+    n->lo[i] = m->lo;
+    n->hi[i] = m->hi;
+    double sum = m->e;
+    for (int j = 0; j < 3; ++j) sum += fabs(m->b[j]);
+    for (int k = 0; k < 6; ++k) sum += fabs(m->q[k]);
+    n->magnitude[i] = sum + sum * 0x1p-48; /* ten terms, each sum off by at most 2^-53 */
+    n->bounded = n->bounded && sum < INFINITY && fabs(m->a) < INFINITY && m->lo > -INFINITY &&
+                 m->hi < INFINITY;
+    n->spread[0] += fabs(m->b[0]) + fabs(m->q[IMP_UU]) + 0.5 * fabs(m->q[IMP_UV]);
+    n->spread[1] += fabs(m->b[1]) + fabs(m->q[IMP_VV]) + 0.5 * fabs(m->q[IMP_UV]);
+    n->spread[2] += fabs(m->b[2]) + fabs(m->q[IMP_TT]);
+    n->bend[0] += fabs(m->q[IMP_UU]) + 0.5 * (fabs(m->q[IMP_UV]) + fabs(m->q[IMP_UT]));
+    n->bend[1] += fabs(m->q[IMP_VV]) + 0.5 * (fabs(m->q[IMP_UV]) + fabs(m->q[IMP_VT]));
+    n->bend[2] += fabs(m->q[IMP_TT]) + 0.5 * (fabs(m->q[IMP_UT]) + fabs(m->q[IMP_VT]));
+}
+
+/* Where the polynomial says nothing (rates only, or no longer bounded), the widths of the
+ * region decide what to split: each parameter's share of the remainder is not known better. */
+static void spread_from_widths(node *n, const imp_model model[3])
+{
+    const imp_region *r = &n->region;
+    for (int j = 0; j < 3; ++j) {
+        double sum = 0;
+        for (int i = 0; i < 3; ++i)
+            sum += n->bounded && model[i].rate[j] < INFINITY ? model[i].rate[j] * r->d[j] : r->d[j];
+        n->spread[j] = n->bend[j] = sum;
+    }
+}
+
+static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
+{
+    imp_model model[3];
+    const imp_status status = surface_include(t->surface, &n->region, model);
+    if (status != IMP_OK && status != IMP_UNBOUNDED)
+        return status_fault(t, &n->region, status, error);
+    bool flat = true;
+    n->bounded = true;
+    for (int i = 0; i < 3; ++i) {
+        const char *breach = model_breach(&model[i], status == IMP_UNBOUNDED);
+        if (breach != NULL) return fault(t, &n->region, breach, error);
+        take_model(n, i, &model[i]);
+        for (int j = 0; j < 3; ++j) flat = flat && model[i].b[j] == 0;
+    }
+    if (flat || !n->bounded) spread_from_widths(n, model);
+    n->normal = vec3_cross(vec3_from(n->f.bu), vec3_from(n->f.bv));
+    return IMP_SUCCESS;
+}
+
+/* --- Nodes of rates ----------------------------------------------------------------- */
+
+/* Half-widths and radius from the rate matrix in one of the paper's three forms. Every sum has at
+ * most nine non-negative terms and one square root: padded by 2^-48, and by 2^-400 for squares
+ * that underflow (a square lost is below 2^-1074, its root below 2^-537). */
+static void reach_from_rates(node *n, tree_kind kind, const imp_rate_matrix *m)
+{
+    const double *d = n->region.d;
+    double column[3] = {0, 0, 0}, all = 0, reach[3], radius = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) column[j] += m->m[i][j] * m->m[i][j];
+    for (int j = 0; j < 3; ++j) {
+        all += column[j];
+        column[j] = sqrt(column[j]);
+    }
+    for (int i = 0; i < 3; ++i) {
+        if (kind == TREE_RATES_FULL)
+            reach[i] = m->m[i][0] * d[0] + m->m[i][1] * d[1] + m->m[i][2] * d[2];
+        else if (kind == TREE_RATES_COLUMN)
+            reach[i] = column[0] * d[0] + column[1] * d[1] + column[2] * d[2];
+        else
+            reach[i] = sqrt(all) * sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        radius += reach[i] * reach[i];
+        n->e[i] += reach[i] + reach[i] * 0x1p-48 + 0x1p-400;
+    }
+    radius = kind == TREE_RATES_FULL ? sqrt(radius) : reach[0];
+    n->radius += radius + radius * 0x1p-48 + 0x1p-400;
+    for (int j = 0; j < 3; ++j) n->spread[j] = n->bend[j] = column[j] * d[j];
+}
+
+static void take_infinite(node *n)
+{
+    for (int i = 0; i < 3; ++i) {
+        n->lo[i] = -INFINITY;
+        n->e[i] = n->hi[i] = n->magnitude[i] = INFINITY;
+        n->spread[i] = n->bend[i] = n->region.d[i];
+    }
+    n->radius = INFINITY;
+    n->bounded = false;
+}
+
+static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
+{
+    imp_rate_matrix rates;
+    imp_status status = surface_rate(t->surface, &n->region, &rates);
+    if (status == IMP_UNBOUNDED) return take_infinite(n), IMP_SUCCESS;
+    if (status != IMP_OK) return status_fault(t, &n->region, status, error);
+    const char *breach = rates_breach(&rates);
+    if (breach != NULL) return fault(t, &n->region, breach, error);
+    status = surface_eval(t->surface, 1, n->region.c, n->f.a, n->e);
+    if (status != IMP_OK) return status_fault(t, &n->region, status, error);
+    n->bounded = true;
+    for (int i = 0; i < 3; ++i) {
+        if (!(n->e[i] >= 0 && isfinite(n->f.a[i])))
+            return fault(t, &n->region, "the centre's value or error is not a number", error);
+        n->radius += n->e[i];
+    }
+    reach_from_rates(n, t->kind, &rates);
+    for (int i = 0; i < 3; ++i) {
+        n->e[i] += n->e[i] * 0x1p-52;
+        n->magnitude[i] = n->e[i];
+        n->lo[i] = nextafter(n->f.a[i] - n->e[i], -INFINITY);
+        n->hi[i] = nextafter(n->f.a[i] + n->e[i], INFINITY);
+        n->bounded = n->bounded && n->lo[i] > -INFINITY && n->hi[i] < INFINITY;
+    }
+    return IMP_SUCCESS;
+}
+
+static imp_code node_make(tree *t, imp_region region, node **made, imp_error *error)
+{
+    node *n = node_alloc(t);
+    if (n == NULL) return error_set_memory(error);
+    n->region = region;
+    const imp_code code =
+        t->kind == TREE_MODELS ? fill_from_model(t, n, error) : fill_from_rates(t, n, error);
+    if (code == IMP_SUCCESS)
+        *made = n;
+    else
+        node_unalloc(t);
+    return code;
+}
+
+/* --- Trees ------------------------------------------------------------------------------ */
+
+imp_code tree_new(const surface *s, tree_kind kind, double t_start, double t_end, tree **made,
+                  imp_error *error)
+{
+    double lo[3], hi[3];
+    surface_domain(s, lo, hi);
+    assert(lo[2] <= t_start && t_start <= t_end && t_end <= hi[2]);
+    lo[2] = t_start;
+    hi[2] = t_end;
+    for (int j = 0; j < 2; ++j)
+        if (!(lo[j] <= hi[j] && lo[j] > -INFINITY && hi[j] < INFINITY))
+            return error_set(error, IMP_ERROR_PLUGIN,
+                             "type '%s': the domain of %c is empty or infinite",
+                             surface_type_name(s), "uv"[j]);
+    tree *t = calloc(1, sizeof *t);
+    if (t == NULL) return error_set_memory(error);
+    *t = (tree){.surface = s, .kind = kind, .t_start = t_start, .t_end = t_end};
+    t->bytes = sizeof *t;
+    const imp_code code = node_make(t, region_make(lo, hi), &t->root, error);
+    if (code == IMP_SUCCESS)
+        *made = t;
+    else
+        tree_free(t);
+    return code;
+}
+
+void tree_free(tree *t)
+{
+    if (t == NULL) return;
+    while (t->chunks != NULL) {
+        chunk *next = t->chunks->next;
+        free(t->chunks);
+        t->chunks = next;
+    }
+    free(t);
+}
+
+node *tree_root(const tree *t) { return t->root; }
+
+const surface *tree_surface(const tree *t) { return t->surface; }
+
+bool tree_is_over(const tree *t, tree_kind kind, double t_start, double t_end)
+{
+    return t->kind == kind && t->t_start == t_start && t->t_end == t_end;
+}
+
+uint64_t tree_node_count(const tree *t) { return t->count; }
+
+size_t tree_bytes(const tree *t) { return t->bytes; }
+
+imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, imp_error *error)
+{
+    node **slot = &parent->child[j][side];
+    if (*slot == NULL) {
+        const imp_code code = node_make(t, region_half(&parent->region, j, side), slot, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    *child = *slot;
+    return IMP_SUCCESS;
+}

@@ -1,0 +1,65 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_NODE_H
+#define CORE_NODE_H
+
+#include "region.h"
+#include "surface.h"
+#include "vec.h"
+
+/* Nodes: regions of one surface with what surely holds there
+ * ==========================================================
+ * The nodes of a surface form a k-d tree that is made lazily: the halves of a node along a
+ * parameter come to be when first asked for, and then serve every pair and every later query.
+ * A node may be halved along any of its parameters. A tree belongs to one thread at a time. */
+
+/* What a node's inclusion is made from. */
+typedef enum tree_kind {
+    TREE_MODELS,         /* order-2 inclusions (boxes from rates where a part has no better) */
+    TREE_RATES_FULL,     /* the rate matrix: half-widths M d (paper, eqs. 12, 19-22) */
+    TREE_RATES_COLUMN,   /* one bound a parameter: L_j = norm of M's column j (paper, eq. 11) */
+    TREE_RATES_CONSTANT, /* one Lipschitz constant: L = Frobenius norm of M (paper, eq. 4) */
+    TREE_KINDS
+} tree_kind;
+
+/* Coefficients of the three coordinates' polynomials in s = (p - c) / d. */
+typedef struct quadratic3 {
+    double a[3], bu[3], bv[3], bt[3];
+    double quu[3], quv[3], qut[3], qvv[3], qvt[3], qtt[3];
+} quadratic3;
+
+typedef struct node {
+    imp_region region;
+    quadratic3 f;        /* with e, encloses the surface over the region; length */
+    double e[3];         /* remainder; length */
+    double lo[3], hi[3]; /* axis-aligned box; length, world space */
+    double magnitude[3]; /* >= sum of abs of f's coefficients but a, + e */
+    vec3 normal;         /* bu x bv, any length; 0 where the node has none */
+    double radius;       /* of a ball around a that holds the surface; rate trees only */
+    double spread[3];    /* how much u, v, t move a point across the region, about; length */
+    double bend[3];      /* the same for what is not linear in the parameters; length */
+    bool bounded;        /* f, e, lo, hi are all finite */
+    struct node *child[3][2];
+} node;
+
+typedef struct tree tree;
+
+/* A tree over the surface's whole (u, v) and [t_start, t_end]; the root is made at once.
+ * `s` must outlive it. */
+imp_code tree_new(const surface *s, tree_kind kind, double t_start, double t_end, tree **made,
+                  imp_error *error);
+void tree_free(tree *t);
+
+node *tree_root(const tree *t);
+const surface *tree_surface(const tree *t);
+bool tree_is_over(const tree *t, tree_kind kind, double t_start, double t_end);
+
+/* Made so far, over all queries. */
+uint64_t tree_node_count(const tree *t);
+size_t tree_bytes(const tree *t);
+
+/* The half of `parent` below (side 0) or above (1) its centre along j. Precondition:
+ * region_can_split. IMP_ERROR_PLUGIN names the type, the region and what it answered. */
+imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, imp_error *error);
+
+#endif

@@ -1,0 +1,69 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "pair_heap.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+/* Keys hold no NaN: window.lo is a time, and a distance that is NaN was made infinite. */
+static bool pair_before(const pair *p, const pair *q)
+{
+    if (p->window.lo != q->window.lo) return p->window.lo < q->window.lo;
+    if (p->distance2 != q->distance2) return p->distance2 < q->distance2;
+    return p->serial < q->serial;
+}
+
+static bool pair_heap_reserve(pair_heap *heap)
+{
+    if (heap->count < heap->capacity) return true;
+    const size_t capacity = heap->capacity == 0 ? 64 : 2 * heap->capacity;
+    pair *pairs = realloc(heap->pairs, capacity * sizeof *pairs);
+    if (pairs == NULL) return false;
+    heap->pairs = pairs;
+    heap->capacity = capacity;
+    return true;
+}
+
+bool pair_heap_push(pair_heap *heap, const pair *p)
+{
+    if (!pair_heap_reserve(heap)) return false;
+    size_t hole = heap->count++;
+    while (hole > 0) {
+        const size_t parent = (hole - 1) / 2;
+        if (!pair_before(p, &heap->pairs[parent])) break;
+        heap->pairs[hole] = heap->pairs[parent];
+        hole = parent;
+    }
+    heap->pairs[hole] = *p;
+    return true;
+}
+
+const pair *pair_heap_top(const pair_heap *heap)
+{
+    assert(heap->count > 0);
+    return &heap->pairs[0];
+}
+
+pair pair_heap_pop(pair_heap *heap)
+{
+    assert(heap->count > 0);
+    const pair top = heap->pairs[0], last = heap->pairs[--heap->count];
+    size_t hole = 0;
+    for (;;) {
+        size_t child = 2 * hole + 1;
+        if (child >= heap->count) break;
+        if (child + 1 < heap->count && pair_before(&heap->pairs[child + 1], &heap->pairs[child]))
+            ++child;
+        if (!pair_before(&heap->pairs[child], &last)) break;
+        heap->pairs[hole] = heap->pairs[child];
+        hole = child;
+    }
+    heap->pairs[hole] = last;
+    return top;
+}
+
+void pair_heap_clear(pair_heap *heap)
+{
+    free(heap->pairs);
+    *heap = (pair_heap){0};
+}

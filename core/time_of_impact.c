@@ -1,0 +1,247 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "time_of_impact.h"
+
+#include <assert.h>
+
+#include "status.h"
+
+/* --- Test and push ---------------------------------------------------------------- */
+
+static bool pair_may_be_near(const impact *im, pair *p)
+{
+    if (im->method == IMP_METHOD_PAPER)
+        return im->bounds == IMP_BOUNDS_BOX ? !separation_of_boxes(p->a, p->b, im->clearance)
+                                            : !separation_of_balls(p->a, p->b, im->clearance);
+    unsigned axis = p->axis;
+    const bool near = separation_by_models(p->a, p->b, im->clearance, &p->window, &axis);
+    p->axis = (uint16_t)axis;
+    return near;
+}
+
+/* Puts the pair of p's nodes on the heap unless they stay apart; false: no memory. p->window holds
+ * the parent's window and is cut to both nodes' times first. */
+static bool test_and_push(impact *im, pair p)
+{
+    const imp_region *a = &p.a->region, *b = &p.b->region;
+    if (a->lo[2] > p.window.lo) p.window.lo = a->lo[2];
+    if (b->lo[2] > p.window.lo) p.window.lo = b->lo[2];
+    if (a->hi[2] < p.window.hi) p.window.hi = a->hi[2];
+    if (b->hi[2] < p.window.hi) p.window.hi = b->hi[2];
+    if (p.window.lo > p.window.hi) return true;
+    im->stats.pairs += 1;
+    if (!pair_may_be_near(im, &p)) return true;
+    const double distance2 = separation_centres(p.a, p.b, p.window.lo);
+    p.distance2 = distance2 >= 0 ? distance2 : INFINITY;
+    p.serial = im->serial++;
+    if (!pair_heap_push(&im->heap, &p)) return false;
+    if (im->heap.count > im->stats.peak_heap) im->stats.peak_heap = im->heap.count;
+    return true;
+}
+
+impact_state impact_add_couple(impact *im, uint32_t index)
+{
+    node *a = tree_root(im->couples[index].trees[0]), *b = tree_root(im->couples[index].trees[1]);
+    const pair p = {.window = {-INFINITY, INFINITY}, .a = a, .b = b, .couple = index};
+    return test_and_push(im, p) ? IMPACT_RUNNING : IMPACT_NO_MEMORY;
+}
+
+static couple *couple_of(const impact *im, const pair *p) { return &im->couples[p->couple]; }
+
+static const node *side_of(const pair *p, int side) { return side == 0 ? p->a : p->b; }
+
+/* --- Splitting ------------------------------------------------------------------------ */
+
+typedef struct cut {
+    int side; /* 0: a, 1: b; -1: nothing left to split */
+    parameter along;
+    double gain;
+} cut;
+
+static void cut_consider(cut *best, const pair *p, int side, parameter j, double gain)
+{
+    if (!region_can_split(&side_of(p, side)->region, j)) return;
+    if (best->side < 0 || gain > best->gain) *best = (cut){side, j, gain};
+}
+
+/* The paper: the parameter of either node that contributes most to its box. */
+static cut cut_by_contribution(const pair *p)
+{
+    cut best = {-1, PARAMETER_U, 0};
+    for (int side = 0; side < 2; ++side)
+        for (int j = 0; j < 3; ++j)
+            cut_consider(&best, p, side, (parameter)j, side_of(p, side)->spread[j]);
+    return best;
+}
+
+/* A cut in time is free where the whole window lies on one side of it. */
+static bool window_is_one_sided(const pair *p, const node *n)
+{
+    const double at = n->region.c[PARAMETER_T];
+    return p->window.hi < at || p->window.lo > at;
+}
+
+/* Models: what moves a point most along u or v, or bends it in time; motion that is linear in time
+ * costs nothing, so only its bend counts. */
+static cut cut_by_spread(const pair *p)
+{
+    cut best = {-1, PARAMETER_U, 0};
+    for (int side = 0; side < 2; ++side) {
+        const node *n = side_of(p, side);
+        cut_consider(&best, p, side, PARAMETER_U, n->spread[0]);
+        cut_consider(&best, p, side, PARAMETER_V, n->spread[1]);
+        cut_consider(&best, p, side, PARAMETER_T, (window_is_one_sided(p, n) ? 8 : 2) * n->bend[2]);
+    }
+    return best;
+}
+
+/* Nothing more to learn from u and v: the later of the two nodes' times is halved. */
+static cut cut_in_time(const pair *p)
+{
+    cut best = {-1, PARAMETER_T, 0};
+    for (int side = 0; side < 2; ++side)
+        cut_consider(&best, p, side, PARAMETER_T, side_of(p, side)->region.d[PARAMETER_T]);
+    return best;
+}
+
+/* node_child, counted. */
+static imp_code child_of(impact *im, tree *t, node *parent, parameter j, int half, node **child,
+                         imp_error *error)
+{
+    const uint64_t nodes = tree_node_count(t);
+    const size_t bytes = tree_bytes(t);
+    const imp_code code = node_child(t, parent, j, half, child, error);
+    im->stats.nodes += tree_node_count(t) - nodes;
+    im->stats.bytes += tree_bytes(t) - bytes;
+    return code;
+}
+
+static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp_error *error)
+{
+    couple *both = couple_of(im, p);
+    for (int half = 0; half < 2; ++half) {
+        pair child = *p;
+        node **slot = c.side == 0 ? &child.a : &child.b;
+        const double at = (*slot)->region.c[c.along];
+        if (c.along == PARAMETER_T && (half == 0 ? p->window.lo > at : p->window.hi < at)) continue;
+        const imp_code code = child_of(im, both->trees[c.side], *slot, c.along, half, slot, error);
+        if (code == IMP_ERROR_PLUGIN)
+            error_prefix(error, "body %zu, surface %zu", both->body[c.side], both->surface[c.side]);
+        if (code == IMP_ERROR_PLUGIN) return code;
+        if (code != IMP_SUCCESS || !test_and_push(im, child)) *state = IMPACT_NO_MEMORY;
+    }
+    return IMP_SUCCESS;
+}
+
+/* --- Following one pair ------------------------------------------------------------------ */
+
+static imp_code look(impact *im, const pair *p, bool moving, witness *seen, imp_error *error)
+{
+    const couple *both = couple_of(im, p);
+    const tree *const trees[2] = {both->trees[0], both->trees[1]};
+    const node *const nodes[2] = {p->a, p->b};
+    im->stats.witness_searches += 1;
+    return moving ? witness_seek(trees, nodes, p->window.lo, im->gamma, seen, error)
+                  : witness_at_centres(trees, nodes, p->window.lo, seen, error);
+}
+
+static impact_state contact(impact *im, const pair *p, const witness *seen)
+{
+    im->found = *seen;
+    im->found_couple = p->couple;
+    return IMPACT_CONTACT;
+}
+
+/* The paper's Figure 6: a pair whose volumes are within gamma of each other altogether (eq. 6) is a
+ * collision; any other is subdivided. */
+static imp_code follow_paper(impact *im, const pair *p, impact_state *state, imp_error *error)
+{
+    const double farthest = im->bounds == IMP_BOUNDS_BOX ? separation_farthest_of_boxes(p->a, p->b)
+                                                         : separation_farthest_of_balls(p->a, p->b);
+    if (farthest <= im->gamma) {
+        witness seen;
+        const imp_code code = look(im, p, false, &seen, error);
+        if (code != IMP_SUCCESS) return code;
+        *state = seen.gap_upper <= im->gamma ? contact(im, p, &seen) : IMPACT_RESOLUTION;
+        return IMP_SUCCESS;
+    }
+    const cut c = cut_by_contribution(p);
+    if (c.side >= 0) return split(im, p, c, state, error);
+    *state = IMPACT_RESOLUTION;
+    return IMP_SUCCESS;
+}
+
+static double pair_remainder(const pair *p)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) sum += p->a->e[i] + p->b->e[i];
+    return sum;
+}
+
+static double pair_extent(const pair *p)
+{
+    return p->a->spread[0] + p->a->spread[1] + p->b->spread[0] + p->b->spread[1];
+}
+
+enum {
+    WITNESS_WAIT = 3
+}; /* generations between searches: halves the pair's four sides about once */
+
+/* Whether the polynomials are good enough, or all that there will ever be, for a search to pay. */
+static bool witness_is_likely(const impact *im, const pair *p)
+{
+    const double remainder = pair_remainder(p), extent = pair_extent(p);
+    return p->wait == 0 && (remainder <= 4 * im->gamma || 4 * extent <= remainder);
+}
+
+/* Where evaluation itself is too inexact for gamma and the pair is not much larger than that
+ * inexactness, splitting on would only multiply pairs. */
+static bool resolution_is_reached(const impact *im, const pair *p, const witness *seen)
+{
+    const double inexact = seen->gap_upper - seen->gap;
+    return 4 * inexact >= im->gamma - im->clearance && pair_extent(p) <= 64 * inexact;
+}
+
+static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
+{
+    if (witness_is_likely(im, p)) {
+        witness seen;
+        const imp_code code = look(im, p, true, &seen, error);
+        if (code != IMP_SUCCESS) return code;
+        if (seen.gap_upper <= im->gamma)
+            *state = contact(im, p, &seen);
+        else if (resolution_is_reached(im, p, &seen))
+            *state = IMPACT_RESOLUTION;
+        if (*state != IMPACT_RUNNING) return IMP_SUCCESS;
+        p->wait = WITNESS_WAIT;
+    } else if (p->wait > 0) {
+        p->wait -= 1;
+    }
+    const bool tiny = 64 * pair_extent(p) <= im->gamma - im->clearance;
+    const cut c = tiny ? cut_in_time(p) : cut_by_spread(p);
+    if (c.side >= 0) return split(im, p, c, state, error);
+    *state = IMPACT_RESOLUTION;
+    return IMP_SUCCESS;
+}
+
+/* Lemma. The popped pair's window starts first of all, and outside the windows on the heap no two
+ * points are within the clearance: so nothing is before that start. Children's windows lie in their
+ * parent's, so the bound never falls. A pair that ends the search goes back: finer gamma can go on
+ * from it. */
+imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
+{
+    *state = IMPACT_CLEAR;
+    if (im->heap.count == 0) return IMP_SUCCESS;
+    *state = IMPACT_RUNNING;
+    pair p = pair_heap_pop(&im->heap);
+    if (p.window.lo > im->t_lower) im->t_lower = p.window.lo;
+    pair followed = p;
+    const imp_code code = im->method == IMP_METHOD_PAPER
+                              ? follow_paper(im, &followed, state, error)
+                              : follow_models(im, &followed, state, error);
+    /* the heap has room for the pair that just left it */
+    if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);
+    return code;
+}
+
+void impact_clear(impact *im) { pair_heap_clear(&im->heap); }

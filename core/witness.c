@@ -1,0 +1,309 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "witness.h"
+
+#include <string.h>
+
+#include "status.h"
+
+/* Unknowns: y = (s_u, s_v) of a and of b, normalised to the nodes. Minimised: |D|^2 / 2,
+ * D = x_b - x_a, by Newton steps with J'J + D.D'' + damping; J and D'' come from the nodes'
+ * polynomials (differences where there are none), points from the surfaces themselves. */
+
+enum { UNKNOWNS = 4, STEPS = 24 };
+
+typedef struct search {
+    const tree *const *trees;
+    const node *const *nodes;
+    double t;
+    double lo[UNKNOWNS], hi[UNKNOWNS]; /* of y */
+} search;
+
+typedef struct state {
+    double y[UNKNOWNS];
+    double p[2][3]; /* parameters (u, v, t) on each surface */
+    vec3 x[2];
+    vec3 apart; /* D */
+    double gap;
+} state;
+
+static bool node_is_flat(const node *n)
+{
+    return n->normal.x[0] == 0 && n->normal.x[1] == 0 && n->normal.x[2] == 0;
+}
+
+/* y may leave the node by one half-width, not the surface. */
+static void search_begin(search *g)
+{
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        const imp_region *r = &g->nodes[k / 2]->region;
+        const imp_region *whole = &tree_root(g->trees[k / 2])->region;
+        const int j = k % 2;
+        g->lo[k] = g->hi[k] = 0;
+        if (!(r->d[j] > 0)) continue;
+        g->lo[k] = fmax(-2, (whole->lo[j] - r->c[j]) / r->d[j]);
+        g->hi[k] = fmin(2, (whole->hi[j] - r->c[j]) / r->d[j]);
+    }
+}
+
+static void side_parameters(const search *g, int side, const double *y, double p[3])
+{
+    const imp_region *r = &g->nodes[side]->region;
+    const imp_region *whole = &tree_root(g->trees[side])->region;
+    for (int j = 0; j < 2; ++j) {
+        const double x = r->c[j] + r->d[j] * y[2 * side + j];
+        p[j] = x < whole->lo[j] ? whole->lo[j] : x > whole->hi[j] ? whole->hi[j] : x;
+    }
+    p[2] = g->t;
+}
+
+static imp_code point_fault(const search *g, int side, const double p[3], const char *what,
+                            imp_error *error)
+{
+    return error_set(error, IMP_ERROR_PLUGIN, "type '%s' at u = %.17g, v = %.17g, t = %.17g: %s",
+                     surface_type_name(tree_surface(g->trees[side])), p[0], p[1], p[2], what);
+}
+
+static imp_code side_eval(const search *g, int side, const double *p, vec3 *x, double *inexact,
+                          imp_error *error)
+{
+    if (surface_eval(tree_surface(g->trees[side]), 1, p, x->x, inexact) != IMP_OK)
+        return point_fault(g, side, p, "eval fails at a point of its domain", error);
+    if (!isfinite(vec3_norm1(*x)))
+        return point_fault(g, side, p, "eval gives a point that is infinite or NaN", error);
+    return IMP_SUCCESS;
+}
+
+static imp_code state_at(const search *g, const double *y, state *s, imp_error *error)
+{
+    memcpy(s->y, y, sizeof s->y);
+    for (int side = 0; side < 2; ++side) {
+        side_parameters(g, side, y, s->p[side]);
+        const imp_code code = side_eval(g, side, s->p[side], &s->x[side], NULL, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    s->apart = vec3_sub(s->x[1], s->x[0]);
+    s->gap = vec3_norm(s->apart);
+    return IMP_SUCCESS;
+}
+
+/* --- Derivatives ---------------------------------------------------------------------- */
+
+/* Columns of J and, weighted with D, the second derivatives of one side. */
+typedef struct derivatives {
+    vec3 by[2];
+    double second[2][2];
+} derivatives;
+
+static void derive_from_polynomial(const search *g, int side, const state *s, derivatives *out)
+{
+    const node *n = g->nodes[side];
+    const quadratic3 *f = &n->f;
+    const double su = s->y[2 * side], sv = s->y[2 * side + 1];
+    const double st = n->region.d[2] > 0 ? (g->t - n->region.c[2]) / n->region.d[2] : 0;
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < 3; ++i) {
+        out->by[0].x[i] = f->bu[i] + 2 * f->quu[i] * su + f->quv[i] * sv + f->qut[i] * st;
+        out->by[1].x[i] = f->bv[i] + 2 * f->qvv[i] * sv + f->quv[i] * su + f->qvt[i] * st;
+        out->second[0][0] += 2 * s->apart.x[i] * f->quu[i];
+        out->second[0][1] += s->apart.x[i] * f->quv[i];
+        out->second[1][1] += 2 * s->apart.x[i] * f->qvv[i];
+    }
+    out->second[1][0] = out->second[0][1];
+}
+
+static imp_code derive_from_points(const search *g, int side, const state *s, derivatives *out,
+                                   imp_error *error)
+{
+    memset(out, 0, sizeof *out);
+    for (int j = 0; j < 2; ++j) {
+        const int k = 2 * side + j;
+        double y[UNKNOWNS], p[3];
+        memcpy(y, s->y, sizeof y);
+        y[k] += y[k] + 0x1p-8 <= g->hi[k] ? 0x1p-8 : -0x1p-8;
+        if (y[k] < g->lo[k]) continue;
+        side_parameters(g, side, y, p);
+        if (p[j] == s->p[side][j]) continue;
+        vec3 x;
+        const imp_code code = side_eval(g, side, p, &x, NULL, error);
+        if (code != IMP_SUCCESS) return code;
+        out->by[j] = vec3_scale(vec3_sub(x, s->x[side]), 1 / (y[k] - s->y[k]));
+    }
+    return IMP_SUCCESS;
+}
+
+/* Gradient and Hessian of |D|^2 / 2. */
+static imp_code derive(const search *g, const state *s, double gradient[UNKNOWNS],
+                       double hessian[UNKNOWNS][UNKNOWNS], imp_error *error)
+{
+    derivatives d[2];
+    vec3 column[UNKNOWNS];
+    for (int side = 0; side < 2; ++side) {
+        imp_code code = IMP_SUCCESS;
+        if (node_is_flat(g->nodes[side]))
+            code = derive_from_points(g, side, s, &d[side], error);
+        else
+            derive_from_polynomial(g, side, s, &d[side]);
+        if (code != IMP_SUCCESS) return code;
+        for (int j = 0; j < 2; ++j)
+            column[2 * side + j] = vec3_scale(d[side].by[j], side == 0 ? -1 : 1);
+    }
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        gradient[k] = vec3_dot(column[k], s->apart);
+        for (int l = 0; l < UNKNOWNS; ++l) {
+            hessian[k][l] = vec3_dot(column[k], column[l]);
+            if (k / 2 == l / 2) {
+                const double second = d[k / 2].second[k % 2][l % 2];
+                hessian[k][l] += k / 2 == 0 ? -second : second;
+            }
+        }
+    }
+    return IMP_SUCCESS;
+}
+
+/* --- Steps -------------------------------------------------------------------------------- */
+
+/* Solves h x = -g by Cholesky, where `held` unknowns stay put; false: h is not positive definite.
+ */
+static bool solve(double h[UNKNOWNS][UNKNOWNS], const double *g, const bool *held, double *x)
+{
+    double l[UNKNOWNS][UNKNOWNS] = {{0}};
+    for (int k = 0; k < UNKNOWNS; ++k)
+        for (int m = 0; m <= k; ++m) {
+            double sum = held[k] || held[m] ? (k == m) : h[k][m];
+            for (int i = 0; i < m; ++i) sum -= l[k][i] * l[m][i];
+            if (k != m)
+                l[k][m] = sum / l[m][m];
+            else if (sum > 0)
+                l[k][k] = sqrt(sum);
+            else
+                return false;
+        }
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        double sum = held[k] ? 0 : -g[k];
+        for (int i = 0; i < k; ++i) sum -= l[k][i] * x[i];
+        x[k] = sum / l[k][k];
+    }
+    for (int k = UNKNOWNS - 1; k >= 0; --k) {
+        for (int i = k + 1; i < UNKNOWNS; ++i) x[k] -= l[i][k] * x[i];
+        x[k] /= l[k][k];
+    }
+    return true;
+}
+
+/* A damped step from y that stays within the bounds: unknowns that would leave are held there and
+ * the rest solved again. */
+static bool step(const search *g, const double *y, const double *gradient,
+                 double hessian[UNKNOWNS][UNKNOWNS], double damping, double *next)
+{
+    bool held[UNKNOWNS];
+    double h[UNKNOWNS][UNKNOWNS], move[UNKNOWNS];
+    memcpy(h, hessian, sizeof h);
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        h[k][k] += damping;
+        held[k] = !(g->lo[k] < g->hi[k]);
+    }
+    for (int pass = 0; pass <= UNKNOWNS; ++pass) {
+        if (!solve(h, gradient, held, move)) return false;
+        bool more = false;
+        for (int k = 0; k < UNKNOWNS; ++k) {
+            const bool out = (y[k] <= g->lo[k] && move[k] < 0) || (y[k] >= g->hi[k] && move[k] > 0);
+            if (out && !held[k]) held[k] = more = true;
+        }
+        if (!more) break;
+    }
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        const double to = y[k] + (held[k] ? 0 : move[k]);
+        next[k] = to < g->lo[k] ? g->lo[k] : to > g->hi[k] ? g->hi[k] : to;
+    }
+    return true;
+}
+
+static double largest_diagonal(double h[UNKNOWNS][UNKNOWNS])
+{
+    double top = 0;
+    for (int k = 0; k < UNKNOWNS; ++k) top = h[k][k] > top ? h[k][k] : top;
+    return top;
+}
+
+/* Goes downhill from *s until it no longer pays: the gap shrinks by less than a part in 10^4, or it
+ * is far from gamma and shrinks by less than half. */
+static imp_code descend(const search *g, double gamma, state *s, imp_error *error)
+{
+    double damping = 0x1p-20;
+    for (int k = 0; k < STEPS && s->gap > 0;) {
+        double gradient[UNKNOWNS], hessian[UNKNOWNS][UNKNOWNS], next[UNKNOWNS];
+        imp_code code = derive(g, s, gradient, hessian, error);
+        if (code != IMP_SUCCESS) return code;
+        const double scale = largest_diagonal(hessian);
+        if (!(scale > 0)) return IMP_SUCCESS;
+        state trial;
+        bool better = false;
+        for (; k < STEPS && damping < 0x1p10 && !better; ++k) {
+            if (step(g, s->y, gradient, hessian, damping * scale, next)) {
+                code = state_at(g, next, &trial, error);
+                if (code != IMP_SUCCESS) return code;
+                better = trial.gap < s->gap;
+            }
+            damping *= better ? 0x1p-6 : 0x1p5;
+        }
+        if (!better) return IMP_SUCCESS;
+        const double gain = s->gap - trial.gap;
+        const bool stale = gain < 1e-4 * s->gap || (trial.gap > 8 * gamma && gain < 0.5 * s->gap);
+        *s = trial;
+        if (stale) return IMP_SUCCESS;
+    }
+    return IMP_SUCCESS;
+}
+
+/* Lemma. The exact points are within the two error vectors of those computed, so their distance is
+ * at most gap + |error_a|_1 + |error_b|_1. The norm's own rounding is below 4 * 2^-53 of it, that
+ * of the differences is at most 2^-53 of each (relative), both inside 2^-50 gap. */
+static imp_code measure(const search *g, const state *s, witness *found, imp_error *error)
+{
+    double inexact = 0;
+    for (int side = 0; side < 2; ++side) {
+        vec3 x;
+        double e[3];
+        const imp_code code = side_eval(g, side, s->p[side], &x, e, error);
+        if (code != IMP_SUCCESS) return code;
+        for (int i = 0; i < 3; ++i) {
+            if (!(e[i] >= 0))
+                return point_fault(g, side, s->p[side], "eval's error bound is negative or NaN",
+                                   error);
+            inexact += e[i];
+        }
+        found->u[side] = s->p[side][0];
+        found->v[side] = s->p[side][1];
+        found->point[side] = s->x[side];
+    }
+    found->gap = s->gap;
+    found->gap_upper = (s->gap + inexact) * (1 + 0x1p-49);
+    /* below, the direction of D is mostly rounding */
+    found->has_normal = s->gap > 64 * inexact && s->gap > 0;
+    found->normal = found->has_normal ? vec3_scale(s->apart, 1 / s->gap) : (vec3){{0, 0, 0}};
+    return IMP_SUCCESS;
+}
+
+static imp_code search_run(const tree *const trees[2], const node *const nodes[2], double t,
+                           double gamma, bool moving, witness *found, imp_error *error)
+{
+    search g = {.trees = trees, .nodes = nodes, .t = t};
+    state s;
+    search_begin(&g);
+    imp_code code = state_at(&g, (double[UNKNOWNS]){0, 0, 0, 0}, &s, error);
+    if (code == IMP_SUCCESS && moving) code = descend(&g, gamma, &s, error);
+    return code == IMP_SUCCESS ? measure(&g, &s, found, error) : code;
+}
+
+imp_code witness_seek(const tree *const trees[2], const node *const nodes[2], double t,
+                      double gamma, witness *found, imp_error *error)
+{
+    return search_run(trees, nodes, t, gamma, true, found, error);
+}
+
+imp_code witness_at_centres(const tree *const trees[2], const node *const nodes[2], double t,
+                            witness *found, imp_error *error)
+{
+    return search_run(trees, nodes, t, 0, false, found, error);
+}
