@@ -1,5 +1,7 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
 #include <impinge/impinge.h>
 
 #include <math.h>
