@@ -1,0 +1,200 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: MIT */
+#ifndef IMPINGE_FORMULA_H
+#define IMPINGE_FORMULA_H
+
+#include <impinge/model.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One formula, three answers
+ * ==========================
+ *
+ * Write the surface, or the map, once, in the operations of <impinge/model.h>:
+ *
+ *   static void ball_formula(const void *self, imp_model u, imp_model v, imp_model t,
+ *                            imp_model out[3]);
+ *   IMP_SURFACE_FORMULA(ball_formula)
+ *
+ *   static void spin_formula(const void *self, imp_model x, imp_model y, imp_model z,
+ *                            imp_model t, imp_model out[3]);
+ *   IMP_MAP_FORMULA(spin_formula)
+ *
+ * The macros define ball_formula_eval, ball_formula_rate, ball_formula_include, and spin_formula_eval,
+ * spin_formula_rate, spin_formula_apply: the callbacks of imp_surface_type and imp_map_type,
+ * with proved bounds. Points are constants: the formula, run on numbers, yields its
+ * value and the error of its own rounding. */
+
+typedef void (*imp_surface_formula)(const void *self, imp_model u, imp_model v, imp_model t,
+                                    imp_model out[3]);
+typedef void (*imp_map_formula)(const void *self, imp_model x, imp_model y, imp_model z,
+                                imp_model t, imp_model out[3]);
+
+/* Values and errors of a point's three constants; no finite value: outside the domain. */
+static inline imp_status imp_formula_point_(const imp_model out[3], double *x, double *error)
+{
+    for (int i = 0; i < 3; i++) {
+        if (!(out[i].e < INFINITY))
+            return IMP_DOMAIN;
+        x[i] = out[i].a;
+        if (error)
+            error[i] = out[i].e;
+    }
+    return IMP_OK;
+}
+
+/* IMP_UNBOUNDED where anything is infinite. */
+static inline imp_status imp_formula_status_(const imp_model out[3])
+{
+    imp_status status = IMP_OK;
+    for (int i = 0; i < 3; i++) {
+        double size = out[i].e + (out[i].hi - out[i].lo);
+        double rate = out[i].rate[0] + out[i].rate[1] + out[i].rate[2];
+        if (!(size < INFINITY && rate < INFINITY))
+            status = IMP_UNBOUNDED;
+    }
+    return status;
+}
+
+static inline imp_status imp_surface_formula_eval_(imp_surface_formula f, const void *self,
+                                                   size_t n, const double *p, double *x,
+                                                   double *error)
+{
+    imp_model out[3];
+    imp_status status = IMP_OK;
+    for (size_t k = 0; k < n && status == IMP_OK; k++) {
+        f(self, imp_num(p[3 * k]), imp_num(p[3 * k + 1]), imp_num(p[3 * k + 2]), out);
+        status = imp_formula_point_(out, x + 3 * k, error ? error + 3 * k : NULL);
+    }
+    return status;
+}
+
+static inline imp_status imp_surface_formula_include_(imp_surface_formula f, const void *self,
+                                                      const imp_region *region, imp_model model[3])
+{
+    f(self, imp_param(region, 0), imp_param(region, 1), imp_param(region, 2), model);
+    return imp_formula_status_(model);
+}
+
+static inline imp_status imp_surface_formula_rate_(imp_surface_formula f, const void *self,
+                                                   const imp_region *region,
+                                                   imp_rate_matrix *rates)
+{
+    imp_model out[3];
+    imp_status status = IMP_OK;
+    f(self, imp_param(region, 0), imp_param(region, 1), imp_param(region, 2), out);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            rates->m[i][j] = out[i].rate[j];
+            if (!(out[i].rate[j] < INFINITY))
+                status = IMP_UNBOUNDED;
+        }
+    }
+    return status;
+}
+
+static inline imp_status imp_map_formula_eval_(imp_map_formula f, const void *self, size_t n,
+                                               const double *p, double *x, double *error)
+{
+    imp_model out[3];
+    imp_status status = IMP_OK;
+    for (size_t k = 0; k < n && status == IMP_OK; k++) {
+        const double *at = p + 4 * k;
+        f(self, imp_num(at[0]), imp_num(at[1]), imp_num(at[2]), imp_num(at[3]), out);
+        status = imp_formula_point_(out, x + 3 * k, error ? error + 3 * k : NULL);
+    }
+    return status;
+}
+
+static inline imp_status imp_map_formula_apply_(imp_map_formula f, const void *self,
+                                                const imp_model in[4], imp_model out[3])
+{
+    f(self, in[0], in[1], in[2], in[3], out);
+    return imp_formula_status_(out);
+}
+
+/* A region with these bounds: c is inside, d reaches both ends. */
+static inline imp_region imp_region_between(const double lo[3], const double hi[3])
+{
+    imp_region r;
+    for (int j = 0; j < 3; j++) {
+        imp_interval x = imp_interval_make(lo[j], hi[j]);
+        r.lo[j] = lo[j];
+        r.hi[j] = hi[j];
+        r.c[j] = imp_interval_mid(x);
+        r.d[j] = lo[j] == hi[j] ? 0 : imp_interval_radius_upper(x, r.c[j]);
+    }
+    return r;
+}
+
+/* Models have three parameters and a map has four: x, y, z vary in one pass, while t is any number
+ * in its bounds, and t in the other, while x, y, z are. Bounds that hold for every fixed value of
+ * the rest bound the change along a path that moves in space first and in time after. */
+static inline imp_status imp_map_formula_rate_(imp_map_formula f, const void *self,
+                                               const imp_box4 *box, imp_map_rates *rates)
+{
+    imp_model space[3], time[3];
+    imp_region region = imp_region_between(box->lo, box->hi);
+    imp_region moment = imp_region_between(box->lo + 1, box->hi + 1);
+    imp_status status = IMP_OK;
+    f(self, imp_param(&region, 0), imp_param(&region, 1), imp_param(&region, 2),
+      imp_between(box->lo[3], box->hi[3]), space);
+    f(self, imp_between(box->lo[0], box->hi[0]), imp_between(box->lo[1], box->hi[1]),
+      imp_between(box->lo[2], box->hi[2]), imp_param(&moment, 2), time);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 4; j++) {
+            rates->m[i][j] = j < 3 ? space[i].rate[j] : time[i].rate[2];
+            if (!(rates->m[i][j] < INFINITY))
+                status = IMP_UNBOUNDED;
+        }
+    }
+    return status;
+}
+
+#if defined(__GNUC__)
+#define IMP_UNUSED_ __attribute__((unused))
+#else
+#define IMP_UNUSED_
+#endif
+
+#define IMP_SURFACE_FORMULA(FORMULA)                                                           \
+    static IMP_UNUSED_ imp_status FORMULA##_eval(const void *self, size_t n, const double *p,  \
+                                                 double *x, double *error)                     \
+    {                                                                                          \
+        return imp_surface_formula_eval_(FORMULA, self, n, p, x, error);                       \
+    }                                                                                          \
+    static IMP_UNUSED_ imp_status FORMULA##_rate(const void *self, const imp_region *region,   \
+                                                 imp_rate_matrix *rates)                       \
+    {                                                                                          \
+        return imp_surface_formula_rate_(FORMULA, self, region, rates);                        \
+    }                                                                                          \
+    static IMP_UNUSED_ imp_status FORMULA##_include(const void *self, const imp_region *region, \
+                                                    imp_model model[3])                        \
+    {                                                                                          \
+        return imp_surface_formula_include_(FORMULA, self, region, model);                     \
+    }
+
+#define IMP_MAP_FORMULA(FORMULA)                                                               \
+    static IMP_UNUSED_ imp_status FORMULA##_eval(const void *self, size_t n, const double *p,  \
+                                                 double *x, double *error)                     \
+    {                                                                                          \
+        return imp_map_formula_eval_(FORMULA, self, n, p, x, error);                           \
+    }                                                                                          \
+    static IMP_UNUSED_ imp_status FORMULA##_rate(const void *self, const imp_box4 *box,        \
+                                                 imp_map_rates *rates)                         \
+    {                                                                                          \
+        return imp_map_formula_rate_(FORMULA, self, box, rates);                               \
+    }                                                                                          \
+    static IMP_UNUSED_ imp_status FORMULA##_apply(const void *self, const imp_model in[4],     \
+                                                  imp_model out[3])                            \
+    {                                                                                          \
+        return imp_map_formula_apply_(FORMULA, self, in, out);                                 \
+    }
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* IMPINGE_FORMULA_H */

@@ -1,0 +1,429 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: MIT */
+#ifndef IMPINGE_INTERVAL_H
+#define IMPINGE_INTERVAL_H
+
+#include <errno.h>
+#include <math.h>
+
+#include <impinge/surface.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Intervals that surely hold the result
+ * =====================================
+ *
+ * [lo, hi] with lo <= hi; an end may be infinite. Every operation answers an
+ * interval that holds all results for all operands inside its own. The rounding mode
+ * stays "to nearest"; computed ends are pushed outward instead. No answer holds a
+ * NaN: where an end cannot be computed it is infinite.
+ *
+ * Notation in the lemmas: u = 2^-53, fl(x) the double nearest to x. A sum, difference,
+ * product, quotient or square root z computed in double is x = fl(z), and then
+ *
+ *   (R)  |z - x| <= u |x| + 2^-1075     (the last term is 0 for sums)
+ *
+ * unless it overflows. A libm call is trusted to 4 units in the last place, that is
+ * |z - x| <= 4 * 2^-52 max(|z|, |x|) + 4 * 2^-1074; with 2^-52 (1 + 2^-49) < 1.25 * 2^-52:
+ *
+ *   (L)  |z - x| <= 5 * 2^-52 |x| + 2^-1072     (glibc's are below 1 unit)
+ *
+ * IMP_TINY stands in for all errors of underflow. It is far larger than they are
+ * so that no bound becomes a subnormal number, which many processors handle
+ * slowly, and far smaller than any length, time or rate of interest. */
+
+#define IMP_TINY 0x1p-1000
+#define IMP_LIBM 0x1.4p-50 /* 5 * 2^-52, relative, see (L) */
+
+typedef struct imp_interval {
+    double lo, hi;
+} imp_interval;
+
+/* --- Rounding outward -------------------------------------------------------- */
+
+/* At least every z with (R). Lemma: |x| 2^-52 >= ulp(x) for normal x, and IMP_TINY
+ * covers the rest, so the sum in exact arithmetic is >= the double above x, and
+ * fl is monotone. z itself lies below the double above x because it rounds to x.
+ * NaN for x = -INFINITY (overflow: the true value may be anything below): callers
+ * let a NaN open the interval on that side. */
+static inline double imp_round_up(double x)
+{
+    return x + (fabs(x) * 0x1p-52 + IMP_TINY);
+}
+
+static inline double imp_round_down(double x)
+{
+    return x - (fabs(x) * 0x1p-52 + IMP_TINY);
+}
+
+/* The same for sums and differences, which are exact where they would underflow:
+ * no IMP_TINY, so 0 stays 0. */
+static inline double imp_sum_up(double x)
+{
+    return x + fabs(x) * 0x1p-52;
+}
+
+static inline double imp_sum_down(double x)
+{
+    return x - fabs(x) * 0x1p-52;
+}
+
+/* The same for what libm computes. Lemma: by (L) z <= x + 5 * 2^-52 |x| + 2^-1072; the
+ * sixth unit pays for fl of the sum. */
+static inline double imp_libm_up(double x)
+{
+    return x + (fabs(x) * 0x1.8p-50 + IMP_TINY);
+}
+
+static inline double imp_libm_down(double x)
+{
+    return x - (fabs(x) * 0x1.8p-50 + IMP_TINY);
+}
+
+/* The larger and the smaller of two. If one is NaN the answer is b. */
+static inline double imp_larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double imp_smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+/* --- Making and asking --------------------------------------------------------- */
+
+/* [lo, hi], a NaN end becoming infinite. */
+static inline imp_interval imp_interval_make(double lo, double hi)
+{
+    imp_interval r;
+    r.lo = lo > -INFINITY ? lo : -INFINITY;
+    r.hi = hi < INFINITY ? hi : INFINITY;
+    return r;
+}
+
+static inline imp_interval imp_interval_whole(void)
+{
+    return imp_interval_make(-INFINITY, INFINITY);
+}
+
+static inline int imp_interval_is_finite(imp_interval x)
+{
+    return x.lo > -INFINITY && x.hi < INFINITY;
+}
+
+/* Greatest |z| in x; exact. */
+static inline double imp_interval_mag(imp_interval x)
+{
+    return imp_larger(fabs(x.lo), fabs(x.hi));
+}
+
+/* Least |z| in x; exact. */
+static inline double imp_interval_mig(imp_interval x)
+{
+    return imp_larger(imp_larger(x.lo, -x.hi), 0);
+}
+
+/* A double inside x, near its middle; x is finite. */
+static inline double imp_interval_mid(imp_interval x)
+{
+    double m = 0.5 * x.lo + 0.5 * x.hi;
+    return imp_smaller(imp_larger(m, x.lo), x.hi);
+}
+
+/* At least |z - m| for every z in x; m is in x. */
+static inline double imp_interval_radius_upper(imp_interval x, double m)
+{
+    return imp_sum_up(imp_larger(x.hi - m, m - x.lo));
+}
+
+/* What both hold. The caller knows that they share a point. */
+static inline imp_interval imp_interval_meet(imp_interval x, imp_interval y)
+{
+    return imp_interval_make(imp_larger(x.lo, y.lo), imp_smaller(x.hi, y.hi));
+}
+
+/* --- Arithmetic ------------------------------------------------------------------ */
+
+static inline imp_interval imp_interval_neg(imp_interval x)
+{
+    return imp_interval_make(-x.hi, -x.lo);
+}
+
+static inline imp_interval imp_interval_add(imp_interval x, imp_interval y)
+{
+    return imp_interval_make(imp_sum_down(x.lo + y.lo), imp_sum_up(x.hi + y.hi));
+}
+
+static inline imp_interval imp_interval_sub(imp_interval x, imp_interval y)
+{
+    return imp_interval_make(imp_sum_down(x.lo - y.hi), imp_sum_up(x.hi - y.lo));
+}
+
+/* a b with 0 * INFINITY = 0: an infinite end is the limit of finite ones. */
+static inline double imp_limit_product_(double a, double b)
+{
+    return a == 0 || b == 0 ? 0 : a * b;
+}
+
+static inline imp_interval imp_interval_mul_infinite_(imp_interval x, imp_interval y)
+{
+    double p = imp_limit_product_(x.lo, y.lo), q = imp_limit_product_(x.lo, y.hi);
+    double r = imp_limit_product_(x.hi, y.lo), s = imp_limit_product_(x.hi, y.hi);
+    double lo = imp_smaller(imp_smaller(p, q), imp_smaller(r, s));
+    double hi = imp_larger(imp_larger(p, q), imp_larger(r, s));
+    return imp_interval_make(imp_round_down(lo), imp_round_up(hi));
+}
+
+/* The extremes of a product are at corners. A NaN or infinite corner shows in the sum. */
+static inline imp_interval imp_interval_mul(imp_interval x, imp_interval y)
+{
+    double p = x.lo * y.lo, q = x.lo * y.hi, r = x.hi * y.lo, s = x.hi * y.hi;
+    double sum = (p + q) + (r + s);
+    if (!(sum - sum == 0))
+        return imp_interval_mul_infinite_(x, y);
+    double lo = imp_smaller(imp_smaller(p, q), imp_smaller(r, s));
+    double hi = imp_larger(imp_larger(p, q), imp_larger(r, s));
+    return imp_interval_make(imp_round_down(lo), imp_round_up(hi));
+}
+
+static inline imp_interval imp_interval_scale(imp_interval x, double k)
+{
+    return imp_interval_mul(x, imp_interval_make(k, k));
+}
+
+/* 1/x is monotone on either side of 0; with 0 inside, or at an end, it is unbounded there. */
+static inline imp_interval imp_interval_inverse(imp_interval x)
+{
+    if (x.lo > 0)
+        return imp_interval_make(imp_larger(imp_round_down(1 / x.hi), 0), imp_round_up(1 / x.lo));
+    if (x.hi < 0)
+        return imp_interval_make(imp_round_down(1 / x.hi), imp_smaller(imp_round_up(1 / x.lo), 0));
+    if (x.lo == 0 && x.hi > 0)
+        return imp_interval_make(imp_larger(imp_round_down(1 / x.hi), 0), INFINITY);
+    if (x.hi == 0 && x.lo < 0)
+        return imp_interval_make(-INFINITY, imp_smaller(imp_round_up(1 / x.lo), 0));
+    return imp_interval_whole();
+}
+
+/* Corners again, as y has one sign. Two infinite ends: through the inverse. */
+static inline imp_interval imp_interval_div(imp_interval x, imp_interval y)
+{
+    double p = x.lo / y.lo, q = x.lo / y.hi, r = x.hi / y.lo, s = x.hi / y.hi;
+    double sum = (p + q) + (r + s);
+    if (!(sum - sum == 0) || (y.lo <= 0 && y.hi >= 0))
+        return imp_interval_mul(x, imp_interval_inverse(y));
+    double lo = imp_smaller(imp_smaller(p, q), imp_smaller(r, s));
+    double hi = imp_larger(imp_larger(p, q), imp_larger(r, s));
+    return imp_interval_make(imp_round_down(lo), imp_round_up(hi));
+}
+
+/* Not x times x: the answer has one sign. */
+static inline imp_interval imp_interval_sqr(imp_interval x)
+{
+    double lo = imp_interval_mig(x), hi = imp_interval_mag(x);
+    return imp_interval_make(imp_larger(imp_round_down(lo * lo), 0), imp_round_up(hi * hi));
+}
+
+static inline imp_interval imp_interval_abs(imp_interval x)
+{
+    return imp_interval_make(imp_interval_mig(x), imp_interval_mag(x));
+}
+
+static inline imp_interval imp_interval_min(imp_interval x, imp_interval y)
+{
+    return imp_interval_make(imp_smaller(x.lo, y.lo), imp_smaller(x.hi, y.hi));
+}
+
+static inline imp_interval imp_interval_max(imp_interval x, imp_interval y)
+{
+    return imp_interval_make(imp_larger(x.lo, y.lo), imp_larger(x.hi, y.hi));
+}
+
+/* The part of x below 0 counts as 0 (rounding may have put it there); nothing but
+ * negative numbers: whole. */
+static inline imp_interval imp_interval_sqrt(imp_interval x)
+{
+    if (!(x.hi >= 0))
+        return imp_interval_whole();
+    double lo = imp_round_down(sqrt(imp_larger(x.lo, 0)));
+    return imp_interval_make(imp_larger(lo, 0), imp_round_up(sqrt(x.hi)));
+}
+
+/* --- Elementary functions -------------------------------------------------------- */
+
+#define IMP_PI_LOWER 0x1.921fb54442d18p+1
+#define IMP_PI_UPPER 0x1.921fb54442d19p+1
+
+/* e^x, within (L) and IMP_TINY. 0 below 2^-1000 and INFINITY above e^709 keep libm from
+ * setting errno. */
+static inline double imp_exp_(double x)
+{
+    return x < -694 ? 0 : x > 709 ? INFINITY : exp(x);
+}
+
+/* x^p, leaving errno alone. */
+static inline double imp_pow_(double x, double p)
+{
+    int saved = errno;
+    double y = pow(x, p);
+    errno = saved;
+    return y;
+}
+
+static inline double imp_sinh_(double x)
+{
+    return x < -709 ? -INFINITY : x > 709 ? INFINITY : sinh(x);
+}
+
+static inline double imp_cosh_(double x)
+{
+    return fabs(x) > 709 ? INFINITY : cosh(x);
+}
+
+/* Where the true value is finite but beyond 709, the lower end is still right: a NaN
+ * from rounding INFINITY down becomes 0 here, -INFINITY elsewhere. */
+static inline imp_interval imp_interval_exp(imp_interval x)
+{
+    return imp_interval_make(imp_larger(imp_libm_down(imp_exp_(x.lo)), 0),
+                             imp_libm_up(imp_exp_(x.hi)));
+}
+
+/* Where x touches 0 or what is below, -INFINITY. */
+static inline imp_interval imp_interval_log(imp_interval x)
+{
+    if (!(x.hi > 0))
+        return imp_interval_whole();
+    return imp_interval_make(x.lo > 0 ? imp_libm_down(log(x.lo)) : -INFINITY,
+                             imp_libm_up(log(x.hi)));
+}
+
+static inline imp_interval imp_interval_sinh(imp_interval x)
+{
+    return imp_interval_make(imp_libm_down(imp_sinh_(x.lo)), imp_libm_up(imp_sinh_(x.hi)));
+}
+
+static inline imp_interval imp_interval_cosh(imp_interval x)
+{
+    double lo = imp_libm_down(imp_cosh_(imp_interval_mig(x)));
+    return imp_interval_make(imp_larger(lo, 1), imp_libm_up(imp_cosh_(imp_interval_mag(x))));
+}
+
+static inline imp_interval imp_interval_tanh(imp_interval x)
+{
+    return imp_interval_make(imp_larger(imp_libm_down(tanh(x.lo)), -1),
+                             imp_smaller(imp_libm_up(tanh(x.hi)), 1));
+}
+
+static inline imp_interval imp_interval_atan(imp_interval x)
+{
+    return imp_interval_make(imp_larger(imp_libm_down(atan(x.lo)), -IMP_PI_UPPER / 2),
+                             imp_smaller(imp_libm_up(atan(x.hi)), IMP_PI_UPPER / 2));
+}
+
+/* The parts of x beyond -1 and 1 count as -1 and 1; nothing else in x: whole. */
+static inline imp_interval imp_interval_asin(imp_interval x)
+{
+    if (!(x.lo <= 1 && x.hi >= -1))
+        return imp_interval_whole();
+    double lo = imp_libm_down(asin(imp_larger(x.lo, -1)));
+    double hi = imp_libm_up(asin(imp_smaller(x.hi, 1)));
+    return imp_interval_make(imp_larger(lo, -IMP_PI_UPPER / 2), imp_smaller(hi, IMP_PI_UPPER / 2));
+}
+
+static inline imp_interval imp_interval_acos(imp_interval x)
+{
+    if (!(x.lo <= 1 && x.hi >= -1))
+        return imp_interval_whole();
+    double lo = imp_libm_down(acos(imp_smaller(x.hi, 1)));
+    double hi = imp_libm_up(acos(imp_larger(x.lo, -1)));
+    return imp_interval_make(imp_larger(lo, 0), imp_smaller(hi, IMP_PI_UPPER));
+}
+
+/* May an integer k have x = 2 pi (k + phase) inside? Lemma: y = x / (2 pi) - phase is
+ * computed with an error of at most 4 u |x / (2 pi)| (constant, product, difference) + u
+ * (|phase| <= 1/2, for the difference), below the slack of 2^-50 (|y| + 1) by which
+ * both ends are pushed outward; "yes" is always a sound answer. */
+static inline int imp_interval_holds_phase_(imp_interval x, double phase)
+{
+    const double turn = 0x1.45f306dc9c883p-3; /* 1 / (2 pi) */
+    double lo = x.lo * turn - phase, hi = x.hi * turn - phase;
+    return floor(hi + 0x1p-50 * (fabs(hi) + 1)) >= lo - 0x1p-50 * (fabs(lo) + 1);
+}
+
+/* Beyond this the phase is not worth telling. */
+#define IMP_ANGLE_MAX 0x1p40
+
+static inline int imp_interval_is_turn_(imp_interval x)
+{
+    return !(x.hi - x.lo < 6.25 && imp_interval_mag(x) < IMP_ANGLE_MAX);
+}
+
+/* Between extremes the function is monotone, so its range over x is spanned by
+ * the values at the ends and by the extremes inside: 1 at 2 pi (k + top), -1 half
+ * a turn on. */
+static inline imp_interval imp_interval_wave_(imp_interval x, double at_lo, double at_hi, double top)
+{
+    double lo = imp_larger(imp_libm_down(imp_smaller(at_lo, at_hi)), -1);
+    double hi = imp_smaller(imp_libm_up(imp_larger(at_lo, at_hi)), 1);
+    if (imp_interval_holds_phase_(x, top))
+        hi = 1;
+    if (imp_interval_holds_phase_(x, top - 0.5))
+        lo = -1;
+    return imp_interval_make(lo, hi);
+}
+
+static inline imp_interval imp_interval_sin(imp_interval x)
+{
+    if (imp_interval_is_turn_(x))
+        return imp_interval_make(-1, 1);
+    return imp_interval_wave_(x, sin(x.lo), sin(x.hi), 0.25);
+}
+
+static inline imp_interval imp_interval_cos(imp_interval x)
+{
+    if (imp_interval_is_turn_(x))
+        return imp_interval_make(-1, 1);
+    return imp_interval_wave_(x, cos(x.lo), cos(x.hi), 0);
+}
+
+/* Monotone between poles, which are at odd multiples of pi/2. */
+static inline imp_interval imp_interval_tan(imp_interval x)
+{
+    if (imp_interval_is_turn_(x) || imp_interval_holds_phase_(x, 0.25) ||
+        imp_interval_holds_phase_(x, -0.25))
+        return imp_interval_whole();
+    return imp_interval_make(imp_libm_down(tan(x.lo)), imp_libm_up(tan(x.hi)));
+}
+
+/* x^p for x >= 0 (the part below counts as 0) and any real p: monotone in x. */
+static inline imp_interval imp_interval_pow(imp_interval x, double p)
+{
+    if (!(x.hi >= 0) || !(p - p == 0))
+        return imp_interval_whole();
+    if (p == 0)
+        return imp_interval_make(1, 1);
+    double lo = imp_larger(p > 0 ? x.lo : x.hi, 0), hi = imp_larger(p > 0 ? x.hi : x.lo, 0);
+    return imp_interval_make(imp_larger(imp_libm_down(imp_pow_(lo, p)), 0),
+                             imp_libm_up(imp_pow_(hi, p)));
+}
+
+/* x^n for whole n > -2^31: monotone if n is odd, a function of |x| if n is even. */
+static inline imp_interval imp_interval_powi(imp_interval x, int n)
+{
+    if (n == 0)
+        return imp_interval_make(1, 1);
+    if (n < 0)
+        return imp_interval_inverse(imp_interval_powi(x, -n));
+    if (n % 2 == 0)
+        return imp_interval_pow(imp_interval_abs(x), n);
+    return imp_interval_make(imp_libm_down(imp_pow_(x.lo, n)), imp_libm_up(imp_pow_(x.hi, n)));
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* IMPINGE_INTERVAL_H */
