@@ -4,6 +4,10 @@
 # What plugin authors get: headers and impinge-sdk.pc. Nothing here is compiled.
 
 pkginclude_HEADERS = \
+    sdk/impinge/formula.h \
+    sdk/impinge/interval.h \
+    sdk/impinge/model.h \
+    sdk/impinge/model_functions.h \
     sdk/impinge/surface.h
 
 pkgconfig_DATA += sdk/impinge-sdk.pc

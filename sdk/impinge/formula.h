@@ -22,9 +22,9 @@ extern "C" {
  *                            imp_model t, imp_model out[3]);
  *   IMP_MAP_FORMULA(spin_formula)
  *
- * The macros define ball_formula_eval, ball_formula_rate, ball_formula_include, and spin_formula_eval,
- * spin_formula_rate, spin_formula_apply: the callbacks of imp_surface_type and imp_map_type,
- * with proved bounds. Points are constants: the formula, run on numbers, yields its
+ * The macros define ball_formula_eval, ball_formula_rate, ball_formula_include, and
+ * spin_formula_eval, spin_formula_rate, spin_formula_apply: the callbacks of imp_surface_type and
+ * imp_map_type, with proved bounds. Points are constants: the formula, run on numbers, yields its
  * value and the error of its own rounding. */
 
 typedef void (*imp_surface_formula)(const void *self, imp_model u, imp_model v, imp_model t,
@@ -36,11 +36,9 @@ typedef void (*imp_map_formula)(const void *self, imp_model x, imp_model y, imp_
 static inline imp_status imp_formula_point_(const imp_model out[3], double *x, double *error)
 {
     for (int i = 0; i < 3; i++) {
-        if (!(out[i].e < INFINITY))
-            return IMP_DOMAIN;
+        if (!(out[i].e < INFINITY)) return IMP_DOMAIN;
         x[i] = out[i].a;
-        if (error)
-            error[i] = out[i].e;
+        if (error) error[i] = out[i].e;
     }
     return IMP_OK;
 }
@@ -52,8 +50,7 @@ static inline imp_status imp_formula_status_(const imp_model out[3])
     for (int i = 0; i < 3; i++) {
         double size = out[i].e + (out[i].hi - out[i].lo);
         double rate = out[i].rate[0] + out[i].rate[1] + out[i].rate[2];
-        if (!(size < INFINITY && rate < INFINITY))
-            status = IMP_UNBOUNDED;
+        if (!(size < INFINITY && rate < INFINITY)) status = IMP_UNBOUNDED;
     }
     return status;
 }
@@ -79,8 +76,7 @@ static inline imp_status imp_surface_formula_include_(imp_surface_formula f, con
 }
 
 static inline imp_status imp_surface_formula_rate_(imp_surface_formula f, const void *self,
-                                                   const imp_region *region,
-                                                   imp_rate_matrix *rates)
+                                                   const imp_region *region, imp_rate_matrix *rates)
 {
     imp_model out[3];
     imp_status status = IMP_OK;
@@ -88,8 +84,7 @@ static inline imp_status imp_surface_formula_rate_(imp_surface_formula f, const 
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             rates->m[i][j] = out[i].rate[j];
-            if (!(out[i].rate[j] < INFINITY))
-                status = IMP_UNBOUNDED;
+            if (!(out[i].rate[j] < INFINITY)) status = IMP_UNBOUNDED;
         }
     }
     return status;
@@ -146,8 +141,7 @@ static inline imp_status imp_map_formula_rate_(imp_map_formula f, const void *se
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 4; j++) {
             rates->m[i][j] = j < 3 ? space[i].rate[j] : time[i].rate[2];
-            if (!(rates->m[i][j] < INFINITY))
-                status = IMP_UNBOUNDED;
+            if (!(rates->m[i][j] < INFINITY)) status = IMP_UNBOUNDED;
         }
     }
     return status;
@@ -159,38 +153,38 @@ static inline imp_status imp_map_formula_rate_(imp_map_formula f, const void *se
 #define IMP_UNUSED_
 #endif
 
-#define IMP_SURFACE_FORMULA(FORMULA)                                                           \
-    static IMP_UNUSED_ imp_status FORMULA##_eval(const void *self, size_t n, const double *p,  \
-                                                 double *x, double *error)                     \
-    {                                                                                          \
-        return imp_surface_formula_eval_(FORMULA, self, n, p, x, error);                       \
-    }                                                                                          \
-    static IMP_UNUSED_ imp_status FORMULA##_rate(const void *self, const imp_region *region,   \
-                                                 imp_rate_matrix *rates)                       \
-    {                                                                                          \
-        return imp_surface_formula_rate_(FORMULA, self, region, rates);                        \
-    }                                                                                          \
-    static IMP_UNUSED_ imp_status FORMULA##_include(const void *self, const imp_region *region, \
-                                                    imp_model model[3])                        \
-    {                                                                                          \
-        return imp_surface_formula_include_(FORMULA, self, region, model);                     \
+#define IMP_SURFACE_FORMULA(FORMULA)                                                               \
+    static IMP_UNUSED_ imp_status FORMULA##_eval(const void *self, size_t n, const double *p,      \
+                                                 double *x, double *error)                         \
+    {                                                                                              \
+        return imp_surface_formula_eval_(FORMULA, self, n, p, x, error);                           \
+    }                                                                                              \
+    static IMP_UNUSED_ imp_status FORMULA##_rate(const void *self, const imp_region *region,       \
+                                                 imp_rate_matrix *rates)                           \
+    {                                                                                              \
+        return imp_surface_formula_rate_(FORMULA, self, region, rates);                            \
+    }                                                                                              \
+    static IMP_UNUSED_ imp_status FORMULA##_include(const void *self, const imp_region *region,    \
+                                                    imp_model model[3])                            \
+    {                                                                                              \
+        return imp_surface_formula_include_(FORMULA, self, region, model);                         \
     }
 
-#define IMP_MAP_FORMULA(FORMULA)                                                               \
-    static IMP_UNUSED_ imp_status FORMULA##_eval(const void *self, size_t n, const double *p,  \
-                                                 double *x, double *error)                     \
-    {                                                                                          \
-        return imp_map_formula_eval_(FORMULA, self, n, p, x, error);                           \
-    }                                                                                          \
-    static IMP_UNUSED_ imp_status FORMULA##_rate(const void *self, const imp_box4 *box,        \
-                                                 imp_map_rates *rates)                         \
-    {                                                                                          \
-        return imp_map_formula_rate_(FORMULA, self, box, rates);                               \
-    }                                                                                          \
-    static IMP_UNUSED_ imp_status FORMULA##_apply(const void *self, const imp_model in[4],     \
-                                                  imp_model out[3])                            \
-    {                                                                                          \
-        return imp_map_formula_apply_(FORMULA, self, in, out);                                 \
+#define IMP_MAP_FORMULA(FORMULA)                                                                   \
+    static IMP_UNUSED_ imp_status FORMULA##_eval(const void *self, size_t n, const double *p,      \
+                                                 double *x, double *error)                         \
+    {                                                                                              \
+        return imp_map_formula_eval_(FORMULA, self, n, p, x, error);                               \
+    }                                                                                              \
+    static IMP_UNUSED_ imp_status FORMULA##_rate(const void *self, const imp_box4 *box,            \
+                                                 imp_map_rates *rates)                             \
+    {                                                                                              \
+        return imp_map_formula_rate_(FORMULA, self, box, rates);                                   \
+    }                                                                                              \
+    static IMP_UNUSED_ imp_status FORMULA##_apply(const void *self, const imp_model in[4],         \
+                                                  imp_model out[3])                                \
+    {                                                                                              \
+        return imp_map_formula_apply_(FORMULA, self, in, out);                                     \
     }
 
 #ifdef __cplusplus

@@ -48,50 +48,26 @@ typedef struct imp_interval {
  * fl is monotone. z itself lies below the double above x because it rounds to x.
  * NaN for x = -INFINITY (overflow: the true value may be anything below): callers
  * let a NaN open the interval on that side. */
-static inline double imp_round_up(double x)
-{
-    return x + (fabs(x) * 0x1p-52 + IMP_TINY);
-}
+static inline double imp_round_up(double x) { return x + (fabs(x) * 0x1p-52 + IMP_TINY); }
 
-static inline double imp_round_down(double x)
-{
-    return x - (fabs(x) * 0x1p-52 + IMP_TINY);
-}
+static inline double imp_round_down(double x) { return x - (fabs(x) * 0x1p-52 + IMP_TINY); }
 
 /* The same for sums and differences, which are exact where they would underflow:
  * no IMP_TINY, so 0 stays 0. */
-static inline double imp_sum_up(double x)
-{
-    return x + fabs(x) * 0x1p-52;
-}
+static inline double imp_sum_up(double x) { return x + fabs(x) * 0x1p-52; }
 
-static inline double imp_sum_down(double x)
-{
-    return x - fabs(x) * 0x1p-52;
-}
+static inline double imp_sum_down(double x) { return x - fabs(x) * 0x1p-52; }
 
 /* The same for what libm computes. Lemma: by (L) z <= x + 5 * 2^-52 |x| + 2^-1072; the
  * sixth unit pays for fl of the sum. */
-static inline double imp_libm_up(double x)
-{
-    return x + (fabs(x) * 0x1.8p-50 + IMP_TINY);
-}
+static inline double imp_libm_up(double x) { return x + (fabs(x) * 0x1.8p-50 + IMP_TINY); }
 
-static inline double imp_libm_down(double x)
-{
-    return x - (fabs(x) * 0x1.8p-50 + IMP_TINY);
-}
+static inline double imp_libm_down(double x) { return x - (fabs(x) * 0x1.8p-50 + IMP_TINY); }
 
 /* The larger and the smaller of two. If one is NaN the answer is b. */
-static inline double imp_larger(double a, double b)
-{
-    return a > b ? a : b;
-}
+static inline double imp_larger(double a, double b) { return a > b ? a : b; }
 
-static inline double imp_smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
+static inline double imp_smaller(double a, double b) { return a < b ? a : b; }
 
 /* --- Making and asking --------------------------------------------------------- */
 
@@ -115,10 +91,7 @@ static inline int imp_interval_is_finite(imp_interval x)
 }
 
 /* Greatest |z| in x; exact. */
-static inline double imp_interval_mag(imp_interval x)
-{
-    return imp_larger(fabs(x.lo), fabs(x.hi));
-}
+static inline double imp_interval_mag(imp_interval x) { return imp_larger(fabs(x.lo), fabs(x.hi)); }
 
 /* Least |z| in x; exact. */
 static inline double imp_interval_mig(imp_interval x)
@@ -163,10 +136,7 @@ static inline imp_interval imp_interval_sub(imp_interval x, imp_interval y)
 }
 
 /* a b with 0 * INFINITY = 0: an infinite end is the limit of finite ones. */
-static inline double imp_limit_product_(double a, double b)
-{
-    return a == 0 || b == 0 ? 0 : a * b;
-}
+static inline double imp_limit_product_(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
 static inline imp_interval imp_interval_mul_infinite_(imp_interval x, imp_interval y)
 {
@@ -182,8 +152,7 @@ static inline imp_interval imp_interval_mul(imp_interval x, imp_interval y)
 {
     double p = x.lo * y.lo, q = x.lo * y.hi, r = x.hi * y.lo, s = x.hi * y.hi;
     double sum = (p + q) + (r + s);
-    if (!(sum - sum == 0))
-        return imp_interval_mul_infinite_(x, y);
+    if (!(sum - sum == 0)) return imp_interval_mul_infinite_(x, y);
     double lo = imp_smaller(imp_smaller(p, q), imp_smaller(r, s));
     double hi = imp_larger(imp_larger(p, q), imp_larger(r, s));
     return imp_interval_make(imp_round_down(lo), imp_round_up(hi));
@@ -246,8 +215,7 @@ static inline imp_interval imp_interval_max(imp_interval x, imp_interval y)
  * negative numbers: whole. */
 static inline imp_interval imp_interval_sqrt(imp_interval x)
 {
-    if (!(x.hi >= 0))
-        return imp_interval_whole();
+    if (!(x.hi >= 0)) return imp_interval_whole();
     double lo = imp_round_down(sqrt(imp_larger(x.lo, 0)));
     return imp_interval_make(imp_larger(lo, 0), imp_round_up(sqrt(x.hi)));
 }
@@ -259,10 +227,7 @@ static inline imp_interval imp_interval_sqrt(imp_interval x)
 
 /* e^x, within (L) and IMP_TINY. 0 below 2^-1000 and INFINITY above e^709 keep libm from
  * setting errno. */
-static inline double imp_exp_(double x)
-{
-    return x < -694 ? 0 : x > 709 ? INFINITY : exp(x);
-}
+static inline double imp_exp_(double x) { return x < -694 ? 0 : x > 709 ? INFINITY : exp(x); }
 
 /* x^p, leaving errno alone. */
 static inline double imp_pow_(double x, double p)
@@ -278,10 +243,7 @@ static inline double imp_sinh_(double x)
     return x < -709 ? -INFINITY : x > 709 ? INFINITY : sinh(x);
 }
 
-static inline double imp_cosh_(double x)
-{
-    return fabs(x) > 709 ? INFINITY : cosh(x);
-}
+static inline double imp_cosh_(double x) { return fabs(x) > 709 ? INFINITY : cosh(x); }
 
 /* Where the true value is finite but beyond 709, the lower end is still right: a NaN
  * from rounding INFINITY down becomes 0 here, -INFINITY elsewhere. */
@@ -294,8 +256,7 @@ static inline imp_interval imp_interval_exp(imp_interval x)
 /* Where x touches 0 or what is below, -INFINITY. */
 static inline imp_interval imp_interval_log(imp_interval x)
 {
-    if (!(x.hi > 0))
-        return imp_interval_whole();
+    if (!(x.hi > 0)) return imp_interval_whole();
     return imp_interval_make(x.lo > 0 ? imp_libm_down(log(x.lo)) : -INFINITY,
                              imp_libm_up(log(x.hi)));
 }
@@ -326,8 +287,7 @@ static inline imp_interval imp_interval_atan(imp_interval x)
 /* The parts of x beyond -1 and 1 count as -1 and 1; nothing else in x: whole. */
 static inline imp_interval imp_interval_asin(imp_interval x)
 {
-    if (!(x.lo <= 1 && x.hi >= -1))
-        return imp_interval_whole();
+    if (!(x.lo <= 1 && x.hi >= -1)) return imp_interval_whole();
     double lo = imp_libm_down(asin(imp_larger(x.lo, -1)));
     double hi = imp_libm_up(asin(imp_smaller(x.hi, 1)));
     return imp_interval_make(imp_larger(lo, -IMP_PI_UPPER / 2), imp_smaller(hi, IMP_PI_UPPER / 2));
@@ -335,8 +295,7 @@ static inline imp_interval imp_interval_asin(imp_interval x)
 
 static inline imp_interval imp_interval_acos(imp_interval x)
 {
-    if (!(x.lo <= 1 && x.hi >= -1))
-        return imp_interval_whole();
+    if (!(x.lo <= 1 && x.hi >= -1)) return imp_interval_whole();
     double lo = imp_libm_down(acos(imp_smaller(x.hi, 1)));
     double hi = imp_libm_up(acos(imp_larger(x.lo, -1)));
     return imp_interval_make(imp_larger(lo, 0), imp_smaller(hi, IMP_PI_UPPER));
@@ -364,28 +323,25 @@ static inline int imp_interval_is_turn_(imp_interval x)
 /* Between extremes the function is monotone, so its range over x is spanned by
  * the values at the ends and by the extremes inside: 1 at 2 pi (k + top), -1 half
  * a turn on. */
-static inline imp_interval imp_interval_wave_(imp_interval x, double at_lo, double at_hi, double top)
+static inline imp_interval imp_interval_wave_(imp_interval x, double at_lo, double at_hi,
+                                              double top)
 {
     double lo = imp_larger(imp_libm_down(imp_smaller(at_lo, at_hi)), -1);
     double hi = imp_smaller(imp_libm_up(imp_larger(at_lo, at_hi)), 1);
-    if (imp_interval_holds_phase_(x, top))
-        hi = 1;
-    if (imp_interval_holds_phase_(x, top - 0.5))
-        lo = -1;
+    if (imp_interval_holds_phase_(x, top)) hi = 1;
+    if (imp_interval_holds_phase_(x, top - 0.5)) lo = -1;
     return imp_interval_make(lo, hi);
 }
 
 static inline imp_interval imp_interval_sin(imp_interval x)
 {
-    if (imp_interval_is_turn_(x))
-        return imp_interval_make(-1, 1);
+    if (imp_interval_is_turn_(x)) return imp_interval_make(-1, 1);
     return imp_interval_wave_(x, sin(x.lo), sin(x.hi), 0.25);
 }
 
 static inline imp_interval imp_interval_cos(imp_interval x)
 {
-    if (imp_interval_is_turn_(x))
-        return imp_interval_make(-1, 1);
+    if (imp_interval_is_turn_(x)) return imp_interval_make(-1, 1);
     return imp_interval_wave_(x, cos(x.lo), cos(x.hi), 0);
 }
 
@@ -401,10 +357,8 @@ static inline imp_interval imp_interval_tan(imp_interval x)
 /* x^p for x >= 0 (the part below counts as 0) and any real p: monotone in x. */
 static inline imp_interval imp_interval_pow(imp_interval x, double p)
 {
-    if (!(x.hi >= 0) || !(p - p == 0))
-        return imp_interval_whole();
-    if (p == 0)
-        return imp_interval_make(1, 1);
+    if (!(x.hi >= 0) || !(p - p == 0)) return imp_interval_whole();
+    if (p == 0) return imp_interval_make(1, 1);
     double lo = imp_larger(p > 0 ? x.lo : x.hi, 0), hi = imp_larger(p > 0 ? x.hi : x.lo, 0);
     return imp_interval_make(imp_larger(imp_libm_down(imp_pow_(lo, p)), 0),
                              imp_libm_up(imp_pow_(hi, p)));
@@ -413,12 +367,9 @@ static inline imp_interval imp_interval_pow(imp_interval x, double p)
 /* x^n for whole n > -2^31: monotone if n is odd, a function of |x| if n is even. */
 static inline imp_interval imp_interval_powi(imp_interval x, int n)
 {
-    if (n == 0)
-        return imp_interval_make(1, 1);
-    if (n < 0)
-        return imp_interval_inverse(imp_interval_powi(x, -n));
-    if (n % 2 == 0)
-        return imp_interval_pow(imp_interval_abs(x), n);
+    if (n == 0) return imp_interval_make(1, 1);
+    if (n < 0) return imp_interval_inverse(imp_interval_powi(x, -n));
+    if (n % 2 == 0) return imp_interval_pow(imp_interval_abs(x), n);
     return imp_interval_make(imp_libm_down(imp_pow_(x.lo, n)), imp_libm_up(imp_pow_(x.hi, n)));
 }
 

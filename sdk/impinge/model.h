@@ -59,8 +59,7 @@ static inline imp_model imp_unbounded_(uint32_t depends)
     r.e = INFINITY;
     r.lo = -INFINITY;
     r.hi = INFINITY;
-    for (int j = 0; j < 3; j++)
-        r.rate[j] = depends >> j & 1 ? INFINITY : 0;
+    for (int j = 0; j < 3; j++) r.rate[j] = depends >> j & 1 ? INFINITY : 0;
     r.depends = depends;
     return r;
 }
@@ -68,19 +67,17 @@ static inline imp_model imp_unbounded_(uint32_t depends)
 /* The number k, exactly. */
 static inline imp_model imp_num(double k)
 {
-    if (!(k - k == 0))
-        return imp_unbounded_(0);
+    if (!(k - k == 0)) return imp_unbounded_(0);
     imp_model r = imp_zero_();
     r.a = r.lo = r.hi = k;
     return r;
 }
 
-/* A number that is within e of a, when e covers the rounding of a too. An overflow of either makes e
- * infinite or NaN. */
+/* A number that is within e of a, when e covers the rounding of a too. An overflow of either makes
+ * e infinite or NaN. */
 static inline imp_model imp_known_(double a, double e)
 {
-    if (!(e < INFINITY))
-        return imp_unbounded_(0);
+    if (!(e < INFINITY)) return imp_unbounded_(0);
     imp_model r = imp_zero_();
     r.a = a;
     r.e = e;
@@ -94,15 +91,12 @@ static inline imp_model imp_known_(double a, double e)
 static inline imp_model imp_collapse_(imp_model x)
 {
     imp_interval range = imp_interval_make(x.lo, x.hi);
-    if (!(x.lo <= x.hi))
-        return imp_unbounded_(x.depends);
+    if (!(x.lo <= x.hi)) return imp_unbounded_(x.depends);
     int finite = imp_interval_is_finite(range);
     x.a = finite ? imp_interval_mid(range) : 0;
     x.e = finite ? imp_interval_radius_upper(range, x.a) : INFINITY;
-    for (int j = 0; j < 3; j++)
-        x.b[j] = 0;
-    for (int j = 0; j < 6; j++)
-        x.q[j] = 0;
+    for (int j = 0; j < 3; j++) x.b[j] = 0;
+    for (int j = 0; j < 6; j++) x.q[j] = 0;
     return x;
 }
 
@@ -110,8 +104,7 @@ static inline imp_model imp_collapse_(imp_model x)
 static inline imp_model imp_between(double lo, double hi)
 {
     imp_model r = imp_zero_();
-    if (!(lo <= hi))
-        return imp_unbounded_(0);
+    if (!(lo <= hi)) return imp_unbounded_(0);
     r.lo = lo;
     r.hi = hi;
     return imp_collapse_(r);
@@ -160,20 +153,11 @@ static inline double imp_sum_abs6_(const double q[6])
 }
 
 /* A constant known to fewer than 30 bits: better off with interval arithmetic. */
-static inline int imp_is_wide_(const imp_model *x)
-{
-    return x->e > fabs(x->a) * 0x1p-30;
-}
+static inline int imp_is_wide_(const imp_model *x) { return x->e > fabs(x->a) * 0x1p-30; }
 
-static inline int imp_is_point_(const imp_model *x)
-{
-    return !x->depends && !imp_is_wide_(x);
-}
+static inline int imp_is_point_(const imp_model *x) { return !x->depends && !imp_is_wide_(x); }
 
-static inline int imp_is_exact_(const imp_model *x)
-{
-    return !x->depends && x->e == 0;
-}
+static inline int imp_is_exact_(const imp_model *x) { return !x->depends && x->e == 0; }
 
 /* Bounds of b s + q s^2 over [-1, 1]. Lemma: the extremes are q +- b at the ends, 0 at s = 0 and,
  * if |b| < 2 |q|, the vertex -b^2 / 4q, which is nearer to 0 than |b| / 2 is. */
@@ -221,8 +205,7 @@ static inline imp_model imp_model_finish(imp_model x)
     x.lo = imp_larger(x.lo, poly.lo);
     x.hi = imp_smaller(x.hi, poly.hi);
     imp_tidy_rates_(&x);
-    if (x.e <= 0.5 * (x.hi - x.lo) && x.e < INFINITY)
-        return x;
+    if (x.e <= 0.5 * (x.hi - x.lo) && x.e < INFINITY) return x;
     x.lo = x.lo > -INFINITY ? x.lo : -INFINITY;
     x.hi = x.hi < INFINITY ? x.hi : INFINITY;
     return imp_collapse_(x);
@@ -253,10 +236,8 @@ static inline imp_model imp_neg(imp_model x)
     x.a = -x.a;
     x.lo = -x.hi;
     x.hi = -lo;
-    for (int j = 0; j < 3; j++)
-        x.b[j] = -x.b[j];
-    for (int j = 0; j < 6; j++)
-        x.q[j] = -x.q[j];
+    for (int j = 0; j < 3; j++) x.b[j] = -x.b[j];
+    for (int j = 0; j < 6; j++) x.q[j] = -x.q[j];
     return x;
 }
 
@@ -269,8 +250,7 @@ static inline imp_model imp_add_(const imp_model *x, const imp_model *y)
         r.b[j] = x->b[j] + y->b[j];
         r.rate[j] = imp_sum_up(x->rate[j] + y->rate[j]);
     }
-    for (int j = 0; j < 6; j++)
-        r.q[j] = x->q[j] + y->q[j];
+    for (int j = 0; j < 6; j++) r.q[j] = x->q[j] + y->q[j];
     double size = fabs(r.a) + imp_sum_abs3_(r.b) + imp_sum_abs6_(r.q);
     r.e = (x->e + y->e + (IMP_U * size + IMP_TINY)) * IMP_SLACK;
     r.lo = imp_sum_down(x->lo + y->lo);
@@ -288,13 +268,10 @@ static inline imp_model imp_add_point_(double a, double x_error, double y_error)
 /* x + k where k is exact: rounds the middle only. */
 static inline imp_model imp_shift(imp_model x, double k)
 {
-    if (k == 0)
-        return x;
-    if (imp_is_exact_(&x) && x.a == 0)
-        return imp_num(k);
+    if (k == 0) return x;
+    if (imp_is_exact_(&x) && x.a == 0) return imp_num(k);
     double a = x.a + k;
-    if (imp_is_point_(&x))
-        return imp_add_point_(a, x.e, 0);
+    if (imp_is_point_(&x)) return imp_add_point_(a, x.e, 0);
     x.e = (x.e + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK;
     x.a = a;
     x.lo = imp_sum_down(x.lo + k);
@@ -304,33 +281,24 @@ static inline imp_model imp_shift(imp_model x, double k)
 
 static inline imp_model imp_add(imp_model x, imp_model y)
 {
-    if (imp_is_exact_(&y))
-        return imp_shift(x, y.a);
-    if (imp_is_exact_(&x))
-        return imp_shift(y, x.a);
-    if (imp_is_point_(&x) && imp_is_point_(&y))
-        return imp_add_point_(x.a + y.a, x.e, y.e);
+    if (imp_is_exact_(&y)) return imp_shift(x, y.a);
+    if (imp_is_exact_(&x)) return imp_shift(y, x.a);
+    if (imp_is_point_(&x) && imp_is_point_(&y)) return imp_add_point_(x.a + y.a, x.e, y.e);
     return imp_add_(&x, &y);
 }
 
-static inline imp_model imp_sub(imp_model x, imp_model y)
-{
-    return imp_add(x, imp_neg(y));
-}
+static inline imp_model imp_sub(imp_model x, imp_model y) { return imp_add(x, imp_neg(y)); }
 
 /* --- Products ------------------------------------------------------------------------- */
 
 /* x k where k is exact: each of the ten products is rounded once. */
 static inline imp_model imp_scale(imp_model x, double k)
 {
-    if (k == 0 || k == 1)
-        return k == 1 ? x : imp_num(0);
-    if (!(k - k == 0))
-        return imp_unbounded_(x.depends);
+    if (k == 0 || k == 1) return k == 1 ? x : imp_num(0);
+    if (!(k - k == 0)) return imp_unbounded_(x.depends);
     double size = fabs(x.a) + imp_sum_abs3_(x.b) + imp_sum_abs6_(x.q);
     double e = (fabs(k) * (x.e + IMP_U * size) + IMP_TINY) * IMP_SLACK;
-    if (imp_is_point_(&x))
-        return imp_known_(x.a * k, e);
+    if (imp_is_point_(&x)) return imp_known_(x.a * k, e);
     imp_interval range = imp_interval_scale(imp_range_(&x), k);
     x.a *= k;
     x.e = e;
@@ -340,8 +308,7 @@ static inline imp_model imp_scale(imp_model x, double k)
         x.b[j] *= k;
         x.rate[j] = imp_round_up(x.rate[j] * fabs(k));
     }
-    for (int j = 0; j < 6; j++)
-        x.q[j] *= k;
+    for (int j = 0; j < 6; j++) x.q[j] *= k;
     return imp_model_finish(x);
 }
 
@@ -407,8 +374,8 @@ static inline double imp_swing_upper_(const double q[6], double size)
  *   x y - P P' = delta y + delta' P,  |P| <= |x| + e
  *
  * Rounding. Let N = |a| + B + Q, and the same for x'. Every coefficient is a sum of products of
- * two. Roundings that a product passes through: a a' 2; a b' 3; (a + h) q' 4; b b' 3; h h' 2; a cubic
- * one at most 5 on its way to b with weight 3/4, or 6 with weight 1/2, and at most 4 on its
+ * two. Roundings that a product passes through: a a' 2; a b' 3; (a + h) q' 4; b b' 3; h h' 2; a
+ * cubic one at most 5 on its way to b with weight 3/4, or 6 with weight 1/2, and at most 4 on its
  * way to the remainder, with the weight left: together below 5. As |h| <= Q / 2, the terms
  * in h amount to (4 + 2/4) Q Q'. So 4 N N' - 2 |a a'| + (B + Q)(B' + Q') units of u cover all. */
 static inline void imp_product_(const imp_model *x, const imp_model *y, imp_model *r)
@@ -421,10 +388,8 @@ static inline void imp_product_(const imp_model *x, const imp_model *y, imp_mode
     double rest = imp_fold_cubic_(x->b, x->q, y->b, y->q, linear);
     imp_square_terms_(x->b, y->b, bb);
     r->a = x->a * y->a - hx * hy;
-    for (int j = 0; j < 3; j++)
-        r->b[j] = (x->a * y->b[j] + y->a * x->b[j]) + linear[j];
-    for (int k = 0; k < 6; k++)
-        r->q[k] = (ax * y->q[k] + ay * x->q[k]) + bb[k];
+    for (int j = 0; j < 3; j++) r->b[j] = (x->a * y->b[j] + y->a * x->b[j]) + linear[j];
+    for (int k = 0; k < 6; k++) r->q[k] = (ax * y->q[k] + ay * x->q[k]) + bb[k];
     rest += imp_swing_upper_(x->q, qx) * imp_swing_upper_(y->q, qy);
     double x_mag = imp_interval_mag(imp_range_(x)), y_mag = imp_interval_mag(imp_range_(y));
     double inherited = x->e * y_mag + y->e * (x_mag + x->e);
@@ -464,12 +429,9 @@ static inline imp_model imp_mul_point_(const imp_model *x, const imp_model *y)
 
 static inline imp_model imp_mul(imp_model x, imp_model y)
 {
-    if (imp_is_exact_(&y))
-        return imp_scale(x, y.a);
-    if (imp_is_exact_(&x))
-        return imp_scale(y, x.a);
-    if (imp_is_point_(&x) && imp_is_point_(&y))
-        return imp_mul_point_(&x, &y);
+    if (imp_is_exact_(&y)) return imp_scale(x, y.a);
+    if (imp_is_exact_(&x)) return imp_scale(y, x.a);
+    if (imp_is_point_(&x) && imp_is_point_(&y)) return imp_mul_point_(&x, &y);
     return imp_mul_(&x, &y);
 }
 

@@ -20,9 +20,9 @@ extern "C" {
  *
  *   z^3 = 3/4 z +- 1/4,     z^4 = z^2 - 1/8 +- 1/8     on [-1, 1]
  *
- * (T_3 = 4 z^3 - 3 z and T_4 = 8 z^4 - 8 z^2 + 1 are at most 1). So the error is that of interpolation in
- * Chebyshev's points, g''' r^3 / 24, without the cancellation of divided differences,
- * and for one call of libm. */
+ * (T_3 = 4 z^3 - 3 z and T_4 = 8 z^4 - 8 z^2 + 1 are at most 1). So the error is that of
+ * interpolation in Chebyshev's points, g''' r^3 / 24, without the cancellation of divided
+ * differences, and for one call of libm. */
 
 /* g(m + y) = c0 + c1 y + c2 y^2 within e, for |y| <= r. */
 typedef struct imp_series_ {
@@ -41,13 +41,13 @@ static inline imp_series_ imp_series_at_(imp_interval x)
     return s;
 }
 
-/* Completes s from t[k] = Taylor coefficients in z = y / scale, scale > 0: k = 0 ... 4. `tail` bounds what
- * follows, over |z| <= z_max = r / scale. t[0] is within u0 u |t[0]|, the others within un u |t[k]|, of
- * exact values.
+/* Completes s from t[k] = Taylor coefficients in z = y / scale, scale > 0: k = 0 ... 4. `tail`
+ * bounds what follows, over |z| <= z_max = r / scale. t[0] is within u0 u |t[0]|, the others within
+ * un u |t[k]|, of exact values.
  *
- * Rounding: t[0] passes one sum; the others at most 6 operations (z_max^4, product, sum, division by
- * scale twice). Underflow: each operation may lose 2^-1075, then is multiplied by at most
- * max(1, r^2), or by z_max^4, as t is finite: IMP_TINY (1 + r^2 + z_max^2)^2 covers them. */
+ * Rounding: t[0] passes one sum; the others at most 6 operations (z_max^4, product, sum, division
+ * by scale twice). Underflow: each operation may lose 2^-1075, then is multiplied by at most max(1,
+ * r^2), or by z_max^4, as t is finite: IMP_TINY (1 + r^2 + z_max^2)^2 covers them. */
 static inline void imp_series_set_(imp_series_ *s, double scale, const double t[5], double tail,
                                    double u0, double un)
 {
@@ -56,8 +56,8 @@ static inline void imp_series_set_(imp_series_ *s, double scale, const double t[
     s->c[0] = t[0] - 0.125 * t[4] * zz * zz;
     s->c[1] = (t[1] + 0.75 * t[3] * zz) / scale;
     s->c[2] = (t[2] + t[4] * zz) / scale / scale;
-    double rounding = (u0 + 1) * fabs(t[0]) +
-                      (un + 6) * (fabs(t[1]) * z + fabs(t[2]) * zz + t3 + t4);
+    double rounding =
+        (u0 + 1) * fabs(t[0]) + (un + 6) * (fabs(t[1]) * z + fabs(t[2]) * zz + t3 + t4);
     double w = 1 + s->r * s->r + zz;
     s->e = (0.25 * t3 + 0.125 * t4 + tail + (IMP_U * rounding + IMP_TINY * w * w)) * IMP_SLACK;
 }
@@ -77,8 +77,8 @@ static inline int imp_series_is_sharp_(const imp_series_ *s)
     return s->e <= 0x1p-6 * fabs(s->c[1]) * s->r && fabs(s->c[2]) * s->r <= 0x1p-3 * fabs(s->c[1]);
 }
 
-/* y^2 for the model y with middle a: its coefficients and the bound of what does not fit. As a product of a
- * model by itself, but D^2 is in [0, swing^2], so it is swing^2 / 2 +- as much. */
+/* y^2 for the model y with middle a: its coefficients and the bound of what does not fit. As a
+ * product of a model by itself, but D^2 is in [0, swing^2], so it is swing^2 / 2 +- as much. */
 static inline double imp_square_(double a, const imp_model *x, double *middle, double b[3],
                                  double q[6])
 {
@@ -88,10 +88,8 @@ static inline double imp_square_(double a, const imp_model *x, double *middle, d
     double half = 0.5 * swing * swing;
     imp_square_terms_(x->b, x->b, bb);
     *middle = a * a - h * h + half;
-    for (int j = 0; j < 3; j++)
-        b[j] += 2 * a * x->b[j];
-    for (int k = 0; k < 6; k++)
-        q[k] = 2 * (a + h) * x->q[k] + bb[k];
+    for (int j = 0; j < 3; j++) b[j] += 2 * a * x->b[j];
+    for (int k = 0; k < 6; k++) q[k] = 2 * (a + h) * x->q[k] + bb[k];
     return rest + half;
 }
 
@@ -99,9 +97,9 @@ static inline double imp_square_(double a, const imp_model *x, double *middle, d
  *
  *   g = c0 + c1 p + c2 p^2 + delta (c1 + c2 (y + p)) +- s.e,   |y + p| <= 2 r + e
  *
- * Rounding, in products' magnitudes with N = |a - m| + B + Q, a - m itself rounded once: c0 1; c1 p at most
- * 4; c2 p^2 at most 9 (in the middle a - m twice, square, two sums, c2, two sums; in b and q
- * fewer; cubic terms 9 with weight 3/4 and 4 with the rest; h and swing at most Q / 2 and Q).
+ * Rounding, in products' magnitudes with N = |a - m| + B + Q, a - m itself rounded once: c0 1; c1 p
+ * at most 4; c2 p^2 at most 9 (in the middle a - m twice, square, two sums, c2, two sums; in b and
+ * q fewer; cubic terms 9 with weight 3/4 and 4 with the rest; h and swing at most Q / 2 and Q).
  * Underflow: each product may lose 2^-1075, then is multiplied by at most c2, or by a coefficient
  * of p: IMP_TINY (1 + |c1| + |c2|)(1 + N). */
 static inline void imp_substitute_(const imp_model *x, const imp_series_ *s, imp_model *r)
@@ -109,10 +107,8 @@ static inline void imp_substitute_(const imp_model *x, const imp_series_ *s, imp
     double a = x->a - s->m, c1 = s->c[1], c2 = s->c[2], middle, b[3], q[6];
     double rest = imp_square_(a, x, &middle, b, q);
     r->a = s->c[0] + (c1 * a + c2 * middle);
-    for (int j = 0; j < 3; j++)
-        r->b[j] = c1 * x->b[j] + c2 * b[j];
-    for (int k = 0; k < 6; k++)
-        r->q[k] = c1 * x->q[k] + c2 * q[k];
+    for (int j = 0; j < 3; j++) r->b[j] = c1 * x->b[j] + c2 * b[j];
+    for (int k = 0; k < 6; k++) r->q[k] = c1 * x->q[k] + c2 * q[k];
     double n = fabs(a) + imp_sum_abs3_(x->b) + imp_sum_abs6_(x->q);
     double d1 = fabs(c1), d2 = fabs(c2);
     double inherited = x->e * (d1 + d2 * (2 * s->r + x->e));
@@ -131,8 +127,7 @@ static inline imp_model imp_compose_(const imp_model *x, const imp_series_ *s, i
     r.hi = range.hi;
     r.depends = x->depends;
     r.reserved = 0;
-    for (int j = 0; j < 3; j++)
-        r.rate[j] = (x->rate[j] * slope + IMP_TINY) * IMP_SLACK;
+    for (int j = 0; j < 3; j++) r.rate[j] = (x->rate[j] * slope + IMP_TINY) * IMP_SLACK;
     return imp_model_finish(r);
 }
 
@@ -177,8 +172,7 @@ static inline imp_model imp_sqr(imp_model x)
 static inline imp_model imp_exp(imp_model x)
 {
     double y = imp_exp_(x.a);
-    if (imp_is_point_(&x))
-        return imp_point_within_(&x, y, 1.001 * y, 0, INFINITY);
+    if (imp_is_point_(&x)) return imp_point_within_(&x, y, 1.001 * y, 0, INFINITY);
     imp_interval range = imp_interval_exp(imp_range_(&x));
     imp_series_ s = imp_series_at_(imp_range_(&x));
     y = imp_exp_(s.m);
@@ -188,23 +182,16 @@ static inline imp_model imp_exp(imp_model x)
 }
 
 /* z >= y / m > 0 for tails of series in y / m. */
-static inline double imp_ratio_upper_(double y, double m)
-{
-    return imp_round_up(y / m);
-}
+static inline double imp_ratio_upper_(double y, double m) { return imp_round_up(y / m); }
 
-static inline double imp_power5_(double z)
-{
-    return z * z * z * z * z;
-}
+static inline double imp_power5_(double z) { return z * z * z * z * z; }
 
 /* With z = y / m: log m + z - z^2 / 2 + ..., the rest below |z|^5 / (5 (1 - |z|)). */
 static inline imp_model imp_log(imp_model x)
 {
     imp_interval range = imp_interval_log(imp_range_(&x));
     double slope = x.lo > 0 ? imp_round_up(1 / x.lo) : INFINITY;
-    if (imp_is_point_(&x) && x.lo > 0)
-        return imp_point_(&x, log(x.a), slope);
+    if (imp_is_point_(&x) && x.lo > 0) return imp_point_(&x, log(x.a), slope);
     imp_series_ s = imp_series_at_(imp_range_(&x));
     double z = s.m > 0 ? imp_ratio_upper_(s.r, s.m) : INFINITY;
     if (z < 1) {
@@ -216,15 +203,14 @@ static inline imp_model imp_log(imp_model x)
 
 /* --- Powers ----------------------------------------------------------------------------------- */
 
-/* Series of (m + y)^p, m > 0, in z = y / m: m^p sum C(p, k) z^k. From k = 5 on a term is the one before
- * times |p - k| / (k + 1) |z| <= g |z| with g = max(1, (|p| + 5) / 6), so the rest is below
+/* Series of (m + y)^p, m > 0, in z = y / m: m^p sum C(p, k) z^k. From k = 5 on a term is the one
+ * before times |p - k| / (k + 1) |z| <= g |z| with g = max(1, (|p| + 5) / 6), so the rest is below
  * |C(p, 5)| |z|^5 / (1 - g |z|). Each C(p, k) is within 3 k u; m^p within (L). */
 static inline void imp_series_power_(imp_series_ *s, double p, double value)
 {
     double z = s->m > 0 ? imp_ratio_upper_(s->r, s->m) : INFINITY;
     double g = imp_larger(1, (fabs(p) + 5) / 6 * (1 + 0x1p-50));
-    if (!(g * z < 0.99))
-        return;
+    if (!(g * z < 0.99)) return;
     double c2 = p * (p - 1) / 2, c3 = c2 * (p - 2) / 3, c4 = c3 * (p - 3) / 4;
     double c5 = fabs(c4 * (p - 4) / 5);
     const double t[5] = {value, value * p, value * c2, value * c3, value * c4};
@@ -235,8 +221,7 @@ static inline void imp_series_power_(imp_series_ *s, double p, double value)
 /* At least the greatest |p| z^(p-1) over x. */
 static inline double imp_power_slope_upper_(imp_interval x, double p)
 {
-    if (p == 0)
-        return 0;
+    if (p == 0) return 0;
     return imp_round_up(imp_interval_pow(x, p - 1).hi * fabs(p) * (1 + 0x1p-40));
 }
 
@@ -245,15 +230,12 @@ static inline imp_model imp_pow(imp_model x, double p)
 {
     imp_interval range = imp_interval_pow(imp_range_(&x), p);
     double slope = imp_power_slope_upper_(imp_range_(&x), p);
-    if (p == 0)
-        return imp_num(1);
-    if (!(x.hi >= 0) || !(p - p == 0))
-        return imp_unbounded_(x.depends);
+    if (p == 0) return imp_num(1);
+    if (!(x.hi >= 0) || !(p - p == 0)) return imp_unbounded_(x.depends);
     if (imp_is_point_(&x) && x.lo > 0)
         return imp_point_within_(&x, imp_pow_(x.a, p), slope, 0, INFINITY);
     imp_series_ s = imp_series_at_(imp_range_(&x));
-    if (x.lo > 0)
-        imp_series_power_(&s, p, imp_pow_(s.m, p));
+    if (x.lo > 0) imp_series_power_(&s, p, imp_pow_(s.m, p));
     return imp_compose_(&x, &s, range, slope);
 }
 
@@ -263,15 +245,11 @@ static inline imp_model imp_sqrt(imp_model x)
 {
     imp_interval range = imp_interval_sqrt(imp_range_(&x));
     double slope = range.lo > 0 ? imp_round_up(0.5 / range.lo) : INFINITY;
-    if (!(x.hi >= 0))
-        return imp_unbounded_(x.depends);
-    if (imp_is_exact_(&x) && x.a == 0)
-        return x;
-    if (imp_is_point_(&x) && x.lo > 0)
-        return imp_point_within_(&x, sqrt(x.a), slope, 0, INFINITY);
+    if (!(x.hi >= 0)) return imp_unbounded_(x.depends);
+    if (imp_is_exact_(&x) && x.a == 0) return x;
+    if (imp_is_point_(&x) && x.lo > 0) return imp_point_within_(&x, sqrt(x.a), slope, 0, INFINITY);
     imp_series_ s = imp_series_at_(imp_range_(&x));
-    if (x.lo > 0)
-        imp_series_power_(&s, 0.5, sqrt(s.m));
+    if (x.lo > 0) imp_series_power_(&s, 0.5, sqrt(s.m));
     return imp_compose_(&x, &s, range, slope);
 }
 
@@ -281,8 +259,7 @@ static inline imp_model imp_inverse_(const imp_model *x)
     imp_interval range = imp_interval_inverse(imp_range_(x));
     double top = imp_interval_mag(range), slope = imp_round_up(top * top);
     imp_series_ s = imp_series_at_(imp_range_(x));
-    if (x->lo > 0)
-        imp_series_power_(&s, -1, 1 / s.m);
+    if (x->lo > 0) imp_series_power_(&s, -1, 1 / s.m);
     if (x->hi < 0) {
         double m = s.m;
         s.m = -m;
@@ -307,10 +284,8 @@ static inline imp_model imp_div(imp_model x, imp_model y)
 {
     imp_interval range = imp_interval_div(imp_range_(&x), imp_range_(&y));
     double least = imp_interval_mig(imp_range_(&y));
-    if (imp_is_exact_(&x) && x.a == 0 && least > 0)
-        return x;
-    if (imp_is_point_(&x) && imp_is_point_(&y) && least > 0)
-        return imp_div_point_(&x, &y);
+    if (imp_is_exact_(&x) && x.a == 0 && least > 0) return x;
+    if (imp_is_point_(&x) && imp_is_point_(&y) && least > 0) return imp_div_point_(&x, &y);
     imp_model inverse = imp_inverse_(&y), r;
     imp_product_(&x, &inverse, &r);
     for (int j = 0; j < 3; j++) {
@@ -324,7 +299,8 @@ static inline imp_model imp_div(imp_model x, imp_model y)
     return imp_model_finish(r);
 }
 
-/* x^n for whole n >= 0 and m of any sign. t_k = C(n, k) m^(n-k); what follows the fourth is below C(n, 5)
+/* x^n for whole n >= 0 and m of any sign. t_k = C(n, k) m^(n-k); what follows the fourth is below
+ * C(n, 5)
  * (|m| + r)^(n-5) r^5 (Lagrange). The powers of m are one call of libm and four products, the
  * binomials are within 4 u: (L) + 8 u. */
 static inline void imp_series_powi_(imp_series_ *s, int n)
@@ -347,15 +323,12 @@ static inline void imp_series_powi_(imp_series_ *s, int n)
 static inline imp_model imp_powi(imp_model x, int n)
 {
     if (n < 0)
-        return n < -INT32_MAX ? imp_unbounded_(x.depends)
-                              : imp_div(imp_num(1), imp_powi(x, -n));
-    if (n < 3)
-        return n == 0 ? imp_num(1) : n == 1 ? x : imp_sqr(x);
+        return n < -INT32_MAX ? imp_unbounded_(x.depends) : imp_div(imp_num(1), imp_powi(x, -n));
+    if (n < 3) return n == 0 ? imp_num(1) : n == 1 ? x : imp_sqr(x);
     imp_interval range = imp_interval_powi(imp_range_(&x), n);
     double top = imp_interval_pow(imp_interval_abs(imp_range_(&x)), n - 1).hi;
     double slope = imp_round_up(top * n);
-    if (imp_is_point_(&x))
-        return imp_point_(&x, imp_pow_(x.a, n), slope);
+    if (imp_is_point_(&x)) return imp_point_(&x, imp_pow_(x.a, n), slope);
     imp_series_ s = imp_series_at_(imp_range_(&x));
     imp_series_powi_(&s, n);
     return imp_compose_(&x, &s, range, slope);
@@ -364,8 +337,7 @@ static inline imp_model imp_powi(imp_model x, int n)
 /* x^y for x > 0. */
 static inline imp_model imp_pow_model(imp_model x, imp_model y)
 {
-    if (imp_is_exact_(&y))
-        return imp_pow(x, y.a);
+    if (imp_is_exact_(&y)) return imp_pow(x, y.a);
     return imp_exp(imp_mul(y, imp_log(x)));
 }
 
@@ -373,21 +345,18 @@ static inline imp_model imp_pow_model(imp_model x, imp_model y)
 static inline imp_model imp_poly(const double *coef, size_t n, imp_model t)
 {
     imp_model r = imp_num(n > 0 ? coef[n - 1] : 0);
-    for (size_t k = n > 0 ? n - 1 : 0; k > 0; k--)
-        r = imp_shift(imp_mul(r, t), coef[k - 1]);
+    for (size_t k = n > 0 ? n - 1 : 0; k > 0; k--) r = imp_shift(imp_mul(r, t), coef[k - 1]);
     return r;
 }
 
-/* --- Circular functions -------------------------------------------------------------------------- */
+/* --- Circular functions --------------------------------------------------------------------------
+ */
 
 /* Beyond this many radians of half-width sin and cos take all values. */
-static inline int imp_is_far_(const imp_series_ *s)
-{
-    return !(s->r < 4);
-}
+static inline int imp_is_far_(const imp_series_ *s) { return !(s->r < 4); }
 
-/* sin and cos from their values S, C at m: S + C y - S y^2 / 2 - C y^3 / 6 + S y^4 / 24 within r^5 / 120. The
- * slope |C'| <= |C| + |S| r + r^2 / 2, and 1. */
+/* sin and cos from their values S, C at m: S + C y - S y^2 / 2 - C y^3 / 6 + S y^4 / 24 within r^5
+ * / 120. The slope |C'| <= |C| + |S| r + r^2 / 2, and 1. */
 static inline imp_model imp_wave_(const imp_model *x, imp_series_ s, double sine, double cosine,
                                   imp_interval range)
 {
@@ -405,21 +374,17 @@ static inline imp_model imp_far_wave_(const imp_model *x)
 
 static inline imp_model imp_sin(imp_model x)
 {
-    if (imp_is_point_(&x))
-        return imp_point_within_(&x, sin(x.a), 1, -1, 1);
+    if (imp_is_point_(&x)) return imp_point_within_(&x, sin(x.a), 1, -1, 1);
     imp_series_ s = imp_series_at_(imp_range_(&x));
-    if (imp_is_far_(&s))
-        return imp_far_wave_(&x);
+    if (imp_is_far_(&s)) return imp_far_wave_(&x);
     return imp_wave_(&x, s, sin(s.m), cos(s.m), imp_interval_sin(imp_range_(&x)));
 }
 
 static inline imp_model imp_cos(imp_model x)
 {
-    if (imp_is_point_(&x))
-        return imp_point_within_(&x, cos(x.a), 1, -1, 1);
+    if (imp_is_point_(&x)) return imp_point_within_(&x, cos(x.a), 1, -1, 1);
     imp_series_ s = imp_series_at_(imp_range_(&x));
-    if (imp_is_far_(&s))
-        return imp_far_wave_(&x);
+    if (imp_is_far_(&s)) return imp_far_wave_(&x);
     return imp_wave_(&x, s, cos(s.m), -sin(s.m), imp_interval_cos(imp_range_(&x)));
 }
 
@@ -429,16 +394,15 @@ static inline void imp_sincos(imp_model x, imp_model *sine, imp_model *cosine)
     *cosine = imp_cos(x);
 }
 
-/* With T = tan m, D = 1 + T^2, the t_k are D, D T, D (1 + 3 T^2) / 3, D T (2 + 3 T^2) / 3, and the next is
- * D (2 + 15 T^2 + 15 T^4) / 15, which grows with |T|: Lagrange's bound at the end with the
+/* With T = tan m, D = 1 + T^2, the t_k are D, D T, D (1 + 3 T^2) / 3, D T (2 + 3 T^2) / 3, and the
+ * next is D (2 + 15 T^2 + 15 T^4) / 15, which grows with |T|: Lagrange's bound at the end with the
  * larger |tan|. T is within (L), so T^2 within 21 u, and no t_k is off by more than 100 u. */
 static inline imp_model imp_tan(imp_model x)
 {
     imp_interval range = imp_interval_tan(imp_range_(&x));
     double top = imp_interval_mag(range), tt = top * top;
     double slope = imp_round_up(imp_sum_up(1 + tt * (1 + 0x1p-50)));
-    if (imp_is_point_(&x) && top < INFINITY)
-        return imp_point_(&x, tan(x.a), slope);
+    if (imp_is_point_(&x) && top < INFINITY) return imp_point_(&x, tan(x.a), slope);
     imp_series_ s = imp_series_at_(imp_range_(&x));
     if (top < INFINITY) {
         double y = tan(s.m), yy = y * y, d = 1 + yy;
@@ -449,16 +413,16 @@ static inline imp_model imp_tan(imp_model x)
     return imp_compose_(&x, &s, range, slope);
 }
 
-/* With w = 1 / (1 + m^2): t_1 = w, t_2 = -m w^2, t_3 = (3 m^2 - 1) w^3 / 3, t_4 = m (1 - m^2) w^4; the next is at
- * most w^(5/2) / 5 in magnitude, w being largest where |x| is least. |t_k| <= w^(k/2) / k, and t_3, t_4
- * cancel near their zeros only: their errors are below 20 u w^(3/2), 20 u w^2, added to the tail. */
+/* With w = 1 / (1 + m^2): t_1 = w, t_2 = -m w^2, t_3 = (3 m^2 - 1) w^3 / 3, t_4 = m (1 - m^2) w^4;
+ * the next is at most w^(5/2) / 5 in magnitude, w being largest where |x| is least. |t_k| <=
+ * w^(k/2) / k, and t_3, t_4 cancel near their zeros only: their errors are below 20 u w^(3/2), 20 u
+ * w^2, added to the tail. */
 static inline imp_model imp_atan(imp_model x)
 {
     imp_interval range = imp_interval_atan(imp_range_(&x));
     double least = imp_interval_mig(imp_range_(&x));
     double slope = imp_round_up(1 / (1 + least * least)) * (1 + 0x1p-50);
-    if (imp_is_point_(&x))
-        return imp_point_(&x, atan(x.a), slope);
+    if (imp_is_point_(&x)) return imp_point_(&x, atan(x.a), slope);
     imp_series_ s = imp_series_at_(imp_range_(&x));
     double m = s.m, w = 1 / (1 + m * m), z = s.r * sqrt(slope);
     const double t[5] = {atan(m), w, -m * w * w, (3 * m * m - 1) * w * w * w / 3,
@@ -469,8 +433,8 @@ static inline imp_model imp_atan(imp_model x)
 }
 
 /* With w = 1 / (1 - m^2): the derivatives of asin are w^(1/2), m w^(3/2), (1 + 2 m^2) w^(5/2),
- * m (9 + 6 m^2) w^(7/2) and (9 + 72 m^2 + 24 m^4) w^(9/2); the last grows with |m|. 1 - m^2 is computed as
- * (1 - m)(1 + m), within 3 u, so no t_k is off by more than 40 u. */
+ * m (9 + 6 m^2) w^(7/2) and (9 + 72 m^2 + 24 m^4) w^(9/2); the last grows with |m|. 1 - m^2 is
+ * computed as (1 - m)(1 + m), within 3 u, so no t_k is off by more than 40 u. */
 static inline void imp_series_asin_(imp_series_ *s, double top)
 {
     double m = s->m, mm = m * m, w = 1 / ((1 - m) * (1 + m)), v = sqrt(w);
@@ -494,13 +458,11 @@ static inline imp_model imp_asin(imp_model x)
 {
     imp_interval range = imp_interval_asin(imp_range_(&x));
     double top = imp_interval_mag(imp_range_(&x)), slope = imp_asin_slope_upper_(top);
-    if (!imp_interval_is_finite(range))
-        return imp_unbounded_(x.depends);
+    if (!imp_interval_is_finite(range)) return imp_unbounded_(x.depends);
     if (imp_is_point_(&x) && (top < 1 || (top == 1 && imp_is_exact_(&x))))
         return imp_point_(&x, asin(x.a), imp_is_exact_(&x) ? 0 : slope);
     imp_series_ s = imp_series_at_(imp_range_(&x));
-    if (top < 1)
-        imp_series_asin_(&s, top);
+    if (top < 1) imp_series_asin_(&s, top);
     return imp_compose_(&x, &s, range, slope);
 }
 
@@ -509,8 +471,7 @@ static inline imp_model imp_acos(imp_model x)
 {
     imp_interval range = imp_interval_acos(imp_range_(&x));
     double top = imp_interval_mag(imp_range_(&x)), slope = imp_asin_slope_upper_(top);
-    if (!imp_interval_is_finite(range))
-        return imp_unbounded_(x.depends);
+    if (!imp_interval_is_finite(range)) return imp_unbounded_(x.depends);
     if (imp_is_point_(&x) && (top < 1 || (top == 1 && imp_is_exact_(&x))))
         return imp_point_within_(&x, acos(x.a), imp_is_exact_(&x) ? 0 : slope, 0, IMP_PI_UPPER);
     imp_series_ s = imp_series_at_(imp_range_(&x));
@@ -524,15 +485,15 @@ static inline imp_model imp_acos(imp_model x)
     return imp_compose_(&x, &s, range, slope);
 }
 
-/* --- Hyperbolic functions -------------------------------------------------------------------------- */
+/* --- Hyperbolic functions
+ * -------------------------------------------------------------------------- */
 
 /* sinh and cosh are their own second derivatives; cosh at the far end bounds the fifth. */
 static inline imp_model imp_sinh(imp_model x)
 {
     imp_interval range = imp_interval_sinh(imp_range_(&x));
     double slope = imp_interval_cosh(imp_range_(&x)).hi;
-    if (imp_is_point_(&x))
-        return imp_point_(&x, imp_sinh_(x.a), slope);
+    if (imp_is_point_(&x)) return imp_point_(&x, imp_sinh_(x.a), slope);
     imp_series_ s = imp_series_at_(imp_range_(&x));
     double f = imp_sinh_(s.m), g = imp_cosh_(s.m);
     const double t[5] = {f, g, f / 2, g / 6, f / 24};
@@ -544,8 +505,7 @@ static inline imp_model imp_cosh(imp_model x)
 {
     imp_interval range = imp_interval_cosh(imp_range_(&x));
     double slope = imp_interval_mag(imp_interval_sinh(imp_range_(&x)));
-    if (imp_is_point_(&x))
-        return imp_point_within_(&x, imp_cosh_(x.a), slope, 1, INFINITY);
+    if (imp_is_point_(&x)) return imp_point_within_(&x, imp_cosh_(x.a), slope, 1, INFINITY);
     imp_series_ s = imp_series_at_(imp_range_(&x));
     double f = imp_cosh_(s.m), g = imp_sinh_(s.m);
     const double t[5] = {f, g, f / 2, g / 6, f / 24};
@@ -553,15 +513,15 @@ static inline imp_model imp_cosh(imp_model x)
     return imp_compose_(&x, &s, range, slope);
 }
 
-/* With T = tanh m, D = 1 - T^2: t_k = D, -D T, D (3 T^2 - 1) / 3, D T (2 - 3 T^2) / 3, next at most 2 D / 15. T is
- * within 10 u, so D within 24 u, absolutely; all else keeps these errors below 60 u. */
+/* With T = tanh m, D = 1 - T^2: t_k = D, -D T, D (3 T^2 - 1) / 3, D T (2 - 3 T^2) / 3, next at most
+ * 2 D / 15. T is within 10 u, so D within 24 u, absolutely; all else keeps these errors below 60 u.
+ */
 static inline imp_model imp_tanh(imp_model x)
 {
     imp_interval range = imp_interval_tanh(imp_range_(&x));
     double least = imp_interval_mig(range);
     double slope = imp_smaller((1 - least) * (1 + least) * (1 + 0x1p-50) + IMP_TINY, 1);
-    if (imp_is_point_(&x))
-        return imp_point_within_(&x, tanh(x.a), slope, -1, 1);
+    if (imp_is_point_(&x)) return imp_point_within_(&x, tanh(x.a), slope, -1, 1);
     imp_series_ s = imp_series_at_(imp_range_(&x));
     double y = tanh(s.m), yy = y * y, d = (1 - y) * (1 + y), r = s.r;
     const double t[5] = {y, d, -d * y, d * (3 * yy - 1) / 3, d * y * (2 - 3 * yy) / 3};
@@ -570,16 +530,15 @@ static inline imp_model imp_tanh(imp_model x)
     return imp_compose_(&x, &s, range, slope);
 }
 
-/* --- Kinks ---------------------------------------------------------------------------------------------- */
+/* --- Kinks
+ * ---------------------------------------------------------------------------------------------- */
 
-/* |x|. Of one sign: x or -x. Else, with R = max |x|: z^2 / R <= |z| <= z^2 / R + R / 4 on [-R, R]; or, when one side
- * is short, |z| = +-z within twice that side. */
+/* |x|. Of one sign: x or -x. Else, with R = max |x|: z^2 / R <= |z| <= z^2 / R + R / 4 on [-R, R];
+ * or, when one side is short, |z| = +-z within twice that side. */
 static inline imp_model imp_abs(imp_model x)
 {
-    if (x.lo >= 0)
-        return x;
-    if (x.hi <= 0)
-        return imp_neg(x);
+    if (x.lo >= 0) return x;
+    if (x.hi <= 0) return imp_neg(x);
     imp_interval range = imp_interval_abs(imp_range_(&x));
     imp_series_ s = {0, range.hi, {0, 0, 0}, INFINITY};
     double side = imp_smaller(-x.lo, x.hi);
@@ -601,8 +560,7 @@ static inline imp_model imp_either_(imp_model r, const imp_model *x, const imp_m
 {
     r.lo = range.lo;
     r.hi = range.hi;
-    for (int j = 0; j < 3; j++)
-        r.rate[j] = imp_larger(x->rate[j], y->rate[j]);
+    for (int j = 0; j < 3; j++) r.rate[j] = imp_larger(x->rate[j], y->rate[j]);
     r.depends = x->depends | y->depends;
     return imp_model_finish(r);
 }
@@ -610,10 +568,8 @@ static inline imp_model imp_either_(imp_model r, const imp_model *x, const imp_m
 /* Where one is the larger all over the region, that one; else (x + y + |x - y|) / 2. */
 static inline imp_model imp_max(imp_model x, imp_model y)
 {
-    if (x.lo >= y.hi)
-        return x;
-    if (y.lo >= x.hi)
-        return y;
+    if (x.lo >= y.hi) return x;
+    if (y.lo >= x.hi) return y;
     imp_model apart = imp_abs(imp_sub(x, y));
     imp_model r = imp_scale(imp_add(imp_add(x, y), apart), 0.5);
     return imp_either_(r, &x, &y, imp_interval_max(imp_range_(&x), imp_range_(&y)));
@@ -624,11 +580,12 @@ static inline imp_model imp_min(imp_model x, imp_model y)
     return imp_neg(imp_max(imp_neg(x), imp_neg(y)));
 }
 
-/* --- The angle of a point ---------------------------------------------------------------------------------- */
+/* --- The angle of a point
+ * ---------------------------------------------------------------------------------- */
 
-/* The angle of (x, y) in [-pi, pi], as C's atan2(y, x); 0 counts as +0. A region that crosses the cut, y = 0 with x <= 0,
- * or holds the origin has the whole range and no rates. Elsewhere it is the arc tangent of y / x or of x / y,
- * whichever has its divisor farther from 0. */
+/* The angle of (x, y) in [-pi, pi], as C's atan2(y, x); 0 counts as +0. A region that crosses the
+ * cut, y = 0 with x <= 0, or holds the origin has the whole range and no rates. Elsewhere it is the
+ * arc tangent of y / x or of x / y, whichever has its divisor farther from 0. */
 static inline imp_model imp_atan2(imp_model y, imp_model x)
 {
     double x_least = imp_interval_mig(imp_range_(&x)), y_least = imp_interval_mig(imp_range_(&y));
@@ -641,8 +598,7 @@ static inline imp_model imp_atan2(imp_model y, imp_model x)
     }
     if (x_least >= y_least) {
         imp_model angle = imp_atan(imp_div(y, x));
-        if (x.lo > 0)
-            return angle;
+        if (x.lo > 0) return angle;
         return y.lo >= 0 ? imp_add(angle, turn) : imp_sub(angle, turn);
     }
     imp_model quarter = imp_scale(turn, y.lo > 0 ? 0.5 : -0.5);
