@@ -234,16 +234,16 @@ headless() {
     [ "$(sort <<<"$output")" = $'core/status.c\nsdk/local.mk\ntools/test' ]
 }
 
-# What the build and the tests know is listed in the local.mk files, nothing lies beside them.
-@test "every plugin and every suite is listed in its local.mk" {
-    local file
-    for file in "$top_srcdir"/plugins/*.c; do
-        grep -q "plugins/$(basename "$file" .c)\.la" "$top_srcdir"/plugins/local.mk
-    done
-    for file in "$top_srcdir"/tests/*_test.c; do
-        grep -q "tests/$(basename "$file" .c)\b" "$top_srcdir"/tests/local.mk
-    done
-    for file in "$top_srcdir"/tests/*.bats; do
-        grep -q "tests/$(basename "$file")" "$top_srcdir"/tests/local.mk
+# What is not listed is not built, not run, and missing from `make dist`.
+@test "every plugin, every suite and every header is listed in its local.mk" {
+    local file name
+    for file in "$top_srcdir"/{plugins,tests,tools,core,sdk/impinge}/*.[ch] \
+        "$top_srcdir"/tests/*.bats; do
+        [ -e "$file" ] || continue
+        name=${file#"$top_srcdir"/}
+        grep -qwF "$name" "$top_srcdir/${name%%/*}/local.mk" ||
+            grep -qwF "${name%.c}.la" "$top_srcdir/${name%%/*}/local.mk" ||
+            { [[ $name == tests/*.c ]] && grep -qwF "${name%.c}" "$top_srcdir/tests/local.mk"; } ||
+            { echo "$name"; false; }
     done
 }
