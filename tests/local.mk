@@ -3,7 +3,9 @@
 
 # One line per suite: tests/NAME is built from tests/NAME.c and linked with everything in
 # core, internal symbols included.
-check_suites =
+check_suites = \
+    tests/test_pair_heap \
+    tests/test_quadratic
 
 # The same, with MPFI as the judge of bounds.
 mpfi_suites =

@@ -1,0 +1,110 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <check.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "quadratic.h"
+#include "suite.h"
+
+/* The judge computes in long double (64 bits of mantissa) at a grid, along the edges' vertices and at the
+ * stationary point. */
+
+static long double value(const quadratic *p, long double s, long double r) {
+    return p->bs * s + p->br * r + p->qss * s * s + p->qsr * s * r + p->qrr * r * r;
+}
+
+static long double size_of(const quadratic *p) {
+    return fabsl(p->bs) + fabsl(p->br) + fabsl(p->qss) + fabsl(p->qsr) + fabsl(p->qrr);
+}
+
+typedef struct judged {
+    long double lo, hi;
+} judged;
+
+static void judge_point(const quadratic *p, long double s, long double r, judged *seen) {
+    if (!(s >= -1 && s <= 1 && r >= -1 && r <= 1)) return;
+    const long double x = value(p, s, r);
+    if (x < seen->lo) seen->lo = x;
+    if (x > seen->hi) seen->hi = x;
+}
+
+static judged judge(const quadratic *p) {
+    judged seen = {INFINITY, -INFINITY};
+    for (int i = -8; i <= 8; ++i)
+        for (int j = -8; j <= 8; ++j) judge_point(p, i / 8.0L, j / 8.0L, &seen);
+    for (int end = -1; end <= 1; end += 2) {
+        judge_point(p, -(p->bs + p->qsr * (long double)end) / (2.0L * p->qss), end, &seen);
+        judge_point(p, end, -(p->br + p->qsr * (long double)end) / (2.0L * p->qrr), &seen);
+    }
+    const long double d = 4.0L * p->qss * p->qrr - (long double)p->qsr * p->qsr;
+    judge_point(p, ((long double)p->qsr * p->br - 2.0L * p->qrr * p->bs) / d,
+                ((long double)p->qsr * p->bs - 2.0L * p->qss * p->br) / d, &seen);
+    return seen;
+}
+
+static void check_one(const quadratic *p) {
+    const span range = quadratic_span(p);
+    const judged seen = judge(p);
+    const long double slack = QUADRATIC_ROUNDING * size_of(p) + 0x1p-490L;
+    ck_assert_msg(range.lo - slack <= seen.lo && seen.hi <= range.hi + slack,
+                  "bs %a br %a qss %a qsr %a qrr %a: [%La, %La] is not within [%a, %a]", p->bs,
+                  p->br, p->qss, p->qsr, p->qrr, seen.lo, seen.hi, range.lo, range.hi);
+}
+
+START_TEST(no_value_of_a_random_quadratic_is_outside_its_span) {
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(40000); ++k) {
+        const double scale = suite_power(&state, -40, 40), form = suite_power(&state, -12, 4);
+        const quadratic p = {scale * suite_between(&state, -1, 1),
+                             scale * suite_between(&state, -1, 1),
+                             scale * form * suite_between(&state, -1, 1),
+                             scale * form * suite_between(&state, -1, 1),
+                             scale * form * suite_between(&state, -1, 1)};
+        check_one(&p);
+    }
+}
+END_TEST
+
+/* (s m + r)^2 k plus a little: the form is singular up to rounding, either way. */
+START_TEST(no_value_of_a_nearly_singular_quadratic_is_outside_its_span) {
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(40000); ++k) {
+        const double m = suite_between(&state, -2, 2), f = suite_between(&state, -3, 3);
+        const double tilt = suite_power(&state, -60, -1) * suite_between(&state, -1, 1);
+        const quadratic p = {tilt * suite_between(&state, -4, 4), tilt * suite_between(&state, -4, 4),
+                             f * m * m, 2 * f * m, f + tilt};
+        check_one(&p);
+    }
+}
+END_TEST
+
+START_TEST(the_span_of_a_quadratic_is_no_wider_than_its_values) {
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(20000); ++k) {
+        const quadratic p = {suite_between(&state, -1, 1), suite_between(&state, -1, 1),
+                             suite_between(&state, -1, 1), suite_between(&state, -1, 1),
+                             suite_between(&state, -1, 1)};
+        const span range = quadratic_span(&p);
+        const judged seen = judge(&p);
+        const long double d = 4.0L * p.qss * p.qrr - (long double)p.qsr * p.qsr;
+        const long double slack = (d > 1e-6L || d <= 0) ? 1e-9L : 1e-5L;
+        ck_assert(seen.lo - range.lo <= slack && range.hi - seen.hi <= slack);
+    }
+}
+END_TEST
+
+START_TEST(the_spans_of_textbook_quadratics_are_exact) {
+    const quadratic bowl = {0, 0, 1, 0, 1}, saddle = {0, 0, 1, 0, -1}, off = {-1, 0, 1, 0, 0};
+    const span b = quadratic_span(&bowl), s = quadratic_span(&saddle), o = quadratic_span(&off);
+    ck_assert(b.lo == 0 && b.hi == 2);
+    ck_assert(s.lo == -1 && s.hi == 1);
+    ck_assert(o.lo == -0.25 && o.hi == 2);
+}
+END_TEST
+
+SUITE_MAIN("quadratic", no_value_of_a_random_quadratic_is_outside_its_span,
+           no_value_of_a_nearly_singular_quadratic_is_outside_its_span,
+           the_span_of_a_quadratic_is_no_wider_than_its_values,
+           the_spans_of_textbook_quadratics_are_exact)
