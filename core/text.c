@@ -47,17 +47,20 @@ static bool is_control(const unsigned char *s)
     return s[0] < 0x20 || s[0] == 0x7F || (s[0] == 0xC2 && s[1] < 0xA0);
 }
 
-bool text_is_line(const char *s)
+static bool is_text(const char *s, bool controls_allowed)
 {
-    if (!s) return false;
     const unsigned char *p = (const unsigned char *)s;
     while (*p) {
         size_t n = character_length(p);
-        if (n == 0 || is_control(p)) return false;
+        if (n == 0 || (is_control(p) && !controls_allowed)) return false;
         p += n;
     }
     return true;
 }
+
+bool text_is_utf8(const char *s) { return is_text(s, true); }
+
+bool text_is_line(const char *s) { return s && is_text(s, false); }
 
 void text_clean(char *s)
 {

@@ -16,6 +16,8 @@
 /* 1 to 63 letters of ASCII, digits, or characters of `extra`. NULL is no name. */
 bool text_is_name(const char *s, const char *extra);
 
+bool text_is_utf8(const char *s);
+
 /* Valid UTF-8 without control characters: fit for a terminal and for JSON. NULL is no line. */
 bool text_is_line(const char *s);
 

@@ -1,0 +1,142 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "fp_mode.h"
+#include "parameters.h"
+#include "scene_build.h"
+#include "text.h"
+#include "type_view.h"
+
+#include <stdio.h>
+
+/* --- Which type ---------------------------------------------------------------------- */
+
+static const char *sort_word(imp_type_sort sort)
+{
+    return sort == IMP_SORT_SURFACE ? "surface type" : "map";
+}
+
+/* A name that is unknown, perhaps because it is of the other sort. */
+static imp_code refuse_type(const imp_registry *registry, imp_type_sort sort, const char *name,
+                            const place *at, imp_error *error)
+{
+    imp_type_sort other = sort == IMP_SORT_SURFACE ? IMP_SORT_MAP : IMP_SORT_SURFACE;
+    const char *verb = "`impinge list` shows what there is";
+    if (registry_find_file(registry, other, name))
+        return place_error(at, error, IMP_ERROR_SCENE, "found the %s '%s', allowed is a %s; %s",
+                           sort_word(other), name, sort_word(sort), verb);
+    const char *near = registry_nearest(registry, sort, name);
+    if (near)
+        return place_error(at, error, IMP_ERROR_SCENE, "unknown %s '%.80s', did you mean '%s'? %s",
+                           sort_word(sort), name, near, verb);
+    return place_error(at, error, IMP_ERROR_SCENE, "unknown %s '%.80s'; %s", sort_word(sort), name,
+                       verb);
+}
+
+static imp_code read_type(const json_t *object, imp_type_sort sort, const place *at,
+                          const char **name, imp_error *error)
+{
+    if (!json_is_object(object))
+        return place_error(at, error, IMP_ERROR_SCENE,
+                           "found %s, allowed an object like {\"type\": ...}",
+                           json_in_words(object).at);
+    const json_t *type = json_object_get(object, "type");
+    if (!type)
+        return place_error(at, error, IMP_ERROR_SCENE, "\"type\" is missing, allowed a %s's name",
+                           sort_word(sort));
+    place member = place_key(at, "type");
+    if (!json_is_string(type))
+        return place_error(&member, error, IMP_ERROR_SCENE, "found %s, allowed a %s's name",
+                           json_in_words(type).at, sort_word(sort));
+    *name = json_string_value(type);
+    return IMP_SUCCESS;
+}
+
+/* --- Creating ------------------------------------------------------------------------ */
+
+static imp_code blame(const char *file, const type_view *view, const char *what, const place *at,
+                      imp_error *error)
+{
+    return place_error(at, error, IMP_ERROR_PLUGIN, "%s of '%s' (%s)", what, view->name, file);
+}
+
+static imp_code judge_failure(imp_status status, const type_view *view, const char *file,
+                              const parameter_values *values, imp_complaint *why, const place *at,
+                              imp_error *error)
+{
+    if (status == IMP_PARAMETER) return parameters_complaint(&view->table, values, why, at, error);
+    char what[360];
+    why->text[sizeof why->text - 1] = '\0';
+    snprintf(what, sizeof what, "create failed with status %d%s%s: the fault", (int)status,
+             why->text[0] ? ", " : "", why->text);
+    return blame(file, view, what, at, error);
+}
+
+/* Runs the plugin's create and judges its answer. */
+static imp_code run_create(const type_view *view, const char *file, const parameter_values *values,
+                           const place *at, void **self, imp_error *error)
+{
+    imp_complaint why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
+    *self = NULL;
+    fp_mode before = fp_mode_read();
+    imp_status status = view->create(values->value, self, &why);
+    bool kept = fp_mode_kept(before);
+    if (status != IMP_OK) return judge_failure(status, view, file, values, &why, at, error);
+    if (!*self)
+        return blame(file, view, "create answered OK without an instance: the fault", at, error);
+    if (kept) return IMP_SUCCESS;
+    view->destroy(*self);
+    fp_mode_kept(before);
+    return blame(file, view, "create changed the floating-point mode: the fault", at, error);
+}
+
+static imp_code create(const type_view *view, const char *file, const json_t *object,
+                       const place *at, void **self, imp_error *error)
+{
+    parameter_values values;
+    imp_code code = parameters_read(&view->table, view->name, object, at, &values, error);
+    if (code != IMP_SUCCESS) return code;
+    code = run_create(view, file, &values, at, self, error);
+    parameters_clear(&values);
+    return code;
+}
+
+imp_code scene_build_surface(const imp_registry *registry, const json_t *object, const place *at,
+                             surface **s, imp_error *error)
+{
+    const char *name;
+    imp_code code = read_type(object, IMP_SORT_SURFACE, at, &name, error);
+    if (code != IMP_SUCCESS) return code;
+    const imp_surface_type *type = registry_find_surface(registry, name);
+    place where = at->argument ? *at : place_key(at, "type");
+    if (!type) return refuse_type(registry, IMP_SORT_SURFACE, name, &where, error);
+    type_view view = type_view_of_surface(type);
+    const char *file = registry_find_file(registry, IMP_SORT_SURFACE, name);
+    void *self;
+    code = create(&view, file, object, at, &self, error);
+    if (code != IMP_SUCCESS) return code;
+    *s = surface_new(type, self);
+    return *s ? IMP_SUCCESS : error_set_memory(error);
+}
+
+imp_code scene_build_map(const imp_registry *registry, const json_t *object, const place *at,
+                         surface *s, imp_error *error)
+{
+    const char *name;
+    imp_code code = read_type(object, IMP_SORT_MAP, at, &name, error);
+    if (code != IMP_SUCCESS) return code;
+    const imp_map_type *type = registry_find_map(registry, name);
+    place where = at->argument ? *at : place_key(at, "type");
+    if (!type) return refuse_type(registry, IMP_SORT_MAP, name, &where, error);
+    type_view view = type_view_of_map(type);
+    const char *file = registry_find_file(registry, IMP_SORT_MAP, name);
+    void *self;
+    code = create(&view, file, object, at, &self, error);
+    if (code != IMP_SUCCESS) return code;
+    code = surface_add_map(s, type, self);
+    if (code == IMP_ERROR_MEMORY) return error_set_memory(error);
+    if (code == IMP_SUCCESS) return code;
+    return place_error(at, error, code, "'%s' cannot be put on the surface: %s", name,
+                       imp_code_text(code));
+}
