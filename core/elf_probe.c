@@ -177,7 +177,7 @@ static bool check_segments(elf_file *file, elf_probe *probe, elf_check *check)
         if (s.p_type != PT_LOAD && s.p_type != PT_DYNAMIC && s.p_type != PT_NOTE) continue;
         if (!is_segment_sound(file, &s))
             return answer(check, false,
-                          "segment %u takes bytes %llu and %llu more, the file has "
+                          "program header %u takes bytes %llu and %llu more, the file has "
                           "%llu; " CUT_SHORT,
                           i, (unsigned long long)s.p_offset, (unsigned long long)s.p_filesz,
                           (unsigned long long)file->size);
@@ -185,7 +185,7 @@ static bool check_segments(elf_file *file, elf_probe *probe, elf_check *check)
         dynamics += s.p_type == PT_DYNAMIC;
     }
     if (loads == 0 || dynamics == 0)
-        return answer(check, false, "has no %s segment; link it with -shared",
+        return answer(check, false, "has no %s part; link it with -shared",
                       loads == 0 ? "loadable" : "dynamic");
     return answer(check, true, "%u to load, all inside the file", loads);
 }

@@ -38,7 +38,14 @@ core_registry = \
     core/plugin_check.c core/plugin_check.h \
     core/plugin_file.c core/plugin_file.h \
     core/search_path.c core/search_path.h \
-    core/registry.c core/registry.h
+    core/registry.c core/registry.h \
+    core/file_text.c core/file_text.h \
+    core/pipeline_value.c core/pipeline_value.h \
+    core/pipeline.c core/pipeline.h \
+    core/json_keys.c core/json_keys.h \
+    core/scene_build.c core/scene_build.h \
+    core/scene_bodies.c core/scene_bodies.h \
+    core/scene_file.c core/scene_file.h
 
 # Everything, internal symbols included: what the Check suites link.
 noinst_LTLIBRARIES += core/libcore.la

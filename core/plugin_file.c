@@ -35,7 +35,7 @@ static imp_code step_load(plugin_file *plugin, const char *path, imp_error *erro
     if (!kept)
         return error_set(
             error, IMP_ERROR_PLUGIN,
-            "load: loading it changes the floating-point mode, which breaks every "
+            "load: loading it changes the mode of arithmetic, which breaks every "
             "bound of every plugin; compile and link it without -ffast-math or -Ofast");
     return IMP_SUCCESS;
 }
@@ -58,7 +58,7 @@ static imp_code step_tables(plugin_file *plugin, const char *path, imp_error *er
     plugin->surfaces = plugin->entry->get_factory(IMP_SURFACE_FACTORY);
     plugin->maps = plugin->entry->get_factory(IMP_MAP_FACTORY);
     if (!fp_mode_kept(before))
-        return error_set(error, IMP_ERROR_PLUGIN, "get_factory changes the floating-point mode");
+        return error_set(error, IMP_ERROR_PLUGIN, "get_factory changes the mode of arithmetic");
     return plugin_check_factories(plugin->surfaces, plugin->maps, error);
 }
 

@@ -88,7 +88,7 @@ static imp_code run_create(const type_view *view, const char *file, const parame
     if (kept) return IMP_SUCCESS;
     view->destroy(*self);
     fp_mode_kept(before);
-    return blame(file, view, "create changed the floating-point mode: the fault", at, error);
+    return blame(file, view, "create changed the mode of arithmetic: the fault", at, error);
 }
 
 static imp_code create(const type_view *view, const char *file, const json_t *object,

@@ -23,7 +23,4 @@
  * Errors stand as "scene.json:12:7: ..." (syntax: line and column) or
  * "scene.json: /bodies/0/surfaces/2/radius: ..." (JSON pointer). */
 
-/* Name of a body that has none. */
-#define SCENE_FILE_BODY_NAME "body%zu"
-
 #endif
