@@ -103,6 +103,33 @@ static const char *rates_breach(const imp_rate_matrix *rates)
 
 /* --- Nodes of models -------------------------------------------------------------- */
 
+/* What of a coordinate's variation along parameter j its polynomial does not follow: the curved
+ * part, and what the rate allows beyond the slope. */
+static double unexplained(const node *n, const imp_model *m, int j, double curved)
+{
+    if (!(m->rate[j] < INFINITY)) return n->region.d[j] > 0 ? 0x1p500 : 0;
+    const double rest = m->rate[j] * n->region.d[j] - fabs(m->b[j]);
+    return rest > 0 ? curved + rest : curved;
+}
+
+/* How far u, v and t move this coordinate across the region, and how much of that is not linear.
+ * The remainder is laid to their charge in proportion to what is unexplained of each. Decides only
+ * what to split. */
+static void add_spread(node *n, const imp_model *m)
+{
+    const double uv = 0.5 * fabs(m->q[IMP_UV]);
+    const double ut = 0.5 * fabs(m->q[IMP_UT]), vt = 0.5 * fabs(m->q[IMP_VT]);
+    double bend[3] = {fabs(m->q[IMP_UU]) + uv + ut, fabs(m->q[IMP_VV]) + uv + vt,
+                      fabs(m->q[IMP_TT]) + ut + vt};
+    double share[3], sum = 0;
+    for (int j = 0; j < 3; ++j) sum += share[j] = unexplained(n, m, j, bend[j]);
+    for (int j = 0; j < 3; ++j) {
+        if (sum > 0 && m->e < INFINITY) bend[j] += m->e * (share[j] / sum);
+        n->bend[j] += bend[j];
+        n->spread[j] += fabs(m->b[j]) + bend[j];
+    }
+}
+
 static void take_model(node *n, int i, const imp_model *m)
 {
     quadratic3 *f = &n->f;
@@ -119,25 +146,7 @@ static void take_model(node *n, int i, const imp_model *m)
     n->magnitude[i] = sum + sum * 0x1p-48; /* ten terms, each sum off by at most 2^-53 */
     n->bounded = n->bounded && sum < INFINITY && fabs(m->a) < INFINITY && m->lo > -INFINITY &&
                  m->hi < INFINITY;
-    n->spread[0] += fabs(m->b[0]) + fabs(m->q[IMP_UU]) + 0.5 * fabs(m->q[IMP_UV]);
-    n->spread[1] += fabs(m->b[1]) + fabs(m->q[IMP_VV]) + 0.5 * fabs(m->q[IMP_UV]);
-    n->spread[2] += fabs(m->b[2]) + fabs(m->q[IMP_TT]);
-    n->bend[0] += fabs(m->q[IMP_UU]) + 0.5 * (fabs(m->q[IMP_UV]) + fabs(m->q[IMP_UT]));
-    n->bend[1] += fabs(m->q[IMP_VV]) + 0.5 * (fabs(m->q[IMP_UV]) + fabs(m->q[IMP_VT]));
-    n->bend[2] += fabs(m->q[IMP_TT]) + 0.5 * (fabs(m->q[IMP_UT]) + fabs(m->q[IMP_VT]));
-}
-
-/* Where the polynomial says nothing (rates only, or no longer bounded), the widths of the
- * region decide what to split: each parameter's share of the remainder is not known better. */
-static void spread_from_widths(node *n, const imp_model model[3])
-{
-    const imp_region *r = &n->region;
-    for (int j = 0; j < 3; ++j) {
-        double sum = 0;
-        for (int i = 0; i < 3; ++i)
-            sum += n->bounded && model[i].rate[j] < INFINITY ? model[i].rate[j] * r->d[j] : r->d[j];
-        n->spread[j] = n->bend[j] = sum;
-    }
+    add_spread(n, m);
 }
 
 static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
@@ -146,15 +155,14 @@ static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
     const imp_status status = surface_include(t->surface, &n->region, model);
     if (status != IMP_OK && status != IMP_UNBOUNDED)
         return status_fault(t, &n->region, status, error);
-    bool flat = true;
     n->bounded = true;
     for (int i = 0; i < 3; ++i) {
         const char *breach = model_breach(&model[i], status == IMP_UNBOUNDED);
         if (breach != NULL) return fault(t, &n->region, breach, error);
         take_model(n, i, &model[i]);
-        for (int j = 0; j < 3; ++j) flat = flat && model[i].b[j] == 0;
     }
-    if (flat || !n->bounded) spread_from_widths(n, model);
+    if (!n->bounded) memcpy(n->spread, n->region.d, sizeof n->spread);
+    if (!n->bounded) memcpy(n->bend, n->region.d, sizeof n->bend);
     n->normal = vec3_cross(vec3_from(n->f.bu), vec3_from(n->f.bv));
     return IMP_SUCCESS;
 }
