@@ -19,10 +19,14 @@ script_suites = \
     tests/structure.bats \
     tests/install.bats
 
+noinst_HEADERS += tests/suite.h
+
 LDADD = core/libcore.la $(CHECK_LIBS) $(MPFI_LIBS) -lm
 
 TESTS =
-skipped_suites =
+without_check =
+without_mpfi =
+without_bats =
 if HAVE_CHECK
 check_PROGRAMS += $(check_suites)
 TESTS += $(check_suites)
@@ -30,16 +34,21 @@ if HAVE_MPFI
 check_PROGRAMS += $(mpfi_suites)
 TESTS += $(mpfi_suites)
 else
-skipped_suites += $(mpfi_suites:%='% (MPFI not found)')
+without_mpfi += $(mpfi_suites)
 endif
 else
-skipped_suites += $(check_suites:%='% (Check not found)') $(mpfi_suites:%='% (Check not found)')
+without_check += $(check_suites) $(mpfi_suites)
 endif
 if HAVE_BATS
 TESTS += $(bats_suites) $(script_suites)
 else
-skipped_suites += $(bats_suites:%='% (bats not found)') $(script_suites:%='% (bats not found)')
+without_bats += $(bats_suites) $(script_suites)
 endif
+
+check-local:
+	@for suite in $(without_check); do echo "SKIP: $$suite (Check not found)"; done
+	@for suite in $(without_mpfi); do echo "SKIP: $$suite (MPFI not found)"; done
+	@for suite in $(without_bats); do echo "SKIP: $$suite (bats not found)"; done
 
 # IMPINGE is the command to test. The user's own plugins stay out of it.
 TEST_EXTENSIONS = .bats
@@ -54,9 +63,6 @@ AM_TESTS_ENVIRONMENT = \
     unset IMPINGE_PLUGIN_PATH;
 
 EXTRA_DIST += $(bats_suites) $(script_suites) tests/include_order
-
-check-local:
-	@for suite in $(skipped_suites); do echo "SKIP: $$suite"; done
 
 # With sanitizers a second full run is slow and tells nothing new of scripts and installation.
 .PHONY: check-sanitized
