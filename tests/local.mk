@@ -4,6 +4,7 @@
 # One line per suite: tests/NAME is built from tests/NAME.c and linked with everything in
 # core, internal symbols included.
 check_suites = \
+    tests/test_elf_probe \
     tests/test_pair_heap \
     tests/test_quadratic
 
@@ -19,7 +20,37 @@ script_suites = \
     tests/structure.bats \
     tests/install.bats
 
-noinst_HEADERS += tests/suite.h
+# Plugins for the tests of the loader, mostly faulty: tests/plugins/NAME.la is built from
+# tests/plugins/NAME.c. Never installed; -rpath makes libtool build a shared object all the same.
+check_LTLIBRARIES = \
+    tests/plugins/bad_name.la \
+    tests/plugins/bad_parameter_table.la \
+    tests/plugins/create_fails.la \
+    tests/plugins/create_null.la \
+    tests/plugins/create_rounds.la \
+    tests/plugins/fast_math.la \
+    tests/plugins/fp_mode.la \
+    tests/plugins/half_bad.la \
+    tests/plugins/kit.la \
+    tests/plugins/newer_minor.la \
+    tests/plugins/no_entry.la \
+    tests/plugins/no_factory.la \
+    tests/plugins/no_note.la \
+    tests/plugins/note_disagrees.la \
+    tests/plugins/null_callback.la \
+    tests/plugins/null_string.la \
+    tests/plugins/twin.la \
+    tests/plugins/undefined_symbol.la \
+    tests/plugins/wrong_abi_major.la
+test_plugin_ldflags = -avoid-version -shared -rpath /nowhere
+tests_plugins_fast_math_la_LDFLAGS = -module $(test_plugin_ldflags) -Wc,-ffast-math
+$(check_LTLIBRARIES): LIBS = -lm
+
+# The suite that fails every allocation in turn.
+alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free \
+    -Wl,--wrap=strdup,--wrap=strndup
+
+noinst_HEADERS += tests/suite.h tests/sandbox.h tests/alloc_failure.h tests/plugins/tiny.h
 
 LDADD = core/libcore.la $(CHECK_LIBS) $(MPFI_LIBS) -lm
 

@@ -1,0 +1,19 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "tiny.h"
+
+/* Its own preset is out of its own range. */
+static const imp_parameter table[] = {
+    {.name = "radius",
+     .unit = "length",
+     .doc = "radius",
+     .preset = "-1",
+     .kind = IMP_NUMBER,
+     .flags = IMP_MIN_OPEN,
+     .min = 0,
+     .max = INFINITY},
+};
+
+static const imp_surface_type type =
+    TINY_TYPE("bad_parameter_table", tiny_create, tiny_eval, 1, table);
+TINY_PLUGIN("bad_parameter_table", type);

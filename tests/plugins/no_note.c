@@ -1,0 +1,16 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "tiny.h"
+
+/* Exports the symbol by hand and forgets the note. */
+static const void *get_factory(const char *id)
+{
+    (void)id;
+    return NULL;
+}
+
+const imp_plugin impinge_plugin = {IMP_PLUGIN_MAGIC, sizeof(imp_plugin),
+                                   IMP_ABI_MAJOR,    IMP_ABI_MINOR,
+                                   "no_note",        "1.0",
+                                   "Apache-2.0",     "tests",
+                                   get_factory};
