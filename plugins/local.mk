@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: Apache-2.0
 
-# One line per plugin: plugins/NAME.la is built from plugins/NAME.c, and from nothing else.
+# One line per plugin: plugins/NAME.la is built from plugins/NAME.c and headers.
 
 plugin_LTLIBRARIES =
 

@@ -59,40 +59,37 @@ broken_copy_is_refused() { # FILE LINE COMPLAINT
 # --- No type is known by name ----------------------------------------------------------------
 
 plugin_names() {
-    local file
-    for file in "$1"/plugins/*.c; do
-        basename "$file" .c
-        sed -n 's/.*IMPINGE_[A-Z]*_*PLUGIN *( *"\([^"]*\)".*/\1/p' "$file"
-        awk '/imp_(surface|map)_type [A-Za-z_]* *= *\{/ { inside = 1 }
-             inside && match($0, /\.name *= *"[^"]*"/) {
-                 name = substr($0, RSTART, RLENGTH); gsub(/.*= *"|"/, "", name); print name
-                 inside = 0
-             }' "$file"
-    done | sort -u
+    basename -a -s .c "$top_srcdir"/plugins/*.c
+    "$IMPINGE" list | awk '$1 == "surface" || $1 == "map" { print $2 }'
 }
 
-# Strings of core (comments do not count) that hold a type's name as a word.
+# Strings of core (comments do not count) that are a type's name, or hold one as a pipeline
+# would: name, blank, parameter, equals sign.
 named_in_core() {
-    local names
-    names=$(plugin_names "$1" | paste -sd'|')
+    local file names
+    names=$(plugin_names | sort -u | paste -sd'|')
     for file in "$1"/core/*.[ch]; do
         gcc -fpreprocessed -dD -E -P -x c "$file" 2>/dev/null | grep -v '^#include' |
-            grep -oE '"([^"\\]|\\.)*"' | grep -wE "$names" | sed "s|^|$file: |"
+            grep -oE '"([^"\\]|\\.)*"' | grep -E "^\"($names)\"$|\<($names) +[a-z_]+=" |
+            sed "s|^|${file#"$1"/}: |"
     done
 }
 
 @test "no string in core names a plugin's type" {
-    [ "$(plugin_names "$top_srcdir" | wc -l)" -ge 6 ]
+    [ "$("$IMPINGE" list | grep -cE '^(surface|map) ')" -ge 6 ]
     run named_in_core "$top_srcdir"
     [ -z "$output" ]
 }
 
 @test "a type's name in core is found" {
     copy_sources
-    echo 'const char *favourite = "one torus, please"; /* "sphere" */' >>"$copy/core/status.c"
+    cat >>"$copy/core/status.c" <<'END'
+static const char *const favourites[] = {"torus", "sphere radius=2"}; /* "rotate" */
+static const char harmless[] = "a bezier of a bullet";
+END
     run named_in_core "$copy"
-    [ "${#lines[@]}" -eq 1 ]
-    [[ $output == *'core/status.c: "one torus, please"' ]]
+    [ "$output" = 'core/status.c: "torus"
+core/status.c: "sphere radius=2"' ]
 }
 
 # --- Headers -----------------------------------------------------------------------------------
