@@ -6,7 +6,9 @@
 check_suites = \
     tests/test_elf_probe \
     tests/test_pair_heap \
-    tests/test_quadratic
+    tests/test_quadratic \
+    tests/test_spheres \
+    tests/test_surface
 
 # The same, with MPFI as the judge of bounds.
 mpfi_suites =
@@ -50,7 +52,7 @@ $(check_LTLIBRARIES): LIBS = -lm
 alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free \
     -Wl,--wrap=strdup,--wrap=strndup
 
-noinst_HEADERS += tests/suite.h tests/sandbox.h tests/alloc_failure.h tests/plugins/tiny.h
+noinst_HEADERS += tests/suite.h tests/asking.h tests/sandbox.h tests/alloc_failure.h tests/plugins/tiny.h
 
 LDADD = core/libcore.la $(CHECK_LIBS) $(MPFI_LIBS) -lm
 

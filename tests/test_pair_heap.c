@@ -3,20 +3,23 @@
 #include "pair_heap.h"
 #include "suite.h"
 
-static pair random_pair(uint64_t *state, uint64_t serial) {
+static pair random_pair(uint64_t *state, uint64_t serial)
+{
     /* few distinct times and distances, so that ties are common */
     return (pair){.window = {floor(suite_between(state, 0, 8)), 9},
                   .distance2 = floor(suite_between(state, 0, 4)),
                   .serial = serial};
 }
 
-static bool in_order(const pair *p, const pair *q) {
+static bool in_order(const pair *p, const pair *q)
+{
     if (p->window.lo != q->window.lo) return p->window.lo < q->window.lo;
     if (p->distance2 != q->distance2) return p->distance2 < q->distance2;
     return p->serial < q->serial;
 }
 
-START_TEST(pairs_leave_by_time_then_distance_then_serial_number) {
+START_TEST(pairs_leave_by_time_then_distance_then_serial_number)
+{
     uint64_t state = suite_seed();
     pair_heap heap = {0};
     for (uint64_t k = 0; k < 5000; ++k) {
@@ -34,7 +37,8 @@ START_TEST(pairs_leave_by_time_then_distance_then_serial_number) {
 }
 END_TEST
 
-START_TEST(the_top_is_what_pop_gives_with_pushes_in_between) {
+START_TEST(the_top_is_what_pop_gives_with_pushes_in_between)
+{
     uint64_t state = suite_seed();
     pair_heap heap = {0};
     uint64_t serial = 0, popped = 0;

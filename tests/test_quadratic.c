@@ -8,14 +8,16 @@
 #include "quadratic.h"
 #include "suite.h"
 
-/* The judge computes in long double (64 bits of mantissa) at a grid, along the edges' vertices and at the
- * stationary point. */
+/* The judge computes in long double (64 bits of mantissa) at a grid, along the edges' vertices and
+ * at the stationary point. */
 
-static long double value(const quadratic *p, long double s, long double r) {
+static long double value(const quadratic *p, long double s, long double r)
+{
     return p->bs * s + p->br * r + p->qss * s * s + p->qsr * s * r + p->qrr * r * r;
 }
 
-static long double size_of(const quadratic *p) {
+static long double size_of(const quadratic *p)
+{
     return fabsl(p->bs) + fabsl(p->br) + fabsl(p->qss) + fabsl(p->qsr) + fabsl(p->qrr);
 }
 
@@ -23,14 +25,16 @@ typedef struct judged {
     long double lo, hi;
 } judged;
 
-static void judge_point(const quadratic *p, long double s, long double r, judged *seen) {
+static void judge_point(const quadratic *p, long double s, long double r, judged *seen)
+{
     if (!(s >= -1 && s <= 1 && r >= -1 && r <= 1)) return;
     const long double x = value(p, s, r);
     if (x < seen->lo) seen->lo = x;
     if (x > seen->hi) seen->hi = x;
 }
 
-static judged judge(const quadratic *p) {
+static judged judge(const quadratic *p)
+{
     judged seen = {INFINITY, -INFINITY};
     for (int i = -8; i <= 8; ++i)
         for (int j = -8; j <= 8; ++j) judge_point(p, i / 8.0L, j / 8.0L, &seen);
@@ -44,7 +48,8 @@ static judged judge(const quadratic *p) {
     return seen;
 }
 
-static void check_one(const quadratic *p) {
+static void check_one(const quadratic *p)
+{
     const span range = quadratic_span(p);
     const judged seen = judge(p);
     const long double slack = QUADRATIC_ROUNDING * size_of(p) + 0x1p-490L;
@@ -53,7 +58,8 @@ static void check_one(const quadratic *p) {
                   p->br, p->qss, p->qsr, p->qrr, seen.lo, seen.hi, range.lo, range.hi);
 }
 
-START_TEST(no_value_of_a_random_quadratic_is_outside_its_span) {
+START_TEST(no_value_of_a_random_quadratic_is_outside_its_span)
+{
     uint64_t state = suite_seed();
     for (int k = 0; k < suite_times(40000); ++k) {
         const double scale = suite_power(&state, -40, 40), form = suite_power(&state, -12, 4);
@@ -68,19 +74,21 @@ START_TEST(no_value_of_a_random_quadratic_is_outside_its_span) {
 END_TEST
 
 /* (s m + r)^2 k plus a little: the form is singular up to rounding, either way. */
-START_TEST(no_value_of_a_nearly_singular_quadratic_is_outside_its_span) {
+START_TEST(no_value_of_a_nearly_singular_quadratic_is_outside_its_span)
+{
     uint64_t state = suite_seed();
     for (int k = 0; k < suite_times(40000); ++k) {
         const double m = suite_between(&state, -2, 2), f = suite_between(&state, -3, 3);
         const double tilt = suite_power(&state, -60, -1) * suite_between(&state, -1, 1);
-        const quadratic p = {tilt * suite_between(&state, -4, 4), tilt * suite_between(&state, -4, 4),
-                             f * m * m, 2 * f * m, f + tilt};
+        const quadratic p = {tilt * suite_between(&state, -4, 4),
+                             tilt * suite_between(&state, -4, 4), f * m * m, 2 * f * m, f + tilt};
         check_one(&p);
     }
 }
 END_TEST
 
-START_TEST(the_span_of_a_quadratic_is_no_wider_than_its_values) {
+START_TEST(the_span_of_a_quadratic_is_no_wider_than_its_values)
+{
     uint64_t state = suite_seed();
     for (int k = 0; k < suite_times(20000); ++k) {
         const quadratic p = {suite_between(&state, -1, 1), suite_between(&state, -1, 1),
@@ -95,7 +103,8 @@ START_TEST(the_span_of_a_quadratic_is_no_wider_than_its_values) {
 }
 END_TEST
 
-START_TEST(the_spans_of_textbook_quadratics_are_exact) {
+START_TEST(the_spans_of_textbook_quadratics_are_exact)
+{
     const quadratic bowl = {0, 0, 1, 0, 1}, saddle = {0, 0, 1, 0, -1}, off = {-1, 0, 1, 0, 0};
     const span b = quadratic_span(&bowl), s = quadratic_span(&saddle), o = quadratic_span(&off);
     ck_assert(b.lo == 0 && b.hi == 2);
