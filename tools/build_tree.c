@@ -33,11 +33,22 @@ static bool join(char *path, size_t size, const char *top, const char *rest)
     return length > 0 && (size_t)length < size && access(path, R_OK) == 0;
 }
 
+static const char *find_directory(char *path, size_t size, const char *rest)
+{
+    char top[PATH_MAX];
+    if (!find_top(top, sizeof top)) return NULL;
+    if (!join(path, size, top, "/config.status")) return NULL;
+    return join(path, size, top, rest) ? path : NULL;
+}
+
 const char *build_tree_plugins(void)
 {
     static char plugins[PATH_MAX];
-    char top[PATH_MAX];
-    if (!find_top(top, sizeof top)) return NULL;
-    if (!join(plugins, sizeof plugins, top, "/config.status")) return NULL;
-    return join(plugins, sizeof plugins, top, "/plugins/.libs") ? plugins : NULL;
+    return find_directory(plugins, sizeof plugins, "/plugins/.libs");
+}
+
+const char *build_tree_data(void)
+{
+    static char data[PATH_MAX];
+    return find_directory(data, sizeof data, "/tools/built-data");
 }

@@ -11,4 +11,7 @@
  * a config.status at the top; no installed tree looks like that. */
 const char *build_tree_plugins(void);
 
+/* Likewise the directory of the data files that come with the command. */
+const char *build_tree_data(void);
+
 #endif

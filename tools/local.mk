@@ -2,7 +2,43 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # The command: main and one file per verb. It sees the public API and nothing else of core.
-# When tools/main.c arrives: bin_PROGRAMS += tools/impinge, with these and its own sources.
-tool_sources = tools/build_tree.c tools/build_tree.h
+tool_sources = \
+    tools/arguments.c tools/arguments.h \
+    tools/build_tree.c tools/build_tree.h \
+    tools/catalogue.c tools/catalogue.h \
+    tools/input.c tools/input.h \
+    tools/interrupt.c tools/interrupt.h \
+    tools/main.c \
+    tools/message.c tools/message.h \
+    tools/nearest.c tools/nearest.h \
+    tools/options.c tools/options.h \
+    tools/output.c tools/output.h \
+    tools/query.c tools/query.h \
+    tools/result.h tools/result_json.c tools/result_text.c \
+    tools/verbs.c tools/verbs.h \
+    tools/verb_batch.c \
+    tools/verb_demo.c \
+    tools/verb_help.c \
+    tools/verb_info.c \
+    tools/verb_list.c \
+    tools/verb_pair.c \
+    tools/verb_solve.c
 
-EXTRA_DIST += $(tool_sources) tools/demo tools/prepare tools/test
+EXTRA_PROGRAMS = tools/impinge
+tools_impinge_SOURCES = $(tool_sources)
+tools_impinge_LDADD = libimpinge.la $(JANSSON_LIBS) -lm
+
+dist_man_MANS = tools/impinge.1
+pkgdata_DATA = \
+    tools/data/teapot.json \
+    tools/schema/result.schema.json \
+    tools/schema/scene.schema.json \
+    tools/schema/types.schema.json
+
+# Where build_tree_data looks, so that the command just built meets the data of its own tree.
+noinst_DATA = tools/built-data/teapot.json
+CLEANFILES += $(noinst_DATA)
+tools/built-data/teapot.json: tools/data/teapot.json
+	$(AM_V_GEN)$(MKDIR_P) tools/built-data && cp $< $@ && chmod u+w $@
+
+EXTRA_DIST += tools/demo tools/prepare tools/test $(pkgdata_DATA)

@@ -1,0 +1,45 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdio.h>
+
+#include "output.h"
+#include "verbs.h"
+
+static exit_status print_version(void)
+{
+    printf("impinge %s (%s)\n", PACKAGE_VERSION, imp_version());
+    return EXIT_ANSWERED;
+}
+
+static exit_status print_help(const verb *v)
+{
+    if (v != NULL)
+        help_verb(v);
+    else
+        help_overview();
+    return EXIT_ANSWERED;
+}
+
+static exit_status run(const arguments *args)
+{
+    if (arguments_option(args, "help") != NULL) return print_help(args->verb);
+    if (arguments_option(args, "version") != NULL) return print_version();
+    if (args->verb != NULL) return args->verb->run(args);
+    return complain(EXIT_USAGE, NULL,
+                    "which verb? 'impinge help' shows all, 'impinge demo' a first "
+                    "contact");
+}
+
+int main(int argc, char **argv)
+{
+    output_prepare();
+    arguments args;
+    exit_status status = arguments_read(&args, argc, (const char *const *)argv);
+    const char *speaker = args.verb != NULL ? args.verb->name : NULL;
+    if (status == EXIT_ANSWERED) status = run(&args);
+    arguments_free(&args);
+    const exit_status finished = output_finish(speaker);
+    return status > finished ? status : finished;
+}

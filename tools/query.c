@@ -1,0 +1,158 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "query.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "build_tree.h"
+#include "interrupt.h"
+#include "output.h"
+#include "result.h"
+#include "verbs.h"
+
+/* Pairs between two looks at whether a signal came: a fraction of a second. */
+#define STEP_PAIRS 16384
+
+/* The plugins of the build tree we run from stand behind those the environment names and before the
+ * installed ones, so that a program just built meets the plugins built with it. */
+static bool add_build_tree(void)
+{
+    const char *built = build_tree_plugins(), *named = getenv("IMPINGE_PLUGIN_PATH");
+    char *path;
+    if (built == NULL) return true;
+    if (named == NULL || named[0] == '\0') return setenv("IMPINGE_PLUGIN_PATH", built, 1) == 0;
+    if (asprintf(&path, "%s:%s", named, built) < 0) return false;
+    const bool done = setenv("IMPINGE_PLUGIN_PATH", path, 1) == 0;
+    free(path);
+    return done;
+}
+
+imp_registry *query_registry(const arguments *args)
+{
+    const option_value *path = arguments_option(args, "plugin-path");
+    imp_registry *registry = NULL;
+    if (add_build_tree()) registry = imp_registry_new(path != NULL ? path->text : NULL);
+    if (registry == NULL) complain_of_memory(args->verb->name);
+    return registry;
+}
+
+exit_status query_check(const arguments *args)
+{
+    const option_value *gamma = arguments_option(args, "gamma");
+    const option_value *clearance = arguments_option(args, "clearance");
+    const option_value *method = arguments_option(args, "method");
+    const char *const paper_only[] = {"bounds", "rates"};
+    if (gamma != NULL && clearance != NULL && clearance->number[0] >= gamma->number[0])
+        return complain(EXIT_USAGE, args->verb->name, "--clearance %s must be less than --gamma %s",
+                        clearance->text, gamma->text);
+    for (int i = 0; i < 2; ++i)
+        if (arguments_option(args, paper_only[i]) != NULL &&
+            (method == NULL || method->choice != IMP_METHOD_PAPER))
+            return complain(EXIT_USAGE, args->verb->name, "--%s belongs to --method paper",
+                            paper_only[i]);
+    return EXIT_ANSWERED;
+}
+
+static double number_or(const arguments *args, const char *name, double otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->number[0] : otherwise;
+}
+
+static uint64_t count_or(const arguments *args, const char *name, uint64_t otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->count : otherwise;
+}
+
+static size_t choice_or(const arguments *args, const char *name, size_t otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->choice : otherwise;
+}
+
+static imp_options options_for(const imp_scene *scene, const arguments *args)
+{
+    imp_options o = imp_options_default(scene);
+    const option_value *time = arguments_option(args, "time");
+    if (time != NULL) o.t_start = time->number[0], o.t_end = time->number[1];
+    o.gamma = number_or(args, "gamma", o.gamma);
+    o.clearance = number_or(args, "clearance", o.clearance);
+    o.max_pairs = count_or(args, "max-pairs", o.max_pairs);
+    o.max_seconds = number_or(args, "max-seconds", o.max_seconds);
+    o.max_bytes = count_or(args, "max-bytes", o.max_bytes);
+    o.method = (imp_method)choice_or(args, "method", o.method);
+    o.bounds = (imp_bounds)choice_or(args, "bounds", o.bounds);
+    o.rates = (imp_rates)choice_or(args, "rates", o.rates);
+    return o;
+}
+
+/* Steps, so that a signal that comes between two steps is not lost. */
+static imp_code run(imp_query *query, imp_result *result, imp_error *error)
+{
+    imp_code code = IMP_SUCCESS;
+    do {
+        code = imp_query_step(query, STEP_PAIRS, error);
+        *result = imp_query_result(query);
+    } while (code == IMP_SUCCESS && result->reason == IMP_REASON_RUNNING && !interrupt_came());
+    if (result->reason == IMP_REASON_RUNNING) result->reason = IMP_REASON_CANCELLED;
+    return code;
+}
+
+imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result, imp_error *error)
+{
+    const imp_options options = options_for(scene, args);
+    imp_query *query = imp_query_new(scene, &options, error);
+    if (query == NULL) return error->code;
+    interrupt_watch(query);
+    const imp_code code = run(query, result, error);
+    interrupt_watch(NULL);
+    imp_query_free(query);
+    return code;
+}
+
+exit_status query_status(const imp_result *result, const arguments *args)
+{
+    if (result->verdict == IMP_UNDECIDED) return EXIT_UNDECIDED;
+    if (result->verdict == IMP_CONTACT && arguments_option(args, "exit-code") != NULL)
+        return EXIT_CONTACT;
+    return EXIT_ANSWERED;
+}
+
+static exit_status print_result(const imp_scene *scene, const imp_result *result,
+                                const arguments *args)
+{
+    if (arguments_option(args, "json") != NULL)
+        return output_json(result_json(scene, result), args->verb->name);
+    result_print(scene, result);
+    return output_flush(args->verb->name);
+}
+
+static exit_status answer(imp_scene *scene, const arguments *args)
+{
+    imp_result result;
+    imp_error error = {0};
+    if (query_solve(scene, args, &result, &error) != IMP_SUCCESS)
+        return complain_of(&error, args->verb->name);
+    const exit_status printed = print_result(scene, &result, args);
+    return printed != EXIT_ANSWERED ? printed : query_status(&result, args);
+}
+
+exit_status query_answer(imp_scene *scene, const imp_error *error, const arguments *args)
+{
+    if (scene == NULL) return complain_of(error, args->verb->name);
+    interrupt_prepare();
+    const exit_status status = answer(scene, args);
+    imp_scene_free(scene);
+    return status;
+}
+
+exit_status query_answer_file(imp_registry *registry, const char *path, const arguments *args)
+{
+    imp_error error = {0};
+    imp_scene *scene = imp_scene_from_file(registry, path, &error);
+    return query_answer(scene, &error, args);
+}

@@ -1,0 +1,155 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <stdio.h>
+#include <string.h>
+
+#include "output.h"
+#include "result.h"
+
+/* What is printed, for a contact:
+ *
+ *   contact at t = 0.49995
+ *     proved   nothing nearer than 5e-05 before t = 0.49995
+ *     a        surface 0 of "pot"   u 1.5         v 0.25   at (1, 0, 0)
+ *     b        surface 0 of "ball"  u 3.14159265  v 1.5    at (1.00009, 0, 0)
+ *     gap      9e-05, at most gamma = 0.0001
+ *     normal   (1, 0, 0), from a to b
+ *     cost     123 pairs, 45 nodes, 3 witness searches, 12 pairs waiting at most, 34 kB, 1.23 ms
+ */
+
+static void print_label(const char *label) { printf("  %-8s ", label); }
+
+static void print_vector(const double v[3]) { printf("(%.10g, %.10g, %.10g)", v[0], v[1], v[2]); }
+
+/* The columns of one side; both sides are padded to the wider of the two. */
+typedef struct side_text {
+    char surface[32], u[32], v[32];
+    const char *body;
+} side_text;
+
+static side_text side_columns(const imp_scene *scene, const imp_side *side)
+{
+    side_text text;
+    snprintf(text.surface, sizeof text.surface, "%zu", side->surface);
+    snprintf(text.u, sizeof text.u, "%.10g", side->u);
+    snprintf(text.v, sizeof text.v, "%.10g", side->v);
+    text.body = imp_scene_body_name(scene, side->body);
+    return text;
+}
+
+static int wider(const char *a, const char *b)
+{
+    const size_t m = strlen(a), n = strlen(b);
+    return (int)(m > n ? m : n);
+}
+
+static void print_side(const char *label, const imp_side *side, const side_text *own,
+                       const side_text *other)
+{
+    print_label(label);
+    printf("surface %*s of \"%s\"%*s", wider(own->surface, other->surface), own->surface, own->body,
+           wider(own->body, other->body) - (int)strlen(own->body), "");
+    printf("  u %-*s  v %-*s  at ", wider(own->u, other->u), own->u, wider(own->v, other->v),
+           own->v);
+    print_vector(side->point);
+    putchar('\n');
+}
+
+static void print_contact(const imp_scene *scene, const imp_result *r)
+{
+    const side_text a = side_columns(scene, &r->a), b = side_columns(scene, &r->b);
+    print_side("a", &r->a, &a, &b);
+    print_side("b", &r->b, &b, &a);
+    print_label("gap");
+    printf("%s, at most gamma = %.10g\n", output_number_upper(r->gap).text, r->gamma);
+    print_label("normal");
+    if (r->has_normal) {
+        print_vector(r->normal);
+        puts(", from a to b");
+    } else {
+        puts("undefined");
+    }
+}
+
+static void print_cost(const imp_stats *s)
+{
+    print_label("cost");
+    printf("%ju pairs, %ju nodes, %ju witness searches, %ju pairs waiting at most, ",
+           (uintmax_t)s->pairs, (uintmax_t)s->nodes, (uintmax_t)s->witness_searches,
+           (uintmax_t)s->peak_heap);
+    if (s->bytes < 10 * 1024 * 1024)
+        printf("%ju KiB, ", (uintmax_t)(s->bytes / 1024));
+    else
+        printf("%ju MiB, ", (uintmax_t)(s->bytes / 1024 / 1024));
+    if (s->seconds < 1)
+        printf("%.3g ms\n", s->seconds * 1e3);
+    else
+        printf("%.3f s\n", s->seconds);
+}
+
+static const char *clear_reason(imp_reason reason)
+{
+    if (reason == IMP_REASON_NO_TIME)
+        return "the surfaces' time domains have no time in common with each other and the interval";
+    if (reason == IMP_REASON_NO_PAIRS) return "there are no two bodies to test with each other";
+    return NULL;
+}
+
+/* Why there is no verdict, and the cure. */
+typedef struct excuse {
+    const char *why, *cure;
+} excuse;
+
+static excuse undecided_excuse(imp_reason reason)
+{
+    switch (reason) {
+    case IMP_REASON_PAIRS:
+        return (excuse){"the limit of pairs is reached", "raise --max-pairs, or gamma"};
+    case IMP_REASON_SECONDS:
+        return (excuse){"the time limit is reached", "raise --max-seconds, or gamma"};
+    case IMP_REASON_MEMORY:
+        return (excuse){"the limit of memory is reached", "raise --max-bytes, or gamma"};
+    case IMP_REASON_RESOLUTION:
+        return (excuse){"gamma is below what double precision resolves here", "raise --gamma"};
+    default:
+        return (excuse){"interrupted", "run it again and let it finish"};
+    }
+}
+
+static void print_proved(const imp_result *r)
+{
+    print_label("proved");
+    const number_text clear = output_number_lower(r->gamma_clear);
+    if (r->verdict == IMP_CLEAR)
+        printf("never nearer than %s\n", clear.text);
+    else
+        printf("nothing nearer than %s before t = %s\n", clear.text,
+               output_number_lower(r->t_lower).text);
+}
+
+static void print_clear(const imp_result *r)
+{
+    const char *reason = clear_reason(r->reason);
+    if (reason == NULL) return;
+    print_label("reason");
+    puts(reason);
+}
+
+static void print_undecided(const imp_result *r)
+{
+    print_label("cure");
+    puts(undecided_excuse(r->reason).cure);
+}
+
+void result_print(const imp_scene *scene, const imp_result *r)
+{
+    fputs(result_verdict_name(r->verdict), stdout);
+    if (r->verdict == IMP_CONTACT) printf(" at t = %s", output_number_lower(r->t).text);
+    if (r->verdict == IMP_UNDECIDED) printf(": %s", undecided_excuse(r->reason).why);
+    putchar('\n');
+    print_proved(r);
+    if (r->verdict == IMP_CONTACT) print_contact(scene, r);
+    if (r->verdict == IMP_CLEAR) print_clear(r);
+    if (r->verdict == IMP_UNDECIDED) print_undecided(r);
+    print_cost(&r->stats);
+}

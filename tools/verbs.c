@@ -1,0 +1,45 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "verbs.h"
+
+#include <string.h>
+
+#include "nearest.h"
+
+/* Add a verb: write verb_NAME.c, which defines `const verb verb_NAME`, and add a row here. */
+#define VERBS(ROW)                                                                                 \
+    ROW(demo)                                                                                      \
+    ROW(list)                                                                                      \
+    ROW(info)                                                                                      \
+    ROW(pair)                                                                                      \
+    ROW(solve)                                                                                     \
+    ROW(batch)                                                                                     \
+    ROW(help)
+
+#define DECLARE(NAME) extern const verb verb_##NAME;
+VERBS(DECLARE)
+#undef DECLARE
+
+#define ADDRESS(NAME) &verb_##NAME,
+static const verb *const all[] = {VERBS(ADDRESS) NULL};
+#undef ADDRESS
+
+const verb *const *verbs_all(void) { return all; }
+
+const verb *verb_find(const char *name)
+{
+    for (const verb *const *v = all; *v != NULL; ++v)
+        if (strcmp((*v)->name, name) == 0) return *v;
+    return NULL;
+}
+
+exit_status verb_unknown(const char *speaker, const char *name)
+{
+    nearest near = nearest_to(name);
+    for (const verb *const *v = all; *v != NULL; ++v) nearest_offer(&near, (*v)->name);
+    if (near.name != NULL)
+        return complain(EXIT_USAGE, speaker,
+                        "there is no verb '%s'; nearest is '%s' ('impinge help' shows all)", name,
+                        near.name);
+    return complain(EXIT_USAGE, speaker, "there is no verb '%s' ('impinge help' shows all)", name);
+}
