@@ -7,6 +7,7 @@ check_suites = \
     tests/test_elf_probe \
     tests/test_pair_heap \
     tests/test_quadratic \
+    tests/test_registry \
     tests/test_spheres \
     tests/test_surface
 
