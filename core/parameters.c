@@ -104,11 +104,10 @@ static bool is_in_range(const imp_parameter *row, double x)
 static imp_code read_number(reader *r, const json_t *json, const char *name, const place *at)
 {
     const imp_parameter *row = r->row;
-    if (!json_is_number(json))
-        return row->kind == IMP_TABLE
-                   ? place_error(at, r->error, IMP_ERROR_SCENE, "found %s, allowed a number %s",
-                                 json_in_words(json).at, parameter_range_words(row).at)
-                   : refuse(r, json, row->rank, at);
+    if (!json_is_number(json) && row->kind == IMP_TABLE)
+        return place_error(at, r->error, IMP_ERROR_SCENE, "found %s, allowed a number",
+                           json_in_words(json).at);
+    if (!json_is_number(json)) return refuse(r, json, row->rank, at);
     double x = json_number_value(json);
     if (row->kind == IMP_INTEGER && !(fabs(x) <= INTEGER_MAX && floor(x) == x))
         return refuse(r, json, row->rank, at);
@@ -167,7 +166,7 @@ static imp_code check_extent(reader *r, size_t found, uint32_t depth, const plac
                            allowed ? parameter_shape_words(r->row, depth).at : "1 element or more");
     if (*settled != 0 && *settled != found)
         return place_error(at, r->error, IMP_ERROR_SCENE,
-                           "found an array of %zu, allowed %zu elements as in the first one", found,
+                           "found an array of %zu, allowed %zu as in the first one", found,
                            *settled);
     *settled = found;
     return IMP_SUCCESS;
@@ -248,10 +247,12 @@ static imp_code refuse_unknown(const parameter_table *table, const char *type, c
         if (parameters_is_reserved(name) || parameter_table_find(table, name) >= 0) continue;
         const char *near = parameter_table_nearest(table, name);
         place member = place_key(at, name);
+        if (near)
+            return place_error(&member, error, IMP_ERROR_SCENE,
+                               "found an unknown parameter, did you mean '%s'? %s takes %s", near,
+                               type, names_of(table).at);
         return place_error(&member, error, IMP_ERROR_SCENE,
-                           "found an unknown parameter%s%s%s; %s takes %s",
-                           near ? ", did you mean '" : "", near ? near : "", near ? "'?" : "", type,
-                           names_of(table).at);
+                           "found an unknown parameter; %s takes %s", type, names_of(table).at);
     }
     return IMP_SUCCESS;
 }

@@ -5,6 +5,7 @@
 # core, internal symbols included.
 check_suites = \
     tests/test_elf_probe \
+    tests/test_parameters \
     tests/test_pair_heap \
     tests/test_quadratic \
     tests/test_registry \
