@@ -189,3 +189,18 @@ END
     [ -z "$(find "$prefix" ! -type d)" ]
     [ ! -e "$prefix/lib/impinge" ]
 }
+
+# --- The release ------------------------------------------------------------------------------------
+
+@test "the release builds, installs and uninstalls from a source folder that cannot be written" {
+    make -s -C "$build" distcheck TESTS=
+}
+
+@test "the release holds every file of the repository" {
+    git -C "$top_srcdir" ls-files >committed 2>/dev/null || skip "not a git repository"
+    [ -s committed ] || skip "not a git repository"
+    make -s -C "$build" dist
+    tar tzf "$build"/impinge-*.tar.gz | sed 's|^[^/]*/||' | sort >released
+    run comm -23 <(sort committed) released
+    [ -z "$output" ]
+}
