@@ -24,7 +24,7 @@ tool_sources = \
     tools/verb_pair.c \
     tools/verb_solve.c
 
-EXTRA_PROGRAMS = tools/impinge
+bin_PROGRAMS += tools/impinge
 tools_impinge_SOURCES = $(tool_sources)
 tools_impinge_LDADD = libimpinge.la $(JANSSON_LIBS) -lm
 
