@@ -3,7 +3,24 @@
 
 # One line per plugin: plugins/NAME.la is built from plugins/NAME.c and headers.
 
-plugin_LTLIBRARIES =
+plugin_LTLIBRARIES = \
+    plugins/bezier.la \
+    plugins/rotate.la \
+    plugins/sphere.la \
+    plugins/spike.la \
+    plugins/torus.la \
+    plugins/translate.la
+
+# What they share; private, never installed.
+noinst_HEADERS += \
+    plugins/bernstein.h \
+    plugins/chebyshev.h \
+    plugins/near.h \
+    plugins/patch.h \
+    plugins/patch_include.h \
+    plugins/patch_rate.h \
+    plugins/plugin.h \
+    plugins/polynomial.h
 
 plugin_ldflags = -avoid-version -shared -export-symbols-regex '^impinge_plugin$$'
 

@@ -1,0 +1,379 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_PATCH_INCLUDE_H
+#define PLUGINS_PATCH_INCLUDE_H
+
+#include "patch.h"
+
+#include <impinge/model.h>
+
+/* The order-2 inclusion of a patch
+ * ================================
+ * With x = 2u - 1 and y = 2v - 1, a polynomial is F = sum_ij R_ij T_i(x) T_j(y); R is `series`,
+ * made once. A region has x = c + d s, and T_i(c + d s) = sum_k w_ik T_k(s) (chebyshev.h), so over
+ * it
+ *
+ *   F = sum_kl C_kl T_k(s_u) T_l(s_v),   C_kl = sum_ij w_ik w_jl R_ij.
+ *
+ * What has k + l <= 2 is the quadratic; the rest is at most the sum of the |C_kl|. The patch at
+ * time t = c_t + d_t s_t is X + t Y = (X + c_t Y) + d_t s_t Y: exactly linear in t. Of
+ * d_t s_t Y the terms with k + l <= 1 are quadratic, the others go to the remainder.
+ *
+ * |T_k'| <= k^2 gives the rates: |dF/ds_u| <= sum_kl k^2 |C_kl|.
+ *
+ * Lemma (noise). With unit = ROUNDING, as functions on the region, the computed sum_kl C_kl T_k T_l
+ * and F differ by at most
+ *   2 most                                 the net (patch_set_net)
+ *   (n + m + 4) beta_u beta_v most         R: two sums of n + 1 and m + 1 products with beta (1 + 1
+ *                                          for beta itself); beta_u, beta_v: sums of all |beta|
+ *   sum_ij |R_ij| (error_i + error_j)      w as a function (chebyshev_shift_error)
+ *   sum_ij |R_ij| (n + m + 2) reach_i reach_j   the two sums that make C
+ * because |T_k| <= 1 and sum_k |w_ik| <= reach_i. The derivative with respect to s of a polynomial
+ * of degree n is at most n^2 times its bound (Markov), so noise costs a rate n^2 noise. */
+
+#if defined(__GNUC__)
+/* Two coordinates at a time: arithmetic on both. */
+typedef double couple __attribute__((vector_size(16), may_alias));
+typedef long long couple_bits __attribute__((vector_size(16)));
+static inline couple couple_abs(couple x)
+{
+    return (couple)((couple_bits)x & (couple_bits){INT64_MAX, INT64_MAX});
+}
+#define PATCH_INLINE inline __attribute__((always_inline))
+#define PATCH_UNROLL _Pragma("GCC unroll 4")
+#else
+#error "plugins/patch_include.h uses the vector extension of gcc and clang"
+#endif
+
+enum { COUPLE = 2, GROUP = 4 / COUPLE }; /* numbers in a couple; couples in a group */
+
+/* --- Once: the series --- */
+
+/* out = matrix . in, for size rows of width numbers. */
+static inline void patch_multiply(int size, const double *matrix, const double *in, double *out,
+                                  int width)
+{
+    for (int k = 0; k < size; ++k)
+        for (int x = 0; x < width; ++x) {
+            double sum = 0;
+            for (int j = 0; j < size; ++j) sum += matrix[k * size + j] * in[j * width + x];
+            out[k * width + x] = sum;
+        }
+}
+
+static inline double patch_sum_abs(const double *x, int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; ++i) sum += fabs(x[i]);
+    return sum;
+}
+
+/* Fills series and noise. `work` has room for as many numbers as the net. */
+static inline void patch_set_series(patch *f, double *work)
+{
+    const int n = f->degree[0], m = f->degree[1], lanes = f->lanes, row = (m + 1) * lanes;
+    double beta_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX], beta_v[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
+    chebyshev_of_bernstein(n, beta_u);
+    chebyshev_of_bernstein(m, beta_v);
+    patch_multiply(n + 1, beta_u, f->net, work, row);
+    for (int i = 0; i <= n; ++i)
+        patch_multiply(m + 1, beta_v, work + i * row, f->series + i * row, lanes);
+    double beta =
+        patch_sum_abs(beta_u, (n + 1) * (n + 1)) * patch_sum_abs(beta_v, (m + 1) * (m + 1));
+    for (int lane = 0; lane < lanes; ++lane) {
+        double units = (2 + (n + m + 4) * beta) * f->most[lane];
+        for (int i = 0; i <= n; ++i)
+            for (int j = 0; j <= m; ++j)
+                units += fabs(f->series[i * row + j * lanes + lane]) *
+                         (chebyshev_shift_error(i) + chebyshev_shift_error(j) +
+                          (n + m + 2) * chebyshev_reach(i) * chebyshev_reach(j));
+        f->noise[lane] = units * ROUNDING * SLACK + IMP_TINY;
+    }
+}
+
+/* --- Per region: C --- */
+
+/* out_k = sum_(j >= k) w_jk in_j, for rows of `width` couples. */
+static PATCH_INLINE void patch_shift(int n, const double *w, const couple *in, couple *out,
+                                     int width)
+{
+    for (int x = 0; x < width; ++x) {
+        couple row[PATCH_SIDE_MAX];
+        PATCH_UNROLL
+        for (int j = 0; j <= n; ++j) row[j] = in[j * width + x];
+        PATCH_UNROLL
+        for (int k = 0; k <= n; ++k) {
+            couple sum = w[k * (n + 1) + k] * row[k];
+            PATCH_UNROLL
+            for (int j = k + 1; j <= n; ++j) sum += w[j * (n + 1) + k] * row[j];
+            out[k * width + x] = sum;
+        }
+    }
+}
+
+/* The series of all lanes over a region. Fits in (n+1)(m+1) lanes numbers; `work` likewise. */
+static PATCH_INLINE void patch_localize(const patch *f, int n, int m, int lanes,
+                                        const imp_region *region, couple *c, couple *work)
+{
+    double along_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX], along_v[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
+    const int group = lanes / COUPLE, row = (m + 1) * group;
+    chebyshev_shift(n, 2 * region->c[0] - 1, 2 * region->d[0], along_u, n + 1);
+    chebyshev_shift(m, 2 * region->c[1] - 1, 2 * region->d[1], along_v, m + 1);
+    patch_shift(n, along_u, (const couple *)f->series, work, row);
+    for (int k = 0; k <= n; ++k) patch_shift(m, along_v, work + k * row, c + k * row, group);
+}
+
+/* --- Per region: models --- */
+
+/* Sums over the series of two coordinates. X here is X + c_t Y, at the region's middle time; `size`
+ * is |X| + d_t |Y|, at least |X + t Y| at all its times. */
+typedef struct patch_terms {
+    couple x[3][3];          /* X_kl, k + l <= 2 */
+    couple y[2][2];          /* Y_kl, k + l <= 1 */
+    couple rest;             /* of size, where k + l >= 3, and of d_t |Y|, where k + l = 2 */
+    couple size, speed;      /* of size, of |Y| */
+    couple along_u, along_v; /* of k^2 size, of l^2 size */
+} patch_terms;
+
+static PATCH_INLINE void patch_collect(int n, int m, int lanes, const couple *c, double middle,
+                                       double half, patch_terms *terms)
+{
+    const couple zero = {0, 0};
+    const int group = lanes / COUPLE;
+    couple rest = zero, total = zero, speed = zero, along_u = zero, along_v = zero;
+    couple column[PATCH_SIDE_MAX];
+    terms->x[2][0] = terms->x[0][2] = zero;
+    terms->y[0][0] = terms->y[1][0] = terms->y[0][1] = zero;
+    PATCH_UNROLL
+    for (int l = 0; l <= m; ++l) column[l] = zero;
+    PATCH_UNROLL
+    for (int k = 0; k <= n; ++k) {
+        couple row = zero;
+        PATCH_UNROLL
+        for (int l = 0; l <= m; ++l) {
+            couple x = c[(k * (m + 1) + l) * group], size = couple_abs(x);
+            if (lanes == 8) {
+                couple y = c[(k * (m + 1) + l) * group + GROUP], change = half * couple_abs(y);
+                x += middle * y;
+                size = couple_abs(x) + change;
+                speed += couple_abs(y);
+                if (k + l <= 1) terms->y[k][l] = y;
+                if (k + l == 2) rest += change;
+            }
+            if (k + l <= 2) terms->x[k][l] = x;
+            if (k + l >= 3) rest += size;
+            row += size;
+            column[l] += size;
+        }
+        total += row;
+        along_u += (double)(k * k) * row;
+    }
+    PATCH_UNROLL
+    for (int l = 1; l <= m; ++l) along_v += (double)(l * l) * column[l];
+    terms->rest = rest, terms->size = total, terms->speed = speed;
+    terms->along_u = along_u, terms->along_v = along_v;
+}
+
+/* min and max of b s + q s^2 on [-1, 1], off by at most 3 ROUNDING (|b| + |q|). At the vertex,
+ * inside when |b| < 2|q|, the value is -b^2 / 4q. */
+static inline void patch_parabola(double b, double q, double *lo, double *hi)
+{
+    double edge = fabs(b);
+    *lo = edge < 2 * q ? -b * b / (4 * q) : q - edge;
+    *hi = edge < -2 * q ? -b * b / (4 * q) : q + edge;
+}
+
+/* lo and hi from the quadratic and e. `size` bounds what the coefficients but a add up to; all
+ * roundings here are within 16 ROUNDING of the magnitudes. */
+static inline void patch_range(imp_model *g, double size)
+{
+    double lo[2], hi[2];
+    patch_parabola(g->b[0], g->q[IMP_UU], &lo[0], &hi[0]);
+    patch_parabola(g->b[1], g->q[IMP_VV], &lo[1], &hi[1]);
+    double cross = fabs(g->b[2]) + fabs(g->q[IMP_UV]) + fabs(g->q[IMP_UT]) + fabs(g->q[IMP_VT]);
+    double margin = cross + g->e + 16 * ROUNDING * (fabs(g->a) + size + cross + g->e);
+    g->lo = g->a + (lo[0] + lo[1] - margin);
+    g->hi = g->a + (hi[0] + hi[1] + margin);
+}
+
+static inline void patch_cut(imp_model *g, double lo, double hi)
+{
+    if (lo > g->lo) g->lo = lo;
+    if (hi < g->hi) g->hi = hi;
+}
+
+static inline couple patch_load(const double *x) { return (couple){x[0], x[1]}; }
+
+static inline couple patch_least(couple a, couple b)
+{
+    return (couple){a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]};
+}
+
+/* Models of lanes first and first + 1: place + t drift + X + t Y.
+ *
+ * Lemma. Rounding in patch_collect, in a, in b_t: 8 ROUNDING (size + |c_t| speed) and, from place
+ * and drift, 4 ROUNDING (|place| + (|c_t| + d_t) |drift|). SLACK covers the bounds' own. */
+static PATCH_INLINE void patch_two_models(const patch *f, int n, int m, int lanes, int first,
+                                          const imp_region *region, const couple *c, imp_model *out)
+{
+    const double middle = region->c[2], half = region->d[2], late = fabs(middle) + half;
+    patch_terms sum;
+    patch_collect(n, m, lanes, c + first / COUPLE, middle, half, &sum);
+    const couple place = patch_load(f->place + first), drift = patch_load(f->drift + first);
+    const couple noise = patch_load(f->noise + first);
+    const couple centre = place + middle * drift;
+    const couple size = sum.size + fabs(middle) * sum.speed;
+    const couple far = couple_abs(place) + late * couple_abs(drift);
+    couple slip = noise + 8 * ROUNDING * size;
+    couple reach = patch_load(f->place_radius + first) + half * couple_abs(drift);
+    couple slope_u = patch_load(f->slope[0] + first), slope_v = patch_load(f->slope[1] + first);
+    couple rate_t = {0, 0};
+    if (lanes == 8) {
+        const couple y = sum.y[0][0], noise_y = patch_load(f->noise + 4 + first);
+        slip += late * noise_y;
+        reach += late * patch_load(f->drift_radius + first);
+        slope_u += late * patch_load(f->slope[0] + 4 + first);
+        slope_v += late * patch_load(f->slope[1] + 4 + first);
+        rate_t = couple_abs(drift + y) + (sum.speed - couple_abs(y)) + noise_y +
+                 8 * ROUNDING * (couple_abs(drift) + sum.speed);
+    }
+    const couple a = centre + (sum.x[0][0] - sum.x[2][0] - sum.x[0][2]);
+    const couple e = (sum.rest + slip + 4 * ROUNDING * far) * SLACK;
+    const couple rate_u = (sum.along_u + (double)(n * n) * slip) * (SLACK / region->d[0]);
+    const couple rate_v = (sum.along_v + (double)(m * m) * slip) * (SLACK / region->d[1]);
+    const couple least_u = patch_least(rate_u, slope_u * SLACK);
+    const couple least_v = patch_least(rate_v, slope_v * SLACK);
+    reach = (reach + 8 * ROUNDING * far) * SLACK;
+    for (int i = 0; i < COUPLE; ++i) {
+        imp_model *g = out + i;
+        g->a = a[i], g->e = e[i];
+        g->b[0] = sum.x[1][0][i], g->b[1] = sum.x[0][1][i];
+        g->b[2] = half * (drift[i] + sum.y[0][0][i]);
+        g->q[IMP_UU] = 2 * sum.x[2][0][i], g->q[IMP_VV] = 2 * sum.x[0][2][i];
+        g->q[IMP_UV] = sum.x[1][1][i], g->q[IMP_TT] = 0;
+        g->q[IMP_UT] = half * sum.y[1][0][i], g->q[IMP_VT] = half * sum.y[0][1][i];
+        g->rate[0] = least_u[i], g->rate[1] = least_v[i], g->rate[2] = rate_t[i] * SLACK;
+        g->depends = lanes == 8 ? 7 : 3, g->reserved = 0;
+        patch_range(g, size[i]);
+        patch_cut(g, centre[i] - reach[i], centre[i] + reach[i]);
+    }
+}
+
+static PATCH_INLINE void patch_polynomial(const patch *f, int n, int m, int lanes,
+                                          const imp_region *region, imp_model model[3])
+{
+    couple c[PATCH_NUMBERS_MAX / COUPLE], work[PATCH_NUMBERS_MAX / COUPLE];
+    imp_model zw[2];
+    patch_localize(f, n, m, lanes, region, c, work);
+    patch_two_models(f, n, m, lanes, 0, region, c, model);
+    patch_two_models(f, n, m, lanes, 2, region, c, zw);
+    model[2] = zw[0];
+}
+
+/* A rational patch as (X + t Y) / W. Around g = c0 + t c1, near the middle of the region,
+ *
+ *   f = place + c0 + t (drift + c1) + ((X - c0 W) + t (Y - c1 W)) / W,
+ *
+ * exactly for any c0 and c1; the numerator is small, so that little is lost in the quotient. Lemma:
+ * X - c0 W has the noise of both, and its two roundings add ROUNDING (|c0| |W| + |X - c0 W|), of
+ * which patch_two_models has the second. */
+static inline void patch_take_off(patch *f, couple *series, int lane, double c)
+{
+    const size_t couples = patch_points(f->degree) * (size_t)(f->lanes / COUPLE);
+    double *radius = lane < 4 ? &f->place_radius[lane] : &f->drift_radius[lane - 4], weights = 0;
+    for (size_t i = 0; i < couples; i += (size_t)(f->lanes / COUPLE)) {
+        double w = series[i + PATCH_W / COUPLE][PATCH_W % COUPLE];
+        weights += fabs(w);
+        series[i + (size_t)(lane / COUPLE)][lane % COUPLE] -= c * w;
+    }
+    f->noise[lane] += fabs(c) * (f->noise[PATCH_W] + 2 * ROUNDING * weights) * SLACK;
+    *radius = (*radius + fabs(c) * f->most[PATCH_W]) * SLACK;
+    for (int side = 0; side < 2; ++side)
+        f->slope[side][lane] += fabs(c) * f->slope[side][PATCH_W] * SLACK;
+}
+
+/* Leaves X, Y and W alone, all about 0. */
+static inline void patch_forget_motion(patch *f)
+{
+    memset(f->place, 0, sizeof f->place);
+    memset(f->drift, 0, sizeof f->drift);
+    memcpy(f->place_radius, f->most, sizeof f->place_radius);
+    memcpy(f->drift_radius, f->most + 4, sizeof f->drift_radius);
+}
+
+static inline imp_model patch_quotient(const patch *f, int axis, const imp_region *region,
+                                       const imp_model *x, const imp_model *w, const double c[2])
+{
+    imp_model g = imp_div(*x, *w);
+    imp_model start = imp_add(imp_num(f->place[axis]), imp_num(c[0]));
+    imp_model speed = imp_add(imp_num(f->drift[axis]), imp_num(c[1]));
+    g = imp_add(g, imp_add(start, imp_mul(speed, imp_param(region, 2))));
+    double late = fabs(region->c[2]) + region->d[2];
+    double centre = f->place[axis] + region->c[2] * f->drift[axis];
+    double far = fabs(f->place[axis]) + late * fabs(f->drift[axis]);
+    double reach = f->place_radius[axis] + late * f->drift_radius[axis] +
+                   region->d[2] * fabs(f->drift[axis]) + 8 * ROUNDING * far;
+    patch_cut(&g, centre - reach * SLACK, centre + reach * SLACK);
+    return imp_model_finish(g);
+}
+
+static inline void patch_rational(const patch *f, const imp_region *region, imp_model model[3])
+{
+    couple c[PATCH_NUMBERS_MAX / COUPLE], work[PATCH_NUMBERS_MAX / COUPLE];
+    const int n = f->degree[0], m = f->degree[1];
+    double off[3][2] = {{0}};
+    imp_model x[4];
+    patch shifted = *f;
+    patch_localize(f, n, m, f->lanes, region, c, work);
+    patch_forget_motion(&shifted);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int lane = axis; lane < f->lanes; lane += 4) {
+            double w = c[PATCH_W / COUPLE][PATCH_W % COUPLE];
+            off[axis][lane / 4] = w > 0 ? c[lane / COUPLE][lane % COUPLE] / w : 0;
+            patch_take_off(&shifted, c, lane, off[axis][lane / 4]);
+        }
+    patch_two_models(&shifted, n, m, f->lanes, 0, region, c, x);
+    patch_two_models(&shifted, n, m, f->lanes, 2, region, c, x + 2);
+    patch_cut(&x[PATCH_W], f->weight_lo, f->most[PATCH_W]);
+    for (int axis = 0; axis < 3; ++axis)
+        model[axis] = patch_quotient(f, axis, region, &x[axis], &x[PATCH_W], off[axis]);
+}
+
+/* As imp_surface_type.include. */
+static inline imp_status patch_include(const patch *f, const imp_region *region, imp_model model[3])
+{
+    imp_status status = patch_region_status(region);
+    if (status != IMP_OK) return status;
+    if (f->rational)
+        patch_rational(f, region, model);
+    else if (f->degree[0] == 3 && f->degree[1] == 3 && f->lanes == 8)
+        patch_polynomial(f, 3, 3, 8, region, model);
+    else if (f->degree[0] == 3 && f->degree[1] == 3)
+        patch_polynomial(f, 3, 3, 4, region, model);
+    else
+        patch_polynomial(f, f->degree[0], f->degree[1], f->lanes, region, model);
+    return IMP_OK;
+}
+
+/* --- A whole patch --- */
+
+/* NULL: no memory. free() it. */
+static inline patch *patch_new(const patch_data *data)
+{
+    patch *f = patch_allocate(data);
+    if (!f) return NULL;
+    double *work = malloc(patch_points(f->degree) * (size_t)f->lanes * sizeof *work);
+    if (work) {
+        patch_set_net(f, data);
+        patch_set_differences(f, 0);
+        patch_set_differences(f, 1);
+        patch_set_series(f, work);
+    } else {
+        free(f);
+        f = NULL;
+    }
+    free(work);
+    return f;
+}
+
+#endif

@@ -1,0 +1,59 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_POLYNOMIAL_H
+#define PLUGINS_POLYNOMIAL_H
+
+#include "plugin.h"
+
+#include <impinge/model.h>
+
+/* Parameters that change as a polynomial in time
+ * ==============================================
+ * A parameter has two forms of which a caller gives one: a constant rate of change (velocity,
+ * rate), or all coefficients, lowest power first (offset, angle). */
+
+/* Exactly one of the two rows must be given. */
+static inline imp_status check_one_of(const imp_value *values, int rate, int coefficients,
+                                      imp_complaint *why, const imp_parameter *rows)
+{
+    if (is_given(&values[rate]) != is_given(&values[coefficients])) return IMP_OK;
+    if (is_given(&values[rate]))
+        return complain(why, coefficients, -1, "given beside %s, but only one of the two can hold",
+                        rows[rate].name);
+    return complain(why, -1, -1, "neither %s nor %s is given; give one of them", rows[rate].name,
+                    rows[coefficients].name);
+}
+
+/* A polynomial of vectors, component by component: coefficient k of component i at
+ * [i * count + k]. Memory is the owner's. */
+typedef struct polynomial {
+    size_t count; /* coefficients of each component */
+    double *coefficient;
+} polynomial;
+
+/* How many coefficients one of the two forms gives. */
+static inline size_t polynomial_count(const imp_value *rate, const imp_value *coefficients)
+{
+    return is_given(rate) ? 2 : coefficients->extent[0];
+}
+
+/* Fills `out` (width * count numbers) from the form that is given. */
+static inline polynomial polynomial_read(const imp_value *rate, const imp_value *coefficients,
+                                         size_t width, double *out)
+{
+    polynomial p = {polynomial_count(rate, coefficients), out};
+    for (size_t i = 0; i < width; ++i)
+        for (size_t k = 0; k < p.count; ++k)
+            out[i * p.count + k] = !is_given(rate) ? coefficients->number[k * width + i]
+                                   : k == 1        ? rate->number[i]
+                                                   : 0;
+    return p;
+}
+
+/* Component i at time t. */
+static inline imp_model polynomial_at(const polynomial *p, size_t i, imp_model t)
+{
+    return imp_poly(p->coefficient + i * p->count, (int)p->count, t);
+}
+
+#endif
