@@ -201,6 +201,7 @@ END
     [ -s committed ] || skip "not a git repository"
     make -s -C "$build" dist
     tar tzf "$build"/impinge-*.tar.gz | sed 's|^[^/]*/||' | sort >released
-    run comm -23 <(sort committed) released
-    [ -z "$output" ]
+    comm -23 <(sort committed) released >missing
+    cat missing
+    [ ! -s missing ]
 }
