@@ -7,8 +7,10 @@ check_suites = \
     tests/test_elf_probe \
     tests/test_parameters \
     tests/test_pair_heap \
+    tests/test_pipeline \
     tests/test_quadratic \
     tests/test_registry \
+    tests/test_scene_file \
     tests/test_spheres \
     tests/test_surface
 
@@ -54,7 +56,7 @@ $(check_LTLIBRARIES): LIBS = -lm
 alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free \
     -Wl,--wrap=strdup,--wrap=strndup
 
-noinst_HEADERS += tests/suite.h tests/asking.h tests/sandbox.h tests/alloc_failure.h tests/plugins/tiny.h
+noinst_HEADERS += tests/suite.h tests/asking.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
 
 LDADD = core/libcore.la $(CHECK_LIBS) $(MPFI_LIBS) -lm
 
