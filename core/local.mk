@@ -23,6 +23,8 @@ core_solver = \
     core/scene.c \
     core/broad_phase.c core/broad_phase.h \
     core/quadratic.c core/quadratic.h \
+    core/relative.c core/relative.h \
+    core/normal_field.c core/normal_field.h \
     core/separation.c core/separation.h \
     core/pair_heap.c core/pair_heap.h \
     core/witness.c core/witness.h \

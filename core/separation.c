@@ -4,68 +4,8 @@
 
 #include <assert.h>
 
+#include "normal_field.h"
 #include "quadratic.h"
-
-/* --- Models re-centred on a window ------------------------------------------------ */
-
-/* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v that
- * holds at its middle. */
-typedef struct slice {
-    double bu[3], bv[3], quu[3], quv[3], qvv[3];
-} slice;
-
-/* B - A over the window: offset delta + drift * w, plus slice b, minus slice a, give or take slack.
- */
-typedef struct relative {
-    slice a, b;
-    double delta[3], drift[3];
-    double slack[3];     /* both remainders, and what moving the centre put there */
-    double magnitude[3]; /* sum of abs of everything above, before cancellation */
-    double mid, half;
-} relative;
-
-/* Lemma (re-centring). In a node, s_t = (t - c) / d; over the window s_t = s0 + k w with
- * s0 = (mid - c) / d and k = half / d, abs(s0) + k <= 1 up to rounding. Substituting,
- *
- *   a + bt s_t + qtt s_t^2 = [a + bt s0 + qtt s0^2] + [k (bt + 2 qtt s0)] w + qtt k^2 w^2
- *   bu s_u + qut s_u s_t   = [bu + qut s0] s_u + qut k s_u w        (v alike)
- *
- * The terms in w^2, s_u w and s_v w have no place in the form; abs(s) <= 1 bounds them by
- * k (abs(qut) + abs(qvt) + k abs(qtt)), which goes to the slack, weighted by the window. */
-static void slice_at(const node *n, double mid, double half, slice *s, double *shift, double *drift,
-                     double *slack)
-{
-    const double d = n->region.d[PARAMETER_T], c = n->region.c[PARAMETER_T];
-    const double s0 = d > 0 ? (mid - c) / d : 0, k = d > 0 ? half / d : 0;
-    const quadratic3 *f = &n->f;
-    for (int i = 0; i < 3; ++i) {
-        s->bu[i] = f->bu[i] + f->qut[i] * s0;
-        s->bv[i] = f->bv[i] + f->qvt[i] * s0;
-        s->quu[i] = f->quu[i];
-        s->quv[i] = f->quv[i];
-        s->qvv[i] = f->qvv[i];
-        shift[i] = (f->bt[i] + f->qtt[i] * s0) * s0;
-        drift[i] = k * (f->bt[i] + 2 * f->qtt[i] * s0);
-        slack[i] = n->e[i] + k * (fabs(f->qut[i]) + fabs(f->qvt[i]) + k * fabs(f->qtt[i]));
-    }
-}
-
-static void relative_at(const node *a, const node *b, const time_window *window, relative *r)
-{
-    double shift_a[3], shift_b[3], drift_a[3], drift_b[3], slack_a[3], slack_b[3];
-    r->mid = 0.5 * window->lo + 0.5 * window->hi;
-    const double reach = fmax(window->hi - r->mid, r->mid - window->lo);
-    r->half = reach + reach * 0x1p-51;
-    slice_at(a, r->mid, r->half, &r->a, shift_a, drift_a, slack_a);
-    slice_at(b, r->mid, r->half, &r->b, shift_b, drift_b, slack_b);
-    for (int i = 0; i < 3; ++i) {
-        const double apart = b->f.a[i] - a->f.a[i];
-        r->delta[i] = apart + (shift_b[i] - shift_a[i]);
-        r->drift[i] = drift_b[i] - drift_a[i];
-        r->slack[i] = slack_a[i] + slack_b[i];
-        r->magnitude[i] = fabs(apart) + (a->magnitude[i] + b->magnitude[i]);
-    }
-}
 
 /* --- One axis ------------------------------------------------------------------------- */
 
@@ -74,22 +14,6 @@ static quadratic project(const slice *s, vec3 n)
     return (quadratic){vec3_dot(n, vec3_from(s->bu)), vec3_dot(n, vec3_from(s->bv)),
                        vec3_dot(n, vec3_from(s->quu)), vec3_dot(n, vec3_from(s->quv)),
                        vec3_dot(n, vec3_from(s->qvv))};
-}
-
-/* Where w may be: [lo, hi] within [-1, 1]. */
-typedef struct share {
-    double lo, hi;
-} share;
-
-/* Keeps the w with low + drift w <= limit. The division and the difference are each off by 2^-53; a
- * w of abs(w) <= 1 is moved outward by 2^-50. NaN keeps everything. */
-static bool share_cut(share *s, double low, double drift, double limit)
-{
-    if (low - fabs(drift) > limit) return false;
-    const double w = (limit - low) / drift;
-    if (drift > 0 && w + 0x1p-50 < s->hi) s->hi = w + 0x1p-50;
-    if (drift < 0 && w - 0x1p-50 > s->lo) s->lo = w - 0x1p-50;
-    return !(s->lo > s->hi);
 }
 
 /* Lemma (one axis). For every w in the window and all points x of A, y of B at that time,
@@ -141,37 +65,36 @@ enum {
     AXES
 };
 
-static vec3 axis_direction(const relative *r, const node *a, const node *b, unsigned axis)
+static vec3 axis_direction(const relative *r, unsigned axis)
 {
     switch (axis) {
     case AXIS_CENTRES:
         return vec3_sub(vec3_from(r->delta), vec3_from(r->drift));
     case AXIS_NORMAL_A:
-        return a->normal;
+        return r->a.normal;
     case AXIS_NORMAL_B:
-        return b->normal;
+        return r->b.normal;
     case AXIS_A_U:
-        return vec3_cross(a->normal, vec3_from(a->f.bu));
+        return vec3_cross(r->a.normal, vec3_from(r->a.bu));
     case AXIS_A_V:
-        return vec3_cross(a->normal, vec3_from(a->f.bv));
+        return vec3_cross(r->a.normal, vec3_from(r->a.bv));
     case AXIS_B_U:
-        return vec3_cross(b->normal, vec3_from(b->f.bu));
+        return vec3_cross(r->b.normal, vec3_from(r->b.bu));
     case AXIS_B_V:
-        return vec3_cross(b->normal, vec3_from(b->f.bv));
+        return vec3_cross(r->b.normal, vec3_from(r->b.bv));
     default:
         return (vec3){{axis == AXIS_X, axis == AXIS_Y, axis == AXIS_Z}};
     }
 }
 
-static bool axes_cut(const relative *r, const node *a, const node *b, double clearance, share *s,
-                     unsigned *best)
+static bool axes_cut(const relative *r, double clearance, share *s, unsigned *best)
 {
     const unsigned first = *best < AXES ? *best : 0;
     double width = s->hi - s->lo;
     for (unsigned k = 0; k <= AXES; ++k) {
         const unsigned axis = k == 0 ? first : k - 1;
         if (k > 0 && axis == first) continue;
-        const bool left = axis_cut(r, axis_direction(r, a, b, axis), clearance, s);
+        const bool left = axis_cut(r, axis_direction(r, axis), clearance, s);
         if (!left || s->hi - s->lo < width) *best = axis;
         if (!left) return false;
         width = s->hi - s->lo;
@@ -200,7 +123,8 @@ bool separation_by_models(const node *a, const node *b, double clearance, time_w
         relative r;
         share s = {-1, 1};
         relative_at(a, b, window, &r);
-        if (!axes_cut(&r, a, b, clearance, &s, axis)) return false;
+        if (!axes_cut(&r, clearance, &s, axis)) return false;
+        if (!normal_field_cut(&r, clearance, &s)) return false;
         window_take(window, &r, &s);
         if (!(s.hi - s.lo < 1.0)) break; /* not even halved: a new centre would not help much */
     }

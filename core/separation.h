@@ -3,17 +3,13 @@
 #ifndef CORE_SEPARATION_H
 #define CORE_SEPARATION_H
 
-#include "node.h"
+#include "relative.h"
 
 /* When can two nodes be near?
  * ===========================
  * Times in a window at which no axis shows the two inclusions apart. Outside the window that
  * is left, the nodes' points are farther than `clearance` from each other: proved, rounding
  * included. A NaN or an infinity anywhere leaves the window as it is. */
-
-typedef struct time_window {
-    double lo, hi; /* lo <= hi */
-} time_window;
 
 /* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. `axis` is
  * the number of the axis that did most: pass the parent's, it is tried first. */

@@ -1,0 +1,162 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "normal_field.h"
+
+#include "quadratic.h"
+
+/* A vector in the field's frame: along the tangents t1, t2 and the normal. */
+typedef struct local {
+    double t[2], n;
+} local;
+
+typedef struct frame {
+    vec3 t[2], n;
+} frame;
+
+static local to_local(const frame *f, const double *x)
+{
+    const vec3 v = vec3_from(x);
+    return (local){{vec3_dot(f->t[0], v), vec3_dot(f->t[1], v)}, vec3_dot(f->n, v)};
+}
+
+/* A slice in the frame. */
+typedef struct local_slice {
+    local l[2]; /* slopes along u, v */
+    local uu, uv, vv;
+} local_slice;
+
+static local_slice slice_to_local(const frame *f, const slice *s)
+{
+    return (local_slice){{to_local(f, s->bu), to_local(f, s->bv)},
+                         to_local(f, s->quu),
+                         to_local(f, s->quv),
+                         to_local(f, s->qvv)};
+}
+
+/* The frame between the two normals, on the side of B at the window's start; false where the
+ * surfaces have no normals or face each other at more than 60 degrees. Unit length up to rounding.
+ */
+static bool frame_between(const relative *r, frame *f)
+{
+    const double la = vec3_norm(r->a.normal), lb = vec3_norm(r->b.normal);
+    if (!(la > 0x1p-300 && lb > 0x1p-300 && la < 0x1p300 && lb < 0x1p300)) return false;
+    const vec3 na = vec3_scale(r->a.normal, 1 / la), nb = vec3_scale(r->b.normal, 1 / lb);
+    const double cosine = vec3_dot(na, nb);
+    if (!(fabs(cosine) > 0.5)) return false;
+    vec3 n = cosine > 0 ? vec3_sub(na, vec3_scale(nb, -1)) : vec3_sub(na, nb);
+    const vec3 start = vec3_sub(vec3_from(r->delta), vec3_from(r->drift));
+    n = vec3_scale(n, (vec3_dot(n, start) < 0 ? -1 : 1) / vec3_norm(n));
+    const int least = fabs(n.x[0]) < fabs(n.x[1]) ? (fabs(n.x[0]) < fabs(n.x[2]) ? 0 : 2)
+                                                  : (fabs(n.x[1]) < fabs(n.x[2]) ? 1 : 2);
+    vec3 e = {{0, 0, 0}};
+    e.x[least] = 1;
+    const vec3 t = vec3_cross(n, e);
+    f->n = n;
+    f->t[0] = vec3_scale(t, 1 / vec3_norm(t));
+    f->t[1] = vec3_cross(n, f->t[0]);
+    return true;
+}
+
+/* Symmetric 2 x 2. */
+typedef struct form {
+    double xx, xy, yy;
+} form;
+
+/* K with y' K y / 2 = n.(quadratic part), y = (tangential slopes) s; false where the slopes are too
+ * nearly parallel to say. Only a choice: nothing is proved by it. */
+static bool curvature(const local_slice *s, form *k)
+{
+    const double ux = s->l[0].t[0], uy = s->l[0].t[1], vx = s->l[1].t[0], vy = s->l[1].t[1];
+    const double det = ux * vy - uy * vx;
+    if (!(fabs(det) > 0x1p-20 * (fabs(ux * vy) + fabs(uy * vx)))) return false;
+    /* s = J y with J the inverse of [u v]; K = J' H J, H = [[2 uu, uv], [uv, 2 vv]] */
+    const double a = vy / det, b = -vx / det, c = -uy / det, d = ux / det;
+    const double hxx = 2 * s->uu.n, hxy = s->uv.n, hyy = 2 * s->vv.n;
+    k->xx = a * a * hxx + 2 * a * c * hxy + c * c * hyy;
+    k->xy = a * b * hxx + (a * d + b * c) * hxy + c * d * hyy;
+    k->yy = b * b * hxx + 2 * b * d * hxy + d * d * hyy;
+    return true;
+}
+
+/* How the field turns along one parameter: m = -K l / 2, in the tangents. */
+static void turn(const form *k, const local_slice *s, double m[2][2])
+{
+    for (int j = 0; j < 2; ++j) {
+        const double x = s->l[j].t[0], y = s->l[j].t[1];
+        m[j][0] = -0.5 * (k->xx * x + k->xy * y);
+        m[j][1] = -0.5 * (k->xy * x + k->yy * y);
+    }
+}
+
+static double dot2(const double *m, const local *x) { return m[0] * x->t[0] + m[1] * x->t[1]; }
+
+/* One surface's part of n(s).(B - A): sign +1 for B, -1 for A. */
+static quadratic part(const local_slice *s, double m[2][2], const local *delta, double sign)
+{
+    return (quadratic){sign * s->l[0].n + dot2(m[0], delta), sign * s->l[1].n + dot2(m[1], delta),
+                       sign * (s->uu.n + dot2(m[0], &s->l[0])),
+                       sign * (s->uv.n + dot2(m[0], &s->l[1]) + dot2(m[1], &s->l[0])),
+                       sign * (s->vv.n + dot2(m[1], &s->l[1]))};
+}
+
+static double tangential_curvature(const local_slice *s, int k)
+{
+    return fabs(s->uu.t[k]) + fabs(s->uv.t[k]) + fabs(s->vv.t[k]);
+}
+
+static double weighted(vec3 n, const double *x)
+{
+    return fabs(n.x[0]) * x[0] + fabs(n.x[1]) * x[1] + fabs(n.x[2]) * x[2];
+}
+
+/* Lemma. Let D = delta + drift w + (slopes and curvature of B) - (those of A) + rest, |rest_i| <=
+ * slack_i, and n(s) = n0 + sum_k s_k (m_k1 t1 + m_k2 t2), k over the four parameters, for any
+ * numbers m. Then
+ *
+ *   n(s).D = n0.delta + n0.drift w
+ *          + part B (s_b) + part A (s_a)                      terms of each surface's own
+ * parameters
+ *          + sum s_k s_l (m_k.l_l - m_l.l_k), k of A, l of B  "cross": vanishes for m = -K l / 2
+ *          + sum s_k m_k.(drift w + curvature of B - of A)    at most mu.(|drift| + |curvatures|)
+ * in t1, t2
+ *          + n(s).rest                                        at most (|n0| + mu1 |t1| + mu2
+ * |t2|).slack
+ *
+ * where mu_i = sum_k |m_ki| bounds the turn. And |n(s).D| <= |n(s)| |D|, where |n(s)|^2 is at most
+ * |n0|^2 + 2 sum_i mu_i |n0.t_i| + (sum_i mu_i |t_i|)^2. So where the lower bound of n(s).D exceeds
+ * |n(s)| clearance, every point of B is farther than that from every point of A. n0, t and m are
+ * what they are in double precision: they need not be unit, tangent or any good. Rounding: every
+ * number above is at most twelve operations on terms that size counts; together below 2^9 * 2^-53
+ * size. */
+bool normal_field_cut(const relative *r, double clearance, share *s)
+{
+    frame f;
+    form ka, kb;
+    if (!frame_between(r, &f)) return true;
+    const local_slice sa = slice_to_local(&f, &r->a), sb = slice_to_local(&f, &r->b);
+    if (!curvature(&sa, &ka) || !curvature(&sb, &kb)) return true;
+    const form mean = {0.5 * (ka.xx + kb.xx), 0.5 * (ka.xy + kb.xy), 0.5 * (ka.yy + kb.yy)};
+    double ma[2][2], mb[2][2];
+    turn(&mean, &sa, ma);
+    turn(&mean, &sb, mb);
+    const local delta = to_local(&f, r->delta), drift = to_local(&f, r->drift);
+    const quadratic qa = part(&sa, ma, &delta, -1), qb = part(&sb, mb, &delta, 1);
+    double slack = 0x1p-490 + weighted(f.n, r->slack), size = weighted(f.n, r->magnitude);
+    double tilt = 0, lean = 0;
+    for (int k = 0; k < 2; ++k) {
+        const double mu =
+            (fabs(ma[0][k]) + fabs(ma[1][k]) + fabs(mb[0][k]) + fabs(mb[1][k])) * (1 + 0x1p-50);
+        slack += mu * (fabs(drift.t[k]) + tangential_curvature(&sa, k) +
+                       tangential_curvature(&sb, k) + weighted(f.t[k], r->slack));
+        size += 2 * mu * weighted(f.t[k], r->magnitude);
+        tilt += mu * fabs(vec3_dot(f.n, f.t[k])) + mu * 0x1p-50;
+        lean += mu * vec3_norm(f.t[k]);
+    }
+    for (int k = 0; k < 2; ++k)
+        for (int l = 0; l < 2; ++l) slack += fabs(dot2(ma[k], &sb.l[l]) - dot2(mb[l], &sa.l[k]));
+    if (!(size < 0x1p400)) return true;
+    slack += slack * 0x1p-48 + size * 0x1p-44;
+    const double length = sqrt(vec3_dot(f.n, f.n) + 2 * tilt + lean * lean) * (1 + 0x1p-48);
+    const double low = delta.n + quadratic_span(&qa).lo + quadratic_span(&qb).lo - slack;
+    return share_cut(s, low, drift.n, length * clearance);
+}

@@ -1,0 +1,58 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "relative.h"
+
+/* Lemma (re-centring). In a node, s_t = (t - c) / d; over the window s_t = s0 + k w with
+ * s0 = (mid - c) / d and k = half / d, abs(s0) + k <= 1 up to rounding. Substituting,
+ *
+ *   a + bt s_t + qtt s_t^2 = [a + bt s0 + qtt s0^2] + [k (bt + 2 qtt s0)] w + qtt k^2 w^2
+ *   bu s_u + qut s_u s_t   = [bu + qut s0] s_u + qut k s_u w        (v alike)
+ *
+ * The terms in w^2, s_u w and s_v w have no place in the form; abs(s) <= 1 bounds them by
+ * k (abs(qut) + abs(qvt) + k abs(qtt)), which goes to the slack, weighted by the window. */
+static void slice_at(const node *n, double mid, double half, slice *s, double *shift, double *drift,
+                     double *slack)
+{
+    const double d = n->region.d[PARAMETER_T], c = n->region.c[PARAMETER_T];
+    const double s0 = d > 0 ? (mid - c) / d : 0, k = d > 0 ? half / d : 0;
+    const quadratic3 *f = &n->f;
+    for (int i = 0; i < 3; ++i) {
+        s->bu[i] = f->bu[i] + f->qut[i] * s0;
+        s->bv[i] = f->bv[i] + f->qvt[i] * s0;
+        s->quu[i] = f->quu[i];
+        s->quv[i] = f->quv[i];
+        s->qvv[i] = f->qvv[i];
+        shift[i] = (f->bt[i] + f->qtt[i] * s0) * s0;
+        drift[i] = k * (f->bt[i] + 2 * f->qtt[i] * s0);
+        slack[i] = n->e[i] + k * (fabs(f->qut[i]) + fabs(f->qvt[i]) + k * fabs(f->qtt[i]));
+    }
+    s->normal = vec3_cross(vec3_from(s->bu), vec3_from(s->bv));
+}
+
+void relative_at(const node *a, const node *b, const time_window *window, relative *r)
+{
+    double shift_a[3], shift_b[3], drift_a[3], drift_b[3], slack_a[3], slack_b[3];
+    r->mid = 0.5 * window->lo + 0.5 * window->hi;
+    const double reach = fmax(window->hi - r->mid, r->mid - window->lo);
+    r->half = reach + reach * 0x1p-51;
+    slice_at(a, r->mid, r->half, &r->a, shift_a, drift_a, slack_a);
+    slice_at(b, r->mid, r->half, &r->b, shift_b, drift_b, slack_b);
+    for (int i = 0; i < 3; ++i) {
+        const double apart = b->f.a[i] - a->f.a[i];
+        r->delta[i] = apart + (shift_b[i] - shift_a[i]);
+        r->drift[i] = drift_b[i] - drift_a[i];
+        r->slack[i] = slack_a[i] + slack_b[i];
+        r->magnitude[i] = fabs(apart) + (a->magnitude[i] + b->magnitude[i]);
+    }
+}
+
+/* Keeps the w with low + drift w <= limit. The division and the difference are each off by 2^-53; a
+ * w of abs(w) <= 1 is moved outward by 2^-50. NaN keeps everything. */
+bool share_cut(share *s, double low, double drift, double limit)
+{
+    if (low - fabs(drift) > limit) return false;
+    const double w = (limit - low) / drift;
+    if (drift > 0 && w + 0x1p-50 < s->hi) s->hi = w + 0x1p-50;
+    if (drift < 0 && w - 0x1p-50 > s->lo) s->lo = w - 0x1p-50;
+    return !(s->lo > s->hi);
+}

@@ -1,0 +1,45 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_RELATIVE_H
+#define CORE_RELATIVE_H
+
+#include "node.h"
+
+/* Two nodes' models, re-centred on a window of time and seen from each other. */
+
+typedef struct time_window {
+    double lo, hi; /* lo <= hi */
+} time_window;
+
+/* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v that
+ * holds at its middle. */
+typedef struct slice {
+    double bu[3], bv[3], quu[3], quv[3], qvv[3];
+    vec3 normal; /* bu x bv: at the window's middle, which may be far from the node's */
+} slice;
+
+/* B - A over the window: offset delta + drift * w, plus slice b, minus slice a, give or take slack.
+ */
+typedef struct relative {
+    slice a, b;
+    double delta[3], drift[3];
+    double slack[3];     /* both remainders, and what moving the centre put there */
+    double magnitude[3]; /* sum of abs of everything above, before cancellation */
+    double mid, half;    /* of the window; half is rounded up */
+} relative;
+
+/* RELATIVE_ROUNDING * magnitude bounds what rounding did to all coefficients of a coordinate
+ * together. */
+#define RELATIVE_ROUNDING (20 * 0x1p-53)
+
+void relative_at(const node *a, const node *b, const time_window *window, relative *r);
+
+/* Where w may be: [lo, hi] within [-1, 1]. */
+typedef struct share {
+    double lo, hi;
+} share;
+
+/* Keeps the w with low + drift w <= limit; false: there is none. NaN keeps everything. */
+bool share_cut(share *s, double low, double drift, double limit);
+
+#endif
