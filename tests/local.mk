@@ -4,6 +4,8 @@
 # One line per suite: tests/NAME is built from tests/NAME.c and linked with everything in
 # core, internal symbols included.
 check_suites = \
+    tests/fuzz_scene \
+    tests/test_alloc_failure \
     tests/test_elf_probe \
     tests/test_parameters \
     tests/test_pair_heap \
@@ -52,11 +54,26 @@ test_plugin_ldflags = -avoid-version -shared -rpath /nowhere
 tests_plugins_fast_math_la_LDFLAGS = -module $(test_plugin_ldflags) -Wc,-ffast-math
 $(check_LTLIBRARIES): LIBS = -lm
 
-# The suite that fails every allocation in turn.
+# Suites that fail every allocation in turn.
 alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free \
     -Wl,--wrap=strdup,--wrap=strndup
+tests_test_alloc_failure_SOURCES = tests/test_alloc_failure.c tests/alloc_failure.c
+tests_test_alloc_failure_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 
 noinst_HEADERS += tests/suite.h tests/asking.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
+
+# What tests/fuzz_scene reads: scenes, and pipelines.
+EXTRA_DIST += \
+    tests/fuzz_scene.d/all_kinds.json \
+    tests/fuzz_scene.d/bad_shapes.json \
+    tests/fuzz_scene.d/bar.txt \
+    tests/fuzz_scene.d/deep.json \
+    tests/fuzz_scene.d/kit.txt \
+    tests/fuzz_scene.d/not_utf8.json \
+    tests/fuzz_scene.d/numbers.txt \
+    tests/fuzz_scene.d/patch.json \
+    tests/fuzz_scene.d/quotes.txt \
+    tests/fuzz_scene.d/sphere.txt
 
 LDADD = core/libcore.la $(CHECK_LIBS) $(MPFI_LIBS) -lm
 

@@ -1,0 +1,156 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "alloc_failure.h"
+#include "kit_registry.h"
+#include "parameters.h"
+#include "suite.h"
+
+/* Whatever allocation fails, what was begun is undone and the answer says so. */
+
+#define ATTEMPTS 10000 /* more than any of these allocate: the loops end by themselves */
+
+static imp_error error;
+
+static void assert_nothing_left(size_t before, size_t n)
+{
+    ck_assert_msg(alloc_failure_live() == before, "failing allocation %zu leaves %zd blocks", n,
+                  (ssize_t)(alloc_failure_live() - before));
+}
+
+static imp_registry *scan(const sandbox *box)
+{
+    search_path path = {.count = 0};
+    imp_registry *registry = search_path_add(&path, box->path, true) ? registry_scan(&path) : NULL;
+    search_path_clear(&path);
+    return registry;
+}
+
+/* jansson tells a few of its failures as errors of syntax. A preset then looks wrong, and its
+ * plugin is refused. */
+static bool blames_a_preset(const imp_registry *registry)
+{
+    imp_plugin_refusal refusal;
+    for (size_t i = 0; imp_registry_refusal(registry, i, &refusal); ++i)
+        if (strstr(refusal.reason, "which is not JSON")) return true;
+    return false;
+}
+
+START_TEST(a_registry_is_whole_or_not_there)
+{
+    sandbox box = sandbox_new();
+    sandbox_link(&box, "kit", "a.so");
+    sandbox_link(&box, "half_bad", "b.so");
+    sandbox_link(&box, "twin", "c.so");
+    sandbox_link(&box, "no_entry", "d.so");
+    sandbox_link(&box, "bad_parameter_table", "e.so");
+    size_t before = alloc_failure_live(), n = 0;
+    for (bool failed = true; failed && n < ATTEMPTS;) {
+        alloc_failure_begin(++n);
+        imp_registry *registry = scan(&box);
+        failed = alloc_failure_end();
+        bool whole = registry && !blames_a_preset(registry);
+        ck_assert_msg(whole != failed, "failing allocation %zu", n);
+        imp_registry_free(registry);
+        assert_nothing_left(before, n);
+    }
+    ck_assert_uint_gt(n, 50);
+    sandbox_remove(&box);
+}
+END_TEST
+
+START_TEST(the_search_path_is_whole_or_refused)
+{
+    setenv("IMPINGE_PLUGIN_PATH", "/one:/two:/three:/four", 1);
+    setenv("XDG_DATA_HOME", "/data", 1);
+    size_t before = alloc_failure_live(), n = 0;
+    for (bool failed = true; failed && n < ATTEMPTS;) {
+        search_path path = {.count = 0};
+        alloc_failure_begin(++n);
+        bool good = search_path_add_defaults(&path, "/five:/six");
+        failed = alloc_failure_end();
+        ck_assert(good != failed);
+        search_path_clear(&path);
+        assert_nothing_left(before, n);
+    }
+}
+END_TEST
+
+#define PLENTY                                                                                     \
+    "{\"bodies\":[{\"name\":\"a\",\"surfaces\":[{\"type\":\"kit\",\"radius\":1,\"points\":[[1,2,"  \
+    "3],"                                                                                          \
+    "[4,5,6],[7,8,9]],\"constants\":{\"a\":1,\"b\":2},\"label\":\"x\",\"maps\":[{\"type\":"        \
+    "\"nudge\",\"by\":[1,0,0]}]}]},{\"surfaces\":[{\"type\":\"kit\",\"radius\":2}],\"maps\":["     \
+    "{\"type\":\"nudge\",\"by\":[0,1,0]}]}],\"ignore\":[[\"a\",\"body1\"]],\"time\":[0,2]}"
+
+/* Of jansson's failures told as errors of syntax, too, nothing comes. */
+static void assert_refused(imp_code code, size_t n)
+{
+    ck_assert_msg(code == IMP_ERROR_MEMORY || code == IMP_ERROR_SCENE, "allocation %zu: %s", n,
+                  error.text);
+}
+
+START_TEST(a_scene_is_whole_or_not_there)
+{
+    imp_registry *registry = kit_registry();
+    alloc_failure_begin(0);
+    imp_scene_free(imp_scene_from_json(registry, PLENTY, strlen(PLENTY), "s", &error));
+    alloc_failure_end();
+    size_t before = alloc_failure_live(), n = 0;
+    for (bool failed = true; failed && n < ATTEMPTS;) {
+        alloc_failure_begin(++n);
+        imp_scene *scene = imp_scene_from_json(registry, PLENTY, strlen(PLENTY), "s", &error);
+        failed = alloc_failure_end();
+        ck_assert_msg(!scene == failed, "failing allocation %zu: %s", n, error.text);
+        if (failed) assert_refused(error.code, n);
+        imp_scene_free(scene);
+        assert_nothing_left(before, n);
+    }
+    ck_assert_uint_gt(n, 100);
+    imp_registry_free(registry);
+}
+END_TEST
+
+START_TEST(a_pair_is_whole_or_not_there)
+{
+    imp_registry *registry = kit_registry();
+    const char *a = "kit radius=1 center=1,2,3 label=sin(u) constants={\"a\":1} ! nudge by=1,0,0",
+               *b = "kit radius=.5 weights=.5,.25 label=\"x\" ! nudge by=0,.5,0 ! nudge by=1,1,1";
+    alloc_failure_begin(0);
+    imp_scene_free(imp_scene_from_pair(registry, a, b, &error));
+    alloc_failure_end();
+    size_t before = alloc_failure_live(), n = 0;
+    for (bool failed = true; failed && n < ATTEMPTS;) {
+        alloc_failure_begin(++n);
+        imp_scene *scene = imp_scene_from_pair(registry, a, b, &error);
+        failed = alloc_failure_end();
+        ck_assert_msg(!scene == failed, "failing allocation %zu: %s", n, error.text);
+        if (failed) assert_refused(error.code, n);
+        imp_scene_free(scene);
+        assert_nothing_left(before, n);
+    }
+    ck_assert_uint_gt(n, 100);
+    imp_registry_free(registry);
+}
+END_TEST
+
+START_TEST(a_file_that_does_not_fit_into_memory_is_told)
+{
+    imp_registry *registry = kit_registry();
+    sandbox box = sandbox_new();
+    sandbox_write(&box, "s.json", PLENTY, strlen(PLENTY));
+    size_t before = alloc_failure_live();
+    alloc_failure_begin(1);
+    ck_assert_ptr_null(imp_scene_from_file(registry, sandbox_file(&box, "s.json").at, &error));
+    ck_assert(alloc_failure_end());
+    ck_assert_int_eq(error.code, IMP_ERROR_MEMORY);
+    assert_nothing_left(before, 1);
+    sandbox_remove(&box);
+    imp_registry_free(registry);
+}
+END_TEST
+
+SUITE_MAIN("alloc_failure", a_registry_is_whole_or_not_there, the_search_path_is_whole_or_refused,
+           a_scene_is_whole_or_not_there, a_pair_is_whole_or_not_there,
+           a_file_that_does_not_fit_into_memory_is_told)
