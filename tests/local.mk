@@ -20,7 +20,12 @@ check_suites = \
 mpfi_suites =
 
 # Command-line tests; the environment below tells them where things are.
-bats_suites =
+bats_suites = \
+    tests/cli.bats \
+    tests/cli_batch.bats \
+    tests/cli_list.bats \
+    tests/cli_pair.bats \
+    tests/cli_solve.bats
 
 # Tests of the sources, the scripts and the installation.
 script_suites = \
@@ -116,7 +121,8 @@ AM_TESTS_ENVIRONMENT = \
     XDG_DATA_HOME='$(abs_top_builddir)/tests/no-user-data'; export XDG_DATA_HOME; \
     unset IMPINGE_PLUGIN_PATH;
 
-EXTRA_DIST += $(bats_suites) $(script_suites) tests/include_order
+EXTRA_DIST += $(bats_suites) $(script_suites) tests/include_order tests/cli_helper.bash \
+    tests/schema.jq
 
 # With sanitizers a second full run is slow and tells nothing new of scripts and installation.
 .PHONY: check-sanitized

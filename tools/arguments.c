@@ -79,7 +79,7 @@ static exit_status unknown_option(const verb *v, const char *word, spelling s)
     name[length] = '\0';
     if (v != NULL && find_anywhere(s) != NULL && word[1] == '-')
         return complain(EXIT_USAGE, speaker,
-                        "this verb takes no --%s ('impinge help %s' shows what "
+                        "this verb takes no --%s (`impinge help %s` shows what "
                         "it takes)",
                         name, help);
     nearest near = nearest_to(name);
@@ -87,9 +87,9 @@ static exit_status unknown_option(const verb *v, const char *word, spelling s)
     for (const verb *const *all = verbs_all(); v == NULL && *all != NULL; ++all)
         offer_options(&near, *all);
     if (near.name != NULL)
-        return complain(EXIT_USAGE, speaker, "there is no option '%s'; nearest is '--%s'", word,
+        return complain(EXIT_USAGE, speaker, "there is no option '%s', did you mean '--%s'?", word,
                         near.name);
-    return complain(EXIT_USAGE, speaker, "there is no option '%s' ('impinge help%s%s' shows all)",
+    return complain(EXIT_USAGE, speaker, "there is no option '%s' (`impinge help%s%s` shows all)",
                     word, v != NULL ? " " : "", help);
 }
 

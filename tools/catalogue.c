@@ -67,7 +67,9 @@ range_text catalogue_range(const imp_parameter *p)
     const char *above = p->flags & IMP_MIN_OPEN ? ">" : ">=";
     const char *below = p->flags & IMP_MAX_OPEN ? "<" : "<=";
     if (p->kind != IMP_NUMBER && p->kind != IMP_INTEGER) return range;
-    if (low && high)
+    if (low && high && !(p->flags & (IMP_MIN_OPEN | IMP_MAX_OPEN)))
+        snprintf(range.text, sizeof range.text, "from %.10g to %.10g", p->min, p->max);
+    else if (low && high)
         snprintf(range.text, sizeof range.text, "%s %.10g and %s %.10g", above, p->min, below,
                  p->max);
     else if (low)

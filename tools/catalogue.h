@@ -20,7 +20,7 @@ typedef struct shape_text {
 } shape_text;
 shape_text catalogue_shape(const imp_parameter *p);
 
-/* "> 0", "0 to 2", "" where every number will do. */
+/* "> 0", "from 0 to 2", "> 0 and <= 2", "" where every number will do. */
 typedef struct range_text {
     char text[96];
 } range_text;

@@ -28,7 +28,7 @@ static exit_status run(const arguments *args)
     if (arguments_option(args, "version") != NULL) return print_version();
     if (args->verb != NULL) return args->verb->run(args);
     return complain(EXIT_USAGE, NULL,
-                    "which verb? 'impinge help' shows all, 'impinge demo' a first "
+                    "which verb? `impinge help` shows all, `impinge demo` a first "
                     "contact");
 }
 

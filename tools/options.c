@@ -45,15 +45,15 @@ const option options_query[] = {
     {.name = "max-pairs",
      .kind = OPTION_COUNT,
      .argument = "N",
-     .help = "give up after testing N pairs of regions (K, M, G: thousands); 0: never (0)"},
+     .help = "test at most N pairs of regions (K, M, G: thousands); 0: no limit (0)"},
     {.name = "max-seconds",
      .kind = OPTION_NUMBER,
      .argument = "S",
-     .help = "give up after S seconds; 0: never (0)"},
+     .help = "search at most S seconds; 0: no limit (0)"},
     {.name = "max-bytes",
      .kind = OPTION_BYTES,
      .argument = "N",
-     .help = "give up when trees and heap take N bytes (K, M, G: times 1024); 0: never (0)"},
+     .help = "use at most N bytes (K, M, G: times 1024); 0: no limit (1G)"},
     {.name = "method",
      .kind = OPTION_CHOICE,
      .argument = "NAME",
@@ -68,7 +68,7 @@ const option options_query[] = {
      .kind = OPTION_CHOICE,
      .argument = "FORM",
      .choices = rates,
-     .help = "with --method paper: form of the rate bounds (full)"},
+     .help = "with --method paper: rate bounds (full)"},
     {.name = "exit-code", .help = "exit 1 on contact, 0 on clear"},
     {.name = NULL},
 };
@@ -135,7 +135,7 @@ static exit_status read_choice(const option *row, const char *text, const char *
         strncat(allowed, row->choices[i], sizeof allowed - strlen(allowed) - 1);
     }
     if (near.name != NULL)
-        return complain(EXIT_USAGE, verb, "--%s must be one of %s, not '%s'; nearest is '%s'",
+        return complain(EXIT_USAGE, verb, "--%s must be one of %s, not '%s'; did you mean '%s'?",
                         row->name, allowed, text, near.name);
     return complain(EXIT_USAGE, verb, "--%s must be one of %s, not '%s'", row->name, allowed, text);
 }

@@ -70,8 +70,16 @@ json_t *output_json_number(double number)
     return isfinite(number) ? json_real(number) : json_null();
 }
 
+static bool is_plain_word(const char *text)
+{
+    return text[0] != '\0' &&
+           text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                             "0123456789+,-./:=@_")] == '\0';
+}
+
 char *output_shell_word(const char *text)
 {
+    if (is_plain_word(text)) return strdup(text);
     char *word = malloc(4 * strlen(text) + 3), *out = word;
     if (word == NULL) return NULL;
     *out++ = '\'';

@@ -1,7 +1,6 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
 #include <stdio.h>
-#include <string.h>
 
 #include "output.h"
 #include "result.h"
@@ -37,10 +36,18 @@ static side_text side_columns(const imp_scene *scene, const imp_side *side)
     return text;
 }
 
+/* Characters of UTF-8 text: every byte but those that continue one. */
+static int width(const char *text)
+{
+    int characters = 0;
+    for (; *text != '\0'; ++text) characters += ((unsigned char)*text & 0xC0) != 0x80;
+    return characters;
+}
+
 static int wider(const char *a, const char *b)
 {
-    const size_t m = strlen(a), n = strlen(b);
-    return (int)(m > n ? m : n);
+    const int m = width(a), n = width(b);
+    return m > n ? m : n;
 }
 
 static void print_side(const char *label, const imp_side *side, const side_text *own,
@@ -48,7 +55,7 @@ static void print_side(const char *label, const imp_side *side, const side_text 
 {
     print_label(label);
     printf("surface %*s of \"%s\"%*s", wider(own->surface, other->surface), own->surface, own->body,
-           wider(own->body, other->body) - (int)strlen(own->body), "");
+           wider(own->body, other->body) - width(own->body), "");
     printf("  u %-*s  v %-*s  at ", wider(own->u, other->u), own->u, wider(own->v, other->v),
            own->v);
     print_vector(side->point);
@@ -71,12 +78,18 @@ static void print_contact(const imp_scene *scene, const imp_result *r)
     }
 }
 
+static void print_count(uint64_t n, const char *one, const char *many)
+{
+    printf("%ju %s, ", (uintmax_t)n, n == 1 ? one : many);
+}
+
 static void print_cost(const imp_stats *s)
 {
     print_label("cost");
-    printf("%ju pairs, %ju nodes, %ju witness searches, %ju pairs waiting at most, ",
-           (uintmax_t)s->pairs, (uintmax_t)s->nodes, (uintmax_t)s->witness_searches,
-           (uintmax_t)s->peak_heap);
+    print_count(s->pairs, "pair", "pairs");
+    print_count(s->nodes, "node", "nodes");
+    print_count(s->witness_searches, "witness search", "witness searches");
+    print_count(s->peak_heap, "pair waiting at most", "pairs waiting at most");
     if (s->bytes < 10 * 1024 * 1024)
         printf("%ju KiB, ", (uintmax_t)(s->bytes / 1024));
     else

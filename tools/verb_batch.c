@@ -153,7 +153,7 @@ const verb verb_batch = {
     .operands = "FILE.jsonl",
     .summary = "Answer a stream of scenes, one a line",
     .details =
-        "Reads one scene a line ('-': standard input), as 'impinge solve' takes it, on one line "
+        "Reads one scene a line ('-': standard input), as `impinge solve` takes it, on one line "
         "and\n"
         "with an \"id\" of your choice, and writes one JSON result a line, in the same order. A "
         "line\n"
@@ -161,7 +161,11 @@ const verb verb_batch = {
         "goes\n"
         "on; the exit status is the greatest any line earned. Blank lines are passed over. Limits\n"
         "hold for each scene by itself.\n",
-    .example = "printf '%s\\n' '{\"id\": 1, \"bodies\": []}' |\n    impinge batch -",
+    .example = "echo '{\"id\": 1, \"bodies\": [{\"name\": \"a\", \"surfaces\": [{\"type\": "
+               "\"sphere\"}]},' \\\n"
+               "       '{\"name\": \"b\", \"surfaces\": [{\"type\": \"sphere\", \"center\": "
+               "[3,0,0]}]}]}' |\n"
+               "    impinge batch -",
     .operand_min = 1,
     .operand_max = 1,
     .options = tables,

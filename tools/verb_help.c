@@ -38,7 +38,7 @@ void help_overview(void)
     }
     puts("\nCommon options:");
     print_options((const option *const[]){options_registry, options_always, NULL});
-    fputs("\n'impinge help VERB' tells the rest, with an example. Options may stand anywhere.\n"
+    fputs("\n`impinge help VERB` tells the rest, with an example. Options may stand anywhere.\n"
           "Exit status: 0 answered, 1 contact (with --exit-code), 2 usage, 3 undecided,\n"
           "4 scene, data or file, 5 plugin fault, 6 conformance failure.\n",
           stdout);

@@ -117,9 +117,9 @@ static exit_status unknown(const imp_registry *registry, const arguments *args)
     for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) nearest_offer(&near, info.name);
     if (near.name != NULL)
         return complain(EXIT_DATA, args->verb->name,
-                        "there is no type '%s'; nearest is '%s' ('impinge list' shows all)",
+                        "there is no type '%s', did you mean '%s'? `impinge list` shows all",
                         args->operands[0], near.name);
-    return complain(EXIT_DATA, args->verb->name, "there is no type '%s' ('impinge list' shows all)",
+    return complain(EXIT_DATA, args->verb->name, "there is no type '%s'; `impinge list` shows all",
                     args->operands[0]);
 }
 

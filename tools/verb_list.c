@@ -89,8 +89,8 @@ static void print_totals(const type_list *list, size_t refused)
     if (shadowed > 0) print_count(", ", shadowed, "shadowed", "shadowed");
     puts(".");
     if (refused == 0) return;
-    print_count("", refused, "file was", "files were");
-    puts(" not taken; 'impinge list --refused' tells why.");
+    print_count("", refused, "file or directory was", "files or directories were");
+    puts(" left out; `impinge list --refused` tells why.");
 }
 
 static void print_refusals(const imp_registry *registry)
@@ -98,7 +98,7 @@ static void print_refusals(const imp_registry *registry)
     imp_plugin_refusal refusal;
     for (size_t i = 0; imp_registry_refusal(registry, i, &refusal); ++i)
         printf("%s: %s\n", refusal.file, refusal.reason);
-    if (refusal_count(registry) == 0) puts("Every file found was taken.");
+    if (refusal_count(registry) == 0) puts("Nothing was left out.");
 }
 
 /* --- For programs ------------------------------------------------------------------ */
@@ -156,7 +156,8 @@ static exit_status run(const arguments *args)
 }
 
 static const option list_options[] = {
-    {.name = "refused", .help = "print the files that were not taken, and why"}, {.name = NULL}};
+    {.name = "refused", .help = "print the files and directories that were left out, and why"},
+    {.name = NULL}};
 
 static const option *const tables[] = {list_options, options_registry, options_always, NULL};
 

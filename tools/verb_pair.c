@@ -28,9 +28,9 @@ const verb verb_pair = {
         "\n"
         "  TYPE name=value ... ! MAP name=value ... ! MAP ...\n"
         "\n"
-        "Values are JSON without blanks; 1,0,0 is short for [1,0,0]. 'impinge list' shows the "
+        "Values are JSON without blanks; 1,0,0 is short for [1,0,0]. `impinge list` shows the "
         "types\n"
-        "and maps at hand, 'impinge info TYPE' the parameters of one.\n",
+        "and maps at hand, `impinge info TYPE` the parameters of one.\n",
     .example = "impinge pair 'sphere radius=1 center=-2,0,0 ! translate velocity=2,0,0' \\\n"
                "               'sphere radius=1 center=2,0,0 ! translate velocity=-2,0,0' "
                "--gamma 1e-4",

@@ -39,7 +39,7 @@ exit_status verb_unknown(const char *speaker, const char *name)
     for (const verb *const *v = all; *v != NULL; ++v) nearest_offer(&near, (*v)->name);
     if (near.name != NULL)
         return complain(EXIT_USAGE, speaker,
-                        "there is no verb '%s'; nearest is '%s' ('impinge help' shows all)", name,
+                        "there is no verb '%s', did you mean '%s'? `impinge help` shows all", name,
                         near.name);
-    return complain(EXIT_USAGE, speaker, "there is no verb '%s' ('impinge help' shows all)", name);
+    return complain(EXIT_USAGE, speaker, "there is no verb '%s'; `impinge help` shows all", name);
 }

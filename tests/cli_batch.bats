@@ -1,0 +1,133 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# impinge batch: one answer a line, in order, whatever the lines hold.
+
+load cli_helper
+
+batch_lines() { printf '%s\n' "$@" | "$IMPINGE" batch - "${options[@]}"; }
+options=()
+
+@test "answers come one a line, in order, with the ids of the scenes" {
+    run -0 batch_lines "$(scene '"id": "x",')" "$(scene '"id": [1, {"k": null}],')" "$(scene)"
+    valid result
+    [ "${#lines[@]}" -eq 3 ]
+    jq -es 'map(.id) == ["x", [1, {"k": null}], null]' <<<"$output"
+    jq -es 'map(.verdict) == ["contact", "contact", "contact"]' <<<"$output"
+}
+
+@test "a file has the same answers as standard input" {
+    { scene '"id": 1,' && scene '"id": 2, "gamma": 1e-2,'; } >scenes.jsonl
+    run -0 "$IMPINGE" batch scenes.jsonl
+    [ "$(jq -c 'del(.stats)' <<<"$output")" = \
+        "$("$IMPINGE" batch - <scenes.jsonl | jq -c 'del(.stats)')" ]
+    jq -es 'map(.gamma) == [1e-6, 1e-2]' <<<"$output"
+}
+
+@test "an answer is the one that solve gives" {
+    run -0 batch_lines "$(scene)"
+    [ "$(jq -c 'del(.stats, .id)' <<<"$output")" = \
+        "$(scene | "$IMPINGE" solve - --json | jq -c 'del(.stats)')" ]
+}
+
+@test "a bad line is answered by its error, and the rest goes on" {
+    run -4 --separate-stderr batch_lines "$(scene '"id": 1,')" 'not JSON' '{"id": 7, "bodies": 3}' \
+        "$(scene '"id": 2,')"
+    valid result
+    jq -es 'map(.id) == [1, null, 7, 2]' <<<"$output"
+    jq -es 'map(.line) == [null, 2, 3, null]' <<<"$output"
+    jq -es '.[2].error | contains("standard input, line 3") and contains("/bodies")' <<<"$output"
+    [[ $stderr == 'impinge: batch: standard input: 2 of 4 lines could not be answered'* ]]
+}
+
+@test "blank lines are passed over and counted" {
+    run -4 --separate-stderr batch_lines '' "$(scene '"id": 1,')" $' \t\r' '{}'
+    [ "${#lines[@]}" -eq 2 ]
+    jq -es '.[0].id == 1 and .[1].line == 4' <<<"$output"
+}
+
+@test "a last line without its end is answered" {
+    run -0 bash -c 'printf %s "$1" | "$IMPINGE" batch -' - "$(scene '"id": 1,')"
+    json '.id == 1'
+}
+
+@test "nothing is answered with nothing" {
+    run -0 "$IMPINGE" batch - </dev/null
+    [ -z "$output" ]
+}
+
+@test "a zero byte in a line is that line's error" {
+    run -4 --separate-stderr bash -c '{ printf "{\"id\": 1\0}\n"; echo "$1"; } | "$IMPINGE" batch -' \
+        - "$(scene '"id": 2,')"
+    valid result
+    jq -es 'map(has("error")) == [true, false]' <<<"$output"
+}
+
+@test "options hold for every scene" {
+    options=(--gamma 1e-3 --time 0,0.25)
+    run -0 batch_lines "$(scene)" "$(scene '"gamma": 1e-5,')"
+    jq -es 'all(.gamma == 1e-3 and .verdict == "clear")' <<<"$output"
+}
+
+@test "an option that does not fit one scene is that scene's error" {
+    options=(--clearance 1e-4)
+    run -4 --separate-stderr batch_lines "$(scene '"gamma": 1e-5,')" "$(scene '"gamma": 1e-3,')" \
+        '{}'
+    jq -es 'map(has("error")) == [true, false, true]' <<<"$output"
+    jq -es '.[0].error | contains("clearance")' <<<"$output"
+}
+
+@test "the exit status is the greatest of all lines" {
+    local clear
+    clear=$(scene '"time": [0, 0.25],')
+    options=(--exit-code)
+    run -0 batch_lines "$clear" "$clear"
+    run -1 batch_lines "$clear" "$(scene)" "$clear"
+    options=(--exit-code --max-pairs 1)
+    run -3 batch_lines "$clear" "$(scene)" "$clear"
+    run -4 --separate-stderr batch_lines '{}' "$(scene)"
+}
+
+@test "each answer is out before the next line is read" {
+    coproc "$IMPINGE" batch -
+    local id pid=$COPROC_PID
+    for id in 1 2; do
+        scene "\"id\": $id," >&"${COPROC[1]}"
+        read -r -t 20 output <&"${COPROC[0]}"
+        json ".id == $id"
+    done
+    exec {COPROC[1]}>&-
+    wait "$pid"
+}
+
+@test "a signal ends the line at work with what is proved, and reads no further" {
+    { scene '"id": 1,' && echo '{"id": 2, "gamma": 1e-9, "bodies": [
+        {"name": "a", "surfaces": [{"type": "sphere"}]},
+        {"name": "b", "surfaces": [{"type": "sphere", "radius": 1.000000002}]}]}' | tr -d '\n'
+        echo && scene '"id": 3,'; } >scenes.jsonl
+    run -3 --separate-stderr timeout --preserve-status --signal=INT --foreground 0.5 \
+        "$IMPINGE" batch scenes.jsonl --max-bytes 0
+    valid result
+    jq -es 'map(.id) == [1, 2] and .[1].reason == "cancelled"' <<<"$output"
+    [[ $stderr == *'interrupted after line 2' ]]
+}
+
+@test "a signal ends the wait for the next line" {
+    run -3 --separate-stderr bash -c 'sleep 5 | timeout --preserve-status --signal=TERM --foreground \
+        0.3 "$IMPINGE" batch -'
+    [[ $stderr == *'interrupted after line 0' ]]
+}
+
+@test "output that cannot be written ends the batch" {
+    [ -c /dev/full ] || skip 'no /dev/full'
+    { scene && scene; } >scenes.jsonl
+    run -4 --separate-stderr bash -c '"$IMPINGE" batch scenes.jsonl >/dev/full'
+    [ "$stderr" = 'impinge: batch: standard output: No space left on device' ]
+}
+
+@test "files that cannot be read are named" {
+    mkdir folder
+    fails 4 'batch: nowhere.jsonl: No such file or directory' "$IMPINGE" batch nowhere.jsonl
+    fails 4 'batch: folder: Is a directory' "$IMPINGE" batch folder
+}
