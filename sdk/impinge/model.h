@@ -155,7 +155,11 @@ static inline double imp_sum_abs6_(const double q[6])
 /* A constant known to fewer than 30 bits: better off with interval arithmetic. */
 static inline int imp_is_wide_(const imp_model *x) { return x->e > fabs(x->a) * 0x1p-30; }
 
-static inline int imp_is_point_(const imp_model *x) { return !x->depends && !imp_is_wide_(x); }
+/* A constant worth evaluating at its middle, which is one of the values it may have. */
+static inline int imp_is_point_(const imp_model *x)
+{
+    return !x->depends && !imp_is_wide_(x) && x->lo <= x->a && x->a <= x->hi;
+}
 
 static inline int imp_is_exact_(const imp_model *x) { return !x->depends && x->e == 0; }
 
@@ -291,17 +295,20 @@ static inline imp_model imp_sub(imp_model x, imp_model y) { return imp_add(x, im
 
 /* --- Products ------------------------------------------------------------------------- */
 
-/* x k where k is exact: each of the ten products is rounded once. */
+/* x k at a point. */
+static inline imp_model imp_scale_point_(double a, double k, double error)
+{
+    return imp_known_(a * k, (error * fabs(k) + (IMP_U * fabs(a * k) + IMP_TINY)) * IMP_SLACK);
+}
+
+/* x k where k is exact: each of the ten products is rounded once, by u times its own magnitude. */
 static inline imp_model imp_scale(imp_model x, double k)
 {
     if (k == 0 || k == 1) return k == 1 ? x : imp_num(0);
     if (!(k - k == 0)) return imp_unbounded_(x.depends);
-    double size = fabs(x.a) + imp_sum_abs3_(x.b) + imp_sum_abs6_(x.q);
-    double e = (fabs(k) * (x.e + IMP_U * size) + IMP_TINY) * IMP_SLACK;
-    if (imp_is_point_(&x)) return imp_known_(x.a * k, e);
+    if (imp_is_point_(&x)) return imp_scale_point_(x.a, k, x.e);
     imp_interval range = imp_interval_scale(imp_range_(&x), k);
     x.a *= k;
-    x.e = e;
     x.lo = range.lo;
     x.hi = range.hi;
     for (int j = 0; j < 3; j++) {
@@ -309,36 +316,40 @@ static inline imp_model imp_scale(imp_model x, double k)
         x.rate[j] = imp_round_up(x.rate[j] * fabs(k));
     }
     for (int j = 0; j < 6; j++) x.q[j] *= k;
+    double size = fabs(x.a) + imp_sum_abs3_(x.b) + imp_sum_abs6_(x.q);
+    x.e = (x.e * fabs(k) + (IMP_U * size + IMP_TINY)) * IMP_SLACK;
     return imp_model_finish(x);
 }
 
-/* The ten cubic terms of L Q' + L' Q go to the nearest polynomial of lower degree: on [-1, 1],
+/* Adds the ten coefficients of L W to c; w: coefficients of the quadratic form W. */
+static inline void imp_cubic_add_(const double b[3], const double w[6], double c[10])
+{
+    c[0] += b[0] * w[IMP_UU];
+    c[1] += b[1] * w[IMP_VV];
+    c[2] += b[2] * w[IMP_TT];
+    c[3] += b[0] * w[IMP_UV] + b[1] * w[IMP_UU];
+    c[4] += b[0] * w[IMP_UT] + b[2] * w[IMP_UU];
+    c[5] += b[1] * w[IMP_UV] + b[0] * w[IMP_VV];
+    c[6] += b[1] * w[IMP_VT] + b[2] * w[IMP_VV];
+    c[7] += b[2] * w[IMP_UT] + b[0] * w[IMP_TT];
+    c[8] += b[2] * w[IMP_VT] + b[1] * w[IMP_TT];
+    c[9] += (b[0] * w[IMP_VT] + b[1] * w[IMP_UT]) + b[2] * w[IMP_UV];
+}
+
+/* Cubic terms go to the nearest polynomial of lower degree: on [-1, 1],
  *
  *   s^3       = 3/4 s   +- 1/4   (Chebyshev's T_3 = 4 s^3 - 3 s)
  *   s^2 s'    = 1/2 s'  +- 1/2
  *   s s' s''  = 0       +- 1
  *
- * linear[j] receives the coefficients of s_j, the answer is the bound of the rest. */
-static inline double imp_fold_cubic_(const double b[3], const double q[6], const double bb[3],
-                                     const double qq[6], double linear[3])
+ * linear[j] receives the coefficients of s_j, the answer is the bound of the rest. Order of c:
+ * uuu vvv ttt uuv uut uvv vvt utt vtt uvt. */
+static inline double imp_cubic_fold_(const double c[10], double linear[3])
 {
-    double uuu = b[0] * qq[0] + bb[0] * q[0];
-    double vvv = b[1] * qq[3] + bb[1] * q[3];
-    double ttt = b[2] * qq[5] + bb[2] * q[5];
-    double uuv = (b[0] * qq[1] + bb[0] * q[1]) + (b[1] * qq[0] + bb[1] * q[0]);
-    double uut = (b[0] * qq[2] + bb[0] * q[2]) + (b[2] * qq[0] + bb[2] * q[0]);
-    double uvv = (b[1] * qq[1] + bb[1] * q[1]) + (b[0] * qq[3] + bb[0] * q[3]);
-    double vvt = (b[1] * qq[4] + bb[1] * q[4]) + (b[2] * qq[3] + bb[2] * q[3]);
-    double utt = (b[2] * qq[2] + bb[2] * q[2]) + (b[0] * qq[5] + bb[0] * q[5]);
-    double vtt = (b[2] * qq[4] + bb[2] * q[4]) + (b[1] * qq[5] + bb[1] * q[5]);
-    double uvt = ((b[0] * qq[4] + bb[0] * q[4]) + (b[1] * qq[2] + bb[1] * q[2])) +
-                 (b[2] * qq[1] + bb[2] * q[1]);
-    linear[0] = 0.75 * uuu + 0.5 * (uvv + utt);
-    linear[1] = 0.75 * vvv + 0.5 * (uuv + vtt);
-    linear[2] = 0.75 * ttt + 0.5 * (uut + vvt);
-    return 0.25 * (fabs(uuu) + fabs(vvv) + fabs(ttt)) +
-           0.5 * ((fabs(uuv) + fabs(uut) + fabs(uvv)) + (fabs(vvt) + fabs(utt) + fabs(vtt))) +
-           fabs(uvt);
+    linear[0] = 0.75 * c[0] + 0.5 * (c[5] + c[7]);
+    linear[1] = 0.75 * c[1] + 0.5 * (c[3] + c[8]);
+    linear[2] = 0.75 * c[2] + 0.5 * (c[4] + c[6]);
+    return 0.25 * (fabs(c[0]) + fabs(c[1]) + fabs(c[2])) + 0.5 * imp_sum_abs6_(c + 3) + fabs(c[9]);
 }
 
 /* The products b_j b'_k, as coefficients of s_j s_k. */
@@ -380,12 +391,14 @@ static inline double imp_swing_upper_(const double q[6], double size)
  * in h amount to (4 + 2/4) Q Q'. So 4 N N' - 2 |a a'| + (B + Q)(B' + Q') units of u cover all. */
 static inline void imp_product_(const imp_model *x, const imp_model *y, imp_model *r)
 {
-    double linear[3], bb[6];
+    double linear[3], bb[6], cubic[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     double hx = imp_middle_(x->q), hy = imp_middle_(y->q);
     double ax = x->a + hx, ay = y->a + hy;
     double bx = imp_sum_abs3_(x->b), by = imp_sum_abs3_(y->b);
     double qx = imp_sum_abs6_(x->q), qy = imp_sum_abs6_(y->q);
-    double rest = imp_fold_cubic_(x->b, x->q, y->b, y->q, linear);
+    imp_cubic_add_(x->b, y->q, cubic);
+    imp_cubic_add_(y->b, x->q, cubic);
+    double rest = imp_cubic_fold_(cubic, linear);
     imp_square_terms_(x->b, y->b, bb);
     r->a = x->a * y->a - hx * hy;
     for (int j = 0; j < 3; j++) r->b[j] = (x->a * y->b[j] + y->a * x->b[j]) + linear[j];

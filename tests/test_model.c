@@ -1,0 +1,315 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Each operation alone, on operands that are as hostile as a model may be: at every point the
+ * operand takes whatever value its quadratic, remainder and range allow, and the result must cover
+ * what the operation makes of it. */
+
+#include <check.h>
+#include <stdlib.h>
+
+#include "oracle.h"
+
+/* --- Hostile operands ------------------------------------------------------------ */
+
+/* Where operands lie: around kinks, poles, ends of domains, extrema; far out, deep down. */
+static double hostile_centre(dice *d)
+{
+    static const double special[] = {0, 1, -1, 0.5, 1e8, -1e8, 700, -700, 1e-300, 1e300};
+    switch (dice_below(d, 8)) {
+    case 0:
+        return special[dice_below(d, 10)];
+    case 1:
+        return 1.5707963267948966 * (double)((int)dice_below(d, 21) - 10);
+    case 2:
+        return dice_magnitude(d, -1070, 1010);
+    case 3:
+        return 1.5707963267948966 * (double)dice_below(d, 1u << 30);
+    default:
+        return dice_magnitude(d, -8, 4);
+    }
+}
+
+static double hostile_width(dice *d, double centre)
+{
+    switch (dice_below(d, 6)) {
+    case 0:
+        return 0;
+    case 1:
+        return fabs(centre) * 0x1p-52;
+    case 2:
+        return exp2(dice_between(d, -1070, 3));
+    case 3:
+        return fabs(centre) * exp2(dice_between(d, -45, 1));
+    default:
+        return exp2(dice_between(d, -30, 3));
+    }
+}
+
+static double hostile_error(dice *d, double centre, double width)
+{
+    switch (dice_below(d, 4)) {
+    case 0:
+        return 0;
+    case 1:
+        return fabs(centre) * 0x1p-52;
+    default:
+        return width * exp2(dice_between(d, -50, 0));
+    }
+}
+
+/* Cuts the range: at an end of some function's domain, or anywhere. */
+static void trim(dice *d, imp_model *m)
+{
+    static const double edge[] = {0, 1, -1, 0x1p-1074};
+    double cut = dice_below(d, 2) ? edge[dice_below(d, 4)] : dice_between(d, m->lo, m->hi);
+    if (cut > m->lo && cut < m->hi) {
+        if (dice_below(d, 3))
+            m->lo = cut;
+        else
+            m->hi = cut;
+    }
+}
+
+static imp_model hostile_model(dice *d)
+{
+    static const int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
+    imp_model m = imp_num(hostile_centre(d));
+    double width = hostile_width(d, m.a);
+    m.depends = dice_below(d, 4) ? dice_below(d, 8) : 0;
+    m.e = hostile_error(d, m.a, width);
+    for (int j = 0; j < 3; j++) {
+        if (m.depends >> j & 1 && dice_below(d, 4)) m.b[j] = width * dice_between(d, -1, 1);
+        if (m.depends >> j & 1) m.rate[j] = fabs(dice_magnitude(d, -20, 20));
+    }
+    for (int k = 0; k < 6; k++)
+        if (m.depends >> row[k] & m.depends >> column[k] & 1 && dice_below(d, 3))
+            m.q[k] = width * dice_between(d, -1, 1) * exp2(dice_between(d, -20, 0));
+    imp_interval range = imp_model_poly_range(&m);
+    m.lo = range.lo;
+    m.hi = range.hi;
+    if (!m.depends && m.e == 0) m.lo = m.hi = m.a;
+    if (dice_below(d, 3) == 0) trim(d, &m);
+    return m;
+}
+
+/* The values that m allows at s; false if there are none. */
+static bool hostile_window(mpfi_ptr window, const imp_model *m, const mpfi_t s[3])
+{
+    oracle_quadratic(window, m, s);
+    mpfr_sub_d(&window->right, &window->right, m->e, MPFR_RNDU);
+    mpfr_add_d(&window->left, &window->left, m->e, MPFR_RNDD);
+    mpfr_swap(&window->left, &window->right);
+    if (mpfr_cmp_d(&window->left, m->lo) < 0) mpfr_set_d(&window->left, m->lo, MPFR_RNDU);
+    if (mpfr_cmp_d(&window->right, m->hi) > 0) mpfr_set_d(&window->right, m->hi, MPFR_RNDD);
+    return mpfr_cmp(&window->left, &window->right) <= 0;
+}
+
+/* One of them, as an interval of one number: the least, the greatest or the middle. */
+static void hostile_value(dice *d, mpfi_ptr value, const mpfi_t window)
+{
+    mpfi_set(value, window);
+    switch (dice_below(d, 3)) {
+    case 0:
+        mpfr_set(&value->right, &value->left, MPFR_RNDN);
+        break;
+    case 1:
+        mpfr_set(&value->left, &value->right, MPFR_RNDN);
+        break;
+    default:
+        mpfi_mid(&value->left, window);
+        mpfr_set(&value->right, &value->left, MPFR_RNDN);
+    }
+}
+
+/* --- One trial -------------------------------------------------------------------------- */
+
+typedef struct trial {
+    const operation *op;
+    uint64_t seed;
+    dice d;
+    imp_model x, y, r;
+    double k;
+    mpfi_t s[3], xs, ys, p, q, value, value2, step; /* xs, ys: what x, y allow at s */
+} trial;
+
+static void trial_begin(trial *t, const operation *op, uint64_t seed)
+{
+    t->op = op;
+    t->seed = seed;
+    t->d.state = seed;
+    t->x = hostile_model(&t->d);
+    t->y = op->arity > 1 ? hostile_model(&t->d) : imp_num(0);
+    t->k = operation_constant(op, &t->d);
+    t->r = op->model(t->x, t->y, t->k);
+    mpfi_ptr all[] = {t->s[0], t->s[1], t->s[2],  t->xs,     t->ys,
+                      t->p,    t->q,    t->value, t->value2, t->step};
+    for (int i = 0; i < 10; i++) mpfi_init2(all[i], ORACLE_BITS);
+}
+
+static void trial_end(trial *t)
+{
+    mpfi_ptr all[] = {t->s[0], t->s[1], t->s[2],  t->xs,     t->ys,
+                      t->p,    t->q,    t->value, t->value2, t->step};
+    for (int i = 0; i < 10; i++) mpfi_clear(all[i]);
+}
+
+#define ck_trial(T, CLAIM, WHAT)                                                                   \
+    ck_assert_msg(CLAIM, "%s: %s, seed %#llx\n x %s\n y %s\n k %a\n r %s", (T)->op->name, WHAT,    \
+                  (unsigned long long)(T)->seed, model_text(&(T)->x), model_text(&(T)->y), (T)->k, \
+                  model_text(&(T)->r))
+
+/* Values p, q of the operands at some place s, and op's there; false if there are none. */
+static bool trial_take(trial *t)
+{
+    double s[3];
+    oracle_place(&t->d, s);
+    for (int j = 0; j < 3; j++) mpfi_set_d(t->s[j], s[j]);
+    if (!hostile_window(t->xs, &t->x, t->s) || !hostile_window(t->ys, &t->y, t->s)) return false;
+    hostile_value(&t->d, t->p, t->xs);
+    hostile_value(&t->d, t->q, t->ys);
+    return t->op->exact(t->value, t->p, t->q, t->k);
+}
+
+static void trial_sample(trial *t)
+{
+    if (!trial_take(t)) return;
+    ck_trial(t, !quadratic_is_refuted(&t->r, t->s, t->value), "quadratic misses a value");
+    ck_trial(t, !range_is_refuted(t->r.lo, t->r.hi, t->value), "range misses a value");
+}
+
+START_TEST(every_value_that_the_operands_allow_is_covered)
+{
+    for (int i = 0; i < trials(400); i++) {
+        trial t;
+        trial_begin(&t, &operations[_i], trial_seed(i));
+        ck_trial(&t, model_is_well_formed(&t.r), "malformed model");
+        ck_trial(&t, (t.r.depends & ~(t.x.depends | t.y.depends)) == 0, "depends out of nothing");
+        for (int k = 0; k < 10; k++) trial_sample(&t);
+        trial_end(&t);
+    }
+}
+END_TEST
+
+/* --- Rates --------------------------------------------------------------------------------- */
+
+/* p becomes p + rate step, or p - rate step; false if that is not allowed. */
+static bool move(dice *d, mpfi_ptr p, const mpfi_t window, double rate, mpfi_srcptr step)
+{
+    mpfi_t change;
+    mpfi_init2(change, ORACLE_BITS);
+    mpfi_mul_d(change, step, dice_bits(d) & 1 ? rate : -rate);
+    mpfi_add(p, p, change);
+    mpfi_clear(change);
+    return mpfi_is_inside(p, window);
+}
+
+/* Operands that change as fast as their rates allow while p_j changes by `step`. */
+static void trial_change(trial *t)
+{
+    int j = (int)dice_below(&t->d, 3);
+    mpfi_set_d(t->step, exp2(dice_between(&t->d, -140, -10)));
+    if (!trial_take(t) || !move(&t->d, t->p, t->xs, t->x.rate[j], t->step) ||
+        !move(&t->d, t->q, t->ys, t->y.rate[j], t->step))
+        return;
+    if (!t->op->exact(t->value2, t->p, t->q, t->k)) return;
+    mpfi_sub(t->value, t->value, t->value2);
+    mpfi_abs(t->value, t->value);
+    if (t->r.rate[j] < INFINITY) mpfi_mul_d(t->step, t->step, t->r.rate[j]);
+    ck_trial(t, t->r.rate[j] == INFINITY || mpfr_cmp(&t->value->left, &t->step->right) <= 0,
+             "changes faster than its rate");
+}
+
+START_TEST(rates_hold_for_operands_that_change_as_fast_as_theirs_allow)
+{
+    for (int i = 0; i < trials(400); i++) {
+        trial t;
+        trial_begin(&t, &operations[_i], trial_seed(i));
+        for (int k = 0; k < 10; k++) trial_change(&t);
+        trial_end(&t);
+    }
+}
+END_TEST
+
+/* --- What cannot be bounded ------------------------------------------------------------------ */
+
+/* Ranges open on one side or both, at the limits of double, overflowing quadratics. */
+static imp_model boundless_model(dice *d)
+{
+    static const double ends[] = {-INFINITY, -1.7e308, -1, 0, 5e-324, 1, 1.7e308, INFINITY};
+    imp_model m = hostile_model(d);
+    unsigned i = dice_below(d, 7), j = i + 1 + dice_below(d, 7 - i);
+    if (i + 1 == 8 || dice_below(d, 4) == 0) return m;
+    m.lo = ends[i];
+    m.hi = ends[j];
+    m.e = dice_below(d, 2) ? INFINITY : 1e300;
+    if (dice_below(d, 2)) m.a = dice_magnitude(d, 1000, 1023.9);
+    for (int k = 0; k < 3; k++)
+        if (m.depends >> k & 1 && dice_below(d, 2))
+            m.rate[k] = dice_below(d, 2) ? INFINITY : 1.7e308;
+    return m;
+}
+
+START_TEST(no_answer_holds_a_nan)
+{
+    for (int i = 0; i < trials(5000); i++) {
+        trial t;
+        trial_begin(&t, &operations[_i], trial_seed(i));
+        t.d.state = t.seed;
+        t.x = boundless_model(&t.d);
+        t.y = boundless_model(&t.d);
+        t.r = t.op->model(t.x, t.y, t.k);
+        ck_trial(&t, model_is_well_formed(&t.r), "malformed model");
+        trial_end(&t);
+    }
+}
+END_TEST
+
+/* --- Intervals -----------------------------------------------------------------------------------
+ */
+
+/* Somewhere in [lo, hi], the ends above all. */
+static double hostile_point(dice *d, double lo, double hi)
+{
+    unsigned kind = dice_below(d, 4);
+    double x = kind == 0 ? lo : kind == 1 ? hi : dice_between(d, lo, hi);
+    return x < lo ? lo : x > hi ? hi : x;
+}
+
+START_TEST(intervals_cover_every_value)
+{
+    const operation *op = &operations[_i];
+    for (int i = 0; op->interval && i < trials(400); i++) {
+        trial t;
+        trial_begin(&t, op, trial_seed(i));
+        imp_interval x = imp_interval_make(t.x.lo, t.x.hi), y = imp_interval_make(t.y.lo, t.y.hi);
+        imp_interval r = op->interval(x, y, t.k);
+        ck_trial(&t, r.lo <= r.hi, "malformed interval");
+        for (int k = 0; k < 10; k++) {
+            mpfi_set_d(t.p, hostile_point(&t.d, x.lo, x.hi));
+            mpfi_set_d(t.q, hostile_point(&t.d, y.lo, y.hi));
+            if (op->exact(t.value, t.p, t.q, t.k))
+                ck_trial(&t, !range_is_refuted(r.lo, r.hi, t.value), "interval misses a value");
+        }
+        trial_end(&t);
+    }
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("model");
+    TCase *tests = tcase_create("operations");
+    tcase_set_timeout(tests, 600);
+    tcase_add_loop_test(tests, every_value_that_the_operands_allow_is_covered, 0, operation_count);
+    tcase_add_loop_test(tests, rates_hold_for_operands_that_change_as_fast_as_theirs_allow, 0,
+                        operation_count);
+    tcase_add_loop_test(tests, no_answer_holds_a_nan, 0, operation_count);
+    tcase_add_loop_test(tests, intervals_cover_every_value, 0, operation_count);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
