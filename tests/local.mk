@@ -107,7 +107,7 @@ endif
 check-local:
 	@for suite in $(without_check); do echo "SKIP: $$suite (Check not found)"; done
 	@for suite in $(without_mpfi); do echo "SKIP: $$suite (MPFI not found)"; done
-	@for suite in $(without_bats); do echo "SKIP: $$suite (bats not found)"; done
+	@for suite in $(without_bats); do echo "SKIP: $$suite (bats or jq not found)"; done
 
 # IMPINGE is the command to test. The user's own plugins stay out of it.
 TEST_EXTENSIONS = .bats
