@@ -82,3 +82,39 @@ elf_span elf_file_find_note(const elf_file *file, const char *owner, uint32_t ty
     }
     return found;
 }
+
+const char *elf_class_name(unsigned char class)
+{
+    return class == ELFCLASS32 ? "32-bit" : class == ELFCLASS64 ? "64-bit" : "of unknown word size";
+}
+
+const char *elf_order_name(unsigned char order)
+{
+    return order == ELFDATA2LSB   ? "little-endian"
+           : order == ELFDATA2MSB ? "big-endian"
+                                  : "of unknown byte order";
+}
+
+const char *elf_machine_name(Elf64_Half machine)
+{
+    switch (machine) {
+    case EM_386:
+        return "i386";
+    case EM_X86_64:
+        return "x86-64";
+    case EM_ARM:
+        return "arm";
+    case EM_AARCH64:
+        return "aarch64";
+    case EM_PPC64:
+        return "ppc64";
+    case EM_S390:
+        return "s390";
+    case EM_RISCV:
+        return "riscv";
+    case EM_LOONGARCH:
+        return "loongarch";
+    default:
+        return "another processor";
+    }
+}

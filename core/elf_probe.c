@@ -65,56 +65,20 @@ static bool check_format(elf_file *file, elf_probe *probe, elf_check *check)
     return answer(check, true, "ELF");
 }
 
-static const char *class_name(unsigned char class)
-{
-    return class == ELFCLASS32 ? "32-bit" : class == ELFCLASS64 ? "64-bit" : "of unknown word size";
-}
-
-static const char *order_name(unsigned char order)
-{
-    return order == ELFDATA2LSB   ? "little-endian"
-           : order == ELFDATA2MSB ? "big-endian"
-                                  : "of unknown byte order";
-}
-
 static bool check_class(elf_file *file, elf_probe *probe, elf_check *check)
 {
     (void)probe;
     const unsigned char *is = file->header.e_ident, *host = __ehdr_start.e_ident;
     if (is[EI_CLASS] != host[EI_CLASS])
         return answer(check, false, "is %s, the host is %s; build the plugin for this machine",
-                      class_name(is[EI_CLASS]), class_name(host[EI_CLASS]));
+                      elf_class_name(is[EI_CLASS]), elf_class_name(host[EI_CLASS]));
     if (is[EI_DATA] != host[EI_DATA])
         return answer(check, false, "is %s, the host is %s; build the plugin for this machine",
-                      order_name(is[EI_DATA]), order_name(host[EI_DATA]));
+                      elf_order_name(is[EI_DATA]), elf_order_name(host[EI_DATA]));
     if (is[EI_VERSION] != EV_CURRENT)
         return answer(check, false, "has ELF version %d, known is %d; " CUT_SHORT, is[EI_VERSION],
                       EV_CURRENT);
-    return answer(check, true, "%s, %s", class_name(is[EI_CLASS]), order_name(is[EI_DATA]));
-}
-
-static const char *machine_name(Elf64_Half machine)
-{
-    switch (machine) {
-    case EM_386:
-        return "i386";
-    case EM_X86_64:
-        return "x86-64";
-    case EM_ARM:
-        return "arm";
-    case EM_AARCH64:
-        return "aarch64";
-    case EM_PPC64:
-        return "ppc64";
-    case EM_S390:
-        return "s390";
-    case EM_RISCV:
-        return "riscv";
-    case EM_LOONGARCH:
-        return "loongarch";
-    default:
-        return "another processor";
-    }
+    return answer(check, true, "%s, %s", elf_class_name(is[EI_CLASS]), elf_order_name(is[EI_DATA]));
 }
 
 static bool check_machine(elf_file *file, elf_probe *probe, elf_check *check)
@@ -125,8 +89,8 @@ static bool check_machine(elf_file *file, elf_probe *probe, elf_check *check)
         return answer(check, false,
                       "is for %s (ELF machine %u), the host is %s (%u); build it "
                       "for this machine",
-                      machine_name(is), is, machine_name(host), host);
-    return answer(check, true, "%s", machine_name(is));
+                      elf_machine_name(is), is, elf_machine_name(host), host);
+    return answer(check, true, "%s", elf_machine_name(is));
 }
 
 static bool check_kind(elf_file *file, elf_probe *probe, elf_check *check)

@@ -3,7 +3,7 @@
 #include <config.h>
 
 #include "json_keys.h"
-#include "parameters.h"
+#include "json_words.h"
 #include "text.h"
 
 #include <string.h>

@@ -35,6 +35,7 @@ core_registry = \
     core/elf_file.c core/elf_file.h \
     core/elf_probe.c core/elf_probe.h \
     core/parameter_table.c core/parameter_table.h \
+    core/json_words.c core/json_words.h \
     core/parameters.c core/parameters.h \
     core/type_view.h \
     core/plugin_check.c core/plugin_check.h \

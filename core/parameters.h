@@ -51,10 +51,4 @@ imp_code parameters_read_preset(const imp_parameter *row, const place *at, json_
 imp_code parameters_complaint(const parameter_table *table, const parameter_values *values,
                               const imp_complaint *why, const place *at, imp_error *error);
 
-/* A JSON value in a few words, after "found": -1, "abc", an array of 3, an object. */
-typedef struct json_words {
-    char at[80];
-} json_words;
-json_words json_in_words(const json_t *json);
-
 #endif

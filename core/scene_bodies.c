@@ -3,7 +3,7 @@
 #include <config.h>
 
 #include "json_keys.h"
-#include "parameters.h"
+#include "json_words.h"
 #include "scene_bodies.h"
 #include "scene_build.h"
 #include "text.h"

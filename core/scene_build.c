@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "fp_mode.h"
+#include "json_words.h"
 #include "parameters.h"
 #include "scene_build.h"
 #include "text.h"

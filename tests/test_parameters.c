@@ -327,7 +327,17 @@ START_TEST(errors_are_cut_between_characters)
 }
 END_TEST
 
-SUITE_MAIN("parameters", numbers_are_taken_as_written,
+START_TEST(every_code_has_its_phrase)
+{
+    for (int code = IMP_SUCCESS; code <= IMP_ERROR_MEMORY; ++code) {
+        ck_assert_str_ne(imp_code_text((imp_code)code), "");
+        ck_assert_str_ne(imp_code_text((imp_code)code), imp_code_text((imp_code)99));
+    }
+    ck_assert_str_eq(imp_version(), "libimpinge " PACKAGE_VERSION);
+}
+END_TEST
+
+SUITE_MAIN("parameters", every_code_has_its_phrase, numbers_are_taken_as_written,
            whole_numbers_may_be_written_as_reals_but_not_have_a_fraction,
            booleans_are_true_or_false_only, strings_and_tables_keep_their_texts_and_order,
            ranges_are_kept_and_told_with_their_ends, kinds_are_told_by_what_was_found,
