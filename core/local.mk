@@ -25,6 +25,7 @@ core_solver = \
     core/quadratic.c core/quadratic.h \
     core/relative.c core/relative.h \
     core/normal_field.c core/normal_field.h \
+    core/axes.c core/axes.h \
     core/separation.c core/separation.h \
     core/pair_heap.c core/pair_heap.h \
     core/witness.c core/witness.h \

@@ -141,6 +141,8 @@ bool normal_field_cut(const relative *r, double clearance, share *s)
     turn(&mean, &sb, mb);
     const local delta = to_local(&f, r->delta), drift = to_local(&f, r->drift);
     const quadratic qa = part(&sa, ma, &delta, -1), qb = part(&sb, mb, &delta, 1);
+    if (delta.n + quadratic_glimpse(&qa).lo + quadratic_glimpse(&qb).lo + fabs(drift.n) <= 0)
+        return true; /* nothing to cut, whatever the rest may be */
     double slack = 0x1p-490 + weighted(f.n, r->slack), size = weighted(f.n, r->magnitude);
     double tilt = 0, lean = 0;
     for (int k = 0; k < 2; ++k) {

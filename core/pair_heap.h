@@ -17,8 +17,7 @@ typedef struct pair {
     uint64_t serial;    /* order of making */
     node *a, *b;
     uint32_t couple; /* which two surfaces of the scene: index of the query's list */
-    uint16_t axis;   /* of separation_by_models */
-    uint16_t wait;   /* generations until a witness is sought again */
+    uint32_t wait;   /* generations until a witness is sought again */
 } pair;
 
 typedef struct pair_heap {

@@ -50,6 +50,7 @@ void relative_at(const node *a, const node *b, const time_window *window, relati
  * w of abs(w) <= 1 is moved outward by 2^-50. NaN keeps everything. */
 bool share_cut(share *s, double low, double drift, double limit)
 {
+    if (low + fabs(drift) <= limit) return true;
     if (low - fabs(drift) > limit) return false;
     const double w = (limit - low) / drift;
     if (drift > 0 && w + 0x1p-50 < s->hi) s->hi = w + 0x1p-50;

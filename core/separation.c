@@ -2,105 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "separation.h"
 
-#include <assert.h>
-
+#include "axes.h"
 #include "normal_field.h"
-#include "quadratic.h"
-
-/* --- One axis ------------------------------------------------------------------------- */
-
-static quadratic project(const slice *s, vec3 n)
-{
-    return (quadratic){vec3_dot(n, vec3_from(s->bu)), vec3_dot(n, vec3_from(s->bv)),
-                       vec3_dot(n, vec3_from(s->quu)), vec3_dot(n, vec3_from(s->quv)),
-                       vec3_dot(n, vec3_from(s->qvv))};
-}
-
-/* Lemma (one axis). For every w in the window and all points x of A, y of B at that time,
- *
- *   n.(y - x) in n.delta + n.drift w + [min Qb - max Qa, max Qb - min Qa] -+ sum_i |n_i| slack_i
- *
- * and |n.(y - x)| <= |n| |y - x|. So where the interval leaves [-g, g], g = |n| clearance, the
- * nodes are farther apart than the clearance. Rounding, in units of u = 2^-53 and R = sum_i |n_i|
- * magnitude_i: re-centring 20 R (each coefficient takes at most 6 operations on terms that
- * magnitude counts, at most three times), the dots 6 R, quadratic_span 128 R (2^-46 R for the two),
- * the sums 6 R, the slack's own sums 8 R: below 2^-45 R. The last term outweighs underflow. */
-static bool axis_cut(const relative *r, vec3 n, double clearance, share *s)
-{
-    const double longest = fmax(fabs(n.x[0]), fmax(fabs(n.x[1]), fabs(n.x[2])));
-    if (!(longest > 0x1p-400 && longest < 0x1p400)) return true;
-    n = vec3_scale(n, 1 / longest);
-    const quadratic qa = project(&r->a, n), qb = project(&r->b, n);
-    const span ra = quadratic_span(&qa), rb = quadratic_span(&qb);
-    double slack = 0x1p-490, size = 0;
-    for (int i = 0; i < 3; ++i) {
-        slack += fabs(n.x[i]) * r->slack[i];
-        size += fabs(n.x[i]) * r->magnitude[i];
-    }
-    if (!(size < 0x1p400)) return true;
-    slack += size * 0x1p-45;
-    const double offset = vec3_dot(n, vec3_from(r->delta));
-    const double drift = vec3_dot(n, vec3_from(r->drift));
-    const double limit = vec3_norm(n) * clearance * (1 + 0x1p-49);
-    return share_cut(s, offset + (rb.lo - ra.hi) - slack, drift, limit) &&
-           share_cut(s, -offset - (rb.hi - ra.lo) - slack, -drift, limit);
-}
-
-/* --- All axes ------------------------------------------------------------------------ */
-
-/* Axes in the order tried after the one that served the parent: the line of centres at the
- * window's start (it decides when the earliest contact can be), both normals, the
- * coordinate axes, and in each tangent plane the directions across u and v. */
-enum {
-    AXIS_CENTRES,
-    AXIS_NORMAL_A,
-    AXIS_NORMAL_B,
-    AXIS_X,
-    AXIS_Y,
-    AXIS_Z,
-    AXIS_A_U,
-    AXIS_A_V,
-    AXIS_B_U,
-    AXIS_B_V,
-    AXES
-};
-
-static vec3 axis_direction(const relative *r, unsigned axis)
-{
-    switch (axis) {
-    case AXIS_CENTRES:
-        return vec3_sub(vec3_from(r->delta), vec3_from(r->drift));
-    case AXIS_NORMAL_A:
-        return r->a.normal;
-    case AXIS_NORMAL_B:
-        return r->b.normal;
-    case AXIS_A_U:
-        return vec3_cross(r->a.normal, vec3_from(r->a.bu));
-    case AXIS_A_V:
-        return vec3_cross(r->a.normal, vec3_from(r->a.bv));
-    case AXIS_B_U:
-        return vec3_cross(r->b.normal, vec3_from(r->b.bu));
-    case AXIS_B_V:
-        return vec3_cross(r->b.normal, vec3_from(r->b.bv));
-    default:
-        return (vec3){{axis == AXIS_X, axis == AXIS_Y, axis == AXIS_Z}};
-    }
-}
-
-static bool axes_cut(const relative *r, double clearance, share *s, unsigned *best)
-{
-    const unsigned first = *best < AXES ? *best : 0;
-    double width = s->hi - s->lo;
-    for (unsigned k = 0; k <= AXES; ++k) {
-        const unsigned axis = k == 0 ? first : k - 1;
-        if (k > 0 && axis == first) continue;
-        const bool left = axis_cut(r, axis_direction(r, axis), clearance, s);
-        if (!left || s->hi - s->lo < width) *best = axis;
-        if (!left) return false;
-        width = s->hi - s->lo;
-    }
-    return true;
-}
 
 /* The part of the window that `s` says, rounded outward: half w is off by u half, the sum by
  * u (abs(mid) + half). */
@@ -114,8 +17,7 @@ static void window_take(time_window *window, const relative *r, const share *s)
 
 enum { ROUNDS = 3 };
 
-bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
-                          unsigned *axis)
+bool separation_by_models(const node *a, const node *b, double clearance, time_window *window)
 {
     if (!a->bounded || !b->bounded) return true;
     if (separation_of_boxes(a, b, clearance)) return false;
@@ -123,7 +25,7 @@ bool separation_by_models(const node *a, const node *b, double clearance, time_w
         relative r;
         share s = {-1, 1};
         relative_at(a, b, window, &r);
-        if (!axes_cut(&r, clearance, &s, axis)) return false;
+        if (!axes_cut(&r, clearance, &s)) return false;
         if (!normal_field_cut(&r, clearance, &s)) return false;
         window_take(window, &r, &s);
         if (!(s.hi - s.lo < 1.0)) break; /* not even halved: a new centre would not help much */

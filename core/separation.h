@@ -11,10 +11,8 @@
  * is left, the nodes' points are farther than `clearance` from each other: proved, rounding
  * included. A NaN or an infinity anywhere leaves the window as it is. */
 
-/* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. `axis` is
- * the number of the axis that did most: pass the parent's, it is tried first. */
-bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
-                          unsigned *axis);
+/* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. */
+bool separation_by_models(const node *a, const node *b, double clearance, time_window *window);
 
 /* The paper's test: bounding boxes over the whole of the nodes' times (eqs. 20-22), or balls
  * (section 3.2), farther apart than `clearance`. */

@@ -13,10 +13,7 @@ static bool pair_may_be_near(const impact *im, pair *p)
     if (im->method == IMP_METHOD_PAPER)
         return im->bounds == IMP_BOUNDS_BOX ? !separation_of_boxes(p->a, p->b, im->clearance)
                                             : !separation_of_balls(p->a, p->b, im->clearance);
-    unsigned axis = p->axis;
-    const bool near = separation_by_models(p->a, p->b, im->clearance, &p->window, &axis);
-    p->axis = (uint16_t)axis;
-    return near;
+    return separation_by_models(p->a, p->b, im->clearance, &p->window);
 }
 
 /* Puts the pair of p's nodes on the heap unless they stay apart; false: no memory. p->window holds

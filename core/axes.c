@@ -1,0 +1,203 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "axes.h"
+
+#include "quadratic.h"
+
+#define INLINE static inline __attribute__((always_inline))
+
+enum { LANES = 4 };
+
+typedef double lanes __attribute__((vector_size(8 * LANES)));
+typedef long long mask __attribute__((vector_size(8 * LANES)));
+
+INLINE lanes all(double x) { return (lanes){x, x, x, x}; }
+
+INLINE lanes pick(mask m, lanes yes, lanes no)
+{
+    return (lanes)((m & (mask)yes) | (~m & (mask)no));
+}
+
+INLINE lanes magnitude(lanes x)
+{
+    const long long most = 0x7fffffffffffffff;
+    return (lanes)((mask)x & (mask){most, most, most, most});
+}
+
+INLINE lanes greater(lanes x, lanes y) { return pick(x > y, x, y); }
+
+INLINE lanes lesser(lanes x, lanes y) { return pick(x < y, x, y); }
+
+INLINE bool any(mask m) { return (m[0] | m[1] | m[2] | m[3]) != 0; }
+
+/* Four directions, coordinate by coordinate; and their absolute values. */
+typedef struct bundle {
+    lanes x[3], size[3];
+} bundle;
+
+INLINE lanes along(const bundle *n, const double *v)
+{
+    return n->x[0] * all(v[0]) + n->x[1] * all(v[1]) + n->x[2] * all(v[2]);
+}
+
+INLINE lanes weighted(const bundle *n, const double *v)
+{
+    return n->size[0] * all(v[0]) + n->size[1] * all(v[1]) + n->size[2] * all(v[2]);
+}
+
+typedef struct spans {
+    lanes lo, hi;
+} spans;
+
+/* quadratic.c's edge_hull, in lanes. */
+INLINE void edge_hull(spans *range, lanes c, lanes b, lanes q)
+{
+    const lanes reach = magnitude(b);
+    range->hi = greater(range->hi, c + (q + reach));
+    range->lo = lesser(range->lo, c + (q - reach));
+    const mask inside = reach < magnitude(q + q);
+    if (!any(inside)) return;
+    const lanes vertex = pick(inside, c - b * b / (q * all(4)), c + (q + reach));
+    range->hi = greater(range->hi, vertex);
+    range->lo = lesser(range->lo, vertex);
+}
+
+/* quadratic_span, in lanes; extrema inside the square, which are rare, are left to it. Lemma: where
+ * 4 uu vv is below uv^2 by a part in 2^28, the form is indefinite beyond rounding. Where abs(bu)
+ * reaches 2 abs(uu) + abs(uv), the slope along u keeps its sign over the square, up to 3 * 2^-53 of
+ * it, and so the edges hold the extrema up to 12 * 2^-53 of the coefficients' sum; v alike. */
+INLINE spans project(const bundle *n, const slice *s)
+{
+    const lanes bu = along(n, s->bu), bv = along(n, s->bv);
+    const lanes uu = along(n, s->quu), uv = along(n, s->quv), vv = along(n, s->qvv);
+    spans range = {all(INFINITY), all(-INFINITY)};
+    edge_hull(&range, vv + bv, bu + uv, uu);
+    edge_hull(&range, vv - bv, bu - uv, uu);
+    edge_hull(&range, uu + bu, bv + uv, vv);
+    edge_hull(&range, uu - bu, bv - uv, vv);
+    const mask curved = uu * vv > uv * uv * all(0.25 - 0x1p-30);
+    const mask near = (magnitude(bu) < magnitude(uu) * all(2) + magnitude(uv)) &
+                      (magnitude(bv) < magnitude(vv) * all(2) + magnitude(uv));
+    const mask inner = curved & near;
+    if (!any(inner)) return range;
+    for (int k = 0; k < LANES; ++k) {
+        if (!inner[k]) continue;
+        const quadratic p = {bu[k], bv[k], uu[k], uv[k], vv[k]};
+        const span exact = quadratic_span(&p);
+        range.lo[k] = exact.lo;
+        range.hi[k] = exact.hi;
+    }
+    return range;
+}
+
+/* share_cut in lanes: the least upper and greatest lower bound of w that low + drift w <= limit
+ * leaves in each; `gone` where it leaves nothing. */
+typedef struct cuts {
+    lanes lo, hi;
+    mask gone;
+} cuts;
+
+INLINE void cut(cuts *c, lanes low, lanes drift, lanes limit)
+{
+    const lanes reach = magnitude(drift);
+    c->gone |= low - reach > limit;
+    const mask some = low + reach > limit;
+    if (!any(some)) return;
+    const lanes w = (limit - low) / drift;
+    c->hi = pick(some & (drift > all(0)), lesser(w + all(0x1p-50), c->hi), c->hi);
+    c->lo = pick(some & (drift < all(0)), greater(w - all(0x1p-50), c->lo), c->lo);
+}
+
+INLINE bool share_take(share *s, const cuts *c)
+{
+    if (any(c->gone)) return false;
+    for (int k = 0; k < LANES; ++k) {
+        if (c->hi[k] < s->hi) s->hi = c->hi[k];
+        if (c->lo[k] > s->lo) s->lo = c->lo[k];
+    }
+    return !(s->lo > s->hi);
+}
+
+/* Lemma (one axis). For every w in the window and all points x of A, y of B at that time,
+ *
+ *   n.(y - x) in n.delta + n.drift w + [min Qb - max Qa, max Qb - min Qa] -+ sum_i |n_i| slack_i
+ *
+ * and |n.(y - x)| <= |n| |y - x|. So where the interval leaves [-g, g], g = |n| clearance, the
+ * nodes are farther apart than the clearance. Rounding, in units of u = 2^-53 and R = sum_i |n_i|
+ * magnitude_i: re-centring 20 R (each coefficient takes at most 6 operations on terms that
+ * magnitude counts, at most three times), the dots 6 R, the two spans 128 R (2^-46 R), the sums
+ * 6 R, the slack's own sums 8 R: below 2^-45 R = 256 u R. 2^-490 outweighs underflow, since every
+ * axis has a coordinate of 1. Lanes whose axis or size is out of range are left out: they prove
+ * nothing. */
+INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, share *s)
+{
+    for (int i = 0; i < 3; ++i) n->size[i] = magnitude(n->x[i]);
+    const lanes longest = greater(n->size[0], greater(n->size[1], n->size[2]));
+    const lanes scale = all(1) / longest;
+    for (int i = 0; i < 3; ++i) {
+        n->x[i] *= scale;
+        n->size[i] = magnitude(n->x[i]);
+    }
+    const spans a = project(n, &r->a), b = project(n, &r->b);
+    const lanes offset = along(n, r->delta), drift = along(n, r->drift);
+    const lanes size = weighted(n, r->magnitude);
+    const lanes slack = weighted(n, r->slack) + size * all(0x1p-45) + all(0x1p-490);
+    const lanes square = n->x[0] * n->x[0] + n->x[1] * n->x[1] + n->x[2] * n->x[2];
+    lanes limit;
+    for (int k = 0; k < LANES; ++k) limit[k] = sqrt(square[k]) * clearance * (1 + 0x1p-49);
+    const mask sane = (longest > all(0x1p-400)) & (longest < all(0x1p400)) & (size < all(0x1p400));
+    limit = pick(sane, limit, all(INFINITY));
+    cuts c = {all(-1), all(1), (mask){0}};
+    cut(&c, offset + (b.lo - a.hi) - slack, drift, limit);
+    cut(&c, -offset - (b.hi - a.lo) - slack, -drift, limit);
+    return share_take(s, &c);
+}
+
+INLINE void bundle_set(bundle *n, int lane, vec3 axis)
+{
+    for (int i = 0; i < 3; ++i) n->x[i][lane] = axis.x[i];
+}
+
+/* First the line of centres at the window's start (it decides when the earliest contact can be),
+ * both normals, and what is square to them; then in each tangent plane the directions across u and
+ * v; then the coordinate axes and the line of centres in the middle. */
+INLINE bool bundles_cut(const relative *r, double clearance, share *s)
+{
+    const vec3 na = r->a.normal, nb = r->b.normal;
+    const vec3 delta = vec3_from(r->delta);
+    bundle n;
+    bundle_set(&n, 0, vec3_sub(delta, vec3_from(r->drift)));
+    bundle_set(&n, 1, na);
+    bundle_set(&n, 2, nb);
+    bundle_set(&n, 3, vec3_cross(na, nb));
+    if (!bundle_cut(r, &n, clearance, s)) return false;
+    bundle_set(&n, 0, vec3_cross(na, vec3_from(r->a.bu)));
+    bundle_set(&n, 1, vec3_cross(na, vec3_from(r->a.bv)));
+    bundle_set(&n, 2, vec3_cross(nb, vec3_from(r->b.bu)));
+    bundle_set(&n, 3, vec3_cross(nb, vec3_from(r->b.bv)));
+    if (!bundle_cut(r, &n, clearance, s)) return false;
+    bundle_set(&n, 0, (vec3){{1, 0, 0}});
+    bundle_set(&n, 1, (vec3){{0, 1, 0}});
+    bundle_set(&n, 2, (vec3){{0, 0, 1}});
+    bundle_set(&n, 3, delta);
+    return bundle_cut(r, &n, clearance, s);
+}
+
+#if defined(__x86_64__) && defined(__GNUC__)
+__attribute__((target("avx2"))) static bool bundles_cut_wide(const relative *r, double clearance,
+                                                             share *s)
+{
+    return bundles_cut(r, clearance, s);
+}
+
+bool axes_cut(const relative *r, double clearance, share *s)
+{
+    if (__builtin_cpu_supports("avx2")) return bundles_cut_wide(r, clearance, s);
+    return bundles_cut(r, clearance, s);
+}
+#else
+bool axes_cut(const relative *r, double clearance, share *s)
+{
+    return bundles_cut(r, clearance, s);
+}
+#endif
