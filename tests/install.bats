@@ -98,6 +98,12 @@ build_plugin() {
     awk -v t="${BASH_REMATCH[1]}" 'BEGIN { exit !(t >= 0.4999 && t <= 0.5) }'
 }
 
+@test "the installed command finds the scene of its demo, and its manual page is there" {
+    run -0 "$impinge" demo
+    [[ $output == *"contact at t = "*"impinge solve $prefix/share/impinge/teapot.json" ]]
+    [ -f "$prefix/share/man/man1/impinge.1" ]
+}
+
 @test "impinge-sdk.pc tells the ABI and the plugin directory" {
     [ "$(sdk abi_major)" = "$(sed -n 's/#define IMP_ABI_MAJOR \([0-9]*\).*/\1/p' \
         "$prefix"/include/impinge/surface.h)" ]

@@ -88,6 +88,7 @@ static void print_totals(const type_list *list, size_t refused)
     print_count(", ", maps, "map", "maps");
     if (shadowed > 0) print_count(", ", shadowed, "shadowed", "shadowed");
     puts(".");
+    if (list->count == 0) puts("`impinge help list` tells where plugins are looked for.");
     if (refused == 0) return;
     print_count("", refused, "file or directory was", "files or directories were");
     puts(" left out; `impinge list --refused` tells why.");
