@@ -17,7 +17,8 @@ check_suites = \
     tests/test_surface
 
 # The same, with MPFI as the judge of bounds.
-mpfi_suites =
+mpfi_suites = \
+    tests/test_model
 
 # Command-line tests; the environment below tells them where things are.
 bats_suites = \
@@ -65,7 +66,10 @@ alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=fr
 tests_test_alloc_failure_SOURCES = tests/test_alloc_failure.c tests/alloc_failure.c
 tests_test_alloc_failure_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 
-noinst_HEADERS += tests/suite.h tests/asking.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
+# Models and their exact meaning, side by side.
+tests_test_model_SOURCES = tests/test_model.c tests/oracle.c
+
+noinst_HEADERS += tests/oracle.h tests/suite.h tests/asking.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
 
 # What tests/fuzz_scene reads: scenes, and pipelines.
 EXTRA_DIST += \

@@ -3,30 +3,23 @@
 
 #include "oracle.h"
 
-#include <stdio.h>
-#include <stdlib.h>
+#include "suite.h"
 
-/* --- Random numbers: splitmix64 -------------------------------------------------- */
+/* --- Random numbers -------------------------------------------------------------------- */
 
-uint64_t dice_bits(dice *d)
+double oracle_magnitude(uint64_t *state, double least, double most)
 {
-    uint64_t z = d->state += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
+    double size = suite_power(state, least, most);
+    return suite_bits(state) & 1 ? size : -size;
 }
 
-double dice_unit(dice *d) { return (double)(dice_bits(d) >> 11) * 0x1p-53; }
+unsigned oracle_below(uint64_t *state, unsigned n) { return (unsigned)(suite_bits(state) % n); }
 
-double dice_between(dice *d, double lo, double hi) { return lo + (hi - lo) * dice_unit(d); }
-
-double dice_magnitude(dice *d, double least, double most)
+uint64_t oracle_seed(int trial)
 {
-    double size = exp2(dice_between(d, least, most));
-    return dice_bits(d) & 1 ? size : -size;
+    uint64_t state = suite_seed() + (uint64_t)trial;
+    return suite_bits(&state);
 }
-
-unsigned dice_below(dice *d, unsigned n) { return (unsigned)(dice_bits(d) % n); }
 
 /* --- Operations: what the models do ------------------------------------------------ */
 
@@ -353,20 +346,20 @@ const operation operations[] = {
 };
 const int operation_count = sizeof operations / sizeof operations[0];
 
-double operation_constant(const operation *op, dice *d)
+double operation_constant(const operation *op, uint64_t *state)
 {
     unsigned n = 0;
     while (op->constants && !isnan(op->constants[n])) n++;
-    return n > 0 ? op->constants[dice_below(d, n)] : 0;
+    return n > 0 ? op->constants[oracle_below(state, n)] : 0;
 }
 
 /* --- Points and quadratics ------------------------------------------------------------------- */
 
-void oracle_place(dice *d, double s[3])
+void oracle_place(uint64_t *state, double s[3])
 {
     for (int j = 0; j < 3; j++) {
-        unsigned kind = dice_below(d, 6);
-        s[j] = kind < 2 ? 1 : kind < 4 ? -1 : kind < 5 ? 0 : dice_between(d, -1, 1);
+        unsigned kind = oracle_below(state, 6);
+        s[j] = kind < 2 ? 1 : kind < 4 ? -1 : kind < 5 ? 0 : suite_between(state, -1, 1);
     }
 }
 
@@ -441,18 +434,4 @@ const char *model_text(const imp_model *m)
              m->b[0], m->b[1], m->b[2], m->q[0], m->q[1], m->q[2], m->q[3], m->q[4], m->q[5], m->e,
              m->lo, m->hi, m->rate[0], m->rate[1], m->rate[2], m->depends);
     return out;
-}
-
-int trials(int n)
-{
-    const char *multiplier = getenv("IMPINGE_TEST_MULTIPLIER");
-    double factor = multiplier ? strtod(multiplier, NULL) : 1;
-    return factor > 0 ? (int)imp_larger(1, n * factor) : n;
-}
-
-uint64_t trial_seed(int trial)
-{
-    const char *seed = getenv("IMPINGE_TEST_SEED");
-    dice d = {(seed ? strtoull(seed, NULL, 0) : 0) * 0x10000001b3u + (uint64_t)trial};
-    return dice_bits(&d);
 }

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <mpfi.h>
 
@@ -18,17 +19,13 @@
 
 #define ORACLE_BITS 240
 
-/* --- Random numbers that replay from a seed ----------------------------------- */
+/* --- Random numbers, beside those of suite.h ------------------------------------ */
 
-typedef struct dice {
-    uint64_t state;
-} dice;
+double oracle_magnitude(uint64_t *state, double least, double most); /* +-2^k, k uniform */
+unsigned oracle_below(uint64_t *state, unsigned n);                  /* 0 ... n - 1 */
 
-uint64_t dice_bits(dice *d);
-double dice_unit(dice *d);                                 /* in [0, 1) */
-double dice_between(dice *d, double lo, double hi);        /* uniform */
-double dice_magnitude(dice *d, double least, double most); /* 2^x, x uniform, either sign */
-unsigned dice_below(dice *d, unsigned n);
+/* What trial number `trial` starts from. */
+uint64_t oracle_seed(int trial);
 
 /* --- Operations ------------------------------------------------------------------ */
 
@@ -47,12 +44,12 @@ typedef struct operation {
 extern const operation operations[];
 extern const int operation_count;
 
-double operation_constant(const operation *op, dice *d); /* one of its k */
+double operation_constant(const operation *op, uint64_t *state); /* one of its k */
 
 /* --- Exact points of a region, exact values of a quadratic ------------------------- */
 
 /* s in [-1, 1]^3, doubles: corners, centres of sides, and anything else. */
-void oracle_place(dice *d, double s[3]);
+void oracle_place(uint64_t *state, double s[3]);
 
 /* The quadratic part of m at s. */
 void oracle_quadratic(mpfi_ptr value, const imp_model *m, const mpfi_t s[3]);
@@ -68,11 +65,5 @@ bool range_is_refuted(double lo, double hi, mpfi_srcptr value);
 
 /* All fields, in hexadecimal, to a static buffer that eight calls share. */
 const char *model_text(const imp_model *m);
-
-/* IMPINGE_TEST_MULTIPLIER times n. */
-int trials(int n);
-
-/* A seed of its own for each trial; IMPINGE_TEST_SEED in the environment makes others. */
-uint64_t trial_seed(int trial);
 
 #endif

@@ -5,91 +5,91 @@
  * operand takes whatever value its quadratic, remainder and range allow, and the result must cover
  * what the operation makes of it. */
 
-#include <check.h>
-#include <stdlib.h>
-
 #include "oracle.h"
+#include "suite.h"
 
 /* --- Hostile operands ------------------------------------------------------------ */
 
 /* Where operands lie: around kinks, poles, ends of domains, extrema; far out, deep down. */
-static double hostile_centre(dice *d)
+static double hostile_centre(uint64_t *state)
 {
     static const double special[] = {0, 1, -1, 0.5, 1e8, -1e8, 700, -700, 1e-300, 1e300};
-    switch (dice_below(d, 8)) {
+    switch (oracle_below(state, 8)) {
     case 0:
-        return special[dice_below(d, 10)];
+        return special[oracle_below(state, 10)];
     case 1:
-        return 1.5707963267948966 * (double)((int)dice_below(d, 21) - 10);
+        return 1.5707963267948966 * (double)((int)oracle_below(state, 21) - 10);
     case 2:
-        return dice_magnitude(d, -1070, 1010);
+        return oracle_magnitude(state, -1070, 1010);
     case 3:
-        return 1.5707963267948966 * (double)dice_below(d, 1u << 30);
+        return 1.5707963267948966 * (double)oracle_below(state, 1u << 30);
     default:
-        return dice_magnitude(d, -8, 4);
+        return oracle_magnitude(state, -8, 4);
     }
 }
 
-static double hostile_width(dice *d, double centre)
+static double hostile_width(uint64_t *state, double centre)
 {
-    switch (dice_below(d, 6)) {
+    switch (oracle_below(state, 6)) {
     case 0:
         return 0;
     case 1:
         return fabs(centre) * 0x1p-52;
     case 2:
-        return exp2(dice_between(d, -1070, 3));
+        return suite_power(state, -1070, 3);
     case 3:
-        return fabs(centre) * exp2(dice_between(d, -45, 1));
+        return fabs(centre) * suite_power(state, -45, 1);
     default:
-        return exp2(dice_between(d, -30, 3));
+        return suite_power(state, -30, 3);
     }
 }
 
-static double hostile_error(dice *d, double centre, double width)
+static double hostile_error(uint64_t *state, double centre, double width)
 {
-    switch (dice_below(d, 4)) {
+    switch (oracle_below(state, 4)) {
     case 0:
         return 0;
     case 1:
         return fabs(centre) * 0x1p-52;
     default:
-        return width * exp2(dice_between(d, -50, 0));
+        return width * suite_power(state, -50, 0);
     }
 }
 
 /* Cuts the range: at an end of some function's domain, or anywhere. */
-static void trim(dice *d, imp_model *m)
+static void trim(uint64_t *state, imp_model *m)
 {
     static const double edge[] = {0, 1, -1, 0x1p-1074};
-    double cut = dice_below(d, 2) ? edge[dice_below(d, 4)] : dice_between(d, m->lo, m->hi);
+    double cut =
+        oracle_below(state, 2) ? edge[oracle_below(state, 4)] : suite_between(state, m->lo, m->hi);
     if (cut > m->lo && cut < m->hi) {
-        if (dice_below(d, 3))
+        if (oracle_below(state, 3))
             m->lo = cut;
         else
             m->hi = cut;
     }
 }
 
-static imp_model hostile_model(dice *d)
+static imp_model hostile_model(uint64_t *state)
 {
     static const int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
-    imp_model m = imp_num(hostile_centre(d));
-    double width = hostile_width(d, m.a);
-    m.depends = dice_below(d, 4) ? dice_below(d, 8) : 0;
-    m.e = hostile_error(d, m.a, width);
+    imp_model m = imp_num(hostile_centre(state));
+    double width = hostile_width(state, m.a);
+    m.depends = oracle_below(state, 4) ? oracle_below(state, 8) : 0;
+    m.e = hostile_error(state, m.a, width);
     for (int j = 0; j < 3; j++) {
-        if (m.depends >> j & 1 && dice_below(d, 4)) m.b[j] = width * dice_between(d, -1, 1);
-        if (m.depends >> j & 1) m.rate[j] = fabs(dice_magnitude(d, -20, 20));
+        if (m.depends >> j & 1 && oracle_below(state, 4))
+            m.b[j] = width * suite_between(state, -1, 1);
+        if (m.depends >> j & 1) m.rate[j] = fabs(oracle_magnitude(state, -20, 20));
     }
     for (int k = 0; k < 6; k++)
-        if (m.depends >> row[k] & m.depends >> column[k] & 1 && dice_below(d, 3))
-            m.q[k] = width * dice_between(d, -1, 1) * exp2(dice_between(d, -20, 0));
+        if (m.depends >> row[k] & m.depends >> column[k] & 1 && oracle_below(state, 3))
+            m.q[k] = width * suite_between(state, -1, 1) * suite_power(state, -20, 0);
     imp_interval range = imp_model_poly_range(&m);
     m.lo = range.lo;
     m.hi = range.hi;
     if (!m.depends && m.e == 0) m.lo = m.hi = m.a;
-    if (dice_below(d, 3) == 0) trim(d, &m);
+    if (oracle_below(state, 3) == 0) trim(state, &m);
     return m;
 }
 
@@ -106,10 +106,10 @@ static bool hostile_window(mpfi_ptr window, const imp_model *m, const mpfi_t s[3
 }
 
 /* One of them, as an interval of one number: the least, the greatest or the middle. */
-static void hostile_value(dice *d, mpfi_ptr value, const mpfi_t window)
+static void hostile_value(uint64_t *state, mpfi_ptr value, const mpfi_t window)
 {
     mpfi_set(value, window);
-    switch (dice_below(d, 3)) {
+    switch (oracle_below(state, 3)) {
     case 0:
         mpfr_set(&value->right, &value->left, MPFR_RNDN);
         break;
@@ -127,7 +127,7 @@ static void hostile_value(dice *d, mpfi_ptr value, const mpfi_t window)
 typedef struct trial {
     const operation *op;
     uint64_t seed;
-    dice d;
+    uint64_t state;
     imp_model x, y, r;
     double k;
     mpfi_t s[3], xs, ys, p, q, value, value2, step; /* xs, ys: what x, y allow at s */
@@ -137,10 +137,10 @@ static void trial_begin(trial *t, const operation *op, uint64_t seed)
 {
     t->op = op;
     t->seed = seed;
-    t->d.state = seed;
-    t->x = hostile_model(&t->d);
-    t->y = op->arity > 1 ? hostile_model(&t->d) : imp_num(0);
-    t->k = operation_constant(op, &t->d);
+    t->state = seed;
+    t->x = hostile_model(&t->state);
+    t->y = op->arity > 1 ? hostile_model(&t->state) : imp_num(0);
+    t->k = operation_constant(op, &t->state);
     t->r = op->model(t->x, t->y, t->k);
     mpfi_ptr all[] = {t->s[0], t->s[1], t->s[2],  t->xs,     t->ys,
                       t->p,    t->q,    t->value, t->value2, t->step};
@@ -163,11 +163,11 @@ static void trial_end(trial *t)
 static bool trial_take(trial *t)
 {
     double s[3];
-    oracle_place(&t->d, s);
+    oracle_place(&t->state, s);
     for (int j = 0; j < 3; j++) mpfi_set_d(t->s[j], s[j]);
     if (!hostile_window(t->xs, &t->x, t->s) || !hostile_window(t->ys, &t->y, t->s)) return false;
-    hostile_value(&t->d, t->p, t->xs);
-    hostile_value(&t->d, t->q, t->ys);
+    hostile_value(&t->state, t->p, t->xs);
+    hostile_value(&t->state, t->q, t->ys);
     return t->op->exact(t->value, t->p, t->q, t->k);
 }
 
@@ -178,27 +178,32 @@ static void trial_sample(trial *t)
     ck_trial(t, !range_is_refuted(t->r.lo, t->r.hi, t->value), "range misses a value");
 }
 
-START_TEST(every_value_that_the_operands_allow_is_covered)
+static void every_value_is_covered(const operation *op)
 {
-    for (int i = 0; i < trials(400); i++) {
+    for (int i = 0; i < suite_times(400); i++) {
         trial t;
-        trial_begin(&t, &operations[_i], trial_seed(i));
+        trial_begin(&t, op, oracle_seed(i));
         ck_trial(&t, model_is_well_formed(&t.r), "malformed model");
         ck_trial(&t, (t.r.depends & ~(t.x.depends | t.y.depends)) == 0, "depends out of nothing");
         for (int k = 0; k < 10; k++) trial_sample(&t);
         trial_end(&t);
     }
 }
+
+START_TEST(every_value_that_the_operands_allow_is_covered)
+{
+    for (int i = 0; i < operation_count; i++) every_value_is_covered(&operations[i]);
+}
 END_TEST
 
 /* --- Rates --------------------------------------------------------------------------------- */
 
 /* p becomes p + rate step, or p - rate step; false if that is not allowed. */
-static bool move(dice *d, mpfi_ptr p, const mpfi_t window, double rate, mpfi_srcptr step)
+static bool move(uint64_t *state, mpfi_ptr p, const mpfi_t window, double rate, mpfi_srcptr step)
 {
     mpfi_t change;
     mpfi_init2(change, ORACLE_BITS);
-    mpfi_mul_d(change, step, dice_bits(d) & 1 ? rate : -rate);
+    mpfi_mul_d(change, step, suite_bits(state) & 1 ? rate : -rate);
     mpfi_add(p, p, change);
     mpfi_clear(change);
     return mpfi_is_inside(p, window);
@@ -207,10 +212,10 @@ static bool move(dice *d, mpfi_ptr p, const mpfi_t window, double rate, mpfi_src
 /* Operands that change as fast as their rates allow while p_j changes by `step`. */
 static void trial_change(trial *t)
 {
-    int j = (int)dice_below(&t->d, 3);
-    mpfi_set_d(t->step, exp2(dice_between(&t->d, -140, -10)));
-    if (!trial_take(t) || !move(&t->d, t->p, t->xs, t->x.rate[j], t->step) ||
-        !move(&t->d, t->q, t->ys, t->y.rate[j], t->step))
+    int j = (int)oracle_below(&t->state, 3);
+    mpfi_set_d(t->step, suite_power(&t->state, -140, -10));
+    if (!trial_take(t) || !move(&t->state, t->p, t->xs, t->x.rate[j], t->step) ||
+        !move(&t->state, t->q, t->ys, t->y.rate[j], t->step))
         return;
     if (!t->op->exact(t->value2, t->p, t->q, t->k)) return;
     mpfi_sub(t->value, t->value, t->value2);
@@ -220,48 +225,58 @@ static void trial_change(trial *t)
              "changes faster than its rate");
 }
 
-START_TEST(rates_hold_for_operands_that_change_as_fast_as_theirs_allow)
+static void rates_hold(const operation *op)
 {
-    for (int i = 0; i < trials(400); i++) {
+    for (int i = 0; i < suite_times(400); i++) {
         trial t;
-        trial_begin(&t, &operations[_i], trial_seed(i));
+        trial_begin(&t, op, oracle_seed(i));
         for (int k = 0; k < 10; k++) trial_change(&t);
         trial_end(&t);
     }
+}
+
+START_TEST(rates_hold_for_operands_that_change_as_fast_as_theirs_allow)
+{
+    for (int i = 0; i < operation_count; i++) rates_hold(&operations[i]);
 }
 END_TEST
 
 /* --- What cannot be bounded ------------------------------------------------------------------ */
 
 /* Ranges open on one side or both, at the limits of double, overflowing quadratics. */
-static imp_model boundless_model(dice *d)
+static imp_model boundless_model(uint64_t *state)
 {
     static const double ends[] = {-INFINITY, -1.7e308, -1, 0, 5e-324, 1, 1.7e308, INFINITY};
-    imp_model m = hostile_model(d);
-    unsigned i = dice_below(d, 7), j = i + 1 + dice_below(d, 7 - i);
-    if (i + 1 == 8 || dice_below(d, 4) == 0) return m;
+    imp_model m = hostile_model(state);
+    unsigned i = oracle_below(state, 7), j = i + 1 + oracle_below(state, 7 - i);
+    if (i + 1 == 8 || oracle_below(state, 4) == 0) return m;
     m.lo = ends[i];
     m.hi = ends[j];
-    m.e = dice_below(d, 2) ? INFINITY : 1e300;
-    if (dice_below(d, 2)) m.a = dice_magnitude(d, 1000, 1023.9);
+    m.e = oracle_below(state, 2) ? INFINITY : 1e300;
+    if (oracle_below(state, 2)) m.a = oracle_magnitude(state, 1000, 1023.9);
     for (int k = 0; k < 3; k++)
-        if (m.depends >> k & 1 && dice_below(d, 2))
-            m.rate[k] = dice_below(d, 2) ? INFINITY : 1.7e308;
+        if (m.depends >> k & 1 && oracle_below(state, 2))
+            m.rate[k] = oracle_below(state, 2) ? INFINITY : 1.7e308;
     return m;
 }
 
-START_TEST(no_answer_holds_a_nan)
+static void no_nan_comes_of(const operation *op)
 {
-    for (int i = 0; i < trials(5000); i++) {
+    for (int i = 0; i < suite_times(2000); i++) {
         trial t;
-        trial_begin(&t, &operations[_i], trial_seed(i));
-        t.d.state = t.seed;
-        t.x = boundless_model(&t.d);
-        t.y = boundless_model(&t.d);
+        trial_begin(&t, op, oracle_seed(i));
+        t.state = t.seed;
+        t.x = boundless_model(&t.state);
+        t.y = boundless_model(&t.state);
         t.r = t.op->model(t.x, t.y, t.k);
         ck_trial(&t, model_is_well_formed(&t.r), "malformed model");
         trial_end(&t);
     }
+}
+
+START_TEST(no_answer_holds_a_nan)
+{
+    for (int i = 0; i < operation_count; i++) no_nan_comes_of(&operations[i]);
 }
 END_TEST
 
@@ -269,47 +284,38 @@ END_TEST
  */
 
 /* Somewhere in [lo, hi], the ends above all. */
-static double hostile_point(dice *d, double lo, double hi)
+static double hostile_point(uint64_t *state, double lo, double hi)
 {
-    unsigned kind = dice_below(d, 4);
-    double x = kind == 0 ? lo : kind == 1 ? hi : dice_between(d, lo, hi);
+    unsigned kind = oracle_below(state, 4);
+    double x = kind == 0 ? lo : kind == 1 ? hi : suite_between(state, lo, hi);
     return x < lo ? lo : x > hi ? hi : x;
 }
 
-START_TEST(intervals_cover_every_value)
+static void interval_covers(const operation *op)
 {
-    const operation *op = &operations[_i];
-    for (int i = 0; op->interval && i < trials(400); i++) {
+    for (int i = 0; i < suite_times(400); i++) {
         trial t;
-        trial_begin(&t, op, trial_seed(i));
+        trial_begin(&t, op, oracle_seed(i));
         imp_interval x = imp_interval_make(t.x.lo, t.x.hi), y = imp_interval_make(t.y.lo, t.y.hi);
         imp_interval r = op->interval(x, y, t.k);
         ck_trial(&t, r.lo <= r.hi, "malformed interval");
         for (int k = 0; k < 10; k++) {
-            mpfi_set_d(t.p, hostile_point(&t.d, x.lo, x.hi));
-            mpfi_set_d(t.q, hostile_point(&t.d, y.lo, y.hi));
+            mpfi_set_d(t.p, hostile_point(&t.state, x.lo, x.hi));
+            mpfi_set_d(t.q, hostile_point(&t.state, y.lo, y.hi));
             if (op->exact(t.value, t.p, t.q, t.k))
                 ck_trial(&t, !range_is_refuted(r.lo, r.hi, t.value), "interval misses a value");
         }
         trial_end(&t);
     }
 }
+
+START_TEST(intervals_cover_every_value)
+{
+    for (int i = 0; i < operation_count; i++)
+        if (operations[i].interval) interval_covers(&operations[i]);
+}
 END_TEST
 
-int main(void)
-{
-    Suite *suite = suite_create("model");
-    TCase *tests = tcase_create("operations");
-    tcase_set_timeout(tests, 600);
-    tcase_add_loop_test(tests, every_value_that_the_operands_allow_is_covered, 0, operation_count);
-    tcase_add_loop_test(tests, rates_hold_for_operands_that_change_as_fast_as_theirs_allow, 0,
-                        operation_count);
-    tcase_add_loop_test(tests, no_answer_holds_a_nan, 0, operation_count);
-    tcase_add_loop_test(tests, intervals_cover_every_value, 0, operation_count);
-    suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
-}
+SUITE_MAIN("model", every_value_that_the_operands_allow_is_covered,
+           rates_hold_for_operands_that_change_as_fast_as_theirs_allow, no_answer_holds_a_nan,
+           intervals_cover_every_value)

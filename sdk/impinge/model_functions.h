@@ -306,7 +306,7 @@ static inline void imp_series_powi_(imp_series_ *s, int n)
 {
     double power = n > 4 ? imp_pow_(s->m, n - 4) : 1, tail = 0, t[5] = {0, 0, 0, 0, 0};
     double c2 = (double)n * (n - 1.) / 2, c3 = c2 * (n - 2.) / 3, c4 = c3 * (n - 3.) / 4;
-    const double binomial[5] = {1, n, c2, c3, c4};
+    const double binomial[5] = {1, (double)n, c2, c3, c4};
     for (int k = n < 4 ? n : 4; k >= 0; k--) {
         t[k] = binomial[k] * power;
         power *= s->m;
