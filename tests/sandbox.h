@@ -30,7 +30,9 @@ static inline sandbox sandbox_new(void)
 {
     sandbox box;
     const char *tmp = getenv("TMPDIR");
-    snprintf(box.path, sizeof box.path, "%s/impinge-XXXXXX", tmp && *tmp ? tmp : "/tmp");
+    /* mkdtemp wants six letters X at the end, to change them */
+    snprintf(box.path, sizeof box.path, "%s/impinge-%06d", tmp && *tmp ? tmp : P_tmpdir, 0);
+    memset(box.path + strlen(box.path) - 6, 'X', 6);
     ck_assert_ptr_nonnull(mkdtemp(box.path));
     return box;
 }
