@@ -18,7 +18,14 @@ check_suites = \
 
 # The same, with MPFI as the judge of bounds.
 mpfi_suites = \
-    tests/test_model
+    tests/test_model \
+    tests/test_plugins
+tests_test_plugins_SOURCES = tests/test_plugins.c \
+    tests/oracle_number.c tests/oracle_number.h \
+    tests/type_oracle.c tests/type_oracle.h \
+    tests/instance.c tests/instance.h \
+    tests/judge.c tests/judge.h \
+    tests/sampling.c tests/sampling.h
 
 # Command-line tests; the environment below tells them where things are.
 bats_suites = \

@@ -1,0 +1,199 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "type_oracle.h"
+
+#include <stdlib.h>
+
+const imp_value *argument(const type_arguments *arguments, const char *name)
+{
+    ptrdiff_t row = parameter_table_find(&arguments->table, name);
+    if (row < 0) abort();
+    return &arguments->value[row];
+}
+
+number argument_at(const type_arguments *arguments, const char *name, size_t index)
+{
+    const imp_value *value = argument(arguments, name);
+    if (index >= value->count) abort();
+    return num(value->number[index]);
+}
+
+static number scalar(const type_arguments *arguments, const char *name)
+{
+    return argument_at(arguments, name, 0);
+}
+
+static void add_center(const type_arguments *arguments, number x[3])
+{
+    for (size_t i = 0; i < 3; ++i) x[i] = num_add(x[i], argument_at(arguments, "center", i));
+}
+
+/* radius (cos v cos u, cos v sin u, sin v) */
+static void polar(number radius, number u, number v, number x[3])
+{
+    number ring = num_mul(radius, num_cos(v));
+    x[0] = num_mul(ring, num_cos(u));
+    x[1] = num_mul(ring, num_sin(u));
+    x[2] = num_mul(radius, num_sin(v));
+}
+
+/* --- Surfaces ---------------------------------------------------------------------------- */
+
+static void sphere(const type_arguments *arguments, const number p[3], number x[3])
+{
+    polar(scalar(arguments, "radius"), p[0], p[1], x);
+    add_center(arguments, x);
+}
+
+static void torus(const type_arguments *arguments, const number p[3], number x[3])
+{
+    number tube = scalar(arguments, "minor_radius");
+    number ring = num_add(scalar(arguments, "major_radius"), num_mul(tube, num_cos(p[1])));
+    x[0] = num_mul(ring, num_cos(p[0]));
+    x[1] = num_mul(ring, num_sin(p[0]));
+    x[2] = num_mul(tube, num_sin(p[1]));
+    add_center(arguments, x);
+}
+
+/* One of a spike's repetitions. */
+static number peak(const type_arguments *arguments, size_t k, int turn, const number p[3])
+{
+    const double two_pi = 0x1.921fb54442d18p+2, *top = argument(arguments, "spikes")->number;
+    double longitude = top[2 * k] + turn * two_pi; /* rounded: so it is defined */
+    number east = num_sub(p[0], num(longitude)), north = num_sub(p[1], num(top[2 * k + 1]));
+    number square = num_add(num_sqr(east), num_sqr(north));
+    number fall = num_div(square, num_sqr(scalar(arguments, "width")));
+    return num_is_less(num(5000), fall) ? num(0) : num_exp(num_neg(fall)); /* 10^-2171 at most */
+}
+
+static void spike(const type_arguments *arguments, const number p[3], number x[3])
+{
+    number sum = num(0);
+    for (size_t k = 0; k < argument(arguments, "spikes")->extent[0]; ++k)
+        for (int turn = -40; turn <= 40; ++turn) sum = num_add(sum, peak(arguments, k, turn, p));
+    number height = num_mul(scalar(arguments, "height"), sum);
+    polar(num_add(scalar(arguments, "radius"), height), p[0], p[1], x);
+    add_center(arguments, x);
+}
+
+static number bernstein(unsigned n, unsigned i, number u)
+{
+    double choose = 1;
+    for (unsigned k = 0; k < i; ++k) choose = choose * (n - k) / (k + 1);
+    number rest = num_power(num_sub(num(1), u), n - i);
+    return num_mul(num(choose), num_mul(num_power(u, i), rest));
+}
+
+static void bezier(const type_arguments *arguments, const number p[3], number x[3])
+{
+    const double *points = argument(arguments, "points")->number;
+    const double *velocities = argument(arguments, "velocities")->number;
+    const double *weights = argument(arguments, "weights")->number;
+    const unsigned n = (unsigned)argument(arguments, "degree")->number[0];
+    const unsigned m = (unsigned)argument(arguments, "degree")->number[1];
+    number sum[3] = {num(0), num(0), num(0)}, total = num(0), along_v[32];
+    for (unsigned j = 0; j <= m; ++j) along_v[j] = bernstein(m, j, p[1]);
+    for (unsigned i = 0; i <= n; ++i) {
+        number along_u = bernstein(n, i, p[0]);
+        for (unsigned j = 0; j <= m; ++j) {
+            size_t k = i * (m + 1) + j;
+            number weight = num_mul(along_u, along_v[j]);
+            if (weights) weight = num_mul(weight, num(weights[k]));
+            total = num_add(total, weight);
+            for (size_t axis = 0; axis < 3; ++axis) {
+                number at = num(points[3 * k + axis]);
+                if (velocities) at = num_add(at, num_mul(p[2], num(velocities[3 * k + axis])));
+                sum[axis] = num_add(sum[axis], num_mul(weight, at));
+            }
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) x[axis] = num_div(sum[axis], total);
+}
+
+/* --- Maps ---------------------------------------------------------------------------------- */
+
+/* Component i of a polynomial given by all coefficients or by its rate of change. */
+static number polynomial(const type_arguments *arguments, const char *rate,
+                         const char *coefficients, size_t i, number t)
+{
+    const imp_value *all = argument(arguments, coefficients);
+    if (!all->count) return num_mul(argument_at(arguments, rate, i), t);
+    size_t width = all->count / all->extent[0];
+    return num_poly(all->number + i, all->extent[0], width, t);
+}
+
+static void translate(const type_arguments *arguments, const number p[4], number x[3])
+{
+    for (size_t i = 0; i < 3; ++i)
+        x[i] = num_add(p[i], polynomial(arguments, "velocity", "offset", i, p[3]));
+}
+
+/* Rodrigues: w cos A + (k x w) sin A + k (k.w) (1 - cos A). */
+static void rotate(const type_arguments *arguments, const number p[4], number x[3])
+{
+    number angle = polynomial(arguments, "rate", "angle", 0, p[3]);
+    number cosine = num_cos(angle), sine = num_sin(angle), k[3], w[3], square = num(0);
+    for (size_t i = 0; i < 3; ++i) {
+        k[i] = argument_at(arguments, "axis", i);
+        w[i] = num_sub(p[i], argument_at(arguments, "center", i));
+        square = num_add(square, num_sqr(k[i]));
+    }
+    number dot = num(0);
+    for (int i = 0; i < 3; ++i) {
+        k[i] = num_div(k[i], num_sqrt(square));
+        dot = num_add(dot, num_mul(k[i], w[i]));
+    }
+    for (int i = 0; i < 3; ++i) {
+        int j = (i + 1) % 3, l = (i + 2) % 3;
+        number cross = num_sub(num_mul(k[j], w[l]), num_mul(k[l], w[j]));
+        number axial = num_mul(num_mul(k[i], dot), num_sub(num(1), cosine));
+        x[i] = num_add(num_add(num_mul(w[i], cosine), num_mul(cross, sine)), axial);
+    }
+    add_center(arguments, x);
+}
+
+/* --- The table ------------------------------------------------------------------------------ */
+
+const type_oracle oracles[] = {
+    {.type = "sphere",
+     .surface = sphere,
+     .instances = {"{}", "{\"radius\": +, \"center\": [?,?,?]}",
+                   "{\"radius\": 1e-3, \"center\": [1e8,-1e8,1e-8]}",
+                   "{\"radius\": 1e9, \"center\": [0,0,-1e9]}"}},
+    {.type = "torus",
+     .surface = torus,
+     .instances = {"{}", "{\"major_radius\": +, \"minor_radius\": +, \"center\": [?,?,?]}",
+                   "{\"major_radius\": 1e6, \"minor_radius\": 1e-6, \"center\": [1e6,0,0]}"}},
+    {.type = "spike",
+     .surface = spike,
+     .instances = {"{}", "{\"radius\": +, \"height\": ?, \"width\": 0.3, \"spikes\": [@3[?,?]]}",
+                   "{\"width\": 1e-3, \"spikes\": [[0,0],[6.28,1.5],[3,-1]]}",
+                   "{\"width\": 3, \"height\": -0.5, \"spikes\": [[100,0]], \"center\": [?,?,?]}"}},
+    {.type = "bezier",
+     .surface = bezier,
+     .instances =
+         {"{\"degree\": [3,3], \"points\": [@16[?,?,?]]}",
+          "{\"degree\": [3,3], \"points\": [@16[?,?,?]], \"velocities\": [@16[?,?,?]]}",
+          "{\"degree\": [1,1], \"points\": [@4[?,?,?]], \"velocities\": [@4[?,?,?]]}",
+          "{\"degree\": [2,5], \"points\": [@18[?,?,?]], \"velocities\": [@18[?,?,?]]}",
+          "{\"degree\": [3,2], \"points\": [@12[?,?,?]], \"weights\": [@12+]}",
+          "{\"degree\": [2,2], \"points\": [@9[?,?,?]], \"weights\": [@9+],"
+          " \"velocities\": [@9[?,?,?]]}",
+          "{\"degree\": [20,1], \"points\": [@42[?,?,?]], \"velocities\": [@42[?,?,?]]}",
+          "{\"degree\": [3,3], \"points\": [[1e8,1,2],@14[?,1e-9,7],[1e8,1,3]],"
+          " \"velocities\": [@16[1e3,?,0]]}",
+          "{\"degree\": [1,2], \"points\": [[1,0,0],[1,1,0],[0,1,0],[1,0,1],[1,1,1],[0,1,1]],"
+          " \"weights\": [1,0.7071067811865476,1,1e-9,1e9,1]}"}},
+    {.type = "translate",
+     .map = translate,
+     .instances = {"{\"velocity\": [?,?,?]}", "{\"offset\": [@1[?,?,?]]}",
+                   "{\"offset\": [@5[?,?,?]]}", "{\"velocity\": [1e8,-1e-8,0]}"}},
+    {.type = "rotate",
+     .map = rotate,
+     .instances = {"{\"rate\": 1}", "{\"axis\": [?,?,?], \"rate\": ?, \"center\": [?,?,?]}",
+                   "{\"axis\": [0,-2,0], \"angle\": [?,?,?]}",
+                   "{\"axis\": [1,1e-170,1e-9], \"rate\": 1, \"center\": [1e8,0,-1e8]}",
+                   "{\"axis\": [?,?,?], \"rate\": 1000}"}},
+};
+
+const size_t oracle_count = sizeof oracles / sizeof oracles[0];
