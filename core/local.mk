@@ -73,3 +73,5 @@ core_includedir = $(pkgincludedir)
 core_include_HEADERS = core/impinge/impinge.h
 
 pkgconfig_DATA += core/impinge.pc
+
+EXTRA_DIST += core/README

@@ -87,8 +87,10 @@ static int run_corpus(void)
         ++count;
     }
     closedir(stream);
-    printf("%d inputs\n", count);
-    return count > 0 ? worst : EXIT_FAILURE;
+    if (count == 0) worst = EXIT_FAILURE;
+    printf("%s 1 the %d inputs of the corpus do no harm\n",
+           worst == EXIT_SUCCESS ? "ok" : "not ok", count); /* TAP, as tools/test counts */
+    return worst;
 }
 
 int main(int count, char **argument)
