@@ -1,0 +1,257 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "separation.h"
+
+#include <string.h>
+
+#include "axes.h"
+#include "normal_field.h"
+#include "suite.h"
+
+/* Pairs of made-up nodes that are brought together, exactly within the clearance, at a chosen
+ * moment and chosen points: no cut may lose that moment. Where parts of the judgement need it, long
+ * double. */
+
+typedef struct meeting {
+    node a, b;
+    time_window window;
+    double t; /* when they are near */
+    double clearance;
+    long double gap[3]; /* B - A then */
+} meeting;
+
+static void random_node(uint64_t *state, node *n, double size, double bend, double motion)
+{
+    memset(n, 0, sizeof *n);
+    const double lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
+    n->region = region_make(lo, hi);
+    n->bounded = true;
+    quadratic3 *f = &n->f;
+    for (int i = 0; i < 3; ++i) {
+        f->bu[i] = size * suite_between(state, -1, 1);
+        f->bv[i] = size * suite_between(state, -1, 1);
+        f->bt[i] = motion * suite_between(state, -1, 1);
+        double *q[5] = {&f->quu[i], &f->quv[i], &f->qvv[i], &f->qut[i], &f->qvt[i]};
+        for (int k = 0; k < 5; ++k) *q[k] = bend * size * suite_between(state, -1, 1);
+        f->qtt[i] = bend * motion * suite_between(state, -1, 1);
+        n->e[i] = suite_bits(state) % 2 ? bend * size * suite_power(state, -8, 0) : 0;
+        n->magnitude[i] =
+            (fabs(f->bu[i]) + fabs(f->bv[i]) + fabs(f->bt[i]) + fabs(f->quu[i]) + fabs(f->quv[i]) +
+             fabs(f->qut[i]) + fabs(f->qvv[i]) + fabs(f->qvt[i]) + fabs(f->qtt[i]) + n->e[i]) *
+            (1 + 0x1p-48);
+        n->lo[i] = -INFINITY;
+        n->hi[i] = INFINITY;
+    }
+}
+
+/* The second surface of a tangent pair: the first, turned a little, and curved otherwise. */
+static void make_tangent(uint64_t *state, meeting *m, double tilt, double bend)
+{
+    for (int i = 0; i < 3; ++i) {
+        m->b.f.bu[i] = m->a.f.bu[i] * suite_between(state, 0.9, 1.1);
+        m->b.f.bv[i] = m->a.f.bv[i] + tilt * suite_between(state, -1, 1) * m->a.f.bu[i];
+        m->b.f.quu[i] = m->a.f.quu[i] + bend * suite_between(state, -1, 1) * m->a.f.quu[i];
+    }
+}
+
+static long double point(const node *n, int i, const double *s, double t, long double rest)
+{
+    const quadratic3 *f = &n->f;
+    const long double st = ((long double)t - n->region.c[2]) / n->region.d[2];
+    return f->a[i] + f->bu[i] * (long double)s[0] + f->bv[i] * (long double)s[1] + f->bt[i] * st +
+           f->quu[i] * (long double)s[0] * s[0] + f->quv[i] * (long double)s[0] * s[1] +
+           f->qut[i] * s[0] * st + f->qvv[i] * (long double)s[1] * s[1] + f->qvt[i] * s[1] * st +
+           f->qtt[i] * st * st + rest * n->e[i];
+}
+
+static double corner_or_inside(uint64_t *state)
+{
+    const uint64_t k = suite_bits(state) % 4;
+    return k == 0 ? -1 : k == 1 ? 1 : suite_between(state, -1, 1);
+}
+
+/* Places B so that at m->t the points at random parameters are within the clearance. */
+static void bring_together(uint64_t *state, meeting *m, double offset)
+{
+    double sa[2], sb[2], toward[3], norm = 0;
+    for (int k = 0; k < 2; ++k) {
+        sa[k] = corner_or_inside(state);
+        sb[k] = corner_or_inside(state);
+    }
+    for (int i = 0; i < 3; ++i) {
+        toward[i] = suite_between(state, -1, 1);
+        norm += toward[i] * toward[i];
+        m->a.f.a[i] = offset * suite_between(state, -1, 1);
+    }
+    /* within the clearance also after b.a is rounded to a double */
+    const double reach = m->clearance * (suite_bits(state) % 2 ? 1 - 1e-9 : 0.5);
+    for (int i = 0; i < 3; ++i) {
+        const long double ra = corner_or_inside(state), rb = corner_or_inside(state);
+        const long double x = point(&m->a, i, sa, m->t, ra) + reach * toward[i] / sqrt(norm);
+        m->b.f.a[i] = 0;
+        m->b.f.a[i] = (double)(x - point(&m->b, i, sb, m->t, rb));
+        m->gap[i] = point(&m->b, i, sb, m->t, rb) - point(&m->a, i, sa, m->t, ra);
+    }
+}
+
+static bool is_near(const meeting *m)
+{
+    const long double square =
+        m->gap[0] * m->gap[0] + m->gap[1] * m->gap[1] + m->gap[2] * m->gap[2];
+    return square <= (long double)m->clearance * m->clearance;
+}
+
+static void random_meeting(uint64_t *state, meeting *m, bool tangent)
+{
+    const double size = suite_power(state, -30, 3),
+                 bend = suite_power(state, tangent ? -4 : -12, 1);
+    const double motion = size * suite_power(state, -6, tangent ? 0 : 6);
+    random_node(state, &m->a, size, bend, motion);
+    random_node(state, &m->b, size * (tangent ? 1 : suite_power(state, -3, 3)), bend, motion);
+    if (tangent) make_tangent(state, m, suite_power(state, -20, -1), 0.1);
+    m->clearance = size * suite_power(state, -20, 0);
+    m->window.lo = suite_between(state, 0, 0.9);
+    m->window.hi = m->window.lo + (1 - m->window.lo) * suite_power(state, -10, 0);
+    const uint64_t where = suite_bits(state) % 4;
+    m->t = where == 0   ? m->window.lo
+           : where == 1 ? m->window.hi
+                        : suite_between(state, m->window.lo, m->window.hi);
+    bring_together(state, m, suite_bits(state) % 8 == 0 ? 100 * size : size);
+}
+
+START_TEST(the_moment_of_a_meeting_is_never_cut_away)
+{
+    uint64_t state = suite_seed();
+    int near = 0;
+    for (int k = 0; k < suite_times(150000); ++k) {
+        meeting m;
+        random_meeting(&state, &m, k % 2 == 0);
+        if (!is_near(&m)) continue;
+        ++near;
+        time_window left = m.window;
+        const bool some = separation_by_models(&m.a, &m.b, m.clearance, &left);
+        ck_assert_msg(some && left.lo <= m.t && m.t <= left.hi,
+                      "case %d: near at %.17g of [%.17g, %.17g], left [%.17g, %.17g]", k, m.t,
+                      m.window.lo, m.window.hi, left.lo, left.hi);
+    }
+    ck_assert_int_gt(near, suite_times(150000) / 2);
+}
+END_TEST
+
+/* Where the share of the window the meeting happens at lies. */
+static void check_share(const meeting *m, bool (*cut)(const relative *, double, share *), int k)
+{
+    relative r;
+    share s = {-1, 1};
+    relative_at(&m->a, &m->b, &m->window, &r);
+    const bool some = cut(&r, m->clearance, &s);
+    const long double w = r.half > 0 ? (m->t - (long double)r.mid) / r.half : 0;
+    ck_assert_msg(some && s.lo <= w && w <= s.hi, "case %d: near at w = %Lg, left [%g, %g]", k, w,
+                  s.lo, s.hi);
+}
+
+START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
+{
+    uint64_t state = suite_seed() + 1;
+    for (int k = 0; k < suite_times(100000); ++k) {
+        meeting m;
+        random_meeting(&state, &m, k % 4 != 0);
+        if (!is_near(&m)) continue;
+        check_share(&m, axes_cut, k);
+        check_share(&m, normal_field_cut, k);
+    }
+}
+END_TEST
+
+/* Two caps of radius 1 that bulge at each other along a tilted normal, h wide, `gap` apart. */
+static meeting two_caps(double h, double radius_b, double gap)
+{
+    const double n[3] = {0.48, 0.6, 0.64}, u[3] = {0.8, 0, -0.6}, v[3] = {-0.36, 0.8, -0.48};
+    meeting m;
+    memset(&m, 0, sizeof m);
+    node *both[2] = {&m.a, &m.b};
+    for (int k = 0; k < 2; ++k) {
+        node *x = both[k];
+        x->region = region_make((double[3]){0, 0, 0}, (double[3]){1, 1, 1});
+        x->bounded = true;
+        for (int i = 0; i < 3; ++i) {
+            const double curve = k == 0 ? -0.5 : -0.5 / radius_b;
+            x->f.a[i] = k * gap * n[i];
+            x->f.bu[i] = h * u[i];
+            x->f.bv[i] = h * v[i];
+            x->f.quu[i] = x->f.qvv[i] = curve * h * h * n[i];
+            x->magnitude[i] = 4 * h;
+            x->lo[i] = -INFINITY;
+            x->hi[i] = INFINITY;
+        }
+    }
+    m.window = (time_window){0, 1};
+    return m;
+}
+
+START_TEST(the_field_of_normals_parts_caps_that_no_axis_does)
+{
+    /* A in B's hollow, both curved the same way, 1 and 1.1 in radius: any axis sees both bends */
+    meeting m = two_caps(0.1, 1.1, 1e-3);
+    relative r;
+    share axes = {-1, 1}, field = {-1, 1};
+    relative_at(&m.a, &m.b, &m.window, &r);
+    ck_assert(axes_cut(&r, 1e-6, &axes));
+    ck_assert(axes.lo == -1 && axes.hi == 1);
+    ck_assert(!normal_field_cut(&r, 1e-6, &field));
+}
+END_TEST
+
+START_TEST(a_window_shrinks_to_the_moment_of_contact)
+{
+    meeting m = two_caps(1e-9, -1, 1);
+    for (int i = 0; i < 3; ++i) m.b.f.bt[i] = -2 * m.b.f.a[i], m.b.magnitude[i] = 4;
+    ck_assert(separation_by_models(&m.a, &m.b, 1e-3, &m.window));
+    /* the gap is 1 - 2 (2 t - 1) = 3 - 4 t: 1e-3 at t = 0.74975 and at 0.75025 */
+    ck_assert_double_le(fabs(m.window.lo - 0.74975), 1e-8);
+    ck_assert_double_le(fabs(m.window.hi - 0.75025), 1e-8);
+}
+END_TEST
+
+/* Coefficient k of all three coordinates; 10: the remainders. Magnitudes follow, as in any node. */
+static void spoil(node *n, int k, double value)
+{
+    double *coordinates = k < 10 ? (double *)&n->f + 3 * k : n->e;
+    for (int i = 0; i < 3; ++i) {
+        coordinates[i] = value;
+        if (k > 0) n->magnitude[i] += fabs(value);
+    }
+}
+
+START_TEST(infinities_and_nans_never_part_anything)
+{
+    const double odd[3] = {INFINITY, -INFINITY, NAN};
+    for (int k = 0; k < 11; ++k)
+        for (int o = 0; o < 3; ++o) {
+            meeting m = two_caps(0.1, 1.1, 50);
+            spoil(&m.b, k, odd[o]);
+            relative r;
+            share axes = {-1, 1}, field = {-1, 1};
+            relative_at(&m.a, &m.b, &m.window, &r);
+            ck_assert_msg(axes_cut(&r, 1e-6, &axes), "axes: coefficient %d, %g", k, odd[o]);
+            ck_assert_msg(normal_field_cut(&r, 1e-6, &field), "field: coefficient %d, %g", k,
+                          odd[o]);
+            ck_assert(axes.lo == -1 && axes.hi == 1 && field.lo == -1 && field.hi == 1);
+        }
+}
+END_TEST
+
+START_TEST(nodes_without_bounds_keep_their_window)
+{
+    meeting m = two_caps(0.1, 1.1, 50);
+    m.b.bounded = false;
+    ck_assert(separation_by_models(&m.a, &m.b, 1e-6, &m.window));
+    ck_assert(m.window.lo == 0 && m.window.hi == 1);
+}
+END_TEST
+
+SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
+           neither_axes_nor_field_of_normals_lose_a_meeting_alone,
+           the_field_of_normals_parts_caps_that_no_axis_does,
+           a_window_shrinks_to_the_moment_of_contact, infinities_and_nans_never_part_anything,
+           nodes_without_bounds_keep_their_window)
