@@ -44,6 +44,7 @@ MAP_AT_ALL_TIMES(translate)
 
 static const imp_map_type translate = {
     MAP_CALLS(translate, translate_formula),
+    .rate = translate_formula_rate,
     .summary = "moves along a straight line, or along a polynomial in time",
     .equation = "(x,y,z) + velocity t, or (x,y,z) + sum_k offset_k t^k",
     .source = "Von Herzen, Barr, Zatz, SIGGRAPH 1990, appendix B.4",

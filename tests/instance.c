@@ -8,19 +8,6 @@
 #include "instance.h"
 #include "suite.h"
 
-imp_registry *built_registry(void)
-{
-    search_path path = {0};
-    const char *top = getenv("top_builddir");
-    char directory[4096];
-    snprintf(directory, sizeof directory, "%s/plugins/.libs", top ? top : ".");
-    ck_assert(search_path_add(&path, directory, true));
-    imp_registry *registry = registry_scan(&path);
-    search_path_clear(&path);
-    ck_assert_ptr_nonnull(registry);
-    return registry;
-}
-
 /* --- Templates --- */
 
 /* Length of what '@' repeats: an array with all inside it, or one character. */

@@ -9,10 +9,7 @@
 #include "type_oracle.h"
 #include "type_view.h"
 
-/* Instances of the plugins in the build tree, made from the JSON templates of oracle.h. */
-
-/* The registry of what was just built, of nothing else. Aborts the test if there is none. */
-imp_registry *built_registry(void);
+/* Instances of types, made from the JSON templates of type_oracle.h. */
 
 typedef struct instance {
     const imp_surface_type *surface; /* one of the two is NULL */

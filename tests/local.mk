@@ -10,6 +10,7 @@ check_suites = \
     tests/test_parameters \
     tests/test_pair_heap \
     tests/test_pipeline \
+    tests/test_plugin_parameters \
     tests/test_quadratic \
     tests/test_registry \
     tests/test_scene_file \
@@ -19,7 +20,10 @@ check_suites = \
 # The same, with MPFI as the judge of bounds.
 mpfi_suites = \
     tests/test_model \
-    tests/test_plugins
+    tests/test_plugins \
+    tests/test_tightness
+tests_test_tightness_SOURCES = tests/test_tightness.c tests/oracle_number.c \
+    tests/type_oracle.c tests/instance.c
 tests_test_plugins_SOURCES = tests/test_plugins.c \
     tests/oracle_number.c tests/oracle_number.h \
     tests/type_oracle.c tests/type_oracle.h \

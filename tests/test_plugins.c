@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <string.h>
 
+#include "built_plugins.h"
 #include "instance.h"
 #include "judge.h"
 #include "sampling.h"

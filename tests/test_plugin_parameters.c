@@ -1,0 +1,118 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <string.h>
+
+#include "built_plugins.h"
+
+/* What types say about themselves, and about parameters that no table can check. */
+
+static const char *const other_surface = "sphere";
+
+/* A scene of one type and a sphere; a map is put on a sphere. NULL on error. */
+static imp_scene *scene_of(imp_registry *registry, bool is_map, const char *text, imp_error *error)
+{
+    char stage[1000];
+    snprintf(stage, sizeof stage, "%s%s", is_map ? "sphere ! " : "", text);
+    return imp_scene_from_pair(registry, stage, other_surface, error);
+}
+
+START_TEST(every_example_makes_a_surface_with_points)
+{
+    imp_registry *registry = built_registry();
+    imp_type_info info;
+    for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) {
+        imp_error error = {.text = ""};
+        double lo[3], hi[3], x[3], slip[3];
+        imp_scene *scene = scene_of(registry, info.sort == IMP_SORT_MAP, info.example, &error);
+        ck_assert_msg(scene != NULL, "%s: %s", info.example, error.text);
+        imp_scene_domain(scene, 0, 0, lo, hi);
+        double p[3] = {lo[0] + (hi[0] - lo[0]) / 3, (lo[1] + hi[1]) / 2, fmax(lo[2], 0)};
+        ck_assert_int_eq(imp_scene_eval(scene, 0, 0, 1, p, x, slip, &error), IMP_SUCCESS);
+        imp_scene_free(scene);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+static bool starts_with(const char *text, const char *start)
+{
+    return strncmp(text, start, strlen(start)) == 0;
+}
+
+START_TEST(every_type_says_what_it_is)
+{
+    imp_registry *registry = built_registry();
+    imp_type_info info;
+    imp_plugin_refusal refusal;
+    ck_assert_msg(!imp_registry_refusal(registry, 0, &refusal), "%s", refusal.reason);
+    for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) {
+        ck_assert_msg(strlen(info.summary) >= 10, "%s: summary", info.name);
+        ck_assert_msg(strlen(info.equation) >= 10, "%s: equation", info.name);
+        ck_assert_msg(starts_with(info.example, info.name), "%s: %s", info.name, info.example);
+        ck_assert_str_eq(info.version, PACKAGE_VERSION);
+        for (size_t k = 0; k < info.parameter_count; ++k)
+            ck_assert_msg(strlen(info.parameters[k].doc) >= 5, "%s %s: doc", info.name,
+                          info.parameters[k].name);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+/* --- Refusals ----------------------------------------------------------------------------- */
+
+static const struct refusal {
+    const char *text;  /* a stage of a pipeline */
+    const char *place; /* the parameter blamed; NULL: the type as a whole */
+    const char *saying;
+} refusals[] = {
+    {"sphere radius=0", "radius", "> 0"},
+    {"sphere radius=-1", "radius", "> 0"},
+    {"sphere radius=1e999", "radius", ""},
+    {"sphere center=0,0", "center", "3"},
+    {"torus minor_radius=0", "minor_radius", "> 0"},
+    {"spike width=0", "width", "1e-100"},
+    {"spike width=4", "width", "3.14"},
+    {"spike spikes=[]", "spikes", ""},
+    {"spike spikes=[[0,0,0]]", "spikes", "2"},
+    {"bezier degree=[1,1]", "points", "missing"},
+    {"bezier degree=[0,1] points=[[0,0,0],[1,0,0]]", "degree", "1"},
+    {"bezier degree=[21,1] points=[[0,0,0]]", "degree", "20"},
+    {"bezier degree=[1.5,1] points=[[0,0,0]]", "degree", "whole"},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0]]", "points", "(1+1)*(1+1) = 4"},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0],[1,1,0]] velocities=[[0,0,0]]",
+     "velocities", "4 control points"},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0],[1,1,0]] weights=[1,1,1]", "weights",
+     "3 given"},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0],[1,1,0]] weights=[1,1,0,1]", "weights",
+     ""},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0],[1,1,1e101]]", "points", "1e+100"},
+    {"! translate", NULL, "velocity"},
+    {"! translate velocity=1,0,0 offset=[[0,0,0]]", "offset", "velocity"},
+    {"! rotate", NULL, "angle"},
+    {"! rotate rate=1 angle=[0,1]", "angle", "rate"},
+    {"! rotate axis=0,0,0 rate=1", "axis", "direction"},
+    {"! rotate axis=0,1e-200,0 rate=1", "axis", "direction"},
+};
+
+START_TEST(wrong_parameters_are_refused_by_name_and_reason)
+{
+    imp_registry *registry = built_registry();
+    for (size_t k = 0; k < sizeof refusals / sizeof refusals[0]; ++k) {
+        const struct refusal *wrong = &refusals[k];
+        bool is_map = wrong->text[0] == '!';
+        imp_error error = {.text = ""};
+        imp_scene *scene = scene_of(registry, is_map, wrong->text + (is_map ? 2 : 0), &error);
+        ck_assert_msg(!scene, "%s: was taken", wrong->text);
+        ck_assert_msg(error.code == IMP_ERROR_SCENE, "%s: %s", wrong->text, error.text);
+        ck_assert_msg(!wrong->place || strstr(error.text, wrong->place), "%s: %s", wrong->text,
+                      error.text);
+        ck_assert_msg(strstr(error.text, wrong->saying), "%s: %s", wrong->text, error.text);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+SUITE_MAIN("plugin parameters", every_example_makes_a_surface_with_points,
+           every_type_says_what_it_is, wrong_parameters_are_refused_by_name_and_reason)
