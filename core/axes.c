@@ -124,9 +124,8 @@ INLINE bool share_take(share *s, const cuts *c)
  *
  * and |n.(y - x)| <= |n| |y - x|. So where the interval leaves [-g, g], g = |n| clearance, the
  * nodes are farther apart than the clearance. Rounding, in units of u = 2^-53 and R = sum_i |n_i|
- * magnitude_i: re-centring 20 R (each coefficient takes at most 6 operations on terms that
- * magnitude counts, at most three times), the dots 6 R, the two spans 128 R (2^-46 R), the sums
- * 6 R, the slack's own sums 8 R: below 2^-45 R = 256 u R. 2^-490 outweighs underflow, since every
+ * magnitude_i: what re-centring left 4 R, the dots 6 R, the two spans 128 R (2^-46 R), the sums
+ * 8 R, the slack's own sums 8 R: below 2^-45 R = 256 u R. 2^-490 outweighs underflow, since every
  * axis has a coordinate of 1. Lanes whose axis or size is out of range are left out: they prove
  * nothing. */
 INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, share *s)

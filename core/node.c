@@ -140,10 +140,12 @@ static void take_model(node *n, int i, const imp_model *m)
     n->e[i] = m->e;
     n->lo[i] = m->lo;
     n->hi[i] = m->hi;
+    const double motion =
+        fabs(m->b[2]) + 2 * fabs(m->q[IMP_TT]) + fabs(m->q[IMP_UT]) + fabs(m->q[IMP_VT]);
+    n->motion[i] = motion + motion * 0x1p-50;
     double sum = m->e;
     for (int j = 0; j < 3; ++j) sum += fabs(m->b[j]);
     for (int k = 0; k < 6; ++k) sum += fabs(m->q[k]);
-    n->magnitude[i] = sum + sum * 0x1p-48; /* ten terms, each sum off by at most 2^-53 */
     n->bounded = n->bounded && sum < INFINITY && fabs(m->a) < INFINITY && m->lo > -INFINITY &&
                  m->hi < INFINITY;
     add_spread(n, m);
@@ -201,7 +203,7 @@ static void take_infinite(node *n)
 {
     for (int i = 0; i < 3; ++i) {
         n->lo[i] = -INFINITY;
-        n->e[i] = n->hi[i] = n->magnitude[i] = INFINITY;
+        n->e[i] = n->hi[i] = INFINITY;
         n->spread[i] = n->bend[i] = n->region.d[i];
     }
     n->radius = INFINITY;
@@ -227,7 +229,6 @@ static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
     reach_from_rates(n, t->kind, &rates);
     for (int i = 0; i < 3; ++i) {
         n->e[i] += n->e[i] * 0x1p-52;
-        n->magnitude[i] = n->e[i];
         n->lo[i] = nextafter(n->f.a[i] - n->e[i], -INFINITY);
         n->hi[i] = nextafter(n->f.a[i] + n->e[i], INFINITY);
         n->bounded = n->bounded && n->lo[i] > -INFINITY && n->hi[i] < INFINITY;

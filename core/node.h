@@ -33,7 +33,7 @@ typedef struct node {
     quadratic3 f;        /* with e, encloses the surface over the region; length */
     double e[3];         /* remainder; length */
     double lo[3], hi[3]; /* axis-aligned box; length, world space */
-    double magnitude[3]; /* >= sum of abs of f's coefficients but a, + e */
+    double motion[3];    /* >= |bt| + 2 |qtt| + |qut| + |qvt|; length */
     vec3 normal;         /* bu x bv, any length; 0 where the node has none */
     double radius;       /* of a ball around a that holds the surface; rate trees only */
     double spread[3];    /* how much u, v, t move a point across the region, about; length */

@@ -23,14 +23,10 @@ typedef struct slice {
 typedef struct relative {
     slice a, b;
     double delta[3], drift[3];
-    double slack[3];     /* both remainders, and what moving the centre put there */
-    double magnitude[3]; /* sum of abs of everything above, before cancellation */
+    double slack[3];     /* both remainders, what moving the centre put there, and its rounding */
+    double magnitude[3]; /* >= sum of abs of the coefficients above */
     double mid, half;    /* of the window; half is rounded up */
 } relative;
-
-/* RELATIVE_ROUNDING * magnitude bounds what rounding did to all coefficients of a coordinate
- * together. */
-#define RELATIVE_ROUNDING (20 * 0x1p-53)
 
 void relative_at(const node *a, const node *b, const time_window *window, relative *r);
 

@@ -184,19 +184,44 @@ enum {
     WITNESS_WAIT = 3
 }; /* generations between searches: halves the pair's four sides about once */
 
-/* Whether the polynomials are good enough, or all that there will ever be, for a search to pay. */
-static bool witness_is_likely(const impact *im, const pair *p)
+static double pair_curvature(const pair *p)
 {
-    const double remainder = pair_remainder(p), extent = pair_extent(p);
-    return p->wait == 0 && (remainder <= 4 * im->gamma || 4 * extent <= remainder);
+    double sum = 0;
+    for (int side = 0; side < 2; ++side) {
+        const quadratic3 *f = &side_of(p, side)->f;
+        for (int i = 0; i < 3; ++i)
+            sum += fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]) + fabs(f->qut[i]) +
+                   fabs(f->qvt[i]) + fabs(f->qtt[i]);
+    }
+    return sum;
 }
 
-/* Where evaluation itself is too inexact for gamma and the pair is not much larger than that
- * inexactness, splitting on would only multiply pairs. */
+/* A remainder, of third order by right, that outweighs the second order of a nearly linear pair is
+ * mere rounding: splitting will not lessen it. */
+static bool remainder_is_rounding(const pair *p)
+{
+    const double remainder = pair_remainder(p), curvature = pair_curvature(p);
+    return curvature <= 4 * remainder && 64 * (curvature + remainder) <= pair_extent(p);
+}
+
+/* Whether a search may pay: the polynomials are good enough for gamma, or all that there will ever
+ * be. */
+static bool witness_is_likely(const impact *im, const pair *p)
+{
+    if (p->wait > 0) return false;
+    const double remainder = pair_remainder(p);
+    return remainder <= 4 * im->gamma || 4 * pair_extent(p) <= remainder ||
+           remainder_is_rounding(p);
+}
+
+/* Where rounding alone fills the room between clearance and gamma, splitting on would only multiply
+ * pairs once they are flat, or not much larger, by that measure. */
 static bool resolution_is_reached(const impact *im, const pair *p, const witness *seen)
 {
-    const double inexact = seen->gap_upper - seen->gap;
-    return 4 * inexact >= im->gamma - im->clearance && pair_extent(p) <= 64 * inexact;
+    const double room = im->gamma - im->clearance, inexact = seen->gap_upper - seen->gap;
+    if (4 * pair_remainder(p) >= room && remainder_is_rounding(p)) return true;
+    return 4 * inexact >= room &&
+           (pair_extent(p) <= 64 * inexact || pair_curvature(p) <= 16 * inexact);
 }
 
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
