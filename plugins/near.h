@@ -26,7 +26,8 @@ static inline imp_model near_scale(imp_model x, near_constant k)
 {
     imp_model product = imp_scale(x, k.value);
     if (k.error == 0) return product;
-    double slip = imp_round_up(imp_round_up(imp_interval_mag(imp_range_(&x))) * k.error);
+    double slip =
+        imp_round_up(imp_round_up(imp_interval_mag(imp_interval_make(x.lo, x.hi))) * k.error);
     product.e = imp_sum_up(product.e + slip);
     product.lo = imp_sum_down(product.lo - slip);
     product.hi = imp_sum_up(product.hi + slip);

@@ -5,6 +5,7 @@
 
 #include "bernstein.h"
 #include "chebyshev.h"
+#include "couple.h"
 
 #include <impinge/interval.h>
 #include <math.h>
@@ -173,20 +174,27 @@ static inline void patch_set_differences(patch *f, int side)
 
 /* --- Points --- */
 
-/* sum_ij B_i(u) B_j(v) net_ij, per lane. */
+/* sum_ij B_i(u) B_j(v) net_ij, per lane; 0 in lanes that are not there. */
 static inline void patch_sums(const patch *f, double u, double v, double sum[PATCH_LANES_MAX])
 {
-    const int n = f->degree[0], m = f->degree[1], lanes = f->lanes;
+    const int n = f->degree[0], m = f->degree[1], stride = f->lanes / COUPLE;
+    const couple zero = {0, 0}, *net = (const couple *)f->net;
     double along_u[PATCH_SIDE_MAX], along_v[PATCH_SIDE_MAX];
+    double weight[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
+    int points = 0;
     bernstein_weights(along_u, n, u, 0, 0);
     bernstein_weights(along_v, m, v, 0, 0);
-    for (int lane = 0; lane < PATCH_LANES_MAX; ++lane) sum[lane] = 0;
-    const double *group = f->net;
     for (int i = 0; i <= n; ++i)
-        for (int j = 0; j <= m; ++j, group += lanes) {
-            double weight = along_u[i] * along_v[j];
-            for (int lane = 0; lane < lanes; ++lane) sum[lane] += weight * group[lane];
+        for (int j = 0; j <= m; ++j) weight[points++] = along_u[i] * along_v[j];
+    for (int h = 0; h < PATCH_LANES_MAX / COUPLE; h += 2) {
+        couple a = zero, b = zero;
+        for (int k = 0; h < stride && k < points; ++k) {
+            a += weight[k] * net[k * stride + h];
+            b += weight[k] * net[k * stride + h + 1];
         }
+        for (int x = 0; x < COUPLE; ++x)
+            sum[COUPLE * h + x] = a[x], sum[COUPLE * (h + 1) + x] = b[x];
+    }
 }
 
 /* One point and its error.
@@ -236,7 +244,7 @@ static inline imp_status patch_region_status(const imp_region *region)
     for (int j = 0; j < 2; ++j) {
         const double c = region->c[j], d = region->d[j];
         if (!patch_has(region->lo[j], region->hi[j])) return IMP_DOMAIN;
-        if (!patch_has(c - d + 0x1p-42, c + d - 0x1p-42)) return IMP_DOMAIN;
+        if (!patch_has(c - d + 0x1p-50, c + d - 0x1p-50)) return IMP_DOMAIN;
     }
     return fabs(region->c[2]) + region->d[2] <= PATCH_LATE ? IMP_OK : IMP_UNBOUNDED;
 }

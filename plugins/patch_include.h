@@ -31,21 +31,7 @@
  * because |T_k| <= 1 and sum_k |w_ik| <= reach_i. The derivative with respect to s of a polynomial
  * of degree n is at most n^2 times its bound (Markov), so noise costs a rate n^2 noise. */
 
-#if defined(__GNUC__)
-/* Two coordinates at a time: arithmetic on both. */
-typedef double couple __attribute__((vector_size(16), may_alias));
-typedef long long couple_bits __attribute__((vector_size(16)));
-static inline couple couple_abs(couple x)
-{
-    return (couple)((couple_bits)x & (couple_bits){INT64_MAX, INT64_MAX});
-}
-#define PATCH_INLINE inline __attribute__((always_inline))
-#define PATCH_UNROLL _Pragma("GCC unroll 4")
-#else
-#error "plugins/patch_include.h uses the vector extension of gcc and clang"
-#endif
-
-enum { COUPLE = 2, GROUP = 4 / COUPLE }; /* numbers in a couple; couples in a group */
+enum { GROUP = 4 / COUPLE }; /* couples in a group */
 
 /* --- Once: the series --- */
 
@@ -93,34 +79,16 @@ static inline void patch_set_series(patch *f, double *work)
 
 /* --- Per region: C --- */
 
-/* out_k = sum_(j >= k) w_jk in_j, for rows of `width` couples. */
-static PATCH_INLINE void patch_shift(int n, const double *w, const couple *in, couple *out,
-                                     int width)
-{
-    for (int x = 0; x < width; ++x) {
-        couple row[PATCH_SIDE_MAX];
-        PATCH_UNROLL
-        for (int j = 0; j <= n; ++j) row[j] = in[j * width + x];
-        PATCH_UNROLL
-        for (int k = 0; k <= n; ++k) {
-            couple sum = w[k * (n + 1) + k] * row[k];
-            PATCH_UNROLL
-            for (int j = k + 1; j <= n; ++j) sum += w[j * (n + 1) + k] * row[j];
-            out[k * width + x] = sum;
-        }
-    }
-}
-
 /* The series of all lanes over a region. Fits in (n+1)(m+1) lanes numbers; `work` likewise. */
-static PATCH_INLINE void patch_localize(const patch *f, int n, int m, int lanes,
-                                        const imp_region *region, couple *c, couple *work)
+static COUPLE_INLINE void patch_localize(const patch *f, int n, int m, int lanes,
+                                         const imp_region *region, couple *c, couple *work)
 {
     double along_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX], along_v[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
     const int group = lanes / COUPLE, row = (m + 1) * group;
     chebyshev_shift(n, 2 * region->c[0] - 1, 2 * region->d[0], along_u, n + 1);
     chebyshev_shift(m, 2 * region->c[1] - 1, 2 * region->d[1], along_v, m + 1);
-    patch_shift(n, along_u, (const couple *)f->series, work, row);
-    for (int k = 0; k <= n; ++k) patch_shift(m, along_v, work + k * row, c + k * row, group);
+    couple_rows(n, along_u, true, (const couple *)f->series, work, row);
+    for (int k = 0; k <= n; ++k) couple_rows(m, along_v, true, work + k * row, c + k * row, group);
 }
 
 /* --- Per region: models --- */
@@ -135,8 +103,8 @@ typedef struct patch_terms {
     couple along_u, along_v; /* of k^2 size, of l^2 size */
 } patch_terms;
 
-static PATCH_INLINE void patch_collect(int n, int m, int lanes, const couple *c, double middle,
-                                       double half, patch_terms *terms)
+static COUPLE_INLINE void patch_collect(int n, int m, int lanes, const couple *c, double middle,
+                                        double half, patch_terms *terms)
 {
     const couple zero = {0, 0};
     const int group = lanes / COUPLE;
@@ -144,12 +112,12 @@ static PATCH_INLINE void patch_collect(int n, int m, int lanes, const couple *c,
     couple column[PATCH_SIDE_MAX];
     terms->x[2][0] = terms->x[0][2] = zero;
     terms->y[0][0] = terms->y[1][0] = terms->y[0][1] = zero;
-    PATCH_UNROLL
+    COUPLE_UNROLL
     for (int l = 0; l <= m; ++l) column[l] = zero;
-    PATCH_UNROLL
+    COUPLE_UNROLL
     for (int k = 0; k <= n; ++k) {
         couple row = zero;
-        PATCH_UNROLL
+        COUPLE_UNROLL
         for (int l = 0; l <= m; ++l) {
             couple x = c[(k * (m + 1) + l) * group], size = couple_abs(x);
             if (lanes == 8) {
@@ -168,72 +136,63 @@ static PATCH_INLINE void patch_collect(int n, int m, int lanes, const couple *c,
         total += row;
         along_u += (double)(k * k) * row;
     }
-    PATCH_UNROLL
+    COUPLE_UNROLL
     for (int l = 1; l <= m; ++l) along_v += (double)(l * l) * column[l];
     terms->rest = rest, terms->size = total, terms->speed = speed;
     terms->along_u = along_u, terms->along_v = along_v;
 }
 
-/* min and max of b s + q s^2 on [-1, 1], off by at most 3 ROUNDING (|b| + |q|). At the vertex,
- * inside when |b| < 2|q|, the value is -b^2 / 4q. */
-static inline void patch_parabola(double b, double q, double *lo, double *hi)
+/* At least b s + q s^2 on [-1, 1]: its ends, and the vertex -b^2 / 4q, which is inside only if
+ * |b| < 2|q| and then at most |b| / 2 from 0. */
+static inline double patch_bow_upper(double b, double q)
 {
-    double edge = fabs(b);
-    *lo = edge < 2 * q ? -b * b / (4 * q) : q - edge;
-    *hi = edge < -2 * q ? -b * b / (4 * q) : q + edge;
+    return imp_larger(q + fabs(b), 0.5 * fabs(b));
 }
 
 /* lo and hi from the quadratic and e. `size` bounds what the coefficients but a add up to; all
  * roundings here are within 16 ROUNDING of the magnitudes. */
 static inline void patch_range(imp_model *g, double size)
 {
-    double lo[2], hi[2];
-    patch_parabola(g->b[0], g->q[IMP_UU], &lo[0], &hi[0]);
-    patch_parabola(g->b[1], g->q[IMP_VV], &lo[1], &hi[1]);
+    double up = patch_bow_upper(g->b[0], g->q[IMP_UU]) + patch_bow_upper(g->b[1], g->q[IMP_VV]);
+    double down = patch_bow_upper(g->b[0], -g->q[IMP_UU]) + patch_bow_upper(g->b[1], -g->q[IMP_VV]);
     double cross = fabs(g->b[2]) + fabs(g->q[IMP_UV]) + fabs(g->q[IMP_UT]) + fabs(g->q[IMP_VT]);
     double margin = cross + g->e + 16 * ROUNDING * (fabs(g->a) + size + cross + g->e);
-    g->lo = g->a + (lo[0] + lo[1] - margin);
-    g->hi = g->a + (hi[0] + hi[1] + margin);
+    g->lo = g->a - (down + margin);
+    g->hi = g->a + (up + margin);
 }
 
 static inline void patch_cut(imp_model *g, double lo, double hi)
 {
-    if (lo > g->lo) g->lo = lo;
-    if (hi < g->hi) g->hi = hi;
-}
-
-static inline couple patch_load(const double *x) { return (couple){x[0], x[1]}; }
-
-static inline couple patch_least(couple a, couple b)
-{
-    return (couple){a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]};
+    g->lo = imp_larger(g->lo, lo);
+    g->hi = imp_smaller(g->hi, hi);
 }
 
 /* Models of lanes first and first + 1: place + t drift + X + t Y.
  *
  * Lemma. Rounding in patch_collect, in a, in b_t: 8 ROUNDING (size + |c_t| speed) and, from place
  * and drift, 4 ROUNDING (|place| + (|c_t| + d_t) |drift|). SLACK covers the bounds' own. */
-static PATCH_INLINE void patch_two_models(const patch *f, int n, int m, int lanes, int first,
-                                          const imp_region *region, const couple *c, imp_model *out)
+static COUPLE_INLINE void patch_two_models(const patch *f, int n, int m, int lanes, int first,
+                                           const imp_region *region, const couple *c,
+                                           imp_model *out)
 {
     const double middle = region->c[2], half = region->d[2], late = fabs(middle) + half;
     patch_terms sum;
     patch_collect(n, m, lanes, c + first / COUPLE, middle, half, &sum);
-    const couple place = patch_load(f->place + first), drift = patch_load(f->drift + first);
-    const couple noise = patch_load(f->noise + first);
+    const couple place = couple_load(f->place + first), drift = couple_load(f->drift + first);
+    const couple noise = couple_load(f->noise + first);
     const couple centre = place + middle * drift;
     const couple size = sum.size + fabs(middle) * sum.speed;
     const couple far = couple_abs(place) + late * couple_abs(drift);
     couple slip = noise + 8 * ROUNDING * size;
-    couple reach = patch_load(f->place_radius + first) + half * couple_abs(drift);
-    couple slope_u = patch_load(f->slope[0] + first), slope_v = patch_load(f->slope[1] + first);
+    couple reach = couple_load(f->place_radius + first) + half * couple_abs(drift);
+    couple slope_u = couple_load(f->slope[0] + first), slope_v = couple_load(f->slope[1] + first);
     couple rate_t = {0, 0};
     if (lanes == 8) {
-        const couple y = sum.y[0][0], noise_y = patch_load(f->noise + 4 + first);
+        const couple y = sum.y[0][0], noise_y = couple_load(f->noise + 4 + first);
         slip += late * noise_y;
-        reach += late * patch_load(f->drift_radius + first);
-        slope_u += late * patch_load(f->slope[0] + 4 + first);
-        slope_v += late * patch_load(f->slope[1] + 4 + first);
+        reach += late * couple_load(f->drift_radius + first);
+        slope_u += late * couple_load(f->slope[0] + 4 + first);
+        slope_v += late * couple_load(f->slope[1] + 4 + first);
         rate_t = couple_abs(drift + y) + (sum.speed - couple_abs(y)) + noise_y +
                  8 * ROUNDING * (couple_abs(drift) + sum.speed);
     }
@@ -241,8 +200,8 @@ static PATCH_INLINE void patch_two_models(const patch *f, int n, int m, int lane
     const couple e = (sum.rest + slip + 4 * ROUNDING * far) * SLACK;
     const couple rate_u = (sum.along_u + (double)(n * n) * slip) * (SLACK / region->d[0]);
     const couple rate_v = (sum.along_v + (double)(m * m) * slip) * (SLACK / region->d[1]);
-    const couple least_u = patch_least(rate_u, slope_u * SLACK);
-    const couple least_v = patch_least(rate_v, slope_v * SLACK);
+    const couple least_u = couple_least(rate_u, slope_u * SLACK);
+    const couple least_v = couple_least(rate_v, slope_v * SLACK);
     reach = (reach + 8 * ROUNDING * far) * SLACK;
     for (int i = 0; i < COUPLE; ++i) {
         imp_model *g = out + i;
@@ -259,8 +218,8 @@ static PATCH_INLINE void patch_two_models(const patch *f, int n, int m, int lane
     }
 }
 
-static PATCH_INLINE void patch_polynomial(const patch *f, int n, int m, int lanes,
-                                          const imp_region *region, imp_model model[3])
+static COUPLE_INLINE void patch_polynomial(const patch *f, int n, int m, int lanes,
+                                           const imp_region *region, imp_model model[3])
 {
     couple c[PATCH_NUMBERS_MAX / COUPLE], work[PATCH_NUMBERS_MAX / COUPLE];
     imp_model zw[2];

@@ -21,26 +21,29 @@
  * slope, and (4 k most + 2 slope) for its net (patch_set_differences). Below, `shape_slip` and
  * `slope_slip` are these; what is computed from them adds a few of the same size, and so 4 more. */
 
-/* Control points over the region of a net of degrees n, m; `work` has room for as many. */
-static inline void patch_restrict(const double *net, int n, int m, int lanes,
-                                  const imp_region *region, double *out, double *work)
+/* Weights of all control points of a polynomial of degree n over [lo, hi]: point k has w_jk, as
+ * couple_rows wants it. */
+static COUPLE_INLINE void patch_weights(int n, double lo, double hi, double *w)
 {
-    const int row = (m + 1) * lanes;
-    double weight[PATCH_SIDE_MAX];
-    memset(work, 0, sizeof *work * (size_t)((n + 1) * row));
-    memset(out, 0, sizeof *out * (size_t)((n + 1) * row));
-    for (int i = 0; i <= n; ++i) {
-        bernstein_weights(weight, n - i, region->lo[0], i, region->hi[0]);
-        for (int k = 0; k <= n; ++k)
-            for (int x = 0; x < row; ++x) work[i * row + x] += weight[k] * net[k * row + x];
+    for (int k = 0; k <= n; ++k) {
+        double weight[PATCH_SIDE_MAX];
+        bernstein_weights(weight, n - k, lo, k, hi);
+        for (int j = 0; j <= n; ++j) w[j * (n + 1) + k] = weight[j];
     }
-    for (int j = 0; j <= m; ++j) {
-        bernstein_weights(weight, m - j, region->lo[1], j, region->hi[1]);
-        for (int i = 0; i <= n; ++i)
-            for (int k = 0; k <= m; ++k)
-                for (int lane = 0; lane < lanes; ++lane)
-                    out[i * row + j * lanes + lane] += weight[k] * work[i * row + k * lanes + lane];
-    }
+}
+
+/* Control points over the region of a net of degrees n, m; `work` has room for as many. */
+static COUPLE_INLINE void patch_restrict(const double *net, int n, int m, int lanes,
+                                         const imp_region *region, double *out, double *work)
+{
+    const int group = lanes / COUPLE, row = (m + 1) * group;
+    double along_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX], along_v[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
+    couple *half = (couple *)work, *whole = (couple *)out;
+    patch_weights(n, region->lo[0], region->hi[0], along_u);
+    patch_weights(m, region->lo[1], region->hi[1], along_v);
+    couple_rows(n, along_u, false, (const couple *)net, half, row);
+    for (int i = 0; i <= n; ++i)
+        couple_rows(m, along_v, false, half + i * row, whole + i * row, group);
 }
 
 /* What is known of the sub-patch before its derivatives: for each end of time, |g - c| <= r. */
@@ -147,8 +150,7 @@ static inline double patch_side_rate(const patch *f, const patch_frame *frame, i
 static inline imp_status patch_rate(const patch *f, const imp_region *region,
                                     imp_rate_matrix *rates)
 {
-    double shape[PATCH_NUMBERS_MAX];
-    double work[PATCH_NUMBERS_MAX];
+    _Alignas(couple) double shape[PATCH_NUMBERS_MAX], work[PATCH_NUMBERS_MAX];
     imp_status status = patch_region_status(region);
     if (status != IMP_OK) return status;
     const patch_frame frame = patch_make_frame(f, region, shape, work);

@@ -114,7 +114,7 @@ static const struct limit {
     {"bezier", "{\"degree\": [2,3], \"points\": [@12[?,?,?]], \"weights\": [@12+]}", 2.6, 1.3, 1.6},
     {"sphere", "{}", 1.3, 1.1, 1.1},
     {"torus", "{}", 1.5, 1.1, 1.1},
-    {"spike", "{\"spikes\": [@2[?,?]], \"width\": 0.5}", 1.5, 1.2, 1.8},
+    {"spike", "{\"spikes\": [@2[?,?]], \"width\": 0.5}", 2, 1.4, 4},
 };
 
 START_TEST(bounds_are_not_much_wider_than_what_they_bound)
