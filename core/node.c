@@ -124,7 +124,9 @@ static void add_spread(node *n, const imp_model *m)
     double share[3], sum = 0;
     for (int j = 0; j < 3; ++j) sum += share[j] = unexplained(n, m, j, bend[j]);
     for (int j = 0; j < 3; ++j) {
-        if (sum > 0 && m->e < INFINITY) bend[j] += m->e * (share[j] / sum);
+        const double blame = sum > 0 && m->e < INFINITY ? m->e * (share[j] / sum) : 0;
+        if (j == PARAMETER_T) n->unsteady += blame;
+        bend[j] += blame;
         n->bend[j] += bend[j];
         n->spread[j] += fabs(m->b[j]) + bend[j];
     }

@@ -162,7 +162,7 @@ static bool couple_up(void *context, size_t first, size_t second)
     }
     if (!couples_reserve(all->query)) return false;
     all->query->couples[all->query->couple_count++] =
-        (couple){{a->tree, b->tree}, {a->body, b->body}, {a->surface, b->surface}};
+        (couple){{a->tree, b->tree}, {a->body, b->body}, {a->surface, b->surface}, 0};
     return true;
 }
 
@@ -296,7 +296,7 @@ static imp_code work(imp_query *query, imp_error *error)
     impact_state state;
     imp_code code = IMP_SUCCESS;
     if (query->coupled < query->couple_count)
-        state = impact_add_couple(&query->impact, (uint32_t)query->coupled++);
+        code = impact_add_couple(&query->impact, (uint32_t)query->coupled++, &state, error);
     else
         code = impact_advance(&query->impact, &state, error);
     if (code == IMP_SUCCESS) conclude(query, state);

@@ -36,16 +36,66 @@ static bool test_and_push(impact *im, pair p)
     return true;
 }
 
-impact_state impact_add_couple(impact *im, uint32_t index)
+/* Looks at the middles of both at the ends and in the middle of the window: the largest error of
+ * the gap. */
+static imp_code measure_inexact(couple *both, const time_window *window, imp_error *error)
 {
-    node *a = tree_root(im->couples[index].trees[0]), *b = tree_root(im->couples[index].trees[1]);
-    const pair p = {.window = {-INFINITY, INFINITY}, .a = a, .b = b, .couple = index};
-    return test_and_push(im, p) ? IMPACT_RUNNING : IMPACT_NO_MEMORY;
+    const tree *const trees[2] = {both->trees[0], both->trees[1]};
+    const node *const nodes[2] = {tree_root(trees[0]), tree_root(trees[1])};
+    const double times[3] = {window->lo, 0.5 * window->lo + 0.5 * window->hi, window->hi};
+    both->inexact = 0;
+    for (int k = 0; k < 3; ++k) {
+        witness seen;
+        const imp_code code = witness_at_centres(trees, nodes, times[k], &seen, error);
+        if (code != IMP_SUCCESS) return code;
+        const double inexact = seen.gap_upper - seen.gap;
+        if (inexact > both->inexact) both->inexact = inexact;
+    }
+    return IMP_SUCCESS;
+}
+
+imp_code impact_add_couple(impact *im, uint32_t index, impact_state *state, imp_error *error)
+{
+    couple *both = &im->couples[index];
+    const size_t before = im->heap.count;
+    const pair p = {.window = {-INFINITY, INFINITY},
+                    .a = tree_root(both->trees[0]),
+                    .b = tree_root(both->trees[1]),
+                    .couple = index};
+    *state = test_and_push(im, p) ? IMPACT_RUNNING : IMPACT_NO_MEMORY;
+    if (im->heap.count == before) return IMP_SUCCESS;
+    const imp_region *a = &p.a->region, *b = &p.b->region;
+    const time_window common = {a->lo[2] > b->lo[2] ? a->lo[2] : b->lo[2],
+                                a->hi[2] < b->hi[2] ? a->hi[2] : b->hi[2]};
+    return measure_inexact(both, &common, error);
 }
 
 static couple *couple_of(const impact *im, const pair *p) { return &im->couples[p->couple]; }
 
 static const node *side_of(const pair *p, int side) { return side == 0 ? p->a : p->b; }
+
+/* Of both surfaces, at any one time. */
+static double pair_curvature(const pair *p)
+{
+    double sum = 0;
+    for (int side = 0; side < 2; ++side) {
+        const quadratic3 *f = &side_of(p, side)->f;
+        for (int i = 0; i < 3; ++i) sum += fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]);
+    }
+    return sum;
+}
+
+static double pair_remainder(const pair *p)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) sum += p->a->e[i] + p->b->e[i];
+    return sum;
+}
+
+static double pair_extent(const pair *p)
+{
+    return p->a->spread[0] + p->a->spread[1] + p->b->spread[0] + p->b->spread[1];
+}
 
 /* --- Splitting ------------------------------------------------------------------------ */
 
@@ -78,8 +128,16 @@ static bool window_is_one_sided(const pair *p, const node *n)
     return p->window.hi < at || p->window.lo > at;
 }
 
-/* Models: what moves a point most along u or v, or bends it in time; motion that is linear in time
- * costs nothing, so only its bend counts. */
+/* What a cut in time is worth, on the scale of the spread. Linear motion costs nothing, so only
+ * what bends counts; more where the cut is free, and most where time alone blurs the node more than
+ * all curvature of the pair. */
+static double gain_in_time(const pair *p, const node *n)
+{
+    if (!window_is_one_sided(p, n)) return 2 * n->bend[PARAMETER_T];
+    return n->unsteady > pair_curvature(p) ? INFINITY : 8 * n->bend[PARAMETER_T];
+}
+
+/* Models: what moves a point most along u or v, or bends it in time. */
 static cut cut_by_spread(const pair *p)
 {
     cut best = {-1, PARAMETER_U, 0};
@@ -87,7 +145,7 @@ static cut cut_by_spread(const pair *p)
         const node *n = side_of(p, side);
         cut_consider(&best, p, side, PARAMETER_U, n->spread[0]);
         cut_consider(&best, p, side, PARAMETER_V, n->spread[1]);
-        cut_consider(&best, p, side, PARAMETER_T, (window_is_one_sided(p, n) ? 8 : 2) * n->bend[2]);
+        cut_consider(&best, p, side, PARAMETER_T, gain_in_time(p, n));
     }
     return best;
 }
@@ -168,40 +226,17 @@ static imp_code follow_paper(impact *im, const pair *p, impact_state *state, imp
     return IMP_SUCCESS;
 }
 
-static double pair_remainder(const pair *p)
-{
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) sum += p->a->e[i] + p->b->e[i];
-    return sum;
-}
-
-static double pair_extent(const pair *p)
-{
-    return p->a->spread[0] + p->a->spread[1] + p->b->spread[0] + p->b->spread[1];
-}
-
 enum {
     WITNESS_WAIT = 3
 }; /* generations between searches: halves the pair's four sides about once */
 
-static double pair_curvature(const pair *p)
+/* Whether rounding takes much of the room between clearance and gamma, and the pair is as flat as
+ * `flat` times the rounding: then splitting on teaches ever less and only multiplies pairs. */
+static bool precision_ends(const impact *im, const pair *p, double flat)
 {
-    double sum = 0;
-    for (int side = 0; side < 2; ++side) {
-        const quadratic3 *f = &side_of(p, side)->f;
-        for (int i = 0; i < 3; ++i)
-            sum += fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]) + fabs(f->qut[i]) +
-                   fabs(f->qvt[i]) + fabs(f->qtt[i]);
-    }
-    return sum;
-}
-
-/* A remainder, of third order by right, that outweighs the second order of a nearly linear pair is
- * mere rounding: splitting will not lessen it. */
-static bool remainder_is_rounding(const pair *p)
-{
-    const double remainder = pair_remainder(p), curvature = pair_curvature(p);
-    return curvature <= 4 * remainder && 64 * (curvature + remainder) <= pair_extent(p);
+    const double inexact = couple_of(im, p)->inexact;
+    return 16 * inexact >= im->gamma - im->clearance && pair_curvature(p) <= flat * inexact &&
+           pair_remainder(p) <= 64 * flat * inexact;
 }
 
 /* Whether a search may pay: the polynomials are good enough for gamma, or all that there will ever
@@ -211,17 +246,7 @@ static bool witness_is_likely(const impact *im, const pair *p)
     if (p->wait > 0) return false;
     const double remainder = pair_remainder(p);
     return remainder <= 4 * im->gamma || 4 * pair_extent(p) <= remainder ||
-           remainder_is_rounding(p);
-}
-
-/* Where rounding alone fills the room between clearance and gamma, splitting on would only multiply
- * pairs once they are flat, or not much larger, by that measure. */
-static bool resolution_is_reached(const impact *im, const pair *p, const witness *seen)
-{
-    const double room = im->gamma - im->clearance, inexact = seen->gap_upper - seen->gap;
-    if (4 * pair_remainder(p) >= room && remainder_is_rounding(p)) return true;
-    return 4 * inexact >= room &&
-           (pair_extent(p) <= 64 * inexact || pair_curvature(p) <= 16 * inexact);
+           precision_ends(im, p, 16);
 }
 
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
@@ -232,7 +257,7 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
         if (code != IMP_SUCCESS) return code;
         if (seen.gap_upper <= im->gamma)
             *state = contact(im, p, &seen);
-        else if (resolution_is_reached(im, p, &seen))
+        else if (precision_ends(im, p, 1))
             *state = IMPACT_RESOLUTION;
         if (*state != IMPACT_RUNNING) return IMP_SUCCESS;
         p->wait = WITNESS_WAIT;

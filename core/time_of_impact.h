@@ -18,6 +18,7 @@
 typedef struct couple {
     tree *trees[2];
     size_t body[2], surface[2];
+    double inexact; /* how inexact evaluation is, about; set by impact_add_couple; length */
 } couple;
 
 typedef enum impact_state {
@@ -42,7 +43,7 @@ typedef struct impact {
 } impact; /* the caller sets gamma ... couples and t_lower, the rest is 0; impact_clear frees */
 
 /* Tests the roots of couple `index` and keeps the pair if they may be near. */
-impact_state impact_add_couple(impact *im, uint32_t index);
+imp_code impact_add_couple(impact *im, uint32_t index, impact_state *state, imp_error *error);
 
 /* Takes one pair from the heap and follows it one step. On IMP_ERROR_PLUGIN the search is over and
  * its results so far still stand. */

@@ -23,7 +23,7 @@ typedef struct witness {
 imp_code witness_seek(const tree *const trees[2], const node *const nodes[2], double t,
                       double gamma, witness *found, imp_error *error);
 
-/* The same at the middles themselves, without a search: the paper's termination. */
+/* The points at the middles themselves, without a search: the paper's termination. */
 imp_code witness_at_centres(const tree *const trees[2], const node *const nodes[2], double t,
                             witness *found, imp_error *error);
 
