@@ -17,6 +17,11 @@ setup_file() {
     make -s install
 }
 
+# A distcheck that fails leaves its copy of the sources write-protected.
+teardown_file() {
+    chmod -R u+w "$build"
+}
+
 setup() {
     cd "$BATS_TEST_TMPDIR"
     export PKG_CONFIG_PATH=$prefix/lib/pkgconfig

@@ -80,7 +80,7 @@ tests_test_alloc_failure_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 # Models and their exact meaning, side by side.
 tests_test_model_SOURCES = tests/test_model.c tests/oracle.c
 
-noinst_HEADERS += tests/oracle.h tests/suite.h tests/asking.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
+noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
 
 # What tests/fuzz_scene reads: scenes, and pipelines.
 EXTRA_DIST += \
