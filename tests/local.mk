@@ -7,6 +7,7 @@ check_suites = \
     tests/fuzz_scene \
     tests/test_alloc_failure \
     tests/test_elf_probe \
+    tests/test_formula_answers \
     tests/test_parameters \
     tests/test_pair_heap \
     tests/test_pipeline \
@@ -19,6 +20,7 @@ check_suites = \
 
 # The same, with MPFI as the judge of bounds.
 mpfi_suites = \
+    tests/test_formula \
     tests/test_model \
     tests/test_plugins \
     tests/test_tightness
@@ -78,6 +80,7 @@ tests_test_alloc_failure_SOURCES = tests/test_alloc_failure.c tests/alloc_failur
 tests_test_alloc_failure_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 
 # Models and their exact meaning, side by side.
+tests_test_formula_SOURCES = tests/test_formula.c tests/oracle.c
 tests_test_model_SOURCES = tests/test_model.c tests/oracle.c
 
 noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h

@@ -196,6 +196,25 @@ START_TEST(every_value_that_the_operands_allow_is_covered)
 }
 END_TEST
 
+/* --- The range of a quadratic --------------------------------------------------------------- */
+
+START_TEST(the_range_of_a_quadratic_covers_it)
+{
+    for (int i = 0; i < suite_times(20000); i++) {
+        trial t;
+        trial_begin(&t, &operations[0], oracle_seed(i));
+        t.x.lo = -INFINITY;
+        t.x.hi = INFINITY;
+        t.r = imp_model_finish(t.x);
+        ck_trial(&t, model_is_well_formed(&t.r), "malformed model");
+        for (int k = 0; k < 4; k++)
+            if (trial_take(&t))
+                ck_trial(&t, !range_is_refuted(t.r.lo, t.r.hi, t.p), "range misses a value");
+        trial_end(&t);
+    }
+}
+END_TEST
+
 /* --- Rates --------------------------------------------------------------------------------- */
 
 /* p becomes p + rate step, or p - rate step; false if that is not allowed. */
@@ -318,4 +337,4 @@ END_TEST
 
 SUITE_MAIN("model", every_value_that_the_operands_allow_is_covered,
            rates_hold_for_operands_that_change_as_fast_as_theirs_allow, no_answer_holds_a_nan,
-           intervals_cover_every_value)
+           the_range_of_a_quadratic_covers_it, intervals_cover_every_value)
