@@ -15,6 +15,7 @@ plugin_LTLIBRARIES = \
 noinst_HEADERS += \
     plugins/bernstein.h \
     plugins/chebyshev.h \
+    plugins/couple.h \
     plugins/near.h \
     plugins/patch.h \
     plugins/patch_include.h \
