@@ -42,6 +42,7 @@ typedef struct peak {
 typedef struct spike_instance {
     double radius, height, center[3];
     near_constant steepness; /* 1 / width^2 */
+    double slope;            /* at least 2 / width */
     size_t count;
     peak peaks[]; /* with their repetitions */
 } spike_instance;
@@ -88,6 +89,7 @@ static imp_status spike_create(const imp_value *values, void **self, imp_complai
     s->radius = values[RADIUS].number[0];
     s->height = values[HEIGHT].number[0];
     s->steepness = near_of(imp_div(imp_num(1), imp_sqr(imp_num(width))));
+    s->slope = imp_round_up(2 / width);
     copy_vector(s->center, &values[CENTER]);
     s->count = 0;
     for (size_t k = 0; k < spikes->extent[0]; ++k)
@@ -102,14 +104,52 @@ static void spike_domain(const void *self, double lo[3], double hi[3])
     set_domain(lo, hi, 0, ABOVE_TWO_PI, -ABOVE_HALF_PI, ABOVE_HALF_PI);
 }
 
+/* Beyond this (distance / width)^2 a peak counts for less than rounding does. */
+#define FAR 60
+#define EXPONENT_MAX 690 /* exp does not underflow, nor touch errno */
+
+/* At most (distance / width)^2 from a peak to anything in the range of u and v. */
+static double square_lower(const spike_instance *s, size_t k, const imp_model *u,
+                           const imp_model *v)
+{
+    double east = imp_larger(s->peaks[k].u - u->hi, u->lo - s->peaks[k].u);
+    double north = imp_larger(s->peaks[k].v - v->hi, v->lo - s->peaks[k].v);
+    east = imp_larger(east, 0), north = imp_larger(north, 0);
+    return (east * east + north * north) * s->steepness.value * (1 - 0x1p-48);
+}
+
+static imp_model peak_near(const spike_instance *s, size_t k, imp_model u, imp_model v)
+{
+    imp_model east = imp_shift(u, -s->peaks[k].u), north = imp_shift(v, -s->peaks[k].v);
+    imp_model square = imp_add(imp_sqr(east), imp_sqr(north));
+    return imp_exp(imp_neg(near_scale(square, s->steepness)));
+}
+
+/* All far peaks together, `rest` being their sum of exp(-3/4 square_lower), rounded up. Lemma: with
+ * r^2 = square, a peak is exp(-r^2), and its slope at most 2/width r exp(-r^2); r exp(-r^2 / 4)
+ * < 1. */
+static imp_model peaks_far(const spike_instance *s, double rest, const imp_model *u,
+                           const imp_model *v)
+{
+    imp_model sum = imp_between(0, rest);
+    sum.depends = u->depends | v->depends;
+    for (int j = 0; j < 3; ++j)
+        sum.rate[j] = imp_round_up(s->slope * rest * (u->rate[j] + v->rate[j]) * (1 + 0x1p-48));
+    return imp_model_finish(sum);
+}
+
 static imp_model radius_at(const spike_instance *s, imp_model u, imp_model v)
 {
     imp_model sum = imp_num(0);
+    double rest = 0;
     for (size_t k = 0; k < s->count; ++k) {
-        imp_model east = imp_shift(u, -s->peaks[k].u), north = imp_shift(v, -s->peaks[k].v);
-        imp_model distance = imp_add(imp_sqr(east), imp_sqr(north));
-        sum = imp_add(sum, imp_exp(imp_neg(near_scale(distance, s->steepness))));
+        double square = square_lower(s, k, &u, &v);
+        if (square > FAR)
+            rest = imp_sum_up(rest + imp_libm_up(exp(-imp_smaller(0.75 * square, EXPONENT_MAX))));
+        else
+            sum = imp_add(sum, peak_near(s, k, u, v));
     }
+    if (rest > 0) sum = imp_add(sum, peaks_far(s, rest, &u, &v));
     return imp_shift(imp_scale(sum, s->height), s->radius);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
+#include <errno.h>
 #include <string.h>
 
 #include "built_plugins.h"
@@ -109,8 +110,10 @@ static void try_surface_region(trial *trial, const imp_region *region)
     const instance *made = trial->instance;
     imp_rate_matrix rates;
     imp_model model[3];
+    errno = 0;
     expect_status(trial, made->surface->rate(made->self, region, &rates), "rate");
     expect_status(trial, made->surface->include(made->self, region, model), "include");
+    ck_assert_msg(errno == 0, "%s sets errno", made->view.name);
     for (int i = 0; i < 3; ++i) model[i].e *= trial->share.remainder;
     const double *const claimed[3] = {rates.m[0], rates.m[1], rates.m[2]};
     const double *const modelled[3] = {model[0].rate, model[1].rate, model[2].rate};
@@ -173,7 +176,9 @@ static void try_map_models(trial *trial, const sample_models *models)
 {
     const instance *made = trial->instance;
     imp_model out[3];
+    errno = 0;
     expect_status(trial, made->map->apply(made->self, models->in, out), "apply");
+    ck_assert_msg(errno == 0, "%s sets errno", made->view.name);
     for (int i = 0; i < 3; ++i) out[i].e *= trial->share.remainder;
     const double *const modelled[3] = {out[0].rate, out[1].rate, out[2].rate};
     for (int k = 0; k < POINTS; ++k) {
