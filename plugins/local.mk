@@ -5,23 +5,39 @@
 
 plugin_LTLIBRARIES = \
     plugins/bezier.la \
+    plugins/cone.la \
+    plugins/cylinder.la \
+    plugins/ellipsoid.la \
+    plugins/plane.la \
+    plugins/point.la \
+    plugins/product.la \
+    plugins/revolution.la \
+    plugins/ripple.la \
     plugins/rotate.la \
+    plugins/segment.la \
     plugins/sphere.la \
     plugins/spike.la \
+    plugins/superellipsoid.la \
+    plugins/supertoroid.la \
+    plugins/sweep.la \
     plugins/torus.la \
-    plugins/translate.la
+    plugins/translate.la \
+    plugins/triangle.la
 
 # What they share; private, never installed.
 noinst_HEADERS += \
     plugins/bernstein.h \
     plugins/chebyshev.h \
     plugins/couple.h \
+    plugins/curve.h \
+    plugins/linear.h \
     plugins/near.h \
     plugins/patch.h \
     plugins/patch_include.h \
     plugins/patch_rate.h \
     plugins/plugin.h \
-    plugins/polynomial.h
+    plugins/polynomial.h \
+    plugins/superquadric.h
 
 plugin_ldflags = -avoid-version -shared -export-symbols-regex '^impinge_plugin$$'
 

@@ -42,11 +42,16 @@
         .flags = IMP_MIN_OPEN, .min = 0, .max = INFINITY                                           \
     }
 
-/* Three numbers; FLAGS is 0 or IMP_OPTIONAL. */
+/* Three numbers, any or greater than 0; FLAGS is 0 or IMP_OPTIONAL. */
 #define ROW_VECTOR(NAME, UNIT, PRESET, FLAGS, DOC)                                                 \
     {                                                                                              \
         .name = NAME, .unit = UNIT, .preset = PRESET, .doc = DOC, .kind = IMP_NUMBER,              \
         .flags = FLAGS, .rank = 1, .extent = {3}, .min = -INFINITY, .max = INFINITY                \
+    }
+#define ROW_POSITIVE_VECTOR(NAME, UNIT, PRESET, DOC)                                               \
+    {                                                                                              \
+        .name = NAME, .unit = UNIT, .preset = PRESET, .doc = DOC, .kind = IMP_NUMBER,              \
+        .flags = IMP_MIN_OPEN, .rank = 1, .extent = {3}, .min = 0, .max = INFINITY                 \
     }
 #define ROW_CENTER ROW_VECTOR("center", "length", "[0,0,0]", 0, "centre of the surface")
 
@@ -109,12 +114,13 @@ static inline void set_domain(double lo[3], double hi[3], double u_lo, double u_
 /* --- The type --- */
 
 /* CALLS is what the names of the callbacks start with: TYPE, or TYPE_formula if they come from
- * IMP_SURFACE_FORMULA. */
-#define SURFACE_CALLS(TYPE, CALLS)                                                                 \
+ * IMP_SURFACE_FORMULA. DESTROY: what frees an instance of more than one block. */
+#define SURFACE_CALLS_DESTROY(TYPE, CALLS, DESTROY)                                                \
     .struct_size = (uint32_t)sizeof(imp_surface_type), .parameter_count = COUNT_OF(parameters),    \
     .parameter_size = (uint32_t)sizeof(imp_parameter), .name = #TYPE, .parameters = parameters,    \
-    .create = TYPE##_create, .destroy = free, .domain = TYPE##_domain, .eval = CALLS##_eval,       \
+    .create = TYPE##_create, .destroy = DESTROY, .domain = TYPE##_domain, .eval = CALLS##_eval,    \
     .rate = CALLS##_rate, .include = CALLS##_include
+#define SURFACE_CALLS(TYPE, CALLS) SURFACE_CALLS_DESTROY(TYPE, CALLS, free)
 
 /* All but .rate, for which some maps have a better bound than their formula. */
 #define MAP_CALLS(TYPE, CALLS)                                                                     \

@@ -25,10 +25,11 @@ mpfi_suites = \
     tests/test_plugins \
     tests/test_tightness
 tests_test_tightness_SOURCES = tests/test_tightness.c tests/oracle_number.c \
-    tests/type_oracle.c tests/instance.c
+    tests/type_oracle.c tests/shape_oracle.c tests/instance.c
 tests_test_plugins_SOURCES = tests/test_plugins.c \
     tests/oracle_number.c tests/oracle_number.h \
     tests/type_oracle.c tests/type_oracle.h \
+    tests/shape_oracle.c tests/shape_oracle.h \
     tests/instance.c tests/instance.h \
     tests/judge.c tests/judge.h \
     tests/sampling.c tests/sampling.h

@@ -1,0 +1,211 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_LINEAR_H
+#define PLUGINS_LINEAR_H
+
+#include "plugin.h"
+
+#include <impinge/model.h>
+
+/* Surfaces that are linear in u, in v and in t
+ * ============================================
+ * Per coordinate, and with w = 1, u, v, u v,
+ *
+ *   g(u, v, t) = sum_k (K_k + t V_k) w_k
+ *
+ * describes points, segments, triangles and parallelograms whose corners move linearly. Over a
+ * region this is a quadratic but for the term in u v t, so the inclusion is exact: a remainder of
+ * |d_u d_v d_t V_uv| and rounding. Extremes of g and of its derivatives are at corners of
+ * the region, because each is linear in each parameter that is left.
+ *
+ * K_u and K_uv are differences of what the caller gave, rounded once. K_1 is given, and is added
+ * last, so that far from the origin the error is hardly more than the rounding of the result. */
+
+enum { LINEAR_1, LINEAR_U, LINEAR_V, LINEAR_UV, LINEAR_TERMS };
+
+/* Limits that keep every number below finite, as for patches. */
+#define LINEAR_FAR 1e100
+#define LINEAR_LATE 1e50
+
+#define LAST_ROUNDING (0x1p-53 * (1 + 0x1p-50)) /* of a computed sum, relative */
+
+typedef struct linear {
+    double still[3][LINEAR_TERMS];  /* K, per coordinate */
+    double motion[3][LINEAR_TERMS]; /* V */
+    uint32_t depends[3];
+} linear;
+
+/* A list of COUNT corners, or of their velocities. */
+#define ROW_CORNERS(NAME, UNIT, PRESET, COUNT, FLAGS, DOC)                                         \
+    {                                                                                              \
+        .name = NAME, .unit = UNIT, .preset = PRESET, .doc = DOC, .kind = IMP_NUMBER,              \
+        .flags = FLAGS, .rank = 2, .extent = {COUNT, 3}, .min = -LINEAR_FAR, .max = LINEAR_FAR     \
+    }
+
+/* One corner, edge or velocity. */
+#define ROW_NEAR_VECTOR(NAME, UNIT, PRESET, FLAGS, DOC)                                            \
+    {                                                                                              \
+        .name = NAME, .unit = UNIT, .preset = PRESET, .doc = DOC, .kind = IMP_NUMBER,              \
+        .flags = FLAGS, .rank = 1, .extent = {3}, .min = -LINEAR_FAR, .max = LINEAR_FAR            \
+    }
+
+/* Completes f once its coefficients are set. */
+static inline void linear_finish(linear *f)
+{
+    for (int i = 0; i < 3; ++i) {
+        const double *k = f->still[i], *v = f->motion[i];
+        bool cross = k[LINEAR_UV] != 0 || v[LINEAR_UV] != 0;
+        bool u = cross || k[LINEAR_U] != 0 || v[LINEAR_U] != 0;
+        bool w = cross || k[LINEAR_V] != 0 || v[LINEAR_V] != 0;
+        bool t = v[LINEAR_1] != 0 || v[LINEAR_U] != 0 || v[LINEAR_V] != 0 || v[LINEAR_UV] != 0;
+        f->depends[i] = (u ? 1u : 0) | (w ? 2u : 0) | (t ? 4u : 0);
+    }
+}
+
+/* At least sum_k |K_k + t V_k| |w_k| for |u|, |v|, |t| up to these, without K_1, but for a few
+ * roundings. */
+static inline double linear_size(const double *k, const double *v, double u, double w, double t)
+{
+    return t * fabs(v[LINEAR_1]) + u * (fabs(k[LINEAR_U]) + t * fabs(v[LINEAR_U])) +
+           w * (fabs(k[LINEAR_V]) + t * fabs(v[LINEAR_V])) +
+           u * w * (fabs(k[LINEAR_UV]) + t * fabs(v[LINEAR_UV]));
+}
+
+/* One coordinate of one point, and its error.
+ *
+ * Lemma. A term of the sum is K or t V times 1, u, v or u v. Its roundings: K or V once, t V once,
+ * K + t V once, the products with u and v twice, sums at most three times: 8 of relative size
+ * 2^-53, and two more pay for second order and for `size`. K_1 is rounded in the last sum only. */
+static inline double linear_at(const linear *f, int i, const double p[3], double *error)
+{
+    const double *k = f->still[i], *v = f->motion[i], u = p[0], w = p[1], t = p[2];
+    const double along_u = u * (k[LINEAR_U] + t * v[LINEAR_U]);
+    const double along_v = w * ((k[LINEAR_V] + t * v[LINEAR_V]) +
+                                u * (k[LINEAR_UV] + t * v[LINEAR_UV]));
+    const double x = k[LINEAR_1] + ((t * v[LINEAR_1] + along_u) + along_v);
+    const double size = linear_size(k, v, fabs(u), fabs(w), fabs(t));
+    *error = f->depends[i] ? LAST_ROUNDING * fabs(x) + 10 * 0x1p-53 * size + IMP_TINY : 0;
+    return x;
+}
+
+/* As imp_surface_type.eval. */
+static inline imp_status linear_eval(const void *self, size_t n, const double *p, double *x,
+                                     double *error)
+{
+    const linear *f = self;
+    for (size_t k = 0; k < n; ++k) {
+        double slip[3];
+        if (!(fabs(p[3 * k + 2]) <= LINEAR_LATE)) return IMP_DOMAIN;
+        for (int i = 0; i < 3; ++i)
+            x[3 * k + i] = linear_at(f, i, p + 3 * k, &slip[i]);
+        if (error) memcpy(error + 3 * k, slip, sizeof slip);
+    }
+    return IMP_OK;
+}
+
+/* --- Bounds over a region --- */
+
+/* Covers the rounding of everything below but the last sum with K_1: a number there is a sum of
+ * terms as above, through at most 12 roundings; four more pay for `size` and second order. */
+static inline double linear_noise(const double *k, const double *v, const imp_region *region)
+{
+    const double u = fabs(region->c[0]) + region->d[0], w = fabs(region->c[1]) + region->d[1];
+    return 16 * 0x1p-53 * linear_size(k, v, u, w, fabs(region->c[2]) + region->d[2]) + IMP_TINY;
+}
+
+/* At least |a + b x + c y + d x y| for x in [x_lo, x_hi], y in [y_lo, y_hi]; `x`, `y` are those
+ * pairs. Six roundings at most reach a corner's value; as many more its coefficients. */
+static inline double linear_most(double a, double b, double c, double d, const double x[2],
+                                 const double y[2])
+{
+    double most = 0, size = 0;
+    if (a == 0 && b == 0 && c == 0 && d == 0) return 0;
+    for (int corner = 0; corner < 4; ++corner) {
+        double p = x[corner & 1], q = y[corner >> 1];
+        most = imp_larger(most, fabs(a + b * p + c * q + d * p * q));
+        size = imp_larger(size, fabs(a) + fabs(b * p) + fabs(c * q) + fabs(d * p * q));
+    }
+    return most + 16 * 0x1p-53 * size + IMP_TINY;
+}
+
+static inline void linear_rates(const double *k, const double *v, const imp_region *region,
+                                double rate[3])
+{
+    const double u[2] = {region->lo[0], region->hi[0]}, w[2] = {region->lo[1], region->hi[1]};
+    const double t[2] = {region->lo[2], region->hi[2]};
+    rate[0] = linear_most(k[LINEAR_U], k[LINEAR_UV], v[LINEAR_U], v[LINEAR_UV], w, t);
+    rate[1] = linear_most(k[LINEAR_V], k[LINEAR_UV], v[LINEAR_V], v[LINEAR_UV], u, t);
+    rate[2] = linear_most(v[LINEAR_1], v[LINEAR_U], v[LINEAR_V], v[LINEAR_UV], u, w);
+}
+
+static inline bool linear_is_late(const imp_region *region)
+{
+    return !(region->lo[2] >= -LINEAR_LATE && region->hi[2] <= LINEAR_LATE);
+}
+
+/* As imp_surface_type.rate. */
+static inline imp_status linear_rate(const void *self, const imp_region *region,
+                                     imp_rate_matrix *rates)
+{
+    const linear *f = self;
+    if (linear_is_late(region)) return IMP_UNBOUNDED;
+    for (int i = 0; i < 3; ++i) linear_rates(f->still[i], f->motion[i], region, rates->m[i]);
+    return IMP_OK;
+}
+
+/* Least and greatest value at the region's corners. */
+static inline void linear_range(const double *k, const double *v, const imp_region *region,
+                                double noise, imp_model *g)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    for (int end = 0; end < 2; ++end) {
+        const double t = end ? region->hi[2] : region->lo[2];
+        const double a = t * v[LINEAR_1], b = k[LINEAR_U] + t * v[LINEAR_U];
+        const double c = k[LINEAR_V] + t * v[LINEAR_V], d = k[LINEAR_UV] + t * v[LINEAR_UV];
+        for (int corner = 0; corner < 4; ++corner) {
+            const double u = corner & 1 ? region->hi[0] : region->lo[0];
+            const double w = corner & 2 ? region->hi[1] : region->lo[1];
+            const double x = a + u * b + w * (c + u * d);
+            lo = imp_smaller(lo, x), hi = imp_larger(hi, x);
+        }
+    }
+    g->lo = imp_sum_down(k[LINEAR_1] + (lo - noise));
+    g->hi = imp_sum_up(k[LINEAR_1] + (hi + noise));
+}
+
+/* With p = c + d s substituted, K_k + t V_k = (K_k + c_t V_k) + d_t V_k s_t. */
+static inline imp_model linear_model(const linear *f, int i, const imp_region *region)
+{
+    const double *k = f->still[i], *v = f->motion[i];
+    const double cu = region->c[0], cv = region->c[1], ct = region->c[2];
+    const double du = region->d[0], dv = region->d[1], dt = region->d[2];
+    const double b = k[LINEAR_U] + ct * v[LINEAR_U], c = k[LINEAR_V] + ct * v[LINEAR_V];
+    const double d = k[LINEAR_UV] + ct * v[LINEAR_UV];
+    const double noise = f->depends[i] ? linear_noise(k, v, region) : 0;
+    imp_model g = {.depends = f->depends[i]};
+    g.a = k[LINEAR_1] + ((ct * v[LINEAR_1] + cu * b) + cv * (c + cu * d));
+    g.b[0] = du * (b + cv * d);
+    g.b[1] = dv * (c + cu * d);
+    g.b[2] = dt * (v[LINEAR_1] + cu * v[LINEAR_U] + cv * (v[LINEAR_V] + cu * v[LINEAR_UV]));
+    g.q[IMP_UV] = du * dv * d;
+    g.q[IMP_UT] = du * dt * (v[LINEAR_U] + cv * v[LINEAR_UV]);
+    g.q[IMP_VT] = dv * dt * (v[LINEAR_V] + cu * v[LINEAR_UV]);
+    g.e = fabs(du * dv * dt * v[LINEAR_UV]) + noise;
+    if (g.depends) g.e += LAST_ROUNDING * fabs(g.a);
+    linear_range(k, v, region, noise, &g);
+    linear_rates(k, v, region, g.rate);
+    return g;
+}
+
+/* As imp_surface_type.include. */
+static inline imp_status linear_include(const void *self, const imp_region *region,
+                                        imp_model model[3])
+{
+    const linear *f = self;
+    const bool late = linear_is_late(region);
+    for (int i = 0; i < 3; ++i)
+        model[i] = late ? imp_unbounded_(f->depends[i]) : linear_model(f, i, region);
+    return late ? IMP_UNBOUNDED : IMP_OK;
+}
+
+#endif

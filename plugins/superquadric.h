@@ -1,0 +1,209 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_SUPERQUADRIC_H
+#define PLUGINS_SUPERQUADRIC_H
+
+#include "plugin.h"
+
+#include <impinge/model.h>
+
+/* The superellipse |X|^p + |Y|^p = 1 by its angle
+ * ===============================================
+ *   (X, Y)(a) = (cos a, sin a) / (|cos a|^p + |sin a|^p)^(1/p),   p = 2 / exponent >= 1.
+ *
+ * The textbook (cos^e a, sin^e a) draws the same curve, but at infinite speed for exponents e < 1.
+ * From the axis that is nearest, at an angle b with w = tan b,
+ *
+ *   X = G(w),  Y = w G(w),  G = (1 + |w|^p)^(-1/p),   dG/dw = -sgn(w) |w|^(p-1) G^(p+1),
+ *                                                     d(w G)/dw = G^(p+1),  dw/db = 1 + w^2.
+ *
+ * Lemma (speeds). |dX/db| = |w|^(p-1) h and |dY/db| = h, h = (1 + w^2) G^(p+1), are at most 2. For
+ * |w| <= 1 because p >= 1 and G <= 1; and swapping the axes turns w into 1/w. (For p < 1 the first
+ * is infinite at w = 0: exponents beyond 2 are refused.)
+ *
+ * Lemma (p is rounded). Let p = q (1 + d), |d| <= u = 2^-53, and T = |w|^p. Then | T - |w|^q | <= u T
+ * |ln T| to first order, which is below u / 2 for T <= 1 and below 8 u T for T <= 2^10; second order is
+ * below 2^-40 of that. Therefore |w|^(p-1) is within 2^-40 of |w|^(q-1), relatively, wherever it is
+ * above 2^-1000. 1/p = e/2 is exact.
+ *
+ * Lemma (flat). With L = min(1, 1/|w|): 2^(-1/p) L <= G <= L, because max(1, T) <= 1 + T <= 2 max(1,
+ * T). It tells all there is to tell when p is beyond SUPERELLIPSE_SHARP. */
+
+#define SUPERELLIPSE_SHARP 0x1p50
+#define SUPERELLIPSE_STEEP 0x1p10 /* greatest T for the smooth way */
+
+typedef struct superellipse {
+    double exponent; /* e, 0 < e <= 2 */
+    double power;    /* q, nearly p; INFINITY if it overflows */
+    double dent;     /* at least |z^2 - z^p| for z in [0, 1] */
+} superellipse;
+
+/* Exponents of two superellipses, the first and second number of a row. */
+#define ROW_EXPONENTS(DOC)                                                                         \
+    {                                                                                              \
+        .name = "exponents", .unit = "1", .preset = "[0.5,0.5]", .doc = DOC, .kind = IMP_NUMBER,   \
+        .flags = IMP_MIN_OPEN, .rank = 1, .extent = {2}, .min = 0, .max = INFINITY                 \
+    }
+
+static inline imp_status check_exponents(const imp_value *exponents, int row, imp_complaint *why)
+{
+    for (int k = 0; k < 2; ++k)
+        if (!(exponents->number[k] <= 2))
+            return complain(why, row, k,
+                            "found %g, allowed in (0, 2]: beyond 2 the radial parametrisation "
+                            "(cos a, sin a) / (|cos a|^p + |sin a|^p)^(1/p), p = 2/exponent, "
+                            "is not Lipschitz",
+                            exponents->number[k]);
+    return IMP_OK;
+}
+
+/* Lemma. For m = min(2, p), d = |p - 2| and r = d / m, z^m (1 - z^d) is greatest where z^d = 1 / (1 +
+ * r), with the value (1 + r)^(-1/r) r / (1 + r). 2^-50 covers the rounding of p, the rest that of
+ * libm. */
+static inline double superellipse_dent_upper(double power)
+{
+    const double r = power < 2 ? (2 - power) / power : (power - 2) / 2;
+    if (!(r > 0 && r < SUPERELLIPSE_SHARP)) return r > 0 ? 1 : 0x1p-50;
+    return (exp(-log1p(r) / r) * (r / (1 + r)) + 0x1p-50) * (1 + 0x1p-40);
+}
+
+static inline superellipse superellipse_of(double exponent)
+{
+    const double power = 2 / exponent;
+    return (superellipse){exponent, power, superellipse_dent_upper(power)};
+}
+
+/* --- T = |w|^p --- */
+
+static inline bool superellipse_is_even(const superellipse *s)
+{
+    return s->power <= 16 && s->power / 2 == floor(s->power / 2);
+}
+
+/* Near w = 0, where no series helps: with R the greatest |w| and z = |w| / R, T = R^p z^p is
+ * below (p > 2) or above (p < 2) R^p z^2 by at most R^p dent. Rounding: 2^-48 for R^p, 2^-50 for
+ * z^2, relative to R^p. The slope of z^2 says nothing of that of T: its rates go. */
+static inline imp_model superellipse_bowl(const superellipse *s, imp_model w, imp_interval range)
+{
+    const double side = s->power < 2 ? 0.5 : -0.5;
+    const double most = imp_interval_mag(imp_range_(&w));
+    imp_model z = imp_scale(w, 1 / most);
+    imp_model t = imp_shift(imp_scale(imp_sqr(z), range.hi), side * s->dent * range.hi);
+    t.e = (t.e + (0.5 * s->dent + 0x1p-47) * range.hi) * IMP_SLACK;
+    t.lo = range.lo, t.hi = range.hi;
+    for (int j = 0; j < 3; ++j) t.rate[j] = w.depends >> j & 1 ? INFINITY : 0;
+    return imp_model_finish(t);
+}
+
+/* |w|^q. */
+static inline imp_model superellipse_power(const superellipse *s, imp_model w)
+{
+    const imp_interval size = imp_interval_abs(imp_range_(&w));
+    if (superellipse_is_even(s)) return imp_powi(w, (int)s->power);
+    imp_model t = imp_pow(w.lo > 0 ? w : w.hi < 0 ? imp_neg(w) : imp_abs(w), s->power);
+    const imp_interval range = imp_interval_pow(size, s->power);
+    if (imp_is_point_(&w) || size.hi < 0x1p-300 || t.e <= 0.5 * s->dent * range.hi) return t;
+    return superellipse_bowl(s, w, range);
+}
+
+/* --- X and Y near an axis --- */
+
+/* G where |w|^p is smooth enough to be told. */
+static inline imp_model superellipse_smooth(const superellipse *s, imp_model w)
+{
+    imp_model t = superellipse_power(s, w);
+    const double slip = 0x1p-53 + 0x1p-49 * t.hi;
+    t.e += slip;
+    t.lo = imp_larger(t.lo - slip, 0);
+    t.hi += 2 * slip;
+    return imp_pow(imp_shift(imp_model_finish(t), 1), -0.5 * s->exponent);
+}
+
+/* G from the flat lemma: a range, nothing more. */
+static inline imp_model superellipse_flat(const superellipse *s, imp_model w)
+{
+    const imp_interval size = imp_interval_abs(imp_range_(&w));
+    const double lo = size.hi > 1 ? imp_round_down(1 / size.hi) : 1;
+    const double hi = size.lo > 1 ? imp_round_up(1 / size.lo) : 1;
+    const imp_interval low = imp_interval_pow(imp_interval_make(2, 2), -0.5 * s->exponent);
+    imp_model g = imp_between(imp_round_down(lo * low.lo), hi);
+    g.depends = w.depends;
+    for (int j = 0; j < 3; ++j) g.rate[j] = w.depends >> j & 1 ? INFINITY : 0;
+    return g;
+}
+
+/* Speeds by the lemma, from the least and the greatest |w| and the least T. */
+static inline void superellipse_speeds(const superellipse *s, imp_interval size, double *x_upper,
+                                       double *y_upper)
+{
+    const double sec = 1 + size.hi * size.hi, lift = 1 + 0x1p-38;
+    double fall = 1, steep = INFINITY;
+    if (s->power < SUPERELLIPSE_SHARP) {
+        const imp_interval t = imp_interval_pow(size, s->power);
+        const imp_interval base = imp_interval_make(1 + t.lo * (1 - 0x1p-40), INFINITY);
+        fall = imp_interval_pow(base, -1 - 0.5 * s->exponent).hi;
+        steep = imp_interval_pow(size, s->power - 1).hi;
+    } else if (size.hi < 1) {
+        steep = imp_interval_pow(size, SUPERELLIPSE_SHARP / 2).hi;
+    }
+    *y_upper = imp_smaller(2, sec * fall * lift);
+    *x_upper = imp_smaller(2, sec * fall * (steep * lift + IMP_TINY) * lift);
+}
+
+static inline void superellipse_limit_rates(imp_model *x, const imp_model *angle, double speed)
+{
+    for (int j = 0; j < 3; ++j)
+        x->rate[j] = imp_smaller(x->rate[j], imp_round_up(speed * angle->rate[j]));
+}
+
+/* `angle` is from the axis, within +-1.25. */
+static inline void superellipse_near_axis(const superellipse *s, imp_model angle, imp_model *x,
+                                          imp_model *y)
+{
+    const imp_model w = imp_tan(angle);
+    const imp_interval size = imp_interval_abs(imp_range_(&w));
+    double x_speed, y_speed;
+    bool smooth = s->power < SUPERELLIPSE_SHARP &&
+                  imp_interval_pow(size, s->power).hi < SUPERELLIPSE_STEEP;
+    *x = smooth ? superellipse_smooth(s, w) : superellipse_flat(s, w);
+    *y = imp_mul(w, *x);
+    superellipse_speeds(s, size, &x_speed, &y_speed);
+    superellipse_limit_rates(x, &angle, x_speed);
+    superellipse_limit_rates(y, &angle, y_speed);
+}
+
+/* --- X and Y anywhere --- */
+
+/* Lemma. X = r cos a (and Y = r sin a) with 1 / r = (|cos a|^p + |sin a|^p)^(1/p) between the greater
+ * of |cos a| and |sin a|, at least 1 / sqrt 2, and |cos a| + |sin a|, at most sqrt 2: so
+ * 0.7 < r < 1.5. */
+static inline imp_model superellipse_wide(const imp_model *angle, imp_interval wave)
+{
+    const double lo = wave.lo < 0 ? 1.5 * wave.lo : 0.7 * wave.lo;
+    const double hi = wave.hi > 0 ? 1.5 * wave.hi : 0.7 * wave.hi;
+    imp_model x = imp_between(imp_larger(lo, -1), imp_smaller(hi, 1));
+    x.depends = angle->depends;
+    for (int j = 0; j < 3; ++j) x.rate[j] = 2 * angle->rate[j];
+    return x;
+}
+
+/* X and Y at an angle of moderate size. */
+static inline void superellipse_at(const superellipse *s, imp_model angle, imp_model *x,
+                                   imp_model *y)
+{
+    const double quarter = rint(imp_interval_mid(imp_range_(&angle)) / (IMP_PI_LOWER / 2));
+    imp_model near = imp_sub(angle, imp_scale(imp_const_pi(), quarter / 2)), a, b;
+    if (s->power == 2) {
+        imp_sincos(angle, y, x);
+    } else if (!(near.lo > -1.25 && near.hi < 1.25)) {
+        *x = superellipse_wide(&angle, imp_interval_cos(imp_range_(&angle)));
+        *y = superellipse_wide(&angle, imp_interval_sin(imp_range_(&angle)));
+    } else {
+        superellipse_near_axis(s, near, &a, &b);
+        const int turn = (int)fmod(quarter, 4) & 3;
+        *x = turn == 0 ? a : turn == 1 ? imp_neg(b) : turn == 2 ? imp_neg(a) : b;
+        *y = turn == 0 ? b : turn == 1 ? a : turn == 2 ? imp_neg(b) : imp_neg(a);
+    }
+}
+
+#endif
