@@ -62,27 +62,44 @@ INLINE void edge_hull(spans *range, lanes c, lanes b, lanes q)
     range->lo = lesser(range->lo, vertex);
 }
 
+/* The five coefficients of a slice, in lanes. */
+typedef struct forms {
+    lanes bu, bv, uu, uv, vv;
+} forms;
+
+INLINE forms project(const bundle *n, const slice *s)
+{
+    return (forms){along(n, s->bu), along(n, s->bv), along(n, s->quu), along(n, s->quv),
+                   along(n, s->qvv)};
+}
+
+/* Values that do occur, at the middle and a corner: no bound can be better than these. */
+INLINE spans glimpse(const forms *f)
+{
+    const lanes slopes = magnitude(f->bu) + magnitude(f->bv) - magnitude(f->uv);
+    const lanes curved = f->uu + f->vv;
+    return (spans){lesser(curved - slopes, all(0)), greater(curved + slopes, all(0))};
+}
+
 /* quadratic_span, in lanes; extrema inside the square, which are rare, are left to it. Lemma: where
  * 4 uu vv is below uv^2 by a part in 2^28, the form is indefinite beyond rounding. Where abs(bu)
- * reaches 2 abs(uu) + abs(uv), the slope along u keeps its sign over the square, up to 3 * 2^-53 of
- * it, and so the edges hold the extrema up to 12 * 2^-53 of the coefficients' sum; v alike. */
-INLINE spans project(const bundle *n, const slice *s)
+ * reaches 2 abs(uu) + abs(uv), the slope along u keeps its sign over the square, up to 3 * 2^-53
+ * of it, and so the edges hold the extrema up to 12 * 2^-53 of the coefficients' sum; v alike. */
+INLINE spans span_of(const forms *f)
 {
-    const lanes bu = along(n, s->bu), bv = along(n, s->bv);
-    const lanes uu = along(n, s->quu), uv = along(n, s->quv), vv = along(n, s->qvv);
     spans range = {all(INFINITY), all(-INFINITY)};
-    edge_hull(&range, vv + bv, bu + uv, uu);
-    edge_hull(&range, vv - bv, bu - uv, uu);
-    edge_hull(&range, uu + bu, bv + uv, vv);
-    edge_hull(&range, uu - bu, bv - uv, vv);
-    const mask curved = uu * vv > uv * uv * all(0.25 - 0x1p-30);
-    const mask near = (magnitude(bu) < magnitude(uu) * all(2) + magnitude(uv)) &
-                      (magnitude(bv) < magnitude(vv) * all(2) + magnitude(uv));
+    edge_hull(&range, f->vv + f->bv, f->bu + f->uv, f->uu);
+    edge_hull(&range, f->vv - f->bv, f->bu - f->uv, f->uu);
+    edge_hull(&range, f->uu + f->bu, f->bv + f->uv, f->vv);
+    edge_hull(&range, f->uu - f->bu, f->bv - f->uv, f->vv);
+    const mask curved = f->uu * f->vv > f->uv * f->uv * all(0.25 - 0x1p-30);
+    const mask near = (magnitude(f->bu) < magnitude(f->uu) * all(2) + magnitude(f->uv)) &
+                      (magnitude(f->bv) < magnitude(f->vv) * all(2) + magnitude(f->uv));
     const mask inner = curved & near;
     if (!any(inner)) return range;
     for (int k = 0; k < LANES; ++k) {
         if (!inner[k]) continue;
-        const quadratic p = {bu[k], bv[k], uu[k], uv[k], vv[k]};
+        const quadratic p = {f->bu[k], f->bv[k], f->uu[k], f->uv[k], f->vv[k]};
         const span exact = quadratic_span(&p);
         range.lo[k] = exact.lo;
         range.hi[k] = exact.hi;
@@ -137,8 +154,13 @@ INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, share *s)
         n->x[i] *= scale;
         n->size[i] = magnitude(n->x[i]);
     }
-    const spans a = project(n, &r->a), b = project(n, &r->b);
+    const forms fa = project(n, &r->a), fb = project(n, &r->b);
     const lanes offset = along(n, r->delta), drift = along(n, r->drift);
+    const spans ga = glimpse(&fa), gb = glimpse(&fb);
+    const mask above = offset + (gb.lo - ga.hi) + magnitude(drift) > all(0);
+    const mask below = offset + (gb.hi - ga.lo) - magnitude(drift) < all(0);
+    if (!any(above | below)) return true; /* no w to cut */
+    const spans a = span_of(&fa), b = span_of(&fb);
     const lanes size = weighted(n, r->magnitude);
     const lanes slack = weighted(n, r->slack) + size * all(0x1p-45) + all(0x1p-490);
     const lanes square = n->x[0] * n->x[0] + n->x[1] * n->x[1] + n->x[2] * n->x[2];

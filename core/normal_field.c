@@ -34,7 +34,7 @@ static local_slice slice_to_local(const frame *f, const slice *s)
 }
 
 /* The frame between the two normals, on the side of B at the window's start; false where the
- * surfaces have no normals or face each other at more than 60 degrees. Unit length up to rounding.
+ * surfaces have no normals or meet at more than 25 degrees. Unit length up to rounding.
  */
 static bool frame_between(const relative *r, frame *f)
 {
@@ -42,7 +42,7 @@ static bool frame_between(const relative *r, frame *f)
     if (!(la > 0x1p-300 && lb > 0x1p-300 && la < 0x1p300 && lb < 0x1p300)) return false;
     const vec3 na = vec3_scale(r->a.normal, 1 / la), nb = vec3_scale(r->b.normal, 1 / lb);
     const double cosine = vec3_dot(na, nb);
-    if (!(fabs(cosine) > 0.5)) return false;
+    if (!(fabs(cosine) > 0.9)) return false;
     vec3 n = cosine > 0 ? vec3_sub(na, vec3_scale(nb, -1)) : vec3_sub(na, nb);
     const vec3 start = vec3_sub(vec3_from(r->delta), vec3_from(r->drift));
     n = vec3_scale(n, (vec3_dot(n, start) < 0 ? -1 : 1) / vec3_norm(n));

@@ -227,7 +227,7 @@ static imp_code follow_paper(impact *im, const pair *p, impact_state *state, imp
 }
 
 enum {
-    WITNESS_WAIT = 3
+    WITNESS_WAIT = 5
 }; /* generations between searches: halves the pair's four sides about once */
 
 /* Whether rounding takes much of the room between clearance and gamma, and the pair is as flat as
@@ -245,7 +245,7 @@ static bool witness_is_likely(const impact *im, const pair *p)
 {
     if (p->wait > 0) return false;
     const double remainder = pair_remainder(p);
-    return remainder <= 4 * im->gamma || 4 * pair_extent(p) <= remainder ||
+    return 2 * remainder <= im->gamma || 4 * pair_extent(p) <= remainder ||
            precision_ends(im, p, 16);
 }
 
