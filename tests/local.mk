@@ -15,6 +15,7 @@ check_suites = \
     tests/test_quadratic \
     tests/test_registry \
     tests/test_scene_file \
+    tests/test_separation \
     tests/test_spheres \
     tests/test_surface
 
