@@ -35,6 +35,7 @@ noinst_HEADERS += \
     plugins/patch.h \
     plugins/patch_include.h \
     plugins/patch_rate.h \
+    plugins/patch_series.h \
     plugins/plugin.h \
     plugins/polynomial.h \
     plugins/superquadric.h

@@ -65,7 +65,7 @@ typedef struct patch {
     double drift_radius[4];           /* max |V - drift| */
     double most[PATCH_LANES_MAX];     /* max |net|, per lane */
     double slope[2][PATCH_LANES_MAX]; /* max |difference|, per lane, for d/du and d/dv */
-    double noise[PATCH_LANES_MAX];    /* rounding of the series, see patch_include.h */
+    double noise[PATCH_LANES_MAX];    /* rounding of the series, see patch_series.h */
     double *net;                      /* (n+1)(m+1) groups */
     double *series;                   /* the same polynomials in Chebyshev form */
     double *difference[2];            /* nets of d/du and d/dv: n (m+1), (n+1) m groups */
