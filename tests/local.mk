@@ -37,6 +37,7 @@ tests_test_plugins_SOURCES = tests/test_plugins.c \
 
 # Command-line tests; the environment below tells them where things are.
 bats_suites = \
+    tests/bench.bats \
     tests/cli.bats \
     tests/cli_batch.bats \
     tests/cli_list.bats \

@@ -4,6 +4,8 @@
 # The command: main and one file per verb. It sees the public API and nothing else of core.
 tool_sources = \
     tools/arguments.c tools/arguments.h \
+    tools/bench.h tools/bench_cases.c tools/bench_json.c tools/bench_measure.c \
+    tools/bench_patches.c tools/bench_print.c tools/bench_sets.c \
     tools/build_tree.c tools/build_tree.h \
     tools/catalogue.c tools/catalogue.h \
     tools/input.c tools/input.h \
@@ -17,6 +19,7 @@ tool_sources = \
     tools/result.h tools/result_json.c tools/result_text.c \
     tools/verbs.c tools/verbs.h \
     tools/verb_batch.c \
+    tools/verb_bench.c \
     tools/verb_demo.c \
     tools/verb_help.c \
     tools/verb_info.c \
@@ -30,15 +33,17 @@ tools_impinge_LDADD = libimpinge.la $(JANSSON_LIBS) -lm
 
 dist_man_MANS = tools/impinge.1
 pkgdata_DATA = \
+    tools/data/bicubic_moving_100.jsonl \
     tools/data/teapot.json \
+    tools/schema/bench.schema.json \
     tools/schema/result.schema.json \
     tools/schema/scene.schema.json \
     tools/schema/types.schema.json
 
 # Where build_tree_data looks, so that the command just built meets the data of its own tree.
-noinst_DATA = tools/built-data/teapot.json
+noinst_DATA = tools/built-data/bicubic_moving_100.jsonl tools/built-data/teapot.json
 CLEANFILES += $(noinst_DATA)
-tools/built-data/teapot.json: tools/data/teapot.json
+$(noinst_DATA): tools/built-data/%: tools/data/%
 	$(AM_V_GEN)$(MKDIR_P) tools/built-data && cp $< $@ && chmod u+w $@
 
 EXTRA_DIST += tools/demo tools/prepare tools/test $(pkgdata_DATA)

@@ -14,6 +14,7 @@
     ROW(pair)                                                                                      \
     ROW(solve)                                                                                     \
     ROW(batch)                                                                                     \
+    ROW(bench)                                                                                     \
     ROW(help)
 
 #define DECLARE(NAME) extern const verb verb_##NAME;
