@@ -167,7 +167,7 @@ static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
     }
     if (!n->bounded) memcpy(n->spread, n->region.d, sizeof n->spread);
     if (!n->bounded) memcpy(n->bend, n->region.d, sizeof n->bend);
-    n->normal = vec3_cross(vec3_from(n->f.bu), vec3_from(n->f.bv));
+    if (n->bounded) n->normal = vec3_cross(vec3_from(n->f.bu), vec3_from(n->f.bv));
     return IMP_SUCCESS;
 }
 

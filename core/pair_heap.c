@@ -13,10 +13,10 @@ static bool pair_before(const pair *p, const pair *q)
     return p->serial < q->serial;
 }
 
-static bool pair_heap_reserve(pair_heap *heap)
+bool pair_heap_reserve(pair_heap *heap, size_t more)
 {
-    if (heap->count < heap->capacity) return true;
-    const size_t capacity = heap->capacity == 0 ? 64 : 2 * heap->capacity;
+    if (more <= heap->capacity - heap->count) return true;
+    const size_t capacity = 2 * (heap->count + more) + 64;
     pair *pairs = realloc(heap->pairs, capacity * sizeof *pairs);
     if (pairs == NULL) return false;
     heap->pairs = pairs;
@@ -24,9 +24,9 @@ static bool pair_heap_reserve(pair_heap *heap)
     return true;
 }
 
-bool pair_heap_push(pair_heap *heap, const pair *p)
+void pair_heap_push(pair_heap *heap, const pair *p)
 {
-    if (!pair_heap_reserve(heap)) return false;
+    assert(heap->count < heap->capacity);
     size_t hole = heap->count++;
     while (hole > 0) {
         const size_t parent = (hole - 1) / 2;
@@ -35,7 +35,6 @@ bool pair_heap_push(pair_heap *heap, const pair *p)
         hole = parent;
     }
     heap->pairs[hole] = *p;
-    return true;
 }
 
 const pair *pair_heap_top(const pair_heap *heap)

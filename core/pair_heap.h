@@ -25,8 +25,11 @@ typedef struct pair_heap {
     size_t count, capacity;
 } pair_heap; /* begins as {0}; pair_heap_clear frees */
 
-/* False: no memory, the heap is as it was. */
-bool pair_heap_push(pair_heap *heap, const pair *p);
+/* Room for `more` pushes; false: no memory, the heap is as it was. */
+bool pair_heap_reserve(pair_heap *heap, size_t more);
+
+/* Precondition: there is room. */
+void pair_heap_push(pair_heap *heap, const pair *p);
 
 /* The earliest; precondition: count > 0. */
 const pair *pair_heap_top(const pair_heap *heap);

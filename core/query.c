@@ -293,12 +293,14 @@ static imp_reason exhausted(const imp_query *query, double seconds)
 /* One unit of work: a couple's roots, as long as there are any left, then pairs from the heap. */
 static imp_code work(imp_query *query, imp_error *error)
 {
-    impact_state state;
+    impact_state state = IMPACT_RUNNING;
     imp_code code = IMP_SUCCESS;
-    if (query->coupled < query->couple_count)
-        code = impact_add_couple(&query->impact, (uint32_t)query->coupled++, &state, error);
-    else
+    if (query->coupled < query->couple_count) {
+        code = impact_add_couple(&query->impact, (uint32_t)query->coupled, &state, error);
+        if (state == IMPACT_RUNNING) query->coupled += 1;
+    } else {
         code = impact_advance(&query->impact, &state, error);
+    }
     if (code == IMP_SUCCESS) conclude(query, state);
     return code;
 }

@@ -16,24 +16,23 @@ static bool pair_may_be_near(const impact *im, pair *p)
     return separation_by_models(p->a, p->b, im->clearance, &p->window);
 }
 
-/* Puts the pair of p's nodes on the heap unless they stay apart; false: no memory. p->window holds
+/* Puts the pair of p's nodes on the heap, which has room, unless they stay apart. p->window holds
  * the parent's window and is cut to both nodes' times first. */
-static bool test_and_push(impact *im, pair p)
+static void test_and_push(impact *im, pair p)
 {
     const imp_region *a = &p.a->region, *b = &p.b->region;
     if (a->lo[2] > p.window.lo) p.window.lo = a->lo[2];
     if (b->lo[2] > p.window.lo) p.window.lo = b->lo[2];
     if (a->hi[2] < p.window.hi) p.window.hi = a->hi[2];
     if (b->hi[2] < p.window.hi) p.window.hi = b->hi[2];
-    if (p.window.lo > p.window.hi) return true;
+    if (p.window.lo > p.window.hi) return;
     im->stats.pairs += 1;
-    if (!pair_may_be_near(im, &p)) return true;
+    if (!pair_may_be_near(im, &p)) return;
     const double distance2 = separation_centres(p.a, p.b, p.window.lo);
     p.distance2 = distance2 >= 0 ? distance2 : INFINITY;
     p.serial = im->serial++;
-    if (!pair_heap_push(&im->heap, &p)) return false;
+    pair_heap_push(&im->heap, &p);
     if (im->heap.count > im->stats.peak_heap) im->stats.peak_heap = im->heap.count;
-    return true;
 }
 
 /* Looks at the middles of both at the ends and in the middle of the window: the largest error of
@@ -62,7 +61,10 @@ imp_code impact_add_couple(impact *im, uint32_t index, impact_state *state, imp_
                     .a = tree_root(both->trees[0]),
                     .b = tree_root(both->trees[1]),
                     .couple = index};
-    *state = test_and_push(im, p) ? IMPACT_RUNNING : IMPACT_NO_MEMORY;
+    *state = IMPACT_NO_MEMORY;
+    if (!pair_heap_reserve(&im->heap, 1)) return IMP_SUCCESS;
+    *state = IMPACT_RUNNING;
+    test_and_push(im, p);
     if (im->heap.count == before) return IMP_SUCCESS;
     const imp_region *a = &p.a->region, *b = &p.b->region;
     const time_window common = {a->lo[2] > b->lo[2] ? a->lo[2] : b->lo[2],
@@ -183,7 +185,10 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
         if (code == IMP_ERROR_PLUGIN)
             error_prefix(error, "body %zu, surface %zu", both->body[c.side], both->surface[c.side]);
         if (code == IMP_ERROR_PLUGIN) return code;
-        if (code != IMP_SUCCESS || !test_and_push(im, child)) *state = IMPACT_NO_MEMORY;
+        if (code == IMP_SUCCESS)
+            test_and_push(im, child);
+        else
+            *state = IMPACT_NO_MEMORY;
     }
     return IMP_SUCCESS;
 }
@@ -279,6 +284,8 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
 {
     *state = IMPACT_CLEAR;
     if (im->heap.count == 0) return IMP_SUCCESS;
+    *state = IMPACT_NO_MEMORY;
+    if (!pair_heap_reserve(&im->heap, 1)) return IMP_SUCCESS; /* and the place of the one popped */
     *state = IMPACT_RUNNING;
     pair p = pair_heap_pop(&im->heap);
     if (p.window.lo > im->t_lower) im->t_lower = p.window.lo;
@@ -286,7 +293,6 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     const imp_code code = im->method == IMP_METHOD_PAPER
                               ? follow_paper(im, &followed, state, error)
                               : follow_models(im, &followed, state, error);
-    /* the heap has room for the pair that just left it */
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);
     return code;
 }
