@@ -8,6 +8,7 @@ plugin_LTLIBRARIES = \
     plugins/cone.la \
     plugins/cylinder.la \
     plugins/ellipsoid.la \
+    plugins/nurbs.la \
     plugins/plane.la \
     plugins/point.la \
     plugins/product.la \
@@ -30,12 +31,15 @@ noinst_HEADERS += \
     plugins/chebyshev.h \
     plugins/couple.h \
     plugins/curve.h \
+    plugins/knots.h \
     plugins/linear.h \
     plugins/near.h \
+    plugins/nurbs_cells.h \
     plugins/patch.h \
     plugins/patch_include.h \
     plugins/patch_rate.h \
     plugins/patch_series.h \
+    plugins/pieces.h \
     plugins/plugin.h \
     plugins/polynomial.h \
     plugins/superquadric.h

@@ -59,6 +59,7 @@ typedef struct patch {
     int degree[2];
     int lanes; /* numbers per control point: 4 at rest, 8 moving */
     bool rational;
+    double units;                     /* error of the net is units ROUNDING most at most */
     double weight_lo;                 /* least weight; 1 if polynomial */
     double place[4], drift[4];        /* of x, y, z, and a 0 */
     double place_radius[4];           /* max |P - place| */
@@ -125,7 +126,7 @@ static inline double patch_greatest(const double *x, size_t count, int step)
     return most;
 }
 
-/* Each number of the net takes at most two roundings. */
+/* Each number of the net takes at most two roundings: units is 2. */
 static inline void patch_set_net(patch *f, const patch_data *data)
 {
     const size_t points = patch_points(f->degree);
@@ -134,6 +135,7 @@ static inline void patch_set_net(patch *f, const patch_data *data)
         if (data->velocities)
             f->drift[axis] = patch_middle(points, data->velocities + axis, &f->drift_radius[axis]);
     }
+    f->units = 2;
     f->rational = data->weights != NULL;
     f->weight_lo = f->rational ? INFINITY : 1;
     for (size_t i = 0; i < points; ++i) {
@@ -153,7 +155,7 @@ static inline void patch_set_net(patch *f, const patch_data *data)
 
 /* d/du of sum_i B_i(u) P_i, degree n, is the like sum of degree n - 1 with n (P_(i+1) - P_i).
  * Rounding: of both numbers of the net, of the difference and of the product, together at
- * most (4 n most + 2 |result|) ROUNDING. */
+ * most (2 units n most + 2 |result|) ROUNDING. */
 static inline void patch_set_differences(patch *f, int side)
 {
     const int m = f->degree[1], lanes = f->lanes;
@@ -169,7 +171,7 @@ static inline void patch_set_differences(patch *f, int side)
     for (int lane = 0; lane < lanes; ++lane)
         f->slope[side][lane] =
             patch_greatest(f->difference[side] + lane, (size_t)(rows * columns), lanes) * SLACK +
-            4 * f->degree[side] * ROUNDING * f->most[lane] * SLACK;
+            2 * f->units * f->degree[side] * ROUNDING * f->most[lane] * SLACK;
 }
 
 /* --- Points --- */
@@ -199,7 +201,7 @@ static inline void patch_sums(const patch *f, double u, double v, double sum[PAT
 
 /* One point and its error.
  *
- * Lemma. A sum is off by at most (3n + 3m + 1 + 1 + (n+1)(m+1) - 1 + 2) ROUNDING most: the weights
+ * Lemma. A sum is off by at most (3n + 3m + 1 + 1 + (n+1)(m+1) - 1 + units) ROUNDING most: the weights
  * (3n and 3m, bernstein.h), their product, its product with the net, the additions, the net itself.
  * W has positive terms only: the same holds relative to W. So X / W is off by that count and 1 for
  * the division, times most / W + |X / W|. The last steps round place + X / W (once), the speed and
@@ -208,7 +210,7 @@ static inline void patch_point(const patch *f, const double p[3], double x[3], d
 {
     const int n = f->degree[0], m = f->degree[1];
     double sum[PATCH_LANES_MAX], t = p[2];
-    double unit = (3 * (n + m) + (n + 1) * (m + 1) + 4) * ROUNDING * SLACK;
+    double unit = (3 * (n + m) + (n + 1) * (m + 1) + 2 + f->units) * ROUNDING * SLACK;
     patch_sums(f, p[0], p[1], sum);
     double w = f->rational ? sum[PATCH_W] : 1, twice = f->rational ? 1 : 0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -17,8 +17,8 @@
  * for either end of time. c and r come from the control points (X_i + t Y_i) / W_i.
  *
  * Lemma (roundings, in units of ROUNDING). A control point of the sub-patch: (4n + 4m + 2) most,
- * bernstein.h, and 2 most for the net. One of a derivative along a side of degree k: (4n + 4m + 2)
- * slope, and (4 k most + 2 slope) for its net (patch_set_differences). Below, `shape_slip` and
+ * bernstein.h, and units most for the net. One of a derivative along a side of degree k: (4n + 4m +
+ * 2) slope, and (2 units k most + 2 slope) for its net (patch_set_differences). Below, `shape_slip` and
  * `slope_slip` are these; what is computed from them adds a few of the same size, and so 4 more. */
 
 /* Weights of all control points of a polynomial of degree n over [lo, hi]: point k has w_jk, as
@@ -109,7 +109,7 @@ static inline patch_frame patch_make_frame(const patch *f, const imp_region *reg
                                            double *work)
 {
     const int n = f->degree[0], m = f->degree[1];
-    const double unit = (4 * (n + m) + 8) * ROUNDING * SLACK;
+    const double unit = (4 * (n + m) + 6 + f->units) * ROUNDING * SLACK;
     patch_frame frame = {.time = {region->lo[2], region->hi[2]}};
     frame.late = imp_larger(fabs(region->lo[2]), fabs(region->hi[2]));
     patch_restrict(f->net, n, m, f->lanes, region, shape, work);
@@ -129,7 +129,7 @@ static inline double patch_side_rate(const patch *f, const patch_frame *frame, i
     const int n = f->degree[0], m = f->degree[1];
     const size_t points =
         patch_points(f->degree) / (size_t)(f->degree[side] + 1) * (size_t)f->degree[side];
-    double most = 0, slip = 0, unit = (4 * (n + m) + 8) * ROUNDING * SLACK;
+    double most = 0, slip = 0, unit = (4 * (n + m) + 4 + 2 * f->units) * ROUNDING * SLACK;
     for (int end = 0; end < 2; ++end) {
         const double c = frame->c[end][axis], r = frame->r[end][axis];
         double turn = fabs(c) + r;

@@ -15,7 +15,7 @@
  *
  * Lemma (noise). In units of ROUNDING, as functions on the region, the computed
  * sum_kl C_kl T_k T_l and F differ by at most
- *   2 most                                 the net (patch_set_net)
+ *   units most                             the net (2 for patch_set_net)
  *   (n + m + 4) beta_u beta_v most         R: two sums of n + 1 and m + 1 products with beta (1 + 1
  *                                          for beta itself); beta_u, beta_v: sums of all |beta|
  *   sum_ij |R_ij| (error_i + error_j)      w as a function (chebyshev_shift_error)
@@ -57,7 +57,7 @@ static inline void patch_set_series(patch *f, double *work)
     double beta =
         patch_sum_abs(beta_u, (n + 1) * (n + 1)) * patch_sum_abs(beta_v, (m + 1) * (m + 1));
     for (int lane = 0; lane < lanes; ++lane) {
-        double units = (2 + (n + m + 4) * beta) * f->most[lane];
+        double units = (f->units + (n + m + 4) * beta) * f->most[lane];
         for (int i = 0; i <= n; ++i)
             for (int j = 0; j <= m; ++j)
                 units += fabs(f->series[i * row + j * lanes + lane]) *

@@ -210,3 +210,74 @@ void product_oracle(const type_arguments *arguments, const number p[3], number x
     scale_by(arguments, "k", x);
     add_center(arguments, x);
 }
+
+/* --- NURBS -------------------------------------------------------------------------------- */
+
+/* One direction's knots. */
+typedef struct knot_list {
+    const double *at;
+    size_t length, degree, count;
+} knot_list;
+
+static knot_list knots_along(const type_arguments *arguments, size_t side)
+{
+    const imp_value *own = argument(arguments, side ? "knots_v" : "knots_u");
+    const imp_value *both = argument(arguments, "knots");
+    knot_list k = {own->number, own->count, 0, 0};
+    if (!own->count) k = (knot_list){both->number + side * both->extent[1], both->extent[1], 0, 0};
+    k.degree = (size_t)argument(arguments, "degree")->number[side];
+    k.count = k.length - k.degree - 1;
+    return k;
+}
+
+/* Whether u lies between knots i and i + 1; the domain's end belongs to the span before it. */
+static bool is_in_span(const knot_list *k, size_t i, double u)
+{
+    const double end = k->at[k->count];
+    if (k->at[i] >= k->at[i + 1]) return false;
+    return (k->at[i] <= u && u < k->at[i + 1]) || (u == end && k->at[i + 1] == end);
+}
+
+/* (u - a) / (b - a) n, 0/0 counting as 0. */
+static number ramp(double a, double b, number u, number n)
+{
+    if (a == b || num_near(n) == 0) return num(0);
+    return num_mul(num_div(num_sub(u, num(a)), num_sub(num(b), num(a))), n);
+}
+
+/* All N_(i,p)(u), p = degree, by their definition from degree 0 on. */
+static void b_splines(const knot_list *k, number u, number *n)
+{
+    for (size_t i = 0; i + 1 < k->length; ++i) n[i] = num(is_in_span(k, i, num_near(u)));
+    for (size_t p = 1; p <= k->degree; ++p)
+        for (size_t i = 0; i + p + 1 < k->length; ++i) {
+            const double *at = k->at + i;
+            n[i] = num_add(ramp(at[0], at[p], u, n[i]), ramp(at[p + 1], at[1], u, n[i + 1]));
+        }
+}
+
+void nurbs_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    const double *points = argument(arguments, "points")->number;
+    const double *velocities = argument(arguments, "velocities")->number;
+    const double *weights = argument(arguments, "weights")->number;
+    const knot_list along_u = knots_along(arguments, 0), along_v = knots_along(arguments, 1);
+    number sum[3] = {num(0), num(0), num(0)}, total = num(0), basis_u[64], basis_v[64];
+    b_splines(&along_u, p[0], basis_u);
+    b_splines(&along_v, p[1], basis_v);
+    for (size_t i = 0; i < along_u.count; ++i) {
+        for (size_t j = 0; j < along_v.count; ++j) {
+            const size_t k = i * along_v.count + j;
+            if (num_near(basis_u[i]) == 0 || num_near(basis_v[j]) == 0) continue;
+            number weight = num_mul(basis_u[i], basis_v[j]);
+            if (weights) weight = num_mul(weight, num(weights[k]));
+            total = num_add(total, weight);
+            for (size_t axis = 0; axis < 3; ++axis) {
+                number at = num(points[3 * k + axis]);
+                if (velocities) at = num_add(at, num_mul(p[2], num(velocities[3 * k + axis])));
+                sum[axis] = num_add(sum[axis], num_mul(weight, at));
+            }
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) x[axis] = num_div(sum[axis], total);
+}

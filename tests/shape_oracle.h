@@ -23,5 +23,6 @@ surface_oracle supertoroid_oracle;
 surface_oracle revolution_oracle;
 surface_oracle sweep_oracle;
 surface_oracle product_oracle;
+surface_oracle nurbs_oracle;
 
 #endif
