@@ -19,6 +19,7 @@ core_base = \
 core_solver = \
     core/vec.h \
     core/node.c core/node.h \
+    core/claims.c core/claims.h \
     core/scene_trees.h \
     core/scene.c \
     core/broad_phase.c core/broad_phase.h \

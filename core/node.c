@@ -20,6 +20,7 @@ struct tree {
     const surface *surface;
     tree_kind kind;
     double t_start, t_end;
+    node_audit audit;
     node *root;
     chunk *chunks;
     uint64_t count;
@@ -64,14 +65,7 @@ static imp_code fault(const tree *t, const imp_region *r, const char *what, imp_
 static imp_code status_fault(const tree *t, const imp_region *r, imp_status status,
                              imp_error *error)
 {
-    switch (status) {
-    case IMP_DOMAIN:
-        return fault(t, r, "answers that the region is outside its domain", error);
-    case IMP_INTERNAL:
-        return fault(t, r, "reports an internal error", error);
-    default:
-        return fault(t, r, "answers a status that does not exist here", error);
-    }
+    return fault(t, r, surface_status_text(status), error);
 }
 
 /* The first promise of imp_model that a coordinate breaks, or NULL. Infinite values come only with
@@ -243,8 +237,9 @@ static imp_code node_make(tree *t, imp_region region, node **made, imp_error *er
     node *n = node_alloc(t);
     if (n == NULL) return error_set_memory(error);
     n->region = region;
-    const imp_code code =
+    imp_code code =
         t->kind == TREE_MODELS ? fill_from_model(t, n, error) : fill_from_rates(t, n, error);
+    if (code == IMP_SUCCESS && t->audit != NULL) code = t->audit(t->surface, n, error);
     if (code == IMP_SUCCESS)
         *made = n;
     else
@@ -254,8 +249,8 @@ static imp_code node_make(tree *t, imp_region region, node **made, imp_error *er
 
 /* --- Trees ------------------------------------------------------------------------------ */
 
-imp_code tree_new(const surface *s, tree_kind kind, double t_start, double t_end, tree **made,
-                  imp_error *error)
+imp_code tree_new(const surface *s, tree_kind kind, double t_start, double t_end, node_audit audit,
+                  tree **made, imp_error *error)
 {
     double lo[3], hi[3];
     surface_domain(s, lo, hi);
@@ -269,7 +264,7 @@ imp_code tree_new(const surface *s, tree_kind kind, double t_start, double t_end
                              surface_type_name(s), "uv"[j]);
     tree *t = calloc(1, sizeof *t);
     if (t == NULL) return error_set_memory(error);
-    *t = (tree){.surface = s, .kind = kind, .t_start = t_start, .t_end = t_end};
+    *t = (tree){.surface = s, .kind = kind, .t_start = t_start, .t_end = t_end, .audit = audit};
     t->bytes = sizeof *t;
     const imp_code code = node_make(t, region_make(lo, hi), &t->root, error);
     if (code == IMP_SUCCESS)
@@ -294,9 +289,9 @@ node *tree_root(const tree *t) { return t->root; }
 
 const surface *tree_surface(const tree *t) { return t->surface; }
 
-bool tree_is_over(const tree *t, tree_kind kind, double t_start, double t_end)
+bool tree_is_over(const tree *t, tree_kind kind, double t_start, double t_end, node_audit audit)
 {
-    return t->kind == kind && t->t_start == t_start && t->t_end == t_end;
+    return t->kind == kind && t->t_start == t_start && t->t_end == t_end && t->audit == audit;
 }
 
 uint64_t tree_node_count(const tree *t) { return t->count; }

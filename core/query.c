@@ -10,6 +10,7 @@
 #include <time.h>
 
 #include "broad_phase.h"
+#include "claims.h"
 #include "scene_trees.h"
 #include "status.h"
 #include "time_of_impact.h"
@@ -122,8 +123,8 @@ static imp_code enter(line_up *all, size_t body, size_t index, imp_error *error)
     if (start > end) return IMP_SUCCESS;
     tree *t;
     bool fresh;
-    const imp_code code =
-        scene_tree(all->query->scene, body, index, kind_of(options), start, end, &t, &fresh, error);
+    const imp_code code = scene_tree(all->query->scene, body, index, kind_of(options), start, end,
+                                     options->audit ? claims_audit : NULL, &t, &fresh, error);
     if (code != IMP_SUCCESS) return code;
     if (fresh) {
         all->query->impact.stats.nodes += tree_node_count(t);

@@ -142,11 +142,8 @@ imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t index, size_
         return error_set(why, IMP_ERROR_USAGE, "body %zu has no surface %zu", body, index);
     const imp_status status = surface_eval(s, n, p, x, error);
     if (status == IMP_OK) return IMP_SUCCESS;
-    if (status == IMP_DOMAIN)
-        return error_set(why, IMP_ERROR_USAGE, "type '%s': a point is outside the domain",
-                         surface_type_name(s));
-    return error_set(why, IMP_ERROR_PLUGIN, "type '%s': eval failed with status %d",
-                     surface_type_name(s), (int)status);
+    return error_set(why, status == IMP_DOMAIN ? IMP_ERROR_USAGE : IMP_ERROR_PLUGIN,
+                     "type '%s': %s", surface_type_name(s), surface_status_text(status));
 }
 
 void imp_scene_domain(const imp_scene *scene, size_t body, size_t index, double lo[3], double hi[3])
@@ -172,19 +169,20 @@ imp_options imp_options_default(const imp_scene *scene)
 /* --- Trees ----------------------------------------------------------------------------- */
 
 imp_code scene_tree(imp_scene *scene, size_t body, size_t index, tree_kind kind, double t_start,
-                    double t_end, tree **found, bool *fresh, imp_error *error)
+                    double t_end, node_audit audit, tree **found, bool *fresh, imp_error *error)
 {
     member *m = &scene->bodies[body].members[index];
     *fresh = false;
     for (size_t k = 0; k < m->tree_count; ++k)
-        if (tree_is_over(m->trees[k], kind, t_start, t_end)) {
+        if (tree_is_over(m->trees[k], kind, t_start, t_end, audit)) {
             *found = m->trees[k];
             return IMP_SUCCESS;
         }
     tree **trees = realloc(m->trees, (m->tree_count + 1) * sizeof *trees);
     if (trees == NULL) return error_set_memory(error);
     m->trees = trees;
-    const imp_code code = tree_new(m->surface, kind, t_start, t_end, &trees[m->tree_count], error);
+    const imp_code code =
+        tree_new(m->surface, kind, t_start, t_end, audit, &trees[m->tree_count], error);
     if (code != IMP_SUCCESS) {
         error_prefix(error, "body '%s', surface %zu", scene->bodies[body].name, index);
         return code;

@@ -10,6 +10,6 @@
  * as the scene, so that all pairs and all later queries share its nodes. `*fresh`: it was made now.
  */
 imp_code scene_tree(imp_scene *scene, size_t body, size_t index, tree_kind kind, double t_start,
-                    double t_end, tree **found, bool *fresh, imp_error *error);
+                    double t_end, node_audit audit, tree **found, bool *fresh, imp_error *error);
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fp_mode.h"
 #include "region.h"
 
 typedef struct mapping {
@@ -66,6 +67,28 @@ void surface_domain(const surface *s, double lo[3], double hi[3])
     }
 }
 
+const char *surface_status_text(imp_status status)
+{
+    switch (status) {
+    case IMP_DOMAIN:
+        return "answers that a point or region of its domain is outside it";
+    case IMP_UNBOUNDED:
+        return "has no bounds there";
+    case IMP_INTERNAL:
+        return "reports an internal error";
+    case SURFACE_CHANGED_MODE:
+        return "changes the floating-point mode of its caller, which breaks every bound";
+    default:
+        return "answers a status that does not exist here";
+    }
+}
+
+/* The mode is read once after all callbacks of a call: what they computed is thrown away then. */
+static imp_status guarded(fp_mode before, imp_status status)
+{
+    return fp_mode_kept(before) ? status : SURFACE_CHANGED_MODE;
+}
+
 /* --- Points ------------------------------------------------------------------- */
 
 /* Lemma. The map sees x, the exact point is within `inner` of it, coordinate by coordinate;
@@ -116,6 +139,7 @@ static imp_status batch_through_map(const mapping *map, size_t n, const double *
 
 imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, double *error)
 {
+    const fp_mode mode = fp_mode_read();
     imp_status status = s->type->eval(s->self, n, p, x, error);
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k)
         for (size_t from = 0; from < n && status == IMP_OK; from += BATCH) {
@@ -123,7 +147,7 @@ imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, 
             status = batch_through_map(&s->maps[k], count, p + 3 * from, x + 3 * from,
                                        error == NULL ? NULL : error + 3 * from);
         }
-    return status;
+    return guarded(mode, status);
 }
 
 /* --- Rates ---------------------------------------------------------------------- */
@@ -173,7 +197,7 @@ static void rates_through_map(const imp_map_rates *p, const imp_rate_matrix *in,
         }
 }
 
-imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates)
+static imp_status rate_of(const surface *s, const imp_region *region, imp_rate_matrix *rates)
 {
     imp_status status = s->type->rate(s->self, region, rates);
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
@@ -193,6 +217,12 @@ imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_mat
         if (status == IMP_OK) rates_through_map(&p, &inner, rates);
     }
     return status;
+}
+
+imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates)
+{
+    const fp_mode mode = fp_mode_read();
+    return guarded(mode, rate_of(s, region, rates));
 }
 
 /* --- Inclusions ------------------------------------------------------------------- */
@@ -296,10 +326,11 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
 
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3])
 {
+    const fp_mode mode = fp_mode_read();
     imp_status status = include_type(s, region, model);
     bool unbounded = status == IMP_UNBOUNDED;
     if (unbounded) status = IMP_OK;
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k)
         status = include_through_map(s, k, region, model, &unbounded);
-    return status == IMP_OK && unbounded ? IMP_UNBOUNDED : status;
+    return guarded(mode, status == IMP_OK && unbounded ? IMP_UNBOUNDED : status);
 }

@@ -26,6 +26,13 @@ const char *surface_type_name(const surface *s);
 /* Domain; time is what the type and all maps have in common: lo[2] > hi[2] if nothing. */
 void surface_domain(const surface *s, double lo[3], double hi[3]);
 
+/* Beside the statuses of the ABI: a callback left another floating-point mode behind. It is put
+ * back. */
+#define SURFACE_CHANGED_MODE 1000
+
+/* What a status other than IMP_OK means here, as the end of "type 'x': ...". */
+const char *surface_status_text(imp_status status);
+
 /* As imp_surface_type.eval, maps applied. error may be NULL. */
 imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, double *error);
 

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "claims.h"
 #include "status.h"
 
 /* Unknowns: y = (s_u, s_v) of a and of b, normalised to the nodes. Minimised: |D|^2 / 2,
@@ -67,8 +68,8 @@ static imp_code point_fault(const search *g, int side, const double p[3], const 
 static imp_code side_eval(const search *g, int side, const double *p, vec3 *x, double *inexact,
                           imp_error *error)
 {
-    if (surface_eval(tree_surface(g->trees[side]), 1, p, x->x, inexact) != IMP_OK)
-        return point_fault(g, side, p, "eval fails at a point of its domain", error);
+    const imp_status status = surface_eval(tree_surface(g->trees[side]), 1, p, x->x, inexact);
+    if (status != IMP_OK) return point_fault(g, side, p, surface_status_text(status), error);
     if (!isfinite(vec3_norm1(*x)))
         return point_fault(g, side, p, "eval gives a point that is infinite or NaN", error);
     return IMP_SUCCESS;
@@ -79,7 +80,10 @@ static imp_code state_at(const search *g, const double *y, state *s, imp_error *
     memcpy(s->y, y, sizeof s->y);
     for (int side = 0; side < 2; ++side) {
         side_parameters(g, side, y, s->p[side]);
-        const imp_code code = side_eval(g, side, s->p[side], &s->x[side], NULL, error);
+        imp_code code = side_eval(g, side, s->p[side], &s->x[side], NULL, error);
+        if (code == IMP_SUCCESS)
+            code = claims_hold_at(tree_surface(g->trees[side]), g->nodes[side], s->p[side],
+                                  s->x[side].x, error);
         if (code != IMP_SUCCESS) return code;
     }
     s->apart = vec3_sub(s->x[1], s->x[0]);

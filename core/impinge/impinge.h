@@ -145,6 +145,7 @@ typedef struct imp_options {
     imp_method method;
     imp_bounds bounds;
     imp_rates rates;
+    bool audit;             /* hold every node's bounds against points of it: slower, catches liars */
 } imp_options;
 
 IMP_EXPORT imp_options imp_options_default(const imp_scene *scene);

@@ -1,0 +1,133 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "claims.h"
+
+#include <string.h>
+
+#include "status.h"
+
+static bool region_holds(const imp_region *r, const double p[3])
+{
+    for (int j = 0; j < 3; ++j)
+        if (!(r->lo[j] <= p[j] && p[j] <= r->hi[j])) return false;
+    return true;
+}
+
+/* Coordinate i of the polynomial at p, and how far off rounding may be: s is off by 2 u, each of
+ * the 19 products and sums by u of terms whose sizes add up to `size`. */
+static double polynomial(const node *n, int i, const double p[3], double *rounding)
+{
+    const quadratic3 *f = &n->f;
+    double s[3];
+    for (int j = 0; j < 3; ++j)
+        s[j] = n->region.d[j] > 0 ? (p[j] - n->region.c[j]) / n->region.d[j] : 0;
+    const double term[10] = {f->a[i],
+                             f->bu[i] * s[0],
+                             f->bv[i] * s[1],
+                             f->bt[i] * s[2],
+                             f->quu[i] * s[0] * s[0],
+                             f->quv[i] * s[0] * s[1],
+                             f->qut[i] * s[0] * s[2],
+                             f->qvv[i] * s[1] * s[1],
+                             f->qvt[i] * s[1] * s[2],
+                             f->qtt[i] * s[2] * s[2]};
+    double sum = 0, size = 0;
+    for (int k = 0; k < 10; ++k) {
+        sum += term[k];
+        size += fabs(term[k]);
+    }
+    *rounding = 0x1p-48 * size;
+    return sum;
+}
+
+/* The coordinate whose claim x -+ inexact breaks beyond rounding, or -1. A NaN breaks none: it is
+ * caught where points and bounds are made. */
+static int coordinate_outside(const node *n, const double p[3], const double x[3],
+                              const double inexact[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        double rounding;
+        const double off = fabs(x[i] - polynomial(n, i, p, &rounding));
+        const double slack = inexact[i] + 0x1p-50 * fabs(x[i]);
+        if (off > n->e[i] * (1 + 0x1p-50) + slack + rounding) return i;
+        if (x[i] + slack < n->lo[i] || x[i] - slack > n->hi[i]) return i;
+    }
+    return -1;
+}
+
+static imp_code lie(const surface *s, const node *n, const double p[3], const double x[3], int i,
+                    imp_error *error)
+{
+    double rounding;
+    const imp_region *r = &n->region;
+    const double middle = polynomial(n, i, p, &rounding);
+    return error_set(error, IMP_ERROR_PLUGIN,
+                     "type '%s' breaks its own bounds over u [%.17g, %.17g], v [%.17g, %.17g], "
+                     "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g its %c is %.17g, the "
+                     "bounds say %.17g +- %.3g within [%.17g, %.17g]",
+                     surface_type_name(s), r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2],
+                     r->hi[2], p[0], p[1], p[2], "xyz"[i], x[i], middle, n -> e[i], n -> lo[i],
+                     n -> hi[i]);
+}
+
+/* A point with its error bounds; what cannot be evaluated is no evidence here. */
+static bool evaluate(const surface *s, const double p[3], double x[3], double inexact[3])
+{
+    if (surface_eval(s, 1, p, x, inexact) != IMP_OK) return false;
+    for (int i = 0; i < 3; ++i)
+        if (!(inexact[i] >= 0 && isfinite(x[i]))) return false;
+    return true;
+}
+
+imp_code claims_hold_at(const surface *s, const node *n, const double p[3], const double x[3],
+                        imp_error *error)
+{
+    if (!n->bounded || !region_holds(&n->region, p)) return IMP_SUCCESS;
+    double inexact[3], again[3];
+    for (int i = 0; i < 3; ++i) inexact[i] = 0;
+    if (coordinate_outside(n, p, x, inexact) < 0) return IMP_SUCCESS;
+    if (!evaluate(s, p, again, inexact)) return IMP_SUCCESS;
+    const int i = coordinate_outside(n, p, again, inexact);
+    return i < 0 ? IMP_SUCCESS : lie(s, n, p, again, i, error);
+}
+
+enum { AUDIT_POINTS = 8 };
+
+/* The same numbers for the same region on every machine: splitmix64 from the bits of its centre. */
+static double fraction(uint64_t *state)
+{
+    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static void audit_point(const imp_region *r, uint64_t *state, double p[3])
+{
+    for (int j = 0; j < 3; ++j) {
+        const double where = fraction(state);
+        p[j] = where < 0.25   ? r->lo[j]
+               : where > 0.75 ? r->hi[j]
+                              : r->lo[j] + (r->hi[j] - r->lo[j]) * 2 * (where - 0.25);
+        if (p[j] > r->hi[j]) p[j] = r->hi[j];
+    }
+}
+
+imp_code claims_audit(const surface *s, const node *n, imp_error *error)
+{
+    uint64_t state = 0;
+    for (int j = 0; j < 3; ++j) {
+        uint64_t bits;
+        memcpy(&bits, &n->region.c[j], sizeof bits);
+        state = (state ^ bits) * 0x9e3779b97f4a7c15u;
+    }
+    if (!n->bounded) return IMP_SUCCESS;
+    for (int k = 0; k < AUDIT_POINTS; ++k) {
+        double p[3], x[3], inexact[3];
+        audit_point(&n->region, &state, p);
+        if (!evaluate(s, p, x, inexact)) continue;
+        const int i = coordinate_outside(n, p, x, inexact);
+        if (i >= 0) return lie(s, n, p, x, i, error);
+    }
+    return IMP_SUCCESS;
+}
