@@ -197,7 +197,8 @@ static bool exact_div(mpfi_ptr r, mpfi_srcptr x, mpfi_srcptr y, double k)
     return !mpfi_has_zero(y);
 }
 
-/* atan2's first operand is y here: the order of the call. */
+/* The first operand is y: the order of the call. On the cut MPFI leaves the sign open; ours is +.
+ */
 static bool exact_atan2(mpfi_ptr r, mpfi_srcptr y, mpfi_srcptr x, double k)
 {
     (void)k;

@@ -565,7 +565,7 @@ static inline imp_model imp_wave_(const imp_model *x, imp_series_ s, double f, d
     const double t[5] = {f, g, -f / 2, -g / 6, f / 24};
     imp_series_set_(&s, 1, t, imp_power5_(s.r) / 120, 10, 11);
     imp_interval at = imp_series_is_sharp_(&s) ? imp_series_range_(&s) : range(imp_range_(x));
-    double slope = (fabs(g) + fabs(f) * s.r + 0.5 * s.r * s.r) * (1 + 0x1p-40) + IMP_TINY;
+    double slope = (fabs(g) + fabs(f) * s.r) * (1 + 0x1p-40) + IMP_TINY;
     at = imp_interval_meet(at, imp_interval_make(-1, 1));
     return imp_compose_(x, &s, at, imp_smaller(slope, 1));
 }
