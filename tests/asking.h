@@ -81,10 +81,10 @@ static inline void asking_check(const imp_scene *scene, const imp_options *optio
     }
 }
 
-static inline imp_result ask(const question *q)
+/* The types come from `registry`: tests that ask often make one once. */
+static inline imp_result ask_in(imp_registry *registry, const question *q)
 {
     imp_error error = {IMP_SUCCESS, ""};
-    imp_registry *registry = asking_registry();
     imp_scene *scene = imp_scene_from_pair(registry, q->a, q->b, &error);
     ck_assert_msg(scene != NULL, "%s", error.text);
     const imp_options options = asking_options(scene, q);
@@ -93,6 +93,13 @@ static inline imp_result ask(const question *q)
     ck_assert_msg(code == IMP_SUCCESS, "%s | %s: %s", q->a, q->b, error.text);
     asking_check(scene, &options, &result);
     imp_scene_free(scene);
+    return result;
+}
+
+static inline imp_result ask(const question *q)
+{
+    imp_registry *registry = asking_registry();
+    const imp_result result = ask_in(registry, q);
     imp_registry_free(registry);
     return result;
 }

@@ -8,6 +8,7 @@ check_suites = \
     tests/test_alloc_failure \
     tests/test_elf_probe \
     tests/test_formula_answers \
+    tests/test_metamorphic \
     tests/test_parameters \
     tests/test_pair_heap \
     tests/test_pipeline \
@@ -17,6 +18,7 @@ check_suites = \
     tests/test_scene_file \
     tests/test_separation \
     tests/test_spheres \
+    tests/test_steps \
     tests/test_surface
 
 # The same, with MPFI as the judge of bounds.
@@ -82,11 +84,15 @@ alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=fr
 tests_test_alloc_failure_SOURCES = tests/test_alloc_failure.c tests/alloc_failure.c
 tests_test_alloc_failure_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 
+# One scene told in many ways.
+tests_test_metamorphic_SOURCES = tests/test_metamorphic.c tests/retelling.c
+tests_test_steps_SOURCES = tests/test_steps.c tests/retelling.c
+
 # Models and their exact meaning, side by side.
 tests_test_formula_SOURCES = tests/test_formula.c tests/oracle.c
 tests_test_model_SOURCES = tests/test_model.c tests/oracle.c
 
-noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
+noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/retelling.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
 
 # What tests/fuzz_scene reads: scenes, and pipelines.
 EXTRA_DIST += \

@@ -20,7 +20,7 @@
  * Scenes come from fixed seeds without a call to libm but sqrt, so that all counters are the same
  * in every run and on every machine. Seconds alone are not. */
 
-/* --- What is asked ------------------------------------------------------------------ */
+/* --- What is asked ------------------------------------------------------------------------ */
 
 /* One scene, and when its bodies first touch, where that is known. */
 typedef struct bench_scene {
@@ -55,7 +55,7 @@ bench_scene *bench_add_text(bench_cases *list, char *text);
 
 void bench_cases_free(bench_cases *list);
 
-/* --- Methods and sets ------------------------------------------------------------------ */
+/* --- Methods and sets --------------------------------------------------------------------- */
 
 typedef struct bench_method {
     const char *name;
@@ -137,7 +137,7 @@ void bench_direction(uint64_t *state, double n[3]);
 void bench_add_patches(bench_cases *list, uint64_t seed, uint64_t count);
 exit_status bench_add_file(bench_cases *list, const char *verb);
 
-/* --- Measuring and telling ------------------------------------------------------------------ */
+/* --- Measuring and telling ---------------------------------------------------------------- */
 
 /* Everything about one method on one case. Errors are the library's. */
 imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_method *m,

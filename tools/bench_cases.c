@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* --- Lists of cases ------------------------------------------------------------------- */
+/* --- Lists of cases ----------------------------------------------------------------------- */
 
 void bench_begin(bench_cases *list, double gamma, double clearance, const char *format, ...)
 {
@@ -68,7 +68,7 @@ void bench_cases_free(bench_cases *list)
     *list = (bench_cases){0};
 }
 
-/* --- Random numbers ---------------------------------------------------------------------- */
+/* --- Random numbers ----------------------------------------------------------------------- */
 
 static uint64_t random_bits(uint64_t *state)
 {

@@ -9,8 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-/* --- One scene ----------------------------------------------------------------------------------
- */
+/* --- One scene ---------------------------------------------------------------------------- */
 
 /* What this thread has computed so far: other processes of a busy machine do not count. */
 static double seconds_computed(void)
@@ -58,8 +57,7 @@ static imp_code solve_once(imp_registry *registry, const bench_scene *s, const b
     return code;
 }
 
-/* --- Many numbers
- * --------------------------------------------------------------------------------- */
+/* --- Many numbers ------------------------------------------------------------------------- */
 
 static int ascending(const void *p, const void *q)
 {
@@ -124,8 +122,7 @@ static void columns_tally(columns *x, bench_tally *tally)
     tally->seconds = spread(x->of[SECONDS], x->count);
 }
 
-/* --- One case
- * --------------------------------------------------------------------------------------- */
+/* --- One case ----------------------------------------------------------------------------- */
 
 /* Timed `repeats` times, unless once takes long enough to be told exactly. */
 static imp_code solve(imp_registry *registry, const bench_scene *s, const bench_case *c,

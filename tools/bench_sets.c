@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* --- Methods -------------------------------------------------------------------------------- */
+/* --- Methods ------------------------------------------------------------------------------ */
 
 #define METHOD(ID, NAME, METHOD, BOUNDS, RATES)                                                    \
     static const bench_method ID = {NAME, IMP_METHOD_##METHOD, IMP_BOUNDS_##BOUNDS,                \
@@ -26,7 +26,7 @@ static const bench_method *const usual[] = {&models, &boxes, &balls, NULL};
 static const bench_method *const all_rates[] = {
     &models, &boxes, &boxes_column, &boxes_constant, &balls, &balls_column, &balls_constant, NULL};
 
-/* --- Words ------------------------------------------------------------------------------------ */
+/* --- Words -------------------------------------------------------------------------------- */
 
 /* Text that snprintf makes, in memory of its own; NULL: no memory. */
 static char *text_of(const char *format, ...) __attribute__((format(printf, 1, 2)));
@@ -66,7 +66,7 @@ static double growth(const bench_tally *tallies, size_t end, size_t step)
     return (last - middle) / (middle - first);
 }
 
-/* --- figure7: two spheres -------------------------------------------------------------------- */
+/* --- figure7: two spheres ----------------------------------------------------------------- */
 
 static const double gaps[] = {2, 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
 enum { GAPS = sizeof gaps / sizeof *gaps, DIRECTIONS = 20 };
@@ -114,7 +114,7 @@ static const bench_set figure7 = {
     "along x, and along 20 random directions. After the paper's figure 7.",
     usual, build_figure7, find_figure7};
 
-/* --- bicubic: random moving patches ---------------------------------------------------------- */
+/* --- bicubic: random moving patches ------------------------------------------------------- */
 
 static exit_status build_bicubic(bench_cases *list, const bench_request *request)
 {
@@ -137,8 +137,7 @@ static const bench_set bicubic = {
     "answers of another solver, good to about 1e-6 in time (Chen et al., SIGGRAPH Asia 2024).",
     usual, build_bicubic, NULL};
 
-/* --- spikes ------------------------------------------------------------------------------------
- */
+/* --- spikes ------------------------------------------------------------------------------- */
 
 static const double widths[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 enum { WIDTHS = sizeof widths / sizeof *widths, SWINGS = 5 };
@@ -211,7 +210,7 @@ static const bench_set spikes = {"spikes",
                                  "flank; gamma 1e-6. After the paper's figure 8.",
                                  usual, build_spikes, find_spikes};
 
-/* --- tori: rotating -------------------------------------------------------------------------- */
+/* --- tori: rotating ----------------------------------------------------------------------- */
 
 static const struct {
     const char *name, *a, *b;
@@ -247,8 +246,7 @@ static const bench_set tori = {
     "tori", "Two tori that turn and drift: in flight, in a fast tumble, linked like a chain.",
     usual, build_tori, NULL};
 
-/* --- moving: spheres in flight ------------------------------------------------------------------
- */
+/* --- moving: spheres in flight ------------------------------------------------------------ */
 
 /* First t with |c + v t| = reach; |c| > reach, and the flight passes nearer. */
 static double flight_time(const double c[3], const double v[3], double reach)
@@ -297,8 +295,7 @@ static const bench_set moving = {
     "A sphere flies at another from 20 random directions; the reference is the closed form.", usual,
     build_moving, NULL};
 
-/* --- rates: bounds side by side ----------------------------------------------------------------
- */
+/* --- rates: bounds side by side ----------------------------------------------------------- */
 
 static exit_status build_rates(bench_cases *list, const bench_request *request)
 {
@@ -323,8 +320,7 @@ static const bench_set rates = {"rates",
                                 "from one constant (the paper's section 5).",
                                 all_rates, build_rates, NULL};
 
-/* --- All
- * ------------------------------------------------------------------------------------------ */
+/* --- All ---------------------------------------------------------------------------------- */
 
 static const bench_set *const all[] = {&figure7, &bicubic, &spikes, &tori, &rates, &moving, NULL};
 

@@ -17,7 +17,7 @@ typedef struct bench {
     json_t *sets; /* --json: what is done so far, else NULL */
 } bench;
 
-/* --- What is asked ---------------------------------------------------------------------------- */
+/* --- What is asked ------------------------------------------------------------------------ */
 
 static uint64_t count_or(const arguments *args, const char *name, uint64_t otherwise)
 {
@@ -57,8 +57,7 @@ static exit_status unknown_set(const char *verb, const char *name)
     return complain(EXIT_USAGE, verb, "there is no set '%s'; there are %s", name, all);
 }
 
-/* --- Running ------------------------------------------------------------------------------------
- */
+/* --- Running ------------------------------------------------------------------------------ */
 
 static exit_status run_method(bench *b, const bench_method *m, bench_result *result)
 {
