@@ -41,6 +41,9 @@ core_registry = \
     core/parameters.c core/parameters.h \
     core/type_view.h \
     core/plugin_check.c core/plugin_check.h \
+    core/plugin_trial.h \
+    core/plugin_trial.c \
+    core/trial_book.c \
     core/plugin_file.c core/plugin_file.h \
     core/search_path.c core/search_path.h \
     core/registry.c core/registry.h \

@@ -62,22 +62,46 @@ static imp_code step_tables(plugin_file *plugin, const char *path, imp_error *er
     return plugin_check_factories(plugin->surfaces, plugin->maps, error);
 }
 
-/* In this order. A step that must come before the plugin's code runs in this process belongs
- * before step_load. */
-static imp_code (*const steps[])(plugin_file *, const char *, imp_error *) = {
-    step_read,
-    step_load,
-    step_enter,
-    step_tables,
-};
+/* What runs code of the plugin, in this order. */
+static imp_code run(plugin_file *plugin, const char *path, imp_error *error)
+{
+    imp_code code = step_load(plugin, path, error);
+    if (code == IMP_SUCCESS) code = step_enter(plugin, path, error);
+    if (code == IMP_SUCCESS) code = step_tables(plugin, path, error);
+    return code;
+}
 
-imp_code plugin_file_open(plugin_file *plugin, const char *path, imp_error *error)
+/* In the child: all of it, and closing too. */
+static imp_code try_out(const char *path, imp_error *error)
+{
+    plugin_file plugin = {.handle = NULL};
+    imp_code code = step_read(&plugin, path, error);
+    if (code == IMP_SUCCESS) code = run(&plugin, path, error);
+    plugin_file_close(&plugin);
+    return code;
+}
+
+static imp_code step_trial(const plugin_file *plugin, const char *path, trial_book *book,
+                           imp_error *error)
+{
+    imp_code code;
+    const char *known;
+    if (trial_book_find(book, path, &plugin->facts, &code, &known))
+        return code == IMP_SUCCESS ? code : error_set(error, code, "%s", known);
+    imp_error found = {IMP_SUCCESS, ""};
+    code = plugin_trial_run(path, try_out, &found);
+    if (code == IMP_ERROR_MEMORY || !trial_book_add(book, path, &plugin->facts, code, found.text))
+        return error_set_memory(error);
+    return code == IMP_SUCCESS ? code : error_set(error, code, "%s", found.text);
+}
+
+imp_code plugin_file_open(plugin_file *plugin, const char *path, trial_book *book, imp_error *error)
 {
     assert(path[0] == '/');
     *plugin = (plugin_file){.handle = NULL};
-    imp_code code = IMP_SUCCESS;
-    for (size_t i = 0; i < sizeof steps / sizeof *steps && code == IMP_SUCCESS; ++i)
-        code = steps[i](plugin, path, error);
+    imp_code code = step_read(plugin, path, error);
+    if (code == IMP_SUCCESS) code = step_trial(plugin, path, book, error);
+    if (code == IMP_SUCCESS) code = run(plugin, path, error);
     if (code != IMP_SUCCESS) plugin_file_close(plugin);
     return code;
 }

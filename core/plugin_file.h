@@ -4,12 +4,13 @@
 #define CORE_PLUGIN_FILE_H
 
 #include "elf_probe.h"
+#include "plugin_trial.h"
 #include "status.h"
 
 /* One plugin, from file to types
  * ==============================
- * Opening goes in steps, each of which may refuse: read the file, load it, find its entry,
- * check its tables. Code of the plugin runs from the second step on. What is open is wholly
+ * Opening goes in steps, each of which may refuse: read the file, try it in a child process,
+ * load it, find its entry, check its tables. Code of the plugin runs from the second step on. What is open is wholly
  * checked; what is refused is not loaded any more, and has left the floating-point mode of
  * this thread as it was. */
 
@@ -21,10 +22,11 @@ typedef struct plugin_file {
     const imp_map_factory *maps;         /* NULL: offers none */
 } plugin_file;
 
-/* `path` is absolute. On failure the text says why, without the path, and only facts.device
+/* `path` is absolute; the book knows earlier trials and takes note of new ones. On failure the text says why, without the path, and only facts.device
  * and facts.inode are of use (0 if the file could not be opened): IMP_ERROR_PLUGIN, or
  * IMP_ERROR_MEMORY if we could not tell. */
-imp_code plugin_file_open(plugin_file *plugin, const char *path, imp_error *error);
+imp_code plugin_file_open(plugin_file *plugin, const char *path, trial_book *book,
+                          imp_error *error);
 
 /* Nothing of the plugin may be used any more. */
 void plugin_file_close(plugin_file *plugin);

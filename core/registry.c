@@ -44,6 +44,8 @@ struct imp_registry {
     size_t type_count, type_capacity;
     refused_file *refused;
     size_t refused_count, refused_capacity;
+    trial_book *book; /* while scanning */
+    bool secure;
 };
 
 /* --- Finding ------------------------------------------------------------------------- */
@@ -204,7 +206,7 @@ static bool scan_file(imp_registry *r, const char *path)
     }
     plugin_file file;
     imp_error error;
-    switch (plugin_file_open(&file, path, &error)) {
+    switch (plugin_file_open(&file, path, r->book, &error)) {
     case IMP_SUCCESS:
         return add_plugin(r, path, &file);
     case IMP_ERROR_MEMORY:
@@ -230,8 +232,23 @@ static bool scan_names(imp_registry *r, const char *directory, const plugin_name
     return good;
 }
 
+/* Where anybody may put a plugin, anybody's code may run here. */
+static bool anyone_may_write(const char *directory)
+{
+    struct stat facts;
+    return stat(directory, &facts) == 0 && (facts.st_mode & S_IWOTH) != 0;
+}
+
 static bool scan_directory(imp_registry *r, const search_directory *directory)
 {
+    if (anyone_may_write(directory->path)) {
+        const char *why = r->secure
+                              ? "anyone may write to this directory: refused; chmod o-w it"
+                              : "warning: anyone may write to this directory; its plugins are "
+                                "taken all the same (--secure refuses them)";
+        if (!add_refusal(r, directory->path, why)) return false;
+        if (r->secure) return true;
+    }
     plugin_names names;
     names_status status = plugin_names_read(&names, directory->path);
     const char *why = status == NAMES_UNREADABLE ? strerror(errno) : NULL;
@@ -245,23 +262,30 @@ static bool scan_directory(imp_registry *r, const search_directory *directory)
 
 /* --- Life ---------------------------------------------------------------------------- */
 
-imp_registry *registry_scan(const search_path *path)
+imp_registry *registry_scan(const search_path *path, unsigned flags)
 {
     imp_registry *r = calloc(1, sizeof *r);
-    bool good = r != NULL;
+    if (!r) return NULL;
+    r->secure = (flags & IMP_REGISTRY_SECURE) != 0;
+    r->book = trial_book_read();
+    bool good = r->book != NULL;
     for (size_t i = 0; i < path->count && good; ++i) good = scan_directory(r, &path->directory[i]);
+    trial_book_close(r->book);
+    r->book = NULL;
     if (good) return r;
     imp_registry_free(r);
     return NULL;
 }
 
-imp_registry *imp_registry_new(const char *path)
+imp_registry *imp_registry_open(const char *path, unsigned flags)
 {
     search_path all = {.count = 0};
-    imp_registry *r = search_path_add_defaults(&all, path) ? registry_scan(&all) : NULL;
+    imp_registry *r = search_path_add_defaults(&all, path) ? registry_scan(&all, flags) : NULL;
     search_path_clear(&all);
     return r;
 }
+
+imp_registry *imp_registry_new(const char *path) { return imp_registry_open(path, 0); }
 
 static void free_plugin(loaded_plugin *plugin)
 {

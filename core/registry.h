@@ -13,8 +13,8 @@
  * name spaces; in each the first type of a name is the one that is found, later ones are
  * shadowed. Plugins stay loaded until imp_registry_free. */
 
-/* As imp_registry_new, from these directories only. NULL: no memory. */
-imp_registry *registry_scan(const search_path *path);
+/* As imp_registry_open, from these directories only. NULL: no memory. */
+imp_registry *registry_scan(const search_path *path, unsigned flags);
 
 /* NULL: there is none. */
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name);

@@ -14,7 +14,7 @@ static inline imp_registry *built_registry(void)
     char directory[4096];
     snprintf(directory, sizeof directory, "%s/plugins/.libs", top ? top : ".");
     ck_assert(search_path_add(&path, directory, true));
-    imp_registry *registry = registry_scan(&path);
+    imp_registry *registry = registry_scan(&path, 0);
     search_path_clear(&path);
     ck_assert_ptr_nonnull(registry);
     return registry;

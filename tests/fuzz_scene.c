@@ -26,7 +26,7 @@ static imp_registry *make_registry(void)
     snprintf(list, sizeof list, "%s/plugins/.libs:%s/tests/plugins/.libs", build ? build : ".",
              build ? build : ".");
     search_path path = {.count = 0};
-    imp_registry *registry = search_path_add(&path, list, false) ? registry_scan(&path) : NULL;
+    imp_registry *registry = search_path_add(&path, list, false) ? registry_scan(&path, 0) : NULL;
     search_path_clear(&path);
     if (!registry || !registry_find_surface(registry, "kit")) {
         fprintf(stderr, "no plugins in %s\n", list);

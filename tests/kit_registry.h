@@ -18,7 +18,7 @@ static inline imp_registry *kit_registry(void)
     }
     search_path path = {.count = 0};
     ck_assert(search_path_add(&path, box.path, true));
-    imp_registry *registry = registry_scan(&path);
+    imp_registry *registry = registry_scan(&path, 0);
     ck_assert_ptr_nonnull(registry);
     search_path_clear(&path);
     sandbox_remove(&box);

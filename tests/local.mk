@@ -146,6 +146,7 @@ AM_TESTS_ENVIRONMENT = \
     CC='$(CC)'; export CC; \
     MAKE='$(MAKE)'; export MAKE; \
     XDG_DATA_HOME='$(abs_top_builddir)/tests/no-user-data'; export XDG_DATA_HOME; \
+    XDG_CACHE_HOME='$(abs_top_builddir)/tests/cache'; export XDG_CACHE_HOME; \
     unset IMPINGE_PLUGIN_PATH;
 
 EXTRA_DIST += $(bats_suites) $(script_suites) tests/include_order tests/cli_helper.bash \

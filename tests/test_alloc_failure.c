@@ -22,7 +22,7 @@ static void assert_nothing_left(size_t before, size_t n)
 static imp_registry *scan(const sandbox *box)
 {
     search_path path = {.count = 0};
-    imp_registry *registry = search_path_add(&path, box->path, true) ? registry_scan(&path) : NULL;
+    imp_registry *registry = search_path_add(&path, box->path, true) ? registry_scan(&path, 0) : NULL;
     search_path_clear(&path);
     return registry;
 }

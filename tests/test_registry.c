@@ -12,7 +12,7 @@ static imp_registry *scan(const char *list, bool named)
 {
     search_path path = {.count = 0};
     ck_assert(search_path_add(&path, list, named));
-    imp_registry *registry = registry_scan(&path);
+    imp_registry *registry = registry_scan(&path, 0);
     ck_assert_ptr_nonnull(registry);
     search_path_clear(&path);
     return registry;

@@ -59,6 +59,13 @@ typedef struct imp_registry imp_registry;
  * the environment's IMPINGE_PLUGIN_PATH (unless the process is privileged), the user's
  * plugin directory, and the installed one. Returns NULL only when memory runs out. */
 IMP_EXPORT imp_registry *imp_registry_new(const char *path);
+
+/* The same with flags: IMP_REGISTRY_SECURE passes over directories that anyone may write to (otherwise
+ * they are only told among the refusals). A file that was never seen is loaded in a child process
+ * first; the outcome is kept in the user's cache ($XDG_CACHE_HOME/impinge/trials). */
+enum { IMP_REGISTRY_SECURE = 1 };
+IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
+
 IMP_EXPORT void imp_registry_free(imp_registry *registry);
 
 typedef enum imp_type_sort { IMP_SORT_SURFACE, IMP_SORT_MAP } imp_type_sort;
