@@ -225,7 +225,8 @@ START_TEST(a_parameter_is_its_own_model)
 {
     imp_region r = region_of(3, 0, 0, 0.25);
     imp_model u = imp_param(&r, 0);
-    ck_assert(u.a == 3 && fabs(u.b[0] - 0.25) <= 0x1p-54 && u.b[1] == 0 && u.e == 0 && u.depends == 1);
+    ck_assert(u.a == 3 && fabs(u.b[0] - 0.25) <= 0x1p-54 && u.b[1] == 0 && u.e == 0 &&
+              u.depends == 1);
     ck_assert(u.lo == 2.75 && u.hi == 3.25 && u.rate[0] == 1 && u.rate[2] == 0);
 }
 END_TEST
@@ -284,6 +285,29 @@ START_TEST(down_to_one_unit_in_the_last_place_the_remainder_is_rounding)
 }
 END_TEST
 
+static imp_model angle_of(double y_lo, double y_hi, double x_lo, double x_hi)
+{
+    const double lo[3] = {x_lo, y_lo, 0}, hi[3] = {x_hi, y_hi, 0};
+    imp_region r = imp_region_between(lo, hi);
+    return imp_atan2(imp_param(&r, 1), imp_param(&r, 0));
+}
+
+START_TEST(angles_jump_at_the_cut_and_nowhere_else)
+{
+    imp_model below = angle_of(-1, 0, -3, -2), across = angle_of(-1, 1, -3, -2);
+    imp_model above = angle_of(0, 1, -3, -2), origin = angle_of(-1, 1, -1, 1);
+    ck_assert(below.rate[1] == INFINITY && below.lo <= -3.1 && below.hi >= 3.1);
+    ck_assert(across.rate[0] == INFINITY && across.lo <= -3.1 && across.hi >= 3.1);
+    ck_assert(origin.rate[0] == INFINITY && origin.lo <= -3.1 && origin.hi >= 3.1);
+    ck_assert(above.rate[1] <= 0.501 && above.lo > 2.6 && above.hi >= 3.14);
+    imp_model right = angle_of(-1, 1, 2, 3), up = angle_of(2, 3, -1, 1),
+              down = angle_of(-3, -2, -1, 1);
+    ck_assert(right.rate[1] <= 0.501 && right.lo > -0.5 && right.hi < 0.5);
+    ck_assert(up.rate[0] <= 0.501 && up.lo > 1 && up.hi < 2.2);
+    ck_assert(down.rate[0] <= 0.501 && down.lo > -2.2 && down.hi < -1);
+}
+END_TEST
+
 START_TEST(a_value_and_rates_make_a_model)
 {
     const double rate[3] = {2, 0, 0.5}, d[3] = {0.25, 1, 2};
@@ -308,4 +332,4 @@ SUITE_MAIN("formula answers", points_come_with_their_errors,
            a_square_is_not_a_product, a_bump_stays_within_0_and_1_however_far_out,
            the_remainder_of_a_sine_shrinks_with_the_cube_of_the_width,
            down_to_one_unit_in_the_last_place_the_remainder_is_rounding,
-           a_value_and_rates_make_a_model)
+           angles_jump_at_the_cut_and_nowhere_else, a_value_and_rates_make_a_model)
