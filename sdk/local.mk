@@ -7,7 +7,10 @@ pkginclude_HEADERS = \
     sdk/impinge/formula.h \
     sdk/impinge/interval.h \
     sdk/impinge/model.h \
+    sdk/impinge/model_angles.h \
+    sdk/impinge/model_arithmetic.h \
     sdk/impinge/model_functions.h \
+    sdk/impinge/model_series.h \
     sdk/impinge/surface.h
 
 pkgconfig_DATA += sdk/impinge-sdk.pc

@@ -3,467 +3,50 @@
 #ifndef IMPINGE_MODEL_H
 #define IMPINGE_MODEL_H
 
-#include <impinge/interval.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* Arithmetic on models
  * ====================
  *
- * An imp_model (surface.h) says three things about a function g of u, v, t over a
- * region: a quadratic that g follows within e, a range [lo, hi], and bounds of its
- * rates of change. The operations here take models of f and h to a model of f + h,
- * f h, sin f ..., so that a formula written once in them yields point, rates and
- * inclusion of a surface. <impinge/formula.h> does the rest.
+ * An imp_model (surface.h) says three things about a function g of u, v, t over a region: a
+ * quadratic that g follows within e, a range [lo, hi], and bounds of its rates of change. The
+ * operations here take models of f and h to a model of f + h, f h, sin f ..., so that a formula
+ * written once in them yields point, rates and inclusion of a surface. <impinge/formula.h> does
+ * the rest. Models go in and out by value.
  *
- *   imp_param(region, 0)      the parameter u over a region (1: v, 2: t)
- *   imp_num(k)                the number k
- *   imp_add ... imp_dot3      arithmetic: this header
- *   imp_sin ... imp_atan2     functions: <impinge/model_functions.h>, included below
+ *   imp_param(region, j)         the parameter u (j = 0), v (1) or t (2) over a region
+ *   imp_num(k), imp_const_pi()   the number k; pi
+ *   imp_between(lo, hi)          some number in [lo, hi], the same all over the region
  *
- * A model that depends on no parameter is a constant: a number known within e.
- * Operations on constants take a short way, which is how points are evaluated.
+ *   imp_add(x, y)  imp_sub  imp_mul  imp_div  imp_neg(x)
+ *   imp_shift(x, k) = x + k      imp_scale(x, k) = k x, for a number k
+ *   imp_sqr(x)                   not imp_mul(x, x): that does not know that x^2 >= 0
+ *   imp_dot3(x, y)               x[0] y[0] + x[1] y[1] + x[2] y[2]
+ *   imp_lerp(x, y, t)            x + t (y - x)
+ *   imp_poly(coef, n, t)         coef[0] + coef[1] t + ... + coef[n-1] t^(n-1)
+ *   imp_powi(x, n)               x^n, n whole
  *
- * What cannot be bounded is unbounded: e and a side of the range are infinite, the rates of
- * what it depends on too. No operation answers a NaN. Where a formula is undefined
- * over a part of the region (the square root of a negative number, say) the model
- * speaks about the rest; a formula must be defined on its whole domain anyway.
+ *   imp_sqrt(x)  imp_pow(x, p)  imp_pow_model(x, y)  imp_exp  imp_log
+ *   imp_sin  imp_cos  imp_sincos(x, &s, &c)  imp_tan  imp_asin  imp_acos  imp_atan
+ *   imp_atan2(y, x)  imp_sinh  imp_cosh  imp_tanh
+ *   imp_abs  imp_min(x, y)  imp_max(x, y)
  *
- * Notation in the lemmas, beside that of <impinge/interval.h>: x = P + delta, P the
- * quadratic of x, |delta| <= e. P = a + L + Q, L linear, Q the quadratic terms;
- * B = sum |b_j|, so |L| <= B; |Q| <= sum |q_jk|, written Q too where a number is meant.
+ *   imp_model_box(...)           a model from a value and rates
+ *   imp_model_finish(x)          the last step of a model made by hand
+ *   imp_model_poly_range(&x)     the range of a model's quadratic
  *
- * Errors are pooled: an operation sums up what its roundings and its truncation may
- * amount to, as computed numbers >= 0, and puts that into e. Fewer than 100 roundings
- * go into the computing of any such bound, each changing it by a factor >= 1 - u, so the
- * computed bound times IMP_SLACK = 1 + 128 u is at least the exact one. Contracting
- * a product and a sum into one operation (fma) only takes roundings away. */
-
-#define IMP_U 0x1p-53
-#define IMP_SLACK (1 + 0x1p-46)
-
-/* --- Constants and parameters ------------------------------------------------- */
-
-static inline imp_model imp_zero_(void)
-{
-    imp_model r = {0, {0, 0, 0}, {0, 0, 0, 0, 0, 0}, 0, 0, 0, {0, 0, 0}, 0, 0};
-    return r;
-}
-
-/* Nothing is known, but that it depends on no more than that. */
-static inline imp_model imp_unbounded_(uint32_t depends)
-{
-    imp_model r = imp_zero_();
-    r.e = INFINITY;
-    r.lo = -INFINITY;
-    r.hi = INFINITY;
-    for (int j = 0; j < 3; j++) r.rate[j] = depends >> j & 1 ? INFINITY : 0;
-    r.depends = depends;
-    return r;
-}
-
-/* The number k, exactly. */
-static inline imp_model imp_num(double k)
-{
-    if (!(k - k == 0)) return imp_unbounded_(0);
-    imp_model r = imp_zero_();
-    r.a = r.lo = r.hi = k;
-    return r;
-}
-
-/* A number that is within e of a, when e covers the rounding of a too. An overflow of either makes
- * e infinite or NaN. */
-static inline imp_model imp_known_(double a, double e)
-{
-    if (!(e < INFINITY)) return imp_unbounded_(0);
-    imp_model r = imp_zero_();
-    r.a = a;
-    r.e = e;
-    r.lo = imp_sum_down(a - e);
-    r.hi = imp_sum_up(a + e);
-    return r;
-}
-
-/* The quadratic becomes the middle of the range: the last resort, and often a good one.
- * An empty range means that the formula was undefined. */
-static inline imp_model imp_collapse_(imp_model x)
-{
-    imp_interval range = imp_interval_make(x.lo, x.hi);
-    if (!(x.lo <= x.hi)) return imp_unbounded_(x.depends);
-    int finite = imp_interval_is_finite(range);
-    x.a = finite ? imp_interval_mid(range) : 0;
-    x.e = finite ? imp_interval_radius_upper(range, x.a) : INFINITY;
-    for (int j = 0; j < 3; j++) x.b[j] = 0;
-    for (int j = 0; j < 6; j++) x.q[j] = 0;
-    return x;
-}
-
-/* A number of which only lo <= it <= hi is known. */
-static inline imp_model imp_between(double lo, double hi)
-{
-    imp_model r = imp_zero_();
-    if (!(lo <= hi)) return imp_unbounded_(0);
-    r.lo = lo;
-    r.hi = hi;
-    return imp_collapse_(r);
-}
-
-/* The parameter u (j = 0), v (1) or t (2): c + d s exactly, by definition of s. */
-static inline imp_model imp_param(const imp_region *region, int j)
-{
-    imp_model r = imp_zero_();
-    r.a = region->c[j];
-    r.b[j] = region->d[j];
-    r.lo = region->lo[j];
-    r.hi = region->hi[j];
-    r.rate[j] = 1;
-    r.depends = 1u << j;
-    return r;
-}
-
-/* pi = IMP_PI_LOWER + 1.2246...e-16. */
-static inline imp_model imp_const_pi(void)
-{
-    imp_model r = imp_num(IMP_PI_LOWER);
-    r.e = 0x1.1a62633145c07p-53;
-    r.hi = IMP_PI_UPPER;
-    return r;
-}
-
-/* --- Asking and finishing ----------------------------------------------------------- */
-
-static inline imp_interval imp_range_(const imp_model *x)
-{
-    imp_interval r;
-    r.lo = x->lo;
-    r.hi = x->hi;
-    return r;
-}
-
-static inline double imp_sum_abs3_(const double b[3])
-{
-    return fabs(b[0]) + fabs(b[1]) + fabs(b[2]);
-}
-
-static inline double imp_sum_abs6_(const double q[6])
-{
-    return (fabs(q[0]) + fabs(q[1])) + (fabs(q[2]) + fabs(q[3])) + (fabs(q[4]) + fabs(q[5]));
-}
-
-/* A constant known to fewer than 30 bits: better off with interval arithmetic. */
-static inline int imp_is_wide_(const imp_model *x) { return x->e > fabs(x->a) * 0x1p-30; }
-
-/* A constant worth evaluating at its middle, which is one of the values it may have. */
-static inline int imp_is_point_(const imp_model *x)
-{
-    return !x->depends && !imp_is_wide_(x) && x->lo <= x->a && x->a <= x->hi;
-}
-
-static inline int imp_is_exact_(const imp_model *x) { return !x->depends && x->e == 0; }
-
-/* Bounds of b s + q s^2 over [-1, 1]. Lemma: the extremes are q +- b at the ends, 0 at s = 0 and,
- * if |b| < 2 |q|, the vertex -b^2 / 4q, which is nearer to 0 than |b| / 2 is. */
-static inline double imp_bow_lower_(double b, double q)
-{
-    return imp_smaller(q - fabs(b), -0.5 * fabs(b));
-}
-
-static inline double imp_bow_upper_(double b, double q)
-{
-    return imp_larger(q + fabs(b), 0.5 * fabs(b));
-}
-
-/* Range of quadratic and remainder together, parameter by parameter. Lemma: the two sums have
- * 16 roundings at most, each of a partial sum that N = |a| + B + Q + e bounds; 2^-48 N =
- * 32 u N covers them and the computing of N. An infinite or NaN coefficient opens the range. */
-static inline imp_interval imp_model_poly_range(const imp_model *x)
-{
-    double cross = fabs(x->q[IMP_UV]) + fabs(x->q[IMP_UT]) + fabs(x->q[IMP_VT]) + x->e;
-    double lo = imp_bow_lower_(x->b[0], x->q[IMP_UU]) + imp_bow_lower_(x->b[1], x->q[IMP_VV]) +
-                imp_bow_lower_(x->b[2], x->q[IMP_TT]) - cross;
-    double hi = imp_bow_upper_(x->b[0], x->q[IMP_UU]) + imp_bow_upper_(x->b[1], x->q[IMP_VV]) +
-                imp_bow_upper_(x->b[2], x->q[IMP_TT]) + cross;
-    double pad = 0x1p-48 * (fabs(x->a) + imp_sum_abs3_(x->b) + imp_sum_abs6_(x->q) + x->e);
-    return imp_interval_make(x->a + lo - pad, x->a + hi + pad);
-}
-
-/* Bits of `depends` rule: what is not depended on has rate 0, what cannot be computed is
- * infinite. */
-static inline void imp_tidy_rates_(imp_model *x)
-{
-    for (int j = 0; j < 3; j++) {
-        double rate = x->rate[j] < INFINITY ? x->rate[j] : INFINITY;
-        x->rate[j] = x->depends >> j & 1 ? rate : 0;
-    }
-}
-
-/* Last step of every operation, and of a model made by hand: a, b, q, e, lo, hi, rate and depends
- * are set, each part sound by itself (a NaN says nothing). Range and quadratic clip
- * each other; when e exceeds half the range the quadratic tells nothing that the
- * range does not, and goes. */
-static inline imp_model imp_model_finish(imp_model x)
-{
-    imp_interval poly = imp_model_poly_range(&x);
-    x.lo = imp_larger(x.lo, poly.lo);
-    x.hi = imp_smaller(x.hi, poly.hi);
-    imp_tidy_rates_(&x);
-    if (x.e <= 0.5 * (x.hi - x.lo) && x.e < INFINITY) return x;
-    x.lo = x.lo > -INFINITY ? x.lo : -INFINITY;
-    x.hi = x.hi < INFINITY ? x.hi : INFINITY;
-    return imp_collapse_(x);
-}
-
-/* The model that a value and rates alone give: g = a within a_error at the centre of the region
- * with half-widths d, and |dg/dp_j| <= rate[j] all over it. */
-static inline imp_model imp_model_box(double a, double a_error, const double rate[3],
-                                      const double d[3])
-{
-    imp_model r = imp_zero_();
-    r.a = a;
-    r.e = ((rate[0] * d[0] + rate[1] * d[1] + rate[2] * d[2]) + a_error + IMP_TINY) * IMP_SLACK;
-    r.lo = imp_sum_down(a - r.e);
-    r.hi = imp_sum_up(a + r.e);
-    for (int j = 0; j < 3; j++) {
-        r.rate[j] = rate[j];
-        r.depends |= rate[j] != 0 ? 1u << j : 0;
-    }
-    return r.e < INFINITY ? r : imp_model_finish(r);
-}
-
-/* --- Sums ----------------------------------------------------------------------------- */
-
-static inline imp_model imp_neg(imp_model x)
-{
-    double lo = x.lo;
-    x.a = -x.a;
-    x.lo = -x.hi;
-    x.hi = -lo;
-    for (int j = 0; j < 3; j++) x.b[j] = -x.b[j];
-    for (int j = 0; j < 6; j++) x.q[j] = -x.q[j];
-    return x;
-}
-
-/* Each of the ten sums is rounded once, by u times its own magnitude. */
-static inline imp_model imp_add_(const imp_model *x, const imp_model *y)
-{
-    imp_model r;
-    r.a = x->a + y->a;
-    for (int j = 0; j < 3; j++) {
-        r.b[j] = x->b[j] + y->b[j];
-        r.rate[j] = imp_sum_up(x->rate[j] + y->rate[j]);
-    }
-    for (int j = 0; j < 6; j++) r.q[j] = x->q[j] + y->q[j];
-    double size = fabs(r.a) + imp_sum_abs3_(r.b) + imp_sum_abs6_(r.q);
-    r.e = (x->e + y->e + (IMP_U * size + IMP_TINY)) * IMP_SLACK;
-    r.lo = imp_sum_down(x->lo + y->lo);
-    r.hi = imp_sum_up(x->hi + y->hi);
-    r.depends = x->depends | y->depends;
-    r.reserved = 0;
-    return imp_model_finish(r);
-}
-
-static inline imp_model imp_add_point_(double a, double x_error, double y_error)
-{
-    return imp_known_(a, (x_error + y_error + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
-}
-
-/* x + k where k is exact: rounds the middle only. */
-static inline imp_model imp_shift(imp_model x, double k)
-{
-    if (k == 0) return x;
-    if (imp_is_exact_(&x) && x.a == 0) return imp_num(k);
-    double a = x.a + k;
-    if (imp_is_point_(&x)) return imp_add_point_(a, x.e, 0);
-    x.e = (x.e + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK;
-    x.a = a;
-    x.lo = imp_sum_down(x.lo + k);
-    x.hi = imp_sum_up(x.hi + k);
-    return imp_model_finish(x);
-}
-
-static inline imp_model imp_add(imp_model x, imp_model y)
-{
-    if (imp_is_exact_(&y)) return imp_shift(x, y.a);
-    if (imp_is_exact_(&x)) return imp_shift(y, x.a);
-    if (imp_is_point_(&x) && imp_is_point_(&y)) return imp_add_point_(x.a + y.a, x.e, y.e);
-    return imp_add_(&x, &y);
-}
-
-static inline imp_model imp_sub(imp_model x, imp_model y) { return imp_add(x, imp_neg(y)); }
-
-/* --- Products ------------------------------------------------------------------------- */
-
-/* x k at a point. */
-static inline imp_model imp_scale_point_(double a, double k, double error)
-{
-    return imp_known_(a * k, (error * fabs(k) + (IMP_U * fabs(a * k) + IMP_TINY)) * IMP_SLACK);
-}
-
-/* x k where k is exact: each of the ten products is rounded once, by u times its own magnitude. */
-static inline imp_model imp_scale(imp_model x, double k)
-{
-    if (k == 0 || k == 1) return k == 1 ? x : imp_num(0);
-    if (!(k - k == 0)) return imp_unbounded_(x.depends);
-    if (imp_is_point_(&x)) return imp_scale_point_(x.a, k, x.e);
-    imp_interval range = imp_interval_scale(imp_range_(&x), k);
-    x.a *= k;
-    x.lo = range.lo;
-    x.hi = range.hi;
-    for (int j = 0; j < 3; j++) {
-        x.b[j] *= k;
-        x.rate[j] = imp_round_up(x.rate[j] * fabs(k));
-    }
-    for (int j = 0; j < 6; j++) x.q[j] *= k;
-    double size = fabs(x.a) + imp_sum_abs3_(x.b) + imp_sum_abs6_(x.q);
-    x.e = (x.e * fabs(k) + (IMP_U * size + IMP_TINY)) * IMP_SLACK;
-    return imp_model_finish(x);
-}
-
-/* Adds the ten coefficients of L W to c; w: coefficients of the quadratic form W. */
-static inline void imp_cubic_add_(const double b[3], const double w[6], double c[10])
-{
-    c[0] += b[0] * w[IMP_UU];
-    c[1] += b[1] * w[IMP_VV];
-    c[2] += b[2] * w[IMP_TT];
-    c[3] += b[0] * w[IMP_UV] + b[1] * w[IMP_UU];
-    c[4] += b[0] * w[IMP_UT] + b[2] * w[IMP_UU];
-    c[5] += b[1] * w[IMP_UV] + b[0] * w[IMP_VV];
-    c[6] += b[1] * w[IMP_VT] + b[2] * w[IMP_VV];
-    c[7] += b[2] * w[IMP_UT] + b[0] * w[IMP_TT];
-    c[8] += b[2] * w[IMP_VT] + b[1] * w[IMP_TT];
-    c[9] += (b[0] * w[IMP_VT] + b[1] * w[IMP_UT]) + b[2] * w[IMP_UV];
-}
-
-/* Cubic terms go to the nearest polynomial of lower degree: on [-1, 1],
+ * A model that depends on no parameter is a constant: a number known within e. Operations on
+ * constants take a short way, which is how points are evaluated.
  *
- *   s^3       = 3/4 s   +- 1/4   (Chebyshev's T_3 = 4 s^3 - 3 s)
- *   s^2 s'    = 1/2 s'  +- 1/2
- *   s s' s''  = 0       +- 1
+ * What cannot be bounded is unbounded: e, an end of the range, or rates are infinite. No
+ * operation answers a NaN. Over a region where a formula is undefined in part, its model speaks
+ * about the rest; but a formula must be defined on its type's whole domain. Rounding may put the
+ * range of an argument slightly outside a function's domain, as that of 1 - cos^2 below 0: the
+ * part outside counts as the nearest value inside, so no clamp is needed before imp_sqrt.
  *
- * linear[j] receives the coefficients of s_j, the answer is the bound of the rest. Order of c:
- * uuu vvv ttt uuv uut uvv vvt utt vtt uvt. */
-static inline double imp_cubic_fold_(const double c[10], double linear[3])
-{
-    linear[0] = 0.75 * c[0] + 0.5 * (c[5] + c[7]);
-    linear[1] = 0.75 * c[1] + 0.5 * (c[3] + c[8]);
-    linear[2] = 0.75 * c[2] + 0.5 * (c[4] + c[6]);
-    return 0.25 * (fabs(c[0]) + fabs(c[1]) + fabs(c[2])) + 0.5 * imp_sum_abs6_(c + 3) + fabs(c[9]);
-}
+ * Kinks are allowed: rates bound difference quotients there. Jumps are not: imp_atan2 has no
+ * bounded rates on its cut. */
 
-/* The products b_j b'_k, as coefficients of s_j s_k. */
-static inline void imp_square_terms_(const double b[3], const double bb[3], double q[6])
-{
-    q[IMP_UU] = b[0] * bb[0];
-    q[IMP_UV] = b[0] * bb[1] + b[1] * bb[0];
-    q[IMP_UT] = b[0] * bb[2] + b[2] * bb[0];
-    q[IMP_VV] = b[1] * bb[1];
-    q[IMP_VT] = b[1] * bb[2] + b[2] * bb[1];
-    q[IMP_TT] = b[2] * bb[2];
-}
-
-/* Half the sum of the squares' coefficients: the middle of their values. */
-static inline double imp_middle_(const double q[6])
-{
-    return 0.5 * (q[IMP_UU] + q[IMP_VV] + q[IMP_TT]);
-}
-
-/* At least |Q(s) - middle| where `size` is sum |q_jk|: a square's coefficient weighs half. The
- * rounding of `middle` and of the sums is below 9 u size. */
-static inline double imp_swing_upper_(const double q[6], double size)
-{
-    double squares = fabs(q[IMP_UU]) + fabs(q[IMP_VV]) + fabs(q[IMP_TT]);
-    return (size - 0.5 * squares) + 16 * IMP_U * size;
-}
-
-/* Quadratic and remainder of x y. With h = middle(Q), D = Q - h, |D| <= swing:
- *
- *   P P' = (a a' - h h') + (a L' + a' L) + ((a + h) Q' + (a' + h') Q + L L')
- *          + (L Q' + L' Q)   cubic, folded
- *          + D D'            at most swing swing'
- *   x y - P P' = delta y + delta' P,  |P| <= |x| + e
- *
- * Rounding. Let N = |a| + B + Q, and the same for x'. Every coefficient is a sum of products of
- * two. Roundings that a product passes through: a a' 2; a b' 3; (a + h) q' 4; b b' 3; h h' 2; a
- * cubic one at most 5 on its way to b with weight 3/4, or 6 with weight 1/2, and at most 4 on its
- * way to the remainder, with the weight left: together below 5. As |h| <= Q / 2, the terms
- * in h amount to (4 + 2/4) Q Q'. So 4 N N' - 2 |a a'| + (B + Q)(B' + Q') units of u cover all. */
-static inline void imp_product_(const imp_model *x, const imp_model *y, imp_model *r)
-{
-    double linear[3], bb[6], cubic[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-    double hx = imp_middle_(x->q), hy = imp_middle_(y->q);
-    double ax = x->a + hx, ay = y->a + hy;
-    double bx = imp_sum_abs3_(x->b), by = imp_sum_abs3_(y->b);
-    double qx = imp_sum_abs6_(x->q), qy = imp_sum_abs6_(y->q);
-    imp_cubic_add_(x->b, y->q, cubic);
-    imp_cubic_add_(y->b, x->q, cubic);
-    double rest = imp_cubic_fold_(cubic, linear);
-    imp_square_terms_(x->b, y->b, bb);
-    r->a = x->a * y->a - hx * hy;
-    for (int j = 0; j < 3; j++) r->b[j] = (x->a * y->b[j] + y->a * x->b[j]) + linear[j];
-    for (int k = 0; k < 6; k++) r->q[k] = (ax * y->q[k] + ay * x->q[k]) + bb[k];
-    rest += imp_swing_upper_(x->q, qx) * imp_swing_upper_(y->q, qy);
-    double x_mag = imp_interval_mag(imp_range_(x)), y_mag = imp_interval_mag(imp_range_(y));
-    double inherited = x->e * y_mag + y->e * (x_mag + x->e);
-    double nx = fabs(x->a) + bx + qx, ny = fabs(y->a) + by + qy;
-    double rounding = 4 * nx * ny - 2 * fabs(x->a * y->a) + (bx + qx) * (by + qy);
-    r->e = (rest + inherited + (IMP_U * rounding + IMP_TINY)) * IMP_SLACK;
-}
-
-/* (x y)' = x' y + x y'; two products and a sum. */
-static inline void imp_product_rates_(const imp_model *x, const imp_model *y, imp_model *r)
-{
-    double x_mag = imp_interval_mag(imp_range_(x)), y_mag = imp_interval_mag(imp_range_(y));
-    for (int j = 0; j < 3; j++)
-        r->rate[j] = (x_mag * y->rate[j] + y_mag * x->rate[j] + IMP_TINY) * IMP_SLACK;
-}
-
-static inline imp_model imp_mul_(const imp_model *x, const imp_model *y)
-{
-    imp_model r;
-    imp_interval range = imp_interval_mul(imp_range_(x), imp_range_(y));
-    imp_product_(x, y, &r);
-    imp_product_rates_(x, y, &r);
-    r.lo = range.lo;
-    r.hi = range.hi;
-    r.depends = x->depends | y->depends;
-    r.reserved = 0;
-    return imp_model_finish(r);
-}
-
-/* (a + delta)(a' + delta') - a a' = delta a' + delta' (a + delta). */
-static inline imp_model imp_mul_point_(const imp_model *x, const imp_model *y)
-{
-    double a = x->a * y->a;
-    double inherited = x->e * fabs(y->a) + y->e * (fabs(x->a) + x->e);
-    return imp_known_(a, (inherited + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
-}
-
-static inline imp_model imp_mul(imp_model x, imp_model y)
-{
-    if (imp_is_exact_(&y)) return imp_scale(x, y.a);
-    if (imp_is_exact_(&x)) return imp_scale(y, x.a);
-    if (imp_is_point_(&x) && imp_is_point_(&y)) return imp_mul_point_(&x, &y);
-    return imp_mul_(&x, &y);
-}
-
-/* x + t (y - x). */
-static inline imp_model imp_lerp(imp_model x, imp_model y, imp_model t)
-{
-    return imp_add(x, imp_mul(t, imp_sub(y, x)));
-}
-
-static inline imp_model imp_dot3(const imp_model x[3], const imp_model y[3])
-{
-    imp_model r = imp_add(imp_mul(x[0], y[0]), imp_mul(x[1], y[1]));
-    return imp_add(r, imp_mul(x[2], y[2]));
-}
-
-#ifdef __cplusplus
-}
-#endif
-
+#include <impinge/model_angles.h>
+#include <impinge/model_arithmetic.h>
 #include <impinge/model_functions.h>
 
 #endif /* IMPINGE_MODEL_H */
