@@ -9,6 +9,7 @@ core_base = \
     core/impinge/impinge.h \
     core/status.c core/status.h \
     core/fp_mode.h \
+    core/in_call.c core/in_call.h \
     core/array.h \
     core/text.c core/text.h \
     core/place.c core/place.h \

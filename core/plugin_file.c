@@ -9,6 +9,8 @@
 
 #include <assert.h>
 #include <dlfcn.h>
+#include <stdlib.h>
+#include <string.h>
 
 #define ENTRY "impinge_plugin"
 
@@ -104,6 +106,44 @@ imp_code plugin_file_open(plugin_file *plugin, const char *path, trial_book *boo
     if (code == IMP_SUCCESS) code = run(plugin, path, error);
     if (code != IMP_SUCCESS) plugin_file_close(plugin);
     return code;
+}
+
+/* A refusal of the child's reads "check: why", by the step's name. */
+static void tell_trial(imp_code code, const imp_error *found, imp_finding_sink tell, void *context)
+{
+    if (code == IMP_SUCCESS) {
+        tell(context, "trial", IMP_PASSED, "loads in a child process, and its tables are in order");
+        return;
+    }
+    char name[24];
+    const char *text = strchr(found->text, ':');
+    const size_t length = text != NULL ? (size_t)(text - found->text) : sizeof name;
+    if (length < sizeof name && strchr(found->text, ' ') > text) {
+        memcpy(name, found->text, length);
+        name[length] = '\0';
+        tell(context, name, IMP_REFUSED, text + 2);
+    } else {
+        tell(context, "trial", IMP_REFUSED, found->text);
+    }
+}
+
+bool imp_plugin_examine(const char *path, imp_finding_sink tell, void *context)
+{
+    elf_probe facts;
+    const imp_finding findings[] = {IMP_NOT_REACHED, IMP_PASSED, IMP_REFUSED};
+    const bool good = elf_probe_file(path, true, &facts);
+    for (int k = 0; k < PROBE_CHECKS; ++k)
+        tell(context, facts.check[k].name, findings[facts.check[k].verdict], facts.check[k].text);
+    char *absolute = good ? realpath(path, NULL) : NULL;
+    if (absolute == NULL) {
+        tell(context, "trial", IMP_NOT_REACHED, "");
+        return false;
+    }
+    imp_error found = {IMP_SUCCESS, ""};
+    const imp_code code = plugin_trial_run(absolute, try_out, &found);
+    free(absolute);
+    tell_trial(code, &found, tell, context);
+    return code == IMP_SUCCESS;
 }
 
 void plugin_file_close(plugin_file *plugin)

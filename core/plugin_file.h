@@ -10,9 +10,9 @@
 /* One plugin, from file to types
  * ==============================
  * Opening goes in steps, each of which may refuse: read the file, try it in a child process,
- * load it, find its entry, check its tables. Code of the plugin runs from the second step on. What is open is wholly
- * checked; what is refused is not loaded any more, and has left the floating-point mode of
- * this thread as it was. */
+ * load it, find its entry, check its tables. Code of the plugin runs from the second step on. What
+ * is open is wholly checked; what is refused is not loaded any more, and has left the
+ * floating-point mode of this thread as it was. */
 
 typedef struct plugin_file {
     elf_probe facts;
@@ -22,9 +22,9 @@ typedef struct plugin_file {
     const imp_map_factory *maps;         /* NULL: offers none */
 } plugin_file;
 
-/* `path` is absolute; the book knows earlier trials and takes note of new ones. On failure the text says why, without the path, and only facts.device
- * and facts.inode are of use (0 if the file could not be opened): IMP_ERROR_PLUGIN, or
- * IMP_ERROR_MEMORY if we could not tell. */
+/* `path` is absolute; the book knows earlier trials and takes note of new ones. On failure the text
+ * says why, without the path, and only facts.device and facts.inode are of use (0 if the file could
+ * not be opened): IMP_ERROR_PLUGIN, or IMP_ERROR_MEMORY if we could not tell. */
 imp_code plugin_file_open(plugin_file *plugin, const char *path, trial_book *book,
                           imp_error *error);
 

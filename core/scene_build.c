@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "fp_mode.h"
+#include "in_call.h"
 #include "json_words.h"
 #include "parameters.h"
 #include "scene_build.h"
@@ -81,7 +82,9 @@ static imp_code run_create(const type_view *view, const char *file, const parame
     imp_complaint why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
     *self = NULL;
     fp_mode before = fp_mode_read();
+    in_call_begin(view->name, "create");
     imp_status status = view->create(values->value, self, &why);
+    in_call_end();
     bool kept = fp_mode_kept(before);
     if (status != IMP_OK) return judge_failure(status, view, file, values, &why, at, error);
     if (!*self)

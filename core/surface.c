@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "fp_mode.h"
+#include "in_call.h"
 #include "region.h"
 
 typedef struct mapping {
@@ -86,6 +87,7 @@ const char *surface_status_text(imp_status status)
 /* The mode is read once after all callbacks of a call: what they computed is thrown away then. */
 static imp_status guarded(fp_mode before, imp_status status)
 {
+    in_call_end();
     return fp_mode_kept(before) ? status : SURFACE_CHANGED_MODE;
 }
 
@@ -106,6 +108,7 @@ static imp_status error_through_map(const mapping *map, const double x[4], const
     }
     box.lo[3] = box.hi[3] = x[3];
     imp_map_rates p;
+    in_call_begin(map->type->name, "rate");
     const imp_status status = map->type->rate(map->self, &box, &p);
     if (status != IMP_OK) return status;
     for (int i = 0; i < 3; ++i) {
@@ -124,6 +127,7 @@ static imp_status batch_through_map(const mapping *map, size_t n, const double *
         memcpy(in + 4 * k, x + 3 * k, 3 * sizeof *x);
         in[4 * k + 3] = p[3 * k + 2];
     }
+    in_call_begin(map->type->name, "eval");
     imp_status status = map->type->eval(map->self, n, in, x, error == NULL ? NULL : own);
     if (status != IMP_OK || error == NULL) return status;
     for (size_t k = 0; k < n; ++k) {
@@ -140,6 +144,7 @@ static imp_status batch_through_map(const mapping *map, size_t n, const double *
 imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, double *error)
 {
     const fp_mode mode = fp_mode_read();
+    in_call_begin(s->type->name, "eval");
     imp_status status = s->type->eval(s->self, n, p, x, error);
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k)
         for (size_t from = 0; from < n && status == IMP_OK; from += BATCH) {
@@ -199,6 +204,7 @@ static void rates_through_map(const imp_map_rates *p, const imp_rate_matrix *in,
 
 static imp_status rate_of(const surface *s, const imp_region *region, imp_rate_matrix *rates)
 {
+    in_call_begin(s->type->name, "rate");
     imp_status status = s->type->rate(s->self, region, rates);
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
         centred_box around;
@@ -213,6 +219,7 @@ static imp_status rate_of(const surface *s, const imp_region *region, imp_rate_m
         imp_map_rates p;
         const imp_rate_matrix inner = *rates;
         if (!box4_from(lo, hi, region, &box)) return IMP_UNBOUNDED;
+        in_call_begin(s->maps[k].type->name, "rate");
         status = s->maps[k].type->rate(s->maps[k].self, &box, &p);
         if (status == IMP_OK) rates_through_map(&p, &inner, rates);
     }
@@ -258,6 +265,7 @@ static imp_status model_from_rates(const surface *s, const imp_region *region,
 
 static imp_status include_type(const surface *s, const imp_region *region, imp_model model[3])
 {
+    in_call_begin(s->type->name, s->type->include != NULL ? "include" : "rate");
     if (s->type->include != NULL) return s->type->include(s->self, region, model);
     imp_rate_matrix rates;
     const imp_status status = s->type->rate(s->self, region, &rates);
@@ -297,6 +305,7 @@ static imp_status include_by_chain_rule(const surface *s, size_t k, const imp_re
     imp_box4 box;
     imp_map_rates p;
     if (!box4_from(lo, hi, region, &box)) return IMP_UNBOUNDED;
+    in_call_begin(s->maps[k].type->name, "rate");
     const imp_status status = s->maps[k].type->rate(s->maps[k].self, &box, &p);
     if (status != IMP_OK) return status;
     rates_through_map(&p, &inner, &rates);
@@ -312,6 +321,7 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
     imp_status status = IMP_UNBOUNDED;
     if (models_are_finite(model) && map->type->apply != NULL) {
         const imp_model in[4] = {model[0], model[1], model[2], model_of_time(region)};
+        in_call_begin(map->type->name, "apply");
         status = map->type->apply(map->self, in, model);
     } else if (!*unbounded) {
         status = include_by_chain_rule(s, k, region, model);

@@ -8,6 +8,7 @@ tool_sources = \
     tools/bench_patches.c tools/bench_print.c tools/bench_sets.c \
     tools/build_tree.c tools/build_tree.h \
     tools/catalogue.c tools/catalogue.h \
+    tools/crash.c tools/crash.h \
     tools/input.c tools/input.h \
     tools/interrupt.c tools/interrupt.h \
     tools/main.c \
@@ -24,8 +25,10 @@ tool_sources = \
     tools/verb_help.c \
     tools/verb_info.c \
     tools/verb_list.c \
+    tools/verb_matrix.c \
     tools/verb_pair.c \
-    tools/verb_solve.c
+    tools/verb_solve.c \
+    tools/verb_why.c
 
 bin_PROGRAMS += tools/impinge
 tools_impinge_SOURCES = $(tool_sources)

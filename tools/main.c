@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "crash.h"
 #include "output.h"
 #include "verbs.h"
 
@@ -35,6 +36,7 @@ static exit_status run(const arguments *args)
 int main(int argc, char **argv)
 {
     output_prepare();
+    crash_prepare();
     arguments args;
     exit_status status = arguments_read(&args, argc, (const char *const *)argv);
     const char *speaker = args.verb != NULL ? args.verb->name : NULL;

@@ -21,6 +21,7 @@ const option options_registry[] = {
      .kind = OPTION_TEXT,
      .argument = "DIR[:DIR]",
      .help = "look for plugins here before anywhere else"},
+    {.name = "secure", .help = "take no plugin from a directory that anyone may write to"},
     {.name = NULL},
 };
 
@@ -69,6 +70,7 @@ const option options_query[] = {
      .argument = "FORM",
      .choices = rates,
      .help = "with --method paper: rate bounds (full)"},
+    {.name = "audit", .help = "hold the bounds of every region against points of it; slower"},
     {.name = "exit-code", .help = "exit 1 on contact, 0 on clear"},
     {.name = NULL},
 };

@@ -34,7 +34,10 @@ imp_registry *query_registry(const arguments *args)
 {
     const option_value *path = arguments_option(args, "plugin-path");
     imp_registry *registry = NULL;
-    if (add_build_tree()) registry = imp_registry_new(path != NULL ? path->text : NULL);
+    if (add_build_tree()) {
+        const unsigned flags = arguments_option(args, "secure") != NULL ? IMP_REGISTRY_SECURE : 0;
+        registry = imp_registry_open(path != NULL ? path->text : NULL, flags);
+    }
     if (registry == NULL) complain_of_memory(args->verb->name);
     return registry;
 }
@@ -87,6 +90,7 @@ static imp_options options_for(const imp_scene *scene, const arguments *args)
     o.method = (imp_method)choice_or(args, "method", o.method);
     o.bounds = (imp_bounds)choice_or(args, "bounds", o.bounds);
     o.rates = (imp_rates)choice_or(args, "rates", o.rates);
+    o.audit = arguments_option(args, "audit") != NULL;
     return o;
 }
 

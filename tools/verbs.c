@@ -14,6 +14,8 @@
     ROW(pair)                                                                                      \
     ROW(solve)                                                                                     \
     ROW(batch)                                                                                     \
+    ROW(matrix)                                                                                    \
+    ROW(why)                                                                                       \
     ROW(bench)                                                                                     \
     ROW(help)
 

@@ -51,6 +51,10 @@ IMP_EXPORT const char *imp_version(void);
 /* One English phrase for a code. */
 IMP_EXPORT const char *imp_code_text(imp_code code);
 
+/* The name of the type whose plugin this thread is in, and the callback ("eval", ...); NULL: in none.
+ * For handlers of SIGSEGV and the like, to say whose fault it is. [async-signal-safe] */
+IMP_EXPORT const char *imp_call_in_progress(const char **callback);
+
 /* --- Registry: the types at hand ---------------------------------------------- */
 
 typedef struct imp_registry imp_registry;
@@ -90,6 +94,14 @@ typedef struct imp_plugin_refusal {
 } imp_plugin_refusal;
 IMP_EXPORT bool imp_registry_refusal(const imp_registry *registry, size_t index,
                                      imp_plugin_refusal *refusal);
+
+/* Everything that is checked of a plugin file, in order, each with a verdict: told one by one. What
+ * comes after a refusal and depends on it is not reached. Loads the file in a child process
+ * only. Answers whether all passed. */
+typedef enum imp_finding { IMP_NOT_REACHED, IMP_PASSED, IMP_REFUSED } imp_finding;
+typedef void (*imp_finding_sink)(void *context, const char *check, imp_finding finding,
+                                 const char *text);
+IMP_EXPORT bool imp_plugin_examine(const char *path, imp_finding_sink tell, void *context);
 
 /* --- Scenes --------------------------------------------------------------------- */
 
