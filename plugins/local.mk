@@ -8,6 +8,8 @@ plugin_LTLIBRARIES = \
     plugins/cone.la \
     plugins/cylinder.la \
     plugins/ellipsoid.la \
+    plugins/formula.la \
+    plugins/map-formula.la \
     plugins/nurbs.la \
     plugins/plane.la \
     plugins/point.la \
@@ -31,6 +33,7 @@ noinst_HEADERS += \
     plugins/chebyshev.h \
     plugins/couple.h \
     plugins/curve.h \
+    plugins/expression_type.h \
     plugins/knots.h \
     plugins/linear.h \
     plugins/near.h \
@@ -43,6 +46,21 @@ noinst_HEADERS += \
     plugins/plugin.h \
     plugins/polynomial.h \
     plugins/superquadric.h
+
+# The language of formulas, for both types that have texts in it.
+noinst_LTLIBRARIES += plugins/libexpression.la
+plugins_libexpression_la_SOURCES = \
+    plugins/expression.c plugins/expression.h \
+    plugins/expression_builder.c plugins/expression_builder.h \
+    plugins/expression_functions.h \
+    plugins/expression_names.c plugins/expression_names.h \
+    plugins/expression_operation.c plugins/expression_operation.h \
+    plugins/expression_parser.c plugins/expression_parser.h \
+    plugins/expression_rules.c plugins/expression_rules.h \
+    plugins/expression_token.c plugins/expression_token.h
+plugins_libexpression_la_LDFLAGS =
+plugins_formula_la_LIBADD = plugins/libexpression.la
+plugins_map_formula_la_LIBADD = plugins/libexpression.la
 
 plugin_ldflags = -avoid-version -shared -export-symbols-regex '^impinge_plugin$$'
 

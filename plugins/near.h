@@ -26,6 +26,7 @@ static inline imp_model near_scale(imp_model x, near_constant k)
 {
     imp_model product = imp_scale(x, k.value);
     if (k.error == 0) return product;
+    product.depends = x.depends; /* also if the value is 0, and the number only nearly */
     double slip =
         imp_round_up(imp_round_up(imp_interval_mag(imp_interval_make(x.lo, x.hi))) * k.error);
     product.e = imp_sum_up(product.e + slip);

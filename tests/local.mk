@@ -7,6 +7,7 @@ check_suites = \
     tests/fuzz_scene \
     tests/test_alloc_failure \
     tests/test_elf_probe \
+    tests/test_expression \
     tests/test_formula_answers \
     tests/test_metamorphic \
     tests/test_parameters \
@@ -23,16 +24,21 @@ check_suites = \
 
 # The same, with MPFI as the judge of bounds.
 mpfi_suites = \
+    tests/test_expression_bounds \
     tests/test_formula \
     tests/test_model \
     tests/test_plugins \
     tests/test_tightness
 tests_test_tightness_SOURCES = tests/test_tightness.c tests/oracle_number.c \
-    tests/type_oracle.c tests/shape_oracle.c tests/instance.c
+    tests/type_oracle.c tests/shape_oracle.c tests/expression_oracle.c tests/instance.c
+tests_test_expression_bounds_SOURCES = tests/test_expression_bounds.c \
+    tests/expression_oracle.c tests/oracle_number.c tests/judge.c tests/sampling.c
+tests_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 tests_test_plugins_SOURCES = tests/test_plugins.c \
     tests/oracle_number.c tests/oracle_number.h \
     tests/type_oracle.c tests/type_oracle.h \
     tests/shape_oracle.c tests/shape_oracle.h \
+    tests/expression_oracle.c tests/expression_oracle.h \
     tests/instance.c tests/instance.h \
     tests/judge.c tests/judge.h \
     tests/sampling.c tests/sampling.h
@@ -84,6 +90,9 @@ alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=fr
 tests_test_alloc_failure_SOURCES = tests/test_alloc_failure.c tests/alloc_failure.c
 tests_test_alloc_failure_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 
+tests_test_expression_SOURCES = tests/test_expression.c tests/alloc_failure.c
+tests_test_expression_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
+tests_test_expression_LDADD = plugins/libexpression.la $(LDADD)
 # One scene told in many ways.
 tests_test_metamorphic_SOURCES = tests/test_metamorphic.c tests/retelling.c
 tests_test_steps_SOURCES = tests/test_steps.c tests/retelling.c

@@ -62,11 +62,20 @@ UNARY(num_exp, mpfi_exp)
 UNARY(num_log, mpfi_log)
 UNARY(num_sin, mpfi_sin)
 UNARY(num_cos, mpfi_cos)
+UNARY(num_tan, mpfi_tan)
+UNARY(num_asin, mpfi_asin)
+UNARY(num_acos, mpfi_acos)
+UNARY(num_atan, mpfi_atan)
+UNARY(num_sinh, mpfi_sinh)
+UNARY(num_cosh, mpfi_cosh)
+UNARY(num_tanh, mpfi_tanh)
+UNARY(num_cbrt, mpfi_cbrt)
 BINARY(num_add, mpfi_add)
 BINARY(num_sub, mpfi_sub)
 BINARY(num_mul, mpfi_mul)
 BINARY(num_div, mpfi_div)
 BINARY(num_atan2, mpfi_atan2)
+BINARY(num_hypot, mpfi_hypot)
 
 number num_power(number x, unsigned n)
 {
@@ -83,5 +92,7 @@ number num_poly(const double *coefficient, size_t count, size_t stride, number x
 }
 
 bool num_is_less(number x, number y) { return mpfr_less_p(&x->right, &y->left) != 0; }
+
+bool num_is_bounded(number x) { return mpfi_bounded_p(x) != 0; }
 
 double num_near(number x) { return mpfi_get_d(x); }

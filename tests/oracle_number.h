@@ -34,7 +34,16 @@ number num_exp(number x);
 number num_log(number x);
 number num_sin(number x);
 number num_cos(number x);
+number num_tan(number x);
+number num_asin(number x);
+number num_acos(number x);
+number num_atan(number x);
+number num_sinh(number x);
+number num_cosh(number x);
+number num_tanh(number x);
+number num_cbrt(number x);
 number num_atan2(number y, number x);
+number num_hypot(number x, number y);
 number num_power(number x, unsigned n);
 
 /* sum_k coefficient[k * stride] x^k. */
@@ -42,6 +51,9 @@ number num_poly(const double *coefficient, size_t count, size_t stride, number x
 
 /* Surely so. */
 bool num_is_less(number x, number y);
+
+/* Neither end is infinite or NaN. */
+bool num_is_bounded(number x);
 
 /* Nearest double, to print. */
 double num_near(number x);

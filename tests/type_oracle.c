@@ -4,6 +4,8 @@
 
 #include <stdlib.h>
 
+#include "expression_oracle.h"
+
 const imp_value *argument(const type_arguments *arguments, const char *name)
 {
     ptrdiff_t row = parameter_table_find(&arguments->table, name);
@@ -152,6 +154,42 @@ static void rotate(const type_arguments *arguments, const number p[4], number x[
     add_center(arguments, x);
 }
 
+/* --- Texts of formulas -------------------------------------------------------------------- */
+
+enum { NAMES = 20 };
+
+/* Variables, which are one letter each, then constants. */
+static void texts(const type_arguments *arguments, const char *const *variable, const number *p,
+                  size_t variables, number x[3])
+{
+    static const char *const coordinate[] = {"x", "y", "z"};
+    const imp_value *constants = argument(arguments, "constants");
+    const char *name[NAMES];
+    number value[NAMES];
+    size_t count = 0;
+    if (variables + constants->count > NAMES) abort();
+    for (size_t k = 0; k < variables; ++k, ++count) name[count] = variable[k], value[count] = p[k];
+    for (size_t k = 0; k < constants->count; ++k, ++count) {
+        name[count] = constants->string[k];
+        value[count] = num(constants->number[k]);
+    }
+    const oracle_names names = {count, name, value};
+    for (int i = 0; i < 3; ++i)
+        x[i] = expression_oracle(argument(arguments, coordinate[i])->string[0], &names);
+}
+
+static void formula(const type_arguments *arguments, const number p[3], number x[3])
+{
+    static const char *const variable[] = {"u", "v", "t"};
+    texts(arguments, variable, p, 3, x);
+}
+
+static void map_formula(const type_arguments *arguments, const number p[4], number x[3])
+{
+    static const char *const variable[] = {"x", "y", "z", "t"};
+    texts(arguments, variable, p, 4, x);
+}
+
 /* --- The table ------------------------------------------------------------------------------ */
 
 const type_oracle oracles[] = {
@@ -281,6 +319,35 @@ const type_oracle oracles[] = {
                    "{\"axis\": [0,-2,0], \"angle\": [?,?,?]}",
                    "{\"axis\": [1,1e-170,1e-9], \"rate\": 1, \"center\": [1e8,0,-1e8]}",
                    "{\"axis\": [?,?,?], \"rate\": 1000}"}},
+    /* In these texts '+' stands only before a digit. */
+    {.type = "formula",
+     .surface = formula,
+     .instances =
+         {"{}",
+          "{\"x\": \"cos(2*pi*u)*(1+0.3*cos(2*pi*v))\", \"y\": \"sin(2*pi*u)*(1+0.3*cos(2*pi*v))\","
+          " \"z\": \"a*sin(2*pi*v)+1*b*t^2\", \"constants\": {\"a\": +, \"b\": ?}}",
+          "{\"x\": \"abs(u)-abs(v)*u+1*hypot(u,v)\", \"y\": \"max(u,v,u*v)-min(u^2,v^3,.5)\","
+          " \"z\": \"copysign(abs(u)^1.5,u)+1*clamp(3*v,-1,u)-hypot(u,v,sin(t))\","
+          " \"domain\": [[-1,1],[-1,1]]}",
+          "{\"x\": \"sqrt(u)-u^0.3\", \"y\": \"cbrt(v)+1*u^(1/3)\", \"z\": "
+          "\"u^pi-sqrt(u^2+1*v^2)\","
+          " \"domain\": [[0,1],[-1,1]], \"time\": [0,2]}",
+          "{\"x\": \"u^v-(2+1*sin(t))^u\", \"y\": \"e^(-u^2-v^2)*ln(u)-2^-v\","
+          " \"z\": \"log10(u)+1*log2(3+1*v)-exp2(v/3)-lerp(u,v,u*v)\", \"domain\": "
+          "[[0.5,2],[-1,1]]}",
+          "{\"x\": \"atan2(v,u-3)-tan(u/2)\", \"y\": \"asin(u/3)*acos(v/3)-atan(t)\","
+          " \"z\": \"sinh(u)*cosh(v)/(2+1*cosh(u))-tanh(3*v)\", \"domain\": [[-1,1],[0.5,2.5]]}",
+          "{\"x\": \"a*u^3-b*v*u^7/(1+1*v^4)\", \"y\": \"(u-a)^5-1e-3*(v-b)^-2\","
+          " \"z\": \"sq(a*u-b*v)/3-1/(4-u)\", \"domain\": [[-2,2],[5,6]],"
+          " \"constants\": {\"a\": ?, \"b\": +}}"}},
+    {.type = "map-formula",
+     .map = map_formula,
+     .instances = {"{}", "{\"z\": \"z+1*a*sin(k*x-t)\", \"constants\": {\"a\": +, \"k\": ?}}",
+                   "{\"x\": \"x*cos(t*z/9)-y*sin(t*z/9)\", \"y\": \"x*sin(t*z/9)+1*y*cos(t*z/9)\"}",
+                   "{\"x\": \"x/(1+1*x^2+1*y^2)\", \"y\": \"sqrt(1+1*y^2)-abs(x)\","
+                   " \"z\": \"hypot(x,y,z)+1*cbrt(z)*tanh(x)\"}",
+                   "{\"x\": \"copysign(sqrt(abs(x)),x)\", \"y\": \"max(y,-z)*e^-abs(x)\","
+                   " \"z\": \"z*(2+1*sin(y))^-1.5+1*t\", \"time\": [-1,1]}"}},
 };
 
 const size_t oracle_count = sizeof oracles / sizeof oracles[0];
