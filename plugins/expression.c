@@ -114,8 +114,8 @@ static bool read_texts(const expression_scope *scope, const char *const text[3],
     return true;
 }
 
-static imp_status assemble(const builder *b, size_t variables, const uint16_t out[3],
-                           allocation *a, expression_program **program, expression_error *error)
+static imp_status assemble(const builder *b, size_t variables, const uint16_t out[3], allocation *a,
+                           expression_program **program, expression_error *error)
 {
     expression_program *p = malloc(sizeof *p + b->count * sizeof p->instructions[0]);
     if (!p) return IMP_INTERNAL;

@@ -67,7 +67,7 @@ void expression_models(const expression_program *program, const imp_model *varia
 
 /* x, y, z and their absolute errors at one point. IMP_DOMAIN where they are undefined, or infinite.
  * error may be NULL. */
-imp_status expression_point(const expression_program *program, const double *variables,
-                            double x[3], double *error);
+imp_status expression_point(const expression_program *program, const double *variables, double x[3],
+                            double *error);
 
 #endif

@@ -38,7 +38,7 @@ static uint64_t bits_of(double x)
 
 static size_t hash_of(const operation *o)
 {
-    uint64_t parts[] = {(uint64_t)o->code, (uint64_t)o->n, o->operand[0],       o->operand[1],
+    uint64_t parts[] = {(uint64_t)o->code, (uint64_t)o->n,      o->operand[0],      o->operand[1],
                         o->operand[2],     bits_of(o->k.value), bits_of(o->k.error)};
     uint64_t hash = 0;
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i) {

@@ -24,7 +24,7 @@ typedef struct builder {
     imp_model whole[EXPRESSION_OPERATIONS_MAX];
     size_t count;
     uint16_t index_of_hash[2 * EXPRESSION_OPERATIONS_MAX]; /* or FREE_PLACE */
-    char fault[160]; /* empty: none */
+    char fault[160];                                       /* empty: none */
 } builder;
 
 /* Values 0 ... count - 1, count > 0, are the variables; whole[k] says what each may be. */
@@ -44,7 +44,6 @@ uint16_t builder_with_constant(builder *b, opcode code, uint16_t x, near_constan
 uint16_t builder_power_n(builder *b, uint16_t x, int32_t n);
 
 /* Says what is at fault, if nothing was yet; answers 0. */
-uint16_t builder_refuse(builder *b, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+uint16_t builder_refuse(builder *b, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -27,13 +27,12 @@ static inline imp_model near_shift(imp_model x, near_constant k)
 /* --- Powers -------------------------------------------------------------------------- */
 
 /* At least the greatest |ln z| z^s for 0 < z in x and s between s0 and s1. Lemma: beyond 1, ln z
- * <= ln x.hi and z^s <= max(1, x.hi^s1). Below 1, |ln z| <= |ln x.lo| and z^s <= max(1, x.lo^s0); if
- * s0 > 0 also |ln z| z^s <= |ln z| z^s0 <= 1 / (e s0) < 0.37 / s0. */
+ * <= ln x.hi and z^s <= max(1, x.hi^s1). Below 1, |ln z| <= |ln x.lo| and z^s <= max(1, x.lo^s0);
+ * if s0 > 0 also |ln z| z^s <= |ln z| z^s0 <= 1 / (e s0) < 0.37 / s0. */
 static inline double log_power_upper(imp_interval x, double s0, double s1)
 {
     double beyond = 0, below = 0;
-    if (x.hi > 1)
-        beyond = imp_libm_up(log(x.hi)) * imp_larger(1, imp_libm_up(imp_pow_(x.hi, s1)));
+    if (x.hi > 1) beyond = imp_libm_up(log(x.hi)) * imp_larger(1, imp_libm_up(imp_pow_(x.hi, s1)));
     if (x.lo < 1) {
         double drop = x.lo > 0 ? imp_libm_up(-log(x.lo)) : INFINITY;
         double climb = x.lo > 0 ? imp_libm_up(imp_pow_(x.lo, s0)) : s0 >= 0 ? 1 : INFINITY;
@@ -99,8 +98,7 @@ static inline imp_model cube_root(imp_model x)
     }
     if (imp_is_exact_(&x)) return x;
     imp_series_ s = {0, INFINITY, {0, 0, 0}, INFINITY};
-    imp_interval range =
-        imp_interval_make(imp_libm_down(cbrt(x.lo)), imp_libm_up(cbrt(x.hi)));
+    imp_interval range = imp_interval_make(imp_libm_down(cbrt(x.lo)), imp_libm_up(cbrt(x.hi)));
     return imp_compose_(&x, &s, range, INFINITY);
 }
 

@@ -47,8 +47,9 @@ static const function_name functions[] = {
 };
 
 #define JUMP "is discontinuous: a surface with a jump has no rate bound"
-#define CHOICE "can jump where the choice changes, and a surface with a jump has no rate bound; " \
-               "min, max, abs and clamp choose without jumps"
+#define CHOICE                                                                                     \
+    "can jump where the choice changes, and a surface with a jump has no rate bound; "             \
+    "min, max, abs and clamp choose without jumps"
 
 static const struct refusal {
     const char *name, *why;
@@ -69,7 +70,10 @@ bool names_are_equal(const char *name, size_t length, const char *other)
     return strlen(other) == length && memcmp(name, other, length) == 0;
 }
 
-bool names_is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool names_is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
 
 bool names_is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -200,8 +204,8 @@ bool names_check_constants(const expression_scope *scope, expression_error *erro
             return false;
         }
         if (other) {
-            snprintf(error->message, sizeof error->message, "'%.*s' is %s already; take another name",
-                     SHOWN, name, other);
+            snprintf(error->message, sizeof error->message,
+                     "'%.*s' is %s already; take another name", SHOWN, name, other);
             return false;
         }
     }

@@ -13,7 +13,7 @@
 
 typedef struct function_name {
     const char *name;
-    int meaning; /* expression_rules.h */
+    int meaning;        /* expression_rules.h */
     size_t least, most; /* arguments */
 } function_name;
 

@@ -25,8 +25,8 @@ typedef struct parser {
 
 /* --- Faults --------------------------------------------------------------------------- */
 
-__attribute__((format(printf, 3, 4))) static uint16_t fail(parser *p, size_t at,
-                                                           const char *format, ...)
+__attribute__((format(printf, 3, 4))) static uint16_t fail(parser *p, size_t at, const char *format,
+                                                           ...)
 {
     p->now = (token){TOKEN_END, at, 0};
     if (p->failed) return 0;
@@ -112,8 +112,8 @@ static void take_closing(parser *p, size_t open)
 {
     char expected[100];
     text_place place = token_place(p->text, open);
-    snprintf(expected, sizeof expected,
-             "an operator or ')' for the '(' at line %zu, column %zu", place.line, place.column);
+    snprintf(expected, sizeof expected, "an operator or ')' for the '(' at line %zu, column %zu",
+             place.line, place.column);
     if (next_is(p, ')'))
         take(p);
     else
@@ -160,7 +160,8 @@ static uint16_t fail_unknown(parser *p, token name)
         return fail(p, name.at, "%s is a function: its arguments follow in parentheses",
                     show(p, name).text);
     names_hint(p->scope, call, text, name.length, hint, sizeof hint);
-    return fail(p, name.at, "unknown %s %s%s", call ? "function" : "name", show(p, name).text, hint);
+    return fail(p, name.at, "unknown %s %s%s", call ? "function" : "name", show(p, name).text,
+                hint);
 }
 
 /* A name without arguments. */

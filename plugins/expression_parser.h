@@ -5,8 +5,8 @@
 
 #include "expression_builder.h"
 
-/* Reads one text and builds it. Answers the index of its value; on failure `error`, all but `at`, is
- * set. */
+/* Reads one text and builds it. Answers the index of its value; on failure `error`, all but `at`,
+ * is set. */
 bool parser_read(const expression_scope *scope, const char *text, builder *b, uint16_t *value,
                  expression_error *error);
 

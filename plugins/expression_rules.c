@@ -154,8 +154,7 @@ static uint16_t square_root(builder *b, uint16_t x)
 static uint16_t constant_power_n(builder *b, uint16_t x, int32_t n)
 {
     uint16_t product = x;
-    for (int32_t k = 1; k < n; ++k)
-        product = builder_operate(b, OP_MULTIPLY, product, x, 0);
+    for (int32_t k = 1; k < n; ++k) product = builder_operate(b, OP_MULTIPLY, product, x, 0);
     return product;
 }
 
@@ -278,10 +277,7 @@ static uint16_t in_turn(builder *b, opcode code, const uint16_t *argument, size_
     return x;
 }
 
-static uint16_t minimum(builder *b, uint16_t x, uint16_t y)
-{
-    return ordered(b, OP_MIN, x, y);
-}
+static uint16_t minimum(builder *b, uint16_t x, uint16_t y) { return ordered(b, OP_MIN, x, y); }
 
 static uint16_t lerp(builder *b, uint16_t x, uint16_t y, uint16_t t)
 {
@@ -333,7 +329,7 @@ uint16_t rules_apply(builder *b, int meaning, const uint16_t *a, size_t count)
     case MEANING_COPYSIGN:
         return copysign_of(b, a[0], a[1]);
     default:
-        return builder_operate(b, (opcode)(meaning - MEANING_OPERATION), a[0],
-                               count > 1 ? a[1] : 0, 0);
+        return builder_operate(b, (opcode)(meaning - MEANING_OPERATION), a[0], count > 1 ? a[1] : 0,
+                               0);
     }
 }

@@ -59,7 +59,9 @@ static inline imp_status compile_texts(const imp_value *values, expression_scope
     expression_error error;
     imp_status status = expression_compile(scope, text, program, &error);
     if (status != IMP_PARAMETER) return status;
-    int row = error.at < 3 ? TEXT_X + error.at : error.at == EXPRESSION_AT_CONSTANTS ? CONSTANTS : -1;
+    int row = error.at < 3                          ? TEXT_X + error.at
+              : error.at == EXPRESSION_AT_CONSTANTS ? CONSTANTS
+                                                    : -1;
     return complain(why, row, -1, "%s", error.message);
 }
 

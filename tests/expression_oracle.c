@@ -41,6 +41,20 @@ static number copied_sign(number x, number y)
     return surely_negative(y) ? num_neg(size) : hull(size, num_neg(size));
 }
 
+/* MPFI seeks the quadrant of a number by ever more digits, and for the least of all it never
+ * ends. These are taken for anything as small as 2^-1000. */
+static number calm(number x)
+{
+    mpfi_ptr r = (mpfi_ptr)num(0x1p-1000);
+    mpfr_neg(&r->left, &r->right, MPFR_RNDD);
+    bool is_least = mpfr_cmpabs(&x->left, &r->right) < 0 && mpfr_cmpabs(&x->right, &r->right) < 0;
+    return is_least ? r : x;
+}
+
+static number sine(number x) { return num_sin(calm(x)); }
+static number cosine(number x) { return num_cos(calm(x)); }
+static number tangent(number x) { return num_tan(calm(x)); }
+
 static bool is_point(number x) { return mpfr_equal_p(&x->left, &x->right) != 0; }
 
 static number whole_power(number x, long n)
@@ -66,8 +80,8 @@ static const struct unary {
     number (*function)(number x);
 } unary[] = {
     {"abs", num_abs},   {"fabs", num_abs},  {"sqrt", num_sqrt}, {"cbrt", num_cbrt},
-    {"exp", num_exp},   {"log", num_log},   {"ln", num_log},    {"sin", num_sin},
-    {"cos", num_cos},   {"tan", num_tan},   {"asin", num_asin}, {"acos", num_acos},
+    {"exp", num_exp},   {"log", num_log},   {"ln", num_log},    {"sin", sine},
+    {"cos", cosine},    {"tan", tangent},   {"asin", num_asin}, {"acos", num_acos},
     {"atan", num_atan}, {"sinh", num_sinh}, {"cosh", num_cosh}, {"tanh", num_tanh},
     {"sq", num_sqr},    {"sqr", num_sqr},
 };
@@ -76,8 +90,8 @@ static const struct binary {
     const char *name;
     number (*function)(number x, number y);
 } binary[] = {
-    {"atan2", num_atan2}, {"pow", raised},     {"copysign", copied_sign}, {"min", minimum},
-    {"fmin", minimum},    {"max", maximum},    {"fmax", maximum},         {"hypot", num_hypot},
+    {"atan2", num_atan2}, {"pow", raised},  {"copysign", copied_sign}, {"min", minimum},
+    {"fmin", minimum},    {"max", maximum}, {"fmax", maximum},         {"hypot", num_hypot},
 };
 
 static number other_call(const char *name, const number *x)

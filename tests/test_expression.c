@@ -79,7 +79,8 @@ static const char *complaint(const char *text)
     return error.message;
 }
 
-/* --- Meaning ----------------------------------------------------------------------------------- */
+/* --- Meaning -----------------------------------------------------------------------------------
+ */
 
 #define U 0.375
 #define V 1.25
@@ -197,8 +198,8 @@ END_TEST
 
 START_TEST(exact_arithmetic_with_constants_stays_exact)
 {
-    static const char *const texts[] = {"2*3/4+1", "1/8", "(1+2)^5-3", "sqrt(9)", "-(2-6)*0.5",
-                                        "10^15", "min(1,2)", "abs(-3)"};
+    static const char *const texts[] = {"2*3/4+1",    "1/8",   "(1+2)^5-3", "sqrt(9)",
+                                        "-(2-6)*0.5", "10^15", "min(1,2)",  "abs(-3)"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
         double x, error;
         ck_assert_int_eq(value_at(texts[i], U, V, T, &x, &error), IMP_OK);
@@ -221,27 +222,16 @@ START_TEST(numbers_are_read_alike_in_every_locale)
 }
 END_TEST
 
-/* --- Compiled form -------------------------------------------------------------------------------- */
+/* --- Compiled form
+ * -------------------------------------------------------------------------------- */
 
 static const struct compiled_length {
     const char *text;
     size_t length; /* for x, y and z alike */
 } lengths[] = {
-    {"u", 0},
-    {"7", 1},
-    {"2*pi*u", 1},
-    {"u*2*pi", 1},
-    {"u/3", 1},
-    {"1+u+2", 1},
-    {"u*u", 1},
-    {"u*u*u*u", 1},
-    {"--u", 0},
-    {"u+0", 0},
-    {"1*u", 0},
-    {"u^1", 0},
-    {"sqrt(u^2)", 1},
-    {"sin(u)*sin(u)", 2},
-    {"cos(u)+v*cos(u)", 3},
+    {"u", 0},       {"7", 1},   {"2*pi*u", 1},    {"u*2*pi", 1},        {"u/3", 1},
+    {"1+u+2", 1},   {"u*u", 1}, {"u*u*u*u", 1},   {"--u", 0},           {"u+0", 0},
+    {"1*u", 0},     {"u^1", 0}, {"sqrt(u^2)", 1}, {"sin(u)*sin(u)", 2}, {"cos(u)+v*cos(u)", 3},
     {"u*v-v*u", 1},
 };
 
@@ -253,7 +243,8 @@ START_TEST(what_formulas_have_in_common_is_computed_once)
 }
 END_TEST
 
-/* --- Faults ---------------------------------------------------------------------------------------- */
+/* --- Faults
+ * ---------------------------------------------------------------------------------------- */
 
 #define OPERAND "expected a number, a name or '(', found "
 #define OPERATOR "expected an operator or the end, found "
@@ -415,12 +406,14 @@ START_TEST(an_unknown_name_is_compared_with_the_constants)
                                     "'radius'?; known: u, v, t, pi, e, height, radius");
     ck_assert_int_eq(error.at, 2);
     ck_assert_int_eq(compile_with(text, 60, name, value, &program, &error), IMP_PARAMETER);
-    ck_assert_ptr_nonnull(strstr(error.message, "known: u, v, t, pi, e, height, radius, constant_0"));
+    ck_assert_ptr_nonnull(
+        strstr(error.message, "known: u, v, t, pi, e, height, radius, constant_0"));
     ck_assert_str_eq(error.message + strlen(error.message) - 5, ", ...");
 }
 END_TEST
 
-/* --- Limits ------------------------------------------------------------------------------------------ */
+/* --- Limits
+ * ------------------------------------------------------------------------------------------ */
 
 /* `count` times `piece`, between `before` and `after`; the caller owns it. */
 static char *repeated(const char *before, const char *piece, size_t count, const char *after)
@@ -464,15 +457,18 @@ END_TEST
 START_TEST(a_number_of_a_thousand_digits_is_refused)
 {
     expect_repeated("u+0.", "1", 298, "", "");
-    expect_repeated("u+0.", "1", 299, "", "line 1, column 3: this number has more than 300 characters");
-    expect_repeated("", "7", 1000000, "", "line 1, column 1: this number has more than 300 characters");
+    expect_repeated("u+0.", "1", 299, "",
+                    "line 1, column 3: this number has more than 300 characters");
+    expect_repeated("", "7", 1000000, "",
+                    "line 1, column 1: this number has more than 300 characters");
 }
 END_TEST
 
 START_TEST(a_long_name_is_cut_in_the_message)
 {
-    expect_repeated("", "w", 1000000, "",
-                    "line 1, column 1: unknown name 'wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww'" KNOWN);
+    expect_repeated(
+        "", "w", 1000000, "",
+        "line 1, column 1: unknown name 'wwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwwww'" KNOWN);
 }
 END_TEST
 
@@ -505,7 +501,8 @@ START_TEST(too_many_values_at_once_are_refused)
     expression_error error;
     ck_assert_int_eq(compile_with(text, 0, NULL, NULL, &program, &error), IMP_PARAMETER);
     ck_assert_int_eq(error.at, EXPRESSION_AT_ALL);
-    ck_assert_str_eq(error.message, "x, y and z have more than 512 common parts to be kept at once");
+    ck_assert_str_eq(error.message,
+                     "x, y and z have more than 512 common parts to be kept at once");
     free(sum);
     free(product);
 }
@@ -528,26 +525,39 @@ START_TEST(all_slots_can_be_used)
 }
 END_TEST
 
-/* --- Where formulas are undefined -------------------------------------------------------------------- */
+/* --- Where formulas are undefined
+ * -------------------------------------------------------------------- */
 
 static const struct point {
     const char *text;
     double u, v, t;
-} outside[] = {
-    {"sqrt(u)", -0.25, 0, 0},      {"log(u)", -0.5, 0, 0},       {"log(u)", 0, 0, 0},
-    {"1/u", 0, 0, 0},              {"u^-2", 0, 0, 0},            {"u^0.3", -1, 0, 0},
-    {"u^-0.3", 0, 0, 0},           {"asin(2*u)", 1, 0, 0},       {"acos(t)", 0, 0, -3},
-    {"atan2(u,v)", 0, 0, 0},       {"u^v", -0.5, 1, 0},          {"u^t", 0, 0, -1},
-    {"atan(log(u))", 0, 0, 0},     {"sin(1/u)", 0, 0, 0},        {"min(1,sqrt(u))", -1, 0, 0},
-    {"tanh(sqrt(u))", -1, 0, 0},   {"exp(1000*v)", 0, 1, 0},     {"u", NAN, 0, 0},
-    {"u+t", 0, 0, INFINITY},
+} outside[] =
+    {
+        {"sqrt(u)", -0.25, 0, 0},
+        {"log(u)", -0.5, 0, 0},
+        {"log(u)", 0, 0, 0},
+        {"1/u", 0, 0, 0},
+        {"u^-2", 0, 0, 0},
+        {"u^0.3", -1, 0, 0},
+        {"u^-0.3", 0, 0, 0},
+        {"asin(2*u)", 1, 0, 0},
+        {"acos(t)", 0, 0, -3},
+        {"atan2(u,v)", 0, 0, 0},
+        {"u^v", -0.5, 1, 0},
+        {"u^t", 0, 0, -1},
+        {"atan(log(u))", 0, 0, 0},
+        {"sin(1/u)", 0, 0, 0},
+        {"min(1,sqrt(u))", -1, 0, 0},
+        {"tanh(sqrt(u))", -1, 0, 0},
+        {"exp(1000*v)", 0, 1, 0},
+        {"u", NAN, 0, 0},
+        {"u+t", 0, 0, INFINITY},
 },
   inside[] = {
-    {"sqrt(u)", 0, 0, 0},          {"u^0.3", 0, 0, 0},           {"u^(1/3)", 0, 0, 0},
-    {"u^v", 0, 1, 0},              {"asin(u)", 1, 0, 0},         {"acos(u)", -1, 0, 0},
-    {"hypot(u,v)", 0, 0, 0},       {"cbrt(u)", 0, 0, 0},         {"atan2(u,v)", 0, 1, 0},
-    {"1e300*t", 0, 0, 1e8},
-    {"exp(-1000*v)", 0, 2, 0},     {"acos(cos(u))", 0, 0, 0},
+      {"sqrt(u)", 0, 0, 0},    {"u^0.3", 0, 0, 0},        {"u^(1/3)", 0, 0, 0},
+      {"u^v", 0, 1, 0},        {"asin(u)", 1, 0, 0},      {"acos(u)", -1, 0, 0},
+      {"hypot(u,v)", 0, 0, 0}, {"cbrt(u)", 0, 0, 0},      {"atan2(u,v)", 0, 1, 0},
+      {"1e300*t", 0, 0, 1e8},  {"exp(-1000*v)", 0, 2, 0}, {"acos(cos(u))", 0, 0, 0},
 };
 
 START_TEST(a_point_where_the_formula_is_undefined_is_outside_its_domain)
@@ -560,8 +570,8 @@ START_TEST(a_point_where_the_formula_is_undefined_is_outside_its_domain)
     }
     for (size_t i = 0; i < sizeof inside / sizeof inside[0]; ++i) {
         const struct point *p = &inside[i];
-        ck_assert_msg(value_at(p->text, p->u, p->v, p->t, &x, &error) == IMP_OK,
-                      "%s at %g %g %g", p->text, p->u, p->v, p->t);
+        ck_assert_msg(value_at(p->text, p->u, p->v, p->t, &x, &error) == IMP_OK, "%s at %g %g %g",
+                      p->text, p->u, p->v, p->t);
         ck_assert_msg(error < 1e-7 * (1 + fabs(x)), "%s: %g +- %g", p->text, x, error);
     }
 }
@@ -579,8 +589,8 @@ END_TEST
 
 START_TEST(a_region_where_the_formula_is_undefined_is_unbounded)
 {
-    static const char *const texts[] = {"sqrt(u)", "log(u)", "1/u", "sin(1/u)", "tanh(sqrt(u))",
-                                        "atan(log(u))", "u^0.5+1/u", "u^t"};
+    static const char *const texts[] = {"sqrt(u)",       "log(u)",       "1/u",       "sin(1/u)",
+                                        "tanh(sqrt(u))", "atan(log(u))", "u^0.5+1/u", "u^t"};
     const imp_model u = {.a = -0.5, .b = {0.25}, .lo = -0.75, .hi = 0, .rate = {1}, .depends = 1};
     const imp_model variables[] = {u, imp_num(1), imp_num(-0.5)};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
@@ -616,8 +626,8 @@ END_TEST
 
 START_TEST(a_copied_sign_is_lipschitz_where_it_is_taken)
 {
-    static const char *const texts[] = {"copysign(u,u)",           "copysign(u*v,-2*u)",
-                                        "copysign(abs(u)^1.5,u)",  "copysign(sin(u)*exp(v),u)",
+    static const char *const texts[] = {"copysign(u,u)", "copysign(u*v,-2*u)",
+                                        "copysign(abs(u)^1.5,u)", "copysign(sin(u)*exp(v),u)",
                                         "copysign(min(u^2,abs(u)),u)"};
     const imp_model u = {.b = {0.5}, .lo = -0.5, .hi = 0.5, .rate = {1}, .depends = 1};
     const imp_model variables[] = {u, imp_num(1), imp_num(0)};
@@ -632,7 +642,8 @@ START_TEST(a_copied_sign_is_lipschitz_where_it_is_taken)
 }
 END_TEST
 
-/* --- Running ------------------------------------------------------------------------------------------ */
+/* --- Running
+ * ------------------------------------------------------------------------------------------ */
 
 START_TEST(running_changes_nothing_and_always_answers_alike)
 {
@@ -641,8 +652,8 @@ START_TEST(running_changes_nothing_and_always_answers_alike)
     const double p[] = {-0.5, 0, 1e200};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
         double x[2][3], error[2][3];
-        imp_model out[2][3], variables[] = {imp_between(-1, 1), imp_between(0, 2),
-                                            imp_between(-INFINITY, 1)};
+        imp_model out[2][3],
+            variables[] = {imp_between(-1, 1), imp_between(0, 2), imp_between(-INFINITY, 1)};
         expression_program *program = compiled(texts[i]);
         memset(x, 0, sizeof x);
         memset(error, 0, sizeof error);
@@ -680,7 +691,8 @@ START_TEST(without_memory_nothing_is_compiled_and_nothing_left)
 }
 END_TEST
 
-/* --- Damage --------------------------------------------------------------------------------------------- */
+/* --- Damage
+ * --------------------------------------------------------------------------------------------- */
 
 static void try_any(const char *text)
 {
@@ -731,8 +743,8 @@ START_TEST(damaged_formulas_are_refused_or_taken_and_nothing_else)
 END_TEST
 
 SUITE_MAIN("expression", every_operator_and_function_means_what_it_does_elsewhere,
-           exact_arithmetic_with_constants_stays_exact,
-           numbers_are_read_alike_in_every_locale, what_formulas_have_in_common_is_computed_once,
+           exact_arithmetic_with_constants_stays_exact, numbers_are_read_alike_in_every_locale,
+           what_formulas_have_in_common_is_computed_once,
            every_fault_is_told_with_its_line_and_column,
            constants_need_names_that_mean_nothing_else,
            an_unknown_name_is_compared_with_the_constants,

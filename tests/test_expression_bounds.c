@@ -48,17 +48,61 @@ static void write_leaf(author *a)
 
 /* '#' stands for a formula, '~' for one that another '~' repeats. */
 static const char *const forms[] = {
-    "#+#",          "#-#",         "#*#",           "#*#",           "-#",
-    "(#)",          "( # + # )",   "(#)/(2+(#)^2)", "#/3",           "#/pi",
-    "(#)^2",        "(#)^3",       "(#)^-1",        "-(#)^2",        "2*(#)^7",
-    "sin(#)",       "cos(#)",      "sin(#)*cos(#)", "exp(-(#)^2)",   "atan(#)",
-    "tanh(#)",      "abs(#)",      "min(#,#)",      "max(#, #, #)",  "hypot(#,#)",
-    "sqrt(1+(#)^2)", "sqrt(abs(#))", "cbrt(#)",     "log(1+(#)^2)",  "asin(sin(#))",
-    "acos(tanh(#))", "(2+sin(#))^(#)", "(1+abs(#))^1.5", "abs(#)^(1/3)", "atan2(#,3+sin(#))",
-    "sinh(sin(#))", "cosh(#/9)",   "tan(atan(#))",  "clamp(#,-1,#)", "lerp(#,#,#)",
-    "copysign((~)*(#),~)", "copysign(abs(~)^1.5,~)", "sqrt((#)^2+(#)^2)", "(~)*(~)", "(~)*(~)*(~)",
-    "2^(#)",        "e^-abs(#)",   "hypot(#,#,#)",  "#^2*#",         "log2(3+cos(#))",
-    "(#)/(#)",      "sqrt(#)",     "log(#)",        "(#)^0.7",       "1/(#)",
+    "#+#",
+    "#-#",
+    "#*#",
+    "#*#",
+    "-#",
+    "(#)",
+    "( # + # )",
+    "(#)/(2+(#)^2)",
+    "#/3",
+    "#/pi",
+    "(#)^2",
+    "(#)^3",
+    "(#)^-1",
+    "-(#)^2",
+    "2*(#)^7",
+    "sin(#)",
+    "cos(#)",
+    "sin(#)*cos(#)",
+    "exp(-(#)^2)",
+    "atan(#)",
+    "tanh(#)",
+    "abs(#)",
+    "min(#,#)",
+    "max(#, #, #)",
+    "hypot(#,#)",
+    "sqrt(1+(#)^2)",
+    "sqrt(abs(#))",
+    "cbrt(#)",
+    "log(1+(#)^2)",
+    "asin(sin(#))",
+    "acos(tanh(#))",
+    "(2+sin(#))^(#)",
+    "(1+abs(#))^1.5",
+    "abs(#)^(1/3)",
+    "atan2(#,3+sin(#))",
+    "sinh(sin(#))",
+    "cosh(#/9)",
+    "tan(atan(#))",
+    "clamp(#,-1,#)",
+    "lerp(#,#,#)",
+    "copysign((~)*(#),~)",
+    "copysign(abs(~)^1.5,~)",
+    "sqrt((#)^2+(#)^2)",
+    "(~)*(~)",
+    "(~)*(~)*(~)",
+    "2^(#)",
+    "e^-abs(#)",
+    "hypot(#,#,#)",
+    "#^2*#",
+    "log2(3+cos(#))",
+    "(#)/(#)",
+    "sqrt(#)",
+    "log(#)",
+    "(#)^0.7",
+    "1/(#)",
 };
 
 static void write_formula(author *a, int depth);
@@ -92,7 +136,8 @@ static void write_formula(author *a, int depth)
         write_form(a, forms[below(a, below(a, 6) ? count - 5 : count)], depth);
 }
 
-/* --- Trials -------------------------------------------------------------------------------------- */
+/* --- Trials --------------------------------------------------------------------------------------
+ */
 
 enum { TEXTS = 3, FORMULA_REGIONS = 4, FORMULA_POINTS = 4 };
 
@@ -172,8 +217,7 @@ static void try_point(trial *t, const double *p, bool known, const number truth[
     ck_assert(status == IMP_OK || status == IMP_DOMAIN);
     ++tally->points;
     tally->undefined += status != IMP_OK;
-    if (status == IMP_OK && known)
-        expect(t, judge_point(x, error, truth, &t->fault), "point", p);
+    if (status == IMP_OK && known) expect(t, judge_point(x, error, truth, &t->fault), "point", p);
 }
 
 static void try_rates(trial *t, const imp_model out[3], const double *p, const double *q,
@@ -191,7 +235,8 @@ static bool is_bounded(const imp_model out[3])
     return true;
 }
 
-/* --- Surfaces --------------------------------------------------------------------------------------- */
+/* --- Surfaces
+ * --------------------------------------------------------------------------------------- */
 
 static const double domain_lo[] = {-1, -2, -INFINITY}, domain_hi[] = {1, 2, INFINITY};
 
@@ -245,13 +290,14 @@ static void expect_most_are_judged(const tally *tally, int trials)
 START_TEST(points_models_and_rates_of_random_surfaces_hold)
 {
     tally tally = {0};
-    const int trials = suite_times(3000);
+    const int trials = suite_times(1500);
     for (int k = 0; k < trials; ++k) try_surface(suite_seed() + (uint64_t)k, &tally);
     expect_most_are_judged(&tally, trials);
 }
 END_TEST
 
-/* --- Maps --------------------------------------------------------------------------------------------- */
+/* --- Maps
+ * --------------------------------------------------------------------------------------------- */
 
 static void try_arguments(trial *t, const sample_models *models, tally *tally)
 {
@@ -298,7 +344,7 @@ static void try_map(uint64_t seed, tally *tally)
 START_TEST(points_models_and_rates_of_random_maps_hold)
 {
     tally tally = {0};
-    const int trials = suite_times(2000);
+    const int trials = suite_times(1000);
     for (int k = 0; k < trials; ++k) try_map(suite_seed() + 1000000 + (uint64_t)k, &tally);
     expect_most_are_judged(&tally, trials);
 }
