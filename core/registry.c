@@ -236,7 +236,7 @@ static bool scan_names(imp_registry *r, const char *directory, const plugin_name
 static bool anyone_may_write(const char *directory)
 {
     struct stat facts;
-    return stat(directory, &facts) == 0 && (facts.st_mode & S_IWOTH) != 0;
+    return stat(directory, &facts) == 0 && S_ISDIR(facts.st_mode) && (facts.st_mode & S_IWOTH) != 0;
 }
 
 static bool scan_directory(imp_registry *r, const search_directory *directory)

@@ -7,6 +7,7 @@
 #include "text.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,8 +72,9 @@ static bool add(trial_book *book, trial t)
     return true;
 }
 
-/* A line that does not read as one is passed over: the file is tried again, that is all. */
-static void read_line(trial_book *book, char *line)
+/* A line that does not read as one is passed over: the file is tried again, that is all. False: no
+ * memory. */
+static bool read_line(trial_book *book, char *line)
 {
     trial t = {0};
     int code, path = 0;
@@ -80,15 +82,26 @@ static void read_line(trial_book *book, char *line)
     if (sscanf(line, "%d\t%" SCNu64 "\t%" SCNu64 "\t%" SCNu64 "\t%" SCNd64 "\t%" SCNd64 "\t%n",
                &code, &t.device, &t.inode, &t.size, &t.modified_s, &t.modified_ns, &path) != 6 ||
         path == 0)
-        return;
+        return true;
     char *reason = strchr(line + path, '\t');
-    if (reason == NULL || line[path] != '/') return;
-    if (code != IMP_SUCCESS && code != IMP_ERROR_PLUGIN) return;
+    if (reason == NULL || line[path] != '/') return true;
+    if (code != IMP_SUCCESS && code != IMP_ERROR_PLUGIN) return true;
     *reason++ = '\0';
     t.code = (imp_code)code;
     t.path = strdup(line + path);
     t.text = strdup(reason);
-    add(book, t);
+    return add(book, t);
+}
+
+static bool read_lines(trial_book *book, FILE *in)
+{
+    char *line = NULL;
+    size_t size = 0;
+    bool good = true;
+    if (getline(&line, &size, in) > 0 && strcmp(line, FIRST_LINE) == 0)
+        while (good && getline(&line, &size, in) > 0) good = read_line(book, line);
+    free(line);
+    return good;
 }
 
 trial_book *trial_book_read(void)
@@ -98,13 +111,11 @@ trial_book *trial_book_read(void)
     book->file = book_file();
     FILE *in = book->file != NULL ? fopen(book->file, "re") : NULL;
     if (in == NULL) return book;
-    char *line = NULL;
-    size_t size = 0;
-    if (getline(&line, &size, in) > 0 && strcmp(line, FIRST_LINE) == 0)
-        while (getline(&line, &size, in) > 0) read_line(book, line);
-    free(line);
+    const bool good = read_lines(book, in);
     fclose(in);
-    return book;
+    if (good) return book;
+    trial_book_close(book);
+    return NULL;
 }
 
 static trial *find(const trial_book *book, const char *path)
@@ -164,8 +175,8 @@ static bool write_all(const trial_book *book, FILE *out)
 /* The folder of the book, and the one it is in, may be missing. */
 static void make_folders(const char *file)
 {
-    char *path = strdup(file);
-    if (path == NULL) return;
+    char path[PATH_MAX];
+    if (snprintf(path, sizeof path, "%s", file) >= (int)sizeof path) return;
     char *last = strrchr(path, '/');
     *last = '\0';
     char *before = strrchr(path, '/');
@@ -173,7 +184,6 @@ static void make_folders(const char *file)
     mkdir(path, 0700);
     *before = '/';
     mkdir(path, 0700);
-    free(path);
 }
 
 /* A file of its own beside the book, then renamed over it: readers see one book or the other. */
