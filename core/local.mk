@@ -52,6 +52,7 @@ core_registry = \
     core/pipeline_value.c core/pipeline_value.h \
     core/pipeline.c core/pipeline.h \
     core/json_keys.c core/json_keys.h \
+    core/isolate.c core/isolate.h \
     core/scene_build.c core/scene_build.h \
     core/scene_bodies.c core/scene_bodies.h \
     core/scene_file.c core/scene_file.h

@@ -5,6 +5,7 @@
 #include "array.h"
 #include "plugin_file.h"
 #include "registry.h"
+#include "status.h"
 #include "text.h"
 #include "type_view.h"
 
@@ -46,6 +47,7 @@ struct imp_registry {
     size_t refused_count, refused_capacity;
     trial_book *book; /* while scanning */
     bool secure;
+    char *isolated; /* names between commas, ",a,b,"; "" for all; NULL for none */
 };
 
 /* --- Finding ------------------------------------------------------------------------- */
@@ -82,6 +84,41 @@ const char *registry_nearest(const imp_registry *registry, imp_type_sort sort, c
         if (registry->type[i].sort == sort)
             text_nearest_offer(&search, registry->type[i].view.name);
     return search.best;
+}
+
+bool registry_isolates(const imp_registry *registry, const char *name)
+{
+    if (!registry->isolated || registry->isolated[0] == '\0') return registry->isolated != NULL;
+    char wanted[TEXT_NAME_MAX + 3];
+    snprintf(wanted, sizeof wanted, ",%s,", name);
+    return strstr(registry->isolated, wanted) != NULL;
+}
+
+/* The first name of a list ",a,b," that is no type's, cut out into `name`; false: there is none. */
+static bool unknown_name(const imp_registry *r, const char *list, char name[TEXT_NAME_MAX + 1])
+{
+    for (const char *c = list + 1; *c != '\0'; c += strcspn(c, ",") + 1) {
+        snprintf(name, TEXT_NAME_MAX + 1, "%.*s", (int)strcspn(c, ","), c);
+        if (!find(r, IMP_SORT_SURFACE, name) && !find(r, IMP_SORT_MAP, name)) return true;
+    }
+    return false;
+}
+
+imp_code imp_registry_isolate(imp_registry *registry, const char *names, imp_error *error)
+{
+    const size_t size = names ? strlen(names) + 3 : 1;
+    char *list = malloc(size), unknown[TEXT_NAME_MAX + 1];
+    if (!list) return error_set_memory(error);
+    snprintf(list, size, names ? ",%s," : "%s", names ? names : "");
+    if (names && unknown_name(registry, list, unknown)) {
+        free(list);
+        return error_set(error, IMP_ERROR_USAGE,
+                         "there is no type '%s' to isolate; `impinge list` shows what there is",
+                         unknown);
+    }
+    free(registry->isolated);
+    registry->isolated = list;
+    return IMP_SUCCESS;
 }
 
 bool imp_registry_type(const imp_registry *registry, size_t index, imp_type_info *info)
@@ -302,6 +339,7 @@ void imp_registry_free(imp_registry *r)
         free(r->refused[i].reason);
     }
     for (size_t i = r->plugin_count; i > 0; --i) free_plugin(r->plugin[i - 1]);
+    free(r->isolated);
     free(r->refused);
     free(r->plugin);
     free(r->seen);

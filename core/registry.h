@@ -23,6 +23,9 @@ const imp_map_type *registry_find_map(const imp_registry *registry, const char *
 /* Path of the plugin the type of that name comes from; NULL: there is none. */
 const char *registry_find_file(const imp_registry *registry, imp_type_sort sort, const char *name);
 
+/* Whether instances of that type are to live in a process of their own. */
+bool registry_isolates(const imp_registry *registry, const char *name);
+
 /* The name of that sort nearest to `name`; NULL: none is near. */
 const char *registry_nearest(const imp_registry *registry, imp_type_sort sort, const char *name);
 

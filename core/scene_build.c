@@ -4,6 +4,7 @@
 
 #include "fp_mode.h"
 #include "in_call.h"
+#include "isolate.h"
 #include "json_words.h"
 #include "parameters.h"
 #include "scene_build.h"
@@ -67,6 +68,9 @@ static imp_code judge_failure(imp_status status, const type_view *view, const ch
                               const parameter_values *values, imp_complaint *why, const place *at,
                               imp_error *error)
 {
+    if (status > IMP_INTERNAL)
+        return place_error(at, error, IMP_ERROR_PLUGIN, "create of '%s' (%s) %s", view->name, file,
+                           surface_status_text(status));
     if (status == IMP_PARAMETER) return parameters_complaint(&view->table, values, why, at, error);
     char what[360];
     why->text[sizeof why->text - 1] = '\0';
@@ -75,15 +79,25 @@ static imp_code judge_failure(imp_status status, const type_view *view, const ch
     return blame(file, view, what, at, error);
 }
 
+/* In this process, or in that of the stand-in, which then is the instance. */
+static imp_status call_create(const type_view *view, isolated *stand_in, const imp_value *values,
+                              void **self, imp_complaint *why)
+{
+    if (!stand_in) return view->create(values, self, why);
+    *self = stand_in;
+    return isolate_create(stand_in, values, why);
+}
+
 /* Runs the plugin's create and judges its answer. */
-static imp_code run_create(const type_view *view, const char *file, const parameter_values *values,
-                           const place *at, void **self, imp_error *error)
+static imp_code run_create(const type_view *view, isolated *stand_in, const char *file,
+                           const parameter_values *values, const place *at, void **self,
+                           imp_error *error)
 {
     imp_complaint why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
     *self = NULL;
     fp_mode before = fp_mode_read();
     in_call_begin(view->name, "create");
-    imp_status status = view->create(values->value, self, &why);
+    imp_status status = call_create(view, stand_in, values->value, self, &why);
     in_call_end();
     bool kept = fp_mode_kept(before);
     if (status != IMP_OK) return judge_failure(status, view, file, values, &why, at, error);
@@ -95,13 +109,13 @@ static imp_code run_create(const type_view *view, const char *file, const parame
     return blame(file, view, "create changed the mode of arithmetic: the fault", at, error);
 }
 
-static imp_code create(const type_view *view, const char *file, const json_t *object,
-                       const place *at, void **self, imp_error *error)
+static imp_code create(const type_view *view, isolated *stand_in, const char *file,
+                       const json_t *object, const place *at, void **self, imp_error *error)
 {
     parameter_values values;
     imp_code code = parameters_read(&view->table, view->name, object, at, &values, error);
     if (code != IMP_SUCCESS) return code;
-    code = run_create(view, file, &values, at, self, error);
+    code = run_create(view, stand_in, file, &values, at, self, error);
     parameters_clear(&values);
     return code;
 }
@@ -118,8 +132,17 @@ imp_code scene_build_surface(const imp_registry *registry, const json_t *object,
     type_view view = type_view_of_surface(type);
     const char *file = registry_find_file(registry, IMP_SORT_SURFACE, name);
     void *self;
-    code = create(&view, file, object, at, &self, error);
-    if (code != IMP_SUCCESS) return code;
+    isolated *stand_in = NULL;
+    if (registry_isolates(registry, name)) {
+        stand_in = isolate_surface(type);
+        if (!stand_in) return error_set_memory(error);
+        type = isolate_surface_type(stand_in);
+    }
+    code = create(&view, stand_in, file, object, at, &self, error);
+    if (code != IMP_SUCCESS) {
+        isolate_destroy(stand_in);
+        return code;
+    }
     *s = surface_new(type, self);
     return *s ? IMP_SUCCESS : error_set_memory(error);
 }
@@ -136,8 +159,17 @@ imp_code scene_build_map(const imp_registry *registry, const json_t *object, con
     type_view view = type_view_of_map(type);
     const char *file = registry_find_file(registry, IMP_SORT_MAP, name);
     void *self;
-    code = create(&view, file, object, at, &self, error);
-    if (code != IMP_SUCCESS) return code;
+    isolated *stand_in = NULL;
+    if (registry_isolates(registry, name)) {
+        stand_in = isolate_map(type);
+        if (!stand_in) return error_set_memory(error);
+        type = isolate_map_type(stand_in);
+    }
+    code = create(&view, stand_in, file, object, at, &self, error);
+    if (code != IMP_SUCCESS) {
+        isolate_destroy(stand_in);
+        return code;
+    }
     code = surface_add_map(s, type, self);
     if (code == IMP_ERROR_MEMORY) return error_set_memory(error);
     if (code == IMP_SUCCESS) return code;

@@ -79,6 +79,10 @@ const char *surface_status_text(imp_status status)
         return "reports an internal error";
     case SURFACE_CHANGED_MODE:
         return "changes the floating-point mode of its caller, which breaks every bound";
+    case SURFACE_CRASHED:
+        return "crashes or ends its process, in which it runs isolated";
+    case SURFACE_HUNG:
+        return "does not answer within 5 s; it ran isolated, and its process was ended";
     default:
         return "answers a status that does not exist here";
     }

@@ -26,9 +26,11 @@ const char *surface_type_name(const surface *s);
 /* Domain; time is what the type and all maps have in common: lo[2] > hi[2] if nothing. */
 void surface_domain(const surface *s, double lo[3], double hi[3]);
 
-/* Beside the statuses of the ABI: a callback left another floating-point mode behind. It is put
- * back. */
+/* Beside the statuses of the ABI. A callback left another floating-point mode behind; it is put
+ * back. Or the process of an isolated instance ended, or was ended because it did not answer. */
 #define SURFACE_CHANGED_MODE 1000
+#define SURFACE_CRASHED 1001
+#define SURFACE_HUNG 1002
 
 /* What a status other than IMP_OK means here, as the end of "type 'x': ...". */
 const char *surface_status_text(imp_status status);

@@ -7,6 +7,7 @@ check_suites = \
     tests/fuzz_scene \
     tests/test_alloc_failure \
     tests/test_elf_probe \
+    tests/test_isolate \
     tests/test_expression \
     tests/test_formula_answers \
     tests/test_metamorphic \

@@ -21,6 +21,10 @@ const option options_registry[] = {
      .kind = OPTION_TEXT,
      .argument = "DIR[:DIR]",
      .help = "look for plugins here before anywhere else"},
+    {.name = "isolate",
+     .kind = OPTION_TEXT,
+     .argument = "TYPE[,TYPE]",
+     .help = "run these types in processes of their own; all: every type"},
     {.name = "secure", .help = "take no plugin from a directory that anyone may write to"},
     {.name = NULL},
 };

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "build_tree.h"
 #include "interrupt.h"
@@ -33,13 +34,21 @@ static bool add_build_tree(void)
 imp_registry *query_registry(const arguments *args)
 {
     const option_value *path = arguments_option(args, "plugin-path");
+    const option_value *isolate = arguments_option(args, "isolate");
+    const unsigned flags = arguments_option(args, "secure") != NULL ? IMP_REGISTRY_SECURE : 0;
     imp_registry *registry = NULL;
-    if (add_build_tree()) {
-        const unsigned flags = arguments_option(args, "secure") != NULL ? IMP_REGISTRY_SECURE : 0;
-        registry = imp_registry_open(path != NULL ? path->text : NULL, flags);
+    imp_error error = {0};
+    if (add_build_tree()) registry = imp_registry_open(path != NULL ? path->text : NULL, flags);
+    if (registry == NULL) {
+        complain_of_memory(args->verb->name);
+        return NULL;
     }
-    if (registry == NULL) complain_of_memory(args->verb->name);
-    return registry;
+    if (isolate == NULL) return registry;
+    const char *names = strcmp(isolate->text, "all") == 0 ? NULL : isolate->text;
+    if (imp_registry_isolate(registry, names, &error) == IMP_SUCCESS) return registry;
+    complain_of(&error, args->verb->name);
+    imp_registry_free(registry);
+    return NULL;
 }
 
 exit_status query_check(const arguments *args)

@@ -72,6 +72,12 @@ IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
 
 IMP_EXPORT void imp_registry_free(imp_registry *registry);
 
+/* From now on, instances of these types (names between commas; NULL: all) live in processes of their own, one
+ * for each instance: a plugin that crashes or hangs costs an error, not the host. A call then takes some
+ * microseconds more. IMP_ERROR_USAGE: no such type. */
+IMP_EXPORT imp_code imp_registry_isolate(imp_registry *registry, const char *names,
+                                         imp_error *error);
+
 typedef enum imp_type_sort { IMP_SORT_SURFACE, IMP_SORT_MAP } imp_type_sort;
 
 /* One type found. Strings live as long as the registry. */
