@@ -58,7 +58,7 @@ static inline void curve_at_number(const patch *f, double s, imp_model out[3])
     const double p[3] = {s, 0, 0};
     double x[3], error[3];
     patch_point(f, p, x, error);
-    for (int i = 0; i < 3; ++i) out[i] = imp_known_(x[i], error[i]);
+    for (int i = 0; i < 3; ++i) out[i] = imp_known(x[i], error[i]);
 }
 
 /* The same model with u in the place of parameter j. */
@@ -83,7 +83,7 @@ static inline void curve_at(const patch *f, imp_model s, int j, imp_model out[3]
     imp_model x[3];
     imp_status status = patch_include(f, &region, x);
     for (int i = 0; i < 3; ++i)
-        out[i] = status == IMP_OK ? curve_of_parameter(&x[i], j) : imp_unbounded_(1u << j);
+        out[i] = status == IMP_OK ? curve_of_parameter(&x[i], j) : imp_unbounded(1u << j);
 }
 
 #endif

@@ -204,7 +204,7 @@ static inline imp_status linear_include(const void *self, const imp_region *regi
     const linear *f = self;
     const bool late = linear_is_late(region);
     for (int i = 0; i < 3; ++i)
-        model[i] = late ? imp_unbounded_(f->depends[i]) : linear_model(f, i, region);
+        model[i] = late ? imp_unbounded(f->depends[i]) : linear_model(f, i, region);
     return late ? IMP_UNBOUNDED : IMP_OK;
 }
 

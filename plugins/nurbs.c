@@ -272,7 +272,7 @@ static imp_status nurbs_include(const void *self, const imp_region *region, imp_
 {
     const nurbs_instance *f = self;
     if (!nurbs_has(f, region->lo) || !nurbs_has(f, region->hi)) {
-        for (int axis = 0; axis < 3; ++axis) model[axis] = imp_unbounded_(7);
+        for (int axis = 0; axis < 3; ++axis) model[axis] = imp_unbounded(7);
         return IMP_UNBOUNDED;
     }
     const cell_range cells = nurbs_cells_of(f, region);

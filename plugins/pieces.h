@@ -37,7 +37,7 @@ enum { PIECES_STILL = 9, PIECES_MOVED = 5, PIECES_SAMPLES = PIECES_STILL + PIECE
 static inline imp_model pieces_quadratic(double x[PIECES_SAMPLES][3], int i)
 {
     const double off = PIECES_OFF, centre = x[4][i], u = x[7][i] - x[1][i], v = x[5][i] - x[3][i];
-    imp_model g = imp_zero_();
+    imp_model g = imp_model_zero();
     g.a = centre;
     g.b[0] = u / (2 * off);
     g.b[1] = v / (2 * off);
@@ -89,17 +89,12 @@ static inline pieces_shift pieces_shift_of(const imp_region *whole, const imp_re
     return s;
 }
 
-static inline double pieces_size(const imp_model *g)
-{
-    return fabs(g->a) + imp_sum_abs3_(g->b) + imp_sum_abs6_(g->q);
-}
-
 /* The quadratic `whole` in the piece's parameters. Rounding: |sigma|, |delta| <= 1 within 2 units, and
  * a coefficient is a sum of at most ten products of four factors: below 32 units of its size. */
 static inline imp_model pieces_restrict(const imp_model *whole, const pieces_shift *shift)
 {
     const double *sigma = shift->sigma, *delta = shift->delta;
-    imp_model g = imp_zero_();
+    imp_model g = imp_model_zero();
     g.a = whole->a;
     for (int j = 0; j < 3; ++j) {
         g.a += whole->b[j] * sigma[j];
@@ -123,7 +118,7 @@ static inline double pieces_distance_upper(const imp_model *whole, const imp_mod
     apart.a -= g->a;
     for (int j = 0; j < 3; ++j) apart.b[j] -= g->b[j];
     for (int k = 0; k < 6; ++k) apart.q[k] -= g->q[k];
-    apart.e = g->e + 64 * IMP_U * (pieces_size(whole) + pieces_size(g));
+    apart.e = g->e + 64 * IMP_U * (imp_model_size(whole) + imp_model_size(g));
     return imp_interval_mag(imp_model_poly_range(&apart)) * IMP_SLACK;
 }
 

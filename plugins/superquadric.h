@@ -86,7 +86,7 @@ static inline bool superellipse_is_even(const superellipse *s)
 static inline imp_model superellipse_bowl(const superellipse *s, imp_model w, imp_interval range)
 {
     const double side = s->power < 2 ? 0.5 : -0.5;
-    const double most = imp_interval_mag(imp_range_(&w));
+    const double most = imp_interval_mag(imp_model_range(&w));
     imp_model z = imp_scale(w, 1 / most);
     imp_model t = imp_shift(imp_scale(imp_sqr(z), range.hi), side * s->dent * range.hi);
     t.e = (t.e + (0.5 * s->dent + 0x1p-47) * range.hi) * IMP_SLACK;
@@ -98,11 +98,11 @@ static inline imp_model superellipse_bowl(const superellipse *s, imp_model w, im
 /* |w|^q. */
 static inline imp_model superellipse_power(const superellipse *s, imp_model w)
 {
-    const imp_interval size = imp_interval_abs(imp_range_(&w));
+    const imp_interval size = imp_interval_abs(imp_model_range(&w));
     if (superellipse_is_even(s)) return imp_powi(w, (int)s->power);
     imp_model t = imp_pow(w.lo > 0 ? w : w.hi < 0 ? imp_neg(w) : imp_abs(w), s->power);
     const imp_interval range = imp_interval_pow(size, s->power);
-    if (imp_is_point_(&w) || size.hi < 0x1p-300 || t.e <= 0.5 * s->dent * range.hi) return t;
+    if (imp_is_point(&w) || size.hi < 0x1p-300 || t.e <= 0.5 * s->dent * range.hi) return t;
     return superellipse_bowl(s, w, range);
 }
 
@@ -122,7 +122,7 @@ static inline imp_model superellipse_smooth(const superellipse *s, imp_model w)
 /* G from the flat lemma: a range, nothing more. */
 static inline imp_model superellipse_flat(const superellipse *s, imp_model w)
 {
-    const imp_interval size = imp_interval_abs(imp_range_(&w));
+    const imp_interval size = imp_interval_abs(imp_model_range(&w));
     const double lo = size.hi > 1 ? imp_round_down(1 / size.hi) : 1;
     const double hi = size.lo > 1 ? imp_round_up(1 / size.lo) : 1;
     const imp_interval low = imp_interval_pow(imp_interval_make(2, 2), -0.5 * s->exponent);
@@ -161,7 +161,7 @@ static inline void superellipse_near_axis(const superellipse *s, imp_model angle
                                           imp_model *y)
 {
     const imp_model w = imp_tan(angle);
-    const imp_interval size = imp_interval_abs(imp_range_(&w));
+    const imp_interval size = imp_interval_abs(imp_model_range(&w));
     double x_speed, y_speed;
     bool smooth = s->power < SUPERELLIPSE_SHARP &&
                   imp_interval_pow(size, s->power).hi < SUPERELLIPSE_STEEP;
@@ -191,13 +191,13 @@ static inline imp_model superellipse_wide(const imp_model *angle, imp_interval w
 static inline void superellipse_at(const superellipse *s, imp_model angle, imp_model *x,
                                    imp_model *y)
 {
-    const double quarter = rint(imp_interval_mid(imp_range_(&angle)) / (IMP_PI_LOWER / 2));
+    const double quarter = rint(imp_interval_mid(imp_model_range(&angle)) / (IMP_PI_LOWER / 2));
     imp_model near = imp_sub(angle, imp_scale(imp_const_pi(), quarter / 2)), a, b;
     if (s->power == 2) {
         imp_sincos(angle, y, x);
     } else if (!(near.lo > -1.25 && near.hi < 1.25)) {
-        *x = superellipse_wide(&angle, imp_interval_cos(imp_range_(&angle)));
-        *y = superellipse_wide(&angle, imp_interval_sin(imp_range_(&angle)));
+        *x = superellipse_wide(&angle, imp_interval_cos(imp_model_range(&angle)));
+        *y = superellipse_wide(&angle, imp_interval_sin(imp_model_range(&angle)));
     } else {
         superellipse_near_axis(s, near, &a, &b);
         const int turn = (int)fmod(quarter, 4) & 3;

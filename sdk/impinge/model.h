@@ -29,9 +29,13 @@
  *   imp_atan2(y, x)  imp_sinh  imp_cosh  imp_tanh
  *   imp_abs  imp_min(x, y)  imp_max(x, y)
  *
- *   imp_model_box(...)           a model from a value and rates
- *   imp_model_finish(x)          the last step of a model made by hand
- *   imp_model_poly_range(&x)     the range of a model's quadratic
+ * For types that make models by hand:
+ *
+ *   imp_model_box(...)           from a value and rates
+ *   imp_known(a, e)              a number within e of a
+ *   imp_unbounded(depends)       anything
+ *   imp_model_finish(x)          the last step, after setting fields: clips and tidies
+ *   imp_model_range(&x), imp_model_poly_range(&x), imp_model_size(&x), imp_is_point(&x)
  *
  * A model that depends on no parameter is a constant: a number known within e. Operations on
  * constants take a short way, which is how points are evaluated.

@@ -25,7 +25,7 @@ static inline imp_model imp_wave_(const imp_model *x, imp_series_ s, double f, d
 {
     const double t[5] = {f, g, -f / 2, -g / 6, f / 24};
     imp_series_set_(&s, 1, t, imp_power5_(s.r) / 120, 10, 11);
-    imp_interval at = imp_series_is_sharp_(&s) ? imp_series_range_(&s) : range(imp_range_(x));
+    imp_interval at = imp_series_is_sharp_(&s) ? imp_series_range_(&s) : range(imp_model_range(x));
     double slope = (fabs(g) + fabs(f) * s.r) * (1 + 0x1p-40) + IMP_TINY;
     at = imp_interval_meet(at, imp_interval_make(-1, 1));
     return imp_compose_(x, &s, at, imp_smaller(slope, 1));
@@ -33,27 +33,27 @@ static inline imp_model imp_wave_(const imp_model *x, imp_series_ s, double f, d
 
 static inline imp_model imp_sin(imp_model x)
 {
-    if (imp_is_point_(&x)) return imp_point_within_(&x, sin(x.a), 1, -1, 1);
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    if (imp_is_point(&x)) return imp_point_within_(&x, sin(x.a), 1, -1, 1);
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     return imp_wave_(&x, s, sin(s.m), cos(s.m), imp_interval_sin);
 }
 
 static inline imp_model imp_cos(imp_model x)
 {
-    if (imp_is_point_(&x)) return imp_point_within_(&x, cos(x.a), 1, -1, 1);
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    if (imp_is_point(&x)) return imp_point_within_(&x, cos(x.a), 1, -1, 1);
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     return imp_wave_(&x, s, cos(s.m), -sin(s.m), imp_interval_cos);
 }
 
 /* Both, for less. */
 static inline void imp_sincos(imp_model x, imp_model *sine, imp_model *cosine)
 {
-    if (imp_is_point_(&x)) {
+    if (imp_is_point(&x)) {
         *sine = imp_point_within_(&x, sin(x.a), 1, -1, 1);
         *cosine = imp_point_within_(&x, cos(x.a), 1, -1, 1);
         return;
     }
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     double f = sin(s.m), g = cos(s.m);
     *sine = imp_wave_(&x, s, f, g, imp_interval_sin);
     *cosine = imp_wave_(&x, s, g, -f, imp_interval_cos);
@@ -64,11 +64,11 @@ static inline void imp_sincos(imp_model x, imp_model *sine, imp_model *cosine)
  * the larger |tan|. T is within (L), so T^2 within 21 u, and no t_k is off by more than 100 u. */
 static inline imp_model imp_tan(imp_model x)
 {
-    imp_interval range = imp_interval_tan(imp_range_(&x));
+    imp_interval range = imp_interval_tan(imp_model_range(&x));
     double top = imp_interval_mag(range), tt = top * top;
     double slope = imp_round_up(imp_sum_up(1 + tt * (1 + 0x1p-50)));
-    if (imp_is_point_(&x) && top < INFINITY) return imp_point_(&x, tan(x.a), slope);
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    if (imp_is_point(&x) && top < INFINITY) return imp_point_(&x, tan(x.a), slope);
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     if (top < INFINITY) {
         double y = tan(s.m), yy = y * y, d = 1 + yy;
         const double t[5] = {y, d, d * y, d * (1 + 3 * yy) / 3, d * y * (2 + 3 * yy) / 3};
@@ -86,16 +86,16 @@ static inline imp_model imp_tan(imp_model x)
  * tail takes. */
 static inline imp_model imp_atan(imp_model x)
 {
-    double least = imp_interval_mig(imp_range_(&x));
+    double least = imp_interval_mig(imp_model_range(&x));
     double slope = imp_round_up(1 / (1 + least * least)) * (1 + 0x1p-50);
-    if (imp_is_point_(&x)) return imp_point_(&x, atan(x.a), slope);
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    if (imp_is_point(&x)) return imp_point_(&x, atan(x.a), slope);
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     double m = s.m, w = 1 / (1 + m * m), z = s.r * sqrt(slope), v = m * w;
     const double t[5] = {atan(m), w, -v * w, (3 * m * v - w) * w * w / 3, (w - m * v) * v * w * w};
     double tail = imp_power5_(z) / 5 + 20 * IMP_U * (z * z * z + z * z * z * z);
     imp_series_set_(&s, 1, t, tail * (1 + 0x1p-40), 10, 12);
     imp_interval range =
-        imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_atan(imp_range_(&x));
+        imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_atan(imp_model_range(&x));
     return imp_compose_(&x, &s, range, slope);
 }
 
@@ -122,19 +122,19 @@ static inline double imp_asin_slope_upper_(double top)
 /* Nothing but points where the range is degenerate: at 1 and -1 exactly, and within. */
 static inline int imp_asin_is_point_(const imp_model *x, double top)
 {
-    return imp_is_point_(x) && (top < 1 || (top == 1 && x->e == 0));
+    return imp_is_point(x) && (top < 1 || (top == 1 && x->e == 0));
 }
 
 /* Beyond -1 and 1 rounding is to blame: those parts of x count as -1 and 1. There the rate is
  * infinite. */
 static inline imp_model imp_asin(imp_model x)
 {
-    double top = imp_interval_mag(imp_range_(&x));
+    double top = imp_interval_mag(imp_model_range(&x));
     double slope = x.e > 0 || x.depends ? imp_asin_slope_upper_(top) : 0;
     if (imp_asin_is_point_(&x, top))
         return imp_point_within_(&x, asin(x.a), slope, -IMP_PI_UPPER / 2, IMP_PI_UPPER / 2);
-    imp_interval range = imp_interval_asin(imp_range_(&x));
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    imp_interval range = imp_interval_asin(imp_model_range(&x));
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     if (top < 1) imp_series_asin_(&s, top);
     return imp_compose_(&x, &s, range, slope);
 }
@@ -143,12 +143,12 @@ static inline imp_model imp_asin(imp_model x)
  * (L) and already counted. */
 static inline imp_model imp_acos(imp_model x)
 {
-    double top = imp_interval_mag(imp_range_(&x));
+    double top = imp_interval_mag(imp_model_range(&x));
     double slope = x.e > 0 || x.depends ? imp_asin_slope_upper_(top) : 0;
     if (imp_asin_is_point_(&x, top))
         return imp_point_within_(&x, acos(x.a), slope, 0, IMP_PI_UPPER);
-    imp_interval range = imp_interval_acos(imp_range_(&x));
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    imp_interval range = imp_interval_acos(imp_model_range(&x));
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     if (top < 1) {
         imp_series_asin_(&s, top);
         s.c[0] = IMP_PI_LOWER / 2 - s.c[0];
@@ -164,27 +164,27 @@ static inline imp_model imp_acos(imp_model x)
  * within 2^-30 |x| < 10^-6 of the exact x, slopes differ by less than 1 in 1000. */
 static inline imp_model imp_sinh(imp_model x)
 {
-    if (imp_is_point_(&x)) {
+    if (imp_is_point(&x)) {
         double y = imp_sinh_(x.a);
         return imp_point_(&x, y, 1.001 * (fabs(y) + 1));
     }
-    double slope = imp_interval_cosh(imp_range_(&x)).hi;
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    double slope = imp_interval_cosh(imp_model_range(&x)).hi;
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     double f = imp_sinh_(s.m), g = imp_cosh_(s.m);
     const double t[5] = {f, g, f / 2, g / 6, f / 24};
     imp_series_set_(&s, 1, t, slope * imp_power5_(s.r) / 120, 10, 11);
-    return imp_compose_(&x, &s, imp_interval_sinh(imp_range_(&x)), slope);
+    return imp_compose_(&x, &s, imp_interval_sinh(imp_model_range(&x)), slope);
 }
 
 static inline imp_model imp_cosh(imp_model x)
 {
-    if (imp_is_point_(&x)) {
+    if (imp_is_point(&x)) {
         double y = imp_cosh_(x.a);
         return imp_point_within_(&x, y, 1.001 * y, 1, INFINITY);
     }
-    double slope = imp_interval_mag(imp_interval_sinh(imp_range_(&x)));
-    imp_interval range = imp_interval_cosh(imp_range_(&x));
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    double slope = imp_interval_mag(imp_interval_sinh(imp_model_range(&x)));
+    imp_interval range = imp_interval_cosh(imp_model_range(&x));
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     double f = imp_cosh_(s.m), g = imp_sinh_(s.m);
     const double t[5] = {f, g, f / 2, g / 6, f / 24};
     imp_series_set_(&s, 1, t, range.hi * imp_power5_(s.r) / 120, 10, 11);
@@ -195,11 +195,11 @@ static inline imp_model imp_cosh(imp_model x)
  * most 2 D / 15. T is within 10 u, so D within 24 u, absolutely, and the rest within 60 u. */
 static inline imp_model imp_tanh(imp_model x)
 {
-    if (imp_is_point_(&x)) return imp_point_within_(&x, tanh(x.a), 1, -1, 1);
-    imp_interval range = imp_interval_tanh(imp_range_(&x));
+    if (imp_is_point(&x)) return imp_point_within_(&x, tanh(x.a), 1, -1, 1);
+    imp_interval range = imp_interval_tanh(imp_model_range(&x));
     double least = imp_interval_mig(range);
     double slope = imp_smaller((1 - least) * (1 + least) * (1 + 0x1p-50) + IMP_TINY, 1);
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     double y = tanh(s.m), yy = y * y, d = (1 - y) * (1 + y), r = s.r;
     const double t[5] = {y, d, -d * y, d * (3 * yy - 1) / 3, d * y * (2 - 3 * yy) / 3};
     double tail = slope * imp_power5_(r) * 2 / 15 + 60 * IMP_U * (r + r * r) * (1 + r * r);
@@ -213,7 +213,7 @@ static inline imp_model imp_tanh(imp_model x)
 /* All angles, at any rate: where (x, y) may cross the cut or be the origin. */
 static inline imp_model imp_any_angle_(uint32_t depends)
 {
-    imp_model r = imp_unbounded_(depends);
+    imp_model r = imp_unbounded(depends);
     r.lo = -IMP_PI_UPPER;
     r.hi = IMP_PI_UPPER;
     return imp_collapse_(r);
@@ -225,7 +225,8 @@ static inline imp_model imp_any_angle_(uint32_t depends)
  */
 static inline imp_model imp_atan2(imp_model y, imp_model x)
 {
-    double x_least = imp_interval_mig(imp_range_(&x)), y_least = imp_interval_mig(imp_range_(&y));
+    double x_least = imp_interval_mig(imp_model_range(&x)),
+           y_least = imp_interval_mig(imp_model_range(&y));
     imp_model turn = imp_const_pi();
     if ((x.lo <= 0 && y.lo < 0 && y.hi >= 0) || !(x_least > 0 || y_least > 0))
         return imp_any_angle_(x.depends | y.depends);

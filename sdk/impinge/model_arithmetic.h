@@ -29,16 +29,16 @@ extern "C" {
 
 /* --- Constants and parameters ------------------------------------------------- */
 
-static inline imp_model imp_zero_(void)
+static inline imp_model imp_model_zero(void)
 {
     imp_model r = {0, {0, 0, 0}, {0, 0, 0, 0, 0, 0}, 0, 0, 0, {0, 0, 0}, 0, 0};
     return r;
 }
 
 /* Nothing is known, but that it depends on no more than that. */
-static inline imp_model imp_unbounded_(uint32_t depends)
+static inline imp_model imp_unbounded(uint32_t depends)
 {
-    imp_model r = imp_zero_();
+    imp_model r = imp_model_zero();
     r.e = INFINITY;
     r.lo = -INFINITY;
     r.hi = INFINITY;
@@ -50,18 +50,18 @@ static inline imp_model imp_unbounded_(uint32_t depends)
 /* The number k, exactly. */
 static inline imp_model imp_num(double k)
 {
-    if (!(k - k == 0)) return imp_unbounded_(0);
-    imp_model r = imp_zero_();
+    if (!(k - k == 0)) return imp_unbounded(0);
+    imp_model r = imp_model_zero();
     r.a = r.lo = r.hi = k;
     return r;
 }
 
-/* A number that is within e of a, when e covers the rounding of a too. An overflow of either makes
- * e infinite or NaN. */
-static inline imp_model imp_known_(double a, double e)
+/* A number within e of a; e covers the rounding of a, so that an overflow of a makes e infinite or
+ * NaN, and the number unbounded. */
+static inline imp_model imp_known(double a, double e)
 {
-    if (!(e < INFINITY)) return imp_unbounded_(0);
-    imp_model r = imp_zero_();
+    if (!(e < INFINITY)) return imp_unbounded(0);
+    imp_model r = imp_model_zero();
     r.a = a;
     r.e = e;
     r.lo = imp_sum_down(a - e);
@@ -74,7 +74,7 @@ static inline imp_model imp_known_(double a, double e)
 static inline imp_model imp_collapse_(imp_model x)
 {
     imp_interval range = imp_interval_make(x.lo, x.hi);
-    if (!(x.lo <= x.hi)) return imp_unbounded_(x.depends);
+    if (!(x.lo <= x.hi)) return imp_unbounded(x.depends);
     int finite = imp_interval_is_finite(range);
     x.a = finite ? imp_interval_mid(range) : 0;
     x.e = finite ? imp_interval_radius_upper(range, x.a) : INFINITY;
@@ -86,8 +86,8 @@ static inline imp_model imp_collapse_(imp_model x)
 /* A number of which only lo <= it <= hi is known. */
 static inline imp_model imp_between(double lo, double hi)
 {
-    imp_model r = imp_zero_();
-    if (!(lo <= hi)) return imp_unbounded_(0);
+    imp_model r = imp_model_zero();
+    if (!(lo <= hi)) return imp_unbounded(0);
     r.lo = lo;
     r.hi = hi;
     return imp_collapse_(r);
@@ -96,7 +96,7 @@ static inline imp_model imp_between(double lo, double hi)
 /* The parameter u (j = 0), v (1) or t (2): c + d s exactly, by definition of s. */
 static inline imp_model imp_param(const imp_region *region, int j)
 {
-    imp_model r = imp_zero_();
+    imp_model r = imp_model_zero();
     r.a = region->c[j];
     r.b[j] = region->d[j];
     r.lo = region->lo[j];
@@ -117,7 +117,7 @@ static inline imp_model imp_const_pi(void)
 
 /* --- Asking and finishing ----------------------------------------------------------- */
 
-static inline imp_interval imp_range_(const imp_model *x)
+static inline imp_interval imp_model_range(const imp_model *x)
 {
     imp_interval r;
     r.lo = x->lo;
@@ -135,16 +135,22 @@ static inline double imp_sum_abs6_(const double q[6])
     return (fabs(q[0]) + fabs(q[1])) + (fabs(q[2]) + fabs(q[3])) + (fabs(q[4]) + fabs(q[5]));
 }
 
+/* |a| + sum |b_j| + sum |q_jk|: what the quadratic is at most, but for rounding. */
+static inline double imp_model_size(const imp_model *x)
+{
+    return fabs(x->a) + imp_sum_abs3_(x->b) + imp_sum_abs6_(x->q);
+}
+
 /* A constant known to fewer than 30 bits: better off with interval arithmetic. */
 static inline int imp_is_wide_(const imp_model *x) { return x->e > fabs(x->a) * 0x1p-30; }
 
 /* A constant worth evaluating at its middle, which is one of the values it may have. */
-static inline int imp_is_point_(const imp_model *x)
+static inline int imp_is_point(const imp_model *x)
 {
     return !x->depends && !imp_is_wide_(x) && x->lo <= x->a && x->a <= x->hi;
 }
 
-static inline int imp_is_exact_(const imp_model *x) { return !x->depends && x->e == 0; }
+static inline int imp_is_exact(const imp_model *x) { return !x->depends && x->e == 0; }
 
 /* Bounds of b s + q s^2 over [-1, 1]. Lemma: the extremes are q +- b at the ends, 0 at s = 0 and,
  * if |b| < 2 |q|, the vertex -b^2 / 4q, which is nearer to 0 than |b| / 2 is. */
@@ -168,7 +174,7 @@ static inline imp_interval imp_model_poly_range(const imp_model *x)
                 imp_bow_lower_(x->b[2], x->q[IMP_TT]) - cross;
     double hi = imp_bow_upper_(x->b[0], x->q[IMP_UU]) + imp_bow_upper_(x->b[1], x->q[IMP_VV]) +
                 imp_bow_upper_(x->b[2], x->q[IMP_TT]) + cross;
-    double pad = 0x1p-48 * (fabs(x->a) + imp_sum_abs3_(x->b) + imp_sum_abs6_(x->q) + x->e);
+    double pad = 0x1p-48 * (imp_model_size(x) + x->e);
     return imp_interval_make(x->a + lo - pad, x->a + hi + pad);
 }
 
@@ -200,7 +206,7 @@ static inline imp_model imp_model_finish(imp_model x)
 static inline imp_model imp_model_box(double a, double a_error, const double rate[3],
                                       const double d[3])
 {
-    imp_model r = imp_zero_();
+    imp_model r = imp_model_zero();
     r.a = a;
     r.e = ((rate[0] * d[0] + rate[1] * d[1] + rate[2] * d[2]) + a_error + IMP_TINY) * IMP_SLACK;
     r.lo = imp_sum_down(a - r.e);
@@ -235,8 +241,7 @@ static inline imp_model imp_add_(const imp_model *x, const imp_model *y)
         r.rate[j] = imp_sum_up(x->rate[j] + y->rate[j]);
     }
     for (int j = 0; j < 6; j++) r.q[j] = x->q[j] + y->q[j];
-    double size = fabs(r.a) + imp_sum_abs3_(r.b) + imp_sum_abs6_(r.q);
-    r.e = (x->e + y->e + (IMP_U * size + IMP_TINY)) * IMP_SLACK;
+    r.e = (x->e + y->e + (IMP_U * imp_model_size(&r) + IMP_TINY)) * IMP_SLACK;
     r.lo = imp_sum_down(x->lo + y->lo);
     r.hi = imp_sum_up(x->hi + y->hi);
     r.depends = x->depends | y->depends;
@@ -246,16 +251,16 @@ static inline imp_model imp_add_(const imp_model *x, const imp_model *y)
 
 static inline imp_model imp_add_point_(double a, double x_error, double y_error)
 {
-    return imp_known_(a, (x_error + y_error + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
+    return imp_known(a, (x_error + y_error + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
 }
 
 /* x + k where k is exact: rounds the middle only. */
 static inline imp_model imp_shift(imp_model x, double k)
 {
     if (k == 0) return x;
-    if (imp_is_exact_(&x) && x.a == 0) return imp_num(k);
+    if (imp_is_exact(&x) && x.a == 0) return imp_num(k);
     double a = x.a + k;
-    if (imp_is_point_(&x)) return imp_add_point_(a, x.e, 0);
+    if (imp_is_point(&x)) return imp_add_point_(a, x.e, 0);
     x.e = (x.e + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK;
     x.a = a;
     x.lo = imp_sum_down(x.lo + k);
@@ -265,9 +270,9 @@ static inline imp_model imp_shift(imp_model x, double k)
 
 static inline imp_model imp_add(imp_model x, imp_model y)
 {
-    if (imp_is_exact_(&y)) return imp_shift(x, y.a);
-    if (imp_is_exact_(&x)) return imp_shift(y, x.a);
-    if (imp_is_point_(&x) && imp_is_point_(&y)) return imp_add_point_(x.a + y.a, x.e, y.e);
+    if (imp_is_exact(&y)) return imp_shift(x, y.a);
+    if (imp_is_exact(&x)) return imp_shift(y, x.a);
+    if (imp_is_point(&x) && imp_is_point(&y)) return imp_add_point_(x.a + y.a, x.e, y.e);
     return imp_add_(&x, &y);
 }
 
@@ -278,7 +283,7 @@ static inline imp_model imp_sub(imp_model x, imp_model y) { return imp_add(x, im
 /* x k at a point. */
 static inline imp_model imp_scale_point_(double a, double k, double error)
 {
-    return imp_known_(a * k, (error * fabs(k) + (IMP_U * fabs(a * k) + IMP_TINY)) * IMP_SLACK);
+    return imp_known(a * k, (error * fabs(k) + (IMP_U * fabs(a * k) + IMP_TINY)) * IMP_SLACK);
 }
 
 /* x k where k is exact: each of the ten products is rounded once, by u times its own magnitude. */
@@ -286,9 +291,9 @@ static inline imp_model imp_scale(imp_model x, double k)
 {
     if (k == 0) return imp_num(0);
     if (k == 1 || k == -1) return k > 0 ? x : imp_neg(x);
-    if (!(k - k == 0)) return imp_unbounded_(x.depends);
-    if (imp_is_point_(&x)) return imp_scale_point_(x.a, k, x.e);
-    imp_interval range = imp_interval_scale(imp_range_(&x), k);
+    if (!(k - k == 0)) return imp_unbounded(x.depends);
+    if (imp_is_point(&x)) return imp_scale_point_(x.a, k, x.e);
+    imp_interval range = imp_interval_scale(imp_model_range(&x), k);
     x.a *= k;
     x.lo = range.lo;
     x.hi = range.hi;
@@ -297,8 +302,7 @@ static inline imp_model imp_scale(imp_model x, double k)
         x.rate[j] = imp_round_up(x.rate[j] * fabs(k));
     }
     for (int j = 0; j < 6; j++) x.q[j] *= k;
-    double size = fabs(x.a) + imp_sum_abs3_(x.b) + imp_sum_abs6_(x.q);
-    x.e = (x.e * fabs(k) + (IMP_U * size + IMP_TINY)) * IMP_SLACK;
+    x.e = (x.e * fabs(k) + (IMP_U * imp_model_size(&x) + IMP_TINY)) * IMP_SLACK;
     return imp_model_finish(x);
 }
 
@@ -385,7 +389,8 @@ static inline void imp_product_(const imp_model *x, const imp_model *y, imp_mode
     for (int j = 0; j < 3; j++) r->b[j] = (x->a * y->b[j] + y->a * x->b[j]) + linear[j];
     for (int k = 0; k < 6; k++) r->q[k] = (ax * y->q[k] + ay * x->q[k]) + bb[k];
     rest += imp_swing_upper_(x->q, qx) * imp_swing_upper_(y->q, qy);
-    double x_mag = imp_interval_mag(imp_range_(x)), y_mag = imp_interval_mag(imp_range_(y));
+    double x_mag = imp_interval_mag(imp_model_range(x)),
+           y_mag = imp_interval_mag(imp_model_range(y));
     double inherited = x->e * y_mag + y->e * (x_mag + x->e);
     double nx = fabs(x->a) + bx + qx, ny = fabs(y->a) + by + qy;
     double rounding = 4 * nx * ny - 2 * fabs(x->a * y->a) + (bx + qx) * (by + qy);
@@ -395,7 +400,8 @@ static inline void imp_product_(const imp_model *x, const imp_model *y, imp_mode
 /* (x y)' = x' y + x y'; two products and a sum. */
 static inline void imp_product_rates_(const imp_model *x, const imp_model *y, imp_model *r)
 {
-    double x_mag = imp_interval_mag(imp_range_(x)), y_mag = imp_interval_mag(imp_range_(y));
+    double x_mag = imp_interval_mag(imp_model_range(x)),
+           y_mag = imp_interval_mag(imp_model_range(y));
     for (int j = 0; j < 3; j++)
         r->rate[j] = (x_mag * y->rate[j] + y_mag * x->rate[j] + IMP_TINY) * IMP_SLACK;
 }
@@ -403,7 +409,7 @@ static inline void imp_product_rates_(const imp_model *x, const imp_model *y, im
 static inline imp_model imp_mul_(const imp_model *x, const imp_model *y)
 {
     imp_model r;
-    imp_interval range = imp_interval_mul(imp_range_(x), imp_range_(y));
+    imp_interval range = imp_interval_mul(imp_model_range(x), imp_model_range(y));
     imp_product_(x, y, &r);
     imp_product_rates_(x, y, &r);
     r.lo = range.lo;
@@ -418,14 +424,14 @@ static inline imp_model imp_mul_point_(const imp_model *x, const imp_model *y)
 {
     double a = x->a * y->a;
     double inherited = x->e * fabs(y->a) + y->e * (fabs(x->a) + x->e);
-    return imp_known_(a, (inherited + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
+    return imp_known(a, (inherited + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
 }
 
 static inline imp_model imp_mul(imp_model x, imp_model y)
 {
-    if (imp_is_exact_(&y)) return imp_scale(x, y.a);
-    if (imp_is_exact_(&x)) return imp_scale(y, x.a);
-    if (imp_is_point_(&x) && imp_is_point_(&y)) return imp_mul_point_(&x, &y);
+    if (imp_is_exact(&y)) return imp_scale(x, y.a);
+    if (imp_is_exact(&x)) return imp_scale(y, x.a);
+    if (imp_is_point(&x) && imp_is_point(&y)) return imp_mul_point_(&x, &y);
     return imp_mul_(&x, &y);
 }
 

@@ -21,8 +21,8 @@ extern "C" {
 /* x^2 = m^2 + 2 m y + y^2, exactly but for the rounding of m^2. */
 static inline imp_model imp_sqr(imp_model x)
 {
-    imp_interval range = imp_range_(&x);
-    if (imp_is_point_(&x)) {
+    imp_interval range = imp_model_range(&x);
+    if (imp_is_point(&x)) {
         imp_model p = imp_mul_point_(&x, &x);
         p.lo = imp_larger(p.lo, 0);
         return p;
@@ -59,7 +59,7 @@ static inline imp_model imp_poly_point_(const double *coef, size_t n, const imp_
     imp_poly_sizes_ sizes = imp_poly_sizes_upper_(coef, n, imp_sum_up(fabs(t->a) + t->e));
     double y = 0, rounding = 2.01 * IMP_U * (double)n * sizes.value;
     for (size_t k = n; k > 0; k--) y = y * t->a + coef[k - 1];
-    return imp_known_(y, (rounding + sizes.slope * t->e) * IMP_SLACK);
+    return imp_known(y, (rounding + sizes.slope * t->e) * IMP_SLACK);
 }
 
 static inline imp_model imp_poly_horner_(const double *coef, size_t n, imp_model t)
@@ -105,13 +105,13 @@ static inline imp_model imp_poly(const double *coef, size_t n, imp_model t)
 {
     if (n < 2) return imp_num(n > 0 ? coef[0] : 0);
     if (n == 2) return imp_shift(imp_scale(t, coef[1]), coef[0]);
-    if (imp_is_point_(&t)) return imp_poly_point_(coef, n, &t);
+    if (imp_is_point(&t)) return imp_poly_point_(coef, n, &t);
     if (n > IMP_POLY_MAX) return imp_poly_horner_(coef, n, t);
-    imp_series_ s = imp_series_at_(imp_range_(&t));
+    imp_series_ s = imp_series_at_(imp_model_range(&t));
     double slope = imp_series_poly_(&s, coef, n);
     imp_interval range = imp_series_range_(&s);
     if (!imp_series_is_sharp_(&s))
-        range = imp_interval_meet(range, imp_poly_interval_(coef, n, imp_range_(&t)));
+        range = imp_interval_meet(range, imp_poly_interval_(coef, n, imp_model_range(&t)));
     return imp_compose_(&t, &s, range, slope);
 }
 
@@ -145,8 +145,8 @@ static inline imp_model imp_powi_point_(const imp_model *x, int n)
 /* n >= 3. */
 static inline imp_model imp_powi_positive_(imp_model x, int n)
 {
-    imp_interval range = imp_range_(&x);
-    if (imp_is_point_(&x) && n < 1 << 20) return imp_powi_point_(&x, n);
+    imp_interval range = imp_model_range(&x);
+    if (imp_is_point(&x) && n < 1 << 20) return imp_powi_point_(&x, n);
     double top = imp_interval_pow(imp_interval_abs(range), n - 1).hi;
     imp_series_ s = imp_series_at_(range);
     imp_series_powi_(&s, n);
@@ -158,27 +158,22 @@ static inline imp_model imp_powi_positive_(imp_model x, int n)
 /* x / y at a point: |x / y - a / a'| <= (e + |a / a'| e') / min |y|. */
 static inline imp_model imp_div_point_(const imp_model *x, const imp_model *y)
 {
-    double a = x->a / y->a, least = imp_interval_mig(imp_range_(y));
+    double a = x->a / y->a, least = imp_interval_mig(imp_model_range(y));
     double inherited = (x->e + imp_round_up(fabs(a)) * y->e) / least;
-    return imp_known_(a, (inherited + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
-}
-
-static inline double imp_size_(const imp_model *x)
-{
-    return fabs(x->a) + imp_sum_abs3_(x->b) + imp_sum_abs6_(x->q);
+    return imp_known(a, (inherited + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
 }
 
 /* The terms up to degree 2 of the power series of (quadratic of x) / (quadratic of y): a guess, of
  * which nothing is claimed. */
 static inline imp_model imp_quotient_guess_(const imp_model *x, const imp_model *y, double inverse)
 {
-    imp_model z = imp_zero_();
+    imp_model z = imp_model_zero();
     double zz[6];
     z.a = x->a * inverse;
     for (int j = 0; j < 3; j++) z.b[j] = (x->b[j] - z.a * y->b[j]) * inverse;
     imp_square_terms_(z.b, y->b, zz);
     for (int k = 0; k < 6; k++) z.q[k] = (x->q[k] - z.a * y->q[k] - zz[k]) * inverse;
-    z.hi = imp_size_(&z) * IMP_SLACK;
+    z.hi = imp_model_size(&z) * IMP_SLACK;
     z.lo = -z.hi;
     return z;
 }
@@ -207,8 +202,8 @@ static inline void imp_quotient_(const imp_model *x, const imp_model *y, double 
         w.q[k] = x->q[k] - w.q[k];
         r->q[k] = z.q[k] + w.q[k] * inverse;
     }
-    double rho = imp_size_(&w), size = fabs(y->a) + swing;
-    double rounding = 8 * rho + imp_size_(r) * size;
+    double rho = imp_model_size(&w), size = fabs(y->a) + swing;
+    double rounding = 8 * rho + imp_model_size(r) * size;
     double rest = w.e + x->e + swing * (rho * fabs(inverse));
     double residual = rest + (IMP_U * rounding + IMP_TINY * (1 + size));
     r->e = (residual / least + IMP_TINY) * IMP_SLACK;
@@ -217,7 +212,7 @@ static inline void imp_quotient_(const imp_model *x, const imp_model *y, double 
 /* x / k where k is exact: each of the ten quotients is rounded once. */
 static inline imp_model imp_div_exact_(imp_model x, double k)
 {
-    imp_interval at = imp_interval_div(imp_range_(&x), imp_interval_make(k, k));
+    imp_interval at = imp_interval_div(imp_model_range(&x), imp_interval_make(k, k));
     x.a /= k;
     x.lo = at.lo;
     x.hi = at.hi;
@@ -226,19 +221,19 @@ static inline imp_model imp_div_exact_(imp_model x, double k)
         x.rate[j] = imp_round_up(x.rate[j] / fabs(k));
     }
     for (int j = 0; j < 6; j++) x.q[j] /= k;
-    x.e = (x.e / fabs(k) + (IMP_U * imp_size_(&x) + IMP_TINY)) * IMP_SLACK;
+    x.e = (x.e / fabs(k) + (IMP_U * imp_model_size(&x) + IMP_TINY)) * IMP_SLACK;
     return imp_model_finish(x);
 }
 
 /* The rate of a quotient: (|x'| + |x / y| |y'|) / |y|. */
 static inline imp_model imp_div(imp_model x, imp_model y)
 {
-    double least = imp_interval_mig(imp_range_(&y));
-    if (imp_is_exact_(&x) && x.a == 0 && least > 0) return x;
-    if (imp_is_point_(&x) && imp_is_point_(&y) && least > 0) return imp_div_point_(&x, &y);
-    if (imp_is_exact_(&y) && least > 0) return imp_div_exact_(x, y.a);
+    double least = imp_interval_mig(imp_model_range(&y));
+    if (imp_is_exact(&x) && x.a == 0 && least > 0) return x;
+    if (imp_is_point(&x) && imp_is_point(&y) && least > 0) return imp_div_point_(&x, &y);
+    if (imp_is_exact(&y) && least > 0) return imp_div_exact_(x, y.a);
     imp_model r;
-    imp_interval range = imp_interval_div(imp_range_(&x), imp_range_(&y));
+    imp_interval range = imp_interval_div(imp_model_range(&x), imp_model_range(&y));
     imp_quotient_(&x, &y, least, &r);
     for (int j = 0; j < 3; j++) {
         double change = x.rate[j] + imp_interval_mag(range) * y.rate[j];
@@ -254,7 +249,7 @@ static inline imp_model imp_div(imp_model x, imp_model y)
 /* x^n for any whole n > -2^31; x != 0 if n < 0. */
 static inline imp_model imp_powi(imp_model x, int n)
 {
-    if (n < -INT32_MAX) return imp_unbounded_(x.depends);
+    if (n < -INT32_MAX) return imp_unbounded(x.depends);
     imp_model r = n > 2 || n < -2 ? imp_powi_positive_(x, n < 0 ? -n : n)
                   : n == 0        ? imp_num(1)
                   : n % 2 == 0    ? imp_sqr(x)
@@ -273,17 +268,17 @@ static inline double imp_growth_upper_(double r)
 /* t_k = e^m / k!; the rest of the series is below e^(m+r) r^5 / 120. */
 static inline imp_model imp_exp(imp_model x)
 {
-    if (imp_is_point_(&x)) {
+    if (imp_is_point(&x)) {
         double y = imp_exp_(x.a);
         return imp_point_within_(&x, y, 1.001 * y, 0, INFINITY);
     }
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     double y = imp_exp_(s.m);
     const double t[5] = {y, y, y / 2, y / 6, y / 24};
     double tail = y * imp_growth_upper_(s.r) * imp_power5_(s.r) / 120 * (1 + 0x1p-40);
     imp_series_set_(&s, 1, t, tail, 10, 11);
     imp_interval range =
-        imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_exp(imp_range_(&x));
+        imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_exp(imp_model_range(&x));
     return imp_compose_(&x, &s, range, range.hi);
 }
 
@@ -291,8 +286,8 @@ static inline imp_model imp_exp(imp_model x)
 static inline imp_model imp_log(imp_model x)
 {
     double slope = x.lo > 0 ? imp_round_up(1 / x.lo) : INFINITY;
-    if (imp_is_point_(&x) && x.lo > 0) return imp_point_(&x, log(x.a), slope);
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    if (imp_is_point(&x) && x.lo > 0) return imp_point_(&x, log(x.a), slope);
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     double z = s.m > 0 ? imp_round_up(s.r / s.m) : INFINITY;
     if (z < 1) {
         const double t[5] = {log(s.m), 1, -1. / 2, 1. / 3, -1. / 4};
@@ -300,7 +295,7 @@ static inline imp_model imp_log(imp_model x)
         imp_series_set_(&s, s.m, t, tail, 10, 1);
     }
     imp_interval range =
-        imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_log(imp_range_(&x));
+        imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_log(imp_model_range(&x));
     return imp_compose_(&x, &s, range, slope);
 }
 
@@ -339,9 +334,9 @@ static inline imp_model imp_power_point_(const imp_model *x, double y, double p)
 static inline imp_model imp_pow(imp_model x, double p)
 {
     if (fabs(p) < 1000 && p == floor(p)) return imp_powi(x, (int)p);
-    imp_interval at = imp_range_(&x);
-    if (!(x.hi >= 0) || !(p - p == 0)) return imp_unbounded_(x.depends);
-    if (imp_is_point_(&x) && x.lo > 0 && fabs(p) < 0x1p20)
+    imp_interval at = imp_model_range(&x);
+    if (!(x.hi >= 0) || !(p - p == 0)) return imp_unbounded(x.depends);
+    if (imp_is_point(&x) && x.lo > 0 && fabs(p) < 0x1p20)
         return imp_power_point_(&x, imp_pow_(x.a, p), p);
     imp_series_ s = imp_series_at_(at);
     if (x.lo > 0) imp_series_power_(&s, p, imp_pow_(s.m, p));
@@ -353,12 +348,12 @@ static inline imp_model imp_pow(imp_model x, double p)
  * At 0 the rate is infinite. */
 static inline imp_model imp_sqrt(imp_model x)
 {
-    if (!(x.hi >= 0)) return imp_unbounded_(x.depends);
-    if (imp_is_exact_(&x) && x.a == 0) return x;
-    if (imp_is_point_(&x) && x.lo > 0) return imp_power_point_(&x, sqrt(x.a), 0.5);
-    imp_interval range = imp_interval_sqrt(imp_range_(&x));
+    if (!(x.hi >= 0)) return imp_unbounded(x.depends);
+    if (imp_is_exact(&x) && x.a == 0) return x;
+    if (imp_is_point(&x) && x.lo > 0) return imp_power_point_(&x, sqrt(x.a), 0.5);
+    imp_interval range = imp_interval_sqrt(imp_model_range(&x));
     double slope = range.lo > 0 ? imp_round_up(0.5 / range.lo) : INFINITY;
-    imp_series_ s = imp_series_at_(imp_range_(&x));
+    imp_series_ s = imp_series_at_(imp_model_range(&x));
     if (x.lo > 0) imp_series_power_(&s, 0.5, sqrt(s.m));
     return imp_compose_(&x, &s, range, slope);
 }
@@ -366,7 +361,7 @@ static inline imp_model imp_sqrt(imp_model x)
 /* x^y for x > 0. */
 static inline imp_model imp_pow_model(imp_model x, imp_model y)
 {
-    if (imp_is_exact_(&y)) return imp_pow(x, y.a);
+    if (imp_is_exact(&y)) return imp_pow(x, y.a);
     return imp_exp(imp_mul(y, imp_log(x)));
 }
 
@@ -379,7 +374,7 @@ static inline imp_model imp_abs(imp_model x)
 {
     if (x.lo >= 0) return x;
     if (x.hi <= 0) return imp_neg(x);
-    imp_interval range = imp_interval_abs(imp_range_(&x));
+    imp_interval range = imp_interval_abs(imp_model_range(&x));
     imp_series_ s = {0, range.hi, {0, 0, 0, 0}, INFINITY};
     double side = imp_smaller(-x.lo, x.hi);
     if (range.hi < INFINITY && side < range.hi / 8) {
@@ -412,7 +407,7 @@ static inline imp_model imp_max(imp_model x, imp_model y)
     if (y.lo >= x.hi) return y;
     imp_model apart = imp_abs(imp_sub(x, y));
     imp_model r = imp_scale(imp_add(imp_add(x, y), apart), 0.5);
-    return imp_either_(r, &x, &y, imp_interval_max(imp_range_(&x), imp_range_(&y)));
+    return imp_either_(r, &x, &y, imp_interval_max(imp_model_range(&x), imp_model_range(&y)));
 }
 
 static inline imp_model imp_min(imp_model x, imp_model y)

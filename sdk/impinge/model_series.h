@@ -185,7 +185,7 @@ static inline imp_model imp_compose_(const imp_model *x, const imp_series_ *s, i
 /* g at a point: y = g(x.a) as libm gives it, slope >= |g'| between x.a and the exact x. */
 static inline imp_model imp_point_(const imp_model *x, double y, double slope)
 {
-    return imp_known_(y, (fabs(y) * IMP_LIBM + slope * x->e + IMP_TINY) * IMP_SLACK);
+    return imp_known(y, (fabs(y) * IMP_LIBM + slope * x->e + IMP_TINY) * IMP_SLACK);
 }
 
 /* The same, and lo <= g <= hi always. */
