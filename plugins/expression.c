@@ -166,7 +166,7 @@ void expression_models(const expression_program *p, const imp_model *variables, 
     memcpy(slot, variables, p->variables * sizeof slot[0]);
     for (size_t k = 0; k < p->variables; ++k) depends |= variables[k].depends;
     bool defined = run_models(p, slot);
-    for (int i = 0; i < 3; ++i) out[i] = defined ? slot[p->out[i]] : imp_unbounded_(depends);
+    for (int i = 0; i < 3; ++i) out[i] = defined ? slot[p->out[i]] : imp_unbounded(depends);
 }
 
 /* False: something on the way is infinite or unknown; models may know more. */

@@ -61,7 +61,7 @@ static inline imp_model near_power(imp_model x, near_constant k)
 {
     imp_model power = imp_pow(x, k.value);
     if (k.error == 0) return power;
-    imp_interval range = imp_range_(&x);
+    imp_interval range = imp_model_range(&x);
     double s0 = imp_sum_down(k.value - k.error), s1 = imp_sum_up(k.value + k.error);
     double slip = imp_round_up(k.error * log_power_upper(range, s0, s1));
     double slope = power_slope_upper(range, s0, s1, imp_larger(fabs(s0), fabs(s1)));
@@ -78,11 +78,11 @@ static inline imp_model near_power(imp_model x, near_constant k)
  * within (L) all fits into the bounds that imp_series_power_ claims. */
 static inline imp_model cube_root_above_(const imp_model *x)
 {
-    imp_interval range = imp_range_(x);
+    imp_interval range = imp_model_range(x);
     double lo = imp_libm_down(cbrt(x->lo)), hi = imp_libm_up(cbrt(x->hi));
     double slope = imp_round_up(1 / (3 * lo * lo) * (1 + 0x1p-48));
     if (!(lo > 0)) slope = INFINITY;
-    if (imp_is_point_(x)) return imp_point_within_(x, cbrt(x->a), slope, 0, INFINITY);
+    if (imp_is_point(x)) return imp_point_within_(x, cbrt(x->a), slope, 0, INFINITY);
     imp_series_ s = imp_series_at_(range);
     imp_series_power_(&s, 1.0 / 3, cbrt(s.m));
     return imp_compose_(x, &s, imp_interval_make(imp_larger(lo, 0), hi), slope);
@@ -96,7 +96,7 @@ static inline imp_model cube_root(imp_model x)
         imp_model mirrored = imp_neg(x);
         return imp_neg(cube_root_above_(&mirrored));
     }
-    if (imp_is_exact_(&x)) return x;
+    if (imp_is_exact(&x)) return x;
     imp_series_ s = {0, INFINITY, {0, 0, 0}, INFINITY};
     imp_interval range = imp_interval_make(imp_libm_down(cbrt(x.lo)), imp_libm_up(cbrt(x.hi)));
     return imp_compose_(&x, &s, range, INFINITY);

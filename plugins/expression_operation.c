@@ -30,7 +30,7 @@ int opcode_operands(opcode code)
 
 imp_model near_model(near_constant k)
 {
-    return k.error == 0 ? imp_num(k.value) : imp_known_(k.value, k.error);
+    return k.error == 0 ? imp_num(k.value) : imp_known(k.value, k.error);
 }
 
 /* --- Models -------------------------------------------------------------------------- */
@@ -67,7 +67,7 @@ static imp_model function_model(opcode code, const imp_model *x)
     case OP_TANH:
         return imp_tanh(*x);
     default:
-        return imp_unbounded_(x->depends);
+        return imp_unbounded(x->depends);
     }
 }
 

@@ -43,7 +43,7 @@ static inline imp_status read_time(const imp_value *values, double *lo, double *
 /* What a variable from lo to hi may be; j is its place among (u, v, t). */
 static inline imp_model whole_range(double lo, double hi, int j)
 {
-    imp_model range = imp_unbounded_(1u << j);
+    imp_model range = imp_unbounded(1u << j);
     range.lo = lo, range.hi = hi;
     return imp_collapse_(range);
 }

@@ -23,7 +23,7 @@ static imp_status compile(const imp_value *values, map_instance *s, imp_complain
 {
     static const char *const names[] = {"x", "y", "z", "t"};
     imp_model whole[4];
-    for (int j = 0; j < 3; ++j) whole[j] = imp_unbounded_(7);
+    for (int j = 0; j < 3; ++j) whole[j] = imp_unbounded(7);
     whole[3] = whole_range(s->lo, s->hi, 2);
     expression_scope scope = {.variable = names, .whole = whole, .variable_count = 4};
     return compile_texts(values, &scope, &s->program, why);

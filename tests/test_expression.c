@@ -22,7 +22,7 @@ static imp_status compile_with(const char *const text[3], size_t count, const ch
                                expression_error *error)
 {
     static const char *const variable[] = {"u", "v", "t"};
-    imp_model whole[] = {imp_between(-1, 1), imp_between(0, 2), imp_unbounded_(4)};
+    imp_model whole[] = {imp_between(-1, 1), imp_between(0, 2), imp_unbounded(4)};
     const expression_scope scope = {variable, whole, 3, name, value, count};
     return expression_compile(&scope, text, program, error);
 }

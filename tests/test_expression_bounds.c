@@ -266,7 +266,7 @@ static void try_region(trial *t, const imp_region *region, tally *tally)
 static void try_surface(uint64_t seed, tally *tally)
 {
     static trial t;
-    const imp_model whole[] = {imp_between(-1, 1), imp_between(-2, 2), imp_unbounded_(4)};
+    const imp_model whole[] = {imp_between(-1, 1), imp_between(-2, 2), imp_unbounded(4)};
     if (!trial_begin(&t, seed, false, whole)) {
         ++tally->refused;
         return;
@@ -329,7 +329,7 @@ static void try_map(uint64_t seed, tally *tally)
 {
     static trial t;
     imp_model whole[4];
-    for (int j = 0; j < 4; ++j) whole[j] = imp_unbounded_(7);
+    for (int j = 0; j < 4; ++j) whole[j] = imp_unbounded(7);
     if (!trial_begin(&t, seed, true, whole)) {
         ++tally->refused;
         return;
