@@ -12,18 +12,6 @@
  * Those with a constant that no double holds, the cube root, distances and the copied sign. Each
  * has its lemma; notation as in <impinge/model.h>. */
 
-/* x + k. The exact k is within error of value: the middle moves by no more, the rates by
- * nothing. */
-static inline imp_model near_shift(imp_model x, near_constant k)
-{
-    imp_model sum = imp_shift(x, k.value);
-    if (k.error == 0) return sum;
-    sum.e = imp_sum_up(sum.e + k.error);
-    sum.lo = imp_sum_down(sum.lo - k.error);
-    sum.hi = imp_sum_up(sum.hi + k.error);
-    return imp_model_finish(sum);
-}
-
 /* --- Powers -------------------------------------------------------------------------- */
 
 /* At least the greatest |ln z| z^s for 0 < z in x and s between s0 and s1. Lemma: beyond 1, ln z

@@ -4,11 +4,14 @@
 # One line per plugin: plugins/NAME.la is built from plugins/NAME.c and headers.
 
 plugin_LTLIBRARIES = \
+    plugins/bend.la \
     plugins/bezier.la \
     plugins/cone.la \
     plugins/cylinder.la \
     plugins/ellipsoid.la \
+    plugins/ffd.la \
     plugins/formula.la \
+    plugins/keyframes.la \
     plugins/map-formula.la \
     plugins/nurbs.la \
     plugins/plane.la \
@@ -17,24 +20,32 @@ plugin_LTLIBRARIES = \
     plugins/revolution.la \
     plugins/ripple.la \
     plugins/rotate.la \
+    plugins/scale.la \
+    plugins/screw.la \
     plugins/segment.la \
     plugins/sphere.la \
     plugins/spike.la \
     plugins/superellipsoid.la \
     plugins/supertoroid.la \
     plugins/sweep.la \
+    plugins/taper.la \
     plugins/torus.la \
     plugins/translate.la \
-    plugins/triangle.la
+    plugins/triangle.la \
+    plugins/twist.la \
+    plugins/wave.la
 
 # What they share; private, never installed.
 noinst_HEADERS += \
+    plugins/axis.h \
     plugins/bernstein.h \
     plugins/chebyshev.h \
     plugins/couple.h \
     plugins/curve.h \
     plugins/expression_type.h \
+    plugins/ffd_model.h \
     plugins/knots.h \
+    plugins/lattice.h \
     plugins/linear.h \
     plugins/near.h \
     plugins/nurbs_cells.h \
@@ -45,6 +56,9 @@ noinst_HEADERS += \
     plugins/pieces.h \
     plugins/plugin.h \
     plugins/polynomial.h \
+    plugins/series.h \
+    plugins/sinc.h \
+    plugins/spline.h \
     plugins/superquadric.h
 
 # The language of formulas, for both types that have texts in it.

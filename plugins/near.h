@@ -39,4 +39,16 @@ static inline imp_model near_scale(imp_model x, near_constant k)
     return imp_model_finish(product);
 }
 
+/* x + k. The exact k is within error of value: the middle moves by no more, the rates by
+ * nothing. */
+static inline imp_model near_shift(imp_model x, near_constant k)
+{
+    imp_model sum = imp_shift(x, k.value);
+    if (k.error == 0) return sum;
+    sum.e = imp_sum_up(sum.e + k.error);
+    sum.lo = imp_sum_down(sum.lo - k.error);
+    sum.hi = imp_sum_up(sum.hi + k.error);
+    return imp_model_finish(sum);
+}
+
 #endif

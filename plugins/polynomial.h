@@ -50,10 +50,31 @@ static inline polynomial polynomial_read(const imp_value *rate, const imp_value 
     return p;
 }
 
+/* The same for a parameter that has only coefficients, as rows of `width` numbers. */
+static inline polynomial polynomial_copy(const imp_value *coefficients, size_t width, double *out)
+{
+    const imp_value rate = {0};
+    return polynomial_read(&rate, coefficients, width, out);
+}
+
+/* For a parameter given as `count` rows of `given` numbers, 1 or `width`: one stands for all. */
+static inline polynomial polynomial_spread(const double *number, size_t count, size_t given,
+                                           size_t width, double *out)
+{
+    for (size_t i = 0; i < width; ++i)
+        for (size_t k = 0; k < count; ++k)
+            out[i * count + k] = number[k * given + (given == width ? i : 0)];
+    return (polynomial){count, out};
+}
+
+/* A parameter of one number that has only coefficients: a bare number is a constant. */
+#define ROW_IN_TIME(NAME, UNIT, PRESET, DOC)                                                       \
+    ROW_NUMBERS(NAME, UNIT, PRESET, IMP_SCALAR_OK, DOC "; or coefficients of t^0, t^1, t^2 ...")
+
 /* Component i at time t. */
 static inline imp_model polynomial_at(const polynomial *p, size_t i, imp_model t)
 {
-    return imp_poly(p->coefficient + i * p->count, (int)p->count, t);
+    return imp_poly(p->coefficient + i * p->count, p->count, t);
 }
 
 #endif

@@ -27,22 +27,28 @@ check_suites = \
 mpfi_suites = \
     tests/test_expression_bounds \
     tests/test_formula \
+    tests/test_keyframes \
+    tests/test_maps \
     tests/test_model \
     tests/test_plugins \
     tests/test_tightness
-tests_test_tightness_SOURCES = tests/test_tightness.c tests/oracle_number.c \
-    tests/type_oracle.c tests/shape_oracle.c tests/expression_oracle.c tests/instance.c
-tests_test_expression_bounds_SOURCES = tests/test_expression_bounds.c \
-    tests/expression_oracle.c tests/oracle_number.c tests/judge.c tests/sampling.c
-tests_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
-tests_test_plugins_SOURCES = tests/test_plugins.c \
-    tests/oracle_number.c tests/oracle_number.h \
+
+# What types are judged by, and instances of them.
+type_oracle = tests/oracle_number.c tests/oracle_number.h \
     tests/type_oracle.c tests/type_oracle.h \
     tests/shape_oracle.c tests/shape_oracle.h \
     tests/expression_oracle.c tests/expression_oracle.h \
-    tests/instance.c tests/instance.h \
+    tests/map_oracle.c tests/map_oracle.h \
+    tests/instance.c tests/instance.h
+tests_test_keyframes_SOURCES = tests/test_keyframes.c tests/map_images.h $(type_oracle)
+tests_test_maps_SOURCES = tests/test_maps.c tests/map_images.h $(type_oracle)
+tests_test_tightness_SOURCES = tests/test_tightness.c $(type_oracle)
+tests_test_plugins_SOURCES = tests/test_plugins.c $(type_oracle) \
     tests/judge.c tests/judge.h \
     tests/sampling.c tests/sampling.h
+tests_test_expression_bounds_SOURCES = tests/test_expression_bounds.c \
+    tests/expression_oracle.c tests/oracle_number.c tests/judge.c tests/sampling.c
+tests_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 
 # Command-line tests; the environment below tells them where things are.
 bats_suites = \

@@ -50,6 +50,10 @@ static void draw_times(uint64_t *random, double lo, double hi, double *from, dou
 {
     static const double starts[] = {0, 0, -1, 0.25, 1e6, -1e6};
     double start = starts[one_of(random, 6)];
+    if (hi - lo < INFINITY) {
+        draw_interval(random, lo, hi, from, to);
+        return;
+    }
     draw_interval(random, start, start + (one_of(random, 4) ? 1 : 10), from, to);
     *from = clamp(*from, lo, hi);
     *to = clamp(*to, *from, hi);
@@ -63,7 +67,7 @@ imp_region sample_region(uint64_t *random, const double lo[3], const double hi[3
     return region_make(from, to);
 }
 
-imp_box4 sample_box(uint64_t *random)
+imp_box4 sample_box(uint64_t *random, double t_lo, double t_hi)
 {
     imp_box4 box;
     double size = one_of(random, 3) ? 1 : suite_power(random, -30, 20);
@@ -71,7 +75,7 @@ imp_box4 sample_box(uint64_t *random)
         double from = suite_between(random, -2, 2) * (one_of(random, 6) ? 1 : 1e6);
         draw_interval(random, from, from + size, &box.lo[j], &box.hi[j]);
     }
-    draw_times(random, -INFINITY, INFINITY, &box.lo[3], &box.hi[3]);
+    draw_times(random, t_lo, t_hi, &box.lo[3], &box.hi[3]);
     return box;
 }
 
@@ -159,9 +163,9 @@ static void draw_model(uint64_t *random, sample_models *models, int i)
     }
 }
 
-sample_models sample_map_arguments(uint64_t *random)
+sample_models sample_map_arguments(uint64_t *random, double t_lo, double t_hi)
 {
-    const double lo[3] = {0, -2, -INFINITY}, hi[3] = {1, 2, INFINITY};
+    const double lo[3] = {0, -2, t_lo}, hi[3] = {1, 2, t_hi};
     sample_models models = {.region = sample_region(random, lo, hi)};
     const imp_region *region = &models.region;
     for (int i = 0; i < 3; ++i) draw_model(random, &models, i);

@@ -14,8 +14,8 @@
  * times also far from 0. */
 imp_region sample_region(uint64_t *random, const double lo[3], const double hi[3]);
 
-/* A box of x, y, z, t: near the origin, far, tiny, a point. */
-imp_box4 sample_box(uint64_t *random);
+/* A box of x, y, z, t: near the origin, far, tiny, a point. Times are inside [t_lo, t_hi]. */
+imp_box4 sample_box(uint64_t *random, double t_lo, double t_hi);
 
 /* A point of the box lo..hi in n dimensions, often at an end or in the middle. */
 void sample_point(uint64_t *random, int n, const double *lo, const double *hi, double *p);
@@ -32,7 +32,7 @@ typedef struct sample_models {
     double rest[3]; /* coefficient of the product of all s that x, y, z depends on */
 } sample_models;
 
-sample_models sample_map_arguments(uint64_t *random);
+sample_models sample_map_arguments(uint64_t *random, double t_lo, double t_hi);
 
 /* x, y, z, t at p, exactly. */
 void sample_value(const sample_models *models, const double p[3], number x[4]);

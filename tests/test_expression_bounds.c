@@ -335,7 +335,7 @@ static void try_map(uint64_t seed, tally *tally)
         return;
     }
     for (int k = 0; k < FORMULA_REGIONS; ++k) {
-        sample_models models = sample_map_arguments(&t.random);
+        sample_models models = sample_map_arguments(&t.random, -INFINITY, INFINITY);
         try_arguments(&t, &models, tally);
     }
     expression_free(t.program);

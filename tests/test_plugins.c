@@ -196,12 +196,14 @@ static void try_map_models(trial *trial, const sample_models *models)
 
 static void try_map(trial *trial)
 {
+    double t_lo, t_hi;
+    trial->instance->map->time_domain(trial->instance->self, &t_lo, &t_hi);
     for (int k = 0; k < suite_times(REGIONS); ++k) {
-        imp_box4 box = sample_box(&trial->random);
+        imp_box4 box = sample_box(&trial->random, t_lo, t_hi);
         trial->dimensions = 4;
         trial->lo = box.lo, trial->hi = box.hi;
         try_map_box(trial, &box);
-        sample_models models = sample_map_arguments(&trial->random);
+        sample_models models = sample_map_arguments(&trial->random, t_lo, t_hi);
         trial->dimensions = 3;
         trial->lo = models.region.lo, trial->hi = models.region.hi;
         try_map_models(trial, &models);

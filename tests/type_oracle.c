@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
+#include "expression_oracle.h"
+#include "map_oracle.h"
 #include "shape_oracle.h"
 
 #include <stdlib.h>
-
-#include "expression_oracle.h"
 
 const imp_value *argument(const type_arguments *arguments, const char *name)
 {
@@ -348,6 +348,69 @@ const type_oracle oracles[] = {
                    " \"z\": \"hypot(x,y,z)+1*cbrt(z)*tanh(x)\"}",
                    "{\"x\": \"copysign(sqrt(abs(x)),x)\", \"y\": \"max(y,-z)*e^-abs(x)\","
                    " \"z\": \"z*(2+1*sin(y))^-1.5+1*t\", \"time\": [-1,1]}"}},
+    {.type = "scale",
+     .map = scale_oracle,
+     .instances = {"{\"factor\": +}", "{\"factor\": [?,?,?], \"center\": [?,?,?]}",
+                   "{\"factors\": [[1],[?],[?]]}", "{\"factors\": [@4[?,?,?]]}", "{\"factor\": 0}",
+                   "{\"factor\": 1e8, \"center\": [1e8,-1e-8,0]}"}},
+    {.type = "screw",
+     .map = screw_oracle,
+     .instances = {"{\"rate\": 1}",
+                   "{\"axis\": [?,?,?], \"pitch\": ?, \"rate\": ?, \"center\": [?,?,?]}",
+                   "{\"axis\": [0,-2,0], \"pitch\": -3, \"angle\": [?,?,?]}",
+                   "{\"axis\": [1e-3,2,1e5], \"pitch\": 1e-6, \"rate\": 1e3}"}},
+    {.type = "taper",
+     .map = taper_oracle,
+     .instances = {"{}", "{\"start\": ?, \"end\": ?, \"axis\": [1,0,0], \"range\": [0,+]}",
+                   "{\"axis\": [?,?,?], \"center\": [?,?,?], \"start\": [1,?],"
+                   " \"end\": [?,?,?], \"range\": [-0.5,0.25]}",
+                   "{\"range\": [0,1e-9], \"start\": 1, \"end\": 2}",
+                   "{\"range\": [-1e8,1e8], \"end\": -1e3}"}},
+    {.type = "twist",
+     .map = twist_oracle,
+     .instances = {"{}", "{\"rate\": ?, \"axis\": [?,?,?], \"center\": [?,?,?]}",
+                   "{\"rate\": [?,?,?], \"axis\": [0,1,0]}", "{\"rate\": 100}",
+                   "{\"rate\": 1e-9, \"center\": [0,0,1e6]}"}},
+    {.type = "bend",
+     .map = bend_oracle,
+     .instances = {"{}", "{\"curvature\": ?, \"range\": [-0.5,1.5]}",
+                   "{\"axis\": [?,?,1], \"along\": [1,?,?], \"center\": [?,?,?],"
+                   " \"curvature\": [0,?,?]}",
+                   "{\"curvature\": 0}", "{\"curvature\": -20, \"range\": [0.1,3]}",
+                   "{\"axis\": [0,0,1], \"along\": [1,0,0], \"curvature\": 1e-9,"
+                   " \"range\": [-1e6,1e6]}",
+                   "{\"axis\": [1,0,0], \"along\": [1,1e-4,0], \"curvature\": 1}"}},
+    {.type = "wave",
+     .map = wave_oracle,
+     .instances = {"{\"amplitude\": [0,0,1]}",
+                   "{\"amplitude\": [?,?,?], \"wave_vector\": [?,?,?], \"speed\": ?,"
+                   " \"phase\": ?}",
+                   "{\"amplitudes\": [@3[?,?,?]], \"wave_vector\": [0,5,0]}",
+                   "{\"amplitude\": [1e-3,1e3,0], \"wave_vector\": [1e3,1,1], \"speed\": 10}"}},
+    {.type = "keyframes",
+     .map = keyframes_oracle,
+     .instances =
+         {"{\"times\": [0,1], \"positions\": [@2[?,?,?]]}",
+          "{\"times\": [-1,-0.5,0.75,1,3], \"positions\": [@5[?,?,?]]}",
+          "{\"times\": [0,1], \"rotations\": [[1,0,0,0],[0.8,0.6,0,0]]}",
+          "{\"times\": [0,0.5,1.25,2], \"rotations\": [[1,0,0,0],[-0.8,0,0.6,0],"
+          "[0.48,0.36,-0.8,0],[0.36,0.48,-0.8,0]], \"positions\": [@4[?,?,?]]}",
+          "{\"times\": [0,1,2,3,4,5,6,7,8,9], \"positions\": [@10[?,?,?]], \"rotations\": ["
+          "[1,0,0,0],[0.8,0.6,0,0],[0.6,0.8,0,0],[0.36,0.48,0.8,0],[0.48,0.36,0.8,0],"
+          "[0.8,0,0.6,0],[0.8000004,0,0.6000003,0],[0.5,0.5,0.5,0.5],[-0.5,-0.5,-0.5,-0.5],"
+          "[0.5,0.5,-0.1,0.7]]}",
+          "{\"times\": [1e6,1000000.001,1000001], \"positions\": [[1e8,0,0],[1e8,?,?],"
+          "[1e8,1,1e-9]]}"}},
+    {.type = "ffd",
+     .map = ffd_oracle,
+     .instances = {"{\"points\": [@8[?,?,?]]}", "{\"lattice\": [4,4,4], \"points\": [@64[?,?,?]]}",
+                   "{\"lattice\": [2,3,5], \"points\": [@30[?,?,?]],"
+                   " \"velocities\": [@30[?,?,?]], \"lo\": [-1,-2,0], \"hi\": [+,+,+]}",
+                   "{\"lattice\": [3,3,3], \"points\": [@27[?,?,?]],"
+                   " \"velocities\": [@27[?,?,?]]}",
+                   "{\"lattice\": [16,2,2], \"points\": [@64[?,?,?]]}",
+                   "{\"lattice\": [2,4,2], \"lo\": [1e6,0,0], \"hi\": [1000001,1,1e-6],"
+                   " \"points\": [@16[1e6,?,?]], \"velocities\": [@16[1e3,?,1e-9]]}"}},
 };
 
 const size_t oracle_count = sizeof oracles / sizeof oracles[0];
