@@ -6,6 +6,7 @@
 check_suites = \
     tests/fuzz_scene \
     tests/test_alloc_failure \
+    tests/test_contacts \
     tests/test_elf_probe \
     tests/test_isolate \
     tests/test_expression \
