@@ -45,21 +45,37 @@ static imp_code tolerances(double gamma, double clearance, impact *im, imp_error
     return IMP_SUCCESS;
 }
 
+static imp_code check_choice(const char *name, int found, int last, imp_error *error)
+{
+    if (found >= 0 && found <= last) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_USAGE, "%s: found %d, allowed from 0 to %d", name, found,
+                     last);
+}
+
+/* All but the tolerances. */
+static imp_code check_options(const imp_options *options, imp_error *error)
+{
+    if (!(options->t_start <= options->t_end && options->t_start > -INFINITY &&
+          options->t_end < INFINITY))
+        return error_set(error, IMP_ERROR_USAGE,
+                         "time: found [%g, %g], allowed finite and not empty", options->t_start,
+                         options->t_end);
+    if (!(options->max_seconds >= 0))
+        return error_set(error, IMP_ERROR_USAGE, "max_seconds: found %g, allowed >= 0",
+                         options->max_seconds);
+    imp_code code = check_choice("method", (int)options->method, IMP_METHOD_PAPER, error);
+    if (code == IMP_SUCCESS)
+        code = check_choice("bounds", (int)options->bounds, IMP_BOUNDS_SPHERE, error);
+    if (code == IMP_SUCCESS)
+        code = check_choice("rates", (int)options->rates, IMP_RATES_CONSTANT, error);
+    return code;
+}
+
 imp_query *imp_query_new(imp_scene *scene, const imp_options *options, imp_error *error)
 {
     impact im = {.method = options->method, .bounds = options->bounds, .t_lower = options->t_start};
     if (tolerances(options->gamma, options->clearance, &im, error) != IMP_SUCCESS) return NULL;
-    if (!(options->t_start <= options->t_end && options->t_start > -INFINITY &&
-          options->t_end < INFINITY)) {
-        error_set(error, IMP_ERROR_USAGE, "time: found [%g, %g], allowed finite and not empty",
-                  options->t_start, options->t_end);
-        return NULL;
-    }
-    if (!(options->max_seconds >= 0)) {
-        error_set(error, IMP_ERROR_USAGE, "max_seconds: found %g, allowed >= 0",
-                  options->max_seconds);
-        return NULL;
-    }
+    if (check_options(options, error) != IMP_SUCCESS) return NULL;
     imp_query *query = calloc(1, sizeof *query);
     if (query == NULL) {
         error_set_memory(error);
@@ -253,7 +269,7 @@ static void conclude(imp_query *query, impact_state state)
         break;
     case IMPACT_CLEAR:
         finish(query, IMP_CLEAR,
-               query->couple_count == 0 ? reason_of_nothing(query) : IMP_REASON_NONE);
+               query->impact.stats.pairs == 0 ? reason_of_nothing(query) : IMP_REASON_NONE);
         break;
     case IMPACT_RESOLUTION:
         finish(query, IMP_UNDECIDED, IMP_REASON_RESOLUTION);
@@ -394,8 +410,10 @@ imp_code imp_query_refine(imp_query *query, double gamma, double clearance, imp_
 imp_code imp_solve(imp_scene *scene, const imp_options *options, imp_result *result,
                    imp_error *error)
 {
+    imp_error why;
+    if (error == NULL) error = &why;
     imp_query *query = imp_query_new(scene, options, error);
-    if (query == NULL) return IMP_ERROR_USAGE;
+    if (query == NULL) return error->code;
     const imp_code code = imp_query_step(query, 0, error);
     *result = imp_query_result(query);
     imp_query_free(query);

@@ -10,13 +10,16 @@ check_suites = \
     tests/test_elf_probe \
     tests/test_isolate \
     tests/test_expression \
+    tests/test_faulty_types \
     tests/test_formula_answers \
+    tests/test_loosened \
     tests/test_metamorphic \
     tests/test_parameters \
     tests/test_pair_heap \
     tests/test_pipeline \
     tests/test_plugin_parameters \
     tests/test_quadratic \
+    tests/test_query \
     tests/test_registry \
     tests/test_scene_file \
     tests/test_separation \
@@ -109,7 +112,7 @@ tests_test_steps_SOURCES = tests/test_steps.c tests/retelling.c
 tests_test_formula_SOURCES = tests/test_formula.c tests/oracle.c
 tests_test_model_SOURCES = tests/test_model.c tests/oracle.c
 
-noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/retelling.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
+noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/balls.h tests/retelling.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
 
 # What tests/fuzz_scene reads: scenes, and pipelines.
 EXTRA_DIST += \
