@@ -16,6 +16,16 @@ static bool pair_may_be_near(const impact *im, pair *p)
     return separation_by_models(p->a, p->b, im->clearance, &p->window);
 }
 
+/* The second key, among pairs of the same start: the squared distance of the centres. Where a node
+ * has no bounds the pair comes behind all others, the last made first, so that a place that has
+ * none down to the smallest region is come to without going through all of its surroundings. */
+static double pair_order(const pair *p)
+{
+    if (!p->a->bounded || !p->b->bounded) return 0x1p900 * (0x1p53 - (double)p->serial);
+    const double distance2 = separation_centres(p->a, p->b, p->window.lo);
+    return distance2 >= 0 ? distance2 : INFINITY;
+}
+
 /* Puts the pair of p's nodes on the heap, which has room, unless they stay apart. p->window holds
  * the parent's window and is cut to both nodes' times first. */
 static void test_and_push(impact *im, pair p)
@@ -28,9 +38,8 @@ static void test_and_push(impact *im, pair p)
     if (p.window.lo > p.window.hi) return;
     im->stats.pairs += 1;
     if (!pair_may_be_near(im, &p)) return;
-    const double distance2 = separation_centres(p.a, p.b, p.window.lo);
-    p.distance2 = distance2 >= 0 ? distance2 : INFINITY;
     p.serial = im->serial++;
+    p.distance2 = pair_order(&p);
     pair_heap_push(&im->heap, &p);
     if (im->heap.count > im->stats.peak_heap) im->stats.peak_heap = im->heap.count;
 }
@@ -107,8 +116,10 @@ typedef struct cut {
     double gain;
 } cut;
 
+/* Beside a node without bounds nothing is learnt from cutting one that has them. */
 static void cut_consider(cut *best, const pair *p, int side, parameter j, double gain)
 {
+    if (side_of(p, side)->bounded && !side_of(p, !side)->bounded) return;
     if (!region_can_split(&side_of(p, side)->region, j)) return;
     if (best->side < 0 || gain > best->gain) *best = (cut){side, j, gain};
 }

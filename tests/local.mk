@@ -20,6 +20,7 @@ check_suites = \
     tests/test_plugin_parameters \
     tests/test_quadratic \
     tests/test_query \
+    tests/test_query_memory \
     tests/test_registry \
     tests/test_scene_file \
     tests/test_separation \
@@ -100,6 +101,8 @@ alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=fr
     -Wl,--wrap=strdup,--wrap=strndup
 tests_test_alloc_failure_SOURCES = tests/test_alloc_failure.c tests/alloc_failure.c
 tests_test_alloc_failure_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
+tests_test_query_memory_SOURCES = tests/test_query_memory.c tests/alloc_failure.c
+tests_test_query_memory_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 
 tests_test_expression_SOURCES = tests/test_expression.c tests/alloc_failure.c
 tests_test_expression_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)

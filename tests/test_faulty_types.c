@@ -5,8 +5,8 @@
 #include "balls.h"
 
 /* Types that break promises of the ABI: each ends the query with an error that names the type, the
- * region or point, and what is wrong. All are balls that behave until the search has come to small
- * regions. */
+ * region or point, and what is wrong. And types that have no bounds in places, as they may: a query
+ * ends all the same. All are balls that behave until the search has come to small regions. */
 
 /* A ball, and the number that it writes into its answers. */
 typedef struct liar {
@@ -41,7 +41,7 @@ static imp_status lying_rate(const void *self, const imp_region *region, imp_rat
     return status;
 }
 
-/* Points of the first batch are true: where the search begins, and what bounds are made of. */
+/* True in the middle of the domain, where a query looks when it begins. */
 static imp_status lying_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
     imp_status status = ball_formula_eval(self, n, p, x, error);
@@ -95,8 +95,7 @@ static void is_caught(const imp_surface_type *type, const liar *l, imp_method me
     ck_assert_ptr_nonnull(strstr(error.text, "u "));
 }
 
-/* --- Models --------------------------------------------------------------------------------------
- */
+/* --- Models ------------------------------------------------------------------------------- */
 
 #define LIAR(EVAL, RATE, INCLUDE)                                                                  \
     {                                                                                              \
@@ -193,6 +192,123 @@ START_TEST(points_that_are_none_are_caught)
 }
 END_TEST
 
+/* --- No bounds ---------------------------------------------------------------------------- */
+
+/* A ball without bounds over every region that holds `at` in the parameters of the set. */
+typedef struct gap {
+    ball b;
+    unsigned in; /* bit j: parameter j matters */
+    double at[3];
+} gap;
+
+static bool holds(const gap *g, const imp_region *r)
+{
+    for (int j = 0; j < 3; ++j)
+        if ((g->in >> j & 1) && !(r->lo[j] <= g->at[j] && g->at[j] <= r->hi[j])) return false;
+    return true;
+}
+
+static imp_status gap_include(const void *self, const imp_region *region, imp_model model[3])
+{
+    if (!holds(self, region)) return ball_formula_include(self, region, model);
+    memset(model, 0, 3 * sizeof *model);
+    for (int i = 0; i < 3; ++i) {
+        model[i] = (imp_model){.e = INFINITY, .lo = -INFINITY, .hi = INFINITY, .depends = 7};
+        for (int j = 0; j < 3; ++j) model[i].rate[j] = INFINITY;
+    }
+    return IMP_UNBOUNDED;
+}
+
+static imp_status gap_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
+{
+    const imp_status status = ball_formula_rate(self, region, rates);
+    if (!holds(self, region)) return status;
+    for (int i = 0; i < 3; ++i) rates->m[i][0] = INFINITY;
+    return IMP_UNBOUNDED;
+}
+
+/* Like a root at its branch point: infinitely steep in u, and within bounds all the same. */
+static imp_status steep_include(const void *self, const imp_region *region, imp_model model[3])
+{
+    const imp_status status = ball_formula_include(self, region, model);
+    if (!holds(self, region)) return status;
+    for (int i = 0; i < 3; ++i) model[i].rate[0] = INFINITY;
+    return IMP_UNBOUNDED;
+}
+
+static const imp_surface_type gap_of_models = LIAR(ball_formula_eval, gap_rate, gap_include),
+                              gap_of_rates = LIAR(ball_formula_eval, gap_rate, NULL),
+                              steep = LIAR(ball_formula_eval, gap_rate, steep_include);
+
+static imp_result answer(const imp_surface_type *type, const gap *g, imp_method method)
+{
+    imp_scene *scene = balls_scene(&ball_type, &at_rest, type, &g->b);
+    imp_options options = imp_options_default(scene);
+    options.gamma = 1e-3;
+    options.method = method;
+    options.max_bytes = (uint64_t)1 << 24;
+    imp_result r;
+    imp_error error = {IMP_SUCCESS, ""};
+    ck_assert_msg(imp_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s", error.text);
+    imp_scene_free(scene);
+    return r;
+}
+
+enum { U = 1, V = 2, T = 4 };
+
+START_TEST(a_place_without_bounds_leaves_the_query_undecided_for_want_of_resolution)
+{
+    const imp_surface_type *const types[] = {&gap_of_models, &gap_of_rates};
+    const unsigned places[] = {U, V, U | V, U | V | T};
+    for (int k = 0; k < 16; ++k) {
+        const gap g = {FLIGHT, places[k / 4], {1, 0.3, 0.2}};
+        const imp_result r =
+            answer(types[k / 2 % 2], &g, k % 2 ? IMP_METHOD_PAPER : IMP_METHOD_MODELS);
+        ck_assert_msg(r.verdict == IMP_UNDECIDED && r.reason == IMP_REASON_RESOLUTION &&
+                          r.t_lower <= (g.in & T ? 0.2 : 0) && r.stats.pairs < 10000,
+                      "case %d: verdict %d, reason %d, t_lower %g, %llu pairs", k, (int)r.verdict,
+                      (int)r.reason, r.t_lower, (unsigned long long)r.stats.pairs);
+    }
+}
+END_TEST
+
+START_TEST(a_moment_without_bounds_is_never_passed)
+{
+    const unsigned places[] = {T, U | T, V | T};
+    for (int k = 0; k < 6; ++k) {
+        const gap g = {FLIGHT, places[k / 2], {1, 0.3, 0.2}};
+        const imp_result r =
+            answer(&gap_of_models, &g, k % 2 ? IMP_METHOD_PAPER : IMP_METHOD_MODELS);
+        ck_assert(r.verdict == IMP_UNDECIDED && r.t_lower <= 0.2);
+        ck_assert(r.reason == IMP_REASON_MEMORY || r.reason == IMP_REASON_RESOLUTION);
+    }
+}
+END_TEST
+
+START_TEST(infinite_rates_do_not_matter_where_the_models_are_finite)
+{
+    const gap good = {FLIGHT, U, {-1, 0, 0}}, bad = {FLIGHT, U, {1, 0, 0}};
+    const imp_result expected = answer(&steep, &good, IMP_METHOD_MODELS),
+                     r = answer(&steep, &bad, IMP_METHOD_MODELS);
+    ck_assert(r.verdict == IMP_CONTACT && r.gap <= r.gamma);
+    ck_assert_double_le(fabs(r.t - expected.t), 1e-3);
+    ck_assert_uint_lt(r.stats.pairs, 2 * expected.stats.pairs);
+}
+END_TEST
+
+START_TEST(points_with_unknown_errors_are_no_witnesses)
+{
+    for (size_t slot = 3; slot < 6; ++slot) {
+        const liar l = {FLIGHT, slot, INFINITY, IMP_OK};
+        ck_assert_int_eq(error_of(&point_liar, &l, IMP_METHOD_MODELS).code, IMP_SUCCESS);
+    }
+}
+END_TEST
+
 SUITE_MAIN("faulty_types", models_that_are_no_bounds_are_caught,
            rates_that_are_no_bounds_are_caught_under_both_methods,
-           statuses_that_are_none_end_the_query, points_that_are_none_are_caught)
+           statuses_that_are_none_end_the_query, points_that_are_none_are_caught,
+           a_place_without_bounds_leaves_the_query_undecided_for_want_of_resolution,
+           a_moment_without_bounds_is_never_passed,
+           infinite_rates_do_not_matter_where_the_models_are_finite,
+           points_with_unknown_errors_are_no_witnesses)
