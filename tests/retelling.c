@@ -32,7 +32,7 @@ static void write_spheres(const frame *f, FILE *a, FILE *b)
 {
     fprintf(a, "sphere radius=%.17g", 0.9 * f->size);
     fprintf(b, "sphere radius=%.17g", 0.6 * f->size);
-    write_motion(b, f, (double[3]){2.1, -1.3, 1.7}, (double[3]){-3, 2.2, -2});
+    write_motion(b, f, (double[3]){2.1, -1.3, 1.7}, (double[3]){-3, 2.2, -1.9});
 }
 
 /* Two spheres that pass at a distance of `pass` from centre to centre. */
@@ -55,7 +55,7 @@ static void write_tori(const frame *f, FILE *a, FILE *b)
                 f->size * (k == 0 ? 0.27 : 0.3));
     write_turning(a, f, "1,2,3", 2);
     write_turning(b, f, "1,0.3,-0.5", -3);
-    write_motion(b, f, (double[3]){3, 1, 0.5}, (double[3]){-3, -1, -0.4});
+    write_motion(b, f, (double[3]){3, 1.1, 0.7}, (double[3]){-3, -1.1, -0.4});
 }
 
 static void write_spikes(const frame *f, FILE *a, FILE *b)
@@ -129,8 +129,8 @@ static void write_patches(const frame *f, FILE *a, FILE *b)
     }
 }
 
-/* No length is exactly 1 for any size 2^k: a factor of 1 is known to be exact and its rounding not
- * counted, which is an ulp's difference to other sizes. */
+/* No length is a power of two, which some size 2^k would make 1: a factor of 1 is known to be exact
+ * and its rounding not counted, which is an ulp's difference to other sizes. */
 static const setting settings[] = {
     {"spheres", write_spheres, 1e-4, true}, {"graze", write_graze, 1e-4, true},
     {"miss", write_miss, 1e-3, false},      {"tori", write_tori, 1e-4, true},
