@@ -150,8 +150,11 @@ static inline void superellipse_speeds(const superellipse *s, imp_interval size,
     *x_upper = imp_smaller(2, sec * fall * (steep * lift + IMP_TINY) * lift);
 }
 
-static inline void superellipse_limit_rates(imp_model *x, const imp_model *angle, double speed)
+/* What is known of X and Y all along: they are in [-1, 1], and their speeds. */
+static inline void superellipse_limit(imp_model *x, const imp_model *angle, double speed)
 {
+    x->lo = imp_larger(x->lo, -1);
+    x->hi = imp_smaller(x->hi, 1);
     for (int j = 0; j < 3; ++j)
         x->rate[j] = imp_smaller(x->rate[j], imp_round_up(speed * angle->rate[j]));
 }
@@ -168,8 +171,8 @@ static inline void superellipse_near_axis(const superellipse *s, imp_model angle
     *x = smooth ? superellipse_smooth(s, w) : superellipse_flat(s, w);
     *y = imp_mul(w, *x);
     superellipse_speeds(s, size, &x_speed, &y_speed);
-    superellipse_limit_rates(x, &angle, x_speed);
-    superellipse_limit_rates(y, &angle, y_speed);
+    superellipse_limit(x, &angle, x_speed);
+    superellipse_limit(y, &angle, y_speed);
 }
 
 /* --- X and Y anywhere --- */

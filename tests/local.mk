@@ -36,6 +36,7 @@ mpfi_suites = \
     tests/test_maps \
     tests/test_model \
     tests/test_plugins \
+    tests/test_shapes \
     tests/test_tightness
 
 # What types are judged by, and instances of them.
@@ -47,6 +48,7 @@ type_oracle = tests/oracle_number.c tests/oracle_number.h \
     tests/instance.c tests/instance.h
 tests_test_keyframes_SOURCES = tests/test_keyframes.c tests/map_images.h $(type_oracle)
 tests_test_maps_SOURCES = tests/test_maps.c tests/map_images.h $(type_oracle)
+tests_test_shapes_SOURCES = tests/test_shapes.c $(type_oracle)
 tests_test_tightness_SOURCES = tests/test_tightness.c $(type_oracle)
 tests_test_plugins_SOURCES = tests/test_plugins.c $(type_oracle) \
     tests/judge.c tests/judge.h \
