@@ -28,7 +28,7 @@ void expression_free(expression_program *program) { free(program); }
 
 size_t expression_length(const expression_program *program) { return program->length; }
 
-/* --- From operations to instructions ------------------------------------------------------ */
+/* --- From operations to instructions ----------------------------------------------------- */
 
 #define FOREVER UINT16_MAX
 
@@ -146,7 +146,7 @@ imp_status expression_compile(const expression_scope *scope, const char *const t
     return status;
 }
 
-/* --- Running ------------------------------------------------------------------------------ */
+/* --- Running ----------------------------------------------------------------------------- */
 
 /* False: undefined, whatever the variables are. */
 static bool run_models(const expression_program *p, imp_model slot[])

@@ -20,7 +20,7 @@ uint16_t builder_refuse(builder *b, const char *format, ...)
     return 0;
 }
 
-/* --- Equal operations ------------------------------------------------------------------ */
+/* --- Equal operations -------------------------------------------------------------------- */
 
 static bool is_same(const operation *p, const operation *q)
 {
@@ -144,7 +144,7 @@ static bool has_constant_operands(const builder *b, const operation *o)
     return true;
 }
 
-/* --- Operations ---------------------------------------------------------------------------- */
+/* --- Operations -------------------------------------------------------------------------- */
 
 void builder_begin(builder *b, const imp_model *whole, size_t count)
 {

@@ -91,7 +91,7 @@ const char *names_refusal(const char *name, size_t length)
     return NULL;
 }
 
-/* --- What was meant --------------------------------------------------------------------- */
+/* --- What was meant ---------------------------------------------------------------------- */
 
 #define DISTANCE_MAX 32 /* names longer than that resemble nothing */
 
@@ -169,7 +169,7 @@ void names_hint(const expression_scope *scope, bool function, const char *name, 
     if (!function) list_names(scope, to, size);
 }
 
-/* --- Constants ------------------------------------------------------------------------------ */
+/* --- Constants --------------------------------------------------------------------------- */
 
 static bool is_name(const char *name)
 {

@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "expression_rules.h"
+#include "expression_zeros.h"
 
 #include <string.h>
 
@@ -12,12 +13,6 @@ near_constant rules_pi(void) { return (near_constant){IMP_PI_LOWER, 0x1.2p-53}; 
 near_constant rules_e(void) { return (near_constant){0x1.5bf0a8b145769p+1, 0x1.5p-53}; }
 
 static const operation *at(const builder *b, uint16_t x) { return &b->operations[x]; }
-
-static bool is_exactly_0(const builder *b, uint16_t x)
-{
-    const operation *o = at(b, x);
-    return o->code == OP_CONSTANT && o->k.error == 0 && o->k.value == 0;
-}
 
 static uint16_t unary(builder *b, opcode code, uint16_t x)
 {
@@ -35,7 +30,7 @@ static near_constant joined(builder *b, opcode code, near_constant x, near_const
     return at(b, builder_operate(b, code, builder_constant(b, x), builder_constant(b, y), 0))->k;
 }
 
-/* --- Sums ----------------------------------------------------------------------------- */
+/* --- Sums -------------------------------------------------------------------------------- */
 
 static uint16_t negate(builder *b, uint16_t x)
 {
@@ -78,7 +73,7 @@ static uint16_t subtract(builder *b, uint16_t x, uint16_t y)
     return x == y ? builder_number(b, 0) : add(b, x, negate(b, y));
 }
 
-/* --- Products --------------------------------------------------------------------------- */
+/* --- Products ---------------------------------------------------------------------------- */
 
 static uint16_t scale(builder *b, uint16_t x, near_constant k)
 {
@@ -200,64 +195,6 @@ static uint16_t log_by_base(builder *b, uint16_t x, double base)
     return divide(b, unary(b, OP_LOG, x), unary(b, OP_LOG, builder_number(b, base)));
 }
 
-/* --- The copied sign ------------------------------------------------------------------------ */
-
-/* Is the operation 0 wherever its operands are that `zero` marks? What is unbounded there, as in
- * y * (1/y), has no bounded rates in any case. */
-static bool vanishes(const operation *o, const bool *zero)
-{
-    bool x = zero[o->operand[0]], y = zero[o->operand[1]];
-    switch (o->code) {
-    case OP_NEGATE:
-    case OP_SCALE:
-    case OP_SQUARE:
-    case OP_ABS:
-    case OP_SQRT:
-    case OP_CBRT:
-    case OP_SIN:
-    case OP_TAN:
-    case OP_ASIN:
-    case OP_ATAN:
-    case OP_SINH:
-    case OP_TANH:
-    case OP_DIVIDE:
-    case OP_COPYSIGN:
-        return x;
-    case OP_POWER_N:
-        return x && o->n > 0;
-    case OP_POWER_K:
-        return x && o->k.value - o->k.error > 0;
-    case OP_MULTIPLY:
-        return x || y;
-    case OP_ADD:
-    case OP_MIN:
-    case OP_MAX:
-    case OP_HYPOT:
-        return x && y;
-    case OP_HYPOT3:
-        return x && y && zero[o->operand[2]];
-    default:
-        return false;
-    }
-}
-
-/* y without factors that never vanish. */
-static uint16_t bare(const builder *b, uint16_t y)
-{
-    while (at(b, y)->code == OP_NEGATE || at(b, y)->code == OP_SCALE) y = at(b, y)->operand[0];
-    return y;
-}
-
-/* Is x surely 0 wherever y is? */
-static bool vanishes_with(const builder *b, uint16_t x, uint16_t y)
-{
-    bool zero[EXPRESSION_OPERATIONS_MAX];
-    uint16_t root = bare(b, y);
-    for (uint16_t i = 0; i <= x; ++i)
-        zero[i] = i == root || is_exactly_0(b, i) || vanishes(at(b, i), zero);
-    return zero[x];
-}
-
 static uint16_t copysign_of(builder *b, uint16_t x, uint16_t y)
 {
     if (b->whole[y].lo >= 0) return unary(b, OP_ABS, x);
@@ -267,7 +204,7 @@ static uint16_t copysign_of(builder *b, uint16_t x, uint16_t y)
                              "there, as in copysign(abs(y)^p, y)");
 }
 
-/* --- All of them ------------------------------------------------------------------------------ */
+/* --- All of them ------------------------------------------------------------------------- */
 
 /* op(op(a, b), c) ... */
 static uint16_t in_turn(builder *b, opcode code, const uint16_t *argument, size_t count)

@@ -71,7 +71,8 @@ plugins_libexpression_la_SOURCES = \
     plugins/expression_operation.c plugins/expression_operation.h \
     plugins/expression_parser.c plugins/expression_parser.h \
     plugins/expression_rules.c plugins/expression_rules.h \
-    plugins/expression_token.c plugins/expression_token.h
+    plugins/expression_token.c plugins/expression_token.h \
+    plugins/expression_zeros.c plugins/expression_zeros.h
 plugins_libexpression_la_LDFLAGS =
 plugins_formula_la_LIBADD = plugins/libexpression.la
 plugins_map_formula_la_LIBADD = plugins/libexpression.la

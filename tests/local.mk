@@ -10,6 +10,7 @@ check_suites = \
     tests/test_elf_probe \
     tests/test_isolate \
     tests/test_expression \
+    tests/test_expression_faults \
     tests/test_faulty_types \
     tests/test_formula_answers \
     tests/test_loosened \
@@ -106,9 +107,13 @@ tests_test_alloc_failure_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 tests_test_query_memory_SOURCES = tests/test_query_memory.c tests/alloc_failure.c
 tests_test_query_memory_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 
-tests_test_expression_SOURCES = tests/test_expression.c tests/alloc_failure.c
+# The language of formulas.
+tests_test_expression_SOURCES = tests/test_expression.c tests/expression_kit.h \
+    tests/alloc_failure.c
 tests_test_expression_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
 tests_test_expression_LDADD = plugins/libexpression.la $(LDADD)
+tests_test_expression_faults_LDADD = plugins/libexpression.la $(LDADD)
+
 # One scene told in many ways.
 tests_test_metamorphic_SOURCES = tests/test_metamorphic.c tests/retelling.c
 tests_test_steps_SOURCES = tests/test_steps.c tests/retelling.c
