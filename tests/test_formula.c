@@ -4,6 +4,7 @@
 /* Formulas: random compositions of all operations against their exact values, then what the
  * macros of <impinge/formula.h> make of known ones. */
 
+#include <errno.h>
 #include <string.h>
 
 #include <impinge/formula.h>
@@ -222,17 +223,21 @@ static void trial_sample(trial *t)
     ck_trial(t, !range_is_refuted(t->m.lo, t->m.hi, t->value), "range misses a value");
 }
 
-START_TEST(random_formulas_are_covered)
+START_TEST(random_formulas_are_covered_and_leave_errno_alone)
 {
+    int before = errno;
     for (int i = 0; i < suite_times(8000); i++) {
         trial t;
         trial_begin(&t, oracle_seed(i));
         const imp_model p[3] = {imp_param(&t.region, 0), imp_param(&t.region, 1),
                                 imp_param(&t.region, 2)};
+        errno = 12345;
         t.m = tree_model(&t.t, p);
+        ck_trial(&t, errno == 12345, "errno was set");
         for (int k = 0; k < 8; k++) trial_sample(&t);
         trial_end(&t);
     }
+    errno = before;
 }
 END_TEST
 
@@ -292,5 +297,5 @@ START_TEST(a_point_is_within_its_error)
 }
 END_TEST
 
-SUITE_MAIN("formula", random_formulas_are_covered,
+SUITE_MAIN("formula", random_formulas_are_covered_and_leave_errno_alone,
            random_formulas_change_no_faster_than_their_rates, a_point_is_within_its_error)

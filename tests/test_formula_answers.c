@@ -261,6 +261,9 @@ START_TEST(a_bump_stays_within_0_and_1_however_far_out)
     imp_model bump = imp_exp(imp_scale(rr, -1 / 0.04));
     ck_assert(bump.lo >= 0 && bump.hi <= 1 + 1e-12 && bump.e <= 0.5 + 1e-12);
     ck_assert(bump.rate[0] < INFINITY);
+    const double middle[3] = {0, 0, 0}, corner[3] = {1, 1, 0};
+    ck_assert(fabs(quadratic_at(&bump, middle) - 1) <= bump.e);
+    ck_assert(fabs(quadratic_at(&bump, corner)) <= bump.e);
 }
 END_TEST
 

@@ -30,7 +30,7 @@ static double hostile_centre(uint64_t *state)
 
 static double hostile_width(uint64_t *state, double centre)
 {
-    switch (oracle_below(state, 6)) {
+    switch (oracle_below(state, 8)) {
     case 0:
         return 0;
     case 1:
@@ -38,6 +38,10 @@ static double hostile_width(uint64_t *state, double centre)
     case 2:
         return suite_power(state, -1070, 3);
     case 3:
+        return suite_power(state, 3, 14);
+    case 4:
+        return suite_power(state, 0, 1010);
+    case 5:
         return fabs(centre) * suite_power(state, -45, 1);
     default:
         return suite_power(state, -30, 3);
@@ -70,7 +74,8 @@ static void trim(uint64_t *state, imp_model *m)
     }
 }
 
-/* Its linear terms may be small, so that those of second order show. */
+/* Its linear terms may be small, so that those of second order show. Not its middle but an end may
+ * be at the special place. */
 static imp_model hostile_model(uint64_t *state)
 {
     static const int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -78,6 +83,7 @@ static imp_model hostile_model(uint64_t *state)
     double width = hostile_width(state, m.a);
     double linear = oracle_below(state, 3) ? width : width * suite_power(state, -60, 0);
     double square = oracle_below(state, 3) ? width * suite_power(state, -20, 0) : width;
+    if (oracle_below(state, 4) == 0) m.a += oracle_below(state, 2) ? width : -width;
     m.depends = oracle_below(state, 2) ? 7 : oracle_below(state, 8);
     m.e = hostile_error(state, m.a, width);
     for (int j = 0; j < 3; j++) {
@@ -182,7 +188,7 @@ static void trial_sample(trial *t)
 }
 
 /* Two operands have more ways to be hostile. */
-static int usual_times(const operation *op) { return suite_times(op->arity > 1 ? 4000 : 1000); }
+static int usual_times(const operation *op) { return suite_times(op->arity > 1 ? 4000 : 2000); }
 
 static void every_value_is_covered(const operation *op)
 {

@@ -117,7 +117,8 @@ static inline imp_model imp_poly(const double *coef, size_t n, imp_model t)
 
 /* x^n, n >= 3, m of any sign. t_k = C(n, k) m^(n-k); what follows the fourth is below C(n, 5)
  * (|m| + r)^(n-5) r^5 (Lagrange). The powers of m are one call of libm and at most four products,
- * the binomials are within 4 u: (L) + 8 u. */
+ * the binomials are within 4 u: (L) + 8 u. Should a power underflow, by less than 2^-1070, then
+ * t_k y^k is off by at most c4 (1 + r^2)^2 times that. */
 static inline void imp_series_powi_(imp_series_ *s, int n)
 {
     double power = n > 4 ? imp_pow_(s->m, n - 4) : 1, tail = 0, t[5] = {0, 0, 0, 0, 0};
@@ -130,6 +131,7 @@ static inline void imp_series_powi_(imp_series_ *s, int n)
     if (n > 4) {
         double far = imp_libm_up(imp_pow_(imp_sum_up(fabs(s->m) + s->r), n - 5));
         tail = c4 * (n - 4.) / 5 * far * imp_power5_(s->r) * (1 + 0x1p-40);
+        tail += IMP_TINY * c4 * (1 + s->r * s->r) * (1 + s->r * s->r);
     }
     imp_series_set_(s, 1, t, tail, 18, 20);
 }
@@ -265,7 +267,8 @@ static inline double imp_growth_upper_(double r)
     return r < 1.25 ? 1 + 2 * r : imp_libm_up(imp_exp_(r));
 }
 
-/* t_k = e^m / k!; the rest of the series is below e^(m+r) r^5 / 120. */
+/* t_k = e^m / k!; the rest of the series is below e^(m+r) r^5 / 120, in which e^m may have
+ * underflowed while e^(m+r) is large: hence an upper bound of e^m, not its value. */
 static inline imp_model imp_exp(imp_model x)
 {
     if (imp_is_point(&x)) {
@@ -275,7 +278,7 @@ static inline imp_model imp_exp(imp_model x)
     imp_series_ s = imp_series_at_(imp_model_range(&x));
     double y = imp_exp_(s.m);
     const double t[5] = {y, y, y / 2, y / 6, y / 24};
-    double tail = y * imp_growth_upper_(s.r) * imp_power5_(s.r) / 120 * (1 + 0x1p-40);
+    double tail = imp_libm_up(y) * imp_growth_upper_(s.r) * imp_power5_(s.r) / 120 * (1 + 0x1p-40);
     imp_series_set_(&s, 1, t, tail, 10, 11);
     imp_interval range =
         imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_exp(imp_model_range(&x));
@@ -299,8 +302,7 @@ static inline imp_model imp_log(imp_model x)
     return imp_compose_(&x, &s, range, slope);
 }
 
-/* --- Real powers ---------------------------------------------------------------------------------
- */
+/* --- Real powers --------------------------------------------------------------------- */
 
 /* Series of (m + y)^p, m > 0, in z = y / m: value sum C(p, k) z^k with value = m^p, within (L).
  * From k = 5 on a term is the one before times |p - k| / (k + 1) |z| <= g |z| with g = max(1, (|p|
@@ -313,11 +315,12 @@ static inline void imp_series_power_(imp_series_ *s, double p, double value)
     double c2 = p * (p - 1) / 2, c3 = c2 * (p - 2) / 3, c4 = c3 * (p - 3) / 4;
     double c5 = fabs(c4 * (p - 4) / 5);
     const double t[5] = {value, value * p, value * c2, value * c3, value * c4};
-    double tail = value * c5 * imp_power5_(z) / (1 - g * z) * (1 + 0x1p-40);
+    double tail = imp_libm_up(value) * c5 * imp_power5_(z) / (1 - g * z) * (1 + 0x1p-40);
     imp_series_set_(s, s->m, t, tail, 10, 30);
 }
 
-/* At least the greatest |p| z^(p-1) over x. */
+/* At least the greatest |p| z^(p-1) over x. The rounding of p - 1 changes the power by less than
+ * |log z^(p-1)| u < 2^-43. */
 static inline double imp_power_slope_upper_(imp_interval x, double p)
 {
     return imp_round_up(imp_interval_pow(x, p - 1).hi * fabs(p) * (1 + 0x1p-40));
@@ -384,7 +387,7 @@ static inline imp_model imp_abs(imp_model x)
     } else if (range.hi < INFINITY) {
         s.c[0] = range.hi / 8;
         s.c[2] = 1 / range.hi;
-        s.e = range.hi / 8 * (1 + 0x1p-49) + IMP_TINY;
+        s.e = range.hi / 8 * (1 + 0x1p-47) + IMP_TINY;
     }
     return imp_compose_(&x, &s, range, 1);
 }

@@ -114,12 +114,13 @@ typedef struct imp_terms_ {
     double linear[3], rest;
 } imp_terms_;
 
-static inline imp_terms_ imp_terms_flat_(const imp_model *x, const imp_series_ *s)
+static inline imp_terms_ imp_terms_flat_(const imp_model *x, const imp_series_ *s, double size)
 {
-    imp_terms_ t = {s->c[0], imp_series_slant_(s), s->c[2], {0, 0, 0}, 0};
+    imp_terms_ t = {s->c[0], imp_series_slant_(s), s->c[2], {0, 0, 0}, imp_series_bend_(s)};
     double cubic[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    if (size == 0 || s->c[2] == 0) return t;
     imp_cubic_add_(x->b, x->q, cubic);
-    t.rest = 2 * fabs(s->c[2]) * imp_cubic_fold_(cubic, t.linear) + imp_series_bend_(s);
+    t.rest += 2 * fabs(s->c[2]) * imp_cubic_fold_(cubic, t.linear);
     for (int j = 0; j < 3; j++) t.linear[j] *= 2 * s->c[2];
     return t;
 }
@@ -150,7 +151,7 @@ static inline void imp_substitute_(const imp_model *x, const imp_series_ *s, imp
     double size = imp_sum_abs6_(x->q), n = fabs(a) + imp_sum_abs3_(x->b) + size;
     double h = imp_middle_(x->q), swing = imp_swing_upper_(x->q, size), half = 0.5 * swing * swing;
     imp_square_terms_(x->b, x->b, bb);
-    imp_terms_ t = imp_terms_flat_(x, s);
+    imp_terms_ t = imp_terms_flat_(x, s, size);
     if (size != 0 && s->c[3] != 0) {
         imp_terms_ deep = imp_terms_deep_(x, s, a + h, bb, swing);
         if (deep.rest < t.rest) t = deep;
