@@ -93,7 +93,7 @@ static inline int imp_series_is_sharp_(const imp_series_ *s)
     return s->e + imp_series_bend_(s) <= 0x1p-8 * slant * s->r && 4 * fabs(s->c[2]) * s->r <= slant;
 }
 
-/* --- Substitution ------------------------------------------------------------------------ */
+/* --- Substitution -------------------------------------------------------------------------- */
 
 /* With p = P - m = A + L + Q, x = m + p + delta and y = p + delta, |y| <= r:
  *
