@@ -13,6 +13,7 @@ check_suites = \
     tests/test_expression_faults \
     tests/test_faulty_types \
     tests/test_formula_answers \
+    tests/test_guarantees \
     tests/test_loosened \
     tests/test_metamorphic \
     tests/test_parameters \
@@ -115,6 +116,7 @@ tests_test_expression_LDADD = plugins/libexpression.la $(LDADD)
 tests_test_expression_faults_LDADD = plugins/libexpression.la $(LDADD)
 
 # One scene told in many ways.
+tests_test_guarantees_SOURCES = tests/test_guarantees.c tests/retelling.c
 tests_test_metamorphic_SOURCES = tests/test_metamorphic.c tests/retelling.c
 tests_test_steps_SOURCES = tests/test_steps.c tests/retelling.c
 
