@@ -39,8 +39,7 @@ static void cone_domain(const void *self, double lo[3], double hi[3])
     set_domain(lo, hi, 0, ABOVE_TWO_PI, 0, 1);
 }
 
-static void cone_formula(const void *self, imp_model u, imp_model v, imp_model t,
-                         imp_model out[3])
+static void cone_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
 {
     const cone_instance *s = self;
     imp_model sin_u, cos_u, ring = imp_scale(imp_shift(imp_neg(v), 1), s->radius);

@@ -20,8 +20,9 @@
     }
 #define ROW_CURVE_WEIGHTS(NAME, CURVE)                                                             \
     {                                                                                              \
-        .name = NAME, .unit = "1", .doc = "one per point of " CURVE ", for a rational curve; left "  \
-                                          "out: all 1",                                            \
+        .name = NAME, .unit = "1",                                                                 \
+        .doc = "one per point of " CURVE ", for a rational curve; left "                           \
+               "out: all 1",                                                                       \
         .kind = IMP_NUMBER, .flags = IMP_OPTIONAL, .rank = 1, .min = 1 / PATCH_HEAVY,              \
         .max = PATCH_HEAVY                                                                         \
     }
@@ -40,7 +41,8 @@ static inline imp_status curve_check(const imp_value *values, int points, int we
     return IMP_OK;
 }
 
-/* A curve of checked values; in the plane, the third coordinate is 0. NULL: no memory. free() it. */
+/* A curve of checked values; in the plane, the third coordinate is 0. NULL: no memory. free() it.
+ */
 static inline patch *curve_new(const imp_value *points, const imp_value *weights)
 {
     const size_t count = points->extent[0], width = points->extent[1];

@@ -21,11 +21,11 @@
 
 typedef struct knots {
     int degree;
-    size_t count;  /* control points */
+    size_t count; /* control points */
     size_t spans;
-    double *at;    /* all knots */
-    double *ends;  /* spans + 1: where spans begin and end */
-    size_t *last;  /* per span, its last control point */
+    double *at;   /* all knots */
+    double *ends; /* spans + 1: where spans begin and end */
+    size_t *last; /* per span, its last control point */
 } knots;
 
 /* --- What is given --- */
@@ -78,7 +78,8 @@ static inline imp_status knots_check(const knot_row *row, int degree, imp_compla
     const size_t p = (size_t)degree, length = row->length;
     if (length < 2 * p + 2)
         return complain(why, row->parameter, row->element,
-                        "found %zu knots, allowed at least 2 * degree + 2 = %zu", length, 2 * p + 2);
+                        "found %zu knots, allowed at least 2 * degree + 2 = %zu", length,
+                        2 * p + 2);
     imp_status status = knots_check_order(row, why);
     if (status != IMP_OK) return status;
     const double lo = row->number[p], hi = row->number[length - 1 - p];
@@ -149,8 +150,8 @@ static inline size_t knots_last_span(const knots *k, double hi, size_t first)
 
 /* The p + 1 basis functions at u that are not 0 in a span, within 6 p units of themselves.
  *
- * Lemma. Each step of Cox and de Boor's recursion, N = (u - a) / (b - a) N' + (c - u) / (c - b) N'',
- * costs a term the rounding of two differences and their sum as the divisor (2), quotient,
+ * Lemma. Each step of Cox and de Boor's recursion, N = (u - a) / (b - a) N' + (c - u) / (c - b)
+ * N'', costs a term the rounding of two differences and their sum as the divisor (2), quotient,
  * product, and sum: 6 with the factor's own. */
 static inline void knots_basis(const knots *k, size_t span, double u, double *basis)
 {
@@ -173,9 +174,9 @@ static inline void knots_basis(const knots *k, size_t span, double u, double *ba
 /* Bezier control points of a span: point i is sum_j matrix[i * (p + 1) + j] times the span's j-th
  * control point; entries are >= 0, within 5 p units of themselves.
  *
- * Point i is the blossom at a (p - i times) and b (i times), the span's ends. Lemma: each argument w
- * replaces neighbours by (c - w) / (c - d) of one and (w - d) / (c - d) of the other, d <= a <= w <=
- * b <= c: two differences, quotient, product, sum. */
+ * Point i is the blossom at a (p - i times) and b (i times), the span's ends. Lemma: each argument
+ * w replaces neighbours by (c - w) / (c - d) of one and (w - d) / (c - d) of the other, d <= a <= w
+ * <= b <= c: two differences, quotient, product, sum. */
 static inline void knots_extract(const knots *k, size_t span, double *matrix)
 {
     const int p = k->degree;

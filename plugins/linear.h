@@ -33,6 +33,7 @@ typedef struct linear {
     double still[3][LINEAR_TERMS];  /* K, per coordinate */
     double motion[3][LINEAR_TERMS]; /* V */
     uint32_t depends[3];
+    bool is_affine[3]; /* no products of u, v, t */
 } linear;
 
 /* A list of COUNT corners, or of their velocities. */
@@ -59,6 +60,7 @@ static inline void linear_finish(linear *f)
         bool w = cross || k[LINEAR_V] != 0 || v[LINEAR_V] != 0;
         bool t = v[LINEAR_1] != 0 || v[LINEAR_U] != 0 || v[LINEAR_V] != 0 || v[LINEAR_UV] != 0;
         f->depends[i] = (u ? 1u : 0) | (w ? 2u : 0) | (t ? 4u : 0);
+        f->is_affine[i] = !cross && v[LINEAR_U] == 0 && v[LINEAR_V] == 0;
     }
 }
 
@@ -80,8 +82,8 @@ static inline double linear_at(const linear *f, int i, const double p[3], double
 {
     const double *k = f->still[i], *v = f->motion[i], u = p[0], w = p[1], t = p[2];
     const double along_u = u * (k[LINEAR_U] + t * v[LINEAR_U]);
-    const double along_v = w * ((k[LINEAR_V] + t * v[LINEAR_V]) +
-                                u * (k[LINEAR_UV] + t * v[LINEAR_UV]));
+    const double along_v =
+        w * ((k[LINEAR_V] + t * v[LINEAR_V]) + u * (k[LINEAR_UV] + t * v[LINEAR_UV]));
     const double x = k[LINEAR_1] + ((t * v[LINEAR_1] + along_u) + along_v);
     const double size = linear_size(k, v, fabs(u), fabs(w), fabs(t));
     *error = f->depends[i] ? LAST_ROUNDING * fabs(x) + 10 * 0x1p-53 * size + IMP_TINY : 0;
@@ -96,8 +98,7 @@ static inline imp_status linear_eval(const void *self, size_t n, const double *p
     for (size_t k = 0; k < n; ++k) {
         double slip[3];
         if (!(fabs(p[3 * k + 2]) <= LINEAR_LATE)) return IMP_DOMAIN;
-        for (int i = 0; i < 3; ++i)
-            x[3 * k + i] = linear_at(f, i, p + 3 * k, &slip[i]);
+        for (int i = 0; i < 3; ++i) x[3 * k + i] = linear_at(f, i, p + 3 * k, &slip[i]);
         if (error) memcpy(error + 3 * k, slip, sizeof slip);
     }
     return IMP_OK;
@@ -153,24 +154,34 @@ static inline imp_status linear_rate(const void *self, const imp_region *region,
     return IMP_OK;
 }
 
-/* Least and greatest value at the region's corners. */
+/* Least and greatest value at the region's corners: u and v at either end of time. */
 static inline void linear_range(const double *k, const double *v, const imp_region *region,
                                 double noise, imp_model *g)
 {
+    const double *u = region->lo, *w = region->hi;
     double lo = INFINITY, hi = -INFINITY;
     for (int end = 0; end < 2; ++end) {
-        const double t = end ? region->hi[2] : region->lo[2];
-        const double a = t * v[LINEAR_1], b = k[LINEAR_U] + t * v[LINEAR_U];
-        const double c = k[LINEAR_V] + t * v[LINEAR_V], d = k[LINEAR_UV] + t * v[LINEAR_UV];
+        const double t = end ? w[2] : u[2], c = k[LINEAR_V] + t * v[LINEAR_V];
+        const double b = k[LINEAR_U] + t * v[LINEAR_U], d = k[LINEAR_UV] + t * v[LINEAR_UV];
+        const double at_lo = t * v[LINEAR_1] + u[0] * b, at_hi = t * v[LINEAR_1] + w[0] * b;
+        const double side_lo = c + u[0] * d, side_hi = c + w[0] * d;
+        const double x[4] = {at_lo + u[1] * side_lo, at_lo + w[1] * side_lo, at_hi + u[1] * side_hi,
+                             at_hi + w[1] * side_hi};
         for (int corner = 0; corner < 4; ++corner) {
-            const double u = corner & 1 ? region->hi[0] : region->lo[0];
-            const double w = corner & 2 ? region->hi[1] : region->lo[1];
-            const double x = a + u * b + w * (c + u * d);
-            lo = imp_smaller(lo, x), hi = imp_larger(hi, x);
+            lo = imp_smaller(lo, x[corner]);
+            hi = imp_larger(hi, x[corner]);
         }
     }
     g->lo = imp_sum_down(k[LINEAR_1] + (lo - noise));
     g->hi = imp_sum_up(k[LINEAR_1] + (hi + noise));
+}
+
+/* The same without products, from the model: `noise` and e have room for its three sums. */
+static inline void linear_affine_range(double noise, imp_model *g)
+{
+    const double reach = fabs(g->b[0]) + fabs(g->b[1]) + fabs(g->b[2]) + g->e + noise;
+    g->lo = imp_sum_down(g->a - reach);
+    g->hi = imp_sum_up(g->a + reach);
 }
 
 /* With p = c + d s substituted, K_k + t V_k = (K_k + c_t V_k) + d_t V_k s_t. */
@@ -192,7 +203,10 @@ static inline imp_model linear_model(const linear *f, int i, const imp_region *r
     g.q[IMP_VT] = dv * dt * (v[LINEAR_V] + cu * v[LINEAR_UV]);
     g.e = fabs(du * dv * dt * v[LINEAR_UV]) + noise;
     if (g.depends) g.e += LAST_ROUNDING * fabs(g.a);
-    linear_range(k, v, region, noise, &g);
+    if (f->is_affine[i])
+        linear_affine_range(noise, &g);
+    else
+        linear_range(k, v, region, noise, &g);
     linear_rates(k, v, region, g.rate);
     return g;
 }

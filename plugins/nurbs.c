@@ -4,8 +4,8 @@
 #include "nurbs_cells.h"
 #include "plugin.h"
 
-/* A NURBS surface whose control points move linearly. knots.h knows about knots, nurbs_cells.h bounds
- * the surface; here it is made and evaluated. */
+/* A NURBS surface whose control points move linearly. knots.h knows about knots, nurbs_cells.h
+ * bounds the surface; here it is made and evaluated. */
 
 enum { DEGREE, KNOTS, KNOTS_U, KNOTS_V, POINTS, WEIGHTS, VELOCITIES };
 
@@ -33,8 +33,9 @@ static const imp_parameter parameters[] = {
                .max = KNOT_FAR},
     [KNOTS_U] = {.name = "knots_u",
                  .unit = "1",
-                 .doc = "in place of the first list of knots, of any length: n + p + 1 for n points "
-                        "along u",
+                 .doc =
+                     "in place of the first list of knots, of any length: n + p + 1 for n points "
+                     "along u",
                  .kind = IMP_NUMBER,
                  .flags = IMP_OPTIONAL,
                  .rank = 1,
@@ -82,8 +83,7 @@ static const imp_parameter parameters[] = {
 static knot_row row_of(const imp_value *values, int side)
 {
     const imp_value *own = &values[side ? KNOTS_V : KNOTS_U], *both = &values[KNOTS];
-    if (is_given(own))
-        return (knot_row){own->number, own->extent[0], side ? KNOTS_V : KNOTS_U, -1};
+    if (is_given(own)) return (knot_row){own->number, own->extent[0], side ? KNOTS_V : KNOTS_U, -1};
     const size_t length = both->extent[1];
     return (knot_row){both->number + (size_t)side * length, length, KNOTS, side};
 }
@@ -205,8 +205,8 @@ static bool nurbs_has(const nurbs_instance *f, const double *p)
     return fabs(p[2]) <= PATCH_LATE;
 }
 
-/* sum_ij N_i N_j w_ij (P_ij - place, V_ij - drift), and of w_ij alone, over a cell's control points:
- * lanes as in a patch. */
+/* sum_ij N_i N_j w_ij (P_ij - place, V_ij - drift), and of w_ij alone, over a cell's control
+ * points: lanes as in a patch. */
 static void sum_points(const nurbs_instance *f, size_t i, size_t j, const double *along_u,
                        const double *along_v, double sum[PATCH_LANES_MAX])
 {
@@ -231,8 +231,9 @@ static void sum_points(const nurbs_instance *f, size_t i, size_t j, const double
 /* One point and its error.
  *
  * Lemma. As for a patch (patch_point), but the basis functions are within 6 p and 6 q units, their
- * product with the weight has 2 roundings and the net 2: (6p + 6q + 3 + (p+1)(q+1)) units of `most`,
- * which is the greatest |w (P - place)|; 2 more for its own rounding and that of the bound. */
+ * product with the weight has 2 roundings and the net 2: (6p + 6q + 3 + (p+1)(q+1)) units of
+ * `most`, which is the greatest |w (P - place)|; 2 more for its own rounding and that of the bound.
+ */
 static void nurbs_point(const nurbs_instance *f, const double p[3], double x[3], double error[3])
 {
     const size_t i = knots_span(&f->side[0], p[0]), j = knots_span(&f->side[1], p[1]);
@@ -295,8 +296,9 @@ static imp_status nurbs_rate(const void *self, const imp_region *region, imp_rat
 static const imp_surface_type nurbs = {
     SURFACE_CALLS_DESTROY(nurbs, nurbs, nurbs_destroy),
     .summary = "NURBS surface of any degree up to 20, rational or not, moving linearly",
-    .equation = "sum_ij N_i(u) N_j(v) w_ij (points_ij + t velocities_ij) / sum_ij N_i(u) N_j(v) w_ij, "
-                "N: B-splines over the knots, u in [knots_u_p, knots_u_n], v likewise",
+    .equation =
+        "sum_ij N_i(u) N_j(v) w_ij (points_ij + t velocities_ij) / sum_ij N_i(u) N_j(v) w_ij, "
+        "N: B-splines over the knots, u in [knots_u_p, knots_u_n], v likewise",
     .source = "L. Piegl, W. Tiller, The NURBS Book",
     .example = "nurbs degree=2,1 knots_u=[0,0,0,1,2,2,2] knots_v=[0,0,1,1] "
                "points=[[0,0,0],[0,1,0],[1,0,1],[1,1,1],[2,0,1],[2,1,1],[3,0,0],[3,1,0]]",

@@ -9,9 +9,9 @@
 
 /* A NURBS surface as patches, one per cell
  * ========================================
- * A cell is a span of u times a span of v. Over it the surface is a Bezier patch whose control points
- * knots_extract makes; with x = (u - k_i) / (k_(i+1) - k_i), likewise y, it is a function on [0, 1]^2
- * that patch_include bounds. Of a patch only what that needs is kept, and two more facts:
+ * A cell is a span of u times a span of v. Over it the surface is a Bezier patch whose control
+ * points knots_extract makes; with x = (u - k_i) / (k_(i+1) - k_i), likewise y, it is a function on
+ * [0, 1]^2 that patch_include bounds. Of a patch only what that needs is kept, and two more facts:
  *
  *   gauge[side][axis]       at least |df/dx| or |df/dy| all over the cell, velocities left out
  *   gauge_motion[side][axis]   the same of the velocity of f
@@ -27,9 +27,10 @@ typedef struct cell {
 typedef struct nurbs_instance {
     knots side[2];
     bool moves, rational;
-    double *points, *weights, *velocities; /* weights, velocities: NULL if rational, moves are not */
-    cell *cells;                           /* spans of v for each span of u */
-    double *series;                        /* of all cells */
+    double *points, *weights,
+        *velocities; /* weights, velocities: NULL if rational, moves are not */
+    cell *cells;     /* spans of v for each span of u */
+    double *series;  /* of all cells */
 } nurbs_instance;
 
 static inline const cell *nurbs_cell(const nurbs_instance *f, size_t i, size_t j)
@@ -65,9 +66,9 @@ static inline void cell_gather(const nurbs_instance *f, size_t i, size_t j, cell
         }
 }
 
-/* From the spline's control points to the patch's. Lemma (units): a number of the net has 2 roundings
- * to begin with, 5 p and 5 q in the matrices' entries, and passes a product and at most p + 1 or q + 1
- * sums twice; all relative to `most`, as each row of a matrix adds up to 1. */
+/* From the spline's control points to the patch's. Lemma (units): a number of the net has 2
+ * roundings to begin with, 5 p and 5 q in the matrices' entries, and passes a product and at most p
+ * + 1 or q + 1 sums twice; all relative to `most`, as each row of a matrix adds up to 1. */
 static inline void cell_set_net(patch *f, const cell_data *from)
 {
     const int p = f->degree[0], q = f->degree[1], row = (q + 1) * f->lanes;
@@ -141,9 +142,9 @@ static inline bool nurbs_make_cells(const nurbs_instance *f)
 
 #define CELL_SLIP 0x1p-51 /* more than (u - k) / h is off by: three roundings, |x| <= 1 */
 
-/* A region of u or v as one of x or y, which surely holds it; answers at least |x' - x| where x' = c' +
- * d' s stands for x = (c + d s - k) / h. (More than rounding only where u is much greater than h: its
- * own resolution is coarse there.) */
+/* A region of u or v as one of x or y, which surely holds it; answers at least |x' - x| where x' =
+ * c' + d' s stands for x = (c + d s - k) / h. (More than rounding only where u is much greater than
+ * h: its own resolution is coarse there.) */
 static inline double cell_localize(const knots *k, size_t span, const imp_region *region, int side,
                                    imp_region *local)
 {
@@ -157,8 +158,8 @@ static inline double cell_localize(const knots *k, size_t span, const imp_region
     return fabs((region->c[side] - from) / h - c) + fabs(region->d[side] / h - d) + 2 * CELL_SLIP;
 }
 
-/* From a model over x and y to one over u and v. Where both x' and x are in the cell, f differs by at
- * most the gauge times their distance. */
+/* From a model over x and y to one over u and v. Where both x' and x are in the cell, f differs by
+ * at most the gauge times their distance. */
 static inline void cell_globalize(const cell *c, int axis, double late, const double h[2],
                                   const double shift[2], imp_model *g)
 {
@@ -173,8 +174,8 @@ static inline void cell_globalize(const cell *c, int axis, double late, const do
     g->hi = imp_sum_up(g->hi + slip);
 }
 
-static inline imp_status cell_include(const nurbs_instance *f, size_t i, size_t j, const imp_region *region,
-                                      imp_model model[3])
+static inline imp_status cell_include(const nurbs_instance *f, size_t i, size_t j,
+                                      const imp_region *region, imp_model model[3])
 {
     const cell *c = nurbs_cell(f, i, j);
     const double *u = f->side[0].ends + i, *v = f->side[1].ends + j;
@@ -211,7 +212,8 @@ static inline size_t cell_range_count(const cell_range *r)
 }
 
 /* The part of a region inside cell i, j. */
-static inline imp_region cell_part(const nurbs_instance *f, size_t i, size_t j, const imp_region *region)
+static inline imp_region cell_part(const nurbs_instance *f, size_t i, size_t j,
+                                   const imp_region *region)
 {
     const size_t at[2] = {i, j};
     double lo[3], hi[3];
@@ -225,8 +227,9 @@ static inline imp_region cell_part(const nurbs_instance *f, size_t i, size_t j, 
 }
 
 /* A few cells: pieces of one quadratic. */
-static inline imp_status nurbs_include_few(const nurbs_instance *f, pieces_eval *eval, cell_range cells,
-                                           const imp_region *region, imp_model model[3])
+static inline imp_status nurbs_include_few(const nurbs_instance *f, pieces_eval *eval,
+                                           cell_range cells, const imp_region *region,
+                                           imp_model model[3])
 {
     imp_status status = pieces_sample(eval, f, region, model);
     for (int axis = 0; axis < 3; ++axis) pieces_begin(&model[axis]);
@@ -249,8 +252,8 @@ typedef struct cell_hull {
     double rate[2];             /* per unit of u and v */
 } cell_hull;
 
-static inline void cell_hull_add(cell_hull *hull, const nurbs_instance *f, size_t i, size_t j, int axis,
-                                 double late)
+static inline void cell_hull_add(cell_hull *hull, const nurbs_instance *f, size_t i, size_t j,
+                                 int axis, double late)
 {
     const cell *c = nurbs_cell(f, i, j);
     const patch *g = &c->shape;
@@ -273,8 +276,8 @@ static inline imp_model cell_hull_model(const cell_hull *hull, const imp_region 
     const imp_model still = imp_between(hull->still.lo, hull->still.hi);
     imp_model g = still;
     if (moves)
-        g = imp_add(still, imp_mul(imp_between(hull->motion.lo, hull->motion.hi),
-                                   imp_param(region, 2)));
+        g = imp_add(still,
+                    imp_mul(imp_between(hull->motion.lo, hull->motion.hi), imp_param(region, 2)));
     g.depends = moves ? 7 : 3;
     g.rate[0] = hull->rate[0] * SLACK;
     g.rate[1] = hull->rate[1] * SLACK;
@@ -282,8 +285,8 @@ static inline imp_model cell_hull_model(const cell_hull *hull, const imp_region 
 }
 
 /* Many cells. */
-static inline void nurbs_include_many(const nurbs_instance *f, cell_range cells, const imp_region *region,
-                                      imp_model model[3])
+static inline void nurbs_include_many(const nurbs_instance *f, cell_range cells,
+                                      const imp_region *region, imp_model model[3])
 {
     const double late = fabs(region->c[2]) + region->d[2];
     for (int axis = 0; axis < 3; ++axis) {

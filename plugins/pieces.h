@@ -89,8 +89,9 @@ static inline pieces_shift pieces_shift_of(const imp_region *whole, const imp_re
     return s;
 }
 
-/* The quadratic `whole` in the piece's parameters. Rounding: |sigma|, |delta| <= 1 within 2 units, and
- * a coefficient is a sum of at most ten products of four factors: below 32 units of its size. */
+/* The quadratic `whole` in the piece's parameters. Rounding: |sigma|, |delta| <= 1 within 2 units,
+ * and a coefficient is a sum of at most ten products of four factors: below 32 units of its size.
+ */
 static inline imp_model pieces_restrict(const imp_model *whole, const pieces_shift *shift)
 {
     const double *sigma = shift->sigma, *delta = shift->delta;

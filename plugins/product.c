@@ -87,8 +87,9 @@ IMP_SURFACE_FORMULA(product_formula)
 static const imp_surface_type product = {
     SURFACE_CALLS_DESTROY(product, product_formula, product_destroy),
     .summary = "spherical product of two plane Bezier curves: a profile and an outline",
-    .equation = "center + (k_x c_1(u) d_1(v), k_y c_1(u) d_2(v), k_z c_2(u)), c and d each sum_i B_i "
-                "w_i P_i / sum_i B_i w_i over its control points P and weights w, u and v in [0,1]",
+    .equation =
+        "center + (k_x c_1(u) d_1(v), k_y c_1(u) d_2(v), k_z c_2(u)), c and d each sum_i B_i "
+        "w_i P_i / sum_i B_i w_i over its control points P and weights w, u and v in [0,1]",
     .source = "Von Herzen, Barr, Zatz, SIGGRAPH 1990, eq. 27",
     .example = "product k=1,1,2 c=[[0,-1],[2,0],[0,1]] d=[[1,0],[1,2],[-2,2],[-2,-2],[1,-2],[1,0]]",
 };

@@ -21,13 +21,13 @@
  * |w| <= 1 because p >= 1 and G <= 1; and swapping the axes turns w into 1/w. (For p < 1 the first
  * is infinite at w = 0: exponents beyond 2 are refused.)
  *
- * Lemma (p is rounded). Let p = q (1 + d), |d| <= u = 2^-53, and T = |w|^p. Then | T - |w|^q | <= u T
- * |ln T| to first order, which is below u / 2 for T <= 1 and below 8 u T for T <= 2^10; second order is
- * below 2^-40 of that. Therefore |w|^(p-1) is within 2^-40 of |w|^(q-1), relatively, wherever it is
- * above 2^-1000. 1/p = e/2 is exact.
+ * Lemma (p is rounded). Let p = q (1 + d), |d| <= u = 2^-53, and T = |w|^p. Then | T - |w|^q | <= u
+ * T |ln T| to first order, which is below u / 2 for T <= 1 and below 8 u T for T <= 2^10; second
+ * order is below 2^-40 of that. Therefore |w|^(p-1) is within 2^-40 of |w|^(q-1), relatively,
+ * wherever it is above 2^-1000. 1/p = e/2 is exact.
  *
- * Lemma (flat). With L = min(1, 1/|w|): 2^(-1/p) L <= G <= L, because max(1, T) <= 1 + T <= 2 max(1,
- * T). It tells all there is to tell when p is beyond SUPERELLIPSE_SHARP. */
+ * Lemma (flat). With L = min(1, 1/|w|): 2^(-1/p) L <= G <= L, because max(1, T) <= 1 + T <= 2
+ * max(1, T). It tells all there is to tell when p is beyond SUPERELLIPSE_SHARP. */
 
 #define SUPERELLIPSE_SHARP 0x1p50
 #define SUPERELLIPSE_STEEP 0x1p10 /* greatest T for the smooth way */
@@ -57,8 +57,8 @@ static inline imp_status check_exponents(const imp_value *exponents, int row, im
     return IMP_OK;
 }
 
-/* Lemma. For m = min(2, p), d = |p - 2| and r = d / m, z^m (1 - z^d) is greatest where z^d = 1 / (1 +
- * r), with the value (1 + r)^(-1/r) r / (1 + r). 2^-50 covers the rounding of p, the rest that of
+/* Lemma. For m = min(2, p), d = |p - 2| and r = d / m, z^m (1 - z^d) is greatest where z^d = 1 / (1
+ * + r), with the value (1 + r)^(-1/r) r / (1 + r). 2^-50 covers the rounding of p, the rest that of
  * libm. */
 static inline double superellipse_dent_upper(double power)
 {
@@ -95,23 +95,22 @@ static inline imp_model superellipse_bowl(const superellipse *s, imp_model w, im
     return imp_model_finish(t);
 }
 
-/* |w|^q. */
-static inline imp_model superellipse_power(const superellipse *s, imp_model w)
+/* |w|^q, whose range is given. */
+static inline imp_model superellipse_power(const superellipse *s, imp_model w, imp_interval range)
 {
-    const imp_interval size = imp_interval_abs(imp_model_range(&w));
     if (superellipse_is_even(s)) return imp_powi(w, (int)s->power);
     imp_model t = imp_pow(w.lo > 0 ? w : w.hi < 0 ? imp_neg(w) : imp_abs(w), s->power);
-    const imp_interval range = imp_interval_pow(size, s->power);
-    if (imp_is_point(&w) || size.hi < 0x1p-300 || t.e <= 0.5 * s->dent * range.hi) return t;
+    const bool tiny = imp_interval_mag(imp_model_range(&w)) < 0x1p-300;
+    if (imp_is_point(&w) || tiny || t.e <= 0.5 * s->dent * range.hi) return t;
     return superellipse_bowl(s, w, range);
 }
 
 /* --- X and Y near an axis --- */
 
 /* G where |w|^p is smooth enough to be told. */
-static inline imp_model superellipse_smooth(const superellipse *s, imp_model w)
+static inline imp_model superellipse_smooth(const superellipse *s, imp_model w, imp_interval range)
 {
-    imp_model t = superellipse_power(s, w);
+    imp_model t = superellipse_power(s, w, range);
     const double slip = 0x1p-53 + 0x1p-49 * t.hi;
     t.e += slip;
     t.lo = imp_larger(t.lo - slip, 0);
@@ -132,17 +131,16 @@ static inline imp_model superellipse_flat(const superellipse *s, imp_model w)
     return g;
 }
 
-/* Speeds by the lemma, from the least and the greatest |w| and the least T. */
-static inline void superellipse_speeds(const superellipse *s, imp_interval size, double *x_upper,
-                                       double *y_upper)
+/* Speeds by the lemma, from the range of |w| and that of |w|^q. */
+static inline void superellipse_speeds(const superellipse *s, imp_interval size, imp_interval power,
+                                       double *x_upper, double *y_upper)
 {
     const double sec = 1 + size.hi * size.hi, lift = 1 + 0x1p-38;
     double fall = 1, steep = INFINITY;
     if (s->power < SUPERELLIPSE_SHARP) {
-        const imp_interval t = imp_interval_pow(size, s->power);
-        const imp_interval base = imp_interval_make(1 + t.lo * (1 - 0x1p-40), INFINITY);
-        fall = imp_interval_pow(base, -1 - 0.5 * s->exponent).hi;
-        steep = imp_interval_pow(size, s->power - 1).hi;
+        const double base = 1 + power.lo * (1 - 0x1p-40);
+        fall = imp_interval_pow(imp_interval_make(base, base), -1 - 0.5 * s->exponent).hi;
+        steep = power.hi / size.hi;
     } else if (size.hi < 1) {
         steep = imp_interval_pow(size, SUPERELLIPSE_SHARP / 2).hi;
     }
@@ -165,20 +163,21 @@ static inline void superellipse_near_axis(const superellipse *s, imp_model angle
 {
     const imp_model w = imp_tan(angle);
     const imp_interval size = imp_interval_abs(imp_model_range(&w));
+    const bool sharp = !(s->power < SUPERELLIPSE_SHARP);
+    const imp_interval power = sharp ? imp_interval_whole() : imp_interval_pow(size, s->power);
     double x_speed, y_speed;
-    bool smooth = s->power < SUPERELLIPSE_SHARP &&
-                  imp_interval_pow(size, s->power).hi < SUPERELLIPSE_STEEP;
-    *x = smooth ? superellipse_smooth(s, w) : superellipse_flat(s, w);
+    *x = power.hi < SUPERELLIPSE_STEEP ? superellipse_smooth(s, w, power) : superellipse_flat(s, w);
     *y = imp_mul(w, *x);
-    superellipse_speeds(s, size, &x_speed, &y_speed);
+    if (!angle.depends) return;
+    superellipse_speeds(s, size, power, &x_speed, &y_speed);
     superellipse_limit(x, &angle, x_speed);
     superellipse_limit(y, &angle, y_speed);
 }
 
 /* --- X and Y anywhere --- */
 
-/* Lemma. X = r cos a (and Y = r sin a) with 1 / r = (|cos a|^p + |sin a|^p)^(1/p) between the greater
- * of |cos a| and |sin a|, at least 1 / sqrt 2, and |cos a| + |sin a|, at most sqrt 2: so
+/* Lemma. X = r cos a (and Y = r sin a) with 1 / r = (|cos a|^p + |sin a|^p)^(1/p) between the
+ * greater of |cos a| and |sin a|, at least 1 / sqrt 2, and |cos a| + |sin a|, at most sqrt 2: so
  * 0.7 < r < 1.5. */
 static inline imp_model superellipse_wide(const imp_model *angle, imp_interval wave)
 {

@@ -62,9 +62,10 @@ IMP_SURFACE_FORMULA(supertoroid_formula)
 static const imp_surface_type supertoroid = {
     SURFACE_CALLS(supertoroid, supertoroid_formula),
     .summary = "supertoroid: a torus whose ring and tube are superellipses",
-    .equation = "center + ((R + r X_1(v)) X_2(u), (R + r X_1(v)) Y_2(u), r Y_1(v)), R = major_radius, "
-                "r = minor_radius, (X_k, Y_k)(w) = (cos w, sin w) / (|cos w|^p + |sin w|^p)^(1/p), "
-                "p = 2 / exponents_k, u and v in [0,2pi]",
+    .equation =
+        "center + ((R + r X_1(v)) X_2(u), (R + r X_1(v)) Y_2(u), r Y_1(v)), R = major_radius, "
+        "r = minor_radius, (X_k, Y_k)(w) = (cos w, sin w) / (|cos w|^p + |sin w|^p)^(1/p), "
+        "p = 2 / exponents_k, u and v in [0,2pi]",
     .source = "A. H. Barr, Superquadrics and angle-preserving transformations, IEEE CG&A 1 (1981)",
     .example = "supertoroid major_radius=1 minor_radius=0.3 exponents=0.5,1",
 };

@@ -54,8 +54,7 @@ static void sweep_domain(const void *self, double lo[3], double hi[3])
     set_domain(lo, hi, 0, 1, 0, 1);
 }
 
-static void sweep_formula(const void *self, imp_model u, imp_model v, imp_model t,
-                          imp_model out[3])
+static void sweep_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
 {
     const sweep_instance *s = self;
     imp_model profile[3], path[3];
@@ -69,8 +68,9 @@ IMP_SURFACE_FORMULA(sweep_formula)
 static const imp_surface_type sweep = {
     SURFACE_CALLS_DESTROY(sweep, sweep_formula, sweep_destroy),
     .summary = "translational sweep: a Bezier curve moved, without turning, along another",
-    .equation = "profile(u) + path(v), each sum_i B_i w_i P_i / sum_i B_i w_i over its control points "
-                "P and weights w, u and v in [0,1]",
+    .equation =
+        "profile(u) + path(v), each sum_i B_i w_i P_i / sum_i B_i w_i over its control points "
+        "P and weights w, u and v in [0,1]",
     .source = NULL,
     .example = "sweep profile=[[0,0,0],[0,1,1],[0,2,0]] path=[[0,0,0],[1,0,1],[2,1,0]]",
 };

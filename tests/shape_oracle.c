@@ -59,8 +59,8 @@ void ripple_oracle(const type_arguments *arguments, const number p[3], number x[
     number turns = num_div(ahead, scalar(arguments, "wavelength"));
     x[0] = p[0];
     x[1] = p[1];
-    x[2] = num_mul(scalar(arguments, "amplitude"),
-                   num_sin(num_mul(num_mul(num(2), num_pi()), turns)));
+    x[2] =
+        num_mul(scalar(arguments, "amplitude"), num_sin(num_mul(num_mul(num(2), num_pi()), turns)));
     add_center(arguments, x);
 }
 
@@ -167,8 +167,8 @@ static number bernstein(unsigned n, unsigned i, number u)
 }
 
 /* A Bezier curve by the names of its points and weights. */
-static void curve(const type_arguments *arguments, const char *points, const char *weights, number s,
-                  number x[3])
+static void curve(const type_arguments *arguments, const char *points, const char *weights,
+                  number s, number x[3])
 {
     const imp_value *value = argument(arguments, points), *heavy = argument(arguments, weights);
     const size_t count = value->extent[0], width = value->extent[1];

@@ -5,8 +5,8 @@
 
 #include "type_oracle.h"
 
-/* The catalogue's surfaces once more, in numbers of 200 bits: each by its textbook definition, not by
- * the way its plugin takes. Rows of the table in type_oracle.c. */
+/* The catalogue's surfaces once more, in numbers of 200 bits: each by its textbook definition, not
+ * by the way its plugin takes. Rows of the table in type_oracle.c. */
 
 typedef void surface_oracle(const type_arguments *arguments, const number p[3], number x[3]);
 

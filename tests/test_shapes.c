@@ -7,8 +7,8 @@
 #include "instance.h"
 #include "region.h"
 
-/* What is special to single shapes of the catalogue. That their bounds hold at all is tested for all
- * of them together in test_plugins.c. */
+/* What is special to single shapes of the catalogue. That their bounds hold at all is tested for
+ * all of them together in test_plugins.c. */
 
 static imp_registry *registry;
 
@@ -42,8 +42,7 @@ static void expect_remainders(const char *type, const char *parameters, double m
     made.surface->domain(made.self, lo, hi);
     lo[2] = 0, hi[2] = 1;
     models_of(&made, lo, hi, model);
-    for (int i = 0; i < 3; ++i)
-        ck_assert_msg(model[i].e <= most, "%s: e = %g", type, model[i].e);
+    for (int i = 0; i < 3; ++i) ck_assert_msg(model[i].e <= most, "%s: e = %g", type, model[i].e);
     instance_free(&made);
 }
 
@@ -111,8 +110,8 @@ START_TEST(superellipsoids_satisfy_their_implicit_equation)
 }
 END_TEST
 
-/* The promise of the radial parametrisation: by the chain of both superellipses, at most 2 per unit of
- * angle and per unit of radius. */
+/* The promise of the radial parametrisation: by the chain of both superellipses, at most 2 per unit
+ * of angle and per unit of radius. */
 START_TEST(superquadrics_move_at_most_at_speed_two_for_every_exponent)
 {
     static const char *const exponents[] = {"2,2",      "1,1",        "1.5,0.5",
@@ -181,7 +180,8 @@ START_TEST(a_sweep_is_the_sum_of_its_curves)
 }
 END_TEST
 
-/* --- NURBS ------------------------------------------------------------------------------------- */
+/* --- NURBS -------------------------------------------------------------------------------------
+ */
 
 START_TEST(a_nurbs_without_inner_knots_is_a_bezier_patch)
 {
@@ -290,7 +290,8 @@ START_TEST(a_surface_of_many_knots_is_bounded_as_a_whole_and_in_the_small)
 }
 END_TEST
 
-/* --- Earliest contacts -------------------------------------------------------------------------- */
+/* --- Earliest contacts --------------------------------------------------------------------------
+ */
 
 static void expect_contact(const char *a, const char *b, double time, double early)
 {
@@ -302,15 +303,17 @@ START_TEST(a_falling_vertex_meets_a_face)
 {
     expect_contact("triangle points=[[-1,-1,0],[2,-1,0],[-1,2,0]]",
                    "point position=0.1,0.2,1.5 velocity=0,0,-2", 0.75, 1e-6);
-    expect_contact("triangle points=[[-1,-1,0],[2,-1,0],[-1,2,0]] velocities=[[0,0,1],[0,0,1],[0,0,1]]",
-                   "point position=0.1,0.2,1.5 velocity=0,0,-2", 0.5, 1e-6);
+    expect_contact(
+        "triangle points=[[-1,-1,0],[2,-1,0],[-1,2,0]] velocities=[[0,0,1],[0,0,1],[0,0,1]]",
+        "point position=0.1,0.2,1.5 velocity=0,0,-2", 0.5, 1e-6);
 }
 END_TEST
 
 START_TEST(an_edge_meets_an_edge)
 {
     expect_contact("segment points=[[-1,0,0],[1,0,0]]",
-                   "segment points=[[0.3,-1,1],[0.3,1,2]] velocities=[[0,0,-3],[0,0,-3]]", 0.5, 1e-6);
+                   "segment points=[[0.3,-1,1],[0.3,1,2]] velocities=[[0,0,-3],[0,0,-3]]", 0.5,
+                   1e-6);
     const question past = {.a = "segment points=[[-1,0,0],[1,0,0]]",
                            .b = "segment points=[[1.1,-1,1],[1.1,1,1]] "
                                 "velocities=[[0,0,-3],[0,0,-3]]"};
@@ -330,8 +333,8 @@ END_TEST
 START_TEST(a_turning_ellipsoid_reaches_a_plane)
 {
     expect_contact("ellipsoid radii=2,1,1 ! rotate axis=0,1,0 rate=2",
-                   "plane origin=-5,-5,-1.2 edge_u=10,0,0 edge_v=0,10,0",
-                   asin(sqrt(0.44 / 3)) / 2, 1e-6);
+                   "plane origin=-5,-5,-1.2 edge_u=10,0,0 edge_v=0,10,0", asin(sqrt(0.44 / 3)) / 2,
+                   1e-6);
 }
 END_TEST
 
@@ -352,8 +355,8 @@ END_TEST
 /* Exponents 2 make an octahedron, whose face x + y + z = 1 holds (1/3, 1/3, 1/3). */
 START_TEST(the_bevel_of_a_superellipsoid_is_met_where_it_is)
 {
-    expect_contact("superellipsoid exponents=2,2",
-                   "point position=1,1,1 velocity=-1,-1,-1", 2. / 3, 1e-6);
+    expect_contact("superellipsoid exponents=2,2", "point position=1,1,1 velocity=-1,-1,-1", 2. / 3,
+                   1e-6);
 }
 END_TEST
 
@@ -362,8 +365,9 @@ SUITE_MAIN("shapes", moving_points_segments_and_planes_are_followed_exactly,
            a_collapsed_edge_is_one_point, superellipsoids_satisfy_their_implicit_equation,
            superquadrics_move_at_most_at_speed_two_for_every_exponent,
            exponents_beyond_two_are_refused_with_the_reason,
-           a_rational_quarter_of_a_circle_turns_into_half_a_sphere, a_sweep_is_the_sum_of_its_curves,
-           a_nurbs_without_inner_knots_is_a_bezier_patch, a_rational_circle_of_four_arcs_is_round,
+           a_rational_quarter_of_a_circle_turns_into_half_a_sphere,
+           a_sweep_is_the_sum_of_its_curves, a_nurbs_without_inner_knots_is_a_bezier_patch,
+           a_rational_circle_of_four_arcs_is_round,
            bounds_across_a_knot_tighten_as_fast_as_the_surface_is_smooth,
            a_surface_of_many_knots_is_bounded_as_a_whole_and_in_the_small,
            a_falling_vertex_meets_a_face, an_edge_meets_an_edge,
