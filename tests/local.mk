@@ -16,6 +16,7 @@ check_suites = \
     tests/test_guarantees \
     tests/test_loosened \
     tests/test_metamorphic \
+    tests/test_map_answers \
     tests/test_parameters \
     tests/test_pair_heap \
     tests/test_pipeline \
