@@ -156,9 +156,9 @@ static inline void axis_stretch(const axis_frame *frame, imp_model factor, const
 
 /* --- Rates of turning ---
  *
- * The rates of the formula add up the three matrices' shares, and are up to twice too large about
- * an oblique axis. These come from the entries of the rotation R(A), of R'(A), and of an advance by
- * A along some vector, over the box's angles:
+ * The rates in time of the formula add up, entry by entry, what partly cancels in R'(A) w: they are
+ * up to twice too large. These come from the entries of the rotation R(A), of R'(A), and of an
+ * advance by A along some vector, over the box's angles:
  *
  *   R = k k^T + cos A (1 - k k^T) + sin A k x,   |d/dw_j| <= |R_ij|
  *   R' = cos A k x - sin A (1 - k k^T),          |d/dt| <= |A'| |(R' w)_i + advance_i| */
