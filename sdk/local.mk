@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: MIT
 
-# What plugin authors get: headers and impinge-sdk.pc. Nothing here is compiled.
+# What plugin authors get: headers, impinge-sdk.pc, impinge.m4, the template that `impinge new`
+# fills in, the guide and its examples. Nothing here is compiled.
 
 pkginclude_HEADERS = \
     sdk/impinge/formula.h \
@@ -14,3 +15,31 @@ pkginclude_HEADERS = \
     sdk/impinge/surface.h
 
 pkgconfig_DATA += sdk/impinge-sdk.pc
+
+aclocaldir = $(datadir)/aclocal
+dist_aclocal_DATA = sdk/impinge.m4
+
+# impinge.m4 a second time: a new project gets a copy, because aclocal does not look below every
+# prefix.
+templatedir = $(pkgdatadir)/template
+dist_template_DATA = \
+    sdk/impinge.m4 \
+    sdk/template/Makefile.am \
+    sdk/template/README \
+    sdk/template/check.sh \
+    sdk/template/configure.ac \
+    sdk/template/map.c \
+    sdk/template/surface.c
+
+sdkdocdir = $(docdir)/sdk
+dist_sdkdoc_DATA = sdk/README
+
+examplesdir = $(sdkdocdir)/examples
+dist_examples_DATA = \
+    sdk/examples/hand_rates.c \
+    sdk/examples/puddle.cc \
+    sdk/examples/seashell.c \
+    sdk/examples/twirl.c
+
+# Innermost first.
+sdk_folders = $(templatedir) $(examplesdir) $(sdkdocdir) $(docdir)

@@ -72,6 +72,7 @@ bats_suites = \
 # Tests of the sources, the scripts and the installation.
 script_suites = \
     tests/preparation.bats \
+    tests/sdk.bats \
     tests/structure.bats \
     tests/install.bats
 
@@ -184,6 +185,18 @@ AM_TESTS_ENVIRONMENT = \
 
 EXTRA_DIST += $(bats_suites) $(script_suites) tests/include_order tests/cli_helper.bash \
     tests/schema.jq
+
+# What must not change; tests/abi/README tells more.
+EXTRA_DIST += \
+    tests/abi/README \
+    tests/abi/ask_fixture.c \
+    tests/abi/fixture.c \
+    tests/abi/fixture_1_0.so \
+    tests/abi/fixture_1_0.txt \
+    tests/abi/layout.c \
+    tests/abi/layout_1.txt \
+    tests/abi/libimpinge \
+    tests/abi/libimpinge_0.abi
 
 # With sanitizers a second full run is slow and tells nothing new of scripts and installation.
 .PHONY: check-sanitized

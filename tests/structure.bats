@@ -140,7 +140,8 @@ IMPINGE_PLUGIN("smallest", "1", "MIT", "nobody", get_factory);'
     local file
     for file in "$top_srcdir"/{core,plugins,tools,tests}/*.c; do
         clang -std=c11 -O2 -ffp-contract=off -Wall -Wextra -Werror -fsyntax-only \
-            -DPLUGINDIR='""' -DPKGDATADIR='""' -I"$top_builddir" -I"$top_srcdir/sdk" \
+            -DPLUGINDIR='""' -DPKGDATADIR='""' -DPKGCONFIGDIR='""' -DINCLUDEDIR='""' \
+            -DSDKDOCDIR='""' -I"$top_builddir" -I"$top_srcdir/sdk" \
             -I"$top_srcdir/core" "$file"
     done
 }
@@ -203,12 +204,14 @@ source_files() {
 
 # Sources without their two-line head; a first line of #! or for shellcheck may stand above it.
 headless() {
-    local file licence head
+    local file licence head owner
     for file in $(source_files "$1"); do
+        owner='The Impinge authors'
+        [[ $file != sdk/template/* ]] || owner=@author@ # of what `impinge new` writes
         licence=Apache-2.0
         [[ $file != sdk/* ]] || licence=MIT
         head=$(head -n 3 "$1/$file" | grep -vE '^#!|^# shellcheck' | head -n 2)
-        [[ $head == *"SPDX-FileCopyrightText: The Impinge authors"*"SPDX-License-Identifier: $licence"* ]] ||
+        [[ $head == *"SPDX-FileCopyrightText: $owner"*"SPDX-License-Identifier: $licence"* ]] ||
             echo "$file"
     done
 }

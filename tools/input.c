@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "build_tree.h"
 
@@ -55,6 +56,13 @@ bool input_read(FILE *file, const char *name, const char *verb, char **text, siz
     } while (!feof(file) && !ferror(file));
     if (ferror(file)) complain(EXIT_DATA, verb, "%s: %s", name, strerror(errno));
     return !ferror(file);
+}
+
+bool input_is_same(const char *a, const char *b)
+{
+    struct stat a_is, b_is;
+    return stat(a, &a_is) == 0 && stat(b, &b_is) == 0 && a_is.st_dev == b_is.st_dev &&
+           a_is.st_ino == b_is.st_ino;
 }
 
 char *input_package_file(const char *name, const char *verb)

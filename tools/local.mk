@@ -9,6 +9,7 @@ tool_sources = \
     tools/build_tree.c tools/build_tree.h \
     tools/catalogue.c tools/catalogue.h \
     tools/crash.c tools/crash.h \
+    tools/compile.c tools/compile.h \
     tools/input.c tools/input.h \
     tools/interrupt.c tools/interrupt.h \
     tools/main.c \
@@ -16,16 +17,20 @@ tool_sources = \
     tools/nearest.c tools/nearest.h \
     tools/options.c tools/options.h \
     tools/output.c tools/output.h \
+    tools/program.c tools/program.h \
+    tools/project.c tools/project.h \
     tools/query.c tools/query.h \
     tools/result.h tools/result_json.c tools/result_text.c \
     tools/verbs.c tools/verbs.h \
     tools/verb_batch.c \
     tools/verb_bench.c \
+    tools/verb_build.c \
     tools/verb_demo.c \
     tools/verb_help.c \
     tools/verb_info.c \
     tools/verb_list.c \
     tools/verb_matrix.c \
+    tools/verb_new.c \
     tools/verb_pair.c \
     tools/verb_solve.c \
     tools/verb_why.c
@@ -44,9 +49,21 @@ pkgdata_DATA = \
     tools/schema/types.schema.json
 
 # Where build_tree_data looks, so that the command just built meets the data of its own tree.
-noinst_DATA = tools/built-data/bicubic_moving_100.jsonl tools/built-data/teapot.json
+built_data = tools/built-data
+noinst_DATA = \
+    $(built_data)/bicubic_moving_100.jsonl \
+    $(built_data)/teapot.json \
+    $(addprefix $(built_data)/template/,$(notdir $(dist_template_DATA))) \
+    $(pkginclude_HEADERS:sdk/%=$(built_data)/include/%)
 CLEANFILES += $(noinst_DATA)
-$(noinst_DATA): tools/built-data/%: tools/data/%
-	$(AM_V_GEN)$(MKDIR_P) tools/built-data && cp $< $@ && chmod u+w $@
+copy_data = $(AM_V_GEN)$(MKDIR_P) $(@D) && cp $< $@ && chmod u+w $@
+$(built_data)/%: tools/data/%
+	$(copy_data)
+$(built_data)/template/%: sdk/template/%
+	$(copy_data)
+$(built_data)/template/impinge.m4: sdk/impinge.m4
+	$(copy_data)
+$(built_data)/include/%: sdk/%
+	$(copy_data)
 
 EXTRA_DIST += tools/demo tools/prepare tools/test $(pkgdata_DATA)

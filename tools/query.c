@@ -31,19 +31,23 @@ static bool add_build_tree(void)
     return done;
 }
 
+imp_registry *query_registry_first(const char *path, unsigned flags, const char *verb)
+{
+    imp_registry *registry = NULL;
+    if (add_build_tree()) registry = imp_registry_open(path, flags);
+    if (registry == NULL) complain_of_memory(verb);
+    return registry;
+}
+
 imp_registry *query_registry(const arguments *args)
 {
     const option_value *path = arguments_option(args, "plugin-path");
-    const option_value *isolate = arguments_option(args, "isolate");
     const unsigned flags = arguments_option(args, "secure") != NULL ? IMP_REGISTRY_SECURE : 0;
-    imp_registry *registry = NULL;
+    imp_registry *registry =
+        query_registry_first(path != NULL ? path->text : NULL, flags, args->verb->name);
+    const option_value *isolate = arguments_option(args, "isolate");
+    if (registry == NULL || isolate == NULL) return registry;
     imp_error error = {0};
-    if (add_build_tree()) registry = imp_registry_open(path != NULL ? path->text : NULL, flags);
-    if (registry == NULL) {
-        complain_of_memory(args->verb->name);
-        return NULL;
-    }
-    if (isolate == NULL) return registry;
     const char *names = strcmp(isolate->text, "all") == 0 ? NULL : isolate->text;
     if (imp_registry_isolate(registry, names, &error) == IMP_SUCCESS) return registry;
     complain_of(&error, args->verb->name);

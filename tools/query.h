@@ -11,6 +11,10 @@
  * NULL when memory runs out. */
 imp_registry *query_registry(const arguments *args);
 
+/* The same with `path` (colon-separated directories, may be NULL) in place of --plugin-path, and
+ * the flags of imp_registry_open. */
+imp_registry *query_registry_first(const char *path, unsigned flags, const char *verb);
+
 /* Checks of the options that concern more than one of them. */
 exit_status query_check(const arguments *args);
 

@@ -17,6 +17,8 @@
     ROW(matrix)                                                                                    \
     ROW(why)                                                                                       \
     ROW(bench)                                                                                     \
+    ROW(new)                                                                                       \
+    ROW(build)                                                                                     \
     ROW(help)
 
 #define DECLARE(NAME) extern const verb verb_##NAME;

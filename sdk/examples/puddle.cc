@@ -1,0 +1,126 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: MIT */
+
+/* A type in C++17: operators make the formula read as mathematics, and the tables are constants of
+ * the compiler. Exceptions must not leave a callback, so nothing here throws.
+ *
+ * A puddle that a drop fell into: rings run outward and die away with the distance. */
+
+#include <impinge/formula.h>
+#include <new>
+
+namespace
+{
+
+/* --- Models with operators ------------------------------------------------------------ */
+
+imp_model operator+(imp_model a, imp_model b) { return imp_add(a, b); }
+imp_model operator-(imp_model a, imp_model b) { return imp_sub(a, b); }
+imp_model operator*(imp_model a, imp_model b) { return imp_mul(a, b); }
+imp_model operator*(double k, imp_model a) { return imp_scale(a, k); }
+imp_model operator-(imp_model a) { return imp_neg(a); }
+
+/* --- Parameters ----------------------------------------------------------------------- */
+
+constexpr imp_parameter positive(const char *name, const char *unit, const char *preset,
+                                 const char *doc)
+{
+    imp_parameter row{};
+    row.name = name;
+    row.unit = unit;
+    row.preset = preset;
+    row.doc = doc;
+    row.kind = IMP_NUMBER;
+    row.flags = IMP_MIN_OPEN;
+    row.max = INFINITY;
+    return row;
+}
+
+enum { SIZE, HEIGHT, RINGS, SPEED, ROWS };
+
+constexpr imp_parameter parameters[ROWS] = {
+    positive("size", "length", "1", "the rings are at 37% of their height this far out"),
+    positive("height", "length", "0.1", "of the ring in the middle"),
+    positive("rings", "rad/length^2", "12", "how close they stand"),
+    positive("speed", "rad/time", "10", "how fast they run outward"),
+};
+
+/* --- The surface ---------------------------------------------------------------------- */
+
+class Puddle
+{
+  public:
+    explicit Puddle(const imp_value *values)
+        : size_(values[SIZE].number[0]), height_(values[HEIGHT].number[0]),
+          rings_(values[RINGS].number[0]), speed_(values[SPEED].number[0])
+    {
+    }
+
+    void domain(double lo[3], double hi[3]) const
+    {
+        for (int j = 0; j < 2; ++j) lo[j] = -2 * size_, hi[j] = 2 * size_;
+        lo[2] = -INFINITY, hi[2] = INFINITY;
+    }
+
+    /* r2 = u^2 + v^2: (u, v, height exp(-r2/size^2) cos(rings r2 - speed t)) */
+    void formula(imp_model u, imp_model v, imp_model t, imp_model out[3]) const
+    {
+        const imp_model r2 = imp_sqr(u) + imp_sqr(v);
+        const imp_model size = imp_num(size_);
+        const imp_model far = imp_sqr(imp_div(u, size)) + imp_sqr(imp_div(v, size));
+        out[0] = u;
+        out[1] = v;
+        out[2] = height_ * (imp_exp(-far) * imp_cos(rings_ * r2 - speed_ * t));
+    }
+
+  private:
+    double size_, height_, rings_, speed_;
+};
+
+/* --- The callbacks -------------------------------------------------------------------- */
+
+imp_status create(const imp_value *values, void **self, imp_complaint *)
+{
+    *self = new (std::nothrow) Puddle(values);
+    return *self != nullptr ? IMP_OK : IMP_INTERNAL;
+}
+
+void destroy(void *self) { delete static_cast<Puddle *>(self); }
+
+void domain(const void *self, double lo[3], double hi[3])
+{
+    static_cast<const Puddle *>(self)->domain(lo, hi);
+}
+
+void formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
+{
+    static_cast<const Puddle *>(self)->formula(u, v, t, out);
+}
+IMP_SURFACE_FORMULA(formula)
+
+constexpr imp_surface_type make_type()
+{
+    imp_surface_type type{};
+    type.struct_size = sizeof(imp_surface_type);
+    type.parameter_count = ROWS;
+    type.parameter_size = sizeof(imp_parameter);
+    type.name = "puddle";
+    type.summary = "rings that run outward and die away";
+    type.equation = "r2 = u^2 + v^2: (u, v, height exp(-r2/size^2) cos(rings r2 - speed t)), "
+                    "u and v in [-2 size, 2 size]";
+    type.example = "puddle height=0.2";
+    type.parameters = parameters;
+    type.create = create;
+    type.destroy = destroy;
+    type.domain = domain;
+    type.eval = formula_eval;
+    type.rate = formula_rate;
+    type.include = formula_include;
+    return type;
+}
+
+constexpr imp_surface_type type = make_type();
+
+} // namespace
+
+IMPINGE_SURFACE_PLUGIN("puddle", "1.0", "MIT", "The Impinge authors", type);
