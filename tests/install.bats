@@ -79,8 +79,8 @@ build_plugin() {
 
 @test "every plugin of the sources is installed, and no libtool archive beside it" {
     local name
-    for name in "$top_srcdir"/plugins/*.c; do
-        [ -f "$(sdk plugindir)/$(basename "$name" .c).so" ]
+    for name in $(sed -nE 's|^ *plugins/(.*)\.la.*|\1|p' "$top_srcdir/plugins/local.mk"); do
+        [ -f "$(sdk plugindir)/$name.so" ]
     done
     run ! ls "$(sdk plugindir)"/*.la
 }
