@@ -52,6 +52,8 @@ static inline imp_model near_power(imp_model x, near_constant k)
     imp_interval range = imp_model_range(&x);
     double s0 = imp_sum_down(k.value - k.error), s1 = imp_sum_up(k.value + k.error);
     double slip = imp_round_up(k.error * log_power_upper(range, s0, s1));
+    /* One end may be known without the other, also in exp(p log x). */
+    if (!(slip < INFINITY)) return imp_exp(imp_mul(imp_log(x), imp_known(k.value, k.error)));
     double slope = power_slope_upper(range, s0, s1, imp_larger(fabs(s0), fabs(s1)));
     power.depends = x.depends;
     power.e = imp_sum_up(power.e + slip);

@@ -249,6 +249,26 @@ START_TEST(a_region_where_the_formula_is_undefined_is_unbounded)
 }
 END_TEST
 
+/* Rates are infinite there, ranges are not. */
+START_TEST(a_range_is_known_where_rates_are_not)
+{
+    static const char *const texts[] = {"u^v",       "exp(log(u))",    "u^(1/3)",        "sqrt(u)",
+                                        "u^pi",      "tanh(-log(u))",  "1/(1+log(u)^2)", "2^log(u)",
+                                        "(1/u)^-pi", "1/(1+1/u)^(1/3)"};
+    const imp_model u = {.a = 0.25, .b = {0.25}, .hi = 0.5, .rate = {1}, .depends = 1};
+    const imp_model v = {.a = 0.5, .b = {0, 0.5}, .hi = 1, .rate = {0, 1}, .depends = 2};
+    const imp_model variables[] = {u, v, imp_num(0)};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
+        imp_model out[3];
+        expression_program *program = compiled(texts[i]);
+        expression_models(program, variables, out);
+        ck_assert_msg(out[0].lo > -1e-300 && out[0].hi < 1.001, "%s: [%g, %g]", texts[i], out[0].lo,
+                      out[0].hi);
+        expression_free(program);
+    }
+}
+END_TEST
+
 /* At the apex of a cone the square root has no rate, but the distance has. */
 START_TEST(a_distance_has_rates_at_zero)
 {
@@ -341,7 +361,8 @@ SUITE_MAIN("expression", every_operator_and_function_means_what_it_does_elsewher
            what_formulas_have_in_common_is_computed_once,
            a_point_where_the_formula_is_undefined_is_outside_its_domain,
            what_is_infinite_on_the_way_may_be_finite_in_the_end,
-           a_region_where_the_formula_is_undefined_is_unbounded, a_distance_has_rates_at_zero,
+           a_region_where_the_formula_is_undefined_is_unbounded,
+           a_range_is_known_where_rates_are_not, a_distance_has_rates_at_zero,
            a_copied_sign_is_lipschitz_where_it_is_taken,
            running_changes_nothing_and_always_answers_alike,
            without_memory_nothing_is_compiled_and_nothing_left)

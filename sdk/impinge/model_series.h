@@ -86,10 +86,12 @@ static inline imp_interval imp_series_range_(const imp_series_ *s)
                              imp_sum_up(s->c[0] + (imp_bow_upper_(b, q) + pad)));
 }
 
-/* Is that range close enough, within 1/256 at either end, to spare libm's calls at the ends? */
+/* Is that range close enough, within 1/256 at either end, to spare libm's calls at the ends? Never
+ * if r is infinite: an end may yet be known. */
 static inline int imp_series_is_sharp_(const imp_series_ *s)
 {
     double slant = fabs(imp_series_slant_(s));
+    if (!(s->r < INFINITY)) return 0;
     return s->e + imp_series_bend_(s) <= 0x1p-8 * slant * s->r && 4 * fabs(s->c[2]) * s->r <= slant;
 }
 
