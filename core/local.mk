@@ -54,6 +54,7 @@ core_registry = \
     core/json_keys.c core/json_keys.h \
     core/isolate.c core/isolate.h \
     core/scene_build.c core/scene_build.h \
+    core/instance.c \
     core/scene_bodies.c core/scene_bodies.h \
     core/scene_file.c core/scene_file.h
 

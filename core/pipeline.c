@@ -182,15 +182,22 @@ static imp_code read_maps(reader *r, json_t *maps, bool more)
     return code;
 }
 
+/* A reader at the line's beginning; answers false if that is not to be read at all. */
+static bool begin(reader *r, const imp_registry *registry, const char *who, const char *line,
+                  imp_error *error)
+{
+    *r = (reader){registry, who, line, line, error};
+    if (text_is_utf8(line)) return true;
+    error_set(error, IMP_ERROR_SCENE, "%s: is not valid UTF-8", who);
+    return false;
+}
+
 json_t *pipeline_read(const imp_registry *registry, const char *who, const char *line,
                       imp_error *error)
 {
-    reader r = {registry, who, line, line, error};
-    if (!text_is_utf8(line)) {
-        error_set(error, IMP_ERROR_SCENE, "%s: is not valid UTF-8", who);
-        return NULL;
-    }
+    reader r;
     bool more;
+    if (!begin(&r, registry, who, line, error)) return NULL;
     json_t *surface = json_object(), *maps = json_array();
     imp_code code = read_stage(&r, surface, false, &more);
     if (code == IMP_SUCCESS) code = read_maps(&r, maps, more);
@@ -199,5 +206,20 @@ json_t *pipeline_read(const imp_registry *registry, const char *who, const char 
     json_decref(maps);
     if (code == IMP_SUCCESS) return surface;
     json_decref(surface);
+    return NULL;
+}
+
+json_t *pipeline_read_stage(const imp_registry *registry, imp_type_sort sort, const char *who,
+                            const char *line, imp_error *error)
+{
+    reader r;
+    bool more;
+    if (!begin(&r, registry, who, line, error)) return NULL;
+    json_t *stage = json_object();
+    imp_code code = read_stage(&r, stage, sort == IMP_SORT_MAP, &more);
+    if (code == IMP_SUCCESS && more)
+        code = fail(&r, r.at - 1, "found '!', expected the end of the line");
+    if (code == IMP_SUCCESS) return stage;
+    json_decref(stage);
     return NULL;
 }

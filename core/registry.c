@@ -324,6 +324,26 @@ imp_registry *imp_registry_open(const char *path, unsigned flags)
 
 imp_registry *imp_registry_new(const char *path) { return imp_registry_open(path, 0); }
 
+static bool scan_one(imp_registry *r, const char *file)
+{
+    char *absolute = realpath(file, NULL);
+    if (!absolute) return errno != ENOMEM && add_refusal(r, file, strerror(errno));
+    r->book = trial_book_read();
+    bool good = r->book && scan_file(r, absolute);
+    trial_book_close(r->book);
+    r->book = NULL;
+    free(absolute);
+    return good;
+}
+
+imp_registry *imp_registry_from_file(const char *file)
+{
+    imp_registry *r = file ? calloc(1, sizeof *r) : NULL;
+    if (!r || scan_one(r, file)) return r;
+    imp_registry_free(r);
+    return NULL;
+}
+
 static void free_plugin(loaded_plugin *plugin)
 {
     plugin_file_close(&plugin->file);

@@ -120,59 +120,64 @@ static imp_code create(const type_view *view, isolated *stand_in, const char *fi
     return code;
 }
 
+/* Puts a stand-in in the place of the instance's type. False: no memory. */
+static bool isolate(imp_instance *i, isolated **stand_in)
+{
+    *stand_in = i->surface ? isolate_surface(i->surface) : isolate_map(i->map);
+    if (!*stand_in) return false;
+    if (i->surface)
+        i->surface = isolate_surface_type(*stand_in);
+    else
+        i->map = isolate_map_type(*stand_in);
+    return true;
+}
+
+imp_code scene_build_instance(const imp_registry *registry, imp_type_sort sort,
+                              const json_t *object, const place *at, imp_instance *instance,
+                              imp_error *error)
+{
+    const char *name = NULL;
+    imp_code code = read_type(object, sort, at, &name, error);
+    if (code != IMP_SUCCESS) return code;
+    imp_instance i = {.self = NULL};
+    if (sort == IMP_SORT_SURFACE)
+        i.surface = registry_find_surface(registry, name);
+    else
+        i.map = registry_find_map(registry, name);
+    place where = at->argument ? *at : place_key(at, "type");
+    if (!i.surface && !i.map) return refuse_type(registry, sort, name, &where, error);
+    type_view view = i.surface ? type_view_of_surface(i.surface) : type_view_of_map(i.map);
+    const char *file = registry_find_file(registry, sort, name);
+    isolated *stand_in = NULL;
+    if (registry_isolates(registry, name) && !isolate(&i, &stand_in))
+        return error_set_memory(error);
+    code = create(&view, stand_in, file, object, at, &i.self, error);
+    if (code == IMP_SUCCESS)
+        *instance = i;
+    else
+        isolate_destroy(stand_in);
+    return code;
+}
+
 imp_code scene_build_surface(const imp_registry *registry, const json_t *object, const place *at,
                              surface **s, imp_error *error)
 {
-    const char *name;
-    imp_code code = read_type(object, IMP_SORT_SURFACE, at, &name, error);
+    imp_instance i;
+    imp_code code = scene_build_instance(registry, IMP_SORT_SURFACE, object, at, &i, error);
     if (code != IMP_SUCCESS) return code;
-    const imp_surface_type *type = registry_find_surface(registry, name);
-    place where = at->argument ? *at : place_key(at, "type");
-    if (!type) return refuse_type(registry, IMP_SORT_SURFACE, name, &where, error);
-    type_view view = type_view_of_surface(type);
-    const char *file = registry_find_file(registry, IMP_SORT_SURFACE, name);
-    void *self;
-    isolated *stand_in = NULL;
-    if (registry_isolates(registry, name)) {
-        stand_in = isolate_surface(type);
-        if (!stand_in) return error_set_memory(error);
-        type = isolate_surface_type(stand_in);
-    }
-    code = create(&view, stand_in, file, object, at, &self, error);
-    if (code != IMP_SUCCESS) {
-        isolate_destroy(stand_in);
-        return code;
-    }
-    *s = surface_new(type, self);
+    *s = surface_new(i.surface, i.self);
     return *s ? IMP_SUCCESS : error_set_memory(error);
 }
 
 imp_code scene_build_map(const imp_registry *registry, const json_t *object, const place *at,
                          surface *s, imp_error *error)
 {
-    const char *name;
-    imp_code code = read_type(object, IMP_SORT_MAP, at, &name, error);
+    imp_instance i;
+    imp_code code = scene_build_instance(registry, IMP_SORT_MAP, object, at, &i, error);
     if (code != IMP_SUCCESS) return code;
-    const imp_map_type *type = registry_find_map(registry, name);
-    place where = at->argument ? *at : place_key(at, "type");
-    if (!type) return refuse_type(registry, IMP_SORT_MAP, name, &where, error);
-    type_view view = type_view_of_map(type);
-    const char *file = registry_find_file(registry, IMP_SORT_MAP, name);
-    void *self;
-    isolated *stand_in = NULL;
-    if (registry_isolates(registry, name)) {
-        stand_in = isolate_map(type);
-        if (!stand_in) return error_set_memory(error);
-        type = isolate_map_type(stand_in);
-    }
-    code = create(&view, stand_in, file, object, at, &self, error);
-    if (code != IMP_SUCCESS) {
-        isolate_destroy(stand_in);
-        return code;
-    }
-    code = surface_add_map(s, type, self);
+    code = surface_add_map(s, i.map, i.self);
     if (code == IMP_ERROR_MEMORY) return error_set_memory(error);
     if (code == IMP_SUCCESS) return code;
-    return place_error(at, error, code, "'%s' cannot be put on the surface: %s", name,
+    return place_error(at, error, code, "'%s' cannot be put on the surface: %s", i.map->name,
                        imp_code_text(code));
 }

@@ -23,4 +23,9 @@ imp_code scene_build_surface(const imp_registry *registry, const json_t *object,
 imp_code scene_build_map(const imp_registry *registry, const json_t *object, const place *at,
                          surface *s, imp_error *error);
 
+/* What both of them begin with: the type and what its create made. The caller owns *instance. */
+imp_code scene_build_instance(const imp_registry *registry, imp_type_sort sort,
+                              const json_t *object, const place *at, imp_instance *instance,
+                              imp_error *error);
+
 #endif

@@ -34,7 +34,8 @@ static COUPLE_INLINE void patch_collect(int n, int m, int lanes, const couple *c
     const int group = lanes / COUPLE;
     couple rest = zero, total = zero, speed = zero, along_u = zero, along_v = zero;
     couple column[PATCH_SIDE_MAX];
-    terms->x[2][0] = terms->x[0][2] = zero;
+    terms->x[1][0] = terms->x[0][1] = zero; /* a curve has m = 0 */
+    terms->x[2][0] = terms->x[1][1] = terms->x[0][2] = zero;
     terms->y[0][0] = terms->y[1][0] = terms->y[0][1] = zero;
     COUPLE_UNROLL
     for (int l = 0; l <= m; ++l) column[l] = zero;

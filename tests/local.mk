@@ -62,6 +62,7 @@ tests_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 
 # Command-line tests; the environment below tells them where things are.
 bats_suites = \
+    tests/check.bats \
     tests/bench.bats \
     tests/cli.bats \
     tests/cli_batch.bats \
@@ -88,6 +89,29 @@ check_LTLIBRARIES = \
     tests/plugins/fp_mode.la \
     tests/plugins/half_bad.la \
     tests/plugins/kit.la \
+    tests/plugins/liar_beyond.la \
+    tests/plugins/liar_corners.la \
+    tests/plugins/liar_counter.la \
+    tests/plugins/liar_crash.la \
+    tests/plugins/liar_errno.la \
+    tests/plugins/liar_error.la \
+    tests/plugins/liar_exports.la \
+    tests/plugins/liar_factory.la \
+    tests/plugins/liar_grid.la \
+    tests/plugins/liar_hang.la \
+    tests/plugins/liar_leak.la \
+    tests/plugins/liar_map_rate.la \
+    tests/plugins/liar_model_time.la \
+    tests/plugins/liar_nan.la \
+    tests/plugins/liar_percent.la \
+    tests/plugins/liar_range.la \
+    tests/plugins/liar_remainder.la \
+    tests/plugins/liar_rounding.la \
+    tests/plugins/liar_sign.la \
+    tests/plugins/liar_single.la \
+    tests/plugins/liar_spot.la \
+    tests/plugins/liar_time.la \
+    tests/plugins/liar_truthful.la \
     tests/plugins/newer_minor.la \
     tests/plugins/no_entry.la \
     tests/plugins/no_factory.la \
@@ -126,7 +150,7 @@ tests_test_steps_SOURCES = tests/test_steps.c tests/retelling.c
 tests_test_formula_SOURCES = tests/test_formula.c tests/oracle.c
 tests_test_model_SOURCES = tests/test_model.c tests/oracle.c
 
-noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/balls.h tests/retelling.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h
+noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/balls.h tests/retelling.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h tests/plugins/liar.h
 
 # What tests/fuzz_scene reads: scenes, and pipelines.
 EXTRA_DIST += \

@@ -8,6 +8,21 @@ tool_sources = \
     tools/bench_patches.c tools/bench_print.c tools/bench_sets.c \
     tools/build_tree.c tools/build_tree.h \
     tools/catalogue.c tools/catalogue.h \
+    tools/check_answer.c tools/check_answer.h \
+    tools/check_child.c tools/check_child.h \
+    tools/check_cost.c tools/check_cost.h \
+    tools/check_file.c tools/check_file.h \
+    tools/check_inclusions.c tools/check_inclusions.h \
+    tools/check_list.c tools/check_list.h \
+    tools/check_pair.c tools/check_pair.h \
+    tools/check_points.c tools/check_points.h \
+    tools/check_purity.c tools/check_purity.h \
+    tools/check_rates.c tools/check_rates.h \
+    tools/check_report.c tools/check_report.h \
+    tools/check_sampling.c tools/check_sampling.h \
+    tools/check_subject.c tools/check_subject.h \
+    tools/check_table.c tools/check_table.h \
+    tools/check_under.c tools/check_under.h \
     tools/crash.c tools/crash.h \
     tools/compile.c tools/compile.h \
     tools/input.c tools/input.h \
@@ -23,6 +38,7 @@ tool_sources = \
     tools/result.h tools/result_json.c tools/result_text.c \
     tools/verbs.c tools/verbs.h \
     tools/verb_batch.c \
+    tools/verb_check.c \
     tools/verb_bench.c \
     tools/verb_build.c \
     tools/verb_demo.c \
@@ -44,6 +60,7 @@ pkgdata_DATA = \
     tools/data/bicubic_moving_100.jsonl \
     tools/data/teapot.json \
     tools/schema/bench.schema.json \
+    tools/schema/check.schema.json \
     tools/schema/result.schema.json \
     tools/schema/scene.schema.json \
     tools/schema/types.schema.json

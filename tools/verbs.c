@@ -19,6 +19,7 @@
     ROW(bench)                                                                                     \
     ROW(new)                                                                                       \
     ROW(build)                                                                                     \
+    ROW(check)                                                                                     \
     ROW(help)
 
 #define DECLARE(NAME) extern const verb verb_##NAME;

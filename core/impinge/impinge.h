@@ -70,6 +70,8 @@ IMP_EXPORT imp_registry *imp_registry_new(const char *path);
 enum { IMP_REGISTRY_SECURE = 1 };
 IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
 
+/* The same of one plugin file alone, taken or refused. */
+IMP_EXPORT imp_registry *imp_registry_from_file(const char *file);
 IMP_EXPORT void imp_registry_free(imp_registry *registry);
 
 /* From now on, instances of these types (names between commas; NULL: all) live in processes of their own, one
@@ -108,6 +110,22 @@ typedef enum imp_finding { IMP_NOT_REACHED, IMP_PASSED, IMP_REFUSED } imp_findin
 typedef void (*imp_finding_sink)(void *context, const char *check, imp_finding finding,
                                  const char *text);
 IMP_EXPORT bool imp_plugin_examine(const char *path, imp_finding_sink tell, void *context);
+
+/* One surface or map by itself, for programs that examine a type: its callbacks
+ * (<impinge/surface.h>) and what create made. Without the guards that scenes put around
+ * every call. */
+typedef struct imp_instance {
+    const imp_surface_type *surface; /* NULL: it is a map */
+    const imp_map_type *map;         /* NULL: it is a surface */
+    void *self;
+} imp_instance;
+
+/* From one stage of a pipeline, "TYPE name=value ...". The registry must outlive the instance. */
+IMP_EXPORT imp_code imp_instance_from_text(imp_registry *registry, imp_type_sort sort,
+                                           const char *text, imp_instance *instance,
+                                           imp_error *error);
+/* An empty one ({NULL, NULL, NULL}) may be freed too. */
+IMP_EXPORT void imp_instance_free(imp_instance *instance);
 
 /* --- Scenes --------------------------------------------------------------------- */
 

@@ -1,0 +1,11 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "liar.h"
+
+/* Crashes in rate, over small regions. */
+static imp_status rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
+{
+    if (region->d[0] < 1e-3) abort();
+    return wavy_formula_rate(self, region, rates);
+}
+LIAR_RATE("liar_crash", rate);

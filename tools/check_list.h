@@ -1,0 +1,61 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CHECK_LIST_H
+#define TOOLS_CHECK_LIST_H
+
+#include <impinge/impinge.h>
+
+#include "check_answer.h"
+#include "check_child.h"
+
+/* The checks there are
+ * ====================
+ * Some concern a file, some each type in it, once for each of a few stages ("sphere radius=2").
+ * Each is run in a child process of its own. */
+
+enum { CHECK_STAGES = 2 };
+
+typedef struct check_task {
+    const char *file; /* absolute path of the plugin */
+    imp_type_sort sort;
+    const char *type;                /* NULL: the file itself */
+    const char *stage[CHECK_STAGES]; /* of that type, NULL-terminated if fewer */
+    uint64_t seed;
+    double effort; /* 1: as usual */
+    size_t check;  /* index */
+} check_task;
+
+/* Names of the checks, in the order they are run, NULL-terminated. */
+extern const char *const check_names[];
+
+/* What the check of that index is for. */
+bool check_is_of_file(size_t check);
+
+/* Whether it tries to refute bounds, so that its comparisons count for the type's label. */
+bool check_is_of_bounds(size_t check);
+
+/* Runs it in a child that has so many seconds. *shared is from child_memory. */
+void check_run(const check_task *task, double seconds, check_answer *shared);
+
+/* --- What is in a file ------------------------------------------------------------------------ */
+
+enum { SURVEY_TYPES = 64 };
+
+typedef struct survey_type {
+    imp_type_sort sort;
+    char name[80];
+    char stage[CHECK_STAGES][800]; /* that work; empty: none */
+} survey_type;
+
+typedef struct survey {
+    bool is_taken;     /* the host takes the file */
+    char reason[1000]; /* why not */
+    char plugin[200];  /* name, version, licence */
+    size_t count;
+    survey_type type[SURVEY_TYPES];
+} survey;
+
+/* Asks the host, in a child, what it finds in the file. *shared is from child_memory. */
+child_fate check_survey(const char *file, double seconds, survey *shared);
+
+#endif

@@ -1,0 +1,151 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "check_report.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "catalogue.h"
+#include "output.h"
+
+static const char *verdict_name(check_verdict verdict)
+{
+    return verdict == CHECK_PASS ? "pass" : verdict == CHECK_FAIL ? "fail" : "skip";
+}
+
+/* Texts of plugins are not trusted to be one line. */
+static void print_line(const char *format, const char *label, const char *text)
+{
+    char line[2048];
+    snprintf(line, sizeof line, "%s", text);
+    for (char *c = line; *c != '\0'; ++c)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+    printf(format, label, line);
+}
+
+bool report_begin(check_report *r, const char *file, double effort)
+{
+    if (!r->as_json) {
+        print_line("%s%s\n", "", file);
+        return true;
+    }
+    r->types = json_array();
+    r->checks = json_array();
+    r->root =
+        json_pack("{s:o, s:I, s:f, s:O, s:O}", "file", output_json_text(file), "seed",
+                  (json_int_t)r->seed, "effort", effort, "checks", r->checks, "types", r->types);
+    return r->root != NULL;
+}
+
+void report_type(check_report *r, imp_type_sort sort, const char *name,
+                 const char *const stage[CHECK_STAGES])
+{
+    r->type_failed = r->type_refuted = false;
+    r->type_tests = 0;
+    if (!r->as_json) {
+        print_line("%s %s\n", catalogue_sort_name(sort), name);
+        for (int k = 0; k < CHECK_STAGES && stage[k] != NULL; ++k)
+            print_line("%s%s\n", "  as: ", stage[k]);
+        return;
+    }
+    json_t *stages = json_array();
+    for (int k = 0; k < CHECK_STAGES && stage[k] != NULL; ++k)
+        json_array_append_new(stages, output_json_text(stage[k]));
+    json_decref(r->checks);
+    r->checks = json_array();
+    r->type = json_pack("{s:s, s:o, s:o, s:O}", "sort", catalogue_sort_name(sort), "name",
+                        output_json_text(name), "stages", stages, "checks", r->checks);
+    json_array_append_new(r->types, r->type);
+}
+
+/* --- One check ---------------------------------------------------------------------------------
+ */
+
+static json_t *ratios_json(const double ratio[CHECK_SCALES])
+{
+    json_t *array = json_array();
+    for (int k = 0; k < CHECK_SCALES; ++k)
+        json_array_append_new(array, output_json_number(ratio[k]));
+    return array;
+}
+
+/* What is measured belongs to the type. */
+static void add_measures(check_report *r, const char *check, const check_answer *a)
+{
+    if (a->verdict != CHECK_PASS) return;
+    if (strcmp(check, "tightness") == 0)
+        json_object_set_new(r->type, check,
+                            json_pack("{s:o, s:o}", "rates", ratios_json(a->rate_ratio), "ranges",
+                                      ratios_json(a->range_ratio)));
+    if (strcmp(check, "cost") == 0)
+        json_object_set_new(r->type, check,
+                            json_pack("{s:o, s:o, s:o}", "eval_ns", output_json_number(a->eval_ns),
+                                      "rate_ns", output_json_number(a->rate_ns), "include_ns",
+                                      output_json_number(a->include_ns)));
+}
+
+static void add_json(check_report *r, const char *check, const check_answer *a, const char *again)
+{
+    json_t *object =
+        json_pack("{s:s, s:s, s:o, s:I}", "name", check, "verdict", verdict_name(a->verdict),
+                  "text", output_json_text(a->text), "tests", (json_int_t)a->tests);
+    if (a->verdict == CHECK_FAIL) json_object_set_new(object, "replay", output_json_text(again));
+    json_array_append_new(r->checks, object);
+    if (r->type != NULL) add_measures(r, check, a);
+}
+
+void report_add(check_report *r, const char *check, bool of_bounds, const check_answer *a)
+{
+    char again[2048];
+    const bool alone = strcmp(check, "load") != 0;
+    snprintf(again, sizeof again, "%s%s%s", r->again, alone ? " --only " : "", alone ? check : "");
+    *(a->verdict == CHECK_PASS   ? &r->passed
+      : a->verdict == CHECK_FAIL ? &r->failed
+                                 : &r->skipped) += 1;
+    if (of_bounds) r->type_tests += a->tests;
+    if (a->verdict == CHECK_FAIL) *(of_bounds ? &r->type_refuted : &r->type_failed) = true;
+    if (r->as_json) {
+        add_json(r, check, a, again);
+        return;
+    }
+    char label[40];
+    snprintf(label, sizeof label, "  %s  %-12s",
+             a->verdict == CHECK_FAIL ? "FAIL" : verdict_name(a->verdict), check);
+    print_line("%s %s\n", label, a->text);
+    if (a->verdict == CHECK_FAIL) print_line("%s%s\n", "        again: ", again);
+}
+
+/* --- Totals -------------------------------------------------------------------------------------
+ */
+
+void report_type_end(check_report *r)
+{
+    const char *label = r->type_refuted ? "refuted" : r->type_failed ? "failed" : "tested";
+    if (r->as_json) {
+        json_object_set_new(r->type, "label", json_string(label));
+        json_object_set_new(r->type, "tests", json_integer((json_int_t)r->type_tests));
+        r->type = NULL;
+        return;
+    }
+    if (strcmp(label, "tested") == 0)
+        printf("  tested(%llu, %llu): comparisons, seed\n", (unsigned long long)r->type_tests,
+               (unsigned long long)r->seed);
+    else
+        printf("  %s\n", label);
+}
+
+exit_status report_end(check_report *r, const char *verb)
+{
+    const exit_status found = r->failed > 0 ? EXIT_CONFORMANCE : EXIT_ANSWERED;
+    if (!r->as_json) {
+        printf("%zu passed, %zu failed, %zu skipped\n", r->passed, r->failed, r->skipped);
+        return found;
+    }
+    json_object_set_new(r->root, "verdict", json_string(r->failed > 0 ? "fail" : "pass"));
+    json_decref(r->checks);
+    json_decref(r->types);
+    const exit_status written = output_json(r->root, verb);
+    return written != EXIT_ANSWERED ? written : found;
+}

@@ -1,0 +1,243 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "check_table.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "catalogue.h"
+
+/* --- Stages -------------------------------------------------------------------------------- */
+
+/* The end of the word at `at`: a blank outside of brackets and quotes, or the end. */
+static const char *word_end(const char *at)
+{
+    int depth = 0;
+    bool quoted = false;
+    for (; *at != '\0' && (depth > 0 || quoted || *at != ' '); ++at) {
+        if (quoted && *at == '\\' && at[1] != '\0')
+            ++at;
+        else if (*at == '"')
+            quoted = !quoted;
+        else if (!quoted && strchr("[{(", *at) != NULL)
+            ++depth;
+        else if (!quoted && strchr("]})", *at) != NULL)
+            --depth;
+    }
+    return at;
+}
+
+char *stage_with(const char *text, const char *parameter, const char *value)
+{
+    const size_t length = strlen(parameter);
+    char *stage = malloc(strlen(text) + length + strlen(value) + 4), *to = stage;
+    if (stage == NULL) return NULL;
+    while (*text != '\0') {
+        const char *end = word_end(text);
+        const bool replaced = strncmp(text, parameter, length) == 0 && text[length] == '=';
+        if (end > text && !replaced) {
+            memcpy(to, text, (size_t)(end - text));
+            to += end - text;
+            *to++ = ' ';
+        }
+        text = *end != '\0' ? end + 1 : end;
+    }
+    sprintf(to, "%s=%s", parameter, value);
+    return stage;
+}
+
+/* --- Trying values ------------------------------------------------------------------------- */
+
+typedef struct trial {
+    imp_registry *registry;
+    const imp_type_info *type;
+    const char *text;
+    check_answer *answer;
+} trial;
+
+/* Makes the instance and lets go of it again; what create answered. */
+static imp_code try_stage(const trial *t, const char *stage, imp_error *error)
+{
+    imp_instance made = {NULL, NULL, NULL};
+    *error = (imp_error){IMP_SUCCESS, ""};
+    t->answer->call.name = "create or destroy";
+    const imp_code code = imp_instance_from_text(t->registry, t->type->sort, stage, &made, error);
+    if (code == IMP_SUCCESS) imp_instance_free(&made);
+    t->answer->call.name = NULL;
+    ++t->answer->tests;
+    return code;
+}
+
+/* Taken, or refused as the user's fault, not the plugin's. */
+static bool is_handled(const trial *t, const char *parameter, const char *value)
+{
+    imp_error error;
+    char *stage = stage_with(t->text, parameter, value);
+    const imp_code code = stage != NULL ? try_stage(t, stage, &error) : IMP_ERROR_MEMORY;
+    free(stage);
+    return code == IMP_SUCCESS || code == IMP_ERROR_SCENE ||
+           answer_fail(t->answer, "%s=%.80s: %s", parameter, value, error.text);
+}
+
+static bool is_refused(const trial *t, const char *parameter, const char *value)
+{
+    imp_error error;
+    char *stage = stage_with(t->text, parameter, value);
+    const imp_code code = stage != NULL ? try_stage(t, stage, &error) : IMP_ERROR_MEMORY;
+    free(stage);
+    if (code == IMP_ERROR_SCENE) return true;
+    if (code == IMP_SUCCESS)
+        return answer_fail(t->answer, "%s=%.80s is taken, though it is not allowed", parameter,
+                           value);
+    return answer_fail(t->answer, "%s=%.80s: %s", parameter, value, error.text);
+}
+
+/* --- Values as text -------------------------------------------------------------------------- */
+
+enum { VALUE_TEXT = 4096 };
+
+/* An array of the row's shape, filled with the number; false where its extents are free or many. */
+static bool fill(const imp_parameter *p, uint32_t depth, const char *number, char *to, size_t size)
+{
+    size_t used = strlen(to);
+    if (depth == p->rank)
+        return (size_t)snprintf(to + used, size - used, "%s", number) < size - used;
+    if (p->extent[depth] == 0 && !(p->flags & IMP_SCALAR_OK)) return false;
+    const uint32_t count = p->extent[depth] != 0 ? p->extent[depth] : 1;
+    for (uint32_t k = 0; k < count; ++k) {
+        used = strlen(to);
+        if (used + 2 >= size) return false;
+        strcat(to, k == 0 ? "[" : ",");
+        if (!fill(p, depth + 1, number, to, size - 1)) return false;
+    }
+    strcat(to, "]");
+    return true;
+}
+
+typedef bool judge_value(const trial *t, const char *parameter, const char *value);
+
+static bool try_text(const trial *t, const imp_parameter *p, const char *text, judge_value *judge)
+{
+    char value[VALUE_TEXT] = "";
+    return !fill(p, 0, text, value, sizeof value) || judge(t, p->name, value);
+}
+
+static bool try_number(const trial *t, const imp_parameter *p, double number, judge_value *judge)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.17g", number);
+    return try_text(t, p, text, judge);
+}
+
+/* --- Rows ------------------------------------------------------------------------------------ */
+
+/* The last number on this side of the row's range, and the first beyond it. */
+static bool try_end(const trial *t, const imp_parameter *p, double end, bool open, double outwards)
+{
+    if (!isfinite(end)) return true;
+    const double step =
+        p->kind == IMP_INTEGER ? end + (outwards > 0 ? 1 : -1) : nextafter(end, outwards);
+    const double inwards =
+        p->kind == IMP_INTEGER ? end - (outwards > 0 ? 1 : -1) : nextafter(end, -outwards);
+    const double last = open ? inwards : end, beyond = open ? end : step;
+    if (last >= p->min && last <= p->max && !try_number(t, p, last, is_handled)) return false;
+    return !isfinite(beyond) || try_number(t, p, beyond, is_refused);
+}
+
+static bool try_row(const trial *t, const imp_parameter *p)
+{
+    static const char *const nonsense[] = {"NaN", "-NaN", "Infinity", "1e999", "{}", "null"};
+    if (p->kind == IMP_STRING) return true; /* nearly every text is one */
+    if (p->kind != IMP_NUMBER && p->kind != IMP_INTEGER) return is_refused(t, p->name, "[[[[1]]]]");
+    for (size_t k = 0; k < sizeof nonsense / sizeof *nonsense; ++k)
+        if (!try_text(t, p, nonsense[k], is_refused)) return false;
+    if (p->kind == IMP_INTEGER && !try_text(t, p, "1.5", is_refused)) return false;
+    return try_end(t, p, p->min, (p->flags & IMP_MIN_OPEN) != 0, -INFINITY) &&
+           try_end(t, p, p->max, (p->flags & IMP_MAX_OPEN) != 0, INFINITY);
+}
+
+void parameters_check(imp_registry *registry, const imp_type_info *type, const char *text,
+                      check_answer *answer)
+{
+    const trial t = {registry, type, text, answer};
+    imp_error error;
+    if (try_stage(&t, text, &error) != IMP_SUCCESS) {
+        answer_fail(answer, "'%.300s' does not work: %s", text, error.text);
+        return;
+    }
+    if (!is_refused(&t, "no_such_parameter", "1")) return;
+    for (size_t k = 0; k < type->parameter_count; ++k)
+        if (!try_row(&t, catalogue_parameter(type, k))) return;
+    answer_pass(answer, "%llu values of %zu parameters are taken or refused as they should be",
+                (unsigned long long)answer->tests, type->parameter_count);
+}
+
+/* --- Memory ------------------------------------------------------------------------------------
+ */
+
+#if defined(__GLIBC__) && defined(__GLIBC_PREREQ)
+#if __GLIBC_PREREQ(2, 33)
+#define COUNTS_MEMORY 1
+#endif
+#endif
+
+/* Bytes that malloc has given out, or 0 where it does not tell. */
+static double bytes_in_use(void)
+{
+#ifdef COUNTS_MEMORY
+    const struct mallinfo2 m = mallinfo2();
+    return (double)m.uordblks + (double)m.hblkhd;
+#else
+    return 0;
+#endif
+}
+
+enum { WARM_UP = 512, ROUNDS = 256 };
+
+static bool one_life(const trial *t)
+{
+    imp_instance i = {NULL, NULL, NULL};
+    imp_error error;
+    subject s;
+    double rate[3][BOX_DIMS], x[3], e[3];
+    if (imp_instance_from_text(t->registry, t->type->sort, t->text, &i, &error) != IMP_SUCCESS)
+        return answer_fail(t->answer, "'%.300s' does not work: %s", t->text, error.text);
+    if (subject_make(&s, &i, &i, t->answer)) {
+        subject_eval(&s, 1, s.domain.lo, x, e);
+        subject_rate(&s, &s.domain, rate);
+    }
+    t->answer->call.name = "destroy";
+    imp_instance_free(&i);
+    t->answer->call.name = NULL;
+    return t->answer->verdict != CHECK_FAIL;
+}
+
+/* malloc keeps some blocks at hand, so a few bytes may come and go; a leak grows with every round,
+ * and no block is smaller than 16 bytes. */
+void memory_check(imp_registry *registry, const imp_type_info *type, const char *text,
+                  check_answer *answer)
+{
+    const trial t = {registry, type, text, answer};
+    double before = 0;
+    for (int k = 0; k < WARM_UP + ROUNDS; ++k) {
+        if (k == WARM_UP) before = bytes_in_use();
+        if (!one_life(&t)) return;
+    }
+    const double grown = bytes_in_use() - before;
+    answer->tests += ROUNDS;
+    if (!(before > 0))
+        answer_skip(answer, "this system's malloc does not tell how much is in use");
+    else if (grown >= 16.0 * ROUNDS)
+        answer_fail(answer, "%d instances, made, asked and destroyed, leave %.0f bytes behind",
+                    ROUNDS, grown);
+    else
+        answer_pass(answer, "%d instances leave nothing behind, as far as malloc's count tells",
+                    ROUNDS);
+}

@@ -1,0 +1,282 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "check_list.h"
+#include "check_report.h"
+#include "check_subject.h"
+#include "nearest.h"
+#include "output.h"
+#include "query.h"
+#include "verbs.h"
+
+/* --- Whom to check -----------------------------------------------------------------------------
+ */
+
+/* A path has a slash in it or ends in .so; a type's name has and does neither. */
+static bool is_path(const char *operand)
+{
+    const size_t length = strlen(operand);
+    return strpbrk(operand, " =") == NULL &&
+           (strchr(operand, '/') != NULL ||
+            (length > 3 && strcmp(operand + length - 3, ".so") == 0));
+}
+
+/* The file a type comes from, looked up in a child: other plugins are loaded on the way. */
+typedef struct lookup {
+    bool found;
+    char file[4096];
+    char near[80]; /* the nearest name there is */
+} lookup;
+
+typedef struct wanted {
+    const arguments *args;
+    char name[80]; /* the operand up to its first blank */
+} wanted;
+
+static void lookup_work(void *result, const void *data)
+{
+    lookup *l = result;
+    const wanted *w = data;
+    imp_type_info info;
+    nearest near = nearest_to(w->name);
+    imp_registry *registry = query_registry(w->args);
+    for (size_t i = 0; registry != NULL && imp_registry_type(registry, i, &info); ++i) {
+        nearest_offer(&near, info.name);
+        if (l->found || strcmp(info.name, w->name) != 0) continue;
+        snprintf(l->file, sizeof l->file, "%s", info.file);
+        l->found = true;
+    }
+    if (near.name != NULL) snprintf(l->near, sizeof l->near, "%s", near.name);
+}
+
+static exit_status find_type(const arguments *args, const wanted *w, double seconds, lookup *l)
+{
+    const char *verb = args->verb->name;
+    const child_fate fate = child_run(lookup_work, l, w, seconds);
+    if (fate.end != CHILD_DONE)
+        return complain(EXIT_DATA, verb, "looking for '%s' among the plugins %s", w->name,
+                        child_fate_text(fate, seconds).text);
+    if (l->found) return EXIT_ANSWERED;
+    if (l->near[0] != '\0')
+        return complain(EXIT_DATA, verb,
+                        "there is no type '%s', did you mean '%s'? `impinge list` shows all",
+                        w->name, l->near);
+    return complain(EXIT_DATA, verb,
+                    "there is no type '%s'; `impinge list` shows all; a file has a '/' in its name "
+                    "or ends in .so",
+                    w->name);
+}
+
+static exit_status find_file(const arguments *args, const char *path, lookup *l)
+{
+    char *absolute = realpath(path, NULL);
+    if (absolute == NULL || access(absolute, R_OK) != 0 || strlen(absolute) >= sizeof l->file) {
+        const int error = errno;
+        free(absolute);
+        return complain(EXIT_DATA, args->verb->name, "%s: %s", path, strerror(error));
+    }
+    strcpy(l->file, absolute);
+    free(absolute);
+    return EXIT_ANSWERED;
+}
+
+/* --- How ----------------------------------------------------------------------------------------
+ */
+
+typedef struct job {
+    const arguments *args;
+    const char *operand;
+    wanted type; /* name empty: all types of the file */
+    double seconds;
+    double effort;
+    uint64_t seed;
+    const option_value *only; /* NULL: all checks */
+    check_report report;
+    lookup *file; /* these three are shared with children */
+    survey *survey;
+    check_answer *answer;
+} job;
+
+static double number_or(const arguments *args, const char *name, double otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->number[0] : otherwise;
+}
+
+/* The command line that does the same again. Free it. NULL: no memory. */
+static char *command_line(const job *j)
+{
+    const option_value *path = arguments_option(j->args, "plugin-path");
+    const option_value *effort = arguments_option(j->args, "effort");
+    char *line = NULL, *operand = output_shell_word(j->operand);
+    char *directory = output_shell_word(path != NULL ? path->text : "");
+    if (operand != NULL && directory != NULL &&
+        asprintf(&line, "impinge check %s --seed %llu%s%s%s%s", operand,
+                 (unsigned long long)j->seed, effort != NULL ? " --effort " : "",
+                 effort != NULL ? effort->text : "", path != NULL ? " --plugin-path " : "",
+                 path != NULL ? directory : "") < 0)
+        line = NULL;
+    free(operand);
+    free(directory);
+    return line;
+}
+
+static bool is_wanted(const job *j, size_t check)
+{
+    return j->only == NULL || strcmp(check_names[check], check_names[j->only->choice]) == 0;
+}
+
+/* --- Running ------------------------------------------------------------------------------------
+ */
+
+/* False after a hang: every further check would hang too, each up to its deadline. */
+static bool run_check(job *j, check_task *task, size_t check)
+{
+    task->check = check;
+    check_run(task, j->seconds, j->answer);
+    report_add(&j->report, check_names[check], check_is_of_bounds(check), j->answer);
+    return strstr(j->answer->text, "did not come back") == NULL;
+}
+
+static void run_checks(job *j, check_task *task, bool of_file)
+{
+    for (size_t k = 0; check_names[k] != NULL; ++k)
+        if (check_is_of_file(k) == of_file && is_wanted(j, k) && !run_check(j, task, k)) return;
+}
+
+static void run_type(job *j, const survey_type *t)
+{
+    check_task task = {.file = j->file->file, .sort = t->sort, .type = t->name};
+    task.seed = j->seed;
+    task.effort = j->effort;
+    for (int k = 0; k < CHECK_STAGES; ++k) task.stage[k] = t->stage[k][0] ? t->stage[k] : NULL;
+    if (j->type.name[0] != '\0' && strcmp(j->operand, t->name) != 0) {
+        task.stage[0] = j->operand;
+        task.stage[1] = NULL;
+    }
+    report_type(&j->report, t->sort, t->name, task.stage);
+    run_checks(j, &task, false);
+    report_type_end(&j->report);
+}
+
+static bool load(job *j)
+{
+    const child_fate fate = check_survey(j->file->file, j->seconds, j->survey);
+    const survey *s = j->survey;
+    *j->answer = (check_answer){.verdict = CHECK_PASS};
+    if (fate.end != CHILD_DONE)
+        answer_fail(j->answer, "the plugin %s when it was loaded or its types were tried",
+                    child_fate_text(fate, j->seconds).text);
+    else if (!s->is_taken)
+        answer_fail(j->answer, "the host refuses it: %s", s->reason);
+    else
+        answer_pass(j->answer, "%s: %zu type%s", s->plugin, s->count, s->count == 1 ? "" : "s");
+    report_add(&j->report, "load", false, j->answer);
+    return j->answer->verdict == CHECK_PASS;
+}
+
+static exit_status run_all(job *j)
+{
+    if (!report_begin(&j->report, j->file->file, j->effort))
+        return complain_of_memory(j->args->verb->name);
+    if (load(j)) {
+        check_task task = {.file = j->file->file, .seed = j->seed, .effort = j->effort};
+        run_checks(j, &task, true);
+        for (size_t k = 0; k < j->survey->count; ++k)
+            if (j->type.name[0] == '\0' || strcmp(j->type.name, j->survey->type[k].name) == 0)
+                run_type(j, &j->survey->type[k]);
+    }
+    return report_end(&j->report, j->args->verb->name);
+}
+
+static exit_status find_and_run(job *j)
+{
+    const size_t name = strcspn(j->operand, " ");
+    exit_status status;
+    if (is_path(j->operand)) {
+        status = find_file(j->args, j->operand, j->file);
+    } else {
+        snprintf(j->type.name, sizeof j->type.name, "%.*s", name < 79 ? (int)name : 79, j->operand);
+        status = find_type(j->args, &j->type, j->seconds, j->file);
+    }
+    return status == EXIT_ANSWERED ? run_all(j) : status;
+}
+
+static exit_status run(const arguments *args)
+{
+    const option_value *seed = arguments_option(args, "seed");
+    job j = {.args = args, .operand = args->operands[0], .type = {.args = args}};
+    j.seconds = number_or(args, "max-seconds", 60);
+    j.effort = number_or(args, "effort", 1);
+    j.seed = seed != NULL ? seed->count : 1;
+    j.only = arguments_option(args, "only");
+    j.file = child_memory(sizeof *j.file);
+    j.survey = child_memory(sizeof *j.survey);
+    j.answer = child_memory(sizeof *j.answer);
+    char *again = command_line(&j);
+    j.report =
+        (check_report){.as_json = arguments_option(args, "json"), .again = again, .seed = j.seed};
+    const bool ready = j.file != NULL && j.survey != NULL && j.answer != NULL && again != NULL;
+    const exit_status status = ready ? find_and_run(&j) : complain_of_memory(args->verb->name);
+    free(again);
+    child_memory_free(j.file, sizeof *j.file);
+    child_memory_free(j.survey, sizeof *j.survey);
+    child_memory_free(j.answer, sizeof *j.answer);
+    return status;
+}
+
+/* --- Options
+ * -------------------------------------------------------------------------------------- */
+
+static const option options_check[] = {
+    {.name = "seed",
+     .kind = OPTION_COUNT,
+     .argument = "N",
+     .help = "what everything is drawn from; the same seed, the same search (1)"},
+    {.name = "effort",
+     .kind = OPTION_NUMBER,
+     .argument = "N",
+     .min_open = true,
+     .help = "search N times as long (1)"},
+    {.name = "only",
+     .kind = OPTION_CHOICE,
+     .argument = "CHECK",
+     .choices = check_names,
+     .help = "run this check alone"},
+    {.name = "max-seconds",
+     .kind = OPTION_NUMBER,
+     .argument = "S",
+     .min_open = true,
+     .help = "a check that takes longer than S seconds has failed (60)"},
+    {.name = NULL},
+};
+
+static const option *const tables[] = {options_check, options_registry, options_always, NULL};
+
+const verb verb_check = {
+    .name = "check",
+    .operands = "FILE|TYPE",
+    .summary = "Try to refute what a plugin claims, and all else the ABI asks of it",
+    .details =
+        "Runs named checks on a plugin's file, or on one type by its name, each in a child "
+        "process:\n"
+        "a plugin that crashes or hangs has failed a check. Types are tried as in their example\n"
+        "and with all defaults; 'TYPE name=value ...' tries that surface or map instead.\n"
+        "\n"
+        "Rates, inclusions and errors are claims that can be refuted, but not proved, by looking\n"
+        "from outside: a type is labelled tested(comparisons, seed) or refuted, with a\n"
+        "counterexample and a command line that finds it again.\n"
+        "\n"
+        "Exit status: 0 nothing failed, 4 no such file or type, 6 a check failed.\n",
+    .example = "impinge check sphere",
+    .operand_min = 1,
+    .operand_max = 1,
+    .options = tables,
+    .run = run};
