@@ -1,0 +1,174 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# impinge check: liars are exposed, each by the right check, and honest plugins are never accused.
+
+load cli_helper
+
+liars=$top_builddir/tests/plugins/.libs
+
+# exposes CHECK LIAR TEXT: that check of the liar fails, with that text, and can be replayed.
+exposes() {
+    run -6 "$IMPINGE" check "$liars/$2.so" --only "$1"
+    echo "$output"
+    [[ $output == *"FAIL  $1 "*"$3"*"again: impinge check "*" --seed 1 --only $1"* ]]
+}
+
+# --- Bounds ------------------------------------------------------------------------------------------
+
+@test "the liars' surface without a lie passes every check" {
+    run -0 "$IMPINGE" check "$liars/liar_truthful.so"
+    [[ $output != *FAIL* && $output == *"tested("*", 1)"* ]]
+}
+
+@test "rates 1 % low in 1 % of the domain are exposed" {
+    exposes rates liar_percent '1.0101010'
+}
+
+@test "rates 20 % low in 0.04 % of the domain are exposed, from any seed" {
+    exposes rates liar_spot '1.25'
+    run -6 "$IMPINGE" check "$liars/liar_spot.so" --only rates --seed 2
+    run -6 "$IMPINGE" check "$liars/liar_spot.so" --only rates --seed 3
+}
+
+@test "rates taken at the corners of a region are exposed" {
+    exposes rates liar_corners 'the rates are too small'
+}
+
+@test "rates taken on a grid of 5 x 5 are exposed" {
+    exposes rates liar_grid 'the rates are too small'
+}
+
+@test "a forgotten time derivative is exposed" {
+    exposes rates liar_time 'inf times what'
+}
+
+@test "a wrong sign in include is exposed" {
+    exposes inclusions liar_sign 'off the quadratic'
+}
+
+@test "remainders that are half of what they should be are exposed" {
+    exposes inclusions liar_remainder 'off the quadratic'
+}
+
+@test "a range that ends too early is exposed" {
+    exposes inclusions liar_range 'outside the range'
+}
+
+@test "models that forget time are exposed" {
+    exposes inclusions liar_model_time ''
+}
+
+@test "an error bound of eval that is too small is exposed" {
+    exposes errors liar_error "eval's errors or the rates are too small"
+    exposes errors liar_single ''
+}
+
+@test "a map's missing rates and wrong models are exposed" {
+    exposes rates liar_map_rate 'the rates are too small'
+    exposes inclusions liar_map_rate 'off the quadratic'
+}
+
+@test "what a failure prints to run again finds the same again" {
+    run -6 "$IMPINGE" check "$liars/liar_spot.so" --only rates --seed 5 --effort 1.5
+    first=$output
+    again=$(sed -n 's/^ *again: impinge //p' <<<"$output")
+    [ -n "$again" ]
+    run -6 bash -c "'$IMPINGE' $again"
+    [ "$output" = "$first" ]
+}
+
+# --- Manners -------------------------------------------------------------------------------------------
+
+@test "an answer that changes from call to call is exposed" {
+    exposes determinism liar_counter "eval's points differ from call to call"
+}
+
+@test "a change of errno or of the rounding mode is exposed" {
+    exposes environment liar_errno 'rate sets errno'
+    exposes environment liar_rounding 'rate changes the rounding mode'
+}
+
+@test "writing beyond an output is exposed" {
+    exposes buffers liar_beyond 'eval writes beyond its outputs'
+}
+
+@test "a leak is exposed" {
+    run "$IMPINGE" check sphere --only memory
+    [[ $output != *"skip  memory"* ]] || skip "malloc does not tell"
+    exposes memory liar_leak '256 instances, made, asked and destroyed, leave'
+}
+
+@test "a coordinate that is not a number is exposed" {
+    exposes finite liar_nan 'eval gives x = nan at'
+}
+
+@test "a second exported symbol and a factory for unknown ids are exposed" {
+    exposes exports liar_exports "exports 'liar_helper' beside impinge_plugin"
+    exposes factories liar_factory 'get_factory has an answer to "impinge.surface/'
+}
+
+@test "a crash fails the check it happens in, and names the call" {
+    exposes finite liar_crash 'liar_crash crashed (Aborted) in rate over u in [0, 0]'
+}
+
+@test "a hang fails the check it happens in, and ends the checks of its type" {
+    run -6 "$IMPINGE" check "$liars/liar_hang.so" --max-seconds 0.5
+    [[ $output == *"FAIL  finite "*"did not come back within 0.5 s in rate over"* ]]
+    [ "$(grep -c FAIL <<<"$output")" -eq 1 ]
+}
+
+@test "a plugin the host refuses has failed, with the host's reason" {
+    run -6 "$IMPINGE" check "$liars/no_note.so"
+    [[ $output == *"FAIL  load "*"the host refuses it: "* ]]
+}
+
+# --- Ours ----------------------------------------------------------------------------------------------
+
+@test "none of our types is accused, over two seeds" {
+    local so seed
+    for so in "$top_builddir"/plugins/.libs/*.so; do
+        for seed in 11 12; do
+            run "$IMPINGE" check "$so" --seed $seed --effort 0.1
+            [ "$status" -eq 0 ] || { echo "$output" && false; }
+        done
+    done
+}
+
+# --- Command line ----------------------------------------------------------------------------------------
+
+@test "a type is found by its name, and checked as it is written" {
+    run -0 "$IMPINGE" check 'sphere radius=5' --only finite
+    [[ $output == *"surface sphere"*"as: sphere radius=5"*"pass  finite"* ]]
+    fails 4 "there is no type 'spher', did you mean 'sphere'?" "$IMPINGE" check spher
+    run -6 "$IMPINGE" check 'sphere radius=-5' --only finite
+    [[ $output == *"does not work"*"radius"* ]]
+}
+
+@test "a file that is not there is complained of; a text is refused by the host" {
+    fails 4 'nowhere.so: No such file or directory' "$IMPINGE" check nowhere.so
+    echo 'a text' >text.so
+    run -6 "$IMPINGE" check text.so
+    [[ $output == *"FAIL  load "* ]]
+}
+
+@test "check --json is as its schema says, for a pass and for a failure" {
+    run -0 "$IMPINGE" check torus --json --effort 0.05
+    valid check
+    json '.verdict == "pass" and .types[0].label == "tested" and .types[0].tests > 1000
+          and (.types[0].cost.eval_ns > 0) and (.types[0].tightness.rates[0] >= 1)'
+    run -6 "$IMPINGE" check "$liars/liar_time.so" --json --effort 0.05 --only rates
+    valid check
+    json '.verdict == "fail" and .types[0].label == "refuted"
+          and (.types[0].checks[0].replay | contains("--only rates"))'
+}
+
+@test "every check can be asked for alone, and an unknown one is refused" {
+    local name
+    for name in $("$IMPINGE" help check | sed -n 's/^ *--only CHECK *//p' | cut -d: -f1 | tr '|' ' '); do
+        run -0 "$IMPINGE" check plane --only "$name" --effort 0.01
+        [ "$(grep -c "^  pass  $name \|^  skip  $name " <<<"$output")" -eq 1 ]
+    done
+    fails 2 "did you mean 'rates'?" "$IMPINGE" check plane --only rate
+}

@@ -324,6 +324,16 @@ START_TEST(a_value_and_rates_make_a_model)
 }
 END_TEST
 
+START_TEST(an_exponential_whose_middle_underflows_reaches_its_upper_end)
+{
+    imp_model bump = imp_exp(imp_between(-1385, -32));
+    ck_assert(bump.hi >= 1.2664165549094175e-14 && bump.lo >= 0 && bump.hi < 1.3e-14);
+    ck_assert(bump.a - bump.e <= 0 && bump.a + bump.e >= 1.2664165549094175e-14);
+    bump = imp_exp(imp_between(-2000, -1900));
+    ck_assert(bump.lo == 0 && bump.hi >= 0 && bump.hi < 1e-300 && bump.e < 1e-300);
+}
+END_TEST
+
 SUITE_MAIN("formula answers", points_come_with_their_errors,
            the_error_of_a_point_of_a_sphere_is_below_50_units_in_the_last_place,
            errors_of_points_may_be_left_out, a_point_without_a_value_is_outside_the_domain,
@@ -333,6 +343,7 @@ SUITE_MAIN("formula answers", points_come_with_their_errors,
            a_map_answers_for_points_boxes_and_models, rates_of_a_map_cover_space_and_time,
            a_parameter_is_its_own_model, quadratics_are_exact_but_for_rounding,
            a_square_is_not_a_product, a_bump_stays_within_0_and_1_however_far_out,
+           an_exponential_whose_middle_underflows_reaches_its_upper_end,
            the_remainder_of_a_sine_shrinks_with_the_cube_of_the_width,
            down_to_one_unit_in_the_last_place_the_remainder_is_rounding,
            angles_jump_at_the_cut_and_nowhere_else, a_value_and_rates_make_a_model)
