@@ -119,7 +119,7 @@ static void add_spread(node *n, const imp_model *m)
     for (int j = 0; j < 3; ++j) sum += share[j] = unexplained(n, m, j, bend[j]);
     for (int j = 0; j < 3; ++j) {
         const double blame = sum > 0 && m->e < INFINITY ? m->e * (share[j] / sum) : 0;
-        if (j == PARAMETER_T) n->unsteady += blame;
+        if (j == PARAMETER_T && m->rate[j] < INFINITY) n->unsteady += blame;
         bend[j] += blame;
         n->bend[j] += bend[j];
         n->spread[j] += fabs(m->b[j]) + bend[j];

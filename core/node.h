@@ -38,7 +38,7 @@ typedef struct node {
     double radius;       /* of a ball around a that holds the surface; rate trees only */
     double spread[3];    /* how much u, v, t move a point across the region, about; length */
     double bend[3];      /* the same for what is not linear in the parameters; length */
-    double unsteady;     /* time's share in e, all coordinates together, about; length */
+    double unsteady;     /* time's share in e where its rate is known, about; length */
     bool bounded;        /* f, e, lo, hi are all finite */
     struct node *child[3][2];
 } node;
