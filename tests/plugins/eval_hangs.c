@@ -1,0 +1,16 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <unistd.h>
+
+#include "slab.h"
+
+/* Never comes back with points. */
+static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    while (n > 0) pause();
+    return slab_eval(self, n, p, x, error);
+}
+
+static const imp_surface_type type =
+    SLAB_TYPE("eval_hangs", slab_create, slab_domain, eval, slab_rate, slab_include);
+SLAB_PLUGIN("eval_hangs", type);

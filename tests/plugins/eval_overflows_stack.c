@@ -1,0 +1,16 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "slab.h"
+
+/* Calls itself until the stack is used up. */
+static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    volatile double deeper[3 * 64];
+    deeper[0] = p[0];
+    if (n > 0) eval(self, n, (const double *)deeper, x, error);
+    return deeper[0] > 0 ? IMP_OK : IMP_INTERNAL;
+}
+
+static const imp_surface_type type =
+    SLAB_TYPE("eval_overflows_stack", slab_create, slab_domain, eval, slab_rate, slab_include);
+SLAB_PLUGIN("eval_overflows_stack", type);

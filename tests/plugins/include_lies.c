@@ -1,0 +1,15 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "slab.h"
+
+/* Says that it rises at half its speed. */
+static imp_status include(const void *self, const imp_region *region, imp_model model[3])
+{
+    slab_include(self, region, model);
+    model[2].b[2] /= 2;
+    return IMP_OK;
+}
+
+static const imp_surface_type type =
+    SLAB_TYPE("include_lies", slab_create, slab_domain, slab_eval, slab_rate, include);
+SLAB_PLUGIN("include_lies", type);

@@ -1,0 +1,15 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "slab.h"
+
+/* Better than exact. */
+static imp_status include(const void *self, const imp_region *region, imp_model model[3])
+{
+    slab_include(self, region, model);
+    model[0].e = -0.25;
+    return IMP_OK;
+}
+
+static const imp_surface_type type =
+    SLAB_TYPE("include_negative", slab_create, slab_domain, slab_eval, slab_rate, include);
+SLAB_PLUGIN("include_negative", type);

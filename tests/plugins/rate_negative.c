@@ -1,0 +1,15 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "slab.h"
+
+/* A slope where a bound was asked for. */
+static imp_status rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
+{
+    slab_rate(self, region, rates);
+    rates->m[2][2] = -1;
+    return IMP_OK;
+}
+
+static const imp_surface_type type =
+    SLAB_TYPE("rate_negative", slab_create, slab_domain, slab_eval, rate, NULL);
+SLAB_PLUGIN("rate_negative", type);
