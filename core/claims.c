@@ -65,7 +65,7 @@ static imp_code lie(const surface *s, const node *n, const double p[3], const do
                      "type '%s' breaks its own bounds over u [%.17g, %.17g], v [%.17g, %.17g], "
                      "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g its %c is %.17g, the "
                      "bounds say %.17g +- %.3g within [%.17g, %.17g]",
-                     surface_type_name(s), r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2],
+                     surface_label(s), r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2],
                      r->hi[2], p[0], p[1], p[2], "xyz"[i], x[i], middle, n -> e[i], n -> lo[i],
                      n -> hi[i]);
 }

@@ -58,7 +58,7 @@ static imp_code fault(const tree *t, const imp_region *r, const char *what, imp_
 {
     return error_set(error, IMP_ERROR_PLUGIN,
                      "type '%s' over u [%.17g, %.17g], v [%.17g, %.17g], t [%.17g, %.17g]: %s",
-                     surface_type_name(t->surface), r->lo[0], r->hi[0], r->lo[1], r->hi[1],
+                     surface_label(t->surface), r->lo[0], r->hi[0], r->lo[1], r->hi[1],
                      r->lo[2], r->hi[2], what);
 }
 
@@ -257,11 +257,6 @@ imp_code tree_new(const surface *s, tree_kind kind, double t_start, double t_end
     assert(lo[2] <= t_start && t_start <= t_end && t_end <= hi[2]);
     lo[2] = t_start;
     hi[2] = t_end;
-    for (int j = 0; j < 2; ++j)
-        if (!(lo[j] <= hi[j] && lo[j] > -INFINITY && hi[j] < INFINITY))
-            return error_set(error, IMP_ERROR_PLUGIN,
-                             "type '%s': the domain of %c is empty or infinite",
-                             surface_type_name(s), "uv"[j]);
     tree *t = calloc(1, sizeof *t);
     if (t == NULL) return error_set_memory(error);
     *t = (tree){.surface = s, .kind = kind, .t_start = t_start, .t_end = t_end, .audit = audit};

@@ -30,7 +30,10 @@ static imp_code step_load(plugin_file *plugin, const char *path, imp_error *erro
     bool kept = fp_mode_kept(before);
     if (!plugin->handle) {
         const char *why = dlerror();
-        error_set(error, IMP_ERROR_PLUGIN, "load: %s", why ? why : "dlopen failed");
+        error_set(error, IMP_ERROR_PLUGIN,
+                  "load: %.600s; link it with every library it uses, and see that they are "
+                  "installed",
+                  why ? why : "dlopen failed");
         if (error) text_clean(error->text);
         return IMP_ERROR_PLUGIN;
     }
@@ -50,7 +53,9 @@ static imp_code step_enter(plugin_file *plugin, const char *path, imp_error *err
         return error_set(error, IMP_ERROR_PLUGIN,
                          "entry: does not export the symbol " ENTRY
                          "; define it by the macro IMPINGE_PLUGIN, with default visibility");
-    return plugin_check_entry(plugin->entry, &plugin->facts, error);
+    const imp_code code = plugin_check_entry(plugin->entry, &plugin->facts, error);
+    if (code != IMP_SUCCESS) error_prefix(error, "entry");
+    return code;
 }
 
 static imp_code step_tables(plugin_file *plugin, const char *path, imp_error *error)
@@ -60,8 +65,12 @@ static imp_code step_tables(plugin_file *plugin, const char *path, imp_error *er
     plugin->surfaces = plugin->entry->get_factory(IMP_SURFACE_FACTORY);
     plugin->maps = plugin->entry->get_factory(IMP_MAP_FACTORY);
     if (!fp_mode_kept(before))
-        return error_set(error, IMP_ERROR_PLUGIN, "get_factory changes the mode of arithmetic");
-    return plugin_check_factories(plugin->surfaces, plugin->maps, error);
+        return error_set(error, IMP_ERROR_PLUGIN,
+                         "types: get_factory changes the mode of arithmetic; compile and link the "
+                         "plugin without -ffast-math or -Ofast, and leave fesetround alone");
+    const imp_code code = plugin_check_factories(plugin->surfaces, plugin->maps, error);
+    if (code != IMP_SUCCESS) error_prefix(error, "types");
+    return code;
 }
 
 /* What runs code of the plugin, in this order. */
@@ -83,6 +92,14 @@ static imp_code try_out(const char *path, imp_error *error)
     return code;
 }
 
+/* Only what the file itself did is remembered, not a refusal to load it: that may be the doing of
+ * another file, a library that is missing today. False: no memory. */
+static bool remember(trial_book *book, const char *path, const elf_probe *facts, imp_code code,
+                     const char *text)
+{
+    return strncmp(text, "load:", 5) == 0 || trial_book_add(book, path, facts, code, text);
+}
+
 static imp_code step_trial(const plugin_file *plugin, const char *path, trial_book *book,
                            imp_error *error)
 {
@@ -92,7 +109,7 @@ static imp_code step_trial(const plugin_file *plugin, const char *path, trial_bo
         return code == IMP_SUCCESS ? code : error_set(error, code, "%s", known);
     imp_error found = {IMP_SUCCESS, ""};
     code = plugin_trial_run(path, try_out, &found);
-    if (code == IMP_ERROR_MEMORY || !trial_book_add(book, path, &plugin->facts, code, found.text))
+    if (code == IMP_ERROR_MEMORY || !remember(book, path, &plugin->facts, code, found.text))
         return error_set_memory(error);
     return code == IMP_SUCCESS ? code : error_set(error, code, "%s", found.text);
 }
@@ -141,6 +158,9 @@ bool imp_plugin_examine(const char *path, imp_finding_sink tell, void *context)
     }
     imp_error found = {IMP_SUCCESS, ""};
     const imp_code code = plugin_trial_run(absolute, try_out, &found);
+    trial_book *book = code != IMP_ERROR_MEMORY ? trial_book_read() : NULL;
+    if (book != NULL) remember(book, absolute, &facts, code, found.text);
+    trial_book_close(book);
     free(absolute);
     tell_trial(code, &found, tell, context);
     return code == IMP_SUCCESS;

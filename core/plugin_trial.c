@@ -84,14 +84,17 @@ static imp_code tell_end(int status, imp_error *error)
     if (status != -1 && WIFSIGNALED(status))
         return error_set(
             error, IMP_ERROR_PLUGIN,
-            "trial: loading it crashes: signal %d (%s); it was tried in a child process",
+            "trial: loading it crashes: signal %d (%s); look at its constructors and get_factory, "
+            "which run then",
             WTERMSIG(status), strsignal(WTERMSIG(status)));
     if (status != -1 && WIFEXITED(status))
         return error_set(
             error, IMP_ERROR_PLUGIN,
-            "trial: loading it ends the process with status %d; a plugin must not exit",
+            "trial: loading it ends the process with status %d; a plugin must not exit: answer "
+            "IMP_INTERNAL from create instead",
             WEXITSTATUS(status));
-    return error_set(error, IMP_ERROR_PLUGIN, "trial: loading it ends the process");
+    return error_set(error, IMP_ERROR_PLUGIN,
+                     "trial: loading it ends the process; a plugin must not");
 }
 
 imp_code plugin_trial_run(const char *path, imp_code (*open)(const char *path, imp_error *error),
@@ -112,9 +115,11 @@ imp_code plugin_trial_run(const char *path, imp_code (*open)(const char *path, i
     if (how != READ_ENDED) kill(pid, SIGKILL); /* its work is done, or it never will be */
     const int status = bury(pid);
     if (how == READ_LATE)
-        return error_set(error, IMP_ERROR_PLUGIN,
-                         "trial: loading it does not finish within %d s; it was ended",
-                         DEADLINE_MS / 1000);
+        return error_set(
+            error, IMP_ERROR_PLUGIN,
+            "trial: loading it does not finish within %d s; look at its constructors and "
+            "get_factory, which run then",
+            DEADLINE_MS / 1000);
     if (how == READ_ENDED) return tell_end(status, error);
     if (result.code != IMP_SUCCESS && error != NULL) *error = result.error;
     return result.code;

@@ -143,7 +143,7 @@ imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t index, size_
     const imp_status status = surface_eval(s, n, p, x, error);
     if (status == IMP_OK) return IMP_SUCCESS;
     return error_set(why, status == IMP_DOMAIN ? IMP_ERROR_USAGE : IMP_ERROR_PLUGIN,
-                     "type '%s': %s", surface_type_name(s), surface_status_text(status));
+                     "type '%s': %s", surface_label(s), surface_status_text(status));
 }
 
 void imp_scene_domain(const imp_scene *scene, size_t body, size_t index, double lo[3], double hi[3])

@@ -12,6 +12,7 @@
 #include "type_view.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* --- Which type ---------------------------------------------------------------------- */
 
@@ -159,6 +160,62 @@ imp_code scene_build_instance(const imp_registry *registry, imp_type_sort sort,
     return code;
 }
 
+/* --- Putting together ------------------------------------------------------------------- */
+
+/* As it would stand on a command line; false if it is too long for that. */
+static bool write_value(char *text, size_t size, const json_t *value)
+{
+    int length = -1;
+    if (json_is_number(value))
+        length = snprintf(text, size, "%.15g", json_number_value(value));
+    else if (json_is_boolean(value))
+        length = snprintf(text, size, "%s", json_is_true(value) ? "true" : "false");
+    else if (json_is_string(value))
+        length = snprintf(text, size, "'%s'", json_string_value(value));
+    return length >= 0 && (size_t)length < size;
+}
+
+/* The same of a short list: 1,0,0. */
+static bool write_list(char *text, size_t size, const json_t *list)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < json_array_size(list); ++i) {
+        if (i > 0 && used + 1 < size) text[used++] = ',';
+        if (!write_value(text + used, size - used, json_array_get(list, i))) return false;
+        used += strlen(text + used);
+    }
+    return used > 0;
+}
+
+/* " radius=2", or the name alone where the value is long. Allocates nothing: what cannot be said
+ * in a message must not cost the scene. */
+static void label_parameter(surface *s, const char *name, const json_t *value)
+{
+    char text[120];
+    const size_t head = (size_t)snprintf(text, sizeof text, " %.40s=", name);
+    const size_t room = sizeof text - head;
+    if (!(json_is_array(value) ? write_list(text + head, room, value)
+                               : write_value(text + head, room, value)))
+        memcpy(text + head, "...", 4);
+    surface_add_label(s, text);
+}
+
+/* After a type or map was added: its parameters, and whether it told a domain. */
+static imp_code judge_member(const imp_registry *registry, imp_type_sort sort,
+                             const json_t *object, const place *at, surface *s, imp_error *error)
+{
+    const char *key, *name = json_string_value(json_object_get(object, "type"));
+    json_t *value;
+    json_object_foreach((json_t *)object, key, value)
+    {
+        if (strcmp(key, "type") != 0 && strcmp(key, "maps") != 0) label_parameter(s, key, value);
+    }
+    if (surface_breach(s) == IMP_OK) return IMP_SUCCESS;
+    return place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", name,
+                       registry_find_file(registry, sort, name),
+                       surface_status_text(surface_breach(s)));
+}
+
 imp_code scene_build_surface(const imp_registry *registry, const json_t *object, const place *at,
                              surface **s, imp_error *error)
 {
@@ -166,7 +223,12 @@ imp_code scene_build_surface(const imp_registry *registry, const json_t *object,
     imp_code code = scene_build_instance(registry, IMP_SORT_SURFACE, object, at, &i, error);
     if (code != IMP_SUCCESS) return code;
     *s = surface_new(i.surface, i.self);
-    return *s ? IMP_SUCCESS : error_set_memory(error);
+    if (!*s) return error_set_memory(error);
+    code = judge_member(registry, IMP_SORT_SURFACE, object, at, *s, error);
+    if (code == IMP_SUCCESS) return code;
+    surface_free(*s);
+    *s = NULL;
+    return code;
 }
 
 imp_code scene_build_map(const imp_registry *registry, const json_t *object, const place *at,
@@ -176,8 +238,6 @@ imp_code scene_build_map(const imp_registry *registry, const json_t *object, con
     imp_code code = scene_build_instance(registry, IMP_SORT_MAP, object, at, &i, error);
     if (code != IMP_SUCCESS) return code;
     code = surface_add_map(s, i.map, i.self);
-    if (code == IMP_ERROR_MEMORY) return error_set_memory(error);
-    if (code == IMP_SUCCESS) return code;
-    return place_error(at, error, code, "'%s' cannot be put on the surface: %s", i.map->name,
-                       imp_code_text(code));
+    if (code != IMP_SUCCESS) return error_set_memory(error);
+    return judge_member(registry, IMP_SORT_MAP, object, at, s, error);
 }

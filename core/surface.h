@@ -21,16 +21,27 @@ imp_code surface_add_map(surface *s, const imp_map_type *type, void *self);
 
 void surface_free(surface *s);
 
-const char *surface_type_name(const surface *s);
+/* How messages call it: "sphere radius=2 ! rotate rate=1", or its beginning. The names of type and
+ * maps are in it from the start; parameters are added by who knows how they were written. */
+const char *surface_label(const surface *s);
+void surface_add_label(surface *s, const char *text);
+
+/* Whether what the type, or the map put on last, told of its domain keeps the ABI: IMP_OK, or a
+ * status for surface_status_text. If it does not, the surface is only fit for surface_free. */
+imp_status surface_breach(const surface *s);
 
 /* Domain; time is what the type and all maps have in common: lo[2] > hi[2] if nothing. */
 void surface_domain(const surface *s, double lo[3], double hi[3]);
 
 /* Beside the statuses of the ABI. A callback left another floating-point mode behind; it is put
- * back. Or the process of an isolated instance ended, or was ended because it did not answer. */
+ * back. Or the process of an isolated instance ended, or was ended because it did not answer. Or
+ * what a callback gave breaks the ABI. */
 #define SURFACE_CHANGED_MODE 1000
 #define SURFACE_CRASHED 1001
 #define SURFACE_HUNG 1002
+#define SURFACE_BAD_DOMAIN 1003
+#define SURFACE_BAD_RATES 1004
+#define SURFACE_BAD_MODEL 1005
 
 /* What a status other than IMP_OK means here, as the end of "type 'x': ...". */
 const char *surface_status_text(imp_status status);

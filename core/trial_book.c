@@ -6,6 +6,7 @@
 #include "plugin_trial.h"
 #include "text.h"
 
+#include <fcntl.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
@@ -104,12 +105,23 @@ static bool read_lines(trial_book *book, FILE *in)
     return good;
 }
 
+/* Whatever lies there, a pipe that nobody writes to or a device without end: only a file is read.
+ */
+static FILE *open_book(const char *file)
+{
+    struct stat facts;
+    const int fd = open(file, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    FILE *in = fd >= 0 && fstat(fd, &facts) == 0 && S_ISREG(facts.st_mode) ? fdopen(fd, "r") : NULL;
+    if (in == NULL && fd >= 0) close(fd);
+    return in;
+}
+
 trial_book *trial_book_read(void)
 {
     trial_book *book = calloc(1, sizeof *book);
     if (book == NULL) return NULL;
     book->file = book_file();
-    FILE *in = book->file != NULL ? fopen(book->file, "re") : NULL;
+    FILE *in = book->file != NULL ? open_book(book->file) : NULL;
     if (in == NULL) return book;
     const bool good = read_lines(book, in);
     fclose(in);

@@ -62,7 +62,7 @@ static imp_code point_fault(const search *g, int side, const double p[3], const 
                             imp_error *error)
 {
     return error_set(error, IMP_ERROR_PLUGIN, "type '%s' at u = %.17g, v = %.17g, t = %.17g: %s",
-                     surface_type_name(tree_surface(g->trees[side])), p[0], p[1], p[2], what);
+                     surface_label(tree_surface(g->trees[side])), p[0], p[1], p[2], what);
 }
 
 static imp_code side_eval(const search *g, int side, const double *p, vec3 *x, double *inexact,

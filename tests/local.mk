@@ -68,7 +68,10 @@ bats_suites = \
     tests/cli_batch.bats \
     tests/cli_list.bats \
     tests/cli_pair.bats \
-    tests/cli_solve.bats
+    tests/cli_solve.bats \
+    tests/host.bats \
+    tests/matrix.bats \
+    tests/why.bats
 
 # Tests of the sources, the scripts and the installation.
 script_suites = \
@@ -109,7 +112,8 @@ check_LTLIBRARIES = \
     tests/plugins/include_negative.la \
     tests/plugins/include_rounds.la \
     tests/plugins/kit.la \
-?????    tests/plugins/newer_minor.la \
+    tests/plugins/map_rate_negative.la \
+    tests/plugins/newer_minor.la \
     tests/plugins/no_entry.la \
     tests/plugins/no_factory.la \
     tests/plugins/no_note.la \

@@ -61,9 +61,11 @@ pkgdata_DATA = \
     tools/data/teapot.json \
     tools/schema/bench.schema.json \
     tools/schema/check.schema.json \
+    tools/schema/matrix.schema.json \
     tools/schema/result.schema.json \
     tools/schema/scene.schema.json \
-    tools/schema/types.schema.json
+    tools/schema/types.schema.json \
+    tools/schema/why.schema.json
 
 # Where build_tree_data looks, so that the command just built meets the data of its own tree.
 built_data = tools/built-data

@@ -63,6 +63,15 @@ static void tell_cell(matrix *m, const char *a, const char *b, const imp_result 
                (unsigned long long)r->stats.pairs, r->stats.seconds, a, b);
 }
 
+static void tell_failure(matrix *m, const char *a, const char *b, const char *why)
+{
+    if (m->rows != NULL)
+        json_array_append_new(m->rows,
+                              json_pack("{s:o, s:o, s:o}", "a", output_json_text(a), "b",
+                                        output_json_text(b), "error", output_json_text(why)));
+    complain(EXIT_PLUGIN, m->args->verb->name, "%s  |  %s: %s", a, b, why);
+}
+
 /* One pair; a failure is told at once, with both names. */
 static void solve(matrix *m, const char *a, const char *b, tally *t)
 {
@@ -75,7 +84,7 @@ static void solve(matrix *m, const char *a, const char *b, tally *t)
         tell_cell(m, a, b, &result);
     } else {
         t->failed += 1;
-        complain(EXIT_PLUGIN, m->args->verb->name, "%s  |  %s: %s", a, b, error.text);
+        tell_failure(m, a, b, error.text);
     }
     imp_scene_free(scene);
 }
