@@ -201,8 +201,8 @@ static void label_parameter(surface *s, const char *name, const json_t *value)
 }
 
 /* After a type or map was added: its parameters, and whether it told a domain. */
-static imp_code judge_member(const imp_registry *registry, imp_type_sort sort,
-                             const json_t *object, const place *at, surface *s, imp_error *error)
+static imp_code judge_member(const imp_registry *registry, imp_type_sort sort, const json_t *object,
+                             const place *at, surface *s, imp_error *error)
 {
     const char *key, *name = json_string_value(json_object_get(object, "type"));
     json_t *value;
