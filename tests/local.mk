@@ -68,6 +68,7 @@ bats_suites = \
     tests/cli_batch.bats \
     tests/cli_list.bats \
     tests/cli_pair.bats \
+    tests/readme.bats \
     tests/cli_solve.bats \
     tests/host.bats \
     tests/matrix.bats \
