@@ -229,11 +229,15 @@ static inline imp_interval imp_interval_sqrt(imp_interval x)
  * setting errno. */
 static inline double imp_exp_(double x) { return x < -694 ? 0 : x > 709 ? INFINITY : exp(x); }
 
-/* x^p, leaving errno alone. */
+/* x^p, leaving errno alone; also when a compiler that was told that pow never touches it would
+ * leave out putting it back. */
 static inline double imp_pow_(double x, double p)
 {
     int saved = errno;
     double y = pow(x, p);
+#if defined(__GNUC__)
+    __asm__ __volatile__("" : "+m"(y) : : "memory");
+#endif
     errno = saved;
     return y;
 }
