@@ -43,7 +43,7 @@ static inline imp_status check_axis(int row, const double axis[3], imp_complaint
         .min = -INFINITY, .max = INFINITY                                                          \
     }
 #define ROW_TURNING_ANGLE                                                                          \
-    ROW_NUMBERS("angle", "rad/time^k", NULL, IMP_OPTIONAL,                                         \
+    ROW_NUMBERS("angle", "rad/time^k", NULL, IMP_OPTIONAL | IMP_SCALAR_OK,                         \
                 "instead: coefficients of t^0, t^1, t^2 ... of the angle")
 
 /* --- Constant vectors and matrices --- */

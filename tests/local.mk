@@ -113,6 +113,29 @@ check_LTLIBRARIES = \
     tests/plugins/include_negative.la \
     tests/plugins/include_rounds.la \
     tests/plugins/kit.la \
+    tests/plugins/liar_beyond.la \
+    tests/plugins/liar_corners.la \
+    tests/plugins/liar_counter.la \
+    tests/plugins/liar_crash.la \
+    tests/plugins/liar_errno.la \
+    tests/plugins/liar_error.la \
+    tests/plugins/liar_exports.la \
+    tests/plugins/liar_factory.la \
+    tests/plugins/liar_grid.la \
+    tests/plugins/liar_hang.la \
+    tests/plugins/liar_leak.la \
+    tests/plugins/liar_map_rate.la \
+    tests/plugins/liar_model_time.la \
+    tests/plugins/liar_nan.la \
+    tests/plugins/liar_percent.la \
+    tests/plugins/liar_range.la \
+    tests/plugins/liar_remainder.la \
+    tests/plugins/liar_rounding.la \
+    tests/plugins/liar_sign.la \
+    tests/plugins/liar_single.la \
+    tests/plugins/liar_spot.la \
+    tests/plugins/liar_time.la \
+    tests/plugins/liar_truthful.la \
     tests/plugins/map_rate_negative.la \
     tests/plugins/newer_minor.la \
     tests/plugins/no_entry.la \

@@ -334,9 +334,9 @@ refused() {
     hurry
     impinge new wobble >/dev/null
     impinge build wobble/wobble.c --install
-    refused '/\.rate = /d' 'wobble: rate is NULL'
-    refused '/\.create = /d' 'wobble: create is NULL'
-    refused 's/"height"/"hei ght"/' 'wobble: 0: name: allowed are letters'
+    refused '/\.rate = /d' 'types: wobble: rate is NULL'
+    refused '/\.create = /d' 'types: wobble: create is NULL'
+    refused 's/"height"/"hei ght"/' 'types: wobble: 0: name: allowed are letters'
     refused '/<stdlib.h>/a #undef IMP_ABI_MAJOR\n#define IMP_ABI_MAJOR 2' 'abi: abi_major is 2'
     refused '/_PLUGIN(/d' 'note: has no Impinge note'
     refused 's/= imp_sin(/= imp_shine(/; s/^static void formula/imp_model imp_shine(imp_model);\n&/' 'load: wobble.so: undefined symbol: imp_shine'
