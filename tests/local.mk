@@ -62,7 +62,6 @@ tests_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 
 # Command-line tests; the environment below tells them where things are.
 bats_suites = \
-    tests/check.bats \
     tests/bench.bats \
     tests/cli.bats \
     tests/cli_batch.bats \
@@ -74,8 +73,10 @@ bats_suites = \
     tests/matrix.bats \
     tests/why.bats
 
-# Tests of the sources, the scripts and the installation.
+# Tests of the sources, the scripts and the installation; and of the checker, which rightly minds
+# what sanitizers put into a plugin.
 script_suites = \
+    tests/check.bats \
     tests/preparation.bats \
     tests/sdk.bats \
     tests/structure.bats \
