@@ -103,7 +103,7 @@ static imp_model hostile_model(uint64_t *state)
 }
 
 /* The values that m allows at s; false if there are none. */
-static bool hostile_window(mpfi_ptr window, const imp_model *m, const mpfi_t s[3])
+static bool hostile_window(mpfi_ptr window, const imp_model *m, const mpfi_t *s)
 {
     oracle_quadratic(window, m, s);
     mpfr_sub_d(&window->right, &window->right, m->e, MPFR_RNDU);
