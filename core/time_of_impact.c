@@ -134,11 +134,21 @@ static cut cut_by_contribution(const pair *p)
     return best;
 }
 
+/* Whether the half below (0) or above (1) a cut in time holds moments of the window that the other
+ * does not. Of a window that touches the cut with its end one half holds all, so that no pair is
+ * left with a single moment which its neighbours in time look at too. */
+static bool half_is_needed(const time_window *window, double at, int half)
+{
+    if (window->lo >= at) return half == 1;
+    if (window->hi <= at) return half == 0;
+    return true;
+}
+
 /* A cut in time is free where the whole window lies on one side of it. */
 static bool window_is_one_sided(const pair *p, const node *n)
 {
     const double at = n->region.c[PARAMETER_T];
-    return p->window.hi < at || p->window.lo > at;
+    return p->window.hi <= at || p->window.lo >= at;
 }
 
 /* What a cut in time is worth, on the scale of the spread. Linear motion costs nothing, so only
@@ -191,7 +201,7 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
         pair child = *p;
         node **slot = c.side == 0 ? &child.a : &child.b;
         const double at = (*slot)->region.c[c.along];
-        if (c.along == PARAMETER_T && (half == 0 ? p->window.lo > at : p->window.hi < at)) continue;
+        if (c.along == PARAMETER_T && !half_is_needed(&p->window, at, half)) continue;
         const imp_code code = child_of(im, both->trees[c.side], *slot, c.along, half, slot, error);
         if (code == IMP_ERROR_PLUGIN)
             error_prefix(error, "body %zu, surface %zu", both->body[c.side], both->surface[c.side]);
