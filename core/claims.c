@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-#include "status.h"
-
 static bool region_holds(const imp_region *r, const double p[3])
 {
     for (int j = 0; j < 3; ++j)
@@ -61,13 +59,13 @@ static imp_code lie(const surface *s, const node *n, const double p[3], const do
     double rounding;
     const imp_region *r = &n->region;
     const double middle = polynomial(n, i, p, &rounding);
-    return error_set(error, IMP_ERROR_PLUGIN,
-                     "type '%s' breaks its own bounds over u [%.17g, %.17g], v [%.17g, %.17g], "
-                     "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g its %c is %.17g, the "
-                     "bounds say %.17g +- %.3g within [%.17g, %.17g]",
-                     surface_label(s), r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2],
-                     r->hi[2], p[0], p[1], p[2], "xyz"[i], x[i], middle, n -> e[i], n -> lo[i],
-                     n -> hi[i]);
+    const char axis = "xyz"[i];
+    return surface_fault(s, error,
+                         "breaks its own bounds over u [%.17g, %.17g], v [%.17g, %.17g], "
+                         "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g its %c is %.17g, "
+                         "the bounds say %.17g +- %.3g within [%.17g, %.17g]",
+                         r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1],
+                         p[2], axis, x[i], middle, n->e[i], n->lo[i], n->hi[i]);
 }
 
 /* A point with its error bounds; what cannot be evaluated is no evidence here. */

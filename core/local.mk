@@ -14,7 +14,9 @@ core_base = \
     core/text.c core/text.h \
     core/place.c core/place.h \
     core/region.c core/region.h \
-    core/surface.c core/surface.h \
+    core/surface.h \
+    core/surface_parts.h \
+    core/surface.c core/surface_rate.c core/surface_include.c \
     core/scene.h
 
 core_solver = \

@@ -56,10 +56,9 @@ static void node_unalloc(tree *t)
 
 static imp_code fault(const tree *t, const imp_region *r, const char *what, imp_error *error)
 {
-    return error_set(error, IMP_ERROR_PLUGIN,
-                     "type '%s' over u [%.17g, %.17g], v [%.17g, %.17g], t [%.17g, %.17g]: %s",
-                     surface_label(t->surface), r->lo[0], r->hi[0], r->lo[1], r->hi[1],
-                     r->lo[2], r->hi[2], what);
+    return surface_fault(t->surface, error,
+                         "over u [%.17g, %.17g], v [%.17g, %.17g], t [%.17g, %.17g]: %s", r->lo[0],
+                         r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], what);
 }
 
 static imp_code status_fault(const tree *t, const imp_region *r, imp_status status,

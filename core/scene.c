@@ -80,6 +80,7 @@ imp_code scene_add_surface(imp_scene *scene, surface *s)
         surface_free(s);
         return IMP_ERROR_MEMORY;
     }
+    surface_set_body(s, last->name, last->count);
     members[last->count++] = (member){.surface = s};
     last->members = members;
     return IMP_SUCCESS;
@@ -142,8 +143,10 @@ imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t index, size_
         return error_set(why, IMP_ERROR_USAGE, "body %zu has no surface %zu", body, index);
     const imp_status status = surface_eval(s, n, p, x, error);
     if (status == IMP_OK) return IMP_SUCCESS;
-    return error_set(why, status == IMP_DOMAIN ? IMP_ERROR_USAGE : IMP_ERROR_PLUGIN,
-                     "type '%s': %s", surface_label(s), surface_status_text(status));
+    const imp_code code = surface_fault(s, why, ": %s", surface_status_text(status));
+    if (status != IMP_DOMAIN) return code;
+    if (why != NULL) why->code = IMP_ERROR_USAGE;
+    return IMP_ERROR_USAGE;
 }
 
 void imp_scene_domain(const imp_scene *scene, size_t body, size_t index, double lo[3], double hi[3])
@@ -183,10 +186,7 @@ imp_code scene_tree(imp_scene *scene, size_t body, size_t index, tree_kind kind,
     m->trees = trees;
     const imp_code code =
         tree_new(m->surface, kind, t_start, t_end, audit, &trees[m->tree_count], error);
-    if (code != IMP_SUCCESS) {
-        error_prefix(error, "body '%s', surface %zu", scene->bodies[body].name, index);
-        return code;
-    }
+    if (code != IMP_SUCCESS) return code;
     *found = trees[m->tree_count++];
     *fresh = true;
     return IMP_SUCCESS;

@@ -26,6 +26,13 @@ void surface_free(surface *s);
 const char *surface_label(const surface *s);
 void surface_add_label(surface *s, const char *text);
 
+/* Tells messages whose it is; the text must outlive the surface. */
+void surface_set_body(surface *s, const char *body, size_t index);
+
+/* Sets IMP_ERROR_PLUGIN and answers it: "body 'b', surface 0: type 'sphere radius=2' <format>". */
+imp_code surface_fault(const surface *s, imp_error *error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 /* Whether what the type, or the map put on last, told of its domain keeps the ABI: IMP_OK, or a
  * status for surface_status_text. If it does not, the surface is only fit for surface_free. */
 imp_status surface_breach(const surface *s);
@@ -43,7 +50,7 @@ void surface_domain(const surface *s, double lo[3], double hi[3]);
 #define SURFACE_BAD_RATES 1004
 #define SURFACE_BAD_MODEL 1005
 
-/* What a status other than IMP_OK means here, as the end of "type 'x': ...". */
+/* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
 
 /* As imp_surface_type.eval, maps applied. error may be NULL. */

@@ -4,8 +4,6 @@
 
 #include <assert.h>
 
-#include "status.h"
-
 /* --- Test and push ---------------------------------------------------------------- */
 
 static bool pair_may_be_near(const impact *im, pair *p)
@@ -203,8 +201,6 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
         const double at = (*slot)->region.c[c.along];
         if (c.along == PARAMETER_T && !half_is_needed(&p->window, at, half)) continue;
         const imp_code code = child_of(im, both->trees[c.side], *slot, c.along, half, slot, error);
-        if (code == IMP_ERROR_PLUGIN)
-            error_prefix(error, "body %zu, surface %zu", both->body[c.side], both->surface[c.side]);
         if (code == IMP_ERROR_PLUGIN) return code;
         if (code == IMP_SUCCESS)
             test_and_push(im, child);

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "claims.h"
-#include "status.h"
 
 /* Unknowns: y = (s_u, s_v) of a and of b, normalised to the nodes. Minimised: |D|^2 / 2,
  * D = x_b - x_a, by Newton steps with J'J + D.D'' + damping; J and D'' come from the nodes'
@@ -61,8 +60,8 @@ static void side_parameters(const search *g, int side, const double *y, double p
 static imp_code point_fault(const search *g, int side, const double p[3], const char *what,
                             imp_error *error)
 {
-    return error_set(error, IMP_ERROR_PLUGIN, "type '%s' at u = %.17g, v = %.17g, t = %.17g: %s",
-                     surface_label(tree_surface(g->trees[side])), p[0], p[1], p[2], what);
+    return surface_fault(tree_surface(g->trees[side]), error,
+                         "at u = %.17g, v = %.17g, t = %.17g: %s", p[0], p[1], p[2], what);
 }
 
 static imp_code side_eval(const search *g, int side, const double *p, vec3 *x, double *inexact,

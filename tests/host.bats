@@ -409,9 +409,9 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
     blames domain_rounds "domain_rounds.so) changes the floating-point mode" --isolate all
 }
 
-@test "points that are no numbers end the query and name type, parameters and point" {
+@test "points that are no numbers end the query and name body, type, parameters and point" {
     takes eval_nan_late eval_error_negative
-    blames 'eval_nan_late height=.1' "type 'eval_nan_late height=0.1' at u = "
+    blames 'eval_nan_late height=.1' "body 'a', surface 0: type 'eval_nan_late height=0.1' at u = "
     run -0 pair eval_nan_late 'sphere radius=.5 center=.3,.2,.8' --time 0,.4 --json
     json '.verdict == "contact" and .t < 0.31'
     blames eval_error_negative "type 'eval_error_negative' at u = "
@@ -446,7 +446,7 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
 
 @test "lies that the search meets end it, and --audit finds the others" {
     takes include_lies rate_lies
-    blames include_lies "type 'include_lies' breaks its own bounds $whole: at u = "
+    blames include_lies "body 'a', surface 0: type 'include_lies' breaks its own bounds $whole: at u = "
     blames 'rate_lies height=.5' "type 'rate_lies height=0.5' breaks its own bounds $whole: at u = " --audit
     blames include_lies "breaks its own bounds" --audit --json
     still_works
