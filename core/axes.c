@@ -62,21 +62,24 @@ INLINE void edge_hull(spans *range, lanes c, lanes b, lanes q)
     range->lo = lesser(range->lo, vertex);
 }
 
-/* The five coefficients of a slice, in lanes. */
+/* The coefficients of a slice, in lanes. */
 typedef struct forms {
-    lanes bu, bv, uu, uv, vv;
+    lanes bu, bv, uu, uv, vv, uw, vw;
 } forms;
 
 INLINE forms project(const bundle *n, const slice *s)
 {
-    return (forms){along(n, s->bu), along(n, s->bv), along(n, s->quu), along(n, s->quv),
-                   along(n, s->qvv)};
+    return (forms){along(n, s->bu),  along(n, s->bv),  along(n, s->quu), along(n, s->quv),
+                   along(n, s->qvv), along(n, s->quw), along(n, s->qvw)};
 }
 
-/* Values that do occur, at the middle and a corner: no bound can be better than these. */
+INLINE lanes turning(const forms *f) { return magnitude(f->uw) + magnitude(f->vw); }
+
+/* Values that do occur at every w, at the middle and a corner, or are passed: no bound can be
+ * better than these. */
 INLINE spans glimpse(const forms *f)
 {
-    const lanes slopes = magnitude(f->bu) + magnitude(f->bv) - magnitude(f->uv);
+    const lanes slopes = magnitude(f->bu) + magnitude(f->bv) - magnitude(f->uv) - turning(f);
     const lanes curved = f->uu + f->vv;
     return (spans){lesser(curved - slopes, all(0)), greater(curved + slopes, all(0))};
 }
@@ -107,6 +110,16 @@ INLINE spans span_of(const forms *f)
     return range;
 }
 
+/* The range of form b less that of form a at the window's start (w = -1) or end (w = 1). */
+INLINE spans between_at(const forms *a, const forms *b, double w)
+{
+    forms fa = *a, fb = *b;
+    fa.bu += all(w) * a->uw, fa.bv += all(w) * a->vw;
+    fb.bu += all(w) * b->uw, fb.bv += all(w) * b->vw;
+    const spans ra = span_of(&fa), rb = span_of(&fb);
+    return (spans){rb.lo - ra.hi, rb.hi - ra.lo};
+}
+
 /* share_cut in lanes: the least upper and greatest lower bound of w that low + drift w <= limit
  * leaves in each; `gone` where it leaves nothing. */
 typedef struct cuts {
@@ -135,16 +148,19 @@ INLINE bool share_take(share *s, const cuts *c)
     return !(s->lo > s->hi);
 }
 
-/* Lemma (one axis). For every w in the window and all points x of A, y of B at that time,
+/* Lemma (one axis). Let x of A and y of B have fixed parameters s_a, s_b. But for the slack,
+ * n.(y - x) is then linear in w. The least of it over all s_a, s_b is concave in w, being a
+ * minimum of linear functions, and so lies above its chord; the greatest lies below its own.
+ * At either end of the window, w = -1 and w = 1, they are
  *
- *   n.(y - x) in n.delta + n.drift w + [min Qb - max Qa, max Qb - min Qa] -+ sum_i |n_i| slack_i
+ *   n.delta + n.drift w + [min Qb - max Qa, max Qb - min Qa],   the forms with their slopes at w,
  *
- * and |n.(y - x)| <= |n| |y - x|. So where the interval leaves [-g, g], g = |n| clearance, the
- * nodes are farther apart than the clearance. Rounding, in units of u = 2^-53 and R = sum_i |n_i|
- * magnitude_i: what re-centring left 4 R, the dots 6 R, the two spans 128 R (2^-46 R), the sums
- * 8 R, the slack's own sums 8 R: below 2^-45 R = 256 u R. 2^-490 outweighs underflow, since every
- * axis has a coordinate of 1. Lanes whose axis or size is out of range are left out: they prove
- * nothing. */
+ * and |n.(y - x)| <= |n| |y - x|. So where the chords less or more sum_i |n_i| slack_i leave
+ * [-g, g], g = |n| clearance, the nodes are farther apart than the clearance. Rounding, in units
+ * of u = 2^-53 and R = sum_i |n_i| magnitude_i: what re-centring left 4 R, the dots 6 R, slopes
+ * at the ends 2 R, the two spans 128 R (2^-46 R), the sums 16 R, the slack's own sums 8 R: below
+ * 2^-45 R = 256 u R. 2^-490 outweighs underflow, since every axis has a coordinate of 1. Lanes
+ * whose axis or size is out of range are left out: they prove nothing. */
 INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, share *s)
 {
     for (int i = 0; i < 3; ++i) n->size[i] = magnitude(n->x[i]);
@@ -160,7 +176,9 @@ INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, share *s)
     const mask above = offset + (gb.lo - ga.hi) + magnitude(drift) > all(0);
     const mask below = offset + (gb.hi - ga.lo) - magnitude(drift) < all(0);
     if (!any(above | below)) return true; /* no w to cut */
-    const spans a = span_of(&fa), b = span_of(&fb);
+    const spans first = between_at(&fa, &fb, -1);
+    const bool turns = any(turning(&fa) + turning(&fb) > all(0));
+    const spans last = turns ? between_at(&fa, &fb, 1) : first;
     const lanes size = weighted(n, r->magnitude);
     const lanes slack = weighted(n, r->slack) + size * all(0x1p-45) + all(0x1p-490);
     const lanes square = n->x[0] * n->x[0] + n->x[1] * n->x[1] + n->x[2] * n->x[2];
@@ -169,8 +187,11 @@ INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, share *s)
     const mask sane = (longest > all(0x1p-400)) & (longest < all(0x1p400)) & (size < all(0x1p400));
     limit = pick(sane, limit, all(INFINITY));
     cuts c = {all(-1), all(1), (mask){0}};
-    cut(&c, offset + (b.lo - a.hi) - slack, drift, limit);
-    cut(&c, -offset - (b.hi - a.lo) - slack, -drift, limit);
+    const lanes half = all(0.5);
+    cut(&c, offset + half * (first.lo + last.lo) - slack, drift + half * (last.lo - first.lo),
+        limit);
+    cut(&c, -offset - half * (first.hi + last.hi) - slack, half * (first.hi - last.hi) - drift,
+        limit);
     return share_take(s, &c);
 }
 

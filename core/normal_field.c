@@ -23,6 +23,7 @@ static local to_local(const frame *f, const double *x)
 typedef struct local_slice {
     local l[2]; /* slopes along u, v */
     local uu, uv, vv;
+    local lw[2]; /* how the slopes turn with w */
 } local_slice;
 
 static local_slice slice_to_local(const frame *f, const slice *s)
@@ -30,7 +31,8 @@ static local_slice slice_to_local(const frame *f, const slice *s)
     return (local_slice){{to_local(f, s->bu), to_local(f, s->bv)},
                          to_local(f, s->quu),
                          to_local(f, s->quv),
-                         to_local(f, s->qvv)};
+                         to_local(f, s->qvv),
+                         {to_local(f, s->quw), to_local(f, s->qvw)}};
 }
 
 /* The frame between the two normals, on the side of B at the window's start; false where the
@@ -99,10 +101,14 @@ static quadratic part(const local_slice *s, double m[2][2], const local *delta, 
                        sign * (s->vv.n + dot2(m[1], &s->l[1]))};
 }
 
-static double tangential_curvature(const local_slice *s, int k)
+/* Along tangent k, of all but the slopes: at most this. */
+static double tangential_rest(const local_slice *s, int k)
 {
-    return fabs(s->uu.t[k]) + fabs(s->uv.t[k]) + fabs(s->vv.t[k]);
+    return fabs(s->uu.t[k]) + fabs(s->uv.t[k]) + fabs(s->vv.t[k]) +
+           (fabs(s->lw[0].t[k]) + fabs(s->lw[1].t[k]));
 }
+
+static double turning(const local_slice *s) { return fabs(s->lw[0].n) + fabs(s->lw[1].n); }
 
 static double weighted(vec3 n, const double *x)
 {
@@ -110,15 +116,16 @@ static double weighted(vec3 n, const double *x)
 }
 
 /* Lemma. Let D = delta + drift w + (slopes and curvature of B) - (those of A) + rest, |rest_i| <=
- * slack_i, and n(s) = n0 + sum_k s_k (m_k1 t1 + m_k2 t2), k over the four parameters, for any
- * numbers m. Then
+ * slack_i, where slopes l_k are l_k + lw_k w in truth, and n(s) = n0 + sum_k s_k (m_k1 t1 + m_k2
+ * t2), k over the four parameters, for any numbers m. Then
  *
  *   n(s).D = n0.delta + n0.drift w
  *          + part B (s_b) + part A (s_a)                      terms of each surface's own
  * parameters
  *          + sum s_k s_l (m_k.l_l - m_l.l_k), k of A, l of B  "cross": vanishes for m = -K l / 2
- *          + sum s_k m_k.(drift w + curvature of B - of A)    at most mu.(|drift| + |curvatures|)
- * in t1, t2
+ *          + sum s_k w n0.lw_k                                at most sum |n0.lw_k|
+ *          + sum s_k m_k.(drift w + curvature and turning     at most mu.(|drift| + |curvatures| +
+ *                         of B - of A)                        |turnings|) in t1, t2
  *          + n(s).rest                                        at most (|n0| + mu1 |t1| + mu2
  * |t2|).slack
  *
@@ -143,13 +150,14 @@ bool normal_field_cut(const relative *r, double clearance, share *s)
     const quadratic qa = part(&sa, ma, &delta, -1), qb = part(&sb, mb, &delta, 1);
     if (delta.n + quadratic_glimpse(&qa).lo + quadratic_glimpse(&qb).lo + fabs(drift.n) <= 0)
         return true; /* nothing to cut, whatever the rest may be */
-    double slack = 0x1p-490 + weighted(f.n, r->slack), size = weighted(f.n, r->magnitude);
+    double slack = 0x1p-490 + weighted(f.n, r->slack) + turning(&sa) + turning(&sb);
+    double size = weighted(f.n, r->magnitude);
     double tilt = 0, lean = 0;
     for (int k = 0; k < 2; ++k) {
         const double mu =
             (fabs(ma[0][k]) + fabs(ma[1][k]) + fabs(mb[0][k]) + fabs(mb[1][k])) * (1 + 0x1p-50);
-        slack += mu * (fabs(drift.t[k]) + tangential_curvature(&sa, k) +
-                       tangential_curvature(&sb, k) + weighted(f.t[k], r->slack));
+        slack += mu * (fabs(drift.t[k]) + tangential_rest(&sa, k) + tangential_rest(&sb, k) +
+                       weighted(f.t[k], r->slack));
         size += 2 * mu * weighted(f.t[k], r->magnitude);
         tilt += mu * fabs(vec3_dot(f.n, f.t[k])) + mu * 0x1p-50;
         lean += mu * vec3_norm(f.t[k]);

@@ -12,10 +12,11 @@ typedef struct time_window {
 } time_window;
 
 /* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v that
- * holds at its middle. */
+ * holds at its middle, and how its slopes turn with w. */
 typedef struct slice {
     double bu[3], bv[3], quu[3], quv[3], qvv[3];
-    vec3 normal; /* bu x bv: at the window's middle, which may be far from the node's */
+    double quw[3], qvw[3]; /* the slopes at w are bu + quw * w, bv + qvw * w */
+    vec3 normal;           /* bu x bv: at the window's middle, which may be far from the node's */
 } slice;
 
 /* B - A over the window: offset delta + drift * w, plus slice b, minus slice a, give or take slack.
