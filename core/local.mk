@@ -34,6 +34,7 @@ core_solver = \
     core/pair_heap.c core/pair_heap.h \
     core/witness.c core/witness.h \
     core/time_of_impact.c core/time_of_impact.h \
+    core/couples.c core/couples.h \
     core/query.c
 
 core_registry = \

@@ -18,9 +18,7 @@ typedef struct chunk {
 
 struct tree {
     const surface *surface;
-    tree_kind kind;
-    double t_start, t_end;
-    node_audit audit;
+    tree_plan plan;
     node *root;
     chunk *chunks;
     uint64_t count;
@@ -221,7 +219,7 @@ static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
             return fault(t, &n->region, "the centre's value or error is not a number", error);
         n->radius += n->e[i];
     }
-    reach_from_rates(n, t->kind, &rates);
+    reach_from_rates(n, t->plan.kind, &rates);
     for (int i = 0; i < 3; ++i) {
         n->e[i] += n->e[i] * 0x1p-52;
         n->lo[i] = nextafter(n->f.a[i] - n->e[i], -INFINITY);
@@ -237,8 +235,8 @@ static imp_code node_make(tree *t, imp_region region, node **made, imp_error *er
     if (n == NULL) return error_set_memory(error);
     n->region = region;
     imp_code code =
-        t->kind == TREE_MODELS ? fill_from_model(t, n, error) : fill_from_rates(t, n, error);
-    if (code == IMP_SUCCESS && t->audit != NULL) code = t->audit(t->surface, n, error);
+        t->plan.kind == TREE_MODELS ? fill_from_model(t, n, error) : fill_from_rates(t, n, error);
+    if (code == IMP_SUCCESS && t->plan.audit != NULL) code = t->plan.audit(t->surface, n, error);
     if (code == IMP_SUCCESS)
         *made = n;
     else
@@ -248,18 +246,16 @@ static imp_code node_make(tree *t, imp_region region, node **made, imp_error *er
 
 /* --- Trees ------------------------------------------------------------------------------ */
 
-imp_code tree_new(const surface *s, tree_kind kind, double t_start, double t_end, node_audit audit,
-                  tree **made, imp_error *error)
+imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, imp_error *error)
 {
     double lo[3], hi[3];
     surface_domain(s, lo, hi);
-    assert(lo[2] <= t_start && t_start <= t_end && t_end <= hi[2]);
-    lo[2] = t_start;
-    hi[2] = t_end;
+    assert(lo[2] <= plan->t_start && plan->t_start <= plan->t_end && plan->t_end <= hi[2]);
+    lo[2] = plan->t_start;
+    hi[2] = plan->t_end;
     tree *t = calloc(1, sizeof *t);
     if (t == NULL) return error_set_memory(error);
-    *t = (tree){.surface = s, .kind = kind, .t_start = t_start, .t_end = t_end, .audit = audit};
-    t->bytes = sizeof *t;
+    *t = (tree){.surface = s, .plan = *plan, .bytes = sizeof *t};
     const imp_code code = node_make(t, region_make(lo, hi), &t->root, error);
     if (code == IMP_SUCCESS)
         *made = t;
@@ -283,9 +279,10 @@ node *tree_root(const tree *t) { return t->root; }
 
 const surface *tree_surface(const tree *t) { return t->surface; }
 
-bool tree_is_over(const tree *t, tree_kind kind, double t_start, double t_end, node_audit audit)
+bool tree_is_of(const tree *t, const tree_plan *plan)
 {
-    return t->kind == kind && t->t_start == t_start && t->t_end == t_end && t->audit == audit;
+    return t->plan.kind == plan->kind && t->plan.t_start == plan->t_start &&
+           t->plan.t_end == plan->t_end && t->plan.audit == plan->audit;
 }
 
 uint64_t tree_node_count(const tree *t) { return t->count; }

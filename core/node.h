@@ -48,15 +48,21 @@ typedef struct tree tree;
 /* Called with each node made, before it is used; IMP_ERROR_PLUGIN refuses it. */
 typedef imp_code (*node_audit)(const surface *s, const node *n, imp_error *error);
 
+/* What one tree of a surface differs in from another. */
+typedef struct tree_plan {
+    tree_kind kind;
+    double t_start, t_end; /* within the surface's domain */
+    node_audit audit;      /* may be NULL */
+} tree_plan;
+
 /* A tree over the surface's whole (u, v) and [t_start, t_end]; the root is made at once.
- * `s` must outlive it. `audit` may be NULL. */
-imp_code tree_new(const surface *s, tree_kind kind, double t_start, double t_end, node_audit audit,
-                  tree **made, imp_error *error);
+ * `s` must outlive it. */
+imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, imp_error *error);
 void tree_free(tree *t);
 
 node *tree_root(const tree *t);
 const surface *tree_surface(const tree *t);
-bool tree_is_over(const tree *t, tree_kind kind, double t_start, double t_end, node_audit audit);
+bool tree_is_of(const tree *t, const tree_plan *plan);
 
 /* Made so far, over all queries. */
 uint64_t tree_node_count(const tree *t);

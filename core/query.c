@@ -5,22 +5,20 @@
 #include <impinge/impinge.h>
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "broad_phase.h"
-#include "claims.h"
-#include "scene_trees.h"
+#include "couples.h"
 #include "status.h"
-#include "time_of_impact.h"
 
 struct imp_query {
     imp_scene *scene;
     imp_options options;
     impact impact;
-    couple *couples;
-    size_t couple_count, couple_capacity, coupled; /* coupled: how many have been tested */
+    couple_list couples;
+    size_t coupled; /* how many couples have been tested */
     uint64_t peak_bytes;
     bool begun, failed;
     imp_verdict verdict;
@@ -94,161 +92,11 @@ void imp_query_free(imp_query *query)
 {
     if (query == NULL) return;
     impact_clear(&query->impact);
-    free(query->couples);
+    couples_clear(&query->couples);
     free(query);
 }
 
 void imp_query_cancel(imp_query *query) { atomic_store(&query->cancelled, true); }
-
-/* --- Beginning: trees of all surfaces, then the couples that come near ------------------ */
-
-/* One surface of the scene, while couples are made. */
-typedef struct entrant {
-    tree *tree;
-    size_t body, surface;
-} entrant;
-
-typedef struct line_up {
-    imp_query *query;
-    entrant *entrants;
-    swept_box *boxes;
-    size_t count;
-} line_up;
-
-static tree_kind kind_of(const imp_options *options)
-{
-    if (options->method == IMP_METHOD_MODELS) return TREE_MODELS;
-    switch (options->rates) {
-    case IMP_RATES_COLUMN:
-        return TREE_RATES_COLUMN;
-    case IMP_RATES_CONSTANT:
-        return TREE_RATES_CONSTANT;
-    default:
-        return TREE_RATES_FULL;
-    }
-}
-
-/* Enters one surface, if it exists at any of the query's times. */
-static imp_code enter(line_up *all, size_t body, size_t index, imp_error *error)
-{
-    const imp_options *options = &all->query->options;
-    double lo[3], hi[3];
-    imp_scene_domain(all->query->scene, body, index, lo, hi);
-    const double start = lo[2] > options->t_start ? lo[2] : options->t_start;
-    const double end = hi[2] < options->t_end ? hi[2] : options->t_end;
-    if (start > end) return IMP_SUCCESS;
-    tree *t;
-    bool fresh;
-    const imp_code code = scene_tree(all->query->scene, body, index, kind_of(options), start, end,
-                                     options->audit ? claims_audit : NULL, &t, &fresh, error);
-    if (code != IMP_SUCCESS) return code;
-    if (fresh) {
-        all->query->impact.stats.nodes += tree_node_count(t);
-        all->query->impact.stats.bytes += tree_bytes(t);
-    }
-    const node *root = tree_root(t);
-    swept_box *box = &all->boxes[all->count];
-    box->owner = all->count;
-    memcpy(box->lo, root->lo, sizeof box->lo);
-    memcpy(box->hi, root->hi, sizeof box->hi);
-    all->entrants[all->count++] = (entrant){t, body, index};
-    return IMP_SUCCESS;
-}
-
-static bool couples_reserve(imp_query *query)
-{
-    if (query->couple_count < query->couple_capacity) return true;
-    const size_t capacity = query->couple_capacity == 0 ? 64 : 2 * query->couple_capacity;
-    couple *couples = realloc(query->couples, capacity * sizeof *couples);
-    if (couples == NULL) return false;
-    query->couples = couples;
-    query->couple_capacity = capacity;
-    return true;
-}
-
-/* Keeps two surfaces that come near each other, smaller body first; false: no memory. */
-static bool couple_up(void *context, size_t first, size_t second)
-{
-    line_up *all = context;
-    const entrant *a = &all->entrants[first], *b = &all->entrants[second];
-    if (a->body == b->body || scene_ignores(all->query->scene, a->body, b->body)) return true;
-    if (a->body > b->body) {
-        const entrant *t = a;
-        a = b;
-        b = t;
-    }
-    if (!couples_reserve(all->query)) return false;
-    all->query->couples[all->query->couple_count++] =
-        (couple){{a->tree, b->tree}, {a->body, b->body}, {a->surface, b->surface}, 0};
-    return true;
-}
-
-/* The order of the sweep depends on the query's times only through the boxes; couples are put in
- * the order of the scene so that ties on the heap do not depend on it. */
-static int couple_order(const void *p, const void *q)
-{
-    const couple *a = p, *b = q;
-    const size_t ka[4] = {a->body[0], a->body[1], a->surface[0], a->surface[1]};
-    const size_t kb[4] = {b->body[0], b->body[1], b->surface[0], b->surface[1]};
-    for (int k = 0; k < 4; ++k)
-        if (ka[k] != kb[k]) return ka[k] < kb[k] ? -1 : 1;
-    return 0;
-}
-
-static imp_code line_up_run(line_up *all, imp_error *error)
-{
-    imp_query *query = all->query;
-    for (size_t b = 0; b < imp_scene_body_count(query->scene); ++b)
-        for (size_t k = 0; k < imp_scene_surface_count(query->scene, b); ++k) {
-            const imp_code code = enter(all, b, k, error);
-            if (code != IMP_SUCCESS) return code;
-        }
-    if (!broad_phase_visit(all->boxes, all->count, query->impact.clearance, couple_up, all))
-        return error_set_memory(error);
-    if (query->couple_count > 0)
-        qsort(query->couples, query->couple_count, sizeof *query->couples, couple_order);
-    query->impact.couples = query->couples;
-    return IMP_SUCCESS;
-}
-
-/* Whether any two bodies that are not to ignore each other have times in common with the query. */
-static imp_reason reason_of_nothing(const imp_query *query)
-{
-    const imp_scene *scene = query->scene;
-    const size_t n = imp_scene_body_count(scene);
-    bool any = false;
-    for (size_t a = 0; a < n; ++a)
-        for (size_t b = a + 1; b < n; ++b) {
-            if (scene_ignores(scene, a, b)) continue;
-            for (size_t k = 0; k < imp_scene_surface_count(scene, a); ++k)
-                for (size_t l = 0; l < imp_scene_surface_count(scene, b); ++l) {
-                    double lo[2][3], hi[2][3];
-                    imp_scene_domain(scene, a, k, lo[0], hi[0]);
-                    imp_scene_domain(scene, b, l, lo[1], hi[1]);
-                    const double start = fmax(query->options.t_start, fmax(lo[0][2], lo[1][2]));
-                    const double end = fmin(query->options.t_end, fmin(hi[0][2], hi[1][2]));
-                    any = true;
-                    if (start <= end) return IMP_REASON_NONE;
-                }
-        }
-    return any ? IMP_REASON_NO_TIME : IMP_REASON_NO_PAIRS;
-}
-
-static imp_code begin(imp_query *query, imp_error *error)
-{
-    size_t count = 0;
-    query->couple_count = 0;
-    for (size_t b = 0; b < imp_scene_body_count(query->scene); ++b)
-        count += imp_scene_surface_count(query->scene, b);
-    line_up all = {query, malloc((count + 1) * sizeof *all.entrants),
-                   malloc((count + 1) * sizeof *all.boxes), 0};
-    imp_code code = all.entrants == NULL || all.boxes == NULL ? error_set_memory(error)
-                                                              : line_up_run(&all, error);
-    free(all.entrants);
-    free(all.boxes);
-    query->begun = code == IMP_SUCCESS;
-    return code;
-}
 
 /* --- Running ------------------------------------------------------------------------------- */
 
@@ -269,7 +117,9 @@ static void conclude(imp_query *query, impact_state state)
         break;
     case IMPACT_CLEAR:
         finish(query, IMP_CLEAR,
-               query->impact.stats.pairs == 0 ? reason_of_nothing(query) : IMP_REASON_NONE);
+               query->impact.stats.pairs == 0
+                   ? couples_reason_of_none(query->scene, &query->options)
+                   : IMP_REASON_NONE);
         break;
     case IMPACT_RESOLUTION:
         finish(query, IMP_UNDECIDED, IMP_REASON_RESOLUTION);
@@ -278,6 +128,15 @@ static void conclude(imp_query *query, impact_state state)
         finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
         break;
     }
+}
+
+static imp_code begin(imp_query *query, imp_error *error)
+{
+    const imp_code code = couples_find(&query->couples, query->scene, &query->options,
+                                       query->impact.clearance, &query->impact.stats, error);
+    query->impact.couples = query->couples.couples;
+    query->begun = code == IMP_SUCCESS;
+    return code;
 }
 
 static double now(void)
@@ -291,7 +150,7 @@ static void note_bytes(imp_query *query)
 {
     const uint64_t bytes = query->impact.stats.bytes + sizeof *query +
                            query->impact.heap.capacity * sizeof(pair) +
-                           query->couple_capacity * sizeof(couple);
+                           query->couples.capacity * sizeof(couple);
     if (bytes > query->peak_bytes) query->peak_bytes = bytes;
 }
 
@@ -312,7 +171,7 @@ static imp_code work(imp_query *query, imp_error *error)
 {
     impact_state state = IMPACT_RUNNING;
     imp_code code = IMP_SUCCESS;
-    if (query->coupled < query->couple_count) {
+    if (query->coupled < query->couples.count) {
         code = impact_add_couple(&query->impact, (uint32_t)query->coupled, &state, error);
         if (state == IMPACT_RUNNING) query->coupled += 1;
     } else {
@@ -356,12 +215,11 @@ imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error)
     return code;
 }
 
-/* --- Answers -----------------------------------------------------------------------------------
- */
+/* --- Answers ------------------------------------------------------------------------------ */
 
 static imp_side side_of(const imp_query *query, int side)
 {
-    const couple *both = &query->couples[query->impact.found_couple];
+    const couple *both = &query->couples.couples[query->impact.found_couple];
     const witness *w = &query->impact.found;
     imp_side s = {both->body[side], both->surface[side], w->u[side], w->v[side], {0, 0, 0}};
     memcpy(s.point, w->point[side].x, sizeof s.point);

@@ -171,23 +171,19 @@ imp_options imp_options_default(const imp_scene *scene)
 
 /* --- Trees ----------------------------------------------------------------------------- */
 
-imp_code scene_tree(imp_scene *scene, size_t body, size_t index, tree_kind kind, double t_start,
-                    double t_end, node_audit audit, tree **found, bool *fresh, imp_error *error)
+imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
+                    lent_tree *lent, imp_error *error)
 {
     member *m = &scene->bodies[body].members[index];
-    *fresh = false;
     for (size_t k = 0; k < m->tree_count; ++k)
-        if (tree_is_over(m->trees[k], kind, t_start, t_end, audit)) {
-            *found = m->trees[k];
+        if (tree_is_of(m->trees[k], plan)) {
+            *lent = (lent_tree){m->trees[k], false};
             return IMP_SUCCESS;
         }
     tree **trees = realloc(m->trees, (m->tree_count + 1) * sizeof *trees);
     if (trees == NULL) return error_set_memory(error);
     m->trees = trees;
-    const imp_code code =
-        tree_new(m->surface, kind, t_start, t_end, audit, &trees[m->tree_count], error);
-    if (code != IMP_SUCCESS) return code;
-    *found = trees[m->tree_count++];
-    *fresh = true;
-    return IMP_SUCCESS;
+    const imp_code code = tree_new(m->surface, plan, &trees[m->tree_count], error);
+    if (code == IMP_SUCCESS) *lent = (lent_tree){trees[m->tree_count++], true};
+    return code;
 }

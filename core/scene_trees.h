@@ -6,10 +6,14 @@
 #include "node.h"
 #include "scene.h"
 
-/* The scene's tree of that surface, kind and time interval: made when first asked for, kept as long
- * as the scene, so that all pairs and all later queries share its nodes. `*fresh`: it was made now.
- */
-imp_code scene_tree(imp_scene *scene, size_t body, size_t index, tree_kind kind, double t_start,
-                    double t_end, node_audit audit, tree **found, bool *fresh, imp_error *error);
+typedef struct lent_tree {
+    tree *tree; /* the scene's */
+    bool fresh; /* it was made now */
+} lent_tree;
+
+/* The scene's tree of that surface and plan: made when first asked for, kept as long as the scene,
+ * so that all pairs and all later queries share its nodes. */
+imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
+                    lent_tree *lent, imp_error *error);
 
 #endif
