@@ -18,9 +18,9 @@ static imp_code refuse_key(const char *const *keys, const place *at, const char 
                            imp_error *error)
 {
     char all[120] = "";
-    text_nearest search = {.wanted = key};
+    imp_nearest search = {.wanted = key};
     for (; *keys; ++keys) {
-        text_nearest_offer(&search, *keys);
+        imp_nearest_offer(&search, *keys);
         text_append(all, sizeof all, "%s%s", all[0] ? ", " : "", *keys);
     }
     place member = place_key(at, key);

@@ -50,7 +50,9 @@ core_registry = \
     core/trial_book.c \
     core/plugin_file.c core/plugin_file.h \
     core/search_path.c core/search_path.h \
-    core/registry.c core/registry.h \
+    core/registry.h \
+    core/registry_parts.h \
+    core/registry.c core/registry_scan.c \
     core/file_text.c core/file_text.h \
     core/pipeline_value.c core/pipeline_value.h \
     core/pipeline.c core/pipeline.h \

@@ -5,6 +5,8 @@
 #include "parameter_table.h"
 #include "text.h"
 
+#include <impinge/impinge.h>
+
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,9 +26,9 @@ ptrdiff_t parameter_table_find(const parameter_table *table, const char *name)
 
 const char *parameter_table_nearest(const parameter_table *table, const char *name)
 {
-    text_nearest search = {.wanted = name};
+    imp_nearest search = {.wanted = name};
     for (size_t i = 0; i < table->count; ++i)
-        text_nearest_offer(&search, parameter_table_row(table, i)->name);
+        imp_nearest_offer(&search, parameter_table_row(table, i)->name);
     return search.best;
 }
 

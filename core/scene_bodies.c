@@ -125,9 +125,9 @@ static imp_code find_body(const scene_bodies *b, const json_t *json, const place
         *index = (size_t)json_integer_value(found);
         return IMP_SUCCESS;
     }
-    text_nearest search = {.wanted = name ? name : ""};
+    imp_nearest search = {.wanted = name ? name : ""};
     for (size_t i = 0; i < imp_scene_body_count(b->scene); ++i)
-        text_nearest_offer(&search, imp_scene_body_name(b->scene, i));
+        imp_nearest_offer(&search, imp_scene_body_name(b->scene, i));
     if (search.best)
         return place_error(at, b->error, IMP_ERROR_SCENE,
                            "found %s, which is no body; did you mean '%s'?", json_in_words(json).at,

@@ -4,6 +4,8 @@
 
 #include "text.h"
 
+#include <impinge/impinge.h>
+
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -127,7 +129,7 @@ size_t text_distance(const char *a, const char *b)
     return row[n % 3][m];
 }
 
-void text_nearest_offer(text_nearest *search, const char *candidate)
+void imp_nearest_offer(imp_nearest *search, const char *candidate)
 {
     size_t allowed = (strlen(search->wanted) + 2) / 3;
     size_t d = text_distance(search->wanted, candidate);

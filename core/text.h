@@ -9,7 +9,7 @@
 /* Names and lines of text
  * =======================
  * What plugins and files call things is shown to people and written to JSON: it has to be
- * legal, printable, and when it is nearly right we say what it was meant to be. */
+ * legal, printable, and when it is nearly right we say what it was meant to be (imp_nearest). */
 
 #define TEXT_NAME_MAX 63 /* bytes of a type's, parameter's or plugin's name */
 
@@ -40,15 +40,5 @@ size_t text_characters(const char *s, size_t bytes);
 /* Changes of one letter, insertions, removals and swaps of neighbours that turn a into b.
  * Names longer than TEXT_NAME_MAX are infinitely far: SIZE_MAX. */
 size_t text_distance(const char *a, const char *b);
-
-/* Searches for the name that was meant: begin with {wanted}, offer all there are, read
- * `best`. It stays NULL while nothing is near: at most one change in three letters. */
-typedef struct text_nearest {
-    const char *wanted;
-    const char *best;
-    size_t distance; /* of best; meaningless while best is NULL */
-} text_nearest;
-
-void text_nearest_offer(text_nearest *search, const char *candidate);
 
 #endif

@@ -166,18 +166,23 @@ patched() {
 
 # --- Directories ---------------------------------------------------------------------------------------
 
-@test "a directory that anyone may write to is told of, and refused with --secure" {
+@test "a directory that anyone may write to is warned of, and refused with --secure" {
     takes kit
     chmod 777 plugins
-    run -0 list --json
-    json --arg file "$PWD/plugins" '.refused | length == 1 and .[0].file == $file
-        and (.[0].reason | startswith("warning: anyone may write"))'
+    run -0 --separate-stderr list
+    [[ $output != *'left out'* && $stderr == "impinge: list: warning: $PWD/plugins: anyone may write"* ]]
+    run -0 --separate-stderr list --json
+    json --arg file "$PWD/plugins" '.refused == [] and (.warnings | length == 1)
+        and .warnings[0].file == $file and (.warnings[0].reason | startswith("anyone may write"))'
     json '.types | any(.name == "kit")'
     run -0 list --json --secure
-    json '.refused | length == 1 and (.[0].reason | contains("refused; chmod o-w"))'
+    json '.warnings == [] and (.refused | length == 1)
+        and (.refused[0].reason | contains("refused; chmod o-w"))'
     json '.types | all(.name != "kit")'
     fails 4 "unknown surface type 'kit'" pair 'kit radius=1' sphere --secure
-    still_works
+    run -0 --separate-stderr pair "$left" "$right" --json
+    [[ $stderr == 'impinge: pair: warning: '* ]]
+    json '.verdict == "contact"'
     chmod 755 plugins
     run -0 list --json --secure
     json '.refused == [] and any(.types[]; .name == "kit")'

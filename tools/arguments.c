@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "nearest.h"
 #include "verbs.h"
 
 /* One option as written: `--name`, `--name=value`, `-h` or `-V`. */
@@ -63,10 +62,10 @@ static const option *find_for(const verb *v, spelling s)
     return v != NULL ? option_find(v->options, s.name, s.length) : find_anywhere(s);
 }
 
-static void offer_options(nearest *near, const verb *v)
+static void offer_options(imp_nearest *near, const verb *v)
 {
     for (const option *const *t = v->options; *t != NULL; ++t)
-        for (const option *row = *t; row->name != NULL; ++row) nearest_offer(near, row->name);
+        for (const option *row = *t; row->name != NULL; ++row) imp_nearest_offer(near, row->name);
 }
 
 static exit_status unknown_option(const verb *v, const char *word, spelling s)
@@ -82,13 +81,13 @@ static exit_status unknown_option(const verb *v, const char *word, spelling s)
                         "this verb takes no --%s (`impinge help %s` shows what "
                         "it takes)",
                         name, help);
-    nearest near = nearest_to(name);
+    imp_nearest near = {.wanted = name};
     if (v != NULL) offer_options(&near, v);
     for (const verb *const *all = verbs_all(); v == NULL && *all != NULL; ++all)
         offer_options(&near, *all);
-    if (near.name != NULL)
+    if (near.best != NULL)
         return complain(EXIT_USAGE, speaker, "there is no option '%s', did you mean '--%s'?", word,
-                        near.name);
+                        near.best);
     return complain(EXIT_USAGE, speaker, "there is no option '%s' (`impinge help%s%s` shows all)",
                     word, v != NULL ? " " : "", help);
 }

@@ -29,7 +29,6 @@ tool_sources = \
     tools/interrupt.c tools/interrupt.h \
     tools/main.c \
     tools/message.c tools/message.h \
-    tools/nearest.c tools/nearest.h \
     tools/options.c tools/options.h \
     tools/output.c tools/output.h \
     tools/program.c tools/program.h \

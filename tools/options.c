@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "nearest.h"
-
 const option options_always[] = {
     {.name = "help", .help = "print this help"},
     {.name = "version", .help = "print the version"},
@@ -131,18 +129,18 @@ static bool read_count(const char *text, uint64_t unit, uint64_t *count)
 static exit_status read_choice(const option *row, const char *text, const char *verb,
                                size_t *choice)
 {
-    nearest near = nearest_to(text);
+    imp_nearest near = {.wanted = text};
     char allowed[256] = "";
     for (size_t i = 0; row->choices[i] != NULL; ++i) {
         *choice = i;
         if (strcmp(row->choices[i], text) == 0) return EXIT_ANSWERED;
-        nearest_offer(&near, row->choices[i]);
+        imp_nearest_offer(&near, row->choices[i]);
         if (i > 0) strncat(allowed, ", ", sizeof allowed - strlen(allowed) - 1);
         strncat(allowed, row->choices[i], sizeof allowed - strlen(allowed) - 1);
     }
-    if (near.name != NULL)
+    if (near.best != NULL)
         return complain(EXIT_USAGE, verb, "--%s must be one of %s, not '%s'; did you mean '%s'?",
-                        row->name, allowed, text, near.name);
+                        row->name, allowed, text, near.best);
     return complain(EXIT_USAGE, verb, "--%s must be one of %s, not '%s'", row->name, allowed, text);
 }
 

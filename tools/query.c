@@ -39,6 +39,13 @@ imp_registry *query_registry_first(const char *path, unsigned flags, const char 
     return registry;
 }
 
+static void warn(const imp_registry *registry, const char *verb)
+{
+    imp_plugin_refusal warning;
+    for (size_t i = 0; imp_registry_warning(registry, i, &warning); ++i)
+        complain(EXIT_ANSWERED, verb, "warning: %s: %s", warning.file, warning.reason);
+}
+
 imp_registry *query_registry(const arguments *args)
 {
     const option_value *path = arguments_option(args, "plugin-path");
@@ -46,6 +53,7 @@ imp_registry *query_registry(const arguments *args)
     imp_registry *registry =
         query_registry_first(path != NULL ? path->text : NULL, flags, args->verb->name);
     const option_value *isolate = arguments_option(args, "isolate");
+    if (registry != NULL) warn(registry, args->verb->name);
     if (registry == NULL || isolate == NULL) return registry;
     imp_error error = {0};
     const char *names = strcmp(isolate->text, "all") == 0 ? NULL : isolate->text;

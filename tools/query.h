@@ -7,8 +7,8 @@
 
 /* From a scene and the command line to an answer. */
 
-/* The registry that --plugin-path, and a build tree we run from, ask for. Complains and answers
- * NULL when memory runs out. */
+/* The registry that --plugin-path, and a build tree we run from, ask for. Warns of directories that
+ * should not be trusted; complains and answers NULL when memory runs out. */
 imp_registry *query_registry(const arguments *args);
 
 /* The same with `path` (colon-separated directories, may be NULL) in place of --plugin-path, and

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "bench.h"
-#include "nearest.h"
 #include "output.h"
 #include "query.h"
 #include "verbs.h"
@@ -44,16 +43,16 @@ static exit_status read_request(const arguments *args, bench_request *request)
 
 static exit_status unknown_set(const char *verb, const char *name)
 {
-    nearest near = nearest_to(name);
+    imp_nearest near = {.wanted = name};
     char all[128] = "";
     for (const bench_set *const *set = bench_sets_all(); *set != NULL; ++set) {
-        nearest_offer(&near, (*set)->name);
+        imp_nearest_offer(&near, (*set)->name);
         snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", all[0] != '\0' ? ", " : "",
                  (*set)->name);
     }
-    if (near.name != NULL)
+    if (near.best != NULL)
         return complain(EXIT_USAGE, verb, "there is no set '%s', did you mean '%s'? There are %s",
-                        name, near.name, all);
+                        name, near.best, all);
     return complain(EXIT_USAGE, verb, "there is no set '%s'; there are %s", name, all);
 }
 

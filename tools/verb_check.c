@@ -11,7 +11,6 @@
 #include "check_list.h"
 #include "check_report.h"
 #include "check_subject.h"
-#include "nearest.h"
 #include "output.h"
 #include "query.h"
 #include "verbs.h"
@@ -45,15 +44,15 @@ static void lookup_work(void *result, const void *data)
     lookup *l = result;
     const wanted *w = data;
     imp_type_info info;
-    nearest near = nearest_to(w->name);
+    imp_nearest near = {.wanted = w->name};
     imp_registry *registry = query_registry(w->args);
     for (size_t i = 0; registry != NULL && imp_registry_type(registry, i, &info); ++i) {
-        nearest_offer(&near, info.name);
+        imp_nearest_offer(&near, info.name);
         if (l->found || strcmp(info.name, w->name) != 0) continue;
         snprintf(l->file, sizeof l->file, "%s", info.file);
         l->found = true;
     }
-    if (near.name != NULL) snprintf(l->near, sizeof l->near, "%s", near.name);
+    if (near.best != NULL) snprintf(l->near, sizeof l->near, "%s", near.best);
 }
 
 static exit_status find_type(const arguments *args, const wanted *w, double seconds, lookup *l)

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "catalogue.h"
-#include "nearest.h"
 #include "output.h"
 #include "query.h"
 #include "verbs.h"
@@ -113,12 +112,13 @@ static exit_status print_all(const imp_registry *registry, const arguments *args
 static exit_status unknown(const imp_registry *registry, const arguments *args)
 {
     imp_type_info info;
-    nearest near = nearest_to(args->operands[0]);
-    for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) nearest_offer(&near, info.name);
-    if (near.name != NULL)
+    imp_nearest near = {.wanted = args->operands[0]};
+    for (size_t i = 0; imp_registry_type(registry, i, &info); ++i)
+        imp_nearest_offer(&near, info.name);
+    if (near.best != NULL)
         return complain(EXIT_DATA, args->verb->name,
                         "there is no type '%s', did you mean '%s'? `impinge list` shows all",
-                        args->operands[0], near.name);
+                        args->operands[0], near.best);
     return complain(EXIT_DATA, args->verb->name, "there is no type '%s'; `impinge list` shows all",
                     args->operands[0]);
 }

@@ -115,26 +115,29 @@ static json_t *types_json(const type_list *list)
     return types;
 }
 
-static json_t *refusals_json(const imp_registry *registry)
+/* Of refusals or warnings, as `next` tells them. */
+static json_t *remarks_json(const imp_registry *registry,
+                            bool (*next)(const imp_registry *, size_t, imp_plugin_refusal *))
 {
-    json_t *refusals = json_array();
-    imp_plugin_refusal refusal;
-    for (size_t i = 0; imp_registry_refusal(registry, i, &refusal); ++i)
-        if (json_array_append_new(refusals,
-                                  json_pack("{s:o, s:o}", "file", output_json_text(refusal.file),
-                                            "reason", output_json_text(refusal.reason))) != 0) {
-            json_decref(refusals);
+    json_t *remarks = json_array();
+    imp_plugin_refusal remark;
+    for (size_t i = 0; next(registry, i, &remark); ++i)
+        if (json_array_append_new(remarks,
+                                  json_pack("{s:o, s:o}", "file", output_json_text(remark.file),
+                                            "reason", output_json_text(remark.reason))) != 0) {
+            json_decref(remarks);
             return NULL;
         }
-    return refusals;
+    return remarks;
 }
 
 static exit_status print(const imp_registry *registry, const type_list *list, const arguments *args)
 {
     if (arguments_option(args, "json") != NULL)
-        return output_json(
-            json_pack("{s:o, s:o}", "types", types_json(list), "refused", refusals_json(registry)),
-            args->verb->name);
+        return output_json(json_pack("{s:o, s:o, s:o}", "types", types_json(list), "refused",
+                                     remarks_json(registry, imp_registry_refusal), "warnings",
+                                     remarks_json(registry, imp_registry_warning)),
+                           args->verb->name);
     if (arguments_option(args, "refused") != NULL) {
         print_refusals(registry);
     } else {

@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-#include "nearest.h"
-
 /* Add a verb: write verb_NAME.c, which defines `const verb verb_NAME`, and add a row here. */
 #define VERBS(ROW)                                                                                 \
     ROW(demo)                                                                                      \
@@ -41,11 +39,11 @@ const verb *verb_find(const char *name)
 
 exit_status verb_unknown(const char *speaker, const char *name)
 {
-    nearest near = nearest_to(name);
-    for (const verb *const *v = all; *v != NULL; ++v) nearest_offer(&near, (*v)->name);
-    if (near.name != NULL)
+    imp_nearest near = {.wanted = name};
+    for (const verb *const *v = all; *v != NULL; ++v) imp_nearest_offer(&near, (*v)->name);
+    if (near.best != NULL)
         return complain(EXIT_USAGE, speaker,
                         "there is no verb '%s', did you mean '%s'? `impinge help` shows all", name,
-                        near.name);
+                        near.best);
     return complain(EXIT_USAGE, speaker, "there is no verb '%s'; `impinge help` shows all", name);
 }

@@ -51,8 +51,18 @@ IMP_EXPORT const char *imp_version(void);
 /* One English phrase for a code. */
 IMP_EXPORT const char *imp_code_text(imp_code code);
 
-/* The name of the type whose plugin this thread is in, and the callback ("eval", ...); NULL: in none.
- * For handlers of SIGSEGV and the like, to say whose fault it is. [async-signal-safe] */
+/* Which name was meant? Begin with {.wanted = what was written}, offer all names there are, read
+ * `best`: it stays NULL while nothing is near, that is, at most one change of a letter, insertion,
+ * removal or swap of neighbours away for every three letters written. Of equals the first stays. */
+typedef struct imp_nearest {
+    const char *wanted;
+    const char *best;
+    size_t distance; /* of best */
+} imp_nearest;
+IMP_EXPORT void imp_nearest_offer(imp_nearest *search, const char *candidate);
+
+/* The name of the type whose plugin this thread is in, and the callback ("eval", ...); NULL: in
+ * none. For handlers of SIGSEGV and the like, to say whose fault it is. [async-signal-safe] */
 IMP_EXPORT const char *imp_call_in_progress(const char **callback);
 
 /* --- Registry: the types at hand ---------------------------------------------- */
@@ -64,9 +74,9 @@ typedef struct imp_registry imp_registry;
  * plugin directory, and the installed one. Returns NULL only when memory runs out. */
 IMP_EXPORT imp_registry *imp_registry_new(const char *path);
 
-/* The same with flags: IMP_REGISTRY_SECURE passes over directories that anyone may write to (otherwise
- * they are only told among the refusals). A file that was never seen is loaded in a child process
- * first; the outcome is kept in the user's cache ($XDG_CACHE_HOME/impinge/trials). */
+/* The same with flags: IMP_REGISTRY_SECURE passes over directories that anyone may write to
+ * (otherwise they are told by imp_registry_warning). A file that was never seen is loaded in a
+ * child process first; the outcome is kept in the user's cache ($XDG_CACHE_HOME/impinge/trials). */
 enum { IMP_REGISTRY_SECURE = 1 };
 IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
 
@@ -74,9 +84,9 @@ IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
 IMP_EXPORT imp_registry *imp_registry_from_file(const char *file);
 IMP_EXPORT void imp_registry_free(imp_registry *registry);
 
-/* From now on, instances of these types (names between commas; NULL: all) live in processes of their own, one
- * for each instance: a plugin that crashes or hangs costs an error, not the host. A call then takes some
- * microseconds more. IMP_ERROR_USAGE: no such type. */
+/* From now on, instances of these types (names between commas; NULL: all) live in processes of
+ * their own, one for each instance: a plugin that crashes or hangs costs an error, not the host. A
+ * call then takes some microseconds more. IMP_ERROR_USAGE: no such type. */
 IMP_EXPORT imp_code imp_registry_isolate(imp_registry *registry, const char *names,
                                          imp_error *error);
 
@@ -88,7 +98,7 @@ typedef struct imp_type_info {
     const char *name, *summary, *equation, *source, *example; /* source may be NULL */
     const char *file;                                         /* absolute path of the plugin */
     const char *plugin, *version, *license, *author;
-    const char *shadowed_by; /* file of the earlier type of that name, or NULL */
+    const char *shadowed_by;         /* file of the earlier type of that name, or NULL */
     const imp_parameter *parameters; /* step by parameter_size bytes */
     size_t parameter_count, parameter_size;
 } imp_type_info;
@@ -102,6 +112,10 @@ typedef struct imp_plugin_refusal {
 } imp_plugin_refusal;
 IMP_EXPORT bool imp_registry_refusal(const imp_registry *registry, size_t index,
                                      imp_plugin_refusal *refusal);
+
+/* Directories whose plugins were taken all the same, and why they should not be trusted. */
+IMP_EXPORT bool imp_registry_warning(const imp_registry *registry, size_t index,
+                                     imp_plugin_refusal *warning);
 
 /* Everything that is checked of a plugin file, in order, each with a verdict: told one by one. What
  * comes after a refusal and depends on it is not reached. Loads the file in a child process
@@ -131,8 +145,8 @@ IMP_EXPORT void imp_instance_free(imp_instance *instance);
 
 typedef struct imp_scene imp_scene;
 
-/* From the text of a scene file ({"time", "gamma", "bodies", "ignore"}; README shows one). `name` stands in
- * error messages for the text ("scene.json", "standard input"). NULL on error. */
+/* From the text of a scene file ({"time", "gamma", "bodies", "ignore"}; README shows one). `name`
+ * stands in error messages for the text ("scene.json", "standard input"). NULL on error. */
 IMP_EXPORT imp_scene *imp_scene_from_json(imp_registry *registry, const char *text, size_t length,
                                           const char *name, imp_error *error);
 IMP_EXPORT imp_scene *imp_scene_from_file(imp_registry *registry, const char *path,
@@ -146,7 +160,8 @@ IMP_EXPORT size_t imp_scene_body_count(const imp_scene *scene);
 IMP_EXPORT const char *imp_scene_body_name(const imp_scene *scene, size_t body);
 IMP_EXPORT size_t imp_scene_surface_count(const imp_scene *scene, size_t body);
 
-/* n points p[3*k] = (u, v, t) of one surface, maps applied, to x[3*k] and, unless NULL, error[3*k]. */
+/* n points p[3*k] = (u, v, t) of one surface, maps applied, to x[3*k] and, unless NULL,
+ * error[3*k]. */
 IMP_EXPORT imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t surface, size_t n,
                                    const double *p, double *x, double *error, imp_error *why);
 /* The surface's domain; times are those common to it and its maps, perhaps infinite or,
@@ -159,36 +174,36 @@ IMP_EXPORT void imp_scene_domain(const imp_scene *scene, size_t body, size_t sur
 typedef enum imp_verdict { IMP_CLEAR, IMP_CONTACT, IMP_UNDECIDED } imp_verdict;
 
 typedef enum imp_reason {
-    IMP_REASON_NONE,        /* contact, or clear after a search */
-    IMP_REASON_NO_TIME,     /* clear: the surfaces' time domains have no time in common */
-    IMP_REASON_NO_PAIRS,    /* clear: nothing to test (one body, or all pairs ignored) */
-    IMP_REASON_PAIRS,       /* undecided: max_pairs reached */
-    IMP_REASON_SECONDS,     /* undecided: max_seconds reached */
-    IMP_REASON_MEMORY,      /* undecided: max_bytes reached, or memory ran out */
-    IMP_REASON_CANCELLED,   /* undecided: imp_query_cancel */
-    IMP_REASON_RESOLUTION,  /* undecided: gamma is below what double precision resolves here */
-    IMP_REASON_RUNNING      /* undecided: not finished yet */
+    IMP_REASON_NONE,       /* contact, or clear after a search */
+    IMP_REASON_NO_TIME,    /* clear: the surfaces' time domains have no time in common */
+    IMP_REASON_NO_PAIRS,   /* clear: nothing to test (one body, or all pairs ignored) */
+    IMP_REASON_PAIRS,      /* undecided: max_pairs reached */
+    IMP_REASON_SECONDS,    /* undecided: max_seconds reached */
+    IMP_REASON_MEMORY,     /* undecided: max_bytes reached, or memory ran out */
+    IMP_REASON_CANCELLED,  /* undecided: imp_query_cancel */
+    IMP_REASON_RESOLUTION, /* undecided: gamma is below what double precision resolves here */
+    IMP_REASON_RUNNING     /* undecided: not finished yet */
 } imp_reason;
 
 typedef enum imp_method {
     IMP_METHOD_MODELS, /* order-2 inclusions, windows in time (default) */
     IMP_METHOD_PAPER   /* the 1990 algorithm, kept as the baseline */
 } imp_method;
-typedef enum imp_bounds { IMP_BOUNDS_BOX, IMP_BOUNDS_SPHERE } imp_bounds;         /* paper only */
+typedef enum imp_bounds { IMP_BOUNDS_BOX, IMP_BOUNDS_SPHERE } imp_bounds; /* paper only */
 typedef enum imp_rates { IMP_RATES_FULL, IMP_RATES_COLUMN, IMP_RATES_CONSTANT } imp_rates;
 
 /* Start from imp_options_default(scene) and change what you need. */
 typedef struct imp_options {
-    double t_start, t_end;  /* t_start <= t_end, finite */
-    double gamma;           /* > 0, length: what is reported is no farther apart */
-    double clearance;       /* gamma_clear, in [0, gamma), length; < 0: gamma / 2 */
-    uint64_t max_pairs;     /* pairs tested; 0: no limit */
-    double max_seconds;     /* wall clock; 0: no limit */
-    uint64_t max_bytes;     /* memory of trees and heap; 0: no limit */
+    double t_start, t_end; /* t_start <= t_end, finite */
+    double gamma;          /* > 0, length: what is reported is no farther apart */
+    double clearance;      /* gamma_clear, in [0, gamma), length; < 0: gamma / 2 */
+    uint64_t max_pairs;    /* pairs tested; 0: no limit */
+    double max_seconds;    /* wall clock; 0: no limit */
+    uint64_t max_bytes;    /* memory of trees and heap; 0: no limit */
     imp_method method;
     imp_bounds bounds;
     imp_rates rates;
-    bool audit;             /* hold every node's bounds against points of it: slower, catches liars */
+    bool audit; /* hold every node's bounds against points of it: slower, catches liars */
 } imp_options;
 
 IMP_EXPORT imp_options imp_options_default(const imp_scene *scene);
@@ -201,12 +216,12 @@ typedef struct imp_side {
 } imp_side;
 
 typedef struct imp_stats {
-    double seconds;            /* wall clock spent in imp_query_step */
-    uint64_t pairs;            /* pairs of nodes tested for separation */
-    uint64_t nodes;            /* nodes made for this query */
-    uint64_t peak_heap;        /* most pairs waiting at once */
+    double seconds;     /* wall clock spent in imp_query_step */
+    uint64_t pairs;     /* pairs of nodes tested for separation */
+    uint64_t nodes;     /* nodes made for this query */
+    uint64_t peak_heap; /* most pairs waiting at once */
     uint64_t witness_searches;
-    uint64_t bytes;            /* peak memory of trees and heap */
+    uint64_t bytes; /* peak memory of trees and heap */
 } imp_stats;
 
 /* What is proved so far. With gamma_clear = the clearance in force:
@@ -218,11 +233,11 @@ typedef struct imp_stats {
 typedef struct imp_result {
     imp_verdict verdict;
     imp_reason reason;
-    double t;        /* CONTACT only, else NAN */
+    double t; /* CONTACT only, else NAN */
     double t_lower;
-    double gap;      /* CONTACT: distance of the two points; else NAN */
+    double gap; /* CONTACT: distance of the two points; else NAN */
     double gamma, gamma_clear;
-    imp_side a, b;   /* CONTACT only; a.body < b.body */
+    imp_side a, b; /* CONTACT only; a.body < b.body */
     bool has_normal;
     double normal[3]; /* a to b, unit length, world space; only if has_normal */
     imp_stats stats;
@@ -232,17 +247,16 @@ typedef struct imp_query imp_query;
 
 /* Begins; nothing is tested yet. The scene must outlive the query, and is shared by it: trees made
  * by one query serve the next over the same times. NULL on error (options, plugin, memory). */
-IMP_EXPORT imp_query *imp_query_new(imp_scene *scene, const imp_options *options,
-                                    imp_error *error);
+IMP_EXPORT imp_query *imp_query_new(imp_scene *scene, const imp_options *options, imp_error *error);
 IMP_EXPORT void imp_query_free(imp_query *query);
 
-/* Tests about `pairs` more pairs (0: until decided). IMP_ERROR_PLUGIN ends the query for good. After
- * any success imp_query_result tells how far it came; done when its reason is not RUNNING. */
+/* Tests about `pairs` more pairs (0: until decided). IMP_ERROR_PLUGIN ends the query for good.
+ * After any success imp_query_result tells how far it came; done when its reason is not RUNNING. */
 IMP_EXPORT imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error);
 IMP_EXPORT imp_result imp_query_result(const imp_query *query);
 
-/* Ask again, finer: gamma and clearance (< 0: gamma / 2) no larger than now. Work done so far is kept;
- * continue with imp_query_step. */
+/* Ask again, finer: gamma and clearance (< 0: gamma / 2) no larger than now. Work done so far is
+ * kept; continue with imp_query_step. */
 IMP_EXPORT imp_code imp_query_refine(imp_query *query, double gamma, double clearance,
                                      imp_error *error);
 
