@@ -49,6 +49,8 @@ static bool check_file(elf_file *file, elf_probe *probe, elf_check *check)
     probe->size = file->size;
     probe->modified_s = (int64_t)facts.st_mtim.tv_sec;
     probe->modified_ns = (int64_t)facts.st_mtim.tv_nsec;
+    probe->changed_s = (int64_t)facts.st_ctim.tv_sec;
+    probe->changed_ns = (int64_t)facts.st_ctim.tv_nsec;
     return answer(check, true, "%llu bytes", (unsigned long long)file->size);
 }
 

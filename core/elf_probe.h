@@ -48,7 +48,8 @@ typedef struct elf_probe {
 
     /* The file's identity, once PROBE_FILE has passed: re-probe when it changes. */
     uint64_t device, inode, size;
-    int64_t modified_s, modified_ns; /* time of last modification, since 1970 */
+    int64_t modified_s, modified_ns; /* time of last modification, since 1970; owners may set it */
+    int64_t changed_s, changed_ns;   /* the same of file or status; nobody sets it */
 
     /* The note, once PROBE_NOTE has passed. */
     uint32_t abi_major, abi_minor;

@@ -13,7 +13,8 @@
  * Constructors run inside dlopen, and whatever they do they do to the host: crash, exit, hang. So
  * a file that was never loaded before is opened in a child with a deadline, and only what came
  * back from there whole is loaded here. The outcome is remembered with the file's identity (path,
- * device, inode, size, time of change) in the user's cache, so that this costs once. */
+ * device, inode, size, times of modification and of change) in the user's cache, so that this costs
+ * once. */
 
 /* Runs `open` on the path in a child; its answer and text become ours. A child that dies or does
  * not finish in time refuses the plugin: IMP_ERROR_PLUGIN, with what happened. IMP_ERROR_MEMORY: no

@@ -15,13 +15,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The book is text, one trial a line, fields parted by tabs: code, device, inode, size, seconds,
- * nanoseconds, path, reason. Its first line names the version: another one's book is not read. */
+/* The book is text, one trial a line, fields parted by tabs: code, device, inode, size, seconds and
+ * nanoseconds of modification and of change, path, reason. Its first line names the version:
+ * another one's book is not read. */
+
+/* A copy that keeps size and time of modification (cp -p, touch -r) has another time of change. */
+typedef struct identity {
+    uint64_t device, inode, size;
+    int64_t modified_s, modified_ns, changed_s, changed_ns;
+} identity;
 
 typedef struct trial {
     imp_code code;
-    uint64_t device, inode, size;
-    int64_t modified_s, modified_ns;
+    identity file;
     char *path, *text;
 } trial;
 
@@ -32,7 +38,7 @@ struct trial_book {
     bool changed;
 };
 
-#define FIRST_LINE "impinge trials " PACKAGE_VERSION "\n"
+#define FIRST_LINE "impinge trials 2 of " PACKAGE_VERSION "\n"
 
 /* $XDG_CACHE_HOME/impinge, else ~/.cache/impinge: both ignored when privileged. */
 static char *cache_folder(void)
@@ -78,10 +84,14 @@ static bool add(trial_book *book, trial t)
 static bool read_line(trial_book *book, char *line)
 {
     trial t = {0};
+    identity *f = &t.file;
     int code, path = 0;
     line[strcspn(line, "\n")] = '\0';
-    if (sscanf(line, "%d\t%" SCNu64 "\t%" SCNu64 "\t%" SCNu64 "\t%" SCNd64 "\t%" SCNd64 "\t%n",
-               &code, &t.device, &t.inode, &t.size, &t.modified_s, &t.modified_ns, &path) != 6 ||
+    if (sscanf(line,
+               "%d\t%" SCNu64 "\t%" SCNu64 "\t%" SCNu64 "\t%" SCNd64 "\t%" SCNd64 "\t%" SCNd64
+               "\t%" SCNd64 "\t%n",
+               &code, &f->device, &f->inode, &f->size, &f->modified_s, &f->modified_ns,
+               &f->changed_s, &f->changed_ns, &path) != 8 ||
         path == 0)
         return true;
     char *reason = strchr(line + path, '\t');
@@ -137,14 +147,24 @@ static trial *find(const trial_book *book, const char *path)
     return NULL;
 }
 
+static identity identity_of(const elf_probe *file)
+{
+    return (identity){file->device,      file->inode,     file->size,      file->modified_s,
+                      file->modified_ns, file->changed_s, file->changed_ns};
+}
+
+static bool same(identity a, identity b)
+{
+    return a.device == b.device && a.inode == b.inode && a.size == b.size &&
+           a.modified_s == b.modified_s && a.modified_ns == b.modified_ns &&
+           a.changed_s == b.changed_s && a.changed_ns == b.changed_ns;
+}
+
 bool trial_book_find(const trial_book *book, const char *path, const elf_probe *file,
                      imp_code *code, const char **text)
 {
     const trial *t = find(book, path);
-    if (t == NULL || t->device != file->device || t->inode != file->inode ||
-        t->size != file->size || t->modified_s != file->modified_s ||
-        t->modified_ns != file->modified_ns)
-        return false;
+    if (t == NULL || !same(t->file, identity_of(file))) return false;
     *code = t->code;
     *text = t->text;
     return true;
@@ -154,9 +174,7 @@ bool trial_book_add(trial_book *book, const char *path, const elf_probe *file, i
                     const char *text)
 {
     if (strpbrk(path, "\t\n") != NULL) return true; /* tried every time */
-    trial t = {code,         file->device,     file->inode,
-               file->size,   file->modified_s, file->modified_ns,
-               strdup(path), strdup(text)};
+    trial t = {code, identity_of(file), strdup(path), strdup(text)};
     for (char *c = t.text; c != NULL && *c != '\0'; ++c)
         if (*c == '\n') *c = ' ';
     trial *old = find(book, path);
@@ -176,10 +194,12 @@ static bool write_all(const trial_book *book, FILE *out)
     for (size_t k = 0; k < book->count; ++k) {
         const trial *t = &book->trials[k];
         if (access(t->path, F_OK) != 0) continue; /* gone: forget it */
+        const identity *f = &t->file;
         fprintf(out,
-                "%d\t%" PRIu64 "\t%" PRIu64 "\t%" PRIu64 "\t%" PRId64 "\t%" PRId64 "\t%s\t%s\n",
-                (int)t->code, t->device, t->inode, t->size, t->modified_s, t->modified_ns, t->path,
-                t->text);
+                "%d\t%" PRIu64 "\t%" PRIu64 "\t%" PRIu64 "\t%" PRId64 "\t%" PRId64 "\t%" PRId64
+                "\t%" PRId64 "\t%s\t%s\n",
+                (int)t->code, f->device, f->inode, f->size, f->modified_s, f->modified_ns,
+                f->changed_s, f->changed_ns, t->path, t->text);
     }
     return fflush(out) == 0 && !ferror(out);
 }

@@ -263,6 +263,23 @@ END
     grep -q "$PWD/plugins/counting.so" cache/impinge/trials
 }
 
+@test "a file overwritten by one of its size and age is tried again" {
+    own_cache
+    counting first
+    run -0 list
+    cp -p plugins/counting.so old.so
+    counting later
+    cp plugins/counting.so new.so
+    [ "$(stat -c %s old.so)" -eq "$(stat -c %s new.so)" ]
+    cp -p old.so plugins/counting.so
+    run -0 list
+    : >notes
+    cat new.so >plugins/counting.so
+    touch -r old.so plugins/counting.so
+    run -0 list
+    [ "$(grep -c later notes)" -eq 2 ]
+}
+
 @test "a file replaced by a worse one is refused, and by a better one taken" {
     own_cache
     takes kit
