@@ -81,8 +81,17 @@ failing() {
     json 'any(.cells[]; .a == "eval_crashes" and has("error"))'
 }
 
+@test "unasked, each two are given so many pairs and no more" {
+    run -0 timeout 60 "$IMPINGE" matrix --json
+    valid matrix
+    json 'all(.cells[]; .pairs <= 10010)'
+}
+
 @test "an undecided pair is no failure" {
     run -0 "$IMPINGE" matrix --max-pairs 1 --gamma 1e-9 --json
     valid matrix
     json 'any(.cells[]; .verdict == "undecided")'
+    run -0 "$IMPINGE" matrix --max-pairs 1 --gamma 1e-9
+    [[ ${lines[-2]} =~ ^all\ +[0-9]+\ contact\ +[0-9]+\ clear\ +[1-9][0-9]*\ undecided\ +0\ failed ]]
+    [[ ${lines[-1]} == 'undecided: given up at the limit (--max-pairs'* ]]
 }

@@ -105,7 +105,7 @@ static imp_options options_for(const imp_scene *scene, const arguments *args)
     if (time != NULL) o.t_start = time->number[0], o.t_end = time->number[1];
     o.gamma = number_or(args, "gamma", o.gamma);
     o.clearance = number_or(args, "clearance", o.clearance);
-    o.max_pairs = count_or(args, "max-pairs", o.max_pairs);
+    o.max_pairs = count_or(args, "max-pairs", args->verb->max_pairs);
     o.max_seconds = number_or(args, "max-seconds", o.max_seconds);
     o.max_bytes = count_or(args, "max-bytes", o.max_bytes);
     o.method = (imp_method)choice_or(args, "method", o.method);

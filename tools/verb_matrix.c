@@ -130,6 +130,13 @@ static void row_of_map(matrix *m, const imp_type_info *map)
     add(&m->all, &t);
 }
 
+static void tell_end(const matrix *m)
+{
+    tell_row(m, "all", &m->all);
+    if (m->all.undecided > 0)
+        puts("undecided: given up at the limit (--max-pairs and the like); --all shows which");
+}
+
 static exit_status finish(matrix *m)
 {
     exit_status status = EXIT_ANSWERED;
@@ -138,7 +145,7 @@ static exit_status finish(matrix *m)
             json_pack("{s:o, s:I}", "cells", m->rows, "failed", (json_int_t)m->all.failed),
             m->args->verb->name);
     else
-        tell_row(m, "all", &m->all);
+        tell_end(m);
     if (status != EXIT_ANSWERED) return status;
     if (m->all.failed > 0) return EXIT_PLUGIN;
     return interrupt_came() ? EXIT_UNDECIDED : EXIT_ANSWERED;
@@ -176,9 +183,11 @@ const verb verb_matrix = {
     .details =
         "The examples of `impinge info` meet: each ordered pair of surface types, then, for each\n"
         "map, each surface under it against itself at rest. A failure names the two and ends\n"
-        "with status 5; `undecided` (see --max-pairs) is none.\n",
+        "with status 5; `undecided` is none: each two have 10000 pairs of regions, unless\n"
+        "--max-pairs says otherwise (0: no limit).\n",
     .example = "impinge matrix --gamma 1e-2 --max-pairs 2000",
     .operand_min = 0,
     .operand_max = 0,
+    .max_pairs = 10000,
     .options = tables,
     .run = run};

@@ -14,6 +14,7 @@ typedef struct verb {
     const char *details;  /* paragraphs for `impinge help VERB`, each line ended */
     const char *example;  /* a command line that works as it stands */
     size_t operand_min, operand_max;
+    uint64_t max_pairs;           /* of a query, unless --max-pairs says otherwise; 0: no limit */
     const option *const *options; /* tables, NULL-terminated */
     exit_status (*run)(const arguments *args);
 } verb;
