@@ -15,7 +15,7 @@ static const imp_parameter parameters[] = {
     [TIME] = ROW_TIME,
     [DOMAIN] = {.name = "domain",
                 .unit = "1",
-                .doc = "[[u0,u1],[v0,v1]]: where u and v run",
+                .doc = "[[u0,u1],[v0,v1]]: where u and v run; x, y and z must be defined there",
                 .preset = "[[0,1],[0,1]]",
                 .kind = IMP_NUMBER,
                 .rank = 2,
