@@ -2,150 +2,186 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "axes.h"
 
+#include "lanes.h"
 #include "quadratic.h"
-
-#define INLINE static inline __attribute__((always_inline))
-
-enum { LANES = 4 };
-
-typedef double lanes __attribute__((vector_size(8 * LANES)));
-typedef long long mask __attribute__((vector_size(8 * LANES)));
-
-INLINE lanes all(double x) { return (lanes){x, x, x, x}; }
-
-INLINE lanes pick(mask m, lanes yes, lanes no)
-{
-    return (lanes)((m & (mask)yes) | (~m & (mask)no));
-}
-
-INLINE lanes magnitude(lanes x)
-{
-    const long long most = 0x7fffffffffffffff;
-    return (lanes)((mask)x & (mask){most, most, most, most});
-}
-
-INLINE lanes greater(lanes x, lanes y) { return pick(x > y, x, y); }
-
-INLINE lanes lesser(lanes x, lanes y) { return pick(x < y, x, y); }
-
-INLINE bool any(mask m) { return (m[0] | m[1] | m[2] | m[3]) != 0; }
 
 /* Four directions, coordinate by coordinate; and their absolute values. */
 typedef struct bundle {
     lanes x[3], size[3];
 } bundle;
 
-INLINE lanes along(const bundle *n, const double *v)
+LANES_INLINE bundle bundle_of(vec3 a, vec3 b, vec3 c, vec3 d)
 {
-    return n->x[0] * all(v[0]) + n->x[1] * all(v[1]) + n->x[2] * all(v[2]);
+    bundle n;
+    for (int i = 0; i < 3; ++i) n.x[i] = (lanes){a.x[i], b.x[i], c.x[i], d.x[i]};
+    return n;
 }
 
-INLINE lanes weighted(const bundle *n, const double *v)
+LANES_INLINE lanes along(const bundle *n, const double *v)
 {
-    return n->size[0] * all(v[0]) + n->size[1] * all(v[1]) + n->size[2] * all(v[2]);
+    return n->x[0] * lanes_all(v[0]) + n->x[1] * lanes_all(v[1]) + n->x[2] * lanes_all(v[2]);
 }
 
-typedef struct spans {
-    lanes lo, hi;
-} spans;
-
-/* quadratic.c's edge_hull, in lanes. */
-INLINE void edge_hull(spans *range, lanes c, lanes b, lanes q)
+LANES_INLINE lanes weighted(const bundle *n, const double *v)
 {
-    const lanes reach = magnitude(b);
-    range->hi = greater(range->hi, c + (q + reach));
-    range->lo = lesser(range->lo, c + (q - reach));
-    const mask inside = reach < magnitude(q + q);
-    if (!any(inside)) return;
-    const lanes vertex = pick(inside, c - b * b / (q * all(4)), c + (q + reach));
-    range->hi = greater(range->hi, vertex);
-    range->lo = lesser(range->lo, vertex);
+    return n->size[0] * lanes_all(v[0]) + n->size[1] * lanes_all(v[1]) +
+           n->size[2] * lanes_all(v[2]);
 }
 
-/* The coefficients of a slice, in lanes. */
+/* --- The least of a quadratic, in lanes ------------------------------------------- */
+
+/* The coefficients of a slice along each direction. */
 typedef struct forms {
     lanes bu, bv, uu, uv, vv, uw, vw;
 } forms;
 
-INLINE forms project(const bundle *n, const slice *s)
+LANES_INLINE forms project(const bundle *n, const slice *s)
 {
     return (forms){along(n, s->bu),  along(n, s->bv),  along(n, s->quu), along(n, s->quv),
                    along(n, s->qvv), along(n, s->quw), along(n, s->qvw)};
 }
 
-INLINE lanes turning(const forms *f) { return magnitude(f->uw) + magnitude(f->vw); }
-
-/* Values that do occur at every w, at the middle and a corner, or are passed: no bound can be
- * better than these. */
-INLINE spans glimpse(const forms *f)
+LANES_INLINE forms negative(const forms *f)
 {
-    const lanes slopes = magnitude(f->bu) + magnitude(f->bv) - magnitude(f->uv) - turning(f);
-    const lanes curved = f->uu + f->vv;
-    return (spans){lesser(curved - slopes, all(0)), greater(curved + slopes, all(0))};
+    return (forms){-f->bu, -f->bv, -f->uu, -f->uv, -f->vv, -f->uw, -f->vw};
 }
 
-/* quadratic_span, in lanes; extrema inside the square, which are rare, are left to it. Lemma: where
- * 4 uu vv is below uv^2 by a part in 2^28, the form is indefinite beyond rounding. Where abs(bu)
- * reaches 2 abs(uu) + abs(uv), the slope along u keeps its sign over the square, up to 3 * 2^-53
- * of it, and so the edges hold the extrema up to 12 * 2^-53 of the coefficients' sum; v alike. */
-INLINE spans span_of(const forms *f)
+/* With the slopes that it has at w. */
+LANES_INLINE forms form_at(const forms *f, double w)
 {
-    spans range = {all(INFINITY), all(-INFINITY)};
-    edge_hull(&range, f->vv + f->bv, f->bu + f->uv, f->uu);
-    edge_hull(&range, f->vv - f->bv, f->bu - f->uv, f->uu);
-    edge_hull(&range, f->uu + f->bu, f->bv + f->uv, f->vv);
-    edge_hull(&range, f->uu - f->bu, f->bv - f->uv, f->vv);
-    const mask curved = f->uu * f->vv > f->uv * f->uv * all(0.25 - 0x1p-30);
-    const mask near = (magnitude(f->bu) < magnitude(f->uu) * all(2) + magnitude(f->uv)) &
-                      (magnitude(f->bv) < magnitude(f->vv) * all(2) + magnitude(f->uv));
-    const mask inner = curved & near;
-    if (!any(inner)) return range;
+    forms g = *f;
+    g.bu += lanes_all(w) * f->uw;
+    g.bv += lanes_all(w) * f->vw;
+    return g;
+}
+
+LANES_INLINE lanes turning(const forms *f) { return lanes_abs(f->uw) + lanes_abs(f->vw); }
+
+/* quadratic.c's edge_lower, in lanes; `inverse` is 1 / q. Lemma: a vertex that is left out because
+ * q <= 2^-900 lies below the ends by less than q, so by less than 2^-900. Else b inverse is below 2
+ * in size, and three roundings and an underflow are below 4 * 2^-53 q + 2^-1073. */
+LANES_INLINE lanes edge_lower(lanes b, lanes q, lanes inverse)
+{
+    const lanes reach = lanes_abs(b);
+    const lanes_mask inside = (reach < q + q) & (q > lanes_all(0x1p-900));
+    return lanes_pick(inside, (b * inverse) * (b * lanes_all(-0.25)), q - reach);
+}
+
+/* quadratic_lower, in lanes; minima inside the square are left to it. Lemma: where
+ * 4 uu vv is below uv^2 by a part in 2^28, the form is indefinite beyond rounding. Where abs(bu)
+ * reaches 2 uu + abs(uv), the slope along u keeps its sign over the square, up to 3 * 2^-53
+ * of it, and so the edges hold the minimum up to 12 * 2^-53 of the coefficients' sum; v alike.
+ * Where uu or vv is not above 0, one of the two holds or there is no minimum inside. */
+LANES_INLINE lanes lower(const forms *f)
+{
+    const lanes u = lanes_all(1) / f->uu, v = lanes_all(1) / f->vv;
+    const lanes ends = lanes_min(f->vv + f->bv + edge_lower(f->bu + f->uv, f->uu, u),
+                                 f->vv - f->bv + edge_lower(f->bu - f->uv, f->uu, u));
+    const lanes sides = lanes_min(f->uu + f->bu + edge_lower(f->bv + f->uv, f->vv, v),
+                                  f->uu - f->bu + edge_lower(f->bv - f->uv, f->vv, v));
+    lanes least = lanes_min(ends, sides);
+    const lanes twist = lanes_abs(f->uv);
+    const lanes_mask inner = (f->uu * f->vv > twist * twist * lanes_all(0.25 - 0x1p-30)) &
+                             (lanes_abs(f->bu) < f->uu + f->uu + twist) &
+                             (lanes_abs(f->bv) < f->vv + f->vv + twist);
+    if (!lanes_any(inner)) return least;
     for (int k = 0; k < LANES; ++k) {
         if (!inner[k]) continue;
         const quadratic p = {f->bu[k], f->bv[k], f->uu[k], f->uv[k], f->vv[k]};
-        const span exact = quadratic_span(&p);
-        range.lo[k] = exact.lo;
-        range.hi[k] = exact.hi;
+        least[k] = quadratic_inner_lower(&p, least[k]);
     }
-    return range;
+    return least;
 }
 
-/* The range of form b less that of form a at the window's start (w = -1) or end (w = 1). */
-INLINE spans between_at(const forms *a, const forms *b, double w)
+/* A value that does occur at every w, in the middle or at a corner, or is passed:
+ * quadratic_glimpse, in lanes. */
+LANES_INLINE lanes glimpse(const forms *f)
 {
-    forms fa = *a, fb = *b;
-    fa.bu += all(w) * a->uw, fa.bv += all(w) * a->vw;
-    fb.bu += all(w) * b->uw, fb.bv += all(w) * b->vw;
-    const spans ra = span_of(&fa), rb = span_of(&fb);
-    return (spans){rb.lo - ra.hi, rb.hi - ra.lo};
+    const lanes slopes = lanes_abs(f->bu) + lanes_abs(f->bv) - lanes_abs(f->uv) - turning(f);
+    return lanes_min(f->uu + f->vv - slopes, lanes_all(0));
 }
 
-/* share_cut in lanes: the least upper and greatest lower bound of w that low + drift w <= limit
- * leaves in each; `gone` where it leaves nothing. */
+/* --- What four axes show --------------------------------------------------------------- */
+
+/* The least upper and greatest lower bound of w that low + drift w <= limit leaves in each lane;
+ * `gone` where it leaves nothing. */
 typedef struct cuts {
     lanes lo, hi;
-    mask gone;
+    lanes_mask gone;
 } cuts;
 
-INLINE void cut(cuts *c, lanes low, lanes drift, lanes limit)
+/* share_cut, in lanes. */
+LANES_INLINE void cut(cuts *c, lanes low, lanes drift, lanes limit)
 {
-    const lanes reach = magnitude(drift);
+    const lanes reach = lanes_abs(drift);
     c->gone |= low - reach > limit;
-    const mask some = low + reach > limit;
-    if (!any(some)) return;
-    const lanes w = (limit - low) / drift;
-    c->hi = pick(some & (drift > all(0)), lesser(w + all(0x1p-50), c->hi), c->hi);
-    c->lo = pick(some & (drift < all(0)), greater(w - all(0x1p-50), c->lo), c->lo);
+    const lanes_mask some = low + reach > limit;
+    if (!lanes_any(some)) return;
+    const lanes w = (limit - low) / drift, slack = lanes_all(0x1p-50);
+    c->hi = lanes_pick(some & (drift > lanes_all(0)), lanes_min(w + slack, c->hi), c->hi);
+    c->lo = lanes_pick(some & (drift < lanes_all(0)), lanes_max(w - slack, c->lo), c->lo);
 }
 
-INLINE bool share_take(share *s, const cuts *c)
+LANES_INLINE bool share_take(share *s, const cuts *c)
 {
-    if (any(c->gone)) return false;
+    if (lanes_any(c->gone)) return false;
     for (int k = 0; k < LANES; ++k) {
         if (c->hi[k] < s->hi) s->hi = c->hi[k];
         if (c->lo[k] > s->lo) s->lo = c->lo[k];
     }
     return !(s->lo > s->hi);
+}
+
+/* Along each axis B - A >= low + drift w, and apart where that exceeds limit; b and minus_a are the
+ * forms whose least values are in them, which leave no more than `reach` of what the centres show.
+ */
+typedef struct view {
+    bundle n;
+    forms minus_a, b;
+    lanes low, drift, limit, reach;
+} view;
+
+/* Of length 1 to 2, pointing from A to B at the share's start. */
+LANES_INLINE lanes bundle_orient(bundle *n, const relative *r, double start)
+{
+    const lanes longest =
+        lanes_max(lanes_abs(n->x[0]), lanes_max(lanes_abs(n->x[1]), lanes_abs(n->x[2])));
+    const lanes way = along(n, r->delta) + along(n, r->drift) * lanes_all(start);
+    const lanes one = lanes_pick(way < lanes_all(0), lanes_all(-1), lanes_all(1));
+    const lanes scale = one / longest;
+    for (int i = 0; i < 3; ++i) {
+        n->x[i] *= scale;
+        n->size[i] = lanes_abs(n->x[i]);
+    }
+    return longest;
+}
+
+/* |n| clearance, rounded up. */
+LANES_INLINE lanes limit_of(const bundle *n, double clearance)
+{
+    const lanes square = n->x[0] * n->x[0] + n->x[1] * n->x[1] + n->x[2] * n->x[2];
+    lanes limit;
+    for (int k = 0; k < LANES; ++k) limit[k] = sqrt(square[k]) * clearance * (1 + 0x1p-49);
+    return limit;
+}
+
+/* The chord under the sum of both forms' least values: at w at least middle + tilt w. */
+typedef struct chord {
+    lanes middle, tilt;
+} chord;
+
+LANES_INLINE lanes lower_at(const forms *f, const forms *g, double w)
+{
+    const forms fw = form_at(f, w), gw = form_at(g, w);
+    return lower(&fw) + lower(&gw);
+}
+
+LANES_INLINE chord chord_under(const forms *f, const forms *g)
+{
+    const lanes half = lanes_all(0.5), start = lower_at(f, g, -1);
+    if (!lanes_any(turning(f) + turning(g) > lanes_all(0))) return (chord){start, lanes_all(0)};
+    const lanes end = lower_at(f, g, 1);
+    return (chord){half * (start + end), half * (end - start)};
 }
 
 /* Lemma (one axis). Let x of A and y of B have fixed parameters s_a, s_b. But for the slack,
@@ -158,88 +194,135 @@ INLINE bool share_take(share *s, const cuts *c)
  * and |n.(y - x)| <= |n| |y - x|. So where the chords less or more sum_i |n_i| slack_i leave
  * [-g, g], g = |n| clearance, the nodes are farther apart than the clearance. Rounding, in units
  * of u = 2^-53 and R = sum_i |n_i| magnitude_i: what re-centring left 4 R, the dots 6 R, slopes
- * at the ends 2 R, the two spans 128 R (2^-46 R), the sums 16 R, the slack's own sums 8 R: below
+ * at the ends 2 R, the least values 128 R (2^-46 R), the sums 16 R, the slack's own sums 8 R: below
  * 2^-45 R = 256 u R. 2^-490 outweighs underflow, since every axis has a coordinate of 1. Lanes
- * whose axis or size is out of range are left out: they prove nothing. */
-INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, share *s)
+ * whose axis or size is out of range are left out: they prove nothing. The far side is looked at
+ * only where it may end below g. */
+LANES_INLINE bool bundle_cut(const relative *r, double clearance, share *s, view *v)
 {
-    for (int i = 0; i < 3; ++i) n->size[i] = magnitude(n->x[i]);
-    const lanes longest = greater(n->size[0], greater(n->size[1], n->size[2]));
-    const lanes scale = all(1) / longest;
-    for (int i = 0; i < 3; ++i) {
-        n->x[i] *= scale;
-        n->size[i] = magnitude(n->x[i]);
-    }
-    const forms fa = project(n, &r->a), fb = project(n, &r->b);
+    bundle *n = &v->n;
+    const lanes longest = bundle_orient(n, r, s->lo);
+    const forms a = project(n, &r->a), b = project(n, &r->b), minus_b = negative(&b);
     const lanes offset = along(n, r->delta), drift = along(n, r->drift);
-    const spans ga = glimpse(&fa), gb = glimpse(&fb);
-    const mask above = offset + (gb.lo - ga.hi) + magnitude(drift) > all(0);
-    const mask below = offset + (gb.hi - ga.lo) - magnitude(drift) < all(0);
-    if (!any(above | below)) return true; /* no w to cut */
-    const spans first = between_at(&fa, &fb, -1);
-    const bool turns = any(turning(&fa) + turning(&fb) > all(0));
-    const spans last = turns ? between_at(&fa, &fb, 1) : first;
     const lanes size = weighted(n, r->magnitude);
-    const lanes slack = weighted(n, r->slack) + size * all(0x1p-45) + all(0x1p-490);
-    const lanes square = n->x[0] * n->x[0] + n->x[1] * n->x[1] + n->x[2] * n->x[2];
-    lanes limit;
-    for (int k = 0; k < LANES; ++k) limit[k] = sqrt(square[k]) * clearance * (1 + 0x1p-49);
-    const mask sane = (longest > all(0x1p-400)) & (longest < all(0x1p400)) & (size < all(0x1p400));
-    limit = pick(sane, limit, all(INFINITY));
-    cuts c = {all(-1), all(1), (mask){0}};
-    const lanes half = all(0.5);
-    cut(&c, offset + half * (first.lo + last.lo) - slack, drift + half * (last.lo - first.lo),
-        limit);
-    cut(&c, -offset - half * (first.hi + last.hi) - slack, half * (first.hi - last.hi) - drift,
-        limit);
+    const lanes slack = weighted(n, r->slack) + size * lanes_all(0x1p-45) + lanes_all(0x1p-490);
+    const lanes_mask sane = (longest > lanes_all(0x1p-400)) & (longest < lanes_all(0x1p400)) &
+                            (size < lanes_all(0x1p400));
+    v->limit = lanes_pick(sane, limit_of(n, clearance), lanes_all(INFINITY));
+    v->minus_a = negative(&a);
+    v->b = b;
+    const chord near = chord_under(&b, &v->minus_a);
+    v->reach = -near.middle;
+    v->low = offset + near.middle - slack;
+    v->drift = drift + near.tilt;
+    cuts c = {lanes_all(-1), lanes_all(1), (lanes_mask){0}};
+    cut(&c, v->low, v->drift, v->limit);
+    const lanes seen = lanes_abs(drift) - offset + glimpse(&a) + glimpse(&minus_b);
+    if (lanes_any(seen > lanes_all(0))) {
+        const chord far = chord_under(&a, &minus_b);
+        cut(&c, far.middle - offset - slack, far.tilt - drift, v->limit);
+    }
     return share_take(s, &c);
 }
 
-INLINE void bundle_set(bundle *n, int lane, vec3 axis)
+/* --- Uphill --------------------------------------------------------------------------------- */
+
+/* The lane that is nearest to parting the nodes at w; -1 if none is of use. */
+LANES_INLINE int view_best(const view *v, double w, double *value)
 {
-    for (int i = 0; i < 3; ++i) n->x[i][lane] = axis.x[i];
+    const lanes values = v->low + v->drift * lanes_all(w) - v->limit;
+    int best = -1;
+    *value = -INFINITY;
+    for (int k = 0; k < LANES; ++k)
+        if (values[k] > *value) *value = values[best = k];
+    return best;
 }
 
-/* First the line of centres at the window's start (it decides when the earliest contact can be),
- * both normals, and what is square to them; then in each tangent plane the directions across u and
- * v; then the coordinate axes and the line of centres in the middle. */
-INLINE bool bundles_cut(const relative *r, double clearance, share *s)
+LANES_INLINE vec3 view_axis(const view *v, int lane)
+{
+    return (vec3){{v->n.x[0][lane], v->n.x[1][lane], v->n.x[2][lane]}};
+}
+
+/* Where b s + q s^2 is least over [-1, 1]. */
+static inline double least_at(double b, double q)
+{
+    if (fabs(b) < 2 * q) return -b / (2 * q);
+    return b > 0 ? -1 : 1;
+}
+
+/* Where a form is least, about: u and v in turn. */
+LANES_INLINE void bottom(const forms *turning, double w, int k, double at[2])
+{
+    const forms f = form_at(turning, w);
+    at[0] = least_at(f.bu[k], f.uu[k]);
+    for (int pass = 0; pass < 2; ++pass) {
+        at[1] = least_at(f.bv[k] + f.uv[k] * at[0], f.vv[k]);
+        at[0] = least_at(f.bu[k] + f.uv[k] * at[1], f.uu[k]);
+    }
+}
+
+static inline double slice_value(const slice *f, int i, const double s[2], double w)
+{
+    return (f->bu[i] + f->quw[i] * w + f->quu[i] * s[0] + f->quv[i] * s[1]) * s[0] +
+           (f->bv[i] + f->qvw[i] * w + f->qvv[i] * s[1]) * s[1];
+}
+
+/* Four axes on the way from lane k of v to where the nodes are farther apart. What an axis shows,
+ * as a function of the axis, has the gradient y - x, for x and y the points that decide it; only
+ * the part g square to the axis turns it. Steps are measured by the angle at which the surfaces
+ * begin to reach as far along g as along the axis. */
+LANES_INLINE bundle uphill(const relative *r, const view *v, int k, double w)
+{
+    double a[2], b[2];
+    bottom(&v->minus_a, w, k, a);
+    bottom(&v->b, w, k, b);
+    const vec3 n = view_axis(v, k);
+    vec3 g;
+    for (int i = 0; i < 3; ++i) {
+        const double slack = n.x[i] > 0 ? r->slack[i] : -r->slack[i];
+        g.x[i] = r->delta[i] + r->drift[i] * w + slice_value(&r->b, i, b, w) -
+                 slice_value(&r->a, i, a, w) - slack;
+    }
+    g = vec3_sub(g, vec3_scale(n, vec3_dot(g, n) / vec3_dot(n, n)));
+    const lanes steps = {0.01, 0.04, 0.15, 0.5};
+    const lanes step = steps * lanes_all(v->reach[k] / vec3_dot(g, g));
+    bundle m;
+    for (int i = 0; i < 3; ++i) m.x[i] = lanes_all(n.x[i]) + step * lanes_all(g.x[i]);
+    return m;
+}
+
+/* The line of centres at the window's start (it decides when the earliest contact can be), both
+ * normals, and what served the parents or, for want of parents, the line square to both normals. */
+LANES_INLINE bundle first_bundle(const relative *r, const vec3 *axis)
 {
     const vec3 na = r->a.normal, nb = r->b.normal;
-    const vec3 delta = vec3_from(r->delta);
-    bundle n;
-    bundle_set(&n, 0, vec3_sub(delta, vec3_from(r->drift)));
-    bundle_set(&n, 1, na);
-    bundle_set(&n, 2, nb);
-    bundle_set(&n, 3, vec3_cross(na, nb));
-    if (!bundle_cut(r, &n, clearance, s)) return false;
-    bundle_set(&n, 0, vec3_cross(na, vec3_from(r->a.bu)));
-    bundle_set(&n, 1, vec3_cross(na, vec3_from(r->a.bv)));
-    bundle_set(&n, 2, vec3_cross(nb, vec3_from(r->b.bu)));
-    bundle_set(&n, 3, vec3_cross(nb, vec3_from(r->b.bv)));
-    if (!bundle_cut(r, &n, clearance, s)) return false;
-    bundle_set(&n, 0, (vec3){{1, 0, 0}});
-    bundle_set(&n, 1, (vec3){{0, 1, 0}});
-    bundle_set(&n, 2, (vec3){{0, 0, 1}});
-    bundle_set(&n, 3, delta);
-    return bundle_cut(r, &n, clearance, s);
+    const vec3 start = vec3_sub(vec3_from(r->delta), vec3_from(r->drift));
+    return bundle_of(start, na, nb, vec3_norm1(*axis) > 0 ? *axis : vec3_cross(na, nb));
 }
 
-#if defined(__x86_64__) && defined(__GNUC__)
-__attribute__((target("avx2"))) static bool bundles_cut_wide(const relative *r, double clearance,
-                                                             share *s)
+LANES_INLINE bool bundles_cut(const relative *r, double clearance, share *s, vec3 *axis)
 {
-    return bundles_cut(r, clearance, s);
+    double first, second;
+    view v, up;
+    v.n = first_bundle(r, axis);
+    if (!bundle_cut(r, clearance, s, &v)) return false;
+    int k = view_best(&v, s->lo, &first);
+    if (k < 0) return true;
+    up.n = uphill(r, &v, k, s->lo);
+    if (!bundle_cut(r, clearance, s, &up)) return false;
+    k = view_best(&v, s->lo, &first);
+    const int l = view_best(&up, s->lo, &second);
+    *axis = second > first ? view_axis(&up, l) : view_axis(&v, k);
+    return true;
 }
 
-bool axes_cut(const relative *r, double clearance, share *s)
+LANES_WIDE static bool bundles_cut_wide(const relative *r, double clearance, share *s, vec3 *axis)
 {
-    if (__builtin_cpu_supports("avx2")) return bundles_cut_wide(r, clearance, s);
-    return bundles_cut(r, clearance, s);
+    return bundles_cut(r, clearance, s, axis);
 }
-#else
-bool axes_cut(const relative *r, double clearance, share *s)
+
+bool axes_cut(const relative *r, double clearance, share *s, vec3 *axis)
 {
-    return bundles_cut(r, clearance, s);
+    return lanes_are_wide() ? bundles_cut_wide(r, clearance, s, axis)
+                            : bundles_cut(r, clearance, s, axis);
 }
-#endif

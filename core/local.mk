@@ -27,6 +27,7 @@ core_solver = \
     core/scene.c \
     core/broad_phase.c core/broad_phase.h \
     core/quadratic.c core/quadratic.h \
+    core/lanes.h \
     core/relative.c core/relative.h \
     core/normal_field.c core/normal_field.h \
     core/axes.c core/axes.h \

@@ -22,18 +22,19 @@ typedef enum tree_kind {
     TREE_KINDS
 } tree_kind;
 
-/* Coefficients of the three coordinates' polynomials in s = (p - c) / d. */
+/* Coefficients of the three coordinates' polynomials in s = (p - c) / d; the fourth number of each is
+ * 0, so that vector instructions take x, y, z at once. */
 typedef struct quadratic3 {
-    double a[3], bu[3], bv[3], bt[3];
-    double quu[3], quv[3], qut[3], qvv[3], qvt[3], qtt[3];
+    double a[4], bu[4], bv[4], bt[4];
+    double quu[4], quv[4], qut[4], qvv[4], qvt[4], qtt[4];
 } quadratic3;
 
 typedef struct node {
     imp_region region;
     quadratic3 f;        /* with e, encloses the surface over the region; length */
-    double e[3];         /* remainder; length */
+    double e[4];         /* remainder; length; then 0 */
     double lo[3], hi[3]; /* axis-aligned box; length, world space */
-    double motion[3];    /* >= |bt| + 2 |qtt| + |qut| + |qvt|; length */
+    double motion[4];    /* >= |bt| + 2 |qtt| + |qut| + |qvt|; length; then 0 */
     vec3 normal;         /* bu x bv, any length; 0 where the node has none */
     double radius;       /* of a ball around a that holds the surface; rate trees only */
     double spread[3];    /* how much u, v, t move a point across the region, about; length */

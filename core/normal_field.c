@@ -148,7 +148,7 @@ bool normal_field_cut(const relative *r, double clearance, share *s)
     turn(&mean, &sb, mb);
     const local delta = to_local(&f, r->delta), drift = to_local(&f, r->drift);
     const quadratic qa = part(&sa, ma, &delta, -1), qb = part(&sb, mb, &delta, 1);
-    if (delta.n + quadratic_glimpse(&qa).lo + quadratic_glimpse(&qb).lo + fabs(drift.n) <= 0)
+    if (delta.n + quadratic_glimpse(&qa) + quadratic_glimpse(&qb) + fabs(drift.n) <= 0)
         return true; /* nothing to cut, whatever the rest may be */
     double slack = 0x1p-490 + weighted(f.n, r->slack) + turning(&sa) + turning(&sb);
     double size = weighted(f.n, r->magnitude);
@@ -167,6 +167,6 @@ bool normal_field_cut(const relative *r, double clearance, share *s)
     if (!(size < 0x1p400)) return true;
     slack += slack * 0x1p-48 + size * 0x1p-44;
     const double length = sqrt(vec3_dot(f.n, f.n) + 2 * tilt + lean * lean) * (1 + 0x1p-48);
-    const double low = delta.n + quadratic_span(&qa).lo + quadratic_span(&qb).lo - slack;
+    const double low = delta.n + quadratic_lower(&qa) + quadratic_lower(&qb) - slack;
     return share_cut(s, low, drift.n, length * clearance);
 }

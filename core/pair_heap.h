@@ -15,6 +15,7 @@ typedef struct pair {
     time_window window; /* when they may be near; within both nodes' times */
     double distance2;   /* of the centres at window.lo; length^2 */
     uint64_t serial;    /* order of making */
+    vec3 axis;          /* that parted the nodes best; 0: none yet */
     node *a, *b;
     uint32_t couple; /* which two surfaces of the scene: index of the query's list */
     uint32_t wait;   /* generations until a witness is sought again */

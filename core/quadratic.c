@@ -6,23 +6,16 @@
 
 /* In what follows u = 2^-53 and S is the sum of abs of p's coefficients, so abs(p) <= S. */
 
-static void span_hull(span *range, double x)
-{
-    if (x < range->lo) range->lo = x;
-    if (x > range->hi) range->hi = x;
-}
-
-/* Range of c + b s + q s^2 over [-1, 1]: ends, and the vertex -b^2 / 4q where it lies inside.
- * Choosing wrongly at abs(b) = 2 abs(q) does no harm: vertex and end then agree to a few u S.
- * Rounding: c and b are one sum each, then at most four operations on terms below S: under 8 u S.
- */
-static void edge_hull(span *range, double c, double b, double q)
+/* Least of b s + q s^2 over [-1, 1]: at an end, or the vertex -b^2 / 4q where it lies inside.
+ * Choosing wrongly at abs(b) = 2 q does no harm: vertex and end then agree to a few u S. Rounding:
+ * b is one sum, then at most four operations on terms below S: under 8 u S. */
+static double edge_lower(double b, double q)
 {
     const double reach = fabs(b);
-    span_hull(range, c + (q + reach));
-    span_hull(range, c + (q - reach));
-    if (reach < 2 * fabs(q)) span_hull(range, c - b * b / (4 * q));
+    return reach < 2 * q ? -(b * b / (4 * q)) : q - reach;
 }
+
+static double smaller(double x, double y) { return x < y ? x : y; }
 
 /* Lemma (interior extremum). Let D = 4 qss qrr - qsr^2 and, say, qss > 0. If D <= 0 the minimum
  * over the square is on its edge. If D > 0, p is convex with one stationary point z, and the
@@ -36,7 +29,7 @@ static void edge_hull(span *range, double c, double b, double q)
  * The better of the two is taken, y being z as computed. Numerators and D carry errors below
  * 4 u times the terms they sum; "outside" is only believed beyond that, and so is D <= 0. Rounding
  * in p(y) and g(y): each is at most seven operations on terms below 2 S: together under 60 u S. */
-static double interior_lower(const quadratic *p, double edge)
+double quadratic_inner_lower(const quadratic *p, double edge)
 {
     const double slack = 0x1p-50;
     const double product = 4 * p->qss * p->qrr, square = p->qsr * p->qsr;
@@ -58,18 +51,12 @@ static double interior_lower(const quadratic *p, double edge)
     return best < edge ? best : edge;
 }
 
-span quadratic_span(const quadratic *p)
+double quadratic_lower(const quadratic *p)
 {
-    span range = {INFINITY, -INFINITY};
-    edge_hull(&range, p->qrr + p->br, p->bs + p->qsr, p->qss);
-    edge_hull(&range, p->qrr - p->br, p->bs - p->qsr, p->qss);
-    edge_hull(&range, p->qss + p->bs, p->br + p->qsr, p->qrr);
-    edge_hull(&range, p->qss - p->bs, p->br - p->qsr, p->qrr);
-    if (p->qss > 0 && p->qrr > 0) {
-        range.lo = interior_lower(p, range.lo);
-    } else if (p->qss < 0 && p->qrr < 0) {
-        const quadratic minus = {-p->bs, -p->br, -p->qss, -p->qsr, -p->qrr};
-        range.hi = -interior_lower(&minus, -range.hi);
-    }
-    return range;
+    const double below = p->qrr - p->br + edge_lower(p->bs - p->qsr, p->qss);
+    const double above = p->qrr + p->br + edge_lower(p->bs + p->qsr, p->qss);
+    const double left = p->qss - p->bs + edge_lower(p->br - p->qsr, p->qrr);
+    const double right = p->qss + p->bs + edge_lower(p->br + p->qsr, p->qrr);
+    const double edge = smaller(smaller(below, above), smaller(left, right));
+    return p->qss > 0 && p->qrr > 0 ? quadratic_inner_lower(p, edge) : edge;
 }

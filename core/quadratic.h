@@ -13,21 +13,18 @@ typedef struct quadratic {
     double bs, br, qss, qsr, qrr;
 } quadratic;
 
-typedef struct span {
-    double lo, hi;
-} span;
+/* A lower bound over the square: exact but for rounding. In exact arithmetic the minimum is at
+ * least this - QUADRATIC_ROUNDING * (sum of abs of the coefficients). */
+double quadratic_lower(const quadratic *p);
 
-/* An enclosure of the range: exact but for rounding. In exact arithmetic the range lies within
- * QUADRATIC_ROUNDING * (sum of abs of the coefficients) of it. */
-span quadratic_span(const quadratic *p);
+/* The same where `edge` is known to be a lower bound over the square's edge. */
+double quadratic_inner_lower(const quadratic *p, double edge);
 
-/* Two values that surely occur: no lower bound can exceed the lower, no upper be below the upper.
- */
-static inline span quadratic_glimpse(const quadratic *p)
+/* A value that surely occurs: no lower bound can exceed it. */
+static inline double quadratic_glimpse(const quadratic *p)
 {
-    const double slopes = fabs(p->bs) + fabs(p->br) - fabs(p->qsr), curved = p->qss + p->qrr;
-    const double lo = curved - slopes, hi = curved + slopes;
-    return (span){lo < 0 ? lo : 0, hi > 0 ? hi : 0};
+    const double x = p->qss + p->qrr - (fabs(p->bs) + fabs(p->br) - fabs(p->qsr));
+    return x < 0 ? x : 0;
 }
 
 #define QUADRATIC_ROUNDING 0x1p-47

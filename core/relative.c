@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "relative.h"
 
+#include "lanes.h"
+
 /* Lemma (re-centring). In a node, s_t = (t - c) / d; over the window s_t = s0 + k w with
  * s0 = (mid - c) / d and k = half / d, abs(s0) + k <= 1 up to rounding. Substituting,
  *
@@ -10,32 +12,33 @@
  *
  * The term in w^2 has no place in the form. As w^2 is 1/2 give or take 1/2, half of it goes to the
  * middle and half its size to the slack, weighted by the window. */
-static void slice_at(const node *n, double mid, double half, slice *s, double *shift, double *drift,
-                     double *slack)
+typedef struct moved {
+    lanes shift, drift, slack;
+    lanes magnitude; /* of the slice */
+} moved;
+
+LANES_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
 {
     const double d = n->region.d[PARAMETER_T], c = n->region.c[PARAMETER_T];
-    const double s0 = d > 0 ? (mid - c) / d : 0, k = d > 0 ? half / d : 0;
+    const lanes s0 = lanes_all(d > 0 ? (mid - c) / d : 0), k = lanes_all(d > 0 ? half / d : 0);
     const quadratic3 *f = &n->f;
-    for (int i = 0; i < 3; ++i) {
-        s->bu[i] = f->bu[i] + f->qut[i] * s0;
-        s->bv[i] = f->bv[i] + f->qvt[i] * s0;
-        s->quw[i] = f->qut[i] * k;
-        s->qvw[i] = f->qvt[i] * k;
-        s->quu[i] = f->quu[i];
-        s->quv[i] = f->quv[i];
-        s->qvv[i] = f->qvv[i];
-        const double bow = 0.5 * (k * k) * f->qtt[i];
-        shift[i] = (f->bt[i] + f->qtt[i] * s0) * s0 + bow;
-        drift[i] = k * (f->bt[i] + 2 * f->qtt[i] * s0);
-        slack[i] = n->e[i] + fabs(bow);
-    }
+    const lanes bt = lanes_load(f->bt), qtt = lanes_load(f->qtt);
+    const lanes qut = lanes_load(f->qut), qvt = lanes_load(f->qvt);
+    const lanes bu = lanes_load(f->bu) + qut * s0, bv = lanes_load(f->bv) + qvt * s0;
+    const lanes quu = lanes_load(f->quu), quv = lanes_load(f->quv), qvv = lanes_load(f->qvv);
+    const lanes quw = qut * k, qvw = qvt * k, bow = lanes_all(0.5) * (k * k) * qtt;
+    lanes_store(s->bu, bu);
+    lanes_store(s->bv, bv);
+    lanes_store(s->quu, quu);
+    lanes_store(s->quv, quv);
+    lanes_store(s->qvv, qvv);
+    lanes_store(s->quw, quw);
+    lanes_store(s->qvw, qvw);
     s->normal = vec3_cross(vec3_from(s->bu), vec3_from(s->bv));
-}
-
-static double slice_magnitude(const slice *s, int i)
-{
-    return fabs(s->bu[i]) + fabs(s->bv[i]) + fabs(s->quu[i]) + fabs(s->quv[i]) + fabs(s->qvv[i]) +
-           (fabs(s->quw[i]) + fabs(s->qvw[i]));
+    return (moved){(bt + qtt * s0) * s0 + bow, k * (bt + lanes_all(2) * qtt * s0),
+                   lanes_load(n->e) + lanes_abs(bow),
+                   lanes_abs(bu) + lanes_abs(bv) + lanes_abs(quu) + lanes_abs(quv) +
+                       lanes_abs(qvv) + (lanes_abs(quw) + lanes_abs(qvw))};
 }
 
 /* Lemma (its rounding). With u = 2^-53 and abs(s0) + k <= 1: s0 is off by 2 u, k by u. Then shift
@@ -45,24 +48,36 @@ static double slice_magnitude(const slice *s, int i)
  * 16 u (abs(bt) + 2 abs(qtt) + abs(qut) + abs(qvt) of both + abs(apart)), which is added to the
  * slack, plus 4 u of the magnitude of what comes out, which users of it count. Large motions and
  * far places thus cost u of themselves, once, before they cancel. */
-void relative_at(const node *a, const node *b, const time_window *window, relative *r)
+LANES_INLINE void see(const node *a, const node *b, const time_window *window, relative *r)
 {
-    double shift_a[3], shift_b[3], drift_a[3], drift_b[3], slack_a[3], slack_b[3];
     r->mid = 0.5 * window->lo + 0.5 * window->hi;
     const double above = window->hi - r->mid, below = r->mid - window->lo;
     const double reach = above > below ? above : below;
     r->half = reach + reach * 0x1p-51;
-    slice_at(a, r->mid, r->half, &r->a, shift_a, drift_a, slack_a);
-    slice_at(b, r->mid, r->half, &r->b, shift_b, drift_b, slack_b);
-    for (int i = 0; i < 3; ++i) {
-        const double apart = b->f.a[i] - a->f.a[i];
-        r->delta[i] = apart + (shift_b[i] - shift_a[i]);
-        r->drift[i] = drift_b[i] - drift_a[i];
-        r->slack[i] =
-            (slack_a[i] + slack_b[i]) + 0x1p-49 * (fabs(apart) + (a->motion[i] + b->motion[i]));
-        r->magnitude[i] = r->slack[i] + fabs(r->delta[i]) + fabs(r->drift[i]) +
-                          (slice_magnitude(&r->a, i) + slice_magnitude(&r->b, i));
-    }
+    const moved ma = slice_at(a, r->mid, r->half, &r->a), mb = slice_at(b, r->mid, r->half, &r->b);
+    const lanes apart = lanes_load(b->f.a) - lanes_load(a->f.a);
+    const lanes delta = apart + (mb.shift - ma.shift), drift = mb.drift - ma.drift;
+    const lanes motion = lanes_load(a->motion) + lanes_load(b->motion);
+    const lanes slack = (ma.slack + mb.slack) + lanes_all(0x1p-49) * (lanes_abs(apart) + motion);
+    lanes_store(r->delta, delta);
+    lanes_store(r->drift, drift);
+    lanes_store(r->slack, slack);
+    lanes_store(r->magnitude,
+                slack + lanes_abs(delta) + lanes_abs(drift) + (ma.magnitude + mb.magnitude));
+}
+
+LANES_WIDE static void see_wide(const node *a, const node *b, const time_window *window,
+                                relative *r)
+{
+    see(a, b, window, r);
+}
+
+void relative_at(const node *a, const node *b, const time_window *window, relative *r)
+{
+    if (lanes_are_wide())
+        see_wide(a, b, window, r);
+    else
+        see(a, b, window, r);
 }
 
 /* Keeps the w with low + drift w <= limit. The division and the difference are each off by 2^-53; a

@@ -12,10 +12,10 @@ typedef struct time_window {
 } time_window;
 
 /* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v that
- * holds at its middle, and how its slopes turn with w. */
+ * holds at its middle, and how its slopes turn with w. x, y, z and a 0, here and below. */
 typedef struct slice {
-    double bu[3], bv[3], quu[3], quv[3], qvv[3];
-    double quw[3], qvw[3]; /* the slopes at w are bu + quw * w, bv + qvw * w */
+    double bu[4], bv[4], quu[4], quv[4], qvv[4];
+    double quw[4], qvw[4]; /* the slopes at w are bu + quw * w, bv + qvw * w */
     vec3 normal;           /* bu x bv: at the window's middle, which may be far from the node's */
 } slice;
 
@@ -23,9 +23,9 @@ typedef struct slice {
  */
 typedef struct relative {
     slice a, b;
-    double delta[3], drift[3];
-    double slack[3];     /* both remainders, what moving the centre put there, and its rounding */
-    double magnitude[3]; /* >= sum of abs of the coefficients above */
+    double delta[4], drift[4];
+    double slack[4];     /* both remainders, what moving the centre put there, and its rounding */
+    double magnitude[4]; /* >= sum of abs of the coefficients above */
     double mid, half;    /* of the window; half is rounded up */
 } relative;
 

@@ -17,7 +17,8 @@ static void window_take(time_window *window, const relative *r, const share *s)
 
 enum { ROUNDS = 3 };
 
-bool separation_by_models(const node *a, const node *b, double clearance, time_window *window)
+bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
+                          vec3 *axis)
 {
     if (!a->bounded || !b->bounded) return true;
     if (separation_of_boxes(a, b, clearance)) return false;
@@ -25,7 +26,7 @@ bool separation_by_models(const node *a, const node *b, double clearance, time_w
         relative r;
         share s = {-1, 1};
         relative_at(a, b, window, &r);
-        if (!axes_cut(&r, clearance, &s)) return false;
+        if (!axes_cut(&r, clearance, &s, axis)) return false;
         if (!normal_field_cut(&r, clearance, &s)) return false;
         window_take(window, &r, &s);
         if (!(s.hi - s.lo < 1.0)) break; /* not even halved: a new centre would not help much */

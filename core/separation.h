@@ -11,8 +11,10 @@
  * is left, the nodes' points are farther than `clearance` from each other: proved, rounding
  * included. A NaN or an infinity anywhere leaves the window as it is. */
 
-/* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. */
-bool separation_by_models(const node *a, const node *b, double clearance, time_window *window);
+/* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. `axis` is as for
+ * axes_cut. */
+bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
+                          vec3 *axis);
 
 /* The paper's test: bounding boxes over the whole of the nodes' times (eqs. 20-22), or balls
  * (section 3.2), farther apart than `clearance`. */

@@ -11,7 +11,7 @@ static bool pair_may_be_near(const impact *im, pair *p)
     if (im->method == IMP_METHOD_PAPER)
         return im->bounds == IMP_BOUNDS_BOX ? !separation_of_boxes(p->a, p->b, im->clearance)
                                             : !separation_of_balls(p->a, p->b, im->clearance);
-    return separation_by_models(p->a, p->b, im->clearance, &p->window);
+    return separation_by_models(p->a, p->b, im->clearance, &p->window, &p->axis);
 }
 
 /* The second key, among pairs of the same start: the squared distance of the centres. Where a node

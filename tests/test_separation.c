@@ -117,6 +117,19 @@ static void random_meeting(uint64_t *state, meeting *m, bool tangent)
     bring_together(state, m, suite_bits(state) % 8 == 0 ? 100 * size : size);
 }
 
+/* What the parents may have left: any direction of any length, none, or no numbers at all. */
+static vec3 random_axis(uint64_t *state)
+{
+    const double length = suite_power(state, -1020, 1020);
+    vec3 n = {{0, 0, 0}};
+    const uint64_t kind = suite_bits(state) % 16;
+    for (int i = 0; kind > 3 && i < 3; ++i)
+        n.x[i] = (kind == 4 ? length : 1) * suite_between(state, -1, 1);
+    if (kind == 1) n.x[suite_bits(state) % 3] = NAN;
+    if (kind == 2) n.x[suite_bits(state) % 3] = -INFINITY;
+    return n;
+}
+
 START_TEST(the_moment_of_a_meeting_is_never_cut_away)
 {
     uint64_t state = suite_seed();
@@ -127,7 +140,8 @@ START_TEST(the_moment_of_a_meeting_is_never_cut_away)
         if (!is_near(&m)) continue;
         ++near;
         time_window left = m.window;
-        const bool some = separation_by_models(&m.a, &m.b, m.clearance, &left);
+        vec3 axis = random_axis(&state);
+        const bool some = separation_by_models(&m.a, &m.b, m.clearance, &left, &axis);
         ck_assert_msg(some && left.lo <= m.t && m.t <= left.hi,
                       "case %d: near at %.17g of [%.17g, %.17g], left [%.17g, %.17g]", k, m.t,
                       m.window.lo, m.window.hi, left.lo, left.hi);
@@ -136,16 +150,11 @@ START_TEST(the_moment_of_a_meeting_is_never_cut_away)
 }
 END_TEST
 
-/* Where the share of the window the meeting happens at lies. */
-static void check_share(const meeting *m, bool (*cut)(const relative *, double, share *), int k)
+static void check_share(const meeting *m, const relative *r, bool some, const share *s, int k)
 {
-    relative r;
-    share s = {-1, 1};
-    relative_at(&m->a, &m->b, &m->window, &r);
-    const bool some = cut(&r, m->clearance, &s);
-    const long double w = r.half > 0 ? (m->t - (long double)r.mid) / r.half : 0;
-    ck_assert_msg(some && s.lo <= w && w <= s.hi, "case %d: near at w = %Lg, left [%g, %g]", k, w,
-                  s.lo, s.hi);
+    const long double w = r->half > 0 ? (m->t - (long double)r->mid) / r->half : 0;
+    ck_assert_msg(some && s->lo <= w && w <= s->hi, "case %d: near at w = %Lg, left [%g, %g]", k, w,
+                  s->lo, s->hi);
 }
 
 START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
@@ -155,8 +164,12 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
         meeting m;
         random_meeting(&state, &m, k % 4 != 0);
         if (!is_near(&m)) continue;
-        check_share(&m, axes_cut, k);
-        check_share(&m, normal_field_cut, k);
+        relative r;
+        share axes = {-1, 1}, field = {-1, 1};
+        vec3 axis = random_axis(&state);
+        relative_at(&m.a, &m.b, &m.window, &r);
+        check_share(&m, &r, axes_cut(&r, m.clearance, &axes, &axis), &axes, k);
+        check_share(&m, &r, normal_field_cut(&r, m.clearance, &field), &field, k);
     }
 }
 END_TEST
@@ -192,8 +205,9 @@ START_TEST(the_field_of_normals_parts_caps_that_no_axis_does)
     meeting m = two_caps(0.1, 1.1, 1e-3);
     relative r;
     share axes = {-1, 1}, field = {-1, 1};
+    vec3 axis = {{0, 0, 0}};
     relative_at(&m.a, &m.b, &m.window, &r);
-    ck_assert(axes_cut(&r, 1e-6, &axes));
+    ck_assert(axes_cut(&r, 1e-6, &axes, &axis));
     ck_assert(axes.lo == -1 && axes.hi == 1);
     ck_assert(!normal_field_cut(&r, 1e-6, &field));
 }
@@ -203,7 +217,8 @@ START_TEST(a_window_shrinks_to_the_moment_of_contact)
 {
     meeting m = two_caps(1e-9, -1, 1);
     for (int i = 0; i < 3; ++i) m.b.f.bt[i] = -2 * m.b.f.a[i], m.b.motion[i] = 4;
-    ck_assert(separation_by_models(&m.a, &m.b, 1e-3, &m.window));
+    vec3 axis = {{0, 0, 0}};
+    ck_assert(separation_by_models(&m.a, &m.b, 1e-3, &m.window, &axis));
     /* the gap is 1 - 2 (2 t - 1) = 3 - 4 t: 1e-3 at t = 0.74975 and at 0.75025 */
     ck_assert_double_le(fabs(m.window.lo - 0.74975), 1e-8);
     ck_assert_double_le(fabs(m.window.hi - 0.75025), 1e-8);
@@ -213,7 +228,7 @@ END_TEST
 /* Coefficient k of all three coordinates; 10: the remainders. Motions follow, as in any node. */
 static void spoil(node *n, int k, double value)
 {
-    double *coordinates = k < 10 ? (double *)&n->f + 3 * k : n->e;
+    double *coordinates = k < 10 ? (double *)&n->f + 4 * k : n->e;
     for (int i = 0; i < 3; ++i) {
         coordinates[i] = value;
         n->motion[i] +=
@@ -230,8 +245,9 @@ START_TEST(infinities_and_nans_never_part_anything)
             spoil(&m.b, k, k < 10 ? odd[o] : fabs(odd[o]));
             relative r;
             share axes = {-1, 1}, field = {-1, 1};
+            vec3 axis = {{0, 0, 0}};
             relative_at(&m.a, &m.b, &m.window, &r);
-            ck_assert_msg(axes_cut(&r, 1e-6, &axes), "axes: coefficient %d, %g", k, odd[o]);
+            ck_assert_msg(axes_cut(&r, 1e-6, &axes, &axis), "axes: coefficient %d, %g", k, odd[o]);
             ck_assert_msg(normal_field_cut(&r, 1e-6, &field), "field: coefficient %d, %g", k,
                           odd[o]);
             ck_assert(axes.lo == -1 && axes.hi == 1 && field.lo == -1 && field.hi == 1);
@@ -243,7 +259,8 @@ START_TEST(nodes_without_bounds_keep_their_window)
 {
     meeting m = two_caps(0.1, 1.1, 50);
     m.b.bounded = false;
-    ck_assert(separation_by_models(&m.a, &m.b, 1e-6, &m.window));
+    vec3 axis = {{0, 0, 0}};
+    ck_assert(separation_by_models(&m.a, &m.b, 1e-6, &m.window, &axis));
     ck_assert(m.window.lo == 0 && m.window.hi == 1);
 }
 END_TEST
