@@ -105,13 +105,13 @@ static double unexplained(const node *n, const imp_model *m, int j, double curve
 
 /* How far u, v and t move this coordinate across the region, and how much of that is not linear.
  * The remainder is laid to their charge in proportion to what is unexplained of each. Decides only
- * what to split. */
+ * what to split; the weight of acceleration is measured. */
 static void add_spread(node *n, const imp_model *m)
 {
     const double uv = 0.5 * fabs(m->q[IMP_UV]);
     const double ut = 0.5 * fabs(m->q[IMP_UT]), vt = 0.5 * fabs(m->q[IMP_VT]);
     double bend[3] = {fabs(m->q[IMP_UU]) + uv + ut, fabs(m->q[IMP_VV]) + uv + vt,
-                      fabs(m->q[IMP_TT]) + ut + vt};
+                      2 * fabs(m->q[IMP_TT]) + ut + vt};
     double share[3], sum = 0;
     for (int j = 0; j < 3; ++j) sum += share[j] = unexplained(n, m, j, bend[j]);
     for (int j = 0; j < 3; ++j) {

@@ -149,24 +149,31 @@ static bool window_is_one_sided(const pair *p, const node *n)
     return p->window.hi <= at || p->window.lo >= at;
 }
 
+/* Whether time blurs the node enough to count beside gamma, and beside what u and v blur of both.
+ */
+static bool time_blurs(const impact *im, const pair *p, const node *n)
+{
+    const double place = pair_remainder(p) - (p->a->unsteady + p->b->unsteady);
+    return 64 * n->unsteady > im->gamma && 4 * n->unsteady > place;
+}
+
 /* What a cut in time is worth, on the scale of the spread. Linear motion costs nothing, so only
- * what bends counts; more where the cut is free, and most where time alone blurs the node more than
- * all curvature of the pair. */
-static double gain_in_time(const pair *p, const node *n)
+ * what bends counts; more where the cut is free, and most where it is and time blurs the node. */
+static double gain_in_time(const impact *im, const pair *p, const node *n)
 {
     if (!window_is_one_sided(p, n)) return 2 * n->bend[PARAMETER_T];
-    return n->unsteady > pair_curvature(p) ? INFINITY : 8 * n->bend[PARAMETER_T];
+    return time_blurs(im, p, n) ? INFINITY : 8 * n->bend[PARAMETER_T];
 }
 
 /* Models: what moves a point most along u or v, or bends it in time. */
-static cut cut_by_spread(const pair *p)
+static cut cut_by_spread(const impact *im, const pair *p)
 {
     cut best = {-1, PARAMETER_U, 0};
     for (int side = 0; side < 2; ++side) {
         const node *n = side_of(p, side);
         cut_consider(&best, p, side, PARAMETER_U, n->spread[0]);
         cut_consider(&best, p, side, PARAMETER_V, n->spread[1]);
-        cut_consider(&best, p, side, PARAMETER_T, gain_in_time(p, n));
+        cut_consider(&best, p, side, PARAMETER_T, gain_in_time(im, p, n));
     }
     return best;
 }
@@ -287,7 +294,7 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
         p->wait -= 1;
     }
     const bool tiny = 64 * pair_extent(p) <= im->gamma - im->clearance;
-    const cut c = tiny ? cut_in_time(p) : cut_by_spread(p);
+    const cut c = tiny ? cut_in_time(p) : cut_by_spread(im, p);
     if (c.side >= 0) return split(im, p, c, state, error);
     *state = IMPACT_RESOLUTION;
     return IMP_SUCCESS;
