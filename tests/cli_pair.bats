@@ -185,3 +185,9 @@ there, though that lies in its domain; shrink the domain" \
     run -0 "$IMPINGE" pair 'formula z=log(u-0.5) domain=[[.51,1],[0,1]]' 'sphere radius=.1 center=.5,.5,-30'
     [ "${lines[0]}" = clear ]
 }
+
+@test "a step too steep for e^x is met where it stands" {
+    run -0 "$IMPINGE" pair 'formula z=1/(1+exp(1e5*(v-.5)))' \
+        'sphere radius=.1 center=.5,.5,1.9 ! translate velocity=0,0,-2' --json
+    json '.verdict == "contact" and (.t - 0.4 | fabs) < 1e-4'
+}

@@ -311,6 +311,50 @@ START_TEST(no_answer_holds_a_nan)
 }
 END_TEST
 
+/* --- What overflows -------------------------------------------------------------------------- */
+
+/* u over [x, x + width], or the number x. */
+static imp_model steep_argument(double x, double width)
+{
+    if (width == 0) return imp_num(x);
+    const imp_region region = {.c = {x + width / 2, 0, 0},
+                               .d = {width / 2, 0, 0},
+                               .lo = {x, 0, 0},
+                               .hi = {x + width, 0, 0}};
+    return imp_param(&region, 0);
+}
+
+/* lo is at most what `exact` gives at x, and says that it is huge. */
+static void ck_huge(double lo, int (*exact)(mpfi_ptr, mpfi_srcptr), double x, double least)
+{
+    mpfi_t value;
+    mpfi_init2(value, ORACLE_BITS);
+    mpfi_set_d(value, x);
+    exact(value, value);
+    ck_assert_msg(mpfr_cmp_d(&value->left, lo) >= 0, "%a exceeds the value at %.17g", lo, x);
+    ck_assert_msg(lo > least, "%a at %.17g", lo, x);
+    mpfi_clear(value);
+}
+
+START_TEST(what_overflows_is_known_to_be_large_and_its_inverse_to_be_small)
+{
+    for (int i = 0; i < suite_times(2000); i++) {
+        uint64_t state = oracle_seed(i);
+        const double x = 709 + suite_power(&state, -40, 40);
+        const double width = suite_bits(&state) & 1 ? 0 : 0x1p-10 * x;
+        const imp_model m = steep_argument(x, width), e = imp_exp(m), c = imp_cosh(m);
+        ck_huge(e.lo, mpfi_exp, x, 8e307);
+        ck_huge(c.lo, mpfi_cosh, x, 4e307);
+        ck_huge(imp_sinh(m).lo, mpfi_sinh, x, 4e307);
+        ck_assert(imp_sinh(imp_neg(m)).hi < -4e307);
+        const imp_model step = imp_div(imp_num(1), imp_shift(e, 1));
+        ck_assert(-1e-301 < step.lo && step.hi < 1e-301 && step.e < 1e-301);
+        const imp_model bump = imp_div(imp_num(1), c);
+        ck_assert(-1e-301 < bump.lo && bump.hi < 1e-301 && bump.e < 1e-301);
+    }
+}
+END_TEST
+
 /* --- Intervals -----------------------------------------------------------------------------------
  */
 
@@ -349,4 +393,6 @@ END_TEST
 
 SUITE_MAIN("model", every_value_that_the_operands_allow_is_covered,
            rates_hold_for_operands_that_change_as_fast_as_theirs_allow, no_answer_holds_a_nan,
-           the_range_of_a_quadratic_covers_it, intervals_cover_every_value)
+           the_range_of_a_quadratic_covers_it,
+           what_overflows_is_known_to_be_large_and_its_inverse_to_be_small,
+           intervals_cover_every_value)

@@ -249,11 +249,12 @@ static inline double imp_sinh_(double x)
 
 static inline double imp_cosh_(double x) { return fabs(x) > 709 ? INFINITY : cosh(x); }
 
-/* Where the true value is finite but beyond 709, the lower end is still right: a NaN
- * from rounding INFINITY down becomes 0 here, -INFINITY elsewhere. */
+/* Beyond 709, where the upper end is infinite, the lower one is that of 709: what grows is at least
+ * there what it is at 709, so that 1 / (1 + e^x) is known to vanish. imp_smaller and imp_larger are
+ * asked so that a NaN stays one, which the interval then opens for. */
 static inline imp_interval imp_interval_exp(imp_interval x)
 {
-    return imp_interval_make(imp_larger(imp_libm_down(imp_exp_(x.lo)), 0),
+    return imp_interval_make(imp_larger(imp_libm_down(imp_exp_(imp_smaller(709, x.lo))), 0),
                              imp_libm_up(imp_exp_(x.hi)));
 }
 
@@ -267,12 +268,13 @@ static inline imp_interval imp_interval_log(imp_interval x)
 
 static inline imp_interval imp_interval_sinh(imp_interval x)
 {
-    return imp_interval_make(imp_libm_down(imp_sinh_(x.lo)), imp_libm_up(imp_sinh_(x.hi)));
+    return imp_interval_make(imp_libm_down(imp_sinh_(imp_smaller(709, x.lo))),
+                             imp_libm_up(imp_sinh_(imp_larger(-709, x.hi))));
 }
 
 static inline imp_interval imp_interval_cosh(imp_interval x)
 {
-    double lo = imp_libm_down(imp_cosh_(imp_interval_mig(x)));
+    double lo = imp_libm_down(imp_cosh_(imp_smaller(709, imp_interval_mig(x))));
     return imp_interval_make(imp_larger(lo, 1), imp_libm_up(imp_cosh_(imp_interval_mag(x))));
 }
 

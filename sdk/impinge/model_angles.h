@@ -166,6 +166,7 @@ static inline imp_model imp_sinh(imp_model x)
 {
     if (imp_is_point(&x)) {
         double y = imp_sinh_(x.a);
+        if (fabs(y) > 0x1p1020) return imp_point_beyond_(imp_interval_sinh(imp_model_range(&x)));
         return imp_point_(&x, y, 1.001 * (fabs(y) + 1));
     }
     double slope = imp_interval_cosh(imp_model_range(&x)).hi;
@@ -180,6 +181,7 @@ static inline imp_model imp_cosh(imp_model x)
 {
     if (imp_is_point(&x)) {
         double y = imp_cosh_(x.a);
+        if (y > 0x1p1020) return imp_point_beyond_(imp_interval_cosh(imp_model_range(&x)));
         return imp_point_within_(&x, y, 1.001 * y, 1, INFINITY);
     }
     double slope = imp_interval_mag(imp_interval_sinh(imp_model_range(&x)));

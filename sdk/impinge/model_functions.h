@@ -273,6 +273,7 @@ static inline imp_model imp_exp(imp_model x)
 {
     if (imp_is_point(&x)) {
         double y = imp_exp_(x.a);
+        if (y > 0x1p1020) return imp_point_beyond_(imp_interval_exp(imp_model_range(&x)));
         return imp_point_within_(&x, y, 1.001 * y, 0, INFINITY);
     }
     imp_series_ s = imp_series_at_(imp_model_range(&x));

@@ -87,11 +87,11 @@ static inline imp_interval imp_series_range_(const imp_series_ *s)
 }
 
 /* Is that range close enough, within 1/256 at either end, to spare libm's calls at the ends? Never
- * if r is infinite: an end may yet be known. */
+ * if r or a coefficient is infinite: an end may yet be known. */
 static inline int imp_series_is_sharp_(const imp_series_ *s)
 {
     double slant = fabs(imp_series_slant_(s));
-    if (!(s->r < INFINITY)) return 0;
+    if (!(s->r < INFINITY && slant < INFINITY)) return 0;
     return s->e + imp_series_bend_(s) <= 0x1p-8 * slant * s->r && 4 * fabs(s->c[2]) * s->r <= slant;
 }
 
@@ -199,6 +199,12 @@ static inline imp_model imp_point_within_(const imp_model *x, double y, double s
     r.lo = imp_larger(r.lo, lo);
     r.hi = imp_smaller(r.hi, hi);
     return r;
+}
+
+/* g at a point where it overflows: its range, of which one end may still be known. */
+static inline imp_model imp_point_beyond_(imp_interval range)
+{
+    return imp_between(range.lo, range.hi);
 }
 
 static inline double imp_power5_(double z) { return z * z * z * z * z; }
