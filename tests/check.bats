@@ -79,6 +79,57 @@ exposes() {
     [ "$output" = "$first" ]
 }
 
+# --- Proofs ------------------------------------------------------------------------------------------
+
+wavy='u; cos(3*u)*sin(2*v); v+sin(u+2*t)'
+
+# disproves LIAR TEXT: what the truthful formula refutes of it.
+disproves() {
+    run -6 "$IMPINGE" check "$liars/$1.so" --only proof --formula "$wavy" --effort "${3-0.1}"
+    echo "$output"
+    [[ $output == *"FAIL  proof "*": $2"*": by the formula "*" is surely in ["*"refuted"* ]]
+}
+
+@test "types that take their formula as text are proved" {
+    local type
+    for type in formula 'formula x=u*exp(-u*v) y=sqrt(1+v*v) z=u*t' \
+        'map-formula x=x*cos(t)-y*sin(t) y=x*sin(t)+y*cos(t)'; do
+        run -0 "$IMPINGE" check "$type" --effort 0.1
+        [[ $output == *"  pass  proof "*" claims over "*" regions are proved"*"  proved("*", 1): "* ]]
+    done
+}
+
+@test "what a proof refutes is a counterexample to what the formula says" {
+    disproves liar_corners 'the rate of y by u'
+    disproves liar_grid 'the rate of y by u'
+    disproves liar_time 'the rate of z by t, 0, over'
+    disproves liar_sign 'the remainder of y' 1
+    disproves liar_remainder 'the remainder of y'
+    disproves liar_range 'the range of z'
+    disproves liar_percent 'the rate of x by u, 0.98999999999999999' 1
+    run -6 "$IMPINGE" check "$liars/liar_error.so" --only proof --formula "$wavy" --effort 0.1
+    [[ $output == *"with the error 0 at "*"surely "*" off"* ]]
+}
+
+@test "a formula may name parameters, and is compared with each stage" {
+    local bowl='center0+radius*cos(v)*cos(u); center1+radius*cos(v)*sin(u); center2+radius*sin(v)'
+    run -0 "$IMPINGE" check sphere --only proof --effort 0.05 --formula "$bowl"
+    [[ $output == *"as: sphere radius=2"*"as: sphere"*"  pass  proof "* ]]
+    run -6 "$IMPINGE" check 'sphere radius=2' --only proof --effort 0.05 \
+        --formula "${bowl//radius/2.0000001}"
+    [[ $output == *"again: impinge check "*" --formula "*" --effort 0.05 --only proof"*refuted* ]]
+}
+
+@test "a formula that cannot be read fails, with its place, and refutes nothing" {
+    run -6 "$IMPINGE" check sphere --only proof --formula 'u;v;radios'
+    [[ $output == *"cannot be read: 'radios', character 7: 'radios' is neither a variable (uvt) nor"* ]]
+    [[ $output != *refuted* ]]
+    run -6 "$IMPINGE" check sphere --only proof --formula 'u;v'
+    [[ $output == *"expected three formulas with ';' between them"* ]]
+    run -0 "$IMPINGE" check sphere --only proof
+    [[ $output == *"skip  proof "*"no formula is known; --formula "* ]]
+}
+
 # --- Manners -------------------------------------------------------------------------------------------
 
 @test "an answer that changes from call to call is exposed" {
@@ -162,6 +213,9 @@ exposes() {
     valid check
     json '.verdict == "fail" and .types[0].label == "refuted"
           and (.types[0].checks[0].replay | contains("--only rates"))'
+    run -0 "$IMPINGE" check formula --json --effort 0.05
+    valid check
+    json '.types[0].label == "proved" and .types[0].proof.claims == .types[0].proof.proved'
 }
 
 @test "every check can be asked for alone, and an unknown one is refused" {

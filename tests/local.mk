@@ -33,6 +33,7 @@ check_suites = \
 
 # The same, with MPFI as the judge of bounds.
 mpfi_suites = \
+    tests/test_checker \
     tests/test_expression_bounds \
     tests/test_formula \
     tests/test_keyframes \
@@ -56,6 +57,10 @@ tests_test_tightness_SOURCES = tests/test_tightness.c $(type_oracle)
 tests_test_plugins_SOURCES = tests/test_plugins.c $(type_oracle) \
     tests/judge.c tests/judge.h \
     tests/sampling.c tests/sampling.h
+# The checker's own arithmetic, which the command keeps to itself.
+tests_test_checker_SOURCES = tests/test_checker.c \
+    tests/expression_oracle.c tests/oracle_number.c \
+    tools/check_branch.c tools/check_formula.c tools/check_jet.c tools/check_span.c
 tests_test_expression_bounds_SOURCES = tests/test_expression_bounds.c \
     tests/expression_oracle.c tests/oracle_number.c tests/judge.c tests/sampling.c
 tests_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)

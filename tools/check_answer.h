@@ -20,6 +20,12 @@ typedef struct check_call {
     double number[8]; /* a point, or lower then upper ends of a region */
 } check_call;
 
+/* Claims about points and whole regions that were proved of a known formula. */
+typedef struct check_proof {
+    uint64_t claims, proved, regions, boxes;
+    char open[480]; /* the first that was not settled */
+} check_proof;
+
 enum { CHECK_SCALES = 3 }; /* sizes of regions for which tightness is measured */
 
 typedef struct check_answer {
@@ -30,6 +36,8 @@ typedef struct check_answer {
     /* Filled by `tightness` and `cost`; NAN: not known. */
     double rate_ratio[CHECK_SCALES], range_ratio[CHECK_SCALES]; /* bound / observed, medians */
     double eval_ns, rate_ns, include_ns;                        /* per point, per region */
+
+    check_proof proof; /* filled by `proof` */
 
     check_call call;
 } check_answer;

@@ -11,6 +11,7 @@
 #include "check_file.h"
 #include "check_inclusions.h"
 #include "check_points.h"
+#include "check_proof.h"
 #include "check_purity.h"
 #include "check_rates.h"
 #include "check_table.h"
@@ -38,12 +39,13 @@ static const check all[] = {
     {.name = "errors", .of_subject = errors_check, .of_bounds = true},
     {.name = "rates", .of_subject = rates_check, .of_bounds = true},
     {.name = "inclusions", .of_subject = inclusions_check, .of_bounds = true},
+    {.name = "proof", .of_subject = proof_check, .of_bounds = true},
     {.name = "tightness", .of_subject = tightness_check},
     {.name = "cost", .of_subject = cost_check},
 };
 const char *const check_names[] = {"exports",     "factories",   "parameters", "memory", "finite",
                                    "determinism", "environment", "buffers",    "errors", "rates",
-                                   "inclusions",  "tightness",   "cost",       NULL};
+                                   "inclusions",  "proof",       "tightness",  "cost",   NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");
@@ -61,12 +63,17 @@ static bool find_type(const imp_registry *registry, const check_task *task, imp_
     return false;
 }
 
-static void check_instances(const check *c, const check_task *task, const char *stage,
-                            const imp_instance *one, const imp_instance *twin, check_answer *answer)
+static void check_instances(const check *c, const check_task *task, const imp_type_info *info,
+                            const char *stage, const imp_instance *one, const imp_instance *twin,
+                            check_answer *answer)
 {
     subject s;
     uint64_t random = draw_stream(task->seed, c->name, stage);
-    if (subject_make(&s, one, twin, answer)) c->of_subject(&s, &random, task->effort);
+    if (!subject_make(&s, one, twin, answer)) return;
+    s.type = info;
+    s.stage = stage;
+    s.formula = task->formula;
+    c->of_subject(&s, &random, task->effort);
 }
 
 static void check_stage(const check *c, const check_task *task, const char *stage,
@@ -80,7 +87,7 @@ static void check_stage(const check *c, const check_task *task, const char *stag
                imp_instance_from_text(registry, task->sort, stage, &twin, &error) != IMP_SUCCESS) {
         answer_fail(answer, "'%.300s' does not work: %s", stage, error.text);
     } else {
-        check_instances(c, task, stage, &one, &twin, answer);
+        check_instances(c, task, info, stage, &one, &twin, answer);
     }
     imp_instance_free(&one);
     imp_instance_free(&twin);

@@ -20,6 +20,7 @@ typedef struct check_task {
     imp_type_sort sort;
     const char *type;                /* NULL: the file itself */
     const char *stage[CHECK_STAGES]; /* of that type, NULL-terminated if fewer */
+    const char *formula;             /* "X; Y; Z" that it is said to be, or NULL */
     uint64_t seed;
     double effort; /* 1: as usual */
     size_t check;  /* index */

@@ -44,6 +44,7 @@ void report_type(check_report *r, imp_type_sort sort, const char *name,
 {
     r->type_failed = r->type_refuted = false;
     r->type_tests = 0;
+    r->type_proof = (check_proof){.claims = 0};
     if (!r->as_json) {
         print_line("%s %s\n", catalogue_sort_name(sort), name);
         for (int k = 0; k < CHECK_STAGES && stage[k] != NULL; ++k)
@@ -79,6 +80,12 @@ static void add_measures(check_report *r, const char *check, const check_answer 
         json_object_set_new(r->type, check,
                             json_pack("{s:o, s:o}", "rates", ratios_json(a->rate_ratio), "ranges",
                                       ratios_json(a->range_ratio)));
+    if (a->proof.claims > 0)
+        json_object_set_new(r->type, check,
+                            json_pack("{s:I, s:I, s:I, s:I}", "claims", (json_int_t)a->proof.claims,
+                                      "proved", (json_int_t)a->proof.proved, "regions",
+                                      (json_int_t)a->proof.regions, "boxes",
+                                      (json_int_t)a->proof.boxes));
     if (strcmp(check, "cost") == 0)
         json_object_set_new(r->type, check,
                             json_pack("{s:o, s:o, s:o}", "eval_ns", output_json_number(a->eval_ns),
@@ -104,8 +111,12 @@ void report_add(check_report *r, const char *check, bool of_bounds, const check_
     *(a->verdict == CHECK_PASS   ? &r->passed
       : a->verdict == CHECK_FAIL ? &r->failed
                                  : &r->skipped) += 1;
-    if (of_bounds) r->type_tests += a->tests;
-    if (a->verdict == CHECK_FAIL) *(of_bounds ? &r->type_refuted : &r->type_failed) = true;
+    if (a->proof.claims > 0)
+        r->type_proof = a->proof;
+    else if (of_bounds)
+        r->type_tests += a->tests;
+    if (a->verdict == CHECK_FAIL)
+        *(of_bounds && a->tests > 0 ? &r->type_refuted : &r->type_failed) = true;
     if (r->as_json) {
         add_json(r, check, a, again);
         return;
@@ -120,18 +131,30 @@ void report_add(check_report *r, const char *check, bool of_bounds, const check_
 /* --- Totals -------------------------------------------------------------------------------------
  */
 
+static const char *type_label(const check_report *r)
+{
+    const check_proof *p = &r->type_proof;
+    if (r->type_refuted) return "refuted";
+    if (r->type_failed) return "failed";
+    return p->claims > 0 && p->proved == p->claims ? "proved" : "tested";
+}
+
 void report_type_end(check_report *r)
 {
-    const char *label = r->type_refuted ? "refuted" : r->type_failed ? "failed" : "tested";
+    const char *label = type_label(r);
+    const unsigned long long seed = r->seed;
     if (r->as_json) {
         json_object_set_new(r->type, "label", json_string(label));
         json_object_set_new(r->type, "tests", json_integer((json_int_t)r->type_tests));
         r->type = NULL;
         return;
     }
-    if (strcmp(label, "tested") == 0)
+    if (strcmp(label, "proved") == 0)
+        printf("  proved(%llu, %llu): claims, seed\n", (unsigned long long)r->type_proof.claims,
+               seed);
+    if (strcmp(label, "proved") == 0 || strcmp(label, "tested") == 0)
         printf("  tested(%llu, %llu): comparisons, seed\n", (unsigned long long)r->type_tests,
-               (unsigned long long)r->seed);
+               seed);
     else
         printf("  %s\n", label);
 }

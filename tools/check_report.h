@@ -19,6 +19,7 @@ typedef struct check_report {
     size_t passed, failed, skipped;
     bool type_failed, type_refuted;
     uint64_t type_tests; /* comparisons of bounds */
+    check_proof type_proof;
 } check_report;
 
 /* Begins; false if memory runs out. */
@@ -30,8 +31,8 @@ void report_type(check_report *r, imp_type_sort sort, const char *name,
 
 void report_add(check_report *r, const char *check, bool of_bounds, const check_answer *answer);
 
-/* The label of the type: proved claims would need its formula, so it is `tested` or `refuted`;
- * `failed` where something else is wrong with it. */
+/* The label of the type: `refuted`; `failed` where something else is wrong with it; `proved` if
+ * its formula is known and every claim that was asked for follows from it; else `tested`. */
 void report_type_end(check_report *r);
 
 /* Totals; prints the object. */

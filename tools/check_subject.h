@@ -17,6 +17,9 @@
 typedef struct subject {
     const imp_instance *instance;
     const imp_instance *twin; /* another of the same parameters */
+    const imp_type_info *type;
+    const char *stage;   /* what it was made from: "sphere radius=2" */
+    const char *formula; /* what the user says it is, or NULL */
     check_answer *answer;
     int n;      /* 3: u, v, t. 4: x, y, z, t */
     box domain; /* where it is examined: infinite times are cut to a few units, and space to [-2,2]

@@ -34,6 +34,18 @@ static const char *word_end(const char *at)
     return at;
 }
 
+char *stage_value(const char *text, const char *parameter)
+{
+    const size_t length = strlen(parameter);
+    while (*text != '\0') {
+        const char *end = word_end(text);
+        if (strncmp(text, parameter, length) == 0 && text[length] == '=')
+            return strndup(text + length + 1, (size_t)(end - text) - length - 1);
+        text = *end != '\0' ? end + 1 : end;
+    }
+    return NULL;
+}
+
 char *stage_with(const char *text, const char *parameter, const char *value)
 {
     const size_t length = strlen(parameter);

@@ -17,6 +17,9 @@ void parameters_check(imp_registry *registry, const imp_type_info *type, const c
 void memory_check(imp_registry *registry, const imp_type_info *type, const char *text,
                   check_answer *answer);
 
+/* The parameter's value as it stands in the stage. Free it. NULL: it does not, or no memory. */
+char *stage_value(const char *text, const char *parameter);
+
 /* The stage with the parameter's value replaced, or added. Free it. NULL: no memory. */
 char *stage_with(const char *text, const char *parameter, const char *value);
 

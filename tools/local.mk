@@ -9,17 +9,23 @@ tool_sources = \
     tools/build_tree.c tools/build_tree.h \
     tools/catalogue.c tools/catalogue.h \
     tools/check_answer.c tools/check_answer.h \
+    tools/check_branch.c tools/check_branch.h \
     tools/check_child.c tools/check_child.h \
     tools/check_cost.c tools/check_cost.h \
     tools/check_file.c tools/check_file.h \
+    tools/check_formula.c tools/check_formula.h \
     tools/check_inclusions.c tools/check_inclusions.h \
+    tools/check_jet.c tools/check_jet.h \
     tools/check_list.c tools/check_list.h \
     tools/check_pair.c tools/check_pair.h \
     tools/check_points.c tools/check_points.h \
+    tools/check_proof.c tools/check_proof.h \
     tools/check_purity.c tools/check_purity.h \
     tools/check_rates.c tools/check_rates.h \
     tools/check_report.c tools/check_report.h \
+    tools/check_said.c tools/check_said.h \
     tools/check_sampling.c tools/check_sampling.h \
+    tools/check_span.c tools/check_span.h \
     tools/check_subject.c tools/check_subject.h \
     tools/check_table.c tools/check_table.h \
     tools/check_under.c tools/check_under.h \

@@ -96,7 +96,8 @@ typedef struct job {
     double seconds;
     double effort;
     uint64_t seed;
-    const option_value *only; /* NULL: all checks */
+    const option_value *formula; /* or NULL */
+    const option_value *only;    /* NULL: all checks */
     check_report report;
     lookup *file; /* these three are shared with children */
     survey *survey;
@@ -109,21 +110,31 @@ static double number_or(const arguments *args, const char *name, double otherwis
     return value != NULL ? value->number[0] : otherwise;
 }
 
+/* " --NAME VALUE", or nothing if it was not given. Free it. NULL: no memory. */
+static char *option_again(const arguments *args, const char *name)
+{
+    const option_value *value = arguments_option(args, name);
+    if (value == NULL) return strdup("");
+    char *word = output_shell_word(value->text), *text = NULL;
+    if (word != NULL && asprintf(&text, " --%s %s", name, word) < 0) text = NULL;
+    free(word);
+    return text;
+}
+
 /* The command line that does the same again. Free it. NULL: no memory. */
 static char *command_line(const job *j)
 {
-    const option_value *path = arguments_option(j->args, "plugin-path");
-    const option_value *effort = arguments_option(j->args, "effort");
     char *line = NULL, *operand = output_shell_word(j->operand);
-    char *directory = output_shell_word(path != NULL ? path->text : "");
-    if (operand != NULL && directory != NULL &&
-        asprintf(&line, "impinge check %s --seed %llu%s%s%s%s", operand,
-                 (unsigned long long)j->seed, effort != NULL ? " --effort " : "",
-                 effort != NULL ? effort->text : "", path != NULL ? " --plugin-path " : "",
-                 path != NULL ? directory : "") < 0)
+    char *formula = option_again(j->args, "formula"), *effort = option_again(j->args, "effort");
+    char *path = option_again(j->args, "plugin-path");
+    if (operand != NULL && formula != NULL && effort != NULL && path != NULL &&
+        asprintf(&line, "impinge check %s --seed %llu%s%s%s", operand, (unsigned long long)j->seed,
+                 formula, effort, path) < 0)
         line = NULL;
     free(operand);
-    free(directory);
+    free(formula);
+    free(effort);
+    free(path);
     return line;
 }
 
@@ -155,6 +166,7 @@ static void run_type(job *j, const survey_type *t)
     check_task task = {.file = j->file->file, .sort = t->sort, .type = t->name};
     task.seed = j->seed;
     task.effort = j->effort;
+    task.formula = j->formula != NULL ? j->formula->text : NULL;
     for (int k = 0; k < CHECK_STAGES; ++k) task.stage[k] = t->stage[k][0] ? t->stage[k] : NULL;
     if (j->type.name[0] != '\0' && strcmp(j->operand, t->name) != 0) {
         task.stage[0] = j->operand;
@@ -215,6 +227,7 @@ static exit_status run(const arguments *args)
     j.seconds = number_or(args, "max-seconds", 60);
     j.effort = number_or(args, "effort", 1);
     j.seed = seed != NULL ? seed->count : 1;
+    j.formula = arguments_option(args, "formula");
     j.only = arguments_option(args, "only");
     j.file = child_memory(sizeof *j.file);
     j.survey = child_memory(sizeof *j.survey);
@@ -244,6 +257,11 @@ static const option options_check[] = {
      .argument = "N",
      .min_open = true,
      .help = "search N times as long (1)"},
+    {.name = "formula",
+     .kind = OPTION_TEXT,
+     .argument = "X;Y;Z",
+     .help =
+         "what the surface or map is said to be, in the language of the type formula: prove it"},
     {.name = "only",
      .kind = OPTION_CHOICE,
      .argument = "CHECK",
@@ -269,9 +287,12 @@ const verb verb_check = {
         "a plugin that crashes or hangs has failed a check. Types are tried as in their example\n"
         "and with all defaults; 'TYPE name=value ...' tries that surface or map instead.\n"
         "\n"
-        "Rates, inclusions and errors are claims that can be refuted, but not proved, by looking\n"
-        "from outside: a type is labelled tested(comparisons, seed) or refuted, with a\n"
-        "counterexample and a command line that finds it again.\n"
+        "Rates, inclusions and errors are claims. Looking from outside can refute them: a type is\n"
+        "labelled tested(comparisons, seed) or refuted, with a counterexample and a command line\n"
+        "that finds it again. Where the formula is known, from --formula or because the type's "
+        "own\n"
+        "parameters x, y and z are one, branch and bound in intervals proves them, region by\n"
+        "region, whatever the plugin computes: proved(claims, seed).\n"
         "\n"
         "Exit status: 0 nothing failed, 4 no such file or type, 6 a check failed.\n",
     .example = "impinge check sphere",

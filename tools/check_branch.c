@@ -1,0 +1,348 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "check_branch.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/* --- Claims as bits of a mask -------------------------------------------------------------------
+ *
+ * Of each coordinate: rates by four variables, the range, the remainder. */
+
+enum { RANGE = BOX_DIMS, REMAINDER, PER_COORDINATE, CLAIMS = 3 * PER_COORDINATE };
+enum { DEPTH_MAX = 48 };
+
+typedef struct part {
+    span x[BOX_DIMS];
+    uint32_t open; /* claims that are not proved here */
+    int depth;
+} part;
+
+typedef struct search {
+    const branch_field *field;
+    const branch_claims *claims;
+    uint32_t given_up;
+    branch_outcome outcome;
+} search;
+
+static uint32_t bit(int i, int which) { return 1u << (i * PER_COORDINATE + which); }
+
+static uint32_t all_claims(const branch_field *field, const branch_claims *c)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 3; ++i) {
+        const imp_model *g = &c->model[i];
+        for (int j = 0; j < field->n; ++j)
+            if (c->rate[i][j] < INFINITY) mask |= bit(i, j);
+        if (!c->has_models) continue;
+        if (g->lo > -INFINITY || g->hi < INFINITY) mask |= bit(i, RANGE);
+        if (g->e < INFINITY) mask |= bit(i, REMAINDER);
+    }
+    return mask;
+}
+
+static int count_bits(uint32_t mask)
+{
+    int count = 0;
+    for (; mask != 0; mask &= mask - 1) ++count;
+    return count;
+}
+
+/* --- Polynomials ---------------------------------------------------------------------------------
+ */
+
+static void add_term(jet *sum, const jet *x, double k)
+{
+    const jet term = jet_scale(x, span_of(k));
+    *sum = jet_add(sum, &term);
+}
+
+jet branch_polynomial(const imp_model *g, double cubic, const jet s[3])
+{
+    jet both, sum = jet_constant(3, span_of(g->a));
+    for (int j = 0; j < 3; ++j)
+        if (g->b[j] != 0) add_term(&sum, &s[j], g->b[j]);
+    for (int j = 0, m = 0; j < 3; ++j)
+        for (int k = j; k < 3; ++k, ++m) {
+            if (g->q[m] == 0) continue;
+            both = j == k ? jet_apply(jet_sqr_, &s[j]) : jet_mul(&s[j], &s[k]);
+            add_term(&sum, &both, g->q[m]);
+        }
+    if (cubic == 0) return sum;
+    both = jet_mul(&s[0], &s[1]);
+    both = jet_mul(&both, &s[2]);
+    add_term(&sum, &both, cubic);
+    return sum;
+}
+
+/* --- One box
+ * -------------------------------------------------------------------------------------- */
+
+static bool is_inside(span x, span limits) { return x.lo >= limits.lo && x.hi <= limits.hi; }
+
+static bool is_outside(span x, span limits) { return x.lo > limits.hi || x.hi < limits.lo; }
+
+/* Everything that is known of it. `off` is the distance from the model's quadratic. */
+typedef struct view {
+    span offset[BOX_DIMS], middle[BOX_DIMS];
+    jet box[3], centre[3], off_box[3], off_centre[3];
+    bool has_point; /* the middle surely is one of the region */
+} view;
+
+/* p = c + d s, within the region. False: some of c + d s may be outside of it. */
+static bool number_of(const branch_claims *c, int j, const jet *s, jet *p)
+{
+    const span where = span_make(c->where.lo[j], c->where.hi[j]);
+    *p = jet_scale(s, span_of(c->d[j]));
+    p->v = span_add(span_of(c->c[j]), p->v);
+    const bool within = is_inside(p->v, where);
+    if (p->v.lo > where.hi) p->v.lo = where.hi;
+    if (p->v.hi < where.lo) p->v.hi = where.lo;
+    p->v = span_meet(p->v, where);
+    return within;
+}
+
+/* x, y, z and, for those that are open, how far they are off the quadratic. False: some of it may
+ * be outside of the region. */
+static bool look_at(const search *s, const part *b, const span where[BOX_DIMS], jet out[3],
+                    jet off[3])
+{
+    const branch_claims *c = s->claims;
+    jet p[BOX_DIMS], normalized[BOX_DIMS];
+    bool within = true;
+    for (int j = 0; j < s->field->n; ++j) {
+        normalized[j] = jet_variable(s->field->n, j, where[j]);
+        within &= number_of(c, j, &normalized[j], &p[j]);
+    }
+    s->field->jets(s->field->context, p, normalized, out);
+    for (int i = 0; i < 3; ++i) {
+        if ((b->open & bit(i, REMAINDER)) == 0) continue;
+        const jet quadratic = branch_polynomial(&c->model[i], 0, normalized);
+        off[i] = jet_sub(&out[i], &quadratic);
+    }
+    return within;
+}
+
+/* The middle, or 0 where that is nearly it: there, p is c exactly. */
+static long double middle_of(span x)
+{
+    const long double m = span_mid(x);
+    return fabsl(m) < 0x1p-20L * (x.hi - x.lo) ? 0 : m;
+}
+
+static void look(search *s, const part *b, view *v)
+{
+    for (int j = 0; j < s->field->n; ++j) {
+        v->middle[j] = span_of(middle_of(b->x[j]));
+        v->offset[j] = span_sub(b->x[j], v->middle[j]);
+    }
+    look_at(s, b, b->x, v->box, v->off_box);
+    v->has_point = look_at(s, b, v->middle, v->centre, v->off_centre);
+    ++s->outcome.boxes;
+}
+
+/* What a claim is about, over the box and at its middle, and the limits that it sets: within the
+ * inner ones it surely holds, outside of the outer ones it surely does not. */
+typedef struct matter {
+    span over, at, inner, outer;
+} matter;
+
+/* Slopes by s are d times those by p. */
+static matter matter_of(const search *s, const view *v, int i, int which)
+{
+    const branch_claims *c = s->claims;
+    const imp_model *g = &c->model[i];
+    const span range = span_make(g->lo, g->hi), rest = span_plus_minus(g->e);
+    if (which == RANGE)
+        return (matter){jet_values(&v->box[i], &v->centre[i], v->offset), v->centre[i].v, range,
+                        range};
+    if (which == REMAINDER)
+        return (matter){jet_values(&v->off_box[i], &v->off_centre[i], v->offset),
+                        v->off_centre[i].v, rest, rest};
+    const span most = span_mul(span_of(c->rate[i][which]), span_of(c->d[which]));
+    return (matter){jet_slopes(&v->box[i], &v->centre[i], v->offset, which), v->centre[i].d[which],
+                    span_plus_minus(most.lo), span_plus_minus(most.hi)};
+}
+
+static void name_claim(search *s, const view *v, int i, int which, span there)
+{
+    branch_outcome *o = &s->outcome;
+    o->kind = which == RANGE ? BRANCH_RANGE : which == REMAINDER ? BRANCH_REMAINDER : BRANCH_RATE;
+    o->i = i;
+    o->j = which;
+    o->there = which < RANGE ? span_div(there, span_of(s->claims->d[which])) : there;
+    for (int j = 0; j < s->field->n; ++j)
+        o->p[j] = s->claims->c[j] + s->claims->d[j] * v->middle[j].lo;
+}
+
+/* How it changes with variable k. */
+static span trend(const view *v, int i, int which, int k)
+{
+    if (which == RANGE) return jet_slopes(&v->box[i], &v->centre[i], v->offset, k);
+    if (which == REMAINDER) return jet_slopes(&v->off_box[i], &v->off_centre[i], v->offset, k);
+    return which <= k ? v->box[i].h[which][k] : v->box[i].h[k][which];
+}
+
+/* Where it can only grow, or only fall, along a variable, the greatest (least) of it is at an end.
+ * False: it does neither along any. */
+static bool reduce(const search *s, const view *v, part *b, int i, int which, bool greatest)
+{
+    bool reduced = false;
+    for (int k = 0; k < s->field->n; ++k) {
+        const span slope = trend(v, i, which, k);
+        if (!(b->x[k].lo < b->x[k].hi) || (slope.lo < 0 && slope.hi > 0)) continue;
+        b->x[k] = span_of((slope.lo >= 0) == greatest ? b->x[k].hi : b->x[k].lo);
+        reduced = true;
+    }
+    return reduced;
+}
+
+/* Is it refuted at the middle? Then it is named. */
+static bool is_refuted(search *s, const view *v, int i, int which, const matter *m)
+{
+    if (!v->has_point || !is_outside(m->at, m->outer)) return false;
+    s->outcome.refuted = true;
+    name_claim(s, v, i, which, m->at);
+    return true;
+}
+
+/* A closer look at one claim, at the ends where its extremes are. */
+static bool is_proved_at_ends(search *s, const part *b, const view *v, int i, int which)
+{
+    static view ends; /* large */
+    bool proved = true;
+    for (int greatest = 0; greatest < 2 && proved && !s->outcome.refuted; ++greatest) {
+        part end = *b;
+        if (!reduce(s, v, &end, i, which, greatest)) return false;
+        look(s, &end, &ends);
+        const matter m = matter_of(s, &ends, i, which);
+        is_refuted(s, &ends, i, which, &m);
+        proved = greatest ? m.over.hi <= m.inner.hi : m.over.lo >= m.inner.lo;
+    }
+    return proved;
+}
+
+/* Strikes off what is proved over the box. False: something is refuted. */
+static bool judge(search *s, part *b, const view *v)
+{
+    for (int i = 0; i < 3; ++i)
+        for (int which = 0; which < PER_COORDINATE; ++which) {
+            if ((b->open & bit(i, which)) == 0) continue;
+            const matter m = matter_of(s, v, i, which);
+            if (is_refuted(s, v, i, which, &m)) return false;
+            if (is_inside(m.over, m.inner) || is_proved_at_ends(s, b, v, i, which))
+                b->open &= ~bit(i, which);
+            if (s->outcome.refuted) return false;
+        }
+    return true;
+}
+
+/* --- Halving
+ * ----------------------------------------------------------------------------------------
+ *
+ * Along the variable that the excess of the bounds comes from most: how much second derivatives
+ * vary over the box, weighed by its size, in units of the limits. A small share of their size keeps
+ * it going where they do not vary. */
+
+static long double unrest(const jet *g, int j, int k)
+{
+    const span bend = j <= k ? g->h[j][k] : g->h[k][j];
+    return (bend.hi - bend.lo) + 0x1p-10L * span_mag(bend);
+}
+
+static long double excess(const search *s, const view *v, int i, int which, int k)
+{
+    const imp_model *g = &s->claims->model[i];
+    const long double r = span_mag(v->offset[k]);
+    long double sum = 0;
+    if (which == RANGE) return r * span_mag(v->box[i].d[k]) / ((long double)g->hi - g->lo);
+    if (which != REMAINDER)
+        return r * unrest(&v->box[i], which, k) /
+               ((long double)s->claims->rate[i][which] * s->claims->d[which]);
+    for (int l = 0; l < s->field->n; ++l)
+        sum += unrest(&v->off_box[i], k, l) * r * span_mag(v->offset[l]);
+    return sum / g->e;
+}
+
+static long double share(const search *s, const part *b, const view *v, int k)
+{
+    const long double r = span_mag(v->offset[k]);
+    long double sum = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int which = 0; which < PER_COORDINATE; ++which) {
+            if ((b->open & bit(i, which)) == 0 || r == 0 || span_is(v->box[i].d[k], 0)) continue;
+            const long double more = excess(s, v, i, which, k);
+            sum += r * 0x1p-100L + (more < 1e6L ? more : 1e6L * r); /* infinite or NaN: by size */
+        }
+    return sum;
+}
+
+static int worst_variable(const search *s, const part *b, const view *v)
+{
+    int worst = 0;
+    long double most = -1;
+    for (int k = 0; k < s->field->n; ++k) {
+        const long double here = share(s, b, v, k);
+        if (here > most) most = here, worst = k;
+    }
+    return worst;
+}
+
+static int split(search *s, const part *b, const view *v, part *stack, int count)
+{
+    const int k = worst_variable(s, b, v);
+    const long double m = v->middle[k].lo;
+    if (b->depth == DEPTH_MAX || !(b->x[k].lo < b->x[k].hi)) {
+        s->given_up |= b->open;
+        return count;
+    }
+    part lower = *b, upper = *b;
+    lower.depth = upper.depth = b->depth + 1;
+    lower.x[k].hi = upper.x[k].lo = m;
+    stack[count++] = lower;
+    stack[count++] = upper;
+    return count;
+}
+
+static void name_open(search *s, const view *v)
+{
+    for (int k = 0; k < CLAIMS; ++k)
+        if (s->given_up >> k & 1)
+            name_claim(s, v, k / PER_COORDINATE, k % PER_COORDINATE, span_whole());
+}
+
+/* All s of the region, or a little more; p stays within it. */
+static span whole_range(const branch_claims *c, int j)
+{
+    const span p = span_sub(span_make(c->where.lo[j], c->where.hi[j]), span_of(c->c[j]));
+    return c->d[j] > 0 ? span_div(p, span_of(c->d[j])) : span_of(0);
+}
+
+branch_outcome branch_settle(const branch_field *field, const branch_claims *claims,
+                             unsigned long budget)
+{
+    part stack[DEPTH_MAX + 2] = {{.open = all_claims(field, claims)}};
+    search s = {.field = field, .claims = claims};
+    view v;
+    const uint32_t all = stack[0].open;
+    int count = 1;
+    memset(&v, 0, sizeof v);
+    for (int j = 0; j < field->n; ++j) stack[0].x[j] = whole_range(claims, j);
+    while (count > 0) {
+        part b = stack[--count];
+        b.open &= ~s.given_up;
+        if (b.open == 0) continue;
+        if (s.outcome.boxes >= budget) {
+            s.given_up |= b.open;
+            continue;
+        }
+        look(&s, &b, &v);
+        if (!judge(&s, &b, &v)) break;
+        if (b.open != 0) count = split(&s, &b, &v, stack, count);
+    }
+    s.outcome.claims = count_bits(all);
+    s.outcome.proved = s.outcome.refuted ? 0 : count_bits(all & ~s.given_up);
+    if (!s.outcome.refuted) name_open(&s, &v);
+    return s.outcome;
+}
