@@ -3,6 +3,7 @@
 #include "axes.h"
 
 #include "lanes.h"
+#include "nearest_axis.h"
 #include "quadratic.h"
 
 /* Four directions, coordinate by coordinate; and their absolute values. */
@@ -132,15 +133,6 @@ LANES_INLINE bool share_take(share *s, const cuts *c)
     return !(s->lo > s->hi);
 }
 
-/* Along each axis B - A >= low + drift w, and apart where that exceeds limit; b and minus_a are the
- * forms whose least values are in them, which leave no more than `reach` of what the centres show.
- */
-typedef struct view {
-    bundle n;
-    forms minus_a, b;
-    lanes low, drift, limit, reach;
-} view;
-
 /* Of length 1 to 2, pointing from A to B at the share's start. */
 LANES_INLINE lanes bundle_orient(bundle *n, const relative *r, double start)
 {
@@ -198,131 +190,50 @@ LANES_INLINE chord chord_under(const forms *f, const forms *g)
  * 2^-45 R = 256 u R. 2^-490 outweighs underflow, since every axis has a coordinate of 1. Lanes
  * whose axis or size is out of range are left out: they prove nothing. The far side is looked at
  * only where it may end below g. */
-LANES_INLINE bool bundle_cut(const relative *r, double clearance, share *s, view *v)
+LANES_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, share *s)
 {
-    bundle *n = &v->n;
     const lanes longest = bundle_orient(n, r, s->lo);
-    const forms a = project(n, &r->a), b = project(n, &r->b), minus_b = negative(&b);
+    const forms a = project(n, &r->a), b = project(n, &r->b);
+    const forms minus_a = negative(&a), minus_b = negative(&b);
     const lanes offset = along(n, r->delta), drift = along(n, r->drift);
     const lanes size = weighted(n, r->magnitude);
     const lanes slack = weighted(n, r->slack) + size * lanes_all(0x1p-45) + lanes_all(0x1p-490);
     const lanes_mask sane = (longest > lanes_all(0x1p-400)) & (longest < lanes_all(0x1p400)) &
                             (size < lanes_all(0x1p400));
-    v->limit = lanes_pick(sane, limit_of(n, clearance), lanes_all(INFINITY));
-    v->minus_a = negative(&a);
-    v->b = b;
-    const chord near = chord_under(&b, &v->minus_a);
-    v->reach = -near.middle;
-    v->low = offset + near.middle - slack;
-    v->drift = drift + near.tilt;
+    const lanes limit = lanes_pick(sane, limit_of(n, clearance), lanes_all(INFINITY));
+    const chord near = chord_under(&b, &minus_a);
     cuts c = {lanes_all(-1), lanes_all(1), (lanes_mask){0}};
-    cut(&c, v->low, v->drift, v->limit);
+    cut(&c, offset + near.middle - slack, drift + near.tilt, limit);
     const lanes seen = lanes_abs(drift) - offset + glimpse(&a) + glimpse(&minus_b);
     if (lanes_any(seen > lanes_all(0))) {
         const chord far = chord_under(&a, &minus_b);
-        cut(&c, far.middle - offset - slack, far.tilt - drift, v->limit);
+        cut(&c, far.middle - offset - slack, far.tilt - drift, limit);
     }
     return share_take(s, &c);
 }
 
-/* --- Uphill --------------------------------------------------------------------------------- */
-
-/* The lane that is nearest to parting the nodes at w; -1 if none is of use. */
-LANES_INLINE int view_best(const view *v, double w, double *value)
+/* Along the axis that is best at the window's start, since the start decides when the earliest
+ * contact can be; both normals; and the line of centres at the window's end. Where no axis is any
+ * good at the start, along the line of centres there. */
+LANES_INLINE bool cut_along_axes(const relative *r, double clearance, share *s, vec3 *axis)
 {
-    const lanes values = v->low + v->drift * lanes_all(w) - v->limit;
-    int best = -1;
-    *value = -INFINITY;
-    for (int k = 0; k < LANES; ++k)
-        if (values[k] > *value) *value = values[best = k];
-    return best;
+    const vec3 delta = vec3_from(r->delta), drift = vec3_from(r->drift);
+    const vec3 start = vec3_sub(delta, drift), end = vec3_sub(delta, vec3_scale(drift, -1));
+    vec3 best = vec3_norm1(*axis) > 0 ? *axis : start;
+    const bool apart = nearest_axis(r, -1, &best);
+    if (apart) *axis = best;
+    bundle n = bundle_of(apart ? best : start, r->a.normal, r->b.normal, end);
+    return bundle_cut(r, &n, clearance, s);
 }
 
-LANES_INLINE vec3 view_axis(const view *v, int lane)
+LANES_WIDE static bool cut_along_axes_wide(const relative *r, double clearance, share *s,
+                                           vec3 *axis)
 {
-    return (vec3){{v->n.x[0][lane], v->n.x[1][lane], v->n.x[2][lane]}};
-}
-
-/* Where b s + q s^2 is least over [-1, 1]. */
-static inline double least_at(double b, double q)
-{
-    if (fabs(b) < 2 * q) return -b / (2 * q);
-    return b > 0 ? -1 : 1;
-}
-
-/* Where a form is least, about: u and v in turn. */
-LANES_INLINE void bottom(const forms *turning, double w, int k, double at[2])
-{
-    const forms f = form_at(turning, w);
-    at[0] = least_at(f.bu[k], f.uu[k]);
-    for (int pass = 0; pass < 2; ++pass) {
-        at[1] = least_at(f.bv[k] + f.uv[k] * at[0], f.vv[k]);
-        at[0] = least_at(f.bu[k] + f.uv[k] * at[1], f.uu[k]);
-    }
-}
-
-static inline double slice_value(const slice *f, int i, const double s[2], double w)
-{
-    return (f->bu[i] + f->quw[i] * w + f->quu[i] * s[0] + f->quv[i] * s[1]) * s[0] +
-           (f->bv[i] + f->qvw[i] * w + f->qvv[i] * s[1]) * s[1];
-}
-
-/* Four axes on the way from lane k of v to where the nodes are farther apart. What an axis shows,
- * as a function of the axis, has the gradient y - x, for x and y the points that decide it; only
- * the part g square to the axis turns it. Steps are measured by the angle at which the surfaces
- * begin to reach as far along g as along the axis. */
-LANES_INLINE bundle uphill(const relative *r, const view *v, int k, double w)
-{
-    double a[2], b[2];
-    bottom(&v->minus_a, w, k, a);
-    bottom(&v->b, w, k, b);
-    const vec3 n = view_axis(v, k);
-    vec3 g;
-    for (int i = 0; i < 3; ++i) {
-        const double slack = n.x[i] > 0 ? r->slack[i] : -r->slack[i];
-        g.x[i] = r->delta[i] + r->drift[i] * w + slice_value(&r->b, i, b, w) -
-                 slice_value(&r->a, i, a, w) - slack;
-    }
-    g = vec3_sub(g, vec3_scale(n, vec3_dot(g, n) / vec3_dot(n, n)));
-    const lanes steps = {0.01, 0.04, 0.15, 0.5};
-    const lanes step = steps * lanes_all(v->reach[k] / vec3_dot(g, g));
-    bundle m;
-    for (int i = 0; i < 3; ++i) m.x[i] = lanes_all(n.x[i]) + step * lanes_all(g.x[i]);
-    return m;
-}
-
-/* The line of centres at the window's start (it decides when the earliest contact can be), both
- * normals, and what served the parents or, for want of parents, the line square to both normals. */
-LANES_INLINE bundle first_bundle(const relative *r, const vec3 *axis)
-{
-    const vec3 na = r->a.normal, nb = r->b.normal;
-    const vec3 start = vec3_sub(vec3_from(r->delta), vec3_from(r->drift));
-    return bundle_of(start, na, nb, vec3_norm1(*axis) > 0 ? *axis : vec3_cross(na, nb));
-}
-
-LANES_INLINE bool bundles_cut(const relative *r, double clearance, share *s, vec3 *axis)
-{
-    double first, second;
-    view v, up;
-    v.n = first_bundle(r, axis);
-    if (!bundle_cut(r, clearance, s, &v)) return false;
-    int k = view_best(&v, s->lo, &first);
-    if (k < 0) return true;
-    up.n = uphill(r, &v, k, s->lo);
-    if (!bundle_cut(r, clearance, s, &up)) return false;
-    k = view_best(&v, s->lo, &first);
-    const int l = view_best(&up, s->lo, &second);
-    *axis = second > first ? view_axis(&up, l) : view_axis(&v, k);
-    return true;
-}
-
-LANES_WIDE static bool bundles_cut_wide(const relative *r, double clearance, share *s, vec3 *axis)
-{
-    return bundles_cut(r, clearance, s, axis);
+    return cut_along_axes(r, clearance, s, axis);
 }
 
 bool axes_cut(const relative *r, double clearance, share *s, vec3 *axis)
 {
-    return lanes_are_wide() ? bundles_cut_wide(r, clearance, s, axis)
-                            : bundles_cut(r, clearance, s, axis);
+    return lanes_are_wide() ? cut_along_axes_wide(r, clearance, s, axis)
+                            : cut_along_axes(r, clearance, s, axis);
 }

@@ -30,6 +30,7 @@ core_solver = \
     core/lanes.h \
     core/relative.c core/relative.h \
     core/normal_field.c core/normal_field.h \
+    core/nearest_axis.c core/nearest_axis.h \
     core/axes.c core/axes.h \
     core/separation.c core/separation.h \
     core/pair_heap.c core/pair_heap.h \
