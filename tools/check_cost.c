@@ -7,11 +7,13 @@
 #include <impinge/formula.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "check_pair.h"
+#include "check_reach.h"
 
 /* --- Tightness --------------------------------------------------------------------------- */
 
@@ -164,6 +166,33 @@ static double measure(load *l, void (*run)(load *))
     return 1e9 * spent / ((double)rounds * BATCH);
 }
 
+typedef struct cost_text {
+    char text[120];
+} cost_text;
+
+static cost_text include_text(const check_answer *answer)
+{
+    cost_text t = {""};
+    if (!isnan(answer->include_ns))
+        snprintf(t.text, sizeof t.text, " and include %.3g", answer->include_ns);
+    return t;
+}
+
+static cost_text pairs_text(const subject *s, const check_answer *answer)
+{
+    cost_text t = {""};
+    char count[2][24];
+    for (int k = 0; k < 2; ++k) {
+        snprintf(count[k], sizeof count[k], "over %d", REACH_MOST);
+        if (!isnan(answer->pairs[k])) snprintf(count[k], sizeof count[k], "%.0f", answer->pairs[k]);
+    }
+    if (s->n == 3)
+        snprintf(t.text, sizeof t.text,
+                 "; pairs tested with a plane 1e-3 and 1e-6 of its size away: %s, %s", count[0],
+                 count[1]);
+    return t;
+}
+
 void cost_check(const subject *s, uint64_t *random, double effort)
 {
     static load l;
@@ -181,10 +210,8 @@ void cost_check(const subject *s, uint64_t *random, double effort)
     answer->eval_ns = measure(&l, all_points);
     answer->rate_ns = measure(&l, all_rates);
     answer->include_ns = includes ? measure(&l, all_models) : NAN;
-    if (includes)
-        answer_pass(answer, "eval %.3g ns per point, rate %.3g and include %.3g ns per region",
-                    answer->eval_ns, answer->rate_ns, answer->include_ns);
-    else
-        answer_pass(answer, "eval %.3g ns per point, rate %.3g ns per region", answer->eval_ns,
-                    answer->rate_ns);
+    answer->pairs[0] = reach_pairs(s, 1e-3);
+    answer->pairs[1] = reach_pairs(s, 1e-6);
+    answer_pass(answer, "eval %.3g ns per point, rate %.3g%s ns per region%s", answer->eval_ns,
+                answer->rate_ns, include_text(answer).text, pairs_text(s, answer).text);
 }

@@ -10,7 +10,7 @@
 /* Bound / observed, medians over regions of 1/64, 1/8 and 1 of the domain along each dimension. */
 void tightness_check(const subject *s, uint64_t *random, double effort);
 
-/* Nanoseconds per point and per region. */
+/* Nanoseconds per point and per region, and pairs of regions with a plane (check_reach.h). */
 void cost_check(const subject *s, uint64_t *random, double effort);
 
 #endif

@@ -87,10 +87,12 @@ static void add_measures(check_report *r, const char *check, const check_answer 
                                       (json_int_t)a->proof.regions, "boxes",
                                       (json_int_t)a->proof.boxes));
     if (strcmp(check, "cost") == 0)
-        json_object_set_new(r->type, check,
-                            json_pack("{s:o, s:o, s:o}", "eval_ns", output_json_number(a->eval_ns),
-                                      "rate_ns", output_json_number(a->rate_ns), "include_ns",
-                                      output_json_number(a->include_ns)));
+        json_object_set_new(
+            r->type, check,
+            json_pack("{s:o, s:o, s:o, s:[o, o]}", "eval_ns", output_json_number(a->eval_ns),
+                      "rate_ns", output_json_number(a->rate_ns), "include_ns",
+                      output_json_number(a->include_ns), "pairs", output_json_number(a->pairs[0]),
+                      output_json_number(a->pairs[1])));
 }
 
 static void add_json(check_report *r, const char *check, const check_answer *a, const char *again)

@@ -22,6 +22,7 @@ tool_sources = \
     tools/check_proof.c tools/check_proof.h \
     tools/check_purity.c tools/check_purity.h \
     tools/check_rates.c tools/check_rates.h \
+    tools/check_reach.c tools/check_reach.h \
     tools/check_report.c tools/check_report.h \
     tools/check_said.c tools/check_said.h \
     tools/check_sampling.c tools/check_sampling.h \
