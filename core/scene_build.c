@@ -89,19 +89,46 @@ static imp_status call_create(const type_view *view, isolated *stand_in, const i
     return isolate_create(stand_in, values, why);
 }
 
+/* A complaint, and marks on either side that show when create writes beyond it. */
+#define MARK 0x5a
+typedef struct guarded_complaint {
+    unsigned char before[64];
+    imp_complaint why;
+    unsigned char after[256]; /* texts that are too long end here */
+} guarded_complaint;
+
+static void guard(guarded_complaint *g)
+{
+    memset(g, MARK, sizeof *g);
+    g->why = (imp_complaint){.struct_size = sizeof g->why, .parameter = -1, .element = -1};
+}
+
+static bool is_whole(const guarded_complaint *g)
+{
+    for (size_t k = 0; k < sizeof g->before; ++k)
+        if (g->before[k] != MARK) return false;
+    for (size_t k = 0; k < sizeof g->after; ++k)
+        if (g->after[k] != MARK) return false;
+    return true;
+}
+
 /* Runs the plugin's create and judges its answer. */
 static imp_code run_create(const type_view *view, isolated *stand_in, const char *file,
                            const parameter_values *values, const place *at, void **self,
                            imp_error *error)
 {
-    imp_complaint why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
+    guarded_complaint g;
+    guard(&g);
     *self = NULL;
     fp_mode before = fp_mode_read();
     in_call_begin(view->name, "create");
-    imp_status status = call_create(view, stand_in, values->value, self, &why);
+    imp_status status = call_create(view, stand_in, values->value, self, &g.why);
     in_call_end();
     bool kept = fp_mode_kept(before);
-    if (status != IMP_OK) return judge_failure(status, view, file, values, &why, at, error);
+    if (!is_whole(&g))
+        return blame(file, view, "create wrote beyond the imp_complaint it was given: the fault",
+                     at, error);
+    if (status != IMP_OK) return judge_failure(status, view, file, values, &g.why, at, error);
     if (!*self)
         return blame(file, view, "create answered OK without an instance: the fault", at, error);
     if (kept) return IMP_SUCCESS;

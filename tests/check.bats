@@ -149,6 +149,11 @@ disproves() {
     run "$IMPINGE" check sphere --only memory
     [[ $output != *"skip  memory"* ]] || skip "malloc does not tell"
     exposes memory liar_leak '256 instances, made, asked and destroyed, leave'
+    exposes memory liar_refusal '64 times size=-1, refused or destroyed, leave'
+}
+
+@test "a complaint that is longer than its place is exposed" {
+    exposes parameters create_overflows 'create wrote beyond the imp_complaint it was given'
 }
 
 @test "a coordinate that is not a number is exposed" {
@@ -208,7 +213,7 @@ disproves() {
     run -0 "$IMPINGE" check torus --json --effort 0.05
     valid check
     json '.verdict == "pass" and .types[0].label == "tested" and .types[0].tests > 1000
-          and (.types[0].cost.eval_ns > 0) and (.types[0].tightness.rates[0] >= 1)'
+          and (.types[0].cost.eval_ns > 0) and .types[0].cost.pairs[1] < 200 and (.types[0].tightness.rates[0] >= 1)'
     run -6 "$IMPINGE" check "$liars/liar_time.so" --json --effort 0.05 --only rates
     valid check
     json '.verdict == "fail" and .types[0].label == "refuted"

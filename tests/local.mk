@@ -99,6 +99,7 @@ check_LTLIBRARIES = \
     tests/plugins/create_crashes.la \
     tests/plugins/create_fails.la \
     tests/plugins/create_null.la \
+    tests/plugins/create_overflows.la \
     tests/plugins/create_rounds.la \
     tests/plugins/domain_crashes.la \
     tests/plugins/domain_nan.la \
@@ -135,6 +136,7 @@ check_LTLIBRARIES = \
     tests/plugins/liar_nan.la \
     tests/plugins/liar_percent.la \
     tests/plugins/liar_range.la \
+    tests/plugins/liar_refusal.la \
     tests/plugins/liar_remainder.la \
     tests/plugins/liar_rounding.la \
     tests/plugins/liar_sign.la \

@@ -211,7 +211,10 @@ static double bytes_in_use(void)
 #endif
 }
 
-enum { SPELLS = 6, ROUNDS = 256 };
+enum { SPELLS = 6, ROUNDS = 256, REFUSED_ROUNDS = 64 };
+
+/* What is done again and again. False: it cannot be done. */
+typedef bool life(const trial *t);
 
 static bool one_life(const trial *t)
 {
@@ -231,15 +234,23 @@ static bool one_life(const trial *t)
     return t->answer->verdict != CHECK_FAIL;
 }
 
-/* Bytes by which ROUNDS lives grow the heap, at least: malloc keeps blocks at hand and learns how
+/* Whatever create says to it. */
+static bool one_try(const trial *t)
+{
+    imp_error error;
+    try_stage(t, t->text, &error);
+    return true;
+}
+
+/* Bytes by which so many lives grow the heap, at least: malloc keeps blocks at hand and learns how
  * many, so that some spells grow it anyway; a leak does so in each. Negative: it cannot be told. */
-static double growth_lower(const trial *t)
+static double growth_lower(const trial *t, life *live, int rounds)
 {
     double least = INFINITY;
     for (int spell = 0; spell < SPELLS && least > 0; ++spell) {
         const double before = bytes_in_use();
-        for (int k = 0; k < ROUNDS; ++k)
-            if (!one_life(t)) return 0;
+        for (int k = 0; k < rounds; ++k)
+            if (!live(t)) return 0;
         const double grown = bytes_in_use() - before;
         if (!(before > 0)) return -1;
         if (grown < least) least = grown;
@@ -247,19 +258,48 @@ static double growth_lower(const trial *t)
     return least > 0 ? least : 0;
 }
 
-/* No block is smaller than 16 bytes. */
+/* --- Memory of what is refused -------------------------------------------------------------- */
+
+/* False, and the answer fails, if creates of the stage with that value leave memory behind. What
+ * the table takes, create may refuse. No block is smaller than 16 bytes. */
+static bool is_let_go(const trial *t, const char *parameter, const char *value)
+{
+    trial other = *t;
+    char *stage = stage_with(t->text, parameter, value);
+    if (stage == NULL) return answer_fail(t->answer, "memory ran out");
+    other.text = stage;
+    const double grown = growth_lower(&other, one_try, REFUSED_ROUNDS);
+    free(stage);
+    return grown < 16.0 * REFUSED_ROUNDS ||
+           answer_fail(t->answer,
+                       "%d times %s=%.80s, refused or destroyed, leave %.0f bytes behind",
+                       REFUSED_ROUNDS, parameter, value, grown);
+}
+
+static bool refusals_are_let_go(const trial *t)
+{
+    static const char *const numbers[] = {"0", "1", "-1", "1e6", "1e300"};
+    for (size_t k = 0; k < t->type->parameter_count; ++k) {
+        const imp_parameter *p = catalogue_parameter(t->type, k);
+        const bool is_number = p->kind == IMP_NUMBER || p->kind == IMP_INTEGER;
+        if (p->kind == IMP_STRING && p->rank == 0 && !is_let_go(t, p->name, "\"(\"")) return false;
+        for (size_t n = 0; is_number && n < sizeof numbers / sizeof *numbers; ++n)
+            if (!try_text(t, p, numbers[n], is_let_go)) return false;
+    }
+    return true;
+}
+
 void memory_check(imp_registry *registry, const imp_type_info *type, const char *text,
                   check_answer *answer)
 {
     const trial t = {registry, type, text, answer};
-    const double grown = growth_lower(&t);
+    const double grown = growth_lower(&t, one_life, ROUNDS);
     answer->tests += ROUNDS;
     if (grown < 0)
         answer_skip(answer, "this system's malloc does not tell how much is in use");
     else if (grown >= 16.0 * ROUNDS)
         answer_fail(answer, "%d instances, made, asked and destroyed, leave %.0f bytes behind",
                     ROUNDS, grown);
-    else
-        answer_pass(answer, "%d instances leave nothing behind, as far as malloc's count tells",
-                    ROUNDS);
+    else if (refusals_are_let_go(&t))
+        answer_pass(answer, "instances and refusals leave nothing behind, as far as malloc tells");
 }

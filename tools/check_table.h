@@ -13,7 +13,7 @@
 void parameters_check(imp_registry *registry, const imp_type_info *type, const char *text,
                       check_answer *answer);
 
-/* Making, asking and destroying instances leaves no memory behind. */
+/* Making, asking and destroying instances leaves no memory behind; nor does being refused. */
 void memory_check(imp_registry *registry, const imp_type_info *type, const char *text,
                   check_answer *answer);
 
