@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "axes.h"
 
-#include "lanes.h"
 #include "nearest_axis.h"
 #include "quadratic.h"
 
@@ -29,8 +28,6 @@ LANES_INLINE lanes weighted(const bundle *n, const double *v)
            n->size[2] * lanes_all(v[2]);
 }
 
-/* --- The least of a quadratic, in lanes ------------------------------------------- */
-
 /* The coefficients of a slice along each direction. */
 typedef struct forms {
     lanes bu, bv, uu, uv, vv, uw, vw;
@@ -47,59 +44,26 @@ LANES_INLINE forms negative(const forms *f)
     return (forms){-f->bu, -f->bv, -f->uu, -f->uv, -f->vv, -f->uw, -f->vw};
 }
 
-/* With the slopes that it has at w. */
-LANES_INLINE forms form_at(const forms *f, double w)
-{
-    forms g = *f;
-    g.bu += lanes_all(w) * f->uw;
-    g.bv += lanes_all(w) * f->vw;
-    return g;
-}
-
 LANES_INLINE lanes turning(const forms *f) { return lanes_abs(f->uw) + lanes_abs(f->vw); }
 
-/* quadratic.c's edge_lower, in lanes; `inverse` is 1 / q. Lemma: a vertex that is left out because
- * q <= 2^-900 lies below the ends by less than q, so by less than 2^-900. Else b inverse is below 2
- * in size, and three roundings and an underflow are below 4 * 2^-53 q + 2^-1073. */
-LANES_INLINE lanes edge_lower(lanes b, lanes q, lanes inverse)
+/* The form with the slopes that it has at w. */
+LANES_INLINE quadratics form_at(const forms *f, double w)
 {
-    const lanes reach = lanes_abs(b);
-    const lanes_mask inside = (reach < q + q) & (q > lanes_all(0x1p-900));
-    return lanes_pick(inside, (b * inverse) * (b * lanes_all(-0.25)), q - reach);
+    const lanes to = lanes_all(w);
+    return (quadratics){f->bu + to * f->uw, f->bv + to * f->vw, f->uu, f->uv, f->vv};
 }
 
-/* quadratic_lower, in lanes; minima inside the square are left to it. Lemma: where
- * 4 uu vv is below uv^2 by a part in 2^28, the form is indefinite beyond rounding. Where abs(bu)
- * reaches 2 uu + abs(uv), the slope along u keeps its sign over the square, up to 3 * 2^-53
- * of it, and so the edges hold the minimum up to 12 * 2^-53 of the coefficients' sum; v alike.
- * Where uu or vv is not above 0, one of the two holds or there is no minimum inside. */
-LANES_INLINE lanes lower(const forms *f)
+LANES_INLINE lanes lower(const forms *f, double w)
 {
-    const lanes u = lanes_all(1) / f->uu, v = lanes_all(1) / f->vv;
-    const lanes ends = lanes_min(f->vv + f->bv + edge_lower(f->bu + f->uv, f->uu, u),
-                                 f->vv - f->bv + edge_lower(f->bu - f->uv, f->uu, u));
-    const lanes sides = lanes_min(f->uu + f->bu + edge_lower(f->bv + f->uv, f->vv, v),
-                                  f->uu - f->bu + edge_lower(f->bv - f->uv, f->vv, v));
-    lanes least = lanes_min(ends, sides);
-    const lanes twist = lanes_abs(f->uv);
-    const lanes_mask inner = (f->uu * f->vv > twist * twist * lanes_all(0.25 - 0x1p-30)) &
-                             (lanes_abs(f->bu) < f->uu + f->uu + twist) &
-                             (lanes_abs(f->bv) < f->vv + f->vv + twist);
-    if (!lanes_any(inner)) return least;
-    for (int k = 0; k < LANES; ++k) {
-        if (!inner[k]) continue;
-        const quadratic p = {f->bu[k], f->bv[k], f->uu[k], f->uv[k], f->vv[k]};
-        least[k] = quadratic_inner_lower(&p, least[k]);
-    }
-    return least;
+    const quadratics p = form_at(f, w);
+    return quadratics_lower(&p);
 }
 
-/* A value that does occur at every w, in the middle or at a corner, or is passed:
- * quadratic_glimpse, in lanes. */
+/* At every w the form's least value is at most this. */
 LANES_INLINE lanes glimpse(const forms *f)
 {
-    const lanes slopes = lanes_abs(f->bu) + lanes_abs(f->bv) - lanes_abs(f->uv) - turning(f);
-    return lanes_min(f->uu + f->vv - slopes, lanes_all(0));
+    const quadratics p = form_at(f, 0);
+    return lanes_min(quadratics_corner(&p) + turning(f), lanes_all(0));
 }
 
 /* --- What four axes show --------------------------------------------------------------- */
@@ -162,17 +126,11 @@ typedef struct chord {
     lanes middle, tilt;
 } chord;
 
-LANES_INLINE lanes lower_at(const forms *f, const forms *g, double w)
-{
-    const forms fw = form_at(f, w), gw = form_at(g, w);
-    return lower(&fw) + lower(&gw);
-}
-
 LANES_INLINE chord chord_under(const forms *f, const forms *g)
 {
-    const lanes half = lanes_all(0.5), start = lower_at(f, g, -1);
+    const lanes half = lanes_all(0.5), start = lower(f, -1) + lower(g, -1);
     if (!lanes_any(turning(f) + turning(g) > lanes_all(0))) return (chord){start, lanes_all(0)};
-    const lanes end = lower_at(f, g, 1);
+    const lanes end = lower(f, 1) + lower(g, 1);
     return (chord){half * (start + end), half * (end - start)};
 }
 

@@ -21,13 +21,15 @@ core_base = \
 
 core_solver = \
     core/vec.h \
-    core/node.c core/node.h \
+    core/lanes.h \
+    core/node.h \
+    core/node_model.c core/node_model.h \
+    core/node.c \
     core/claims.c core/claims.h \
     core/scene_trees.h \
     core/scene.c \
     core/broad_phase.c core/broad_phase.h \
-    core/quadratic.c core/quadratic.h \
-    core/lanes.h \
+    core/quadratic.h \
     core/relative.c core/relative.h \
     core/normal_field.c core/normal_field.h \
     core/nearest_axis.c core/nearest_axis.h \

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "node_model.h"
 #include "status.h"
 
 enum { CHUNK_NODES = 64 };
@@ -65,24 +66,6 @@ static imp_code status_fault(const tree *t, const imp_region *r, imp_status stat
     return fault(t, r, surface_status_text(status), error);
 }
 
-/* The first promise of imp_model that a coordinate breaks, or NULL. Infinite values come only with
- * IMP_UNBOUNDED. */
-static const char *model_breach(const imp_model *m, bool may_be_infinite)
-{
-    const double limit = may_be_infinite ? INFINITY : 0x1.fffffffffffffp1023;
-    if (!(m->e >= 0)) return "the remainder is negative or NaN";
-    if (!(m->lo <= m->hi)) return "the range is inverted or NaN";
-    if (m->e > limit || m->hi > limit || -m->lo > limit) return "a bound is infinite";
-    double sum = fabs(m->a);
-    for (int j = 0; j < 3; ++j) sum += fabs(m->b[j]);
-    for (int k = 0; k < 6; ++k) sum += fabs(m->q[k]);
-    if (!(sum <= limit) && !may_be_infinite) return "a coefficient is infinite or NaN";
-    for (int j = 0; j < 3; ++j)
-        if (!may_be_infinite && !(m->rate[j] >= 0 && m->rate[j] <= limit))
-            return "a rate is negative, infinite or NaN";
-    return NULL;
-}
-
 static const char *rates_breach(const imp_rate_matrix *rates)
 {
     for (int i = 0; i < 3; ++i)
@@ -94,72 +77,14 @@ static const char *rates_breach(const imp_rate_matrix *rates)
 
 /* --- Nodes of models -------------------------------------------------------------- */
 
-/* What of a coordinate's variation along parameter j its polynomial does not follow: the curved
- * part, and what the rate allows beyond the slope. */
-static double unexplained(const node *n, const imp_model *m, int j, double curved)
-{
-    if (!(m->rate[j] < INFINITY)) return n->region.d[j] > 0 ? 0x1p500 : 0;
-    const double rest = m->rate[j] * n->region.d[j] - fabs(m->b[j]);
-    return rest > 0 ? curved + rest : curved;
-}
-
-/* How far u, v and t move this coordinate across the region, and how much of that is not linear.
- * The remainder is laid to their charge in proportion to what is unexplained of each. Decides only
- * what to split; the weight of acceleration is measured. */
-static void add_spread(node *n, const imp_model *m)
-{
-    const double uv = 0.5 * fabs(m->q[IMP_UV]);
-    const double ut = 0.5 * fabs(m->q[IMP_UT]), vt = 0.5 * fabs(m->q[IMP_VT]);
-    double bend[3] = {fabs(m->q[IMP_UU]) + uv + ut, fabs(m->q[IMP_VV]) + uv + vt,
-                      2 * fabs(m->q[IMP_TT]) + ut + vt};
-    double share[3], sum = 0;
-    for (int j = 0; j < 3; ++j) sum += share[j] = unexplained(n, m, j, bend[j]);
-    for (int j = 0; j < 3; ++j) {
-        const double blame = sum > 0 && m->e < INFINITY ? m->e * (share[j] / sum) : 0;
-        if (j == PARAMETER_T && m->rate[j] < INFINITY) n->unsteady += blame;
-        bend[j] += blame;
-        n->bend[j] += bend[j];
-        n->spread[j] += fabs(m->b[j]) + bend[j];
-    }
-}
-
-static void take_model(node *n, int i, const imp_model *m)
-{
-    quadratic3 *f = &n->f;
-    f->a[i] = m->a;
-    f->bu[i] = m->b[0], f->bv[i] = m->b[1], f->bt[i] = m->b[2];
-    f->quu[i] = m->q[IMP_UU], f->quv[i] = m->q[IMP_UV], f->qut[i] = m->q[IMP_UT];
-    f->qvv[i] = m->q[IMP_VV], f->qvt[i] = m->q[IMP_VT], f->qtt[i] = m->q[IMP_TT];
-    n->e[i] = m->e;
-    n->lo[i] = m->lo;
-    n->hi[i] = m->hi;
-    const double motion =
-        fabs(m->b[2]) + 2 * fabs(m->q[IMP_TT]) + fabs(m->q[IMP_UT]) + fabs(m->q[IMP_VT]);
-    n->motion[i] = motion + motion * 0x1p-50;
-    double sum = m->e;
-    for (int j = 0; j < 3; ++j) sum += fabs(m->b[j]);
-    for (int k = 0; k < 6; ++k) sum += fabs(m->q[k]);
-    n->bounded = n->bounded && sum < INFINITY && fabs(m->a) < INFINITY && m->lo > -INFINITY &&
-                 m->hi < INFINITY;
-    add_spread(n, m);
-}
-
 static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
 {
     imp_model model[3];
     const imp_status status = surface_include(t->surface, &n->region, model);
     if (status != IMP_OK && status != IMP_UNBOUNDED)
         return status_fault(t, &n->region, status, error);
-    n->bounded = true;
-    for (int i = 0; i < 3; ++i) {
-        const char *breach = model_breach(&model[i], status == IMP_UNBOUNDED);
-        if (breach != NULL) return fault(t, &n->region, breach, error);
-        take_model(n, i, &model[i]);
-    }
-    if (!n->bounded) memcpy(n->spread, n->region.d, sizeof n->spread);
-    if (!n->bounded) memcpy(n->bend, n->region.d, sizeof n->bend);
-    if (n->bounded) n->normal = vec3_cross(vec3_from(n->f.bu), vec3_from(n->f.bv));
-    return IMP_SUCCESS;
+    const char *breach = node_take_model(n, model, status == IMP_UNBOUNDED);
+    return breach != NULL ? fault(t, &n->region, breach, error) : IMP_SUCCESS;
 }
 
 /* --- Nodes of rates ----------------------------------------------------------------- */

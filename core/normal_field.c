@@ -92,13 +92,15 @@ static void turn(const form *k, const local_slice *s, double m[2][2])
 
 static double dot2(const double *m, const local *x) { return m[0] * x->t[0] + m[1] * x->t[1]; }
 
-/* One surface's part of n(s).(B - A): sign +1 for B, -1 for A. */
-static quadratic part(const local_slice *s, double m[2][2], const local *delta, double sign)
+/* One surface's part of n(s).(B - A), into lane k of p: sign +1 for B, -1 for A. */
+static void part(const local_slice *s, double m[2][2], const local *delta, double sign, int k,
+                 quadratics *p)
 {
-    return (quadratic){sign * s->l[0].n + dot2(m[0], delta), sign * s->l[1].n + dot2(m[1], delta),
-                       sign * (s->uu.n + dot2(m[0], &s->l[0])),
-                       sign * (s->uv.n + dot2(m[0], &s->l[1]) + dot2(m[1], &s->l[0])),
-                       sign * (s->vv.n + dot2(m[1], &s->l[1]))};
+    p->bs[k] = sign * s->l[0].n + dot2(m[0], delta);
+    p->br[k] = sign * s->l[1].n + dot2(m[1], delta);
+    p->qss[k] = sign * (s->uu.n + dot2(m[0], &s->l[0]));
+    p->qsr[k] = sign * (s->uv.n + dot2(m[0], &s->l[1]) + dot2(m[1], &s->l[0]));
+    p->qrr[k] = sign * (s->vv.n + dot2(m[1], &s->l[1]));
 }
 
 /* Along tangent k, of all but the slopes: at most this. */
@@ -147,8 +149,11 @@ bool normal_field_cut(const relative *r, double clearance, share *s)
     turn(&mean, &sa, ma);
     turn(&mean, &sb, mb);
     const local delta = to_local(&f, r->delta), drift = to_local(&f, r->drift);
-    const quadratic qa = part(&sa, ma, &delta, -1), qb = part(&sb, mb, &delta, 1);
-    if (delta.n + quadratic_glimpse(&qa) + quadratic_glimpse(&qb) + fabs(drift.n) <= 0)
+    quadratics parts = {lanes_all(0), lanes_all(0), lanes_all(0), lanes_all(0), lanes_all(0)};
+    part(&sa, ma, &delta, -1, 0, &parts);
+    part(&sb, mb, &delta, 1, 1, &parts);
+    const lanes seen = lanes_min(quadratics_corner(&parts), lanes_all(0));
+    if (delta.n + (seen[0] + seen[1]) + fabs(drift.n) <= 0)
         return true; /* nothing to cut, whatever the rest may be */
     double slack = 0x1p-490 + weighted(f.n, r->slack) + turning(&sa) + turning(&sb);
     double size = weighted(f.n, r->magnitude);
@@ -167,6 +172,7 @@ bool normal_field_cut(const relative *r, double clearance, share *s)
     if (!(size < 0x1p400)) return true;
     slack += slack * 0x1p-48 + size * 0x1p-44;
     const double length = sqrt(vec3_dot(f.n, f.n) + 2 * tilt + lean * lean) * (1 + 0x1p-48);
-    const double low = delta.n + quadratic_lower(&qa) + quadratic_lower(&qb) - slack;
+    const lanes least = quadratics_lower(&parts);
+    const double low = delta.n + (least[0] + least[1]) - slack;
     return share_cut(s, low, drift.n, length * clearance);
 }

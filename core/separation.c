@@ -29,7 +29,7 @@ bool separation_by_models(const node *a, const node *b, double clearance, time_w
         if (!axes_cut(&r, clearance, &s, axis)) return false;
         if (!normal_field_cut(&r, clearance, &s)) return false;
         window_take(window, &r, &s);
-        if (!(s.hi - s.lo < 1.0)) break; /* not even halved: a new centre would not help much */
+        if (!(s.hi - s.lo < 0.5)) break; /* not even quartered: a new centre would not help much */
     }
     return true;
 }

@@ -8,6 +8,10 @@
 #include "quadratic.h"
 #include "suite.h"
 
+typedef struct quadratic {
+    double bs, br, qss, qsr, qrr;
+} quadratic;
+
 /* The judge computes in long double (64 bits of mantissa) at a grid, along the edges' vertices and
  * at the stationary point. */
 
@@ -50,8 +54,12 @@ static judged judge(const quadratic *p)
 
 static judged bounds_of(const quadratic *p)
 {
-    const quadratic minus = {-p->bs, -p->br, -p->qss, -p->qsr, -p->qrr};
-    return (judged){quadratic_lower(p), -quadratic_lower(&minus)};
+    const lanes sign = {1, -1, 1, -1};
+    const quadratics both = {p->bs * sign, p->br * sign, p->qss * sign, p->qsr * sign,
+                             p->qrr * sign};
+    const lanes least = quadratics_lower(&both);
+    ck_assert(least[0] == least[2] && least[1] == least[3]);
+    return (judged){least[0], -least[1]};
 }
 
 static void check_one(const quadratic *p)
