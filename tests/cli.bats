@@ -214,6 +214,11 @@ verbs() { "$IMPINGE" help | sed -n 's/^  \([a-z]*\) .*/\1/p'; }
     [ -c /dev/full ] || skip 'no /dev/full'
     run -4 --separate-stderr bash -c '"$IMPINGE" help >/dev/full'
     [[ $stderr == 'impinge: help: standard output: '* ]]
+    local line
+    for line in 'list --json' 'matrix --json --max-pairs 1' demo; do
+        run -4 --separate-stderr bash -c "\"\$IMPINGE\" $line >/dev/full"
+        [ "$stderr" = "impinge: ${line%% *}: standard output: No space left on device" ]
+    done
 }
 
 @test "a closed pipe is an error, not a signal" {

@@ -131,3 +131,11 @@ options=()
     fails 4 'batch: nowhere.jsonl: No such file or directory' "$IMPINGE" batch nowhere.jsonl
     fails 4 'batch: folder: Is a directory' "$IMPINGE" batch folder
 }
+
+@test "a line without end is refused, and memory stays in bounds" {
+    bash -c 'ulimit -v 300000; "$IMPINGE" --version' || skip 'sanitizers need more of it'
+    run -4 --separate-stderr bash -c 'ulimit -v 300000; "$IMPINGE" batch /dev/zero'
+    [[ $stderr == 'impinge: batch: /dev/zero: '* ]]
+    run -4 --separate-stderr bash -c 'ulimit -v 300000; "$IMPINGE" solve - </dev/zero'
+    [[ $stderr == 'impinge: solve: standard input: '* ]]
+}

@@ -31,31 +31,52 @@ void input_close(FILE *file)
     if (file != stdin) fclose(file);
 }
 
+#define INPUT_MAX ((size_t)1 << 30) /* bytes; as for scene files */
+
 /* Doubles the buffer. */
-static bool grow(char **text, size_t *size)
+static bool grow(input_text *t)
 {
-    const size_t larger = *size > 0 ? 2 * *size : 65536;
-    char *moved = realloc(*text, larger);
+    const size_t larger = t->size > 0 ? 2 * t->size : 65536;
+    char *moved = realloc(t->text, larger);
     if (moved == NULL) return false;
-    *text = moved;
-    *size = larger;
+    t->text = moved;
+    t->size = larger;
     return true;
 }
 
-bool input_read(FILE *file, const char *name, const char *verb, char **text, size_t *length)
+/* Up to `end`, or the end of the file; false: errno says why not. */
+static bool take(FILE *file, int end, input_text *t)
 {
-    size_t size = 0;
-    *text = NULL;
-    *length = 0;
-    do {
-        if (*length == size && !grow(text, &size)) {
-            complain_of_memory(verb);
-            return false;
-        }
-        *length += fread(*text + *length, 1, size - *length, file);
-    } while (!feof(file) && !ferror(file));
-    if (ferror(file)) complain(EXIT_DATA, verb, "%s: %s", name, strerror(errno));
-    return !ferror(file);
+    for (t->length = 0; t->length < INPUT_MAX;) {
+        if (t->length == t->size && !grow(t)) return false;
+        errno = 0;
+        const int c = getc_unlocked(file);
+        if (c == EOF) return !ferror(file);
+        t->text[t->length++] = (char)c;
+        if (c == end) return true;
+    }
+    errno = EFBIG;
+    return false;
+}
+
+static bool judge(bool taken, const char *name, const char *what, const char *verb)
+{
+    if (taken || errno == EINTR) return taken;
+    if (errno == EFBIG)
+        complain(EXIT_DATA, verb, "%s: %s longer than %zu bytes", name, what, INPUT_MAX);
+    else
+        complain(EXIT_DATA, verb, "%s: %s", name, strerror(errno));
+    return false;
+}
+
+bool input_read(FILE *file, const char *name, const char *verb, input_text *text)
+{
+    return judge(take(file, EOF, text), name, "it is", verb);
+}
+
+bool input_read_line(FILE *file, const char *name, const char *verb, input_text *line)
+{
+    return judge(take(file, '\n', line), name, "it has a line", verb);
 }
 
 bool input_is_same(const char *a, const char *b)

@@ -16,8 +16,17 @@ const char *input_name(const char *path);
 FILE *input_open(const char *path, const char *verb);
 void input_close(FILE *file);
 
-/* The rest of the file, in memory. Complains and answers false if it cannot be read. Free *text. */
-bool input_read(FILE *file, const char *name, const char *verb, char **text, size_t *length);
+/* What was read, not ended by a zero. Starts empty; free `text`. */
+typedef struct input_text {
+    char *text;
+    size_t length, size;
+} input_text;
+
+/* The rest of the file, or its next line with its end, in place of what the text was; no more than
+ * 1 GiB. Nothing is left of the file when the length is 0. False: it cannot be read, which is
+ * complained of, or a signal came, which is not. */
+bool input_read(FILE *file, const char *name, const char *verb, input_text *text);
+bool input_read_line(FILE *file, const char *name, const char *verb, input_text *line);
 
 /* Do both paths lead to one file that exists? */
 bool input_is_same(const char *a, const char *b);

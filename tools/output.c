@@ -47,9 +47,10 @@ exit_status output_json(json_t *object, const char *verb)
     char *text = object != NULL ? json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(17)) : NULL;
     json_decref(object);
     if (text == NULL) return complain_of_memory(verb);
-    puts(text);
+    const bool put = puts(text) >= 0;
+    const exit_status status = put ? output_flush(verb) : written(false, verb);
     free(text);
-    return output_flush(verb);
+    return status;
 }
 
 json_t *output_json_text(const char *text)

@@ -49,15 +49,14 @@ static char *expanded(const char *text, const project_word *words)
 
 static char *read_all(const char *path, const char *verb)
 {
-    char *text = NULL;
-    size_t length = 0;
+    input_text t = {0};
     FILE *file = input_open(path, verb);
     if (file == NULL) return NULL;
-    const bool read = input_read(file, path, verb, &text, &length);
+    const bool read = input_read(file, path, verb, &t);
     input_close(file);
-    char *ended = read ? strndup(text, length) : NULL;
+    char *ended = read ? strndup(t.text, t.length) : NULL;
     if (read && ended == NULL) complain_of_memory(verb);
-    free(text);
+    free(t.text);
     return ended;
 }
 

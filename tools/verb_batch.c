@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,18 +98,14 @@ static bool answer_line(batch *b, const char *text, size_t length)
 
 static void answer_lines(batch *b, FILE *file)
 {
-    char *text = NULL;
-    size_t size = 0;
+    input_text line = {0};
     bool more = true;
     while (more && !interrupt_came()) {
-        errno = 0;
-        const ssize_t length = getline(&text, &size, file);
-        more = length >= 0 && answer_line(b, text, (size_t)length);
-        if (length < 0 && !feof(file) && !interrupt_came())
-            keep_worst(
-                b, complain(EXIT_DATA, b->args->verb->name, "%s: %s", b->name, strerror(errno)));
+        const bool read = input_read_line(file, b->name, b->args->verb->name, &line);
+        more = read && line.length > 0 && answer_line(b, line.text, line.length);
+        if (!read && !interrupt_came()) keep_worst(b, EXIT_DATA);
     }
-    free(text);
+    free(line.text);
 }
 
 static void sum_up(batch *b)

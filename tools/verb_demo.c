@@ -23,9 +23,19 @@ static void show_command(const char *path)
     free(word);
 }
 
-static exit_status run(const arguments *args)
+static exit_status show(imp_registry *registry, const char *path, const arguments *args)
 {
     const bool json = arguments_option(args, "json") != NULL;
+    if (!json) introduce();
+    const exit_status introduced = output_flush(args->verb->name);
+    if (introduced != EXIT_ANSWERED) return introduced;
+    const exit_status status = query_answer_file(registry, path, args);
+    if (!json && status <= EXIT_UNDECIDED) show_command(path);
+    return status;
+}
+
+static exit_status run(const arguments *args)
+{
     const exit_status checked = query_check(args);
     if (checked != EXIT_ANSWERED) return checked;
     imp_registry *registry = query_registry(args);
@@ -33,10 +43,7 @@ static exit_status run(const arguments *args)
     exit_status status = EXIT_DATA;
     char *path = input_package_file("teapot.json", args->verb->name);
     if (path != NULL) {
-        if (!json) introduce();
-        output_flush(args->verb->name);
-        status = query_answer_file(registry, path, args);
-        if (!json && status <= EXIT_UNDECIDED) show_command(path);
+        status = show(registry, path, args);
     }
     free(path);
     imp_registry_free(registry);

@@ -10,16 +10,15 @@
 /* Files are read by the library; standard input is read here, whole. */
 static exit_status solve_standard_input(imp_registry *registry, const arguments *args)
 {
-    char *text;
-    size_t length;
+    input_text t = {0};
     exit_status status = EXIT_DATA;
     const char *name = input_name("-");
-    if (input_read(stdin, name, args->verb->name, &text, &length)) {
+    if (input_read(stdin, name, args->verb->name, &t)) {
         imp_error error = {0};
-        imp_scene *scene = imp_scene_from_json(registry, text, length, name, &error);
+        imp_scene *scene = imp_scene_from_json(registry, t.text, t.length, name, &error);
         status = query_answer(scene, &error, args);
     }
-    free(text);
+    free(t.text);
     return status;
 }
 
