@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "axes.h"
+#include "nearest_axis.h"
 #include "normal_field.h"
 #include "suite.h"
 
@@ -174,6 +175,61 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
 }
 END_TEST
 
+/* The least and the greatest of n.x over a grid on the slice as it is at w = -1. */
+static void slice_extent(const slice *f, vec3 n, double *lo, double *hi)
+{
+    enum { SIDE = 17 };
+    *lo = INFINITY, *hi = -INFINITY;
+    for (int k = 0; k < SIDE * SIDE; ++k) {
+        const double u = -1 + 2.0 * (k / SIDE) / (SIDE - 1), v = -1 + 2.0 * (k % SIDE) / (SIDE - 1);
+        double height = 0;
+        for (int i = 0; i < 3; ++i)
+            height += n.x[i] * ((f->bu[i] - f->quw[i] + f->quu[i] * u + f->quv[i] * v) * u +
+                                (f->bv[i] - f->qvw[i] + f->qvv[i] * v) * v);
+        *lo = fmin(*lo, height);
+        *hi = fmax(*hi, height);
+    }
+}
+
+/* The gap that an axis shows at the window's start. */
+static double gap_along(const relative *r, vec3 n)
+{
+    double a[2], b[2], gap = 0;
+    slice_extent(&r->a, n, &a[0], &a[1]);
+    slice_extent(&r->b, n, &b[0], &b[1]);
+    for (int i = 0; i < 3; ++i)
+        gap += n.x[i] * (r->delta[i] - r->drift[i]) - fabs(n.x[i]) * r->slack[i];
+    return (gap + b[0] - a[1]) / vec3_norm(n);
+}
+
+START_TEST(no_axis_shows_much_more_than_twice_the_gap_of_the_nearest)
+{
+    uint64_t state = suite_seed() + 2;
+    int apart = 0;
+    for (int k = 0; k < suite_times(300); ++k) {
+        meeting m;
+        random_node(&state, &m.a, 1, 0.1, 1);
+        random_node(&state, &m.b, suite_power(&state, -6, 0), 0.1, 1);
+        for (int i = 0; i < 3; ++i) m.b.f.a[i] = suite_between(&state, -3, 3);
+        relative r;
+        double best = 0;
+        relative_at(&m.a, &m.b, &(time_window){0, 1}, &r);
+        for (int n = 0; n < 100; ++n) {
+            vec3 axis;
+            for (int i = 0; i < 3; ++i) axis.x[i] = suite_between(&state, -1, 1);
+            best = fmax(best, gap_along(&r, axis));
+        }
+        vec3 axis = vec3_sub(vec3_from(r.delta), vec3_from(r.drift));
+        const bool found = nearest_axis(&r, -1, &axis);
+        if (best == 0) continue;
+        ++apart;
+        ck_assert_msg(found && gap_along(&r, axis) > 0.4 * best, "case %d: %g, %g", k,
+                      found ? gap_along(&r, axis) : 0, best);
+    }
+    ck_assert_int_gt(apart, suite_times(300) / 4);
+}
+END_TEST
+
 /* Two caps of radius 1 that bulge at each other along a tilted normal, h wide, `gap` apart. */
 static meeting two_caps(double h, double radius_b, double gap)
 {
@@ -210,6 +266,17 @@ START_TEST(the_field_of_normals_parts_caps_that_no_axis_does)
     ck_assert(axes_cut(&r, 1e-6, &axes, &axis));
     ck_assert(axes.lo == -1 && axes.hi == 1);
     ck_assert(!normal_field_cut(&r, 1e-6, &field));
+}
+END_TEST
+
+START_TEST(where_hulls_meet_there_is_no_nearest_axis)
+{
+    meeting m = two_caps(0.1, -1, -0.001);
+    relative r;
+    vec3 axis = {{1, 2, 3}};
+    relative_at(&m.a, &m.b, &m.window, &r);
+    ck_assert(!nearest_axis(&r, -1, &axis));
+    ck_assert(axis.x[0] == 1 && axis.x[1] == 2 && axis.x[2] == 3);
 }
 END_TEST
 
@@ -267,6 +334,8 @@ END_TEST
 
 SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
            neither_axes_nor_field_of_normals_lose_a_meeting_alone,
+           no_axis_shows_much_more_than_twice_the_gap_of_the_nearest,
+           where_hulls_meet_there_is_no_nearest_axis,
            the_field_of_normals_parts_caps_that_no_axis_does,
            a_window_shrinks_to_the_moment_of_contact, infinities_and_nans_never_part_anything,
            nodes_without_bounds_keep_their_window)
