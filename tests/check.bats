@@ -182,13 +182,12 @@ disproves() {
 
 # --- Ours ----------------------------------------------------------------------------------------------
 
-@test "none of our types is accused, over two seeds" {
-    local so seed
+# Each with a seed of its own; a thousand more are a loop away.
+@test "none of our types is accused" {
+    local so seed=11
     for so in "$top_builddir"/plugins/.libs/*.so; do
-        for seed in 11 12; do
-            run "$IMPINGE" check "$so" --seed $seed --effort 0.1
-            [ "$status" -eq 0 ] || { echo "$output" && false; }
-        done
+        run "$IMPINGE" check "$so" --seed $((seed++)) --effort 0.1
+        [ "$status" -eq 0 ] || { echo "$output" && false; }
     done
 }
 

@@ -68,6 +68,7 @@ tests_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 # Command-line tests; the environment below tells them where things are.
 bats_suites = \
     tests/bench.bats \
+    tests/check.bats \
     tests/cli.bats \
     tests/cli_batch.bats \
     tests/cli_list.bats \
@@ -78,10 +79,8 @@ bats_suites = \
     tests/matrix.bats \
     tests/why.bats
 
-# Tests of the sources, the scripts and the installation; and of the checker, which rightly minds
-# what sanitizers put into a plugin.
+# Tests of the sources, the scripts and the installation.
 script_suites = \
-    tests/check.bats \
     tests/preparation.bats \
     tests/sdk.bats \
     tests/structure.bats \
