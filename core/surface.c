@@ -128,8 +128,9 @@ const char *surface_status_text(imp_status status)
 {
     switch (status) {
     case IMP_DOMAIN:
-        return "is undefined there, though that lies in its domain; shrink the domain, or the "
-               "times asked for, to where it (and each map on it) is defined";
+        return "is undefined there, or too large for a double, though that lies in its domain; "
+               "shrink the domain, or the times asked for, to where it (and each map on it) is "
+               "defined";
     case IMP_UNBOUNDED:
         return "has no bounds there";
     case IMP_INTERNAL:

@@ -195,7 +195,7 @@ static bool solve(double h[UNKNOWNS][UNKNOWNS], const double *g, const bool *hel
 }
 
 /* A damped step from y that stays within the bounds: unknowns that would leave are held there and
- * the rest solved again. */
+ * the rest solved again. False: there is none, or it overflows. */
 static bool step(const search *g, const double *y, const double *gradient,
                  double hessian[UNKNOWNS][UNKNOWNS], double damping, double *next)
 {
@@ -217,6 +217,7 @@ static bool step(const search *g, const double *y, const double *gradient,
     }
     for (int k = 0; k < UNKNOWNS; ++k) {
         const double to = y[k] + (held[k] ? 0 : move[k]);
+        if (!(to - to == 0)) return false;
         next[k] = to < g->lo[k] ? g->lo[k] : to > g->hi[k] ? g->hi[k] : to;
     }
     return true;

@@ -178,10 +178,12 @@ load cli_helper
 
 @test "a formula that is undefined at a point met ends the query with the place and the cure" {
     fails 5 "body 'a', surface 0: type 'formula z='1/(u-0.5)'' at u = 0.5, v = 0.5, t = 0: is undefined \
-there, though that lies in its domain; shrink the domain" \
+there, or too large for a double, though that lies in its domain; shrink the domain" \
         "$IMPINGE" pair 'formula z=1/(u-0.5)' 'sphere radius=.1 center=0,0,3'
     fails 5 "at u = 0.5, v = 0.5, t = 0: is undefined there" \
         "$IMPINGE" pair 'formula z=log(u-0.5)' 'sphere radius=.1 center=.5,.5,-30'
+    fails 5 "type 'formula y='exp(1e3*u)' z='exp(1e3*u)'' at u = 0." \
+        "$IMPINGE" pair 'formula y=exp(1e3*u) z=exp(1e3*u)' sphere
     run -0 "$IMPINGE" pair 'formula z=log(u-0.5) domain=[[.51,1],[0,1]]' 'sphere radius=.1 center=.5,.5,-30'
     [ "${lines[0]}" = clear ]
 }
