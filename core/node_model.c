@@ -59,8 +59,9 @@ LANES_INLINE double over_axes(lanes x) { return x[0] + x[1] + x[2]; }
 
 /* How far u, v and t move each coordinate across the region, and how much of that is not linear.
  * The remainder is laid to their charge in proportion to what is unexplained of each: the curved
- * part, and what the rate allows beyond the slope. Decides only what to split; the weight of
- * acceleration is measured. */
+ * part, and what the rate allows beyond the slope. Decides only what to split. A way through space
+ * counts by its length, 0.6 of the sum of its coordinates or so; the remainder, a box, counts in
+ * full; the weight of acceleration is measured. */
 LANES_INLINE void take_spread(node *n, const models *m)
 {
     const lanes none = lanes_all(0), half = lanes_all(0.5), infinite = lanes_all(INFINITY);
@@ -81,7 +82,7 @@ LANES_INLINE void take_spread(node *n, const models *m)
         const lanes blame = lanes_pick(blamed, m->e * (unexplained[j] / sum), none);
         const lanes bend = curved[j] + blame;
         n->bend[j] = over_axes(bend);
-        n->spread[j] = over_axes(lanes_abs(m->b[j]) + bend);
+        n->spread[j] = over_axes(lanes_all(0.6) * (lanes_abs(m->b[j]) + curved[j]) + blame);
         if (j == PARAMETER_T)
             n->unsteady = over_axes(lanes_pick(m->rate[j] < infinite, blame, none));
     }
