@@ -40,7 +40,7 @@ noinst_HEADERS += \
     plugins/axis.h \
     plugins/bernstein.h \
     plugins/chebyshev.h \
-    plugins/couple.h \
+    plugins/quad.h \
     plugins/curve.h \
     plugins/expression_type.h \
     plugins/ffd_model.h \

@@ -5,7 +5,7 @@
 
 #include "bernstein.h"
 #include "chebyshev.h"
-#include "couple.h"
+#include "quad.h"
 
 #include <impinge/interval.h>
 #include <math.h>
@@ -25,8 +25,8 @@
  * middle of the points and of the velocities: what is left is small even far from the origin,
  * and rounding errors scale with it. A polynomial patch has no W; a patch at rest has no Y.
  *
- * The net holds a group of four numbers per control point, (X, W), and if the patch moves a second
- * one, (Y, 0): vector instructions take them two or four at a time. patch_rate.h and
+ * The net holds a quad of numbers per control point, (X, W), and if the patch moves a second
+ * one, (Y, 0). patch_rate.h and
  * patch_include.h bound a patch over a region; this file makes and evaluates it. */
 
 enum {
@@ -179,8 +179,8 @@ static inline void patch_set_differences(patch *f, int side)
 /* sum_ij B_i(u) B_j(v) net_ij, per lane; 0 in lanes that are not there. */
 static inline void patch_sums(const patch *f, double u, double v, double sum[PATCH_LANES_MAX])
 {
-    const int n = f->degree[0], m = f->degree[1], stride = f->lanes / COUPLE;
-    const couple zero = {0, 0}, *net = (const couple *)f->net;
+    const int n = f->degree[0], m = f->degree[1], stride = f->lanes / QUAD;
+    const quad *net = (const quad *)f->net;
     double along_u[PATCH_SIDE_MAX], along_v[PATCH_SIDE_MAX];
     double weight[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
     int points = 0;
@@ -188,24 +188,21 @@ static inline void patch_sums(const patch *f, double u, double v, double sum[PAT
     bernstein_weights(along_v, m, v, 0, 0);
     for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= m; ++j) weight[points++] = along_u[i] * along_v[j];
-    for (int h = 0; h < PATCH_LANES_MAX / COUPLE; h += 2) {
-        couple a = zero, b = zero;
-        for (int k = 0; h < stride && k < points; ++k) {
-            a += weight[k] * net[k * stride + h];
-            b += weight[k] * net[k * stride + h + 1];
-        }
-        for (int x = 0; x < COUPLE; ++x)
-            sum[COUPLE * h + x] = a[x], sum[COUPLE * (h + 1) + x] = b[x];
+    for (int h = 0; h < PATCH_LANES_MAX / QUAD; ++h) {
+        quad all = {0};
+        for (int k = 0; h < stride && k < points; ++k) all += weight[k] * net[k * stride + h];
+        memcpy(sum + QUAD * h, &all, sizeof all);
     }
 }
 
 /* One point and its error.
  *
- * Lemma. A sum is off by at most (3n + 3m + 1 + 1 + (n+1)(m+1) - 1 + units) ROUNDING most: the weights
- * (3n and 3m, bernstein.h), their product, its product with the net, the additions, the net itself.
- * W has positive terms only: the same holds relative to W. So X / W is off by that count and 1 for
- * the division, times most / W + |X / W|. The last steps round place + X / W (once), the speed and
- * its product with t (twice), and the sum: 2 |place| + 3 |way|. IMP_TINY stands for underflows. */
+ * Lemma. A sum is off by at most (3n + 3m + 1 + 1 + (n+1)(m+1) - 1 + units) ROUNDING most: the
+ * weights (3n and 3m, bernstein.h), their product, its product with the net, the additions, the net
+ * itself. W has positive terms only: the same holds relative to W. So X / W is off by that count
+ * and 1 for the division, times most / W + |X / W|. The last steps round place + X / W (once), the
+ * speed and its product with t (twice), and the sum: 2 |place| + 3 |way|. IMP_TINY stands for
+ * underflows. */
 static inline void patch_point(const patch *f, const double p[3], double x[3], double error[3])
 {
     const int n = f->degree[0], m = f->degree[1];

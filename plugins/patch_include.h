@@ -15,41 +15,39 @@
  * are quadratic, the others go to the remainder. |T_k'| <= k^2 gives the rates:
  * |dF/ds_u| <= sum_kl k^2 |C_kl|. */
 
-enum { GROUP = 4 / COUPLE }; /* couples in a group */
-
-/* Sums over the series of two coordinates. X here is X + c_t Y, at the region's middle time; `size`
- * is |X| + d_t |Y|, at least |X + t Y| at all its times. */
+/* Sums over the series, of all coordinates side by side. X here is X + c_t Y, at the region's
+ * middle time; `size` is |X| + d_t |Y|, at least |X + t Y| at all its times. */
 typedef struct patch_terms {
-    couple x[3][3];          /* X_kl, k + l <= 2 */
-    couple y[2][2];          /* Y_kl, k + l <= 1 */
-    couple rest;             /* of size, where k + l >= 3, and of d_t |Y|, where k + l = 2 */
-    couple size, speed;      /* of size, of |Y| */
-    couple along_u, along_v; /* of k^2 size, of l^2 size */
+    quad x[3][3];          /* X_kl, k + l <= 2 */
+    quad y[2][2];          /* Y_kl, k + l <= 1 */
+    quad rest;             /* of size, where k + l >= 3, and of d_t |Y|, where k + l = 2 */
+    quad size, speed;      /* of size, of |Y| */
+    quad along_u, along_v; /* of k^2 size, of l^2 size */
 } patch_terms;
 
-static COUPLE_INLINE void patch_collect(int n, int m, int lanes, const couple *c, double middle,
-                                        double half, patch_terms *terms)
+static QUAD_INLINE void patch_collect(int n, int m, int lanes, const quad *c, double middle,
+                                      double half, patch_terms *terms)
 {
-    const couple zero = {0, 0};
-    const int group = lanes / COUPLE;
-    couple rest = zero, total = zero, speed = zero, along_u = zero, along_v = zero;
-    couple column[PATCH_SIDE_MAX];
+    const quad zero = {0};
+    const int group = lanes / QUAD;
+    quad rest = zero, total = zero, speed = zero, along_u = zero, along_v = zero;
+    quad column[PATCH_SIDE_MAX];
     terms->x[1][0] = terms->x[0][1] = zero; /* a curve has m = 0 */
     terms->x[2][0] = terms->x[1][1] = terms->x[0][2] = zero;
     terms->y[0][0] = terms->y[1][0] = terms->y[0][1] = zero;
-    COUPLE_UNROLL
+    QUAD_UNROLL
     for (int l = 0; l <= m; ++l) column[l] = zero;
-    COUPLE_UNROLL
+    QUAD_UNROLL
     for (int k = 0; k <= n; ++k) {
-        couple row = zero;
-        COUPLE_UNROLL
+        quad row = zero;
+        QUAD_UNROLL
         for (int l = 0; l <= m; ++l) {
-            couple x = c[(k * (m + 1) + l) * group], size = couple_abs(x);
+            quad x = c[(k * (m + 1) + l) * group], size = quad_abs(x);
             if (lanes == 8) {
-                couple y = c[(k * (m + 1) + l) * group + GROUP], change = half * couple_abs(y);
+                quad y = c[(k * (m + 1) + l) * group + 1], change = half * quad_abs(y);
                 x += middle * y;
-                size = couple_abs(x) + change;
-                speed += couple_abs(y);
+                size = quad_abs(x) + change;
+                speed += quad_abs(y);
                 if (k + l <= 1) terms->y[k][l] = y;
                 if (k + l == 2) rest += change;
             }
@@ -61,7 +59,7 @@ static COUPLE_INLINE void patch_collect(int n, int m, int lanes, const couple *c
         total += row;
         along_u += (double)(k * k) * row;
     }
-    COUPLE_UNROLL
+    QUAD_UNROLL
     for (int l = 1; l <= m; ++l) along_v += (double)(l * l) * column[l];
     terms->rest = rest, terms->size = total, terms->speed = speed;
     terms->along_u = along_u, terms->along_v = along_v;
@@ -69,19 +67,26 @@ static COUPLE_INLINE void patch_collect(int n, int m, int lanes, const couple *c
 
 /* At least b s + q s^2 on [-1, 1]: its ends, and the vertex -b^2 / 4q, which is inside only if
  * |b| < 2|q| and then at most |b| / 2 from 0. */
-static inline double patch_bow_upper(double b, double q)
+static QUAD_INLINE quad patch_bow_upper(quad b, quad q)
 {
-    return imp_larger(q + fabs(b), 0.5 * fabs(b));
+    return quad_most(q + quad_abs(b), 0.5 * quad_abs(b));
 }
+
+/* The numbers of imp_model, of all coordinates side by side. */
+typedef struct patch_parts {
+    quad a, b[3], q[6], e, lo, hi, rate[3];
+} patch_parts;
 
 /* lo and hi from the quadratic and e. `size` bounds what the coefficients but a add up to; all
  * roundings here are within 16 ROUNDING of the magnitudes. */
-static inline void patch_range(imp_model *g, double size)
+static QUAD_INLINE void patch_range(patch_parts *g, quad size)
 {
-    double up = patch_bow_upper(g->b[0], g->q[IMP_UU]) + patch_bow_upper(g->b[1], g->q[IMP_VV]);
-    double down = patch_bow_upper(g->b[0], -g->q[IMP_UU]) + patch_bow_upper(g->b[1], -g->q[IMP_VV]);
-    double cross = fabs(g->b[2]) + fabs(g->q[IMP_UV]) + fabs(g->q[IMP_UT]) + fabs(g->q[IMP_VT]);
-    double margin = cross + g->e + 16 * ROUNDING * (fabs(g->a) + size + cross + g->e);
+    const quad uu = g->q[IMP_UU], vv = g->q[IMP_VV];
+    const quad up = patch_bow_upper(g->b[0], uu) + patch_bow_upper(g->b[1], vv);
+    const quad down = patch_bow_upper(g->b[0], -uu) + patch_bow_upper(g->b[1], -vv);
+    const quad cross = quad_abs(g->b[2]) + quad_abs(g->q[IMP_UV]) + quad_abs(g->q[IMP_UT]) +
+                       quad_abs(g->q[IMP_VT]);
+    const quad margin = cross + g->e + 16 * ROUNDING * (quad_abs(g->a) + size + cross + g->e);
     g->lo = g->a - (down + margin);
     g->hi = g->a + (up + margin);
 }
@@ -92,66 +97,89 @@ static inline void patch_cut(imp_model *g, double lo, double hi)
     g->hi = imp_smaller(g->hi, hi);
 }
 
-/* Models of lanes first and first + 1: place + t drift + X + t Y.
+/* Models of the first `count` lanes: place + t drift + X + t Y.
  *
  * Lemma. Rounding in patch_collect, in a, in b_t: 8 ROUNDING (size + |c_t| speed) and, from place
  * and drift, 4 ROUNDING (|place| + (|c_t| + d_t) |drift|). SLACK covers the bounds' own. */
-static COUPLE_INLINE void patch_two_models(const patch *f, int n, int m, int lanes, int first,
-                                           const imp_region *region, const couple *c,
-                                           imp_model *out)
+static QUAD_INLINE patch_parts patch_assemble(const patch *f, int n, int m, int lanes,
+                                              const imp_region *region, const quad *c)
 {
     const double middle = region->c[2], half = region->d[2], late = fabs(middle) + half;
     patch_terms sum;
-    patch_collect(n, m, lanes, c + first / COUPLE, middle, half, &sum);
-    const couple place = couple_load(f->place + first), drift = couple_load(f->drift + first);
-    const couple noise = couple_load(f->noise + first);
-    const couple centre = place + middle * drift;
-    const couple size = sum.size + fabs(middle) * sum.speed;
-    const couple far = couple_abs(place) + late * couple_abs(drift);
-    couple slip = noise + 8 * ROUNDING * size;
-    couple reach = couple_load(f->place_radius + first) + half * couple_abs(drift);
-    couple slope_u = couple_load(f->slope[0] + first), slope_v = couple_load(f->slope[1] + first);
-    couple rate_t = {0, 0};
+    patch_collect(n, m, lanes, c, middle, half, &sum);
+    const quad place = quad_load(f->place), drift = quad_load(f->drift);
+    const quad centre = place + middle * drift;
+    const quad size = sum.size + fabs(middle) * sum.speed;
+    const quad far = quad_abs(place) + late * quad_abs(drift);
+    quad slip = quad_load(f->noise) + 8 * ROUNDING * size;
+    quad reach = quad_load(f->place_radius) + half * quad_abs(drift);
+    quad slope_u = quad_load(f->slope[0]), slope_v = quad_load(f->slope[1]);
+    patch_parts g = {.rate = {{0}}, .q = {{0}}};
     if (lanes == 8) {
-        const couple y = sum.y[0][0], noise_y = couple_load(f->noise + 4 + first);
+        const quad y = sum.y[0][0], noise_y = quad_load(f->noise + 4);
         slip += late * noise_y;
-        reach += late * couple_load(f->drift_radius + first);
-        slope_u += late * couple_load(f->slope[0] + 4 + first);
-        slope_v += late * couple_load(f->slope[1] + 4 + first);
-        rate_t = couple_abs(drift + y) + (sum.speed - couple_abs(y)) + noise_y +
-                 8 * ROUNDING * (couple_abs(drift) + sum.speed);
+        reach += late * quad_load(f->drift_radius);
+        slope_u += late * quad_load(f->slope[0] + 4);
+        slope_v += late * quad_load(f->slope[1] + 4);
+        g.rate[2] = (quad_abs(drift + y) + (sum.speed - quad_abs(y)) + noise_y +
+                     8 * ROUNDING * (quad_abs(drift) + sum.speed)) *
+                    SLACK;
     }
-    const couple a = centre + (sum.x[0][0] - sum.x[2][0] - sum.x[0][2]);
-    const couple e = (sum.rest + slip + 4 * ROUNDING * far) * SLACK;
-    const couple rate_u = (sum.along_u + (double)(n * n) * slip) * (SLACK / region->d[0]);
-    const couple rate_v = (sum.along_v + (double)(m * m) * slip) * (SLACK / region->d[1]);
-    const couple least_u = couple_least(rate_u, slope_u * SLACK);
-    const couple least_v = couple_least(rate_v, slope_v * SLACK);
+    g.a = centre + (sum.x[0][0] - sum.x[2][0] - sum.x[0][2]);
+    g.e = (sum.rest + slip + 4 * ROUNDING * far) * SLACK;
+    g.b[0] = sum.x[1][0], g.b[1] = sum.x[0][1], g.b[2] = half * (drift + sum.y[0][0]);
+    g.q[IMP_UU] = 2 * sum.x[2][0], g.q[IMP_VV] = 2 * sum.x[0][2], g.q[IMP_UV] = sum.x[1][1];
+    g.q[IMP_UT] = half * sum.y[1][0], g.q[IMP_VT] = half * sum.y[0][1];
+    g.rate[0] = quad_least((sum.along_u + (double)(n * n) * slip) * (SLACK / region->d[0]),
+                           slope_u * SLACK);
+    g.rate[1] = quad_least((sum.along_v + (double)(m * m) * slip) * (SLACK / region->d[1]),
+                           slope_v * SLACK);
+    patch_range(&g, size);
     reach = (reach + 8 * ROUNDING * far) * SLACK;
-    for (int i = 0; i < COUPLE; ++i) {
-        imp_model *g = out + i;
-        g->a = a[i], g->e = e[i];
-        g->b[0] = sum.x[1][0][i], g->b[1] = sum.x[0][1][i];
-        g->b[2] = half * (drift[i] + sum.y[0][0][i]);
-        g->q[IMP_UU] = 2 * sum.x[2][0][i], g->q[IMP_VV] = 2 * sum.x[0][2][i];
-        g->q[IMP_UV] = sum.x[1][1][i], g->q[IMP_TT] = 0;
-        g->q[IMP_UT] = half * sum.y[1][0][i], g->q[IMP_VT] = half * sum.y[0][1][i];
-        g->rate[0] = least_u[i], g->rate[1] = least_v[i], g->rate[2] = rate_t[i] * SLACK;
-        g->depends = lanes == 8 ? 7 : 3, g->reserved = 0;
-        patch_range(g, size[i]);
-        patch_cut(g, centre[i] - reach[i], centre[i] + reach[i]);
+    g.lo = quad_most(g.lo, centre - reach);
+    g.hi = quad_least(g.hi, centre + reach);
+    return g;
+}
+
+static QUAD_INLINE void patch_models(const patch *f, int n, int m, int lanes,
+                                     const imp_region *region, const quad *c, int count,
+                                     imp_model *out)
+{
+    const patch_parts g = patch_assemble(f, n, m, lanes, region, c);
+    QUAD_UNROLL
+    for (int i = 0; i < count; ++i) {
+        out[i].a = g.a[i], out[i].e = g.e[i], out[i].lo = g.lo[i], out[i].hi = g.hi[i];
+        for (int j = 0; j < 3; ++j) out[i].b[j] = g.b[j][i], out[i].rate[j] = g.rate[j][i];
+        for (int k = 0; k < 6; ++k) out[i].q[k] = g.q[k][i];
+        out[i].depends = lanes == 8 ? 7 : 3, out[i].reserved = 0;
     }
 }
 
-static COUPLE_INLINE void patch_polynomial(const patch *f, int n, int m, int lanes,
-                                           const imp_region *region, imp_model model[3])
+static QUAD_INLINE void patch_polynomial(const patch *f, int n, int m, int lanes,
+                                         const imp_region *region, imp_model model[3])
 {
-    couple c[PATCH_NUMBERS_MAX / COUPLE], work[PATCH_NUMBERS_MAX / COUPLE];
-    imp_model zw[2];
+    quad c[PATCH_NUMBERS_MAX / QUAD], work[PATCH_NUMBERS_MAX / QUAD];
     patch_localize(f, n, m, lanes, region, c, work);
-    patch_two_models(f, n, m, lanes, 0, region, c, model);
-    patch_two_models(f, n, m, lanes, 2, region, c, zw);
-    model[2] = zw[0];
+    patch_models(f, n, m, lanes, region, c, 3, model);
+}
+
+/* The same for any degrees; fast for bicubic ones. */
+static QUAD_INLINE void patch_polynomial_of(const patch *f, const imp_region *region,
+                                            imp_model model[3])
+{
+    const bool bicubic = f->degree[0] == 3 && f->degree[1] == 3;
+    if (bicubic && f->lanes == 8)
+        patch_polynomial(f, 3, 3, 8, region, model);
+    else if (bicubic)
+        patch_polynomial(f, 3, 3, 4, region, model);
+    else
+        patch_polynomial(f, f->degree[0], f->degree[1], f->lanes, region, model);
+}
+
+QUAD_WIDE static inline void patch_polynomial_wide(const patch *f, const imp_region *region,
+                                                   imp_model model[3])
+{
+    patch_polynomial_of(f, region, model);
 }
 
 /* A rational patch as (X + t Y) / W. Around g = c0 + t c1, near the middle of the region,
@@ -160,15 +188,15 @@ static COUPLE_INLINE void patch_polynomial(const patch *f, int n, int m, int lan
  *
  * exactly for any c0 and c1; the numerator is small, so that little is lost in the quotient. Lemma:
  * X - c0 W has the noise of both, and its two roundings add ROUNDING (|c0| |W| + |X - c0 W|), of
- * which patch_two_models has the second. */
-static inline void patch_take_off(patch *f, couple *series, int lane, double c)
+ * which patch_assemble has the second. */
+static inline void patch_take_off(patch *f, quad *series, int lane, double c)
 {
-    const size_t couples = patch_points(f->degree) * (size_t)(f->lanes / COUPLE);
+    const size_t couples = patch_points(f->degree) * (size_t)(f->lanes / QUAD);
     double *radius = lane < 4 ? &f->place_radius[lane] : &f->drift_radius[lane - 4], weights = 0;
-    for (size_t i = 0; i < couples; i += (size_t)(f->lanes / COUPLE)) {
-        double w = series[i + PATCH_W / COUPLE][PATCH_W % COUPLE];
+    for (size_t i = 0; i < couples; i += (size_t)(f->lanes / QUAD)) {
+        double w = series[i + PATCH_W / QUAD][PATCH_W % QUAD];
         weights += fabs(w);
-        series[i + (size_t)(lane / COUPLE)][lane % COUPLE] -= c * w;
+        series[i + (size_t)(lane / QUAD)][lane % QUAD] -= c * w;
     }
     f->noise[lane] += fabs(c) * (f->noise[PATCH_W] + 2 * ROUNDING * weights) * SLACK;
     *radius = (*radius + fabs(c) * f->most[PATCH_W]) * SLACK;
@@ -203,7 +231,7 @@ static inline imp_model patch_quotient(const patch *f, int axis, const imp_regio
 
 static inline void patch_rational(const patch *f, const imp_region *region, imp_model model[3])
 {
-    couple c[PATCH_NUMBERS_MAX / COUPLE], work[PATCH_NUMBERS_MAX / COUPLE];
+    quad c[PATCH_NUMBERS_MAX / QUAD], work[PATCH_NUMBERS_MAX / QUAD];
     const int n = f->degree[0], m = f->degree[1];
     double off[3][2] = {{0}};
     imp_model x[4];
@@ -212,12 +240,11 @@ static inline void patch_rational(const patch *f, const imp_region *region, imp_
     patch_forget_motion(&shifted);
     for (int axis = 0; axis < 3; ++axis)
         for (int lane = axis; lane < f->lanes; lane += 4) {
-            double w = c[PATCH_W / COUPLE][PATCH_W % COUPLE];
-            off[axis][lane / 4] = w > 0 ? c[lane / COUPLE][lane % COUPLE] / w : 0;
+            double w = c[PATCH_W / QUAD][PATCH_W % QUAD];
+            off[axis][lane / 4] = w > 0 ? c[lane / QUAD][lane % QUAD] / w : 0;
             patch_take_off(&shifted, c, lane, off[axis][lane / 4]);
         }
-    patch_two_models(&shifted, n, m, f->lanes, 0, region, c, x);
-    patch_two_models(&shifted, n, m, f->lanes, 2, region, c, x + 2);
+    patch_models(&shifted, n, m, f->lanes, region, c, 4, x);
     patch_cut(&x[PATCH_W], f->weight_lo, f->most[PATCH_W]);
     for (int axis = 0; axis < 3; ++axis)
         model[axis] = patch_quotient(f, axis, region, &x[axis], &x[PATCH_W], off[axis]);
@@ -230,12 +257,10 @@ static inline imp_status patch_include(const patch *f, const imp_region *region,
     if (status != IMP_OK) return status;
     if (f->rational)
         patch_rational(f, region, model);
-    else if (f->degree[0] == 3 && f->degree[1] == 3 && f->lanes == 8)
-        patch_polynomial(f, 3, 3, 8, region, model);
-    else if (f->degree[0] == 3 && f->degree[1] == 3)
-        patch_polynomial(f, 3, 3, 4, region, model);
+    else if (quad_is_wide())
+        patch_polynomial_wide(f, region, model);
     else
-        patch_polynomial(f, f->degree[0], f->degree[1], f->lanes, region, model);
+        patch_polynomial_of(f, region, model);
     return IMP_OK;
 }
 

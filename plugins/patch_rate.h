@@ -18,12 +18,13 @@
  *
  * Lemma (roundings, in units of ROUNDING). A control point of the sub-patch: (4n + 4m + 2) most,
  * bernstein.h, and units most for the net. One of a derivative along a side of degree k: (4n + 4m +
- * 2) slope, and (2 units k most + 2 slope) for its net (patch_set_differences). Below, `shape_slip` and
- * `slope_slip` are these; what is computed from them adds a few of the same size, and so 4 more. */
+ * 2) slope, and (2 units k most + 2 slope) for its net (patch_set_differences). Below, `shape_slip`
+ * and `slope_slip` are these; what is computed from them adds a few of the same size, and so 4
+ * more. */
 
 /* Weights of all control points of a polynomial of degree n over [lo, hi]: point k has w_jk, as
- * couple_rows wants it. */
-static COUPLE_INLINE void patch_weights(int n, double lo, double hi, double *w)
+ * quad_rows wants it. */
+static QUAD_INLINE void patch_weights(int n, double lo, double hi, double *w)
 {
     for (int k = 0; k <= n; ++k) {
         double weight[PATCH_SIDE_MAX];
@@ -33,17 +34,17 @@ static COUPLE_INLINE void patch_weights(int n, double lo, double hi, double *w)
 }
 
 /* Control points over the region of a net of degrees n, m; `work` has room for as many. */
-static COUPLE_INLINE void patch_restrict(const double *net, int n, int m, int lanes,
-                                         const imp_region *region, double *out, double *work)
+static QUAD_INLINE void patch_restrict(const double *net, int n, int m, int lanes,
+                                       const imp_region *region, double *out, double *work)
 {
-    const int group = lanes / COUPLE, row = (m + 1) * group;
+    const int group = lanes / QUAD, row = (m + 1) * group;
     double along_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX], along_v[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
-    couple *half = (couple *)work, *whole = (couple *)out;
+    quad *half = (quad *)work, *whole = (quad *)out;
     patch_weights(n, region->lo[0], region->hi[0], along_u);
     patch_weights(m, region->lo[1], region->hi[1], along_v);
-    couple_rows(n, along_u, false, (const couple *)net, half, row);
+    quad_rows(n, along_u, false, (const quad *)net, half, row);
     for (int i = 0; i <= n; ++i)
-        couple_rows(m, along_v, false, half + i * row, whole + i * row, group);
+        quad_rows(m, along_v, false, half + i * row, whole + i * row, group);
 }
 
 /* What is known of the sub-patch before its derivatives: for each end of time, |g - c| <= r. */
@@ -150,7 +151,7 @@ static inline double patch_side_rate(const patch *f, const patch_frame *frame, i
 static inline imp_status patch_rate(const patch *f, const imp_region *region,
                                     imp_rate_matrix *rates)
 {
-    _Alignas(couple) double shape[PATCH_NUMBERS_MAX], work[PATCH_NUMBERS_MAX];
+    _Alignas(quad) double shape[PATCH_NUMBERS_MAX], work[PATCH_NUMBERS_MAX];
     imp_status status = patch_region_status(region);
     if (status != IMP_OK) return status;
     const patch_frame frame = patch_make_frame(f, region, shape, work);

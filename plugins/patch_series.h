@@ -70,15 +70,15 @@ static inline void patch_set_series(patch *f, double *work)
 /* --- Per region: C --- */
 
 /* The series of all lanes over a region. Fits in (n+1)(m+1) lanes numbers; `work` likewise. */
-static COUPLE_INLINE void patch_localize(const patch *f, int n, int m, int lanes,
-                                         const imp_region *region, couple *c, couple *work)
+static QUAD_INLINE void patch_localize(const patch *f, int n, int m, int lanes,
+                                       const imp_region *region, quad *c, quad *work)
 {
     double along_u[PATCH_SIDE_MAX * PATCH_SIDE_MAX], along_v[PATCH_SIDE_MAX * PATCH_SIDE_MAX];
-    const int group = lanes / COUPLE, row = (m + 1) * group;
+    const int group = lanes / QUAD, row = (m + 1) * group;
     chebyshev_shift(n, 2 * region->c[0] - 1, 2 * region->d[0], along_u, n + 1);
     chebyshev_shift(m, 2 * region->c[1] - 1, 2 * region->d[1], along_v, m + 1);
-    couple_rows(n, along_u, true, (const couple *)f->series, work, row);
-    for (int k = 0; k <= n; ++k) couple_rows(m, along_v, true, work + k * row, c + k * row, group);
+    quad_rows(n, along_u, true, (const quad *)f->series, work, row);
+    for (int k = 0; k <= n; ++k) quad_rows(m, along_v, true, work + k * row, c + k * row, group);
 }
 
 #endif
