@@ -92,12 +92,22 @@ static imp_code try_out(const char *path, imp_error *error)
     return code;
 }
 
-/* Only what the file itself did is remembered, not a refusal to load it: that may be the doing of
- * another file, a library that is missing today. False: no memory. */
+/* Only what the file itself did once it was loaded. That it could not be read again or not be loaded
+ * may be the doing of the moment (no more files may be open), or of another file (a library that
+ * is missing today). */
+static bool is_lasting(imp_code code, const char *text)
+{
+    static const char *const steps[] = {"trial:", "entry:", "types:"};
+    for (size_t k = 0; k < sizeof steps / sizeof *steps; ++k)
+        if (strncmp(text, steps[k], strlen(steps[k])) == 0) return true;
+    return code == IMP_SUCCESS;
+}
+
+/* False: no memory. */
 static bool remember(trial_book *book, const char *path, const elf_probe *facts, imp_code code,
                      const char *text)
 {
-    return strncmp(text, "load:", 5) == 0 || trial_book_add(book, path, facts, code, text);
+    return !is_lasting(code, text) || trial_book_add(book, path, facts, code, text);
 }
 
 static imp_code step_trial(const plugin_file *plugin, const char *path, trial_book *book,

@@ -322,6 +322,19 @@ END
     json '.refused == [] and any(.types[]; .name == "needy")'
 }
 
+@test "a plugin refused because too many files were open is taken when they are not" {
+    own_cache
+    takes kit
+    local most
+    for most in 4 5 6 7 8; do
+        "$top_builddir"/libtool --mode=execute bash -c "ulimit -n $most; exec \"\$0\" list \"\$@\"" \
+            "$IMPINGE" --plugin-path "$PWD/plugins" &>>said || true
+    done
+    grep -q 'left out' said
+    run -0 list --json
+    json '.refused == [] and any(.types[]; .name == "kit")'
+}
+
 @test "what why finds anew is what list remembers" {
     own_cache
     takes kit
