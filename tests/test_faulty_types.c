@@ -160,7 +160,7 @@ START_TEST(statuses_that_are_none_end_the_query)
         imp_status status;
         const char *what;
     } sins[] = {{IMP_INTERNAL, "reports an internal error"},
-                {IMP_DOMAIN, "outside"},
+                {IMP_DOMAIN, "is undefined there"},
                 {IMP_PARAMETER, "a status that does not exist here"},
                 {77, "a status that does not exist here"},
                 {-1, "a status that does not exist here"}};
