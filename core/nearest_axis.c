@@ -142,14 +142,14 @@ LANES_INLINE simplex simplex_add(const simplex *s, vec3 a)
 enum { STEPS = 20 }; /* six are usual */
 
 /* The gap that the axis through the nearest point shows is the lowest point's height along it; it
- * is good enough when it is half of what it can be. A NaN ends the search. */
+ * is good enough when it is 0.7 of what it can be. A NaN ends the search. */
 LANES_INLINE bool search(const relative *r, double w, vec3 *axis)
 {
     const shape z = shape_at(r, w);
     simplex s = on_point(shape_lowest(&z, *axis));
     for (int k = 0; k < STEPS; ++k) {
         const vec3 lowest = shape_lowest(&z, s.nearest);
-        if (!(vec3_dot(s.nearest, lowest) < 0.5 * s.square)) break;
+        if (!(vec3_dot(s.nearest, lowest) < 0.7 * s.square)) break;
         const simplex next = simplex_add(&s, lowest);
         if (next.count == 0) return false;
         if (!(next.square < s.square)) break;
