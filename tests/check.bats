@@ -182,7 +182,7 @@ disproves() {
 
 # --- Ours ----------------------------------------------------------------------------------------------
 
-# Each with a seed of its own; a thousand more are a loop away.
+# Each with a seed of its own.
 @test "none of our types is accused" {
     local so seed=11
     for so in "$top_builddir"/plugins/.libs/*.so; do

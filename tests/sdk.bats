@@ -86,6 +86,15 @@ make_wobble() {
     [ "$(nm -D --defined-only "$user/wobble.so" | awk '{ print $3 }')" = impinge_plugin ]
 }
 
+@test "what a new project claims follows from the formula that its README tells" {
+    local line
+    make_wobble
+    make -s install >/dev/null
+    line=$(sed -n 's/^ *\(impinge check wobble --formula .*\)/\1/p' README)
+    run -0 bash -c "$line --only proof --effort 0.1"
+    [[ $output == *"  proved("* ]]
+}
+
 @test "what new prints needs neither PATH nor other paths to be set" {
     unset PKG_CONFIG_PATH ACLOCAL_PATH
     run -0 env PATH=/usr/bin:/bin "$prefix/bin/impinge" new wobble

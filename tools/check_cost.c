@@ -93,6 +93,19 @@ static void measure_region(const subject *s, uint64_t *random, const box *where,
         add_ratio(ranges, model[i].hi - model[i].lo, found.hi[i] - found.lo[i]);
 }
 
+typedef struct ratios_words {
+    char text[80];
+} ratios_words;
+
+/* Nothing where nothing changes, or there is no include. */
+static ratios_words ratios_text(const char *what, const double ratio[CHECK_SCALES])
+{
+    ratios_words w = {""};
+    if (!isnan(ratio[0]) || !isnan(ratio[1]) || !isnan(ratio[2]))
+        snprintf(w.text, sizeof w.text, "%s %.3g, %.3g, %.3g", what, ratio[0], ratio[1], ratio[2]);
+    return w;
+}
+
 void tightness_check(const subject *s, uint64_t *random, double effort)
 {
     static const double fractions[CHECK_SCALES] = {1.0 / 64, 1.0 / 8, 1};
@@ -111,11 +124,13 @@ void tightness_check(const subject *s, uint64_t *random, double effort)
         s->answer->rate_ratio[k] = median(&rates);
         s->answer->range_ratio[k] = median(&ranges);
     }
-    const double *r = s->answer->rate_ratio, *g = s->answer->range_ratio;
-    answer_pass(s->answer,
-                "bound / observed over 1/64, 1/8 and all of the domain: rates %.3g, %.3g, %.3g; "
-                "ranges %.3g, %.3g, %.3g",
-                r[0], r[1], r[2], g[0], g[1], g[2]);
+    const ratios_words rates = ratios_text(": rates", s->answer->rate_ratio);
+    const ratios_words found = ratios_text("; ranges", s->answer->range_ratio);
+    if (rates.text[0] == '\0' && found.text[0] == '\0')
+        answer_pass(s->answer, "no coordinate changes");
+    else
+        answer_pass(s->answer, "bound / observed over 1/64, 1/8 and all of the domain%s%s",
+                    rates.text, found.text);
 }
 
 /* --- Cost ------------------------------------------------------------------------------- */

@@ -19,17 +19,26 @@
 #define LETTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
 #define NAME_SIZE 64 /* 63 bytes, as surface.h has it */
 
-/* What a surface and a map differ in. The pipelines `before` NAME, and `b`, meet. */
+/* What a surface and a map differ in. The pipelines `before` NAME, and `b`, meet; `formula` is what
+ * the template computes, as the checker takes it. */
 typedef struct project_sort {
     imp_type_sort sort;
-    const char *called, *source, *before, *b;
+    const char *called, *source, *before, *b, *formula;
 } project_sort;
 
 static const project_sort surface_sort = {
-    IMP_SORT_SURFACE, "surface", "surface.c", "",
-    "sphere radius=0.5 center=0,0,2 ! translate velocity=0,0,-2"};
-static const project_sort map_sort = {IMP_SORT_MAP, "map", "map.c", "sphere center=0,0,2 ! ",
-                                      "sphere radius=0.5 center=4,0,2 ! translate velocity=-4,0,0"};
+    IMP_SORT_SURFACE,
+    "surface",
+    "surface.c",
+    "",
+    "sphere radius=0.5 center=0,0,2 ! translate velocity=0,0,-2",
+    "u; v; height*(1-u^2)*(1-v^2)*sin(rate*t)"};
+static const project_sort map_sort = {IMP_SORT_MAP,
+                                      "map",
+                                      "map.c",
+                                      "sphere center=0,0,2 ! ",
+                                      "sphere radius=0.5 center=4,0,2 ! translate velocity=-4,0,0",
+                                      "x+slope*z*sin(rate*t); y; z"};
 
 /* --- May it be called that? ------------------------------------------------------- */
 
@@ -95,9 +104,11 @@ static exit_status write_project(const project_sort *sort, const char *folder, c
     for (char *c = id; *c != '\0'; ++c)
         if (*c == '-') *c = '_';
     snprintf(source, sizeof source, "%s.c", name);
-    const project_word words[] = {
-        {"name", name},         {"id", id},           {"author", author}, {"a", a}, {"b", sort->b},
-        {"sort", sort->called}, {"guide", SDKDOCDIR}, {NULL, NULL}};
+    const project_word words[] = {{"name", name},       {"id", id},
+                                  {"author", author},   {"a", a},
+                                  {"b", sort->b},       {"sort", sort->called},
+                                  {"guide", SDKDOCDIR}, {"formula", sort->formula},
+                                  {NULL, NULL}};
     const project_file files[] = {{"README", "README", false},
                                   {"configure.ac", "configure.ac", false},
                                   {"Makefile.am", "Makefile.am", false},
