@@ -124,13 +124,13 @@ void tightness_check(const subject *s, uint64_t *random, double effort)
         s->answer->rate_ratio[k] = median(&rates);
         s->answer->range_ratio[k] = median(&ranges);
     }
-    const ratios_words rates = ratios_text(": rates", s->answer->rate_ratio);
-    const ratios_words found = ratios_text("; ranges", s->answer->range_ratio);
-    if (rates.text[0] == '\0' && found.text[0] == '\0')
+    const ratios_words slopes = ratios_text(": rates", s->answer->rate_ratio);
+    const ratios_words spans = ratios_text("; ranges", s->answer->range_ratio);
+    if (slopes.text[0] == '\0' && spans.text[0] == '\0')
         answer_pass(s->answer, "no coordinate changes");
     else
         answer_pass(s->answer, "bound / observed over 1/64, 1/8 and all of the domain%s%s",
-                    rates.text, found.text);
+                    slopes.text, spans.text);
 }
 
 /* --- Cost ------------------------------------------------------------------------------- */
