@@ -256,28 +256,34 @@ static void b_splines(const knot_list *k, number u, number *n)
         }
 }
 
-void nurbs_oracle(const type_arguments *arguments, const number p[3], number x[3])
+void patch_oracle(const type_arguments *arguments, const weighting along[2], number t, number x[3])
 {
     const double *points = argument(arguments, "points")->number;
     const double *velocities = argument(arguments, "velocities")->number;
     const double *weights = argument(arguments, "weights")->number;
-    const knot_list along_u = knots_along(arguments, 0), along_v = knots_along(arguments, 1);
-    number sum[3] = {num(0), num(0), num(0)}, total = num(0), basis_u[64], basis_v[64];
-    b_splines(&along_u, p[0], basis_u);
-    b_splines(&along_v, p[1], basis_v);
-    for (size_t i = 0; i < along_u.count; ++i) {
-        for (size_t j = 0; j < along_v.count; ++j) {
-            const size_t k = i * along_v.count + j;
-            if (num_near(basis_u[i]) == 0 || num_near(basis_v[j]) == 0) continue;
-            number weight = num_mul(basis_u[i], basis_v[j]);
-            if (weights) weight = num_mul(weight, num(weights[k]));
-            total = num_add(total, weight);
-            for (size_t axis = 0; axis < 3; ++axis) {
-                number at = num(points[3 * k + axis]);
-                if (velocities) at = num_add(at, num_mul(p[2], num(velocities[3 * k + axis])));
-                sum[axis] = num_add(sum[axis], num_mul(weight, at));
-            }
+    number sum[3] = {num(0), num(0), num(0)}, total = num(0);
+    for (size_t k = 0; k < along[0].count * along[1].count; ++k) {
+        const number u = along[0].of[k / along[1].count], v = along[1].of[k % along[1].count];
+        if (num_near(u) == 0 || num_near(v) == 0) continue;
+        number weight = num_mul(u, v);
+        if (weights) weight = num_mul(weight, num(weights[k]));
+        total = num_add(total, weight);
+        for (size_t axis = 0; axis < 3; ++axis) {
+            number at = num(points[3 * k + axis]);
+            if (velocities) at = num_add(at, num_mul(t, num(velocities[3 * k + axis])));
+            sum[axis] = num_add(sum[axis], num_mul(weight, at));
         }
     }
     for (int axis = 0; axis < 3; ++axis) x[axis] = num_div(sum[axis], total);
+}
+
+void nurbs_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    weighting along[2];
+    for (int side = 0; side < 2; ++side) {
+        const knot_list k = knots_along(arguments, side);
+        along[side].count = k.count;
+        b_splines(&k, p[side], along[side].of);
+    }
+    patch_oracle(arguments, along, p[2], x);
 }

@@ -25,4 +25,13 @@ surface_oracle sweep_oracle;
 surface_oracle product_oracle;
 surface_oracle nurbs_oracle;
 
+/* What the control points along one parameter weigh. */
+typedef struct weighting {
+    number of[64];
+    size_t count;
+} weighting;
+
+/* The point of a patch of control points, "points" by u then v, with "weights" and "velocities". */
+void patch_oracle(const type_arguments *arguments, const weighting along[2], number t, number x[3]);
+
 #endif

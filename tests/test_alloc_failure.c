@@ -106,16 +106,18 @@ static void assert_refused(imp_code code, size_t n)
                   error.text);
 }
 
-START_TEST(a_scene_is_whole_or_not_there)
+typedef imp_scene *(*scene_maker)(imp_registry *registry);
+
+static void scenes_are_whole_or_not_there(scene_maker make)
 {
     imp_registry *registry = kit_registry();
     alloc_failure_begin(0);
-    imp_scene_free(imp_scene_from_json(registry, PLENTY, strlen(PLENTY), "s", &error));
+    imp_scene_free(make(registry));
     alloc_failure_end();
     size_t before = alloc_failure_live(), n = 0;
     for (bool failed = true; failed && n < ATTEMPTS;) {
         alloc_failure_begin(++n);
-        imp_scene *scene = imp_scene_from_json(registry, PLENTY, strlen(PLENTY), "s", &error);
+        imp_scene *scene = make(registry);
         failed = alloc_failure_end();
         ck_assert_msg(!scene == failed, "failing allocation %zu: %s", n, error.text);
         if (failed) assert_refused(error.code, n);
@@ -125,29 +127,23 @@ START_TEST(a_scene_is_whole_or_not_there)
     ck_assert_uint_gt(n, 100);
     imp_registry_free(registry);
 }
+
+static imp_scene *plenty(imp_registry *registry)
+{
+    return imp_scene_from_json(registry, PLENTY, strlen(PLENTY), "s", &error);
+}
+
+START_TEST(a_scene_is_whole_or_not_there) { scenes_are_whole_or_not_there(plenty); }
 END_TEST
 
-START_TEST(a_pair_is_whole_or_not_there)
+static imp_scene *nudged_pair(imp_registry *registry)
 {
-    imp_registry *registry = kit_registry();
     const char *a = "kit radius=1 center=1,2,3 label=sin(u) constants={\"a\":1} ! nudge by=1,0,0",
                *b = "kit radius=.5 weights=.5,.25 label=\"x\" ! nudge by=0,.5,0 ! nudge by=1,1,1";
-    alloc_failure_begin(0);
-    imp_scene_free(imp_scene_from_pair(registry, a, b, &error));
-    alloc_failure_end();
-    size_t before = alloc_failure_live(), n = 0;
-    for (bool failed = true; failed && n < ATTEMPTS;) {
-        alloc_failure_begin(++n);
-        imp_scene *scene = imp_scene_from_pair(registry, a, b, &error);
-        failed = alloc_failure_end();
-        ck_assert_msg(!scene == failed, "failing allocation %zu: %s", n, error.text);
-        if (failed) assert_refused(error.code, n);
-        imp_scene_free(scene);
-        assert_nothing_left(before, n);
-    }
-    ck_assert_uint_gt(n, 100);
-    imp_registry_free(registry);
+    return imp_scene_from_pair(registry, a, b, &error);
 }
+
+START_TEST(a_pair_is_whole_or_not_there) { scenes_are_whole_or_not_there(nudged_pair); }
 END_TEST
 
 START_TEST(a_file_that_does_not_fit_into_memory_is_told)

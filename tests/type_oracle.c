@@ -88,28 +88,13 @@ static number bernstein(unsigned n, unsigned i, number u)
 
 static void bezier(const type_arguments *arguments, const number p[3], number x[3])
 {
-    const double *points = argument(arguments, "points")->number;
-    const double *velocities = argument(arguments, "velocities")->number;
-    const double *weights = argument(arguments, "weights")->number;
-    const unsigned n = (unsigned)argument(arguments, "degree")->number[0];
-    const unsigned m = (unsigned)argument(arguments, "degree")->number[1];
-    number sum[3] = {num(0), num(0), num(0)}, total = num(0), along_v[32];
-    for (unsigned j = 0; j <= m; ++j) along_v[j] = bernstein(m, j, p[1]);
-    for (unsigned i = 0; i <= n; ++i) {
-        number along_u = bernstein(n, i, p[0]);
-        for (unsigned j = 0; j <= m; ++j) {
-            size_t k = i * (m + 1) + j;
-            number weight = num_mul(along_u, along_v[j]);
-            if (weights) weight = num_mul(weight, num(weights[k]));
-            total = num_add(total, weight);
-            for (size_t axis = 0; axis < 3; ++axis) {
-                number at = num(points[3 * k + axis]);
-                if (velocities) at = num_add(at, num_mul(p[2], num(velocities[3 * k + axis])));
-                sum[axis] = num_add(sum[axis], num_mul(weight, at));
-            }
-        }
+    weighting along[2];
+    for (int side = 0; side < 2; ++side) {
+        const unsigned n = (unsigned)argument(arguments, "degree")->number[side];
+        along[side].count = n + 1;
+        for (unsigned i = 0; i <= n; ++i) along[side].of[i] = bernstein(n, i, p[side]);
     }
-    for (int axis = 0; axis < 3; ++axis) x[axis] = num_div(sum[axis], total);
+    patch_oracle(arguments, along, p[2], x);
 }
 
 /* --- Maps ---------------------------------------------------------------------------------- */
@@ -297,7 +282,8 @@ const type_oracle oracles[] = {
      .surface = nurbs_oracle,
      .instances =
          {"{}", "{\"points\": [@16[?,?,?]], \"velocities\": [@16[?,?,?]], \"weights\": [@16+]}",
-          "{\"degree\": [3,3], \"knots\": [[0,0,0,0,0.3,0.35,0.7,1,1,1,1],[-2,-1,0,1,2,3,4,5,6,7,8]],"
+          "{\"degree\": [3,3], \"knots\": "
+          "[[0,0,0,0,0.3,0.35,0.7,1,1,1,1],[-2,-1,0,1,2,3,4,5,6,7,8]],"
           " \"points\": [@49[?,?,?]]}",
           "{\"degree\": [3,2], \"knots_u\": [0,0,0,0,1,2,2,2,3,4,5,5,5,5],"
           " \"knots_v\": [0,0,0,0.1,1,1,1.5,1.5,1.5], \"points\": [@60[?,?,?]],"
@@ -305,7 +291,8 @@ const type_oracle oracles[] = {
           "{\"degree\": [1,1], \"knots_u\": [0,0,1,2,3,4,5,6,7,8,9,9],"
           " \"knots_v\": [0,0,1,2,3,4,5,5], \"points\": [@60[?,?,?]], \"weights\": [@60+],"
           " \"velocities\": [@60[?,?,?]]}",
-          "{\"degree\": [9,1], \"knots_u\": [0,0,0,0,0,0,0,0,0,0,0.4,1,1,1,1,1,1,1,1,1,1], \"knots_v\": [0,0,1,1],"
+          "{\"degree\": [9,1], \"knots_u\": [0,0,0,0,0,0,0,0,0,0,0.4,1,1,1,1,1,1,1,1,1,1], "
+          "\"knots_v\": [0,0,1,1],"
           " \"points\": [@22[?,?,?]], \"weights\": [@22+]}",
           "{\"knots\": [[0,0,0,1e-9,1,1,1],[1e6,1e6,1e6,1000000.5,1000001,1000001,1000001]],"
           " \"points\": [@16[1e8,?,?]]}"}},
