@@ -106,7 +106,7 @@ options=()
         {"name": "a", "surfaces": [{"type": "sphere"}]},
         {"name": "b", "surfaces": [{"type": "sphere", "radius": 1.000000002}]}]}' | tr -d '\n'
         echo && scene '"id": 3,'; } >scenes.jsonl
-    run -3 --separate-stderr timeout --preserve-status --signal=INT --foreground 0.5 \
+    run -3 --separate-stderr timeout --preserve-status --signal=INT --foreground 1.5 \
         "$IMPINGE" batch scenes.jsonl --max-bytes 0
     valid result
     jq -es 'map(.id) == [1, 2] and .[1].reason == "cancelled"' <<<"$output"
@@ -114,9 +114,14 @@ options=()
 }
 
 @test "a signal ends the wait for the next line" {
-    run -3 --separate-stderr bash -c 'sleep 5 | timeout --preserve-status --signal=TERM --foreground \
-        0.3 "$IMPINGE" batch -'
-    [[ $stderr == *'interrupted after line 0' ]]
+    coproc "$IMPINGE" batch - 2>said
+    local pid=$COPROC_PID status=0
+    scene >&"${COPROC[1]}"
+    read -r -t 20 output <&"${COPROC[0]}"
+    kill -TERM "$pid"
+    wait "$pid" || status=$?
+    [ "$status" -eq 3 ]
+    [[ $(<said) == *'interrupted after line 1' ]]
 }
 
 @test "output that cannot be written ends the batch" {

@@ -98,7 +98,7 @@ load cli_helper
 @test "SIGINT and SIGTERM end the search, and what is proved is printed" {
     local signal
     for signal in INT TERM; do
-        run -3 --separate-stderr timeout --preserve-status --signal="$signal" --foreground 0.5 \
+        run -3 --separate-stderr timeout --preserve-status --signal="$signal" --foreground 1.5 \
             "$IMPINGE" pair "${endless[@]}" --json
         valid result
         json '.verdict == "undecided" and .reason == "cancelled" and .t_lower == 0'
