@@ -211,7 +211,10 @@ static double bytes_in_use(void)
 #endif
 }
 
-enum { SPELLS = 6, ROUNDS = 256, REFUSED_ROUNDS = 64 };
+enum { SPELLS = 48, ROUNDS = 256, REFUSED_ROUNDS = 64 };
+
+/* No block is smaller. */
+#define BLOCK_LEAST 16.0
 
 /* What is done again and again. False: it cannot be done. */
 typedef bool life(const trial *t);
@@ -243,11 +246,12 @@ static bool one_try(const trial *t)
 }
 
 /* Bytes by which so many lives grow the heap, at least: malloc keeps blocks at hand and learns how
- * many, so that some spells grow it anyway; a leak does so in each. Negative: it cannot be told. */
+ * many, up to some 200 kB, so that many spells may grow it anyway; a leak does so in each.
+ * Negative: it cannot be told. */
 static double growth_lower(const trial *t, life *live, int rounds)
 {
     double least = INFINITY;
-    for (int spell = 0; spell < SPELLS && least > 0; ++spell) {
+    for (int spell = 0; spell < SPELLS && least >= BLOCK_LEAST * rounds; ++spell) {
         const double before = bytes_in_use();
         for (int k = 0; k < rounds; ++k)
             if (!live(t)) return 0;
@@ -261,7 +265,7 @@ static double growth_lower(const trial *t, life *live, int rounds)
 /* --- Memory of what is refused -------------------------------------------------------------- */
 
 /* False, and the answer fails, if creates of the stage with that value leave memory behind. What
- * the table takes, create may refuse. No block is smaller than 16 bytes. */
+ * the table takes, create may refuse. */
 static bool is_let_go(const trial *t, const char *parameter, const char *value)
 {
     trial other = *t;
@@ -270,7 +274,7 @@ static bool is_let_go(const trial *t, const char *parameter, const char *value)
     other.text = stage;
     const double grown = growth_lower(&other, one_try, REFUSED_ROUNDS);
     free(stage);
-    return grown < 16.0 * REFUSED_ROUNDS ||
+    return grown < BLOCK_LEAST * REFUSED_ROUNDS ||
            answer_fail(t->answer,
                        "%d times %s=%.80s, refused or destroyed, leave %.0f bytes behind",
                        REFUSED_ROUNDS, parameter, value, grown);
@@ -297,7 +301,7 @@ void memory_check(imp_registry *registry, const imp_type_info *type, const char 
     answer->tests += ROUNDS;
     if (grown < 0)
         answer_skip(answer, "this system's malloc does not tell how much is in use");
-    else if (grown >= 16.0 * ROUNDS)
+    else if (grown >= BLOCK_LEAST * ROUNDS)
         answer_fail(answer, "%d instances, made, asked and destroyed, leave %.0f bytes behind",
                     ROUNDS, grown);
     else if (refusals_are_let_go(&t))
