@@ -64,6 +64,16 @@ static bool unknown_name(const imp_registry *r, const char *list, char name[TEXT
     return false;
 }
 
+static imp_code refuse_isolation(const imp_registry *r, const char *name, imp_error *error)
+{
+    imp_nearest search = {.wanted = name};
+    for (size_t i = 0; i < r->type_count; ++i) imp_nearest_offer(&search, r->type[i].view.name);
+    const char *near = search.best;
+    return error_set(error, IMP_ERROR_USAGE,
+                     "there is no type '%s' to isolate%s%s%s `impinge list` shows what there is",
+                     name, near ? ", did you mean '" : "", near ? near : "", near ? "'?" : ";");
+}
+
 imp_code imp_registry_isolate(imp_registry *registry, const char *names, imp_error *error)
 {
     const size_t size = names ? strlen(names) + 3 : 1;
@@ -72,9 +82,7 @@ imp_code imp_registry_isolate(imp_registry *registry, const char *names, imp_err
     snprintf(list, size, names ? ",%s," : "%s", names ? names : "");
     if (names && unknown_name(registry, list, unknown)) {
         free(list);
-        return error_set(error, IMP_ERROR_USAGE,
-                         "there is no type '%s' to isolate; `impinge list` shows what there is",
-                         unknown);
+        return refuse_isolation(registry, unknown, error);
     }
     free(registry->isolated);
     registry->isolated = list;
