@@ -26,20 +26,40 @@ typedef struct said {
 /* --- Parameters ----------------------------------------------------------------------------------
  */
 
-/* As JSON, with what people may type instead (impinge/impinge.h): strings without quotes, lists
- * without brackets. NULL: absent, or not to be read. */
-static json_t *read_value(const imp_parameter *row, const char *text)
+static bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/* As JSON wants it, of what people may type: .5, 5. and +5, and lists without brackets. Free it. */
+static char *written_out(const char *text, bool is_list)
 {
-    const int flags = JSON_DECODE_ANY | JSON_DECODE_INT_AS_REAL;
-    const bool is_list = row->rank > 0 && text[0] != '[';
-    char *listed = NULL;
-    if (row->kind == IMP_STRING && text[0] != '"') return json_string(text);
-    if (is_list && asprintf(&listed, "[%s]", text) < 0) return NULL;
-    json_t *json = json_loads(is_list ? listed : text, flags, NULL);
-    free(listed);
-    return json;
+    char *copy = malloc(3 * strlen(text) + 3), *to = copy;
+    bool quoted = false;
+    if (copy == NULL) return NULL;
+    if (is_list) *to++ = '[';
+    for (const char *c = text; *c != '\0'; ++c) {
+        const char last = c > text ? c[-1] : '\0';
+        quoted ^= *c == '"';
+        if (*c == '+' && !quoted && (last | 0x20) != 'e') continue;
+        if (*c == '.' && !quoted && !is_digit(last)) *to++ = '0';
+        *to++ = *c;
+        if (*c == '.' && !quoted && !is_digit(c[1])) *to++ = '0';
+    }
+    if (is_list) *to++ = ']';
+    *to = '\0';
+    return copy;
 }
 
+/* NULL: not to be read. */
+static json_t *read_value(const imp_parameter *row, const char *text)
+{
+    if (row->kind == IMP_STRING && text[0] != '"') return json_string(text);
+    char *json = written_out(text, row->rank > 0 && text[0] != '[');
+    json_t *value =
+        json != NULL ? json_loads(json, JSON_DECODE_ANY | JSON_DECODE_INT_AS_REAL, NULL) : NULL;
+    free(json);
+    return value;
+}
+
+/* NULL: absent. */
 static json_t *value_of(const said *s, const imp_parameter *row)
 {
     char *text = stage_value(s->stage, row->name);
