@@ -60,9 +60,11 @@ measured() {
     measured '.sets[] | select(.set == "spikes").findings.narrowest_over_widest_head_on <= 1'
 }
 
-@test "narrow spikes that hit each other's flanks take less than 4000 pairs" {
+@test "needles two hundred times narrower hit each other's flanks for less than ten times the pairs" {
     measured '[.sets[] | select(.set == "spikes").cases[] | select(.case | startswith("swing")) |
-        .methods[0]] | length == 5 and all(.verdicts.contact == 1 and .pairs.max < 4000)'
+        .methods[0]] | length == 8 and all(.verdicts.contact == 1 and .pairs.max < 12000)'
+    measured 'row("spikes"; "swing, width 0.01").pairs.max < 4000'
+    measured '.sets[] | select(.set == "spikes").findings.narrowest_over_widest_swing < 10'
 }
 
 @test "no scene of any set is left open, and none takes 64 megabytes" {

@@ -140,7 +140,7 @@ static const bench_set bicubic = {
 /* --- spikes ------------------------------------------------------------------------------- */
 
 static const double widths[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
-enum { WIDTHS = sizeof widths / sizeof *widths, SWINGS = 5 };
+enum { WIDTHS = sizeof widths / sizeof *widths };
 
 /* Directions of longitude and latitude, (cos v cos u, cos v sin u, sin v). */
 static const double at_0_7_and_0_4[3] = {0.7044663052755917, 0.5933637833613874,
@@ -185,7 +185,7 @@ static exit_status build_spikes(bench_cases *list, const bench_request *request)
         bench_begin(list, 1e-6, -1, "head-on, width %g", widths[k]);
         add_head_on(list, widths[k]);
     }
-    for (int k = 0; k < SWINGS; ++k) {
+    for (int k = 0; k < WIDTHS; ++k) {
         bench_begin(list, 1e-6, -1, "swing, width %g", widths[k]);
         add_swing(list, widths[k]);
     }
