@@ -14,6 +14,7 @@ check_suites = \
     tests/test_faulty_types \
     tests/test_formula_answers \
     tests/test_guarantees \
+    tests/test_lanes \
     tests/test_loosened \
     tests/test_metamorphic \
     tests/test_map_answers \
