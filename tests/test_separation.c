@@ -280,6 +280,32 @@ START_TEST(where_hulls_meet_there_is_no_nearest_axis)
 }
 END_TEST
 
+/* Every length times 2^k. */
+static void enlarge(node *n, int k)
+{
+    double *const all[] = {(double *)&n->f, n->e, n->motion};
+    const size_t counts[] = {sizeof n->f / sizeof(double), 4, 4};
+    for (int part = 0; part < 3; ++part)
+        for (size_t i = 0; i < counts[part]; ++i) all[part][i] = ldexp(all[part][i], k);
+}
+
+/* Where squares of lengths overflow or vanish, too. The caps are made oblique, so that all terms of
+ * a quadratic's determinant do. */
+START_TEST(caps_that_touch_with_their_tops_are_not_parted_at_any_size)
+{
+    for (int k = -1060; k <= 1020; k += 20) {
+        meeting m = two_caps(0.1, -1, 0.999e-6);
+        memcpy(m.a.f.quv, m.a.f.quu, sizeof m.a.f.quv);
+        memcpy(m.b.f.quv, m.b.f.quu, sizeof m.b.f.quv);
+        enlarge(&m.a, k);
+        enlarge(&m.b, k);
+        vec3 axis = {{0, 0, 0}};
+        const bool some = separation_by_models(&m.a, &m.b, ldexp(1e-6, k), &m.window, &axis);
+        ck_assert_msg(some && m.window.lo == 0 && m.window.hi == 1, "enlarged by 2^%d", k);
+    }
+}
+END_TEST
+
 START_TEST(a_window_shrinks_to_the_moment_of_contact)
 {
     meeting m = two_caps(1e-9, -1, 1);
@@ -337,5 +363,6 @@ SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
            no_axis_shows_much_more_than_twice_the_gap_of_the_nearest,
            where_hulls_meet_there_is_no_nearest_axis,
            the_field_of_normals_parts_caps_that_no_axis_does,
+           caps_that_touch_with_their_tops_are_not_parted_at_any_size,
            a_window_shrinks_to_the_moment_of_contact, infinities_and_nans_never_part_anything,
            nodes_without_bounds_keep_their_window)
