@@ -6,6 +6,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "check_polynomial.h"
+
 /* --- Claims as bits of a mask -------------------------------------------------------------------
  *
  * Of each coordinate: rates by four variables, the range, the remainder. */
@@ -47,33 +49,6 @@ static int count_bits(uint32_t mask)
     int count = 0;
     for (; mask != 0; mask &= mask - 1) ++count;
     return count;
-}
-
-/* --- Polynomials ---------------------------------------------------------------------------------
- */
-
-static void add_term(jet *sum, const jet *x, double k)
-{
-    const jet term = jet_scale(x, span_of(k));
-    *sum = jet_add(sum, &term);
-}
-
-jet branch_polynomial(const imp_model *g, double cubic, const jet s[3])
-{
-    jet both, sum = jet_constant(3, span_of(g->a));
-    for (int j = 0; j < 3; ++j)
-        if (g->b[j] != 0) add_term(&sum, &s[j], g->b[j]);
-    for (int j = 0, m = 0; j < 3; ++j)
-        for (int k = j; k < 3; ++k, ++m) {
-            if (g->q[m] == 0) continue;
-            both = j == k ? jet_apply(jet_sqr_, &s[j]) : jet_mul(&s[j], &s[k]);
-            add_term(&sum, &both, g->q[m]);
-        }
-    if (cubic == 0) return sum;
-    both = jet_mul(&s[0], &s[1]);
-    both = jet_mul(&both, &s[2]);
-    add_term(&sum, &both, cubic);
-    return sum;
 }
 
 /* --- One box
@@ -118,7 +93,7 @@ static bool look_at(const search *s, const part *b, const span where[BOX_DIMS], 
     s->field->jets(s->field->context, p, normalized, out);
     for (int i = 0; i < 3; ++i) {
         if ((b->open & bit(i, REMAINDER)) == 0) continue;
-        const jet quadratic = branch_polynomial(&c->model[i], 0, normalized);
+        const jet quadratic = polynomial_jet(&c->model[i], 0, normalized);
         off[i] = jet_sub(&out[i], &quadratic);
     }
     return within;

@@ -46,9 +46,6 @@ typedef struct branch_outcome {
     span there;
 } branch_outcome;
 
-/* The polynomial of a model, without remainder, plus `cubic` s_u s_v s_t. */
-jet branch_polynomial(const imp_model *g, double cubic, const jet s[3]);
-
 branch_outcome branch_settle(const branch_field *field, const branch_claims *claims,
                              unsigned long budget);
 

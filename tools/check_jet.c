@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "check_jet.h"
 
-#include <limits.h>
 #include <math.h>
 
 jet jet_constant(int n, span value) { return (jet){.n = n, .v = value}; }
@@ -14,8 +13,7 @@ jet jet_variable(int n, int j, span where)
     return x;
 }
 
-/* --- Sums and products -------------------------------------------------------------------------
- */
+/* --- Sums and products ---------------------------------------------------------------------- */
 
 jet jet_neg(const jet *x)
 {
@@ -71,8 +69,7 @@ jet jet_mul(const jet *x, const jet *y)
     return r;
 }
 
-/* --- Functions of one number --------------------------------------------------------------------
- */
+/* --- Functions of one number ---------------------------------------------------------------- */
 
 /* g(x)'' = g'' x' x' + g' x''. What x does not depend on stays 0, however steep g is. */
 static jet composed(const jet *x, const span g[3])
@@ -95,102 +92,13 @@ jet jet_apply(jet_function *g, const jet *x)
     return composed(x, values);
 }
 
-static span times(span x, long double k) { return span_mul(x, span_of(k)); }
-
-static span one_less(span x) { return span_sub(span_of(1), x); } /* 1 - x */
-
-void jet_sqr_(span x, span g[3]) { g[0] = span_sqr(x), g[1] = times(x, 2), g[2] = span_of(2); }
-
-void jet_abs_(span x, span g[3])
-{
-    const bool kink = x.lo < 0 && x.hi > 0;
-    g[0] = span_abs(x);
-    g[1] = kink ? span_make(-1, 1) : span_of(x.hi > 0 ? 1 : -1);
-    g[2] = kink || span_is(x, 0) ? span_whole() : span_of(0);
-    if (span_is(x, 0)) g[1] = span_make(-1, 1);
-}
-
-/* 1 / (2 r), -1 / (4 r^3) for the root r. */
-void jet_sqrt_(span x, span g[3])
-{
-    g[0] = span_sqrt(x);
-    g[1] = span_inverse(times(g[0], 2));
-    g[2] = span_neg(span_inverse(times(span_whole_power(g[0], 3), 4)));
-}
-
-/* 1 / (3 r^2), -2 / (9 r^5) for the root r. */
-void jet_cbrt_(span x, span g[3])
-{
-    g[0] = span_cbrt(x);
-    g[1] = span_inverse(times(span_sqr(g[0]), 3));
-    g[2] = times(span_inverse(times(span_whole_power(g[0], 5), 9)), -2);
-}
-
-void jet_exp_(span x, span g[3]) { g[0] = g[1] = g[2] = span_exp(x); }
-
-void jet_log_(span x, span g[3])
-{
-    g[0] = span_log(x);
-    g[1] = x.hi > 0 ? span_inverse(span_make(x.lo > 0 ? x.lo : 0, x.hi)) : span_whole();
-    g[2] = span_neg(span_sqr(g[1]));
-}
-
-void jet_sin_(span x, span g[3]) { g[0] = span_sin(x), g[1] = span_cos(x), g[2] = span_neg(g[0]); }
-
-void jet_cos_(span x, span g[3])
-{
-    g[0] = span_cos(x), g[1] = span_neg(span_sin(x)), g[2] = span_neg(g[0]);
-}
-
-/* 1 + y^2, 2 y (1 + y^2) */
-void jet_tan_(span x, span g[3])
-{
-    g[0] = span_tan(x);
-    g[1] = span_add(span_of(1), span_sqr(g[0]));
-    g[2] = times(span_mul(g[0], g[1]), 2);
-}
-
-/* 1 / sqrt(1 - x^2), x / sqrt(1 - x^2)^3 */
-void jet_asin_(span x, span g[3])
-{
-    const span steep = span_inverse(span_sqrt(one_less(span_sqr(x))));
-    g[0] = span_asin(x), g[1] = steep, g[2] = span_mul(x, span_whole_power(steep, 3));
-}
-
-void jet_acos_(span x, span g[3])
-{
-    jet_asin_(x, g);
-    g[0] = span_acos(x), g[1] = span_neg(g[1]), g[2] = span_neg(g[2]);
-}
-
-/* 1 / (1 + x^2), -2 x / (1 + x^2)^2 */
-void jet_atan_(span x, span g[3])
-{
-    g[0] = span_atan(x);
-    g[1] = span_inverse(span_add(span_of(1), span_sqr(x)));
-    g[2] = times(span_mul(x, span_sqr(g[1])), -2);
-}
-
-void jet_sinh_(span x, span g[3]) { g[0] = g[2] = span_sinh(x), g[1] = span_cosh(x); }
-
-void jet_cosh_(span x, span g[3]) { g[0] = g[2] = span_cosh(x), g[1] = span_sinh(x); }
-
-/* 1 - y^2, -2 y (1 - y^2) */
-void jet_tanh_(span x, span g[3])
-{
-    g[0] = span_tanh(x);
-    g[1] = one_less(span_sqr(g[0]));
-    g[2] = times(span_mul(g[0], g[1]), -2);
-}
-
-/* --- Functions of several ------------------------------------------------------------------------
- */
+/* --- Functions of several ------------------------------------------------------------------- */
 
 static void inverse_(span x, span g[3])
 {
     g[0] = span_inverse(x);
     g[1] = span_neg(span_sqr(g[0]));
-    g[2] = times(span_whole_power(g[0], 3), 2);
+    g[2] = span_scale(span_whole_power(g[0], 3), 2);
 }
 
 jet jet_div(const jet *x, const jet *y)
@@ -236,9 +144,10 @@ static bool is_fixed(const jet *x)
 /* k x^(k-1), k (k-1) x^(k-2); the factors are whole, so what is 0 is exactly 0. */
 static jet whole_power(const jet *x, int n)
 {
-    const span slope = times(span_whole_power(x->v, n - 1), n);
-    const span bend =
-        n == 1 ? span_of(0) : span_mul(times(span_whole_power(x->v, n - 2), n), span_of(n - 1));
+    const span slope = span_scale(span_whole_power(x->v, n - 1), n);
+    const span bend = n == 1
+                          ? span_of(0)
+                          : span_mul(span_scale(span_whole_power(x->v, n - 2), n), span_of(n - 1));
     return composed(x, (span[3]){span_whole_power(x->v, n), slope, bend});
 }
 
@@ -312,8 +221,7 @@ jet jet_copysign(const jet *x, const jet *y)
     return r;
 }
 
-/* --- Over a box ----------------------------------------------------------------------------------
- */
+/* --- Over a box ----------------------------------------------------------------------------- */
 
 /* At least a x + b x^2 for |x| <= r. Lemma: it is at most |a| |x| + b.hi x^2, which grows with |x|
  * if b.hi >= 0 or 2 |b.hi| r <= |a|, and else is greatest at |x| = |a| / (2 |b.hi|). */
@@ -321,8 +229,8 @@ static long double parabola_upper(span a, span b, long double r)
 {
     const span slope = span_of(span_mag(a)), bend = span_of(b.hi), end = span_of(r);
     const span at_end = span_add(span_mul(slope, end), span_mul(bend, span_sqr(end)));
-    if (b.hi >= 0 || times(span_mul(bend, end), -2).hi <= slope.lo) return at_end.hi;
-    return span_div(span_sqr(slope), times(bend, -4)).hi;
+    if (b.hi >= 0 || span_scale(span_mul(bend, end), -2).hi <= slope.lo) return at_end.hi;
+    return span_div(span_sqr(slope), span_scale(bend, -4)).hi;
 }
 
 /* a x + b x^2 */
@@ -337,7 +245,7 @@ span jet_values(const jet *box, const jet *centre, const span offset[BOX_DIMS])
 {
     span first = centre->v, second = centre->v;
     for (int j = 0; j < box->n; ++j) {
-        const span bend = times(box->h[j][j], 0.5L);
+        const span bend = span_scale(box->h[j][j], 0.5L);
         first = span_add(first, span_mul(box->d[j], offset[j]));
         second = span_add(second, parabola(centre->d[j], bend, offset[j]));
         for (int k = j + 1; k < box->n; ++k) {

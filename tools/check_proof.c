@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "check_branch.h"
+#include "check_polynomial.h"
 #include "check_said.h"
 #include "check_under.h"
 
@@ -25,9 +26,7 @@ typedef struct proof {
     under below;   /* maps only */
 } proof;
 
-/* --- What is bounded
- * ------------------------------------------------------------------------------
- */
+/* --- What is bounded ------------------------------------------------------------------------ */
 
 /* The formula of the variables themselves. */
 static void plain_jets(void *context, const jet p[], const jet s[], jet out[3])
@@ -43,14 +42,12 @@ static void mapped_jets(void *context, const jet p[], const jet s[], jet out[3])
     const proof *now = context;
     jet variables[BOX_DIMS];
     for (int i = 0; i < 3; ++i)
-        variables[i] = branch_polynomial(&now->below.in[i], now->below.rest[i], s);
+        variables[i] = polynomial_jet(&now->below.in[i], now->below.rest[i], s);
     variables[3] = p[2];
     formula_jets(now->f, variables, out);
 }
 
-/* --- What is found
- * --------------------------------------------------------------------------------
- */
+/* --- What is found -------------------------------------------------------------------------- */
 
 /* "the rate of x by u, 2, over u in ..." */
 typedef struct claim_text {
@@ -111,8 +108,7 @@ static bool settle(proof *p, const branch_field *field, const branch_claims *c)
     return !o.refuted || refute(p, field, c, &o);
 }
 
-/* --- Claims -------------------------------------------------------------------------------------
- */
+/* --- Claims --------------------------------------------------------------------------------- */
 
 static branch_claims no_claims(const box *where, const imp_region *region)
 {
@@ -172,8 +168,7 @@ static bool settle_mapped(proof *p, uint64_t *random)
     return settle(p, &field, &c);
 }
 
-/* --- Points --------------------------------------------------------------------------------------
- */
+/* --- Points --------------------------------------------------------------------------------- */
 
 /* |x - f(p)| <= error, for a point that is exactly known. */
 static bool settle_point(const proof *p, const box *where, uint64_t *random)

@@ -23,8 +23,7 @@ typedef struct said {
     double value[CONSTANTS_MAX];
 } said;
 
-/* --- Parameters ----------------------------------------------------------------------------------
- */
+/* --- Parameters ----------------------------------------------------------------------------- */
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -109,8 +108,7 @@ static void add_parameter(said *s, const imp_parameter *row, json_t *value)
     }
 }
 
-/* --- Texts ---------------------------------------------------------------------------------------
- */
+/* --- Texts ---------------------------------------------------------------------------------- */
 
 /* "X; Y; Z". False: not three of them. */
 static bool take_given(said *s, const char *given)

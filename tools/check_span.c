@@ -113,8 +113,7 @@ span span_meet(span x, span y) { return span_make(larger(x.lo, y.lo), smaller(x.
 
 span span_plus_minus(long double size) { return span_make(-size, size); }
 
-/* --- Arithmetic --------------------------------------------------------------------------------
- */
+/* --- Arithmetic ----------------------------------------------------------------------------- */
 
 span span_neg(span x) { return (span){-x.hi, -x.lo}; }
 
@@ -150,6 +149,8 @@ span span_mul(span x, span y)
     return span_make(lo, hi);
 }
 
+span span_scale(span x, long double k) { return span_mul(x, span_of(k)); }
+
 /* Is 1 / a exactly x? */
 static bool is_inverse(long double a, long double x)
 {
@@ -182,8 +183,7 @@ span span_min(span x, span y) { return span_make(smaller(x.lo, y.lo), smaller(x.
 
 span span_max(span x, span y) { return span_make(larger(x.lo, y.lo), larger(x.hi, y.hi)); }
 
-/* --- Functions that grow ------------------------------------------------------------------------
- */
+/* --- Functions that grow -------------------------------------------------------------------- */
 
 static span growing(span x, long double (*g)(long double))
 {
@@ -234,8 +234,7 @@ span span_cosh(span x)
 
 span span_tanh(span x) { return within(growing(x, tanhl), -1, 1); }
 
-/* --- Waves ---------------------------------------------------------------------------------------
- */
+/* --- Waves ---------------------------------------------------------------------------------- */
 
 #define TURN 6.28318530717958647692528676655900577L
 #define ANGLE_MAX 0x1p40L /* beyond it, the phase is not told */
@@ -271,8 +270,7 @@ span span_tan(span x)
     return pole ? span_whole() : growing(x, tanl);
 }
 
-/* --- Powers --------------------------------------------------------------------------------------
- */
+/* --- Powers --------------------------------------------------------------------------------- */
 
 static span odd_power(span x, int n)
 {

@@ -40,6 +40,7 @@ span span_neg(span x);
 span span_add(span x, span y);
 span span_sub(span x, span y);
 span span_mul(span x, span y);
+span span_scale(span x, long double k);
 span span_inverse(span x);
 span span_div(span x, span y);
 span span_sqr(span x);

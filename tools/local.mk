@@ -15,13 +15,15 @@ tool_sources = \
     tools/check_file.c tools/check_file.h \
     tools/check_formula.c tools/check_formula.h \
     tools/check_inclusions.c tools/check_inclusions.h \
-    tools/check_jet.c tools/check_jet.h \
+    tools/check_jet.c tools/check_jet_functions.c tools/check_jet.h \
     tools/check_list.c tools/check_list.h \
     tools/check_pair.c tools/check_pair.h \
     tools/check_points.c tools/check_points.h \
+    tools/check_polynomial.c tools/check_polynomial.h \
     tools/check_proof.c tools/check_proof.h \
     tools/check_purity.c tools/check_purity.h \
     tools/check_rates.c tools/check_rates.h \
+    tools/check_reader.c tools/check_steps.h \
     tools/check_reach.c tools/check_reach.h \
     tools/check_report.c tools/check_report.h \
     tools/check_said.c tools/check_said.h \
