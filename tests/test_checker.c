@@ -263,6 +263,45 @@ START_TEST(a_formula_that_is_too_deep_or_too_long_is_refused)
 }
 END_TEST
 
+START_TEST(no_text_harms_the_reader)
+{
+    static const char *const words[] = {"u",   "v",    "(",   ")",  "+", "-",    "*",  "/",
+                                        "^",   ",",    "sin", "1e", ".", "1e99", "pi", "hypot(",
+                                        "min", "max(", " ",   "e",  "x", "\xff", "#",  "atan2("};
+    uint64_t random = suite_seed();
+    for (int k = suite_times(3000); k > 0; --k) {
+        char text[400] = "", fault[240];
+        const int length = (int)(suite_bits(&random) % 30);
+        for (int n = 0; n < length; ++n) strcat(text, words[suite_bits(&random) % 24]);
+        const formula_scope scope = {"uvt", 0, NULL, NULL};
+        formula_free(formula_read(&scope, (const char *const[]){text, "u", "v"}, fault, 240));
+    }
+}
+END_TEST
+
+/* --- Waves ---------------------------------------------------------------------------------- */
+
+/* An arc that barely holds an extreme, or ends a little before it. */
+START_TEST(an_arc_that_holds_a_top_reaches_it)
+{
+    uint64_t random = suite_seed();
+    for (int k = suite_times(20000); k > 0; --k) {
+        const int quarter = (int)(suite_bits(&random) % 2001) - 1000;
+        const long double top = 1.57079632679489661923132169163975144L * quarter;
+        const long double before = suite_power(&random, -66, 1),
+                          after = suite_power(&random, -66, 1);
+        const span arc = span_make(top - before, top + after);
+        const span waves[2] = {span_cos(arc), span_sin(arc)};
+        const long double extreme = (quarter / 2) % 2 == 0 ? 1 : -1;
+        const span wave = waves[quarter % 2 != 0];
+        const long double sign = quarter % 2 == -1 ? -extreme : extreme;
+        const bool inside = arc.lo < top && top < arc.hi;
+        if (inside) ck_assert_msg(wave.lo <= sign && wave.hi >= sign, "quarter %d", quarter);
+        ck_assert(wave.lo >= -1 && wave.hi <= 1);
+    }
+}
+END_TEST
+
 /* --- Branch and bound
  * ------------------------------------------------------------------------------- */
 
@@ -387,8 +426,8 @@ SUITE_MAIN("checker", a_jet_holds_the_values_that_its_text_has,
            a_jet_holds_the_slopes_between_any_two_points, a_jet_holds_how_its_slopes_change,
            where_nothing_bends_a_jet_at_a_point_is_as_good_as_exact,
            values_and_slopes_over_a_box_are_held_by_what_its_middle_tells,
-           a_text_that_is_no_formula_is_refused_with_its_place,
-           a_formula_that_is_too_deep_or_too_long_is_refused,
+           a_text_that_is_no_formula_is_refused_with_its_place, no_text_harms_the_reader,
+           an_arc_that_holds_a_top_reaches_it, a_formula_that_is_too_deep_or_too_long_is_refused,
            the_exact_rate_is_proved_and_less_than_it_refuted,
            the_exact_range_is_proved_and_less_than_it_refuted,
            a_remainder_that_is_attained_six_times_is_proved,

@@ -6,6 +6,7 @@
 
 #include <impinge/formula.h>
 
+#include <fenv.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -97,6 +98,7 @@ static void tell_open(const proof *p, const branch_field *field, const branch_cl
 static bool settle(proof *p, const branch_field *field, const branch_claims *c)
 {
     check_proof *sum = &p->s->answer->proof;
+    fesetround(FE_TONEAREST); /* if a plugin changes that, another check minds */
     const branch_outcome o = branch_settle(field, c, p->left < 10 * BOXES ? p->left : 10 * BOXES);
     if (o.proved < o.claims && !o.refuted) tell_open(p, field, c, &o);
     p->left = p->left > o.boxes ? p->left - o.boxes : 0;
@@ -178,6 +180,7 @@ static bool settle_point(const proof *p, const box *where, uint64_t *random)
     jet exact[BOX_DIMS], value[3];
     draw_point(random, where, p->s->n, at);
     if (!subject_eval_sane(p->s, 1, at, x, error)) return false;
+    fesetround(FE_TONEAREST);
     for (int j = 0; j < p->s->n; ++j) exact[j] = jet_constant(p->s->n, span_of(at[j]));
     formula_jets(p->f, exact, value);
     for (int i = 0; i < 3; ++i) {
