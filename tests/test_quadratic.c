@@ -101,6 +101,23 @@ START_TEST(no_value_of_a_nearly_singular_quadratic_is_outside_its_span)
 }
 END_TEST
 
+/* The same with a slope that cancels at a point of the square: a valley, whose place along itself
+ * the rounding of its coefficients decides. */
+START_TEST(no_value_of_a_valley_is_outside_its_span)
+{
+    uint64_t state = suite_seed() + 1;
+    for (int k = 0; k < suite_times(40000); ++k) {
+        const double m = suite_between(&state, -2, 2), f = suite_between(&state, 0.1, 3);
+        const double tilt = suite_power(&state, -56, -30) * suite_between(&state, -1, 1);
+        const double s = suite_between(&state, -1, 1), r = suite_between(&state, -1, 1);
+        quadratic p = {0, 0, f * m * m, 2 * f * m, f + tilt};
+        p.bs = -(2 * p.qss * s + p.qsr * r);
+        p.br = -(2 * p.qrr * r + p.qsr * s);
+        check_one(&p);
+    }
+}
+END_TEST
+
 START_TEST(the_span_of_a_quadratic_is_no_wider_than_its_values)
 {
     uint64_t state = suite_seed();
@@ -129,5 +146,6 @@ END_TEST
 
 SUITE_MAIN("quadratic", no_value_of_a_random_quadratic_is_outside_its_span,
            no_value_of_a_nearly_singular_quadratic_is_outside_its_span,
+           no_value_of_a_valley_is_outside_its_span,
            the_span_of_a_quadratic_is_no_wider_than_its_values,
            the_spans_of_textbook_quadratics_are_exact)
