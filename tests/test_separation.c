@@ -175,6 +175,22 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
 }
 END_TEST
 
+START_TEST(a_share_keeps_every_moment_within_the_limit)
+{
+    uint64_t state = suite_seed() + 3;
+    for (int k = 0; k < suite_times(100000); ++k) {
+        const double low = suite_between(&state, -1, 1), w = corner_or_inside(&state);
+        const double drift = suite_between(&state, -1, 1) * suite_power(&state, -10, 10);
+        double limit = low + drift * w;
+        while (limit < low + (long double)drift * w) limit = nextafter(limit, INFINITY);
+        share s = {-1, 1};
+        ck_assert(share_cut(&s, low, drift, limit));
+        ck_assert_msg(s.lo <= w && w <= s.hi, "%a + %a w is %a at w = %a, left [%a, %a]", low,
+                      drift, limit, w, s.lo, s.hi);
+    }
+}
+END_TEST
+
 /* The least and the greatest of n.x over a grid on the slice as it is at w = -1. */
 static void slice_extent(const slice *f, vec3 n, double *lo, double *hi)
 {
@@ -360,6 +376,7 @@ END_TEST
 
 SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
            neither_axes_nor_field_of_normals_lose_a_meeting_alone,
+           a_share_keeps_every_moment_within_the_limit,
            no_axis_shows_much_more_than_twice_the_gap_of_the_nearest,
            where_hulls_meet_there_is_no_nearest_axis,
            the_field_of_normals_parts_caps_that_no_axis_does,
