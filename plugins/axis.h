@@ -132,9 +132,9 @@ static inline void axis_transform(const axis_frame *frame, imp_model cosine, imp
                                   const imp_model w[3], imp_model out[3])
 {
     for (int i = 0; i < 3; ++i) {
-        out[i] = imp_num(0);
-        for (int j = 0; j < 3; ++j)
-            out[i] = imp_add(out[i], imp_mul(axis_entry(frame, i, j, cosine, sine), w[j]));
+        imp_model row[3];
+        for (int j = 0; j < 3; ++j) row[j] = axis_entry(frame, i, j, cosine, sine);
+        out[i] = imp_dot3(row, w);
     }
 }
 

@@ -144,6 +144,13 @@ static imp_model model_lerp(imp_model x, imp_model y, double k)
     return imp_lerp(x, y, imp_num(k));
 }
 
+/* x y + y^2 + k x, or x^2 in the place of 0 x. */
+static imp_model model_dot3(imp_model x, imp_model y, double k)
+{
+    const imp_model a[3] = {x, y, k == 0 ? x : imp_num(k)}, b[3] = {y, y, x};
+    return imp_dot3(a, b);
+}
+
 static imp_model model_sincos(imp_model x, imp_model y, double k)
 {
     imp_model sine, cosine;
@@ -245,6 +252,22 @@ static bool exact_lerp(mpfi_ptr r, mpfi_srcptr x, mpfi_srcptr y, double k)
     return true;
 }
 
+static bool exact_dot3(mpfi_ptr r, mpfi_srcptr x, mpfi_srcptr y, double k)
+{
+    mpfi_t term;
+    mpfi_init2(term, ORACLE_BITS);
+    mpfi_mul(r, x, y);
+    mpfi_sqr(term, y);
+    mpfi_add(r, r, term);
+    if (k == 0)
+        mpfi_sqr(term, x);
+    else
+        mpfi_mul_d(term, x, k);
+    mpfi_add(r, r, term);
+    mpfi_clear(term);
+    return true;
+}
+
 static bool exact_sincos(mpfi_ptr r, mpfi_srcptr x, mpfi_srcptr y, double k)
 {
     return k > 0 ? exact_sin(r, x, y, k) : exact_cos(r, x, y, k);
@@ -342,6 +365,7 @@ const operation operations[] = {
     {"poly", 1, model_poly, exact_poly, NULL, lengths},
     {"sincos", 1, model_sincos, exact_sincos, NULL, either},
     {"lerp", 2, model_lerp, exact_lerp, NULL, parts},
+    {"dot3", 2, model_dot3, exact_dot3, NULL, parts},
     {"pow_model", 2, model_pow_model, exact_pow_model, NULL, NULL},
     {"atan2", 2, model_atan2, exact_atan2, NULL, NULL},
 };

@@ -362,39 +362,60 @@ static inline double imp_swing_upper_(const double q[6], double size)
     return (size - 0.5 * squares) + 16 * IMP_U * size;
 }
 
-/* Quadratic and remainder of x y. With h = middle(Q), D = Q - h, |D| <= swing:
- *
- *   P P' = (a a' - h h') + (a L' + a' L) + ((a + h) Q' + (a' + h') Q + L L')
- *          + (L Q' + L' Q)   cubic, folded
- *          + D D'            at most swing swing'
- *   x y - P P' = delta y + delta' P,  |P| <= |x| + e
- *
- * Rounding. Let N = |a| + B + Q, and the same for x'. Every coefficient is a sum of products of
- * two. Roundings that a product passes through: a a' 2; a b' 3; (a + h) q' 4; b b' 3; h h' 2; a
- * cubic one at most 5 on its way to b with weight 3/4, or 6 with weight 1/2, and at most 4 on its
- * way to the remainder, with the weight left: together below 5. As |h| <= Q / 2, the terms
- * in h amount to (4 + 2/4) Q Q'. So 4 N N' - 2 |a a'| + (B + Q)(B' + Q') units of u cover all. */
-static inline void imp_product_(const imp_model *x, const imp_model *y, imp_model *r)
+/* Adds to r the quadratic of x y, to `cubic` its cubic terms and to `rounding` what theirs takes,
+ * in units of u: `units` N N' and some; the answer bounds the rest. See imp_products_. */
+static inline double imp_product_add_(const imp_model *x, const imp_model *y, imp_model *r,
+                                      double cubic[10], double units, double *rounding)
 {
-    double linear[3], bb[6], cubic[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-    double hx = imp_middle_(x->q), hy = imp_middle_(y->q);
+    double bb[6], hx = imp_middle_(x->q), hy = imp_middle_(y->q);
     double ax = x->a + hx, ay = y->a + hy;
     double bx = imp_sum_abs3_(x->b), by = imp_sum_abs3_(y->b);
     double qx = imp_sum_abs6_(x->q), qy = imp_sum_abs6_(y->q);
     imp_cubic_add_(x->b, y->q, cubic);
     imp_cubic_add_(y->b, x->q, cubic);
-    double rest = imp_cubic_fold_(cubic, linear);
     imp_square_terms_(x->b, y->b, bb);
-    r->a = x->a * y->a - hx * hy;
-    for (int j = 0; j < 3; j++) r->b[j] = (x->a * y->b[j] + y->a * x->b[j]) + linear[j];
-    for (int k = 0; k < 6; k++) r->q[k] = (ax * y->q[k] + ay * x->q[k]) + bb[k];
-    rest += imp_swing_upper_(x->q, qx) * imp_swing_upper_(y->q, qy);
+    r->a += x->a * y->a - hx * hy;
+    for (int j = 0; j < 3; j++) r->b[j] += x->a * y->b[j] + y->a * x->b[j];
+    for (int k = 0; k < 6; k++) r->q[k] += (ax * y->q[k] + ay * x->q[k]) + bb[k];
     double x_mag = imp_interval_mag(imp_model_range(x)),
            y_mag = imp_interval_mag(imp_model_range(y));
     double inherited = x->e * y_mag + y->e * (x_mag + x->e);
     double nx = fabs(x->a) + bx + qx, ny = fabs(y->a) + by + qy;
-    double rounding = 4 * nx * ny - 2 * fabs(x->a * y->a) + (bx + qx) * (by + qy);
-    r->e = (rest + inherited + (IMP_U * rounding + IMP_TINY)) * IMP_SLACK;
+    *rounding += units * nx * ny - 2 * fabs(x->a * y->a) + (bx + qx) * (by + qy);
+    return imp_swing_upper_(x->q, qx) * imp_swing_upper_(y->q, qy) + inherited;
+}
+
+/* Quadratic and remainder of x[0] y[0] + ... + x[n-1] y[n-1], n <= 3. With h = middle(Q), D = Q -
+ * h, |D| <= swing, each product is
+ *
+ *   P P' = (a a' - h h') + (a L' + a' L) + ((a + h) Q' + (a' + h') Q + L L')
+ *          + (L Q' + L' Q)   cubic: those of all products are folded as one, since they may cancel
+ *          + D D'            at most swing swing'
+ *   x y - P P' = delta y + delta' P,  |P| <= |x| + e
+ *
+ * Rounding. Let N = |a| + B + Q, and the same for x'. Every coefficient is a sum of products of
+ * two. Roundings that a product passes through where n = 1: a a' 2; a b' 3; (a + h) q' 4; b b' 3;
+ * h h' 2; a cubic one at most 5 on its way to b with weight 3/4, or 6 with weight 1/2, and at most
+ * 4 on its way to the remainder, with the weight left: together below 5. As |h| <= Q / 2, the terms
+ * in h amount to (4 + 2/4) Q Q'. So 4 N N' - 2 |a a'| + (B + Q)(B' + Q') units of u cover all. Each
+ * further product adds one sum to every coefficient and two to the cubic ones: at most 4 N N' more
+ * of each. */
+static inline void imp_products_(const imp_model *x, const imp_model *y, int n, imp_model *r)
+{
+    double linear[3], cubic[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, rest = 0, rounding = 0;
+    r->a = 0;
+    for (int j = 0; j < 3; j++) r->b[j] = 0;
+    for (int k = 0; k < 6; k++) r->q[k] = 0;
+    for (int i = 0; i < n; i++)
+        rest += imp_product_add_(&x[i], &y[i], r, cubic, n > 1 ? 8 : 4, &rounding);
+    rest += imp_cubic_fold_(cubic, linear);
+    for (int j = 0; j < 3; j++) r->b[j] += linear[j];
+    r->e = (rest + (IMP_U * rounding + IMP_TINY)) * IMP_SLACK;
+}
+
+static inline void imp_product_(const imp_model *x, const imp_model *y, imp_model *r)
+{
+    imp_products_(x, y, 1, r);
 }
 
 /* (x y)' = x' y + x y'; two products and a sum. */
@@ -441,10 +462,43 @@ static inline imp_model imp_lerp(imp_model x, imp_model y, imp_model t)
     return imp_add(x, imp_mul(t, imp_sub(y, x)));
 }
 
+/* At most three products at once. */
+static inline imp_model imp_dot_(const imp_model *x, const imp_model *y, int n)
+{
+    imp_model r = imp_model_zero(), one;
+    imp_products_(x, y, n, &r);
+    for (int i = 0; i < n; i++) {
+        imp_interval range = imp_interval_mul(imp_model_range(&x[i]), imp_model_range(&y[i]));
+        imp_product_rates_(&x[i], &y[i], &one);
+        for (int j = 0; j < 3; j++) r.rate[j] = imp_sum_up(r.rate[j] + one.rate[j]);
+        r.lo = imp_sum_down(r.lo + range.lo);
+        r.hi = imp_sum_up(r.hi + range.hi);
+        r.depends |= x[i].depends | y[i].depends;
+    }
+    return imp_model_finish(r);
+}
+
+/* Has imp_mul a short way? */
+static inline int imp_mul_is_short_(const imp_model *x, const imp_model *y)
+{
+    return imp_is_exact(x) || imp_is_exact(y) || (imp_is_point(x) && imp_is_point(y));
+}
+
+/* Tighter than the sum of three imp_mul: terms of third order may cancel. */
 static inline imp_model imp_dot3(const imp_model x[3], const imp_model y[3])
 {
-    imp_model r = imp_add(imp_mul(x[0], y[0]), imp_mul(x[1], y[1]));
-    return imp_add(r, imp_mul(x[2], y[2]));
+    imp_model sum = imp_num(0), p[3], q[3];
+    int n = 0;
+    for (int i = 0; i < 3; i++) {
+        if (imp_mul_is_short_(&x[i], &y[i])) {
+            sum = imp_add(sum, imp_mul(x[i], y[i]));
+        } else {
+            p[n] = x[i];
+            q[n++] = y[i];
+        }
+    }
+    if (n == 0) return sum;
+    return imp_add(sum, n == 1 ? imp_mul_(&p[0], &q[0]) : imp_dot_(p, q, n));
 }
 
 #ifdef __cplusplus
