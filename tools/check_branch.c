@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "check_branch.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -24,6 +25,8 @@ typedef struct part {
 typedef struct search {
     const branch_field *field;
     const branch_claims *claims;
+    span whole[BOX_DIMS];    /* s over the region, or a little more */
+    bool is_exact[BOX_DIMS]; /* no more */
     uint32_t given_up;
     branch_outcome outcome;
 } search;
@@ -65,35 +68,50 @@ typedef struct view {
     bool has_point; /* the middle surely is one of the region */
 } view;
 
-/* p = c + d s, within the region. False: some of c + d s may be outside of it. */
-static bool number_of(const branch_claims *c, int j, const jet *s, jet *p)
+/* How far p may lie beyond the region where s is in s->whole, which is within a few roundings of
+ * the exact ends. */
+static long double overhang(const search *s, int j)
 {
+    const branch_claims *c = s->claims;
+    const long double size = fabsl((long double)c->c[j]) + c->d[j];
+    return s->is_exact[j] ? 0 : 8 * LDBL_EPSILON * size + LDBL_MIN;
+}
+
+/* p = c + d s, no farther out than that. False: it may be outside of the region. */
+static bool number_of(const search *s, int j, const jet *normalized, long double beyond, jet *p)
+{
+    const branch_claims *c = s->claims;
     const span where = span_make(c->where.lo[j], c->where.hi[j]);
-    *p = jet_scale(s, span_of(c->d[j]));
+    *p = jet_scale(normalized, span_of(c->d[j]));
     p->v = span_add(span_of(c->c[j]), p->v);
     const bool within = is_inside(p->v, where);
-    if (p->v.lo > where.hi) p->v.lo = where.hi;
-    if (p->v.hi < where.lo) p->v.hi = where.lo;
-    p->v = span_meet(p->v, where);
+    p->v = span_meet(p->v, span_add(where, span_plus_minus(beyond)));
     return within;
 }
 
-/* x, y, z and, for those that are open, how far they are off the quadratic. False: some of it may
- * be outside of the region. */
-static bool look_at(const search *s, const part *b, const span where[BOX_DIMS], jet out[3],
-                    jet off[3])
+/* x, y, z where s is there. False: some of it may be outside of the region. */
+static bool values_at(const search *s, const span where[BOX_DIMS], bool strictly,
+                      jet normalized[BOX_DIMS], jet out[3])
 {
-    const branch_claims *c = s->claims;
-    jet p[BOX_DIMS], normalized[BOX_DIMS];
+    jet p[BOX_DIMS];
     bool within = true;
     for (int j = 0; j < s->field->n; ++j) {
         normalized[j] = jet_variable(s->field->n, j, where[j]);
-        within &= number_of(c, j, &normalized[j], &p[j]);
+        within &= number_of(s, j, &normalized[j], strictly ? 0 : overhang(s, j), &p[j]);
     }
     s->field->jets(s->field->context, p, normalized, out);
+    return within;
+}
+
+/* The same, and how far those that are open are off the quadratic. */
+static bool look_at(const search *s, const part *b, const span where[BOX_DIMS], jet out[3],
+                    jet off[3])
+{
+    jet normalized[BOX_DIMS];
+    const bool within = values_at(s, where, false, normalized, out);
     for (int i = 0; i < 3; ++i) {
         if ((b->open & bit(i, REMAINDER)) == 0) continue;
-        const jet quadratic = polynomial_jet(&c->model[i], 0, normalized);
+        const jet quadratic = polynomial_jet(&s->claims->model[i], 0, normalized);
         off[i] = jet_sub(&out[i], &quadratic);
     }
     return within;
@@ -103,7 +121,7 @@ static bool look_at(const search *s, const part *b, const span where[BOX_DIMS], 
 static long double middle_of(span x)
 {
     const long double m = span_mid(x);
-    return fabsl(m) < 0x1p-20L * (x.hi - x.lo) ? 0 : m;
+    return fabsl(m) < 0x1p-4L * (x.hi - x.lo) ? 0 : m;
 }
 
 static void look(search *s, const part *b, view *v)
@@ -198,6 +216,17 @@ static bool is_proved_at_ends(search *s, const part *b, const view *v, int i, in
     return proved;
 }
 
+/* Ranges may end where the region does, with nothing to spare for what is beyond. */
+static bool is_range_proved(const search *s, const part *b, int i)
+{
+    jet normalized[BOX_DIMS], out[3];
+    bool exact = true;
+    for (int j = 0; j < s->field->n; ++j) exact &= s->is_exact[j];
+    if (exact) return false;
+    values_at(s, b->x, true, normalized, out);
+    return is_inside(out[i].v, span_make(s->claims->model[i].lo, s->claims->model[i].hi));
+}
+
 /* Strikes off what is proved over the box. False: something is refuted. */
 static bool judge(search *s, part *b, const view *v)
 {
@@ -206,7 +235,8 @@ static bool judge(search *s, part *b, const view *v)
             if ((b->open & bit(i, which)) == 0) continue;
             const matter m = matter_of(s, v, i, which);
             if (is_refuted(s, v, i, which, &m)) return false;
-            if (is_inside(m.over, m.inner) || is_proved_at_ends(s, b, v, i, which))
+            if (is_inside(m.over, m.inner) || (which == RANGE && is_range_proved(s, b, i)) ||
+                is_proved_at_ends(s, b, v, i, which))
                 b->open &= ~bit(i, which);
             if (s->outcome.refuted) return false;
         }
@@ -287,11 +317,20 @@ static void name_open(search *s, const view *v)
             name_claim(s, v, k / PER_COORDINATE, k % PER_COORDINATE, span_whole());
 }
 
-/* All s of the region, or a little more; p stays within it. */
-static span whole_range(const branch_claims *c, int j)
+/* [-1, 1] where that is exact; else (lo - c) / d to (hi - c) / d, rounded outward. */
+static void find_whole(search *s, int j)
 {
-    const span p = span_sub(span_make(c->where.lo[j], c->where.hi[j]), span_of(c->c[j]));
-    return c->d[j] > 0 ? span_div(p, span_of(c->d[j])) : span_of(0);
+    const branch_claims *k = s->claims;
+    const span lo = span_of(k->where.lo[j]), hi = span_of(k->where.hi[j]);
+    const span c = span_of(k->c[j]), d = span_of(k->d[j]);
+    if (k->d[j] == 0)
+        s->whole[j] = span_of(0);
+    else if (span_is(span_sub(c, d), lo.lo) && span_is(span_add(c, d), hi.hi))
+        s->whole[j] = span_make(-1, 1);
+    else
+        s->whole[j] = span_div(span_sub(span_make(lo.lo, hi.hi), c), d);
+    s->is_exact[j] = span_is(span_add(c, span_mul(d, span_of(s->whole[j].lo))), lo.lo) &&
+                     span_is(span_add(c, span_mul(d, span_of(s->whole[j].hi))), hi.hi);
 }
 
 branch_outcome branch_settle(const branch_field *field, const branch_claims *claims,
@@ -303,7 +342,10 @@ branch_outcome branch_settle(const branch_field *field, const branch_claims *cla
     const uint32_t all = stack[0].open;
     int count = 1;
     memset(&v, 0, sizeof v);
-    for (int j = 0; j < field->n; ++j) stack[0].x[j] = whole_range(claims, j);
+    for (int j = 0; j < field->n; ++j) {
+        find_whole(&s, j);
+        stack[0].x[j] = s.whole[j];
+    }
     while (count > 0) {
         part b = stack[--count];
         b.open &= ~s.given_up;
