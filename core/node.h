@@ -22,8 +22,8 @@ typedef enum tree_kind {
     TREE_KINDS
 } tree_kind;
 
-/* Coefficients of the three coordinates' polynomials in s = (p - c) / d; the fourth number of each is
- * 0, so that vector instructions take x, y, z at once. */
+/* Coefficients of the three coordinates' polynomials in s = (p - c) / d; the fourth number of each
+ * is 0, so that vector instructions take x, y, z at once. */
 typedef struct quadratic3 {
     double a[4], bu[4], bv[4], bt[4];
     double quu[4], quv[4], qut[4], qvv[4], qvt[4], qtt[4];

@@ -92,9 +92,9 @@ static imp_code try_out(const char *path, imp_error *error)
     return code;
 }
 
-/* Only what the file itself did once it was loaded. That it could not be read again or not be loaded
- * may be the doing of the moment (no more files may be open), or of another file (a library that
- * is missing today). */
+/* Only what the file itself did once it was loaded. That it could not be read again or not be
+ * loaded may be the doing of the moment (no more files may be open), or of another file (a library
+ * that is missing today). */
 static bool is_lasting(imp_code code, const char *text)
 {
     static const char *const steps[] = {"trial:", "entry:", "types:"};
