@@ -62,7 +62,7 @@ tests_test_plugins_SOURCES = tests/test_plugins.c $(type_oracle) \
 tests_test_checker_SOURCES = tests/test_checker.c \
     tests/expression_oracle.c tests/oracle_number.c \
     tools/check_branch.c tools/check_formula.c tools/check_jet.c tools/check_jet_functions.c \
-    tools/check_polynomial.c tools/check_reader.c tools/check_span.c
+    tools/check_polynomial.c tools/check_reader.c tools/check_span.c tools/check_view.c
 tests_test_expression_bounds_SOURCES = tests/test_expression_bounds.c \
     tests/expression_oracle.c tests/oracle_number.c tests/judge.c tests/sampling.c
 tests_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)

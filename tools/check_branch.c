@@ -2,12 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "check_branch.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "check_polynomial.h"
+#include "check_view.h"
 
 /* --- Claims as bits of a mask -------------------------------------------------------------------
  *
@@ -23,10 +22,7 @@ typedef struct part {
 } part;
 
 typedef struct search {
-    const branch_field *field;
-    const branch_claims *claims;
-    span whole[BOX_DIMS];    /* s over the region, or a little more */
-    bool is_exact[BOX_DIMS]; /* no more */
+    frame frame;
     uint32_t given_up;
     branch_outcome outcome;
 } search;
@@ -54,84 +50,15 @@ static int count_bits(uint32_t mask)
     return count;
 }
 
-/* --- One box
- * -------------------------------------------------------------------------------------- */
-
-static bool is_inside(span x, span limits) { return x.lo >= limits.lo && x.hi <= limits.hi; }
+/* --- One box -------------------------------------------------------------------------------- */
 
 static bool is_outside(span x, span limits) { return x.lo > limits.hi || x.hi < limits.lo; }
 
-/* Everything that is known of it. `off` is the distance from the model's quadratic. */
-typedef struct view {
-    span offset[BOX_DIMS], middle[BOX_DIMS];
-    jet box[3], centre[3], off_box[3], off_centre[3];
-    bool has_point; /* the middle surely is one of the region */
-} view;
-
-/* How far p may lie beyond the region where s is in s->whole, which is within a few roundings of
- * the exact ends. */
-static long double overhang(const search *s, int j)
-{
-    const branch_claims *c = s->claims;
-    const long double size = fabsl((long double)c->c[j]) + c->d[j];
-    return s->is_exact[j] ? 0 : 8 * LDBL_EPSILON * size + LDBL_MIN;
-}
-
-/* p = c + d s, no farther out than that. False: it may be outside of the region. */
-static bool number_of(const search *s, int j, const jet *normalized, long double beyond, jet *p)
-{
-    const branch_claims *c = s->claims;
-    const span where = span_make(c->where.lo[j], c->where.hi[j]);
-    *p = jet_scale(normalized, span_of(c->d[j]));
-    p->v = span_add(span_of(c->c[j]), p->v);
-    const bool within = is_inside(p->v, where);
-    p->v = span_meet(p->v, span_add(where, span_plus_minus(beyond)));
-    return within;
-}
-
-/* x, y, z where s is there. False: some of it may be outside of the region. */
-static bool values_at(const search *s, const span where[BOX_DIMS], bool strictly,
-                      jet normalized[BOX_DIMS], jet out[3])
-{
-    jet p[BOX_DIMS];
-    bool within = true;
-    for (int j = 0; j < s->field->n; ++j) {
-        normalized[j] = jet_variable(s->field->n, j, where[j]);
-        within &= number_of(s, j, &normalized[j], strictly ? 0 : overhang(s, j), &p[j]);
-    }
-    s->field->jets(s->field->context, p, normalized, out);
-    return within;
-}
-
-/* The same, and how far those that are open are off the quadratic. */
-static bool look_at(const search *s, const part *b, const span where[BOX_DIMS], jet out[3],
-                    jet off[3])
-{
-    jet normalized[BOX_DIMS];
-    const bool within = values_at(s, where, false, normalized, out);
-    for (int i = 0; i < 3; ++i) {
-        if ((b->open & bit(i, REMAINDER)) == 0) continue;
-        const jet quadratic = polynomial_jet(&s->claims->model[i], 0, normalized);
-        off[i] = jet_sub(&out[i], &quadratic);
-    }
-    return within;
-}
-
-/* The middle, or 0 where that is nearly it: there, p is c exactly. */
-static long double middle_of(span x)
-{
-    const long double m = span_mid(x);
-    return fabsl(m) < 0x1p-4L * (x.hi - x.lo) ? 0 : m;
-}
-
 static void look(search *s, const part *b, view *v)
 {
-    for (int j = 0; j < s->field->n; ++j) {
-        v->middle[j] = span_of(middle_of(b->x[j]));
-        v->offset[j] = span_sub(b->x[j], v->middle[j]);
-    }
-    look_at(s, b, b->x, v->box, v->off_box);
-    v->has_point = look_at(s, b, v->middle, v->centre, v->off_centre);
+    bool off_wanted[3];
+    for (int i = 0; i < 3; ++i) off_wanted[i] = (b->open & bit(i, REMAINDER)) != 0;
+    frame_look(&s->frame, b->x, off_wanted, v);
     ++s->outcome.boxes;
 }
 
@@ -144,7 +71,7 @@ typedef struct matter {
 /* Slopes by s are d times those by p. */
 static matter matter_of(const search *s, const view *v, int i, int which)
 {
-    const branch_claims *c = s->claims;
+    const branch_claims *c = s->frame.claims;
     const imp_model *g = &c->model[i];
     const span range = span_make(g->lo, g->hi), rest = span_plus_minus(g->e);
     if (which == RANGE)
@@ -164,9 +91,9 @@ static void name_claim(search *s, const view *v, int i, int which, span there)
     o->kind = which == RANGE ? BRANCH_RANGE : which == REMAINDER ? BRANCH_REMAINDER : BRANCH_RATE;
     o->i = i;
     o->j = which;
-    o->there = which < RANGE ? span_div(there, span_of(s->claims->d[which])) : there;
-    for (int j = 0; j < s->field->n; ++j)
-        o->p[j] = s->claims->c[j] + s->claims->d[j] * v->middle[j].lo;
+    o->there = which < RANGE ? span_div(there, span_of(s->frame.claims->d[which])) : there;
+    for (int j = 0; j < s->frame.field->n; ++j)
+        o->p[j] = s->frame.claims->c[j] + s->frame.claims->d[j] * v->middle[j].lo;
 }
 
 /* How it changes with variable k. */
@@ -182,7 +109,7 @@ static span trend(const view *v, int i, int which, int k)
 static bool reduce(const search *s, const view *v, part *b, int i, int which, bool greatest)
 {
     bool reduced = false;
-    for (int k = 0; k < s->field->n; ++k) {
+    for (int k = 0; k < s->frame.field->n; ++k) {
         const span slope = trend(v, i, which, k);
         if (!(b->x[k].lo < b->x[k].hi) || (slope.lo < 0 && slope.hi > 0)) continue;
         b->x[k] = span_of((slope.lo >= 0) == greatest ? b->x[k].hi : b->x[k].lo);
@@ -216,17 +143,6 @@ static bool is_proved_at_ends(search *s, const part *b, const view *v, int i, in
     return proved;
 }
 
-/* Ranges may end where the region does, with nothing to spare for what is beyond. */
-static bool is_range_proved(const search *s, const part *b, int i)
-{
-    jet normalized[BOX_DIMS], out[3];
-    bool exact = true;
-    for (int j = 0; j < s->field->n; ++j) exact &= s->is_exact[j];
-    if (exact) return false;
-    values_at(s, b->x, true, normalized, out);
-    return is_inside(out[i].v, span_make(s->claims->model[i].lo, s->claims->model[i].hi));
-}
-
 /* Strikes off what is proved over the box. False: something is refuted. */
 static bool judge(search *s, part *b, const view *v)
 {
@@ -235,7 +151,8 @@ static bool judge(search *s, part *b, const view *v)
             if ((b->open & bit(i, which)) == 0) continue;
             const matter m = matter_of(s, v, i, which);
             if (is_refuted(s, v, i, which, &m)) return false;
-            if (is_inside(m.over, m.inner) || (which == RANGE && is_range_proved(s, b, i)) ||
+            if (span_is_within(m.over, m.inner) ||
+                (which == RANGE && frame_is_in_range(&s->frame, b->x, i)) ||
                 is_proved_at_ends(s, b, v, i, which))
                 b->open &= ~bit(i, which);
             if (s->outcome.refuted) return false;
@@ -258,14 +175,14 @@ static long double unrest(const jet *g, int j, int k)
 
 static long double excess(const search *s, const view *v, int i, int which, int k)
 {
-    const imp_model *g = &s->claims->model[i];
+    const imp_model *g = &s->frame.claims->model[i];
     const long double r = span_mag(v->offset[k]);
     long double sum = 0;
     if (which == RANGE) return r * span_mag(v->box[i].d[k]) / ((long double)g->hi - g->lo);
     if (which != REMAINDER)
         return r * unrest(&v->box[i], which, k) /
-               ((long double)s->claims->rate[i][which] * s->claims->d[which]);
-    for (int l = 0; l < s->field->n; ++l)
+               ((long double)s->frame.claims->rate[i][which] * s->frame.claims->d[which]);
+    for (int l = 0; l < s->frame.field->n; ++l)
         sum += unrest(&v->off_box[i], k, l) * r * span_mag(v->offset[l]);
     return sum / g->e;
 }
@@ -287,7 +204,7 @@ static int worst_variable(const search *s, const part *b, const view *v)
 {
     int worst = 0;
     long double most = -1;
-    for (int k = 0; k < s->field->n; ++k) {
+    for (int k = 0; k < s->frame.field->n; ++k) {
         const long double here = share(s, b, v, k);
         if (here > most) most = here, worst = k;
     }
@@ -317,35 +234,16 @@ static void name_open(search *s, const view *v)
             name_claim(s, v, k / PER_COORDINATE, k % PER_COORDINATE, span_whole());
 }
 
-/* [-1, 1] where that is exact; else (lo - c) / d to (hi - c) / d, rounded outward. */
-static void find_whole(search *s, int j)
-{
-    const branch_claims *k = s->claims;
-    const span lo = span_of(k->where.lo[j]), hi = span_of(k->where.hi[j]);
-    const span c = span_of(k->c[j]), d = span_of(k->d[j]);
-    if (k->d[j] == 0)
-        s->whole[j] = span_of(0);
-    else if (span_is(span_sub(c, d), lo.lo) && span_is(span_add(c, d), hi.hi))
-        s->whole[j] = span_make(-1, 1);
-    else
-        s->whole[j] = span_div(span_sub(span_make(lo.lo, hi.hi), c), d);
-    s->is_exact[j] = span_is(span_add(c, span_mul(d, span_of(s->whole[j].lo))), lo.lo) &&
-                     span_is(span_add(c, span_mul(d, span_of(s->whole[j].hi))), hi.hi);
-}
-
 branch_outcome branch_settle(const branch_field *field, const branch_claims *claims,
                              unsigned long budget)
 {
     part stack[DEPTH_MAX + 2] = {{.open = all_claims(field, claims)}};
-    search s = {.field = field, .claims = claims};
+    search s = {.frame = frame_make(field, claims)};
     view v;
     const uint32_t all = stack[0].open;
     int count = 1;
     memset(&v, 0, sizeof v);
-    for (int j = 0; j < field->n; ++j) {
-        find_whole(&s, j);
-        stack[0].x[j] = s.whole[j];
-    }
+    memcpy(stack[0].x, s.frame.whole, sizeof stack[0].x);
     while (count > 0) {
         part b = stack[--count];
         b.open &= ~s.given_up;

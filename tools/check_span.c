@@ -99,6 +99,8 @@ span span_e(void)
     return (span){down(e), up(e)};
 }
 
+bool span_is_within(span x, span limits) { return x.lo >= limits.lo && x.hi <= limits.hi; }
+
 bool span_is(span x, long double value) { return x.lo == value && x.hi == value; }
 
 long double span_mag(span x) { return larger(fabsl(x.lo), fabsl(x.hi)); }

@@ -27,6 +27,7 @@ span span_whole(void);
 span span_pi(void);
 span span_e(void);
 
+bool span_is_within(span x, span limits);
 bool span_is(span x, long double value); /* that value and no other */
 long double span_mag(span x);            /* greatest |z| */
 long double span_mig(span x);            /* least |z| */

@@ -32,6 +32,7 @@ tool_sources = \
     tools/check_subject.c tools/check_subject.h \
     tools/check_table.c tools/check_table.h \
     tools/check_under.c tools/check_under.h \
+    tools/check_view.c tools/check_view.h \
     tools/crash.c tools/crash.h \
     tools/compile.c tools/compile.h \
     tools/input.c tools/input.h \
