@@ -13,6 +13,10 @@
  * moment and chosen points: no cut may lose that moment. Where parts of the judgement need it, long
  * double. */
 
+/* How the two lie: anyhow; touching each other like a ball and a table; one along the other, as two
+ * layers of one shell, which only the field of normals parts. */
+typedef enum posture { ANYHOW, TANGENT, NESTED, POSTURES } posture;
+
 typedef struct meeting {
     node a, b;
     time_window window;
@@ -53,6 +57,56 @@ static void make_tangent(uint64_t *state, meeting *m, double tilt, double bend)
     }
 }
 
+/* Scales the part of x that lies in the plane across the unit vector n, and the part along it. */
+static void scale_parts(double *x, vec3 n, double in_plane, double along)
+{
+    const double height = vec3_dot(vec3_from(x), n);
+    for (int i = 0; i < 3; ++i)
+        x[i] = in_plane * (x[i] - height * n.x[i]) + along * height * n.x[i];
+}
+
+/* Makes a surface lie across n and bend along it. */
+static void make_shell(uint64_t *state, node *x)
+{
+    vec3 n = {{suite_between(state, -1, 1), suite_between(state, -1, 1), 1}};
+    const double waver = suite_power(state, -20, -2);
+    quadratic3 *f = &x->f;
+    n = vec3_scale(n, 1 / vec3_norm(n));
+    scale_parts(f->bu, n, 1, waver);
+    scale_parts(f->bv, n, 1, waver);
+    double *bends[5] = {f->quu, f->quv, f->qvv, f->qut, f->qvt};
+    for (int k = 0; k < 5; ++k) scale_parts(bends[k], n, waver, 1);
+}
+
+/* The second surface of a nested pair: the first, but for a little of everything. */
+static void make_nested(uint64_t *state, meeting *m, double size)
+{
+    const double little = size * suite_power(state, -20, -2);
+    make_shell(state, &m->a);
+    double *const a = (double *)&m->a.f, *const b = (double *)&m->b.f;
+    for (size_t k = 0; k < sizeof m->a.f / sizeof *a; ++k)
+        b[k] = k % 4 < 3 ? a[k] + little * suite_between(state, -1, 1) : 0;
+    for (int i = 0; i < 3; ++i) {
+        m->a.e[i] = m->b.e[i] = suite_bits(state) % 2 ? little : 0;
+        m->a.motion[i] = 2 * (fabs(m->a.f.bt[i]) + fabs(m->a.f.qtt[i]) + 4 * size);
+        m->b.motion[i] = m->a.motion[i] + 5 * little;
+    }
+}
+
+/* Across the surface at parameters s, from it or into it. */
+static void across(uint64_t *state, const node *n, const double s[2], double t, double toward[3])
+{
+    const double st = (t - n->region.c[2]) / n->region.d[2];
+    const quadratic3 *f = &n->f;
+    vec3 u, v;
+    for (int i = 0; i < 3; ++i) {
+        u.x[i] = f->bu[i] + 2 * f->quu[i] * s[0] + f->quv[i] * s[1] + f->qut[i] * st;
+        v.x[i] = f->bv[i] + 2 * f->qvv[i] * s[1] + f->quv[i] * s[0] + f->qvt[i] * st;
+    }
+    const vec3 normal = vec3_scale(vec3_cross(u, v), suite_bits(state) % 2 ? 1 : -1);
+    memcpy(toward, normal.x, sizeof normal.x);
+}
+
 static long double point(const node *n, int i, const double *s, double t, long double rest)
 {
     const quadratic3 *f = &n->f;
@@ -70,15 +124,16 @@ static double corner_or_inside(uint64_t *state)
 }
 
 /* Places B so that at m->t the points at random parameters are within the clearance. */
-static void bring_together(uint64_t *state, meeting *m, double offset)
+static void bring_together(uint64_t *state, meeting *m, posture how, double offset)
 {
     double sa[2], sb[2], toward[3], norm = 0;
     for (int k = 0; k < 2; ++k) {
         sa[k] = corner_or_inside(state);
-        sb[k] = corner_or_inside(state);
+        sb[k] = how == NESTED ? sa[k] : corner_or_inside(state);
     }
+    for (int i = 0; i < 3; ++i) toward[i] = suite_between(state, -1, 1);
+    if (how == NESTED) across(state, &m->a, sa, m->t, toward);
     for (int i = 0; i < 3; ++i) {
-        toward[i] = suite_between(state, -1, 1);
         norm += toward[i] * toward[i];
         m->a.f.a[i] = offset * suite_between(state, -1, 1);
     }
@@ -93,6 +148,43 @@ static void bring_together(uint64_t *state, meeting *m, double offset)
     }
 }
 
+/* B - A at m->t and parameters s of A and B, the remainders making it as short as they can. */
+static long double nearest_gap(const meeting *m, const double s[4], long double gap[3])
+{
+    long double square = 0;
+    for (int i = 0; i < 3; ++i) {
+        const long double apart = point(&m->b, i, s + 2, m->t, 0) - point(&m->a, i, s, m->t, 0);
+        const long double rest = fmaxl(fabsl(apart) - m->a.e[i] - m->b.e[i], 0);
+        gap[i] = copysignl(rest, apart);
+        square += gap[i] * gap[i];
+    }
+    return sqrtl(square);
+}
+
+/* The clearance becomes the least gap that a search from random parameters finds: no more of the
+ * window may be cut than that. */
+static void tighten(uint64_t *state, meeting *m)
+{
+    double s[4];
+    long double gap[3];
+    s[0] = s[2] = corner_or_inside(state);
+    s[1] = s[3] = corner_or_inside(state);
+    long double least = nearest_gap(m, s, m->gap);
+    for (double step = 0.25; step > 1e-4; step *= 0.5)
+        for (int k = 0; k < 8; ++k) {
+            const double was = s[k / 2];
+            s[k / 2] = fmin(fmax(was + (k % 2 ? step : -step), -1), 1);
+            const long double now = nearest_gap(m, s, gap);
+            if (now < least) {
+                least = now;
+                memcpy(m->gap, gap, sizeof gap);
+            } else {
+                s[k / 2] = was;
+            }
+        }
+    m->clearance = (double)(least * (1 + 1e-12L));
+}
+
 static bool is_near(const meeting *m)
 {
     const long double square =
@@ -100,14 +192,15 @@ static bool is_near(const meeting *m)
     return square <= (long double)m->clearance * m->clearance;
 }
 
-static void random_meeting(uint64_t *state, meeting *m, bool tangent)
+static void random_meeting(uint64_t *state, meeting *m, posture how)
 {
-    const double size = suite_power(state, -30, 3),
-                 bend = suite_power(state, tangent ? -4 : -12, 1);
-    const double motion = size * suite_power(state, -6, tangent ? 0 : 6);
+    const bool close = how != ANYHOW;
+    const double size = suite_power(state, -30, 3), bend = suite_power(state, close ? -4 : -12, 1);
+    const double motion = size * suite_power(state, -6, close ? 0 : 6);
     random_node(state, &m->a, size, bend, motion);
-    random_node(state, &m->b, size * (tangent ? 1 : suite_power(state, -3, 3)), bend, motion);
-    if (tangent) make_tangent(state, m, suite_power(state, -20, -1), 0.1);
+    random_node(state, &m->b, size * (close ? 1 : suite_power(state, -3, 3)), bend, motion);
+    if (how == NESTED) make_nested(state, m, size);
+    if (how == TANGENT) make_tangent(state, m, suite_power(state, -20, -1), 0.1);
     m->clearance = size * suite_power(state, -20, 0);
     m->window.lo = suite_between(state, 0, 0.9);
     m->window.hi = m->window.lo + (1 - m->window.lo) * suite_power(state, -10, 0);
@@ -115,7 +208,8 @@ static void random_meeting(uint64_t *state, meeting *m, bool tangent)
     m->t = where == 0   ? m->window.lo
            : where == 1 ? m->window.hi
                         : suite_between(state, m->window.lo, m->window.hi);
-    bring_together(state, m, suite_bits(state) % 8 == 0 ? 100 * size : size);
+    bring_together(state, m, how, suite_bits(state) % 8 == 0 ? 100 * size : size);
+    if (how == NESTED && suite_bits(state) % 4 == 0) tighten(state, m);
 }
 
 /* What the parents may have left: any direction of any length, none, or no numbers at all. */
@@ -137,7 +231,7 @@ START_TEST(the_moment_of_a_meeting_is_never_cut_away)
     int near = 0;
     for (int k = 0; k < suite_times(150000); ++k) {
         meeting m;
-        random_meeting(&state, &m, k % 2 == 0);
+        random_meeting(&state, &m, (posture)(k % POSTURES));
         if (!is_near(&m)) continue;
         ++near;
         time_window left = m.window;
@@ -163,7 +257,7 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
     uint64_t state = suite_seed() + 1;
     for (int k = 0; k < suite_times(100000); ++k) {
         meeting m;
-        random_meeting(&state, &m, k % 4 != 0);
+        random_meeting(&state, &m, k % 8 == 0 ? ANYHOW : k % 2 == 0 ? NESTED : TANGENT);
         if (!is_near(&m)) continue;
         relative r;
         share axes = {-1, 1}, field = {-1, 1};
@@ -364,6 +458,26 @@ START_TEST(infinities_and_nans_never_part_anything)
 }
 END_TEST
 
+START_TEST(boxes_and_balls_are_apart_only_beyond_the_clearance)
+{
+    node a, b;
+    memset(&a, 0, sizeof a);
+    memset(&b, 0, sizeof b);
+    a.bounded = b.bounded = true;
+    for (int mirrored = 0; mirrored < 8; ++mirrored) {
+        const double far[3] = {3, 4, 12}; /* 13 away */
+        for (int i = 0; i < 3; ++i)
+            b.lo[i] = b.hi[i] = b.f.a[i] = mirrored >> i & 1 ? -far[i] : far[i];
+        ck_assert(!separation_of_boxes(&a, &b, 13) && !separation_of_balls(&a, &b, 13));
+        ck_assert(separation_of_boxes(&a, &b, 13 * (1 - 0x1p-46)));
+        ck_assert(separation_of_balls(&a, &b, 13 * (1 - 0x1p-46)));
+    }
+    a.radius = 1, b.radius = 2;
+    ck_assert(!separation_of_balls(&a, &b, 10));
+    ck_assert(separation_of_balls(&a, &b, 10 * (1 - 0x1p-45)));
+}
+END_TEST
+
 START_TEST(nodes_without_bounds_keep_their_window)
 {
     meeting m = two_caps(0.1, 1.1, 50);
@@ -382,4 +496,5 @@ SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
            the_field_of_normals_parts_caps_that_no_axis_does,
            caps_that_touch_with_their_tops_are_not_parted_at_any_size,
            a_window_shrinks_to_the_moment_of_contact, infinities_and_nans_never_part_anything,
+           boxes_and_balls_are_apart_only_beyond_the_clearance,
            nodes_without_bounds_keep_their_window)
