@@ -78,7 +78,8 @@ static void make_shell(uint64_t *state, node *x)
     for (int k = 0; k < 5; ++k) scale_parts(bends[k], n, waver, 1);
 }
 
-/* The second surface of a nested pair: the first, but for a little of everything. */
+/* The second surface of a nested pair: the first, but for a little of everything; perhaps it turns
+ * the other way. */
 static void make_nested(uint64_t *state, meeting *m, double size)
 {
     const double little = size * suite_power(state, -20, -2);
@@ -86,7 +87,10 @@ static void make_nested(uint64_t *state, meeting *m, double size)
     double *const a = (double *)&m->a.f, *const b = (double *)&m->b.f;
     for (size_t k = 0; k < sizeof m->a.f / sizeof *a; ++k)
         b[k] = k % 4 < 3 ? a[k] + little * suite_between(state, -1, 1) : 0;
+    const double way = suite_bits(state) % 2 ? 1 : -1;
     for (int i = 0; i < 3; ++i) {
+        m->b.f.qut[i] *= way;
+        m->b.f.qvt[i] *= way;
         m->a.e[i] = m->b.e[i] = suite_bits(state) % 2 ? little : 0;
         m->a.motion[i] = 2 * (fabs(m->a.f.bt[i]) + fabs(m->a.f.qtt[i]) + 4 * size);
         m->b.motion[i] = m->a.motion[i] + 5 * little;
