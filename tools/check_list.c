@@ -14,6 +14,7 @@
 #include "check_proof.h"
 #include "check_purity.h"
 #include "check_rates.h"
+#include "check_said.h"
 #include "check_table.h"
 
 /* One of the three is set. */
@@ -143,6 +144,40 @@ void check_run(const check_task *task, double seconds, check_answer *shared)
     shared->verdict = CHECK_PASS;
     answer_fail(shared, "%s %s %s", type, child_fate_text(fate, seconds).text,
                 subject_call_text(&shared->call).text);
+}
+
+/* --- What was asked for --------------------------------------------------------------------------
+ */
+
+static void try_type(const check_task *task, imp_registry *registry, const imp_type_info *info,
+                     check_misreading *m)
+{
+    const char *stage = task->stage[0] != NULL ? task->stage[0] : info->example;
+    imp_instance made = {NULL, NULL, NULL};
+    imp_error error;
+    const imp_code code = imp_instance_from_text(registry, info->sort, stage, &made, &error);
+    if (code == IMP_ERROR_SCENE && task->stage[0] != NULL)
+        snprintf(m->stage, sizeof m->stage, "%s", error.text);
+    else if (task->formula != NULL)
+        formula_free(said_formula(info, stage, task->formula, m->formula, sizeof m->formula));
+    imp_instance_free(&made);
+}
+
+static void try_work(void *result, const void *data)
+{
+    const check_task *task = data;
+    imp_type_info info;
+    imp_registry *registry = imp_registry_from_file(task->file);
+    for (size_t i = 0; registry != NULL && imp_registry_type(registry, i, &info); ++i)
+        if (task->type == NULL || strcmp(info.name, task->type) == 0)
+            try_type(task, registry, &info, result);
+    imp_registry_free(registry);
+}
+
+void check_try(const check_task *task, double seconds, check_misreading *shared)
+{
+    memset(shared, 0, sizeof *shared);
+    child_run(try_work, shared, task, seconds); /* if the plugin fails here, its checks tell */
 }
 
 /* --- Survey --------------------------------------------------------------------------------- */

@@ -38,6 +38,17 @@ bool check_is_of_bounds(size_t check);
 /* Runs it in a child that has so many seconds. *shared is from child_memory. */
 void check_run(const check_task *task, double seconds, check_answer *shared);
 
+/* --- What was asked for ----------------------------------------------------------------------- */
+
+/* Why it cannot be read, which is no fault of the plugin; empty: it can. */
+typedef struct check_misreading {
+    char stage[1000], formula[1000];
+} check_misreading;
+
+/* Tries, in a child, the parameters in the task's first stage (NULL: none were given) and its
+ * formula, of the type of that name, or of all in the file. *shared is from child_memory. */
+void check_try(const check_task *task, double seconds, check_misreading *shared);
+
 /* --- What is in a file ------------------------------------------------------------------------ */
 
 enum { SURVEY_TYPES = 64 };

@@ -99,9 +99,10 @@ typedef struct job {
     const option_value *formula; /* or NULL */
     const option_value *only;    /* NULL: all checks */
     check_report report;
-    lookup *file; /* these three are shared with children */
+    lookup *file; /* these are shared with children */
     survey *survey;
     check_answer *answer;
+    check_misreading *misreading;
 } job;
 
 static double number_or(const arguments *args, const char *name, double otherwise)
@@ -193,6 +194,23 @@ static bool load(job *j)
     return j->answer->verdict == CHECK_PASS;
 }
 
+/* Parameters and formula that the user gave are to be read before anything is laid to the plugin.
+ */
+static exit_status read_asked(job *j)
+{
+    const char *verb = j->args->verb->name, *type = j->type.name;
+    check_task task = {.file = j->file->file};
+    if (type[0] != '\0') task.type = type;
+    if (type[0] != '\0' && strcmp(j->operand, type) != 0) task.stage[0] = j->operand;
+    if (j->formula != NULL) task.formula = j->formula->text;
+    check_try(&task, j->seconds, j->misreading);
+    if (j->misreading->stage[0] != '\0')
+        return complain(EXIT_DATA, verb, "'%s': %s", j->operand, j->misreading->stage);
+    if (j->misreading->formula[0] != '\0')
+        return complain(EXIT_USAGE, verb, "--formula cannot be read: %s", j->misreading->formula);
+    return EXIT_ANSWERED;
+}
+
 static exit_status run_all(job *j)
 {
     if (!report_begin(&j->report, j->file->file, j->effort))
@@ -217,6 +235,7 @@ static exit_status find_and_run(job *j)
         snprintf(j->type.name, sizeof j->type.name, "%.*s", name < 79 ? (int)name : 79, j->operand);
         status = find_type(j->args, &j->type, j->seconds, j->file);
     }
+    if (status == EXIT_ANSWERED) status = read_asked(j);
     return status == EXIT_ANSWERED ? run_all(j) : status;
 }
 
@@ -232,15 +251,18 @@ static exit_status run(const arguments *args)
     j.file = child_memory(sizeof *j.file);
     j.survey = child_memory(sizeof *j.survey);
     j.answer = child_memory(sizeof *j.answer);
+    j.misreading = child_memory(sizeof *j.misreading);
     char *again = command_line(&j);
     j.report =
         (check_report){.as_json = arguments_option(args, "json"), .again = again, .seed = j.seed};
-    const bool ready = j.file != NULL && j.survey != NULL && j.answer != NULL && again != NULL;
+    const bool ready = j.file != NULL && j.survey != NULL && j.answer != NULL &&
+                       j.misreading != NULL && again != NULL;
     const exit_status status = ready ? find_and_run(&j) : complain_of_memory(args->verb->name);
     free(again);
     child_memory_free(j.file, sizeof *j.file);
     child_memory_free(j.survey, sizeof *j.survey);
     child_memory_free(j.answer, sizeof *j.answer);
+    child_memory_free(j.misreading, sizeof *j.misreading);
     return status;
 }
 
@@ -294,7 +316,9 @@ const verb verb_check = {
         "parameters x, y and z are one, branch and bound in intervals proves them, region by\n"
         "region, whatever the plugin computes: proved(claims, seed).\n"
         "\n"
-        "Exit status: 0 nothing failed, 4 no such file or type, 6 a check failed.\n",
+        "Exit status: 0 nothing failed, 2 the formula cannot be read, 4 no such file or type or "
+        "wrong\n"
+        "parameters, 6 a check failed.\n",
     .example = "impinge check sphere",
     .operand_min = 1,
     .operand_max = 1,
