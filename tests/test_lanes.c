@@ -79,8 +79,8 @@ static void check_node(uint64_t *state, node *n)
     narrow = *n;
     for (int i = 0; i < 3; ++i) draw_model(state, size, &model[i]);
     const bool may_be_infinite = suite_bits(state) % 2;
-    ck_assert_ptr_eq(node_take_model(n, model, may_be_infinite),
-                     narrow_node_take_model(&narrow, model, may_be_infinite));
+    ck_assert_pstr_eq(node_take_model(n, model, may_be_infinite),
+                      narrow_node_take_model(&narrow, model, may_be_infinite));
     ck_assert(same_bits(n, &narrow, offsetof(node, bounded) / sizeof(double)));
     ck_assert(n->bounded == narrow.bounded);
 }
