@@ -44,10 +44,12 @@ LANES_INLINE lanes along(vec3 n, const lanes x[3])
     return x[0] * lanes_all(n.x[0]) + x[1] * lanes_all(n.x[1]) + x[2] * lanes_all(n.x[2]);
 }
 
-/* Where b s + q s^2 is least over [-1, 1], or would be if q were not below 0. */
-LANES_INLINE lanes least_at(lanes b, lanes q)
+/* Where b s + q s^2 is least over [-1, 1]; `vertex` is -1 / 2q. */
+LANES_INLINE lanes least_at(lanes b, lanes q, lanes vertex)
 {
-    return -b / (lanes_max(lanes_abs(b), q + q) + lanes_all(0x1p-1000));
+    const lanes one = lanes_all(1), end = lanes_pick(b > lanes_all(0), -one, one);
+    const lanes inside = lanes_max(lanes_min(b * vertex, one), -one);
+    return lanes_pick(q > lanes_all(0x1p-1000), inside, end);
 }
 
 /* Parameters (s_u of B, of -A, s_v of B, of -A) where both forms are least along n, about: u and v
@@ -55,13 +57,11 @@ LANES_INLINE lanes least_at(lanes b, lanes q)
 LANES_INLINE lanes shape_bottom(const shape *z, vec3 n)
 {
     const lanes slope = along(n, z->slope), bend = along(n, z->bend), twist = along(n, z->twist);
-    lanes s = least_at(slope, bend);
-    for (int pass = 0; pass < 3; ++pass) {
-        const lanes other = (lanes){s[2], s[3], s[0], s[1]};
-        const lanes t = least_at(slope + twist * other, bend);
-        s = pass % 2 == 0 ? (lanes){s[0], s[1], t[2], t[3]} : (lanes){t[0], t[1], s[2], s[3]};
-    }
-    return s;
+    const lanes vertex = lanes_all(-0.5) / bend;
+    const lanes s = least_at(slope, bend, vertex);
+    const lanes v = least_at(slope + twist * (lanes){s[2], s[3], s[0], s[1]}, bend, vertex);
+    const lanes u = least_at(slope + twist * (lanes){v[2], v[3], v[2], v[3]}, bend, vertex);
+    return (lanes){u[0], u[1], v[2], v[3]};
 }
 
 LANES_INLINE vec3 shape_lowest(const shape *z, vec3 n)
