@@ -62,7 +62,7 @@ LANES_INLINE lanes lower(const forms *f, double w)
 /* At every w the form's least value is at most this. */
 LANES_INLINE lanes glimpse(const forms *f)
 {
-    const quadratics p = form_at(f, 0);
+    const quadratics p = {f->bu, f->bv, f->uu, f->uv, f->vv};
     return lanes_min(quadratics_corner(&p) + turning(f), lanes_all(0));
 }
 

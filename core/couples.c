@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "array.h"
 #include "broad_phase.h"
 #include "claims.h"
 #include "scene_trees.h"
@@ -81,17 +82,6 @@ static imp_code enter_all(line_up *all, imp_error *error)
 
 /* --- Who meets whom ----------------------------------------------------------------------- */
 
-static bool list_reserve(couple_list *list)
-{
-    if (list->count < list->capacity) return true;
-    const size_t capacity = list->capacity == 0 ? 64 : 2 * list->capacity;
-    couple *couples = realloc(list->couples, capacity * sizeof *couples);
-    if (couples == NULL) return false;
-    list->couples = couples;
-    list->capacity = capacity;
-    return true;
-}
-
 /* Keeps two surfaces that come near each other, smaller body first; false: no memory. */
 static bool couple_up(void *context, size_t first, size_t second)
 {
@@ -104,7 +94,9 @@ static bool couple_up(void *context, size_t first, size_t second)
         a = b;
         b = t;
     }
-    if (!list_reserve(list)) return false;
+    couple *grown = array_reserve(list->couples, list->count, &list->capacity, sizeof *grown);
+    if (grown == NULL) return false;
+    list->couples = grown;
     list->couples[list->count++] =
         (couple){{a->tree, b->tree}, {a->body, b->body}, {a->surface, b->surface}, 0};
     return true;

@@ -44,13 +44,13 @@ static bool check_file(elf_file *file, elf_probe *probe, elf_check *check)
         return answer(check, false, "%s; a plugin is a regular file",
                       S_ISDIR(facts.st_mode) ? "is a directory" : "is a device, pipe or socket");
     file->size = (uint64_t)facts.st_size;
-    probe->device = (uint64_t)facts.st_dev;
-    probe->inode = (uint64_t)facts.st_ino;
-    probe->size = file->size;
-    probe->modified_s = (int64_t)facts.st_mtim.tv_sec;
-    probe->modified_ns = (int64_t)facts.st_mtim.tv_nsec;
-    probe->changed_s = (int64_t)facts.st_ctim.tv_sec;
-    probe->changed_ns = (int64_t)facts.st_ctim.tv_nsec;
+    probe->file = (elf_identity){.device = (uint64_t)facts.st_dev,
+                                 .inode = (uint64_t)facts.st_ino,
+                                 .size = file->size,
+                                 .modified_s = (int64_t)facts.st_mtim.tv_sec,
+                                 .modified_ns = (int64_t)facts.st_mtim.tv_nsec,
+                                 .changed_s = (int64_t)facts.st_ctim.tv_sec,
+                                 .changed_ns = (int64_t)facts.st_ctim.tv_nsec};
     return answer(check, true, "%llu bytes", (unsigned long long)file->size);
 }
 
@@ -263,7 +263,7 @@ static bool run_checks(elf_file *file, bool all, elf_probe *probe)
 
 bool elf_probe_file(const char *path, bool all, elf_probe *probe)
 {
-    *probe = (elf_probe){.size = 0};
+    *probe = (elf_probe){.file.size = 0};
     for (int id = 0; id < PROBE_CHECKS; ++id) probe->check[id].name = check_rows[id].name;
     /* Without O_NONBLOCK, opening a pipe waits for a writer. */
     elf_file file = {.fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};

@@ -43,13 +43,17 @@ typedef struct elf_check {
     char text[320]; /* a line; empty if not reached */
 } elf_check;
 
-typedef struct elf_probe {
-    elf_check check[PROBE_CHECKS];
-
-    /* The file's identity, once PROBE_FILE has passed: re-probe when it changes. */
+/* Which file it is: probe again when this changes. A copy that keeps size and time of modification
+ * (cp -p, touch -r) has another time of change. */
+typedef struct elf_identity {
     uint64_t device, inode, size;
     int64_t modified_s, modified_ns; /* time of last modification, since 1970; owners may set it */
     int64_t changed_s, changed_ns;   /* the same of file or status; nobody sets it */
+} elf_identity;
+
+typedef struct elf_probe {
+    elf_check check[PROBE_CHECKS];
+    elf_identity file; /* once PROBE_FILE has passed */
 
     /* The note, once PROBE_NOTE has passed. */
     uint32_t abi_major, abi_minor;

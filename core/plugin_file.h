@@ -23,7 +23,7 @@ typedef struct plugin_file {
 } plugin_file;
 
 /* `path` is absolute; the book knows earlier trials and takes note of new ones. On failure the text
- * says why, without the path, and only facts.device and facts.inode are of use (0 if the file could
+ * says why, without the path, and only facts.file is of use (0 if the file could
  * not be opened): IMP_ERROR_PLUGIN, or IMP_ERROR_MEMORY if we could not tell. */
 imp_code plugin_file_open(plugin_file *plugin, const char *path, trial_book *book,
                           imp_error *error);

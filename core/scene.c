@@ -108,13 +108,6 @@ bool scene_ignores(const imp_scene *scene, size_t a, size_t b)
     return false;
 }
 
-ptrdiff_t scene_find_body(const imp_scene *scene, const char *name)
-{
-    for (size_t b = 0; b < scene->count; ++b)
-        if (strcmp(scene->bodies[b].name, name) == 0) return (ptrdiff_t)b;
-    return -1;
-}
-
 scene_settings *scene_settings_of(imp_scene *scene) { return &scene->settings; }
 
 size_t imp_scene_body_count(const imp_scene *scene) { return scene->count; }
@@ -129,7 +122,7 @@ size_t imp_scene_surface_count(const imp_scene *scene, size_t body)
     return body < scene->count ? scene->bodies[body].count : 0;
 }
 
-const surface *scene_surface(const imp_scene *scene, size_t body, size_t index)
+static const surface *scene_surface(const imp_scene *scene, size_t body, size_t index)
 {
     if (index >= imp_scene_surface_count(scene, body)) return NULL;
     return scene->bodies[body].members[index].surface;

@@ -20,15 +20,10 @@ imp_code scene_add_surface(imp_scene *scene, surface *s);
 imp_code scene_ignore(imp_scene *scene, size_t a, size_t b);
 bool scene_ignores(const imp_scene *scene, size_t a, size_t b);
 
-/* Index of the body of that name, or -1. */
-ptrdiff_t scene_find_body(const imp_scene *scene, const char *name);
-
 /* What the scene file asks for; the defaults of imp_options_default. Preset: 0, 1, 1e-6, -1. */
 typedef struct scene_settings {
     double t_start, t_end, gamma, clearance;
 } scene_settings;
 scene_settings *scene_settings_of(imp_scene *scene);
-
-const surface *scene_surface(const imp_scene *scene, size_t body, size_t index);
 
 #endif

@@ -142,11 +142,10 @@ static bool half_is_needed(const time_window *window, double at, int half)
     return true;
 }
 
-/* A cut in time is free where the whole window lies on one side of it. */
-static bool window_is_one_sided(const pair *p, const node *n)
+/* Then a cut in time is free. */
+static bool is_one_half_enough(const time_window *window, double at)
 {
-    const double at = n->region.c[PARAMETER_T];
-    return p->window.hi <= at || p->window.lo >= at;
+    return !half_is_needed(window, at, 0) || !half_is_needed(window, at, 1);
 }
 
 /* Whether time blurs the node enough to count beside gamma, and beside what u and v blur of both.
@@ -161,7 +160,7 @@ static bool time_blurs(const impact *im, const pair *p, const node *n)
  * what bends counts; more where the cut is free, and most where it is and time blurs the node. */
 static double gain_in_time(const impact *im, const pair *p, const node *n)
 {
-    if (!window_is_one_sided(p, n)) return 2 * n->bend[PARAMETER_T];
+    if (!is_one_half_enough(&p->window, n->region.c[PARAMETER_T])) return 2 * n->bend[PARAMETER_T];
     return time_blurs(im, p, n) ? INFINITY : 8 * n->bend[PARAMETER_T];
 }
 

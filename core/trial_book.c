@@ -19,15 +19,9 @@
  * nanoseconds of modification and of change, path, reason. Its first line names the version:
  * another one's book is not read. */
 
-/* A copy that keeps size and time of modification (cp -p, touch -r) has another time of change. */
-typedef struct identity {
-    uint64_t device, inode, size;
-    int64_t modified_s, modified_ns, changed_s, changed_ns;
-} identity;
-
 typedef struct trial {
     imp_code code;
-    identity file;
+    elf_identity file;
     char *path, *text;
 } trial;
 
@@ -84,7 +78,7 @@ static bool add(trial_book *book, trial t)
 static bool read_line(trial_book *book, char *line)
 {
     trial t = {0};
-    identity *f = &t.file;
+    elf_identity *f = &t.file;
     int code, path = 0;
     line[strcspn(line, "\n")] = '\0';
     if (sscanf(line,
@@ -147,13 +141,7 @@ static trial *find(const trial_book *book, const char *path)
     return NULL;
 }
 
-static identity identity_of(const elf_probe *file)
-{
-    return (identity){file->device,      file->inode,     file->size,      file->modified_s,
-                      file->modified_ns, file->changed_s, file->changed_ns};
-}
-
-static bool same(identity a, identity b)
+static bool same(elf_identity a, elf_identity b)
 {
     return a.device == b.device && a.inode == b.inode && a.size == b.size &&
            a.modified_s == b.modified_s && a.modified_ns == b.modified_ns &&
@@ -164,7 +152,7 @@ bool trial_book_find(const trial_book *book, const char *path, const elf_probe *
                      imp_code *code, const char **text)
 {
     const trial *t = find(book, path);
-    if (t == NULL || !same(t->file, identity_of(file))) return false;
+    if (t == NULL || !same(t->file, file->file)) return false;
     *code = t->code;
     *text = t->text;
     return true;
@@ -174,7 +162,7 @@ bool trial_book_add(trial_book *book, const char *path, const elf_probe *file, i
                     const char *text)
 {
     if (strpbrk(path, "\t\n") != NULL) return true; /* tried every time */
-    trial t = {code, identity_of(file), strdup(path), strdup(text)};
+    trial t = {code, file->file, strdup(path), strdup(text)};
     for (char *c = t.text; c != NULL && *c != '\0'; ++c)
         if (*c == '\n') *c = ' ';
     trial *old = find(book, path);
@@ -194,7 +182,7 @@ static bool write_all(const trial_book *book, FILE *out)
     for (size_t k = 0; k < book->count; ++k) {
         const trial *t = &book->trials[k];
         if (access(t->path, F_OK) != 0) continue; /* gone: forget it */
-        const identity *f = &t->file;
+        const elf_identity *f = &t->file;
         fprintf(out,
                 "%d\t%" PRIu64 "\t%" PRIu64 "\t%" PRIu64 "\t%" PRId64 "\t%" PRId64 "\t%" PRId64
                 "\t%" PRId64 "\t%s\t%s\n",

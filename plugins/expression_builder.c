@@ -183,7 +183,8 @@ static uint16_t refuse_undefined(builder *b, const operation *o)
     }
 }
 
-uint16_t builder_append(builder *b, const operation *o)
+/* The operation as it is, but for operations of constants and those there are already. */
+static uint16_t builder_append(builder *b, const operation *o)
 {
     if (b->fault[0] != '\0') return 0;
     if (operation_is_undefined(o, b->whole)) return refuse_undefined(b, o);

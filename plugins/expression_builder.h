@@ -35,10 +35,8 @@ uint16_t builder_constant(builder *b, near_constant k);
 
 bool builder_is_constant(const builder *b, uint16_t x);
 
-/* The operation as it is, but for operations of constants and those there are already. */
-uint16_t builder_append(builder *b, const operation *o);
-
-/* The same from its parts; y and z are 0 where the code has fewer operands. */
+/* An operation, unless it is of constants or there is one like it already; y and z are 0 where the
+ * code has fewer operands. */
 uint16_t builder_operate(builder *b, opcode code, uint16_t x, uint16_t y, uint16_t z);
 uint16_t builder_with_constant(builder *b, opcode code, uint16_t x, near_constant k);
 uint16_t builder_power_n(builder *b, uint16_t x, int32_t n);

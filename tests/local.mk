@@ -188,7 +188,7 @@ tests_test_formula_SOURCES = tests/test_formula.c tests/oracle.c
 tests_test_model_SOURCES = tests/test_model.c tests/oracle.c
 
 noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/balls.h tests/retelling.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h tests/plugins/liar.h
-noinst_HEADERS += tests/plugins/slab.h
+noinst_HEADERS += tests/plugins/slab.h tests/model_value.h
 
 # What tests/fuzz_scene reads: scenes, and pipelines.
 EXTRA_DIST += \

@@ -54,7 +54,7 @@ START_TEST(a_good_plugin_passes_every_check_and_tells_its_note)
     ck_assert_str_eq(probe.version, "1.0");
     ck_assert_uint_eq(probe.abi_major, IMP_ABI_MAJOR);
     ck_assert_uint_eq(probe.abi_minor, IMP_ABI_MINOR);
-    ck_assert_uint_gt(probe.inode, 0);
+    ck_assert_uint_gt(probe.file.inode, 0);
 }
 END_TEST
 

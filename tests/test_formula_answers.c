@@ -6,6 +6,7 @@
 
 #include <impinge/formula.h>
 
+#include "model_value.h"
 #include "suite.h"
 
 /* --- Formulas ------------------------------------------------------------------------ */
@@ -53,15 +54,6 @@ static imp_region region_of(double u, double v, double t, double half)
 {
     const double lo[3] = {u - half, v - half, t - half}, hi[3] = {u + half, v + half, t + half};
     return imp_region_between(lo, hi);
-}
-
-static double quadratic_at(const imp_model *m, const double s[3])
-{
-    static const int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
-    double value = m->a;
-    for (int j = 0; j < 3; j++) value += m->b[j] * s[j];
-    for (int k = 0; k < 6; k++) value += m->q[k] * s[row[k]] * s[column[k]];
-    return value;
 }
 
 /* --- Points ------------------------------------------------------------------------------ */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "map_images.h"
+#include "model_value.h"
 #include "region.h"
 
 /* What the equations of the maps promise, beside being what they are (test_plugins.c). */
@@ -147,15 +148,6 @@ static void sphere_part(const imp_region *region, imp_model in[4])
     in[1] = imp_mul(cos_v, sin_u);
     in[2] = sin_v;
     in[3] = imp_param(region, 2);
-}
-
-static double quadratic_at(const imp_model *g, const double s[3])
-{
-    double x = g->a;
-    for (int j = 0; j < 3; ++j) x += g->b[j] * s[j];
-    for (int j = 0, k = 0; j < 3; ++j)
-        for (int l = j; l < 3; ++l, ++k) x += g->q[k] * s[j] * s[l];
-    return x;
 }
 
 /* The greatest distance from the quadratic on a grid. */

@@ -4,6 +4,7 @@
 
 #include "built_plugins.h"
 #include "instance.h"
+#include "model_value.h"
 #include "region.h"
 
 /* Bounds that hold may still be useless. Here they are compared with what they bound, on a
@@ -20,15 +21,6 @@ typedef struct ratios {
 typedef struct seen {
     double off[3], lo[3], hi[3], slope[3][3];
 } seen;
-
-static double quadratic_at(const imp_model *g, const double s[3])
-{
-    double x = g->a;
-    for (int j = 0; j < 3; ++j) x += g->b[j] * s[j];
-    for (int j = 0, k = 0; j < 3; ++j)
-        for (int l = j; l < 3; ++l, ++k) x += g->q[k] * s[j] * s[l];
-    return x;
-}
 
 static void point_at(const imp_region *region, const double s[3], double p[3])
 {

@@ -105,7 +105,7 @@ bool span_is(span x, long double value) { return x.lo == value && x.hi == value;
 
 long double span_mag(span x) { return larger(fabsl(x.lo), fabsl(x.hi)); }
 
-long double span_mig(span x) { return larger(larger(x.lo, -x.hi), 0); }
+static long double span_mig(span x) { return larger(larger(x.lo, -x.hi), 0); }
 
 long double span_mid(span x) { return smaller(larger(0.5L * x.lo + 0.5L * x.hi, x.lo), x.hi); }
 

@@ -30,7 +30,6 @@ span span_e(void);
 bool span_is_within(span x, span limits);
 bool span_is(span x, long double value); /* that value and no other */
 long double span_mag(span x);            /* greatest |z| */
-long double span_mig(span x);            /* least |z| */
 long double span_mid(span x);            /* within x; x finite */
 span span_hull(span x, span y);          /* all between */
 span span_meet(span x, span y);          /* both are true of something */

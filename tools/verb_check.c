@@ -139,6 +139,18 @@ static char *command_line(const job *j)
     return line;
 }
 
+/* The operand, if it says more than a type's name; else NULL. */
+static const char *given_stage(const job *j)
+{
+    const char *type = j->type.name;
+    return type[0] != '\0' && strcmp(j->operand, type) != 0 ? j->operand : NULL;
+}
+
+static const char *given_formula(const job *j)
+{
+    return j->formula != NULL ? j->formula->text : NULL;
+}
+
 static bool is_wanted(const job *j, size_t check)
 {
     return j->only == NULL || strcmp(check_names[check], check_names[j->only->choice]) == 0;
@@ -167,10 +179,10 @@ static void run_type(job *j, const survey_type *t)
     check_task task = {.file = j->file->file, .sort = t->sort, .type = t->name};
     task.seed = j->seed;
     task.effort = j->effort;
-    task.formula = j->formula != NULL ? j->formula->text : NULL;
+    task.formula = given_formula(j);
     for (int k = 0; k < CHECK_STAGES; ++k) task.stage[k] = t->stage[k][0] ? t->stage[k] : NULL;
-    if (j->type.name[0] != '\0' && strcmp(j->operand, t->name) != 0) {
-        task.stage[0] = j->operand;
+    if (given_stage(j) != NULL) {
+        task.stage[0] = given_stage(j);
         task.stage[1] = NULL;
     }
     report_type(&j->report, t->sort, t->name, task.stage);
@@ -199,10 +211,11 @@ static bool load(job *j)
 static exit_status read_asked(job *j)
 {
     const char *verb = j->args->verb->name, *type = j->type.name;
-    check_task task = {.file = j->file->file};
-    if (type[0] != '\0') task.type = type;
-    if (type[0] != '\0' && strcmp(j->operand, type) != 0) task.stage[0] = j->operand;
-    if (j->formula != NULL) task.formula = j->formula->text;
+    const check_task task = {.file = j->file->file,
+                             .type = type[0] != '\0' ? type : NULL,
+                             .stage = {given_stage(j)},
+                             .formula = given_formula(j)};
+    if (task.stage[0] == NULL && task.formula == NULL) return EXIT_ANSWERED;
     check_try(&task, j->seconds, j->misreading);
     if (j->misreading->stage[0] != '\0')
         return complain(EXIT_DATA, verb, "'%s': %s", j->operand, j->misreading->stage);
