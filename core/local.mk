@@ -1,76 +1,116 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: Apache-2.0
 
-# Modules, bottom-up, one per line: a module includes only what stands above it, which
-# tests/structure.bats checks. The registry side and the solver side both build on the
-# base and never include each other.
+# Rooms, bottom-up: a file includes only its own room and rooms above it in this list, which
+# tests/support/include_order checks.
+
+core_common = \
+    core/common/array.h \
+    core/common/child.c core/common/child.h \
+    core/common/child_process.c core/common/child_process.h \
+    core/common/nearest.c core/common/nearest.h \
+    core/common/random.h
 
 core_base = \
     core/impinge/impinge.h \
-    core/status.c core/status.h \
-    core/fp_mode.h \
-    core/in_call.c core/in_call.h \
-    core/array.h \
-    core/text.c core/text.h \
-    core/place.c core/place.h \
-    core/region.c core/region.h \
-    core/surface.h \
-    core/surface_parts.h \
-    core/surface.c core/surface_rate.c core/surface_include.c \
-    core/scene.h
+    core/base/active_callback.c core/base/active_callback.h \
+    core/base/clock.h \
+    core/base/file_text.c core/base/file_text.h \
+    core/base/fp_mode.h \
+    core/base/place.c core/base/place.h \
+    core/base/rounding.h \
+    core/base/sized.h \
+    core/base/status.c core/base/status.h \
+    core/base/text.c core/base/text.h \
+    core/base/unconst.h
+
+core_surface = \
+    core/surface/part.c core/surface/part.h \
+    core/surface/region.c core/surface/region.h \
+    core/surface/surface.c core/surface/surface.h \
+    core/surface/surface_include.c \
+    core/surface/surface_parts.h \
+    core/surface/surface_rate.c
+
+core_tree = \
+    core/tree/bound_audit.c core/tree/bound_audit.h \
+    core/tree/node.c core/tree/node.h \
+    core/tree/node_model.c core/tree/node_model.h \
+    core/tree/vec.h
+
+core_plugin = \
+    core/plugin/channel.h \
+    core/plugin/elf_file.c core/plugin/elf_file.h \
+    core/plugin/elf_probe.c core/plugin/elf_probe.h \
+    core/plugin/elf_segments.c core/plugin/elf_segments.h \
+    core/plugin/isolate.c core/plugin/isolate.h \
+    core/plugin/json_describe.c core/plugin/json_describe.h \
+    core/plugin/load_cache.c \
+    core/plugin/load_probe.c core/plugin/load_probe.h \
+    core/plugin/parameter_table.c core/plugin/parameter_table.h \
+    core/plugin/parameters.c core/plugin/parameters.h \
+    core/plugin/plugin_check.c core/plugin/plugin_check.h \
+    core/plugin/plugin_file.c core/plugin/plugin_file.h \
+    core/plugin/registry.c core/plugin/registry.h \
+    core/plugin/registry_parts.h \
+    core/plugin/registry_scan.c \
+    core/plugin/search_path.c core/plugin/search_path.h \
+    core/plugin/type_view.h \
+    core/plugin/value_bytes.c core/plugin/value_bytes.h \
+    core/plugin/worker.c core/plugin/worker.h \
+    core/plugin/worker_pool.c core/plugin/worker_pool.h \
+    core/plugin/worker_serve.c
+
+core_scene = \
+    core/scene/assembly.c core/scene/assembly.h \
+    core/scene/key_pairs.c core/scene/key_pairs.h \
+    core/scene/scene.c core/scene/scene.h \
+    core/scene/scene_trees.h
 
 core_solver = \
-    core/vec.h \
-    core/lanes.h \
-    core/node.h \
-    core/node_model.c core/node_model.h \
-    core/node.c \
-    core/claims.c core/claims.h \
-    core/scene_trees.h \
-    core/scene.c \
-    core/broad_phase.c core/broad_phase.h \
-    core/quadratic.h \
-    core/relative.c core/relative.h \
-    core/normal_field.c core/normal_field.h \
-    core/nearest_axis.c core/nearest_axis.h \
-    core/axes.c core/axes.h \
-    core/separation.c core/separation.h \
-    core/pair_heap.c core/pair_heap.h \
-    core/witness.c core/witness.h \
-    core/time_of_impact.c core/time_of_impact.h \
-    core/couples.c core/couples.h \
-    core/query.c
+    core/solver/axes.c core/solver/axes.h \
+    core/solver/broad_phase.c core/solver/broad_phase.h \
+    core/solver/candidates.c core/solver/candidates.h \
+    core/solver/clearance.c core/solver/clearance.h \
+    core/solver/examined_times.c core/solver/examined_times.h \
+    core/solver/gap_lines.c core/solver/gap_lines.h \
+    core/solver/gjk_axis.c core/solver/gjk_axis.h \
+    core/solver/min_distance.c core/solver/min_distance.h \
+    core/solver/normal_field.c core/solver/normal_field.h \
+    core/solver/pair_heap.c core/solver/pair_heap.h \
+    core/solver/quadratic.h \
+    core/solver/query.c core/solver/query_parts.h \
+    core/solver/query_answer.c \
+    core/solver/query_clearance.c \
+    core/solver/relative.c core/solver/relative.h \
+    core/solver/separation.c core/solver/separation.h \
+    core/solver/subdivision.c core/solver/subdivision.h \
+    core/solver/time_of_impact.c core/solver/time_of_impact.h \
+    core/solver/tuning.h \
+    core/solver/witness.c core/solver/witness.h
 
-core_registry = \
-    core/elf_file.c core/elf_file.h \
-    core/elf_probe.c core/elf_probe.h \
-    core/parameter_table.c core/parameter_table.h \
-    core/json_words.c core/json_words.h \
-    core/parameters.c core/parameters.h \
-    core/type_view.h \
-    core/plugin_check.c core/plugin_check.h \
-    core/plugin_trial.h \
-    core/plugin_trial.c \
-    core/trial_book.c \
-    core/plugin_file.c core/plugin_file.h \
-    core/search_path.c core/search_path.h \
-    core/registry.h \
-    core/registry_parts.h \
-    core/registry.c core/registry_scan.c \
-    core/file_text.c core/file_text.h \
-    core/pipeline_value.c core/pipeline_value.h \
-    core/pipeline.c core/pipeline.h \
-    core/json_keys.c core/json_keys.h \
-    core/isolate.c core/isolate.h \
-    core/scene_build.c core/scene_build.h \
-    core/instance.c \
-    core/scene_bodies.c core/scene_bodies.h \
-    core/scene_file.c core/scene_file.h
+core_reader = \
+    core/reader/arguments.c core/reader/arguments.h \
+    core/reader/builder.c \
+    core/reader/instance.c \
+    core/reader/json_keys.c core/reader/json_keys.h \
+    core/reader/pipeline.c core/reader/pipeline.h \
+    core/reader/pipeline_value.c core/reader/pipeline_value.h \
+    core/reader/scene_bodies.c core/reader/scene_bodies.h \
+    core/reader/scene_build.c core/reader/scene_build.h \
+    core/reader/scene_file.c core/reader/scene_file.h \
+    core/reader/scene_json.c core/reader/scene_json.h \
+    core/reader/scene_parts.c core/reader/scene_parts.h
+
+# What the library and the command share; each links its own copy.
+noinst_LTLIBRARIES += core/libcommon.la
+core_libcommon_la_SOURCES = $(core_common)
 
 # Everything, internal symbols included: what the Check suites link.
 noinst_LTLIBRARIES += core/libcore.la
-core_libcore_la_SOURCES = $(core_base) $(core_solver) $(core_registry)
-core_libcore_la_LIBADD = $(JANSSON_LIBS) -lm
+core_libcore_la_SOURCES = $(core_base) $(core_surface) $(core_tree) $(core_plugin) $(core_scene) \
+    $(core_solver) $(core_reader)
+core_libcore_la_LIBADD = core/libcommon.la $(JANSSON_LIBS) -lm
 
 # The same objects, public symbols only.
 #
@@ -82,12 +122,17 @@ core_libcore_la_LIBADD = $(JANSSON_LIBS) -lm
 lib_LTLIBRARIES += libimpinge.la
 libimpinge_la_SOURCES =
 libimpinge_la_LIBADD = core/libcore.la
-libimpinge_la_LDFLAGS = $(AM_LDFLAGS) -version-info 0:0:0 -no-undefined \
-    -export-symbols-regex '^imp_'
+if HAVE_VERSION_SCRIPT
+libimpinge_exports = -Wl,--version-script=$(top_srcdir)/core/libimpinge.map
+else
+libimpinge_exports = -export-symbols-regex '^imp_'
+endif
+libimpinge_la_LDFLAGS = -version-info 0:0:0 -no-undefined $(libimpinge_exports)
+EXTRA_libimpinge_la_DEPENDENCIES = core/libimpinge.map
 
 core_includedir = $(pkgincludedir)
 core_include_HEADERS = core/impinge/impinge.h
 
 pkgconfig_DATA += core/impinge.pc
 
-EXTRA_DIST += core/README
+EXTRA_DIST += core/README core/libimpinge.map

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: Apache-2.0
 
-# One line per plugin: plugins/NAME.la is built from plugins/NAME.c and headers.
+# One .so per type: plugins/NAME.la from plugins/surfaces/NAME.c or plugins/maps/NAME.c.
 
 plugin_LTLIBRARIES = \
     plugins/bend.la \
@@ -35,49 +35,151 @@ plugin_LTLIBRARIES = \
     plugins/twist.la \
     plugins/wave.la
 
+# Modules that export one symbol.
+if HAVE_VERSION_SCRIPT
+plugin_exports = -Wl,--version-script=$(top_srcdir)/plugins/plugin.map -Wl,--gc-sections
+else
+plugin_exports = -export-symbols-regex '^impinge_plugin$$'
+endif
+plugin_ldflags = -module -avoid-version -shared $(plugin_exports)
+EXTRA_DIST += plugins/plugin.map
+
+plugins_bend_la_SOURCES = plugins/maps/bend.c
+plugins_bend_la_LDFLAGS = $(plugin_ldflags)
+plugins_bezier_la_SOURCES = plugins/surfaces/bezier.c
+plugins_bezier_la_LDFLAGS = $(plugin_ldflags)
+plugins_cone_la_SOURCES = plugins/surfaces/cone.c
+plugins_cone_la_LDFLAGS = $(plugin_ldflags)
+plugins_cylinder_la_SOURCES = plugins/surfaces/cylinder.c
+plugins_cylinder_la_LDFLAGS = $(plugin_ldflags)
+plugins_ellipsoid_la_SOURCES = plugins/surfaces/ellipsoid.c
+plugins_ellipsoid_la_LDFLAGS = $(plugin_ldflags)
+plugins_ffd_la_SOURCES = plugins/maps/ffd.c
+plugins_ffd_la_LDFLAGS = $(plugin_ldflags)
+plugins_formula_la_SOURCES = plugins/surfaces/formula.c
+plugins_formula_la_LDFLAGS = $(plugin_ldflags)
+plugins_keyframes_la_SOURCES = plugins/maps/keyframes.c
+plugins_keyframes_la_LDFLAGS = $(plugin_ldflags)
+plugins_map_formula_la_SOURCES = plugins/maps/map-formula.c
+plugins_map_formula_la_LDFLAGS = $(plugin_ldflags)
+plugins_nurbs_la_SOURCES = plugins/surfaces/nurbs.c
+plugins_nurbs_la_LDFLAGS = $(plugin_ldflags)
+plugins_plane_la_SOURCES = plugins/surfaces/plane.c
+plugins_plane_la_LDFLAGS = $(plugin_ldflags)
+plugins_point_la_SOURCES = plugins/surfaces/point.c
+plugins_point_la_LDFLAGS = $(plugin_ldflags)
+plugins_product_la_SOURCES = plugins/surfaces/product.c
+plugins_product_la_LDFLAGS = $(plugin_ldflags)
+plugins_revolution_la_SOURCES = plugins/surfaces/revolution.c
+plugins_revolution_la_LDFLAGS = $(plugin_ldflags)
+plugins_ripple_la_SOURCES = plugins/surfaces/ripple.c
+plugins_ripple_la_LDFLAGS = $(plugin_ldflags)
+plugins_rotate_la_SOURCES = plugins/maps/rotate.c
+plugins_rotate_la_LDFLAGS = $(plugin_ldflags)
+plugins_scale_la_SOURCES = plugins/maps/scale.c
+plugins_scale_la_LDFLAGS = $(plugin_ldflags)
+plugins_screw_la_SOURCES = plugins/maps/screw.c
+plugins_screw_la_LDFLAGS = $(plugin_ldflags)
+plugins_segment_la_SOURCES = plugins/surfaces/segment.c
+plugins_segment_la_LDFLAGS = $(plugin_ldflags)
+plugins_sphere_la_SOURCES = plugins/surfaces/sphere.c
+plugins_sphere_la_LDFLAGS = $(plugin_ldflags)
+plugins_spike_la_SOURCES = plugins/surfaces/spike.c
+plugins_spike_la_LDFLAGS = $(plugin_ldflags)
+plugins_superellipsoid_la_SOURCES = plugins/surfaces/superellipsoid.c
+plugins_superellipsoid_la_LDFLAGS = $(plugin_ldflags)
+plugins_supertoroid_la_SOURCES = plugins/surfaces/supertoroid.c
+plugins_supertoroid_la_LDFLAGS = $(plugin_ldflags)
+plugins_sweep_la_SOURCES = plugins/surfaces/sweep.c
+plugins_sweep_la_LDFLAGS = $(plugin_ldflags)
+plugins_taper_la_SOURCES = plugins/maps/taper.c
+plugins_taper_la_LDFLAGS = $(plugin_ldflags)
+plugins_torus_la_SOURCES = plugins/surfaces/torus.c
+plugins_torus_la_LDFLAGS = $(plugin_ldflags)
+plugins_translate_la_SOURCES = plugins/maps/translate.c
+plugins_translate_la_LDFLAGS = $(plugin_ldflags)
+plugins_triangle_la_SOURCES = plugins/surfaces/triangle.c
+plugins_triangle_la_LDFLAGS = $(plugin_ldflags)
+plugins_twist_la_SOURCES = plugins/maps/twist.c
+plugins_twist_la_LDFLAGS = $(plugin_ldflags)
+plugins_wave_la_SOURCES = plugins/maps/wave.c
+plugins_wave_la_LDFLAGS = $(plugin_ldflags)
+
 # What they share; private, never installed.
 noinst_HEADERS += \
-    plugins/axis.h \
-    plugins/bernstein.h \
-    plugins/chebyshev.h \
-    plugins/quad.h \
-    plugins/curve.h \
-    plugins/expression_type.h \
-    plugins/ffd_model.h \
-    plugins/knots.h \
-    plugins/lattice.h \
-    plugins/linear.h \
-    plugins/near.h \
-    plugins/nurbs_cells.h \
-    plugins/patch.h \
-    plugins/patch_include.h \
-    plugins/patch_rate.h \
-    plugins/patch_series.h \
-    plugins/pieces.h \
-    plugins/plugin.h \
-    plugins/polynomial.h \
-    plugins/series.h \
-    plugins/sinc.h \
-    plugins/spline.h \
-    plugins/superquadric.h
+    plugins/common/near.h \
+    plugins/common/polynomial.h \
+    plugins/common/publish.h \
+    plugins/patch/bernstein.h \
+    plugins/patch/chebyshev.h \
+    plugins/patch/parameters.h \
+    plugins/patch/rows.h
 
-# The language of formulas, for both types that have texts in it.
+# What surfaces and maps have in common. Its files that a type does not need are dropped by the linker
+# (plugin_ldflags).
+noinst_LTLIBRARIES += plugins/libcommon.la
+plugins_libcommon_la_SOURCES = \
+    plugins/common/axis.c plugins/common/axis.h \
+    plugins/common/course.c plugins/common/course.h \
+    plugins/common/csv.c plugins/common/csv.h \
+    plugins/common/linear.c plugins/common/linear.h \
+    plugins/common/sinc.c plugins/common/sinc.h \
+    plugins/common/spline.c plugins/common/spline.h \
+    plugins/common/superquadric.c plugins/common/superquadric.h
+plugins_libcommon_la_LDFLAGS =
+plugins_bend_la_LIBADD = plugins/libcommon.la
+plugins_keyframes_la_LIBADD = plugins/libcommon.la
+plugins_plane_la_LIBADD = plugins/libcommon.la
+plugins_point_la_LIBADD = plugins/libcommon.la
+plugins_rotate_la_LIBADD = plugins/libcommon.la
+plugins_scale_la_LIBADD = plugins/libcommon.la
+plugins_screw_la_LIBADD = plugins/libcommon.la
+plugins_segment_la_LIBADD = plugins/libcommon.la
+plugins_superellipsoid_la_LIBADD = plugins/libcommon.la
+plugins_supertoroid_la_LIBADD = plugins/libcommon.la
+plugins_taper_la_LIBADD = plugins/libcommon.la
+plugins_translate_la_LIBADD = plugins/libcommon.la
+plugins_triangle_la_LIBADD = plugins/libcommon.la
+plugins_twist_la_LIBADD = plugins/libcommon.la
+plugins_wave_la_LIBADD = plugins/libcommon.la
+
+# Patches of control points, and what is built of them.
+noinst_LTLIBRARIES += plugins/libpatch.la
+plugins_libpatch_la_SOURCES = \
+    plugins/patch/curve.c plugins/patch/curve.h \
+    plugins/patch/ffd_model.c plugins/patch/ffd_model.h \
+    plugins/patch/knots.c plugins/patch/knots.h \
+    plugins/patch/lattice.c plugins/patch/lattice.h \
+    plugins/patch/nurbs_cells.c plugins/patch/nurbs_cells.h \
+    plugins/patch/patch.c plugins/patch/patch.h \
+    plugins/patch/patch_include.c plugins/patch/patch_include.h \
+    plugins/patch/patch_rate.c plugins/patch/patch_rate.h \
+    plugins/patch/patch_series.c plugins/patch/patch_series.h \
+    plugins/patch/pieces.c plugins/patch/pieces.h
+plugins_libpatch_la_LDFLAGS =
+plugins_bezier_la_LIBADD = plugins/libpatch.la
+plugins_ffd_la_LIBADD = plugins/libpatch.la
+plugins_nurbs_la_LIBADD = plugins/libpatch.la
+plugins_product_la_LIBADD = plugins/libpatch.la
+plugins_revolution_la_LIBADD = plugins/libpatch.la
+plugins_sweep_la_LIBADD = plugins/libpatch.la
+
+# The language of formulas, for both types that take formulas as text.
 noinst_LTLIBRARIES += plugins/libexpression.la
 plugins_libexpression_la_SOURCES = \
-    plugins/expression.c plugins/expression.h \
-    plugins/expression_builder.c plugins/expression_builder.h \
-    plugins/expression_functions.h \
-    plugins/expression_names.c plugins/expression_names.h \
-    plugins/expression_operation.c plugins/expression_operation.h \
-    plugins/expression_parser.c plugins/expression_parser.h \
-    plugins/expression_rules.c plugins/expression_rules.h \
-    plugins/expression_token.c plugins/expression_token.h \
-    plugins/expression_zeros.c plugins/expression_zeros.h
+    plugins/expression/builder.c plugins/expression/builder.h \
+    plugins/expression/expression.c plugins/expression/expression.h \
+    plugins/expression/functions.h \
+    plugins/expression/names.c plugins/expression/names.h \
+    plugins/expression/operation.c plugins/expression/operation.h \
+    plugins/expression/parser.c plugins/expression/parser.h \
+    plugins/expression/rules.c plugins/expression/rules.h \
+    plugins/expression/token.c plugins/expression/token.h \
+    plugins/expression/zeros.c plugins/expression/zeros.h
+noinst_HEADERS += plugins/expression/type.h
 plugins_libexpression_la_LDFLAGS =
 plugins_formula_la_LIBADD = plugins/libexpression.la
 plugins_map_formula_la_LIBADD = plugins/libexpression.la
-
-plugin_ldflags = -avoid-version -shared -export-symbols-regex '^impinge_plugin$$'
 
 # They link with libm and nothing else, whatever configure found for the host.
 $(plugin_LTLIBRARIES): LIBS = -lm

@@ -12,6 +12,8 @@ pkginclude_HEADERS = \
     sdk/impinge/model_arithmetic.h \
     sdk/impinge/model_functions.h \
     sdk/impinge/model_series.h \
+    sdk/impinge/plugin.h \
+    sdk/impinge/quad.h \
     sdk/impinge/surface.h
 
 pkgconfig_DATA += sdk/impinge-sdk.pc
@@ -42,4 +44,16 @@ dist_examples_DATA = \
     sdk/examples/twirl.c
 
 # Innermost first.
-sdk_folders = $(templatedir) $(examplesdir) $(sdkdocdir) $(docdir)
+sdk_folders = $(templatedir) $(examplesdir) $(sdkdocdir) $(hostexamplesdir) $(docdir)
+
+# The Python module, installed by pip from here, and an example for programs: C and Python.
+EXTRA_DIST += \
+    sdk/python/pyproject.toml \
+    sdk/python/impinge/__init__.py \
+    sdk/python/impinge/_library.py \
+    sdk/python/impinge/results.py \
+    sdk/python/impinge/scene.py
+
+# Programs that use the library, beside the plugins that the guide builds.
+hostexamplesdir = $(docdir)/examples
+dist_hostexamples_DATA = sdk/examples/arm.c sdk/examples/arm.py

@@ -1,92 +1,116 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: Apache-2.0
 
-# One line per suite: tests/NAME is built from tests/NAME.c and linked with everything in
+# One line per suite: tests/unit/NAME is built from tests/unit/NAME.c and linked with everything in
 # core, internal symbols included.
 check_suites = \
-    tests/fuzz_scene \
-    tests/test_alloc_failure \
-    tests/test_contacts \
-    tests/test_elf_probe \
-    tests/test_isolate \
-    tests/test_expression \
-    tests/test_expression_faults \
-    tests/test_faulty_types \
-    tests/test_formula_answers \
-    tests/test_guarantees \
-    tests/test_lanes \
-    tests/test_loosened \
-    tests/test_metamorphic \
-    tests/test_map_answers \
-    tests/test_parameters \
-    tests/test_pair_heap \
-    tests/test_pipeline \
-    tests/test_plugin_parameters \
-    tests/test_quadratic \
-    tests/test_query \
-    tests/test_query_memory \
-    tests/test_registry \
-    tests/test_scene_file \
-    tests/test_separation \
-    tests/test_spheres \
-    tests/test_steps \
-    tests/test_surface
+    tests/fuzz/elf \
+    tests/fuzz/formula \
+    tests/fuzz/scene \
+    tests/unit/test_alloc_failure \
+    tests/unit/test_callers_mode \
+    tests/unit/test_clearance \
+    tests/unit/test_builder \
+    tests/unit/test_contacts \
+    tests/unit/test_elf_probe \
+    tests/unit/test_isolate \
+    tests/unit/test_expression \
+    tests/unit/test_expression_faults \
+    tests/unit/test_faulty_types \
+    tests/unit/test_formula_answers \
+    tests/unit/test_guarantees \
+    tests/unit/test_lanes \
+    tests/unit/test_limits \
+    tests/unit/test_loosened \
+    tests/unit/test_mechanism \
+    tests/unit/test_mesh \
+    tests/unit/test_metamorphic \
+    tests/unit/test_misuse \
+    tests/unit/test_map_answers \
+    tests/unit/test_parameters \
+    tests/unit/test_pair_heap \
+    tests/unit/test_pending \
+    tests/unit/test_pipeline \
+    tests/unit/test_plugin_parameters \
+    tests/unit/test_quadratic \
+    tests/unit/test_query \
+    tests/unit/test_query_memory \
+    tests/unit/test_registry \
+    tests/unit/test_scene_file \
+    tests/unit/test_separation \
+    tests/unit/test_series \
+    tests/unit/test_spheres \
+    tests/unit/test_steps \
+    tests/unit/test_surface \
+    tests/unit/test_times \
+    tests/unit/test_touchings
 
 # The same, with MPFI as the judge of bounds.
 mpfi_suites = \
-    tests/test_checker \
-    tests/test_expression_bounds \
-    tests/test_formula \
-    tests/test_keyframes \
-    tests/test_maps \
-    tests/test_model \
-    tests/test_plugins \
-    tests/test_shapes \
-    tests/test_tightness
+    tests/unit/test_checker \
+    tests/unit/test_expression_bounds \
+    tests/unit/test_formula \
+    tests/unit/test_keyframes \
+    tests/unit/test_maps \
+    tests/unit/test_model \
+    tests/unit/test_nested \
+    tests/unit/test_plugins \
+    tests/unit/test_shapes \
+    tests/unit/test_tightness
 
 # What types are judged by, and instances of them.
-type_oracle = tests/oracle_number.c tests/oracle_number.h \
-    tests/type_oracle.c tests/type_oracle.h \
-    tests/shape_oracle.c tests/shape_oracle.h \
-    tests/expression_oracle.c tests/expression_oracle.h \
-    tests/map_oracle.c tests/map_oracle.h \
-    tests/instance.c tests/instance.h
-tests_test_keyframes_SOURCES = tests/test_keyframes.c tests/map_images.h $(type_oracle)
-tests_test_maps_SOURCES = tests/test_maps.c tests/map_images.h $(type_oracle)
-tests_test_shapes_SOURCES = tests/test_shapes.c $(type_oracle)
-tests_test_tightness_SOURCES = tests/test_tightness.c $(type_oracle)
-tests_test_plugins_SOURCES = tests/test_plugins.c $(type_oracle) \
-    tests/judge.c tests/judge.h \
-    tests/sampling.c tests/sampling.h
+type_oracle = tests/support/oracle_number.c tests/support/oracle_number.h \
+    tests/support/type_oracle.c tests/support/type_oracle.h \
+    tests/support/shape_oracle.c tests/support/shape_oracle.h \
+    tests/support/expression_oracle.c tests/support/expression_oracle.h \
+    tests/support/map_oracle.c tests/support/map_oracle.h \
+    tests/support/instance.c tests/support/instance.h
+tests_unit_test_mesh_SOURCES = tests/unit/test_mesh.c tools/view/mesh.c tools/view/mesh.h
+tests_unit_test_keyframes_SOURCES = tests/unit/test_keyframes.c tests/support/map_images.h $(type_oracle)
+tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
+    tests/support/judge.c tests/support/judge.h \
+    tests/support/sampling.c tests/support/sampling.h
+tests_unit_test_maps_SOURCES = tests/unit/test_maps.c tests/support/map_images.h $(type_oracle)
+tests_unit_test_shapes_SOURCES = tests/unit/test_shapes.c $(type_oracle)
+tests_unit_test_tightness_SOURCES = tests/unit/test_tightness.c $(type_oracle)
+tests_unit_test_plugins_SOURCES = tests/unit/test_plugins.c $(type_oracle) \
+    tests/support/judge.c tests/support/judge.h \
+    tests/support/sampling.c tests/support/sampling.h
 # The checker's own arithmetic, which the command keeps to itself.
-tests_test_checker_SOURCES = tests/test_checker.c \
-    tests/expression_oracle.c tests/oracle_number.c \
-    tools/check_branch.c tools/check_formula.c tools/check_jet.c tools/check_jet_functions.c \
-    tools/check_polynomial.c tools/check_reader.c tools/check_span.c tools/check_view.c
-tests_test_expression_bounds_SOURCES = tests/test_expression_bounds.c \
-    tests/expression_oracle.c tests/oracle_number.c tests/judge.c tests/sampling.c
-tests_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
+tests_unit_test_checker_SOURCES = tests/unit/test_checker.c \
+    tests/support/expression_oracle.c tests/support/oracle_number.c
+tests_unit_test_checker_LDADD = tools/libproof.la $(LDADD)
+tests_unit_test_expression_bounds_SOURCES = tests/unit/test_expression_bounds.c \
+    tests/support/expression_oracle.c tests/support/oracle_number.c tests/support/judge.c tests/support/sampling.c
+tests_unit_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 
 # Command-line tests; the environment below tells them where things are.
 bats_suites = \
-    tests/bench.bats \
-    tests/check.bats \
-    tests/cli.bats \
-    tests/cli_batch.bats \
-    tests/cli_list.bats \
-    tests/cli_pair.bats \
-    tests/readme.bats \
-    tests/cli_solve.bats \
-    tests/host.bats \
-    tests/matrix.bats \
-    tests/why.bats
+    tests/cli/bench.bats \
+    tests/cli/check.bats \
+    tests/cli/cli.bats \
+    tests/cli/clearance.bats \
+    tests/cli/cli_batch.bats \
+    tests/cli/cli_list.bats \
+    tests/cli/cli_pair.bats \
+    tests/cli/readme.bats \
+    tests/cli/cli_solve.bats \
+    tests/cli/host.bats \
+    tests/cli/hostile.bats \
+    tests/cli/matrix.bats \
+    tests/cli/python.bats \
+    tests/cli/page.bats \
+    tests/cli/series.bats \
+    tests/cli/plot.bats \
+    tests/cli/view.bats \
+    tests/cli/why.bats
 
 # Tests of the sources, the scripts and the installation.
 script_suites = \
-    tests/preparation.bats \
-    tests/sdk.bats \
-    tests/structure.bats \
-    tests/install.bats
+    tests/cli/preparation.bats \
+    tests/cli/sdk.bats \
+    tests/cli/structure.bats \
+    tests/cli/install.bats
 
 # Plugins for the tests of the loader, mostly faulty: tests/plugins/NAME.la is built from
 # tests/plugins/NAME.c. Never installed; -rpath makes libtool build a shared object all the same.
@@ -116,6 +140,7 @@ check_LTLIBRARIES = \
     tests/plugins/fast_math.la \
     tests/plugins/fp_mode.la \
     tests/plugins/half_bad.la \
+    tests/plugins/hostile.la \
     tests/plugins/include_inverted.la \
     tests/plugins/include_lies.la \
     tests/plugins/include_negative.la \
@@ -146,6 +171,10 @@ check_LTLIBRARIES = \
     tests/plugins/liar_time.la \
     tests/plugins/liar_truthful.la \
     tests/plugins/map_rate_negative.la \
+    tests/plugins/mistakes_bounds.la \
+    tests/plugins/mistakes_manners.la \
+    tests/plugins/mistakes_map.la \
+    tests/plugins/mistakes_stated.la \
     tests/plugins/newer_minor.la \
     tests/plugins/no_entry.la \
     tests/plugins/no_factory.la \
@@ -159,49 +188,153 @@ check_LTLIBRARIES = \
     tests/plugins/twin.la \
     tests/plugins/undefined_symbol.la \
     tests/plugins/wrong_abi_major.la
-test_plugin_ldflags = -avoid-version -shared -rpath /nowhere
-tests_plugins_fast_math_la_LDFLAGS = -module $(test_plugin_ldflags) -Wc,-ffast-math
+test_plugin_ldflags = -module -avoid-version -shared -rpath /nowhere
+tests_plugins_fast_math_la_LDFLAGS = $(test_plugin_ldflags) -Wc,-ffast-math
+tests_plugins_bad_name_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_bad_parameter_table_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_constructor_aborts_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_constructor_crashes_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_constructor_exits_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_constructor_hangs_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_create_crashes_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_create_fails_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_create_null_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_create_overflows_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_create_rounds_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_domain_crashes_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_domain_nan_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_domain_rounds_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_eval_aborts_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_eval_crashes_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_eval_error_negative_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_eval_exits_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_eval_hangs_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_eval_nan_late_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_eval_overflows_stack_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_eval_rounds_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_fp_mode_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_half_bad_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_hostile_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_include_inverted_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_include_lies_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_include_negative_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_include_rounds_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_kit_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_beyond_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_corners_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_counter_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_crash_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_errno_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_error_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_exports_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_factory_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_grid_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_hang_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_leak_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_map_rate_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_model_time_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_nan_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_percent_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_range_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_refusal_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_remainder_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_rounding_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_sign_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_single_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_spot_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_time_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_truthful_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_map_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_mistakes_bounds_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_mistakes_manners_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_mistakes_map_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_mistakes_stated_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_newer_minor_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_no_entry_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_no_factory_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_no_note_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_note_disagrees_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_null_callback_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_null_string_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_rate_infinite_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_rate_lies_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_twin_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_undefined_symbol_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_wrong_abi_major_la_LDFLAGS = $(test_plugin_ldflags)
 $(check_LTLIBRARIES): LIBS = -lm
 
 # Suites that fail every allocation in turn.
 alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free \
     -Wl,--wrap=strdup,--wrap=strndup
-tests_test_alloc_failure_SOURCES = tests/test_alloc_failure.c tests/alloc_failure.c
-tests_test_alloc_failure_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
-tests_test_query_memory_SOURCES = tests/test_query_memory.c tests/alloc_failure.c
-tests_test_query_memory_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
+tests_unit_test_alloc_failure_SOURCES = tests/unit/test_alloc_failure.c tests/support/alloc_failure.c
+tests_unit_test_alloc_failure_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_query_memory_SOURCES = tests/unit/test_query_memory.c tests/support/alloc_failure.c
+tests_unit_test_query_memory_LDFLAGS = $(alloc_failure_ldflags)
 
 # The language of formulas.
-tests_test_expression_SOURCES = tests/test_expression.c tests/expression_kit.h \
-    tests/alloc_failure.c
-tests_test_expression_LDFLAGS = $(AM_LDFLAGS) $(alloc_failure_ldflags)
-tests_test_expression_LDADD = plugins/libexpression.la $(LDADD)
-tests_test_expression_faults_LDADD = plugins/libexpression.la $(LDADD)
+tests_unit_test_expression_SOURCES = tests/unit/test_expression.c tests/support/expression_kit.h \
+    tests/support/alloc_failure.c
+tests_unit_test_expression_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_lanes_LDADD = plugins/libpatch.la $(LDADD)
+tests_unit_test_expression_LDADD = plugins/libexpression.la $(LDADD)
+tests_unit_test_expression_faults_LDADD = plugins/libexpression.la $(LDADD)
 
 # One scene told in many ways.
-tests_test_guarantees_SOURCES = tests/test_guarantees.c tests/retelling.c
-tests_test_metamorphic_SOURCES = tests/test_metamorphic.c tests/retelling.c
-tests_test_steps_SOURCES = tests/test_steps.c tests/retelling.c
+tests_unit_test_clearance_SOURCES = tests/unit/test_clearance.c tests/support/scene_variants.c
+tests_unit_test_guarantees_SOURCES = tests/unit/test_guarantees.c tests/support/scene_variants.c
+tests_unit_test_metamorphic_SOURCES = tests/unit/test_metamorphic.c tests/support/scene_variants.c
+tests_unit_test_steps_SOURCES = tests/unit/test_steps.c tests/support/scene_variants.c
 
 # Models and their exact meaning, side by side.
-tests_test_formula_SOURCES = tests/test_formula.c tests/oracle.c
-tests_test_model_SOURCES = tests/test_model.c tests/oracle.c
+tests_unit_test_formula_SOURCES = tests/unit/test_formula.c tests/support/oracle.c
+tests_unit_test_model_SOURCES = tests/unit/test_model.c tests/support/oracle.c
 
-noinst_HEADERS += tests/built_plugins.h tests/oracle.h tests/suite.h tests/asking.h tests/balls.h tests/retelling.h tests/sandbox.h tests/kit_registry.h tests/alloc_failure.h tests/plugins/tiny.h tests/plugins/liar.h
-noinst_HEADERS += tests/plugins/slab.h tests/model_value.h
+noinst_HEADERS += tests/support/built_plugins.h tests/support/oracle.h tests/support/suite.h tests/support/query_helpers.h tests/support/sphere_scenes.h tests/support/scene_variants.h tests/support/sandbox.h tests/support/kit_registry.h tests/support/scene_text.h tests/support/alloc_failure.h tests/plugins/tiny.h tests/plugins/liar.h
+noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/slab.h tests/support/model_value.h
 
-# What tests/fuzz_scene reads: scenes, and pipelines.
+# Fuzz targets, run on the inputs of their folders; tests/fuzz/run searches for more.
+tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/replay.c tests/fuzz/fuzz.h
+tests_fuzz_formula_SOURCES = tests/fuzz/formula.c tests/fuzz/replay.c
+tests_fuzz_formula_LDADD = plugins/libexpression.la tools/libproof.la $(LDADD)
+tests_fuzz_scene_SOURCES = tests/fuzz/scene.c tests/fuzz/replay.c
 EXTRA_DIST += \
-    tests/fuzz_scene.d/all_kinds.json \
-    tests/fuzz_scene.d/bad_shapes.json \
-    tests/fuzz_scene.d/bar.txt \
-    tests/fuzz_scene.d/deep.json \
-    tests/fuzz_scene.d/kit.txt \
-    tests/fuzz_scene.d/not_utf8.json \
-    tests/fuzz_scene.d/numbers.txt \
-    tests/fuzz_scene.d/patch.json \
-    tests/fuzz_scene.d/quotes.txt \
-    tests/fuzz_scene.d/sphere.txt
+    tests/fuzz/elf.d/entry \
+    tests/fuzz/elf.d/machine \
+    tests/fuzz/elf.d/magic \
+    tests/fuzz/elf.d/overlap \
+    tests/fuzz/elf.d/phnum \
+    tests/fuzz/elf.d/phoff \
+    tests/fuzz/elf.d/segment_address \
+    tests/fuzz/elf.d/segment_size \
+    tests/fuzz/elf.d/shoff \
+    tests/fuzz/elf.d/text \
+    tests/fuzz/elf.d/unchanged \
+    tests/fuzz/formula.d/deep.txt \
+    tests/fuzz/formula.d/functions.txt \
+    tests/fuzz/formula.d/kinks.txt \
+    tests/fuzz/formula.d/lines.txt \
+    tests/fuzz/formula.d/more.txt \
+    tests/fuzz/formula.d/open.txt \
+    tests/fuzz/formula.d/overflow.txt \
+    tests/fuzz/formula.d/smooth.txt \
+    tests/fuzz/formula.d/zero.txt \
+    tests/fuzz/scene.d/all_kinds.json \
+    tests/fuzz/scene.d/bad_shapes.json \
+    tests/fuzz/scene.d/bar.txt \
+    tests/fuzz/scene.d/deep.json \
+    tests/fuzz/scene.d/formula_sheet.txt \
+    tests/fuzz/scene.d/kit.txt \
+    tests/fuzz/scene.d/nested_maps.txt \
+    tests/fuzz/scene.d/not_utf8.json \
+    tests/fuzz/scene.d/numbers.txt \
+    tests/fuzz/scene.d/patch.json \
+    tests/fuzz/scene.d/quotes.txt \
+    tests/fuzz/scene.d/sphere.txt \
+    tests/fuzz/scene.d/two_pipelines.txt \
+    tests/fuzz/formula.dict \
+    tests/fuzz/scene.dict \
+    tests/fuzz/run
 
 LDADD = core/libcore.la $(CHECK_LIBS) $(MPFI_LIBS) -lm
 
@@ -241,12 +374,15 @@ AM_TESTS_ENVIRONMENT = \
     top_builddir='$(abs_top_builddir)'; export top_builddir; \
     CC='$(CC)'; export CC; \
     MAKE='$(MAKE)'; export MAKE; \
+    PYTHON3='$(PYTHON3)'; export PYTHON3; \
     XDG_DATA_HOME='$(abs_top_builddir)/tests/no-user-data'; export XDG_DATA_HOME; \
     XDG_CACHE_HOME='$(abs_top_builddir)/tests/cache'; export XDG_CACHE_HOME; \
     unset IMPINGE_PLUGIN_PATH;
 
-EXTRA_DIST += $(bats_suites) $(script_suites) tests/include_order tests/cli_helper.bash \
-    tests/schema.jq
+EXTRA_DIST += tests/python/test_impinge.py
+EXTRA_DIST += $(bats_suites) $(script_suites) tests/support/include_order tests/support/cli_helper.bash \
+    tests/support/page.js \
+    tests/support/schema.jq
 
 # What must not change; tests/abi/README tells more.
 EXTRA_DIST += \
@@ -260,7 +396,8 @@ EXTRA_DIST += \
     tests/abi/libimpinge \
     tests/abi/libimpinge_0.abi
 
-# With sanitizers a second full run is slow and tells nothing new of scripts and installation.
+# With sanitizers a second full run is slow and shows nothing new of scripts and installation; and
+# AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
 .PHONY: check-sanitized
 check-sanitized:
-	$(MAKE) check TESTS='$(filter-out $(script_suites),$(TESTS))'
+	$(MAKE) check TESTS='$(filter-out $(script_suites) tests/cli/hostile.bats,$(TESTS))'

@@ -1,75 +1,147 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: Apache-2.0
 
-# The command: main and one file per verb. It sees the public API and nothing else of core.
-tool_sources = \
-    tools/arguments.c tools/arguments.h \
-    tools/bench.h tools/bench_cases.c tools/bench_json.c tools/bench_measure.c \
-    tools/bench_patches.c tools/bench_print.c tools/bench_sets.c \
-    tools/build_tree.c tools/build_tree.h \
-    tools/catalogue.c tools/catalogue.h \
-    tools/check_answer.c tools/check_answer.h \
-    tools/check_branch.c tools/check_branch.h \
-    tools/check_child.c tools/check_child.h \
-    tools/check_cost.c tools/check_cost.h \
-    tools/check_file.c tools/check_file.h \
-    tools/check_formula.c tools/check_formula.h \
-    tools/check_inclusions.c tools/check_inclusions.h \
-    tools/check_jet.c tools/check_jet_functions.c tools/check_jet.h \
-    tools/check_list.c tools/check_list.h \
-    tools/check_pair.c tools/check_pair.h \
-    tools/check_points.c tools/check_points.h \
-    tools/check_polynomial.c tools/check_polynomial.h \
-    tools/check_proof.c tools/check_proof.h \
-    tools/check_purity.c tools/check_purity.h \
-    tools/check_rates.c tools/check_rates.h \
-    tools/check_reader.c tools/check_steps.h \
-    tools/check_reach.c tools/check_reach.h \
-    tools/check_report.c tools/check_report.h \
-    tools/check_said.c tools/check_said.h \
-    tools/check_sampling.c tools/check_sampling.h \
-    tools/check_span.c tools/check_span.h \
-    tools/check_subject.c tools/check_subject.h \
-    tools/check_table.c tools/check_table.h \
-    tools/check_under.c tools/check_under.h \
-    tools/check_view.c tools/check_view.h \
-    tools/crash.c tools/crash.h \
-    tools/compile.c tools/compile.h \
-    tools/input.c tools/input.h \
-    tools/interrupt.c tools/interrupt.h \
-    tools/main.c \
-    tools/message.c tools/message.h \
-    tools/options.c tools/options.h \
-    tools/output.c tools/output.h \
-    tools/program.c tools/program.h \
-    tools/project.c tools/project.h \
-    tools/query.c tools/query.h \
-    tools/result.h tools/result_json.c tools/result_text.c \
-    tools/verbs.c tools/verbs.h \
-    tools/verb_batch.c \
-    tools/verb_check.c \
-    tools/verb_bench.c \
-    tools/verb_build.c \
-    tools/verb_demo.c \
-    tools/verb_help.c \
-    tools/verb_info.c \
-    tools/verb_list.c \
-    tools/verb_matrix.c \
-    tools/verb_new.c \
-    tools/verb_pair.c \
-    tools/verb_solve.c \
-    tools/verb_why.c
+# Of core, the command sees the public API and core/common. Rooms, bottom-up: proof and cli,
+# then check, bench and view.
+
+# The interval arithmetic that the checker proves with, for the command and its tests.
+noinst_LTLIBRARIES += tools/libproof.la
+tools_libproof_la_SOURCES = \
+    tools/proof/box.h \
+    tools/proof/branch.c tools/proof/branch.h \
+    tools/proof/formula.c tools/proof/formula.h \
+    tools/proof/jet.c tools/proof/jet.h \
+    tools/proof/jet_functions.c \
+    tools/proof/ld_interval.c tools/proof/ld_interval.h \
+    tools/proof/polynomial.c tools/proof/polynomial.h \
+    tools/proof/reader.c \
+    tools/proof/steps.h \
+    tools/proof/view.c tools/proof/view.h
+
+tools_check = \
+    tools/check/answer.c tools/check/answer.h \
+    tools/check/arguments.c tools/check/arguments.h \
+    tools/check/buffers.c tools/check/buffers.h \
+    tools/check/clearance_cost.c tools/check/clearance_cost.h \
+    tools/check/cost.c tools/check/cost.h \
+    tools/check/fate.c tools/check/fate.h \
+    tools/check/domain.c tools/check/domain.h \
+    tools/check/file.c tools/check/file.h \
+    tools/check/guard.c tools/check/guard.h \
+    tools/check/inclusions.c tools/check/inclusions.h \
+    tools/check/list.c tools/check/list.h \
+    tools/check/map_operand.c tools/check/map_operand.h \
+    tools/check/pair.c tools/check/pair.h \
+    tools/check/points.c tools/check/points.h \
+    tools/check/proof.c tools/check/proof.h \
+    tools/check/purity.c tools/check/purity.h \
+    tools/check/rates.c tools/check/rates.h \
+    tools/check/report.c tools/check/report.h \
+    tools/check/sampling.c tools/check/sampling.h \
+    tools/check/state.c tools/check/state.h \
+    tools/check/stated_formula.c tools/check/stated_formula.h \
+    tools/check/subject.c tools/check/subject.h \
+    tools/check/table.c tools/check/table.h \
+    tools/check/values.c tools/check/values.h \
+    tools/check/verb_check.c
+
+tools_bench = \
+    tools/bench/bench.h \
+    tools/bench/cases.c \
+    tools/bench/json.c \
+    tools/bench/measure.c \
+    tools/bench/patches.c \
+    tools/bench/print.c \
+    tools/bench/sets.c \
+    tools/bench/verb_bench.c
+
+tools_cli = \
+    tools/cli/arguments.c tools/cli/arguments.h \
+    tools/cli/batch_resume.c tools/cli/batch_resume.h \
+    tools/cli/build_tree.c tools/cli/build_tree.h \
+    tools/cli/catalogue.c tools/cli/catalogue.h \
+    tools/cli/clearance.h \
+    tools/cli/clearance_json.c \
+    tools/cli/clearance_text.c \
+    tools/cli/compile.c tools/cli/compile.h \
+    tools/cli/crash.c tools/cli/crash.h \
+    tools/cli/input.c tools/cli/input.h \
+    tools/cli/interrupt.c tools/cli/interrupt.h \
+    tools/cli/json_memory.c tools/cli/json_memory.h \
+    tools/cli/main.c \
+    tools/cli/message.c tools/cli/message.h \
+    tools/cli/options.c tools/cli/options.h \
+    tools/cli/ordered_pool.c tools/cli/ordered_pool.h \
+    tools/cli/output.c tools/cli/output.h \
+    tools/cli/program.c tools/cli/program.h \
+    tools/cli/progress.c tools/cli/progress.h \
+    tools/cli/project.c tools/cli/project.h \
+    tools/cli/query.c tools/cli/query.h \
+    tools/cli/result.h \
+    tools/cli/result_json.c \
+    tools/cli/result_text.c \
+    tools/cli/series.c tools/cli/series.h \
+    tools/cli/standard_output.c tools/cli/standard_output.h \
+    tools/cli/verb_batch.c \
+    tools/cli/verb_build.c \
+    tools/cli/verb_clearance.c \
+    tools/cli/verb_help.c \
+    tools/cli/verb_list.c \
+    tools/cli/verb_matrix.c \
+    tools/cli/verb_new.c \
+    tools/cli/verb_pair.c \
+    tools/cli/verb_solve.c \
+    tools/cli/verb_why.c \
+    tools/cli/verbs.c tools/cli/verbs.h
+
+tools_view = \
+    tools/view/animation.h \
+    tools/view/camera.h \
+    tools/view/canvas.c tools/view/canvas.h \
+    tools/view/film.c tools/view/film.h \
+    tools/view/gap.c tools/view/gap.h \
+    tools/view/glb.c \
+    tools/view/html.c tools/view/html.h \
+    tools/view/html_data.c tools/view/html_data.h \
+    tools/view/mesh.c tools/view/mesh.h \
+    tools/view/obj.c \
+    tools/view/output_file.c tools/view/output_file.h \
+    tools/view/picture.c tools/view/picture.h \
+    tools/view/plot.c tools/view/plot.h \
+    tools/view/plot_source.c tools/view/plot_source.h \
+    tools/view/plot_text.c \
+    tools/view/png.c tools/view/png.h \
+    tools/view/raster.c tools/view/raster.h \
+    tools/view/recorded.c tools/view/recorded.h \
+    tools/view/regions.c tools/view/regions.h \
+    tools/view/request.c tools/view/request.h \
+    tools/view/stage.c tools/view/stage.h \
+    tools/view/storyboard.c tools/view/storyboard.h \
+    tools/view/stroke_font.c tools/view/stroke_font.h \
+    tools/view/subject.c tools/view/subject.h \
+    tools/view/vec.h \
+    tools/view/view.c tools/view/view.h \
+    tools/view/vtu.c \
+    tools/view/verb_demo.c \
+    tools/view/verb_info.c \
+    tools/view/verb_plot.c \
+    tools/view/verb_view.c
 
 bin_PROGRAMS += tools/impinge
-tools_impinge_SOURCES = $(tool_sources)
-tools_impinge_LDADD = libimpinge.la $(JANSSON_LIBS) -lm
+tools_impinge_SOURCES = $(tools_cli) $(tools_check) $(tools_bench) $(tools_view)
+tools_impinge_LDADD = tools/libproof.la core/libcommon.la libimpinge.la $(JANSSON_LIBS) $(LIBPNG_LIBS) -lm
 
 dist_man_MANS = tools/impinge.1
 pkgdata_DATA = \
+    tools/data/arm.csv \
+    tools/data/arm.json \
     tools/data/bicubic_moving_100.jsonl \
+    tools/data/blade.json \
+    tools/data/page.html \
     tools/data/teapot.json \
     tools/schema/bench.schema.json \
     tools/schema/check.schema.json \
+    tools/schema/clearance.schema.json \
     tools/schema/matrix.schema.json \
     tools/schema/result.schema.json \
     tools/schema/scene.schema.json \
@@ -80,6 +152,8 @@ pkgdata_DATA = \
 built_data = tools/built-data
 noinst_DATA = \
     $(built_data)/bicubic_moving_100.jsonl \
+    $(built_data)/blade.json \
+    $(built_data)/page.html \
     $(built_data)/teapot.json \
     $(addprefix $(built_data)/template/,$(notdir $(dist_template_DATA))) \
     $(pkginclude_HEADERS:sdk/%=$(built_data)/include/%)
@@ -94,4 +168,5 @@ $(built_data)/template/impinge.m4: sdk/impinge.m4
 $(built_data)/include/%: sdk/%
 	$(copy_data)
 
+EXTRA_DIST += tools/data/blade.png tools/data/blade_gap.png
 EXTRA_DIST += tools/demo tools/prepare tools/test $(pkgdata_DATA)

@@ -25,7 +25,16 @@ extern "C" {
  * thread at a time; different scenes may be used from different threads at once.
  * Only imp_query_cancel may be called from anywhere, signal handlers included.
  *
- * Nothing here prints, exits, or changes errno's meaning for the caller. */
+ * Structs that may grow begin with their size as the program was compiled, and grow at the end: the
+ * library reads and writes no further. The inline functions below set it.
+ *
+ * Nothing here prints, exits, or changes errno's meaning for the caller.
+ *
+ * Floating point: answers do not depend on the mode the program has set. Every function here that
+ * computes or runs code of a plugin sets the default environment for the time of the call (round to
+ * nearest, subnormals kept, exceptions masked: FE_DFL_ENV) and restores the program's own, sticky
+ * flags included. The program's callbacks are called in the default environment. Only the callbacks
+ * of an imp_instance are called by the program itself: it calls them in the default environment. */
 
 /* --- What can go wrong -------------------------------------------------------- */
 
@@ -37,6 +46,10 @@ typedef enum imp_code {
     IMP_ERROR_FILE,   /* a file cannot be read or written */
     IMP_ERROR_MEMORY  /* memory ran out */
 } imp_code;
+
+/* Misuse: where a function needs an object, a text or a place that is NULL, or an index is out of
+ * range, the answer is IMP_ERROR_USAGE, or NULL, 0 or false from functions that answer no code. Free
+ * and cancel take NULL. */
 
 /* Filled on every answer but IMP_SUCCESS: place, what was found, what is allowed. Owned by the
  * caller; NULL is accepted wherever a pointer to one is asked for. */
@@ -51,21 +64,13 @@ IMP_EXPORT const char *imp_version(void);
 /* One English phrase for a code. */
 IMP_EXPORT const char *imp_code_text(imp_code code);
 
-/* Which name was meant? Begin with {.wanted = what was written}, offer all names there are, read
- * `best`: it stays NULL while nothing is near, that is, at most one change of a letter, insertion,
- * removal or swap of neighbours away for every three letters written. Of equals the first stays. */
-typedef struct imp_nearest {
-    const char *wanted;
-    const char *best;
-    size_t distance; /* of best */
-} imp_nearest;
-IMP_EXPORT void imp_nearest_offer(imp_nearest *search, const char *candidate);
-
-/* The name of the type whose plugin this thread is in, and the callback ("eval", ...); NULL: in
+/* The name of the type whose plugin this thread is in, and the callback ("eval", ...); while a
+ * plugin is loaded or unloaded the absolute path of its file, and "constructor", "get_factory",
+ * "destructor", or "impinge_plugin" while its entry is read; NULL: in
  * none. For handlers of SIGSEGV and the like, to say whose fault it is. [async-signal-safe] */
 IMP_EXPORT const char *imp_call_in_progress(const char **callback);
 
-/* --- Registry: the types at hand ---------------------------------------------- */
+/* --- Registry: the types available ---------------------------------------------- */
 
 typedef struct imp_registry imp_registry;
 
@@ -75,7 +80,7 @@ typedef struct imp_registry imp_registry;
 IMP_EXPORT imp_registry *imp_registry_new(const char *path);
 
 /* The same with flags: IMP_REGISTRY_SECURE passes over directories that anyone may write to
- * (otherwise they are told by imp_registry_warning). A file that was never seen is loaded in a
+ * (otherwise imp_registry_warning reports them). A file that was never seen is loaded in a
  * child process first; the outcome is kept in the user's cache ($XDG_CACHE_HOME/impinge/trials). */
 enum { IMP_REGISTRY_SECURE = 1 };
 IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
@@ -84,17 +89,19 @@ IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
 IMP_EXPORT imp_registry *imp_registry_from_file(const char *file);
 IMP_EXPORT void imp_registry_free(imp_registry *registry);
 
-/* From now on, instances of these types (names between commas; NULL: all) live in processes of
- * their own, one for each instance: a plugin that crashes or hangs costs an error, not the host. A
- * call then takes some microseconds more. IMP_ERROR_USAGE: no such type. */
+/* From now on, new instances of these types (names between commas; NULL: all) live in other
+ * processes, one for each type: a plugin that crashes or hangs costs an error, not the host. A call
+ * then takes some microseconds more. The processes belong to the one that called this: in a copy
+ * made by fork, queries of isolated scenes answer IMP_ERROR_USAGE. IMP_ERROR_USAGE: no such type.
+ */
 IMP_EXPORT imp_code imp_registry_isolate(imp_registry *registry, const char *names,
                                          imp_error *error);
 
-typedef enum imp_type_sort { IMP_SORT_SURFACE, IMP_SORT_MAP } imp_type_sort;
+typedef enum imp_type_kind { IMP_KIND_SURFACE, IMP_KIND_MAP } imp_type_kind;
 
 /* One type found. Strings live as long as the registry. */
 typedef struct imp_type_info {
-    imp_type_sort sort;
+    imp_type_kind kind;
     const char *name, *summary, *equation, *source, *example; /* source may be NULL */
     const char *file;                                         /* absolute path of the plugin */
     const char *plugin, *version, *license, *author;
@@ -135,9 +142,15 @@ typedef struct imp_instance {
 } imp_instance;
 
 /* From one stage of a pipeline, "TYPE name=value ...". The registry must outlive the instance. */
-IMP_EXPORT imp_code imp_instance_from_text(imp_registry *registry, imp_type_sort sort,
+IMP_EXPORT imp_code imp_instance_from_text(imp_registry *registry, imp_type_kind kind,
                                            const char *text, imp_instance *instance,
                                            imp_error *error);
+/* What a stage says, as the JSON object that a scene file would have for it: {"type": TYPE,
+ * "name": value, ...}. Values are not compared with the type's parameters, and defaults are not added.
+ * NULL on error. The caller frees the text by free(). */
+IMP_EXPORT char *imp_stage_to_json(const imp_registry *registry, imp_type_kind kind,
+                                   const char *text, imp_error *error);
+
 /* An empty one ({NULL, NULL, NULL}) may be freed too. */
 IMP_EXPORT void imp_instance_free(imp_instance *instance);
 
@@ -145,8 +158,9 @@ IMP_EXPORT void imp_instance_free(imp_instance *instance);
 
 typedef struct imp_scene imp_scene;
 
-/* From the text of a scene file ({"time", "gamma", "bodies", "ignore"}; README shows one). `name`
- * stands in error messages for the text ("scene.json", "standard input"). NULL on error. */
+/* From the text of a scene file ({"time", "gamma", "define", "bodies", "ignore"}; the manual describes
+ * it). `name` stands in error messages for the text ("scene.json", "standard input"). Up to its last
+ * '/', it is the folder where relative names of files in parameters begin. NULL on error. */
 IMP_EXPORT imp_scene *imp_scene_from_json(imp_registry *registry, const char *text, size_t length,
                                           const char *name, imp_error *error);
 IMP_EXPORT imp_scene *imp_scene_from_file(imp_registry *registry, const char *path,
@@ -156,7 +170,114 @@ IMP_EXPORT imp_scene *imp_scene_from_pair(imp_registry *registry, const char *a,
                                           imp_error *error);
 IMP_EXPORT void imp_scene_free(imp_scene *scene);
 
+/* --- Scenes built without text ------------------------------------------------------ */
+
+/* A parameter's name and value. It never grows. Single values have rank 0 and stand in `single`
+ * (numbers, and booleans as 0 or 1) or `text`; arrays, row-major, in `number` or `string`. A table
+ * (names to numbers) has both, and its count in extent[0]. Nothing is kept beyond the call. */
+typedef struct imp_argument {
+    const char *name;
+    imp_kind kind; /* IMP_NUMBER, ... */
+    uint32_t rank; /* 0 to IMP_RANK_MAX */
+    size_t extent[IMP_RANK_MAX];
+    double single;
+    const char *text;
+    const double *number;
+    const char *const *string;
+} imp_argument;
+
+static inline imp_argument imp_argument_of(const char *name, imp_kind kind, uint32_t rank)
+{
+    imp_argument a;
+    a.name = name, a.kind = kind, a.rank = rank;
+    a.extent[0] = a.extent[1] = a.extent[2] = 1;
+    a.single = 0, a.text = NULL, a.number = NULL, a.string = NULL;
+    return a;
+}
+
+static inline imp_argument imp_argument_number(const char *name, double value)
+{
+    imp_argument a = imp_argument_of(name, IMP_NUMBER, 0);
+    a.single = value;
+    return a;
+}
+
+static inline imp_argument imp_argument_boolean(const char *name, bool value)
+{
+    imp_argument a = imp_argument_of(name, IMP_BOOLEAN, 0);
+    a.single = value ? 1 : 0;
+    return a;
+}
+
+static inline imp_argument imp_argument_text(const char *name, const char *value)
+{
+    imp_argument a = imp_argument_of(name, IMP_STRING, 0);
+    a.text = value;
+    return a;
+}
+
+/* A vector or list of n numbers. */
+static inline imp_argument imp_argument_list(const char *name, const double *value, size_t n)
+{
+    imp_argument a = imp_argument_of(name, IMP_NUMBER, 1);
+    a.extent[0] = n, a.number = value;
+    return a;
+}
+
+/* n rows of `width` numbers: control points, offsets. */
+static inline imp_argument imp_argument_rows(const char *name, const double *value, size_t n,
+                                             size_t width)
+{
+    imp_argument a = imp_argument_of(name, IMP_NUMBER, 2);
+    a.extent[0] = n, a.extent[1] = width, a.number = value;
+    return a;
+}
+
+/* Bodies are put into a builder, which then makes the scene. Errors name the body and the parameter,
+ * and a call that fails changes nothing. Types and parameters are those of scene files; relative names
+ * of files begin at the working directory. The registry must outlive builder and scene. A builder
+ * belongs to one thread at a time. */
+typedef struct imp_builder imp_builder;
+IMP_EXPORT imp_builder *imp_builder_new(imp_registry *registry); /* NULL: no memory */
+IMP_EXPORT void imp_builder_free(imp_builder *builder);
+
+/* As "time", "gamma" and "clearance" (< 0: gamma / 2) of a scene file. */
+IMP_EXPORT imp_code imp_builder_time(imp_builder *builder, double start, double end,
+                                     imp_error *error);
+IMP_EXPORT imp_code imp_builder_gamma(imp_builder *builder, double gamma, double clearance,
+                                      imp_error *error);
+
+/* Adds a body, whose index, counted from 0, goes to *body (may be NULL). A name that is NULL becomes
+ * "body0", "body1", .... */
+IMP_EXPORT imp_code imp_builder_body(imp_builder *builder, const char *name, size_t *body,
+                                     imp_error *error);
+
+/* Adds to a body a surface; a map, after those it has; and to one of its surfaces a map, which comes
+ * before those of the body. */
+IMP_EXPORT imp_code imp_builder_surface(imp_builder *builder, size_t body, const char *type,
+                                        const imp_argument *arguments, size_t count,
+                                        imp_error *error);
+IMP_EXPORT imp_code imp_builder_map(imp_builder *builder, size_t body, const char *type,
+                                    const imp_argument *arguments, size_t count, imp_error *error);
+IMP_EXPORT imp_code imp_builder_surface_map(imp_builder *builder, size_t body, size_t surface,
+                                            const char *type, const imp_argument *arguments,
+                                            size_t count, imp_error *error);
+
+/* The parent's maps come after the body's. Circles are refused by imp_builder_finish. */
+IMP_EXPORT imp_code imp_builder_parent(imp_builder *builder, size_t body, size_t parent,
+                                       imp_error *error);
+IMP_EXPORT imp_code imp_builder_group(imp_builder *builder, size_t body, const char *group,
+                                      imp_error *error);
+/* Names of bodies or groups; a group with itself: its bodies among themselves. */
+IMP_EXPORT imp_code imp_builder_ignore(imp_builder *builder, const char *x, const char *y,
+                                       imp_error *error);
+
+/* The scene; then the builder may only be freed. NULL on error. */
+IMP_EXPORT imp_scene *imp_builder_finish(imp_builder *builder, imp_error *error);
+
 IMP_EXPORT size_t imp_scene_body_count(const imp_scene *scene);
+/* Whether two bodies are never tested with each other. */
+IMP_EXPORT bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b);
 IMP_EXPORT const char *imp_scene_body_name(const imp_scene *scene, size_t body);
 IMP_EXPORT size_t imp_scene_surface_count(const imp_scene *scene, size_t body);
 
@@ -164,6 +285,12 @@ IMP_EXPORT size_t imp_scene_surface_count(const imp_scene *scene, size_t body);
  * error[3*k]. */
 IMP_EXPORT imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t surface, size_t n,
                                    const double *p, double *x, double *error, imp_error *why);
+/* An order-2 inclusion of x, y and z of one surface, maps applied, over the region lo..hi of (u, v,
+ * t), finite and inside its domain: model[i] encloses coordinate i, as <impinge/surface.h> says. What
+ * is not bounded there is infinite in the model. */
+IMP_EXPORT imp_code imp_scene_include(const imp_scene *scene, size_t body, size_t surface,
+                                      const double lo[3], const double hi[3], imp_model model[3],
+                                      imp_error *why);
 /* The surface's domain; times are those common to it and its maps, perhaps infinite or,
  * when they have none in common, lo[2] > hi[2]. */
 IMP_EXPORT void imp_scene_domain(const imp_scene *scene, size_t body, size_t surface, double lo[3],
@@ -192,8 +319,25 @@ typedef enum imp_method {
 typedef enum imp_bounds { IMP_BOUNDS_BOX, IMP_BOUNDS_SPHERE } imp_bounds; /* paper only */
 typedef enum imp_rates { IMP_RATES_FULL, IMP_RATES_COLUMN, IMP_RATES_CONSTANT } imp_rates;
 
+/* How far a query has come. Grows at the end: the library's may be longer than the program knows. */
+typedef struct imp_progress {
+    uint32_t struct_size;
+    imp_reason reason;   /* RUNNING */
+    double t_lower;      /* proved so far, as in imp_result; NAN where it is not asked for */
+    uint64_t pairs;      /* tested so far */
+    uint64_t heap;       /* pairs that wait */
+    double seconds;      /* spent so far */
+    double lower, upper; /* bracket of a least distance so far; NAN where it is not asked for */
+} imp_progress;
+
+/* Called by the thread that steps a query, about ten times a second. Answers whether to go on: false
+ * ends the step as imp_query_cancel does. It must not step or free the query. */
+typedef bool (*imp_progress_sink)(void *context, const imp_progress *progress);
+
 /* Start from imp_options_default(scene) and change what you need. */
 typedef struct imp_options {
+    uint32_t struct_size; /* sizeof(imp_options); grows at the end */
+    bool audit;           /* hold every node's bounds against points of it: slower, catches liars */
     double t_start, t_end; /* t_start <= t_end, finite */
     double gamma;          /* > 0, length: what is reported is no farther apart */
     double clearance;      /* gamma_clear, in [0, gamma), length; < 0: gamma / 2 */
@@ -203,10 +347,23 @@ typedef struct imp_options {
     imp_method method;
     imp_bounds bounds;
     imp_rates rates;
-    bool audit; /* hold every node's bounds against points of it: slower, catches liars */
+    uint32_t reserved;          /* 0 */
+    imp_progress_sink progress; /* NULL: none */
+    void *progress_context;     /* handed to it */
 } imp_options;
 
-IMP_EXPORT imp_options imp_options_default(const imp_scene *scene);
+/* The options a scene asks for, and for the rest the library's own. *options comes with its
+ * struct_size set; IMP_ERROR_USAGE if that is none. */
+IMP_EXPORT imp_code imp_options_read(const imp_scene *scene, imp_options *options,
+                                     imp_error *error);
+
+static inline imp_options imp_options_default(const imp_scene *scene)
+{
+    imp_options options;
+    options.struct_size = (uint32_t)sizeof options;
+    imp_options_read(scene, &options, NULL);
+    return options;
+}
 
 /* One side of a witness. */
 typedef struct imp_side {
@@ -229,43 +386,174 @@ typedef struct imp_stats {
  *       for every verdict, undecided included;
  *   (b) CONTACT: a.point and b.point lie on their surfaces at time t, evaluated, no farther than
  *       gamma apart, rounding included, and t == t_lower;
- *   (c) CLEAR: never nearer than gamma_clear in [t_start, t_end]; t_lower == t_end. */
+ *   (c) CLEAR: never nearer than gamma_clear in [t_start, t_end]; t_lower == t_end.
+ * Surfaces of some types do not exist at all times, and touch nothing when they do not
+ * (IMP_ABSENT_OUTSIDE_TIMES). t_examined is the part of [t_start, t_end] from the first to the last
+ * time at which two surfaces that are tested exist together: all of it where types set no limit. */
 typedef struct imp_result {
+    uint32_t
+        struct_size; /* sizeof(imp_result); grows at the end, but imp_side and imp_stats do not */
     imp_verdict verdict;
     imp_reason reason;
     double t; /* CONTACT only, else NAN */
     double t_lower;
     double gap; /* CONTACT: distance of the two points; else NAN */
     double gamma, gamma_clear;
-    imp_side a, b; /* CONTACT only; a.body < b.body */
+    imp_side a, b; /* CONTACT only, bodies with RESOLUTION too; a.body < b.body */
     bool has_normal;
     double normal[3]; /* a to b, unit length, world space; only if has_normal */
     imp_stats stats;
+    double t_start, t_end; /* what was asked about */
+    double t_examined[2];  /* see above; NAN, NAN: no time */
+    bool at_rest; /* CONTACT of two surfaces that do not move in [t_start, t_end]: they overlap */
 } imp_result;
 
 typedef struct imp_query imp_query;
 
 /* Begins; nothing is tested yet. The scene must outlive the query, and is shared by it: trees made
- * by one query serve the next over the same times. NULL on error (options, plugin, memory). */
+ * by one query serve the next over the same times. NULL on error (options, plugin, memory).
+ * IMP_ERROR_SCENE: the query needs times for which a type or map is not defined. */
 IMP_EXPORT imp_query *imp_query_new(imp_scene *scene, const imp_options *options, imp_error *error);
 IMP_EXPORT void imp_query_free(imp_query *query);
 
 /* Tests about `pairs` more pairs (0: until decided). IMP_ERROR_PLUGIN ends the query for good.
  * After any success imp_query_result tells how far it came; done when its reason is not RUNNING. */
 IMP_EXPORT imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error);
-IMP_EXPORT imp_result imp_query_result(const imp_query *query);
+
+/* *result comes with its struct_size set; IMP_ERROR_USAGE if that is none. */
+IMP_EXPORT imp_code imp_query_read(const imp_query *query, imp_result *result, imp_error *error);
+
+static inline imp_result imp_query_result(const imp_query *query)
+{
+    imp_result result;
+    result.struct_size = (uint32_t)sizeof result;
+    imp_query_read(query, &result, NULL);
+    return result;
+}
+
+/* Two regions, one of each side's surface, that the search has not parted for good: over u[0]..u[1]
+ * and v[0]..v[1] they are proved to stay farther apart than gamma_clear before t_lower. */
+typedef struct imp_pending {
+    double t_lower;
+    struct imp_pending_side {
+        size_t body, surface; /* indices in the scene */
+        double u[2], v[2];
+    } a, b;
+} imp_pending;
+
+/* What waits to be searched, in no order; false past the last. What no pending pair covers is
+ * proved to be clear up to the query's end. While stats.pairs is 0 nothing is known: a limit may have
+ * ended the query before its first pair. */
+IMP_EXPORT bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pending);
 
 /* Ask again, finer: gamma and clearance (< 0: gamma / 2) no larger than now. Work done so far is
  * kept; continue with imp_query_step. */
 IMP_EXPORT imp_code imp_query_refine(imp_query *query, double gamma, double clearance,
                                      imp_error *error);
 
-/* Ends the running step soon, as UNDECIDED. [any thread, async-signal-safe] */
+/* Each pair of bodies in turn: after a CONTACT, or UNDECIDED for want of RESOLUTION, goes on with the
+ * search without the two bodies of that answer; step again for the next, which is later or at the same
+ * time. CLEAR is then said of all bodies that are left. */
+IMP_EXPORT imp_code imp_query_pass(imp_query *query, imp_error *error);
+
+/* Ends the running step soon, as UNDECIDED, or, when none is running, the next one. [any thread,
+ * async-signal-safe] */
 IMP_EXPORT void imp_query_cancel(imp_query *query);
 
-/* new, step to the end, result, free. */
-IMP_EXPORT imp_code imp_solve(imp_scene *scene, const imp_options *options, imp_result *result,
-                              imp_error *error);
+/* new, step to the end, result, free. *result comes with its struct_size set, and stays as it is on
+ * error. */
+IMP_EXPORT imp_code imp_scene_solve(imp_scene *scene, const imp_options *options,
+                                    imp_result *result, imp_error *error);
+
+static inline imp_code imp_solve(imp_scene *scene, const imp_options *options, imp_result *result,
+                                 imp_error *error)
+{
+    result->struct_size = (uint32_t)sizeof *result;
+    return imp_scene_solve(scene, options, result, error);
+}
+
+/* --- Clearance: how near do bodies come? --------------------------------------------- */
+
+/* The minimum distance over an interval of time, as a bracket: below `lower` it is proved not to be,
+ * and `upper` is evaluated at a witness. Where a distance is required, whether it is kept. */
+typedef struct imp_clearance_options {
+    uint32_t struct_size; /* sizeof(imp_clearance_options); grows at the end */
+    bool each;            /* an answer for each two bodies that do not ignore each other */
+    double tolerance;     /* R, from 1e-9 to below 1: done when upper - lower <= R upper */
+    double required;      /* D > 0, length; 0: nothing is required */
+    uint64_t slices;      /* from 1 to 1000000: an answer for each of so many equal parts of time */
+} imp_clearance_options;
+
+/* A tolerance of 1e-3, nothing required, one answer. *asked comes with its struct_size set. */
+IMP_EXPORT imp_code imp_clearance_options_read(imp_clearance_options *asked, imp_error *error);
+
+static inline imp_clearance_options imp_clearance_options_default(void)
+{
+    imp_clearance_options asked;
+    asked.struct_size = (uint32_t)sizeof asked;
+    imp_clearance_options_read(&asked, NULL);
+    return asked;
+}
+
+/* Is the required distance D kept? A minimum distance between D (1 - 1e-6) and D may be answered
+ * either way, as contact may be between gamma_clear and gamma. */
+typedef enum imp_requirement {
+    IMP_REQUIREMENT_NONE,     /* nothing is required */
+    IMP_REQUIREMENT_HOLDS,    /* proved: never nearer than D (1 - 1e-6) */
+    IMP_REQUIREMENT_VIOLATED, /* the witness's points are no farther apart than D */
+    IMP_REQUIREMENT_UNDECIDED
+} imp_requirement;
+
+/* What is known so far:
+ *   (a) no points of the bodies are nearer than `lower` at any time in [t_start, t_end];
+ *   (b) has_witness: a.point and b.point lie on their surfaces at time t, evaluated, no farther
+ *       than `upper` apart, rounding included;
+ *   (c) reason NONE: upper - lower <= R upper, or upper <= gamma, which is contact; NO_PAIRS, NO_TIME:
+ *       nothing comes near anything, lower and upper are infinite; RESOLUTION: double precision
+ *       resolves no more; RUNNING, or why the query was ended: the bracket as it is;
+ *   (d) t_violated is not NaN: the points of a_violated and b_violated are no farther than D apart at
+ *       that time, and before it no two are nearer than D (1 - 1e-6). */
+typedef struct imp_clearance {
+    uint32_t struct_size; /* sizeof(imp_clearance); grows at the end */
+    imp_reason reason;
+    imp_requirement verdict;
+    bool has_witness, has_normal;
+    double t_start, t_end; /* the slice, or the whole interval */
+    size_t body[2];        /* indices in the scene; SIZE_MAX: all bodies */
+    double lower, upper;   /* length */
+    double t;              /* of the witness; NAN without */
+    imp_side a, b;         /* of the witness; a.body < b.body */
+    double normal[3];      /* a to b, unit length, world space; only if has_normal */
+    double required;       /* D */
+    double t_violated;     /* the earliest violation; NAN: none, not found, or there are slices */
+    double gap_violated;   /* distance of the two points then */
+    imp_side a_violated, b_violated;
+    imp_stats
+        stats; /* seconds, pairs, nodes and witness_searches: of this answer; the rest: so far */
+} imp_clearance;
+
+/* Begins; step, cancel and free it like any query. `asked` NULL: the default. Of `options` gamma is
+ * the distance that counts as contact; clearance is not used, and the method must be
+ * IMP_METHOD_MODELS. What imp_query_read tells is the reason, NONE when all answers are there, and
+ * the stats. */
+IMP_EXPORT imp_query *imp_clearance_new(imp_scene *scene, const imp_options *options,
+                                        const imp_clearance_options *asked, imp_error *error);
+
+/* Number of answers: slices of the first two bodies, of the next two, and so on; they are found in that
+ * order, and an answer whose reason is not RUNNING is there. */
+IMP_EXPORT size_t imp_clearance_count(const imp_query *query);
+
+/* *answer comes with its struct_size set. */
+IMP_EXPORT imp_code imp_clearance_read(const imp_query *query, size_t index, imp_clearance *answer,
+                                       imp_error *error);
+
+/* The paper's h(t) = t0 - t: time left from t until the first contact, negative when that is past;
+ * INFINITY when there is none in the interval; where it is undecided, the time proved to be left. */
+static inline double imp_time_left(const imp_result *result, double t)
+{
+    if (result->verdict == IMP_CONTACT) return result->t - t;
+    return result->verdict == IMP_CLEAR ? INFINITY : result->t_lower - t;
+}
 
 #ifdef __cplusplus
 }

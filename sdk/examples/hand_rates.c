@@ -1,39 +1,35 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: MIT */
 
-/* A type by hand: eval and rate, and no model arithmetic.
+/* A type with hand-written callbacks: eval and rate, without model arithmetic.
  *
  * A propeller blade, the strip between two helices that turns about the z axis:
  *
  *   w = v + speed t:   (u cos w, u sin w, pitch v),   0 <= u <= radius, 0 <= v <= turn
  *
- * Every bound is derived where it stands. Notation: e = 2^-53, half a unit in the last place of 1;
- * a computed sum, product or quotient x is within e |x| of the exact one (or, near 0, within
+ * Every bound is derived above its code. Notation: e = 2^-53, half a unit in the last place of 1; a
+ * computed sum, product or quotient x is within e |x| of the exact one (or, near 0, within
  * IMP_TINY); sin and cos of libm are trusted to 4 units in the last place, 8 e |x|. */
 
 #include <impinge/interval.h>
-#include <stdlib.h>
+#include <impinge/plugin.h>
 
 enum { RADIUS, TURN, PITCH, SPEED };
 
-#define ROW(NAME, UNIT, PRESET, FLAGS, MIN, DOC)                                                   \
-    {                                                                                              \
-        .name = NAME, .unit = UNIT, .doc = DOC, .preset = PRESET, .kind = IMP_NUMBER,              \
-        .flags = FLAGS, .min = MIN, .max = 1e100                                                   \
-    }
-
 static const imp_parameter parameters[] = {
-    [RADIUS] = ROW("radius", "length", "1", IMP_MIN_OPEN, 0, "from the axis to the tip"),
-    [TURN] = ROW("turn", "rad", "1", IMP_MIN_OPEN, 0, "angle between the two ends of the blade"),
-    [PITCH] = ROW("pitch", "length/rad", "0.5", 0, -1e100, "rise along the axis"),
-    [SPEED] = ROW("speed", "rad/time", "0", 0, -1e100, "angular velocity"),
+    [RADIUS] = IMP_ROW("radius", "length", "1", IMP_MIN_OPEN, 0, 0, 0, 0, 1e100,
+                       "from the axis to the tip"),
+    [TURN] = IMP_ROW("turn", "rad", "1", IMP_MIN_OPEN, 0, 0, 0, 0, 1e100,
+                     "angle between the two ends of the blade"),
+    [PITCH] = IMP_ROW_BETWEEN("pitch", "length/rad", "0.5", -1e100, 1e100, "rise along the axis"),
+    [SPEED] = IMP_ROW_BETWEEN("speed", "rad/time", "0", -1e100, 1e100, "angular velocity"),
 };
 
 typedef struct blade {
     double radius, turn, pitch, speed;
 } blade;
 
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status blade_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
     blade *made = malloc(sizeof *made);
@@ -46,12 +42,10 @@ static imp_status create(const imp_value *values, void **self, imp_complaint *wh
     return IMP_OK;
 }
 
-static void domain(const void *self, double lo[3], double hi[3])
+static void blade_domain(const void *self, double lo[3], double hi[3])
 {
     const blade *b = self;
-    lo[0] = 0, hi[0] = b->radius;
-    lo[1] = 0, hi[1] = b->turn;
-    lo[2] = -INFINITY, hi[2] = INFINITY;
+    imp_set_domain(lo, hi, 0, b->radius, 0, b->turn);
 }
 
 /* One point and the absolute error of each coordinate.
@@ -76,26 +70,26 @@ static void eval_one(const blade *b, const double p[3], double x[3], double erro
     error[2] = 2 * e * fabs(x[2]) + IMP_TINY;
 }
 
-static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
+static imp_status blade_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
     imp_status status = IMP_OK;
     for (size_t k = 0; k < n; ++k) {
         double off[3];
         eval_one(self, p + 3 * k, x + 3 * k, off);
-        for (int i = 0; error != NULL && i < 3; ++i) error[3 * k + i] = off[i];
+        for (size_t i = 0; error != NULL && i < 3; ++i) error[3 * k + i] = off[i];
         if (!(off[0] < INFINITY)) status = IMP_DOMAIN; /* speed t is too large for a double */
     }
     return status;
 }
 
-/* The rate matrix, by the rules of the guide.
+/* The rate matrix, by the rules of sdk/README.
  *
  *   x = u cos w: product. |dx/du| <= max |cos w| <= 1; |dx/dv| <= max |u| max |sin w| <= max |u|;
  *                the chain rule for w: |dx/dt| <= max |u| |speed|. y likewise.
  *   z = pitch v: |dz/dv| = |pitch|.
  *
  * max |u| is at an end of the region, and is exact; the product is rounded up. */
-static imp_status rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
+static imp_status blade_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
     const blade *b = self;
     double u = imp_larger(fabs(region->lo[0]), fabs(region->hi[0]));
@@ -104,22 +98,16 @@ static imp_status rate(const void *self, const imp_region *region, imp_rate_matr
     return moved < INFINITY ? IMP_OK : IMP_UNBOUNDED;
 }
 
-/* .include is left out, so it is NULL: the host makes boxes of eval and rate. */
+/* .include is NULL: the host makes inclusions from eval and rate. */
 static const imp_surface_type type = {
-    .struct_size = (uint32_t)sizeof(imp_surface_type),
-    .parameter_count = sizeof parameters / sizeof parameters[0],
-    .parameter_size = (uint32_t)sizeof(imp_parameter),
-    .name = "blade",
+    IMP_TYPE_FIELDS(imp_surface_type, "blade", blade, free),
+    .domain = blade_domain,
+    .eval = blade_eval,
+    .rate = blade_rate,
     .summary = "propeller blade that turns",
     .equation = "w = v + speed t: (u cos w, u sin w, pitch v), u in [0,radius], v in [0,turn]",
     .source = NULL,
     .example = "blade speed=10",
-    .parameters = parameters,
-    .create = create,
-    .destroy = free,
-    .domain = domain,
-    .eval = eval,
-    .rate = rate,
 };
 
 IMPINGE_SURFACE_PLUGIN("blade", "1.0", "MIT", "The Impinge authors", type);

@@ -1,10 +1,10 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: MIT */
 
-/* A type in C++17: operators make the formula read as mathematics, and the tables are constants of
- * the compiler. Exceptions must not leave a callback, so nothing here throws.
+/* A type in C++17. Overloaded operators let the formula read like mathematics, and the tables are
+ * compile-time constants. Exceptions must not leave a callback, so nothing here throws.
  *
- * A puddle that a drop fell into: rings run outward and die away with the distance. */
+ * A puddle after a drop has fallen into it: rings run outward and decay with the distance. */
 
 #include <impinge/formula.h>
 #include <new>
@@ -22,13 +22,13 @@ imp_model operator-(imp_model a) { return imp_neg(a); }
 
 /* --- Parameters ----------------------------------------------------------------------- */
 
-constexpr imp_parameter positive(const char *name, const char *unit, const char *preset,
+constexpr imp_parameter positive(const char *name, const char *unit, const char *default_value,
                                  const char *doc)
 {
     imp_parameter row{};
     row.name = name;
     row.unit = unit;
-    row.preset = preset;
+    row.default_value = default_value;
     row.doc = doc;
     row.kind = IMP_NUMBER;
     row.flags = IMP_MIN_OPEN;
@@ -39,9 +39,9 @@ constexpr imp_parameter positive(const char *name, const char *unit, const char 
 enum { SIZE, HEIGHT, RINGS, SPEED, ROWS };
 
 constexpr imp_parameter parameters[ROWS] = {
-    positive("size", "length", "1", "the rings are at 37% of their height this far out"),
-    positive("height", "length", "0.1", "of the ring in the middle"),
-    positive("rings", "rad/length^2", "12", "how close they stand"),
+    positive("size", "length", "1", "distance at which the height falls to 37%"),
+    positive("height", "length", "0.1", "height in the middle"),
+    positive("rings", "rad/length^2", "12", "density of the rings"),
     positive("speed", "rad/time", "10", "how fast they run outward"),
 };
 
@@ -79,7 +79,7 @@ class Puddle
 
 /* --- The callbacks -------------------------------------------------------------------- */
 
-imp_status create(const imp_value *values, void **self, imp_complaint *)
+imp_status create(const imp_value *values, void **self, imp_create_error *)
 {
     *self = new (std::nothrow) Puddle(values);
     return *self != nullptr ? IMP_OK : IMP_INTERNAL;
@@ -105,7 +105,7 @@ constexpr imp_surface_type make_type()
     type.parameter_count = ROWS;
     type.parameter_size = sizeof(imp_parameter);
     type.name = "puddle";
-    type.summary = "rings that run outward and die away";
+    type.summary = "rings that run outward and decay";
     type.equation = "r2 = u^2 + v^2: (u, v, height exp(-r2/size^2) cos(rings r2 - speed t)), "
                     "u and v in [-2 size, 2 size]";
     type.example = "puddle height=0.2";

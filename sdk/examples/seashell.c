@@ -7,67 +7,34 @@
  * `impinge build seashell.c`, and see `impinge info seashell --plugin-path .` */
 
 #include <impinge/formula.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include <impinge/plugin.h>
 
 enum { SIZE, GROWTH, TURNS, CENTER };
 
 static const imp_parameter parameters[] = {
-    [SIZE] = {.name = "size",
-              .unit = "length",
-              .doc = "radius of the last turn",
-              .preset = "1",
-              .kind = IMP_NUMBER,
-              .flags = IMP_MIN_OPEN,
-              .min = 0,
-              .max = INFINITY},
-    [GROWTH] = {.name = "growth",
-                .unit = "1/rad",
-                .doc = "logarithm of how much it grows, per radian",
-                .preset = "0.15",
-                .kind = IMP_NUMBER,
-                .min = 0,
-                .max = 10},
-    [TURNS] = {.name = "turns",
-               .unit = "1",
-               .doc = "how often it goes around",
-               .preset = "3",
-               .kind = IMP_NUMBER,
-               .flags = IMP_MIN_OPEN,
-               .min = 0,
-               .max = 100},
-    [CENTER] = {.name = "center",
-                .unit = "length",
-                .doc = "middle of the last turn",
-                .preset = "[0,0,0]",
-                .kind = IMP_NUMBER,
-                .rank = 1,
-                .extent = {3},
-                .min = -INFINITY,
-                .max = INFINITY},
+    [SIZE] = IMP_ROW_POSITIVE("size", "length", "1", "radius of the last turn"),
+    [GROWTH] = IMP_ROW_BETWEEN("growth", "1/rad", "0.15", 0, 10,
+                               "logarithm of how much it grows, per radian"),
+    [TURNS] = IMP_ROW("turns", "1", "3", IMP_MIN_OPEN, 0, 0, 0, 0, 100, "how often it goes around"),
+    [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "middle of the last turn"),
 };
-
-/* The least double above 2 pi: angles up to it surely reach all the way round. */
-#define ABOVE_TWO_PI 0x1.921fb54442d19p+2
 
 typedef struct seashell {
     double size, growth, end, center[3]; /* u goes from 0 to end */
 } seashell;
 
-/* The host has checked each value by itself; that they fit each other is for us to check. */
-static imp_status check_together(const imp_value *values, imp_complaint *why)
+/* The host has checked each value on its own. Here we check that they are consistent. */
+static imp_status check_together(const imp_value *values, imp_create_error *why)
 {
-    double grown = values[GROWTH].number[0] * values[TURNS].number[0] * ABOVE_TWO_PI;
+    double grown = values[GROWTH].number[0] * values[TURNS].number[0] * IMP_TWO_PI_UPPER;
     if (grown <= 100) return IMP_OK;
-    why->parameter = TURNS;
-    snprintf(why->text, sizeof why->text,
-             "%g turns with growth %g make the first turn e^%g times smaller than the last; "
-             "allowed is e^100",
-             values[TURNS].number[0], values[GROWTH].number[0], grown);
-    return IMP_PARAMETER;
+    return imp_reject(why, TURNS, -1,
+                      "%g turns with growth %g make the first turn e^%g times smaller than the "
+                      "last; must be e^100",
+                      values[TURNS].number[0], values[GROWTH].number[0], grown);
 }
 
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status seashell_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check_together(values, why);
     if (status != IMP_OK) return status;
@@ -75,26 +42,25 @@ static imp_status create(const imp_value *values, void **self, imp_complaint *wh
     if (shell == NULL) return IMP_INTERNAL;
     shell->size = values[SIZE].number[0];
     shell->growth = values[GROWTH].number[0];
-    shell->end = values[TURNS].number[0] * ABOVE_TWO_PI;
-    for (int i = 0; i < 3; ++i) shell->center[i] = values[CENTER].number[i];
+    shell->end = values[TURNS].number[0] * IMP_TWO_PI_UPPER;
+    imp_copy_vector(shell->center, &values[CENTER]);
     *self = shell;
     return IMP_OK;
 }
 
-static void domain(const void *self, double lo[3], double hi[3])
+static void seashell_domain(const void *self, double lo[3], double hi[3])
 {
     const seashell *shell = self;
-    lo[0] = 0, hi[0] = shell->end;
-    lo[1] = 0, hi[1] = ABOVE_TWO_PI;
-    lo[2] = -INFINITY, hi[2] = INFINITY;
+    imp_set_domain(lo, hi, 0, shell->end, 0, IMP_TWO_PI_UPPER);
 }
 
 /* With g = size exp(growth (u - end)):
  *
  *   x = g (1 + cos(v)/2) cos u,   y = g (1 + cos(v)/2) sin u,   z = g sin(v)/2 - 2 g + 2 size
  *
- * It does not move, so t is not used; `... ! translate velocity=1,0,0` moves it. */
-static void formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
+ * The surface is at rest, so t is not used; `... ! translate velocity=1,0,0` moves it. */
+static void seashell_formula(const void *self, imp_model u, imp_model v, imp_model t,
+                             imp_model out[3])
 {
     const seashell *shell = self;
     imp_model sin_u, cos_u, sin_v, cos_v;
@@ -109,25 +75,15 @@ static void formula(const void *self, imp_model u, imp_model v, imp_model t, imp
     out[1] = imp_shift(imp_mul(ring, sin_u), shell->center[1]);
     out[2] = imp_shift(imp_shift(rise, 2 * shell->size), shell->center[2]);
 }
-IMP_SURFACE_FORMULA(formula)
+IMP_SURFACE_FORMULA(seashell_formula)
 
 static const imp_surface_type type = {
-    .struct_size = (uint32_t)sizeof(imp_surface_type),
-    .parameter_count = sizeof parameters / sizeof parameters[0],
-    .parameter_size = (uint32_t)sizeof(imp_parameter),
-    .name = "seashell",
+    IMP_SURFACE_FIELDS(seashell, seashell_formula),
     .summary = "tube that winds around an axis and grows",
     .equation = "g = size exp(growth (u - 2 pi turns)): (g (1 + cos(v)/2) cos u, g (1 + cos(v)/2) "
                 "sin u, g sin(v)/2 - 2 g + 2 size) + center",
     .source = "after the logarithmic spiral",
     .example = "seashell size=0.5 turns=2",
-    .parameters = parameters,
-    .create = create,
-    .destroy = free,
-    .domain = domain,
-    .eval = formula_eval,
-    .rate = formula_rate,
-    .include = formula_include,
 };
 
 IMPINGE_SURFACE_PLUGIN("seashell", "1.0", "MIT", "The Impinge authors", type);

@@ -3,36 +3,24 @@
 
 /* A map of one formula.
  *
- * A whirl about the z axis: everything turns, the faster the nearer to the axis. */
+ * A whirl about the z axis: space turns, faster near the axis. */
 
 #include <impinge/formula.h>
-#include <stdlib.h>
+#include <impinge/plugin.h>
 
 enum { SPEED, SIZE };
 
 static const imp_parameter parameters[] = {
-    [SPEED] = {.name = "speed",
-               .unit = "rad/time",
-               .doc = "angular velocity at the axis",
-               .preset = "1",
-               .kind = IMP_NUMBER,
-               .min = -INFINITY,
-               .max = INFINITY},
-    [SIZE] = {.name = "size",
-              .unit = "length",
-              .doc = "it is half as fast this far from the axis",
-              .preset = "1",
-              .kind = IMP_NUMBER,
-              .flags = IMP_MIN_OPEN,
-              .min = 0,
-              .max = INFINITY},
+    [SPEED] = IMP_ROW_NUMBER("speed", "rad/time", "1", "angular velocity at the axis"),
+    [SIZE] = IMP_ROW_POSITIVE("size", "length", "1",
+                              "distance from the axis at which the speed is halved"),
 };
 
 typedef struct twirl {
     double speed, size;
 } twirl;
 
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status twirl_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
     twirl *made = malloc(sizeof *made);
@@ -43,15 +31,11 @@ static imp_status create(const imp_value *values, void **self, imp_complaint *wh
     return IMP_OK;
 }
 
-static void time_domain(const void *self, double *lo, double *hi)
-{
-    (void)self;
-    *lo = -INFINITY, *hi = INFINITY;
-}
+IMP_MAP_AT_ALL_TIMES(twirl)
 
 /* A = speed t / (1 + (x^2 + y^2) / size^2): (x cos A - y sin A, x sin A + y cos A, z) */
-static void formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
-                    imp_model out[3])
+static void twirl_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                          imp_model out[3])
 {
     const twirl *map = self;
     imp_model size = imp_num(map->size), sine, cosine;
@@ -61,24 +45,14 @@ static void formula(const void *self, imp_model x, imp_model y, imp_model z, imp
     out[1] = imp_add(imp_mul(x, sine), imp_mul(y, cosine));
     out[2] = z;
 }
-IMP_MAP_FORMULA(formula)
+IMP_MAP_FORMULA(twirl_formula)
 
 static const imp_map_type type = {
-    .struct_size = (uint32_t)sizeof(imp_map_type),
-    .parameter_count = sizeof parameters / sizeof parameters[0],
-    .parameter_size = (uint32_t)sizeof(imp_parameter),
-    .name = "twirl",
-    .summary = "turns about the z axis, the faster the nearer to it",
+    IMP_MAP_FIELDS(twirl, twirl_formula),
+    .summary = "turns about the z axis, faster near it",
     .equation = "A = speed t / (1 + (x^2 + y^2)/size^2): (x cos A - y sin A, x sin A + y cos A, z)",
     .source = NULL,
     .example = "twirl speed=2",
-    .parameters = parameters,
-    .create = create,
-    .destroy = free,
-    .time_domain = time_domain,
-    .eval = formula_eval,
-    .rate = formula_rate,
-    .apply = formula_apply,
 };
 
 IMPINGE_MAP_PLUGIN("twirl", "1.0", "MIT", "The Impinge authors", type);

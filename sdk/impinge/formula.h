@@ -24,21 +24,21 @@ extern "C" {
  *
  * The macros define ball_formula_eval, ball_formula_rate, ball_formula_include, and
  * spin_formula_eval, spin_formula_rate, spin_formula_apply: the callbacks of imp_surface_type and
- * imp_map_type, with proved bounds. Points are constants: the formula, run on numbers, yields its
- * value and the error of its own rounding. */
+ * imp_map_type, with proved bounds. A point is evaluated by running the formula on constants, which
+ * gives the value and a bound of its rounding error. */
 
 typedef void (*imp_surface_formula)(const void *self, imp_model u, imp_model v, imp_model t,
                                     imp_model out[3]);
 typedef void (*imp_map_formula)(const void *self, imp_model x, imp_model y, imp_model z,
                                 imp_model t, imp_model out[3]);
 
-/* Values and errors of a point's three constants; no finite value: outside the domain. */
+/* Values and errors of a point's three constants. A value that is not finite: IMP_DOMAIN. */
 static inline imp_status imp_formula_point_(const imp_model out[3], double *x, double *error)
 {
     for (int i = 0; i < 3; i++) {
         if (!(out[i].e < INFINITY)) return IMP_DOMAIN;
         x[i] = out[i].a;
-        if (error) error[i] = out[i].e;
+        if (error != NULL) error[i] = out[i].e;
     }
     return IMP_OK;
 }
@@ -63,7 +63,7 @@ static inline imp_status imp_surface_formula_eval_(imp_surface_formula f, const 
     imp_status status = IMP_OK;
     for (size_t k = 0; k < n && status == IMP_OK; k++) {
         f(self, imp_num(p[3 * k]), imp_num(p[3 * k + 1]), imp_num(p[3 * k + 2]), out);
-        status = imp_formula_point_(out, x + 3 * k, error ? error + 3 * k : NULL);
+        status = imp_formula_point_(out, x + 3 * k, error != NULL ? error + 3 * k : NULL);
     }
     return status;
 }
@@ -98,7 +98,7 @@ static inline imp_status imp_map_formula_eval_(imp_map_formula f, const void *se
     for (size_t k = 0; k < n && status == IMP_OK; k++) {
         const double *at = p + 4 * k;
         f(self, imp_num(at[0]), imp_num(at[1]), imp_num(at[2]), imp_num(at[3]), out);
-        status = imp_formula_point_(out, x + 3 * k, error ? error + 3 * k : NULL);
+        status = imp_formula_point_(out, x + 3 * k, error != NULL ? error + 3 * k : NULL);
     }
     return status;
 }
@@ -124,20 +124,21 @@ static inline imp_region imp_region_between(const double lo[3], const double hi[
     return r;
 }
 
-/* Models have three parameters and a map has four: x, y, z vary in one pass, while t is any number
- * in its bounds, and t in the other, while x, y, z are. Bounds that hold for every fixed value of
- * the rest bound the change along a path that moves in space first and in time after. */
+/* Models have three parameters and a map has four, so there are two passes. In the first x, y, z
+ * vary and t is an unknown constant in its bounds; in the second t varies and x, y, z are unknown
+ * constants. Each pass bounds the change for every fixed value of the others, so together they
+ * bound the change along a path that moves first in space and then in time. */
 static inline imp_status imp_map_formula_rate_(imp_map_formula f, const void *self,
-                                               const imp_box4 *box, imp_map_rates *rates)
+                                               const imp_box4 *over, imp_map_rates *rates)
 {
     imp_model space[3], time[3];
-    imp_region region = imp_region_between(box->lo, box->hi);
-    imp_region moment = imp_region_between(box->lo + 1, box->hi + 1);
+    imp_region region = imp_region_between(over->lo, over->hi);
+    imp_region moment = imp_region_between(over->lo + 1, over->hi + 1);
     imp_status status = IMP_OK;
     f(self, imp_param(&region, 0), imp_param(&region, 1), imp_param(&region, 2),
-      imp_between(box->lo[3], box->hi[3]), space);
-    f(self, imp_between(box->lo[0], box->hi[0]), imp_between(box->lo[1], box->hi[1]),
-      imp_between(box->lo[2], box->hi[2]), imp_param(&moment, 2), time);
+      imp_between(over->lo[3], over->hi[3]), space);
+    f(self, imp_between(over->lo[0], over->hi[0]), imp_between(over->lo[1], over->hi[1]),
+      imp_between(over->lo[2], over->hi[2]), imp_param(&moment, 2), time);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 4; j++) {
             rates->m[i][j] = j < 3 ? space[i].rate[j] : time[i].rate[2];

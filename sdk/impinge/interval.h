@@ -12,13 +12,13 @@
 extern "C" {
 #endif
 
-/* Intervals that surely hold the result
+/* Interval arithmetic with outward rounding
  * =====================================
  *
- * [lo, hi] with lo <= hi; an end may be infinite. Every operation answers an
- * interval that holds all results for all operands inside its own. The rounding mode
- * stays "to nearest"; computed ends are pushed outward instead. No answer holds a
- * NaN: where an end cannot be computed it is infinite.
+ * [lo, hi] with lo <= hi; an end may be infinite. Every operation returns an interval that contains
+ * all results for all operands in the given intervals. The rounding mode stays "to nearest";
+ * computed ends are rounded outward instead. No end is NaN: an end that cannot be computed is
+ * infinite.
  *
  * Notation in the lemmas: u = 2^-53, fl(x) the double nearest to x. A sum, difference,
  * product, quotient or square root z computed in double is x = fl(z), and then
@@ -30,9 +30,9 @@ extern "C" {
  *
  *   (L)  |z - x| <= 5 * 2^-52 |x| + 2^-1072     (glibc's are below 1 unit)
  *
- * IMP_TINY stands in for all errors of underflow. It is far larger than they are
- * so that no bound becomes a subnormal number, which many processors handle
- * slowly, and far smaller than any length, time or rate of interest. */
+ * IMP_TINY bounds all errors of underflow. It is far larger than they are, so that no bound is a
+ * subnormal number, which many processors handle slowly. It is far smaller than any length, time or
+ * rate of interest. */
 
 #define IMP_TINY 0x1p-1000
 #define IMP_LIBM 0x1.4p-50 /* 5 * 2^-52, relative, see (L) */
@@ -43,11 +43,10 @@ typedef struct imp_interval {
 
 /* --- Rounding outward ---------------------------------------------------------------------- */
 
-/* At least every z with (R). Lemma: |x| 2^-52 >= ulp(x) for normal x, and IMP_TINY
- * covers the rest, so the sum in exact arithmetic is >= the double above x, and
- * fl is monotone. z itself lies below the double above x because it rounds to x.
- * NaN for x = -INFINITY (overflow: the true value may be anything below): callers
- * let a NaN open the interval on that side. */
+/* At least every z with (R). Lemma: |x| 2^-52 >= ulp(x) for normal x, and IMP_TINY covers the rest,
+ * so the sum in exact arithmetic is >= the double above x, and fl is monotone. z itself lies below
+ * the double above x because it rounds to x. NaN for x = -INFINITY (overflow: the true value may be
+ * anything below): callers replace a NaN by an infinite end on that side. */
 static inline double imp_round_up(double x) { return x + (fabs(x) * 0x1p-52 + IMP_TINY); }
 
 static inline double imp_round_down(double x) { return x - (fabs(x) * 0x1p-52 + IMP_TINY); }
@@ -58,20 +57,20 @@ static inline double imp_sum_up(double x) { return x + fabs(x) * 0x1p-52; }
 
 static inline double imp_sum_down(double x) { return x - fabs(x) * 0x1p-52; }
 
-/* The same for what libm computes. Lemma: by (L) z <= x + 5 * 2^-52 |x| + 2^-1072; the
- * sixth unit pays for fl of the sum. */
+/* The same for what libm computes. Lemma: by (L) z <= x + 5 * 2^-52 |x| + 2^-1072; the sixth unit
+ * covers the rounding of the sum. */
 static inline double imp_libm_up(double x) { return x + (fabs(x) * 0x1.8p-50 + IMP_TINY); }
 
 static inline double imp_libm_down(double x) { return x - (fabs(x) * 0x1.8p-50 + IMP_TINY); }
 
-/* The larger and the smaller of two. If one is NaN the answer is b. */
+/* The larger and the smaller of two. If one is NaN the result is b. */
 static inline double imp_larger(double a, double b) { return a > b ? a : b; }
 
 static inline double imp_smaller(double a, double b) { return a < b ? a : b; }
 
-/* --- Making and asking --------------------------------------------------------------------- */
+/* --- Construction and queries -------------------------------------------------------------- */
 
-/* [lo, hi], a NaN end becoming infinite. */
+/* [lo, hi]; a NaN end becomes infinite. */
 static inline imp_interval imp_interval_make(double lo, double hi)
 {
     imp_interval r;
@@ -112,8 +111,8 @@ static inline double imp_interval_radius_upper(imp_interval x, double m)
     return imp_sum_up(imp_larger(x.hi - m, m - x.lo));
 }
 
-/* What both hold. The caller knows that they share a point. */
-static inline imp_interval imp_interval_meet(imp_interval x, imp_interval y)
+/* The intersection. The caller knows that it is not empty. */
+static inline imp_interval imp_interval_intersect(imp_interval x, imp_interval y)
 {
     return imp_interval_make(imp_larger(x.lo, y.lo), imp_smaller(x.hi, y.hi));
 }
@@ -147,7 +146,7 @@ static inline imp_interval imp_interval_mul_infinite_(imp_interval x, imp_interv
     return imp_interval_make(imp_round_down(lo), imp_round_up(hi));
 }
 
-/* The extremes of a product are at corners. A NaN or infinite corner shows in the sum. */
+/* The extremes of a product are at corners. The sum is NaN or infinite if a corner is. */
 static inline imp_interval imp_interval_mul(imp_interval x, imp_interval y)
 {
     double p = x.lo * y.lo, q = x.lo * y.hi, r = x.hi * y.lo, s = x.hi * y.hi;
@@ -163,7 +162,8 @@ static inline imp_interval imp_interval_scale(imp_interval x, double k)
     return imp_interval_mul(x, imp_interval_make(k, k));
 }
 
-/* 1/x is monotone on either side of 0; with 0 inside, or at an end, it is unbounded there. */
+/* 1/x is monotone on either side of 0. If x contains 0, inside or at an end, it is unbounded there.
+ */
 static inline imp_interval imp_interval_inverse(imp_interval x)
 {
     if (x.lo > 0)
@@ -189,7 +189,7 @@ static inline imp_interval imp_interval_div(imp_interval x, imp_interval y)
     return imp_interval_make(imp_round_down(lo), imp_round_up(hi));
 }
 
-/* Not x times x: the answer has one sign. */
+/* Unlike x times x, the result is never negative. */
 static inline imp_interval imp_interval_sqr(imp_interval x)
 {
     double lo = imp_interval_mig(x), hi = imp_interval_mag(x);
@@ -211,8 +211,8 @@ static inline imp_interval imp_interval_max(imp_interval x, imp_interval y)
     return imp_interval_make(imp_larger(x.lo, y.lo), imp_larger(x.hi, y.hi));
 }
 
-/* The part of x below 0 counts as 0 (rounding may have put it there); nothing but
- * negative numbers: whole. */
+/* The part of x below 0 counts as 0, because it may come from rounding. If all of x is negative,
+ * the result is the whole line. */
 static inline imp_interval imp_interval_sqrt(imp_interval x)
 {
     if (!(x.hi >= 0)) return imp_interval_whole();
@@ -222,16 +222,20 @@ static inline imp_interval imp_interval_sqrt(imp_interval x)
 
 /* --- Elementary functions ------------------------------------------------------------------ */
 
+/* The doubles next to pi, and those above pi/2 and 2 pi: ends of domains that contain a whole turn.
+ */
 #define IMP_PI_LOWER 0x1.921fb54442d18p+1
 #define IMP_PI_UPPER 0x1.921fb54442d19p+1
+#define IMP_HALF_PI_UPPER 0x1.921fb54442d19p+0
+#define IMP_TWO_PI_UPPER 0x1.921fb54442d19p+2
 
 /* e^x, within (L) and IMP_TINY. 0 below 2^-1000 and INFINITY above e^709 keep libm from
  * setting errno. */
-static inline double imp_exp_(double x) { return x < -694 ? 0 : x > 709 ? INFINITY : exp(x); }
+static inline double imp_libm_exp(double x) { return x < -694 ? 0 : x > 709 ? INFINITY : exp(x); }
 
-/* x^p, leaving errno alone; also when a compiler that was told that pow never touches it would
- * leave out putting it back. */
-static inline double imp_pow_(double x, double p)
+/* x^p without a change of errno. This also holds if the compiler was told that pow never sets errno
+ * and would remove the code that restores it. */
+static inline double imp_libm_pow(double x, double p)
 {
     int saved = errno;
     double y = pow(x, p);
@@ -249,16 +253,16 @@ static inline double imp_sinh_(double x)
 
 static inline double imp_cosh_(double x) { return fabs(x) > 709 ? INFINITY : cosh(x); }
 
-/* Beyond 709, where the upper end is infinite, the lower one is that of 709: what grows is at least
- * there what it is at 709, so that 1 / (1 + e^x) is known to vanish. imp_smaller and imp_larger are
- * asked so that a NaN stays one, which the interval then opens for. */
+/* Beyond 709 the upper end is infinite and the lower end is that of 709, because the function
+ * grows; so 1 / (1 + e^x) is known to tend to 0. The operands of imp_smaller and imp_larger are
+ * ordered so that a NaN stays NaN, and imp_interval_make then makes the end infinite. */
 static inline imp_interval imp_interval_exp(imp_interval x)
 {
-    return imp_interval_make(imp_larger(imp_libm_down(imp_exp_(imp_smaller(709, x.lo))), 0),
-                             imp_libm_up(imp_exp_(x.hi)));
+    return imp_interval_make(imp_larger(imp_libm_down(imp_libm_exp(imp_smaller(709, x.lo))), 0),
+                             imp_libm_up(imp_libm_exp(x.hi)));
 }
 
-/* Where x touches 0 or what is below, -INFINITY. */
+/* If x contains 0 or a negative number, the lower end is -INFINITY. */
 static inline imp_interval imp_interval_log(imp_interval x)
 {
     if (!(x.hi > 0)) return imp_interval_whole();
@@ -290,7 +294,8 @@ static inline imp_interval imp_interval_atan(imp_interval x)
                              imp_smaller(imp_libm_up(atan(x.hi)), IMP_PI_UPPER / 2));
 }
 
-/* The parts of x beyond -1 and 1 count as -1 and 1; nothing else in x: whole. */
+/* The parts of x beyond -1 and 1 count as -1 and 1. If x has no other part, the result is the whole
+ * line. */
 static inline imp_interval imp_interval_asin(imp_interval x)
 {
     if (!(x.lo <= 1 && x.hi >= -1)) return imp_interval_whole();
@@ -307,10 +312,10 @@ static inline imp_interval imp_interval_acos(imp_interval x)
     return imp_interval_make(imp_larger(lo, 0), imp_smaller(hi, IMP_PI_UPPER));
 }
 
-/* May an integer k have x = 2 pi (k + phase) inside? Lemma: y = x / (2 pi) - phase is
- * computed with an error of at most 4 u |x / (2 pi)| (constant, product, difference) + u
- * (|phase| <= 1/2, for the difference), below the slack of 2^-50 (|y| + 1) by which
- * both ends are pushed outward; "yes" is always a sound answer. */
+/* Can x contain 2 pi (k + phase) for an integer k? Lemma: y = x / (2 pi) - phase is computed with
+ * an error of at most 4 u |x / (2 pi)| (constant, product, difference) + u (|phase| <= 1/2, for the
+ * difference), below the slack of 2^-50 (|y| + 1) by which both ends are widened; "yes" is always a
+ * sound answer. */
 static inline int imp_interval_holds_phase_(imp_interval x, double phase)
 {
     const double turn = 0x1.45f306dc9c883p-3; /* 1 / (2 pi) */
@@ -318,7 +323,7 @@ static inline int imp_interval_holds_phase_(imp_interval x, double phase)
     return floor(hi + 0x1p-50 * (fabs(hi) + 1)) >= lo - 0x1p-50 * (fabs(lo) + 1);
 }
 
-/* Beyond this the phase is not worth telling. */
+/* Beyond this the phase is not computed. */
 #define IMP_ANGLE_MAX 0x1p40
 
 static inline int imp_interval_is_turn_(imp_interval x)
@@ -326,9 +331,8 @@ static inline int imp_interval_is_turn_(imp_interval x)
     return !(x.hi - x.lo < 6.25 && imp_interval_mag(x) < IMP_ANGLE_MAX);
 }
 
-/* Between extremes the function is monotone, so its range over x is spanned by
- * the values at the ends and by the extremes inside: 1 at 2 pi (k + top), -1 half
- * a turn on. */
+/* Between extremes the function is monotone, so its range over x is spanned by the values at the
+ * ends and by the extremes inside: 1 at 2 pi (k + top), -1 half a turn later. */
 static inline imp_interval imp_interval_wave_(imp_interval x, double at_lo, double at_hi,
                                               double top)
 {
@@ -366,8 +370,8 @@ static inline imp_interval imp_interval_pow(imp_interval x, double p)
     if (!(x.hi >= 0) || !(p - p == 0)) return imp_interval_whole();
     if (p == 0) return imp_interval_make(1, 1);
     double lo = imp_larger(p > 0 ? x.lo : x.hi, 0), hi = imp_larger(p > 0 ? x.hi : x.lo, 0);
-    return imp_interval_make(imp_larger(imp_libm_down(imp_pow_(lo, p)), 0),
-                             imp_libm_up(imp_pow_(hi, p)));
+    return imp_interval_make(imp_larger(imp_libm_down(imp_libm_pow(lo, p)), 0),
+                             imp_libm_up(imp_libm_pow(hi, p)));
 }
 
 /* x^n for whole n > -2^31: monotone if n is odd, a function of |x| if n is even. */
@@ -376,7 +380,8 @@ static inline imp_interval imp_interval_powi(imp_interval x, int n)
     if (n == 0) return imp_interval_make(1, 1);
     if (n < 0) return imp_interval_inverse(imp_interval_powi(x, -n));
     if (n % 2 == 0) return imp_interval_pow(imp_interval_abs(x), n);
-    return imp_interval_make(imp_libm_down(imp_pow_(x.lo, n)), imp_libm_up(imp_pow_(x.hi, n)));
+    return imp_interval_make(imp_libm_down(imp_libm_pow(x.lo, n)),
+                             imp_libm_up(imp_libm_pow(x.hi, n)));
 }
 
 #ifdef __cplusplus

@@ -3,14 +3,14 @@
 #ifndef IMPINGE_MODEL_H
 #define IMPINGE_MODEL_H
 
-/* Arithmetic on models
+/* Arithmetic on Taylor models
  * ====================
  *
- * An imp_model (surface.h) says three things about a function g of u, v, t over a region: a
- * quadratic that g follows within e, a range [lo, hi], and bounds of its rates of change. The
- * operations here take models of f and h to a model of f + h, f h, sin f ..., so that a formula
- * written once in them yields point, rates and inclusion of a surface. <impinge/formula.h> does
- * the rest. Models go in and out by value.
+ * An imp_model (surface.h) is an order-2 Taylor model of a function g of u, v, t over a region,
+ * with a range and rates. It states a quadratic that g follows within e, a range [lo, hi], and
+ * bounds of the rates of change of g. The operations here take models of f and h to a model of f +
+ * h, f h, sin f and so on. A formula written once with them gives points, rates and the inclusion
+ * of a surface; <impinge/formula.h> makes the callbacks. Models are passed by value.
  *
  *   imp_param(region, j)         the parameter u (j = 0), v (1) or t (2) over a region
  *   imp_num(k), imp_const_pi()   the number k; pi
@@ -35,16 +35,27 @@
  *   imp_known(a, e)              a number within e of a
  *   imp_unbounded(depends)       anything
  *   imp_model_finish(x)          the last step, after setting fields: clips and tidies
+ *   imp_model_within(x, range)   the same, knowing a range of g
+ *   imp_model_collapse(x)        its range and rates, without the quadratic
  *   imp_model_range(&x), imp_model_poly_range(&x), imp_model_size(&x), imp_is_point(&x)
  *
- * A model that depends on no parameter is a constant: a number known within e. Operations on
- * constants take a short way, which is how points are evaluated.
+ * For a function g that is not listed (<impinge/model_series.h>):
  *
- * What cannot be bounded is unbounded: e, an end of the range, or rates are infinite. No
- * operation answers a NaN. Over a region where a formula is undefined in part, its model speaks
- * about the rest; but a formula must be defined on its type's whole domain. Rounding may put the
- * range of an argument slightly outside a function's domain, as that of 1 - cos^2 below 0: the
- * part outside counts as the nearest value inside, so no clamp is needed before imp_sqrt.
+ *   imp_series_around(range)     begins a series of g around the middle of its argument's range
+ *   imp_series_taylor(&s, ...)   completes it from derivatives; or set its fields by hand
+ *   imp_series_power(&s, p, m^p) that of a power
+ *   imp_compose(&x, &s, range, slope)   the model of g(x)
+ *   imp_point_within(&x, y, slope, lo, hi)   the same for a constant x, from y = g(x)
+ *   imp_libm_exp, imp_libm_pow   libm's, leaving errno alone
+ *
+ * A model that depends on no parameter is a constant: a number known within e. Operations on
+ * constants are faster; points are evaluated with them.
+ *
+ * If there is no bound, then e, an end of the range, or rates are infinite. No operation returns a
+ * NaN. If a formula is undefined in a part of a region, its model holds for the rest; but a formula
+ * must be defined on the whole domain of its type. Rounding may put the range of an argument
+ * slightly outside a function's domain, as 1 - cos^2 below 0. The part outside counts as the
+ * nearest value inside, so no clamp is needed before imp_sqrt.
  *
  * Kinks are allowed: rates bound difference quotients there. Jumps are not: imp_atan2 has no
  * bounded rates on its cut. */

@@ -20,40 +20,40 @@ extern "C" {
 /* A function with the value f and the derivative g at m, and -f as its second derivative, and so
  * on: f + g y - f y^2 / 2 - g y^3 / 6 + f y^4 / 24 within r^5 / 120. Its slope is at most |g| + |f|
  * r + r^2 / 2, and 1. */
-static inline imp_model imp_wave_(const imp_model *x, imp_series_ s, double f, double g,
+static inline imp_model imp_wave_(const imp_model *x, imp_series s, double f, double g,
                                   imp_interval (*range)(imp_interval))
 {
     const double t[5] = {f, g, -f / 2, -g / 6, f / 24};
-    imp_series_set_(&s, 1, t, imp_power5_(s.r) / 120, 10, 11);
+    imp_series_taylor(&s, 1, t, imp_power5_(s.r) / 120, 10, 11);
     imp_interval at = imp_series_is_sharp_(&s) ? imp_series_range_(&s) : range(imp_model_range(x));
     double slope = (fabs(g) + fabs(f) * s.r) * (1 + 0x1p-40) + IMP_TINY;
-    at = imp_interval_meet(at, imp_interval_make(-1, 1));
-    return imp_compose_(x, &s, at, imp_smaller(slope, 1));
+    at = imp_interval_intersect(at, imp_interval_make(-1, 1));
+    return imp_compose(x, &s, at, imp_smaller(slope, 1));
 }
 
 static inline imp_model imp_sin(imp_model x)
 {
-    if (imp_is_point(&x)) return imp_point_within_(&x, sin(x.a), 1, -1, 1);
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    if (imp_is_point(&x)) return imp_point_within(&x, sin(x.a), 1, -1, 1);
+    imp_series s = imp_series_around(imp_model_range(&x));
     return imp_wave_(&x, s, sin(s.m), cos(s.m), imp_interval_sin);
 }
 
 static inline imp_model imp_cos(imp_model x)
 {
-    if (imp_is_point(&x)) return imp_point_within_(&x, cos(x.a), 1, -1, 1);
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    if (imp_is_point(&x)) return imp_point_within(&x, cos(x.a), 1, -1, 1);
+    imp_series s = imp_series_around(imp_model_range(&x));
     return imp_wave_(&x, s, cos(s.m), -sin(s.m), imp_interval_cos);
 }
 
-/* Both, for less. */
+/* Both, at a lower cost. */
 static inline void imp_sincos(imp_model x, imp_model *sine, imp_model *cosine)
 {
     if (imp_is_point(&x)) {
-        *sine = imp_point_within_(&x, sin(x.a), 1, -1, 1);
-        *cosine = imp_point_within_(&x, cos(x.a), 1, -1, 1);
+        *sine = imp_point_within(&x, sin(x.a), 1, -1, 1);
+        *cosine = imp_point_within(&x, cos(x.a), 1, -1, 1);
         return;
     }
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    imp_series s = imp_series_around(imp_model_range(&x));
     double f = sin(s.m), g = cos(s.m);
     *sine = imp_wave_(&x, s, f, g, imp_interval_sin);
     *cosine = imp_wave_(&x, s, g, -f, imp_interval_cos);
@@ -68,48 +68,48 @@ static inline imp_model imp_tan(imp_model x)
     double top = imp_interval_mag(range), tt = top * top;
     double slope = imp_round_up(imp_sum_up(1 + tt * (1 + 0x1p-50)));
     if (imp_is_point(&x) && top < INFINITY) return imp_point_(&x, tan(x.a), slope);
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    imp_series s = imp_series_around(imp_model_range(&x));
     if (top < INFINITY) {
         double y = tan(s.m), yy = y * y, d = 1 + yy;
         const double t[5] = {y, d, d * y, d * (1 + 3 * yy) / 3, d * y * (2 + 3 * yy) / 3};
         double next = slope * (2 + 15 * tt + 15 * tt * tt) / 15 * (1 + 0x1p-40);
-        imp_series_set_(&s, 1, t, next * imp_power5_(s.r), 10, 100);
+        imp_series_taylor(&s, 1, t, next * imp_power5_(s.r), 10, 100);
     }
-    return imp_compose_(&x, &s, range, slope);
+    return imp_compose(&x, &s, range, slope);
 }
 
 /* --- Inverse circular functions ------------------------------------------------------------ */
 
 /* With w = 1 / (1 + m^2): t_1 = w, t_2 = -m w^2, t_3 = (3 m^2 - 1) w^3 / 3, t_4 = m (1 - m^2) w^4;
  * the next is at most w^(5/2) / 5 in magnitude, w being largest where |x| is least. t_3 and t_4
- * cancel near their zeros: there they are off by up to 20 u w^(3/2) and 20 u w^2, which the
- * tail takes. */
+ * cancel near their zeros: there they are off by up to 20 u w^(3/2) and 20 u w^2, which the tail
+ * includes. */
 static inline imp_model imp_atan(imp_model x)
 {
     double least = imp_interval_mig(imp_model_range(&x));
     double slope = imp_round_up(1 / (1 + least * least)) * (1 + 0x1p-50);
     if (imp_is_point(&x)) return imp_point_(&x, atan(x.a), slope);
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    imp_series s = imp_series_around(imp_model_range(&x));
     double m = s.m, w = 1 / (1 + m * m), z = s.r * sqrt(slope), v = m * w;
     const double t[5] = {atan(m), w, -v * w, (3 * m * v - w) * w * w / 3, (w - m * v) * v * w * w};
     double tail = imp_power5_(z) / 5 + 20 * IMP_U * (z * z * z + z * z * z * z);
-    imp_series_set_(&s, 1, t, tail * (1 + 0x1p-40), 10, 12);
+    imp_series_taylor(&s, 1, t, tail * (1 + 0x1p-40), 10, 12);
     imp_interval range =
         imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_atan(imp_model_range(&x));
-    return imp_compose_(&x, &s, range, slope);
+    return imp_compose(&x, &s, range, slope);
 }
 
 /* With w = 1 / (1 - m^2): the derivatives of asin are w^(1/2), m w^(3/2), (1 + 2 m^2) w^(5/2),
  * m (9 + 6 m^2) w^(7/2) and (9 + 72 m^2 + 24 m^4) w^(9/2); the last grows with |m| <= top.
  * 1 - m^2 is computed as (1 - m)(1 + m), within 3 u, so no t_k is off by more than 40 u. */
-static inline void imp_series_asin_(imp_series_ *s, double top)
+static inline void imp_series_asin_(imp_series *s, double top)
 {
     double m = s->m, mm = m * m, w = 1 / ((1 - m) * (1 + m)), v = sqrt(w);
     double far = 1 / (imp_sum_down(1 - top) * (1 + top)), tt = top * top;
     double next = (9 + 72 * tt + 24 * tt * tt) / 120 * (far * far * far * far * sqrt(far));
     const double t[5] = {asin(m), v, m * v * w / 2, (1 + 2 * mm) * v * w * w / 6,
                          m * (9 + 6 * mm) * v * w * w * w / 24};
-    imp_series_set_(s, 1, t, next * imp_power5_(s->r) * (1 + 0x1p-40), 10, 40);
+    imp_series_taylor(s, 1, t, next * imp_power5_(s->r) * (1 + 0x1p-40), 10, 40);
 }
 
 /* At least 1 / sqrt(1 - z^2) for |z| <= top. */
@@ -119,24 +119,24 @@ static inline double imp_asin_slope_upper_(double top)
     return top < 1 ? 1 / sqrt(rest) * (1 + 0x1p-48) : INFINITY;
 }
 
-/* Nothing but points where the range is degenerate: at 1 and -1 exactly, and within. */
+/* A point: at 1 and -1 exactly, and between them. */
 static inline int imp_asin_is_point_(const imp_model *x, double top)
 {
     return imp_is_point(x) && (top < 1 || (top == 1 && x->e == 0));
 }
 
-/* Beyond -1 and 1 rounding is to blame: those parts of x count as -1 and 1. There the rate is
+/* Values beyond -1 and 1 come from rounding: those parts of x count as -1 and 1. There the rate is
  * infinite. */
 static inline imp_model imp_asin(imp_model x)
 {
     double top = imp_interval_mag(imp_model_range(&x));
     double slope = x.e > 0 || x.depends ? imp_asin_slope_upper_(top) : 0;
     if (imp_asin_is_point_(&x, top))
-        return imp_point_within_(&x, asin(x.a), slope, -IMP_PI_UPPER / 2, IMP_PI_UPPER / 2);
+        return imp_point_within(&x, asin(x.a), slope, -IMP_PI_UPPER / 2, IMP_PI_UPPER / 2);
     imp_interval range = imp_interval_asin(imp_model_range(&x));
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    imp_series s = imp_series_around(imp_model_range(&x));
     if (top < 1) imp_series_asin_(&s, top);
-    return imp_compose_(&x, &s, range, slope);
+    return imp_compose(&x, &s, range, slope);
 }
 
 /* pi/2 - asin x. Rounding of pi/2, of asin m and of their difference: below 3 u, 8 u being asin's
@@ -145,17 +145,16 @@ static inline imp_model imp_acos(imp_model x)
 {
     double top = imp_interval_mag(imp_model_range(&x));
     double slope = x.e > 0 || x.depends ? imp_asin_slope_upper_(top) : 0;
-    if (imp_asin_is_point_(&x, top))
-        return imp_point_within_(&x, acos(x.a), slope, 0, IMP_PI_UPPER);
+    if (imp_asin_is_point_(&x, top)) return imp_point_within(&x, acos(x.a), slope, 0, IMP_PI_UPPER);
     imp_interval range = imp_interval_acos(imp_model_range(&x));
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    imp_series s = imp_series_around(imp_model_range(&x));
     if (top < 1) {
         imp_series_asin_(&s, top);
         s.c[0] = IMP_PI_LOWER / 2 - s.c[0];
         for (int k = 1; k < 4; k++) s.c[k] = -s.c[k];
         s.e += 8 * IMP_U;
     }
-    return imp_compose_(&x, &s, range, slope);
+    return imp_compose(&x, &s, range, slope);
 }
 
 /* --- Hyperbolic functions ------------------------------------------------------------------ */
@@ -170,11 +169,11 @@ static inline imp_model imp_sinh(imp_model x)
         return imp_point_(&x, y, 1.001 * (fabs(y) + 1));
     }
     double slope = imp_interval_cosh(imp_model_range(&x)).hi;
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    imp_series s = imp_series_around(imp_model_range(&x));
     double f = imp_sinh_(s.m), g = imp_cosh_(s.m);
     const double t[5] = {f, g, f / 2, g / 6, f / 24};
-    imp_series_set_(&s, 1, t, slope * imp_power5_(s.r) / 120, 10, 11);
-    return imp_compose_(&x, &s, imp_interval_sinh(imp_model_range(&x)), slope);
+    imp_series_taylor(&s, 1, t, slope * imp_power5_(s.r) / 120, 10, 11);
+    return imp_compose(&x, &s, imp_interval_sinh(imp_model_range(&x)), slope);
 }
 
 static inline imp_model imp_cosh(imp_model x)
@@ -182,31 +181,31 @@ static inline imp_model imp_cosh(imp_model x)
     if (imp_is_point(&x)) {
         double y = imp_cosh_(x.a);
         if (y > 0x1p1020) return imp_point_beyond_(imp_interval_cosh(imp_model_range(&x)));
-        return imp_point_within_(&x, y, 1.001 * y, 1, INFINITY);
+        return imp_point_within(&x, y, 1.001 * y, 1, INFINITY);
     }
     double slope = imp_interval_mag(imp_interval_sinh(imp_model_range(&x)));
     imp_interval range = imp_interval_cosh(imp_model_range(&x));
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    imp_series s = imp_series_around(imp_model_range(&x));
     double f = imp_cosh_(s.m), g = imp_sinh_(s.m);
     const double t[5] = {f, g, f / 2, g / 6, f / 24};
-    imp_series_set_(&s, 1, t, range.hi * imp_power5_(s.r) / 120, 10, 11);
-    return imp_compose_(&x, &s, range, slope);
+    imp_series_taylor(&s, 1, t, range.hi * imp_power5_(s.r) / 120, 10, 11);
+    return imp_compose(&x, &s, range, slope);
 }
 
 /* With T = tanh m, D = 1 - T^2: t_k = D, -D T, D (3 T^2 - 1) / 3, D T (2 - 3 T^2) / 3, the next at
  * most 2 D / 15. T is within 10 u, so D within 24 u, absolutely, and the rest within 60 u. */
 static inline imp_model imp_tanh(imp_model x)
 {
-    if (imp_is_point(&x)) return imp_point_within_(&x, tanh(x.a), 1, -1, 1);
+    if (imp_is_point(&x)) return imp_point_within(&x, tanh(x.a), 1, -1, 1);
     imp_interval range = imp_interval_tanh(imp_model_range(&x));
     double least = imp_interval_mig(range);
     double slope = imp_smaller((1 - least) * (1 + least) * (1 + 0x1p-50) + IMP_TINY, 1);
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    imp_series s = imp_series_around(imp_model_range(&x));
     double y = tanh(s.m), yy = y * y, d = (1 - y) * (1 + y), r = s.r;
     const double t[5] = {y, d, -d * y, d * (3 * yy - 1) / 3, d * y * (2 - 3 * yy) / 3};
     double tail = slope * imp_power5_(r) * 2 / 15 + 60 * IMP_U * (r + r * r) * (1 + r * r);
-    imp_series_set_(&s, 1, t, tail * (1 + 0x1p-40), 10, 1);
-    return imp_compose_(&x, &s, range, slope);
+    imp_series_taylor(&s, 1, t, tail * (1 + 0x1p-40), 10, 1);
+    return imp_compose(&x, &s, range, slope);
 }
 
 /* --- The angle of a point ------------------------------------------------------------------ */
@@ -217,7 +216,7 @@ static inline imp_model imp_any_angle_(uint32_t depends)
     imp_model r = imp_unbounded(depends);
     r.lo = -IMP_PI_UPPER;
     r.hi = IMP_PI_UPPER;
-    return imp_collapse_(r);
+    return imp_model_collapse(r);
 }
 
 /* The angle of (x, y) in [-pi, pi], as C's atan2(y, x), with y = 0 counting as +0. A region that

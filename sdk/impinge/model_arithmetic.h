@@ -16,13 +16,13 @@ extern "C" {
  * x, |delta| <= e. P = a + L + Q, L linear, Q the quadratic terms; B = sum |b_j|, so |L| <= B;
  * |Q| <= sum |q_jk|, written Q too where a number is meant. x' belongs to a second operand.
  *
- * Errors are pooled: an operation sums up what its roundings and its truncation may amount to,
- * as computed numbers >= 0, and puts that into e. Fewer than 100 roundings go into the computing
- * of any such bound, each changing it by a factor >= 1 - u, so the computed bound times
- * IMP_SLACK = 1 + 128 u is at least the exact one. Contracting a product and a sum into one
- * operation (fma) only takes roundings away.
+ * Errors are collected: an operation adds up bounds of its rounding and truncation errors, as
+ * computed numbers >= 0, and adds the sum to e. Fewer than 100 roundings go into the computing of
+ * any such bound, each changing it by a factor >= 1 - u, so the computed bound times IMP_SLACK = 1
+ * + 128 u is at least the exact one. Contracting a product and a sum into one operation (fma) only
+ * removes roundings.
  *
- * A name that ends in an underscore is not for authors. */
+ * A name that ends in an underscore is internal. */
 
 #define IMP_U 0x1p-53
 #define IMP_SLACK (1 + 0x1p-46)
@@ -35,7 +35,7 @@ static inline imp_model imp_model_zero(void)
     return r;
 }
 
-/* Nothing is known, but that it depends on no more than that. */
+/* Nothing is known except the parameters that it may depend on. */
 static inline imp_model imp_unbounded(uint32_t depends)
 {
     imp_model r = imp_model_zero();
@@ -71,7 +71,7 @@ static inline imp_model imp_known(double a, double e)
 
 /* The quadratic becomes the middle of the range: the last resort, and often a good one.
  * An empty range means that the formula was undefined. */
-static inline imp_model imp_collapse_(imp_model x)
+static inline imp_model imp_model_collapse(imp_model x)
 {
     imp_interval range = imp_interval_make(x.lo, x.hi);
     if (!(x.lo <= x.hi)) return imp_unbounded(x.depends);
@@ -90,7 +90,7 @@ static inline imp_model imp_between(double lo, double hi)
     if (!(lo <= hi)) return imp_unbounded(0);
     r.lo = lo;
     r.hi = hi;
-    return imp_collapse_(r);
+    return imp_model_collapse(r);
 }
 
 /* The parameter u (j = 0), v (1) or t (2): c + d s exactly, by definition of s. */
@@ -115,7 +115,7 @@ static inline imp_model imp_const_pi(void)
     return r;
 }
 
-/* --- Asking and finishing ------------------------------------------------------------------ */
+/* --- Queries and finishing ----------------------------------------------------------------- */
 
 static inline imp_interval imp_model_range(const imp_model *x)
 {
@@ -135,13 +135,13 @@ static inline double imp_sum_abs6_(const double q[6])
     return (fabs(q[0]) + fabs(q[1])) + (fabs(q[2]) + fabs(q[3])) + (fabs(q[4]) + fabs(q[5]));
 }
 
-/* |a| + sum |b_j| + sum |q_jk|: what the quadratic is at most, but for rounding. */
+/* |a| + sum |b_j| + sum |q_jk|: a bound of the quadratic, apart from rounding. */
 static inline double imp_model_size(const imp_model *x)
 {
     return fabs(x->a) + imp_sum_abs3_(x->b) + imp_sum_abs6_(x->q);
 }
 
-/* A constant known to fewer than 30 bits: better off with interval arithmetic. */
+/* A constant known to fewer than 30 bits, for which interval arithmetic is better. */
 static inline int imp_is_wide_(const imp_model *x) { return x->e > fabs(x->a) * 0x1p-30; }
 
 /* A constant worth evaluating at its middle, which is one of the values it may have. */
@@ -178,7 +178,8 @@ static inline imp_interval imp_model_poly_range(const imp_model *x)
     return imp_interval_make(x->a + lo - pad, x->a + hi + pad);
 }
 
-/* What is not depended on has rate 0; what could not be computed is infinite. */
+/* The rate by a parameter that g does not depend on is 0; a rate that could not be computed is
+ * infinite. */
 static inline void imp_tidy_rates_(imp_model *x)
 {
     for (int j = 0; j < 3; j++) {
@@ -198,7 +199,15 @@ static inline imp_model imp_model_finish(imp_model x)
     x.hi = imp_smaller(x.hi, poly.hi);
     imp_tidy_rates_(&x);
     if (x.e <= 0.5 * (x.hi - x.lo) && poly.hi - poly.lo < INFINITY) return x;
-    return imp_collapse_(x);
+    return imp_model_collapse(x);
+}
+
+/* The same, knowing also that g lies in the range. */
+static inline imp_model imp_model_within(imp_model g, imp_interval range)
+{
+    g.lo = imp_larger(g.lo, range.lo);
+    g.hi = imp_smaller(g.hi, range.hi);
+    return imp_model_finish(g);
 }
 
 /* The model that a value and rates alone give: g = a within a_error at the centre of the region
@@ -362,8 +371,9 @@ static inline double imp_swing_upper_(const double q[6], double size)
     return (size - 0.5 * squares) + 16 * IMP_U * size;
 }
 
-/* Adds to r the quadratic of x y, to `cubic` its cubic terms and to `rounding` what theirs takes,
- * in units of u: `units` N N' and some; the answer bounds the rest. See imp_products_. */
+/* Adds to r the quadratic of x y, to `cubic` its cubic terms and to `rounding` the bound of their
+ * rounding, in units of u: `units` N N' and some; the answer bounds the rest. See imp_products_.
+ */
 static inline double imp_product_add_(const imp_model *x, const imp_model *y, imp_model *r,
                                       double cubic[10], double units, double *rounding)
 {
@@ -478,7 +488,7 @@ static inline imp_model imp_dot_(const imp_model *x, const imp_model *y, int n)
     return imp_model_finish(r);
 }
 
-/* Has imp_mul a short way? */
+/* Does imp_mul have a fast path? */
 static inline int imp_mul_is_short_(const imp_model *x, const imp_model *y)
 {
     return imp_is_exact(x) || imp_is_exact(y) || (imp_is_point(x) && imp_is_point(y));

@@ -12,9 +12,8 @@ extern "C" {
 /* Polynomials, quotients, exponential and logarithm, powers, kinks
  * =================================================================
  *
- * In each lemma, x is the argument, m + y with |y| <= r over its range; t_k are Taylor
- * coefficients at m. slope is an upper bound of |g'| over the range of x, of which the rates
- * follow. */
+ * In each lemma, x is the argument, m + y with |y| <= r over its range; t_k are Taylor coefficients
+ * at m. slope is an upper bound of |g'| over the range of x; the rates follow from it. */
 
 /* --- Polynomials --------------------------------------------------------------------------- */
 
@@ -27,12 +26,12 @@ static inline imp_model imp_sqr(imp_model x)
         p.lo = imp_larger(p.lo, 0);
         return p;
     }
-    imp_series_ s = imp_series_at_(range);
+    imp_series s = imp_series_around(range);
     s.c[0] = s.m * s.m;
     s.c[1] = 2 * s.m;
     s.c[2] = 1;
     s.e = s.r < INFINITY ? IMP_U * s.c[0] + IMP_TINY : INFINITY;
-    return imp_compose_(&x, &s, imp_interval_sqr(range), 2 * imp_interval_mag(range));
+    return imp_compose(&x, &s, imp_interval_sqr(range), 2 * imp_interval_mag(range));
 }
 
 /* Bounds of P and P' where |t| <= x, with 2^-900 added to each |coefficient|, so that their
@@ -77,12 +76,12 @@ static inline imp_interval imp_poly_interval_(const double *coef, size_t n, imp_
     return r;
 }
 
-#define IMP_POLY_MAX 24 /* coefficients; longer ones go by Horner's rule */
+#define IMP_POLY_MAX 24 /* coefficients; longer ones use Horner's rule */
 
 /* Taylor coefficients w_k of the polynomial at m, by repeated division; the answer bounds |P'|.
  * A term of w_k passes at most 2 n roundings, so the errors of all w_k r^k together are
  * below 2 n u times the polynomial of magnitudes at |m| + r; likewise for P'. */
-static inline double imp_series_poly_(imp_series_ *s, const double *coef, size_t n)
+static inline double imp_series_poly_(imp_series *s, const double *coef, size_t n)
 {
     double w[IMP_POLY_MAX], t[5] = {0, 0, 0, 0, 0}, power = 1, tail = 0, slope = 0;
     imp_poly_sizes_ sizes = imp_poly_sizes_upper_(coef, n, imp_sum_up(fabs(s->m) + s->r));
@@ -96,7 +95,7 @@ static inline double imp_series_poly_(imp_series_ *s, const double *coef, size_t
         tail += k < 5 ? 0 : fabs(w[k]) * power;
     }
     double unit = 2.01 * IMP_U * (double)n;
-    imp_series_set_(s, 1, t, (tail + unit * sizes.value) * IMP_SLACK, 0, 0);
+    imp_series_taylor(s, 1, t, (tail + unit * sizes.value) * IMP_SLACK, 0, 0);
     return (slope + unit * sizes.slope) * IMP_SLACK;
 }
 
@@ -107,21 +106,21 @@ static inline imp_model imp_poly(const double *coef, size_t n, imp_model t)
     if (n == 2) return imp_shift(imp_scale(t, coef[1]), coef[0]);
     if (imp_is_point(&t)) return imp_poly_point_(coef, n, &t);
     if (n > IMP_POLY_MAX) return imp_poly_horner_(coef, n, t);
-    imp_series_ s = imp_series_at_(imp_model_range(&t));
+    imp_series s = imp_series_around(imp_model_range(&t));
     double slope = imp_series_poly_(&s, coef, n);
     imp_interval range = imp_series_range_(&s);
     if (!imp_series_is_sharp_(&s))
-        range = imp_interval_meet(range, imp_poly_interval_(coef, n, imp_model_range(&t)));
-    return imp_compose_(&t, &s, range, slope);
+        range = imp_interval_intersect(range, imp_poly_interval_(coef, n, imp_model_range(&t)));
+    return imp_compose(&t, &s, range, slope);
 }
 
-/* x^n, n >= 3, m of any sign. t_k = C(n, k) m^(n-k); what follows the fourth is below C(n, 5)
+/* x^n, n >= 3, m of any sign. t_k = C(n, k) m^(n-k); the rest after the fourth is below C(n, 5)
  * (|m| + r)^(n-5) r^5 (Lagrange). The powers of m are one call of libm and at most four products,
- * the binomials are within 4 u: (L) + 8 u. Should a power underflow, by less than 2^-1070, then
- * t_k y^k is off by at most c4 (1 + r^2)^2 times that. */
-static inline void imp_series_powi_(imp_series_ *s, int n)
+ * the binomials are within 4 u: (L) + 8 u. Should a power underflow, by less than 2^-1070, then t_k
+ * y^k is off by at most c4 (1 + r^2)^2 times that. */
+static inline void imp_series_powi_(imp_series *s, int n)
 {
-    double power = n > 4 ? imp_pow_(s->m, n - 4) : 1, tail = 0, t[5] = {0, 0, 0, 0, 0};
+    double power = n > 4 ? imp_libm_pow(s->m, n - 4) : 1, tail = 0, t[5] = {0, 0, 0, 0, 0};
     double c2 = (double)n * (n - 1.) / 2, c3 = c2 * (n - 2.) / 3, c4 = c3 * (n - 3.) / 4;
     const double binomial[5] = {1, (double)n, c2, c3, c4};
     for (int k = n < 4 ? n : 4; k >= 0; k--) {
@@ -129,18 +128,18 @@ static inline void imp_series_powi_(imp_series_ *s, int n)
         power *= s->m;
     }
     if (n > 4) {
-        double far = imp_libm_up(imp_pow_(imp_sum_up(fabs(s->m) + s->r), n - 5));
+        double far = imp_libm_up(imp_libm_pow(imp_sum_up(fabs(s->m) + s->r), n - 5));
         tail = c4 * (n - 4.) / 5 * far * imp_power5_(s->r) * (1 + 0x1p-40);
         tail += IMP_TINY * c4 * (1 + s->r * s->r) * (1 + s->r * s->r);
     }
-    imp_series_set_(s, 1, t, tail, 18, 20);
+    imp_series_taylor(s, 1, t, tail, 18, 20);
 }
 
 /* x^n at a point: |x| differs from |x.a| by less than 2^-30 of it, so x^(n-1) by less than 1 in
  * 100, while n < 2^20. */
 static inline imp_model imp_powi_point_(const imp_model *x, int n)
 {
-    double y = imp_pow_(x->a, n);
+    double y = imp_libm_pow(x->a, n);
     return x->a == 0 ? *x : imp_point_(x, y, 1.01 * n * fabs(y / x->a));
 }
 
@@ -150,9 +149,9 @@ static inline imp_model imp_powi_positive_(imp_model x, int n)
     imp_interval range = imp_model_range(&x);
     if (imp_is_point(&x) && n < 1 << 20) return imp_powi_point_(&x, n);
     double top = imp_interval_pow(imp_interval_abs(range), n - 1).hi;
-    imp_series_ s = imp_series_at_(range);
+    imp_series s = imp_series_around(range);
     imp_series_powi_(&s, n);
-    return imp_compose_(&x, &s, imp_interval_powi(range, n), imp_round_up(top * n));
+    return imp_compose(&x, &s, imp_interval_powi(range, n), imp_round_up(top * n));
 }
 
 /* --- Quotients ----------------------------------------------------------------------------- */
@@ -165,8 +164,8 @@ static inline imp_model imp_div_point_(const imp_model *x, const imp_model *y)
     return imp_known(a, (inherited + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
 }
 
-/* The terms up to degree 2 of the power series of (quadratic of x) / (quadratic of y): a guess, of
- * which nothing is claimed. */
+/* The terms up to degree 2 of the power series of (quadratic of x) / (quadratic of y): an
+ * approximation without a bound. */
 static inline imp_model imp_quotient_guess_(const imp_model *x, const imp_model *y, double inverse)
 {
     imp_model z = imp_model_zero();
@@ -264,7 +263,7 @@ static inline imp_model imp_powi(imp_model x, int n)
 /* At least e^r, for a factor: below 5/4, e^r <= 1 + 2 r. */
 static inline double imp_growth_upper_(double r)
 {
-    return r < 1.25 ? 1 + 2 * r : imp_libm_up(imp_exp_(r));
+    return r < 1.25 ? 1 + 2 * r : imp_libm_up(imp_libm_exp(r));
 }
 
 /* t_k = e^m / k!; the rest of the series is below e^(m+r) r^5 / 120, in which e^m may have
@@ -272,18 +271,18 @@ static inline double imp_growth_upper_(double r)
 static inline imp_model imp_exp(imp_model x)
 {
     if (imp_is_point(&x)) {
-        double y = imp_exp_(x.a);
+        double y = imp_libm_exp(x.a);
         if (y > 0x1p1020) return imp_point_beyond_(imp_interval_exp(imp_model_range(&x)));
-        return imp_point_within_(&x, y, 1.001 * y, 0, INFINITY);
+        return imp_point_within(&x, y, 1.001 * y, 0, INFINITY);
     }
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
-    double y = imp_exp_(s.m);
+    imp_series s = imp_series_around(imp_model_range(&x));
+    double y = imp_libm_exp(s.m);
     const double t[5] = {y, y, y / 2, y / 6, y / 24};
     double tail = imp_libm_up(y) * imp_growth_upper_(s.r) * imp_power5_(s.r) / 120 * (1 + 0x1p-40);
-    imp_series_set_(&s, 1, t, tail, 10, 11);
+    imp_series_taylor(&s, 1, t, tail, 10, 11);
     imp_interval range =
         imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_exp(imp_model_range(&x));
-    return imp_compose_(&x, &s, range, range.hi);
+    return imp_compose(&x, &s, range, range.hi);
 }
 
 /* With z = y / m: log m + z - z^2 / 2 + ..., the rest below |z|^5 / (5 (1 - |z|)). */
@@ -291,16 +290,16 @@ static inline imp_model imp_log(imp_model x)
 {
     double slope = x.lo > 0 ? imp_round_up(1 / x.lo) : INFINITY;
     if (imp_is_point(&x) && x.lo > 0) return imp_point_(&x, log(x.a), slope);
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
+    imp_series s = imp_series_around(imp_model_range(&x));
     double z = s.m > 0 ? imp_round_up(s.r / s.m) : INFINITY;
     if (z < 1) {
         const double t[5] = {log(s.m), 1, -1. / 2, 1. / 3, -1. / 4};
         double tail = imp_power5_(z) / (5 * imp_sum_down(1 - z)) * (1 + 0x1p-40);
-        imp_series_set_(&s, s.m, t, tail, 10, 1);
+        imp_series_taylor(&s, s.m, t, tail, 10, 1);
     }
     imp_interval range =
         imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_log(imp_model_range(&x));
-    return imp_compose_(&x, &s, range, slope);
+    return imp_compose(&x, &s, range, slope);
 }
 
 /* --- Real powers --------------------------------------------------------------------------- */
@@ -308,7 +307,7 @@ static inline imp_model imp_log(imp_model x)
 /* Series of (m + y)^p, m > 0, in z = y / m: value sum C(p, k) z^k with value = m^p, within (L).
  * From k = 5 on a term is the one before times |p - k| / (k + 1) |z| <= g |z| with g = max(1, (|p|
  * + 5) / 6), so the rest is below |C(p, 5) z^5| / (1 - g |z|). Each C(p, k) is within 3 k u. */
-static inline void imp_series_power_(imp_series_ *s, double p, double value)
+static inline void imp_series_power(imp_series *s, double p, double value)
 {
     double z = s->m > 0 ? imp_round_up(s->r / s->m) : INFINITY;
     double g = imp_larger(1, (fabs(p) + 5) / 6 * (1 + 0x1p-50));
@@ -317,7 +316,7 @@ static inline void imp_series_power_(imp_series_ *s, double p, double value)
     double c5 = fabs(c4 * (p - 4) / 5);
     const double t[5] = {value, value * p, value * c2, value * c3, value * c4};
     double tail = imp_libm_up(value) * c5 * imp_power5_(z) / (1 - g * z) * (1 + 0x1p-40);
-    imp_series_set_(s, s->m, t, tail, 10, 30);
+    imp_series_taylor(s, s->m, t, tail, 10, 30);
 }
 
 /* At least the greatest |p| z^(p-1) over x. The rounding of p - 1 changes the power by less than
@@ -331,7 +330,7 @@ static inline double imp_power_slope_upper_(imp_interval x, double p)
  * while |p| < 2^20. */
 static inline imp_model imp_power_point_(const imp_model *x, double y, double p)
 {
-    return imp_point_within_(x, y, 1.01 * fabs(p * (y / x->a)), 0, INFINITY);
+    return imp_point_within(x, y, 1.01 * fabs(p * (y / x->a)), 0, INFINITY);
 }
 
 /* x^p for x > 0, or x >= 0 if p > 0; the part of x below 0 counts as 0. For whole p, as powi. */
@@ -341,11 +340,11 @@ static inline imp_model imp_pow(imp_model x, double p)
     imp_interval at = imp_model_range(&x);
     if (!(x.hi >= 0) || !(p - p == 0)) return imp_unbounded(x.depends);
     if (imp_is_point(&x) && x.lo > 0 && fabs(p) < 0x1p20)
-        return imp_power_point_(&x, imp_pow_(x.a, p), p);
-    imp_series_ s = imp_series_at_(at);
-    if (x.lo > 0) imp_series_power_(&s, p, imp_pow_(s.m, p));
+        return imp_power_point_(&x, imp_libm_pow(x.a, p), p);
+    imp_series s = imp_series_around(at);
+    if (x.lo > 0) imp_series_power(&s, p, imp_libm_pow(s.m, p));
     imp_interval range = imp_series_is_sharp_(&s) ? imp_series_range_(&s) : imp_interval_pow(at, p);
-    return imp_compose_(&x, &s, range, imp_power_slope_upper_(at, p));
+    return imp_compose(&x, &s, range, imp_power_slope_upper_(at, p));
 }
 
 /* The square root. The part of x below 0, where rounding may have put it, counts as 0.
@@ -357,9 +356,9 @@ static inline imp_model imp_sqrt(imp_model x)
     if (imp_is_point(&x) && x.lo > 0) return imp_power_point_(&x, sqrt(x.a), 0.5);
     imp_interval range = imp_interval_sqrt(imp_model_range(&x));
     double slope = range.lo > 0 ? imp_round_up(0.5 / range.lo) : INFINITY;
-    imp_series_ s = imp_series_at_(imp_model_range(&x));
-    if (x.lo > 0) imp_series_power_(&s, 0.5, sqrt(s.m));
-    return imp_compose_(&x, &s, range, slope);
+    imp_series s = imp_series_around(imp_model_range(&x));
+    if (x.lo > 0) imp_series_power(&s, 0.5, sqrt(s.m));
+    return imp_compose(&x, &s, range, slope);
 }
 
 /* x^y for x > 0. */
@@ -371,14 +370,14 @@ static inline imp_model imp_pow_model(imp_model x, imp_model y)
 
 /* --- Kinks --------------------------------------------------------------------------------- */
 
-/* |x|. Of one sign: x or -x. Else, with R = max |x|, on [-R, R]: z^2 / R <= |z| <= z^2 / R + R / 4;
- * or, when one side is short, |z| is z or -z within twice that side. */
+/* |x|. If x has one sign: x or -x. Otherwise, with R = max |x|, on [-R, R]: z^2 / R <= |z| <= z^2 /
+ * R + R / 4; or, when one side is short, |z| is z or -z within twice that side. */
 static inline imp_model imp_abs(imp_model x)
 {
     if (x.lo >= 0) return x;
     if (x.hi <= 0) return imp_neg(x);
     imp_interval range = imp_interval_abs(imp_model_range(&x));
-    imp_series_ s = {0, range.hi, {0, 0, 0, 0}, INFINITY};
+    imp_series s = {0, range.hi, {0, 0, 0, 0}, INFINITY};
     double side = imp_smaller(-x.lo, x.hi);
     if (range.hi < INFINITY && side < range.hi / 8) {
         s.c[0] = side;
@@ -389,7 +388,7 @@ static inline imp_model imp_abs(imp_model x)
         s.c[2] = 1 / range.hi;
         s.e = range.hi / 8 * (1 + 0x1p-47) + IMP_TINY;
     }
-    return imp_compose_(&x, &s, range, 1);
+    return imp_compose(&x, &s, range, 1);
 }
 
 /* Range and rates that max and min share: each rate is at most the larger one. */
@@ -403,7 +402,7 @@ static inline imp_model imp_either_(imp_model r, const imp_model *x, const imp_m
     return imp_model_finish(r);
 }
 
-/* Where one is the larger all over the region, that one; else (x + y + |x - y|) / 2. */
+/* If one is the larger over the whole region, that one; otherwise (x + y + |x - y|) / 2. */
 static inline imp_model imp_max(imp_model x, imp_model y)
 {
     if (x.lo >= y.hi) return x;

@@ -24,15 +24,15 @@ extern "C" {
  * cancel; without the digits that divided differences lose, and for one call of libm. */
 
 /* g(m + y) = c0 + c1 y + c2 y^2 + c3 y^3 within e, for |y| <= r. */
-typedef struct imp_series_ {
+typedef struct imp_series {
     double m, r;
     double c[4];
     double e;
-} imp_series_;
+} imp_series;
 
-static inline imp_series_ imp_series_at_(imp_interval x)
+static inline imp_series imp_series_around(imp_interval x)
 {
-    imp_series_ s = {0, INFINITY, {0, 0, 0, 0}, INFINITY};
+    imp_series s = {0, INFINITY, {0, 0, 0, 0}, INFINITY};
     if (imp_interval_is_finite(x)) {
         s.m = imp_interval_mid(x);
         s.r = imp_interval_radius_upper(x, s.m);
@@ -41,15 +41,15 @@ static inline imp_series_ imp_series_at_(imp_interval x)
 }
 
 /* Completes s from t[k] = Taylor coefficients in z = y / scale, scale > 0, k = 0 ... 4. `tail`
- * bounds what follows, over |z| <= z_max = r / scale. t[0] is within u0 u |t[0]|, the others
- * within un u |t[k]|, of exact values.
+ * bounds the rest of the series over |z| <= z_max = r / scale. t[0] is within u0 u |t[0]|, the
+ * others within un u |t[k]|, of exact values.
  *
  * Rounding: t[0] passes one sum; the others at most 7 operations (z_max^2, product, sum, the
  * inverse of scale and products by it). Underflow: each operation may lose 2^-1075, then is
  * multiplied by at most max(1, r^3) or, t being finite, by z_max^4 / 8: IMP_TINY
  * (1 + r^2 + z_max^2)^2 covers them. */
-static inline void imp_series_set_(imp_series_ *s, double scale, const double t[5], double tail,
-                                   double u0, double un)
+static inline void imp_series_taylor(imp_series *s, double scale, const double t[5], double tail,
+                                     double u0, double un)
 {
     double z = scale == 1 ? s->r : imp_round_up(s->r / scale), zz = z * z;
     double inverse = 1 / scale, t4 = fabs(t[4]) * zz * zz;
@@ -63,20 +63,20 @@ static inline void imp_series_set_(imp_series_ *s, double scale, const double t[
     s->e = (0.125 * t4 + tail + (IMP_U * rounding + IMP_TINY * w * w)) * IMP_SLACK;
 }
 
-/* y^3 = 3/4 r^2 y +- r^3 / 4: what that makes of the series' linear term, and its error. */
-static inline double imp_series_slant_(const imp_series_ *s)
+/* y^3 = 3/4 r^2 y +- r^3 / 4: the resulting linear term of the series, and its error. */
+static inline double imp_series_slant_(const imp_series *s)
 {
     return s->c[1] + 0.75 * (s->c[3] * s->r * s->r);
 }
 
-static inline double imp_series_bend_(const imp_series_ *s)
+static inline double imp_series_bend_(const imp_series *s)
 {
     return 0.25 * fabs(s->c[3] * s->r * s->r * s->r);
 }
 
 /* Range of g: that of the quadratic, widened by the errors. Ten roundings, each below u times
  * the sum of magnitudes, which 16 u covers. */
-static inline imp_interval imp_series_range_(const imp_series_ *s)
+static inline imp_interval imp_series_range_(const imp_series *s)
 {
     double b = imp_series_slant_(s) * s->r, q = s->c[2] * s->r * s->r;
     double bend = imp_series_bend_(s);
@@ -86,9 +86,9 @@ static inline imp_interval imp_series_range_(const imp_series_ *s)
                              imp_sum_up(s->c[0] + (imp_bow_upper_(b, q) + pad)));
 }
 
-/* Is that range close enough, within 1/256 at either end, to spare libm's calls at the ends? Never
- * if r or a coefficient is infinite: an end may yet be known. */
-static inline int imp_series_is_sharp_(const imp_series_ *s)
+/* Is that range close enough, within 1/256 at either end, to make libm's calls at the ends
+ * unnecessary? Never if r or a coefficient is infinite, because an end may still be known. */
+static inline int imp_series_is_sharp_(const imp_series *s)
 {
     double slant = fabs(imp_series_slant_(s));
     if (!(s->r < INFINITY && slant < INFINITY)) return 0;
@@ -103,20 +103,20 @@ static inline int imp_series_is_sharp_(const imp_series_ *s)
  *   |(...)| <= |c1| + |c2| (2 r + e) + 3 |c3| (r + e)^2
  *   p^2 = (A^2 - h^2) + 2 A L + (2 (A + h) Q + L^2) + 2 L Q + D^2,   0 <= D^2 <= swing^2
  *
- * as in a product: h = middle(Q), D = Q - h. The cubic terms can be had in two ways:
+ * as in a product: h = middle(Q), D = Q - h. The cubic terms can be bounded in two ways:
  *
  *   flat   c3 y^3 is 3/4 c3 r^2 y +- |c3| r^3 / 4 as a whole, and 2 c2 L Q is folded;
  *   deep   with C = A + h, p^3 = (C + L + D)^3 = C^3 + 3 C^2 L + 3 C L^2 + L^3 +- 3 |D| N^2 (mean
  *          value theorem, N >= |C + L + D|, |C + L|), and L (2 c2 Q + c3 L^2) is folded as
  *          one: here terms may cancel. N = |C| + B + swing, or r + e + swing.
  *
- * The one with the smaller rest is taken; where Q is 0, flat is. */
+ * The one with the smaller remainder is used; if Q is 0, flat. */
 typedef struct imp_terms_ {
     double c0, c1, c2; /* c2: factor of L^2 */
     double linear[3], rest;
 } imp_terms_;
 
-static inline imp_terms_ imp_terms_flat_(const imp_model *x, const imp_series_ *s, double size)
+static inline imp_terms_ imp_terms_flat_(const imp_model *x, const imp_series *s, double size)
 {
     imp_terms_ t = {s->c[0], imp_series_slant_(s), s->c[2], {0, 0, 0}, imp_series_bend_(s)};
     double cubic[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
@@ -128,7 +128,7 @@ static inline imp_terms_ imp_terms_flat_(const imp_model *x, const imp_series_ *
 }
 
 /* c = C, bb = coefficients of L^2. */
-static inline imp_terms_ imp_terms_deep_(const imp_model *x, const imp_series_ *s, double c,
+static inline imp_terms_ imp_terms_deep_(const imp_model *x, const imp_series *s, double c,
                                          const double bb[6], double swing)
 {
     double c3 = s->c[3], cubic[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, w[6];
@@ -147,7 +147,7 @@ static inline imp_terms_ imp_terms_deep_(const imp_model *x, const imp_series_ *
  * itself off by 2 u n, adds 6 to the bound of D: 18.
  * Underflow: each product may lose 2^-1075, then is multiplied by at most one c_k and two of
  * what n or r bounds: IMP_TINY (1 + d1 + d2 + d3)(1 + n + r)^2. */
-static inline void imp_substitute_(const imp_model *x, const imp_series_ *s, imp_model *r)
+static inline void imp_substitute_(const imp_model *x, const imp_series *s, imp_model *r)
 {
     double bb[6], a = x->a - s->m, c2 = s->c[2];
     double size = imp_sum_abs6_(x->q), n = fabs(a) + imp_sum_abs3_(x->b) + size;
@@ -172,8 +172,8 @@ static inline void imp_substitute_(const imp_model *x, const imp_series_ *s, imp
 }
 
 /* The model of g(x), from its series, its range, and slope >= max |g'| over x. */
-static inline imp_model imp_compose_(const imp_model *x, const imp_series_ *s, imp_interval range,
-                                     double slope)
+static inline imp_model imp_compose(const imp_model *x, const imp_series *s, imp_interval range,
+                                    double slope)
 {
     imp_model r;
     imp_substitute_(x, s, &r);
@@ -191,9 +191,9 @@ static inline imp_model imp_point_(const imp_model *x, double y, double slope)
     return imp_known(y, (fabs(y) * IMP_LIBM + slope * x->e + IMP_TINY) * IMP_SLACK);
 }
 
-/* The same, and lo <= g <= hi always. */
-static inline imp_model imp_point_within_(const imp_model *x, double y, double slope, double lo,
-                                          double hi)
+/* The same, where lo <= g <= hi always holds. */
+static inline imp_model imp_point_within(const imp_model *x, double y, double slope, double lo,
+                                         double hi)
 {
     imp_model r = imp_point_(x, y, slope);
     r.lo = imp_larger(r.lo, lo);
@@ -201,7 +201,7 @@ static inline imp_model imp_point_within_(const imp_model *x, double y, double s
     return r;
 }
 
-/* g at a point where it overflows: its range, of which one end may still be known. */
+/* g at a point where it overflows: its range, with one end possibly finite. */
 static inline imp_model imp_point_beyond_(imp_interval range)
 {
     return imp_between(range.lo, range.hi);

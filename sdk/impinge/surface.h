@@ -14,6 +14,11 @@
 #error "Impinge bounds assume plain double arithmetic: build with SSE2, not x87."
 #endif
 
+#if defined(__cplusplus) && __cplusplus < 201703L
+#error "Impinge's headers need C++17: compile with -std=c++17 or later."
+#include <impinge/stop.h> /* there is none: ends the compiler's run before a hundred errors more */
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -21,18 +26,18 @@ extern "C" {
 /* The surface ABI, version 1
  * ==========================
  *
- * A plugin is one shared object that teaches Impinge one or more surface types
- * or maps. It exports one symbol, `impinge_plugin`, and carries the same facts
- * in an ELF note that the host reads before it runs any of the plugin's code.
+ * A plugin is one shared object that adds one or more surface types or maps to Impinge. It exports
+ * one symbol, `impinge_plugin`, and an ELF note with the same facts. The host reads the note before
+ * it runs any of the plugin's code.
  *
  *   surface   f(u, v, t) -> (x, y, z), continuous on a box of parameters
  *   map       phi(x, y, z, t) -> (x, y, z), a motion or deformation of any surface
  *
- * The host pairs any surface with any other because each type answers three
- * questions about itself, alone: where is a point (eval), how fast can it change
- * over a region (rate), and optionally which quadratic does it follow there
- * (include). The idea: B. Von Herzen, A. Barr, H. Zatz, "Geometric Collisions for
- * Time-Dependent Parametric Surfaces", SIGGRAPH 1990 ("the paper").
+ * The host pairs any surface with any other, because each type answers three questions about itself
+ * alone: where is a point (eval), how fast can it change over a region (rate), and optionally which
+ * quadratic does it follow there within which error (include, an order-2 Taylor model). The method
+ * is from B. Von Herzen, A. Barr, H. Zatz, "Geometric Collisions for Time-Dependent Parametric
+ * Surfaces", SIGGRAPH 1990 ("the paper").
  *
  * Most authors write one formula with <impinge/formula.h> and get all three.
  *
@@ -52,8 +57,8 @@ extern "C" {
  * Units: u, v are whatever the type's documentation says (often radians), t is
  * the scene's time, lengths are the scene's length. Angles are radians. */
 
-#define IMP_ABI_MAJOR 1 /* differs: the host refuses the plugin */
-#define IMP_ABI_MINOR 0 /* the plugin's may be at most the host's */
+#define IMP_ABI_MAJOR 1              /* differs: the host refuses the plugin */
+#define IMP_ABI_MINOR 0              /* the plugin's may be at most the host's */
 #define IMP_PLUGIN_MAGIC 0x31706D49u /* the bytes "Imp1" in a little-endian file */
 
 #if defined(__GNUC__)
@@ -62,16 +67,16 @@ extern "C" {
 #define IMP_EXPORT
 #endif
 
-/* --- Answers ------------------------------------------------------------- */
+/* --- Status -------------------------------------------------------------- */
 
-/* What a callback answers. Errors are answers, not exceptions: set no errno. */
+/* What a callback returns. Errors are return values, not exceptions: set no errno. */
 typedef int32_t imp_status;
 enum {
     IMP_OK = 0,
     IMP_DOMAIN = 1,    /* the region or point is outside the type's domain */
     IMP_UNBOUNDED = 2, /* no finite rate over this region: the host splits it
-                          further and never takes it for clear */
-    IMP_PARAMETER = 3, /* create only: the parameters are wrong, see imp_complaint */
+                          further and never reports it as clear */
+    IMP_PARAMETER = 3, /* create only: the parameters are wrong, see imp_create_error */
     IMP_INTERNAL = 4   /* anything else, memory included; the query ends with an error */
 };
 
@@ -90,7 +95,9 @@ enum {
     IMP_MIN_OPEN = 1u << 0,  /* the value must be greater than min, not equal */
     IMP_MAX_OPEN = 1u << 1,  /* the value must be less than max, not equal */
     IMP_SCALAR_OK = 1u << 2, /* rank 1: a bare value stands for an array of one */
-    IMP_OPTIONAL = 1u << 3   /* may be left out and then is absent: `preset` is NULL */
+    IMP_OPTIONAL = 1u << 3,  /* may be absent: `default_value` is NULL */
+    IMP_FILE = 1u << 4       /* STRING of rank 0: name of a file. If it is relative, create gets it
+                                with the scene file's folder in front */
 };
 
 #define IMP_RANK_MAX 3
@@ -98,35 +105,35 @@ enum {
 /* One row of a type's parameter table. A vector is an IMP_NUMBER of rank 1 and
  * extent {3}; a list of points is rank 2 and extents {0, 3}. */
 typedef struct imp_parameter {
-    const char *name;     /* letters, digits, '_'; as written in scene files */
-    const char *unit;     /* "length", "rad", "rad/time", "1", ... */
-    const char *doc;      /* one line */
-    const char *preset;   /* default as JSON text; NULL: required, or IMP_OPTIONAL */
+    const char *name;          /* letters, digits, '_'; as written in scene files */
+    const char *unit;          /* "length", "rad", "rad/time", "1", ... */
+    const char *doc;           /* one line */
+    const char *default_value; /* default as JSON text; NULL: required, or IMP_OPTIONAL */
     imp_kind kind;
-    uint32_t flags;       /* IMP_MIN_OPEN | ... */
-    uint32_t rank;        /* 0 for a single value, else the number of extents */
+    uint32_t flags;                /* IMP_MIN_OPEN | ... */
+    uint32_t rank;                 /* 0 for a single value, else the number of extents */
     uint32_t extent[IMP_RANK_MAX]; /* 0: any number from 1 up */
-    double min, max;      /* of each number; -INFINITY and INFINITY: no limit */
+    double min, max;               /* of each number; -INFINITY and INFINITY: no limit */
 } imp_parameter;
 
 /* A parameter's value, checked by the host against its row: kind, rank, extents,
  * range, finiteness. The arrays are the host's and die when create returns. */
 typedef struct imp_value {
-    size_t count;                 /* numbers or strings in all; 0: absent */
-    size_t extent[IMP_RANK_MAX];  /* as found; 1 beyond the rank */
-    const double *number;         /* NUMBER, INTEGER, BOOLEAN (0 or 1), TABLE: count, row-major */
-    const char *const *string;    /* STRING, TABLE (the names): count */
+    size_t count;                /* numbers or strings in all; 0: absent */
+    size_t extent[IMP_RANK_MAX]; /* as found; 1 beyond the rank */
+    const double *number;        /* NUMBER, INTEGER, BOOLEAN (0 or 1), TABLE: count, row-major */
+    const char *const *string;   /* STRING, TABLE (the names): count */
 } imp_value;
 
-/* How create says what is wrong, when it answers IMP_PARAMETER. The host has set
- * struct_size, parameter = -1, element = -1, text = "". Say what was found and what is
- * allowed; the host adds the place (file, line, JSON pointer). */
-typedef struct imp_complaint {
+/* How create reports what is wrong, if it returns IMP_PARAMETER. The host has set struct_size,
+ * parameter = -1, element = -1, text = "". State what was got and what is allowed; the host adds
+ * the place (file, line, JSON pointer). */
+typedef struct imp_create_error {
     uint32_t struct_size;
-    int32_t parameter;  /* row of the parameter at fault, or -1 for the type as a whole */
-    int64_t element;    /* index along its first extent, or -1 */
-    char text[240];     /* NUL-terminated, one sentence */
-} imp_complaint;
+    int32_t parameter; /* row of the wrong parameter, or -1 for the type as a whole */
+    int64_t element;   /* index along its first extent, or -1 */
+    char text[240];    /* NUL-terminated, one sentence */
+} imp_create_error;
 
 /* --- Regions, rates, models ------------------------------------------------ */
 
@@ -158,27 +165,34 @@ typedef struct imp_map_rates {
 /* Index into imp_model.q of the coefficient of s_j s_k, j <= k. */
 enum { IMP_UU = 0, IMP_UV = 1, IMP_UT = 2, IMP_VV = 3, IMP_VT = 4, IMP_TT = 5 };
 
-/* An order-2 inclusion of one coordinate over a region. For every p in it, with s
+/* An inclusion of one coordinate over a region: an order-2 Taylor model. For every p in it, with s
  * as above, both hold for the exact value g(p):
  *
  *   | g(p) - (a + sum_j b_j s_j + sum_{j<=k} q_jk s_j s_k) | <= e
  *   lo <= g(p) <= hi
  *
- * and |g(p) - g(p')| <= sum_j rate_j |p_j - p'_j| inside the region. All finite,
- * e >= 0, lo <= hi, rate >= 0, unless the callback answers IMP_UNBOUNDED: then rate
- * may be INFINITY, lo -INFINITY, hi and e INFINITY, and what is finite still holds.
- * The rate matrix alone is the case b = q = 0, e = sum_j M_ij d_j. */
+ * and |g(p) - g(p')| <= sum_j rate_j |p_j - p'_j| inside the region. All finite, e >= 0, lo <= hi,
+ * rate >= 0, unless the callback returns IMP_UNBOUNDED: then rate may be INFINITY, lo -INFINITY, hi
+ * and e INFINITY, and every finite bound still holds. The rate matrix alone is the case b = q = 0,
+ * e = sum_j M_ij d_j. */
 typedef struct imp_model {
-    double a;        /* length */
-    double b[3];     /* length, per unit of s */
-    double q[6];     /* length; order IMP_UU ... IMP_TT */
-    double e;        /* length */
-    double lo, hi;   /* length */
-    double rate[3];  /* length per unit of u, v, t */
-    uint32_t depends; /* bit j set: may depend on p_j. Clear: g does not depend on
+    double a;          /* length */
+    double b[3];       /* length, per unit of s */
+    double q[6];       /* length; order IMP_UU ... IMP_TT */
+    double e;          /* length */
+    double lo, hi;     /* length */
+    double rate[3];    /* length per unit of u, v, t */
+    uint32_t depends;  /* bit j set: may depend on p_j. Clear: g does not depend on
                          p_j over the region, and b_j, q_j., rate_j are 0 */
     uint32_t reserved; /* 0 */
 } imp_model;
+
+/* --- Types ------------------------------------------------------------------------ */
+
+/* Flag of a type or map that is defined for some times only, and whose surface does not exist at
+ * other times and touches nothing then. Without the flag the host knows nothing about other times,
+ * and rejects a query that needs them. */
+enum { IMP_ABSENT_OUTSIDE_TIMES = 1u << 0 };
 
 /* --- Surface types ----------------------------------------------------------- */
 
@@ -187,22 +201,23 @@ typedef struct imp_surface_type {
     uint32_t struct_size;
     uint32_t parameter_count;
     uint32_t parameter_size; /* sizeof(imp_parameter): the stride of the table */
-    uint32_t flags;          /* 0 */
-    const char *name;     /* letters, digits, '_', '-'; at most 63 bytes */
-    const char *summary;  /* one line */
-    const char *equation; /* how (x, y, z) follows from u, v, t and the parameters */
-    const char *source;   /* paper or book the equation comes from; may be NULL */
-    const char *example;  /* a surface as on the command line: "sphere radius=2" */
+    uint32_t flags;          /* 0 or IMP_ABSENT_OUTSIDE_TIMES */
+    const char *name;        /* letters, digits, '_', '-'; at most 63 bytes */
+    const char *summary;     /* one line */
+    const char *equation;    /* how (x, y, z) follows from u, v, t and the parameters */
+    const char *source;      /* paper or book the equation comes from; may be NULL */
+    const char *example;     /* a surface as on the command line: "sphere radius=2" */
     const imp_parameter *parameters;
 
-    /* Makes an instance from one value per row of the table, in its order. On
-     * IMP_OK sets *self (never NULL) and the host calls destroy once later; on any
-     * other answer *self is ignored and the plugin has kept nothing. [main-thread] */
-    imp_status (*create)(const imp_value *values, void **self, imp_complaint *why);
+    /* Makes an instance from one value per row of the table, in its order. On IMP_OK sets *self
+     * (never NULL) and the host calls destroy once later; on any other status *self is ignored and
+     * the plugin must have freed everything. [main-thread] */
+    imp_status (*create)(const imp_value *values, void **self, imp_create_error *why);
     void (*destroy)(void *self); /* [main-thread] */
 
     /* The whole parameter domain: finite lo <= hi for u and v. For t, lo may be
      * -INFINITY and hi INFINITY; the host then asks only about the times it needs.
+     * What holds at other times: IMP_ABSENT_OUTSIDE_TIMES.
      * [thread-safe] */
     void (*domain)(const void *self, double lo[3], double hi[3]);
 
@@ -234,11 +249,12 @@ typedef struct imp_map_type {
     const char *source;
     const char *example; /* "rotate axis=0,0,1 rate=2", as after a '!' */
     const imp_parameter *parameters;
-    imp_status (*create)(const imp_value *values, void **self, imp_complaint *why);
+    imp_status (*create)(const imp_value *values, void **self, imp_create_error *why);
     void (*destroy)(void *self);
 
-    /* The times the map is defined for; -INFINITY and INFINITY if always. Space is
-     * not restricted: every (x, y, z) must have an image. [thread-safe] */
+    /* The times the map is defined for; -INFINITY and INFINITY if always. A map should be defined
+     * at all times, or have IMP_ABSENT_OUTSIDE_TIMES. Space is not restricted: every (x, y, z) must
+     * have an image. [thread-safe] */
     void (*time_domain)(const void *self, double *lo, double *hi);
 
     /* n points p[4*k] = (x, y, z, t) to x[3*k], and errors as for a surface: the map's own,
@@ -294,41 +310,50 @@ extern IMP_EXPORT const imp_plugin impinge_plugin;
 #define IMP_NOTE_TYPE 1
 #define IMP_TEXT_OF_(x) #x
 #define IMP_TEXT_OF(x) IMP_TEXT_OF_(x)
-#define IMP_NOTE_(NAME, VERSION)                                                          \
-    __asm__(".pushsection .note.impinge,\"a\",%note\n"                                    \
-            "\t.balign 4\n"                                                               \
-            "\t.long 771f-770f, 773f-772f, " IMP_TEXT_OF(IMP_NOTE_TYPE) "\n"              \
-            "770:\t.asciz \"" IMP_NOTE_OWNER "\"\n"                                       \
-            "771:\t.balign 4\n"                                                           \
-            "772:\t.long " IMP_TEXT_OF(IMP_ABI_MAJOR) ", " IMP_TEXT_OF(IMP_ABI_MINOR) "\n" \
-            "\t.asciz \"" NAME "\"\n"                                                     \
-            "\t.asciz \"" VERSION "\"\n"                                                  \
-            "773:\t.balign 4\n"                                                           \
-            "\t.popsection\n")
+#define IMP_NOTE_(NAME, VERSION)                                                                   \
+    __asm__(".pushsection .note.impinge,\"a\",%note\n"                                             \
+            "\t.balign 4\n"                                                                        \
+            "\t.long 771f-770f, 773f-772f, " IMP_TEXT_OF(                                          \
+                IMP_NOTE_TYPE) "\n"                                                                \
+                               "770:\t.asciz \"" IMP_NOTE_OWNER "\"\n"                             \
+                               "771:\t.balign 4\n"                                                 \
+                               "772:\t.long " IMP_TEXT_OF(IMP_ABI_MAJOR) ", " IMP_TEXT_OF(         \
+                                   IMP_ABI_MINOR) "\n"                                             \
+                                                  "\t.asciz \"" NAME "\"\n"                        \
+                                                  "\t.asciz \"" VERSION "\"\n"                     \
+                                                  "773:\t.balign 4\n"                              \
+                                                  "\t.popsection\n")
 
 /* Defines the plugin, once per shared object, at file scope. Strings are literals; GET_FACTORY
  * is a function as in imp_plugin. One type per file? See IMPINGE_SURFACE_PLUGIN below. */
-#define IMPINGE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, GET_FACTORY)                        \
-    IMP_NOTE_(NAME, VERSION);                                                             \
-    const imp_plugin impinge_plugin = {                                                   \
-        IMP_PLUGIN_MAGIC, (uint32_t)sizeof(imp_plugin), IMP_ABI_MAJOR, IMP_ABI_MINOR,     \
-        NAME, VERSION, LICENSE, AUTHOR, GET_FACTORY}
+#define IMPINGE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, GET_FACTORY)                                \
+    IMP_NOTE_(NAME, VERSION);                                                                      \
+    const imp_plugin impinge_plugin = {IMP_PLUGIN_MAGIC,                                           \
+                                       (uint32_t)sizeof(imp_plugin),                               \
+                                       IMP_ABI_MAJOR,                                              \
+                                       IMP_ABI_MINOR,                                              \
+                                       NAME,                                                       \
+                                       VERSION,                                                    \
+                                       LICENSE,                                                    \
+                                       AUTHOR,                                                     \
+                                       GET_FACTORY}
 
-#define IMP_SINGLE_PLUGIN_(FACTORY, ID, NAME, VERSION, LICENSE, AUTHOR, TYPE)              \
-    static const FACTORY##_type *const imp_types_[] = {&(TYPE)};                          \
-    static const FACTORY##_factory imp_factory_ = {(uint32_t)sizeof(FACTORY##_factory), 1, \
-                                                   imp_types_};                           \
-    static const void *imp_get_factory_(const char *id) {                                 \
-        const char *want = ID;                                                            \
-        while (*want != '\0' && *want == *id) ++want, ++id;                               \
-        return *want == *id ? &imp_factory_ : NULL;                                       \
-    }                                                                                     \
+#define IMP_SINGLE_PLUGIN_(FACTORY, ID, NAME, VERSION, LICENSE, AUTHOR, TYPE)                      \
+    static const FACTORY##_type *const imp_types_[] = {&(TYPE)};                                   \
+    static const FACTORY##_factory imp_factory_ = {(uint32_t)sizeof(FACTORY##_factory), 1,         \
+                                                   imp_types_};                                    \
+    static const void *imp_get_factory_(const char *id)                                            \
+    {                                                                                              \
+        const char *want = ID;                                                                     \
+        while (*want != '\0' && *want == *id) ++want, ++id;                                        \
+        return *want == *id ? &imp_factory_ : NULL;                                                \
+    }                                                                                              \
     IMPINGE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, imp_get_factory_)
 
 /* A plugin of one surface type, or of one map: TYPE is the static const struct. */
-#define IMPINGE_SURFACE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, TYPE) \
+#define IMPINGE_SURFACE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, TYPE)                               \
     IMP_SINGLE_PLUGIN_(imp_surface, IMP_SURFACE_FACTORY, NAME, VERSION, LICENSE, AUTHOR, TYPE)
-#define IMPINGE_MAP_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, TYPE) \
+#define IMPINGE_MAP_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, TYPE)                                   \
     IMP_SINGLE_PLUGIN_(imp_map, IMP_MAP_FACTORY, NAME, VERSION, LICENSE, AUTHOR, TYPE)
 
 /* --- Layout, frozen for version 1 on 64-bit machines --------------------------- */
@@ -342,7 +367,7 @@ IMP_LAYOUT(sizeof(double) == 8 && sizeof(void *) == 8 && sizeof(size_t) == 8);
 IMP_LAYOUT(sizeof(imp_parameter) == 72 && offsetof(imp_parameter, kind) == 32);
 IMP_LAYOUT(offsetof(imp_parameter, extent) == 44 && offsetof(imp_parameter, min) == 56);
 IMP_LAYOUT(sizeof(imp_value) == 48 && offsetof(imp_value, number) == 32);
-IMP_LAYOUT(sizeof(imp_complaint) == 256 && offsetof(imp_complaint, text) == 16);
+IMP_LAYOUT(sizeof(imp_create_error) == 256 && offsetof(imp_create_error, text) == 16);
 IMP_LAYOUT(sizeof(imp_region) == 96 && offsetof(imp_region, c) == 48);
 IMP_LAYOUT(sizeof(imp_box4) == 64);
 IMP_LAYOUT(sizeof(imp_rate_matrix) == 72 && sizeof(imp_map_rates) == 96);

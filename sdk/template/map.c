@@ -1,44 +1,31 @@
 /* SPDX-FileCopyrightText: @author@
  * SPDX-License-Identifier: MIT */
 
-/* A sway: everything leans to and fro along x, the more the higher it is. Make it yours: change
- * the formula and the parameters. */
+/* A swaying motion: space leans to and fro along x, in proportion to z. Replace the formula and the
+ * parameters with your own. */
 
 #include <impinge/formula.h>
-#include <stdlib.h>
+#include <impinge/plugin.h>
 
 /* --- Parameters ------------------------------------------------------------------- */
 
 enum { SLOPE, RATE };
 
 static const imp_parameter parameters[] = {
-    [SLOPE] = {.name = "slope",
-               .unit = "1",
-               .doc = "how far it leans, for each unit of z",
-               .preset = "0.25",
-               .kind = IMP_NUMBER,
-               .min = -INFINITY,
-               .max = INFINITY},
-    [RATE] = {.name = "rate",
-              .unit = "rad/time",
-              .doc = "how fast it sways",
-              .preset = "6",
-              .kind = IMP_NUMBER,
-              .flags = IMP_MIN_OPEN,
-              .min = 0,
-              .max = INFINITY},
+    [SLOPE] = IMP_ROW_NUMBER("slope", "1", "0.25", "how far it leans, for each unit of z"),
+    [RATE] = IMP_ROW_POSITIVE("rate", "rad/time", "6", "how fast it sways"),
 };
 
-typedef struct instance {
+typedef struct sway {
     double slope, rate;
-} instance;
+} sway;
 
-/* The values have passed the table above: the host has checked their kinds and ranges. What it
- * cannot check is checked here: set *why and return IMP_PARAMETER. */
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+/* The host has checked the kind and range of each value against the table above. Check everything
+ * else here, and on an error return imp_reject(why, ...). */
+static imp_status sway_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
-    instance *made = malloc(sizeof *made);
+    sway *made = malloc(sizeof *made);
     if (made == NULL) return IMP_INTERNAL;
     made->slope = values[SLOPE].number[0];
     made->rate = values[RATE].number[0];
@@ -48,47 +35,33 @@ static imp_status create(const imp_value *values, void **self, imp_complaint *wh
 
 /* --- The map ---------------------------------------------------------------------- */
 
-/* At any time. Space is never restricted: every point has an image. */
-static void time_domain(const void *self, double *lo, double *hi)
-{
-    (void)self;
-    *lo = -INFINITY, *hi = INFINITY;
-}
+/* Space is never restricted: every point has an image. */
+IMP_MAP_AT_ALL_TIMES(sway)
 
 /* (x + slope z sin(rate t), y, z). The operations are those of <impinge/model.h>; evaluation,
  * rates and inclusions follow from them, with proof. */
-static void formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
-                    imp_model out[3])
+static void sway_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                         imp_model out[3])
 {
-    const instance *sway = self;
-    imp_model lean = imp_scale(imp_sin(imp_scale(t, sway->rate)), sway->slope);
+    const sway *s = self;
+    imp_model lean = imp_scale(imp_sin(imp_scale(t, s->rate)), s->slope);
     out[0] = imp_add(x, imp_mul(z, lean));
     out[1] = y;
     out[2] = z;
 }
-IMP_MAP_FORMULA(formula)
+IMP_MAP_FORMULA(sway_formula)
 
-/* --- What Impinge is told --------------------------------------------------------- */
+/* --- The plugin -------------------------------------------------------- */
 
 static const imp_map_type type = {
-    .struct_size = (uint32_t)sizeof(imp_map_type),
-    .parameter_count = sizeof parameters / sizeof parameters[0],
-    .parameter_size = (uint32_t)sizeof(imp_parameter),
-    .name = "@name@",
-    .summary = "leans to and fro along x, the more the higher",
+    IMP_MAP_FIELDS_OF("@name@", sway, sway_formula, free, sway_formula_rate),
+    .summary = "leans to and fro along x, in proportion to z",
     .equation = "(x + slope z sin(rate t), y, z)",
     .source = NULL,
     .example = "@name@ slope=0.5",
-    .parameters = parameters,
-    .create = create,
-    .destroy = free,
-    .time_domain = time_domain,
-    .eval = formula_eval,
-    .rate = formula_rate,
-    .apply = formula_apply,
 };
 
-#ifndef PACKAGE_VERSION /* configure.ac says it; where that was not run: */
+#ifndef PACKAGE_VERSION /* set by configure; the default for a build without it: */
 #define PACKAGE_VERSION "0.1"
 #endif
 IMPINGE_MAP_PLUGIN("@name@", PACKAGE_VERSION, "MIT", "@author@", type);

@@ -1,44 +1,31 @@
 /* SPDX-FileCopyrightText: @author@
  * SPDX-License-Identifier: MIT */
 
-/* A drumhead: square, fixed at its rim, swinging up and down. Make it yours: change the formula,
- * the domain it is defined on, and the parameters. */
+/* A square drumhead that is fixed at its rim and swings up and down. Replace the formula, its
+ * domain and the parameters with your own. */
 
 #include <impinge/formula.h>
-#include <stdlib.h>
+#include <impinge/plugin.h>
 
 /* --- Parameters ------------------------------------------------------------------- */
 
 enum { HEIGHT, RATE };
 
 static const imp_parameter parameters[] = {
-    [HEIGHT] = {.name = "height",
-                .unit = "length",
-                .doc = "how far the middle swings",
-                .preset = "0.25",
-                .kind = IMP_NUMBER,
-                .min = -INFINITY,
-                .max = INFINITY},
-    [RATE] = {.name = "rate",
-              .unit = "rad/time",
-              .doc = "how fast it swings",
-              .preset = "6",
-              .kind = IMP_NUMBER,
-              .flags = IMP_MIN_OPEN,
-              .min = 0,
-              .max = INFINITY},
+    [HEIGHT] = IMP_ROW_NUMBER("height", "length", "0.25", "how far the middle swings"),
+    [RATE] = IMP_ROW_POSITIVE("rate", "rad/time", "6", "how fast it swings"),
 };
 
-typedef struct instance {
+typedef struct drum {
     double height, rate;
-} instance;
+} drum;
 
-/* The values have passed the table above: the host has checked their kinds and ranges. What it
- * cannot check is checked here: set *why and return IMP_PARAMETER. */
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+/* The host has checked the kind and range of each value against the table above. Check everything
+ * else here, and on an error return imp_reject(why, ...). */
+static imp_status drum_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
-    instance *made = malloc(sizeof *made);
+    drum *made = malloc(sizeof *made);
     if (made == NULL) return IMP_INTERNAL;
     made->height = values[HEIGHT].number[0];
     made->rate = values[RATE].number[0];
@@ -49,48 +36,37 @@ static imp_status create(const imp_value *values, void **self, imp_complaint *wh
 /* --- The surface ------------------------------------------------------------------ */
 
 /* -1 <= u, v <= 1, at any time. */
-static void domain(const void *self, double lo[3], double hi[3])
+static void drum_domain(const void *self, double lo[3], double hi[3])
 {
     (void)self;
-    for (int j = 0; j < 2; ++j) lo[j] = -1, hi[j] = 1;
-    lo[2] = -INFINITY, hi[2] = INFINITY;
+    imp_set_domain(lo, hi, -1, 1, -1, 1);
 }
 
 /* x = u, y = v, z = height (1 - u^2) (1 - v^2) sin(rate t). The operations are those of
  * <impinge/model.h>; evaluation, rates and inclusions follow from them, with proof. */
-static void formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
+static void drum_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
 {
-    const instance *drum = self;
+    const drum *d = self;
     imp_model one = imp_num(1);
-    imp_model swing = imp_sin(imp_scale(t, drum->rate));
+    imp_model swing = imp_sin(imp_scale(t, d->rate));
     imp_model shape = imp_mul(imp_sub(one, imp_sqr(u)), imp_sub(one, imp_sqr(v)));
     out[0] = u;
     out[1] = v;
-    out[2] = imp_scale(imp_mul(shape, swing), drum->height);
+    out[2] = imp_scale(imp_mul(shape, swing), d->height);
 }
-IMP_SURFACE_FORMULA(formula)
+IMP_SURFACE_FORMULA(drum_formula)
 
-/* --- What Impinge is told --------------------------------------------------------- */
+/* --- The plugin -------------------------------------------------------- */
 
 static const imp_surface_type type = {
-    .struct_size = (uint32_t)sizeof(imp_surface_type),
-    .parameter_count = sizeof parameters / sizeof parameters[0],
-    .parameter_size = (uint32_t)sizeof(imp_parameter),
-    .name = "@name@",
+    IMP_SURFACE_FIELDS_OF("@name@", drum, drum_formula, free),
     .summary = "square drumhead that swings",
     .equation = "(u, v, height (1 - u^2) (1 - v^2) sin(rate t)), u and v in [-1,1]",
     .source = NULL,
     .example = "@name@ height=0.5",
-    .parameters = parameters,
-    .create = create,
-    .destroy = free,
-    .domain = domain,
-    .eval = formula_eval,
-    .rate = formula_rate,
-    .include = formula_include,
 };
 
-#ifndef PACKAGE_VERSION /* configure.ac says it; where that was not run: */
+#ifndef PACKAGE_VERSION /* set by configure; the default for a build without it: */
 #define PACKAGE_VERSION "0.1"
 #endif
 IMPINGE_SURFACE_PLUGIN("@name@", PACKAGE_VERSION, "MIT", "@author@", type);

@@ -33,7 +33,7 @@ static void ask_host(imp_registry *registry, const char *pipeline)
     imp_scene *scene = imp_scene_from_pair(registry, pipeline, pipeline, &error);
     printf("%s\n", pipeline);
     if (scene == NULL) {
-        printf("  refused%s\n", strstr(error.text, "found 'no'") ? " by the plugin" : "");
+        printf("  refused%s\n", strstr(error.text, "found 'no'") != NULL ? " by the plugin" : "");
         return;
     }
     if (imp_scene_eval(scene, 0, 0, 2, p, x, off, &error) != IMP_SUCCESS) fail("eval", error.text);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The source of fixture_1_0.so, a plugin built when the ABI was 1.0, which every later release must
- * load and ask with the same answers (tests/sdk.bats). It uses all that the ABI has: every kind of
+ * load and ask with the same answers (tests/cli/sdk.bats). It uses all that the ABI has: every kind of
  * parameter, types with and without include, maps with and without apply. No libm, whose answers
  * might change. README beside this file says how it was built. */
 
@@ -15,7 +15,7 @@
 
 static int nothing;
 
-static imp_status create_nothing(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create_nothing(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)values, (void)why;
     *self = &nothing;
@@ -118,7 +118,7 @@ static double letters_of(const imp_value *value)
     return letters;
 }
 
-static imp_status kinds_create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status kinds_create(const imp_value *values, void **self, imp_create_error *why)
 {
     if (strcmp(values[STRING].string[0], "no") == 0) {
         why->parameter = STRING;
@@ -140,7 +140,7 @@ static imp_status kinds_eval(const void *self, size_t n, const double *p, double
     const double *moved = self;
     for (size_t k = 0; k < 3 * n; ++k) {
         x[k] = moved[k % 3] + (k % 3 < 2 ? p[k] : 0);
-        if (error) error[k] = 0x1p-52 * fabs(x[k]);
+        if (error != NULL) error[k] = 0x1p-52 * fabs(x[k]);
     }
     return IMP_OK;
 }
@@ -210,7 +210,7 @@ static imp_status bare_eval(const void *self, size_t n, const double *p, double 
     for (size_t k = 0; k < n; ++k) {
         const double *at = p + 3 * k;
         x[3 * k] = at[0], x[3 * k + 1] = at[1], x[3 * k + 2] = at[2] * (1 - at[0] * at[1]);
-        if (error) error[3 * k] = error[3 * k + 1] = 0, error[3 * k + 2] = 0x1p-49;
+        if (error != NULL) error[3 * k] = error[3 * k + 1] = 0, error[3 * k + 2] = 0x1p-49;
     }
     return IMP_OK;
 }
@@ -276,7 +276,7 @@ static imp_status rise_eval(const void *self, size_t n, const double *p, double 
     for (size_t k = 0; k < n; ++k) {
         memcpy(x + 3 * k, p + 4 * k, 3 * sizeof *x);
         x[3 * k + 2] += p[4 * k + 3];
-        for (int i = 0; error && i < 3; ++i)
+        for (int i = 0; error != NULL && i < 3; ++i)
             error[3 * k + (size_t)i] = i < 2 ? 0 : 0x1p-52 * fabs(x[3 * k + 2]);
     }
     return IMP_OK;

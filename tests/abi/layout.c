@@ -30,6 +30,7 @@ static void numbers(void)
     NUMBER(IMP_NUMBER), NUMBER(IMP_INTEGER), NUMBER(IMP_BOOLEAN);
     NUMBER(IMP_STRING), NUMBER(IMP_TABLE);
     NUMBER(IMP_MIN_OPEN), NUMBER(IMP_MAX_OPEN), NUMBER(IMP_SCALAR_OK), NUMBER(IMP_OPTIONAL);
+    NUMBER(IMP_ABSENT_OUTSIDE_TIMES);
     NUMBER(IMP_RANK_MAX);
     NUMBER(IMP_UU), NUMBER(IMP_UV), NUMBER(IMP_UT), NUMBER(IMP_VV), NUMBER(IMP_VT), NUMBER(IMP_TT);
     FIXED(imp_status), FIXED(imp_kind);
@@ -39,15 +40,15 @@ static void parameters(void)
 {
     GROWS(imp_parameter);
     FIELD(imp_parameter, name), FIELD(imp_parameter, unit), FIELD(imp_parameter, doc);
-    FIELD(imp_parameter, preset), FIELD(imp_parameter, kind), FIELD(imp_parameter, flags);
+    FIELD(imp_parameter, default_value), FIELD(imp_parameter, kind), FIELD(imp_parameter, flags);
     FIELD(imp_parameter, rank), FIELD(imp_parameter, extent);
     FIELD(imp_parameter, min), FIELD(imp_parameter, max);
     FIXED(imp_value);
     FIELD(imp_value, count), FIELD(imp_value, extent);
     FIELD(imp_value, number), FIELD(imp_value, string);
-    GROWS(imp_complaint);
-    FIELD(imp_complaint, struct_size), FIELD(imp_complaint, parameter);
-    FIELD(imp_complaint, element), FIELD(imp_complaint, text);
+    GROWS(imp_create_error);
+    FIELD(imp_create_error, struct_size), FIELD(imp_create_error, parameter);
+    FIELD(imp_create_error, element), FIELD(imp_create_error, text);
 }
 
 static void regions(void)
@@ -79,7 +80,7 @@ static void regions(void)
     FIELD(TYPE, flags), FIELD(TYPE, name), FIELD(TYPE, summary), FIELD(TYPE, equation);            \
     FIELD(TYPE, source), FIELD(TYPE, example), FIELD(TYPE, parameters);                            \
     FIELD(TYPE, create), FIELD(TYPE, destroy);                                                     \
-    CALL(TYPE, create, imp_status (*)(const imp_value *, void **, imp_complaint *));               \
+    CALL(TYPE, create, imp_status (*)(const imp_value *, void **, imp_create_error *));               \
     CALL(TYPE, destroy, void (*)(void *));                                                         \
     CALL(TYPE, eval, imp_status (*)(const void *, size_t, const double *, double *, double *))
 

@@ -2,12 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tiny.h"
 
-/* Its own preset is out of its own range. */
+/* Its own default is out of its own range. */
 static const imp_parameter table[] = {
     {.name = "radius",
      .unit = "length",
      .doc = "radius",
-     .preset = "-1",
+     .default_value = "-1",
      .kind = IMP_NUMBER,
      .flags = IMP_MIN_OPEN,
      .min = 0,

@@ -5,7 +5,7 @@
 #include "slab.h"
 
 /* Crashes before there is an instance. */
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     raise(SIGSEGV);
     return slab_create(values, self, why);

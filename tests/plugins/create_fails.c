@@ -3,7 +3,7 @@
 #include "tiny.h"
 
 /* Something inside goes wrong, always. */
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)values, (void)self, (void)why;
     return IMP_INTERNAL;

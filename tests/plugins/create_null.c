@@ -3,7 +3,7 @@
 #include "tiny.h"
 
 /* Says OK and gives nothing. */
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)values, (void)why;
     *self = NULL;

@@ -3,7 +3,7 @@
 #include "tiny.h"
 
 /* Complains at length, beyond the end of the complaint. */
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     volatile char *to = why->text;
     if (values[0].number[0] >= 0) return tiny_create(values, self, why);
@@ -14,7 +14,7 @@ static imp_status create(const imp_value *values, void **self, imp_complaint *wh
 static const imp_parameter table[] = {{.name = "size",
                                        .unit = "length",
                                        .doc = "not negative",
-                                       .preset = "1",
+                                       .default_value = "1",
                                        .kind = IMP_NUMBER,
                                        .min = -1,
                                        .max = 1}};

@@ -5,7 +5,7 @@
 #include "tiny.h"
 
 /* Leaves another rounding mode behind. */
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     fesetround(FE_UPWARD);
     return tiny_create(values, self, why);

@@ -5,10 +5,10 @@
 /* Calls itself until the stack is used up. */
 static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
-    volatile double deeper[3 * 64];
-    deeper[0] = p[0];
-    if (n > 0) eval(self, n, (const double *)deeper, x, error);
-    return deeper[0] > 0 ? IMP_OK : IMP_INTERNAL;
+    double deeper[3 * 64] = {p[0]};
+    volatile double kept = p[0];
+    if (n > 0) eval(self, n, deeper, x, error);
+    return kept > 0 ? IMP_OK : IMP_INTERNAL;
 }
 
 static const imp_surface_type type =

@@ -21,7 +21,7 @@ static const imp_parameter surface_table[ROWS] = {
     [CENTER] = {.name = "center",
                 .unit = "length",
                 .doc = "a vector",
-                .preset = "[0, 0, 0]",
+                .default_value = "[0, 0, 0]",
                 .kind = IMP_NUMBER,
                 .rank = 1,
                 .extent = {3},
@@ -39,21 +39,21 @@ static const imp_parameter surface_table[ROWS] = {
     [COUNT] = {.name = "count",
                .unit = "1",
                .doc = "an integer",
-               .preset = "3",
+               .default_value = "3",
                .kind = IMP_INTEGER,
                .min = 1,
                .max = 9},
     [CLOSED] = {.name = "closed",
                 .unit = "1",
                 .doc = "a boolean",
-                .preset = "false",
+                .default_value = "false",
                 .kind = IMP_BOOLEAN,
                 .min = -INFINITY,
                 .max = INFINITY},
     [LABEL] = {.name = "label",
                .unit = "1",
                .doc = "a string",
-               .preset = "\"none\"",
+               .default_value = "\"none\"",
                .kind = IMP_STRING,
                .min = -INFINITY,
                .max = INFINITY},
@@ -67,7 +67,7 @@ static const imp_parameter surface_table[ROWS] = {
     [WEIGHTS] = {.name = "weights",
                  .unit = "1",
                  .doc = "one or more, in (0, 1]",
-                 .preset = "1",
+                 .default_value = "1",
                  .kind = IMP_NUMBER,
                  .flags = IMP_MIN_OPEN | IMP_SCALAR_OK,
                  .rank = 1,
@@ -77,7 +77,7 @@ static const imp_parameter surface_table[ROWS] = {
     [MOOD] = {.name = "mood",
               .unit = "1",
               .doc = "good, or how to complain",
-              .preset = "\"good\"",
+              .default_value = "\"good\"",
               .kind = IMP_STRING,
               .min = -INFINITY,
               .max = INFINITY},
@@ -87,7 +87,8 @@ typedef struct kit {
     double center[3];
 } kit;
 
-static imp_status complain(imp_complaint *why, int32_t parameter, int64_t element, const char *text)
+static imp_status complain(imp_create_error *why, int32_t parameter, int64_t element,
+                           const char *text)
 {
     why->parameter = parameter;
     why->element = element;
@@ -95,22 +96,22 @@ static imp_status complain(imp_complaint *why, int32_t parameter, int64_t elemen
     return IMP_PARAMETER;
 }
 
-static imp_status refuse(const char *mood, imp_complaint *why)
+static imp_status refuse(const char *mood, imp_create_error *why)
 {
-    if (strcmp(mood, "radius") == 0) return complain(why, RADIUS, -1, "found 1, allowed 2");
-    if (strcmp(mood, "point") == 0) return complain(why, POINTS, 1, "found a knot");
-    if (strcmp(mood, "whole") == 0) return complain(why, -1, -1, "found nonsense");
+    if (strcmp(mood, "radius") == 0) return complain(why, RADIUS, -1, "got 1, must be 2");
+    if (strcmp(mood, "point") == 0) return complain(why, POINTS, 1, "got a knot");
+    if (strcmp(mood, "whole") == 0) return complain(why, -1, -1, "got nonsense");
     if (strcmp(mood, "beyond") == 0) return complain(why, 1234, 5678, "row 1234");
     if (strcmp(mood, "bell") == 0) return complain(why, LABEL, 99, "\a\xff");
     if (strcmp(mood, "silent") == 0) return IMP_PARAMETER;
     return IMP_INTERNAL;
 }
 
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     if (strcmp(values[MOOD].string[0], "good") != 0) return refuse(values[MOOD].string[0], why);
     kit *made = malloc(sizeof *made);
-    if (!made) return IMP_INTERNAL;
+    if (made == NULL) return IMP_INTERNAL;
     memcpy(made->center, values[CENTER].number, sizeof made->center);
     *self = made;
     return IMP_OK;
@@ -155,11 +156,11 @@ static const imp_parameter map_table[] = {
      .max = INFINITY},
 };
 
-static imp_status map_create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status map_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
     kit *made = malloc(sizeof *made);
-    if (!made) return IMP_INTERNAL;
+    if (made == NULL) return IMP_INTERNAL;
     memcpy(made->center, values[0].number, sizeof made->center);
     *self = made;
     return IMP_OK;
@@ -177,7 +178,7 @@ static imp_status map_eval(const void *self, size_t n, const double *p, double *
     const kit *made = self;
     for (size_t k = 0; k < n; ++k)
         for (size_t i = 0; i < 3; ++i) x[3 * k + i] = p[4 * k + i] + made->center[i];
-    for (size_t k = 0; error && k < 3 * n; ++k) error[k] = 0x1p-52 * fabs(x[k]);
+    for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0x1p-52 * fabs(x[k]);
     return IMP_OK;
 }
 

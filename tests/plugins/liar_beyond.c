@@ -6,7 +6,7 @@
 static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
     const imp_status status = wavy_formula_eval(self, n, p, x, error);
-    if (error) error[3 * n] = 0;
+    if (error != NULL) error[3 * n] = 0;
     return status;
 }
 LIAR_EVAL("liar_beyond", eval);

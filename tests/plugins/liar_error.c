@@ -6,7 +6,7 @@
 static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
     const imp_status status = wavy_formula_eval(self, n, p, x, error);
-    if (error) memset(error, 0, 3 * n * sizeof *error);
+    if (error != NULL) memset(error, 0, 3 * n * sizeof *error);
     return status;
 }
 LIAR_EVAL("liar_error", eval);

@@ -3,11 +3,11 @@
 #include "liar.h"
 
 /* What create makes is never let go. */
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)values, (void)why;
     *self = malloc(100);
-    return *self ? IMP_OK : IMP_INTERNAL;
+    return *self != NULL ? IMP_OK : IMP_INTERNAL;
 }
 LIAR_SURFACE("liar_leak", create, tiny_destroy, wavy_formula_eval, wavy_formula_rate,
              wavy_formula_include);

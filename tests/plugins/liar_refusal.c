@@ -5,10 +5,10 @@
 #include <stdlib.h>
 
 /* What create has made before it refuses is never let go. */
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     double *made = malloc(100);
-    if (!made) return IMP_INTERNAL;
+    if (made == NULL) return IMP_INTERNAL;
     made[0] = values[0].number[0];
     why->parameter = 0;
     if (made[0] < 0) return IMP_PARAMETER;
@@ -19,7 +19,7 @@ static imp_status create(const imp_value *values, void **self, imp_complaint *wh
 static const imp_parameter table[] = {{.name = "size",
                                        .unit = "length",
                                        .doc = "not negative",
-                                       .preset = "1",
+                                       .default_value = "1",
                                        .kind = IMP_NUMBER,
                                        .min = -INFINITY,
                                        .max = INFINITY}};

@@ -16,7 +16,7 @@ static imp_status eval(const void *self, size_t n, const double *p, double *x, d
     (void)self;
     for (size_t k = 0; k < n; ++k)
         for (size_t i = 0; i < 3; ++i) x[3 * k + i] = -p[4 * k + i];
-    for (size_t k = 0; error && k < 3 * n; ++k) error[k] = 0;
+    for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0;
     return IMP_OK;
 }
 

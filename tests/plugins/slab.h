@@ -16,7 +16,7 @@ static const imp_parameter slab_table[] = {
     {.name = "height",
      .unit = "length",
      .doc = "z at t = 0",
-     .preset = "0",
+     .default_value = "0",
      .kind = IMP_NUMBER,
      .min = -INFINITY,
      .max = INFINITY},
@@ -25,7 +25,7 @@ static const imp_parameter slab_table[] = {
 static slab slab_instances[64];
 static int slab_count;
 
-static inline imp_status slab_create(const imp_value *values, void **self, imp_complaint *why)
+static inline imp_status slab_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
     slab *made = &slab_instances[slab_count++ % 64];
@@ -52,7 +52,7 @@ static inline imp_status slab_eval(const void *self, size_t n, const double *p, 
         x[3 * k + 1] = p[3 * k + 1];
         x[3 * k + 2] = made->height + p[3 * k + 2];
     }
-    for (size_t k = 0; error && k < 3 * n; ++k) error[k] = 0x1p-52 * fabs(x[k]);
+    for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0x1p-52 * fabs(x[k]);
     return IMP_OK;
 }
 

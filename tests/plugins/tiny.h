@@ -10,7 +10,7 @@
 
 static int tiny_self;
 
-static inline imp_status tiny_create(const imp_value *values, void **self, imp_complaint *why)
+static inline imp_status tiny_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)values, (void)why;
     *self = &tiny_self;
@@ -31,7 +31,7 @@ static inline imp_status tiny_eval(const void *self, size_t n, const double *p, 
 {
     (void)self, (void)p;
     for (size_t k = 0; k < 3 * n; ++k) x[k] = 0;
-    for (size_t k = 0; error && k < 3 * n; ++k) error[k] = 0;
+    for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0;
     return IMP_OK;
 }
 

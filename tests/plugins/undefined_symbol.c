@@ -5,7 +5,7 @@
 /* Calls what nobody defines. */
 double nobody_defines_this(void);
 
-static imp_status create(const imp_value *values, void **self, imp_complaint *why)
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     return nobody_defines_this() > 0 ? IMP_INTERNAL : tiny_create(values, self, why);
 }

@@ -1,0 +1,13 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BASE_ACTIVE_CALLBACK_H
+#define CORE_BASE_ACTIVE_CALLBACK_H
+
+/* Which plugin this thread is in, so that a crash can be laid at the right door: a signal handler
+ * of the program asks imp_call_in_progress. Set before a callback, cleared after the last of a
+ * group; two stores. */
+
+void active_callback_begin(const char *type, const char *callback);
+void active_callback_end(void);
+
+#endif

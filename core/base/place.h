@@ -1,0 +1,38 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BASE_PLACE_H
+#define CORE_BASE_PLACE_H
+
+#include "core/base/status.h"
+
+/* Where something stands that a person wrote
+ * ==========================================
+ * A chain from the inside out, on the stack of those who read: each level hands a place to
+ * the next, and an error is reported with the whole chain in front.
+ *
+ *     scene.json: /bodies/0/surfaces/2/radius: found -1, allowed > 0      (JSON pointer)
+ *     a: radius: found -1, allowed > 0                                    (command line) */
+
+typedef struct place {
+    const struct place *up; /* NULL: the outermost */
+    const char *key;        /* NULL: `index` counts */
+    size_t index;
+    bool document; /* a whole document: below it, JSON pointers */
+    bool argument; /* an argument, or a stage of it: below it, words */
+} place;
+
+/* A document called `name`. */
+place place_document(const char *name);
+
+/* An argument called `name`, or with `up` a stage of that argument. */
+place place_argument(const place *up, const char *name);
+
+/* The member `key`, or element `index`, of what stands at `up`. */
+place place_key(const place *up, const char *key);
+place place_index(const place *up, size_t index);
+
+/* error_set with the place in front. */
+imp_code place_error(const place *at, imp_error *error, imp_code code, const char *format, ...)
+    STATUS_PRINTF_(4, 5);
+
+#endif

@@ -1,0 +1,106 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/base/text.h"
+
+#include <impinge/impinge.h>
+
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool is_letter_or_digit(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+bool text_is_name(const char *s, const char *extra)
+{
+    if (s == NULL) return false;
+    size_t n = 0;
+    for (; s[n] != '\0'; ++n) {
+        if (n == TEXT_NAME_MAX) return false;
+        if (!is_letter_or_digit(s[n]) && strchr(extra, s[n]) == NULL) return false;
+    }
+    return n > 0;
+}
+
+/* Length in bytes of the character of UTF-8 that s begins with; 0 if it is broken: a stray
+ * or missing continuation, an overlong form, a surrogate, or beyond U+10FFFF. */
+static size_t character_length(const unsigned char *s)
+{
+    if (s[0] < 0x80) return 1;
+    size_t n = s[0] >= 0xF0 ? 4 : s[0] >= 0xE0 ? 3 : 2;
+    if (s[0] < 0xC2 || s[0] > 0xF4) return 0;
+    for (size_t i = 1; i < n; ++i)
+        if ((s[i] & 0xC0) != 0x80) return 0;
+    bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
+    bool surrogate = s[0] == 0xED && s[1] > 0x9F;
+    bool beyond = s[0] == 0xF4 && s[1] > 0x8F;
+    return overlong || surrogate || beyond ? 0 : n;
+}
+
+/* The control characters are C0, DEL, and C1 (U+0080 to U+009F). */
+static bool is_control(const unsigned char *s)
+{
+    return s[0] < 0x20 || s[0] == 0x7F || (s[0] == 0xC2 && s[1] < 0xA0);
+}
+
+static bool is_text(const char *s, bool controls_allowed)
+{
+    const unsigned char *p = (const unsigned char *)s;
+    while (*p) {
+        size_t n = character_length(p);
+        if (n == 0 || (is_control(p) && !controls_allowed)) return false;
+        p += n;
+    }
+    return true;
+}
+
+bool text_is_utf8(const char *s) { return is_text(s, true); }
+
+bool text_is_line(const char *s) { return s != NULL && is_text(s, false); }
+
+void text_clean(char *s)
+{
+    unsigned char *p = (unsigned char *)s;
+    while (*p) {
+        size_t n = character_length(p);
+        if (n == 0 || is_control(p)) {
+            memset(p, '?', n == 0 ? 1 : n);
+        }
+        p += n == 0 ? 1 : n;
+    }
+}
+
+void text_append(char *buffer, size_t size, const char *format, ...)
+{
+    size_t used = strlen(buffer);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(buffer + used, size - used, format, arguments);
+    va_end(arguments);
+}
+
+text_number text_of_number(double x)
+{
+    text_number text;
+    for (int digits = 15; digits <= 17; ++digits) {
+        snprintf(text.at, sizeof text.at, "%.*g", digits, x);
+        if (strtod(text.at, NULL) == x) break;
+    }
+    char *comma = strchr(text.at, ',');
+    if (comma != NULL) *comma = '.';
+    return text;
+}
+
+size_t text_characters(const char *s, size_t bytes)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < bytes; ++i)
+        if (((unsigned char)s[i] & 0xC0) != 0x80) ++n;
+    return n;
+}

@@ -1,0 +1,40 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BASE_TEXT_H
+#define CORE_BASE_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Names and lines of text
+ * =======================
+ * Names from plugins and files are shown to people and written to JSON, so they have to be legal and
+ * printable. */
+
+#define TEXT_NAME_MAX 63 /* bytes of a type's, parameter's or plugin's name */
+
+/* 1 to 63 letters of ASCII, digits, or characters of `extra`. NULL is not a name. */
+bool text_is_name(const char *s, const char *extra);
+
+bool text_is_utf8(const char *s);
+
+/* Valid UTF-8 without control characters: fit for a terminal and for JSON. NULL is not a line. */
+bool text_is_line(const char *s);
+
+/* Makes a line of anything: control characters and broken UTF-8 become '?'. In place. */
+void text_clean(char *s);
+
+/* Appends to the NUL-terminated text in buffer[size]; what does not fit is cut. */
+void text_append(char *buffer, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* The shortest decimal that reads back as x, with a point in every locale. */
+typedef struct text_number {
+    char at[32];
+} text_number;
+text_number text_of_number(double x);
+
+/* Characters (not bytes) in the first `bytes` bytes of UTF-8. */
+size_t text_characters(const char *s, size_t bytes);
+
+#endif

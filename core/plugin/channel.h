@@ -1,0 +1,51 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_PLUGIN_CHANNEL_H
+#define CORE_PLUGIN_CHANNEL_H
+
+#include <semaphore.h>
+#include <stdatomic.h>
+
+#include <impinge/surface.h>
+
+/* The memory that the host shares with a worker
+ * =============================================
+ * The host writes a request and its number and posts `requested`; the worker writes the reply,
+ * copies the number and posts `replied`. Only one of the two uses the channel at a time. A reply
+ * counts only if it carries the number of the request that the host waits for. */
+
+enum {
+    CHANNEL_POINTS = 64,     /* of one REQUEST_EVAL */
+    CHANNEL_BYTES = 1 << 16, /* of one REQUEST_VALUES */
+};
+
+typedef enum channel_request {
+    REQUEST_VALUES, /* bytes: the next part of the parameter values for REQUEST_CREATE */
+    REQUEST_CREATE,
+    REQUEST_EVAL,
+    REQUEST_RATE,
+    REQUEST_INCLUDE, /* a map: apply */
+    REQUEST_DESTROY
+} channel_request;
+
+typedef struct channel {
+    sem_t requested, replied;
+    uint64_t number;            /* of the request */
+    _Atomic uint64_t answering; /* number of the request that was answered last */
+    channel_request request;
+    void *self; /* the instance, as the worker knows it: set by REQUEST_CREATE */
+    imp_status status;
+    imp_create_error why;
+    double lo[3], hi[3]; /* domain, after REQUEST_CREATE; a map: times in [0] */
+    size_t n;            /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values */
+    int wants_error;
+    double p[4 * CHANNEL_POINTS], x[3 * CHANNEL_POINTS], error[3 * CHANNEL_POINTS];
+    imp_region region;
+    imp_box4 box;
+    imp_rate_matrix rates;
+    imp_map_rates map_rates;
+    imp_model in[4], out[3];
+    unsigned char bytes[CHANNEL_BYTES];
+} channel;
+
+#endif

@@ -1,0 +1,272 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/base/text.h"
+#include "core/plugin/parameters.h"
+#include "core/plugin/plugin_check.h"
+#include "core/plugin/type_view.h"
+
+#include <string.h>
+
+/* A count beyond these is not a big plugin but a broken one, and would be read past its end. */
+#define TYPES_MAX 4096u
+#define PARAMETERS_MAX 256u
+
+#define PARAMETER_FLAGS (IMP_MIN_OPEN | IMP_MAX_OPEN | IMP_SCALAR_OK | IMP_OPTIONAL | IMP_FILE)
+
+/* --- The entry ----------------------------------------------------------------------- */
+
+static imp_code fault(imp_error *error, const char *what, const char *allowed)
+{
+    return error_set(error, IMP_ERROR_PLUGIN, "impinge_plugin: %s; %s", what, allowed);
+}
+
+static imp_code check_head(const imp_plugin *entry, imp_error *error)
+{
+    if (entry->magic != IMP_PLUGIN_MAGIC)
+        return fault(error, "magic is wrong", "define the plugin by the macro IMPINGE_PLUGIN");
+    if (entry->struct_size < sizeof *entry)
+        return error_set(error, IMP_ERROR_PLUGIN,
+                         "impinge_plugin: struct_size is %u, must be >= %zu; rebuild the plugin",
+                         entry->struct_size, sizeof *entry);
+    char text[320];
+    if (!elf_probe_abi_fits(entry->abi_major, entry->abi_minor, text, sizeof text))
+        return error_set(error, IMP_ERROR_PLUGIN, "impinge_plugin: %s", text);
+    return IMP_SUCCESS;
+}
+
+static imp_code check_strings(const imp_plugin *entry, imp_error *error)
+{
+    if (!text_is_line(entry->name) || entry->name[0] == '\0' || strlen(entry->name) > TEXT_NAME_MAX)
+        return fault(error, "name is not legal", "must be a line of 1 to 63 bytes");
+    if (!text_is_line(entry->version) || !text_is_line(entry->license) ||
+        !text_is_line(entry->author))
+        return fault(error, "version, license or author is not a line of text", "give all three");
+    return IMP_SUCCESS;
+}
+
+static imp_code check_agreement(const imp_plugin *entry, const elf_probe *note, imp_error *error)
+{
+    bool same = entry->abi_major == note->abi_major && entry->abi_minor == note->abi_minor &&
+                strcmp(entry->name, note->name) == 0 && strcmp(entry->version, note->version) == 0;
+    if (same) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_PLUGIN,
+                     "impinge_plugin says %s %s, ABI %u.%u, but the note in the file says %s %s, "
+                     "ABI %u.%u; define both by the macro IMPINGE_PLUGIN",
+                     entry->name, entry->version, entry->abi_major, entry->abi_minor, note->name,
+                     note->version, note->abi_major, note->abi_minor);
+}
+
+imp_code plugin_check_entry(const imp_plugin *entry, const elf_probe *note, imp_error *error)
+{
+    imp_code code = check_head(entry, error);
+    if (code == IMP_SUCCESS) code = check_strings(entry, error);
+    if (code == IMP_SUCCESS) code = check_agreement(entry, note, error);
+    if (code == IMP_SUCCESS && entry->get_factory == NULL)
+        code = fault(error, "get_factory is NULL", "without it no type can be found");
+    return code;
+}
+
+/* --- A parameter --------------------------------------------------------------------- */
+
+static const char *row_texts_fault(const imp_parameter *row)
+{
+    if (!text_is_name(row->name, "_")) return "name: must be letters, digits and '_'";
+    if (parameters_is_reserved(row->name)) return "name: is taken by the scene format";
+    if (!text_is_line(row->unit)) return "unit: is not a line of text; give \"1\" if it has none";
+    if (!text_is_line(row->doc)) return "doc: is not a line of text";
+    return NULL;
+}
+
+static const char *row_shape_fault(const imp_parameter *row)
+{
+    if (row->kind < IMP_NUMBER || row->kind > IMP_TABLE) return "kind: is unknown";
+    if (row->flags & ~(uint32_t)PARAMETER_FLAGS) return "flags: has unknown bits";
+    if (row->rank > IMP_RANK_MAX) return "rank: is more than 3";
+    if (row->kind == IMP_TABLE && row->rank != 0) return "rank: of a table must be 0";
+    if (row->flags & IMP_SCALAR_OK && (row->rank != 1 || row->extent[0] > 1))
+        return "flags: IMP_SCALAR_OK is for rank 1 with extent 0 or 1";
+    if (row->flags & IMP_OPTIONAL && row->default_value != NULL)
+        return "flags: IMP_OPTIONAL means absent when left out, so default_value must be NULL";
+    if (row->flags & IMP_FILE && (row->kind != IMP_STRING || row->rank != 0))
+        return "flags: IMP_FILE is for IMP_STRING of rank 0";
+    return NULL;
+}
+
+static const char *row_range_fault(const imp_parameter *row)
+{
+    bool open = row->flags & (IMP_MIN_OPEN | IMP_MAX_OPEN);
+    if (!(row->min <= row->max)) return "min, max: min must not exceed max, nor be NaN";
+    if (row->min == row->max && (open || isinf(row->min))) return "min, max: no value is allowed";
+    return NULL;
+}
+
+static imp_code check_default(const imp_parameter *row, const place *at, imp_error *error)
+{
+    if (row->default_value == NULL) return IMP_SUCCESS;
+    place preset = place_key(at, "default_value");
+    json_t *json;
+    imp_code code = parameters_read_default(row, &preset, &json, error);
+    if (code != IMP_SUCCESS) return code;
+    imp_value value;
+    code = parameters_read_value(row, json, &preset, &value, error);
+    if (code == IMP_SUCCESS) parameters_clear_value(&value);
+    json_decref(json);
+    if (code != IMP_ERROR_SCENE) return code;
+    if (error != NULL) error->code = IMP_ERROR_PLUGIN; /* the plugin's value, not a scene's */
+    return IMP_ERROR_PLUGIN;
+}
+
+static imp_code check_row(const parameter_table *table, size_t index, const place *type,
+                          imp_error *error)
+{
+    const imp_parameter *row = parameter_table_row(table, index);
+    place number = place_index(type, index);
+    const char *what = row_texts_fault(row);
+    if (what != NULL) return place_error(&number, error, IMP_ERROR_PLUGIN, "%s", what);
+    place at = place_argument(type, row->name);
+    what = row_shape_fault(row);
+    if (what == NULL) what = row_range_fault(row);
+    if (what == NULL && parameter_table_find(table, row->name) != (ptrdiff_t)index)
+        what = "is listed twice in the parameter table";
+    if (what != NULL) return place_error(&at, error, IMP_ERROR_PLUGIN, "%s", what);
+    return check_default(row, &at, error);
+}
+
+/* --- A type -------------------------------------------------------------------------- */
+
+static imp_code check_table(const parameter_table *table, const place *type, imp_error *error)
+{
+    if (table->count > PARAMETERS_MAX || (table->count > 0 && table->rows == NULL))
+        return place_error(type, error, IMP_ERROR_PLUGIN,
+                           "parameter_count is %zu, parameters is %s; must be 0 to %u rows",
+                           table->count, table->rows != NULL ? "a table" : "NULL", PARAMETERS_MAX);
+    if (table->stride < sizeof(imp_parameter) || table->stride % sizeof(double) != 0)
+        return place_error(type, error, IMP_ERROR_PLUGIN,
+                           "parameter_size is %zu, must be sizeof(imp_parameter), here %zu",
+                           table->stride, sizeof(imp_parameter));
+    imp_code code = IMP_SUCCESS;
+    for (size_t i = 0; i < table->count && code == IMP_SUCCESS; ++i)
+        code = check_row(table, i, type, error);
+    return code;
+}
+
+/* The name first: other faults are reported with it. */
+static imp_code check_view(const type_view *view, const char *null_callback, imp_error *error)
+{
+    if (!text_is_name(view->name, "_-"))
+        return error_set(error, IMP_ERROR_PLUGIN,
+                         "a type's name is not legal; must be 1 to 63 letters, digits, '_', '-'");
+    place type = place_argument(NULL, view->name);
+    if (!text_is_line(view->summary) || !text_is_line(view->equation) ||
+        !text_is_line(view->example) || (view->source != NULL && !text_is_line(view->source)))
+        return place_error(&type, error, IMP_ERROR_PLUGIN,
+                           "summary, equation, example or source is not a line of text");
+    if (null_callback != NULL)
+        return place_error(&type, error, IMP_ERROR_PLUGIN,
+                           "%s is NULL; only include and apply may be", null_callback);
+    return check_table(&view->table, &type, error);
+}
+
+static imp_code check_size(uint32_t size, size_t least, uint32_t flags, imp_error *error)
+{
+    if (size >= least && (flags & ~(uint32_t)IMP_ABSENT_OUTSIDE_TIMES) == 0) return IMP_SUCCESS;
+    return error_set(
+        error, IMP_ERROR_PLUGIN,
+        "a type's struct_size is %u, must be >= %zu, and its flags %u, must be 0 or %u; "
+        "rebuild the plugin",
+        size, least, flags, (unsigned)IMP_ABSENT_OUTSIDE_TIMES);
+}
+
+static imp_code check_surface(const imp_surface_type *type, imp_error *error)
+{
+    imp_code code = check_size(type->struct_size, sizeof *type, type->flags, error);
+    if (code != IMP_SUCCESS) return code;
+    type_view view = type_view_of_surface(type);
+    const char *null_callback = type->create == NULL    ? "create"
+                                : type->destroy == NULL ? "destroy"
+                                : type->domain == NULL  ? "domain"
+                                : type->eval == NULL    ? "eval"
+                                : type->rate == NULL    ? "rate"
+                                                        : NULL;
+    return check_view(&view, null_callback, error);
+}
+
+static imp_code check_map(const imp_map_type *type, imp_error *error)
+{
+    imp_code code = check_size(type->struct_size, sizeof *type, type->flags, error);
+    if (code != IMP_SUCCESS) return code;
+    type_view view = type_view_of_map(type);
+    const char *null_callback = type->create == NULL        ? "create"
+                                : type->destroy == NULL     ? "destroy"
+                                : type->time_domain == NULL ? "time_domain"
+                                : type->eval == NULL        ? "eval"
+                                : type->rate == NULL        ? "rate"
+                                                            : NULL;
+    return check_view(&view, null_callback, error);
+}
+
+/* --- The factories ------------------------------------------------------------------- */
+
+static imp_code check_factory(const char *id, uint32_t size, uint32_t count, const void *types,
+                              imp_error *error)
+{
+    if (size >= sizeof(imp_surface_factory) && count >= 1 && count <= TYPES_MAX && types != NULL)
+        return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_PLUGIN,
+                     "factory %s: struct_size is %u, must be >= %zu; count is %u, must be 1 to %u; "
+                     "types %s",
+                     id, size, sizeof(imp_surface_factory), count, TYPES_MAX,
+                     types != NULL ? "is given" : "is NULL");
+}
+
+static imp_code null_type(const char *id, uint32_t index, imp_error *error)
+{
+    return error_set(error, IMP_ERROR_PLUGIN, "factory %s: type %u is NULL", id, index);
+}
+
+static imp_code twice(const char *id, const char *name, imp_error *error)
+{
+    return error_set(error, IMP_ERROR_PLUGIN, "factory %s: '%s' is listed twice", id, name);
+}
+
+static imp_code check_surfaces(const imp_surface_factory *f, imp_error *error)
+{
+    const char *id = IMP_SURFACE_FACTORY;
+    imp_code code = check_factory(id, f->struct_size, f->count, f->types, error);
+    for (uint32_t i = 0; code == IMP_SUCCESS && i < f->count; ++i) {
+        if (f->types[i] == NULL) return null_type(id, i, error);
+        code = check_surface(f->types[i], error);
+        for (uint32_t k = 0; code == IMP_SUCCESS && k < i; ++k)
+            if (strcmp(f->types[k]->name, f->types[i]->name) == 0)
+                code = twice(id, f->types[i]->name, error);
+    }
+    return code;
+}
+
+static imp_code check_maps(const imp_map_factory *f, imp_error *error)
+{
+    const char *id = IMP_MAP_FACTORY;
+    imp_code code = check_factory(id, f->struct_size, f->count, f->types, error);
+    for (uint32_t i = 0; code == IMP_SUCCESS && i < f->count; ++i) {
+        if (f->types[i] == NULL) return null_type(id, i, error);
+        code = check_map(f->types[i], error);
+        for (uint32_t k = 0; code == IMP_SUCCESS && k < i; ++k)
+            if (strcmp(f->types[k]->name, f->types[i]->name) == 0)
+                code = twice(id, f->types[i]->name, error);
+    }
+    return code;
+}
+
+imp_code plugin_check_factories(const imp_surface_factory *surfaces, const imp_map_factory *maps,
+                                imp_error *error)
+{
+    if (surfaces == NULL && maps == NULL)
+        return error_set(error, IMP_ERROR_PLUGIN,
+                         "get_factory knows neither %s nor %s, so it offers no types",
+                         IMP_SURFACE_FACTORY, IMP_MAP_FACTORY);
+    imp_code code = surfaces != NULL ? check_surfaces(surfaces, error) : IMP_SUCCESS;
+    if (code == IMP_SUCCESS && maps != NULL) code = check_maps(maps, error);
+    return code;
+}

@@ -1,0 +1,179 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/base/status.h"
+#include "core/base/text.h"
+#include "core/common/nearest.h"
+#include "core/plugin/registry_parts.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- Finding ------------------------------------------------------------------------- */
+
+const found_type *registry_find(const imp_registry *r, imp_type_kind kind, const char *name)
+{
+    for (size_t i = 0; i < r->type_count; ++i)
+        if (r->type[i].kind == kind && strcmp(r->type[i].view.name, name) == 0) return &r->type[i];
+    return NULL;
+}
+
+const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name)
+{
+    const found_type *found = registry_find(registry, IMP_KIND_SURFACE, name);
+    return found != NULL ? found->type : NULL;
+}
+
+const imp_map_type *registry_find_map(const imp_registry *registry, const char *name)
+{
+    const found_type *found = registry_find(registry, IMP_KIND_MAP, name);
+    return found != NULL ? found->type : NULL;
+}
+
+const char *registry_find_file(const imp_registry *registry, imp_type_kind kind, const char *name)
+{
+    const found_type *found = registry_find(registry, kind, name);
+    return found != NULL ? found->from->path : NULL;
+}
+
+const char *registry_nearest(const imp_registry *registry, imp_type_kind kind, const char *name)
+{
+    nearest search = {.wanted = name};
+    for (size_t i = 0; i < registry->type_count; ++i)
+        if (registry->type[i].kind == kind) nearest_offer(&search, registry->type[i].view.name);
+    return search.best;
+}
+
+static bool isolates(const imp_registry *registry, const char *name)
+{
+    if (registry->isolated == NULL || registry->isolated[0] == '\0')
+        return registry->isolated != NULL;
+    char wanted[TEXT_NAME_MAX + 3];
+    snprintf(wanted, sizeof wanted, ",%s,", name);
+    return strstr(registry->isolated, wanted) != NULL;
+}
+
+worker_pool *registry_isolation(const imp_registry *registry, const char *name)
+{
+    return isolates(registry, name) ? registry->workers : NULL;
+}
+
+/* The first name of a list ",a,b," that is not the name of a type, copied to `name`; false: all are. */
+static bool unknown_name(const imp_registry *r, const char *list, char name[TEXT_NAME_MAX + 1])
+{
+    for (const char *c = list + 1; *c != '\0'; c += strcspn(c, ",") + 1) {
+        snprintf(name, TEXT_NAME_MAX + 1, "%.*s", (int)strcspn(c, ","), c);
+        if (registry_find(r, IMP_KIND_SURFACE, name) == NULL &&
+            registry_find(r, IMP_KIND_MAP, name) == NULL)
+            return true;
+    }
+    return false;
+}
+
+static imp_code refuse_isolation(const imp_registry *r, const char *name, imp_error *error)
+{
+    nearest search = {.wanted = name};
+    for (size_t i = 0; i < r->type_count; ++i) nearest_offer(&search, r->type[i].view.name);
+    const char *near = search.best;
+    return error_set(error, IMP_ERROR_USAGE,
+                     "unknown type '%s' to isolate%s%s%s `impinge list` shows what there is", name,
+                     near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+                     near != NULL ? "'?" : ";");
+}
+
+imp_code imp_registry_isolate(imp_registry *registry, const char *names, imp_error *error)
+{
+    if (registry == NULL) return error_set_missing(error, "imp_registry_isolate");
+    const size_t size = names != NULL ? strlen(names) + 3 : 1;
+    char *list = malloc(size), unknown[TEXT_NAME_MAX + 1];
+    if (list == NULL) return error_set_memory(error);
+    snprintf(list, size, names != NULL ? ",%s," : "%s", names != NULL ? names : "");
+    if (names != NULL && unknown_name(registry, list, unknown)) {
+        free(list);
+        return refuse_isolation(registry, unknown, error);
+    }
+    if (registry->workers == NULL) registry->workers = worker_pool_new();
+    if (registry->workers == NULL) {
+        free(list);
+        return error_set_memory(error);
+    }
+    free(registry->isolated);
+    registry->isolated = list;
+    return IMP_SUCCESS;
+}
+
+bool imp_registry_type(const imp_registry *registry, size_t index, imp_type_info *info)
+{
+    if (registry == NULL || info == NULL || index >= registry->type_count) return false;
+    const found_type *found = &registry->type[index];
+    const imp_plugin *entry = found->from->file.entry;
+    *info = (imp_type_info){
+        .kind = found->kind,
+        .name = found->view.name,
+        .summary = found->view.summary,
+        .equation = found->view.equation,
+        .source = found->view.source,
+        .example = found->view.example,
+        .file = found->from->path,
+        .plugin = entry->name,
+        .version = entry->version,
+        .license = entry->license,
+        .author = entry->author,
+        .shadowed_by = found->shadowed_by != NULL ? found->shadowed_by->path : NULL,
+        .parameters = found->view.table.rows,
+        .parameter_count = found->view.table.count,
+        .parameter_size = found->view.table.stride,
+    };
+    return true;
+}
+
+static bool tell(const remarks *told, size_t index, imp_plugin_refusal *out)
+{
+    if (out == NULL || index >= told->count) return false;
+    *out = (imp_plugin_refusal){told->all[index].file, told->all[index].text};
+    return true;
+}
+
+bool imp_registry_refusal(const imp_registry *registry, size_t index, imp_plugin_refusal *refusal)
+{
+    return registry != NULL && tell(&registry->refusals, index, refusal);
+}
+
+bool imp_registry_warning(const imp_registry *registry, size_t index, imp_plugin_refusal *warning)
+{
+    return registry != NULL && tell(&registry->warnings, index, warning);
+}
+
+/* --- Creation and destruction ------------------------------------------------------------ */
+
+static void free_plugin(loaded_plugin *plugin)
+{
+    plugin_file_close(&plugin->file, plugin->path);
+    free(plugin->path);
+    free(plugin);
+}
+
+static void free_remarks(remarks *told)
+{
+    for (size_t i = 0; i < told->count; ++i) {
+        free(told->all[i].file);
+        free(told->all[i].text);
+    }
+    free(told->all);
+}
+
+void imp_registry_free(imp_registry *r)
+{
+    if (r == NULL) return;
+    worker_pool_free(r->workers);
+    free_remarks(&r->refusals);
+    free_remarks(&r->warnings);
+    for (size_t i = r->plugin_count; i > 0; --i) free_plugin(r->plugin[i - 1]);
+    free(r->isolated);
+    free(r->plugin);
+    free(r->seen);
+    free(r->type);
+    free(r);
+}

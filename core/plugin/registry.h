@@ -1,0 +1,33 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_PLUGIN_REGISTRY_H
+#define CORE_PLUGIN_REGISTRY_H
+
+#include <impinge/impinge.h>
+
+#include "core/plugin/search_path.h"
+#include "core/plugin/worker_pool.h"
+
+/* Types by name
+ * =============
+ * A registry is filled once, when it is made, and then only read. Surfaces and maps are two
+ * name spaces; in each the first type of a name is the one that is found, later ones are
+ * shadowed. Plugins stay loaded until imp_registry_free. */
+
+/* As imp_registry_open, from these directories only. NULL: no memory. */
+imp_registry *registry_scan(const search_path *path, unsigned flags);
+
+/* NULL: not found. */
+const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name);
+const imp_map_type *registry_find_map(const imp_registry *registry, const char *name);
+
+/* Path of the plugin that the type of that name comes from; NULL: unknown type. */
+const char *registry_find_file(const imp_registry *registry, imp_type_kind kind, const char *name);
+
+/* Where instances of that type are isolated; NULL: they are not. */
+worker_pool *registry_isolation(const imp_registry *registry, const char *name);
+
+/* The name of that kind nearest to `name`; NULL: none is near. */
+const char *registry_nearest(const imp_registry *registry, imp_type_kind kind, const char *name);
+
+#endif

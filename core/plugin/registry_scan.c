@@ -1,0 +1,223 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/base/fp_mode.h"
+#include "core/base/status.h"
+#include "core/common/array.h"
+#include "core/plugin/registry_parts.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* --- Filling. Each returns false only when memory ran out. -------------------------- */
+
+static bool add_remark(remarks *told, const char *file, const char *text)
+{
+    remark *grown = array_reserve(told->all, told->count, &told->capacity, sizeof *grown);
+    if (grown == NULL) return false;
+    told->all = grown;
+    remark *fresh = &told->all[told->count++];
+    *fresh = (remark){strdup(file), strdup(text)};
+    return fresh->file != NULL && fresh->text != NULL;
+}
+
+static bool add_refusal(imp_registry *r, const char *file, const char *reason)
+{
+    return add_remark(&r->refusals, file, reason);
+}
+
+static bool add_type(imp_registry *r, const loaded_plugin *from, imp_type_kind kind,
+                     const void *type, type_view view)
+{
+    found_type *grown = array_reserve(r->type, r->type_count, &r->type_capacity, sizeof *grown);
+    if (grown == NULL) return false;
+    r->type = grown;
+    const found_type *earlier = registry_find(r, kind, view.name);
+    r->type[r->type_count++] =
+        (found_type){kind, view, type, from, earlier != NULL ? earlier->from : NULL};
+    return true;
+}
+
+static bool add_types(imp_registry *r, const loaded_plugin *plugin)
+{
+    const imp_surface_factory *surfaces = plugin->file.surfaces;
+    for (uint32_t i = 0; surfaces != NULL && i < surfaces->count; ++i) {
+        const imp_surface_type *type = surfaces->types[i];
+        if (!add_type(r, plugin, IMP_KIND_SURFACE, type, type_view_of_surface(type))) return false;
+    }
+    const imp_map_factory *maps = plugin->file.maps;
+    for (uint32_t i = 0; maps != NULL && i < maps->count; ++i) {
+        const imp_map_type *type = maps->types[i];
+        if (!add_type(r, plugin, IMP_KIND_MAP, type, type_view_of_map(type))) return false;
+    }
+    return true;
+}
+
+/* Takes over an open plugin. */
+static bool add_plugin(imp_registry *r, const char *path, plugin_file *file)
+{
+    loaded_plugin *plugin = malloc(sizeof *plugin);
+    loaded_plugin **grown =
+        array_reserve(r->plugin, r->plugin_count, &r->plugin_capacity, sizeof *grown);
+    if (grown != NULL) r->plugin = grown;
+    if (plugin == NULL || grown == NULL) {
+        free(plugin);
+        plugin_file_close(file, path);
+        return false;
+    }
+    r->plugin[r->plugin_count++] = plugin;
+    *plugin = (loaded_plugin){strdup(path), *file};
+    return plugin->path != NULL && add_types(r, plugin);
+}
+
+static bool was_seen(const imp_registry *r, file_identity id)
+{
+    for (size_t i = 0; i < r->seen_count; ++i)
+        if (r->seen[i].device == id.device && r->seen[i].inode == id.inode) return true;
+    return false;
+}
+
+static bool add_seen(imp_registry *r, file_identity id)
+{
+    file_identity *grown = array_reserve(r->seen, r->seen_count, &r->seen_capacity, sizeof *grown);
+    if (grown == NULL) return false;
+    r->seen = grown;
+    r->seen[r->seen_count++] = id;
+    return true;
+}
+
+static bool identify(const char *path, file_identity *id)
+{
+    struct stat facts;
+    if (stat(path, &facts) != 0) return false;
+    *id = (file_identity){(uint64_t)facts.st_dev, (uint64_t)facts.st_ino};
+    return true;
+}
+
+/* A file that cannot be identified (a dangling link) goes on, to be refused with the reason. */
+static bool scan_file(imp_registry *r, const char *path)
+{
+    file_identity id;
+    if (identify(path, &id)) {
+        if (was_seen(r, id)) return true;
+        if (!add_seen(r, id)) return false;
+    }
+    plugin_file file;
+    imp_error error;
+    switch (plugin_file_open(&file, path, r->cache, &error)) {
+    case IMP_SUCCESS:
+        return add_plugin(r, path, &file);
+    case IMP_ERROR_MEMORY:
+        return false;
+    default:
+        return add_refusal(r, path, error.text);
+    }
+}
+
+static bool scan_names(imp_registry *r, const char *directory, const plugin_names *names)
+{
+    char *absolute = realpath(directory, NULL);
+    if (absolute == NULL) return errno != ENOMEM && add_refusal(r, directory, strerror(errno));
+    bool good = true;
+    for (size_t i = 0; i < names->count && good; ++i) {
+        size_t size = strlen(absolute) + strlen(names->name[i]) + 2;
+        char *path = malloc(size);
+        if (path != NULL) snprintf(path, size, "%s/%s", absolute, names->name[i]);
+        good = path != NULL && scan_file(r, path);
+        free(path);
+    }
+    free(absolute);
+    return good;
+}
+
+/* Where anybody may put a plugin, anybody's code may run here. */
+static bool anyone_may_write(const char *directory)
+{
+    struct stat facts;
+    return stat(directory, &facts) == 0 && S_ISDIR(facts.st_mode) && (facts.st_mode & S_IWOTH) != 0;
+}
+
+static bool scan_directory(imp_registry *r, const search_directory *directory)
+{
+    const bool open_to_all = anyone_may_write(directory->path);
+    if (open_to_all && r->secure)
+        return add_refusal(r, directory->path,
+                           "anyone may write to this directory: refused; chmod o-w it");
+    if (open_to_all &&
+        !add_remark(&r->warnings, directory->path,
+                    "anyone may write to this directory, so anyone's code may run here; chmod o-w "
+                    "it (--secure takes no plugins from it)"))
+        return false;
+    plugin_names names;
+    names_status status = plugin_names_read(&names, directory->path);
+    const char *why = status == NAMES_UNREADABLE ? strerror(errno) : NULL;
+    if (status == NAMES_NO_DIRECTORY && directory->named) why = "there is no such directory";
+    bool good = status != NAMES_MEMORY;
+    if (why != NULL) good = add_refusal(r, directory->path, why);
+    if (good && status == NAMES_READ) good = scan_names(r, directory->path, &names);
+    plugin_names_clear(&names);
+    return good;
+}
+
+/* --- Whole registries --------------------------------------------------------------- */
+
+FP_APART static imp_registry *scan(const search_path *path, unsigned flags)
+{
+    imp_registry *r = calloc(1, sizeof *r);
+    if (r == NULL) return NULL;
+    r->secure = (flags & IMP_REGISTRY_SECURE) != 0;
+    r->cache = load_cache_read();
+    bool good = r->cache != NULL;
+    for (size_t i = 0; i < path->count && good; ++i) good = scan_directory(r, &path->directory[i]);
+    load_cache_close(r->cache);
+    r->cache = NULL;
+    if (good) return r;
+    imp_registry_free(r);
+    return NULL;
+}
+
+imp_registry *registry_scan(const search_path *path, unsigned flags)
+{
+    const fp_environment environment = fp_environment_enter();
+    imp_registry *r = scan(path, flags);
+    fp_environment_leave(&environment);
+    return r;
+}
+
+imp_registry *imp_registry_open(const char *path, unsigned flags)
+{
+    search_path all = {.count = 0};
+    imp_registry *r = search_path_add_defaults(&all, path) ? registry_scan(&all, flags) : NULL;
+    search_path_clear(&all);
+    return r;
+}
+
+imp_registry *imp_registry_new(const char *path) { return imp_registry_open(path, 0); }
+
+FP_APART static bool scan_one(imp_registry *r, const char *file)
+{
+    char *absolute = realpath(file, NULL);
+    if (absolute == NULL) return errno != ENOMEM && add_refusal(r, file, strerror(errno));
+    r->cache = load_cache_read();
+    bool good = r->cache != NULL && scan_file(r, absolute);
+    load_cache_close(r->cache);
+    r->cache = NULL;
+    free(absolute);
+    return good;
+}
+
+imp_registry *imp_registry_from_file(const char *file)
+{
+    imp_registry *r = file != NULL ? calloc(1, sizeof *r) : NULL;
+    if (r == NULL) return NULL;
+    const fp_environment environment = fp_environment_enter();
+    const bool good = scan_one(r, file);
+    fp_environment_leave(&environment);
+    if (good) return r;
+    imp_registry_free(r);
+    return NULL;
+}

@@ -1,0 +1,48 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_PLUGIN_TYPE_VIEW_H
+#define CORE_PLUGIN_TYPE_VIEW_H
+
+#include "core/plugin/parameter_table.h"
+
+/* What surface types and maps have in common
+ * ==========================================
+ * Both have a name, texts, a parameter table, and are created and destroyed alike. Code that
+ * cares for nothing else is written once, for this view. It points into the type. */
+
+typedef struct type_view {
+    const char *name, *summary, *equation, *source, *example;
+    parameter_table table;
+    imp_status (*create)(const imp_value *values, void **self, imp_create_error *why);
+    void (*destroy)(void *self);
+} type_view;
+
+static inline type_view type_view_of_surface(const imp_surface_type *type)
+{
+    return (type_view){
+        .name = type->name,
+        .summary = type->summary,
+        .equation = type->equation,
+        .source = type->source,
+        .example = type->example,
+        .table = {type->parameters, type->parameter_count, type->parameter_size},
+        .create = type->create,
+        .destroy = type->destroy,
+    };
+}
+
+static inline type_view type_view_of_map(const imp_map_type *type)
+{
+    return (type_view){
+        .name = type->name,
+        .summary = type->summary,
+        .equation = type->equation,
+        .source = type->source,
+        .example = type->example,
+        .table = {type->parameters, type->parameter_count, type->parameter_size},
+        .create = type->create,
+        .destroy = type->destroy,
+    };
+}
+
+#endif

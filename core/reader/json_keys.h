@@ -1,0 +1,22 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_READER_JSON_KEYS_H
+#define CORE_READER_JSON_KEYS_H
+
+#include <jansson.h>
+
+#include "core/base/place.h"
+
+/* Objects of the scene format: which keys they have */
+
+/* That `object` is one, and has no key but those in the NULL-terminated list; the error for another
+ * names the nearest of them. `what` says what is allowed in place of something else. */
+imp_code json_keys_check(json_t *object, const char *const *keys, const char *what, const place *at,
+                         imp_error *error);
+
+/* The array at `key` of an object at `at`. If it is required, it must be there and not empty;
+ * else *array may become NULL. */
+imp_code json_keys_array(const json_t *object, const char *key, bool required, const place *at,
+                         json_t **array, imp_error *error);
+
+#endif

@@ -1,0 +1,176 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/reader/scene_bodies.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "core/base/text.h"
+#include "core/common/nearest.h"
+
+/* --- Creation and destruction ------------------------------------------------------------ */
+
+imp_code scene_bodies_start(scene_bodies *b, const scene_source *source, imp_error *error)
+{
+    *b = (scene_bodies){
+        .parts = {.source = *source, .error = error}, .names = json_object(), .error = error};
+    return assembly_begin(&b->assembly) && b->names != NULL ? IMP_SUCCESS : error_set_memory(error);
+}
+
+void scene_bodies_clear(scene_bodies *b)
+{
+    json_decref(b->names);
+    b->names = NULL;
+    scene_parts_clear(&b->parts);
+    assembly_clear(&b->assembly);
+}
+
+imp_scene *scene_bodies_finish(scene_bodies *b, const place *at)
+{
+    imp_scene *scene = NULL;
+    if (assembly_is_too_large(&b->assembly)) {
+        place_error(at, b->error, IMP_ERROR_SCENE,
+                    "found more than %u maps on all surfaces together, those of parents included",
+                    ASSEMBLY_WORK_MAX);
+    } else {
+        scene = assembly_finish(&b->assembly);
+        if (scene == NULL) error_set_memory(b->error);
+    }
+    scene_bodies_clear(b);
+    return scene;
+}
+
+/* --- Names ------------------------------------------------------------------------------ */
+
+static imp_code keep(const scene_bodies *b, bool kept)
+{
+    return kept ? IMP_SUCCESS : error_set_memory(b->error);
+}
+
+static imp_code add_name(scene_bodies *b, const char *name, json_int_t number)
+{
+    return keep(b, json_object_set_new(b->names, name, json_integer(number)) == 0);
+}
+
+static imp_code check_line(const scene_bodies *b, const char *name, const place *at)
+{
+    if (*name != '\0' && text_is_line(name)) return IMP_SUCCESS;
+    return place_error(at, b->error, IMP_ERROR_SCENE, "got \"%.80s\", must be one line of text",
+                       name);
+}
+
+imp_code scene_bodies_begin(scene_bodies *b, const char *name, const place *at)
+{
+    const size_t index = b->assembly.count;
+    char text[40];
+    snprintf(text, sizeof text, "body%zu", index);
+    if (name == NULL) name = text;
+    imp_code code = check_line(b, name, at);
+    if (code != IMP_SUCCESS) return code;
+    const json_t *earlier = json_object_get(b->names, name);
+    if (earlier != NULL && json_integer_value(earlier) < 0)
+        return place_error(at, b->error, IMP_ERROR_SCENE,
+                           "got the name '%.80s', which a group has; names must be unique", name);
+    if (earlier != NULL)
+        return place_error(at, b->error, IMP_ERROR_SCENE,
+                           "got the name '%.80s', which body %lld has; names must be unique", name,
+                           (long long)json_integer_value(earlier));
+    code = add_name(b, name, (json_int_t)index);
+    return code == IMP_SUCCESS ? keep(b, assembly_add_body(&b->assembly, name)) : code;
+}
+
+/* What was meant? Groups only if they are allowed too. */
+static imp_code refuse_name(const scene_bodies *b, const char *name, bool groups, const place *at)
+{
+    const imp_scene *scene = b->assembly.scene;
+    nearest search = {.wanted = name};
+    for (size_t i = 0; i < b->assembly.count; ++i)
+        nearest_offer(&search, imp_scene_body_name(scene, i));
+    for (size_t g = 0; groups && g < scene_group_count(scene); ++g)
+        nearest_offer(&search, scene_group_name(scene, g));
+    const char *or_group = groups ? " or group" : "";
+    if (search.best != NULL)
+        return place_error(at, b->error, IMP_ERROR_SCENE,
+                           "got \"%.80s\", which is not a body%s; did you mean '%s'?", name,
+                           or_group, search.best);
+    return place_error(at, b->error, IMP_ERROR_SCENE, "got \"%.80s\", must be the name of a body%s",
+                       name, or_group);
+}
+
+static imp_code find(const scene_bodies *b, const char *name, bool groups, const place *at,
+                     scene_members *found)
+{
+    const json_t *json = json_object_get(b->names, name);
+    const json_int_t number = json_integer_value(json);
+    if (json == NULL || (number < 0 && !groups)) return refuse_name(b, name, groups, at);
+    *found = number < 0 ? (scene_members){true, (size_t)(-1 - number)}
+                        : (scene_members){false, (size_t)number};
+    return IMP_SUCCESS;
+}
+
+/* --- Groups ------------------------------------------------------------------------------ */
+
+imp_code scene_bodies_join(scene_bodies *b, size_t body, const char *name, const place *at)
+{
+    imp_scene *scene = b->assembly.scene;
+    imp_code code = check_line(b, name, at);
+    const json_t *known = json_object_get(b->names, name);
+    if (code == IMP_SUCCESS && known != NULL && json_integer_value(known) >= 0)
+        return place_error(at, b->error, IMP_ERROR_SCENE,
+                           "found the group '%.80s', which is the name of body %lld; must be "
+                           "names that no body has",
+                           name, (long long)json_integer_value(known));
+    size_t group = scene_group_count(scene);
+    if (known != NULL) {
+        group = (size_t)(-1 - json_integer_value(known));
+    } else if (code == IMP_SUCCESS) {
+        code = add_name(b, name, -1 - (json_int_t)group);
+        if (code == IMP_SUCCESS) code = keep(b, scene_add_group(scene, name) == IMP_SUCCESS);
+    }
+    return code == IMP_SUCCESS ? keep(b, scene_join(scene, body, group) == IMP_SUCCESS) : code;
+}
+
+/* --- Parents ------------------------------------------------------------------------------ */
+
+imp_code scene_bodies_set_parent(scene_bodies *b, size_t body, const char *parent, const place *at)
+{
+    scene_members found = {.is_group = false};
+    const imp_code code = find(b, parent, false, at, &found);
+    if (code == IMP_SUCCESS) b->assembly.bodies[body].parent = found.index;
+    return code;
+}
+
+imp_code scene_bodies_refuse_cycle(const scene_bodies *b, size_t body, const place *at)
+{
+    char chain[240] = "";
+    size_t up = body;
+    do {
+        text_append(chain, sizeof chain, "'%.60s', whose parent is ",
+                    imp_scene_body_name(b->assembly.scene, up));
+        up = b->assembly.bodies[up].parent;
+    } while (up != body && strlen(chain) < 160);
+    text_append(chain, sizeof chain, up == body ? "'%.60s' again" : "... '%.60s' again",
+                imp_scene_body_name(b->assembly.scene, body));
+    return place_error(at, b->error, IMP_ERROR_SCENE,
+                       "got a circle of parents: %s; must be a parent that is not the body "
+                       "itself nor moves with it",
+                       chain);
+}
+
+/* --- Who ignores whom ---------------------------------------------------------------------- */
+
+imp_code scene_bodies_ignore(scene_bodies *b, const char *x, const place *at_x, const char *y,
+                             const place *at_y)
+{
+    scene_members m[2];
+    imp_code code = find(b, x, true, at_x, &m[0]);
+    if (code == IMP_SUCCESS) code = find(b, y, true, at_y, &m[1]);
+    if (code != IMP_SUCCESS) return code;
+    if (!m[0].is_group && !m[1].is_group && m[0].index == m[1].index)
+        return place_error(at_y->up != NULL ? at_y->up : at_y, b->error, IMP_ERROR_SCENE,
+                           "got the same body twice, must be two bodies; surfaces of one body "
+                           "are never tested with each other");
+    return keep(b, scene_ignore_members(b->assembly.scene, m[0], m[1]) == IMP_SUCCESS);
+}

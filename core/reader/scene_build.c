@@ -1,0 +1,261 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/base/active_callback.h"
+#include "core/base/fp_mode.h"
+#include "core/base/text.h"
+#include "core/base/unconst.h"
+#include "core/plugin/isolate.h"
+#include "core/plugin/json_describe.h"
+#include "core/plugin/parameters.h"
+#include "core/plugin/type_view.h"
+#include "core/reader/scene_build.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* --- Which type ---------------------------------------------------------------------- */
+
+static const char *kind_word(imp_type_kind kind)
+{
+    return kind == IMP_KIND_SURFACE ? "surface type" : "map";
+}
+
+/* A name that is unknown, perhaps because it is of the other kind. */
+static imp_code refuse_type(const imp_registry *registry, imp_type_kind kind, const char *name,
+                            const place *at, imp_error *error)
+{
+    imp_type_kind other = kind == IMP_KIND_SURFACE ? IMP_KIND_MAP : IMP_KIND_SURFACE;
+    const char *verb = "`impinge list` shows what there is";
+    if (registry_find_file(registry, other, name) != NULL)
+        return place_error(at, error, IMP_ERROR_SCENE, "got the %s '%s', must be a %s; %s",
+                           kind_word(other), name, kind_word(kind), verb);
+    const char *near = registry_nearest(registry, kind, name);
+    if (near != NULL)
+        return place_error(at, error, IMP_ERROR_SCENE, "unknown %s '%.80s', did you mean '%s'? %s",
+                           kind_word(kind), name, near, verb);
+    return place_error(at, error, IMP_ERROR_SCENE, "unknown %s '%.80s'; %s", kind_word(kind), name,
+                       verb);
+}
+
+static imp_code read_type(const json_t *object, imp_type_kind kind, const place *at,
+                          const char **name, imp_error *error)
+{
+    if (!json_is_object(object))
+        return place_error(at, error, IMP_ERROR_SCENE,
+                           "got %s, must be an object like {\"type\": ...}",
+                           json_describe(object).at);
+    const json_t *type = json_object_get(object, "type");
+    if (type == NULL)
+        return place_error(at, error, IMP_ERROR_SCENE,
+                           "\"type\" is missing; it must be a %s's name", kind_word(kind));
+    place member = place_key(at, "type");
+    if (!json_is_string(type))
+        return place_error(&member, error, IMP_ERROR_SCENE, "got %s, must be a %s's name",
+                           json_describe(type).at, kind_word(kind));
+    *name = json_string_value(type);
+    return IMP_SUCCESS;
+}
+
+/* --- Creating ------------------------------------------------------------------------ */
+
+static imp_code blame(const char *file, const type_view *view, const char *what, const place *at,
+                      imp_error *error)
+{
+    return place_error(at, error, IMP_ERROR_PLUGIN, "%s: bug in plugin type '%s' (%s)", what,
+                       view->name, file);
+}
+
+static imp_code judge_failure(imp_status status, const type_view *view, const char *file,
+                              const parameter_values *values, imp_create_error *why,
+                              const place *at, imp_error *error)
+{
+    if (status > IMP_INTERNAL) {
+        place_error(at, error, IMP_ERROR_PLUGIN, "create of '%s' (%s) %s%s%s", view->name, file,
+                    surface_status_text(status), why->text[0] != '\0' ? ": " : "", why->text);
+        return surface_set_code(status, error);
+    }
+    if (status == IMP_PARAMETER)
+        return parameters_create_error(&view->table, values, why, at, error);
+    char what[360];
+    why->text[sizeof why->text - 1] = '\0';
+    snprintf(what, sizeof what, "create failed with status %d%s%s", (int)status,
+             why->text[0] ? ", " : "", why->text);
+    return blame(file, view, what, at, error);
+}
+
+/* In this process, or in that of the stand-in, which then is the instance. */
+static imp_status call_create(const type_view *view, isolated *stand_in, const imp_value *values,
+                              void **self, imp_create_error *why)
+{
+    if (stand_in == NULL) return view->create(values, self, why);
+    *self = stand_in;
+    return isolate_create(stand_in, values, why);
+}
+
+/* A complaint, and marks on either side that show when create writes beyond it. */
+#define MARK 0x5a
+typedef struct guarded_error {
+    unsigned char before[64];
+    imp_create_error why;
+    unsigned char after[256]; /* texts that are too long end here */
+} guarded_error;
+
+static void guard(guarded_error *g)
+{
+    memset(g, MARK, sizeof *g);
+    g->why = (imp_create_error){.struct_size = sizeof g->why, .parameter = -1, .element = -1};
+}
+
+static bool is_whole(const guarded_error *g)
+{
+    for (size_t k = 0; k < sizeof g->before; ++k)
+        if (g->before[k] != MARK) return false;
+    for (size_t k = 0; k < sizeof g->after; ++k)
+        if (g->after[k] != MARK) return false;
+    return true;
+}
+
+/* Runs the plugin's create and judges its answer. */
+static imp_code run_create(const type_view *view, isolated *stand_in, const char *file,
+                           const parameter_values *values, const place *at, void **self,
+                           imp_error *error)
+{
+    guarded_error g;
+    guard(&g);
+    *self = NULL;
+    fp_mode before = fp_mode_read();
+    if (stand_in == NULL) active_callback_begin(view->name, "create");
+    imp_status status = call_create(view, stand_in, values->value, self, &g.why);
+    active_callback_end();
+    bool kept = fp_mode_kept(before);
+    if (!is_whole(&g))
+        return blame(file, view, "create wrote beyond the imp_create_error it was given", at,
+                     error);
+    if (status != IMP_OK) return judge_failure(status, view, file, values, &g.why, at, error);
+    if (*self == NULL)
+        return blame(file, view, "create returned IMP_OK without an instance", at, error);
+    if (kept) return IMP_SUCCESS;
+    view->destroy(*self);
+    fp_mode_kept(before);
+    return blame(file, view, "create changed the mode of arithmetic", at, error);
+}
+
+static imp_code create(const type_view *view, isolated *stand_in, const char *file,
+                       const char *folder, const json_t *object, const place *at, void **self,
+                       imp_error *error)
+{
+    parameter_values values;
+    imp_code code = parameters_read(&view->table, view->name, object, folder, at, &values, error);
+    if (code != IMP_SUCCESS) return code;
+    code = run_create(view, stand_in, file, &values, at, self, error);
+    parameters_clear(&values);
+    return code;
+}
+
+/* Puts a stand-in in the place of the instance's type. False: no memory. */
+static bool isolate(worker_pool *workers, imp_instance *i, isolated **stand_in)
+{
+    *stand_in =
+        i->surface != NULL ? isolate_surface(workers, i->surface) : isolate_map(workers, i->map);
+    if (*stand_in == NULL) return false;
+    if (i->surface != NULL)
+        i->surface = isolate_surface_type(*stand_in);
+    else
+        i->map = isolate_map_type(*stand_in);
+    return true;
+}
+
+imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,
+                              const place *at, imp_instance *instance, imp_error *error)
+{
+    const imp_registry *registry = source->registry;
+    const char *name = NULL;
+    imp_code code = read_type(object, kind, at, &name, error);
+    if (code != IMP_SUCCESS) return code;
+    imp_instance i = {.self = NULL};
+    if (kind == IMP_KIND_SURFACE)
+        i.surface = registry_find_surface(registry, name);
+    else
+        i.map = registry_find_map(registry, name);
+    place where = at->argument ? *at : place_key(at, "type");
+    if (i.surface == NULL && i.map == NULL) return refuse_type(registry, kind, name, &where, error);
+    type_view view = i.surface != NULL ? type_view_of_surface(i.surface) : type_view_of_map(i.map);
+    const char *file = registry_find_file(registry, kind, name);
+    isolated *stand_in = NULL;
+    worker_pool *workers = registry_isolation(registry, name);
+    if (workers != NULL && !isolate(workers, &i, &stand_in)) return error_set_memory(error);
+    code = create(&view, stand_in, file, source->folder, object, at, &i.self, error);
+    if (code == IMP_SUCCESS)
+        *instance = i;
+    else
+        isolate_destroy(stand_in);
+    return code;
+}
+
+/* --- Putting together ------------------------------------------------------------------- */
+
+/* As it would stand on a command line; false if it is too long for that. */
+static bool write_value(char *text, size_t size, const json_t *value)
+{
+    int length = -1;
+    if (json_is_number(value))
+        length = snprintf(text, size, "%.15g", json_number_value(value));
+    else if (json_is_boolean(value))
+        length = snprintf(text, size, "%s", json_is_true(value) ? "true" : "false");
+    else if (json_is_string(value))
+        length = snprintf(text, size, "'%s'", json_string_value(value));
+    return length >= 0 && (size_t)length < size;
+}
+
+/* The same of a short list: 1,0,0. */
+static bool write_list(char *text, size_t size, const json_t *list)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < json_array_size(list); ++i) {
+        if (i > 0 && used + 1 < size) text[used++] = ',';
+        if (!write_value(text + used, size - used, json_array_get(list, i))) return false;
+        used += strlen(text + used);
+    }
+    return used > 0;
+}
+
+/* " radius=2", or the name alone where the value is long. Allocates nothing: what cannot be said
+ * in a message must not cost the scene. */
+static void label_parameter(shared_part *p, const char *name, const json_t *value)
+{
+    char text[120];
+    const size_t head = (size_t)snprintf(text, sizeof text, " %.40s=", name);
+    const size_t room = sizeof text - head;
+    if (!(json_is_array(value) ? write_list(text + head, room, value)
+                               : write_value(text + head, room, value)))
+        memcpy(text + head, "...", 4);
+    part_add_label(p, text);
+}
+
+imp_code scene_build_part(const scene_source *source, imp_type_kind kind, const json_t *object,
+                          const place *at, shared_part **made, imp_error *error)
+{
+    imp_instance i;
+    imp_code code = scene_build_instance(source, kind, object, at, &i, error);
+    if (code != IMP_SUCCESS) return code;
+    shared_part *p =
+        kind == IMP_KIND_SURFACE ? part_of_surface(i.surface, i.self) : part_of_map(i.map, i.self);
+    if (p == NULL) return error_set_memory(error);
+    const char *key, *name = json_string_value(json_object_get(object, "type"));
+    json_t *value;
+    json_object_foreach((json_t *)unconst(object), key, value)
+    {
+        if (strcmp(key, "type") != 0 && strcmp(key, "maps") != 0) label_parameter(p, key, value);
+    }
+    if (p->breach == IMP_OK) {
+        *made = p;
+        return IMP_SUCCESS;
+    }
+    code = place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", name,
+                       registry_find_file(source->registry, kind, name),
+                       surface_status_text(p->breach));
+    part_release(p);
+    return code;
+}

@@ -1,0 +1,213 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/base/file_text.h"
+#include "core/base/fp_mode.h"
+#include "core/base/text.h"
+#include "core/plugin/parameters.h"
+#include "core/reader/json_keys.h"
+#include "core/reader/pipeline.h"
+#include "core/reader/scene_file.h"
+#include "core/reader/scene_json.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const scene_keys[] = {"time",   "gamma", "clearance", "define", "bodies",
+                                         "ignore", "id",    "reference", "note",   NULL};
+
+/* --- Settings ------------------------------------------------------------------------ */
+
+/* Rows like those of a type, so that numbers of the scene are read by the same code. */
+static const imp_parameter time_row = {.name = "time",
+                                       .kind = IMP_NUMBER,
+                                       .rank = 1,
+                                       .extent = {2},
+                                       .min = -INFINITY,
+                                       .max = INFINITY};
+static const imp_parameter gamma_row = {
+    .name = "gamma", .kind = IMP_NUMBER, .flags = IMP_MIN_OPEN, .min = 0, .max = INFINITY};
+static const imp_parameter clearance_row = {
+    .name = "clearance", .kind = IMP_NUMBER, .min = 0, .max = INFINITY};
+
+/* Reads the numbers at the row's key into to[], if the key is there. */
+static imp_code read_numbers(const scene_bodies *b, const json_t *object, const imp_parameter *row,
+                             const place *at, double *to)
+{
+    const json_t *json = json_object_get(object, row->name);
+    if (json == NULL) return IMP_SUCCESS;
+    imp_value value;
+    imp_code code = parameters_read_value(row, json, at, &value, b->error);
+    if (code != IMP_SUCCESS) return code;
+    memcpy(to, value.number, value.count * sizeof *to);
+    parameters_clear_value(&value);
+    return IMP_SUCCESS;
+}
+
+static imp_code read_settings(scene_bodies *b, const json_t *root, const place *at)
+{
+    scene_settings *s = scene_settings_of(b->assembly.scene);
+    double time[2] = {s->t_start, s->t_end};
+    place at_time = place_key(at, "time"), at_gamma = place_key(at, "gamma");
+    place at_clearance = place_key(at, "clearance");
+    imp_code code = read_numbers(b, root, &time_row, &at_time, time);
+    if (code == IMP_SUCCESS) code = read_numbers(b, root, &gamma_row, &at_gamma, &s->gamma);
+    if (code == IMP_SUCCESS)
+        code = read_numbers(b, root, &clearance_row, &at_clearance, &s->clearance);
+    if (code != IMP_SUCCESS) return code;
+    s->t_start = time[0];
+    s->t_end = time[1];
+    if (time[0] > time[1])
+        return place_error(
+            &at_time, b->error, IMP_ERROR_SCENE,
+            "got the empty interval [%s, %s], must be [start, end] with start <= end",
+            text_of_number(time[0]).at, text_of_number(time[1]).at);
+    if (s->clearance >= s->gamma)
+        return place_error(&at_clearance, b->error, IMP_ERROR_SCENE,
+                           "got %s, must be in [0, %s), below gamma",
+                           text_of_number(s->clearance).at, text_of_number(s->gamma).at);
+    return IMP_SUCCESS;
+}
+
+/* --- Scenes -------------------------------------------------------------------------- */
+
+static imp_scene *scene_of(const scene_source *source, json_t *root, const place *at,
+                           imp_error *error)
+{
+    scene_bodies b;
+    imp_code code = scene_bodies_start(&b, source, error);
+    if (code == IMP_SUCCESS)
+        code = json_keys_check(root, scene_keys, "a scene, {\"bodies\": [...]}", at, error);
+    if (code == IMP_SUCCESS) code = read_settings(&b, root, at);
+    if (code == IMP_SUCCESS) code = scene_json_read(&b, root, at);
+    if (code == IMP_SUCCESS) return scene_bodies_finish(&b, at);
+    scene_bodies_clear(&b);
+    return NULL;
+}
+
+static void refuse_syntax(const char *name, const json_error_t *fault, imp_error *error)
+{
+    if (fault->text[0] == '\0')
+        error_set_memory(error);
+    else if (fault->line < 1)
+        error_set(error, IMP_ERROR_SCENE, "%.400s: %s", name, fault->text);
+    else
+        error_set(error, IMP_ERROR_SCENE, "%.400s:%d:%d: %s", name, fault->line, fault->column,
+                  fault->text);
+    if (error != NULL) text_clean(error->text);
+}
+
+static bool is_blank(const char *text, size_t length)
+{
+    while (length > 0 && strchr(" \t\r\n", text[length - 1]) != NULL && text[length - 1]) --length;
+    return length == 0;
+}
+
+/* `name` is a path, or words without '/': then there is no folder. */
+static imp_scene *scene_of_text(const imp_registry *registry, json_t *root, const char *name,
+                                imp_error *error)
+{
+    const char *slash = strrchr(name, '/');
+    char *folder = slash != NULL ? strndup(name, (size_t)(slash - name) + 1) : NULL;
+    if (slash != NULL && folder == NULL) {
+        error_set_memory(error);
+        return NULL;
+    }
+    const scene_source source = {registry, folder};
+    const place at = place_document(name);
+    imp_scene *scene = scene_of(&source, root, &at, error);
+    free(folder);
+    return scene;
+}
+
+FP_APART static imp_scene *from_json(imp_registry *registry, const char *text, size_t length,
+                                     const char *name, imp_error *error)
+{
+    if (registry == NULL || text == NULL || name == NULL) {
+        error_set_missing(error, "imp_scene_from_json");
+        return NULL;
+    }
+    if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) { /* a byte order mark */
+        text += 3;
+        length -= 3;
+    }
+    if (is_blank(text, length)) {
+        error_set(error, IMP_ERROR_SCENE, "%.400s: is empty, must be a scene, {\"bodies\": [...]}",
+                  name);
+        return NULL;
+    }
+    json_error_t fault;
+    json_t *root = json_loadb(text, length, PARAMETERS_JSON_FLAGS, &fault);
+    if (root == NULL) {
+        refuse_syntax(name, &fault, error);
+        return NULL;
+    }
+    imp_scene *scene = scene_of_text(registry, root, name, error);
+    json_decref(root);
+    return scene;
+}
+
+imp_scene *imp_scene_from_json(imp_registry *registry, const char *text, size_t length,
+                               const char *name, imp_error *error)
+{
+    const fp_environment environment = fp_environment_enter();
+    imp_scene *scene = from_json(registry, text, length, name, error);
+    fp_environment_leave(&environment);
+    return scene;
+}
+
+imp_scene *imp_scene_from_file(imp_registry *registry, const char *path, imp_error *error)
+{
+    if (registry == NULL || path == NULL) {
+        error_set_missing(error, "imp_scene_from_file");
+        return NULL;
+    }
+    char *text;
+    size_t length;
+    if (file_text_read(path, &text, &length, error) != IMP_SUCCESS) return NULL;
+    imp_scene *scene = imp_scene_from_json(registry, text, length, path, error);
+    free(text);
+    return scene;
+}
+
+static imp_code add_pipeline(scene_bodies *b, const char *name, const char *line)
+{
+    json_t *object = pipeline_read(b->parts.source.registry, name, line, b->error);
+    if (object == NULL) return b->error != NULL ? b->error->code : IMP_ERROR_SCENE;
+    const place at = place_argument(NULL, name);
+    imp_code code = scene_bodies_begin(b, name, &at);
+    if (code == IMP_SUCCESS)
+        code = scene_parts_surface(&b->parts, object, &at,
+                                   &b->assembly.bodies[b->assembly.count - 1].shapes);
+    json_decref(object);
+    return code;
+}
+
+FP_APART static imp_scene *from_pair(imp_registry *registry, const char *a, const char *b,
+                                     imp_error *error)
+{
+    if (registry == NULL || a == NULL || b == NULL) {
+        error_set_missing(error, "imp_scene_from_pair");
+        return NULL;
+    }
+    scene_bodies scene;
+    const scene_source source = {.registry = registry};
+    imp_code code = scene_bodies_start(&scene, &source, error);
+    if (code == IMP_SUCCESS) code = add_pipeline(&scene, "a", a);
+    if (code == IMP_SUCCESS) code = add_pipeline(&scene, "b", b);
+    const place at = place_argument(NULL, "b");
+    if (code == IMP_SUCCESS) return scene_bodies_finish(&scene, &at);
+    scene_bodies_clear(&scene);
+    return NULL;
+}
+
+imp_scene *imp_scene_from_pair(imp_registry *registry, const char *a, const char *b,
+                               imp_error *error)
+{
+    const fp_environment environment = fp_environment_enter();
+    imp_scene *scene = from_pair(registry, a, b, error);
+    fp_environment_leave(&environment);
+    return scene;
+}

@@ -1,0 +1,145 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/scene/assembly.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+#include "core/common/array.h"
+
+/* --- Shapes ----------------------------------------------------------------------- */
+
+static void shape_clear(shape *s)
+{
+    part_release(s->type);
+    part_list_clear(&s->maps);
+}
+
+bool shape_list_add(shape_list *list, shared_part *type, const part_list *maps)
+{
+    shape *grown = array_reserve(list->at, list->count, &list->capacity, sizeof *grown);
+    if (grown == NULL) return false;
+    list->at = grown;
+    shape made = {.type = part_hold(type)};
+    if (!part_list_add_all(&made.maps, maps)) {
+        shape_clear(&made);
+        return false;
+    }
+    list->at[list->count++] = made;
+    return true;
+}
+
+bool shape_list_add_all(shape_list *list, const shape_list *more)
+{
+    for (size_t k = 0; k < more->count; ++k)
+        if (!shape_list_add(list, more->at[k].type, &more->at[k].maps)) return false;
+    return true;
+}
+
+void shape_list_clear(shape_list *list)
+{
+    for (size_t k = 0; k < list->count; ++k) shape_clear(&list->at[k]);
+    free(list->at);
+    *list = (shape_list){.count = 0};
+}
+
+/* --- Bodies -------------------------------------------------------------------------- */
+
+bool assembly_begin(assembly *a)
+{
+    *a = (assembly){.scene = scene_new()};
+    return a->scene != NULL;
+}
+
+void assembly_clear(assembly *a)
+{
+    for (size_t k = 0; k < a->count; ++k) {
+        shape_list_clear(&a->bodies[k].shapes);
+        part_list_clear(&a->bodies[k].maps);
+    }
+    free(a->bodies);
+    imp_scene_free(a->scene);
+    *a = (assembly){.scene = NULL};
+}
+
+bool assembly_add_body(assembly *a, const char *name)
+{
+    assembly_body *grown = array_reserve(a->bodies, a->count, &a->capacity, sizeof *grown);
+    if (grown == NULL) return false;
+    a->bodies = grown;
+    if (scene_add_body(a->scene, name) != IMP_SUCCESS) return false;
+    a->bodies[a->count++] = (assembly_body){.parent = ASSEMBLY_NO_PARENT};
+    return true;
+}
+
+/* Walks up from each body until it meets one that an earlier walk has passed. To meet one that the
+ * same walk has passed is to walk in a circle. */
+assembly_search assembly_find_cycle(const assembly *a, size_t *body)
+{
+    size_t *passed = calloc(a->count + 1, sizeof *passed); /* by which walk; 0: by none */
+    if (passed == NULL) return ASSEMBLY_NO_MEMORY;
+    bool found = false;
+    for (size_t k = 0; k < a->count && !found; ++k) {
+        size_t up = k;
+        while (up != ASSEMBLY_NO_PARENT && passed[up] == 0) {
+            passed[up] = k + 1;
+            up = a->bodies[up].parent;
+        }
+        found = up != ASSEMBLY_NO_PARENT && passed[up] == k + 1;
+        if (found) *body = up;
+    }
+    free(passed);
+    return found ? ASSEMBLY_CYCLE : ASSEMBLY_NO_CYCLE;
+}
+
+bool assembly_is_too_large(const assembly *a)
+{
+    size_t work = 0;
+    for (size_t body = 0; body < a->count; ++body) {
+        const shape_list *shapes = &a->bodies[body].shapes;
+        for (size_t k = 0; k < shapes->count; ++k) work += shapes->at[k].maps.count;
+        for (size_t up = body; up != ASSEMBLY_NO_PARENT; up = a->bodies[up].parent) {
+            work += 1 + shapes->count * a->bodies[up].maps.count;
+            if (work > ASSEMBLY_WORK_MAX) return true;
+        }
+    }
+    return false;
+}
+
+/* --- Composing ------------------------------------------------------------------------- */
+
+static bool add_parts(surface *s, const part_list *maps)
+{
+    for (size_t k = 0; k < maps->count; ++k)
+        if (surface_add_part(s, maps->at[k]) != IMP_SUCCESS) return false;
+    return true;
+}
+
+/* The shape under its own maps, then those of the body and of all its ancestors. */
+static surface *compose(const assembly *a, size_t body, const shape *what)
+{
+    surface *s = surface_new_of(what->type);
+    bool done = s != NULL && add_parts(s, &what->maps);
+    for (size_t up = body; done && up != ASSEMBLY_NO_PARENT; up = a->bodies[up].parent)
+        done = add_parts(s, &a->bodies[up].maps);
+    if (done) return s;
+    surface_free(s);
+    return NULL;
+}
+
+imp_scene *assembly_finish(assembly *a)
+{
+    for (size_t body = 0; body < a->count; ++body) {
+        const shape_list *shapes = &a->bodies[body].shapes;
+        for (size_t k = 0; k < shapes->count; ++k) {
+            surface *s = compose(a, body, &shapes->at[k]);
+            if (s == NULL || scene_add_surface(a->scene, body, s) != IMP_SUCCESS) return NULL;
+        }
+    }
+    imp_scene *scene = a->scene;
+    a->scene = NULL;
+    assembly_clear(a);
+    return scene;
+}

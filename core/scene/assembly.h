@@ -1,0 +1,68 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SCENE_ASSEMBLY_H
+#define CORE_SCENE_ASSEMBLY_H
+
+#include "core/scene/scene.h"
+#include "core/surface/part.h"
+
+/* From parts to a scene
+ * =====================
+ * Bodies are described one by one: what they consist of, their maps, their parents. When all of
+ * that is known, each surface is composed: first its own maps, then those of its body, then those
+ * of its body's parent, of the parent's parent, and so on. The parts stay shared. */
+
+/* A surface type's instance under maps of its own. */
+typedef struct shape {
+    shared_part *type; /* held */
+    part_list maps;
+} shape;
+
+typedef struct shape_list {
+    shape *at;
+    size_t count, capacity;
+} shape_list;
+
+bool shape_list_add(shape_list *list, shared_part *type,
+                    const part_list *maps); /* false: no memory */
+bool shape_list_add_all(shape_list *list, const shape_list *more);
+void shape_list_clear(shape_list *list);
+
+#define ASSEMBLY_NO_PARENT SIZE_MAX
+
+/* One body's description; shapes and maps may be added to until the scene is composed. */
+typedef struct assembly_body {
+    shape_list shapes;
+    part_list maps;
+    size_t parent;
+} assembly_body;
+
+typedef struct assembly {
+    imp_scene *scene; /* its bodies have names and groups already, but no surfaces */
+    assembly_body *bodies;
+    size_t count, capacity;
+} assembly;
+
+bool assembly_begin(assembly *a); /* false: no memory; clear it all the same */
+void assembly_clear(assembly *a);
+
+/* A body of that name, which is copied: the last of a->bodies. False: no memory. */
+bool assembly_add_body(assembly *a, const char *name);
+
+/* A body that is its own ancestor, in *body. */
+typedef enum assembly_search {
+    ASSEMBLY_NO_CYCLE,
+    ASSEMBLY_CYCLE,
+    ASSEMBLY_NO_MEMORY
+} assembly_search;
+assembly_search assembly_find_cycle(const assembly *a, size_t *body);
+
+/* Maps put on surfaces in all, and ancestors walked through for it: what a small file of parents and
+ * shared lists of maps could otherwise multiply without end. */
+#define ASSEMBLY_WORK_MAX 4194304u
+bool assembly_is_too_large(const assembly *a);
+
+/* The scene, which is the caller's then. Precondition: no cycle, not too large. NULL: no memory. */
+imp_scene *assembly_finish(assembly *a);
+
+#endif

@@ -1,0 +1,313 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/scene/scene.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/fp_mode.h"
+#include "core/base/sized.h"
+#include "core/base/status.h"
+#include "core/common/array.h"
+#include "core/scene/key_pairs.h"
+#include "core/scene/scene_trees.h"
+
+typedef struct member {
+    surface *surface;
+    tree **trees;
+    size_t tree_count, tree_capacity;
+} member;
+
+typedef struct scene_body {
+    char *name;
+    member *members;
+    size_t count, capacity;
+    size_t *groups;
+    size_t group_count, group_capacity;
+} scene_body;
+
+struct imp_scene {
+    scene_body *bodies;
+    size_t count, capacity;
+    char **groups; /* names */
+    size_t group_count, group_capacity;
+    key_pairs ignored;
+    scene_settings settings;
+};
+
+/* --- Building ------------------------------------------------------------------- */
+
+imp_scene *scene_new(void)
+{
+    imp_scene *scene = calloc(1, sizeof *scene);
+    if (scene != NULL) scene->settings = (scene_settings){0, 1, 1e-6, -1};
+    return scene;
+}
+
+static void member_free(member *m)
+{
+    for (size_t k = 0; k < m->tree_count; ++k) tree_free(m->trees[k]);
+    free(m->trees);
+    surface_free(m->surface);
+}
+
+void imp_scene_free(imp_scene *scene)
+{
+    if (scene == NULL) return;
+    for (size_t b = 0; b < scene->count; ++b) {
+        for (size_t k = 0; k < scene->bodies[b].count; ++k)
+            member_free(&scene->bodies[b].members[k]);
+        free(scene->bodies[b].members);
+        free(scene->bodies[b].groups);
+        free(scene->bodies[b].name);
+    }
+    for (size_t g = 0; g < scene->group_count; ++g) free(scene->groups[g]);
+    free(scene->groups);
+    free(scene->bodies);
+    key_pairs_clear(&scene->ignored);
+    free(scene);
+}
+
+imp_code scene_add_body(imp_scene *scene, const char *name)
+{
+    scene_body *bodies =
+        array_reserve(scene->bodies, scene->count, &scene->capacity, sizeof *bodies);
+    if (bodies == NULL) return IMP_ERROR_MEMORY;
+    scene->bodies = bodies;
+    char *copy = strdup(name);
+    if (copy == NULL) return IMP_ERROR_MEMORY;
+    bodies[scene->count++] = (scene_body){.name = copy};
+    return IMP_SUCCESS;
+}
+
+imp_code scene_add_surface(imp_scene *scene, size_t index, surface *s)
+{
+    assert(index < scene->count);
+    scene_body *b = &scene->bodies[index];
+    member *members = array_reserve(b->members, b->count, &b->capacity, sizeof *members);
+    if (members == NULL) {
+        surface_free(s);
+        return IMP_ERROR_MEMORY;
+    }
+    surface_set_body(s, b->name, b->count);
+    members[b->count++] = (member){.surface = s};
+    b->members = members;
+    return IMP_SUCCESS;
+}
+
+/* --- Groups --------------------------------------------------------------------- */
+
+imp_code scene_add_group(imp_scene *scene, const char *name)
+{
+    char **grown =
+        array_reserve(scene->groups, scene->group_count, &scene->group_capacity, sizeof *grown);
+    if (grown == NULL) return IMP_ERROR_MEMORY;
+    scene->groups = grown;
+    grown[scene->group_count] = strdup(name);
+    if (grown[scene->group_count] == NULL) return IMP_ERROR_MEMORY;
+    scene->group_count += 1;
+    return IMP_SUCCESS;
+}
+
+size_t scene_group_count(const imp_scene *scene) { return scene->group_count; }
+
+const char *scene_group_name(const imp_scene *scene, size_t group)
+{
+    return group < scene->group_count ? scene->groups[group] : NULL;
+}
+
+imp_code scene_join(imp_scene *scene, size_t index, size_t group)
+{
+    assert(index < scene->count && group < scene->group_count);
+    scene_body *b = &scene->bodies[index];
+    size_t *grown = array_reserve(b->groups, b->group_count, &b->group_capacity, sizeof *grown);
+    if (grown == NULL) return IMP_ERROR_MEMORY;
+    b->groups = grown;
+    b->groups[b->group_count++] = group;
+    return IMP_SUCCESS;
+}
+
+/* --- Who ignores whom ----------------------------------------------------------- */
+
+/* Bodies have the even keys, groups the odd ones. */
+static size_t key_of(scene_members m) { return 2 * m.index + m.is_group; }
+
+imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y)
+{
+    return key_pairs_add(&scene->ignored, key_of(x), key_of(y)) ? IMP_SUCCESS : IMP_ERROR_MEMORY;
+}
+
+imp_code scene_ignore(imp_scene *scene, size_t a, size_t b)
+{
+    return scene_ignore_members(scene, (scene_members){false, a}, (scene_members){false, b});
+}
+
+/* The body's own key (k == 0), or that of its group number k - 1. */
+static size_t body_key(const imp_scene *scene, size_t index, size_t k)
+{
+    if (k == 0) return key_of((scene_members){false, index});
+    return key_of((scene_members){true, scene->bodies[index].groups[k - 1]});
+}
+
+bool scene_ignores(const imp_scene *scene, size_t a, size_t b)
+{
+    if (scene->ignored.count == 0) return false;
+    for (size_t j = 0; j <= scene->bodies[a].group_count; ++j)
+        for (size_t k = 0; k <= scene->bodies[b].group_count; ++k)
+            if (key_pairs_have(&scene->ignored, body_key(scene, a, j), body_key(scene, b, k)))
+                return true;
+    return false;
+}
+
+/* --- Asking ------------------------------------------------------------------------ */
+
+scene_settings *scene_settings_of(imp_scene *scene) { return &scene->settings; }
+
+size_t imp_scene_body_count(const imp_scene *scene) { return scene != NULL ? scene->count : 0; }
+
+bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b)
+{
+    return scene_ignores(scene, a, b);
+}
+
+const char *imp_scene_body_name(const imp_scene *scene, size_t body)
+{
+    return body < imp_scene_body_count(scene) ? scene->bodies[body].name : NULL;
+}
+
+size_t imp_scene_surface_count(const imp_scene *scene, size_t body)
+{
+    return body < imp_scene_body_count(scene) ? scene->bodies[body].count : 0;
+}
+
+const surface *scene_surface(const imp_scene *scene, size_t body, size_t index)
+{
+    if (index >= imp_scene_surface_count(scene, body)) return NULL;
+    return scene->bodies[body].members[index].surface;
+}
+
+/* A callback's refusal of what lies outside the domain is the caller's fault. */
+static imp_code refusal(const surface *s, imp_status status, imp_error *why)
+{
+    surface_fault(s, why, ": %s", surface_status_text(status));
+    if (status != IMP_DOMAIN) return surface_set_code(status, why);
+    if (why != NULL) why->code = IMP_ERROR_USAGE;
+    return IMP_ERROR_USAGE;
+}
+
+static imp_code no_surface(size_t body, size_t index, imp_error *why)
+{
+    return error_set(why, IMP_ERROR_USAGE, "body %zu has no surface %zu", body, index);
+}
+
+FP_APART static imp_code eval(const imp_scene *scene, size_t body, size_t index, size_t n,
+                              const double *p, double *x, double *error, imp_error *why)
+{
+    const surface *s = scene_surface(scene, body, index);
+    if (s == NULL) return no_surface(body, index, why);
+    const imp_status status = surface_eval(s, n, p, x, error);
+    return status == IMP_OK ? IMP_SUCCESS : refusal(s, status, why);
+}
+
+static bool is_inside(const surface *s, const double lo[3], const double hi[3])
+{
+    double from[3], to[3];
+    surface_domain(s, from, to);
+    for (int j = 0; j < 3; ++j)
+        if (!(lo[j] >= from[j] && lo[j] <= hi[j] && hi[j] <= to[j] && isfinite(lo[j]) &&
+              isfinite(hi[j])))
+            return false;
+    return true;
+}
+
+FP_APART static imp_code include(const imp_scene *scene, size_t body, size_t index,
+                                 const double lo[3], const double hi[3], imp_model model[3],
+                                 imp_error *why)
+{
+    const surface *s = scene_surface(scene, body, index);
+    if (s == NULL) return no_surface(body, index, why);
+    if (!is_inside(s, lo, hi))
+        return error_set(why, IMP_ERROR_USAGE,
+                         "body %zu, surface %zu: region (%g..%g, %g..%g, %g..%g), must be finite "
+                         "and inside the domain",
+                         body, index, lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]);
+    const imp_region region = region_make(lo, hi);
+    const imp_status status = surface_include(s, &region, model);
+    return status == IMP_OK || status == IMP_UNBOUNDED ? IMP_SUCCESS : refusal(s, status, why);
+}
+
+imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t index, size_t n,
+                        const double *p, double *x, double *error, imp_error *why)
+{
+    if (scene == NULL || p == NULL || x == NULL) return error_set_missing(why, "imp_scene_eval");
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = eval(scene, body, index, n, p, x, error, why);
+    fp_environment_leave(&environment);
+    return code;
+}
+
+imp_code imp_scene_include(const imp_scene *scene, size_t body, size_t index, const double lo[3],
+                           const double hi[3], imp_model model[3], imp_error *why)
+{
+    if (scene == NULL || lo == NULL || hi == NULL || model == NULL)
+        return error_set_missing(why, "imp_scene_include");
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = include(scene, body, index, lo, hi, model, why);
+    fp_environment_leave(&environment);
+    return code;
+}
+
+void imp_scene_domain(const imp_scene *scene, size_t body, size_t index, double lo[3], double hi[3])
+{
+    const surface *s = scene_surface(scene, body, index);
+    if (lo == NULL || hi == NULL) return;
+    for (int j = 0; j < 3; ++j) lo[j] = INFINITY, hi[j] = -INFINITY;
+    if (s != NULL) surface_domain(s, lo, hi);
+}
+
+void scene_options(const imp_scene *scene, imp_options *options)
+{
+    const scene_settings *set = &scene->settings;
+    *options = (imp_options){.struct_size = (uint32_t)sizeof *options,
+                             .t_start = set->t_start,
+                             .t_end = set->t_end,
+                             .gamma = set->gamma,
+                             .clearance = set->clearance,
+                             .max_bytes = (uint64_t)1 << 30,
+                             .method = IMP_METHOD_MODELS,
+                             .bounds = IMP_BOUNDS_BOX,
+                             .rates = IMP_RATES_FULL};
+}
+
+imp_code imp_options_read(const imp_scene *scene, imp_options *options, imp_error *error)
+{
+    if (scene == NULL) return error_set_missing(error, "imp_options_read");
+    imp_options own;
+    scene_options(scene, &own);
+    const imp_code code = sized_check("imp_options", options, SCENE_OPTIONS_FIRST, error);
+    if (code == IMP_SUCCESS) sized_write(options, &own);
+    return code;
+}
+
+/* --- Trees ----------------------------------------------------------------------------- */
+
+imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
+                    lent_tree *lent, imp_error *error)
+{
+    member *m = &scene->bodies[body].members[index];
+    for (size_t k = 0; k < m->tree_count; ++k)
+        if (tree_is_of(m->trees[k], plan)) {
+            *lent = (lent_tree){m->trees[k], false};
+            return IMP_SUCCESS;
+        }
+    tree **trees = array_reserve(m->trees, m->tree_count, &m->tree_capacity, sizeof *trees);
+    if (trees == NULL) return error_set_memory(error);
+    m->trees = trees;
+    const imp_code code = tree_new(m->surface, plan, &trees[m->tree_count], error);
+    if (code == IMP_SUCCESS) *lent = (lent_tree){trees[m->tree_count++], true};
+    return code;
+}

@@ -1,0 +1,52 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SCENE_SCENE_H
+#define CORE_SCENE_SCENE_H
+
+#include "core/surface/surface.h"
+
+/* Bodies and their surfaces, the groups they are in, and who ignores whom. Built by assembly, read
+ * by the solver. */
+
+imp_scene *scene_new(void); /* NULL: no memory. Free with imp_scene_free. */
+
+/* `name` is copied. Its index is the count before. */
+imp_code scene_add_body(imp_scene *scene, const char *name);
+
+/* Takes over `s`, also when it fails. */
+imp_code scene_add_surface(imp_scene *scene, size_t body, surface *s);
+
+/* Groups: bodies by a common name, which is copied. Its index is the count before; the name beyond the
+ * last is NULL. */
+imp_code scene_add_group(imp_scene *scene, const char *name);
+size_t scene_group_count(const imp_scene *scene);
+const char *scene_group_name(const imp_scene *scene, size_t group);
+imp_code scene_join(imp_scene *scene, size_t body, size_t group);
+
+/* A body, or every body of a group. */
+typedef struct scene_members {
+    bool is_group;
+    size_t index;
+} scene_members;
+
+/* No body of x is ever tested with one of y; x and y may be the same group. */
+imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y);
+imp_code scene_ignore(imp_scene *scene, size_t a, size_t b); /* two bodies */
+bool scene_ignores(const imp_scene *scene, size_t a, size_t b);
+
+/* NULL: there is none. */
+const surface *scene_surface(const imp_scene *scene, size_t body, size_t index);
+
+/* What the scene file asks for; the defaults of imp_options_default. Preset: 0, 1, 1e-6, -1. */
+typedef struct scene_settings {
+    double t_start, t_end, gamma, clearance;
+} scene_settings;
+scene_settings *scene_settings_of(imp_scene *scene);
+
+/* What imp_options_default answers. */
+void scene_options(const imp_scene *scene, imp_options *options);
+
+/* Bytes of imp_options in the first release. */
+#define SCENE_OPTIONS_FIRST sizeof(imp_options)
+
+#endif

@@ -1,0 +1,234 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/axes.h"
+
+#include "core/solver/gjk_axis.h"
+#include "core/solver/quadratic.h"
+
+/* Four directions, coordinate by coordinate; and their absolute values. */
+typedef struct bundle {
+    imp_quad x[3], size[3];
+} bundle;
+
+IMP_QUAD_INLINE bundle bundle_of(vec3 a, vec3 b, vec3 c, vec3 d)
+{
+    bundle n;
+    for (int i = 0; i < 3; ++i) n.x[i] = (imp_quad){a.x[i], b.x[i], c.x[i], d.x[i]};
+    return n;
+}
+
+IMP_QUAD_INLINE imp_quad along(const bundle *n, const double *v)
+{
+    return n->x[0] * imp_quad_all(v[0]) + n->x[1] * imp_quad_all(v[1]) +
+           n->x[2] * imp_quad_all(v[2]);
+}
+
+IMP_QUAD_INLINE imp_quad weighted(const bundle *n, const double *v)
+{
+    return n->size[0] * imp_quad_all(v[0]) + n->size[1] * imp_quad_all(v[1]) +
+           n->size[2] * imp_quad_all(v[2]);
+}
+
+/* The coefficients of a slice along each direction. */
+typedef struct forms {
+    imp_quad bu, bv, uu, uv, vv, uw, vw;
+} forms;
+
+IMP_QUAD_INLINE forms project(const bundle *n, const slice *s)
+{
+    return (forms){along(n, s->bu),  along(n, s->bv),  along(n, s->quu), along(n, s->quv),
+                   along(n, s->qvv), along(n, s->quw), along(n, s->qvw)};
+}
+
+IMP_QUAD_INLINE forms negative(const forms *f)
+{
+    return (forms){-f->bu, -f->bv, -f->uu, -f->uv, -f->vv, -f->uw, -f->vw};
+}
+
+IMP_QUAD_INLINE imp_quad turning(const forms *f)
+{
+    return imp_quad_abs(f->uw) + imp_quad_abs(f->vw);
+}
+
+/* The form with the slopes that it has at w. */
+IMP_QUAD_INLINE quadratics form_at(const forms *f, double w)
+{
+    const imp_quad to = imp_quad_all(w);
+    return (quadratics){f->bu + to * f->uw, f->bv + to * f->vw, f->uu, f->uv, f->vv};
+}
+
+IMP_QUAD_INLINE imp_quad lower(const forms *f, double w)
+{
+    const quadratics p = form_at(f, w);
+    return quadratics_lower(&p);
+}
+
+/* At every w the form's least value is at most this. */
+IMP_QUAD_INLINE imp_quad min_upper_bound(const forms *f)
+{
+    const quadratics p = {f->bu, f->bv, f->uu, f->uv, f->vv};
+    return imp_quad_min(quadratics_corner(&p) + turning(f), imp_quad_all(0));
+}
+
+/* --- What four axes show --------------------------------------------------------------- */
+
+/* The least upper and greatest lower bound of w that low + drift w <= limit leaves in each lane;
+ * `gone` where it leaves nothing. */
+typedef struct cuts {
+    imp_quad lo, hi;
+    imp_quad_mask gone;
+} cuts;
+
+/* w_range_cut, in lanes. */
+IMP_QUAD_INLINE void cut(cuts *c, imp_quad low, imp_quad drift, imp_quad limit)
+{
+    const imp_quad reach = imp_quad_abs(drift);
+    c->gone |= low - reach > limit;
+    const imp_quad_mask some = low + reach > limit;
+    if (!imp_quad_any(some)) return;
+    const imp_quad w = (limit - low) / drift;
+    const imp_quad slack = imp_quad_all(W_RANGE_ROUNDING * UNIT_ROUNDOFF);
+    c->hi = imp_quad_pick(some & (drift > imp_quad_all(0)), imp_quad_min(w + slack, c->hi), c->hi);
+    c->lo = imp_quad_pick(some & (drift < imp_quad_all(0)), imp_quad_max(w - slack, c->lo), c->lo);
+}
+
+IMP_QUAD_INLINE bool w_range_take(w_range *s, const cuts *c)
+{
+    if (imp_quad_any(c->gone)) return false;
+    for (int k = 0; k < IMP_QUAD; ++k) {
+        if (c->hi[k] < s->hi) s->hi = c->hi[k];
+        if (c->lo[k] > s->lo) s->lo = c->lo[k];
+    }
+    return !(s->lo > s->hi);
+}
+
+/* Of length 1 to 2, pointing from A to B at the range of w's start. */
+IMP_QUAD_INLINE imp_quad bundle_orient(bundle *n, const relative *r, double start)
+{
+    const imp_quad longest = imp_quad_max(
+        imp_quad_abs(n->x[0]), imp_quad_max(imp_quad_abs(n->x[1]), imp_quad_abs(n->x[2])));
+    const imp_quad way = along(n, r->delta) + along(n, r->drift) * imp_quad_all(start);
+    const imp_quad one = imp_quad_pick(way < imp_quad_all(0), imp_quad_all(-1), imp_quad_all(1));
+    const imp_quad scale = one / longest;
+    for (int i = 0; i < 3; ++i) {
+        n->x[i] *= scale;
+        n->size[i] = imp_quad_abs(n->x[i]);
+    }
+    return longest;
+}
+
+/* |n| clearance, rounded up. Roundings: squares 1, sums 2, root (1 + 2) / 2 + 1, product 1. */
+PAD_COVERS(16, 3 + 1);
+IMP_QUAD_INLINE imp_quad limit_upper(const bundle *n, double clearance)
+{
+    const imp_quad square = n->x[0] * n->x[0] + n->x[1] * n->x[1] + n->x[2] * n->x[2];
+    imp_quad limit;
+    for (int k = 0; k < IMP_QUAD; ++k) limit[k] = padded_upper(sqrt(square[k]) * clearance, 16);
+    return limit;
+}
+
+/* Adds the line low + drift w of each lane. The length is rounded up:
+ * its square goes through 3 roundings, which the root halves and adds one to. */
+PAD_COVERS(8, 3);
+IMP_QUAD_INLINE void add_lines(gap_lines *lines, const bundle *n, imp_quad_mask sane, imp_quad low,
+                               imp_quad drift)
+{
+    const imp_quad square = n->x[0] * n->x[0] + n->x[1] * n->x[1] + n->x[2] * n->x[2];
+    for (int k = 0; k < IMP_QUAD; ++k)
+        if (sane[k]) gap_lines_add(lines, low[k], drift[k], padded_upper(sqrt(square[k]), 8));
+}
+
+/* The chord under the sum of both forms' least values: at w at least middle + tilt w. */
+typedef struct chord {
+    imp_quad middle, tilt;
+} chord;
+
+IMP_QUAD_INLINE chord chord_under(const forms *f, const forms *g)
+{
+    const imp_quad half = imp_quad_all(0.5), start = lower(f, -1) + lower(g, -1);
+    if (!imp_quad_any(turning(f) + turning(g) > imp_quad_all(0)))
+        return (chord){start, imp_quad_all(0)};
+    const imp_quad end = lower(f, 1) + lower(g, 1);
+    return (chord){half * (start + end), half * (end - start)};
+}
+
+/* Lemma (one axis). Let x of A and y of B have fixed parameters s_a, s_b. But for the slack,
+ * n.(y - x) is then linear in w. The least of it over all s_a, s_b is concave in w, being a
+ * minimum of linear functions, and so lies above its chord; the greatest lies below its own.
+ * At either end of the window, w = -1 and w = 1, they are
+ *
+ *   n.delta + n.drift w + [min Qb - max Qa, max Qb - min Qa],   the forms with their slopes at w,
+ *
+ * and |n.(y - x)| <= |n| |y - x|. So where the chords less or more sum_i |n_i| slack_i leave
+ * [-g, g], g = |n| clearance, the nodes are farther apart than the clearance. 2^-490
+ * outweighs underflow, since every axis has a coordinate of 1. Lanes whose axis or size is out of
+ * range are left out: they prove nothing. The far side is computed only where it may end below g.
+ * Rounding, in units of u R, R = sum_i |n_i| magnitude_i:
+ *
+ *   relative_at                            RELATIVE_ROUNDING
+ *   dots n.x                               6: of a form 3, of offset and drift 3
+ *   slopes at the ends                     2: product, sum
+ *   least values of both forms             2 QUADRATIC_ROUNDING
+ *   chord, low +- drift, limit - low      16: sums of at most 4 R
+ *   slack and R themselves                 8: product 1, sums 2, two more of the slack */
+enum { AXIS_ROUNDING = 256 };
+_Static_assert(RELATIVE_ROUNDING + 6 + 2 + 2 * QUADRATIC_ROUNDING + 16 + 8 <= AXIS_ROUNDING,
+               "rounding along one axis");
+
+IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, w_range *s,
+                                gap_lines *lines)
+{
+    const imp_quad longest = bundle_orient(n, r, r->focus);
+    const forms a = project(n, &r->a), b = project(n, &r->b);
+    const forms minus_a = negative(&a), minus_b = negative(&b);
+    const imp_quad offset = along(n, r->delta), drift = along(n, r->drift);
+    const imp_quad size = weighted(n, r->magnitude);
+    const imp_quad slack = weighted(n, r->slack) +
+                           size * imp_quad_all(AXIS_ROUNDING * UNIT_ROUNDOFF) +
+                           imp_quad_all(QUADRATIC_UNDERFLOW);
+    const imp_quad_mask sane = (longest > imp_quad_all(0x1p-400)) &
+                               (longest < imp_quad_all(0x1p400)) & (size < imp_quad_all(0x1p400));
+    const imp_quad limit = imp_quad_pick(sane, limit_upper(n, clearance), imp_quad_all(INFINITY));
+    const chord near = chord_under(&b, &minus_a);
+    cuts c = {imp_quad_all(-1), imp_quad_all(1), (imp_quad_mask){0}};
+    cut(&c, offset + near.middle - slack, drift + near.tilt, limit);
+    if (lines != NULL) add_lines(lines, n, sane, offset + near.middle - slack, drift + near.tilt);
+    const imp_quad seen =
+        imp_quad_abs(drift) - offset + min_upper_bound(&a) + min_upper_bound(&minus_b);
+    if (imp_quad_any(seen > imp_quad_all(0))) {
+        const chord far = chord_under(&a, &minus_b);
+        cut(&c, far.middle - offset - slack, far.tilt - drift, limit);
+        if (lines != NULL) add_lines(lines, n, sane, far.middle - offset - slack, far.tilt - drift);
+    }
+    return w_range_take(s, &c);
+}
+
+/* Along the axis that is best at the focus, the window's start where that decides when the earliest
+ * contact can be; both normals; and the line of centres at the end of the window that is farther from
+ * the focus. Where no axis is any good at the focus, along the line of centres there. */
+IMP_QUAD_INLINE bool cut_along_axes(const relative *r, double clearance, w_range *s, vec3 *axis,
+                                    gap_lines *lines)
+{
+    const vec3 delta = vec3_from(r->delta), drift = vec3_from(r->drift);
+    const vec3 here = vec3_sub(delta, vec3_scale(drift, -r->focus));
+    const vec3 end = vec3_sub(delta, vec3_scale(drift, r->focus > 0 ? 1 : -1));
+    vec3 best = vec3_norm1(*axis) > 0 ? *axis : here;
+    const bool apart = gjk_axis(r, r->focus, &best);
+    if (apart) *axis = best;
+    bundle n = bundle_of(apart ? best : here, r->a.normal, r->b.normal, end);
+    return bundle_cut(r, &n, clearance, s, lines);
+}
+
+IMP_QUAD_WIDE static bool cut_along_axes_wide(const relative *r, double clearance, w_range *s,
+                                              vec3 *axis, gap_lines *lines)
+{
+    return cut_along_axes(r, clearance, s, axis, lines);
+}
+
+bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines)
+{
+    return imp_quad_is_wide() ? cut_along_axes_wide(r, clearance, s, axis, lines)
+                              : cut_along_axes(r, clearance, s, axis, lines);
+}

@@ -1,0 +1,18 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_AXES_H
+#define CORE_SOLVER_AXES_H
+
+#include "core/solver/gap_lines.h"
+
+/* Separating axes that stay fixed over the window
+ * ===============================================
+ * Four axes at a time in vector lanes: the one that gjk_axis.h finds, and three that the nodes
+ * suggest. What an axis proves does not depend on how it was found. */
+
+/* Cuts the range of w to the w at which no axis shows the nodes apart; false: none is left. `axis` holds
+ * the axis that was best for the parents, or 0, and is given the best; no length is meant. What the
+ * axes prove of the distance is added to `lines`, unless NULL. */
+bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines);
+
+#endif

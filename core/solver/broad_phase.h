@@ -1,0 +1,28 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_BROAD_PHASE_H
+#define CORE_SOLVER_BROAD_PHASE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Which boxes are near each other? Sweep and prune along x: every pair of the boxes whose gap along
+ * every axis is at most the clearance is visited, and (lo, hi) that are infinite or NaN count as
+ * near all. */
+
+typedef struct swept_box {
+    double lo[3], hi[3]; /* over the whole query's times; length, world space */
+    size_t owner;        /* caller's number, handed to the visitor */
+} swept_box;
+
+typedef struct broad_phase_visitor {
+    bool (*next_box)(void *context); /* before the pairs of each box: whether to go on */
+    bool (*visit)(void *context, size_t first, size_t second); /* whether to go on */
+    void *context;
+} broad_phase_visitor;
+
+/* Visits in the order of the sweep; false from a callback stops and is answered. Sorts `boxes`. */
+bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
+                       const broad_phase_visitor *visitor);
+
+#endif

@@ -1,0 +1,198 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/candidates.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+#include "core/common/array.h"
+#include "core/scene/scene_trees.h"
+#include "core/solver/broad_phase.h"
+#include "core/tree/bound_audit.h"
+
+/* --- Surfaces --------------------------------------------------------------------------- */
+
+typedef struct collection {
+    imp_scene *scene;
+    const imp_options *options;
+    const candidate_limit *limit;
+    imp_stats *stats;
+    swept_box *boxes;
+    candidate_list *list;
+    bool out_of_memory;
+} collection;
+
+static tree_kind kind_of(const imp_options *options)
+{
+    if (options->method == IMP_METHOD_MODELS) return TREE_MODELS;
+    switch (options->rates) {
+    case IMP_RATES_COLUMN:
+        return TREE_RATES_COLUMN;
+    case IMP_RATES_CONSTANT:
+        return TREE_RATES_CONSTANT;
+    default:
+        return TREE_RATES_FULL;
+    }
+}
+
+static bool limit_is_reached(const collection *all)
+{
+    return all->limit->is_reached(all->limit->context, candidates_bytes(all->list),
+                                  all->list->pair_count);
+}
+
+/* Adds one surface, if it exists at any of the query's times. */
+static imp_code collect_surface(collection *all, size_t body, size_t index, imp_error *error)
+{
+    const imp_options *options = all->options;
+    double lo[3], hi[3];
+    imp_scene_domain(all->scene, body, index, lo, hi);
+    const tree_plan plan = {.kind = kind_of(options),
+                            .t_start = lo[2] > options->t_start ? lo[2] : options->t_start,
+                            .t_end = hi[2] < options->t_end ? hi[2] : options->t_end,
+                            .audit = options->audit ? bound_audit_run : NULL};
+    if (plan.t_start > plan.t_end) return IMP_SUCCESS;
+    lent_tree lent;
+    const imp_code code = scene_tree(all->scene, body, index, &plan, &lent, error);
+    if (code != IMP_SUCCESS) return code;
+    if (lent.fresh) {
+        all->stats->nodes += tree_node_count(lent.tree);
+        all->stats->bytes += tree_bytes(lent.tree);
+    }
+    const node *root = tree_root(lent.tree);
+    const size_t k = all->list->count++;
+    all->boxes[k].owner = k;
+    memcpy(all->boxes[k].lo, root->lo, sizeof root->lo);
+    memcpy(all->boxes[k].hi, root->hi, sizeof root->hi);
+    all->list->candidates[k] = (candidate){lent.tree, body, index, -1};
+    return IMP_SUCCESS;
+}
+
+/* *done: all surfaces are there; otherwise a limit came first. */
+static imp_code collect_surfaces(collection *all, bool *done, imp_error *error)
+{
+    *done = false;
+    for (size_t b = 0; b < imp_scene_body_count(all->scene); ++b)
+        for (size_t k = 0; k < imp_scene_surface_count(all->scene, b); ++k) {
+            if (limit_is_reached(all)) return IMP_SUCCESS;
+            const imp_code code = collect_surface(all, b, k, error);
+            if (code != IMP_SUCCESS) return code;
+        }
+    *done = true;
+    return IMP_SUCCESS;
+}
+
+/* --- Pairs ---------------------------------------------------------------------------------- */
+
+static bool go_on(void *context) { return !limit_is_reached(context); }
+
+/* Keeps two surfaces that come near each other, smaller body first; false: no memory. */
+static bool add_pair(void *context, size_t first, size_t second)
+{
+    collection *all = context;
+    candidate_list *list = all->list;
+    const size_t a = first < second ? first : second, b = first < second ? second : first;
+    const size_t bodies[2] = {list->candidates[a].body, list->candidates[b].body};
+    if (bodies[0] == bodies[1] || scene_ignores(all->scene, bodies[0], bodies[1])) return true;
+    candidate_pair *grown = NULL;
+    if (list->pair_count < UINT32_MAX)
+        grown = array_reserve(list->pairs, list->pair_count, &list->pair_capacity, sizeof *grown);
+    all->out_of_memory = grown == NULL;
+    if (grown == NULL) return false;
+    list->pairs = grown;
+    list->pairs[list->pair_count++] =
+        (candidate_pair){{&list->candidates[a], &list->candidates[b]}};
+    return true;
+}
+
+typedef enum sort_key { KEY_SURFACE_B, KEY_SURFACE_A, KEY_BODY_B, KEY_BODY_A, SORT_KEYS } sort_key;
+
+static size_t key_of(const candidate *candidates, const candidate_pair *p, sort_key key)
+{
+    const candidate *c = p->side[key == KEY_SURFACE_A || key == KEY_BODY_A ? 0 : 1];
+    return key >= KEY_BODY_B ? c->body : (size_t)(c - candidates);
+}
+
+/* A stable counting sort; `start` has room for all keys and one more. */
+static void sort_pass(const candidate_list *list, sort_key key, size_t *start, size_t keys,
+                      candidate_pair *to)
+{
+    memset(start, 0, (keys + 1) * sizeof *start);
+    for (size_t k = 0; k < list->pair_count; ++k)
+        start[key_of(list->candidates, &list->pairs[k], key) + 1] += 1;
+    for (size_t k = 0; k < keys; ++k) start[k + 1] += start[k];
+    for (size_t k = 0; k < list->pair_count; ++k)
+        to[start[key_of(list->candidates, &list->pairs[k], key)]++] = list->pairs[k];
+}
+
+/* Sorts by body of a, body of b, surface of a, surface of b, least significant key first: the order
+ * of the scene, so that ties on the heap do not depend on the order of the sweep, which depends on
+ * the query's times. A radix sort, because limits can be asked between its passes. */
+static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
+{
+    candidate_list *list = all->list;
+    const size_t bodies = imp_scene_body_count(all->scene);
+    const size_t keys = list->count > bodies ? list->count : bodies;
+    size_t *start = malloc((keys + 1) * sizeof *start);
+    candidate_pair *to = malloc((list->pair_count + 1) * sizeof *to);
+    *done = start != NULL && to != NULL;
+    const imp_code code = *done ? IMP_SUCCESS : error_set_memory(error);
+    for (int key = 0; *done && key < SORT_KEYS; ++key) {
+        sort_pass(list, (sort_key)key, start, keys, to);
+        candidate_pair *sorted = to;
+        to = list->pairs;
+        list->pairs = sorted;
+        list->pair_capacity = list->pair_count + 1;
+        *done = !limit_is_reached(all);
+    }
+    free(start);
+    free(to);
+    return code;
+}
+
+static imp_code collect_pairs(collection *all, double clearance, bool *done, imp_error *error)
+{
+    const broad_phase_visitor visitor = {go_on, add_pair, all};
+    *done = broad_phase_visit(all->boxes, all->list->count, clearance, &visitor);
+    if (all->out_of_memory) return error_set_memory(error);
+    if (!*done || all->list->pair_count == 0) return IMP_SUCCESS;
+    return sort_pairs(all, done, error);
+}
+
+imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
+                         double clearance, const candidate_limit *limit, imp_stats *stats,
+                         imp_error *error)
+{
+    collection all = {
+        .scene = scene, .options = options, .limit = limit, .stats = stats, .list = list};
+    size_t most = 1; /* an array of none may be NULL */
+    for (size_t b = 0; b < imp_scene_body_count(scene); ++b)
+        most += imp_scene_surface_count(scene, b);
+    all.boxes = malloc(most * sizeof *all.boxes);
+    list->candidates = malloc(most * sizeof *list->candidates);
+    bool done = false;
+    imp_code code = all.boxes == NULL || list->candidates == NULL
+                        ? error_set_memory(error)
+                        : collect_surfaces(&all, &done, error);
+    if (done) code = collect_pairs(&all, clearance, &done, error);
+    free(all.boxes);
+    list->complete = done && code == IMP_SUCCESS;
+    if (!list->complete) candidates_clear(list);
+    return code;
+}
+
+uint64_t candidates_bytes(const candidate_list *list)
+{
+    return list->count * sizeof *list->candidates + list->pair_capacity * sizeof *list->pairs;
+}
+
+void candidates_clear(candidate_list *list)
+{
+    free(list->candidates);
+    free(list->pairs);
+    *list = (candidate_list){0};
+}

@@ -1,0 +1,41 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_CANDIDATES_H
+#define CORE_SOLVER_CANDIDATES_H
+
+#include "core/scene/scene.h"
+#include "core/solver/time_of_impact.h"
+
+/* How a query begins: the broad phase
+ * ===================================
+ * Every surface that exists at any of the query's times gets its tree, whose root is a box around
+ * all that the surface sweeps. Surfaces of different bodies whose boxes come within the clearance
+ * of each other, unless their bodies ignore each other, are the candidate pairs. */
+
+typedef struct candidate_list {
+    candidate *candidates; /* in the order of the scene */
+    size_t count;
+    candidate_pair *pairs; /* by body of a, body of b, surface of a, surface of b */
+    size_t pair_count, pair_capacity;
+    bool complete;
+} candidate_list; /* begins as {0}; candidates_clear frees */
+
+/* Asked at least once for each surface: whether a limit of the query is reached, with the bytes
+ * that the list and the new trees hold. */
+typedef struct candidate_limit {
+    bool (*is_reached)(void *context, uint64_t bytes, uint64_t pairs);
+    void *context;
+} candidate_limit;
+
+/* Fills an empty list; the nodes made for it are added to `stats`. The trees are the scene's. Where
+ * a limit ends it, the list is empty again and not complete; after that, or a failure, it may be
+ * filled again. */
+imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
+                         double clearance, const candidate_limit *limit, imp_stats *stats,
+                         imp_error *error);
+
+uint64_t candidates_bytes(const candidate_list *list);
+
+void candidates_clear(candidate_list *list);
+
+#endif

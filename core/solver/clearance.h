@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_CLEARANCE_H
+#define CORE_SOLVER_CLEARANCE_H
+
+#include "core/solver/candidates.h"
+#include "core/solver/min_distance.h"
+
+/* The questions of imp_clearance_new
+ * ==================================
+ * A clearance is a list of parts, pairs of bodies by slices of time, each with a minimum distance
+ * that is searched for by itself; the trees are shared. Where something is required and violated, a
+ * search for the earliest violation follows. */
+
+typedef struct clearance_search clearance_search;
+
+/* Checks what is asked. any_pair: two surfaces of the scene are to be tested with each other. */
+imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options *options,
+                       const imp_clearance_options *asked, clearance_search **made,
+                       imp_error *error);
+void clearance_free(clearance_search *c);
+
+/* Divides the candidates, which must outlive it like `stats`, into parts. */
+void clearance_begin(clearance_search *c, const candidate_list *list, imp_stats *stats);
+
+/* One unit of work. *reason: RUNNING, NONE when all parts are done, or why it cannot go on. */
+imp_code clearance_work(clearance_search *c, imp_reason *reason, imp_error *error);
+
+/* Of the part that is searched now, for progress and budgets. */
+typedef struct clearance_state {
+    double lower, upper; /* length */
+    double t_lower;      /* no violation before; NAN while it is not searched for */
+    size_t heap, bytes;  /* pairs that wait; memory beside the trees */
+} clearance_state;
+clearance_state clearance_look(const clearance_search *c);
+
+size_t clearance_count(const clearance_search *c);
+
+/* `reason` is given to parts that are not done. */
+imp_clearance clearance_answer(const clearance_search *c, size_t index, imp_reason reason);
+
+#endif

@@ -1,0 +1,97 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/examined_times.h"
+
+typedef struct span {
+    double lo, hi;
+} span;
+
+typedef struct examination {
+    const imp_scene *scene;
+    span asked;
+    examined_times *found;
+    imp_error *error;
+    bool all_defined; /* whatever is asked about, no surface leaves its place open */
+} examination;
+
+static span existence(const surface *s, span within)
+{
+    double lo, hi;
+    surface_existence(s, &lo, &hi);
+    return (span){lo > within.lo ? lo : within.lo, hi < within.hi ? hi : within.hi};
+}
+
+static imp_code refuse(const surface *s, const surface_part *part, span needed, imp_error *error)
+{
+    surface_fault(
+        s, error,
+        ": '%s' is defined from t = %.10g to %.10g only, got a query from %.10g to %.10g; "
+        "ask about its times, or extend them (see `impinge info %s`)",
+        part->name, part->lo, part->hi, needed.lo, needed.hi, part->name);
+    if (error != NULL) error->code = IMP_ERROR_SCENE;
+    return IMP_ERROR_SCENE;
+}
+
+static imp_code check_defined(const surface *s, span needed, imp_error *error)
+{
+    surface_part part;
+    if (!surface_undefined_part(s, needed.lo, needed.hi, &part)) return IMP_SUCCESS;
+    return refuse(s, &part, needed, error);
+}
+
+static imp_code examine_surfaces(examination *x, const surface *a, const surface *b)
+{
+    const span both = existence(b, existence(a, x->asked));
+    x->found->any_pair = true;
+    if (both.lo > both.hi) return IMP_SUCCESS;
+    if (both.lo < x->found->lo) x->found->lo = both.lo;
+    if (both.hi > x->found->hi) x->found->hi = both.hi;
+    const imp_code code = check_defined(a, both, x->error);
+    return code == IMP_SUCCESS ? check_defined(b, both, x->error) : code;
+}
+
+/* No further pair changes what was found. */
+static bool is_complete(const examination *x)
+{
+    return x->all_defined && x->found->lo == x->asked.lo && x->found->hi == x->asked.hi;
+}
+
+static imp_code examine_bodies(examination *x, size_t a, size_t b)
+{
+    imp_code code = IMP_SUCCESS;
+    for (size_t k = 0; k < imp_scene_surface_count(x->scene, a); ++k)
+        for (size_t l = 0; l < imp_scene_surface_count(x->scene, b); ++l) {
+            if (code != IMP_SUCCESS || is_complete(x)) return code;
+            code =
+                examine_surfaces(x, scene_surface(x->scene, a, k), scene_surface(x->scene, b, l));
+        }
+    return code;
+}
+
+static bool are_all_defined(const imp_scene *scene, span asked)
+{
+    surface_part part;
+    for (size_t b = 0; b < imp_scene_body_count(scene); ++b)
+        for (size_t k = 0; k < imp_scene_surface_count(scene, b); ++k)
+            if (surface_undefined_part(scene_surface(scene, b, k), asked.lo, asked.hi, &part))
+                return false;
+    return true;
+}
+
+imp_code examined_times_find(const imp_scene *scene, double t_start, double t_end,
+                             examined_times *found, imp_error *error)
+{
+    const span asked = {t_start, t_end};
+    examination x = {scene, asked, found, error, are_all_defined(scene, asked)};
+    const size_t bodies = imp_scene_body_count(scene);
+    imp_code code = IMP_SUCCESS;
+    *found = (examined_times){false, INFINITY, -INFINITY};
+    for (size_t a = 0; a < bodies; ++a)
+        for (size_t b = a + 1; b < bodies; ++b) {
+            if (code != IMP_SUCCESS || is_complete(&x)) return code;
+            if (!scene_ignores(scene, a, b)) code = examine_bodies(&x, a, b);
+        }
+    return code;
+}

@@ -1,0 +1,175 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/gjk_axis.h"
+
+#include "core/solver/tuning.h"
+
+#include <impinge/quad.h>
+
+/* --- The point that lies lowest along a direction ----------------------------------------- */
+
+/* B - A at a moment: centre, forms of B (0) and of -A (1), and the slack's box. x, y, z and 0 in
+ * lanes; and once more coordinate by coordinate, as (u of B, u of -A, v of B, v of -A). */
+typedef struct shape {
+    imp_quad centre, slack;
+    imp_quad bu[2], bv[2], quu[2], quv[2], qvv[2];
+    imp_quad slope[3], curvature[3], twist[3];
+} shape;
+
+IMP_QUAD_INLINE void shape_take(shape *z, int k, const slice *f, double w, imp_quad sign)
+{
+    const imp_quad at = imp_quad_all(w);
+    z->bu[k] = sign * (imp_quad_load(f->bu) + at * imp_quad_load(f->quw));
+    z->bv[k] = sign * (imp_quad_load(f->bv) + at * imp_quad_load(f->qvw));
+    z->quu[k] = sign * imp_quad_load(f->quu);
+    z->quv[k] = sign * imp_quad_load(f->quv);
+    z->qvv[k] = sign * imp_quad_load(f->qvv);
+}
+
+IMP_QUAD_INLINE shape shape_at(const relative *r, double w)
+{
+    shape z;
+    z.centre = imp_quad_load(r->delta) + imp_quad_all(w) * imp_quad_load(r->drift);
+    z.slack = imp_quad_load(r->slack);
+    shape_take(&z, 0, &r->b, w, imp_quad_all(1));
+    shape_take(&z, 1, &r->a, w, imp_quad_all(-1));
+    for (int i = 0; i < 3; ++i) {
+        z.slope[i] = (imp_quad){z.bu[0][i], z.bu[1][i], z.bv[0][i], z.bv[1][i]};
+        z.curvature[i] = (imp_quad){z.quu[0][i], z.quu[1][i], z.qvv[0][i], z.qvv[1][i]};
+        z.twist[i] = (imp_quad){z.quv[0][i], z.quv[1][i], z.quv[0][i], z.quv[1][i]};
+    }
+    return z;
+}
+
+IMP_QUAD_INLINE imp_quad along(vec3 n, const imp_quad x[3])
+{
+    return x[0] * imp_quad_all(n.x[0]) + x[1] * imp_quad_all(n.x[1]) + x[2] * imp_quad_all(n.x[2]);
+}
+
+/* Where b s + q s^2 is least over [-1, 1]; `vertex` is -1 / 2q. */
+IMP_QUAD_INLINE imp_quad least_at(imp_quad b, imp_quad q, imp_quad vertex)
+{
+    const imp_quad one = imp_quad_all(1), end = imp_quad_pick(b > imp_quad_all(0), -one, one);
+    const imp_quad inside = imp_quad_max(imp_quad_min(b * vertex, one), -one);
+    return imp_quad_pick(q > imp_quad_all(0x1p-1000), inside, end);
+}
+
+/* Parameters (s_u of B, of -A, s_v of B, of -A) where both forms are least along n, about: u and v
+ * in turn. */
+IMP_QUAD_INLINE imp_quad shape_bottom(const shape *z, vec3 n)
+{
+    const imp_quad slope = along(n, z->slope), curvature = along(n, z->curvature),
+                   twist = along(n, z->twist);
+    const imp_quad vertex = imp_quad_all(-0.5) / curvature;
+    const imp_quad s = least_at(slope, curvature, vertex);
+    const imp_quad v =
+        least_at(slope + twist * (imp_quad){s[2], s[3], s[0], s[1]}, curvature, vertex);
+    const imp_quad u =
+        least_at(slope + twist * (imp_quad){v[2], v[3], v[2], v[3]}, curvature, vertex);
+    return (imp_quad){u[0], u[1], v[2], v[3]};
+}
+
+IMP_QUAD_INLINE vec3 shape_lowest(const shape *z, vec3 n)
+{
+    const imp_quad s = shape_bottom(z, n), way = (imp_quad){n.x[0], n.x[1], n.x[2], n.x[2]};
+    imp_quad x = z->centre + imp_quad_pick(way > imp_quad_all(0), -z->slack, z->slack);
+    for (int k = 0; k < 2; ++k) {
+        const imp_quad u = imp_quad_all(s[k]), v = imp_quad_all(s[2 + k]);
+        x += (z->bu[k] + z->quu[k] * u + z->quv[k] * v) * u + (z->bv[k] + z->qvv[k] * v) * v;
+    }
+    return (vec3){{x[0], x[1], x[2]}};
+}
+
+/* --- The point of a simplex that is nearest to the origin ---------------------------------- */
+
+/* A point, segment or triangle, and its point that is nearest, which lies inside it. */
+typedef struct simplex {
+    int count;
+    vec3 p[3];
+    vec3 nearest;
+    double square; /* of its distance */
+} simplex;
+
+IMP_QUAD_INLINE simplex on_point(vec3 a) { return (simplex){1, {a}, a, vec3_dot(a, a)}; }
+
+IMP_QUAD_INLINE simplex on_segment(vec3 a, vec3 b)
+{
+    const vec3 ab = vec3_sub(b, a);
+    const double t = -vec3_dot(a, ab), length2 = vec3_dot(ab, ab);
+    if (!(t > 0)) return on_point(a);
+    if (!(t < length2)) return on_point(b);
+    const vec3 x = vec3_sub(a, vec3_scale(ab, -t / length2));
+    return (simplex){2, {a, b}, x, vec3_dot(x, x)};
+}
+
+IMP_QUAD_INLINE simplex nearer(simplex s, simplex t) { return t.square < s.square ? t : s; }
+
+/* The newest point is a: of the edge bc the search has come from elsewhere. With x = a + y ab + z
+ * ac, the normal equations have the determinant `all`. */
+IMP_QUAD_INLINE simplex on_triangle(vec3 a, vec3 b, vec3 c)
+{
+    const vec3 ab = vec3_sub(b, a), ac = vec3_sub(c, a);
+    const double p = -vec3_dot(ab, a), q = -vec3_dot(ac, a);
+    const double bb = vec3_dot(ab, ab), bc = vec3_dot(ab, ac), cc = vec3_dot(ac, ac);
+    const double y = cc * p - bc * q, z = bb * q - bc * p, all = bb * cc - bc * bc;
+    if (!(y > 0 && z > 0 && y + z < all)) return nearer(on_segment(a, b), on_segment(a, c));
+    const vec3 n = vec3_cross(ab, ac);
+    const vec3 x = vec3_scale(n, vec3_dot(n, a) / vec3_dot(n, n));
+    return (simplex){3, {a, b, c}, x, vec3_dot(x, x)};
+}
+
+/* Whether the origin and d lie on different sides of the plane through a, b and c. */
+IMP_QUAD_INLINE bool is_beyond(vec3 a, vec3 b, vec3 c, vec3 d)
+{
+    const vec3 n = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
+    return !(vec3_dot(n, vec3_sub(d, a)) * vec3_dot(n, a) < 0);
+}
+
+/* On the faces at a that the origin is beyond; count 0: it is inside. */
+IMP_QUAD_INLINE simplex on_tetrahedron(vec3 a, vec3 b, vec3 c, vec3 d)
+{
+    simplex s = {.count = 0, .square = INFINITY};
+    if (is_beyond(a, b, c, d)) s = nearer(s, on_triangle(a, b, c));
+    if (is_beyond(a, c, d, b)) s = nearer(s, on_triangle(a, c, d));
+    if (is_beyond(a, d, b, c)) s = nearer(s, on_triangle(a, d, b));
+    return s;
+}
+
+IMP_QUAD_INLINE simplex simplex_add(const simplex *s, vec3 a)
+{
+    if (s->count == 1) return on_segment(a, s->p[0]);
+    if (s->count == 2) return on_triangle(a, s->p[0], s->p[1]);
+    return on_tetrahedron(a, s->p[0], s->p[1], s->p[2]);
+}
+
+/* --- The search ------------------------------------------------------------------------------ */
+
+/* The gap that the axis through the nearest point shows is the lowest point's height along it; it
+ * is good enough when it is r->share of what it can be. A NaN ends the search. */
+IMP_QUAD_INLINE bool search(const relative *r, double w, vec3 *axis)
+{
+    const shape z = shape_at(r, w);
+    simplex s = on_point(shape_lowest(&z, *axis));
+    for (int k = 0; k < TUNING_GJK_STEPS; ++k) {
+        const vec3 lowest = shape_lowest(&z, s.nearest);
+        if (!(vec3_dot(s.nearest, lowest) < r->share * s.square)) break;
+        const simplex next = simplex_add(&s, lowest);
+        if (next.count == 0) return false;
+        if (!(next.square < s.square)) break;
+        s = next;
+    }
+    *axis = s.nearest;
+    return true;
+}
+
+IMP_QUAD_WIDE static bool search_wide(const relative *r, double w, vec3 *axis)
+{
+    return search(r, w, axis);
+}
+
+bool gjk_axis(const relative *r, double w, vec3 *axis)
+{
+    return imp_quad_is_wide() ? search_wide(r, w, axis) : search(r, w, axis);
+}

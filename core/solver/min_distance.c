@@ -1,0 +1,220 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/min_distance.h"
+
+#include <stdlib.h>
+
+#include "core/base/status.h"
+#include "core/solver/tuning.h"
+
+/* --- How near is near enough --------------------------------------------------------------- */
+
+/* What is farther apart than this need not be looked at. Lemma. In the end lower is at least
+ * (1 - R') upper with R' = R (1 - 2^-20), off by 2 u upper at most; as R >= 2^-30, upper - lower is
+ * then at most R upper. Where something is required of which upper has room to spare and (1 - R')
+ * upper falls short, the bracket is narrowed to what is a little below what is required. */
+static double enough(const min_distance *m)
+{
+    const double part = (1 - m->tolerance * (1 - 0x1p-20)) * m->upper;
+    return m->upper > m->required && part < m->relaxed ? m->relaxed : part;
+}
+
+/* What is to be told apart: `scale` is to it as gamma is to gamma - clearance by default. */
+static double room(const min_distance *m) { return m->upper - enough(m); }
+
+static double scale(const min_distance *m) { return 2 * room(m); }
+
+/* Everything that was left aside is no nearer than this. */
+static double settled(const min_distance *m)
+{
+    const double pruned = enough(m);
+    return pruned < m->stuck ? pruned : m->stuck;
+}
+
+/* The least lower bound of what waits. */
+static double waiting(const min_distance *m)
+{
+    const double start = m->start_count > 0 ? m->starts[m->start_count - 1].key[0] : INFINITY;
+    const double top = m->heap.count > 0 ? pair_heap_top(&m->heap)->key[0] : INFINITY;
+    return start < top ? start : top;
+}
+
+double min_distance_lower(const min_distance *m)
+{
+    const double aside = settled(m), next = waiting(m);
+    return aside < next ? aside : next;
+}
+
+/* --- Beginning ------------------------------------------------------------------------------ */
+
+/* Goes down to the smallest node that holds the window. */
+static imp_code descend_in_time(min_distance *m, const candidate_pair *both, pair *p, int side,
+                                imp_error *error)
+{
+    for (;;) {
+        const imp_region *r = side == 0 ? &p->a->region : &p->b->region;
+        const double at = r->c[PARAMETER_T];
+        const bool below = p->window.hi <= at, above = p->window.lo >= at;
+        if ((!below && !above) || !region_can_split(r, PARAMETER_T)) return IMP_SUCCESS;
+        const cut c = {side, PARAMETER_T, 0};
+        bool some;
+        const imp_code code = cut_take(&c, above, both, p, &some, m->stats, error);
+        if (code != IMP_SUCCESS || !some) return code;
+    }
+}
+
+static imp_code add_start(min_distance *m, uint32_t index, imp_error *error)
+{
+    const candidate_pair *both = &m->candidates[index];
+    pair p = {.a = tree_root(both->side[0]->tree),
+              .b = tree_root(both->side[1]->tree),
+              .serial = index,
+              .candidate_pair = index};
+    p.window = window_common(m->window, pair_times(p.a, p.b));
+    if (p.window.lo > p.window.hi) return IMP_SUCCESS;
+    imp_code code = descend_in_time(m, both, &p, 0, error);
+    if (code == IMP_SUCCESS) code = descend_in_time(m, both, &p, 1, error);
+    p.key[0] = p.a->bounded && p.b->bounded ? separation_boxes_lower(p.a, p.b) : 0;
+    p.moment = 0.5 * p.window.lo + 0.5 * p.window.hi;
+    m->starts[m->start_count++] = p;
+    return code;
+}
+
+static int farthest_first(const void *x, const void *y)
+{
+    const pair *p = x, *q = y;
+    if (p->key[0] != q->key[0]) return p->key[0] > q->key[0] ? -1 : 1;
+    return p->serial > q->serial ? -1 : p->serial < q->serial;
+}
+
+imp_code min_distance_begin(min_distance *m, size_t first, size_t count, imp_error *error)
+{
+    m->upper = m->stuck = INFINITY;
+    m->starts = malloc((count + 1) * sizeof *m->starts);
+    if (m->starts == NULL) return error_set_memory(error);
+    m->start_capacity = count + 1;
+    for (size_t k = 0; k < count; ++k) {
+        const imp_code code = add_start(m, (uint32_t)(first + k), error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    qsort(m->starts, m->start_count, sizeof *m->starts, farthest_first);
+    return IMP_SUCCESS;
+}
+
+/* --- Test and push -------------------------------------------------------------------------- */
+
+/* Lemma. A pair's first key bounds the distance of its points over its window from below, or is
+ * `enough` or more; what was cut off the window is no nearer than what was enough then, which is at
+ * least what is enough now, since upper only falls. A child's points and times are its parent's, so
+ * the parent's bound holds too. */
+static void test_and_push(min_distance *m, pair p)
+{
+    approach near = {0, p.moment};
+    m->stats->pairs += 1;
+    if (!separation_approach(p.a, p.b, enough(m), &p.window, &p.axis, &near)) return;
+    p.moment = near.moment < p.window.lo   ? p.window.lo
+               : near.moment > p.window.hi ? p.window.hi
+                                           : near.moment;
+    if (near.lower > p.key[0]) p.key[0] = near.lower;
+    if (p.key[0] > enough(m)) return;
+    p.serial = m->serial++;
+    p.key[1] = pair_order(&p, p.moment);
+    pair_heap_push(&m->heap, &p);
+    if (m->heap.count > m->stats->peak_heap) m->stats->peak_heap = m->heap.count;
+}
+
+/* --- Following one pair --------------------------------------------------------------------- */
+
+static imp_code find_witness(min_distance *m, const pair *p, imp_error *error)
+{
+    const candidate_pair *both = &m->candidates[p->candidate_pair];
+    const tree *const trees[2] = {both->side[0]->tree, both->side[1]->tree};
+    const node *const nodes[2] = {p->a, p->b};
+    witness seen;
+    m->stats->witness_searches += 1;
+    const imp_code code = witness_seek(trees, nodes, p->moment, m->upper, &seen, error);
+    if (code != IMP_SUCCESS || !(seen.gap_upper < m->upper)) return code;
+    m->upper = seen.gap_upper;
+    m->found = seen;
+    m->t = p->moment;
+    m->candidate = p->candidate_pair;
+    return IMP_SUCCESS;
+}
+
+static imp_code take_start(min_distance *m, imp_error *error)
+{
+    const pair p = m->starts[m->start_count - 1];
+    imp_code code = candidate_pair_measure(&m->candidates[p.candidate_pair], error);
+    if (code == IMP_SUCCESS) code = find_witness(m, &p, error);
+    if (code != IMP_SUCCESS) return code;
+    m->start_count -= 1;
+    test_and_push(m, p);
+    return IMP_SUCCESS;
+}
+
+static imp_code split(min_distance *m, const pair *p, cut c, imp_error *error)
+{
+    for (int half = 0; half < 2; ++half) {
+        pair child = *p;
+        bool some;
+        const imp_code code =
+            cut_take(&c, half, &m->candidates[p->candidate_pair], &child, &some, m->stats, error);
+        if (code != IMP_SUCCESS) return code;
+        if (some) test_and_push(m, child);
+    }
+    return IMP_SUCCESS;
+}
+
+static cut choose_cut(const min_distance *m, const pair *p)
+{
+    if (pair_precision_ends(p, &m->candidates[p->candidate_pair], room(m), 1))
+        return (cut){-1, PARAMETER_U, 0};
+    return TUNING_TINY * pair_extent(p) <= room(m) ? cut_in_time(p) : cut_by_spread(p, scale(m));
+}
+
+static imp_code follow(min_distance *m, pair p, imp_error *error)
+{
+    if (p.wait == 0) {
+        const imp_code code = find_witness(m, &p, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    p.wait = p.wait == 0 ? TUNING_WITNESS_WAIT : p.wait - 1;
+    if (p.key[0] > enough(m)) return IMP_SUCCESS;
+    const cut c = choose_cut(m, &p);
+    if (c.side >= 0) return split(m, &p, c, error);
+    if (p.key[0] < m->stuck) m->stuck = p.key[0];
+    return IMP_SUCCESS;
+}
+
+/* Whatever has the least bound: the next start, or the first pair of the heap. */
+static imp_code take_one(min_distance *m, imp_error *error)
+{
+    if (m->start_count > 0 && m->starts[m->start_count - 1].key[0] <= waiting(m))
+        return take_start(m, error);
+    const pair p = pair_heap_pop(&m->heap);
+    const imp_code code = follow(m, p, error);
+    if (code != IMP_SUCCESS) pair_heap_push(&m->heap, &p);
+    return code;
+}
+
+/* Follow pushes at most two pairs in place of one; on failure one of them, and the pair goes back. */
+imp_code min_distance_advance(min_distance *m, min_distance_state *state, imp_error *error)
+{
+    *state = MIN_DISTANCE_NO_MEMORY;
+    if (!pair_heap_reserve(&m->heap, 1)) return IMP_SUCCESS;
+    *state = MIN_DISTANCE_RUNNING;
+    if (m->upper > m->gamma && waiting(m) < settled(m)) return take_one(m, error);
+    const bool stuck = m->upper > m->gamma && m->stuck < enough(m);
+    *state = stuck ? MIN_DISTANCE_RESOLUTION : MIN_DISTANCE_DONE;
+    return IMP_SUCCESS;
+}
+
+void min_distance_clear(min_distance *m)
+{
+    free(m->starts);
+    m->starts = NULL;
+    m->start_count = m->start_capacity = 0;
+    pair_heap_clear(&m->heap);
+}

@@ -1,0 +1,43 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_PAIR_HEAP_H
+#define CORE_SOLVER_PAIR_HEAP_H
+
+#include "core/solver/separation.h"
+#include "core/tree/node.h"
+
+/* Pairs of nodes that may still touch, the most urgent first
+ * ==========================================================
+ * Ordered by two keys, then serial number: a total order, so the same input always pops in the same
+ * order. What the keys are is the search's: for the time of impact the start of the window (paper,
+ * eq. 5) and the squared distance of the centres at that time. */
+
+typedef struct pair {
+    time_window window; /* when they may be near; within both nodes' times */
+    double key[2];      /* the least comes first; no NaN */
+    double moment;      /* of the window, that decides: where the distance may be least */
+    uint64_t serial;    /* order of making */
+    vec3 axis;          /* that parted the nodes best; 0: none yet */
+    node *a, *b;
+    uint32_t candidate_pair; /* which two surfaces of the scene: index of the query's list */
+    uint32_t wait;           /* generations until a witness is sought again */
+} pair;
+
+typedef struct pair_heap {
+    pair *pairs;
+    size_t count, capacity;
+} pair_heap; /* begins as {0}; pair_heap_clear frees */
+
+/* Room for `more` pushes; false: no memory, the heap is as it was. */
+bool pair_heap_reserve(pair_heap *heap, size_t more);
+
+/* Precondition: there is room. */
+void pair_heap_push(pair_heap *heap, const pair *p);
+
+/* The first; precondition: count > 0. */
+const pair *pair_heap_top(const pair_heap *heap);
+pair pair_heap_pop(pair_heap *heap);
+
+void pair_heap_clear(pair_heap *heap);
+
+#endif

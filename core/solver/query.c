@@ -1,0 +1,357 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/query_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/base/clock.h"
+#include "core/base/fp_mode.h"
+#include "core/base/sized.h"
+#include "core/base/status.h"
+
+/* --- Creation and destruction ------------------------------------------------------------ */
+
+/* gamma > 0 and 0 <= clearance < gamma, clearance < 0 standing for gamma / 2. */
+static imp_code tolerances(double gamma, double clearance, impact *im, imp_error *error)
+{
+    if (!(gamma > 0 && gamma < INFINITY))
+        return error_set(error, IMP_ERROR_USAGE, "gamma: got %g, must be > 0 and finite", gamma);
+    if (clearance < 0) clearance = 0.5 * gamma;
+    if (!(clearance < gamma))
+        return error_set(error, IMP_ERROR_USAGE,
+                         "clearance: got %g, must be from 0 to below gamma = %g", clearance, gamma);
+    im->gamma = gamma;
+    im->clearance = clearance;
+    return IMP_SUCCESS;
+}
+
+static imp_code check_choice(const char *name, int found, int last, imp_error *error)
+{
+    if (found >= 0 && found <= last) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_USAGE, "%s: got %d, must be from 0 to %d", name, found, last);
+}
+
+/* All but the tolerances. */
+static imp_code check_options(const imp_options *options, imp_error *error)
+{
+    if (!(options->t_start <= options->t_end && options->t_start > -INFINITY &&
+          options->t_end < INFINITY))
+        return error_set(error, IMP_ERROR_USAGE, "time: got [%g, %g], must be finite and not empty",
+                         options->t_start, options->t_end);
+    if (!(options->max_seconds >= 0))
+        return error_set(error, IMP_ERROR_USAGE, "max_seconds: got %g, must be >= 0",
+                         options->max_seconds);
+    imp_code code = check_choice("method", (int)options->method, IMP_METHOD_PAPER, error);
+    if (code == IMP_SUCCESS)
+        code = check_choice("bounds", (int)options->bounds, IMP_BOUNDS_SPHERE, error);
+    if (code == IMP_SUCCESS)
+        code = check_choice("rates", (int)options->rates, IMP_RATES_CONSTANT, error);
+    return code;
+}
+
+FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given, imp_error *error)
+{
+    imp_options own;
+    const imp_options *options = &own;
+    scene_options(scene, &own);
+    if (sized_read("imp_options", &own, given, SCENE_OPTIONS_FIRST, error) != IMP_SUCCESS)
+        return NULL;
+    impact im = {.method = options->method,
+                 .bounds = options->bounds,
+                 .t_lower = options->t_start,
+                 .window = {options->t_start, options->t_end}};
+    if (tolerances(options->gamma, options->clearance, &im, error) != IMP_SUCCESS) return NULL;
+    if (check_options(options, error) != IMP_SUCCESS) return NULL;
+    examined_times examined;
+    if (examined_times_find(scene, options->t_start, options->t_end, &examined, error) !=
+        IMP_SUCCESS)
+        return NULL;
+    imp_query *query = calloc(1, sizeof *query);
+    if (query == NULL) {
+        error_set_memory(error);
+        return NULL;
+    }
+    query->scene = scene;
+    query->options = *options;
+    query->examined = examined;
+    query->impact = im;
+    query->impact.stats = &query->stats;
+    query->verdict = IMP_UNDECIDED;
+    query->reason = IMP_REASON_RUNNING;
+    atomic_init(&query->cancelled, false);
+    return query;
+}
+
+imp_query *imp_query_new(imp_scene *scene, const imp_options *options, imp_error *error)
+{
+    if (scene == NULL || options == NULL) {
+        error_set_missing(error, "imp_query_new");
+        return NULL;
+    }
+    const fp_environment environment = fp_environment_enter();
+    imp_query *query = new_query(scene, options, error);
+    fp_environment_leave(&environment);
+    return query;
+}
+
+void imp_query_free(imp_query *query)
+{
+    if (query == NULL) return;
+    impact_clear(&query->impact);
+    clearance_free(query->clearance);
+    candidates_clear(&query->candidates);
+    free(query);
+}
+
+void imp_query_cancel(imp_query *query)
+{
+    if (query != NULL) atomic_store(&query->cancelled, true);
+}
+
+/* --- Running ------------------------------------------------------------------------------- */
+
+static void finish(imp_query *query, imp_verdict verdict, imp_reason reason)
+{
+    query->verdict = verdict;
+    query->reason = reason;
+    if (verdict == IMP_CLEAR) query->impact.t_lower = query->options.t_end;
+}
+
+static imp_reason reason_of_clear(const examined_times *examined)
+{
+    if (!examined->any_pair) return IMP_REASON_NO_PAIRS;
+    return examined->lo <= examined->hi ? IMP_REASON_NONE : IMP_REASON_NO_TIME;
+}
+
+/* Whether one surface of the contact found stays as it is for all of the query's times. */
+static bool is_at_rest(const imp_query *query, int side)
+{
+    const candidate *c = query->candidates.pairs[query->impact.found_candidate].side[side];
+    imp_rate_matrix rates;
+    if (surface_rate(tree_surface(c->tree), &tree_root(c->tree)->region, &rates) != IMP_OK)
+        return false;
+    bool rests = true;
+    for (int i = 0; i < 3; ++i) rests = rests && rates.m[i][PARAMETER_T] == 0;
+    return rests;
+}
+
+static void conclude(imp_query *query, impact_state state)
+{
+    switch (state) {
+    case IMPACT_RUNNING:
+        break;
+    case IMPACT_CONTACT:
+        finish(query, IMP_CONTACT, IMP_REASON_NONE);
+        query->at_rest = is_at_rest(query, 0) && is_at_rest(query, 1);
+        break;
+    case IMPACT_CLEAR:
+        finish(query, IMP_CLEAR, reason_of_clear(&query->examined));
+        break;
+    case IMPACT_RESOLUTION:
+        finish(query, IMP_UNDECIDED, IMP_REASON_RESOLUTION);
+        break;
+    case IMPACT_NO_MEMORY:
+        finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
+        break;
+    }
+}
+
+static void note_bytes(imp_query *query, uint64_t of_candidates)
+{
+    uint64_t bytes = query->stats.bytes + sizeof *query +
+                     query->impact.heap.capacity * sizeof(pair) + of_candidates;
+    if (query->clearance != NULL) bytes += clearance_look(query->clearance).bytes;
+    if (bytes > query->peak_bytes) query->peak_bytes = bytes;
+}
+
+/* The budget that is used up, or IMP_REASON_NONE. A cancellation ends one step: taken back here, at
+ * the only place that acts on it, none is lost. */
+static imp_reason exhausted(imp_query *query, double seconds)
+{
+    const imp_options *options = &query->options;
+    if (atomic_load_explicit(&query->cancelled, memory_order_relaxed) &&
+        atomic_exchange(&query->cancelled, false))
+        return IMP_REASON_CANCELLED;
+    if (options->max_pairs > 0 && query->stats.pairs >= options->max_pairs) return IMP_REASON_PAIRS;
+    if (options->max_seconds > 0 && seconds >= options->max_seconds) return IMP_REASON_SECONDS;
+    if (options->max_bytes > 0 && query->peak_bytes > options->max_bytes) return IMP_REASON_MEMORY;
+    return IMP_REASON_NONE;
+}
+
+/* One unit of work: a candidate pair's roots, as long as there are any left, then pairs from the
+ * heap. */
+static imp_code search_contact(imp_query *query, imp_error *error)
+{
+    impact_state state = IMPACT_RUNNING;
+    imp_code code = IMP_SUCCESS;
+    if (query->candidates_tested < query->candidates.pair_count) {
+        code =
+            impact_add_candidate(&query->impact, (uint32_t)query->candidates_tested, &state, error);
+        if (state == IMPACT_RUNNING) query->candidates_tested += 1;
+    } else {
+        code = impact_advance(&query->impact, &state, error);
+    }
+    if (code == IMP_SUCCESS) conclude(query, state);
+    return code;
+}
+
+static imp_code work(imp_query *query, imp_error *error)
+{
+    return query->clearance == NULL ? search_contact(query, error)
+                                    : clearance_work(query->clearance, &query->reason, error);
+}
+
+enum { CLOCK_EVERY = 64 }; /* units of work between looks at the clock */
+#define PROGRESS_EVERY 0.1 /* seconds between calls of options.progress */
+
+/* Tells the program how far it is, if it is time; the program may end the step. */
+static void report(imp_query *query, double seconds)
+{
+    const imp_options *options = &query->options;
+    if (options->progress == NULL || seconds < query->next_report) return;
+    query->next_report = seconds + PROGRESS_EVERY;
+    imp_progress progress = {.struct_size = (uint32_t)sizeof progress,
+                             .reason = query->reason,
+                             .t_lower = query->impact.t_lower,
+                             .pairs = query->stats.pairs,
+                             .heap = query->impact.heap.count,
+                             .seconds = seconds,
+                             .lower = NAN,
+                             .upper = NAN};
+    if (query->clearance != NULL) {
+        const clearance_state state = clearance_look(query->clearance);
+        progress.t_lower = state.t_lower;
+        progress.heap = state.heap;
+        progress.lower = state.lower;
+        progress.upper = state.upper;
+    }
+    if (!options->progress(options->progress_context, &progress)) imp_query_cancel(query);
+}
+
+/* Looks at the clock, now and then. */
+static void tick(imp_query *query, double seconds_before, double start)
+{
+    query->stats.seconds = seconds_before + (clock_seconds() - start);
+    report(query, query->stats.seconds);
+}
+
+typedef struct collecting {
+    imp_query *query;
+    double seconds_before, start; /* of this step */
+    imp_reason reason;
+} collecting;
+
+/* Each candidate pair is a pair to test: with more of them than max_pairs the search cannot end. */
+static bool limit_is_reached(void *context, uint64_t bytes, uint64_t pairs)
+{
+    collecting *c = context;
+    const uint64_t most = c->query->options.max_pairs;
+    tick(c->query, c->seconds_before, c->start);
+    note_bytes(c->query, bytes);
+    c->reason = exhausted(c->query, c->query->stats.seconds);
+    if (c->reason == IMP_REASON_NONE && most > 0 && pairs > most) c->reason = IMP_REASON_PAIRS;
+    return c->reason != IMP_REASON_NONE;
+}
+
+/* What a limit ends begins anew with the next step. Where the minimum distance is asked for, all
+ * surfaces count, however far apart. */
+static imp_code begin(imp_query *query, double start, imp_error *error)
+{
+    const double near = query->clearance == NULL ? query->impact.clearance : INFINITY;
+    collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
+    const candidate_limit limit = {limit_is_reached, &c};
+    const imp_code code = candidates_find(&query->candidates, query->scene, &query->options, near,
+                                          &limit, &query->stats, error);
+    query->impact.candidate_pairs = query->candidates.pairs;
+    if (code != IMP_SUCCESS) return code;
+    if (!query->candidates.complete)
+        finish(query, IMP_UNDECIDED, c.reason);
+    else if (query->clearance != NULL)
+        clearance_begin(query->clearance, &query->candidates, &query->stats);
+    return code;
+}
+
+FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error)
+{
+    if (query->failed)
+        return error_set(error, IMP_ERROR_USAGE, "this query has ended with an error already");
+    if (query->verdict != IMP_UNDECIDED || query->reason == IMP_REASON_NONE) return IMP_SUCCESS;
+    const double start = clock_seconds(), before = query->stats.seconds;
+    const uint64_t done = query->stats.pairs;
+    const uint64_t until = pairs == 0 || pairs > UINT64_MAX - done ? UINT64_MAX : done + pairs;
+    imp_code code = IMP_SUCCESS;
+    query->reason = IMP_REASON_RUNNING;
+    if (!query->candidates.complete) code = begin(query, start, error);
+    for (unsigned k = 0; code == IMP_SUCCESS && query->reason == IMP_REASON_RUNNING; ++k) {
+        if (k % CLOCK_EVERY == 0) tick(query, before, start);
+        note_bytes(query, candidates_bytes(&query->candidates));
+        const imp_reason reason = exhausted(query, query->stats.seconds);
+        if (reason != IMP_REASON_NONE)
+            finish(query, IMP_UNDECIDED, reason);
+        else if (query->stats.pairs >= until)
+            break;
+        else
+            code = work(query, error);
+    }
+    query->stats.seconds = before + (clock_seconds() - start);
+    note_bytes(query, candidates_bytes(&query->candidates));
+    if (code == IMP_ERROR_MEMORY) {
+        finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
+        return IMP_SUCCESS;
+    }
+    query->failed = code != IMP_SUCCESS;
+    return code;
+}
+
+imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error)
+{
+    if (query == NULL) return error_set_missing(error, "imp_query_step");
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = step(query, pairs, error);
+    fp_environment_leave(&environment);
+    return code;
+}
+
+/* --- Finer ----------------------------------------------------------------------------- */
+
+FP_APART static imp_code refine(imp_query *query, double gamma, double clearance, imp_error *error)
+{
+    impact finer = {0};
+    if (query->clearance != NULL)
+        return error_set(error, IMP_ERROR_USAGE, "refine: this query asks for a minimum distance");
+    if (tolerances(gamma, clearance, &finer, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
+    if (finer.gamma > query->impact.gamma || finer.clearance > query->impact.clearance)
+        return error_set(
+            error, IMP_ERROR_USAGE,
+            "refine: gamma %g and clearance %g may not exceed those in force, %g and %g",
+            finer.gamma, finer.clearance, query->impact.gamma, query->impact.clearance);
+    if (!impact_refine(&query->impact, finer.gamma, finer.clearance, query->candidates.pair_count))
+        return error_set_memory(error);
+    if (query->verdict == IMP_CONTACT) finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
+    return IMP_SUCCESS;
+}
+
+imp_code imp_query_refine(imp_query *query, double gamma, double clearance, imp_error *error)
+{
+    if (query == NULL) return error_set_missing(error, "imp_query_refine");
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = refine(query, gamma, clearance, error);
+    fp_environment_leave(&environment);
+    return code;
+}
+
+/* --- Without two bodies ------------------------------------------------------------------- */
+
+imp_code imp_query_pass(imp_query *query, imp_error *error)
+{
+    const bool found = query->verdict == IMP_CONTACT || query->reason == IMP_REASON_RESOLUTION;
+    if (!found || query->clearance != NULL)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "pass: this query has found no contact, and nothing that is unresolved");
+    if (!impact_pass(&query->impact, query->candidates.pair_count)) return error_set_memory(error);
+    finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
+    return IMP_SUCCESS;
+}

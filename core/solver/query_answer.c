@@ -1,0 +1,111 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "core/base/sized.h"
+#include "core/base/status.h"
+#include "core/solver/query_parts.h"
+
+static imp_side side_of(const imp_query *query, int side)
+{
+    const candidate *of = query->candidates.pairs[query->impact.found_candidate].side[side];
+    const witness *w = &query->impact.found;
+    imp_side s = {of->body, of->surface, w->u[side], w->v[side], {0, 0, 0}};
+    memcpy(s.point, w->point[side].x, sizeof s.point);
+    return s;
+}
+
+static size_t unresolved(const imp_query *query, int side)
+{
+    return query->candidates.pairs[query->impact.found_candidate].side[side]->body;
+}
+
+static imp_result result_of(const imp_query *query)
+{
+    const impact *im = &query->impact;
+    imp_result r = {.struct_size = (uint32_t)sizeof r,
+                    .verdict = query->verdict,
+                    .reason = query->reason,
+                    .t = NAN,
+                    .t_lower = im->t_lower,
+                    .gap = NAN,
+                    .gamma = im->gamma,
+                    .gamma_clear = im->clearance,
+                    .stats = query->stats,
+                    .t_start = query->options.t_start,
+                    .t_end = query->options.t_end,
+                    .t_examined = {NAN, NAN}};
+    if (query->examined.lo <= query->examined.hi)
+        r.t_examined[0] = query->examined.lo, r.t_examined[1] = query->examined.hi;
+    r.stats.bytes = query->peak_bytes;
+    if (r.reason == IMP_REASON_RESOLUTION) {
+        r.a.body = unresolved(query, 0);
+        r.b.body = unresolved(query, 1);
+    }
+    if (r.verdict != IMP_CONTACT) return r;
+    r.at_rest = query->at_rest;
+    r.t = im->t_lower;
+    r.gap = im->found.gap;
+    r.a = side_of(query, 0);
+    r.b = side_of(query, 1);
+    r.has_normal = im->found.has_normal;
+    memcpy(r.normal, im->found.normal.x, sizeof r.normal);
+    return r;
+}
+
+/* Bytes of imp_result in the first release. */
+#define RESULT_FIRST sizeof(imp_result)
+
+imp_code imp_query_read(const imp_query *query, imp_result *result, imp_error *error)
+{
+    if (query == NULL) return error_set_missing(error, "imp_query_read");
+    const imp_code code = sized_check("imp_result", result, RESULT_FIRST, error);
+    if (code != IMP_SUCCESS) return code;
+    const imp_result own = result_of(query);
+    sized_write(result, &own);
+    return code;
+}
+
+/* One side of a waiting pair, or, with no node, of a candidate pair that was not tested yet. */
+static struct imp_pending_side pending_side(const imp_query *query, size_t k, int side,
+                                            const node *n)
+{
+    const candidate *c = query->candidates.pairs[k].side[side];
+    const imp_region *r = n != NULL ? &n->region : &tree_root(c->tree)->region;
+    return (struct imp_pending_side){c->body,
+                                     c->surface,
+                                     {r->lo[PARAMETER_U], r->hi[PARAMETER_U]},
+                                     {r->lo[PARAMETER_V], r->hi[PARAMETER_V]}};
+}
+
+/* Pairs on the heap come first, then the candidates whose roots were not tested yet. */
+bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pending)
+{
+    if (query == NULL || pending == NULL) return false;
+    const pair_heap *heap = &query->impact.heap;
+    const pair *waiting = index < heap->count ? &heap->pairs[index] : NULL;
+    const size_t k = waiting != NULL ? waiting->candidate_pair
+                                     : query->candidates_tested + (index - heap->count);
+    if (query->clearance != NULL || k >= query->candidates.pair_count) return false;
+    *pending = (imp_pending){waiting != NULL ? waiting->window.lo : query->options.t_start,
+                             pending_side(query, k, 0, waiting != NULL ? waiting->a : NULL),
+                             pending_side(query, k, 1, waiting != NULL ? waiting->b : NULL)};
+    return true;
+}
+
+imp_code imp_scene_solve(imp_scene *scene, const imp_options *options, imp_result *result,
+                         imp_error *error)
+{
+    imp_error own;
+    imp_error *why = error != NULL ? error : &own;
+    if (sized_check("imp_result", result, RESULT_FIRST, why) != IMP_SUCCESS) return why->code;
+    imp_query *query = imp_query_new(scene, options, why);
+    if (query == NULL) return why->code;
+    imp_code code = imp_query_step(query, 0, why);
+    if (code == IMP_SUCCESS) code = imp_query_read(query, result, why);
+    imp_query_free(query);
+    return code;
+}

@@ -1,0 +1,50 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_RELATIVE_H
+#define CORE_SOLVER_RELATIVE_H
+
+#include "core/tree/node.h"
+
+/* Two nodes' models, re-centred on a window of time and seen from each other. */
+
+typedef struct time_window {
+    double lo, hi; /* lo <= hi */
+} time_window;
+
+/* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v that
+ * holds at its middle, and how its slopes turn with w. x, y, z and a 0, here and below. */
+typedef struct slice {
+    double bu[4], bv[4], quu[4], quv[4], qvv[4];
+    double quw[4], qvw[4]; /* the slopes at w are bu + quw * w, bv + qvw * w */
+    vec3 normal;           /* bu x bv: at the window's middle, which may be far from the node's */
+} slice;
+
+/* B - A over the window: offset delta + drift * w, plus slice b, minus slice a, give or take slack.
+ */
+typedef struct relative {
+    slice a, b;
+    double delta[4], drift[4];
+    double slack[4];     /* both remainders, what moving the centre put there, and its rounding */
+    double magnitude[4]; /* >= sum of abs of the coefficients above */
+    double mid, half;    /* of the window; half is rounded up */
+    double share;        /* of the widest gap along any axis, that a search for one must come to */
+    double focus;        /* the w that axes are chosen for; -1: the start of the window */
+} relative;
+
+/* What the coefficients in `relative` may be off by beside what slack counts: units of u times
+ * `magnitude`. */
+enum { RELATIVE_ROUNDING = 4 };
+
+void relative_at(const node *a, const node *b, const time_window *window, relative *r);
+
+/* Where w may be: [lo, hi] within [-1, 1]. */
+typedef struct w_range {
+    double lo, hi;
+} w_range;
+
+enum { W_RANGE_ROUNDING = 8 }; /* units of u by which a bound of w is moved outward */
+
+/* Keeps the w with low + drift w <= limit; false: there is none. NaN keeps everything. */
+bool w_range_cut(w_range *s, double low, double drift, double limit);
+
+#endif

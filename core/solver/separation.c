@@ -1,0 +1,145 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/separation.h"
+
+#include "core/base/rounding.h"
+#include "core/solver/axes.h"
+#include "core/solver/normal_field.h"
+#include "core/solver/tuning.h"
+
+/* Cuts the window to the part that `s` leaves, rounded outward. In units of u (|mid| + half): half w
+ * is off by 1, its sum with mid by 1, that with the slack by 1. */
+enum { WINDOW_ROUNDING = 4 };
+_Static_assert(1 + 1 + 1 <= WINDOW_ROUNDING, "rounding of a window");
+
+static void window_cut(time_window *window, const relative *r, const w_range *s)
+{
+    const double slack = (fabs(r->mid) + r->half) * (WINDOW_ROUNDING * UNIT_ROUNDOFF);
+    const double lo = r->mid + r->half * s->lo - slack, hi = r->mid + r->half * s->hi + slack;
+    if (s->lo > -1 && lo > window->lo) window->lo = lo < window->hi ? lo : window->hi;
+    if (s->hi < 1 && hi < window->hi) window->hi = hi > window->lo ? hi : window->lo;
+}
+
+/* The w of `moment`, kept within the window. */
+static double focus_of(const relative *r, double moment)
+{
+    const double w = r->half > 0 ? (moment - r->mid) / r->half : 0;
+    return w < -1 ? -1 : w > 1 ? 1 : w;
+}
+
+/* Lemma. Outside the range s that is left, nodes are farther apart than the clearance; within it, no
+ * nearer than the lines say, nor than the boxes. */
+static void approach_take(approach *near, const relative *r, const gap_lines *lines, w_range s)
+{
+    double w;
+    const double lower = gap_lines_lower(lines, s, &w);
+    if (lower > near->lower) near->lower = lower;
+    near->moment = r->mid + r->half * w;
+}
+
+/* `near` is NULL where only the window matters. */
+static bool shrink(const node *a, const node *b, double clearance, time_window *window, vec3 *axis,
+                   approach *near)
+{
+    for (int round = 0; round < TUNING_WINDOW_ROUNDS; ++round) {
+        relative r;
+        gap_lines lines;
+        w_range s = {-1, 1};
+        relative_at(a, b, window, &r);
+        if (near != NULL) {
+            gap_lines_begin(&lines);
+            r.focus = focus_of(&r, near->moment);
+            r.share = TUNING_GJK_GAP_OF_BOUND;
+        }
+        gap_lines *const kept = near != NULL ? &lines : NULL;
+        if (!axes_cut(&r, clearance, &s, axis, kept)) return false;
+        if (!normal_field_cut(&r, clearance, &s, kept)) return false;
+        window_cut(window, &r, &s);
+        if (near != NULL) approach_take(near, &r, &lines, s);
+        if (!(s.hi - s.lo < TUNING_WINDOW_SHRINKS)) break; /* a new centre would not help much */
+    }
+    return true;
+}
+
+bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
+                          vec3 *axis)
+{
+    if (!a->bounded || !b->bounded) return true;
+    if (separation_of_boxes(a, b, clearance)) return false;
+    return shrink(a, b, clearance, window, axis, NULL);
+}
+
+bool separation_approach(const node *a, const node *b, double clearance, time_window *window,
+                         vec3 *axis, approach *near)
+{
+    near->lower = 0;
+    if (!a->bounded || !b->bounded) return true;
+    near->lower = separation_boxes_lower(a, b);
+    if (near->lower > clearance) return false;
+    return shrink(a, b, clearance, window, axis, near) && !(near->lower > clearance);
+}
+
+/* Boxes and balls. Roundings: difference 1, square 1, sums 2, root, which halves them and counts 1:
+ * (2 * 1 + 1 + 2) / 2 + 1 < 4; of balls one more, the last difference, whose rounding is below that
+ * of its first term. Written so that a NaN is never apart. A sum that overflows is at least 2^1023. */
+PAD_COVERS(16, 4 + 1);
+PAD_COVERS(8, 3 + 1 + 1); /* reach: three errors, then the rest summed to a radius; the radii */
+
+double separation_boxes_lower(const node *a, const node *b)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double above = b->lo[i] - a->hi[i], below = a->lo[i] - b->hi[i];
+        const double gap = above > below ? above : below;
+        if (gap > 0) sum += gap * gap;
+    }
+    return sum < INFINITY ? padded_lower(sqrt(sum), 16) : 0x1p511;
+}
+
+bool separation_of_boxes(const node *a, const node *b, double clearance)
+{
+    return separation_boxes_lower(a, b) > clearance;
+}
+
+bool separation_of_balls(const node *a, const node *b, double clearance)
+{
+    if (!a->bounded || !b->bounded) return false;
+    const vec3 apart = vec3_sub(vec3_from(b->f.a), vec3_from(a->f.a));
+    const double reach = a->radius + b->radius;
+    return padded_lower(vec3_norm(apart), 16) - padded_upper(reach, 8) > clearance;
+}
+
+double separation_farthest_of_boxes(const node *a, const node *b)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double above = b->hi[i] - a->lo[i], below = a->hi[i] - b->lo[i];
+        const double far = above > below ? above : below;
+        sum += far * far;
+    }
+    return sqrt(sum);
+}
+
+double separation_farthest_of_balls(const node *a, const node *b)
+{
+    return vec3_norm(vec3_sub(vec3_from(b->f.a), vec3_from(a->f.a))) + a->radius + b->radius;
+}
+
+double separation_centres(const node *a, const node *b, double t)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        double x[2];
+        const node *both[2] = {a, b};
+        for (int k = 0; k < 2; ++k) {
+            const imp_region *g = &both[k]->region;
+            const quadratic3 *f = &both[k]->f;
+            const double s = g->d[2] > 0 ? (t - g->c[2]) / g->d[2] : 0;
+            x[k] = f->a[i] + (f->bt[i] + f->qtt[i] * s) * s;
+        }
+        sum += (x[1] - x[0]) * (x[1] - x[0]);
+    }
+    return sum;
+}

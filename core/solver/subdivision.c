@@ -1,0 +1,181 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/subdivision.h"
+
+#include "core/solver/tuning.h"
+#include "core/solver/witness.h"
+
+/* --- What a pair is like ---------------------------------------------------------------- */
+
+/* Evaluates the middle of the root at both ends and in the middle of its times. */
+static imp_code measure(candidate *c, imp_error *error)
+{
+    if (c->eval_error >= 0) return IMP_SUCCESS;
+    const imp_region *r = &tree_root(c->tree)->region;
+    const double times[3] = {r->lo[2], r->c[2], r->hi[2]};
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) {
+        double eval_error;
+        const imp_code code = witness_eval_error(c->tree, (double[3]){r->c[0], r->c[1], times[k]},
+                                                 &eval_error, error);
+        if (code != IMP_SUCCESS) return code;
+        if (eval_error > largest) largest = eval_error;
+    }
+    c->eval_error = largest;
+    return IMP_SUCCESS;
+}
+
+imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error)
+{
+    const imp_code code = measure(both->side[0], error);
+    return code == IMP_SUCCESS ? measure(both->side[1], error) : code;
+}
+
+time_window window_common(time_window x, time_window y)
+{
+    return (time_window){x.lo > y.lo ? x.lo : y.lo, x.hi < y.hi ? x.hi : y.hi};
+}
+
+time_window pair_times(const node *a, const node *b)
+{
+    const imp_region *r = &a->region, *s = &b->region;
+    return window_common((time_window){r->lo[2], r->hi[2]}, (time_window){s->lo[2], s->hi[2]});
+}
+
+static const node *side_of(const pair *p, int side) { return side == 0 ? p->a : p->b; }
+
+/* Of both surfaces, at any one time. */
+static double pair_curvature(const pair *p)
+{
+    double sum = 0;
+    for (int side = 0; side < 2; ++side) {
+        const quadratic3 *f = &side_of(p, side)->f;
+        for (int i = 0; i < 3; ++i) sum += fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]);
+    }
+    return sum;
+}
+
+double pair_remainder(const pair *p)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) sum += p->a->e[i] + p->b->e[i];
+    return sum;
+}
+
+double pair_extent(const pair *p)
+{
+    return p->a->extent[0] + p->a->extent[1] + p->b->extent[0] + p->b->extent[1];
+}
+
+#define UNBOUNDED_ORDER 0x1p900 /* above any squared distance that matters */
+
+double pair_order(const pair *p, double t)
+{
+    if (!p->a->bounded || !p->b->bounded) return UNBOUNDED_ORDER * (0x1p53 - (double)p->serial);
+    const double distance2 = separation_centres(p->a, p->b, t);
+    return distance2 >= 0 ? distance2 : INFINITY;
+}
+
+bool pair_precision_ends(const pair *p, const candidate_pair *both, double room, double flat)
+{
+    const double eval_error = both->side[0]->eval_error + both->side[1]->eval_error;
+    return TUNING_PRECISION_ROOM * eval_error >= room && pair_curvature(p) <= flat * eval_error &&
+           pair_remainder(p) <= TUNING_PRECISION_REMAINDER * flat * eval_error;
+}
+
+/* --- Where it is cut -------------------------------------------------------------------- */
+
+/* A node without bounds is cut before one that has them, which would gain nothing. */
+static void cut_consider(cut *best, const pair *p, int side, parameter j, double gain)
+{
+    if (side_of(p, side)->bounded && !side_of(p, !side)->bounded) return;
+    if (!region_can_split(&side_of(p, side)->region, j)) return;
+    if (best->side < 0 || gain > best->gain) *best = (cut){side, j, gain};
+}
+
+cut cut_by_contribution(const pair *p)
+{
+    cut best = {-1, PARAMETER_U, 0};
+    for (int side = 0; side < 2; ++side)
+        for (int j = 0; j < 3; ++j)
+            cut_consider(&best, p, side, (parameter)j, side_of(p, side)->extent[j]);
+    return best;
+}
+
+/* Whether the half below (0) or above (1) a cut in time holds moments of the window that the other
+ * does not. Of a window that touches the cut with its end one half holds all, so that no pair is
+ * left with a single moment which its neighbours in time have too. */
+static bool half_is_needed(const time_window *window, double at, int half)
+{
+    if (window->lo >= at) return half == 1;
+    if (window->hi <= at) return half == 0;
+    return true;
+}
+
+/* Then a cut in time is free. */
+static bool is_one_half_enough(const time_window *window, double at)
+{
+    return !half_is_needed(window, at, 0) || !half_is_needed(window, at, 1);
+}
+
+/* Whether time blurs the node enough to count beside the scale, and beside what u and v blur of
+ * both. */
+static bool time_blurs(const pair *p, const node *n, double scale)
+{
+    const double place = pair_remainder(p) - (p->a->time_remainder + p->b->time_remainder);
+    return TUNING_BLUR_OF_GAMMA * n->time_remainder > scale &&
+           TUNING_BLUR_OF_PLACE * n->time_remainder > place;
+}
+
+/* What a cut in time is worth, on the scale of the spread. Linear motion costs nothing, so only
+ * what bends counts; more where the cut is free, and most where it is and time blurs the node. */
+static double gain_in_time(const pair *p, const node *n, double scale)
+{
+    if (!is_one_half_enough(&p->window, n->region.c[PARAMETER_T]))
+        return TUNING_TIME_CUT * n->nonlinear_extent[PARAMETER_T];
+    return time_blurs(p, n, scale) ? INFINITY
+                                   : TUNING_FREE_TIME_CUT * n->nonlinear_extent[PARAMETER_T];
+}
+
+cut cut_by_spread(const pair *p, double scale)
+{
+    cut best = {-1, PARAMETER_U, 0};
+    for (int side = 0; side < 2; ++side) {
+        const node *n = side_of(p, side);
+        cut_consider(&best, p, side, PARAMETER_U, n->extent[0]);
+        cut_consider(&best, p, side, PARAMETER_V, n->extent[1]);
+        cut_consider(&best, p, side, PARAMETER_T, gain_in_time(p, n, scale));
+    }
+    return best;
+}
+
+cut cut_in_time(const pair *p)
+{
+    cut best = {-1, PARAMETER_T, 0};
+    for (int side = 0; side < 2; ++side)
+        cut_consider(&best, p, side, PARAMETER_T, side_of(p, side)->region.d[PARAMETER_T]);
+    return best;
+}
+
+/* --- The halves --------------------------------------------------------------------------- */
+
+imp_code cut_take(const cut *c, int half, const candidate_pair *both, pair *p, bool *some,
+                  imp_stats *stats, imp_error *error)
+{
+    node **slot = c->side == 0 ? &p->a : &p->b;
+    tree *t = both->side[c->side]->tree;
+    const double at = (*slot)->region.c[c->along];
+    *some = c->along != PARAMETER_T || half_is_needed(&p->window, at, half);
+    if (!*some) return IMP_SUCCESS;
+    const uint64_t nodes = tree_node_count(t);
+    const size_t bytes = tree_bytes(t);
+    const imp_code code = node_child(t, *slot, c->along, half, slot, error);
+    stats->nodes += tree_node_count(t) - nodes;
+    stats->bytes += tree_bytes(t) - bytes;
+    if (code != IMP_SUCCESS) return code;
+    p->window = window_common(p->window, pair_times(p->a, p->b));
+    *some = p->window.lo <= p->window.hi;
+    return IMP_SUCCESS;
+}

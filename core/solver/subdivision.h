@@ -1,0 +1,69 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_SUBDIVISION_H
+#define CORE_SOLVER_SUBDIVISION_H
+
+#include "core/solver/pair_heap.h"
+
+/* How a pair is divided
+ * =====================
+ * Branch and bound halves one node of a pair along one parameter: that which blurs the pair most.
+ * Shared by all searches. Choices cost pairs, never soundness. */
+
+/* A surface that exists at some of the query's times. */
+typedef struct candidate {
+    tree *tree;
+    size_t body, surface;
+    double eval_error; /* of points evaluated, about; < 0: not measured yet; length */
+} candidate;
+
+/* Two of different bodies that may come near each other. */
+typedef struct candidate_pair {
+    candidate *side[2];
+} candidate_pair;
+
+/* Measures eval_error of both: once for each surface of a query, not for each of its pairs. */
+imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
+
+/* What lies in both; lo > hi: nothing. */
+time_window window_common(time_window x, time_window y);
+
+/* The times of both nodes. */
+time_window pair_times(const node *a, const node *b);
+
+/* Of both nodes: remainders, and how much u and v move points across them; length, about. */
+double pair_remainder(const pair *p);
+double pair_extent(const pair *p);
+
+/* A key for the heap, after p->serial is set: the squared distance of the centres at time t. Where a
+ * node has no bounds the pair comes behind all others, the last made first, so that a place that has
+ * none down to the smallest region is come to without going through all of its surroundings. */
+double pair_order(const pair *p, double t);
+
+/* Whether rounding takes much of `room`, the length that is to be told apart, and the pair is as flat
+ * as `flat` times the rounding: then splitting on teaches ever less and only multiplies pairs. */
+bool pair_precision_ends(const pair *p, const candidate_pair *both, double room, double flat);
+
+typedef struct cut {
+    int side; /* 0: a, 1: b; -1: nothing left to split */
+    parameter along;
+    double gain;
+} cut;
+
+/* The paper: the parameter of either node that contributes most to its box. */
+cut cut_by_contribution(const pair *p);
+
+/* Models: what moves a point most along u or v, or bends it in time; what is below `scale`, a length,
+ * does not matter. */
+cut cut_by_spread(const pair *p, double scale);
+
+/* Nothing more to learn from u and v: the later of the two nodes' times is halved. */
+cut cut_in_time(const pair *p);
+
+/* Puts the half of the node that is cut in its place: below the cut (0) or above (1), with the part of
+ * the window that lies in its times. *some false: no moment of the window is in that half, or none
+ * that the other has not. What is made is added to `stats`. */
+imp_code cut_take(const cut *c, int half, const candidate_pair *both, pair *p, bool *some,
+                  imp_stats *stats, imp_error *error);
+
+#endif

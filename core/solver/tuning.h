@@ -1,0 +1,95 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_TUNING_H
+#define CORE_SOLVER_TUNING_H
+
+/* Numbers that decide how much work a search takes, never what it proves
+ * ======================================================================
+ * Below each is what other values do to the pairs of `impinge bench bicubic spikes tori`, in per
+ * cent of the 104593 that are tested now; witness searches, of which there are 381, where they are
+ * what the number is about. */
+
+/* --- What to split (subdivision.c) --- */
+
+/* Time blurs a node from gamma / this on.
+ * 32: -0.1, 128: 0.0 */
+#define TUNING_BLUR_OF_GAMMA 64
+/* And from 1 / this of what place blurs its pair on.
+ * 2: +0.5, 8: -0.6 */
+#define TUNING_BLUR_OF_PLACE 4
+/* Weight of what is not linear in time.
+ * 1: +1.8, 4: +0.2 */
+#define TUNING_TIME_CUT 2
+/* The same where one half is enough.
+ * 4: +2.6, 16: -1.2 */
+#define TUNING_FREE_TIME_CUT 8
+/* u and v are no longer cut: extents below (gamma - clearance) / this.
+ * 32, 128: no change */
+#define TUNING_TINY 64
+
+/* --- When to search for a witness (time_of_impact.c) --- */
+
+/* The remainders of the pair are below gamma / this.
+ * 1: +0.2, 4: +0.7; searches 1: +169, 4: -66 */
+#define TUNING_WITNESS_GAMMA 2
+/* Or above this times its extents.
+ * 2, 8: no change */
+#define TUNING_WITNESS_EXTENT 4
+/* Or precision ends, flat as this times the evaluation error.
+ * 8, 32: no change */
+#define TUNING_WITNESS_FLAT 16
+/* Generations between searches: the four sides halve about once.
+ * 2: -0.4, 10: +0.6; searches 2: +62, 10: -28 */
+#define TUNING_WITNESS_WAIT 5
+
+/* --- When precision ends (subdivision.c): in units of the evaluation error ---
+ *
+ * No scene of the sets comes to that. */
+
+/* gamma - clearance is below this.
+ * 8, 32: no change */
+#define TUNING_PRECISION_ROOM 16
+/* And remainders are, where curvatures are below 1.
+ * 32, 128: no change */
+#define TUNING_PRECISION_REMAINDER 64
+
+/* --- Nodes without bounds (time_of_impact.c) --- */
+
+/* Part of the query's time below which a node without bounds is taken for a moment without any.
+ * Types with bounds: no change */
+#define TUNING_MOMENT 0x1p-20
+
+/* --- How far to cut one pair's window (separation.c, gjk_axis.c, normal_field.c) --- */
+
+/* Centres at most.
+ * 1: +0.6, 2: 0.0, 6: 0.0 */
+#define TUNING_WINDOW_ROUNDS 3
+/* Width in w, of 2, below which a new centre is worth it.
+ * 0.25: +0.3, 1: -1.0 */
+#define TUNING_WINDOW_SHRINKS 0.5
+/* At most; six are usual.
+ * 6: +1.0, 10: +0.1, 40: 0.0 */
+#define TUNING_GJK_STEPS 20
+/* Part of the widest gap that is good enough; each step costs instructions.
+ * 0.5: +2.5, 0.9: -1.5 */
+#define TUNING_GJK_GAP 0.7
+/* The same where a lower bound of the distance is sought: the thousandth that is left is what a
+ * bracket is narrowed to. Pairs of bicubic patches ended before they meet: 0.7: +70, 0.9: +39, 0.99: +5 */
+#define TUNING_GJK_GAP_OF_BOUND 0.999
+/* Of normals within 25 degrees, which are nearly tangent.
+ * 0.5: 0.0, 0.99: 0.0 */
+#define TUNING_FIELD_COSINE 0.9
+
+/* --- The search for a witness (witness.c) --- */
+
+/* At most.
+ * 12: +0.1, 48: -0.1; searches 12: +7, 48: -5 */
+#define TUNING_NEWTON_STEPS 24
+/* Gammas from which on a step has to halve the gap.
+ * 4: +0.1, 16: -0.1; searches 4: +11, 16: -12 */
+#define TUNING_NEWTON_FAR 8
+/* The last step gains less than this of the gap.
+ * 1e-3, 1e-5: no change */
+#define TUNING_NEWTON_GAIN 1e-4
+
+#endif

@@ -1,0 +1,339 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/witness.h"
+
+#include <string.h>
+
+#include "core/base/rounding.h"
+#include "core/solver/tuning.h"
+#include "core/tree/bound_audit.h"
+
+/* Unknowns: y = (s_u, s_v) of a and of b, normalised to the nodes. Minimised: |D|^2 / 2,
+ * D = x_b - x_a, by Newton steps with J'J + D.D'' + damping; J and D'' come from the nodes'
+ * polynomials (differences where there are none), points from the surfaces themselves. */
+
+enum { UNKNOWNS = 4 };
+
+typedef struct search {
+    const tree *const *trees;
+    const node *const *nodes;
+    double t;
+    double lo[UNKNOWNS], hi[UNKNOWNS]; /* of y */
+} search;
+
+typedef struct state {
+    double y[UNKNOWNS];
+    double p[2][3]; /* parameters (u, v, t) on each surface */
+    vec3 x[2];
+    vec3 apart; /* D */
+    double gap;
+} state;
+
+static bool node_is_flat(const node *n)
+{
+    return n->normal.x[0] == 0 && n->normal.x[1] == 0 && n->normal.x[2] == 0;
+}
+
+/* y may leave the node by one half-width, not the surface. */
+static void search_begin(search *g)
+{
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        const imp_region *r = &g->nodes[k / 2]->region;
+        const imp_region *whole = &tree_root(g->trees[k / 2])->region;
+        const int j = k % 2;
+        g->lo[k] = g->hi[k] = 0;
+        if (!(r->d[j] > 0)) continue;
+        g->lo[k] = fmax(-2, (whole->lo[j] - r->c[j]) / r->d[j]);
+        g->hi[k] = fmin(2, (whole->hi[j] - r->c[j]) / r->d[j]);
+    }
+}
+
+static void side_parameters(const search *g, int side, const double *y, double p[3])
+{
+    const imp_region *r = &g->nodes[side]->region;
+    const imp_region *whole = &tree_root(g->trees[side])->region;
+    for (int j = 0; j < 2; ++j) {
+        const double x = r->c[j] + r->d[j] * y[2 * side + j];
+        p[j] = x < whole->lo[j] ? whole->lo[j] : x > whole->hi[j] ? whole->hi[j] : x;
+    }
+    p[2] = g->t;
+}
+
+static imp_code point_fault(const tree *t, const double p[3], const char *what, imp_error *error)
+{
+    return surface_fault(tree_surface(t), error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0],
+                         p[1], p[2], what);
+}
+
+/* The point at p and, unless eval_error is NULL, the bounds of its errors. */
+static imp_code point_at(const tree *t, const double *p, vec3 *x, double eval_error[3],
+                         imp_error *error)
+{
+    const imp_status status = surface_eval(tree_surface(t), 1, p, x->x, eval_error);
+    if (status != IMP_OK) {
+        point_fault(t, p, surface_status_text(status), error);
+        return surface_set_code(status, error);
+    }
+    if (!isfinite(vec3_norm1(*x)))
+        return point_fault(t, p, "eval gives a point that is infinite or NaN", error);
+    for (int i = 0; eval_error != NULL && i < 3; ++i)
+        if (!(eval_error[i] >= 0))
+            return point_fault(t, p, "eval's error bound is negative or NaN", error);
+    return IMP_SUCCESS;
+}
+
+static imp_code state_at(const search *g, const double *y, state *s, imp_error *error)
+{
+    memcpy(s->y, y, sizeof s->y);
+    for (int side = 0; side < 2; ++side) {
+        side_parameters(g, side, y, s->p[side]);
+        imp_code code = point_at(g->trees[side], s->p[side], &s->x[side], NULL, error);
+        if (code == IMP_SUCCESS)
+            code = bound_audit_holds_at(tree_surface(g->trees[side]), g->nodes[side], s->p[side],
+                                        s->x[side].x, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    s->apart = vec3_sub(s->x[1], s->x[0]);
+    s->gap = vec3_norm(s->apart);
+    return IMP_SUCCESS;
+}
+
+/* --- Derivatives ---------------------------------------------------------------------- */
+
+/* Columns of J and, weighted with D, the second derivatives of one side. */
+typedef struct derivatives {
+    vec3 by[2];
+    double second[2][2];
+} derivatives;
+
+static void derive_from_polynomial(const search *g, int side, const state *s, derivatives *out)
+{
+    const node *n = g->nodes[side];
+    const quadratic3 *f = &n->f;
+    const double su = s->y[2 * side], sv = s->y[2 * side + 1];
+    const double st = n->region.d[2] > 0 ? (g->t - n->region.c[2]) / n->region.d[2] : 0;
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < 3; ++i) {
+        out->by[0].x[i] = f->bu[i] + 2 * f->quu[i] * su + f->quv[i] * sv + f->qut[i] * st;
+        out->by[1].x[i] = f->bv[i] + 2 * f->qvv[i] * sv + f->quv[i] * su + f->qvt[i] * st;
+        out->second[0][0] += 2 * s->apart.x[i] * f->quu[i];
+        out->second[0][1] += s->apart.x[i] * f->quv[i];
+        out->second[1][1] += 2 * s->apart.x[i] * f->qvv[i];
+    }
+    out->second[1][0] = out->second[0][1];
+}
+
+static const double DIFFERENCE_STEP = 0x1p-8; /* of a half-width */
+
+static imp_code derive_from_points(const search *g, int side, const state *s, derivatives *out,
+                                   imp_error *error)
+{
+    memset(out, 0, sizeof *out);
+    for (int j = 0; j < 2; ++j) {
+        const int k = 2 * side + j;
+        double y[UNKNOWNS], p[3];
+        memcpy(y, s->y, sizeof y);
+        y[k] += y[k] + DIFFERENCE_STEP <= g->hi[k] ? DIFFERENCE_STEP : -DIFFERENCE_STEP;
+        if (y[k] < g->lo[k]) continue;
+        side_parameters(g, side, y, p);
+        if (p[j] == s->p[side][j]) continue;
+        vec3 x;
+        const imp_code code = point_at(g->trees[side], p, &x, NULL, error);
+        if (code != IMP_SUCCESS) return code;
+        out->by[j] = vec3_scale(vec3_sub(x, s->x[side]), 1 / (y[k] - s->y[k]));
+    }
+    return IMP_SUCCESS;
+}
+
+/* Gradient and Hessian of |D|^2 / 2. */
+static imp_code derive(const search *g, const state *s, double gradient[UNKNOWNS],
+                       double hessian[UNKNOWNS][UNKNOWNS], imp_error *error)
+{
+    derivatives d[2];
+    vec3 column[UNKNOWNS];
+    for (int side = 0; side < 2; ++side) {
+        imp_code code = IMP_SUCCESS;
+        if (node_is_flat(g->nodes[side]))
+            code = derive_from_points(g, side, s, &d[side], error);
+        else
+            derive_from_polynomial(g, side, s, &d[side]);
+        if (code != IMP_SUCCESS) return code;
+        for (int j = 0; j < 2; ++j)
+            column[2 * side + j] = vec3_scale(d[side].by[j], side == 0 ? -1 : 1);
+    }
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        gradient[k] = vec3_dot(column[k], s->apart);
+        for (int l = 0; l < UNKNOWNS; ++l) {
+            hessian[k][l] = vec3_dot(column[k], column[l]);
+            if (k / 2 == l / 2) {
+                const double second = d[k / 2].second[k % 2][l % 2];
+                hessian[k][l] += k / 2 == 0 ? -second : second;
+            }
+        }
+    }
+    return IMP_SUCCESS;
+}
+
+/* --- Steps -------------------------------------------------------------------------------- */
+
+/* Solves h x = -g by Cholesky, where `held` unknowns stay put; false: h is not positive definite.
+ */
+static bool solve(double h[UNKNOWNS][UNKNOWNS], const double *g, const bool *held, double *x)
+{
+    double l[UNKNOWNS][UNKNOWNS] = {{0}};
+    for (int k = 0; k < UNKNOWNS; ++k)
+        for (int m = 0; m <= k; ++m) {
+            double sum = held[k] || held[m] ? (k == m) : h[k][m];
+            for (int i = 0; i < m; ++i) sum -= l[k][i] * l[m][i];
+            if (k != m)
+                l[k][m] = sum / l[m][m];
+            else if (sum > 0)
+                l[k][k] = sqrt(sum);
+            else
+                return false;
+        }
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        double sum = held[k] ? 0 : -g[k];
+        for (int i = 0; i < k; ++i) sum -= l[k][i] * x[i];
+        x[k] = sum / l[k][k];
+    }
+    for (int k = UNKNOWNS - 1; k >= 0; --k) {
+        for (int i = k + 1; i < UNKNOWNS; ++i) x[k] -= l[i][k] * x[i];
+        x[k] /= l[k][k];
+    }
+    return true;
+}
+
+/* A damped step from y that stays within the bounds: unknowns that would leave are held there and
+ * the rest solved again. False: there is none, or it overflows. */
+static bool step(const search *g, const double *y, const double *gradient,
+                 double hessian[UNKNOWNS][UNKNOWNS], double damping, double *next)
+{
+    bool held[UNKNOWNS];
+    double h[UNKNOWNS][UNKNOWNS], move[UNKNOWNS];
+    memcpy(h, hessian, sizeof h);
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        h[k][k] += damping;
+        held[k] = !(g->lo[k] < g->hi[k]);
+    }
+    for (int pass = 0; pass <= UNKNOWNS; ++pass) {
+        if (!solve(h, gradient, held, move)) return false;
+        bool more = false;
+        for (int k = 0; k < UNKNOWNS; ++k) {
+            const bool out = (y[k] <= g->lo[k] && move[k] < 0) || (y[k] >= g->hi[k] && move[k] > 0);
+            if (out && !held[k]) held[k] = more = true;
+        }
+        if (!more) break;
+    }
+    for (int k = 0; k < UNKNOWNS; ++k) {
+        const double to = y[k] + (held[k] ? 0 : move[k]);
+        if (!(to - to == 0)) return false;
+        next[k] = to < g->lo[k] ? g->lo[k] : to > g->hi[k] ? g->hi[k] : to;
+    }
+    return true;
+}
+
+static double largest_diagonal(double h[UNKNOWNS][UNKNOWNS])
+{
+    double top = 0;
+    for (int k = 0; k < UNKNOWNS; ++k) top = h[k][k] > top ? h[k][k] : top;
+    return top;
+}
+
+/* Of the largest diagonal element of the Hessian. */
+static const double DAMPING_START = 0x1p-20, DAMPING_MAX = 0x1p10;
+static const double DAMPING_LESS = 0x1p-6, DAMPING_MORE = 0x1p5;
+
+/* Goes downhill from *s until it no longer pays: the gap shrinks by less than TUNING_NEWTON_GAIN of
+ * it, or it is far from gamma and shrinks by less than half. */
+static imp_code descend(const search *g, double gamma, state *s, imp_error *error)
+{
+    double damping = DAMPING_START;
+    for (int k = 0; k < TUNING_NEWTON_STEPS && s->gap > 0;) {
+        double gradient[UNKNOWNS], hessian[UNKNOWNS][UNKNOWNS], next[UNKNOWNS];
+        imp_code code = derive(g, s, gradient, hessian, error);
+        if (code != IMP_SUCCESS) return code;
+        const double scale = largest_diagonal(hessian);
+        if (!(scale > 0)) return IMP_SUCCESS;
+        state trial;
+        bool better = false;
+        for (; k < TUNING_NEWTON_STEPS && damping < DAMPING_MAX && !better; ++k) {
+            if (step(g, s->y, gradient, hessian, damping * scale, next)) {
+                code = state_at(g, next, &trial, error);
+                if (code != IMP_SUCCESS) return code;
+                better = trial.gap < s->gap;
+            }
+            damping *= better ? DAMPING_LESS : DAMPING_MORE;
+        }
+        if (!better) return IMP_SUCCESS;
+        const double gain = s->gap - trial.gap;
+        const bool stale = gain < TUNING_NEWTON_GAIN * s->gap ||
+                           (trial.gap > TUNING_NEWTON_FAR * gamma && gain < 0.5 * s->gap);
+        *s = trial;
+        if (stale) return IMP_SUCCESS;
+    }
+    return IMP_SUCCESS;
+}
+
+/* D shorter than this, in error bounds, has a direction that is mostly rounding. */
+static const double NORMAL_FROM = 64;
+
+/* Lemma. The exact points are within the two error vectors of those computed, so their distance is
+ * at most gap + |error_a|_1 + |error_b|_1. Roundings: of the gap differences 1, squares
+ * 1, sums 2 and the root, which halves them and counts 1, (2 * 1 + 1 + 2) / 2 + 1 < 4; of the errors
+ * 5 sums; then their sum. */
+PAD_COVERS(16, 5 + 1);
+static imp_code evaluate_gap(const search *g, const state *s, witness *found, imp_error *error)
+{
+    double eval_error = 0;
+    for (int side = 0; side < 2; ++side) {
+        vec3 x;
+        double e[3];
+        const imp_code code = point_at(g->trees[side], s->p[side], &x, e, error);
+        if (code != IMP_SUCCESS) return code;
+        for (int i = 0; i < 3; ++i) eval_error += e[i];
+        found->u[side] = s->p[side][0];
+        found->v[side] = s->p[side][1];
+        found->point[side] = s->x[side];
+    }
+    found->gap = s->gap;
+    found->gap_upper = padded_upper(s->gap + eval_error, 16);
+    found->has_normal = s->gap > NORMAL_FROM * eval_error && s->gap > 0;
+    found->normal = found->has_normal ? vec3_scale(s->apart, 1 / s->gap) : (vec3){{0, 0, 0}};
+    return IMP_SUCCESS;
+}
+
+static imp_code search_run(const tree *const trees[2], const node *const nodes[2], double t,
+                           double gamma, bool moving, witness *found, imp_error *error)
+{
+    search g = {.trees = trees, .nodes = nodes, .t = t};
+    state s;
+    search_begin(&g);
+    imp_code code = state_at(&g, (double[UNKNOWNS]){0, 0, 0, 0}, &s, error);
+    if (code == IMP_SUCCESS && moving) code = descend(&g, gamma, &s, error);
+    return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
+}
+
+imp_code witness_seek(const tree *const trees[2], const node *const nodes[2], double t,
+                      double gamma, witness *found, imp_error *error)
+{
+    return search_run(trees, nodes, t, gamma, true, found, error);
+}
+
+imp_code witness_eval_error(const tree *t, const double p[3], double *eval_error, imp_error *error)
+{
+    vec3 x;
+    double e[3];
+    const imp_code code = point_at(t, p, &x, e, error);
+    if (code != IMP_SUCCESS) return code;
+    *eval_error = padded_upper(e[0] + e[1] + e[2], 8);
+    return bound_audit_holds_at(tree_surface(t), tree_root(t), p, x.x, error);
+}
+
+imp_code witness_at_centres(const tree *const trees[2], const node *const nodes[2], double t,
+                            witness *found, imp_error *error)
+{
+    return search_run(trees, nodes, t, 0, false, found, error);
+}

@@ -1,0 +1,49 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURFACE_PART_H
+#define CORE_SURFACE_PART_H
+
+#include <impinge/impinge.h>
+
+/* Instances of types, shared
+ * ==========================
+ * A part is what one call of a type's create made: a surface without maps, or a map. Surfaces are
+ * composed of parts; one part may be in many of them, and is destroyed with its last holder.
+ * Immutable once it is in use, but for the count of holders, which belongs to one thread. */
+
+enum { PART_LABEL_MAX = 240 };
+
+typedef struct shared_part {
+    const imp_surface_type *surface; /* NULL: it is a map */
+    const imp_map_type *map;         /* NULL: it is a surface */
+    void *self;
+    size_t holders;
+    double lo[3], hi[3]; /* a surface's domain; of a map, the times alone: [2] */
+    imp_status breach;   /* IMP_OK, or for surface_status_text: how the domain breaks the ABI;
+                                   then the part may only be released */
+    char label[PART_LABEL_MAX]; /* as on a command line, shortened: "sphere radius=2" */
+} shared_part;
+
+/* Takes over the instance `self`, and asks for its domain; the caller holds the part. NULL: no
+ * memory; the instance is destroyed then too. */
+shared_part *part_of_surface(const imp_surface_type *type, void *self);
+shared_part *part_of_map(const imp_map_type *type, void *self);
+
+/* Appends to the label, or dots in its place: at the end of a label that is full. */
+void part_add_label(shared_part *p, const char *text);
+void part_label_add(char label[PART_LABEL_MAX], const char *text);
+
+shared_part *part_hold(shared_part *p);
+void part_release(shared_part *p); /* NULL is no shared_part */
+
+/* Parts in order, each held once for every time it stands there. */
+typedef struct part_list {
+    shared_part **at;
+    size_t count, capacity;
+} part_list;
+
+bool part_list_add(part_list *list, shared_part *p); /* holds p; false: no memory */
+bool part_list_add_all(part_list *list, const part_list *more);
+void part_list_clear(part_list *list);
+
+#endif

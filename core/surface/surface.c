@@ -1,0 +1,179 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/surface/surface.h"
+
+#include <assert.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+#include "core/base/text.h"
+#include "core/common/array.h"
+#include "core/surface/surface_parts.h"
+
+/* --- Composing -------------------------------------------------------------------- */
+
+surface *surface_new_of(shared_part *type)
+{
+    assert(type->surface != NULL);
+    surface *s = malloc(sizeof *s);
+    if (s == NULL) return NULL;
+    *s = (surface){.type = type->surface, .self = type->self, .origin = part_hold(type)};
+    memcpy(s->lo, type->lo, sizeof s->lo);
+    memcpy(s->hi, type->hi, sizeof s->hi);
+    part_label_add(s->label, type->label);
+    return s;
+}
+
+surface *surface_new(const imp_surface_type *type, void *self)
+{
+    shared_part *p = part_of_surface(type, self);
+    surface *s = p != NULL ? surface_new_of(p) : NULL;
+    part_release(p);
+    return s;
+}
+
+imp_code surface_add_part(surface *s, shared_part *map)
+{
+    assert(map->map != NULL);
+    mapping *maps = array_reserve(s->maps, s->map_count, &s->map_capacity, sizeof *maps);
+    if (maps == NULL) return IMP_ERROR_MEMORY;
+    s->maps = maps;
+    maps[s->map_count++] = (mapping){map->map, map->self, part_hold(map)};
+    part_label_add(s->label, " ! ");
+    part_label_add(s->label, map->label);
+    if (map->lo[2] > s->lo[2]) s->lo[2] = map->lo[2];
+    if (map->hi[2] < s->hi[2]) s->hi[2] = map->hi[2];
+    return IMP_SUCCESS;
+}
+
+imp_code surface_add_map(surface *s, const imp_map_type *type, void *self)
+{
+    shared_part *p = part_of_map(type, self);
+    const imp_code code = p != NULL ? surface_add_part(s, p) : IMP_ERROR_MEMORY;
+    part_release(p);
+    return code;
+}
+
+void surface_free(surface *s)
+{
+    if (s == NULL) return;
+    for (size_t k = 0; k < s->map_count; ++k) part_release(s->maps[k].origin);
+    free(s->maps);
+    part_release(s->origin);
+    free(s);
+}
+
+const char *surface_label(const surface *s) { return s->label; }
+
+void surface_set_body(surface *s, const char *body, size_t index)
+{
+    s->body = body;
+    s->index = index;
+}
+
+imp_code surface_fault(const surface *s, imp_error *error, const char *format, ...)
+{
+    if (error == NULL) return IMP_ERROR_PLUGIN;
+    char what[sizeof error->text];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    error_set(error, IMP_ERROR_PLUGIN, "type '%s'%s%s", s->label, what[0] == ':' ? "" : " ", what);
+    if (s->body != NULL) error_prefix(error, "body '%.80s', surface %zu", s->body, s->index);
+    text_clean(error->text);
+    return IMP_ERROR_PLUGIN;
+}
+
+void surface_domain(const surface *s, double lo[3], double hi[3])
+{
+    memcpy(lo, s->lo, sizeof s->lo);
+    memcpy(hi, s->hi, sizeof s->hi);
+}
+
+/* --- Times --------------------------------------------------------------------- */
+
+/* Part 0 is the type, part k the map k - 1. */
+static surface_part part_of(const surface *s, size_t k, bool *absent)
+{
+    if (k == 0) {
+        *absent = s->type->flags & IMP_ABSENT_OUTSIDE_TIMES;
+        return (surface_part){s->type->name, s->origin->lo[2], s->origin->hi[2]};
+    }
+    const mapping *map = &s->maps[k - 1];
+    *absent = map->type->flags & IMP_ABSENT_OUTSIDE_TIMES;
+    return (surface_part){map->type->name, map->origin->lo[2], map->origin->hi[2]};
+}
+
+void surface_existence(const surface *s, double *lo, double *hi)
+{
+    *lo = -INFINITY, *hi = INFINITY;
+    for (size_t k = 0; k <= s->map_count; ++k) {
+        bool absent;
+        const surface_part part = part_of(s, k, &absent);
+        if (absent && part.lo > *lo) *lo = part.lo;
+        if (absent && part.hi < *hi) *hi = part.hi;
+    }
+}
+
+bool surface_undefined_part(const surface *s, double lo, double hi, surface_part *found)
+{
+    for (size_t k = 0; k <= s->map_count; ++k) {
+        bool absent;
+        *found = part_of(s, k, &absent);
+        if (!absent && (found->lo > lo || found->hi < hi)) return true;
+    }
+    return false;
+}
+
+const char *surface_status_text(imp_status status)
+{
+    switch (status) {
+    case IMP_DOMAIN:
+        return "is undefined there, or too large for a double, though that lies in its domain; "
+               "shrink the domain, or the times asked for, to where it (and each map on it) is "
+               "defined";
+    case IMP_UNBOUNDED:
+        return "has no bounds there";
+    case IMP_INTERNAL:
+        return "reports an internal error";
+    case SURFACE_CHANGED_MODE:
+        return "changes the floating-point mode of its caller, which breaks every bound";
+    case SURFACE_BAD_DOMAIN:
+        return "has a domain that is empty, NaN, or infinite in u or v";
+    case SURFACE_BAD_RATES:
+        return "a rate is negative, infinite or NaN";
+    case SURFACE_BAD_MODEL:
+        return "a remainder is negative or NaN, a range inverted or NaN, or a rate negative or NaN";
+    case SURFACE_CRASHED:
+        return "crashes or ends its process, in which it runs isolated";
+    case SURFACE_HUNG:
+        return "does not answer within 5 s; it ran isolated, and its process was ended";
+    case SURFACE_KILLED:
+        return "ran isolated, and its process was killed or stopped from outside, as by the "
+               "out-of-memory killer";
+    case SURFACE_LOST:
+        return "ran isolated in a process that another instance of the same type brought down";
+    case SURFACE_FORKED:
+        return "is isolated in a process that belongs to another process; a copy made by fork "
+               "cannot use it: build the registry and the scene there";
+    case SURFACE_NO_PROCESS:
+        return "cannot be isolated: no process could be made";
+    default:
+        return "returned an unknown status";
+    }
+}
+
+imp_code surface_set_code(imp_status status, imp_error *error)
+{
+    const imp_code code = status == SURFACE_FORKED       ? IMP_ERROR_USAGE
+                          : status == SURFACE_NO_PROCESS ? IMP_ERROR_MEMORY
+                                                         : IMP_ERROR_PLUGIN;
+    if (error != NULL) error->code = code;
+    return code;
+}

@@ -1,0 +1,84 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURFACE_SURFACE_H
+#define CORE_SURFACE_SURFACE_H
+
+#include "core/surface/part.h"
+
+/* A surface under its maps, composed once
+ * =======================================
+ * g = phi_K( ... phi_1(f(u,v,t), t) ..., t). The rest of core sees only this: a
+ * domain, points, rates, inclusions. Immutable once built, so safe from many threads. */
+
+typedef struct surface surface;
+
+/* Of one part, which it holds. NULL: no memory. */
+surface *surface_new_of(shared_part *type);
+
+/* Puts a map on top of those already there, and holds it. */
+imp_code surface_add_part(surface *s, shared_part *map);
+
+/* The same with parts of its own: takes over `self`, also when it fails. */
+surface *surface_new(const imp_surface_type *type, void *self);
+imp_code surface_add_map(surface *s, const imp_map_type *type, void *self);
+
+void surface_free(surface *s);
+
+/* How messages call it: "sphere radius=2 ! rotate rate=1", or its beginning. */
+const char *surface_label(const surface *s);
+
+/* Tells messages whose it is; the text must outlive the surface. */
+void surface_set_body(surface *s, const char *body, size_t index);
+
+/* Sets IMP_ERROR_PLUGIN and answers it: "body 'b', surface 0: type 'sphere radius=2' <format>". */
+imp_code surface_fault(const surface *s, imp_error *error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Domain; time is what the type and all maps have in common: lo[2] > hi[2] if nothing. */
+void surface_domain(const surface *s, double lo[3], double hi[3]);
+
+/* The type or one of the maps, and the times it is defined for. */
+typedef struct surface_part {
+    const char *name;
+    double lo, hi;
+} surface_part;
+
+/* The times at which the surface exists: all that no part excludes (IMP_ABSENT_OUTSIDE_TIMES).
+ * lo > hi: none. */
+void surface_existence(const surface *s, double *lo, double *hi);
+
+/* The first part that leaves open what happens at some time from lo to hi; false: there is none. */
+bool surface_undefined_part(const surface *s, double lo, double hi, surface_part *found);
+
+/* Beside the statuses of the ABI. A callback left another floating-point mode behind; it is put
+ * back. Or the process of an isolated instance ended, or was ended because it did not answer. Or
+ * what a callback gave breaks the ABI. */
+#define SURFACE_CHANGED_MODE 1000
+#define SURFACE_CRASHED 1001
+#define SURFACE_HUNG 1002
+#define SURFACE_BAD_DOMAIN 1003
+#define SURFACE_BAD_RATES 1004
+#define SURFACE_BAD_MODEL 1005
+#define SURFACE_KILLED 1006     /* the process of an isolated instance was killed from outside */
+#define SURFACE_LOST 1007       /* ... was ended because of another instance */
+#define SURFACE_FORKED 1008     /* ... belongs to another process than this one */
+#define SURFACE_NO_PROCESS 1009 /* ... could not be made */
+
+/* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
+const char *surface_status_text(imp_status status);
+
+/* Replaces the code of an error by that of the status that caused it, and answers it:
+ * IMP_ERROR_USAGE for SURFACE_FORKED, IMP_ERROR_MEMORY for SURFACE_NO_PROCESS, else
+ * IMP_ERROR_PLUGIN. */
+imp_code surface_set_code(imp_status status, imp_error *error);
+
+/* As imp_surface_type.eval, maps applied. error may be NULL. */
+imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, double *error);
+
+/* Rate matrix of the composition (paper, section 5). */
+imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates);
+
+/* The inclusion function of the composition, Taylor models of order 2; boxes from eval and rate where a part has no better. */
+imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3]);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURFACE_SURFACE_PARTS_H
+#define CORE_SURFACE_SURFACE_PARTS_H
+
+#include "core/base/active_callback.h"
+#include "core/base/fp_mode.h"
+#include "core/surface/surface.h"
+
+/* The inside of a surface
+ * =======================
+ * For part.c and its three files: surface.c (life, names), surface_rate.c (points and rates) and
+ * surface_include.c (inclusions). Everything that a callback gives is checked where it comes
+ * from, before anything is computed with it: behind a product or a sum a breach might not show. */
+
+typedef struct mapping {
+    const imp_map_type *type;
+    void *self;
+    shared_part *origin; /* held */
+} mapping;
+
+struct surface {
+    const imp_surface_type *type;
+    void *self;
+    shared_part *origin; /* held */
+    size_t map_count, map_capacity;
+    mapping *maps;
+    double lo[3], hi[3];        /* the domain */
+    char label[PART_LABEL_MAX]; /* as on a command line, shortened */
+    const char *body;           /* name of the body it belongs to, or NULL */
+    size_t index;               /* its number there */
+};
+
+/* Ends a group of callbacks. The mode is read once after all of them: what they computed is thrown
+ * away if they changed it. */
+static inline imp_status surface_guarded(fp_mode before, imp_status status)
+{
+    active_callback_end();
+    return fp_mode_kept(before) ? status : SURFACE_CHANGED_MODE;
+}
+
+/* Rates as they come from a callback, checked. */
+imp_status surface_type_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates);
+imp_status surface_map_rate(const mapping *map, const imp_box4 *box, imp_map_rates *rates);
+
+/* A box around a point f(c), reach to both sides. */
+typedef struct centred_box {
+    double centre[3], reach[3];
+} centred_box;
+
+/* Around the surface under its first `maps` maps, over the region: f(c) with its error, give or
+ * take M d, where M bounds the rates there. */
+imp_status surface_box_around(const surface *s, const imp_region *region,
+                              const imp_rate_matrix *rates, size_t maps, centred_box *box);
+
+/* [lo, hi] in space, and the region's times; false: it is not finite. */
+bool surface_box4_from(const double lo[3], const double hi[3], const imp_region *region,
+                       imp_box4 *box);
+
+/* One step of the chain rule (paper, section 5): M_g[:,j] = P M_f[:,j], + p_t for j = t.
+ * IMP_UNBOUNDED: a product of finite rates is too large for a double. */
+imp_status surface_chain_rule(const imp_map_rates *p, const imp_rate_matrix *in,
+                              imp_rate_matrix *out);
+
+#endif

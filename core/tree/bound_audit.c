@@ -1,0 +1,134 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/tree/bound_audit.h"
+
+#include <string.h>
+
+#include "core/base/rounding.h"
+#include "core/common/random.h"
+
+static bool region_holds(const imp_region *r, const double p[3])
+{
+    for (int j = 0; j < 3; ++j)
+        if (!(r->lo[j] <= p[j] && p[j] <= r->hi[j])) return false;
+    return true;
+}
+
+/* Coordinate i of the polynomial at p, and how far off rounding may be, in units of u times the sum
+ * of the terms' sizes: s, two factors of at most 2 each; two products; nine sums. */
+enum { POLYNOMIAL_ROUNDING = 32 };
+_Static_assert(2 * 2 + 2 + 9 <= POLYNOMIAL_ROUNDING, "rounding of the polynomial");
+
+static double polynomial(const node *n, int i, const double p[3], double *rounding)
+{
+    const quadratic3 *f = &n->f;
+    double s[3];
+    for (int j = 0; j < 3; ++j)
+        s[j] = n->region.d[j] > 0 ? (p[j] - n->region.c[j]) / n->region.d[j] : 0;
+    const double term[10] = {f->a[i],
+                             f->bu[i] * s[0],
+                             f->bv[i] * s[1],
+                             f->bt[i] * s[2],
+                             f->quu[i] * s[0] * s[0],
+                             f->quv[i] * s[0] * s[1],
+                             f->qut[i] * s[0] * s[2],
+                             f->qvv[i] * s[1] * s[1],
+                             f->qvt[i] * s[1] * s[2],
+                             f->qtt[i] * s[2] * s[2]};
+    double sum = 0, size = 0;
+    for (int k = 0; k < 10; ++k) {
+        sum += term[k];
+        size += fabs(term[k]);
+    }
+    *rounding = POLYNOMIAL_ROUNDING * UNIT_ROUNDOFF * size;
+    return sum;
+}
+
+enum { POINT_ROUNDING = 8 }; /* units of u of x: 1 in x - polynomial, 1 in x -+ slack */
+PAD_COVERS(8, 2);            /* of e: two sums */
+
+/* The coordinate whose bound x -+ eval_error breaks beyond rounding, or -1. A NaN breaks none: it is
+ * caught where points and bounds are made. */
+static int coordinate_outside(const node *n, const double p[3], const double x[3],
+                              const double eval_error[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        double rounding;
+        const double off = fabs(x[i] - polynomial(n, i, p, &rounding));
+        const double slack = eval_error[i] + POINT_ROUNDING * UNIT_ROUNDOFF * fabs(x[i]);
+        if (off > padded_upper(n->e[i], 8) + slack + rounding) return i;
+        if (x[i] + slack < n->lo[i] || x[i] - slack > n->hi[i]) return i;
+    }
+    return -1;
+}
+
+static imp_code lie(const surface *s, const node *n, const double p[3], const double x[3], int i,
+                    imp_error *error)
+{
+    double rounding;
+    const imp_region *r = &n->region;
+    const double middle = polynomial(n, i, p, &rounding);
+    const char axis = "xyz"[i];
+    return surface_fault(s, error,
+                         "breaks its own bounds over u [%.17g, %.17g], v [%.17g, %.17g], "
+                         "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g its %c is %.17g, "
+                         "the bounds say %.17g +- %.3g within [%.17g, %.17g]",
+                         r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1],
+                         p[2], axis, x[i], middle, n->e[i], n->lo[i], n->hi[i]);
+}
+
+/* A point with its error bounds; what cannot be evaluated is no evidence here. */
+static bool evaluate(const surface *s, const double p[3], double x[3], double eval_error[3])
+{
+    if (surface_eval(s, 1, p, x, eval_error) != IMP_OK) return false;
+    for (int i = 0; i < 3; ++i)
+        if (!(eval_error[i] >= 0 && isfinite(x[i]))) return false;
+    return true;
+}
+
+imp_code bound_audit_holds_at(const surface *s, const node *n, const double p[3], const double x[3],
+                              imp_error *error)
+{
+    if (!n->bounded || !region_holds(&n->region, p)) return IMP_SUCCESS;
+    double eval_error[3], again[3];
+    for (int i = 0; i < 3; ++i) eval_error[i] = 0;
+    if (coordinate_outside(n, p, x, eval_error) < 0) return IMP_SUCCESS;
+    if (!evaluate(s, p, again, eval_error)) return IMP_SUCCESS;
+    const int i = coordinate_outside(n, p, again, eval_error);
+    return i < 0 ? IMP_SUCCESS : lie(s, n, p, again, i, error);
+}
+
+enum { AUDIT_POINTS = 8 };
+
+/* The same points for the same region on every machine: the bits of its centre are the seed. */
+static void audit_point(const imp_region *r, uint64_t *state, double p[3])
+{
+    for (int j = 0; j < 3; ++j) {
+        const double where = random_fraction(state);
+        p[j] = where < 0.25   ? r->lo[j]
+               : where > 0.75 ? r->hi[j]
+                              : r->lo[j] + (r->hi[j] - r->lo[j]) * 2 * (where - 0.25);
+        if (p[j] > r->hi[j]) p[j] = r->hi[j];
+    }
+}
+
+imp_code bound_audit_run(const surface *s, const node *n, imp_error *error)
+{
+    uint64_t state = 0;
+    for (int j = 0; j < 3; ++j) {
+        uint64_t bits;
+        memcpy(&bits, &n->region.c[j], sizeof bits);
+        state = (state ^ bits) * 0x9e3779b97f4a7c15u;
+    }
+    if (!n->bounded) return IMP_SUCCESS;
+    for (int k = 0; k < AUDIT_POINTS; ++k) {
+        double p[3], x[3], eval_error[3];
+        audit_point(&n->region, &state, p);
+        if (!evaluate(s, p, x, eval_error)) continue;
+        const int i = coordinate_outside(n, p, x, eval_error);
+        if (i >= 0) return lie(s, n, p, x, i, error);
+    }
+    return IMP_SUCCESS;
+}

@@ -1,0 +1,80 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_TREE_NODE_H
+#define CORE_TREE_NODE_H
+
+#include "core/surface/region.h"
+#include "core/surface/surface.h"
+#include "core/tree/vec.h"
+
+/* Nodes: regions of one surface with Taylor models that hold
+ * ==========================================================
+ * The nodes of a surface form a k-d tree that is made lazily: the halves of a node along a
+ * parameter are made on first use, and then serve every pair and every later query.
+ * A node may be halved along any of its parameters. A tree belongs to one thread at a time. */
+
+/* What a node's inclusion is made from. */
+typedef enum tree_kind {
+    TREE_MODELS,         /* order-2 inclusions (boxes from rates where a part has no better) */
+    TREE_RATES_FULL,     /* the rate matrix: half-widths M d (paper, eqs. 12, 19-22) */
+    TREE_RATES_COLUMN,   /* one bound a parameter: L_j = norm of M's column j (paper, eq. 11) */
+    TREE_RATES_CONSTANT, /* one Lipschitz constant: L = Frobenius norm of M (paper, eq. 4) */
+    TREE_KINDS
+} tree_kind;
+
+/* Coefficients of the three coordinates' polynomials in s = (p - c) / d; the fourth number of each
+ * is 0, so that vector instructions take x, y, z at once. */
+typedef struct quadratic3 {
+    double a[4], bu[4], bv[4], bt[4];
+    double quu[4], quv[4], qut[4], qvv[4], qvt[4], qtt[4];
+} quadratic3;
+
+typedef struct node {
+    imp_region region;
+    quadratic3 f;               /* with e, encloses the surface over the region; length */
+    double e[4];                /* remainder; length; then 0 */
+    double lo[3], hi[3];        /* axis-aligned box; length, world space */
+    double motion[4];           /* >= |bt| + 2 |qtt| + |qut| + |qvt|; length; then 0 */
+    vec3 normal;                /* bu x bv, any length; 0 where the node has none */
+    double radius;              /* of a ball around a that holds the surface; rate trees only */
+    double extent[3];           /* how much u, v, t move a point across the region, about; length */
+    double nonlinear_extent[3]; /* the same for what is not linear in the parameters; length */
+    double time_remainder;      /* time's share in e where its rate is known, about; length */
+    bool bounded;               /* f, e, lo, hi are all finite */
+    struct node *child[3][2];
+} node;
+
+typedef struct tree tree;
+
+/* Called with each node made, before it is used; IMP_ERROR_PLUGIN refuses it. */
+typedef imp_code (*node_audit)(const surface *s, const node *n, imp_error *error);
+
+/* What one tree of a surface differs in from another. */
+typedef struct tree_plan {
+    tree_kind kind;
+    double t_start, t_end; /* within the surface's domain */
+    node_audit audit;      /* may be NULL */
+} tree_plan;
+
+/* A tree over the surface's whole (u, v) and [t_start, t_end]; the root is made at once.
+ * `s` must outlive it. */
+imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, imp_error *error);
+void tree_free(tree *t);
+
+node *tree_root(const tree *t);
+const surface *tree_surface(const tree *t);
+bool tree_is_of(const tree *t, const tree_plan *plan);
+
+/* Made so far, over all queries. */
+uint64_t tree_node_count(const tree *t);
+size_t tree_bytes(const tree *t);
+
+/* The half of `parent` below (side 0) or above (1) its centre along j. Precondition:
+ * region_can_split. IMP_ERROR_PLUGIN names the type, the region and what it answered. */
+imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, imp_error *error);
+
+/* Why there is no going on at a node without bounds that cannot be halved: IMP_ERROR_PLUGIN names
+ * the type, and the place where it is undefined or the region over which it has no bounds. */
+imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error);
+
+#endif

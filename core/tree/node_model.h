@@ -1,0 +1,13 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_TREE_NODE_MODEL_H
+#define CORE_TREE_NODE_MODEL_H
+
+#include "core/tree/node.h"
+
+/* Fills everything of `n` but its region, which is set, and its children from what an inclusion
+ * answered. NULL, or which promise of imp_model it breaks; infinite values are none if
+ * `may_be_infinite`. */
+const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite);
+
+#endif

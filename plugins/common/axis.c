@@ -1,0 +1,197 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/axis.h"
+
+#include <math.h>
+
+imp_status axis_check(int row, const double axis[3], imp_create_error *why)
+{
+    for (int i = 0; i < 3; ++i)
+        if (fabs(axis[i]) >= AXIS_MIN) return IMP_OK;
+    return imp_reject(why, row, -1,
+                      "[%g,%g,%g] has no direction; must be any vector but 0 (some component at "
+                      "least %g)",
+                      axis[0], axis[1], axis[2], AXIS_MIN);
+}
+
+/* --- Constant vectors and matrices --- */
+
+static bool near_is_zero(near_constant k) { return k.value == 0 && k.error == 0; }
+
+imp_model axis_dot(const near_constant k[3], const imp_model w[3])
+{
+    imp_model sum = imp_num(0);
+    for (int j = 0; j < 3; ++j)
+        if (!near_is_zero(k[j])) sum = imp_add(sum, near_scale(w[j], k[j]));
+    return sum;
+}
+
+void axis_unit(const imp_model axis[3], imp_model unit[3])
+{
+    imp_model length = imp_sqrt(imp_dot3(axis, axis));
+    for (int i = 0; i < 3; ++i) unit[i] = imp_div(axis[i], length);
+}
+
+bool axis_is_aligned(const double axis[3])
+{
+    return (axis[0] != 0) + (axis[1] != 0) + (axis[2] != 0) == 1;
+}
+
+void axis_unit_of(const double axis[3], imp_model unit[3])
+{
+    const bool aligned = axis_is_aligned(axis);
+    for (int i = 0; i < 3; ++i)
+        unit[i] = imp_num(aligned ? (axis[i] > 0) - (axis[i] < 0) : axis[i]);
+    if (!aligned) axis_unit(unit, unit);
+}
+
+void axis_cross(const imp_model a[3], const imp_model b[3], imp_model out[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[i] = imp_sub(imp_mul(a[j], b[k]), imp_mul(a[k], b[j]));
+    }
+}
+
+/* --- Turning --- */
+
+axis_frame axis_frame_of(const double axis[3])
+{
+    axis_frame frame;
+    imp_model k[3];
+    axis_unit_of(axis, k);
+    for (int i = 0; i < 3; ++i) {
+        int next = (i + 1) % 3, last = (i + 2) % 3;
+        for (int j = 0; j < 3; ++j) {
+            imp_model both = imp_mul(k[i], k[j]);
+            frame.along[i][j] = near_of(both);
+            frame.across[i][j] = near_of(imp_sub(imp_num(i == j), both));
+        }
+        frame.unit[i] = near_of(k[i]);
+        frame.turned[i][i] = near_exact(0);
+        frame.turned[i][last] = near_of(k[next]);
+        frame.turned[i][next] = near_of(imp_neg(k[last]));
+    }
+    return frame;
+}
+
+/* One entry of along + cos across + sin turned. */
+static imp_model axis_entry(const axis_frame *frame, int i, int j, imp_model cosine, imp_model sine)
+{
+    imp_model sum = imp_num(0);
+    if (!near_is_zero(frame->across[i][j])) sum = near_scale(cosine, frame->across[i][j]);
+    if (!near_is_zero(frame->turned[i][j]))
+        sum = imp_add(sum, near_scale(sine, frame->turned[i][j]));
+    return near_shift(sum, frame->along[i][j]);
+}
+
+/* (along + cos across + sin turned) w. The matrix comes first: added up, its entries are at most 1,
+ * while their shares of w would be bounded one by one. */
+static void axis_transform(const axis_frame *frame, imp_model cosine, imp_model sine,
+                           const imp_model w[3], imp_model out[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        imp_model row[3];
+        for (int j = 0; j < 3; ++j) row[j] = axis_entry(frame, i, j, cosine, sine);
+        out[i] = imp_dot3(row, w);
+    }
+}
+
+void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], imp_model out[3])
+{
+    imp_model sine, cosine;
+    imp_sincos(angle, &sine, &cosine);
+    axis_transform(frame, cosine, sine, w, out);
+}
+
+void axis_stretch(const axis_frame *frame, imp_model factor, const imp_model w[3], imp_model out[3])
+{
+    axis_transform(frame, factor, imp_num(0), w, out);
+}
+
+/* --- Rates of turning ---
+ *
+ * The rates in time of the formula add up, entry by entry, what partly cancels in R'(A) w: they are
+ * up to twice too large. These come from the entries of the rotation R(A), of R'(A), and of an
+ * advance by A along some vector, over the box's angles:
+ *
+ *   R = k k^T + cos A (1 - k k^T) + sin A k x,   |d/dw_j| <= |R_ij|
+ *   R' = cos A k x - sin A (1 - k k^T),          |d/dt| <= |A'| |(R' w)_i + advance_i| */
+
+imp_model axis_moment(const imp_box4 *box)
+{
+    imp_region moment = imp_region_between(box->lo + 1, box->hi + 1); /* of y, z, t */
+    return imp_param(&moment, 2);
+}
+
+static imp_interval interval_of(near_constant k)
+{
+    return imp_interval_make(imp_sum_down(k.value - k.error), imp_sum_up(k.value + k.error));
+}
+
+static imp_interval turned_entry(const axis_frame *frame, int i, int j, imp_interval cosine,
+                                 imp_interval sine)
+{
+    imp_interval across = imp_interval_mul(cosine, interval_of(frame->across[i][j]));
+    imp_interval turned = imp_interval_mul(sine, interval_of(frame->turned[i][j]));
+    return imp_interval_add(across, turned);
+}
+
+imp_status axis_turn_rates(const axis_frame *frame, const double center[3],
+                           const near_constant advance[3], imp_model angle, const imp_box4 *box,
+                           imp_map_rates *rates)
+{
+    const imp_interval turn = imp_interval_make(angle.lo, angle.hi);
+    const imp_interval cosine = imp_interval_cos(turn), sine = imp_interval_sin(turn);
+    double size = 0;
+    for (int i = 0; i < 3; ++i) {
+        imp_interval speed = interval_of(advance[i]);
+        for (int j = 0; j < 3; ++j) {
+            imp_interval entry = turned_entry(frame, i, j, cosine, sine);
+            imp_interval slope = turned_entry(frame, i, j, imp_interval_neg(sine), cosine);
+            imp_interval w = imp_interval_make(imp_sum_down(box->lo[j] - center[j]),
+                                               imp_sum_up(box->hi[j] - center[j]));
+            entry = imp_interval_add(entry, interval_of(frame->along[i][j]));
+            rates->m[i][j] = imp_interval_mag(entry);
+            speed = imp_interval_add(speed, imp_interval_mul(slope, w));
+        }
+        rates->m[i][3] = imp_round_up(imp_interval_mag(speed) * angle.rate[2]);
+        size += rates->m[i][3];
+    }
+    return size < INFINITY ? IMP_OK : IMP_UNBOUNDED;
+}
+
+/* --- Centres --- */
+
+/* w = (x,y,z) - center, and back. */
+void axis_from_center(const double center[3], imp_model x, imp_model y, imp_model z, imp_model w[3])
+{
+    w[0] = imp_shift(x, -center[0]);
+    w[1] = imp_shift(y, -center[1]);
+    w[2] = imp_shift(z, -center[2]);
+}
+
+void axis_add_center(const double center[3], imp_model out[3])
+{
+    for (int i = 0; i < 3; ++i) out[i] = imp_shift(out[i], center[i]);
+}
+
+/* --- A range along an axis --- */
+
+#define RANGE_MIN 1e-100
+
+imp_status axis_check_range(int row, const double range[2], imp_create_error *why)
+{
+    if (range[1] - range[0] >= RANGE_MIN) return IMP_OK;
+    return imp_reject(
+        why, row, -1,
+        "[%g,%g] is no range; the second number must be greater than the first, by %g "
+        "at least",
+        range[0], range[1], RANGE_MIN);
+}
+
+imp_model axis_clamp(imp_model x, double lo, double hi)
+{
+    return imp_min(imp_max(x, imp_num(lo)), imp_num(hi));
+}

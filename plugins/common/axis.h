@@ -1,0 +1,92 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_COMMON_AXIS_H
+#define PLUGINS_COMMON_AXIS_H
+
+#include "plugins/common/near.h"
+
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
+#include <stdbool.h>
+
+/* Axes, and what turns, stretches and bends along them
+ * ====================================================
+ * An axis is given by a vector of any length. Its unit vector k, and the matrices that take w apart
+ * and turn it,
+ *
+ *   along = k k^T,   across = 1 - k k^T,   turned = k x,
+ *
+ * are constants, made once. An axis along x, y or z keeps them exact. */
+
+#define AXIS_MIN 1e-100
+#define AXIS_MAX 1e100
+
+#define ROW_AXIS(NAME, DEFAULT, DOC)                                                               \
+    IMP_ROW(NAME, "1", DEFAULT, 0, 1, 3, 0, -AXIS_MAX, AXIS_MAX, DOC)
+
+/* Some component of it is at least AXIS_MIN. */
+imp_status axis_check(int row, const double axis[3], imp_create_error *why);
+
+/* An angle in time, by a constant rate or by its coefficients (polynomial.h). */
+#define ROW_TURNING_RATE(DOC)                                                                      \
+    IMP_ROW("rate", "rad/time", NULL, IMP_OPTIONAL, 0, 0, 0, -INFINITY, INFINITY, DOC)
+
+#define ROW_TURNING_ANGLE                                                                          \
+    IMP_ROW_NUMBERS("angle", "rad/time^k", NULL, IMP_OPTIONAL | IMP_SCALAR_OK,                     \
+                    "instead: coefficients of t^0, t^1, t^2 ... of the angle")
+
+/* k . w; what is surely 0 is left out. */
+imp_model axis_dot(const near_constant k[3], const imp_model w[3]);
+
+/* The unit vector along `axis`, as models of constants. */
+void axis_unit(const imp_model axis[3], imp_model unit[3]);
+
+/* Along x, y or z. */
+bool axis_is_aligned(const double axis[3]);
+
+/* The unit vector along a given axis; exact if it is aligned. */
+void axis_unit_of(const double axis[3], imp_model unit[3]);
+
+/* a x b. */
+void axis_cross(const imp_model a[3], const imp_model b[3], imp_model out[3]);
+
+typedef struct axis_frame {
+    near_constant unit[3], along[3][3], across[3][3], turned[3][3];
+} axis_frame;
+
+/* The constants of an axis that passed axis_check. */
+axis_frame axis_frame_of(const double axis[3]);
+
+/* w turned by an angle. */
+void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], imp_model out[3]);
+
+/* w by a factor across the axis. */
+void axis_stretch(const axis_frame *frame, imp_model factor, const imp_model w[3],
+                  imp_model out[3]);
+
+/* t over a box, as a model of its third parameter. */
+imp_model axis_moment(const imp_box4 *box);
+
+/* Rates over a box of a turn by `angle` about the axis through the center, with an advance by angle
+ * times the vector `advance`; `angle` is over the times of the box. */
+imp_status axis_turn_rates(const axis_frame *frame, const double center[3],
+                           const near_constant advance[3], imp_model angle, const imp_box4 *box,
+                           imp_map_rates *rates);
+
+/* w = (x,y,z) - center. */
+void axis_from_center(const double center[3], imp_model x, imp_model y, imp_model z,
+                      imp_model w[3]);
+
+/* Back: out + center. */
+void axis_add_center(const double center[3], imp_model out[3]);
+
+#define ROW_RANGE(DEFAULT, DOC)                                                                    \
+    IMP_ROW("range", "length", DEFAULT, 0, 1, 2, 0, -AXIS_MAX, AXIS_MAX, DOC)
+
+/* Its second number is greater than the first. */
+imp_status axis_check_range(int row, const double range[2], imp_create_error *why);
+
+/* x where it is in the range, else the nearer end. */
+imp_model axis_clamp(imp_model x, double lo, double hi);
+
+#endif

@@ -1,0 +1,76 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_COMMON_COURSE_H
+#define PLUGINS_COMMON_COURSE_H
+
+#include "plugins/common/polynomial.h"
+#include "plugins/common/spline.h"
+
+/* A quantity in the course of time
+ * ================================
+ * One number, or three, as a polynomial in time (polynomial.h), or from a table of times and values:
+ * given as parameters, or as columns of a file (csv.h). Between the times of a table it is linear, or
+ * the cubic of a spline (spline.h). Beyond them it is held, or the map is not defined. */
+
+/* The rows of a type's table, in this order, from `first` on. */
+enum {
+    COURSE_RATE,
+    COURSE_COEFFICIENTS,
+    COURSE_TIMES,
+    COURSE_VALUES,
+    COURSE_FILE,
+    COURSE_COLUMNS,
+    COURSE_INTERPOLATION,
+    COURSE_HOLD,
+    COURSE_ROWS
+};
+
+/* The last six; VALUES is a row of its own kind. */
+#define COURSE_ROW_TIMES                                                                           \
+    IMP_ROW_NUMBERS("times", "time", NULL, IMP_OPTIONAL,                                           \
+                    "instead: of a table, increasing, two or more")
+
+#define COURSE_ROW_FILE                                                                            \
+    IMP_ROW_OF(IMP_STRING, "file", "1", NULL, IMP_OPTIONAL | IMP_FILE, 0, 0, 0, -INFINITY,         \
+               INFINITY,                                                                           \
+               "instead: a table of numbers between commas, times in its first column; "           \
+               "relative to the scene file")
+
+#define COURSE_ROW_COLUMNS(NAME, COUNT, FLAGS, DOC)                                                \
+    IMP_ROW_OF(IMP_STRING, NAME, "1", NULL, IMP_OPTIONAL | (FLAGS), 1, COUNT, 0, -INFINITY,        \
+               INFINITY, DOC)
+
+#define COURSE_ROW_INTERPOLATION                                                                   \
+    IMP_ROW_OF(IMP_STRING, "interpolation", "1", "\"linear\"", 0, 0, 0, 0, -INFINITY, INFINITY,    \
+               "of a table: linear, or cubic with continuous slopes as in keyframes")
+
+#define COURSE_ROW_HOLD                                                                            \
+    IMP_ROW_BOOLEAN("hold", "false",                                                               \
+                    "of a table: whether its ends hold before and after it; else the map is "      \
+                    "defined between them only")
+
+typedef struct course {
+    polynomial polynomial; /* count == 0: it is a table */
+    spline table;
+    bool hold;
+    void *memory;
+} course;
+
+/* Frees what course_read took. */
+void course_clear(course *c);
+
+/* Reads the rows `first` ... first + COURSE_ROWS - 1 of the table `rows`, each value of `width` numbers. On
+ * failure there is nothing to clear. */
+imp_status course_read(course *c, const imp_value *values, int first, size_t width,
+                       imp_create_error *why, const imp_parameter *rows);
+
+/* The times at which it is defined: from *lo to *hi. */
+void course_times(const course *c, double *lo, double *hi);
+
+/* Whether it is defined all from one time to the other. */
+bool course_is_defined(const course *c, double from, double to);
+
+/* All its numbers at time t. Precondition: it is defined there. */
+void course_at(const course *c, size_t width, imp_model t, imp_model *out);
+
+#endif

@@ -1,0 +1,92 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_COMMON_SPLINE_H
+#define PLUGINS_COMMON_SPLINE_H
+
+#include <impinge/model.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Smooth curves through many keys
+ * ===============================
+ * A curve g of several lanes (numbers) has values at keys of increasing times. Its slope at a key
+ * is that from the key before to the key after; between two keys it is the cubic with their values
+ * and slopes; the first and the last piece are parabolas, as no slope is given at their other ends.
+ * For equal steps this is the Catmull-Rom spline, and quadratic motion is reproduced. For others
+ * the slopes cannot overshoot: a step up a slope is never more than the way between three keys.
+ *
+ * A piece is kept by its control points, those of g' and of g''/2, and by g'''/6. Each is an
+ * interval that holds the exact number, and so does what interval arithmetic makes of it.
+ *
+ * A span of times within one piece has a series from that cubic. One across several pieces has
+ * the value and slope at its middle m, and, as slopes are continuous,
+ *
+ *   g(m + y) = g(m) + g'(m) y + h y^2,   h between the least and the greatest g''/2 of the span.
+ *
+ * A linear curve goes straight from key to key, with kinks there: each piece is a cubic whose bends are
+ * 0. Across several pieces g is Lipschitz, and differences are means of slopes, so
+ *
+ *   g(m + y) = g(m) + h y,   h between the least and the greatest slope of the pieces touched.
+ *
+ * A binary tree over the pieces holds the range of each lane, of its slope and of g''/2: a
+ * span across a thousand pieces asks for some twenty nodes. */
+
+/* Per lane in a node of the tree. Further columns, after those of all lanes, are the owner's. */
+enum { SPLINE_VALUE, SPLINE_SLOPE, SPLINE_BEND, SPLINE_COLUMNS };
+
+/* One lane of one piece: control points, and g'''/6. */
+typedef struct spline_cubic {
+    imp_interval value[4], slope[3], bend[2], third;
+} spline_cubic;
+
+typedef struct spline {
+    size_t pieces, lanes, width; /* width: intervals in a node */
+    bool linear;
+    double *time;        /* pieces + 1 */
+    spline_cubic *cubic; /* lanes per piece */
+    imp_interval *tree;  /* node k has children 2k and 2k+1; piece i is node pieces + i */
+} spline;
+
+/* What a spline with that many further columns takes in memory. */
+size_t spline_bytes(size_t keys, size_t lanes, size_t further);
+
+/* A spline laid out in spline_bytes of memory, which stays the caller's; its keys, cubics and tree are still to be set. */
+spline spline_place(size_t keys, size_t lanes, size_t further, void *memory);
+
+static inline spline_cubic *spline_lane(const spline *s, size_t piece, size_t lane)
+{
+    return s->cubic + piece * s->lanes + lane;
+}
+
+static inline imp_interval *spline_node(const spline *s, size_t k)
+{
+    return s->tree + k * s->width;
+}
+
+/* From key to key in time. */
+imp_interval spline_step(const spline *s, size_t from, size_t to);
+
+/* The least interval that holds both. */
+imp_interval spline_hull(imp_interval x, imp_interval y);
+
+/* Fills cubics and leaves, from time and from the keys' values, lane by lane. False: some step in
+ * time is too short for what happens in it, and *piece says which. */
+bool spline_set(const spline *s, const imp_interval *keys, size_t *piece);
+
+/* Fills the rest of the tree, when the leaves are complete. */
+void spline_grow(const spline *s);
+
+/* The polynomial of up to four control points there, by repeated averages (de Casteljau). */
+imp_interval spline_at(const imp_interval *control, int count, imp_interval part);
+
+enum { SPLINE_WIDTH_MAX = 32 };
+
+/* The time at which a track stands that holds its ends: t, or the end of the track nearest to it.
+ * Where t crosses an end this has a kink, and the rate 1 on its side of it. */
+imp_model spline_hold(const spline *s, imp_model t);
+
+/* Models of all lanes over the times of the model t; and in `node` (width intervals) the ranges
+ * over all of the pieces that t touches. */
+void spline_models(const spline *s, imp_model t, imp_model *lanes, imp_interval *node);
+
+#endif

@@ -1,0 +1,66 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_EXPRESSION_TYPE_H
+#define PLUGINS_EXPRESSION_TYPE_H
+
+#include "plugins/expression/expression.h"
+
+#include <impinge/plugin.h>
+
+/* What the surface and the map given by formulas share
+ * ====================================================
+ * Their first parameters are the same: three texts, constants, and the times at which they are
+ * defined. */
+
+enum { TEXT_X, TEXT_Y, TEXT_Z, CONSTANTS, TIME, TEXT_ROWS };
+
+#define ROW_TEXT(NAME, DEFAULT, DOC)                                                               \
+    {                                                                                              \
+        .name = NAME, .unit = "length", .default_value = DEFAULT, .doc = DOC, .kind = IMP_STRING   \
+    }
+#define ROW_CONSTANTS                                                                              \
+    {                                                                                              \
+        .name = "constants", .unit = "1",                                                          \
+        .doc = "at most 4096 names with numbers, for use in x, y and z", .kind = IMP_TABLE,        \
+        .flags = IMP_OPTIONAL, .min = -INFINITY, .max = INFINITY                                   \
+    }
+#define ROW_TIME(DOC) IMP_ROW("time", "time", NULL, IMP_OPTIONAL, 1, 2, 0, -INFINITY, INFINITY, DOC)
+
+/* t0 <= t1, or all times. */
+static inline imp_status read_time(const imp_value *values, double *lo, double *hi,
+                                   imp_create_error *why)
+{
+    const double *given = values[TIME].number;
+    *lo = -INFINITY, *hi = INFINITY;
+    if (!imp_is_given(&values[TIME])) return IMP_OK;
+    *lo = given[0], *hi = given[1];
+    if (*lo <= *hi) return IMP_OK;
+    return imp_reject(why, TIME, -1, "[%g,%g] ends before it begins", *lo, *hi);
+}
+
+/* What a variable from lo to hi may be; j is its place among (u, v, t). */
+static inline imp_model whole_range(double lo, double hi, int j)
+{
+    imp_model range = imp_unbounded(1u << j);
+    range.lo = lo, range.hi = hi;
+    return imp_model_collapse(range);
+}
+
+static inline imp_status compile_texts(const imp_value *values, expression_scope *scope,
+                                       expression_program **program, imp_create_error *why)
+{
+    const char *const text[3] = {values[TEXT_X].string[0], values[TEXT_Y].string[0],
+                                 values[TEXT_Z].string[0]};
+    scope->constant = values[CONSTANTS].string;
+    scope->constant_value = values[CONSTANTS].number;
+    scope->constant_count = values[CONSTANTS].count;
+    expression_error error;
+    imp_status status = expression_compile(scope, text, program, &error);
+    if (status != IMP_PARAMETER) return status;
+    int row = error.at < 3                          ? TEXT_X + error.at
+              : error.at == EXPRESSION_AT_CONSTANTS ? CONSTANTS
+                                                    : -1;
+    return imp_reject(why, row, -1, "%s", error.message);
+}
+
+#endif

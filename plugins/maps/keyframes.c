@@ -1,0 +1,331 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/publish.h"
+#include "plugins/common/spline.h"
+
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
+
+/* Positions and orientations at given times
+ * =========================================
+ * Seven lanes of one spline (spline.h): the position, and a quaternion q. Its keys are unit
+ * quaternions; of the two that mean the same orientation, the one nearer to the key before is used.
+ * q between keys is not of unit length, but the rotation
+ *
+ *   R = 1 + 2 (w [v] + [v]^2) / |q|^2,   q = (w, v), [v] = v x
+ *
+ * is that of q / |q|, and as smooth as q because q stays away from 0:
+ *
+ * Lemma. With d = p + q for neighbouring keys p, q, |q| is at least (2 |d| - 1) / 3 between them.
+ * For d.p = d.q = |d|^2 / 2, and d.r <= |d| for any key r. A step up the slope at p is a part of at
+ * most 1 of q - r, so the control point next to p has at least d.p + (d.q - |d|) / 3, and likewise
+ * next to q and in the first and last piece (d.(q - p) = 0). The curve is in the hull of such
+ * points, so d.q(t) >= |d|^2 / 2 + (|d|^2 / 2 - |d|) / 3, and |q(t)| is at least that by |d|.
+ *
+ * With p.q >= NEAR_MIN, |d| >= sqrt(2 + 2 NEAR_MIN) > 1.47, and |q| > 0.64. */
+
+enum { TIMES, POSITIONS, ROTATIONS, HOLD };
+
+static const imp_parameter parameters[] = {
+    [TIMES] =
+        IMP_ROW_NUMBERS("times", "time", NULL, 0,
+                        "of the keys, increasing, two or more; unless 'hold' is true, the map "
+                        "is defined from the first to the last only"),
+    [POSITIONS] = IMP_ROW_VECTORS("positions", "length", NULL, 3, IMP_OPTIONAL,
+                                  "where each key moves the origin to; default: no translation"),
+    [ROTATIONS] = IMP_ROW_VECTORS(
+        "rotations", "1", NULL, 4, IMP_OPTIONAL,
+        "rotation of each key about the origin, before the translation: a unit quaternion "
+        "[w,x,y,z]; normalized if its length is within 1e-6 of 1"),
+    [HOLD] = IMP_ROW_BOOLEAN(
+        "hold", "false",
+        "whether the first key holds before its time, and the last key after its time"),
+};
+
+enum { LANES_MAX = 7 };
+
+typedef struct keyframes_instance {
+    size_t position, rotation; /* number of lanes of either: 3 or 0, 4 or 0 */
+    bool hold;                 /* defined at all times: held at both ends */
+    imp_interval square;       /* range of |q|^2 */
+    spline path;               /* one further column if there are rotations: angular speed */
+    spline_cubic memory[];
+} keyframes_instance;
+
+/* --- Checks --- */
+
+#define UNIT_SLACK 1e-6
+/* Least cosine between quaternions of neighbours, which are half as far apart as their
+ * orientations: 170 degrees. */
+#define NEAR_MIN 0.087
+
+static imp_status check_times(const imp_value *times, imp_create_error *why)
+{
+    if (times->count < 2) return imp_reject(why, TIMES, -1, "a single key; must be two or more");
+    for (size_t i = 1; i < times->count; ++i)
+        if (!(times->number[i - 1] < times->number[i]))
+            return imp_reject(why, TIMES, (int64_t)i, "%.17g after %.17g; times must increase",
+                              times->number[i], times->number[i - 1]);
+    return IMP_OK;
+}
+
+static imp_status check_count(const imp_value *values, int row, imp_create_error *why)
+{
+    if (!imp_is_given(&values[row]) || values[row].extent[0] == values[TIMES].count) return IMP_OK;
+    return imp_reject(why, row, -1, "%zu %s for %zu times; there must be one for each",
+                      values[row].extent[0], parameters[row].name, values[TIMES].count);
+}
+
+static double quaternion_dot(const double *p, const double *q)
+{
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+}
+
+static imp_status check_rotations(const imp_value *rotations, imp_create_error *why)
+{
+    for (size_t i = 0; i < rotations->count / 4; ++i) {
+        const double *q = rotations->number + 4 * i, length = sqrt(quaternion_dot(q, q));
+        if (!(fabs(length - 1) <= UNIT_SLACK))
+            return imp_reject(why, ROTATIONS, (int64_t)i,
+                              "[%g,%g,%g,%g] has length %.9g; must be 1, give or take %g", q[0],
+                              q[1], q[2], q[3], length, UNIT_SLACK);
+        if (i > 0 && !(fabs(quaternion_dot(q - 4, q)) >= NEAR_MIN))
+            return imp_reject(why, ROTATIONS, (int64_t)i,
+                              "turned by %.0f degrees from the key before; must be up to 170, so "
+                              "that the way is clear: give keys between them",
+                              acos(imp_smaller(fabs(quaternion_dot(q - 4, q)), 1)) * 360 /
+                                  IMP_PI_LOWER);
+    }
+    return IMP_OK;
+}
+
+static imp_status check(const imp_value *values, imp_create_error *why)
+{
+    imp_status status = check_times(&values[TIMES], why);
+    if (!imp_is_given(&values[POSITIONS]) && !imp_is_given(&values[ROTATIONS]))
+        return imp_reject(why, -1, -1, "neither positions nor rotations are given; give some");
+    if (status == IMP_OK) status = check_count(values, POSITIONS, why);
+    if (status == IMP_OK) status = check_count(values, ROTATIONS, why);
+    if (status == IMP_OK) status = check_rotations(&values[ROTATIONS], why);
+    return status;
+}
+
+/* --- Making one --- */
+
+/* The unit quaternions, with signs that make neighbours near, in the lanes from `key` on. */
+static void set_quaternions(const imp_value *rotations, size_t lanes, imp_interval *key)
+{
+    double sign = 1;
+    for (size_t i = 0; i < rotations->extent[0]; ++i, key += lanes) {
+        const double *q = rotations->number + 4 * i;
+        imp_interval square = imp_interval_make(0, 0);
+        if (i > 0 && quaternion_dot(q - 4, q) < 0) sign = -sign;
+        for (int j = 0; j < 4; ++j)
+            square = imp_interval_add(square, imp_interval_sqr(imp_interval_make(q[j], q[j])));
+        for (int j = 0; j < 4; ++j)
+            key[j] = imp_interval_div(imp_interval_make(sign * q[j], sign * q[j]),
+                                      imp_interval_sqrt(square));
+    }
+}
+
+static void set_positions(const imp_value *positions, size_t lanes, imp_interval *key)
+{
+    for (size_t i = 0; i < positions->extent[0]; ++i)
+        for (size_t j = 0; j < 3; ++j) {
+            double x = positions->number[3 * i + j];
+            key[lanes * i + j] = imp_interval_make(x, x);
+        }
+}
+
+enum { PARTS = 16 };
+
+/* |q|^2 and the angular speed over a part of a piece. The speed is 2 |q'_across| / |q|, where
+ * q'_across is the part of q' perpendicular to q; so it is at most 2 |q'| / |q|. */
+static void bound_part(const keyframes_instance *s, size_t piece, int part, imp_interval *square,
+                       imp_interval *speed)
+{
+    const double m = (part + 0.5) / PARTS, r = 0.5 / PARTS;
+    const imp_interval at = imp_interval_make(m, m), around = imp_interval_make(-r, r);
+    const imp_interval reach = imp_interval_mul(around, spline_step(&s->path, piece, piece + 1));
+    imp_interval slopes = imp_interval_make(0, 0);
+    *square = slopes;
+    for (size_t j = 0; j < 4; ++j) {
+        const spline_cubic *c = spline_lane(&s->path, piece, s->position + j);
+        imp_interval rise = imp_interval_scale(spline_hull(c->bend[0], c->bend[1]), 2);
+        imp_interval slope =
+            imp_interval_add(spline_at(c->slope, 3, at), imp_interval_mul(rise, reach));
+        imp_interval value =
+            imp_interval_add(spline_at(c->value, 4, at), imp_interval_mul(slope, reach));
+        *square = imp_interval_add(*square, imp_interval_sqr(value));
+        slopes = imp_interval_add(slopes, imp_interval_sqr(slope));
+    }
+    *speed = imp_interval_scale(imp_interval_sqrt(imp_interval_div(slopes, *square)), 2);
+}
+
+/* The same for the whole piece. False: the speed is not finite. */
+static bool bound_piece(keyframes_instance *s, size_t piece)
+{
+    const spline *path = &s->path;
+    imp_interval *speed = spline_node(path, path->pieces + piece) + path->width - 1;
+    *speed = imp_interval_make(0, 0);
+    for (int k = 0; k < PARTS; ++k) {
+        imp_interval square, part;
+        bound_part(s, piece, k, &square, &part);
+        s->square = spline_hull(s->square, square);
+        *speed = spline_hull(*speed, part);
+    }
+    return imp_interval_is_finite(*speed);
+}
+
+/* Returns the index of the first invalid piece; `pieces` if all are valid. */
+static size_t set_path(keyframes_instance *s, const imp_value *values, imp_interval *keys)
+{
+    const size_t lanes = s->path.lanes;
+    size_t piece;
+    memcpy(s->path.time, values[TIMES].number, values[TIMES].count * sizeof(double));
+    if (s->position) set_positions(&values[POSITIONS], lanes, keys);
+    if (s->rotation) set_quaternions(&values[ROTATIONS], lanes, keys + s->position);
+    if (!spline_set(&s->path, keys, &piece)) return piece;
+    s->square = imp_interval_make(1, 1);
+    for (piece = 0; s->rotation && piece < s->path.pieces; ++piece)
+        if (!bound_piece(s, piece)) return piece;
+    spline_grow(&s->path);
+    return s->path.pieces;
+}
+
+static imp_status keyframes_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    imp_status status = check(values, why);
+    if (status != IMP_OK) return status;
+    const size_t position = imp_is_given(&values[POSITIONS]) ? 3 : 0;
+    const size_t rotation = imp_is_given(&values[ROTATIONS]) ? 4 : 0;
+    const size_t keys = values[TIMES].count, lanes = position + rotation;
+    keyframes_instance *s = malloc(sizeof *s + spline_bytes(keys, lanes, rotation > 0));
+    imp_interval *key = malloc(keys * lanes * sizeof *key);
+    if (s != NULL && key != NULL) {
+        s->position = position;
+        s->rotation = rotation;
+        s->hold = values[HOLD].number[0] != 0;
+        s->path = spline_place(keys, lanes, rotation > 0, s->memory);
+        size_t piece = set_path(s, values, key);
+        if (piece < keys - 1)
+            status = imp_reject(
+                why, rotation ? ROTATIONS : POSITIONS, (int64_t)piece + 1,
+                "too far from the key before for the time between them: speeds are not finite");
+        *self = s;
+    } else {
+        status = IMP_INTERNAL;
+    }
+    free(key);
+    if (status != IMP_OK) free(s);
+    return status;
+}
+
+/* --- The map --- */
+
+static void keyframes_time_domain(const void *self, double *lo, double *hi)
+{
+    const keyframes_instance *s = self;
+    *lo = s->hold ? -INFINITY : s->path.time[0];
+    *hi = s->hold ? INFINITY : s->path.time[s->path.pieces];
+}
+
+/* An entry of R: within [-1, 1]. Its rate is at most the angular speed, as a column of R moves
+ * like a point at distance 1. */
+static imp_model entry(imp_model r, const imp_model *t, double speed)
+{
+    for (int j = 0; j < 3; ++j)
+        if (r.depends >> j & 1)
+            r.rate[j] = imp_smaller(r.rate[j], imp_round_up(speed * t->rate[j]));
+    return imp_model_within(r, imp_interval_make(-1, 1));
+}
+
+/* R = 1 + 2 (w [v] + [v]^2) / |q|^2; [v]^2 = v v^T - v^T v. */
+static void rotation_matrix(const keyframes_instance *s, const imp_model q[4], const imp_model *t,
+                            double speed, imp_model r[3][3])
+{
+    const imp_model w = q[0], *v = q + 1;
+    imp_model square[3];
+    for (int i = 0; i < 3; ++i) square[i] = imp_sqr(v[i]);
+    imp_model sum = imp_add(imp_add(imp_sqr(w), square[0]), imp_add(square[1], square[2]));
+    imp_model twice = imp_div(imp_num(2), imp_model_within(sum, s->square));
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        imp_model both = imp_mul(v[i], v[j]), turn = imp_mul(w, v[k]);
+        imp_model lost = imp_mul(imp_add(square[j], square[k]), twice);
+        r[i][i] = entry(imp_sub(imp_num(1), lost), t, speed);
+        r[i][j] = entry(imp_mul(imp_sub(both, turn), twice), t, speed);
+        r[j][i] = entry(imp_mul(imp_add(both, turn), twice), t, speed);
+    }
+}
+
+/* R x, which is as long as x. */
+static void turn(imp_model r[3][3], const imp_model x[3], imp_model out[3])
+{
+    imp_interval square = imp_interval_make(0, 0);
+    for (int i = 0; i < 3; ++i)
+        square = imp_interval_add(square, imp_interval_sqr(imp_interval_make(x[i].lo, x[i].hi)));
+    double most = imp_interval_sqrt(square).hi;
+    for (int i = 0; i < 3; ++i)
+        out[i] = imp_model_within(imp_dot3(r[i], x), imp_interval_make(-most, most));
+}
+
+static void keyframes_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                              imp_model out[3])
+{
+    const keyframes_instance *s = self;
+    const imp_model at[3] = {x, y, z};
+    imp_model lane[LANES_MAX], r[3][3];
+    imp_interval node[SPLINE_WIDTH_MAX];
+    if (s->hold) t = spline_hold(&s->path, t);
+    spline_models(&s->path, t, lane, node);
+    memcpy(out, at, sizeof at);
+    if (s->rotation) {
+        rotation_matrix(s, lane + s->position, &t, node[s->path.width - 1].hi, r);
+        turn(r, at, out);
+    }
+    if (s->position)
+        for (int i = 0; i < 3; ++i) out[i] = imp_add(out[i], lane[i]);
+}
+IMP_MAP_FORMULA(keyframes_formula)
+
+static bool is_inside(const keyframes_instance *s, double lo, double hi)
+{
+    return s->hold || (lo >= s->path.time[0] && hi <= s->path.time[s->path.pieces]);
+}
+
+static imp_status keyframes_eval(const void *self, size_t n, const double *p, double *x,
+                                 double *error)
+{
+    for (size_t k = 0; k < n; ++k)
+        if (!is_inside(self, p[4 * k + 3], p[4 * k + 3])) return IMP_DOMAIN;
+    return keyframes_formula_eval(self, n, p, x, error);
+}
+
+static imp_status keyframes_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
+{
+    if (!is_inside(self, box->lo[3], box->hi[3])) return IMP_DOMAIN;
+    return keyframes_formula_rate(self, box, rates);
+}
+
+static imp_status keyframes_apply(const void *self, const imp_model in[4], imp_model out[3])
+{
+    if (!is_inside(self, in[3].lo, in[3].hi)) return IMP_DOMAIN;
+    return keyframes_formula_apply(self, in, out);
+}
+
+static const imp_map_type keyframes = {
+    IMP_MAP_FIELDS(keyframes, keyframes),
+    .summary = "moves and turns smoothly through positions and orientations at given times",
+    .equation =
+        "R(q) (x,y,z) + p; p and q are cubics between keys, with the slope at each key from the "
+        "one before to the one after, and parabolas at both ends; q has keys "
+        "rotations/|rotations|, with signs that keep neighbours near, and R(q) is the "
+        "rotation of q/|q|; with hold, t is the nearest time of the keys",
+    .source = "Catmull and Rom, A Class of Local Interpolating Splines, 1974",
+    .example = "keyframes times=0,0.5,1 positions=[[0,0,0],[1,0,0],[1,1,0]] "
+               "rotations=[[1,0,0,0],[0.8,0.6,0,0],[0.8,0,0.6,0]]",
+};
+
+PUBLISH_MAP(keyframes);

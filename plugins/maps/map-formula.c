@@ -1,0 +1,93 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/publish.h"
+#include "plugins/expression/type.h"
+
+#include <impinge/formula.h>
+
+static const imp_parameter parameters[] = {
+    [TEXT_X] = ROW_TEXT("x", "\"x\"", "new x as a formula in x, y, z, t"),
+    [TEXT_Y] = ROW_TEXT("y", "\"y\"", "new y as a formula in x, y, z, t"),
+    [TEXT_Z] = ROW_TEXT("z", "\"z\"", "new z as a formula in x, y, z, t"),
+    [CONSTANTS] = ROW_CONSTANTS,
+    [TIME] = ROW_TIME(
+        "[t0,t1]: times at which it is defined; other times cannot be queried; default: all times"),
+};
+
+typedef struct map_instance {
+    expression_program *program;
+    double lo, hi; /* times */
+} map_instance;
+
+/* Nothing is known about x, y and z before the map is applied to a surface. */
+static imp_status compile(const imp_value *values, map_instance *s, imp_create_error *why)
+{
+    static const char *const names[] = {"x", "y", "z", "t"};
+    imp_model whole[4];
+    for (int j = 0; j < 3; ++j) whole[j] = imp_unbounded(7);
+    whole[3] = whole_range(s->lo, s->hi, 2);
+    expression_scope scope = {.variable = names, .whole = whole, .variable_count = 4};
+    return compile_texts(values, &scope, &s->program, why);
+}
+
+static imp_status map_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    map_instance *s = malloc(sizeof *s);
+    if (s == NULL) return IMP_INTERNAL;
+    imp_status status = read_time(values, &s->lo, &s->hi, why);
+    if (status == IMP_OK) status = compile(values, s, why);
+    if (status == IMP_OK)
+        *self = s;
+    else
+        free(s);
+    return status;
+}
+
+static void map_destroy(void *self)
+{
+    map_instance *s = self;
+    expression_free(s->program);
+    free(s);
+}
+
+static void map_time_domain(const void *self, double *lo, double *hi)
+{
+    const map_instance *s = self;
+    *lo = s->lo, *hi = s->hi;
+}
+
+static void map_models(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                       imp_model out[3])
+{
+    const map_instance *s = self;
+    const imp_model variables[] = {x, y, z, t};
+    expression_models(s->program, variables, out);
+}
+IMP_MAP_FORMULA(map_models)
+
+/* Points are evaluated directly, which is faster than with constant models. */
+static imp_status map_eval(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    const map_instance *s = self;
+    imp_status status = IMP_OK;
+    for (size_t k = 0; k < n && status == IMP_OK; ++k)
+        status = expression_point(s->program, p + 4 * k, x + 3 * k,
+                                  error != NULL ? error + 3 * k : NULL);
+    return status;
+}
+
+static const imp_map_type map_formula = {
+    IMP_TYPE_FIELDS(imp_map_type, "map-formula", map, map_destroy),
+    .summary = "any motion or deformation, given by formulas",
+    .equation = "(x, y, z) becomes three texts in x, y, z, t, in the language of the surface type "
+                "formula; a text that is absent leaves its coordinate unchanged",
+    .source = NULL,
+    .example = "map-formula z=z+a*sin(k*x-t) constants={\"a\":0.1,\"k\":3}",
+    .time_domain = map_time_domain,
+    .eval = map_eval,
+    .rate = map_models_rate,
+    .apply = map_models_apply,
+};
+
+IMPINGE_MAP_PLUGIN("map-formula", PLUGIN_VERSION, "Apache-2.0", "The Impinge authors", map_formula);

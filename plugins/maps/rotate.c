@@ -1,0 +1,113 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/axis.h"
+#include "plugins/common/course.h"
+#include "plugins/common/publish.h"
+
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
+
+/* Rotation about the axis (axis.h) with w = (x,y,z) - center. Its constants are computed once. */
+
+enum { AXIS, CENTER, ANGLE }; /* from ANGLE on: the course of the angle */
+
+static const imp_parameter parameters[] = {
+    [AXIS] = ROW_AXIS("axis", "[0,0,1]", "direction of the axis, any vector but 0; right-handed"),
+    [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "a point of the axis"),
+    [ANGLE + COURSE_RATE] = ROW_TURNING_RATE("constant angular velocity"),
+    [ANGLE + COURSE_COEFFICIENTS] = ROW_TURNING_ANGLE,
+    [ANGLE + COURSE_TIMES] = COURSE_ROW_TIMES,
+    [ANGLE + COURSE_VALUES] =
+        IMP_ROW_NUMBERS("angles", "rad", NULL, IMP_OPTIONAL, "one for each of times"),
+    [ANGLE + COURSE_FILE] = COURSE_ROW_FILE,
+    [ANGLE + COURSE_COLUMNS] = COURSE_ROW_COLUMNS("column", 1, IMP_SCALAR_OK,
+                                                  "of the file: that of the angle, in rad, by name "
+                                                  "or by number from 1; default: the second"),
+    [ANGLE + COURSE_INTERPOLATION] = COURSE_ROW_INTERPOLATION,
+    [ANGLE + COURSE_HOLD] = COURSE_ROW_HOLD,
+};
+
+typedef struct rotate_instance {
+    double center[3];
+    axis_frame axis;
+    course angle;
+} rotate_instance;
+
+static imp_status rotate_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    imp_status status = axis_check(AXIS, values[AXIS].number, why);
+    if (status != IMP_OK) return status;
+    rotate_instance *s = malloc(sizeof *s);
+    if (s == NULL) return IMP_INTERNAL;
+    status = course_read(&s->angle, values, ANGLE, 1, why, parameters);
+    if (status != IMP_OK) {
+        free(s);
+        return status;
+    }
+    s->axis = axis_frame_of(values[AXIS].number);
+    imp_copy_vector(s->center, &values[CENTER]);
+    *self = s;
+    return IMP_OK;
+}
+
+static void rotate_destroy(void *self)
+{
+    rotate_instance *s = self;
+    course_clear(&s->angle);
+    free(s);
+}
+
+static void rotate_time_domain(const void *self, double *lo, double *hi)
+{
+    const rotate_instance *s = self;
+    course_times(&s->angle, lo, hi);
+}
+
+static void turned(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                   imp_model out[3])
+{
+    const rotate_instance *s = self;
+    imp_model w[3], angle;
+    course_at(&s->angle, 1, t, &angle);
+    axis_from_center(s->center, x, y, z, w);
+    axis_turn(&s->axis, angle, w, out);
+    axis_add_center(s->center, out);
+}
+IMP_MAP_FORMULA(turned)
+
+static imp_status rotate_eval(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    const rotate_instance *s = self;
+    for (size_t k = 0; k < n; ++k)
+        if (!course_is_defined(&s->angle, p[4 * k + 3], p[4 * k + 3])) return IMP_DOMAIN;
+    return turned_eval(self, n, p, x, error);
+}
+
+static imp_status rotate_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
+{
+    const rotate_instance *s = self;
+    const near_constant nowhere[3] = {{0, 0}, {0, 0}, {0, 0}};
+    if (!course_is_defined(&s->angle, box->lo[3], box->hi[3])) return IMP_DOMAIN;
+    imp_model angle;
+    course_at(&s->angle, 1, axis_moment(box), &angle);
+    return axis_turn_rates(&s->axis, s->center, nowhere, angle, box, rates);
+}
+
+static imp_status rotate_apply(const void *self, const imp_model in[4], imp_model out[3])
+{
+    const rotate_instance *s = self;
+    if (!course_is_defined(&s->angle, in[3].lo, in[3].hi)) return IMP_DOMAIN;
+    return turned_apply(self, in, out);
+}
+
+static const imp_map_type rotate = {
+    IMP_MAP_FIELDS_OF("rotate", rotate, rotate, rotate_destroy, rotate_rate),
+    .summary = "turns about an axis, at a constant rate, by a polynomial angle or by a table",
+    .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t, sum_k angle_k t^k, or the "
+                "table's value at t: center + k (k.w) + cos A (w - k (k.w)) + sin A (k x w)",
+    .source = "Von Herzen, Barr, Zatz, SIGGRAPH 1990, appendix B.5",
+    .example = "rotate axis=0,0,1 rate=2",
+};
+
+PUBLISH_MAP(rotate);

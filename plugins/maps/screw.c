@@ -1,0 +1,84 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/axis.h"
+#include "plugins/common/polynomial.h"
+#include "plugins/common/publish.h"
+
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
+
+enum { AXIS, CENTER, PITCH, RATE, ANGLE };
+
+static const imp_parameter parameters[] = {
+    [AXIS] = ROW_AXIS("axis", "[0,0,1]", "direction of the axis, any vector but 0; right-handed"),
+    [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "a point of the axis"),
+    [PITCH] = IMP_ROW_NUMBER("pitch", "length/turn", "1",
+                             "distance along the axis per full turn; negative: against the axis"),
+    [RATE] = ROW_TURNING_RATE("constant angular velocity"),
+    [ANGLE] = ROW_TURNING_ANGLE,
+};
+
+typedef struct screw_instance {
+    double center[3];
+    axis_frame axis;
+    near_constant advance[3]; /* per radian */
+    polynomial angle;
+    double coefficients[];
+} screw_instance;
+
+/* pitch / (2 pi) times the unit vector of the axis. */
+static void set_advance(screw_instance *s, double pitch, const double axis[3])
+{
+    imp_model k[3], two_pi = imp_scale(imp_const_pi(), 2);
+    imp_model per_radian = imp_div(imp_num(pitch), two_pi);
+    axis_unit_of(axis, k);
+    for (int i = 0; i < 3; ++i) s->advance[i] = near_of(imp_mul(per_radian, k[i]));
+}
+
+static imp_status screw_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    imp_status status = axis_check(AXIS, values[AXIS].number, why);
+    if (status == IMP_OK) status = check_one_of(values, RATE, ANGLE, why, parameters);
+    if (status != IMP_OK) return status;
+    size_t numbers = polynomial_count(&values[RATE], &values[ANGLE]);
+    screw_instance *s = malloc(sizeof *s + numbers * sizeof(double));
+    if (s == NULL) return IMP_INTERNAL;
+    s->axis = axis_frame_of(values[AXIS].number);
+    set_advance(s, values[PITCH].number[0], values[AXIS].number);
+    imp_copy_vector(s->center, &values[CENTER]);
+    s->angle = polynomial_read(&values[RATE], &values[ANGLE], 1, s->coefficients);
+    *self = s;
+    return IMP_OK;
+}
+
+static void screw_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                          imp_model out[3])
+{
+    const screw_instance *s = self;
+    imp_model w[3], angle = polynomial_at(&s->angle, 0, t);
+    axis_from_center(s->center, x, y, z, w);
+    axis_turn(&s->axis, angle, w, out);
+    for (int i = 0; i < 3; ++i) out[i] = imp_add(out[i], near_scale(angle, s->advance[i]));
+    axis_add_center(s->center, out);
+}
+IMP_MAP_FORMULA(screw_formula)
+IMP_MAP_AT_ALL_TIMES(screw)
+
+static imp_status screw_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
+{
+    const screw_instance *s = self;
+    imp_model angle = polynomial_at(&s->angle, 0, axis_moment(box));
+    return axis_turn_rates(&s->axis, s->center, s->advance, angle, box, rates);
+}
+
+static const imp_map_type screw = {
+    IMP_MAP_FIELDS_OF("screw", screw, screw_formula, free, screw_rate),
+    .summary = "turns about an axis and moves along it in proportion to the angle",
+    .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t or sum_k angle_k t^k: center + "
+                "k (k.w + pitch A / 2pi) + cos A (w - k (k.w)) + sin A (k x w)",
+    .source = "Ball, A Treatise on the Theory of Screws, 1900",
+    .example = "screw axis=0,0,1 pitch=0.5 rate=6",
+};
+
+PUBLISH_MAP(screw);

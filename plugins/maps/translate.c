@@ -1,0 +1,90 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/course.h"
+#include "plugins/common/publish.h"
+
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
+
+static const imp_parameter parameters[] = {
+    [COURSE_RATE] =
+        IMP_ROW_VECTOR("velocity", "length/time", NULL, IMP_OPTIONAL, "constant velocity"),
+    [COURSE_COEFFICIENTS] =
+        IMP_ROW_VECTORS("offset", "length/time^k", NULL, 3, IMP_OPTIONAL,
+                        "instead: coefficients [x,y,z] of t^0, t^1, t^2 ... of the displacement"),
+    [COURSE_TIMES] = COURSE_ROW_TIMES,
+    [COURSE_VALUES] = IMP_ROW_VECTORS("positions", "length", NULL, 3, IMP_OPTIONAL,
+                                      "one [x,y,z] for each of times"),
+    [COURSE_FILE] = COURSE_ROW_FILE,
+    [COURSE_COLUMNS] = COURSE_ROW_COLUMNS("columns", 3, 0,
+                                          "of the file: those of x, y and z, by name or by number "
+                                          "from 1; default: the second to the "
+                                          "fourth"),
+    [COURSE_INTERPOLATION] = COURSE_ROW_INTERPOLATION,
+    [COURSE_HOLD] = COURSE_ROW_HOLD,
+};
+
+static imp_status translate_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    course *way = malloc(sizeof *way);
+    if (way == NULL) return IMP_INTERNAL;
+    const imp_status status = course_read(way, values, 0, 3, why, parameters);
+    if (status == IMP_OK)
+        *self = way;
+    else
+        free(way);
+    return status;
+}
+
+static void translate_destroy(void *self)
+{
+    course_clear(self);
+    free(self);
+}
+
+static void translate_time_domain(const void *self, double *lo, double *hi)
+{
+    course_times(self, lo, hi);
+}
+
+static void moved(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                  imp_model out[3])
+{
+    const imp_model at[3] = {x, y, z};
+    imp_model way[3];
+    course_at(self, 3, t, way);
+    for (int i = 0; i < 3; ++i) out[i] = imp_add(at[i], way[i]);
+}
+IMP_MAP_FORMULA(moved)
+
+static imp_status translate_eval(const void *self, size_t n, const double *p, double *x,
+                                 double *error)
+{
+    for (size_t k = 0; k < n; ++k)
+        if (!course_is_defined(self, p[4 * k + 3], p[4 * k + 3])) return IMP_DOMAIN;
+    return moved_eval(self, n, p, x, error);
+}
+
+static imp_status translate_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
+{
+    if (!course_is_defined(self, box->lo[3], box->hi[3])) return IMP_DOMAIN;
+    return moved_rate(self, box, rates);
+}
+
+static imp_status translate_apply(const void *self, const imp_model in[4], imp_model out[3])
+{
+    if (!course_is_defined(self, in[3].lo, in[3].hi)) return IMP_DOMAIN;
+    return moved_apply(self, in, out);
+}
+
+static const imp_map_type translate = {
+    IMP_MAP_FIELDS_OF("translate", translate, translate, translate_destroy, translate_rate),
+    .summary = "moves along a straight line, along a polynomial in time, or by a table",
+    .equation = "(x,y,z) + velocity t, or (x,y,z) + sum_k offset_k t^k, or (x,y,z) + the "
+                "table's value at t",
+    .source = "Von Herzen, Barr, Zatz, SIGGRAPH 1990, appendix B.4",
+    .example = "translate velocity=1,0,0",
+};
+
+PUBLISH_MAP(translate);

@@ -1,0 +1,65 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/publish.h"
+
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
+
+/* Only the lateral surface, from the base circle at v = 0 to the apex, to which the edge v = 1
+ * collapses. With height 0 it is a disc. */
+
+enum { RADIUS, HEIGHT, CENTER };
+
+static const imp_parameter parameters[] = {
+    [RADIUS] = IMP_ROW_POSITIVE("radius", "length", "1", "radius of the base"),
+    [HEIGHT] = IMP_ROW_NUMBER(
+        "height", "length", "1",
+        "height of the apex above the base, along z; 0: a disc; negative: apex below"),
+    [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "centre of the base"),
+};
+
+typedef struct cone_instance {
+    double radius, height, center[3];
+} cone_instance;
+
+static imp_status cone_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    (void)why;
+    cone_instance *s = malloc(sizeof *s);
+    if (s == NULL) return IMP_INTERNAL;
+    s->radius = values[RADIUS].number[0];
+    s->height = values[HEIGHT].number[0];
+    imp_copy_vector(s->center, &values[CENTER]);
+    *self = s;
+    return IMP_OK;
+}
+
+static void cone_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    imp_set_domain(lo, hi, 0, IMP_TWO_PI_UPPER, 0, 1);
+}
+
+static void cone_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
+{
+    const cone_instance *s = self;
+    imp_model sin_u, cos_u, ring = imp_scale(imp_shift(imp_neg(v), 1), s->radius);
+    (void)t;
+    imp_sincos(u, &sin_u, &cos_u);
+    out[0] = imp_shift(imp_mul(ring, cos_u), s->center[0]);
+    out[1] = imp_shift(imp_mul(ring, sin_u), s->center[1]);
+    out[2] = imp_shift(imp_scale(v, s->height), s->center[2]);
+}
+IMP_SURFACE_FORMULA(cone_formula)
+
+static const imp_surface_type cone = {
+    IMP_SURFACE_FIELDS(cone, cone_formula),
+    .summary = "lateral surface of a cone about the z axis, open at its base, up to the apex",
+    .equation = "center + ((1-v) radius cos u, (1-v) radius sin u, height v), u in [0,2pi], "
+                "v in [0,1]",
+    .source = NULL,
+    .example = "cone radius=1 height=2",
+};
+
+PUBLISH_SURFACE(cone);

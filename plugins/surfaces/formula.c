@@ -1,0 +1,111 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/publish.h"
+#include "plugins/expression/type.h"
+
+#include <impinge/formula.h>
+
+enum { DOMAIN = TEXT_ROWS };
+
+static const imp_parameter parameters[] = {
+    [TEXT_X] = ROW_TEXT("x", "\"u\"", "x as a formula in u, v, t"),
+    [TEXT_Y] = ROW_TEXT("y", "\"v\"", "y as a formula in u, v, t"),
+    [TEXT_Z] = ROW_TEXT("z", "\"0\"", "z as a formula in u, v, t"),
+    [CONSTANTS] = ROW_CONSTANTS,
+    [TIME] = ROW_TIME("[t0,t1]: times at which it exists; default: all times"),
+    [DOMAIN] = IMP_ROW("domain", "1", "[[0,1],[0,1]]", 0, 2, 2, 2, -INFINITY, INFINITY,
+                       "[[u0,u1],[v0,v1]]: ranges of u and v; x, y and z must be defined there"),
+};
+
+typedef struct formula_instance {
+    expression_program *program;
+    double lo[3], hi[3];
+} formula_instance;
+
+static imp_status read_domain(const imp_value *values, formula_instance *s, imp_create_error *why)
+{
+    const double *given = values[DOMAIN].number;
+    for (int j = 0; j < 2; ++j) {
+        s->lo[j] = given[2 * j];
+        s->hi[j] = given[2 * j + 1];
+        if (!(s->lo[j] <= s->hi[j]))
+            return imp_reject(why, DOMAIN, j, "[%g,%g] ends before it begins", s->lo[j], s->hi[j]);
+    }
+    return read_time(values, &s->lo[2], &s->hi[2], why);
+}
+
+static imp_status compile(const imp_value *values, formula_instance *s, imp_create_error *why)
+{
+    static const char *const names[] = {"u", "v", "t"};
+    imp_model whole[3];
+    for (int j = 0; j < 3; ++j) whole[j] = whole_range(s->lo[j], s->hi[j], j);
+    expression_scope scope = {.variable = names, .whole = whole, .variable_count = 3};
+    return compile_texts(values, &scope, &s->program, why);
+}
+
+static imp_status formula_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    formula_instance *s = malloc(sizeof *s);
+    if (s == NULL) return IMP_INTERNAL;
+    imp_status status = read_domain(values, s, why);
+    if (status == IMP_OK) status = compile(values, s, why);
+    if (status == IMP_OK)
+        *self = s;
+    else
+        free(s);
+    return status;
+}
+
+static void formula_destroy(void *self)
+{
+    formula_instance *s = self;
+    expression_free(s->program);
+    free(s);
+}
+
+static void formula_domain(const void *self, double lo[3], double hi[3])
+{
+    const formula_instance *s = self;
+    memcpy(lo, s->lo, sizeof s->lo);
+    memcpy(hi, s->hi, sizeof s->hi);
+}
+
+static void formula_models(const void *self, imp_model u, imp_model v, imp_model t,
+                           imp_model out[3])
+{
+    const formula_instance *s = self;
+    const imp_model variables[] = {u, v, t};
+    expression_models(s->program, variables, out);
+}
+IMP_SURFACE_FORMULA(formula_models)
+
+/* Points are evaluated directly, which is faster than with constant models. */
+static imp_status formula_eval(const void *self, size_t n, const double *p, double *x,
+                               double *error)
+{
+    const formula_instance *s = self;
+    imp_status status = IMP_OK;
+    for (size_t k = 0; k < n && status == IMP_OK; ++k)
+        status = expression_point(s->program, p + 3 * k, x + 3 * k,
+                                  error != NULL ? error + 3 * k : NULL);
+    return status;
+}
+
+static const imp_surface_type formula = {
+    IMP_TYPE_FIELDS(imp_surface_type, "formula", formula, formula_destroy),
+    .flags = IMP_ABSENT_OUTSIDE_TIMES,
+    .summary = "any surface, given by formulas",
+    .equation = "(x, y, z), each a text in u, v, t with + - * / ^, pi, e, constants, and abs sqrt "
+                "cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh pow min max hypot "
+                "clamp lerp copysign; no discontinuous functions",
+    .source = NULL,
+    .example = "formula x=cos(2*pi*u)*(1+a*sin(t)) y=sin(2*pi*u)*(1+a*sin(t)) z=v "
+               "constants={\"a\":0.1}",
+    .domain = formula_domain,
+    .eval = formula_eval,
+    .rate = formula_models_rate,
+    .include = formula_models_include,
+};
+
+PUBLISH_SURFACE(formula);

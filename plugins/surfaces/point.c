@@ -1,0 +1,44 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/linear.h"
+#include "plugins/common/publish.h"
+
+/* A point has no extent in u and v: its domain there is the single value 0. */
+
+enum { POSITION, VELOCITY };
+
+static const imp_parameter parameters[] = {
+    [POSITION] = ROW_NEAR_VECTOR("position", "length", "[0,0,0]", 0, "position at t = 0"),
+    [VELOCITY] = ROW_NEAR_VECTOR("velocity", "length/time", "[0,0,0]", 0, "constant velocity"),
+};
+
+static imp_status point_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    (void)why;
+    linear *f = calloc(1, sizeof *f);
+    if (f == NULL) return IMP_INTERNAL;
+    for (int i = 0; i < 3; ++i) {
+        f->still[i][LINEAR_1] = values[POSITION].number[i];
+        f->motion[i][LINEAR_1] = values[VELOCITY].number[i];
+    }
+    linear_finish(f);
+    *self = f;
+    return IMP_OK;
+}
+
+static void point_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    imp_set_domain(lo, hi, 0, 0, 0, 0);
+}
+
+static const imp_surface_type point = {
+    IMP_SURFACE_FIELDS(point, linear),
+    .summary = "a single point, at rest or moving along a straight line",
+    .equation = "position + t velocity; u = v = 0",
+    .source = NULL,
+    .example = "point position=1,2,3 velocity=0,0,-1",
+};
+
+PUBLISH_SURFACE(point);

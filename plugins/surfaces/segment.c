@@ -1,0 +1,53 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/linear.h"
+#include "plugins/common/publish.h"
+
+/* A segment has no extent in v: its domain there is the single value 0. */
+
+enum { POINTS, VELOCITIES };
+
+static const imp_parameter parameters[] = {
+    [POINTS] = ROW_CORNERS("points", "length", "[[0,0,0],[1,0,0]]", 2, 0,
+                           "both ends [x,y,z] at t = 0; equal ends: a point"),
+    [VELOCITIES] = ROW_CORNERS("velocities", "length/time", NULL, 2, IMP_OPTIONAL,
+                               "velocity of each end; default: at rest"),
+};
+
+static void set_ends(double term[LINEAR_TERMS], const double *ends)
+{
+    term[LINEAR_1] = ends[0];
+    term[LINEAR_U] = ends[3] - ends[0];
+}
+
+static imp_status segment_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    (void)why;
+    linear *f = calloc(1, sizeof *f);
+    if (f == NULL) return IMP_INTERNAL;
+    for (int i = 0; i < 3; ++i) {
+        set_ends(f->still[i], values[POINTS].number + i);
+        if (imp_is_given(&values[VELOCITIES]))
+            set_ends(f->motion[i], values[VELOCITIES].number + i);
+    }
+    linear_finish(f);
+    *self = f;
+    return IMP_OK;
+}
+
+static void segment_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    imp_set_domain(lo, hi, 0, 1, 0, 0);
+}
+
+static const imp_surface_type segment = {
+    IMP_SURFACE_FIELDS(segment, linear),
+    .summary = "straight segment between two ends that move linearly (edge-edge queries)",
+    .equation = "(1-u) p_0(t) + u p_1(t), p_k(t) = points_k + t velocities_k, u in [0,1], v = 0",
+    .source = NULL,
+    .example = "segment points=[[0,0,0],[2,0,0]] velocities=[[0,0,0],[0,1,0]]",
+};
+
+PUBLISH_SURFACE(segment);

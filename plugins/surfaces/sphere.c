@@ -1,0 +1,63 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/publish.h"
+
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
+
+enum { RADIUS, CENTER };
+
+static const imp_parameter parameters[] = {
+    [RADIUS] = IMP_ROW_POSITIVE("radius", "length", "1", "radius"),
+    [CENTER] = IMP_ROW_CENTER,
+};
+
+typedef struct sphere_instance {
+    double radius, center[3];
+} sphere_instance;
+
+static imp_status sphere_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    (void)why;
+    sphere_instance *s = malloc(sizeof *s);
+    if (s == NULL) return IMP_INTERNAL;
+    s->radius = values[RADIUS].number[0];
+    imp_copy_vector(s->center, &values[CENTER]);
+    *self = s;
+    return IMP_OK;
+}
+
+/* The ranges of u and v are rounded outward, so that they cover the full turn and both poles,
+ * without a gap. */
+static void sphere_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    imp_set_domain(lo, hi, 0, IMP_TWO_PI_UPPER, -IMP_HALF_PI_UPPER, IMP_HALF_PI_UPPER);
+}
+
+static void sphere_formula(const void *self, imp_model u, imp_model v, imp_model t,
+                           imp_model out[3])
+{
+    const sphere_instance *s = self;
+    imp_model sin_u, cos_u, sin_v, cos_v;
+    (void)t;
+    imp_sincos(u, &sin_u, &cos_u);
+    imp_sincos(v, &sin_v, &cos_v);
+    imp_model ring = imp_scale(cos_v, s->radius);
+    out[0] = imp_shift(imp_mul(ring, cos_u), s->center[0]);
+    out[1] = imp_shift(imp_mul(ring, sin_u), s->center[1]);
+    out[2] = imp_shift(imp_scale(sin_v, s->radius), s->center[2]);
+}
+IMP_SURFACE_FORMULA(sphere_formula)
+
+static const imp_surface_type sphere = {
+    IMP_SURFACE_FIELDS(sphere, sphere_formula),
+    .summary = "sphere by longitude u and latitude v",
+    .equation =
+        "center + radius (cos v cos u, cos v sin u, sin v), u in [0,2pi], v in [-pi/2,pi/2]",
+    .source = NULL,
+    .example = "sphere radius=2 center=0,0,1",
+};
+
+PUBLISH_SURFACE(sphere);

@@ -1,0 +1,65 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/publish.h"
+
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
+
+enum { MAJOR_RADIUS, MINOR_RADIUS, CENTER };
+
+static const imp_parameter parameters[] = {
+    [MAJOR_RADIUS] = IMP_ROW_POSITIVE("major_radius", "length", "1",
+                                      "radius of the ring, to the middle of the tube"),
+    [MINOR_RADIUS] = IMP_ROW_POSITIVE(
+        "minor_radius", "length", "0.25",
+        "radius of the tube; if greater than major_radius, the surface intersects itself"),
+    [CENTER] = IMP_ROW_CENTER,
+};
+
+typedef struct torus_instance {
+    double major_radius, minor_radius, center[3];
+} torus_instance;
+
+static imp_status torus_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    (void)why;
+    torus_instance *s = malloc(sizeof *s);
+    if (s == NULL) return IMP_INTERNAL;
+    s->major_radius = values[MAJOR_RADIUS].number[0];
+    s->minor_radius = values[MINOR_RADIUS].number[0];
+    imp_copy_vector(s->center, &values[CENTER]);
+    *self = s;
+    return IMP_OK;
+}
+
+static void torus_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    imp_set_domain(lo, hi, 0, IMP_TWO_PI_UPPER, 0, IMP_TWO_PI_UPPER);
+}
+
+static void torus_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
+{
+    const torus_instance *s = self;
+    imp_model sin_u, cos_u, sin_v, cos_v;
+    (void)t;
+    imp_sincos(u, &sin_u, &cos_u);
+    imp_sincos(v, &sin_v, &cos_v);
+    imp_model ring = imp_shift(imp_scale(cos_v, s->minor_radius), s->major_radius);
+    out[0] = imp_shift(imp_mul(ring, cos_u), s->center[0]);
+    out[1] = imp_shift(imp_mul(ring, sin_u), s->center[1]);
+    out[2] = imp_shift(imp_scale(sin_v, s->minor_radius), s->center[2]);
+}
+IMP_SURFACE_FORMULA(torus_formula)
+
+static const imp_surface_type torus = {
+    IMP_SURFACE_FIELDS(torus, torus_formula),
+    .summary = "torus around the z axis; u runs around the ring, v around the tube",
+    .equation = "center + ((R + r cos v) cos u, (R + r cos v) sin u, r sin v), R = major_radius, "
+                "r = minor_radius, u and v in [0,2pi]",
+    .source = NULL,
+    .example = "torus major_radius=1 minor_radius=0.3",
+};
+
+PUBLISH_SURFACE(torus);

@@ -1,0 +1,55 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/linear.h"
+#include "plugins/common/publish.h"
+
+/* The square of u and v is mapped to the triangle by collapsing the edge u = 0 into corner 0. */
+
+enum { POINTS, VELOCITIES };
+
+static const imp_parameter parameters[] = {
+    [POINTS] = ROW_CORNERS("points", "length", "[[0,0,0],[1,0,0],[0,1,0]]", 3, 0,
+                           "three corners [x,y,z] at t = 0; collinear corners: a segment"),
+    [VELOCITIES] = ROW_CORNERS("velocities", "length/time", NULL, 3, IMP_OPTIONAL,
+                               "velocity of each corner; default: at rest"),
+};
+
+static void set_corners(double term[LINEAR_TERMS], const double *corners)
+{
+    term[LINEAR_1] = corners[0];
+    term[LINEAR_U] = corners[3] - corners[0];
+    term[LINEAR_UV] = corners[6] - corners[3];
+}
+
+static imp_status triangle_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    (void)why;
+    linear *f = calloc(1, sizeof *f);
+    if (f == NULL) return IMP_INTERNAL;
+    for (int i = 0; i < 3; ++i) {
+        set_corners(f->still[i], values[POINTS].number + i);
+        if (imp_is_given(&values[VELOCITIES]))
+            set_corners(f->motion[i], values[VELOCITIES].number + i);
+    }
+    linear_finish(f);
+    *self = f;
+    return IMP_OK;
+}
+
+static void triangle_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    imp_set_domain(lo, hi, 0, 1, 0, 1);
+}
+
+static const imp_surface_type triangle = {
+    IMP_SURFACE_FIELDS(triangle, linear),
+    .summary = "triangle whose corners move linearly (vertex-face queries)",
+    .equation = "p_0(t) + u (p_1(t) - p_0(t) + v (p_2(t) - p_1(t))), p_k(t) = points_k + t "
+                "velocities_k, u and v in [0,1]",
+    .source = NULL,
+    .example = "triangle points=[[0,0,0],[1,0,0],[0,1,0]] velocities=[[0,0,1],[0,0,1],[0,0,2]]",
+};
+
+PUBLISH_SURFACE(triangle);

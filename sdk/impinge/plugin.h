@@ -1,0 +1,168 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: MIT */
+#ifndef IMPINGE_PLUGIN_H
+#define IMPINGE_PLUGIN_H
+
+#include <impinge/interval.h>
+#include <impinge/surface.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Short plugins
+ * =============
+ *
+ * Macros and functions for what most types have in common, so that a source file is short: a table
+ * of parameters, a struct with their values, create, a domain, a formula, and the type. All of
+ * Impinge's own types use them.
+ *
+ *   static const imp_parameter parameters[] = {
+ *       [RADIUS] = IMP_ROW_POSITIVE("radius", "length", "1", "radius at rest"),
+ *   };
+ *   static imp_status ball_create(const imp_value *values, void **self, imp_create_error *why);
+ *   static void ball_domain(const void *self, double lo[3], double hi[3]);
+ *   static void ball_formula(const void *self, imp_model u, imp_model v, imp_model t,
+ *                            imp_model out[3]);
+ *   IMP_SURFACE_FORMULA(ball_formula)
+ *
+ *   static const imp_surface_type ball = {
+ *       IMP_SURFACE_FIELDS(ball, ball_formula),
+ *       .summary = "...", .equation = "...", .source = "...", .example = "...",
+ *   };
+ *   IMPINGE_SURFACE_PLUGIN("ball", "1.0", "MIT", "your name", ball);
+ *
+ * The macros use designated initializers: C, and C++ from C++20 on. */
+
+/* --- Rows of a parameter table ---------------------------------------------------------------
+ *
+ * NAME, UNIT, DOC: as in imp_parameter. DEFAULT: JSON text, or NULL for a parameter that must be
+ * given. FLAGS: 0, or IMP_OPTIONAL with a DEFAULT of NULL, or others of IMP_MIN_OPEN ... */
+
+/* Any row, and any row of numbers: RANK and EXTENT as in imp_parameter, each number between MIN and
+ * MAX. */
+#define IMP_ROW_OF(KIND, NAME, UNIT, DEFAULT, FLAGS, RANK, EXTENT0, EXTENT1, MIN, MAX, DOC)        \
+    {                                                                                              \
+        .name = NAME, .unit = UNIT, .doc = DOC, .default_value = DEFAULT, .kind = KIND,            \
+        .flags = FLAGS, .rank = RANK, .extent = {EXTENT0, EXTENT1}, .min = MIN, .max = MAX         \
+    }
+#define IMP_ROW(NAME, UNIT, DEFAULT, FLAGS, RANK, EXTENT0, EXTENT1, MIN, MAX, DOC)                 \
+    IMP_ROW_OF(IMP_NUMBER, NAME, UNIT, DEFAULT, FLAGS, RANK, EXTENT0, EXTENT1, MIN, MAX, DOC)
+
+/* One number: any, greater than 0, or from MIN to MAX. */
+#define IMP_ROW_NUMBER(NAME, UNIT, DEFAULT, DOC)                                                   \
+    IMP_ROW(NAME, UNIT, DEFAULT, 0, 0, 0, 0, -INFINITY, INFINITY, DOC)
+#define IMP_ROW_POSITIVE(NAME, UNIT, DEFAULT, DOC)                                                 \
+    IMP_ROW(NAME, UNIT, DEFAULT, IMP_MIN_OPEN, 0, 0, 0, 0, INFINITY, DOC)
+#define IMP_ROW_BETWEEN(NAME, UNIT, DEFAULT, MIN, MAX, DOC)                                        \
+    IMP_ROW(NAME, UNIT, DEFAULT, 0, 0, 0, 0, MIN, MAX, DOC)
+
+/* Three numbers: any, or all greater than 0. */
+#define IMP_ROW_VECTOR(NAME, UNIT, DEFAULT, FLAGS, DOC)                                            \
+    IMP_ROW(NAME, UNIT, DEFAULT, FLAGS, 1, 3, 0, -INFINITY, INFINITY, DOC)
+#define IMP_ROW_POSITIVE_VECTOR(NAME, UNIT, DEFAULT, DOC)                                          \
+    IMP_ROW(NAME, UNIT, DEFAULT, IMP_MIN_OPEN, 1, 3, 0, 0, INFINITY, DOC)
+#define IMP_ROW_CENTER IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "centre of the surface")
+
+/* A list of any length: of numbers, or of vectors of WIDTH numbers each. */
+#define IMP_ROW_NUMBERS(NAME, UNIT, DEFAULT, FLAGS, DOC)                                           \
+    IMP_ROW(NAME, UNIT, DEFAULT, FLAGS, 1, 0, 0, -INFINITY, INFINITY, DOC)
+#define IMP_ROW_VECTORS(NAME, UNIT, DEFAULT, WIDTH, FLAGS, DOC)                                    \
+    IMP_ROW(NAME, UNIT, DEFAULT, FLAGS, 2, 0, WIDTH, -INFINITY, INFINITY, DOC)
+
+/* true or false. */
+#define IMP_ROW_BOOLEAN(NAME, DEFAULT, DOC)                                                        \
+    IMP_ROW_OF(IMP_BOOLEAN, NAME, "1", DEFAULT, 0, 0, 0, 0, -INFINITY, INFINITY, DOC)
+
+/* --- In create ------------------------------------------------------------------------------- */
+
+/* Was the value of a row with IMP_OPTIONAL given? */
+static inline bool imp_is_given(const imp_value *value) { return value->count > 0; }
+
+static inline void imp_copy_vector(double to[3], const imp_value *value)
+{
+    memcpy(to, value->number, 3 * sizeof to[0]);
+}
+
+/* Reports an error in one element of a parameter. -1 for `element` means the whole parameter, and
+ * -1 for both means the type. Returns IMP_PARAMETER, which create returns in turn. The text is one
+ * sentence, formatted as by printf: what was got, and what is allowed. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5), unused))
+#endif
+static imp_status
+imp_reject(imp_create_error *why, int parameter, int64_t element, const char *format, ...)
+{
+    va_list arguments;
+    why->parameter = parameter;
+    why->element = element;
+    va_start(arguments, format);
+    vsnprintf(why->text, sizeof why->text, format, arguments);
+    va_end(arguments);
+    return IMP_PARAMETER;
+}
+
+/* --- Domains --------------------------------------------------------------------------------- */
+
+/* u and v as given, at all times. Angles up to IMP_TWO_PI_UPPER cover the full turn, so that
+ * rounding leaves no gap. */
+static inline void imp_set_domain(double lo[3], double hi[3], double u_lo, double u_hi, double v_lo,
+                                  double v_hi)
+{
+    lo[0] = u_lo;
+    hi[0] = u_hi;
+    lo[1] = v_lo;
+    hi[1] = v_hi;
+    lo[2] = -INFINITY;
+    hi[2] = INFINITY;
+}
+
+/* The callback PREFIX_time_domain of a map that is defined at all times. */
+#define IMP_MAP_AT_ALL_TIMES(PREFIX)                                                               \
+    static void PREFIX##_time_domain(const void *self, double *lo, double *hi)                     \
+    {                                                                                              \
+        (void)self;                                                                                \
+        *lo = -INFINITY;                                                                           \
+        *hi = INFINITY;                                                                            \
+    }
+
+/* --- The type --------------------------------------------------------------------------------
+ *
+ * All fields but the texts, for a table called `parameters`. The callbacks are PREFIX_create,
+ * PREFIX_domain (of a map PREFIX_time_domain), and CALLS_eval, CALLS_rate, CALLS_include (of a map
+ * CALLS_apply): CALLS is the formula's name if IMP_SURFACE_FORMULA or IMP_MAP_FORMULA makes them.
+ *
+ * In the short forms the type is called PREFIX, and an instance is one block from malloc. Otherwise
+ * NAME is the type's name, a string, and DESTROY frees an instance. */
+
+/* TYPE is imp_surface_type or imp_map_type; the other callbacks follow after this macro. */
+#define IMP_TYPE_FIELDS(TYPE, NAME, PREFIX, DESTROY)                                               \
+    .struct_size = (uint32_t)sizeof(TYPE),                                                         \
+    .parameter_count = (uint32_t)(sizeof parameters / sizeof parameters[0]),                       \
+    .parameter_size = (uint32_t)sizeof(imp_parameter), .name = NAME, .parameters = parameters,     \
+    .create = PREFIX##_create, .destroy = DESTROY
+
+#define IMP_SURFACE_FIELDS_OF(NAME, PREFIX, CALLS, DESTROY)                                        \
+    IMP_TYPE_FIELDS(imp_surface_type, NAME, PREFIX, DESTROY),                                      \
+        .domain = PREFIX##_domain, .eval = CALLS##_eval, .rate = CALLS##_rate,                     \
+        .include = CALLS##_include
+#define IMP_SURFACE_FIELDS(PREFIX, CALLS) IMP_SURFACE_FIELDS_OF(#PREFIX, PREFIX, CALLS, free)
+
+/* RATE: the callback, for maps with a better bound than their formula's, CALLS_rate. */
+#define IMP_MAP_FIELDS_OF(NAME, PREFIX, CALLS, DESTROY, RATE)                                      \
+    IMP_TYPE_FIELDS(imp_map_type, NAME, PREFIX, DESTROY), .time_domain = PREFIX##_time_domain,     \
+                                                          .eval = CALLS##_eval, .rate = RATE,      \
+                                                          .apply = CALLS##_apply
+#define IMP_MAP_FIELDS(PREFIX, CALLS) IMP_MAP_FIELDS_OF(#PREFIX, PREFIX, CALLS, free, CALLS##_rate)
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* IMPINGE_PLUGIN_H */

@@ -1,0 +1,23 @@
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: MIT
+
+"""The guaranteed earliest contact, and the clearance, of moving and deforming surfaces.
+
+    import impinge
+    scene = impinge.Scene.from_pair("torus ! rotate axis=1,0,0 rate=2",
+                                    "sphere center=5,0,0 ! translate velocity=-3,0,0")
+    print(scene.solve(gamma=1e-6))
+"""
+
+from . import _library
+from .results import Clearance, Profile, Result, Side
+from .scene import (Body, Builder, FileError, ImpingeError, PluginError, Scene, SceneError,
+                    UsageError, batch)
+
+__all__ = ["Body", "Builder", "Clearance", "FileError", "ImpingeError", "PluginError", "Profile",
+           "Result", "Scene", "SceneError", "Side", "UsageError", "batch", "version"]
+
+
+def version() -> str:
+    """ "libimpinge x.y.z" of the library that runs."""
+    return _library.library.imp_version().decode()

@@ -1,0 +1,178 @@
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: MIT
+
+"""The C interface of libimpinge (<impinge/impinge.h>), as ctypes sees it.
+
+The library is the one that the environment's IMPINGE_LIBRARY names, or else the installed one.
+Structs that grow begin with their size, so that a newer library runs with this module.
+"""
+
+import ctypes as c
+import ctypes.util
+import os
+
+
+class Error(c.Structure):
+    _fields_ = [("code", c.c_int), ("text", c.c_char * 1000)]
+
+
+class Argument(c.Structure):
+    _fields_ = [
+        ("name", c.c_char_p),
+        ("kind", c.c_uint32),
+        ("rank", c.c_uint32),
+        ("extent", c.c_size_t * 3),
+        ("single", c.c_double),
+        ("text", c.c_char_p),
+        ("number", c.POINTER(c.c_double)),
+        ("string", c.POINTER(c.c_char_p)),
+    ]
+
+
+class Options(c.Structure):
+    _fields_ = [
+        ("struct_size", c.c_uint32),
+        ("audit", c.c_bool),
+        ("t_start", c.c_double),
+        ("t_end", c.c_double),
+        ("gamma", c.c_double),
+        ("clearance", c.c_double),
+        ("max_pairs", c.c_uint64),
+        ("max_seconds", c.c_double),
+        ("max_bytes", c.c_uint64),
+        ("method", c.c_int),
+        ("bounds", c.c_int),
+        ("rates", c.c_int),
+        ("reserved", c.c_uint32),
+        ("progress", c.c_void_p),
+        ("progress_context", c.c_void_p),
+    ]
+
+
+class Side(c.Structure):
+    _fields_ = [
+        ("body", c.c_size_t),
+        ("surface", c.c_size_t),
+        ("u", c.c_double),
+        ("v", c.c_double),
+        ("point", c.c_double * 3),
+    ]
+
+
+class Stats(c.Structure):
+    _fields_ = [
+        ("seconds", c.c_double),
+        ("pairs", c.c_uint64),
+        ("nodes", c.c_uint64),
+        ("peak_heap", c.c_uint64),
+        ("witness_searches", c.c_uint64),
+        ("bytes", c.c_uint64),
+    ]
+
+
+class Result(c.Structure):
+    _fields_ = [
+        ("struct_size", c.c_uint32),
+        ("verdict", c.c_int),
+        ("reason", c.c_int),
+        ("t", c.c_double),
+        ("t_lower", c.c_double),
+        ("gap", c.c_double),
+        ("gamma", c.c_double),
+        ("gamma_clear", c.c_double),
+        ("a", Side),
+        ("b", Side),
+        ("has_normal", c.c_bool),
+        ("normal", c.c_double * 3),
+        ("stats", Stats),
+        ("t_start", c.c_double),
+        ("t_end", c.c_double),
+        ("t_examined", c.c_double * 2),
+        ("at_rest", c.c_bool),
+    ]
+
+
+class ClearanceOptions(c.Structure):
+    _fields_ = [
+        ("struct_size", c.c_uint32),
+        ("each", c.c_bool),
+        ("tolerance", c.c_double),
+        ("required", c.c_double),
+        ("slices", c.c_uint64),
+    ]
+
+
+class Clearance(c.Structure):
+    _fields_ = [
+        ("struct_size", c.c_uint32),
+        ("reason", c.c_int),
+        ("verdict", c.c_int),
+        ("has_witness", c.c_bool),
+        ("has_normal", c.c_bool),
+        ("t_start", c.c_double),
+        ("t_end", c.c_double),
+        ("body", c.c_size_t * 2),
+        ("lower", c.c_double),
+        ("upper", c.c_double),
+        ("t", c.c_double),
+        ("a", Side),
+        ("b", Side),
+        ("normal", c.c_double * 3),
+        ("required", c.c_double),
+        ("t_violated", c.c_double),
+        ("gap_violated", c.c_double),
+        ("a_violated", Side),
+        ("b_violated", Side),
+        ("stats", Stats),
+    ]
+
+
+_P, _S, _D, _N = c.c_void_p, c.c_char_p, c.c_double, c.c_size_t
+_E, _A = c.POINTER(Error), c.POINTER(Argument)
+
+# Name: result, arguments.
+_FUNCTIONS = {
+    "imp_version": (_S,),
+    "imp_registry_new": (_P, _S),
+    "imp_registry_free": (None, _P),
+    "imp_scene_from_json": (_P, _P, _S, _N, _S, _E),
+    "imp_scene_from_file": (_P, _P, _S, _E),
+    "imp_scene_from_pair": (_P, _P, _S, _S, _E),
+    "imp_scene_free": (None, _P),
+    "imp_scene_body_count": (_N, _P),
+    "imp_scene_body_name": (_S, _P, _N),
+    "imp_scene_surface_count": (_N, _P, _N),
+    "imp_scene_eval": (c.c_int, _P, _N, _N, _N, _P, _P, _P, _E),
+    "imp_builder_new": (_P, _P),
+    "imp_builder_free": (None, _P),
+    "imp_builder_time": (c.c_int, _P, _D, _D, _E),
+    "imp_builder_gamma": (c.c_int, _P, _D, _D, _E),
+    "imp_builder_body": (c.c_int, _P, _S, c.POINTER(_N), _E),
+    "imp_builder_surface": (c.c_int, _P, _N, _S, _A, _N, _E),
+    "imp_builder_map": (c.c_int, _P, _N, _S, _A, _N, _E),
+    "imp_builder_surface_map": (c.c_int, _P, _N, _N, _S, _A, _N, _E),
+    "imp_builder_parent": (c.c_int, _P, _N, _N, _E),
+    "imp_builder_group": (c.c_int, _P, _N, _S, _E),
+    "imp_builder_ignore": (c.c_int, _P, _S, _S, _E),
+    "imp_builder_finish": (_P, _P, _E),
+    "imp_options_read": (c.c_int, _P, c.POINTER(Options), _E),
+    "imp_scene_solve": (c.c_int, _P, c.POINTER(Options), c.POINTER(Result), _E),
+    "imp_clearance_options_read": (c.c_int, c.POINTER(ClearanceOptions), _E),
+    "imp_clearance_new": (_P, _P, c.POINTER(Options), c.POINTER(ClearanceOptions), _E),
+    "imp_clearance_count": (_N, _P),
+    "imp_clearance_read": (c.c_int, _P, _N, c.POINTER(Clearance), _E),
+    "imp_query_step": (c.c_int, _P, c.c_uint64, _E),
+    "imp_query_free": (None, _P),
+}
+
+
+def _load() -> c.CDLL:
+    path = os.environ.get("IMPINGE_LIBRARY") or ctypes.util.find_library("impinge")
+    library = c.CDLL(path or "libimpinge.so.0")
+    for name, (result, *arguments) in _FUNCTIONS.items():
+        function = getattr(library, name)
+        function.restype, function.argtypes = result, arguments
+    return library
+
+
+library = _load()

@@ -1,0 +1,165 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# impinge bench: what it prints, and what the default method may cost. Counts are the same on
+# every machine, so they are held to limits; times are not.
+
+load ../support/cli_helper
+
+setup_file() {
+    export bench=$BATS_FILE_TMPDIR/bench.json
+    "$IMPINGE" bench --method models --repeat 1 --json >"$bench"
+}
+
+# measured FILTER: jq -e over all sets; `row(SET; CASE)` is the default method's row of that case.
+measured() {
+    jq -e 'def row($set; $case):
+        .sets[] | select(.set == $set).cases[] | select(.case == $case).methods[0];
+        '"$1" "$bench"
+}
+
+# --- What it costs ------------------------------------------------------------------------------
+
+@test "spheres 1e-6 apart are proved clear within 1500 pairs in every direction" {
+    measured 'row("figure7"; "oblique, S = 1e-06") |
+        .verdicts == {contact: 0, clear: 20, undecided: 0} and .pairs.max <= 1500'
+    measured 'row("figure7"; "axis, S = 1e-08") | .verdicts.clear == 1 and .pairs.max <= 1500'
+}
+
+@test "the pairs that clear two spheres grow like the logarithm of the gap" {
+    measured '.sets[] | select(.set == "figure7").findings |
+        .["growth_to_1e-6"] <= 1.6 and .["growth_to_1e-8"] <= 1.6'
+}
+
+@test "a least distance takes at most three times the pairs of proving 0.99 of it" {
+    measured '[.sets[] | select(.set == "clearance").cases[].methods[0].ratio.pairs] |
+        length == 5 and all(. >= 1/3)'
+}
+
+@test "the 100 scenes of moving patches have the answers of the reference" {
+    measured 'row("bicubic"; "gamma 1e-06") | .reference |
+        .scenes == 100 and .agreed == 100 and .latest <= 3e-6 and .earliest >= -6e-6'
+    measured 'row("bicubic"; "gamma 0.001") | .verdicts.undecided == 0 and .reference.latest <= 3e-6'
+}
+
+@test "a scene of moving patches takes at most 400 pairs in the mean" {
+    measured 'row("bicubic"; "gamma 1e-06").pairs.mean <= 400'
+}
+
+@test "moving spheres take less than 1500 pairs at gamma 1e-10, and meet when the formula says" {
+    measured 'row("moving"; "gamma 1e-10") | .pairs.max < 1500 and .reference.agreed == 20 and
+        .reference.latest <= 1e-15 and .reference.earliest >= -1e-10'
+}
+
+@test "rotating tori take less than 3000 pairs at gamma 1e-6" {
+    measured 'row("tori"; "flight, gamma 1e-06") | .verdicts.contact == 1 and .pairs.max < 3000'
+    measured 'row("tori"; "tumble, gamma 1e-06") | .verdicts.contact == 1 and .pairs.max < 3000'
+    measured 'row("tori"; "chain, gamma 1e-06") | .verdicts.contact == 1 and .pairs.max < 3000'
+}
+
+@test "narrow spikes are found, for less than 3000 pairs and no more than wide ones" {
+    measured '[.sets[] | select(.set == "spikes").cases[] | select(.case | startswith("head-on")) |
+        .methods[0]] | length == 8 and
+        all(.verdicts.contact == 1 and .pairs.max < 3000 and .reference.latest <= 0)'
+    measured '.sets[] | select(.set == "spikes").findings.narrowest_over_widest_head_on <= 1'
+}
+
+@test "needles two hundred times narrower hit each other's flanks for less than ten times the pairs" {
+    measured '[.sets[] | select(.set == "spikes").cases[] | select(.case | startswith("swing")) |
+        .methods[0]] | length == 8 and all(.verdicts.contact == 1 and .pairs.max < 12000)'
+    measured 'row("spikes"; "swing, width 0.01").pairs.max < 4000'
+    measured '.sets[] | select(.set == "spikes").findings.narrowest_over_widest_swing < 10'
+}
+
+@test "no scene of any set is left open, and none takes 64 megabytes" {
+    measured '[.sets[].cases[].methods[]] | length >= 50 and
+        all(.verdicts.undecided == 0 and .bytes.max < 64 * 1024 * 1024)'
+}
+
+# --- What it prints -------------------------------------------------------------------------------
+
+# small [OPTION]...: the set that takes the least time.
+small() { "$IMPINGE" bench moving --repeat 1 --max-pairs 100 "$@"; }
+
+counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
+
+@test "JSON is as its schema says, with and without the paper's method" {
+    output=$(<"$bench")
+    valid bench
+    json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving", "clearance"]'
+    json 'all(.sets[] | select(.set != "clearance").cases[].methods[];
+        .method == "models" and .ratio == null)'
+    run -0 small --json
+    valid bench
+    json '.max_pairs == 100 and (.sets | length == 1)'
+    json 'all(.sets[].cases[].methods[]; .ratio.pairs > 0)'
+    json '[.sets[0].cases[0].methods[].method] == ["models", "paper", "paper, spheres"]'
+}
+
+@test "the paper's method ends at its budget, which is told, and the default method does not" {
+    run -0 small --json
+    json 'all(.sets[].cases[].methods[]; if .method == "models" then .ended == 0
+        else .ended == 20 and .verdicts.undecided == 20 and .pairs.max <= 102 end)'
+    run -0 small
+    [[ $output == *'ends at 100 pairs a scene'*'  paper  '*'>10'* ]]
+    run -0 "$IMPINGE" bench moving --repeat 1 --max-pairs 100 --method models
+    [[ $output != *'paper'* ]]
+}
+
+@test "counts are the same in every run" {
+    run -0 small --json
+    local first
+    first=$(counts)
+    run -0 small --json --repeat 3
+    [ "$first" = "$(counts)" ]
+}
+
+@test "random patches follow from their seed" {
+    local first
+    bicubic() { "$IMPINGE" bench bicubic --method models --repeat 1 --json --count 5 "$@"; }
+    run -0 bicubic --seed 7
+    json '[.sets[].cases[].case] == ["gamma 0.001", "seed 7, gamma 0.001", "gamma 1e-06",
+        "seed 7, gamma 1e-06"]'
+    json '.sets[].cases[1] | .scenes == 5 and .methods[0].verdicts.undecided == 0'
+    first=$(counts)
+    run -0 bicubic --seed 7
+    [ "$first" = "$(counts)" ]
+    run -0 bicubic
+    json '.sets[].cases[1].case == "seed 1, gamma 0.001"'
+    [ "$first" != "$(counts)" ]
+}
+
+@test "sets are done in the order named" {
+    run -0 "$IMPINGE" bench tori moving --method models --repeat 1
+    [[ $output == *$'\ntori\n'*$'\nmoving\n'* ]]
+}
+
+@test "the scenes of the file are scenes, each with its reference" {
+    local file=$top_srcdir/tools/data/bicubic_moving_100.jsonl
+    [ "$(jq -s 'length' "$file")" = 100 ]
+    output=$(head -n 3 "$file")
+    valid scene
+    jq -es 'all(.[]; .reference.verdict == "clear" or .reference.t >= 0)' "$file"
+    cmp "$file" "$top_builddir/tools/built-data/bicubic_moving_100.jsonl"
+}
+
+# --- What is wrong ----------------------------------------------------------------------------------
+
+@test "an unknown set is answered with the nearest, before anything is measured" {
+    fails 2 "bench: unknown set 'tory', did you mean 'tori'? There are figure7, bicubic" \
+        "$IMPINGE" bench moving tory
+    fails 2 "unknown set 'xxxxxxxxxxxx'; there are figure7" "$IMPINGE" bench xxxxxxxxxxxx
+}
+
+@test "repeats are one or more, and a seed belongs to a count" {
+    fails 2 "--repeat must be at least 1, not '0'" "$IMPINGE" bench --repeat 0
+    fails 2 '--seed belongs to --count' "$IMPINGE" bench bicubic --seed 7
+}
+
+@test "a set whose types are missing is told so" {
+    mkdir empty
+    cp "$top_builddir"/tools/.libs/impinge . 2>/dev/null || skip 'linked statically'
+    LD_LIBRARY_PATH=$top_builddir/.libs fails 4 "unknown surface type 'sphere'" ./impinge bench moving \
+        --json
+}

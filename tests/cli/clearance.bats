@@ -1,0 +1,129 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# impinge clearance: brackets, requirements, pairs of bodies, slices of time.
+
+load ../support/cli_helper
+
+# The gap is sqrt((3 - 6 t)^2 + 9) - 2: 1 at t = 0.5.
+passing=('sphere' 'sphere center=-3,3,0 ! translate velocity=6,0,0')
+
+three() {
+    cat <<END | tr -d '\n'
+{"bodies": [
+{"name": "a", "surfaces": [{"type": "sphere"}]},
+{"name": "b", "surfaces": [{"type": "sphere", "center": [3,0,0]}]},
+{"name": "c", "surfaces": [{"type": "sphere", "center": [8,0,0]}],
+"maps": [{"type": "translate", "velocity": [-2.5,0,0]}]}]${1-}}
+END
+    echo
+}
+
+@test "the minimum distance is bracketed, with its witness" {
+    run -0 "$IMPINGE" clearance "${passing[@]}" --json
+    valid clearance
+    json '.lower <= 1 and .upper >= 1 and .upper - .lower <= 1e-3 * .upper and .reason == null'
+    json '(.t - 0.5 | fabs) < 0.02 and .a.body == "a" and .b.body == "b" and (has("verdict") | not)'
+    run -0 "$IMPINGE" clearance "${passing[@]}" --json --tolerance 1e-7
+    json '.lower <= 1 and .upper >= 1 - 1e-15 and .upper - .lower <= 1e-7'
+    run -0 "$IMPINGE" clearance "${passing[@]}"
+    [[ $output == 'tightest 1.0000'*' between "a" and "b"'* && $output == *"never nearer than 0.999"* ]]
+}
+
+@test "what is required holds, is violated from a time on, or is undecided" {
+    run -0 "$IMPINGE" clearance "${passing[@]}" --require 0.9999999 --json
+    valid clearance
+    json '.verdict == "holds" and .required == 0.9999999 and .lower >= 0.9999989'
+    run -1 "$IMPINGE" clearance "${passing[@]}" --require 1.2 --json
+    valid clearance
+    json '.verdict == "violated" and (.t_violated - 0.314407 | fabs) < 1e-5'
+    json '.a_violated.body == "a" and .b_violated.body == "b" and .t_violated <= .t'
+    run -3 "$IMPINGE" clearance 'torus ! rotate axis=1,2,3 rate=2' --require 0.5 --json \
+        'torus ! rotate axis=0,1,0 rate=1 ! translate offset=[[3,0.2,0.4]]' --max-pairs 20
+    valid clearance
+    json '.verdict == "undecided" and .reason == "max-pairs" and .lower < 0.5 and .upper > 0.5'
+    run -0 "$IMPINGE" clearance "${passing[@]}" --require 0.9
+    [[ $output == "holds, tightest 1.0000"* ]]
+    run -1 "$IMPINGE" clearance "${passing[@]}" --require 1.2
+    [[ $output == "violated at t = 0.3144"*", tightest 1.0000"* ]]
+}
+
+@test "an arm of six joints, by a table of angles, keeps its distance from a fixture" {
+    run -0 "$IMPINGE" clearance "$top_srcdir/tools/data/arm.json" --require 2
+    [[ ${lines[0]} =~ ^'holds, tightest 2.'[0-9]+' at t = 0.5'[0-9]+' between "link5" and "fixture"'$ ]]
+}
+
+@test "what meets has no clearance" {
+    run -0 "$IMPINGE" clearance "$left" "$right" --json
+    valid clearance
+    json '.lower <= .upper and .upper <= 1e-6 and .reason == null'
+}
+
+@test "each two bodies, the tightest first" {
+    three >three.json
+    run -1 "$IMPINGE" clearance three.json --each --require 2 --json
+    valid clearance
+    json '[.pairs[].bodies | join("")] == ["bc", "ab", "ac"] and .scene == "three.json"'
+    json '[.pairs[].verdict] == ["violated", "violated", "holds"] and .verdict == "violated"'
+    json '.upper == .pairs[0].upper and (.pairs[0].lower - 0.5 | fabs) < 1e-3'
+    json '.pairs[0].t_violated > 0.3 and .pairs[1].t_violated == 0'
+    run -0 "$IMPINGE" clearance three.json --each
+    [[ ${lines[-3]} == 0.5*"b, c" && ${lines[-2]} == 1*"a, b" && ${lines[-1]} == 3.5*"a, c" ]]
+}
+
+@test "slices of time as CSV and as JSON lines, and all of them in the last line" {
+    run -1 "$IMPINGE" clearance "${passing[@]}" --profile 4 --require 1.2
+    [ "${lines[0]}" = "t0,t1,lower,upper,t,verdict" ]
+    [ "$(printf '%s\n' "${lines[@]}" | awk -F, 'NR > 1 && $3 <= $4 { print $1, $2, $6 }')" = \
+        $'0 0.25 holds\n0.25 0.5 violated\n0.5 0.75 violated\n0.75 1 holds' ]
+    run -0 "$IMPINGE" clearance "${passing[@]}" --profile 4 --json
+    valid clearance
+    [ "${#lines[@]}" -eq 5 ]
+    [ "$(head -4 <<<"$output" | jq -s -c .)" = "$(tail -1 <<<"$output" | jq -c .slices)" ]
+    tail -1 <<<"$output" | jq -e '.lower == ([.slices[].lower] | min) and
+        .upper == ([.slices[].upper] | min) and .slices[3].t1 == 1'
+}
+
+@test "a budget ends it with the bracket so far" {
+    run -3 "$IMPINGE" clearance "${endless[@]:0:2}" --gamma 1e-12 --tolerance 1e-9 --max-pairs 200 --json
+    valid clearance
+    json '.reason == "max-pairs" and .lower == 0 and .upper < 1e-3'
+    run -3 "$IMPINGE" clearance "${endless[@]:0:2}" --gamma 1e-12 --tolerance 1e-9 --max-pairs 200
+    [[ $output == *"the limit of pairs is reached"* ]]
+}
+
+@test "an interrupt ends it with the bracket so far" {
+    run -3 timeout --preserve-status -s INT 1 "$IMPINGE" clearance "${endless[@]:0:2}" --gamma 1e-12 --tolerance 1e-9 \
+        --max-bytes 0 --json
+    valid clearance
+    json '.reason == "cancelled" and .lower == 0 and .upper < 1e-3'
+}
+
+@test "where nobody meets anybody there is no distance" {
+    echo '{"bodies": [{"name": "a", "surfaces": [{"type": "sphere"}]}]}' >one.json
+    for each in "" --each; do
+        # shellcheck disable=SC2086 # no word when empty
+        run -0 "$IMPINGE" clearance one.json $each --require 1 --json
+        valid clearance
+        json '.lower == null and .upper == null and .a == null and .reason == "no-pairs"'
+        json '.verdict == "holds"'
+    done
+    run -0 "$IMPINGE" clearance one.json
+    [[ $output == "there are no two bodies"* ]]
+}
+
+@test "what cannot be asked is refused" {
+    fails 2 "--require must be a finite number greater than 0" \
+        "$IMPINGE" clearance "${passing[@]}" --require 0
+    fails 2 "--require must be a finite number greater than 0" \
+        "$IMPINGE" clearance "${passing[@]}" --require -1
+    fails 2 "--tolerance must be" "$IMPINGE" clearance "${passing[@]}" --tolerance 0
+    fails 2 "tolerance: got 1, must be from 1e-9 to below 1" \
+        "$IMPINGE" clearance "${passing[@]}" --tolerance 1
+    fails 2 "--profile must be at least 1" "$IMPINGE" clearance "${passing[@]}" --profile 0
+    fails 2 "--profile must be a whole number" "$IMPINGE" clearance "${passing[@]}" --profile -3
+    fails 2 "slices: got 2000000" "$IMPINGE" clearance "${passing[@]}" --profile 2M
+    fails 2 "exclude each other" "$IMPINGE" clearance "${passing[@]}" --profile 2 --each
+    fails 4 "cannot be read" "$IMPINGE" clearance missing.json
+}

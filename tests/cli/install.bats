@@ -1,0 +1,224 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Impinge as its users have it: configured for a prefix of its own, built, installed. One such
+# build serves all tests here.
+
+bats_require_minimum_version 1.5.0
+
+setup_file() {
+    unset MAKEFLAGS MFLAGS DESTDIR # of the make that runs us
+    export prefix=$BATS_FILE_TMPDIR/prefix build=$BATS_FILE_TMPDIR/build
+    mkdir "$build"
+    cd "$build"
+    "$top_srcdir"/configure -q -C --prefix="$prefix" CC="$CC" CFLAGS=-O1
+    make -s -j2
+    make -s install
+}
+
+# A distcheck that fails leaves its copy of the sources write-protected.
+teardown_file() {
+    chmod -R u+w "$build"
+}
+
+setup() {
+    cd "$BATS_TEST_TMPDIR"
+    export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+    unset LD_LIBRARY_PATH
+    impinge=$prefix/bin/impinge
+}
+
+sdk() { pkg-config --variable="$1" impinge-sdk; }
+
+# A surface type that Impinge does not come with, in the file $1.c.
+write_plugin() {
+    cat >"$1.c" <<END
+#include <impinge/surface.h>
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
+{
+    static char instance;
+    (void)values, (void)why;
+    *self = &instance;
+    return IMP_OK;
+}
+static void destroy(void *self) { (void)self; }
+static void domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    lo[0] = lo[1] = 0, hi[0] = hi[1] = 1, lo[2] = -INFINITY, hi[2] = INFINITY;
+}
+static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    (void)self;
+    for (size_t k = 0; k < n; ++k) x[3 * k] = p[3 * k], x[3 * k + 1] = p[3 * k + 1], x[3 * k + 2] = 0;
+    for (size_t k = 0; error && k < 3 * n; ++k) error[k] = 0;
+    return IMP_OK;
+}
+static imp_status rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
+{
+    (void)self, (void)region;
+    *rates = (imp_rate_matrix){{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}};
+    return IMP_OK;
+}
+static const imp_surface_type type = {
+    .struct_size = sizeof type, .parameter_size = sizeof(imp_parameter), .name = "$1",
+    .summary = "unit square", .equation = "(u, v, 0)", .example = "$1",
+    .create = create, .destroy = destroy, .domain = domain, .eval = eval, .rate = rate};
+IMPINGE_SURFACE_PLUGIN("$1", "1", "MIT", "somebody else", type);
+END
+}
+
+build_plugin() {
+    write_plugin "$1"
+    # shellcheck disable=SC2046 # flags are words
+    $CC -shared -fPIC -fvisibility=hidden -o "$1.so" "$1.c" $(pkg-config --cflags impinge-sdk)
+}
+
+# --- What is installed ------------------------------------------------------------------------
+
+@test "every plugin of the sources is installed, and no libtool archive beside it" {
+    local name
+    for name in $(sed -nE 's|^ *plugins/(.*)\.la.*|\1|p' "$top_srcdir/plugins/local.mk"); do
+        [ -f "$(sdk plugindir)/$name.so" ]
+    done
+    run ! ls "$(sdk plugindir)"/*.la
+}
+
+@test "list shows a type from each of at least six files" {
+    run -0 "$impinge" list
+    local so count=0
+    for so in "$(sdk plugindir)"/*.so; do
+        [[ $output == *"$(basename "$so" .so)"* ]]
+        count=$((count + 1))
+    done
+    [ "$count" -ge 6 ]
+}
+
+@test "the installed command answers the pair of the README within its proof" {
+    run -0 "$impinge" pair 'sphere radius=1 center=-2,0,0 ! translate velocity=2,0,0' \
+        'sphere radius=1 center=2,0,0 ! translate velocity=-2,0,0' --gamma 1e-4 --json
+    [[ $output =~ \"verdict\":\ *\"contact\" ]]
+    [[ $output =~ \"t\":\ *([0-9.e-]+) ]]
+    awk -v t="${BASH_REMATCH[1]}" 'BEGIN { exit !(t >= 0.4999 && t <= 0.5) }'
+}
+
+@test "the installed command finds the scene of its demo, and its manual page is there" {
+    run -0 "$impinge" demo teapot
+    [[ $output == *"contact at t = "*"impinge solve $prefix/share/impinge/teapot.json" ]]
+    [ -f "$prefix/share/man/man1/impinge.1" ]
+}
+
+@test "impinge-sdk.pc tells the ABI and the plugin directory" {
+    [ "$(sdk abi_major)" = "$(sed -n 's/#define IMP_ABI_MAJOR \([0-9]*\).*/\1/p' \
+        "$prefix"/include/impinge/surface.h)" ]
+    [ "$(sdk abi_minor)" = "$(sed -n 's/#define IMP_ABI_MINOR \([0-9]*\).*/\1/p' \
+        "$prefix"/include/impinge/surface.h)" ]
+    [ "$(sdk plugindir)" = "$prefix/lib/impinge/$(sdk abi_major)" ]
+}
+
+@test "the plugin directory follows a prefix that the asker overrides" {
+    [ "$(pkg-config --define-variable=prefix=/elsewhere --variable=plugindir impinge-sdk)" = \
+        "/elsewhere/lib/impinge/$(sdk abi_major)" ]
+}
+
+@test "--with-plugindir is where plugins go" {
+    unset PKG_CONFIG_PATH
+    cp "$build/config.cache" .
+    "$top_srcdir"/configure -q -C --prefix="$prefix" --with-plugindir="$PWD/elsewhere" CC="$CC" \
+        CFLAGS=-O1
+    [ "$(PKG_CONFIG_PATH=sdk sdk plugindir)" = "$PWD/elsewhere" ]
+    make -s -n install-pluginLTLIBRARIES | grep -q "$PWD/elsewhere"
+    grep -q "elsewhere" <<<"$(make -n V=1 core/plugin/registry.lo)"
+}
+
+# --- Programs and plugins of others -------------------------------------------------------------
+
+@test "a program builds with impinge.pc and finds the installed types" {
+    cat >program.c <<'END'
+#include <impinge/impinge.h>
+#include <stdio.h>
+int main(void)
+{
+    imp_registry *registry = imp_registry_new(NULL);
+    imp_type_info info;
+    size_t count = 0;
+    while (imp_registry_type(registry, count, &info)) ++count;
+    printf("%s, %zu types\n", imp_version(), count);
+    imp_registry_free(registry);
+    return 0;
+}
+END
+    # shellcheck disable=SC2046 # flags are words
+    $CC -o program program.c $(pkg-config --cflags --libs impinge) -Wl,-rpath,"$prefix/lib"
+    run -0 ./program
+    [[ $output =~ ^libimpinge\ [0-9.]+,\ ([0-9]+)\ types$ ]]
+    [ "${BASH_REMATCH[1]}" -ge 6 ]
+}
+
+@test "a plugin built with impinge-sdk.pc alone is found on the plugin path" {
+    build_plugin unit_square
+    run -0 env IMPINGE_PLUGIN_PATH="$PWD" "$impinge" list
+    [[ $output == *unit_square* ]]
+    run -0 "$impinge" list
+    [[ $output != *unit_square* ]]
+}
+
+@test "a plugin in the user's plugin directory is found, with and without XDG_DATA_HOME" {
+    build_plugin unit_square
+    local HOME=$PWD/home dir
+    export HOME
+    for XDG_DATA_HOME in "$PWD/data" ''; do
+        eval "dir=$(sdk pluginuserdir)"
+        mkdir -p "$dir" && cp unit_square.so "$dir"
+        run -0 "$impinge" list
+        [[ $output == *unit_square* ]]
+        rm "$dir/unit_square.so"
+    done
+}
+
+# --- Staging and removal --------------------------------------------------------------------------
+
+@test "DESTDIR stages the very same files" {
+    make -s -C "$build" install DESTDIR="$PWD/stage"
+    [ "$(cd "stage$prefix" && find . | sort)" = "$(cd "$prefix" && find . | sort)" ]
+    make -s -C "$build" uninstall DESTDIR="$PWD/stage"
+    [ -z "$(find stage ! -type d)" ]
+}
+
+@test "another prefix than the one built for is refused with the cure, and nothing is installed" {
+    run ! make -s -C "$build" install prefix="$PWD/other"
+    [[ $output == *"built for the prefix $prefix"*"run configure --prefix=$PWD/other"* ]]
+    [ ! -e other ]
+}
+
+@test "uninstall leaves no file and no folder of ours behind, and other people's alone" {
+    local plugins
+    plugins=$(sdk plugindir)
+    touch "$plugins/of_somebody_else.so"
+    make -s -C "$build" uninstall
+    [ "$(find "$prefix" ! -type d)" = "$plugins/of_somebody_else.so" ]
+    [ ! -e "$prefix/include/impinge" ]
+
+    rm "$plugins/of_somebody_else.so"
+    make -s -C "$build" install
+    make -s -C "$build" uninstall
+    [ -z "$(find "$prefix" ! -type d)" ]
+    [ ! -e "$prefix/lib/impinge" ]
+}
+
+# --- The release ------------------------------------------------------------------------------------
+
+@test "the release builds, installs and uninstalls from a source folder that cannot be written" {
+    make -s -C "$build" distcheck TESTS= >log 2>&1 || { tail -n 15 log; false; }
+}
+
+@test "the release holds every file of the repository" {
+    git -C "$top_srcdir" ls-files >committed 2>/dev/null || skip "not a git repository"
+    [ -s committed ] || skip "not a git repository"
+    make -s -C "$build" dist
+    tar tzf "$build"/impinge-*.tar.gz | sed 's|^[^/]*/||' | sort >released
+    comm -23 <(sort committed) released >missing
+    cat missing
+    [ ! -s missing ]
+}

@@ -1,0 +1,64 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# impinge plot: distance over time with its proved band, and benchmarks.
+
+load ../support/cli_helper
+
+has_png() { grep -q '^#define HAVE_LIBPNG 1' "$top_builddir/config.h"; }
+
+@test "distance over time falls from 2 to 0, with the contact in the middle" {
+    run -0 "$IMPINGE" plot "$left" "$right" --gamma 1e-3 --slices 34
+    [ "${lines[0]}" = 'Least distance between bodies over time' ]
+    [[ $output == *'|  contact, t = 0.4995'* || $output == *'|  contact, t = 0.49'* ]]
+    awk '{ if (length($0) > 79) exit 1 }' <<<"$output"
+    # Between the axis's bars: the band's row in the first column, then, and behind the contact.
+    band() { awk -F'|' -v c="$1" 'NF > 1 && ++r && substr($2, c, 1) == "#" { print r; exit }' <<<"$plot"; }
+    plot=$(sed -n '3,22p' <<<"$output")
+    [ "$(band 1)" -le 3 ] && [ "$(band 17)" -gt "$(band 1)" ] && [ "$(band 60)" -gt "$(band 17)" ]
+}
+
+@test "the band of every slice holds the exact distance" {
+    # Centres 4 - 4 t apart, radii 1 and 1: the least of a slice is at its end, until they touch.
+    "$IMPINGE" plot "$left" "$right" --time 0,0.4 --gamma 1e-3 --slices 10 -o gap.svg
+    grep '^<polygon' gap.svg | head -n 10 >bands
+    [ "$(wc -l <bands)" -eq 10 ]
+    # The frame's top is 2 and its bottom 0: 74 pixels from above, 62 from below, 480 in all.
+    sed 's/.*points="\([^"]*\)".*/\1/' bands | awk -F'[ ,]' '{
+        exact = 2 - 4 * 0.04 * NR
+        low = 2 * (418 - $2) / 344; high = 2 * (418 - $6) / 344
+        if (!(low <= exact + 0.006 && exact <= high + 0.006 && high - low < 0.25)) bad = 1
+    } END { exit bad }'
+}
+
+@test "plots are written as SVG and PNG" {
+    run -0 "$IMPINGE" plot "$left" "$right" --slices 4 -o gap.svg
+    [ "$output" = 'gap.svg: 960x480 pixels' ]
+    grep -q '>Least distance between bodies over time<' gap.svg
+    has_png || skip 'built without libpng'
+    run -0 "$IMPINGE" plot "$left" "$right" --slices 4 -o gap.png
+    [ "$(od -An -tx1 -N 8 gap.png | tr -d ' ')" = 89504e470d0a1a0a ]
+}
+
+@test "figure 7 is plotted from a run of the benchmark, or from what it printed" {
+    run -0 "$IMPINGE" plot figure7
+    [[ $output == 'impinge bench figure7'*'S'*'axis, models'*'oblique, paper, spheres'* ]]
+    "$IMPINGE" bench figure7 --json >bench.json
+    run -0 "$IMPINGE" plot bench.json -o bench.svg
+    [ "$(grep -c '>oblique, ' bench.svg)" -eq 3 ]
+    # A dot for each mean above 0, and one for each of six methods in the legend.
+    [ "$(jq '[.sets[].cases[].methods[] | select(.pairs.mean > 0)] | length' bench.json)" -eq \
+        "$(($(grep -c '^<polygon' bench.svg) - 6))" ]
+}
+
+@test "what cannot be plotted is refused, before anything is solved" {
+    fails 2 "unknown set 'figure8', did you mean 'figure7'?" "$IMPINGE" plot figure8
+    fails 2 '--output must end with one of .png, .svg' "$IMPINGE" plot "${endless[@]}" -o gap.pdf
+    fails 2 '--slices must be from 1 to 10000' "$IMPINGE" plot "$left" "$right" --slices 0
+    echo '{"sets": []}' >none.json
+    fails 4 'none.json: not one set that' "$IMPINGE" plot none.json
+    echo '{"sets": [{"set": "x", "cases": [{}]}]}' >odd.json
+    fails 4 'odd.json: not what `impinge bench --json` prints' "$IMPINGE" plot odd.json
+    fails 4 'nowhere.json' "$IMPINGE" plot nowhere.json
+}

@@ -1,0 +1,128 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# tools/test and tools/prepare: a miscount would hide failures, a wrong installation annoy.
+
+bats_require_minimum_version 1.5.0
+
+setup() {
+    # shellcheck source=tools/test
+    source "$top_srcdir/tools/test"
+    log=$BATS_TEST_TMPDIR/log
+}
+
+# --- Counting -------------------------------------------------------------------------------
+
+@test "a suite of Check counts its single tests, failures and errors apart from the rest" {
+    echo '75%: Checks: 12, Failures: 2, Errors: 1' >"$log"
+    [ "$(count_log "$log" FAIL)" = "9 3 0" ]
+}
+
+@test "the runners of one suite add up" {
+    printf '100%%: Checks: 12, Failures: 0, Errors: 0\n100%%: Checks: 3, Failures: 0, Errors: 0\n' >"$log"
+    [ "$(count_log "$log" PASS)" = "15 0 0" ]
+}
+
+@test "a file of bats counts passed, failed and skipped sentences" {
+    printf 'ok 1 it works\nnot ok 2 it does not\n# ok 7\nok 3 it may # skip no clang\n' >"$log"
+    [ "$(count_log "$log" FAIL)" = "1 1 1" ]
+}
+
+@test "a suite that dies before its summary counts as failed" {
+    echo 'Segmentation fault' >"$log"
+    [ "$(count_log "$log" FAIL)" = "0 1 0" ]
+}
+
+@test "a suite that passes all tests and fails afterwards counts as failed" {
+    printf '100%%: Checks: 2, Failures: 0, Errors: 0\nLeakSanitizer: detected memory leaks\n' >"$log"
+    [ "$(count_log "$log" FAIL)" = "2 1 0" ]
+}
+
+@test "a suite that tells of no test counts as failed" {
+    : >"$log"
+    [ "$(count_log "$log" PASS)" = "0 1 0" ]
+}
+
+@test "a file of bats whose tests are all skipped is no failure" {
+    echo 'ok 1 it may # skip no clang' >"$log"
+    [ "$(count_log "$log" PASS)" = "0 0 1" ]
+}
+
+@test "no test at all is a failure" {
+    run -1 finish
+    [ "${lines[-1]}" = "0 passed, 0 failed" ]
+}
+
+# --- Installing -------------------------------------------------------------------------------
+
+@test "what is there is not installed" {
+    apt_get() { echo "apt-get $*"; }
+    run -0 install_missing 'command bash bash
+header stdlib.h libc6-dev
+library check check'
+    [ -z "$output" ]
+}
+
+@test "what is missing is installed under its package's name, and nothing else" {
+    apt_get() { echo "apt-get $*"; }
+    may_install() { true; }
+    run -0 install_missing 'command bash bash
+command no-such-command package-of-command
+library no-such-library package-of-library'
+    [ "${lines[-1]}" = \
+        "apt-get install --no-install-recommends package-of-command package-of-library" ]
+}
+
+@test "who is neither root nor has sudo is told what to install" {
+    id() { echo 1000; }
+    have_command() { [ "$1" = apt-get ]; }
+    run -1 may_install check bats
+    [[ $output == *"neither root nor is there sudo"*"apt-get install check bats"* ]]
+}
+
+@test "where there is no apt-get the missing packages are named" {
+    have_command() { false; }
+    run -1 may_install check bats
+    [[ $output == *"no apt-get here to install it: check bats"* ]]
+}
+
+@test "sudo that asks for a password without a terminal is told of, not waited for" {
+    id() { echo 1000; }
+    have_command() { true; }
+    sudo() { false; }
+    run -1 may_install check </dev/null
+    [[ $output == *"sudo wants a password and there is no terminal"* ]]
+}
+
+# --- Building ---------------------------------------------------------------------------------
+
+# A project of one file, with `top` in its place: as much as build_in needs of ours.
+small_project() {
+    top=$BATS_TEST_TMPDIR/project
+    mkdir -p "$top/build-aux" && touch "$top/build-aux/ltmain.sh"
+    cat >"$top/configure.ac" <<'END'
+AC_INIT([small], [1])
+AC_CONFIG_SRCDIR([main.c])
+AC_CONFIG_AUX_DIR([build-aux])
+AM_INIT_AUTOMAKE([foreign])
+AC_PROG_CC
+AC_CONFIG_FILES([Makefile])
+AC_OUTPUT
+END
+    printf 'bin_PROGRAMS = main\nmain_SOURCES = main.c\n' >"$top/Makefile.am"
+    echo 'int main(void) { return 0; }' >"$top/main.c"
+    autoreconf -fi "$top" 2>/dev/null
+}
+
+@test "a build works beside a source folder that is itself configured and built" {
+    unset MAKEFLAGS MFLAGS
+    small_project
+    build_in demo
+    (cd "$top" && ./configure -q && make -s main)
+    build_in test
+    "$top/build/test/main"
+    echo 'int main(void) { return 7; }' >"$top/main.c"
+    build_in demo
+    run -7 "$top/build/demo/main"
+}

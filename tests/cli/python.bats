@@ -1,0 +1,63 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# A six-joint arm, a table of its joints and a fixture, asked from the command line, from C and from
+# Python; and the Python module by itself.
+
+load ../support/cli_helper
+
+setup() {
+    cd "$BATS_TEST_TMPDIR"
+    export IMPINGE_LIBRARY=$top_builddir/.libs/libimpinge.so
+    export IMPINGE_PLUGIN_PATH=$top_builddir/plugins/.libs PYTHONDONTWRITEBYTECODE=1
+    arm=$top_srcdir/tools/data/arm.json examples=$top_srcdir/sdk/examples
+}
+
+answer='holds, tightest 2.886 mm at t = 0.556 between link5 and fixture'
+
+needs_python() {
+    [ "$PYTHON3" != no ] || skip "no python3 with numpy and pytest"
+    # A library with AddressSanitizer cannot be loaded by a program without it.
+    ! nm -D "$IMPINGE_LIBRARY" | grep -q __asan_init || skip "the library has sanitizers"
+}
+
+@test "the arm's clearance from the command line" {
+    run -0 "$IMPINGE" clearance "$arm" --require 2
+    [[ $output == *'holds, tightest 2.886'*' at t = 0.556'*'between "link5" and "fixture"'* ]]
+    run -1 "$IMPINGE" clearance "$arm" --require 3
+}
+
+@test "the arm's clearance from C" {
+    ! nm -D "$IMPINGE_LIBRARY" | grep -q __asan_init || skip "the library has sanitizers"
+    gcc -std=c11 -Wall -Wextra -Werror -I"$top_srcdir/core" -I"$top_srcdir/sdk" "$examples/arm.c" \
+        "$IMPINGE_LIBRARY" -o arm
+    LD_LIBRARY_PATH=$top_builddir/.libs run -0 ./arm "$arm"
+    [ "$output" = "$answer" ]
+}
+
+@test "the arm's clearance from Python" {
+    needs_python
+    PYTHONPATH=$top_srcdir/sdk/python run -0 "$PYTHON3" "$examples/arm.py" "$arm"
+    [ "${lines[0]}" = "$answer" ]
+    [ "${#lines[@]}" -eq 11 ]
+}
+
+@test "the Python module keeps its tests" {
+    needs_python
+    PYTHONPATH=$top_srcdir/sdk/python run "$PYTHON3" -m pytest -q -p no:cacheprovider \
+        "$top_srcdir/tests/python"
+    echo "$output"
+    [ "$status" -eq 0 ]
+}
+
+@test "pip installs the Python module without reaching an index" {
+    needs_python
+    "$PYTHON3" -c 'import ensurepip, setuptools' || skip "no python3-venv or python3-setuptools"
+    cp -R "$top_srcdir/sdk/python" source
+    chmod -R u+w source
+    "$PYTHON3" -m venv --system-site-packages venv
+    venv/bin/python -m pip install --quiet --no-index --no-build-isolation ./source
+    run -0 venv/bin/python -c 'import impinge; print(impinge.__file__, impinge.version())'
+    [[ $output == *venv*'libimpinge '* ]]
+}

@@ -1,0 +1,524 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# The SDK as a newcomer has it: Impinge is installed, its sources and its build are far away. What
+# the command, the guide and the examples say is done here as it stands.
+
+bats_require_minimum_version 1.5.0
+
+setup_file() {
+    unset MAKEFLAGS MFLAGS DESTDIR IMPINGE XDG_DATA_HOME CPPFLAGS CFLAGS CXXFLAGS LDFLAGS
+    export prefix=$BATS_FILE_TMPDIR/prefix HOME=$BATS_FILE_TMPDIR/home
+    mkdir "$HOME" "$BATS_FILE_TMPDIR/build"
+    cd "$BATS_FILE_TMPDIR/build"
+    "$top_srcdir"/configure -q -C --prefix="$prefix" CC="$CC" CFLAGS=-O0
+    make -s -j2 install plugin_LTLIBRARIES="$(echo plugins/{sphere,translate,rotate}.la)"
+    export PATH=$prefix/bin:$PATH PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+    export ACLOCAL_PATH=$prefix/share/aclocal
+
+    # configure of all projects below remembers what it found out about this machine.
+    echo "cache_file=$BATS_FILE_TMPDIR/config.cache" >"$BATS_FILE_TMPDIR/config.site"
+    export CONFIG_SITE=$BATS_FILE_TMPDIR/config.site
+    user=$HOME/.local/share/impinge/1
+    export user
+}
+
+setup() {
+    mkdir "$BATS_TEST_TMPDIR/work"
+    cd "$BATS_TEST_TMPDIR/work"
+    wobble=$BATS_FILE_TMPDIR/wobble
+}
+
+teardown() { rm -rf "$user"; }
+
+# What is compiled only to be loaded need not be fast.
+hurry() { export CFLAGS=-O0; }
+
+# fails STATUS TEXT COMMAND...: that status, and a complaint in the last line that holds the text.
+fails() {
+    local status=$1 text=$2
+    shift 2
+    run "-$status" --separate-stderr "$@"
+    # shellcheck disable=SC2154 # set by run
+    echo "$stderr"
+    [[ ${stderr_lines[-1]} == "impinge: "*"$text"* ]]
+}
+
+# has_verb NAME
+has_verb() { impinge help "$1" >/dev/null 2>&1; }
+
+# Runs each line of standard input in this shell, up to the first that fails.
+run_commands() {
+    local command
+    while read -r command; do
+        if [[ $command == "impinge check "* ]] && ! has_verb check; then continue; fi
+        echo "\$ $command"
+        eval "$command" </dev/null || return
+    done
+}
+
+# --- impinge new --------------------------------------------------------------------------------
+
+# new_project NAME ARG...: makes it and runs the commands printed; $log holds what they said.
+new_project() {
+    run -0 impinge new "$@"
+    grep '^  ' <<<"$output" >commands
+    [ "$(wc -l <commands)" -eq 4 ]
+    log=$PWD/log
+    run_commands <commands >"$log" 2>&1 || { cat "$log"; false; }
+}
+
+# The project `wobble` of several tests: made once.
+make_wobble() {
+    [ -f "$wobble/config.status" ] || (cd "$BATS_FILE_TMPDIR" && new_project wobble)
+    log=$BATS_FILE_TMPDIR/log
+    cd "$wobble"
+}
+
+@test "four commands take a newcomer to a checked, paired, installed surface type" {
+    make_wobble
+    grep -q '^# PASS:  1' "$log"
+    grep -q '^contact at t = 0\.862' "$log"
+    [ "$(ls "$user")" = wobble.so ]
+    run -0 impinge info wobble
+    [[ $output == *"file       $user/wobble.so" ]]
+    [ "$(nm -D --defined-only "$user/wobble.so" | awk '{ print $3 }')" = impinge_plugin ]
+}
+
+@test "what a new project claims follows from the formula that its README tells" {
+    local line
+    make_wobble
+    make -s install >/dev/null
+    line=$(sed -n 's/^ *\(impinge check wobble --formula .*\)/\1/p' README)
+    run -0 bash -c "$line --only proof --effort 0.1"
+    [[ $output == *"  proved("* ]]
+}
+
+@test "what new prints needs neither PATH nor other paths to be set" {
+    unset PKG_CONFIG_PATH ACLOCAL_PATH
+    run -0 env PATH=/usr/bin:/bin "$prefix/bin/impinge" new wobble
+    [[ $output == *"./configure --with-user-plugins PKG_CONFIG_PATH=$prefix/lib/pkgconfig"$'\n'* ]]
+    [[ $output == *"  $prefix/bin/impinge check wobble"$'\n'* ]]
+    [ -f wobble/m4/impinge.m4 ]
+}
+
+@test "a generated project is released, built elsewhere, installed and removed by distcheck" {
+    make_wobble
+    make -s distcheck >distcheck.log 2>&1 || { cat distcheck.log; false; }
+    tar tzf wobble-0.1.tar.gz | grep -q wobble-0.1/wobble.c
+}
+
+@test "without --with-user-plugins the plugin goes below the prefix, also one given to make" {
+    make_wobble
+    ./configure -q >/dev/null
+    make -s install DESTDIR="$BATS_TEST_TMPDIR/work/stage" >/dev/null
+    [ "$(cd "$BATS_TEST_TMPDIR/work/stage" && find . ! -type d)" = ".$prefix/lib/impinge/1/wobble.so" ]
+    make -s uninstall DESTDIR="$BATS_TEST_TMPDIR/work/stage"
+    [ -z "$(find "$BATS_TEST_TMPDIR/work/stage" ! -type d)" ]
+    make -s install prefix="$BATS_TEST_TMPDIR/work/moved" >/dev/null
+    [ "$(cd "$BATS_TEST_TMPDIR/work/moved" && find . ! -type d)" = ./lib/impinge/1/wobble.so ]
+}
+
+@test "make check of a project says what the loader says of a broken edit" {
+    make_wobble
+    sed -i.right 's/, free),/&\n    .rate = NULL,/' wobble.c
+    run ! make -s check
+    grep -q 'wobble.so: .*wobble: rate is NULL' check.sh.log
+    mv wobble.c.right wobble.c
+}
+
+@test "new --map writes a map, under a name with a dash" {
+    new_project sway-2 --map
+    grep -q '^# PASS:  1' "$log"
+    grep -q '^contact at t = 0\.7' "$log"
+    run -0 impinge info sway-2
+    [[ $output == 'sway-2 (map): '*"file       $user/sway-2.so" ]]
+}
+
+@test "what new writes bears the user's name, and nothing is left to fill in" {
+    run -0 impinge new wobble
+    run -0 impinge new sway 'a folder' --map
+    [[ $output == *"cd 'a folder' && "* ]]
+    run ! grep -rE '@[a-z]+@|The Impinge authors' wobble 'a folder' --exclude=impinge.m4
+    local who
+    who=$(getent passwd "$(id -u)" | cut -d: -f5 | cut -d, -f1)
+    head -n 1 wobble/wobble.c | grep -qF "SPDX-FileCopyrightText: ${who:-$(id -un)}"
+}
+
+@test "new refuses what cannot be a type's name, and writes nothing" {
+    local name
+    for name in '' 3d _x a.b a/b 'a b' ü "$(printf 'x%.0s' {1..64})"; do
+        fails 2 "cannot be a type's name; must be 1 to 63 letters" impinge new "$name"
+    done
+    fails 2 "cannot be a type's name" impinge new -- -x
+    fails 2 'configure scripts sweep up' impinge new conftest1
+    [ -z "$(ls)" ]
+    run -0 impinge new "$(printf 'x%.0s' {1..63})"
+}
+
+@test "new refuses a name that is taken, of the same sort" {
+    fails 4 "there is a surface 'sphere' already, in $prefix/lib/impinge/1/sphere.so; one would shadow" \
+        impinge new sphere
+    fails 4 "there is a map 'rotate' already" impinge new rotate --map
+    [ -z "$(ls)" ]
+    run -0 impinge new rotate
+}
+
+@test "new writes into a new folder or an empty one, never into another" {
+    mkdir empty full
+    touch full/.hidden file
+    run -0 impinge new wobble empty
+    fails 4 'full: the folder is not empty' impinge new wobble full
+    [ "$(ls -A full)" = .hidden ]
+    fails 4 'file: ' impinge new wobble file
+    fails 4 'no/where: No such file' impinge new wobble no/where
+    fails 4 'empty: the folder is not empty' impinge new wobble empty
+}
+
+@test "where new fails halfway nothing is left behind" {
+    mkdir empty
+    mv "$prefix/share/impinge/template/check.sh" .
+    fails 4 'template/check.sh: No such file' impinge new wobble
+    mv check.sh "$prefix/share/impinge/template/"
+    [ "$(ls)" = empty ]
+    run -4 bash -c 'trap "" XFSZ; ulimit -f 2; impinge new wobble; status=$?; impinge new wobble empty; exit $status'
+    [[ $output == *'wobble/wobble.c: File too large'* ]]
+    [ "$(find .)" = $'.\n./empty' ]
+}
+
+# --- impinge.m4 ---------------------------------------------------------------------------------
+
+# small_project: a configure that only tells where plugins would go.
+small_project() {
+    cat >configure.ac <<'END'
+AC_INIT([small], [1])
+IMPINGE_PLUGIN_INIT([0.1])
+AC_CONFIG_FILES([where])
+AC_OUTPUT
+END
+    echo '@prefix@ @plugindir@' >where.in
+    aclocal && autoconf
+}
+
+goes_to() { # PLACE CONFIGURE_ARG...
+    local place=$1
+    shift
+    ./configure -q "$@" >/dev/null
+    echo "$* goes to $(cat where)"
+    [ "$(cat where)" = "$place" ]
+}
+
+@test "plugindir is below any prefix, and that of Impinge unless another is asked for" {
+    small_project
+    # shellcheck disable=SC2016 # prefix is for make
+    {
+        goes_to "$prefix"' ${prefix}/lib/impinge/1'
+        goes_to '/x ${prefix}/lib/impinge/1' --prefix=/x
+    }
+    goes_to "$prefix /y" --with-plugindir=/y
+    goes_to "/x $user" --prefix=/x --with-user-plugins
+    XDG_DATA_HOME=/data goes_to "$prefix /data/impinge/1" --with-user-plugins
+    XDG_DATA_HOME=data goes_to "$prefix $user" --with-user-plugins
+    run ./configure --prefix=/x
+    [[ $output == *"Impinge looks in $prefix/lib/impinge/1 and $user"* ]]
+}
+
+@test "plugindir follows an Impinge that keeps its plugins elsewhere" {
+    small_project
+    mkdir pc
+    export PKG_CONFIG_PATH=$PWD/pc
+    unset CONFIG_SITE
+    # shellcheck disable=SC2016 # prefix and libdir are for make
+    {
+        sed 's|^libdir=.*|libdir=${prefix}/lib/many|' "$prefix/lib/pkgconfig/impinge-sdk.pc" \
+            >pc/impinge-sdk.pc
+        goes_to "$prefix"' ${prefix}/lib/many/impinge/1'
+        goes_to '/x ${prefix}/lib/many/impinge/1' --prefix=/x
+        sed 's|^plugindir=.*|plugindir=/elsewhere|' "$prefix/lib/pkgconfig/impinge-sdk.pc" \
+            >pc/impinge-sdk.pc
+        goes_to "$prefix /elsewhere"
+        goes_to '/x ${libdir}/impinge/1' --prefix=/x
+    }
+}
+
+# --- impinge build ------------------------------------------------------------------------------
+
+examples=share/doc/impinge/sdk/examples
+
+@test "every example builds, is loaded, and the command that info proposes finds an answer" {
+    local file name
+    [ "$(find "$prefix/$examples" -type f | wc -l)" -eq 4 ]
+    for file in "$prefix/$examples"/*; do
+        run -0 --separate-stderr impinge build "$file"
+        [ -z "$stderr" ] # no warning
+        name=$(sed -nE 's/^(surface|map) ([a-z]+): .*/\2/p' <<<"$output")
+        [[ ${lines[-1]} == "in $PWD/"*.so ]]
+        eval "$(impinge info "$name" --plugin-path . | sed -n 's/^  try  *//p') --plugin-path ."
+        if has_verb check; then impinge check "$name" --plugin-path .; fi
+    done
+}
+
+@test "the examples' contacts are where the formulas put them" {
+    hurry
+    for file in "$prefix/$examples"/*; do impinge build "$file" >/dev/null; done
+    export IMPINGE_PLUGIN_PATH=$PWD
+    t_of() { impinge pair "$@" --json | jq -e ".verdict == \"contact\" and .t > $from and .t < $to"; }
+    # The seashell's last turn reaches x = 1.5 at u = end, v = 0; the tip of the blade is at x = 1;
+    # the puddle is next to flat; the twirl turns the sphere into itself.
+    from=0.4999 to=0.5
+    t_of seashell 'sphere radius=0.5 center=2.5,0,0 ! translate velocity=-1,0,0'
+    t_of 'blade pitch=0' 'sphere radius=0.5 center=2,0,0 ! translate velocity=-1,0,0'
+    t_of 'puddle height=1e-9' 'sphere radius=0.5 center=1,1,1 ! translate velocity=0,0,-1'
+    t_of 'sphere radius=0.5 ! twirl' 'sphere radius=0.5 center=0,0,1.5 ! translate velocity=0,0,-1'
+}
+
+@test "build installs where impinge finds it, with and without XDG_DATA_HOME" {
+    hurry
+    impinge new wobble >/dev/null
+    run -0 impinge build wobble/wobble.c --install
+    [[ ${lines[-1]} == "in $user/wobble.so" ]]
+    run -0 impinge build wobble/wobble.c --install # again: replaced, and shadowed by nobody
+    [[ $output != *another* ]]
+    impinge pair wobble sphere
+    XDG_DATA_HOME=$PWD/data impinge build wobble/wobble.c --install
+    [ "$(ls -A "$PWD/data/impinge/1")" = wobble.so ]
+    [ "$(ls -A "$user")" = wobble.so ]
+    fails 4 'neither XDG_DATA_HOME nor HOME' env -u HOME impinge build wobble/wobble.c --install
+}
+
+@test "build tells of a type that is there already" {
+    hurry
+    impinge new wobble >/dev/null
+    sed -i 's/"wobble/"sphere/' wobble/wobble.c
+    run -0 impinge build wobble/wobble.c
+    [[ $output == *"There is another sphere in $prefix/lib/impinge/1/sphere.so"* ]]
+}
+
+@test "build puts the plugin into the folder asked for, or the current one" {
+    hurry
+    impinge new wobble >/dev/null
+    mkdir there
+    impinge build wobble/wobble.c --output there
+    [ -f there/wobble.so ] && [ ! -e wobble.so ]
+    fails 2 '--install and --output both say' impinge build wobble/wobble.c --install --output there
+    fails 4 'nowhere: No such file' impinge build wobble/wobble.c --output nowhere
+    mkdir a:b
+    fails 4 "cannot have ':' in its name" impinge build wobble/wobble.c --output a:b
+}
+
+@test "build names the compiler's first error, and shows all of them" {
+    impinge new wobble >/dev/null
+    sed -i 's/imp_mul(shape, swing)/imp_times(shape, swing)/; s/out\[0\] = u;/out[0] = w;/' \
+        wobble/wobble.c
+    fails 4 "wobble/wobble.c was not built: wobble/wobble.c:" impinge build wobble/wobble.c
+    [[ ${stderr_lines[-1]} == *": error: "*undeclared* ]]
+    [[ $stderr == *imp_times* ]]
+    [ "$(ls -A)" = wobble ]
+}
+
+@test "build says which file, compiler or flag it cannot use" {
+    impinge new wobble >/dev/null
+    fails 4 'none.c: No such file' impinge build none.c
+    fails 2 'a source file is wanted' impinge build wobble/README
+    fails 4 "the compiler 'no-such-cc' cannot be run: No such file" \
+        env CC='no-such-cc -m64' impinge build wobble/wobble.c
+    fails 4 "'false' ended with status 1" env CC=false impinge build wobble/wobble.c
+    fails 4 'ffast-math' env CFLAGS='-O2 -ffast-math' impinge build wobble/wobble.c
+    run -0 env CC="$CC -g0" CPPFLAGS='-DPACKAGE_VERSION="7"' impinge build wobble/wobble.c
+    run -0 impinge info wobble --plugin-path .
+    [[ $output == *'wobble 7, MIT'* ]]
+}
+
+# refused SED_SCRIPT TEXT: the template, edited so, is refused with that reason, and the plugin that
+# was there stays.
+refused() {
+    sed "$1" wobble/wobble.c >wobble.c
+    fails 5 "wobble.c was compiled, but is not a plugin that can be loaded: $2" impinge build wobble.c --install
+    impinge pair wobble sphere >/dev/null
+    [ "$(ls -A "$user")" = wobble.so ]
+}
+
+@test "build explains what the loader refuses, and replaces nothing by it" {
+    hurry
+    impinge new wobble >/dev/null
+    impinge build wobble/wobble.c --install
+    refused 's/, free),/&\n    .rate = NULL,/' 'types: wobble: rate is NULL'
+    refused 's/, free),/&\n    .create = NULL,/' 'types: wobble: create is NULL'
+    refused 's/"height"/"hei ght"/' 'types: wobble: 0: name: must be letters'
+    refused '/<impinge.plugin.h>/a #undef IMP_ABI_MAJOR\n#define IMP_ABI_MAJOR 2' 'abi: abi_major is 2'
+    refused '/_PLUGIN(/d' 'note: has no Impinge note'
+    refused 's/= imp_sin(/= imp_shine(/; s/^static void drum_formula/imp_model imp_shine(imp_model);\n&/' 'load: wobble.so: undefined symbol: imp_shine'
+}
+
+# --- Our own types ------------------------------------------------------------------------------
+
+# With nothing but $prefix/include and copies of plugins/ to include from.
+build_our_types() {
+    local flags
+    flags="-std=c11 -O0 -ffp-contract=off -fvisibility=hidden -fPIC -Wall -Wextra -Werror -Wno-psabi \
+        -I. $(pkg-config --cflags impinge-sdk)"
+    cp -R "$top_srcdir/plugins" . && chmod -R u+w plugins
+    find plugins/{common,patch,expression} -name '*.c' | sort >shared
+    find plugins/{surfaces,maps} -name '*.c' | sort >types
+    # shellcheck disable=SC2086 # flags are words
+    xargs -P2 -I{} $CC $flags -c -o {}.o {} <shared
+    find plugins -name '*.c.o' -exec ar rcs shared.a {} +
+    # shellcheck disable=SC2016 # for the shell of xargs
+    xargs -P2 -I{} sh -c '$0 $1 -shared -o "$(basename "$2" .c).so" "$2" shared.a -lm' "$CC" "$flags" {} <types
+}
+
+@test "every type of ours builds against the installed SDK alone, loads and answers" {
+    build_our_types
+    run -0 impinge list --plugin-path . --json
+    jq -e --arg here "$PWD/" --argjson files "$(wc -l <types)" '.refused == [] and
+        ([.types[] | select(.file | startswith($here))] | length == $files)' <<<"$output"
+    run -0 impinge pair 'torus ! bend ! rotate rate=1' 'nurbs ! translate velocity=0,0,1' --plugin-path .
+    run -0 impinge pair 'formula z=u*v' 'bezier degree=1,1 points=[[0,0,2],[0,1,2],[1,0,2],[1,1,2.5]]
+        ! map-formula z=z-2*t' --plugin-path .
+    [[ $output == contact* ]]
+}
+
+# --- The guide ----------------------------------------------------------------------------------
+
+# Files and commands of the guide, in its order: "file NAME", "command TEXT", or "line TEXT".
+parts_of_guide() {
+    awk '/^File [^ ]+:$/ { print "file " substr($2, 1, length($2) - 1); inside = 1; next }
+         /^    \$ / { print "command " substr($0, 7); inside = 0; next }
+         /^[^ ]/ { inside = 0 }
+         inside { print "line " substr($0, 5) }' "$prefix/share/doc/impinge/sdk/README"
+}
+
+@test "every file and every command of the guide works as it stands, in its order" {
+    local kind text file
+    parts_of_guide >parts
+    [ "$(grep -c '^file ' parts)" -ge 3 ]
+    [ "$(grep -c '^command ' parts)" -ge 10 ]
+    while IFS= read -r line; do
+        kind=${line%% *} text=${line#* }
+        case $kind in
+        file) file=$text ;;
+        line) printf '%s\n' "$text" >>"$file" ;;
+        command) run_commands <<<"$text" ;;
+        esac
+    done <parts
+    impinge list --json | jq -e '.refused == []'
+}
+
+@test "the guide names every operation of the model headers" {
+    local name guide
+    guide=$(<"$prefix/share/doc/impinge/sdk/README")
+    for name in $(sed -nE 's/^static inline (imp_model|void) imp_([a-z0-9_]*[a-z0-9])\(.*/\2/p' \
+        "$prefix"/include/impinge/model*.h | sort -u); do
+        case $name in param | between | unbounded | model_*) continue ;; esac
+        grep -qwE "(imp_)?$name" <<<"$guide" || { echo "no $name"; false; }
+    done
+}
+
+# --- The ABI ------------------------------------------------------------------------------------
+
+# layout FOLDER_OF_HEADERS
+layout() {
+    $CC -std=c11 -I"$1" -o layout "$top_srcdir/tests/abi/layout.c" && ./layout
+}
+
+# Is what layout printed, on standard input, an ABI that plugins of 1.0 can live with? Prints what
+# they would stumble over.
+compare_layout() {
+    awk 'NR == FNR { now[$0] = 1; if ($1 == "size") size[$2] = $3; next }
+         $0 in now { next }
+         $1 == "size" && $4 == "may" && size[$2] > $3 { next }
+         { print }' - "$top_srcdir/tests/abi/layout_1.txt"
+}
+
+@test "sizes, offsets, callbacks and numbers of the ABI are those of version 1.0" {
+    layout "$prefix/include" >now
+    run -0 compare_layout <now
+    [ -z "$output" ]
+}
+
+@test "the table of the ABI leaves no byte of a struct out" {
+    awk '$1 == "size" { if (end != size) { print of " ends at " end; bad = 1 }
+                        of = $2; size = $3; end = $4 == "fixed" && $3 == 4 ? 4 : 0 }
+         $1 == "field" { if ($4 != end) { print $2 " does not begin at " end; bad = 1 }
+                         end = $4 + $6 }
+         END { exit bad || end != size }' "$top_srcdir/tests/abi/layout_1.txt"
+}
+
+# changed SED_SCRIPT LINE...: with the ABI header edited so, the comparison prints these lines.
+changed() {
+    mkdir -p impinge
+    sed "$1; s/^IMP_LAYOUT(.*//" "$prefix/include/impinge/surface.h" >impinge/surface.h
+    shift
+    layout . >now
+    run -0 compare_layout <now
+    echo "$output"
+    [ "$output" = "$(printf '%s\n' "$@")" ]
+}
+
+@test "a field that moves, a callback that changes and a new number are found; growth is not" {
+    changed '/const char \*equation;/{h;d};/const char \*source;/{G}' \
+        field\ imp_{surface,map}_type.{'equation at 32','source at 40'}' of 8'
+    changed 's/(\*eval)(const void \*self, size_t n/(*eval)(const void *self, uint32_t n/' \
+        "$(grep '^call .*\.eval ' "$top_srcdir/tests/abi/layout_1.txt")"
+    changed 's/IMP_DOMAIN = 1/IMP_DOMAIN = 5/' 'number IMP_DOMAIN 1'
+    changed 's/^} imp_region;/double more; &/' 'size imp_region 96 fixed'
+    changed 's/^} imp_surface_type;/void (*more)(void); &/' ''
+}
+
+on_x86_64() { [ "$(uname -m)" = x86_64 ] || skip 'the fixture is for x86-64'; }
+
+@test "a plugin built by the first release is loaded, listed and paired" {
+    on_x86_64
+    run -0 impinge list --plugin-path "$top_srcdir/tests/abi" --json
+    jq -e '[.types[] | select(.file | endswith("fixture_1_0.so")) | .name] | sort == ["fixture_bare",
+        "fixture_kinds", "fixture_lean", "fixture_rise", "fixture_sheet"]' <<<"$output"
+    run -0 impinge pair 'fixture_sheet ! fixture_lean' 'fixture_bare ! fixture_rise' --gamma 1e-4 \
+        --plugin-path "$top_srcdir/tests/abi"
+    [[ $output == 'contact at t = 0'$'\n'* ]]
+    # t (1 - u v) = 0.75 t / (1 + u^2 + v^2) + u v + 2 - 2 t, first at u = 1, v = 0: t = 2/2.625.
+    run -0 impinge pair fixture_bare 'fixture_sheet ! translate offset=[[0,0,2],[0,0,-2]]' \
+        --plugin-path "$top_srcdir/tests/abi" --json
+    jq -e '.verdict == "contact" and .t > 0.761904 and .t < 0.761905' <<<"$output"
+}
+
+@test "its types answer as they did then, to the last digit" {
+    on_x86_64
+    $CC -o ask_fixture "$top_srcdir/tests/abi/ask_fixture.c" $(pkg-config --cflags --libs impinge) \
+        -Wl,-rpath,"$prefix/lib" -ldl
+    ./ask_fixture "$top_srcdir/tests/abi" >answers
+    diff "$top_srcdir/tests/abi/fixture_1_0.txt" answers
+}
+
+# --- The interface of libimpinge ----------------------------------------------------------------
+
+with_abidiff() {
+    command -v abidiff >/dev/null || skip 'abidiff (abigail-tools) not found'
+    readelf -S "$top_builddir/.libs/libimpinge.so" | grep -q debug_info ||
+        skip 'libimpinge was built without debug information'
+}
+
+@test "programs built against the kept libimpinge can use this one" {
+    with_abidiff
+    "$top_srcdir/tests/abi/libimpinge" compare "$top_builddir"
+}
+
+@test "a function that is gone from libimpinge is found" {
+    with_abidiff
+    mkdir tests
+    cp -R "$top_srcdir/tests/abi" tests
+    ln -s "$top_srcdir/core" "$top_srcdir/sdk" .
+    chmod -R u+w tests
+    sed -i 's/imp_query_step/imp_forgotten/' tests/abi/libimpinge_0.abi
+    run ! tests/abi/libimpinge compare "$top_builddir"
+    [[ $output == *imp_forgotten* ]]
+}
+
+@test "C++ before C++17 is told so, once" {
+    echo '#include <impinge/formula.h>' >old.cc
+    run ! g++ -std=c++14 -fsyntax-only -I"$top_srcdir/sdk" old.cc
+    [[ $output == *"need C++17: compile with -std=c++17"* ]]
+    [ "$(grep -c 'error: #error' <<<"$output")" -eq 1 ]
+    [ "${#lines[@]}" -lt 16 ]
+    g++ -std=c++17 -fsyntax-only -I"$top_srcdir/sdk" old.cc
+}

@@ -1,0 +1,57 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# impinge solve --each and --refine: more than one answer from one search.
+
+load ../support/cli_helper
+
+# a and b overlap at rest; c flies through both; d is far away.
+four() {
+    cat <<END | tr -d '\n'
+{"bodies": [
+{"name": "a", "surfaces": [{"type": "sphere", "center": [0,0.1,0]}]},
+{"name": "b", "surfaces": [{"type": "sphere", "center": [1,0,0]}]},
+{"name": "c", "surfaces": [{"type": "sphere", "center": [-4,0,0]}],
+"maps": [{"type": "translate", "velocity": [4,0,0]}]},
+{"name": "d", "surfaces": [{"type": "sphere", "center": [0,0,50]}]}],
+"ignore": [["c", "d"]]}
+END
+}
+
+@test "each two bodies in order of time, those that stay clear last" {
+    four >four.json
+    run -0 "$IMPINGE" solve four.json --each --json
+    valid result
+    [ "$(jq -r '[.bodies[], .verdict] | join(" ")' <<<"$output")" = \
+        $'a b contact\na c contact\nb c contact\na d clear\nb d clear' ]
+    [ "$(jq -c '.at_rest' <<<"$output" | tr '\n' ' ')" = "true false false false false " ]
+    jq -s -e '[.[:3][].t] as $t | $t == ($t | sort)' <<<"$output"
+    run -1 "$IMPINGE" solve four.json --each --exit-code
+    [ "${lines[0]}" = "overlap at rest, all the time: a, b" ]
+    [[ ${lines[1]} == "contact at t = 0.50"*": a, c" && ${lines[4]} == "clear: b, d" ]]
+}
+
+@test "what a budget leaves is undecided" {
+    four >four.json
+    run -3 "$IMPINGE" solve four.json --each --json --max-pairs 20
+    valid result
+    jq -s -e 'length == 5 and .[-1].verdict == "undecided" and .[-1].reason == "max-pairs"' <<<"$output"
+}
+
+@test "finer and finer from one search" {
+    run -0 "$IMPINGE" solve <(scene) --refine 1e-2,1e-4,1e-8 --json
+    valid result
+    jq -s -e 'map(.gamma) == [1e-2, 1e-4, 1e-8]' <<<"$output"
+    jq -s -e 'all(.[]; .verdict == "contact" and .gap <= .gamma) and
+        .[0].t < .[1].t and .[1].t < .[2].t and .[0].stats.pairs < .[2].stats.pairs' <<<"$output"
+}
+
+@test "what cannot be asked is refused" {
+    scene >scene.json
+    for wrong in 1e-2,1e-2 1e-3,1e-2 0 -1 1e-2, x 1e-2,,1e-3 nan; do
+        fails 2 "--refine must be numbers above 0" "$IMPINGE" solve scene.json --refine "$wrong"
+    done
+    fails 2 "exclude each other" "$IMPINGE" solve scene.json --refine 1e-2 --each
+    fails 2 "exclude each other" "$IMPINGE" solve scene.json --refine 1e-2 --gamma 1e-3
+}

@@ -1,0 +1,380 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# What the design says of the sources themselves. Each rule is also tried on a copy that breaks
+# it, because a check that cannot fail checks nothing.
+
+bats_require_minimum_version 1.5.0
+
+copy_sources() {
+    copy=$BATS_TEST_TMPDIR/copy
+    mkdir "$copy"
+    (cd "$top_srcdir" && cp -R core plugins sdk tools tests "$copy")
+    chmod -R u+w "$copy"
+}
+
+# --- Public functions and the caller's floating-point mode ---------------------------------------
+
+# Public functions of core without fp_environment_enter. Those that neither compute nor run a
+# plugin's code, or do so through another public function only, stand in the list.
+unguarded_functions() { # FOLDER
+    local plain=" imp_version imp_code_text imp_call_in_progress imp_registry_new
+        imp_registry_open imp_registry_free imp_registry_isolate imp_registry_type
+        imp_registry_refusal imp_registry_warning imp_instance_free imp_scene_from_file
+        imp_scene_free imp_scene_body_count imp_scene_body_name imp_scene_surface_count
+        imp_scene_domain imp_options_read imp_query_free imp_query_read imp_query_pending
+        imp_query_cancel imp_query_pass imp_scene_ignores imp_scene_solve imp_clearance_options_read imp_clearance_count
+        imp_builder_new imp_builder_time imp_builder_gamma imp_builder_body imp_builder_parent
+        imp_builder_group imp_builder_ignore "
+    local name
+    for name in $(grep -h -A1 '^IMP_EXPORT' "$1/core/impinge/impinge.h" |
+        grep -o 'imp_[a-z_]*(' | tr -d '('); do
+        [[ " ${plain//$'\n'/ } " == *" $name "* ]] ||
+            cat "$1"/core/*/*.c | awk -v name="$name" '
+                index($0, " " name "(") || index($0, "*" name "(") { inside = /^[a-z]/ }
+                inside && /fp_environment_enter/ { found = 1 }
+                /^}/ { inside = 0 }
+                END { if (!found) print name }'
+    done
+}
+
+@test "public functions that compute set the floating-point environment" {
+    run unguarded_functions "$top_srcdir"
+    [ -z "$output" ]
+}
+
+@test "a public function that leaves the caller's environment is found" {
+    copy_sources
+    echo 'IMP_EXPORT double imp_sum(double x, double y);' >>"$copy/core/impinge/impinge.h"
+    echo 'double imp_sum(double x, double y) { return x + y; }' >>"$copy/core/base/status.c"
+    sed -i '/fp_environment_enter/d' "$copy/core/scene/scene.c"
+    run unguarded_functions "$copy"
+    [[ $output == *imp_scene_eval*imp_sum* ]]
+}
+
+# --- Direction of includes -----------------------------------------------------------------
+
+@test "files include only their own room and rooms below" {
+    "$top_srcdir"/tests/support/include_order "$top_srcdir"
+}
+
+broken_copy_is_refused() { # FILE LINE COMPLAINT
+    copy_sources
+    echo "$2" >>"$copy/$1"
+    run ! "$top_srcdir"/tests/support/include_order "$copy"
+    [[ $output == *"$3"* ]]
+}
+
+@test "an include of a room above is found" {
+    broken_copy_is_refused core/base/status.h '#include "core/scene/scene.h"' \
+        'core/base/status.h includes "core/scene/scene.h"'
+}
+
+@test "an include of a room above is found also in angle brackets" {
+    broken_copy_is_refused core/base/status.h '#include <core/scene/scene.h>' \
+        'core/base/status.h includes <core/scene/scene.h>'
+}
+
+@test "an include of the solver in the plugin host is found" {
+    broken_copy_is_refused core/plugin/registry.c '#include "core/tree/node.h"' \
+        'core/plugin/registry.c includes "core/tree/node.h"'
+}
+
+@test "an include of the plugin host in the solver is found" {
+    broken_copy_is_refused core/solver/query.c '#include "core/plugin/registry.h"' \
+        'core/solver/query.c includes "core/plugin/registry.h"'
+}
+
+@test "an include of core in the SDK is found" {
+    broken_copy_is_refused sdk/impinge/surface.h '#include <impinge/impinge.h>' \
+        'sdk/impinge/surface.h includes <impinge/impinge.h>'
+}
+
+@test "an include of core in a plugin is found" {
+    broken_copy_is_refused plugins/surfaces/sphere.c '#include "core/surface/surface.h"' \
+        'plugins/surfaces/sphere.c includes'
+}
+
+@test "an include of the command in what it shares with the library is found" {
+    broken_copy_is_refused core/common/child.h '#include "tools/cli/message.h"' \
+        'core/common/child.h includes "tools/cli/message.h"'
+}
+
+@test "an include of core in a tool is found" {
+    broken_copy_is_refused tools/cli/main.c '#include "core/base/text.h"' 'tools/cli/main.c includes'
+}
+
+@test "a file or a folder outside the rooms is found" {
+    broken_copy_is_refused core/loose.c '' 'core/loose.c is in no room'
+    rm -r "$copy"
+    copy_sources
+    mkdir "$copy/core/attic"
+    touch "$copy/core/attic/old.c"
+    run ! "$top_srcdir"/tests/support/include_order "$copy"
+    [[ $output == *'core/attic/old.c is in a room without a rule'* ]]
+}
+
+# --- No type is known by name ----------------------------------------------------------------
+
+plugin_names() {
+    basename -a -s .c "$top_srcdir"/plugins/{surfaces,maps}/*.c
+    "$IMPINGE" list | awk '$1 == "surface" || $1 == "map" { print $2 }'
+}
+
+# Strings of core (comments do not count) that are a type's name, or hold one as a pipeline
+# would: name, blank, parameter, equals sign.
+named_in_core() {
+    local file names
+    names=$(plugin_names | sort -u | paste -sd'|')
+    for file in "$1"/core/*/*.[ch]; do
+        gcc -fpreprocessed -dD -E -P -x c "$file" 2>/dev/null | grep -v '^#include' |
+            grep -oE '"([^"\\]|\\.)*"' | grep -E "^\"($names)\"$|\<($names) +[a-z_]+=" |
+            sed "s|^|${file#"$1"/}: |"
+    done
+}
+
+@test "no string in core names a plugin's type" {
+    [ "$("$IMPINGE" list | grep -cE '^(surface|map) ')" -ge 6 ]
+    run named_in_core "$top_srcdir"
+    [ -z "$output" ]
+}
+
+@test "a type's name in core is found" {
+    copy_sources
+    cat >>"$copy/core/base/status.c" <<'END'
+static const char *const favourites[] = {"torus", "sphere radius=2"}; /* "rotate" */
+static const char harmless[] = "a bezier of a bullet";
+END
+    run named_in_core "$copy"
+    [ "$output" = 'core/base/status.c: "torus"
+core/base/status.c: "sphere radius=2"' ]
+}
+
+# --- The SDK that we use ourselves -----------------------------------------------------------------
+
+# Names that end in '_' are the SDK's own, and config.h is not installed (comments do not count).
+beyond_the_sdk() {
+    local file
+    for file in "$1"/plugins/*/*.[ch]; do
+        gcc -fpreprocessed -dD -E -P -x c "$file" 2>/dev/null |
+            grep -oE '\b(imp|IMP)_[A-Za-z0-9_]*_\b|<config.h>' | sed "s|^|${file#"$1"/}: |"
+    done
+}
+
+@test "plugins use nothing that the installed SDK lacks or keeps to itself" {
+    run beyond_the_sdk "$top_srcdir"
+    [ -z "$output" ]
+}
+
+@test "a plugin that does is found" {
+    copy_sources
+    sed -i '1i #include <config.h>' "$copy/plugins/surfaces/torus.c"
+    echo 'static int n = sizeof(imp_terms_); /* imp_cubic_add_ */' >>"$copy/plugins/surfaces/cone.c"
+    run beyond_the_sdk "$copy"
+    [ "$output" = $'plugins/surfaces/cone.c: imp_terms_\nplugins/surfaces/torus.c: <config.h>' ]
+}
+
+# --- Headers -----------------------------------------------------------------------------------
+
+# compiles COMPILER TEXT: as C11, C17 and C++17, without a warning.
+compiles() {
+    local standard language
+    for standard in c11 c17 c++17; do
+        language=c
+        [ $standard != c++17 ] || language=c++
+        "$1" -x $language -std=$standard -Wall -Wextra -Wpedantic -Werror -fsyntax-only \
+            -I"$top_srcdir/sdk" -I"$top_srcdir/core" - <<<"$2" || return 1
+    done
+}
+
+public_headers_compile() {
+    local header
+    for header in "$top_srcdir"/sdk/impinge/*.h "$top_srcdir"/core/impinge/impinge.h; do
+        compiles "$1" "#include <impinge/${header##*/}>" || return 1
+    done
+}
+
+smallest_plugin='#include <impinge/surface.h>
+static const void *get_factory(const char *id) { return *id ? NULL : id; }
+IMPINGE_PLUGIN("smallest", "1", "MIT", "nobody", get_factory);'
+
+@test "each public header compiles alone as C11, C17 and C++17 with gcc" {
+    public_headers_compile gcc
+    compiles gcc "$smallest_plugin"
+}
+
+@test "each public header compiles alone as C11, C17 and C++17 with clang" {
+    command -v clang >/dev/null || skip "clang not found"
+    public_headers_compile clang
+    compiles clang "$smallest_plugin"
+}
+
+@test "each private header compiles alone" {
+    local header before
+    for header in "$top_srcdir"/{core,plugins,tools}/*/*.h; do
+        before=$'#include <config.h>\n' # but not in plugins
+        [[ $header != */plugins/*/* ]] || before=
+        gcc -x c -std=c11 -Wno-psabi -Wall -Wextra -Werror -fsyntax-only -Wno-unused-function \
+            -I"$top_builddir" -I"$top_srcdir" -I"$top_srcdir/sdk" -I"$top_srcdir/core" - \
+            <<<"$before#include \"${header#"$top_srcdir"/}\""
+    done
+}
+
+@test "clang finds nothing to warn of in any source" {
+    command -v clang >/dev/null || skip "clang not found"
+    local file
+    for file in "$top_srcdir"/{core,plugins,tools,tests}/*/*.c; do
+        clang -std=c11 -O2 -ffp-contract=off -Wall -Wextra -Werror -fsyntax-only \
+            -DPLUGINDIR='""' -DPKGDATADIR='""' -DPKGCONFIGDIR='""' -DINCLUDEDIR='""' \
+            -DSDKDOCDIR='""' -DTHREEJSDIR='""' -I"$top_builddir" -I"$top_srcdir" -I"$top_srcdir/sdk" \
+            -I"$top_srcdir/core" "$file"
+    done
+}
+
+# Feature macros must be set before the first header of the system. Plugins include nothing of the
+# build: third parties could build them.
+first_includes() { # SOURCES
+    local file
+    cd "$1" || return
+    for file in {core,tools}/*/*.c tests/{unit,support,fuzz}/*.c; do
+        [ "$(grep -m 1 '^#include' "$file")" = '#include <config.h>' ] || echo "$file"
+    done
+}
+
+@test "every source of core, tools and tests begins with config.h" {
+    run first_includes "$top_srcdir"
+    [ -z "$output" ]
+}
+
+@test "a source that begins with another header is found" {
+    copy_sources
+    sed -i '/<config.h>/d' "$copy/core/base/status.c"
+    run first_includes "$copy"
+    [ "$output" = core/base/status.c ]
+}
+
+# --- Arithmetic as written ------------------------------------------------------------------------
+
+# A plugin's author may contract products and sums: bounds leave room for either rounding.
+@test "bounds of nested maps hold in plugins that clang contracted for this processor" {
+    command -v clang >/dev/null || skip "clang not found"
+    local nested=$top_builddir/tests/unit/test_nested plugins=$BATS_TEST_TMPDIR/plugins/.libs
+    [ -x "$nested" ] || skip "tests/unit/test_nested is not built (MPFI not found)"
+    mkdir -p "$plugins"
+    for source in surfaces/sphere maps/{twist,wave}; do
+        clang -std=c11 -march=native -O3 -ffp-contract=fast -fvisibility=hidden -fPIC -shared -Wno-psabi \
+            -I"$top_builddir" -I"$top_srcdir" -I"$top_srcdir/sdk" -ffunction-sections \
+            "$top_srcdir/plugins/$source.c" "$top_srcdir"/plugins/common/*.c \
+            -Wl,--gc-sections -Wl,--version-script="$top_srcdir/plugins/plugin.map" \
+            -ljansson -lm -o "$plugins/${source#*/}.so"
+    done
+    top_builddir=$BATS_TEST_TMPDIR "$nested"
+}
+
+@test "configure refuses flags that change floating-point arithmetic" {
+    local flag
+    cd "$BATS_TEST_TMPDIR"
+    for flag in -ffast-math -Ofast -funsafe-math-optimizations -ffp-contract=fast; do
+        run ! "$top_srcdir"/configure CFLAGS="-O2 $flag"
+        [[ $output == *"and $flag breaks them"* ]]
+    done
+}
+
+@test "configure refuses them in LDFLAGS, where they switch subnormals off" {
+    cd "$BATS_TEST_TMPDIR"
+    for flag in -ffast-math -Ofast -funsafe-math-optimizations; do
+        run ! "$top_srcdir"/configure LDFLAGS="$flag"
+        [[ $output == *"$flag breaks them."*LDFLAGS* ]]
+    done
+}
+
+@test "configure refuses them also when the compiler's name hides them" {
+    cd "$BATS_TEST_TMPDIR"
+    printf '#!/bin/sh\nexec gcc -ffast-math "$@"\n' >cc-fast
+    chmod +x cc-fast
+    run ! "$top_srcdir"/configure CC="$PWD/cc-fast"
+    [[ $output == *"a flag like -ffast-math"* ]]
+}
+
+@test "the ABI header refuses -ffast-math" {
+    run ! gcc -ffast-math -x c -std=c11 -fsyntax-only -I"$top_srcdir/sdk" - \
+        <<<'#include <impinge/surface.h>'
+    [[ $output == *"-ffast-math"* ]]
+}
+
+# --- Exports ---------------------------------------------------------------------------------------
+
+exports_of() { nm -D --defined-only "$1" | awk '{ print $3 }'; }
+
+@test "libimpinge exports what impinge.h declares and nothing else" {
+    declared=$(sed -n 's/^IMP_EXPORT.*[ *]\(imp_[a-z_]*\)(.*/\1/p' \
+        "$top_srcdir"/core/impinge/impinge.h | sort)
+    [ "$(exports_of "$top_builddir"/.libs/libimpinge.so | sort)" = "$declared" ]
+}
+
+@test "each plugin exports one symbol and needs nothing of core" {
+    local so count=0
+    for so in "$top_builddir"/plugins/.libs/*.so; do
+        [ "$(exports_of "$so")" = impinge_plugin ]
+        run ! grep -q impinge <<<"$(objdump -p "$so" | grep NEEDED)"
+        count=$((count + 1))
+    done
+    [ "$count" -ge 6 ]
+}
+
+# --- Upkeep ------------------------------------------------------------------------------------------
+
+# Known by their suffix or, scripts, by their first line; nothing that a build in the
+# source folder leaves there.
+source_files() {
+    cd "$1" && ls configure.ac Makefile.am NEWS .clang-format .editorconfig .ci/run &&
+        find core plugins sdk tests tools -name '*.[ch]' -o -name '*.mk' -o -name '*.in' \
+            -o -name '*.bats' -o -name '*.m4' &&
+        find tools tests -type f ! -name '*.*' -exec grep -lE '^#!/usr/bin/env|^# shellcheck' {} +
+}
+
+# Sources without their two-line head; a first line of #! or for shellcheck may stand above it.
+headless() {
+    local file licence head owner
+    for file in $(source_files "$1"); do
+        owner='The Impinge authors'
+        [[ $file != sdk/template/* ]] || owner=@author@ # of what `impinge new` writes
+        licence=Apache-2.0
+        [[ $file != sdk/* ]] || licence=MIT
+        head=$(head -n 3 "$1/$file" | grep -vE '^#!|^# shellcheck' | head -n 2)
+        [[ $head == *"SPDX-FileCopyrightText: $owner"*"SPDX-License-Identifier: $licence"* ]] ||
+            echo "$file"
+    done
+}
+
+@test "every source begins with its licence, MIT in sdk and Apache-2.0 elsewhere" {
+    [ "$(source_files "$top_srcdir" | wc -l)" -ge 50 ]
+    run headless "$top_srcdir"
+    [ -z "$output" ]
+}
+
+@test "a source without its licence is found" {
+    copy_sources
+    (cd "$top_srcdir" && cp configure.ac Makefile.am NEWS .clang-format .editorconfig "$copy")
+    mkdir "$copy/.ci" && cp "$top_srcdir/.ci/run" "$copy/.ci"
+    sed -i 's/MIT/Apache-2.0/' "$copy/sdk/local.mk"
+    sed -i /SPDX-License/d "$copy/tools/test"
+    sed -i 1,2d "$copy/core/base/status.c"
+    run headless "$copy"
+    [ "$(sort <<<"$output")" = $'core/base/status.c\nsdk/local.mk\ntools/test' ]
+}
+
+# What is not listed is not built, not run, and missing from `make dist`.
+@test "every plugin, every suite and every header is listed in its local.mk" {
+    local file name
+    for file in "$top_srcdir"/{plugins,tests,tools,core}/*/*.[ch] "$top_srcdir"/sdk/impinge/*.h \
+        "$top_srcdir"/tests/cli/*.bats; do
+        [ -e "$file" ] || continue
+        name=${file#"$top_srcdir"/}
+        grep -qwF "$name" "$top_srcdir/${name%%/*}/local.mk" ||
+            grep -qwF "${name%.c}.la" "$top_srcdir/${name%%/*}/local.mk" ||
+            { [[ $name == tests/*.c ]] && grep -qwF "${name%.c}" "$top_srcdir/tests/local.mk"; } ||
+            { echo "$name"; false; }
+    done
+}

@@ -1,0 +1,122 @@
+# shellcheck shell=bash
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# What the suites of the command line share. IMPINGE, top_srcdir and top_builddir come from
+# tests/local.mk.
+
+bats_require_minimum_version 1.5.0
+
+setup() { cd "$BATS_TEST_TMPDIR" || return; }
+
+# Two balls of radius 1 that meet halfway, at t = 0.5, at the origin.
+left='sphere radius=1 center=-2,0,0 ! translate velocity=2,0,0'
+right='sphere radius=1 center=2,0,0 ! translate velocity=-2,0,0'
+
+# A scene of the two: scene [KEYS], such as scene '"id": 7,'.
+scene() {
+    cat <<END | tr -d '\n'
+{${1-} "bodies": [
+{"name": "left", "surfaces": [{"type": "sphere", "center": [-2,0,0]}],
+"maps": [{"type": "translate", "velocity": [2,0,0]}]},
+{"name": "right", "surfaces": [{"type": "sphere", "center": [2,0,0]}],
+"maps": [{"type": "translate", "velocity": [-2,0,0]}]}]}
+END
+    echo
+}
+
+# Whether the command is built with AddressSanitizer, which finds some faults before we do.
+has_sanitizers() {
+    # shellcheck disable=SC2154 # top_builddir comes from the environment
+    nm -D "$top_builddir/.libs/libimpinge.so" | grep -q __asan_init
+}
+
+# fails STATUS TEXT COMMAND...: that status, nothing on standard output, and one line on standard
+# error that begins with "impinge: " and holds the text.
+fails() {
+    local status=$1 text=$2
+    shift 2
+    run "-$status" --separate-stderr "$@"
+    # shellcheck disable=SC2154 # set by run
+    echo "$stderr"
+    [ -z "$output" ]
+    [[ ${#stderr_lines[@]} -eq 1 && $stderr == "impinge: "* && $stderr == *"$text"* ]]
+}
+
+# json FILTER [ARG]...: jq -e over what the last run printed.
+json() { jq -e "$@" <<<"$output"; }
+
+# valid SCHEMA: each line of what the last run printed is as tools/schema/SCHEMA.schema.json says.
+valid() {
+    local faults
+    faults=$(jq -r --slurpfile schema "$top_srcdir/tools/schema/$1.schema.json" \
+        -f "$top_srcdir/tests/support/schema.jq" <<<"$output")
+    echo "$faults"
+    [ -z "$faults" ]
+}
+
+# Two balls that never touch, too near to each other to prove it in a lifetime.
+near='sphere radius=1.000000002'
+endless=('sphere' "$near" --gamma 1e-9 --max-bytes 0)
+
+# twin.so: a surface and a map, both called twin, that fail at every call; the surface is defined
+# for t from LOW to HIGH, else always: build_twin [LOW HIGH].
+build_twin() {
+    cat >twin.c <<END
+#include <impinge/surface.h>
+static imp_status create(const imp_value *values, void **self, imp_create_error *why)
+{
+    static char instance;
+    (void)values, (void)why;
+    *self = &instance;
+    return IMP_OK;
+}
+static void destroy(void *self) { (void)self; }
+static void domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    lo[0] = lo[1] = 0, hi[0] = hi[1] = 1, lo[2] = ${1--INFINITY}, hi[2] = ${2-INFINITY};
+}
+static void time_domain(const void *self, double *lo, double *hi)
+{
+    (void)self;
+    *lo = -INFINITY, *hi = INFINITY;
+}
+static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    (void)self, (void)n, (void)p, (void)x, (void)error;
+    return IMP_INTERNAL;
+}
+static imp_status rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
+{
+    (void)self, (void)region, (void)rates;
+    return IMP_INTERNAL;
+}
+static imp_status map_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
+{
+    (void)self, (void)box, (void)rates;
+    return IMP_INTERNAL;
+}
+static const imp_surface_type surface = {
+    .flags = IMP_ABSENT_OUTSIDE_TIMES,
+    .struct_size = sizeof surface, .parameter_size = sizeof(imp_parameter), .name = "twin",
+    .summary = "one of two", .equation = "none", .example = "twin",
+    .create = create, .destroy = destroy, .domain = domain, .eval = eval, .rate = rate};
+static const imp_map_type map = {
+    .struct_size = sizeof map, .parameter_size = sizeof(imp_parameter), .name = "twin",
+    .summary = "the other", .equation = "none", .example = "twin",
+    .create = create, .destroy = destroy, .time_domain = time_domain, .eval = eval,
+    .rate = map_rate};
+static const imp_surface_type *const surfaces[] = {&surface};
+static const imp_map_type *const maps[] = {&map};
+static const imp_surface_factory surface_factory = {sizeof surface_factory, 1, surfaces};
+static const imp_map_factory map_factory = {sizeof map_factory, 1, maps};
+static const void *get_factory(const char *id)
+{
+    return id[8] == 's' ? (const void *)&surface_factory : id[8] == 'm' ? &map_factory : NULL;
+}
+IMPINGE_PLUGIN("twin", "1", "MIT", "a test", get_factory);
+END
+    # shellcheck disable=SC2086 # CC may hold flags
+    $CC -shared -fPIC -I"$top_srcdir/sdk" -o twin.so twin.c
+}

@@ -1,0 +1,61 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TESTS_SUPPORT_SUITE_H
+#define TESTS_SUPPORT_SUITE_H
+
+#include <check.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/common/random.h"
+
+/* What all Check suites share: a main, and the seed of their random numbers.
+ *
+ * IMPINGE_TEST_SEED replays a failure; IMPINGE_TEST_MULTIPLIER scales how often property tests
+ * draw. */
+
+static inline uint64_t suite_seed(void)
+{
+    const char *text = getenv("IMPINGE_TEST_SEED");
+    return text != NULL ? strtoull(text, NULL, 0) : 20261120u;
+}
+
+static inline int suite_times(int usual)
+{
+    const char *text = getenv("IMPINGE_TEST_MULTIPLIER");
+    const double factor = text != NULL ? strtod(text, NULL) : 1;
+    return factor * usual < 1 ? 1 : (int)(factor * usual);
+}
+
+/* `open` runs before each test and `close` after it; NULL: nothing. */
+static inline int suite_main_with(const char *title, const TTest *const *tests, size_t count,
+                                  void (*open)(void), void (*close)(void))
+{
+    Suite *suite = suite_create(title);
+    TCase *tcase = tcase_create(title);
+    tcase_set_timeout(tcase, 300);
+    tcase_add_checked_fixture(tcase, open, close);
+    for (size_t k = 0; k < count; ++k) tcase_add_test(tcase, tests[k]);
+    suite_add_tcase(suite, tcase);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    if (failed > 0)
+        printf("replay with IMPINGE_TEST_SEED=%llu\n", (unsigned long long)suite_seed());
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+static inline int suite_main(const char *title, const TTest *const *tests, size_t count)
+{
+    return suite_main_with(title, tests, count, NULL, NULL);
+}
+
+#define SUITE_MAIN(TITLE, ...)                                                                     \
+    int main(void)                                                                                 \
+    {                                                                                              \
+        const TTest *const tests[] = {__VA_ARGS__};                                                \
+        return suite_main(TITLE, tests, sizeof tests / sizeof tests[0]);                           \
+    }
+
+#endif

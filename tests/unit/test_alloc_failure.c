@@ -1,0 +1,168 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+#include <sys/stat.h>
+
+#include "core/plugin/parameters.h"
+#include "tests/support/alloc_failure.h"
+#include "tests/support/kit_registry.h"
+#include "tests/support/suite.h"
+
+/* Whatever allocation fails, what was begun is undone and the answer says so. */
+
+#define ATTEMPTS 10000 /* more than any of these allocate: the loops end by themselves */
+
+static imp_error error;
+
+static void assert_nothing_left(size_t before, size_t n)
+{
+    ck_assert_msg(alloc_failure_live() == before, "failing allocation %zu leaves %zd blocks", n,
+                  (ssize_t)(alloc_failure_live() - before));
+}
+
+static imp_registry *scan(const sandbox *box)
+{
+    search_path path = {.count = 0};
+    imp_registry *registry =
+        search_path_add(&path, box->path, true) ? registry_scan(&path, 0) : NULL;
+    search_path_clear(&path);
+    return registry;
+}
+
+/* A cache that no other suite writes to: what it forgot would be tried again, in a child that fails
+ * too. */
+static void keep_trials_apart(void)
+{
+    const char *cache = getenv("XDG_CACHE_HOME");
+    char own[4096];
+    if (cache != NULL) mkdir(cache, 0700);
+    snprintf(own, sizeof own, "%s/alloc_failure", cache != NULL ? cache : "/nonexistent");
+    setenv("XDG_CACHE_HOME", own, 1);
+}
+
+/* jansson tells a few of its failures as errors of syntax. A default then looks wrong, and its
+ * plugin is refused. */
+static bool blames_a_default_value(const imp_registry *registry)
+{
+    imp_plugin_refusal refusal;
+    for (size_t i = 0; imp_registry_refusal(registry, i, &refusal); ++i)
+        if (strstr(refusal.reason, "which is not JSON") != NULL) return true;
+    return false;
+}
+
+START_TEST(a_registry_is_whole_or_not_there)
+{
+    sandbox box = sandbox_new();
+    sandbox_link(&box, "kit", "a.so");
+    sandbox_link(&box, "half_bad", "b.so");
+    sandbox_link(&box, "twin", "c.so");
+    sandbox_link(&box, "no_entry", "d.so");
+    sandbox_link(&box, "bad_parameter_table", "e.so");
+    keep_trials_apart();
+    imp_registry_free(scan(&box)); /* from here on all trials are known */
+    size_t before = alloc_failure_live(), n = 0;
+    for (bool failed = true; failed && n < ATTEMPTS;) {
+        alloc_failure_begin(++n);
+        imp_registry *registry = scan(&box);
+        failed = alloc_failure_end();
+        bool whole = registry != NULL && !blames_a_default_value(registry);
+        ck_assert_msg(whole != failed, "failing allocation %zu", n);
+        imp_registry_free(registry);
+        assert_nothing_left(before, n);
+    }
+    ck_assert_uint_gt(n, 50);
+    sandbox_remove(&box);
+}
+END_TEST
+
+START_TEST(the_search_path_is_whole_or_refused)
+{
+    setenv("IMPINGE_PLUGIN_PATH", "/one:/two:/three:/four", 1);
+    setenv("XDG_DATA_HOME", "/data", 1);
+    size_t before = alloc_failure_live(), n = 0;
+    for (bool failed = true; failed && n < ATTEMPTS;) {
+        search_path path = {.count = 0};
+        alloc_failure_begin(++n);
+        bool good = search_path_add_defaults(&path, "/five:/six");
+        failed = alloc_failure_end();
+        ck_assert(good != failed);
+        search_path_clear(&path);
+        assert_nothing_left(before, n);
+    }
+}
+END_TEST
+
+#define PLENTY                                                                                     \
+    "{\"define\":{\"ball\":[{\"type\":\"kit\",\"radius\":2}],\"up\":[{\"type\":\"nudge\",\"by\":"  \
+    "[0,1,0]}]},\"bodies\":[{\"name\":\"a\",\"group\":[\"g\"],\"surfaces\":[{\"type\":\"kit\","    \
+    "\"radius\":1,\"points\":[[1,2,3],[4,5,6],[7,8,9]],\"constants\":{\"a\":1,\"b\":2},"           \
+    "\"label\":\"x\",\"maps\":[{\"type\":\"nudge\",\"by\":[1,0,0]}]}]},{\"surfaces\":[\"ball\"],"  \
+    "\"parent\":\"a\",\"maps\":[\"up\",\"up\"]},{\"group\":\"g\",\"surfaces\":[\"ball\"]}],"       \
+    "\"ignore\":[[\"a\",\"body1\"],[\"g\",\"g\"]],\"time\":[0,2]}"
+
+/* Of jansson's failures told as errors of syntax, too, nothing comes. */
+static void assert_refused(imp_code code, size_t n)
+{
+    ck_assert_msg(code == IMP_ERROR_MEMORY || code == IMP_ERROR_SCENE, "allocation %zu: %s", n,
+                  error.text);
+}
+
+typedef imp_scene *(*scene_maker)(imp_registry *registry);
+
+static void scenes_are_whole_or_not_there(scene_maker make)
+{
+    imp_registry *registry = kit_registry();
+    alloc_failure_begin(0);
+    imp_scene_free(make(registry));
+    alloc_failure_end();
+    size_t before = alloc_failure_live(), n = 0;
+    for (bool failed = true; failed && n < ATTEMPTS;) {
+        alloc_failure_begin(++n);
+        imp_scene *scene = make(registry);
+        failed = alloc_failure_end();
+        ck_assert_msg((scene == NULL) == failed, "failing allocation %zu: %s", n, error.text);
+        if (failed) assert_refused(error.code, n);
+        imp_scene_free(scene);
+        assert_nothing_left(before, n);
+    }
+    ck_assert_uint_gt(n, 100);
+    imp_registry_free(registry);
+}
+
+static imp_scene *plenty(imp_registry *registry)
+{
+    return imp_scene_from_json(registry, PLENTY, strlen(PLENTY), "s", &error);
+}
+
+START_TEST(a_scene_is_whole_or_not_there) { scenes_are_whole_or_not_there(plenty); }
+END_TEST
+
+static imp_scene *nudged_pair(imp_registry *registry)
+{
+    const char *a = "kit radius=1 center=1,2,3 label=sin(u) constants={\"a\":1} ! nudge by=1,0,0",
+               *b = "kit radius=.5 weights=.5,.25 label=\"x\" ! nudge by=0,.5,0 ! nudge by=1,1,1";
+    return imp_scene_from_pair(registry, a, b, &error);
+}
+
+START_TEST(a_pair_is_whole_or_not_there) { scenes_are_whole_or_not_there(nudged_pair); }
+END_TEST
+
+START_TEST(a_file_that_does_not_fit_into_memory_is_told)
+{
+    imp_registry *registry = kit_registry();
+    sandbox box = sandbox_new();
+    sandbox_write(&box, "s.json", PLENTY, strlen(PLENTY));
+    size_t before = alloc_failure_live();
+    alloc_failure_begin(1);
+    ck_assert_ptr_null(imp_scene_from_file(registry, sandbox_file(&box, "s.json").at, &error));
+    ck_assert(alloc_failure_end());
+    ck_assert_int_eq(error.code, IMP_ERROR_MEMORY);
+    assert_nothing_left(before, 1);
+    sandbox_remove(&box);
+    imp_registry_free(registry);
+}
+END_TEST
+
+SUITE_MAIN("alloc_failure", a_registry_is_whole_or_not_there, the_search_path_is_whole_or_refused,
+           a_scene_is_whole_or_not_there, a_pair_is_whole_or_not_there,
+           a_file_that_does_not_fit_into_memory_is_told)

@@ -1,0 +1,199 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tests/support/scene_text.h"
+
+/* Scenes that a program builds: the same as those from text, and the same care. */
+
+static imp_builder *begin(void)
+{
+    if (registry == NULL) registry = kit_registry();
+    imp_builder *b = imp_builder_new(registry);
+    ck_assert_ptr_nonnull(b);
+    error = (imp_error){IMP_SUCCESS, ""};
+    return b;
+}
+
+static void good(imp_code code) { ck_assert_msg(code == IMP_SUCCESS, "%s", error.text); }
+
+static void refused(imp_code code, imp_code expected, const char *message)
+{
+    ck_assert_int_eq(code, expected);
+    ck_assert_int_eq(error.code, expected);
+    ck_assert_msg(strstr(error.text, message) != NULL, "found: %s\nexpected: %s", error.text,
+                  message);
+}
+
+/* A body of a kit of radius 1. */
+static size_t add_body(imp_builder *b, const char *name)
+{
+    size_t body = 99;
+    const imp_argument radius = imp_argument_number("radius", 1);
+    good(imp_builder_body(b, name, &body, &error));
+    good(imp_builder_surface(b, body, "kit", &radius, 1, &error));
+    return body;
+}
+
+static imp_scene *finish(imp_builder *b)
+{
+    imp_scene *scene = imp_builder_finish(b, &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    imp_builder_free(b);
+    return scene;
+}
+
+static const double by[3] = {1, 0, 0}, up[3] = {0, 0, 2}, center[3] = {1, 2, 3};
+
+START_TEST(a_scene_built_is_the_scene_that_is_written)
+{
+    imp_builder *b = begin();
+    const imp_argument kit[] = {imp_argument_number("radius", 1),
+                                imp_argument_list("center", center, 3)};
+    const imp_argument sideways = imp_argument_list("by", by, 3);
+    const imp_argument upwards = imp_argument_list("by", up, 3);
+    size_t arm = 9, hand = 9;
+    good(imp_builder_time(b, -1, 2, &error));
+    good(imp_builder_gamma(b, 0.25, 0.125, &error));
+    good(imp_builder_body(b, "arm", &arm, &error));
+    good(imp_builder_body(b, NULL, &hand, &error));
+    ck_assert(arm == 0 && hand == 1);
+    good(imp_builder_surface(b, arm, "kit", kit, 2, &error));
+    good(imp_builder_surface(b, hand, "kit", kit, 2, &error));
+    good(imp_builder_map(b, arm, "nudge", &upwards, 1, &error));
+    good(imp_builder_surface_map(b, hand, 0, "nudge", &sideways, 1, &error));
+    good(imp_builder_parent(b, hand, arm, &error));
+    good(imp_builder_group(b, arm, "robot", &error));
+    good(imp_builder_group(b, hand, "robot", &error));
+    good(imp_builder_ignore(b, "robot", "robot", &error));
+    imp_scene *scene = finish(b);
+    const imp_options o = imp_options_default(scene);
+    ck_assert(o.t_start == -1 && o.t_end == 2 && o.gamma == 0.25 && o.clearance == 0.125);
+    ck_assert_str_eq(imp_scene_body_name(scene, 1), "body1");
+    assert_point(scene, 0, 0, 1, 2, 5);
+    assert_point(scene, 1, 0, 2, 2, 5);
+    ck_assert(scene_ignores(scene, 0, 1));
+    imp_scene_free(scene);
+}
+END_TEST
+
+START_TEST(values_of_every_kind_are_taken)
+{
+    const char *const names[] = {"a", "b"};
+    const double rows[] = {1, 2, 3, 4, 5, 6}, weights[] = {0.5, 1}, constants[] = {1, 2};
+    imp_argument count = imp_argument_number("count", 3),
+                 table = imp_argument_of("constants", IMP_TABLE, 0);
+    count.kind = IMP_INTEGER;
+    table.extent[0] = 2, table.string = names, table.number = constants;
+    const imp_argument all[] = {imp_argument_number("radius", 1),
+                                imp_argument_rows("points", rows, 2, 3),
+                                imp_argument_list("weights", weights, 2),
+                                imp_argument_text("label", "x"),
+                                imp_argument_boolean("closed", true),
+                                count,
+                                table};
+    imp_builder *b = begin();
+    good(imp_builder_body(b, "a", NULL, &error));
+    good(imp_builder_surface(b, 0, "kit", all, sizeof all / sizeof *all, &error));
+    imp_scene_free(finish(b));
+}
+END_TEST
+
+static void surface_refused(imp_argument argument, imp_code code, const char *message)
+{
+    imp_builder *b = begin();
+    good(imp_builder_body(b, "pot", NULL, &error));
+    const imp_argument all[] = {imp_argument_number("radius", 1), argument};
+    const bool again = strcmp(argument.name, "radius") == 0;
+    refused(imp_builder_surface(b, 0, "kit", all + again, (size_t)2 - again, &error), code,
+            message);
+    imp_builder_free(b);
+}
+
+START_TEST(errors_name_body_and_parameter)
+{
+    const double bad[] = {1, 2, NAN}, none = 0;
+    imp_argument strange = imp_argument_of("center", 9, 0);
+    surface_refused(imp_argument_number("radius", -1), IMP_ERROR_SCENE,
+                    "body 'pot': surface 0: radius: got -1, must be > 0");
+    surface_refused(imp_argument_number("radius", INFINITY), IMP_ERROR_SCENE,
+                    "body 'pot': surface 0: radius: got inf at element 0");
+    surface_refused(imp_argument_list("center", bad, 2), IMP_ERROR_SCENE,
+                    "body 'pot': surface 0: center: got an array of 2");
+    surface_refused(imp_argument_list("center", bad, 3), IMP_ERROR_SCENE,
+                    "body 'pot': surface 0: center: got nan at element 2");
+    surface_refused(imp_argument_list("center", &none, 0), IMP_ERROR_SCENE,
+                    "body 'pot': surface 0: center: extent 0 is 0, must be from 1");
+    surface_refused(imp_argument_list("center", NULL, 3), IMP_ERROR_USAGE, "the array is NULL");
+    surface_refused(imp_argument_rows("points", bad, SIZE_MAX / 2, 3), IMP_ERROR_SCENE,
+                    "points: extent 1 is 3");
+    surface_refused(imp_argument_number("radios", 1), IMP_ERROR_SCENE, "did you mean 'radius'?");
+    surface_refused(imp_argument_text("label", "\xFF"), IMP_ERROR_SCENE, "not UTF-8");
+    surface_refused(imp_argument_text("label", NULL), IMP_ERROR_SCENE, "is NULL");
+    surface_refused(imp_argument_text("type", "x"), IMP_ERROR_SCENE, "type: is given twice");
+    surface_refused(strange, IMP_ERROR_USAGE, "kind 9 of rank 0 does not exist");
+}
+END_TEST
+
+START_TEST(calls_out_of_order_are_refused)
+{
+    imp_builder *b = begin();
+    refused(imp_builder_surface(b, 0, "kit", NULL, 0, &error), IMP_ERROR_USAGE,
+            "body 0: there are only 0 bodies so far");
+    ck_assert_ptr_null(imp_builder_finish(b, &error));
+    refused(error.code, IMP_ERROR_SCENE, "the scene has no bodies");
+    good(imp_builder_body(b, "empty", NULL, &error));
+    ck_assert_ptr_null(imp_builder_finish(b, &error));
+    refused(error.code, IMP_ERROR_SCENE, "body 'empty' has no surfaces");
+    imp_builder_free(b);
+    b = begin();
+    const size_t arm = add_body(b, "arm"), hand = add_body(b, "hand");
+    refused(imp_builder_body(b, "arm", NULL, &error), IMP_ERROR_SCENE, "which body 0 has");
+    refused(imp_builder_surface(b, arm, "kti", NULL, 0, &error), IMP_ERROR_SCENE,
+            "body 'arm': surface 1: unknown surface type 'kti', did you mean 'kit'?");
+    refused(imp_builder_map(b, arm, "nudge", NULL, 0, &error), IMP_ERROR_SCENE,
+            "body 'arm': map 0: 'by' is missing");
+    refused(imp_builder_surface_map(b, arm, 7, "nudge", NULL, 0, &error), IMP_ERROR_USAGE,
+            "body 'arm' has no surface 7");
+    refused(imp_builder_ignore(b, "arm", "amr", &error), IMP_ERROR_SCENE, "did you mean 'arm'?");
+    refused(imp_builder_time(b, 1, 0, &error), IMP_ERROR_USAGE, "time: got [1, 0]");
+    refused(imp_builder_gamma(b, 0, -1, &error), IMP_ERROR_USAGE, "gamma: got 0");
+    refused(imp_builder_gamma(b, 1, 2, &error), IMP_ERROR_USAGE, "clearance: got 2");
+    good(imp_builder_parent(b, hand, arm, &error));
+    good(imp_builder_parent(b, arm, hand, &error));
+    ck_assert_ptr_null(imp_builder_finish(b, &error));
+    refused(error.code, IMP_ERROR_SCENE, "body 'arm': parent: got a circle of parents");
+    imp_builder_free(b);
+}
+END_TEST
+
+START_TEST(a_builder_that_is_done_takes_nothing_more)
+{
+    imp_builder *b = begin();
+    add_body(b, "a");
+    imp_scene *scene = imp_builder_finish(b, &error);
+    ck_assert_ptr_nonnull(scene);
+    refused(imp_builder_body(b, "b", NULL, &error), IMP_ERROR_USAGE, "has made its scene already");
+    ck_assert_ptr_null(imp_builder_finish(b, &error));
+    imp_builder_free(b);
+    imp_scene_free(scene);
+    refused(imp_builder_body(NULL, "b", NULL, &error), IMP_ERROR_USAGE, "the builder is NULL");
+    ck_assert_ptr_null(imp_builder_new(NULL));
+    imp_builder_free(NULL);
+}
+END_TEST
+
+START_TEST(time_left_is_the_papers_h)
+{
+    imp_result r = {.verdict = IMP_CONTACT, .t = 0.75, .t_lower = 0.75};
+    ck_assert(imp_time_left(&r, 0.5) == 0.25 && imp_time_left(&r, 1) == -0.25);
+    r.verdict = IMP_CLEAR;
+    ck_assert(imp_time_left(&r, 0.5) == INFINITY);
+    r.verdict = IMP_UNDECIDED;
+    ck_assert(imp_time_left(&r, 0.25) == 0.5);
+}
+END_TEST
+
+SUITE_MAIN("builder", a_scene_built_is_the_scene_that_is_written, values_of_every_kind_are_taken,
+           errors_name_body_and_parameter, calls_out_of_order_are_refused,
+           a_builder_that_is_done_takes_nothing_more, time_left_is_the_papers_h)

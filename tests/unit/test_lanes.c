@@ -1,0 +1,168 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plugins/patch/patch_include.c"
+#include "tests/support/suite.h"
+
+#include <impinge/quad.h>
+
+/* One answer on every machine: what is compiled twice, for wide registers and for narrow ones, must
+ * give the same bits. Here the copies for narrow registers stand beside the library's own, which
+ * takes the wide ones where there are any; elsewhere the two are the same and nothing is shown. */
+
+#define imp_quad_is_wide() false
+#define node_take_model narrow_node_take_model
+#define relative_at narrow_relative_at
+#define w_range_cut narrow_w_range_cut
+#define gjk_axis narrow_gjk_axis
+#define axes_cut narrow_axes_cut
+#include "core/solver/relative.c"
+#include "core/tree/node_model.c"
+#define along along_nearest
+#define search search_nearest
+#include "core/solver/gjk_axis.c"
+#undef along
+#undef search
+#include "core/solver/axes.c"
+#undef imp_quad_is_wide
+#undef node_take_model
+#undef relative_at
+#undef gjk_axis
+#undef axes_cut
+
+const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite);
+void relative_at(const node *a, const node *b, const time_window *window, relative *r);
+bool gjk_axis(const relative *r, double w, vec3 *axis);
+bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines);
+
+/* What a NaN is made of is no answer. */
+static bool same_bits(const void *x, const void *y, size_t numbers)
+{
+    for (size_t k = 0; k < numbers; ++k) {
+        double a, b;
+        memcpy(&a, (const char *)x + k * sizeof a, sizeof a);
+        memcpy(&b, (const char *)y + k * sizeof b, sizeof b);
+        if (memcmp(&a, &b, sizeof a) != 0 && (a == a || b == b)) return false;
+    }
+    return true;
+}
+
+/* Any number, now and then 0, huge, tiny or none. */
+static double draw(uint64_t *state, double size)
+{
+    static const double odd[] = {0, -0.0, 1e300, -1e300, 1e-310, INFINITY, -INFINITY, NAN};
+    const uint64_t kind = random_bits(state) % 512;
+    return kind < 8 ? odd[kind] : kind < 50 ? 0 : size * random_between(state, -1, 1);
+}
+
+static void draw_model(uint64_t *state, double size, imp_model *m)
+{
+    const double bend = size * random_power(state, -10, 0);
+    memset(m, 0, sizeof *m);
+    m->a = draw(state, 2);
+    for (int j = 0; j < 3; ++j) m->b[j] = draw(state, size);
+    for (int k = 0; k < 6; ++k) m->q[k] = draw(state, bend);
+    for (int j = 0; j < 3; ++j) m->rate[j] = fabs(draw(state, 4 * size));
+    m->e = fabs(draw(state, bend));
+    m->lo = m->a - 8 * size;
+    m->hi = m->a + 8 * size;
+}
+
+static void check_node(uint64_t *state, node *n)
+{
+    node narrow;
+    imp_model model[3];
+    const double size = random_power(state, -20, 1), lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
+    memset(n, 0, sizeof *n);
+    n->region = region_make(lo, hi);
+    narrow = *n;
+    for (int i = 0; i < 3; ++i) draw_model(state, size, &model[i]);
+    const bool may_be_infinite = random_bits(state) % 2;
+    ck_assert_pstr_eq(node_take_model(n, model, may_be_infinite),
+                      narrow_node_take_model(&narrow, model, may_be_infinite));
+    ck_assert(same_bits(n, &narrow, offsetof(node, bounded) / sizeof(double)));
+    ck_assert(n->bounded == narrow.bounded);
+}
+
+static void check_pair(uint64_t *state, const node *a, const node *b)
+{
+    const double start = random_between(state, 0, 0.9);
+    const time_window window = {start, start + (1 - start) * random_power(state, -10, 0)};
+    relative wide, narrow;
+    relative_at(a, b, &window, &wide);
+    narrow_relative_at(a, b, &window, &narrow);
+    ck_assert(same_bits(&wide, &narrow, sizeof wide / sizeof(double)));
+    w_range s = {-1, 1}, t = s;
+    vec3 n = {{draw(state, 1), draw(state, 1), draw(state, 1)}}, m = n;
+    ck_assert(gjk_axis(&wide, -1, &n) == narrow_gjk_axis(&wide, -1, &m));
+    ck_assert(same_bits(&n, &m, 3));
+    const double clearance = random_power(state, -30, 0);
+    gap_lines seen, narrow_seen;
+    gap_lines_begin(&seen);
+    gap_lines_begin(&narrow_seen);
+    wide.focus = narrow.focus = random_between(state, -1, 1);
+    const bool some = axes_cut(&wide, clearance, &s, &n, &seen);
+    ck_assert(some == narrow_axes_cut(&wide, clearance, &t, &m, &narrow_seen));
+    ck_assert(same_bits(&n, &m, 3) && same_bits(&s, &t, 2));
+    ck_assert_int_eq(seen.count, narrow_seen.count);
+    ck_assert(same_bits(seen.line, narrow_seen.line, 2 * (size_t)seen.count));
+}
+
+START_TEST(nodes_and_cuts_are_the_same_in_wide_and_narrow_registers)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(20000); ++k) {
+        node a, b;
+        check_node(&state, &a);
+        check_node(&state, &b);
+        check_pair(&state, &a, &b);
+    }
+}
+END_TEST
+
+static patch *draw_moving_patch(uint64_t *state)
+{
+    enum { SIDE = 5 };
+    double points[3 * SIDE * SIDE], velocities[3 * SIDE * SIDE];
+    const double far = random_bits(state) % 4 ? 0 : 1e6;
+    patch_data data = {.points = points};
+    for (int j = 0; j < 2; ++j)
+        data.degree[j] = random_bits(state) % 2 ? 3 : 1 + (int)(random_bits(state) % (SIDE - 1));
+    for (int k = 0; k < 3 * SIDE * SIDE; ++k) {
+        points[k] = far + random_between(state, -1, 1);
+        velocities[k] = random_between(state, -1, 1);
+    }
+    if (random_bits(state) % 2) data.velocities = velocities;
+    patch *f = patch_new(&data);
+    ck_assert_ptr_nonnull(f);
+    return f;
+}
+
+START_TEST(patches_are_the_same_in_wide_and_narrow_registers)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; imp_quad_is_wide() && k < suite_times(20000); ++k) {
+        patch *f = draw_moving_patch(&state);
+        double lo[3], hi[3];
+        for (int j = 0; j < 3; ++j) {
+            lo[j] = random_between(&state, 0, 0.9);
+            hi[j] = lo[j] + (random_bits(&state) % 8 ? random_power(&state, -30, -3.5) : 0);
+        }
+        const imp_region region = region_make(lo, hi);
+        imp_model wide[3], narrow[3];
+        patch_polynomial_wide(f, &region, wide);
+        patch_polynomial_of(f, &region, narrow);
+        for (int i = 0; i < 3; ++i)
+            ck_assert(same_bits(&wide[i], &narrow[i], offsetof(imp_model, depends) / 8));
+        free(f);
+    }
+}
+END_TEST
+
+SUITE_MAIN("lanes", nodes_and_cuts_are_the_same_in_wide_and_narrow_registers,
+           patches_are_the_same_in_wide_and_narrow_registers)

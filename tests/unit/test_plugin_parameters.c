@@ -1,0 +1,205 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <string.h>
+
+#include "tests/support/built_plugins.h"
+
+/* What types say about themselves, and about parameters that no table can check. */
+
+static const char *const other_surface = "sphere";
+
+/* A scene of one type and a sphere; a map is put on a sphere. NULL on error. */
+static imp_scene *scene_of(imp_registry *registry, bool is_map, const char *text, imp_error *error)
+{
+    char stage[1000];
+    snprintf(stage, sizeof stage, "%s%s", is_map ? "sphere ! " : "", text);
+    return imp_scene_from_pair(registry, stage, other_surface, error);
+}
+
+START_TEST(every_example_makes_a_surface_with_points)
+{
+    imp_registry *registry = built_registry();
+    imp_type_info info;
+    for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) {
+        imp_error error = {.text = ""};
+        double lo[3], hi[3], x[3], slip[3];
+        imp_scene *scene = scene_of(registry, info.kind == IMP_KIND_MAP, info.example, &error);
+        ck_assert_msg(scene != NULL, "%s: %s", info.example, error.text);
+        imp_scene_domain(scene, 0, 0, lo, hi);
+        double p[3] = {lo[0] + (hi[0] - lo[0]) / 3, (lo[1] + hi[1]) / 2, fmax(lo[2], 0)};
+        ck_assert_int_eq(imp_scene_eval(scene, 0, 0, 1, p, x, slip, &error), IMP_SUCCESS);
+        imp_scene_free(scene);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+static bool starts_with(const char *text, const char *start)
+{
+    return strncmp(text, start, strlen(start)) == 0;
+}
+
+START_TEST(every_type_says_what_it_is)
+{
+    imp_registry *registry = built_registry();
+    imp_type_info info;
+    imp_plugin_refusal refusal;
+    ck_assert_msg(!imp_registry_refusal(registry, 0, &refusal), "%s", refusal.reason);
+    for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) {
+        ck_assert_msg(strlen(info.summary) >= 10, "%s: summary", info.name);
+        ck_assert_msg(strlen(info.equation) >= 10, "%s: equation", info.name);
+        ck_assert_msg(starts_with(info.example, info.name), "%s: %s", info.name, info.example);
+        ck_assert_str_eq(info.version, PACKAGE_VERSION);
+        for (size_t k = 0; k < info.parameter_count; ++k)
+            ck_assert_msg(strlen(info.parameters[k].doc) >= 5, "%s %s: doc", info.name,
+                          info.parameters[k].name);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+/* --- Refusals ----------------------------------------------------------------------------- */
+
+static const struct refusal {
+    const char *text;  /* a stage of a pipeline */
+    const char *place; /* the parameter blamed; NULL: the type as a whole */
+    const char *saying;
+} refusals[] = {
+    {"sphere radius=0", "radius", "> 0"},
+    {"sphere radius=-1", "radius", "> 0"},
+    {"sphere radius=1e999", "radius", ""},
+    {"sphere center=0,0", "center", "3"},
+    {"torus minor_radius=0", "minor_radius", "> 0"},
+    {"spike width=0", "width", "1e-100"},
+    {"spike width=4", "width", "3.14"},
+    {"spike spikes=[]", "spikes", ""},
+    {"spike spikes=[[0,0,0]]", "spikes", "2"},
+    {"bezier degree=[1,1]", "points", "missing"},
+    {"bezier degree=[0,1] points=[[0,0,0],[1,0,0]]", "degree", "1"},
+    {"bezier degree=[21,1] points=[[0,0,0]]", "degree", "20"},
+    {"bezier degree=[1.5,1] points=[[0,0,0]]", "degree", "whole"},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0]]", "points", "(1+1)*(1+1) = 4"},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0],[1,1,0]] velocities=[[0,0,0]]",
+     "velocities", "4 control points"},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0],[1,1,0]] weights=[1,1,1]", "weights",
+     "3 given"},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0],[1,1,0]] weights=[1,1,0,1]", "weights",
+     ""},
+    {"bezier degree=[1,1] points=[[0,0,0],[1,0,0],[0,1,0],[1,1,1e101]]", "points", "1e+100"},
+    {"formula x=sin(w)", "x", "line 1, column 5: unknown name 'w'; known: u, v, t, pi, e"},
+    {"formula y=\"u+\\nfloor(v)\"", "y", "line 2, column 1: 'floor' is discontinuous"},
+    {"formula z=\"\"", "z", "line 1, column 1"},
+    {"formula z=log(-1-u^2)", "z", "undefined everywhere"},
+    {"formula domain=[[1,0],[0,1]]", "domain/0", "[1,0] ends before it begins"},
+    {"formula domain=[[0,1]]", "domain", "2"},
+    {"formula time=1,0", "time", "ends before it begins"},
+    {"formula constants={\"sin\":1}", "constants", "'sin' is a function already"},
+    {"formula constants={\"t\":1}", "constants", "'t' is a variable already"},
+    {"formula constants={\"a\":1e999}", "constants", ""},
+    {"formula constants=[1]", "constants", "an object of numbers"},
+    {"! map-formula x=u", "x", "unknown name 'u'; known: x, y, z, t, pi, e"},
+    {"! map-formula time=2,1", "time", "ends before it begins"},
+    {"ellipsoid radii=1,0,1", "radii", "> 0"},
+    {"ellipsoid radii=1,1", "radii", "3"},
+    {"cylinder height=0", "height", "> 0"},
+    {"cone radius=-1", "radius", "> 0"},
+    {"plane edge_u=0,0,0", "edge_u", "any vector but 0"},
+    {"plane edge_u=1,2,3 edge_v=-0.1,-0.2,-0.3", "edge_v", "parallel to edge_u"},
+    {"plane origin=1e101,0,0", "origin", "1e+100"},
+    {"point position=1,2", "position", "3"},
+    {"segment points=[[0,0,0]]", "points", "2"},
+    {"triangle points=[[0,0,0],[1,0,0],[0,1,0]] velocities=[[0,0,0],[0,0,0]]", "velocities", "3"},
+    {"superellipsoid exponents=0,1", "exponents", "> 0"},
+    {"superellipsoid exponents=1,2.0000001", "exponents/1", "Lipschitz"},
+    {"supertoroid exponents=3,1", "exponents/0", "must be in (0, 2]"},
+    {"ripple wavelength=0", "wavelength", "1e-100"},
+    {"ripple size=0,1", "size/0", "(0, "},
+    {"ripple direction=0,0", "direction", "any vector but 0"},
+    {"revolution profile=[[1,0]]", "profile", "2 to 21"},
+    {"revolution profile=[[1,0],[1,1]] weights=1,2,3", "weights", "3 weights for 2 control points"},
+    {"revolution profile=[[1,0],[1,1]] weights=1,0", "weights", ""},
+    {"sweep path=[[0,0,0]]", "path", "2 to 21"},
+    {"sweep profile_weights=[1,1]", "profile_weights", "2 weights for 3"},
+    {"product c=[[0,0,0],[1,1,1]]", "c/0", "2"},
+    {"product d_weights=[1]", "d_weights", "1 weights for 6"},
+    {"nurbs degree=0,1", "degree", "1"},
+    {"nurbs points=[[0,0,0]]", "points", "4 along u times 4 along v"},
+    {"nurbs weights=1,1,1", "weights", "got 3"},
+    {"nurbs weights=[1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,-1]", "weights/15", ""},
+    {"nurbs velocities=[[0,0,0]]", "velocities", "got 1"},
+    {"nurbs knots_u=0,0,0,1,1", "knots_u", "at least 2 * degree + 2 = 6"},
+    {"nurbs knots_u=0,0,0,2,1,3,3", "knots_u/4", "must not fall"},
+    {"nurbs knots_v=0,0,1,1,1,2,2", "knots_v", "empty"},
+    {"nurbs knots_v=0,0,0,1,1,1,2,2,2", "knots_v/3", "tears"},
+    {"nurbs knots=[[0,0,0,1,2,2,2],[0,0,0,1,0,2,2]]", "knots/1", "must not fall"},
+    {"nurbs knots_u=0,0,0,1e-200,2,2,2", "knots_u/3", "apart"},
+    {"! translate", NULL, "velocity"},
+    {"! translate velocity=1,0,0 offset=[[0,0,0]]", "offset", "velocity"},
+    {"! rotate", NULL, "angle"},
+    {"! rotate rate=1 angle=[0,1]", "angle", "rate"},
+    {"! rotate axis=0,0,0 rate=1", "axis", "direction"},
+    {"! rotate axis=0,1e-200,0 rate=1", "axis", "direction"},
+    {"! scale", NULL, "factors"},
+    {"! scale factor=1 factors=[[1]]", "factors", "factor"},
+    {"! scale factor=1,2", "factor", "2 numbers"},
+    {"! scale factors=[[1,2,3,4]]", "factors", "4 numbers"},
+    {"! scale factors=[[1],[1,2,3]]", "factors", ""},
+    {"! screw axis=0,0,0 rate=1", "axis", "direction"},
+    {"! screw", NULL, "angle"},
+    {"! taper axis=0,0,0", "axis", "direction"},
+    {"! taper range=1,1", "range", "greater"},
+    {"! taper range=2,1", "range", "[2,1]"},
+    {"! taper range=0,1,2", "range", "2"},
+    {"! twist axis=0,0,0", "axis", "direction"},
+    {"! twist rate=[]", "rate", ""},
+    {"! bend axis=0,0,0", "axis", "direction"},
+    {"! bend along=0,0,0", "along", "direction"},
+    {"! bend axis=0,0,1 along=0,0,-2", "along", "parallel"},
+    {"! bend range=1,-1", "range", "greater"},
+    {"! wave", NULL, "amplitude"},
+    {"! wave amplitude=0,0,1 amplitudes=[[0,0,1]]", "amplitudes", "amplitude"},
+    {"! wave amplitude=0,0,1 wave_vector=0,0,0", "wave_vector", "direction"},
+    {"! keyframes positions=[[0,0,0],[1,0,0]]", "times", "missing"},
+    {"! keyframes times=0,1", NULL, "positions"},
+    {"! keyframes times=[0] positions=[[0,0,0]]", "times", "two or more"},
+    {"! keyframes times=0,1,1 positions=[[0,0,0],[1,0,0],[2,0,0]]", "times/2", "increase"},
+    {"! keyframes times=0,1 positions=[[0,0,0]]", "positions", "1 positions for 2 times"},
+    {"! keyframes times=0,1 rotations=[[1,0,0,0]]", "rotations", "1 rotations for 2 times"},
+    {"! keyframes times=0,1 rotations=[[1,0,0],[1,0,0]]", "rotations", "4"},
+    {"! keyframes times=0,1 rotations=[[1,0,0,0],[1,0,0,0.1]]", "rotations/1", "length 1.00498"},
+    {"! keyframes times=0,1 rotations=[[0,0,0,0],[1,0,0,0]]", "rotations/0", "length 0"},
+    {"! keyframes times=0,1 rotations=[[1,0,0,0],[0,1,0,0]]", "rotations/1", "180 degrees"},
+    {"! keyframes times=0,1e-300 positions=[[0,0,0],[1e50,0,0]]", "positions/1", "too far"},
+    {"! ffd", "points", "missing"},
+    {"! ffd points=[[0,0,0]]", "points", "must be 8"},
+    {"! ffd lattice=1,2,2 points=[[0,0,0]]", "lattice", "2"},
+    {"! ffd lattice=17,2,2 points=[[0,0,0]]", "lattice", "16"},
+    {"! ffd lattice=2,2.5,2 points=[[0,0,0]]", "lattice", "whole"},
+    {"! ffd lo=0,0,0 hi=1,0,1 points=[[0,0,0]]", "hi/1", "greater"},
+    {"! ffd points=[[0,0,0],[0,0,1],[0,1,0],[0,1,1],[1,0,0],[1,0,1],[1,1,0],[1,1,1]]"
+     " velocities=[[0,0,0]]",
+     "velocities", "must be 8"},
+};
+
+START_TEST(wrong_parameters_are_refused_by_name_and_reason)
+{
+    imp_registry *registry = built_registry();
+    for (size_t k = 0; k < sizeof refusals / sizeof refusals[0]; ++k) {
+        const struct refusal *wrong = &refusals[k];
+        bool is_map = wrong->text[0] == '!';
+        imp_error error = {.text = ""};
+        imp_scene *scene = scene_of(registry, is_map, wrong->text + (is_map ? 2 : 0), &error);
+        ck_assert_msg(scene == NULL, "%s: was taken", wrong->text);
+        ck_assert_msg(error.code == IMP_ERROR_SCENE, "%s: %s", wrong->text, error.text);
+        ck_assert_msg(wrong->place == NULL || strstr(error.text, wrong->place) != NULL, "%s: %s",
+                      wrong->text, error.text);
+        ck_assert_msg(strstr(error.text, wrong->saying) != NULL, "%s: %s", wrong->text, error.text);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+SUITE_MAIN("plugin parameters", every_example_makes_a_surface_with_points,
+           every_type_says_what_it_is, wrong_parameters_are_refused_by_name_and_reason)

@@ -1,0 +1,308 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <errno.h>
+#include <string.h>
+
+#include "tests/support/built_plugins.h"
+#include "tests/support/instance.h"
+#include "tests/support/judge.h"
+#include "tests/support/sampling.h"
+#include "tests/support/suite.h"
+
+/* Every bound of every built type against its oracle, on seeded regions and points. */
+
+enum { REGIONS = 60, POINTS = 6 };
+
+/* Parts of the claimed bounds that are judged instead of the whole: 1 each in earnest, less to
+ * see that a bound too low is found. */
+typedef struct shares {
+    double error, remainder, rate;
+} shares;
+
+/* What is being tried, for the message when it fails. */
+typedef struct trial {
+    const instance *instance;
+    shares share;
+    size_t refuted[3]; /* with less than 1: of errors, of remainders, of rates */
+    uint64_t random;
+    const double *lo, *hi; /* of the region or box */
+    int dimensions;
+    double p[4], q[4];
+    fault fault;
+} trial;
+
+static void describe_box(const trial *t, char *text, size_t size)
+{
+    int length = 0;
+    for (int j = 0; j < t->dimensions; ++j)
+        length += snprintf(text + length, size - (size_t)length, " [%a,%a] p %a q %a", t->lo[j],
+                           t->hi[j], t->p[j], t->q[j]);
+}
+
+enum { ERROR, REMAINDER, RATE };
+
+static void expect(trial *t, bool holds, int kind, const char *what)
+{
+    const double share[3] = {t->share.error, t->share.remainder, t->share.rate};
+    char where[600] = "";
+    t->refuted[kind] += !holds;
+    if (holds || share[kind] < 1) return;
+    if (t->lo != NULL) describe_box(t, where, sizeof where);
+    ck_abort_msg("%s of %s %.300s: %s, at%s", what, t->instance->view.name, t->instance->text,
+                 t->fault.text, where);
+}
+
+static void expect_status(const trial *t, imp_status status, const char *what)
+{
+    ck_assert_msg(status == IMP_OK || status == IMP_UNBOUNDED, "%s of %s %.300s: status %d", what,
+                  t->instance->view.name, t->instance->text, status);
+}
+
+static void exact(const instance *made, const double *p, int dimensions, number x[3])
+{
+    const type_oracle *row = oracles;
+    number at[4];
+    while (strcmp(row->type, made->view.name) != 0) ++row;
+    for (int j = 0; j < dimensions; ++j) at[j] = num(p[j]);
+    if (row->surface != NULL)
+        row->surface(&made->arguments, at, x);
+    else
+        row->map(&made->arguments, at, x);
+}
+
+/* --- Properties of one surface ------------------------------------------------------------- */
+
+static void try_surface_point(trial *t)
+{
+    const instance *made = t->instance;
+    double x[3], error[3];
+    number truth[3];
+    imp_status status = made->surface->eval(made->self, 1, t->p, x, error);
+    ck_assert_msg(status == IMP_OK, "eval of %s: status %d", made->view.name, status);
+    exact(made, t->p, 3, truth);
+    for (int i = 0; i < 3; ++i) error[i] *= t->share.error;
+    expect(t, judge_point(x, error, truth, &t->fault), ERROR, "eval");
+}
+
+/* How far the coordinates at p and q are apart, against a rate matrix of n columns. */
+static void try_change(trial *t, int n, const double *const rate[3], const number at_p[3],
+                       const number at_q[3], const char *what)
+{
+    for (int i = 0; i < 3; ++i) {
+        double lowered[4];
+        for (int j = 0; j < n; ++j) lowered[j] = t->share.rate * rate[i][j];
+        bool holds = judge_rates(n, lowered, t->p, t->q, at_p[i], at_q[i], &t->fault);
+        expect(t, holds, RATE, what);
+    }
+}
+
+static void try_rates(trial *t, int n, const double *const rate[3], const char *what)
+{
+    number at_p[3], at_q[3];
+    sample_partner(&t->random, n, t->lo, t->hi, t->p, t->q);
+    exact(t->instance, t->p, n, at_p);
+    exact(t->instance, t->q, n, at_q);
+    try_change(t, n, rate, at_p, at_q, what);
+}
+
+static void try_surface_region(trial *t, const imp_region *region)
+{
+    const instance *made = t->instance;
+    imp_rate_matrix rates;
+    imp_model model[3];
+    errno = 0;
+    expect_status(t, made->surface->rate(made->self, region, &rates), "rate");
+    expect_status(t, made->surface->include(made->self, region, model), "include");
+    ck_assert_msg(errno == 0, "%s sets errno", made->view.name);
+    for (int i = 0; i < 3; ++i) model[i].e *= t->share.remainder;
+    const double *const claimed[3] = {rates.m[0], rates.m[1], rates.m[2]};
+    const double *const modelled[3] = {model[0].rate, model[1].rate, model[2].rate};
+    for (int k = 0; k < POINTS; ++k) {
+        number s[3], truth[3];
+        num_forget();
+        sample_point(&t->random, 3, region->lo, region->hi, t->p);
+        try_surface_point(t);
+        sample_normalized(region, t->p, s);
+        exact(made, t->p, 3, truth);
+        expect(t, judge_models(model, s, truth, &t->fault), REMAINDER, "include");
+        try_rates(t, 3, claimed, "rate");
+        try_rates(t, 3, modelled, "include's rate");
+    }
+}
+
+static void try_surface(trial *t)
+{
+    double lo[3], hi[3];
+    t->instance->surface->domain(t->instance->self, lo, hi);
+    t->dimensions = 3;
+    for (int k = 0; k < suite_times(REGIONS); ++k) {
+        imp_region region = sample_region(&t->random, lo, hi);
+        t->lo = region.lo, t->hi = region.hi;
+        try_surface_region(t, &region);
+    }
+}
+
+/* --- Properties of one map ------------------------------------------------------------------ */
+
+static void try_map_box(trial *t, const imp_box4 *box)
+{
+    const instance *made = t->instance;
+    imp_map_rates rates;
+    expect_status(t, made->map->rate(made->self, box, &rates), "rate");
+    const double *const claimed[3] = {rates.m[0], rates.m[1], rates.m[2]};
+    for (int k = 0; k < POINTS; ++k) {
+        double x[3], error[3];
+        number truth[3];
+        num_forget();
+        sample_point(&t->random, 4, box->lo, box->hi, t->p);
+        ck_assert_int_eq(made->map->eval(made->self, 1, t->p, x, error), IMP_OK);
+        exact(made, t->p, 4, truth);
+        for (int i = 0; i < 3; ++i) error[i] *= t->share.error;
+        expect(t, judge_point(x, error, truth, &t->fault), ERROR, "eval");
+        try_rates(t, 4, claimed, "rate");
+    }
+}
+
+static void image(const instance *made, const sample_models *models, const double p[3], number x[3])
+{
+    const type_oracle *row = oracles;
+    number at[4];
+    while (strcmp(row->type, made->view.name) != 0) ++row;
+    sample_value(models, p, at);
+    row->map(&made->arguments, at, x);
+}
+
+static void try_map_models(trial *t, const sample_models *models)
+{
+    const instance *made = t->instance;
+    imp_model out[3];
+    errno = 0;
+    expect_status(t, made->map->apply(made->self, models->in, out), "apply");
+    ck_assert_msg(errno == 0, "%s sets errno", made->view.name);
+    for (int i = 0; i < 3; ++i) out[i].e *= t->share.remainder;
+    const double *const modelled[3] = {out[0].rate, out[1].rate, out[2].rate};
+    for (int k = 0; k < POINTS; ++k) {
+        number s[3], at_p[3], at_q[3];
+        num_forget();
+        sample_point(&t->random, 3, t->lo, t->hi, t->p);
+        sample_partner(&t->random, 3, t->lo, t->hi, t->p, t->q);
+        sample_normalized(&models->region, t->p, s);
+        image(made, models, t->p, at_p);
+        image(made, models, t->q, at_q);
+        expect(t, judge_models(out, s, at_p, &t->fault), REMAINDER, "apply");
+        try_change(t, 3, modelled, at_p, at_q, "apply's rate");
+    }
+}
+
+static void try_map(trial *t)
+{
+    double t_lo, t_hi;
+    t->instance->map->time_domain(t->instance->self, &t_lo, &t_hi);
+    for (int k = 0; k < suite_times(REGIONS); ++k) {
+        imp_box4 box = sample_box(&t->random, t_lo, t_hi);
+        t->dimensions = 4;
+        t->lo = box.lo, t->hi = box.hi;
+        try_map_box(t, &box);
+        sample_models models = sample_map_arguments(&t->random, t_lo, t_hi);
+        t->dimensions = 3;
+        t->lo = models.region.lo, t->hi = models.region.hi;
+        try_map_models(t, &models);
+    }
+}
+
+/* --- Tests ------------------------------------------------------------------------------------ */
+
+static const shares whole = {1, 1, 1};
+
+/* `seen`, unless NULL, receives per type what was refuted. */
+static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share,
+                              void (*seen)(const type_oracle *row, const size_t refuted[3]))
+{
+    imp_registry *registry = built_registry();
+    for (size_t k = 0; k < oracle_count; ++k) {
+        size_t refuted[3] = {0};
+        if ((oracles[k].surface != NULL) != surfaces) continue;
+        for (size_t i = 0; oracles[k].instances[i] != NULL; ++i) {
+            uint64_t random = suite_seed() + 1000 * i;
+            instance made =
+                instance_make(registry, oracles[k].type, oracles[k].instances[i], &random);
+            trial t = {.instance = &made, .share = share, .random = random};
+            try(&t);
+            for (int kind = 0; kind < 3; ++kind) refuted[kind] += t.refuted[kind];
+            instance_free(&made);
+        }
+        if (seen != NULL) seen(&oracles[k], refuted);
+    }
+    imp_registry_free(registry);
+}
+
+START_TEST(every_point_model_and_rate_of_a_surface_holds_against_its_formula)
+{
+    for_each_instance(true, try_surface, whole, NULL);
+}
+END_TEST
+
+START_TEST(every_point_model_and_rate_of_a_map_holds_against_its_formula)
+{
+    for_each_instance(false, try_map, whole, NULL);
+}
+END_TEST
+
+static void expect_refuted(const type_oracle *row, const size_t refuted[3])
+{
+    ck_assert_msg(refuted[ERROR] && refuted[REMAINDER] && refuted[RATE],
+                  "%s: refuted %zu errors, %zu remainders, %zu rates", row->type, refuted[ERROR],
+                  refuted[REMAINDER], refuted[RATE]);
+}
+
+/* These tests must be able to fail: for every type they find what is too low. */
+START_TEST(bounds_that_are_too_low_are_found)
+{
+    const shares low = {0.01, 0.5, 0.9};
+    for_each_instance(true, try_surface, low, expect_refuted);
+    for_each_instance(false, try_map, low, expect_refuted);
+}
+END_TEST
+
+START_TEST(every_built_type_has_an_oracle)
+{
+    imp_registry *registry = built_registry();
+    imp_type_info info;
+    for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) {
+        bool known = false;
+        for (size_t k = 0; k < oracle_count; ++k)
+            known = known || strcmp(oracles[k].type, info.name) == 0;
+        ck_assert_msg(known, "%s has no row in type_oracle.c", info.name);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+/* Many points at once are what each is alone, and errors may be left out. */
+static void try_batch(trial *t)
+{
+    enum { N = 17 };
+    const imp_surface_type *type = t->instance->surface;
+    double lo[3], hi[3], p[3 * N], x[3 * N], alone[3], error[3 * N];
+    type->domain(t->instance->self, lo, hi);
+    lo[2] = -1, hi[2] = 1;
+    for (int k = 0; k < N; ++k) sample_point(&t->random, 3, lo, hi, p + 3 * k);
+    ck_assert_int_eq(type->eval(t->instance->self, N, p, x, error), IMP_OK);
+    for (int k = 0; k < N; ++k) {
+        ck_assert_int_eq(type->eval(t->instance->self, 1, p + 3 * k, alone, NULL), IMP_OK);
+        ck_assert_mem_eq(alone, x + 3 * k, sizeof alone);
+    }
+}
+
+START_TEST(a_batch_of_points_is_the_points_one_by_one)
+{
+    for_each_instance(true, try_batch, whole, NULL);
+}
+END_TEST
+
+SUITE_MAIN("plugins", every_built_type_has_an_oracle,
+           every_point_model_and_rate_of_a_surface_holds_against_its_formula,
+           every_point_model_and_rate_of_a_map_holds_against_its_formula,
+           bounds_that_are_too_low_are_found, a_batch_of_points_is_the_points_one_by_one)

@@ -1,0 +1,154 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <check.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "core/solver/quadratic.h"
+#include "tests/support/suite.h"
+
+typedef struct quadratic {
+    double bs, br, qss, qsr, qrr;
+} quadratic;
+
+/* The judge computes in long double (64 bits of mantissa) at a grid, along the edges' vertices and
+ * at the stationary point. */
+
+static long double value(const quadratic *p, long double s, long double r)
+{
+    return p->bs * s + p->br * r + p->qss * s * s + p->qsr * s * r + p->qrr * r * r;
+}
+
+static long double size_of(const quadratic *p)
+{
+    return fabsl(p->bs) + fabsl(p->br) + fabsl(p->qss) + fabsl(p->qsr) + fabsl(p->qrr);
+}
+
+typedef struct judged {
+    long double lo, hi;
+} judged;
+
+static void judge_point(const quadratic *p, long double s, long double r, judged *seen)
+{
+    if (!(s >= -1 && s <= 1 && r >= -1 && r <= 1)) return;
+    const long double x = value(p, s, r);
+    if (x < seen->lo) seen->lo = x;
+    if (x > seen->hi) seen->hi = x;
+}
+
+static judged judge(const quadratic *p)
+{
+    judged seen = {INFINITY, -INFINITY};
+    for (int i = -8; i <= 8; ++i)
+        for (int j = -8; j <= 8; ++j) judge_point(p, i / 8.0L, j / 8.0L, &seen);
+    for (int end = -1; end <= 1; end += 2) {
+        judge_point(p, -(p->bs + p->qsr * (long double)end) / (2.0L * p->qss), end, &seen);
+        judge_point(p, end, -(p->br + p->qsr * (long double)end) / (2.0L * p->qrr), &seen);
+    }
+    const long double d = 4.0L * p->qss * p->qrr - (long double)p->qsr * p->qsr;
+    judge_point(p, ((long double)p->qsr * p->br - 2.0L * p->qrr * p->bs) / d,
+                ((long double)p->qsr * p->bs - 2.0L * p->qss * p->br) / d, &seen);
+    return seen;
+}
+
+static judged bounds_of(const quadratic *p)
+{
+    const imp_quad sign = {1, -1, 1, -1};
+    const quadratics both = {p->bs * sign, p->br * sign, p->qss * sign, p->qsr * sign,
+                             p->qrr * sign};
+    const imp_quad least = quadratics_lower(&both);
+    ck_assert(least[0] == least[2] && least[1] == least[3]);
+    return (judged){least[0], -least[1]};
+}
+
+static void check_one(const quadratic *p)
+{
+    const judged range = bounds_of(p);
+    const judged seen = judge(p);
+    const long double slack =
+        QUADRATIC_ROUNDING * (long double)UNIT_ROUNDOFF * size_of(p) + QUADRATIC_UNDERFLOW;
+    ck_assert_msg(range.lo - slack <= seen.lo && seen.hi <= range.hi + slack,
+                  "bs %a br %a qss %a qsr %a qrr %a: [%La, %La] is not within [%La, %La]", p->bs,
+                  p->br, p->qss, p->qsr, p->qrr, seen.lo, seen.hi, range.lo, range.hi);
+}
+
+START_TEST(no_value_of_a_random_quadratic_is_outside_its_span)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(40000); ++k) {
+        const double scale = random_power(&state, -40, 40), form = random_power(&state, -12, 4);
+        const quadratic p = {scale * random_between(&state, -1, 1),
+                             scale * random_between(&state, -1, 1),
+                             scale * form * random_between(&state, -1, 1),
+                             scale * form * random_between(&state, -1, 1),
+                             scale * form * random_between(&state, -1, 1)};
+        check_one(&p);
+    }
+}
+END_TEST
+
+/* (s m + r)^2 k plus a little: the form is singular up to rounding, either way. */
+START_TEST(no_value_of_a_nearly_singular_quadratic_is_outside_its_span)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(40000); ++k) {
+        const double m = random_between(&state, -2, 2), f = random_between(&state, -3, 3);
+        const double tilt = random_power(&state, -60, -1) * random_between(&state, -1, 1);
+        const quadratic p = {tilt * random_between(&state, -4, 4),
+                             tilt * random_between(&state, -4, 4), f * m * m, 2 * f * m, f + tilt};
+        check_one(&p);
+    }
+}
+END_TEST
+
+/* The same with a slope that cancels at a point of the square: a valley, whose place along itself
+ * the rounding of its coefficients decides. */
+START_TEST(no_value_of_a_valley_is_outside_its_span)
+{
+    uint64_t state = suite_seed() + 1;
+    for (int k = 0; k < suite_times(40000); ++k) {
+        const double m = random_between(&state, -2, 2), f = random_between(&state, 0.1, 3);
+        const double tilt = random_power(&state, -56, -30) * random_between(&state, -1, 1);
+        const double s = random_between(&state, -1, 1), r = random_between(&state, -1, 1);
+        quadratic p = {0, 0, f * m * m, 2 * f * m, f + tilt};
+        p.bs = -(2 * p.qss * s + p.qsr * r);
+        p.br = -(2 * p.qrr * r + p.qsr * s);
+        check_one(&p);
+    }
+}
+END_TEST
+
+START_TEST(the_span_of_a_quadratic_is_no_wider_than_its_values)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(20000); ++k) {
+        const quadratic p = {random_between(&state, -1, 1), random_between(&state, -1, 1),
+                             random_between(&state, -1, 1), random_between(&state, -1, 1),
+                             random_between(&state, -1, 1)};
+        const judged range = bounds_of(&p);
+        const judged seen = judge(&p);
+        const long double d = 4.0L * p.qss * p.qrr - (long double)p.qsr * p.qsr;
+        const long double slack = (d > 1e-6L || d <= 0) ? 1e-9L : 1e-5L;
+        ck_assert(seen.lo - range.lo <= slack && range.hi - seen.hi <= slack);
+    }
+}
+END_TEST
+
+START_TEST(the_spans_of_textbook_quadratics_are_exact)
+{
+    const quadratic bowl = {0, 0, 1, 0, 1}, saddle = {0, 0, 1, 0, -1}, off = {-1, 0, 1, 0, 0};
+    const judged b = bounds_of(&bowl), s = bounds_of(&saddle), o = bounds_of(&off);
+    ck_assert(b.lo == 0 && b.hi == 2);
+    ck_assert(s.lo == -1 && s.hi == 1);
+    ck_assert(o.lo == -0.25 && o.hi == 2);
+}
+END_TEST
+
+SUITE_MAIN("quadratic", no_value_of_a_random_quadratic_is_outside_its_span,
+           no_value_of_a_nearly_singular_quadratic_is_outside_its_span,
+           no_value_of_a_valley_is_outside_its_span,
+           the_span_of_a_quadratic_is_no_wider_than_its_values,
+           the_spans_of_textbook_quadratics_are_exact)

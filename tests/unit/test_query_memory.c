@@ -1,0 +1,146 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tests/support/alloc_failure.h"
+#include "tests/support/sphere_scenes.h"
+
+/* Whatever allocation fails in a scene or a query, nothing leaks, what is answered is true, and a
+ * query that ran out of memory goes on when there is some. */
+
+#define ATTEMPTS 10000 /* more than any of these allocate: the loops end by themselves */
+
+static const ball at_rest = {.radius = 1};
+static const ball flying = {.radius = 0.5, .centre = {3, 0, 0}, .velocity = {-3, 0, 0}};
+static const ball late = {.radius = 0.5, .centre = {0, 4, 0}, .velocity = {0, -3, 0}};
+static const double meeting = 0.5; /* of the first two; others are later */
+
+static void assert_nothing_left(size_t before, size_t n)
+{
+    ck_assert_msg(alloc_failure_live() == before, "failing allocation %zu leaves %zd blocks", n,
+                  (ssize_t)(alloc_failure_live() - before));
+}
+
+/* Three bodies; NULL: no memory. */
+static imp_scene *make_scene(void)
+{
+    const ball *const balls[] = {&at_rest, &flying, &late};
+    imp_scene *scene = scene_new();
+    for (int k = 0; k < 3 && scene != NULL; ++k)
+        if (spheres_add(scene, &ball_type, balls[k]) != IMP_SUCCESS) {
+            imp_scene_free(scene);
+            return NULL;
+        }
+    if (scene == NULL || scene_ignore(scene, 1, 2) == IMP_SUCCESS) return scene;
+    imp_scene_free(scene);
+    return NULL;
+}
+
+static imp_options options_of(const imp_scene *scene, imp_method method)
+{
+    imp_options options = imp_options_default(scene);
+    options.gamma = method == IMP_METHOD_MODELS ? 1e-7 : 0.3;
+    options.method = method;
+    return options;
+}
+
+/* Contact is reported where it is, and what is proved before is true. */
+static void check_true(const imp_result *r, size_t n)
+{
+    ck_assert_msg(r->t_lower <= meeting, "failing allocation %zu: t_lower %.17g", n, r->t_lower);
+    ck_assert_int_ne(r->verdict, IMP_CLEAR);
+    if (r->verdict == IMP_CONTACT)
+        ck_assert(r->gap <= r->gamma && r->t >= meeting - r->gamma && r->a.body == 0);
+    else
+        ck_assert_int_eq(r->reason, IMP_REASON_MEMORY);
+}
+
+START_TEST(a_scene_is_whole_or_not_there)
+{
+    const size_t before = alloc_failure_live();
+    size_t n = 0;
+    for (bool failed = true; failed && n < ATTEMPTS;) {
+        alloc_failure_begin(++n);
+        imp_scene *scene = make_scene();
+        failed = alloc_failure_end();
+        ck_assert((scene == NULL) == failed);
+        imp_scene_free(scene);
+        assert_nothing_left(before, n);
+    }
+    ck_assert_uint_gt(n, 10);
+}
+END_TEST
+
+/* What a query that ran out of memory tells, and what becomes of it with enough. */
+static void go_on(imp_query *query, bool failed, size_t n)
+{
+    imp_result r = imp_query_result(query);
+    check_true(&r, n);
+    ck_assert((r.verdict == IMP_UNDECIDED) == failed);
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    r = imp_query_result(query);
+    check_true(&r, n);
+    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+}
+
+/* The n-th allocation of a query fails; Check allocates too, so nothing is asserted meanwhile. */
+static bool query_failing_at(size_t n, imp_method method)
+{
+    imp_error error = {IMP_SUCCESS, ""};
+    imp_scene *scene = make_scene();
+    const imp_options options = options_of(scene, method);
+    imp_code code = IMP_SUCCESS;
+    alloc_failure_begin(n);
+    imp_query *query = imp_query_new(scene, &options, &error);
+    if (query != NULL) code = imp_query_step(query, 0, &error);
+    const bool failed = alloc_failure_end();
+    ck_assert_int_eq(code, IMP_SUCCESS);
+    if (query != NULL)
+        go_on(query, failed, n);
+    else
+        ck_assert_int_eq(error.code, IMP_ERROR_MEMORY);
+    imp_query_free(query);
+    imp_scene_free(scene);
+    return failed;
+}
+
+static void fail_queries(imp_method method)
+{
+    const size_t before = alloc_failure_live();
+    size_t n = 0;
+    for (bool failed = true; failed && n < ATTEMPTS;) {
+        failed = query_failing_at(++n, method);
+        assert_nothing_left(before, n);
+    }
+    ck_assert_uint_gt(n, 12);
+}
+
+START_TEST(a_query_out_of_memory_is_undecided_with_what_is_proved_and_can_go_on)
+{
+    fail_queries(IMP_METHOD_MODELS);
+}
+END_TEST
+
+START_TEST(so_is_the_papers_method) { fail_queries(IMP_METHOD_PAPER); }
+END_TEST
+
+START_TEST(solving_at_once_tells_of_memory_too)
+{
+    imp_scene *scene = make_scene();
+    const imp_options options = options_of(scene, IMP_METHOD_MODELS);
+    imp_error error = {IMP_SUCCESS, ""};
+    imp_result r;
+    for (int told = 0; told < 2; ++told) {
+        alloc_failure_begin(1);
+        const imp_code code = imp_solve(scene, &options, &r, told ? &error : NULL);
+        ck_assert(alloc_failure_end());
+        ck_assert_int_eq(code, IMP_ERROR_MEMORY);
+    }
+    ck_assert_int_eq(error.code, IMP_ERROR_MEMORY);
+    imp_scene_free(scene);
+}
+END_TEST
+
+SUITE_MAIN("query_memory", a_scene_is_whole_or_not_there,
+           a_query_out_of_memory_is_undecided_with_what_is_proved_and_can_go_on,
+           so_is_the_papers_method, solving_at_once_tells_of_memory_too)

@@ -1,0 +1,165 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_BENCH_BENCH_H
+#define TOOLS_BENCH_BENCH_H
+
+#include <impinge/impinge.h>
+#include <jansson.h>
+
+#include "core/common/random.h"
+#include "tools/cli/message.h"
+
+/* Benchmarks: methods side by side on the same scenes
+ * ===================================================
+ * A set is a table of cases; a case is one or more scenes asked the same question; every method of
+ * the set answers every case, each scene afresh, and its counters are tallied:
+ *
+ *   bench_sets     which sets there are, and their scenes (bench_patches: random patches)
+ *   bench_measure  one method on one case -> tally
+ *   bench_print    tallies as a table for people; bench_json: for programs
+ *
+ * Scenes come from fixed seeds without a call to libm but sqrt, so that all counters are the same
+ * in every run and on every machine. Seconds alone are not. */
+
+/* --- What is asked ------------------------------------------------------------------------ */
+
+/* One scene, and when its bodies first touch, where that is known. */
+typedef struct bench_scene {
+    char *a, *b; /* two pipelines; b NULL: a is the text of a scene file */
+    bool has_reference;
+    bool meets; /* the reference: whether they touch at all, and when */
+    double t;
+} bench_scene;
+
+typedef struct bench_case {
+    char name[48];
+    double gamma, clearance; /* length; clearance < 0: gamma / 2 */
+    double cut; /* if > 0: asked only up to this part of the time until the first contact */
+    bench_scene *scenes;
+    size_t count, capacity;
+} bench_case;
+
+/* A list of cases under construction. Once memory has run out, adding does nothing. */
+typedef struct bench_cases {
+    bench_case *cases;
+    size_t count, capacity;
+    bool no_memory;
+} bench_cases;
+
+/* Begins a case; scenes go to the last one begun. */
+void bench_begin(bench_cases *list, double gamma, double clearance, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* Adds a scene of two pipelines, or (b NULL) of a scene file's text. Takes over both; a NULL
+ * for memory that ran out. Answers the scene, or NULL. */
+bench_scene *bench_add_pair(bench_cases *list, char *a, char *b);
+bench_scene *bench_add_text(bench_cases *list, char *text);
+
+void bench_cases_free(bench_cases *list);
+
+/* --- Methods and sets --------------------------------------------------------------------- */
+
+typedef enum bench_question {
+    BENCH_CONTACT,   /* when do they first touch? */
+    BENCH_CLEARANCE, /* how near do they come? */
+    BENCH_PROOF      /* do they stay 0.99 of the least distance apart? */
+} bench_question;
+
+typedef struct bench_method {
+    const char *name;
+    imp_method method;
+    imp_bounds bounds;
+    imp_rates rates;
+    bench_question question;
+} bench_method;
+
+/* What the command line asks for. */
+typedef struct bench_request {
+    const char *verb;     /* who complains */
+    bool only;            /* whether one kind of method alone is wanted, */
+    imp_method method;    /* and which */
+    uint64_t max_pairs;   /* budget of the paper's method for one scene; 0: none */
+    uint64_t repeats;     /* how often a scene is timed; at least 1 */
+    uint64_t count, seed; /* of random patches besides the file's */
+} bench_request;
+
+/* Over the scenes of a case. */
+typedef struct bench_spread {
+    double mean, median, max;
+} bench_spread;
+
+/* How one method did on one case. */
+typedef struct bench_tally {
+    size_t scenes, verdicts[3]; /* by imp_verdict */
+    size_t ended;               /* undecided because the budget ended */
+    bench_spread pairs, nodes, searches, heap, bytes, seconds;
+    size_t references, agreed; /* scenes with a reference; whose verdict is the same */
+    double earliest, latest;   /* of t_lower - reference, in time: over the contacts among them, and
+                                  over all of them that meet; NAN if there is none */
+} bench_tally;
+
+typedef struct bench_row {
+    const bench_method *method;
+    bench_tally tally;
+} bench_row;
+
+enum { BENCH_ROWS_MAX = 8, BENCH_FINDINGS_MAX = 4 };
+
+/* All methods on one case, and the row that ratios are against: the paper's, BENCH_PROOF, or NULL. */
+typedef struct bench_result {
+    const bench_case *about;
+    bench_row rows[BENCH_ROWS_MAX];
+    size_t row_count;
+    const bench_row *baseline;
+} bench_result;
+
+/* One number that a set is about, drawn from its results. */
+typedef struct bench_finding {
+    const char *key;
+    char text[128];
+    double value;
+} bench_finding;
+
+typedef struct bench_set {
+    const char *name;
+    const char *about;                  /* lines for people */
+    const bench_method *const *methods; /* NULL-terminated */
+    exit_status (*build)(bench_cases *list, const bench_request *request);
+    /* Draws up to BENCH_FINDINGS_MAX findings from the models' tallies, one a case, and answers how
+     * many; NULL: none ever. */
+    size_t (*find)(const bench_tally *models, size_t count, bench_finding *findings);
+} bench_set;
+
+/* All sets, NULL-terminated; the one of that name, or NULL. */
+const bench_set *const *bench_sets_all(void);
+const bench_set *bench_set_find(const char *name);
+
+/* --- Random scenes ------------------------------------------------------------------------ */
+
+/* A direction of unit length, uniform on the sphere. */
+void bench_direction(uint64_t *state, double n[3]);
+
+/* Adds `count` scenes of two random bicubic patches (bench_patches.c tells how they are drawn) to
+ * the case, and those of the file that comes with the command. */
+void bench_add_patches(bench_cases *list, uint64_t seed, uint64_t count);
+exit_status bench_add_file(bench_cases *list, const char *verb);
+
+/* --- Measuring and telling ---------------------------------------------------------------- */
+
+/* Everything about one method on one case. Errors are the library's. */
+imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_method *m,
+                       const bench_request *request, bench_tally *tally, imp_error *error);
+
+/* What the numbers mean; what a set is about and the head of its table; one case of it. */
+void bench_print_request(const bench_request *request);
+void bench_print_head(const bench_set *set, const bench_request *request);
+void bench_print_result(const bench_result *result);
+void bench_print_findings(const bench_finding *findings, size_t count);
+
+/* The same as parts of what tools/schema/bench.schema.json describes; takes over `results`. NULL:
+ * no memory. */
+json_t *bench_result_json(const bench_result *result);
+json_t *bench_set_json(const bench_set *set, json_t *results, const bench_finding *findings,
+                       size_t count);
+
+#endif

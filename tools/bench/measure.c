@@ -1,0 +1,250 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/bench/bench.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* --- One scene ---------------------------------------------------------------------------- */
+
+/* What this thread has computed so far: other processes of a busy machine do not count. */
+static double seconds_computed(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static imp_scene *scene_of(imp_registry *registry, const bench_scene *s, imp_error *error)
+{
+    if (s->b != NULL) return imp_scene_from_pair(registry, s->a, s->b, error);
+    return imp_scene_from_json(registry, s->a, strlen(s->a), "a scene of the benchmark", error);
+}
+
+static imp_options options_of(const imp_scene *scene, const bench_case *c, const bench_method *m,
+                              const bench_request *request)
+{
+    imp_options o = imp_options_default(scene);
+    o.gamma = c->gamma;
+    o.clearance = c->clearance;
+    o.method = m->method;
+    o.bounds = m->bounds;
+    o.rates = m->rates;
+    if (m->method == IMP_METHOD_PAPER) o.max_pairs = request->max_pairs;
+    return o;
+}
+
+/* Answers `query`, and frees it; *seconds is the search alone. */
+static imp_code run(imp_query *query, imp_result *result, double *seconds, imp_error *error)
+{
+    if (query == NULL) return error->code;
+    const double start = seconds_computed();
+    const imp_code code = imp_query_step(query, 0, error);
+    *seconds = seconds_computed() - start;
+    if (code == IMP_SUCCESS) *result = imp_query_result(query);
+    imp_query_free(query);
+    return code;
+}
+
+/* The least distance: its bracket, as the result of a search that is clear or not. */
+static imp_code run_clearance(imp_scene *scene, const imp_options *options, imp_clearance *least,
+                              imp_result *result, double *seconds, imp_error *error)
+{
+    imp_query *query = imp_clearance_new(scene, options, NULL, error);
+    if (query == NULL) return error->code;
+    const double start = seconds_computed();
+    imp_code code = imp_query_step(query, 0, error);
+    *seconds = seconds_computed() - start;
+    *least = (imp_clearance){.struct_size = (uint32_t)sizeof *least};
+    if (code == IMP_SUCCESS) code = imp_clearance_read(query, 0, least, error);
+    if (code == IMP_SUCCESS) {
+        *result = imp_query_result(query);
+        result->verdict = least->reason != IMP_REASON_NONE ? IMP_UNDECIDED
+                          : least->upper > options->gamma  ? IMP_CLEAR
+                                                           : IMP_CONTACT;
+    }
+    imp_query_free(query);
+    return code;
+}
+
+/* Ends the interval at c->cut of the time until the first contact, if there is one. */
+static imp_code cut_interval(imp_registry *registry, const bench_scene *s, const bench_case *c,
+                             imp_options *options, imp_error *error)
+{
+    if (!(c->cut > 0)) return IMP_SUCCESS;
+    imp_scene *scene = scene_of(registry, s, error);
+    if (scene == NULL) return error->code;
+    imp_result first;
+    double seconds;
+    const imp_code code = run(imp_query_new(scene, options, error), &first, &seconds, error);
+    imp_scene_free(scene);
+    if (code == IMP_SUCCESS && first.verdict == IMP_CONTACT)
+        options->t_end = options->t_start + c->cut * (first.t - options->t_start);
+    return code;
+}
+
+/* gamma 0.995 and clearance 0.99 of the least distance, which is found first. */
+static imp_code ask_for_proof(imp_registry *registry, const bench_scene *s, imp_options *options,
+                              imp_error *error)
+{
+    imp_scene *scene = scene_of(registry, s, error);
+    if (scene == NULL) return error->code;
+    imp_clearance least;
+    imp_result result;
+    double seconds;
+    const imp_code code = run_clearance(scene, options, &least, &result, &seconds, error);
+    imp_scene_free(scene);
+    if (code == IMP_SUCCESS && least.upper < INFINITY)
+        options->gamma = 0.995 * least.upper, options->clearance = 0.99 * least.upper;
+    return code;
+}
+
+/* Answers the scene, made afresh so that no tree is there yet; *seconds is the search alone. */
+static imp_code solve_once(imp_registry *registry, const bench_scene *s, const bench_case *c,
+                           const bench_method *m, const bench_request *request, imp_result *result,
+                           double *seconds, imp_error *error)
+{
+    imp_scene *scene = scene_of(registry, s, error);
+    if (scene == NULL) return error->code;
+    imp_options options = options_of(scene, c, m, request);
+    imp_clearance least;
+    imp_code code = cut_interval(registry, s, c, &options, error);
+    if (code == IMP_SUCCESS && m->question == BENCH_PROOF)
+        code = ask_for_proof(registry, s, &options, error);
+    if (code == IMP_SUCCESS)
+        code = m->question == BENCH_CLEARANCE
+                   ? run_clearance(scene, &options, &least, result, seconds, error)
+                   : run(imp_query_new(scene, &options, error), result, seconds, error);
+    imp_scene_free(scene);
+    return code;
+}
+
+/* --- Many numbers ------------------------------------------------------------------------- */
+
+static int ascending(const void *p, const void *q)
+{
+    const double a = *(const double *)p, b = *(const double *)q;
+    return a < b ? -1 : a > b;
+}
+
+/* Sorts x; count > 0. */
+static double median(double *x, size_t count)
+{
+    qsort(x, count, sizeof *x, ascending);
+    return 0.5 * (x[(count - 1) / 2] + x[count / 2]);
+}
+
+static bench_spread spread(double *x, size_t count)
+{
+    bench_spread s = {0, count > 0 ? median(x, count) : 0, count > 0 ? x[count - 1] : 0};
+    for (size_t k = 0; k < count; ++k) s.mean += x[k] / (double)count;
+    return s;
+}
+
+enum { PAIRS, NODES, SEARCHES, HEAP, BYTES, SECONDS, COLUMNS, REPEATS_MAX = 101 };
+
+/* The numbers of all scenes, a column each. */
+typedef struct columns {
+    size_t count;
+    double *of[COLUMNS];
+} columns;
+
+static void columns_free(columns *x)
+{
+    for (int k = 0; k < COLUMNS; ++k) free(x->of[k]);
+}
+
+static bool columns_make(columns *x, size_t count)
+{
+    bool made = true;
+    x->count = 0;
+    for (int k = 0; k < COLUMNS; ++k) {
+        x->of[k] = calloc(count + 1, sizeof *x->of[k]);
+        made = made && x->of[k] != NULL;
+    }
+    return made;
+}
+
+static void columns_add(columns *x, const imp_stats *stats, double seconds)
+{
+    const double row[COLUMNS] = {
+        (double)stats->pairs,     (double)stats->nodes, (double)stats->witness_searches,
+        (double)stats->peak_heap, (double)stats->bytes, seconds};
+    for (int k = 0; k < COLUMNS; ++k) x->of[k][x->count] = row[k];
+    x->count += 1;
+}
+
+static void columns_tally(columns *x, bench_tally *tally)
+{
+    tally->pairs = spread(x->of[PAIRS], x->count);
+    tally->nodes = spread(x->of[NODES], x->count);
+    tally->searches = spread(x->of[SEARCHES], x->count);
+    tally->heap = spread(x->of[HEAP], x->count);
+    tally->bytes = spread(x->of[BYTES], x->count);
+    tally->seconds = spread(x->of[SECONDS], x->count);
+}
+
+/* --- One case ----------------------------------------------------------------------------- */
+
+/* Timed `repeats` times, unless once takes long enough to be told exactly. */
+static imp_code solve(imp_registry *registry, const bench_scene *s, const bench_case *c,
+                      const bench_method *m, const bench_request *request, imp_result *result,
+                      double *seconds, imp_error *error)
+{
+    const double long_enough = 0.02;
+    double times[REPEATS_MAX];
+    size_t count = 0;
+    imp_code code = IMP_SUCCESS;
+    do {
+        code = solve_once(registry, s, c, m, request, result, &times[count++], error);
+    } while (code == IMP_SUCCESS && times[count - 1] < long_enough && count < request->repeats &&
+             count < REPEATS_MAX);
+    *seconds = median(times, count);
+    return code;
+}
+
+/* fmin and fmax pass over a NaN, which is what these are while there is none. */
+static void compare(const bench_scene *s, const imp_result *r, bench_tally *tally)
+{
+    if (!s->has_reference) return;
+    const double late = r->t_lower - s->t;
+    tally->references += 1;
+    tally->agreed += r->verdict == (s->meets ? IMP_CONTACT : IMP_CLEAR);
+    if (!s->meets) return;
+    tally->latest = fmax(tally->latest, late);
+    if (r->verdict == IMP_CONTACT) tally->earliest = fmin(tally->earliest, late);
+}
+
+static imp_code fill(imp_registry *registry, const bench_case *c, const bench_method *m,
+                     const bench_request *request, columns *x, bench_tally *tally, imp_error *error)
+{
+    for (size_t k = 0; k < c->count; ++k) {
+        imp_result result = {.struct_size = 0};
+        double seconds;
+        const imp_code code =
+            solve(registry, &c->scenes[k], c, m, request, &result, &seconds, error);
+        if (code != IMP_SUCCESS) return code;
+        columns_add(x, &result.stats, seconds);
+        tally->verdicts[result.verdict] += 1;
+        tally->ended += result.verdict == IMP_UNDECIDED && result.reason == IMP_REASON_PAIRS;
+        if (!(c->cut > 0)) compare(&c->scenes[k], &result, tally);
+    }
+    return IMP_SUCCESS;
+}
+
+imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_method *m,
+                       const bench_request *request, bench_tally *tally, imp_error *error)
+{
+    *tally = (bench_tally){.scenes = c->count, .earliest = NAN, .latest = NAN};
+    columns x;
+    *error = (imp_error){.code = IMP_ERROR_MEMORY};
+    imp_code code = IMP_ERROR_MEMORY;
+    if (columns_make(&x, c->count)) code = fill(registry, c, m, request, &x, tally, error);
+    if (code == IMP_SUCCESS) columns_tally(&x, tally);
+    columns_free(&x);
+    return code;
+}

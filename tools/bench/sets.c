@@ -1,0 +1,396 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/bench/bench.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* --- Methods ------------------------------------------------------------------------------ */
+
+#define METHOD(ID, NAME, METHOD, BOUNDS, RATES)                                                    \
+    static const bench_method ID = {NAME, IMP_METHOD_##METHOD, IMP_BOUNDS_##BOUNDS,                \
+                                    IMP_RATES_##RATES, BENCH_CONTACT}
+METHOD(models, "models", MODELS, BOX, FULL);
+METHOD(boxes, "paper", PAPER, BOX, FULL);
+METHOD(boxes_column, "paper, column", PAPER, BOX, COLUMN);
+METHOD(boxes_constant, "paper, constant", PAPER, BOX, CONSTANT);
+METHOD(balls, "paper, spheres", PAPER, SPHERE, FULL);
+METHOD(balls_column, "paper, spheres, column", PAPER, SPHERE, COLUMN);
+METHOD(balls_constant, "paper, spheres, constant", PAPER, SPHERE, CONSTANT);
+
+static const bench_method clearance_method = {"clearance", IMP_METHOD_MODELS, IMP_BOUNDS_BOX,
+                                              IMP_RATES_FULL, BENCH_CLEARANCE};
+static const bench_method proof_method = {"solve, 0.99 of it", IMP_METHOD_MODELS, IMP_BOUNDS_BOX,
+                                          IMP_RATES_FULL, BENCH_PROOF};
+
+static const bench_method *const usual[] = {&models, &boxes, &balls, NULL};
+static const bench_method *const all_rates[] = {
+    &models, &boxes, &boxes_column, &boxes_constant, &balls, &balls_column, &balls_constant, NULL};
+
+/* --- Words -------------------------------------------------------------------------------- */
+
+/* Text that snprintf makes, in memory of its own; NULL: no memory. */
+static char *text_of(const char *format, ...) __attribute__((format(printf, 1, 2)));
+static char *text_of(const char *format, ...)
+{
+    char *text;
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    return length >= 0 ? text : NULL;
+}
+
+/* A vector as pipelines take it. */
+typedef struct vector_text {
+    char text[80];
+} vector_text;
+
+static vector_text vector(const double x[3], double scale)
+{
+    vector_text v;
+    snprintf(v.text, sizeof v.text, "%.17g,%.17g,%.17g", scale * x[0], scale * x[1], scale * x[2]);
+    return v;
+}
+
+static exit_status built(const bench_cases *list, const bench_request *request)
+{
+    return list->no_memory ? complain_of_memory(request->verb) : EXIT_ANSWERED;
+}
+
+/* What the last `step` cases cost beyond the `step` before them, over what those cost beyond the
+ * `step` before; `end` counts the cases. 1 is a cost like the logarithm. */
+static double growth(const bench_tally *tallies, size_t end, size_t step)
+{
+    const double last = tallies[end - 1].pairs.mean, middle = tallies[end - 1 - step].pairs.mean,
+                 first = tallies[end - 1 - 2 * step].pairs.mean;
+    return (last - middle) / (middle - first);
+}
+
+/* --- figure7: two spheres ----------------------------------------------------------------- */
+
+static const double gaps[] = {2, 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+enum { GAPS = sizeof gaps / sizeof *gaps, DIRECTIONS = 20 };
+
+/* Two unit spheres whose centres are 2 + gap apart along n. */
+static void add_gap(bench_cases *list, double gap, const double n[3])
+{
+    bench_add_pair(list, text_of("sphere"), text_of("sphere center=%s", vector(n, 2 + gap).text));
+}
+
+static exit_status build_figure7(bench_cases *list, const bench_request *request)
+{
+    for (int k = 0; k < GAPS; ++k) {
+        bench_begin(list, gaps[k] / 2, -1, "axis, S = %g", gaps[k]);
+        add_gap(list, gaps[k], (double[3]){1, 0, 0});
+    }
+    for (int k = 0; k < GAPS; ++k) {
+        uint64_t state = 1990;
+        bench_begin(list, gaps[k] / 2, -1, "oblique, S = %g", gaps[k]);
+        for (int d = 0; d < DIRECTIONS; ++d) {
+            double n[3];
+            bench_direction(&state, n);
+            add_gap(list, gaps[k], n);
+        }
+    }
+    return built(list, request);
+}
+
+static size_t find_figure7(const bench_tally *tallies, size_t count, bench_finding *findings)
+{
+    findings[0] = (bench_finding){.key = "growth_to_1e-6", .value = growth(tallies, count - 2, 2)};
+    findings[1] = (bench_finding){.key = "growth_to_1e-8", .value = growth(tallies, count, 2)};
+    for (int k = 0; k < 2; ++k)
+        snprintf(
+            findings[k].text, sizeof findings[k].text,
+            "oblique: two more decades, to S = %s, take %.2f times the pairs of the two before",
+            k == 0 ? "1e-6" : "1e-8", findings[k].value);
+    return 2;
+}
+
+static const bench_set figure7 = {
+    "figure7",
+    "Two unit spheres, S apart, proved not to touch (gamma S/2, clearance S/4): the line of "
+    "centres\n"
+    "along x, and along 20 random directions. After the paper's figure 7.",
+    usual, build_figure7, find_figure7};
+
+/* --- bicubic: random moving patches ------------------------------------------------------- */
+
+static exit_status build_bicubic(bench_cases *list, const bench_request *request)
+{
+    const double gamma[2] = {1e-3, 1e-6};
+    exit_status status = EXIT_ANSWERED;
+    for (int k = 0; k < 2 && status == EXIT_ANSWERED; ++k) {
+        bench_begin(list, gamma[k], -1, "gamma %g", gamma[k]);
+        if (!list->no_memory) status = bench_add_file(list, request->verb);
+        if (request->count == 0) continue;
+        bench_begin(list, gamma[k], -1, "seed %llu, gamma %g", (unsigned long long)request->seed,
+                    gamma[k]);
+        bench_add_patches(list, request->seed, request->count);
+    }
+    return status == EXIT_ANSWERED ? built(list, request) : status;
+}
+
+static const bench_set bicubic = {
+    "bicubic",
+    "Two random bicubic Bezier patches whose control points move linearly: 100 scenes with the\n"
+    "answers of another solver, good to about 1e-6 in time (Chen et al., SIGGRAPH Asia 2024).",
+    usual, build_bicubic, NULL};
+
+/* --- spikes ------------------------------------------------------------------------------- */
+
+static const double widths[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
+enum { WIDTHS = sizeof widths / sizeof *widths };
+
+/* Directions of longitude and latitude, (cos v cos u, cos v sin u, sin v). */
+static const double at_0_7_and_0_4[3] = {0.7044663052755917, 0.5933637833613874,
+                                         0.3894183423086505};
+static const double at_0_and_0_3[3] = {0.955336489125606, 0, 0.29552020666133955};
+static const double at_2_and_minus_0_5[3] = {-0.36520320693961544, 0.7979835653540055,
+                                             -0.479425538604203};
+
+/* Both bodies have two spikes. The first of each point at each other; their tips, 2 from the
+ * centres, meet at t = 0.5. */
+static void add_head_on(bench_cases *list, double width)
+{
+    const double *n = at_0_7_and_0_4;
+    bench_scene *scene = bench_add_pair(
+        list, text_of("spike width=%g spikes=[[0.7,0.4],[2.5,-0.6]]", width),
+        text_of("spike width=%g spikes=[[3.8415926535897932,-0.4],[5.5,0.7]] ! translate "
+                "offset=[[%s],[%s]]",
+                width, vector(n, 5).text, vector(n, -2).text));
+    if (scene == NULL) return;
+    scene->has_reference = scene->meets = true;
+    scene->t = 0.5;
+}
+
+/* A's spike sweeps through longitude at latitude 0.3 and hits the flank of B's, whose axis crosses
+ * its own at t = 0.5. */
+static void add_swing(bench_cases *list, double width)
+{
+    double centre[3];
+    for (int i = 0; i < 3; ++i) centre[i] = 1.5 * (at_0_and_0_3[i] - at_2_and_minus_0_5[i]);
+    bench_add_pair(list,
+                   text_of("spike radius=0.5 height=1.5 width=%g spikes=[[0,0.3],[2,-1]] ! "
+                           "rotate angle=-0.5,1",
+                           width),
+                   text_of("spike radius=0.5 height=1.5 width=%g spikes=[[2,-0.5],[4,1]] ! "
+                           "translate offset=[[%s]]",
+                           width, vector(centre, 1).text));
+}
+
+static exit_status build_spikes(bench_cases *list, const bench_request *request)
+{
+    for (int k = 0; k < WIDTHS; ++k) {
+        bench_begin(list, 1e-6, -1, "head-on, width %g", widths[k]);
+        add_head_on(list, widths[k]);
+    }
+    for (int k = 0; k < WIDTHS; ++k) {
+        bench_begin(list, 1e-6, -1, "swing, width %g", widths[k]);
+        add_swing(list, widths[k]);
+    }
+    return built(list, request);
+}
+
+static size_t find_spikes(const bench_tally *tallies, size_t count, bench_finding *findings)
+{
+    const double head_on = tallies[WIDTHS - 1].pairs.mean / tallies[0].pairs.mean;
+    const double swing = tallies[count - 1].pairs.mean / tallies[WIDTHS].pairs.mean;
+    findings[0] = (bench_finding){.key = "narrowest_over_widest_head_on", .value = head_on};
+    findings[1] = (bench_finding){.key = "narrowest_over_widest_swing", .value = swing};
+    snprintf(findings[0].text, sizeof findings[0].text,
+             "head-on, the narrowest spikes take %.2f times the pairs of the widest", head_on);
+    snprintf(findings[1].text, sizeof findings[1].text, "swung into the flank, %.2f times", swing);
+    return 2;
+}
+
+static const bench_set spikes = {"spikes",
+                                 "Two spheres with two spikes each, one of which meets the "
+                                 "other's: head-on, and swung into its\n"
+                                 "flank; gamma 1e-6. After the paper's figure 8.",
+                                 usual, build_spikes, find_spikes};
+
+/* --- tori: rotating ----------------------------------------------------------------------- */
+
+static const struct {
+    const char *name, *a, *b;
+} two_tori[] = {
+    {"flight", "torus ! rotate axis=1,2,3 rate=2",
+     "torus minor_radius=0.3 ! rotate axis=1,0.3,-0.5 rate=-3 ! translate "
+     "offset=[[3,1,0.5],[-3,-1,-0.4]]"},
+    {"tumble", "torus ! rotate axis=2,-1,0.5 rate=9",
+     "torus ! rotate axis=0.3,1,0.2 rate=-11 ! translate offset=[[0.4,3,0.2],[0,-1.5,0]]"},
+    {"chain", "torus minor_radius=0.2",
+     "torus minor_radius=0.2 ! rotate axis=1,0,0 angle=1.3,0.7 ! translate "
+     "offset=[[1,0,0],[0.3,0.2,0.9]]"},
+};
+enum { TORI = sizeof two_tori / sizeof *two_tori };
+
+static void add_tori(bench_cases *list, int k)
+{
+    bench_add_pair(list, text_of("%s", two_tori[k].a), text_of("%s", two_tori[k].b));
+}
+
+static exit_status build_tori(bench_cases *list, const bench_request *request)
+{
+    const double gamma[] = {1e-2, 1e-4, 1e-6, 1e-8};
+    for (int k = 0; k < TORI; ++k)
+        for (size_t g = 0; g < sizeof gamma / sizeof *gamma; ++g) {
+            bench_begin(list, gamma[g], -1, "%s, gamma %g", two_tori[k].name, gamma[g]);
+            add_tori(list, k);
+        }
+    return built(list, request);
+}
+
+static const bench_set tori = {
+    "tori", "Two tori that turn and drift: in flight, in a fast tumble, linked like a chain.",
+    usual, build_tori, NULL};
+
+/* --- moving: spheres in flight ------------------------------------------------------------ */
+
+/* First t with |c + v t| = reach; |c| > reach, and the flight passes nearer. */
+static double flight_time(const double c[3], const double v[3], double reach)
+{
+    const double vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    const double cv = c[0] * v[0] + c[1] * v[1] + c[2] * v[2];
+    const double cc = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+    return (-cv - sqrt(cv * cv - vv * (cc - reach * reach))) / vv;
+}
+
+/* Radii 1 and 0.5, in a random direction and not quite head-on. */
+static void add_flight(bench_cases *list, uint64_t *state)
+{
+    double n[3], aside[3], v[3];
+    bench_direction(state, n);
+    bench_direction(state, aside);
+    for (int i = 0; i < 3; ++i) v[i] = -4 * n[i] + 0.5 * aside[i];
+    bench_scene *scene = bench_add_pair(list, text_of("sphere"),
+                                        text_of("sphere radius=0.5 center=%s ! translate "
+                                                "velocity=%s",
+                                                vector(n, 3).text, vector(v, 1).text));
+    if (scene == NULL) return;
+    const double c[3] = {3 * n[0], 3 * n[1], 3 * n[2]};
+    scene->has_reference = scene->meets = true;
+    scene->t = flight_time(c, v, 1.5);
+}
+
+static void add_flights(bench_cases *list)
+{
+    uint64_t state = 2024;
+    for (int k = 0; k < DIRECTIONS; ++k) add_flight(list, &state);
+}
+
+static exit_status build_moving(bench_cases *list, const bench_request *request)
+{
+    const double gamma[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
+    for (size_t k = 0; k < sizeof gamma / sizeof *gamma; ++k) {
+        bench_begin(list, gamma[k], -1, "gamma %g", gamma[k]);
+        add_flights(list);
+    }
+    return built(list, request);
+}
+
+static const bench_set moving = {
+    "moving",
+    "A sphere flies at another from 20 random directions; the reference is the closed form.", usual,
+    build_moving, NULL};
+
+/* --- rates: bounds side by side ----------------------------------------------------------- */
+
+static exit_status build_rates(bench_cases *list, const bench_request *request)
+{
+    const double gamma[2] = {0.1, 0.01};
+    for (int k = 0; k < 2; ++k) {
+        bench_begin(list, gamma[k], -1, "spheres, gamma %g", gamma[k]);
+        add_flights(list);
+        bench_begin(list, gamma[k], -1, "tori, gamma %g", gamma[k]);
+        for (int scene = 0; scene < TORI; ++scene) add_tori(list, scene);
+        bench_begin(list, gamma[k], -1, "spikes, gamma %g", gamma[k]);
+        add_head_on(list, widths[0]);
+        add_swing(list, widths[0]);
+        bench_begin(list, gamma[k], -1, "patches, gamma %g", gamma[k]);
+        bench_add_patches(list, 1, 10);
+    }
+    return built(list, request);
+}
+
+static const bench_set rates = {"rates",
+                                "What bounds are made of: models; boxes and spheres from the rate "
+                                "matrix, from its columns, and\n"
+                                "from one constant (the paper's section 5).",
+                                all_rates, build_rates, NULL};
+
+/* --- clearance: least distances ----------------------------------------------------------------- */
+
+static const bench_method *const distances[] = {&clearance_method, &proof_method, NULL};
+
+/* A fixture and an arm of three links, each turning about the end of the one before. */
+static void add_arm(bench_cases *list, uint64_t *state)
+{
+    double rate[3], place[3];
+    for (int k = 0; k < 3; ++k) rate[k] = random_between(state, -1.5, 1.5);
+    bench_direction(state, place);
+    char *arm = text_of(
+        "{\"bodies\": [{\"name\": \"fixture\", \"surfaces\": [{\"type\": \"sphere\", \"radius\": "
+        "0.3, \"center\": [%.17g,%.17g,%.17g]}]}, {\"name\": \"1\", \"surfaces\": [{\"type\": "
+        "\"ellipsoid\", \"center\": [0.5,0,0], \"radii\": [0.5,0.1,0.1]}], \"maps\": [{\"type\": "
+        "\"rotate\", \"axis\": [0,0,1], \"rate\": %.17g}]}, {\"name\": \"2\", \"parent\": \"1\", "
+        "\"surfaces\": [{\"type\": \"ellipsoid\", \"center\": [1.5,0,0], \"radii\": "
+        "[0.5,0.1,0.1]}], \"maps\": [{\"type\": \"rotate\", \"center\": [1,0,0], \"axis\": "
+        "[0,1,0], "
+        "\"rate\": %.17g}]}, {\"name\": \"3\", \"parent\": \"2\", \"surfaces\": [{\"type\": "
+        "\"ellipsoid\", \"center\": [2.5,0,0], \"radii\": [0.5,0.1,0.1]}], \"maps\": [{\"type\": "
+        "\"rotate\", \"center\": [2,0,0], \"axis\": [0,1,0], \"rate\": %.17g}]}], \"ignore\": "
+        "[[\"1\",\"2\"], [\"2\",\"3\"], [\"1\",\"3\"]]}",
+        3.6 * place[0], 3.6 * place[1], 3.6 * place[2], rate[0], rate[1], rate[2]);
+    bench_add_text(list, arm);
+}
+
+static void cut_last(bench_cases *list, double cut)
+{
+    if (!list->no_memory) list->cases[list->count - 1].cut = cut;
+}
+
+static exit_status build_clearance(bench_cases *list, const bench_request *request)
+{
+    const double cuts[] = {0.5, 0.9, 0.99};
+    exit_status status = EXIT_ANSWERED;
+    for (int k = 0; k < 3 && status == EXIT_ANSWERED; ++k) {
+        bench_begin(list, 1e-6, -1, "patches, to %g of contact", cuts[k]);
+        if (!list->no_memory) status = bench_add_file(list, request->verb);
+        cut_last(list, cuts[k]);
+    }
+    bench_begin(list, 1e-6, -1, "tori, to 0.9 of contact");
+    for (int k = 0; k < TORI; ++k) add_tori(list, k);
+    cut_last(list, 0.9);
+    uint64_t state = 2026;
+    bench_begin(list, 1e-6, -1, "arms, to 0.9 of contact");
+    for (int k = 0; k < 12; ++k) add_arm(list, &state);
+    cut_last(list, 0.9);
+    return status == EXIT_ANSWERED ? built(list, request) : status;
+}
+
+static const bench_set clearance_set = {
+    "clearance",
+    "How near bodies come, to a thousandth; beside it a search that proves 0.99 of that distance,\n"
+    "which it is given, and which ratios are against. Intervals end before the first contact.",
+    distances, build_clearance, NULL};
+
+/* --- All ---------------------------------------------------------------------------------- */
+
+static const bench_set *const all[] = {&figure7, &bicubic, &spikes,        &tori,
+                                       &rates,   &moving,  &clearance_set, NULL};
+
+const bench_set *const *bench_sets_all(void) { return all; }
+
+const bench_set *bench_set_find(const char *name)
+{
+    for (const bench_set *const *set = all; *set != NULL; ++set)
+        if (strcmp((*set)->name, name) == 0) return *set;
+    return NULL;
+}

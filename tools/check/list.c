@@ -1,0 +1,253 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/check/list.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "tools/check/arguments.h"
+#include "tools/check/buffers.h"
+#include "tools/check/cost.h"
+#include "tools/check/domain.h"
+#include "tools/check/file.h"
+#include "tools/check/inclusions.h"
+#include "tools/check/points.h"
+#include "tools/check/proof.h"
+#include "tools/check/purity.h"
+#include "tools/check/rates.h"
+#include "tools/check/state.h"
+#include "tools/check/stated_formula.h"
+#include "tools/check/table.h"
+
+/* One of the three is set. */
+typedef struct check {
+    const char *name;
+    void (*of_file)(const char *file, check_answer *answer);
+    void (*of_stage)(imp_registry *registry, const imp_type_info *type, const char *stage,
+                     check_answer *answer);
+    void (*of_subject)(const subject *s, uint64_t *random, double effort);
+    bool of_bounds;
+} check;
+
+/* To add a check, add a row here and its name below. */
+static const check all[] = {
+    {.name = "exports", .of_file = exports_check},
+    {.name = "factories", .of_file = factories_check},
+    {.name = "parameters", .of_stage = parameters_check},
+    {.name = "arguments", .of_stage = arguments_check},
+    {.name = "memory", .of_stage = memory_check},
+    {.name = "finite", .of_subject = finite_check},
+    {.name = "domain", .of_subject = domain_check},
+    {.name = "determinism", .of_subject = determinism_check},
+    {.name = "state", .of_stage = state_check},
+    {.name = "environment", .of_subject = environment_check},
+    {.name = "buffers", .of_subject = buffers_check},
+    {.name = "rates", .of_subject = rates_check, .of_bounds = true},
+    {.name = "errors", .of_subject = errors_check, .of_bounds = true},
+    {.name = "inclusions", .of_subject = inclusions_check, .of_bounds = true},
+    {.name = "proof", .of_subject = proof_check, .of_bounds = true},
+    {.name = "tightness", .of_subject = tightness_check},
+    {.name = "cost", .of_subject = cost_check},
+};
+const char *const check_names[] = {
+    "exports", "factories",   "parameters", "arguments",   "memory",  "finite",
+    "domain",  "determinism", "state",      "environment", "buffers", "rates",
+    "errors",  "inclusions",  "proof",      "tightness",   "cost",    NULL};
+
+_Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
+               "a name for each");
+
+bool check_is_of_file(size_t index) { return all[index].of_file != NULL; }
+
+bool check_is_of_bounds(size_t index) { return all[index].of_bounds; }
+
+/* --- In the child ------------------------------------------------------------------------- */
+
+static bool find_type(const imp_registry *registry, const check_task *task, imp_type_info *info)
+{
+    for (size_t i = 0; imp_registry_type(registry, i, info); ++i)
+        if (info->kind == task->kind && strcmp(info->name, task->type) == 0) return true;
+    return false;
+}
+
+static void check_instances(const check *c, const check_task *task, const imp_registry *registry,
+                            const imp_type_info *info, const char *stage, const imp_instance *one,
+                            const imp_instance *twin, check_answer *answer)
+{
+    subject s;
+    uint64_t random = draw_stream(task->seed, c->name, stage);
+    if (!subject_make(&s, one, twin, answer)) return;
+    s.registry = registry;
+    s.type = info;
+    s.stage = stage;
+    s.formula = task->formula;
+    s.said_domain = task->domain;
+    c->of_subject(&s, &random, task->effort);
+}
+
+static void check_stage(const check *c, const check_task *task, const char *stage,
+                        imp_registry *registry, const imp_type_info *info, check_answer *answer)
+{
+    imp_instance one = {NULL, NULL, NULL}, twin = one;
+    const imp_type_kind kind = task->kind;
+    imp_error error;
+    if (c->of_stage != NULL) {
+        c->of_stage(registry, info, stage, answer);
+    } else if (subject_create(registry, kind, stage, &one, &error, answer) != IMP_SUCCESS ||
+               subject_create(registry, kind, stage, &twin, &error, answer) != IMP_SUCCESS) {
+        answer_fail(answer, "'%.300s' does not work: %s", stage, error.text);
+    } else {
+        check_instances(c, task, registry, info, stage, &one, &twin, answer);
+    }
+    subject_destroy(&one, stage, answer);
+    subject_destroy(&twin, stage, answer);
+}
+
+static void check_type(const check *c, const check_task *task, check_answer *answer)
+{
+    imp_type_info info;
+    imp_registry *registry = imp_registry_from_file(task->file);
+    if (registry == NULL || !find_type(registry, task, &info)) {
+        answer_fail(answer, "the type is missing when the plugin is loaded again");
+        return;
+    }
+    for (int k = 0; k < CHECK_STAGES && task->stage[k] != NULL; ++k) {
+        check_stage(c, task, task->stage[k], registry, &info, answer);
+        if (answer->verdict == CHECK_FAIL) {
+            answer_prefix(answer, task->stage[k]);
+            return;
+        }
+    }
+    imp_registry_free(registry);
+}
+
+static void work(void *result, const void *data)
+{
+    const check_task *task = data;
+    const check *c = &all[task->check];
+    check_answer *answer = result;
+    if (c->of_file != NULL)
+        c->of_file(task->file, answer);
+    else
+        check_type(c, task, answer);
+    if (c->of_bounds && answer->verdict == CHECK_PASS && answer->tests == 0)
+        answer_fail_for(answer, FAULT_UNBOUNDED, "no bound was given that could be compared");
+    if (answer->text[0] == '\0')
+        answer_pass(answer, "%llu comparisons", (unsigned long long)answer->tests);
+}
+
+/* --- Outside -------------------------------------------------------------------------------- */
+
+child_fate check_run(const check_task *task, double seconds, check_answer *shared)
+{
+    *shared = (check_answer){.verdict = CHECK_PASS};
+    const child_fate fate = child_run(work, shared, task, seconds);
+    if (fate.end == CHILD_DONE) return fate;
+    const char *type = task->type != NULL ? task->type : "the plugin";
+    shared->verdict = CHECK_PASS;
+    answer_fail_for(shared, FAULT_CRASH, "%s %s %s", type, fate_text_of(fate, seconds).text,
+                    subject_call_text(&shared->call).text);
+    return fate;
+}
+
+/* --- The request -------------------------------------------------------------------- */
+
+static void try_type(const check_task *task, imp_registry *registry, const imp_type_info *info,
+                     check_misreading *m)
+{
+    const char *stage = task->stage[0] != NULL ? task->stage[0] : info->example;
+    imp_instance made = {NULL, NULL, NULL};
+    imp_error error;
+    const imp_code code = imp_instance_from_text(registry, info->kind, stage, &made, &error);
+    if (code == IMP_ERROR_SCENE && task->stage[0] != NULL)
+        snprintf(m->stage, sizeof m->stage, "%s", error.text);
+    else if (task->formula != NULL)
+        formula_free(
+            stated_formula(registry, info, stage, task->formula, m->formula, sizeof m->formula));
+    said_domain d;
+    if (m->stage[0] == '\0' && task->domain != NULL)
+        said_domain_read(&d, registry, info, stage, task->domain, m->domain, sizeof m->domain);
+    imp_instance_free(&made);
+}
+
+static void try_work(void *result, const void *data)
+{
+    const check_task *task = data;
+    imp_type_info info;
+    imp_registry *registry = imp_registry_from_file(task->file);
+    for (size_t i = 0; registry != NULL && imp_registry_type(registry, i, &info); ++i)
+        if (task->type == NULL || strcmp(info.name, task->type) == 0)
+            try_type(task, registry, &info, result);
+    imp_registry_free(registry);
+}
+
+void check_try(const check_task *task, double seconds, check_misreading *shared)
+{
+    memset(shared, 0, sizeof *shared);
+    child_run(try_work, shared, task, seconds); /* if the plugin fails here, its checks report it */
+}
+
+/* --- Survey --------------------------------------------------------------------------------- */
+
+static void survey_work(void *result, const void *data)
+{
+    survey *s = result;
+    imp_type_info info;
+    imp_plugin_refusal refusal = {NULL, "memory ran out"};
+    imp_registry *registry = imp_registry_from_file(data);
+    if (registry == NULL || imp_registry_refusal(registry, 0, &refusal)) {
+        snprintf(s->reason, sizeof s->reason, "%s", refusal.reason);
+        return;
+    }
+    for (size_t i = 0; s->count < SURVEY_TYPES && imp_registry_type(registry, i, &info); ++i) {
+        survey_type *t = &s->type[s->count++];
+        t->kind = info.kind;
+        snprintf(t->name, sizeof t->name, "%s", info.name);
+        snprintf(t->stage[0], sizeof t->stage[0], "%s", info.example);
+    }
+    if (s->count > 0)
+        snprintf(s->plugin, sizeof s->plugin, "%s %s, %s", info.plugin, info.version, info.license);
+    s->is_taken = true;
+    imp_registry_free(registry);
+}
+
+typedef struct defaults {
+    const char *file;
+    size_t type; /* index in the survey */
+} defaults;
+
+/* Removes the type's name from the stages if create rejects it. */
+static void defaults_work(void *result, const void *data)
+{
+    const defaults *d = data;
+    survey_type *t = &((survey *)result)->type[d->type];
+    imp_instance made = {NULL, NULL, NULL};
+    imp_error error;
+    imp_registry *registry = imp_registry_from_file(d->file);
+    if (registry == NULL ||
+        imp_instance_from_text(registry, t->kind, t->name, &made, &error) != IMP_SUCCESS)
+        t->stage[1][0] = '\0';
+}
+
+/* With all defaults too, unless parameters are required. If create crashes, its checks report it.
+ */
+static void survey_defaults(const char *file, double seconds, survey *s)
+{
+    for (size_t k = 0; k < s->count; ++k) {
+        survey_type *t = &s->type[k];
+        const defaults d = {file, k};
+        if (strcmp(t->stage[0], t->name) == 0) continue;
+        snprintf(t->stage[1], sizeof t->stage[1], "%s", t->name);
+        child_run(defaults_work, s, &d, seconds);
+    }
+}
+
+child_fate check_survey(const char *file, double seconds, survey *shared)
+{
+    memset(shared, 0, sizeof *shared);
+    const child_fate fate = child_run(survey_work, shared, file, seconds);
+    if (fate.end == CHILD_DONE) survey_defaults(file, seconds, shared);
+    return fate;
+}

@@ -1,0 +1,74 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CHECK_LIST_H
+#define TOOLS_CHECK_LIST_H
+
+#include <impinge/impinge.h>
+
+#include "tools/check/answer.h"
+#include "tools/check/fate.h"
+
+/* The list of checks
+ * ====================
+ * Some concern a file, some each type in it, once for each of a few stages ("sphere radius=2").
+ * Each is run in a child process of its own. */
+
+enum { CHECK_STAGES = 2 };
+
+typedef struct check_task {
+    const char *file; /* absolute path of the plugin */
+    imp_type_kind kind;
+    const char *type;                /* NULL: the file itself */
+    const char *stage[CHECK_STAGES]; /* of that type, NULL-terminated if fewer */
+    const char *formula;             /* "X; Y; Z" the stated formula, or NULL */
+    const char *domain;              /* "0,1; 0,1" the stated domain, or NULL */
+    uint64_t seed;
+    double effort; /* 1: as usual */
+    size_t check;  /* index */
+} check_task;
+
+/* Names of the checks, in the order they are run, NULL-terminated. */
+extern const char *const check_names[];
+
+/* What the check with that index tests. */
+bool check_is_of_file(size_t check);
+
+/* Whether it tries to refute bounds, so that its comparisons count for the type's label. */
+bool check_is_of_bounds(size_t check);
+
+/* Runs it in a child process with that time limit in seconds. *shared is from child_memory. */
+child_fate check_run(const check_task *task, double seconds, check_answer *shared);
+
+/* --- The request ------------------------------------------------------------------------------ */
+
+/* Why the request cannot be read, which is not a bug of the plugin; empty: it can be read. */
+typedef struct check_misreading {
+    char stage[1000], formula[1000], domain[1000];
+} check_misreading;
+
+/* Tries, in a child, the parameters in the task's first stage (NULL: none were given) and its
+ * formula and domain, of the type of that name, or of all in the file. *shared is from child_memory. */
+void check_try(const check_task *task, double seconds, check_misreading *shared);
+
+/* --- The content of a file -------------------------------------------------------------------- */
+
+enum { SURVEY_TYPES = 64 };
+
+typedef struct survey_type {
+    imp_type_kind kind;
+    char name[80];
+    char stage[CHECK_STAGES][800]; /* those that work; empty: none */
+} survey_type;
+
+typedef struct survey {
+    bool is_taken;     /* the host accepts the file */
+    char reason[1000]; /* why not */
+    char plugin[200];  /* name, version, licence */
+    size_t count;
+    survey_type type[SURVEY_TYPES];
+} survey;
+
+/* Lists, in a child, what the host finds in the file. *shared is from child_memory. */
+child_fate check_survey(const char *file, double seconds, survey *shared);
+
+#endif

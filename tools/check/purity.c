@@ -1,0 +1,173 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/check/purity.h"
+
+#include <impinge/formula.h>
+
+#include <errno.h>
+#include <fenv.h>
+#include <math.h>
+#include <pthread.h>
+#include <string.h>
+
+/* --- All results of a type for some points and regions ------------------------------------- */
+
+enum { POINTS = 96, BOXES = 32, THREADS = 4 };
+
+typedef struct questions {
+    double p[POINTS * BOX_DIMS];
+    box where[BOXES];
+} questions;
+
+/* Compared as bytes, so it must have no padding: doubles, then models, whose layout is frozen. */
+typedef struct answers {
+    double x[POINTS * 3], error[POINTS * 3];
+    double rate[BOXES][3][BOX_DIMS];
+    imp_model model[BOXES][3];
+    double status[1 + 2 * BOXES];
+} answers;
+
+static void draw_questions(const subject *s, uint64_t *random, questions *q)
+{
+    memset(q, 0, sizeof *q);
+    for (int k = 0; k < POINTS; ++k) draw_point(random, &s->domain, s->n, q->p + k * s->n);
+    for (int k = 0; k < BOXES; ++k) q->where[k] = draw_box(random, &s->domain, s->n);
+}
+
+static void ask(const subject *s, const questions *q, answers *a)
+{
+    memset(a, 0, sizeof *a);
+    a->status[0] = subject_eval(s, POINTS, q->p, a->x, a->error);
+    for (int k = 0; k < BOXES; ++k) {
+        a->status[1 + 2 * k] = subject_rate(s, &q->where[k], a->rate[k]);
+        a->status[2 + 2 * k] = subject_model(s, q->where[k], a->model[k]);
+    }
+}
+
+/* --- Determinism ------------------------------------------------------------------------- */
+
+static bool same(const subject *s, const answers *a, const answers *b, const char *when)
+{
+    const char *differs = memcmp(a->x, b->x, sizeof a->x) != 0               ? "eval's points"
+                          : memcmp(a->error, b->error, sizeof a->error) != 0 ? "eval's errors"
+                          : memcmp(a->rate, b->rate, sizeof a->rate) != 0    ? "the rates"
+                          : memcmp(a->model, b->model, sizeof a->model) != 0 ? "the models"
+                          : memcmp(a->status, b->status, sizeof a->status)   ? "the statuses"
+                                                                             : NULL;
+    s->answer->tests += POINTS + 2 * BOXES;
+    return differs == NULL || answer_fail_for(s->answer, FAULT_ANY, "%s differ %s", differs, when);
+}
+
+/* A call for each point. */
+static void ask_singly(const subject *s, const questions *q, answers *a)
+{
+    for (int k = 0; k < POINTS; ++k)
+        subject_eval(s, 1, q->p + k * s->n, a->x + 3 * k, a->error + 3 * k);
+}
+
+typedef struct job {
+    pthread_t thread;
+    check_answer note; /* each thread notes its own calls */
+    subject s;
+    const questions *q;
+    answers a;
+} job;
+
+static void *work(void *data)
+{
+    job *j = data;
+    for (int k = 0; k < 8; ++k) ask(&j->s, j->q, &j->a);
+    return NULL;
+}
+
+static bool same_in_threads(const subject *s, const questions *q, const answers *a)
+{
+    static job jobs[THREADS];
+    int started = 0;
+    for (; started < THREADS; ++started) {
+        job *j = &jobs[started];
+        j->s = *s;
+        j->s.answer = &j->note;
+        j->q = q;
+        if (pthread_create(&j->thread, NULL, work, j) != 0) break;
+    }
+    for (int k = 0; k < started; ++k) pthread_join(jobs[k].thread, NULL);
+    for (int k = 0; k < started; ++k)
+        if (!same(s, a, &jobs[k].a, "when several threads call at once")) return false;
+    return true;
+}
+
+void determinism_check(const subject *s, uint64_t *random, double effort)
+{
+    static questions q;
+    static answers first, other;
+    (void)effort;
+    subject brother = *s;
+    brother.instance = s->twin;
+    draw_questions(s, random, &q);
+    ask(s, &q, &first);
+    ask(s, &q, &other);
+    if (!same(s, &first, &other, "from call to call")) return;
+    ask_singly(s, &q, &other);
+    if (!same(s, &first, &other, "between points evaluated together and one by one")) return;
+    ask(&brother, &q, &other);
+    if (!same(s, &first, &other, "between instances of the same parameters")) return;
+    same_in_threads(s, &q, &first);
+}
+
+/* --- Environment ---------------------------------------------------------------------------- */
+
+/* Rounding mode, and where we know how: subnormals and traps. The sticky exception flags are
+ * nobody's business. */
+typedef struct environment {
+    int rounding, error;
+    unsigned control;
+} environment;
+
+static environment read_environment(void)
+{
+    environment e = {fegetround(), errno, 0};
+#if defined(__x86_64__)
+    e.control = __builtin_ia32_stmxcsr() & ~0x3fu;
+#endif
+    return e;
+}
+
+static bool is_kept(const subject *s, const environment *before, const char *call)
+{
+    const environment now = read_environment();
+    ++s->answer->tests;
+    if (now.rounding != before->rounding)
+        return answer_fail(s->answer, "%s changes the rounding mode", call);
+    if (now.control != before->control)
+        return answer_fail(s->answer,
+                           "%s changes how subnormal numbers are treated, or traps (MXCSR %#x, "
+                           "before %#x)",
+                           call, now.control, before->control);
+    if (now.error != before->error)
+        return answer_fail(s->answer, "%s sets errno to %d", call, now.error);
+    return true;
+}
+
+void environment_check(const subject *s, uint64_t *random, double effort)
+{
+    double x[3], error[3], rate[3][BOX_DIMS];
+    imp_model model[3];
+    static questions q;
+    (void)effort;
+    draw_questions(s, random, &q);
+    errno = 0;
+    const environment before = read_environment();
+    for (int k = 0; k < POINTS; ++k) {
+        subject_eval(s, 1, q.p + k * s->n, x, error);
+        if (!is_kept(s, &before, "eval")) return;
+    }
+    for (int k = 0; k < BOXES; ++k) {
+        subject_rate(s, &q.where[k], rate);
+        if (!is_kept(s, &before, "rate")) return;
+        subject_model(s, q.where[k], model);
+        if (!is_kept(s, &before, s->n == 3 ? "include" : "apply")) return;
+    }
+}

@@ -1,0 +1,17 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CHECK_PURITY_H
+#define TOOLS_CHECK_PURITY_H
+
+#include "tools/check/subject.h"
+
+/* What the ABI requires of every call. The effort has no influence. */
+
+/* The results are the same bit for bit: called again, one point at a time, by four threads at once,
+ * and from another instance of the same parameters. */
+void determinism_check(const subject *s, uint64_t *random, double effort);
+
+/* Each call leaves rounding mode, subnormals, traps and errno unchanged. */
+void environment_check(const subject *s, uint64_t *random, double effort);
+
+#endif

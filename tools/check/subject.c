@@ -1,0 +1,269 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/check/subject.h"
+
+#include <impinge/formula.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* --- Text ---------------------------------------------------------------------------- */
+
+static char letter(int n, int j) { return n == 3 ? "uvt"[j] : "xyzt"[j]; }
+
+subject_text subject_point_text(int n, const double *p)
+{
+    subject_text t = {""};
+    size_t used = 0;
+    for (int j = 0; j < n && used < sizeof t.text; ++j)
+        used += (size_t)snprintf(t.text + used, sizeof t.text - used, "%s%c=%.17g",
+                                 j > 0 ? ", " : "", letter(n, j), p[j]);
+    return t;
+}
+
+subject_text subject_box_text(int n, const double *lo, const double *hi)
+{
+    subject_text t = {""};
+    size_t used = 0;
+    for (int j = 0; j < n && used < sizeof t.text; ++j)
+        used += (size_t)snprintf(t.text + used, sizeof t.text - used, "%s%c in [%.17g, %.17g]",
+                                 j > 0 ? ", " : "", letter(n, j), lo[j], hi[j]);
+    return t;
+}
+
+/* The subject of a call: a stage, a point, or a region. */
+static subject_text matter_text(const check_call *call)
+{
+    subject_text t = {""};
+    const int count = call->count;
+    if (call->stage[0] != '\0')
+        snprintf(t.text, sizeof t.text, " of '%s'", call->stage);
+    else if (count == 3 || count == 4)
+        snprintf(t.text, sizeof t.text, " at %.200s", subject_point_text(count, call->number).text);
+    else if (count == 6 || count == 8)
+        snprintf(t.text, sizeof t.text, " over %.200s",
+                 subject_box_text(count / 2, call->number, call->number + count / 2).text);
+    return t;
+}
+
+subject_text subject_call_text(const check_call *call)
+{
+    subject_text t = {""};
+    if (call->name == NULL) return t;
+    snprintf(t.text, sizeof t.text, "in %s%.220s%s%s", call->name, matter_text(call).text,
+             call->hint != NULL ? ", " : "", call->hint != NULL ? call->hint : "");
+    return t;
+}
+
+const char *subject_status_name(imp_status status)
+{
+    static const char *const names[] = {"ok", "domain", "unbounded", "parameter", "internal"};
+    return status >= 0 && status <= 4 ? names[status] : "an unknown status";
+}
+
+/* --- Calls --------------------------------------------------------------------------- */
+
+void subject_note_stage(check_answer *answer, const char *name, const char *stage)
+{
+    answer->call = (check_call){.name = name};
+    if (name != NULL) snprintf(answer->call.stage, sizeof answer->call.stage, "%s", stage);
+}
+
+imp_code subject_create(imp_registry *registry, imp_type_kind kind, const char *stage,
+                        imp_instance *made, imp_error *error, check_answer *answer)
+{
+    *made = (imp_instance){NULL, NULL, NULL};
+    *error = (imp_error){IMP_SUCCESS, ""};
+    subject_note_stage(answer, "create", stage);
+    const imp_code code = imp_instance_from_text(registry, kind, stage, made, error);
+    subject_note_stage(answer, NULL, NULL);
+    return code;
+}
+
+void subject_destroy(imp_instance *made, const char *stage, check_answer *answer)
+{
+    subject_note_stage(answer, "destroy", stage);
+    imp_instance_free(made);
+    subject_note_stage(answer, NULL, NULL);
+}
+
+static void note(const subject *s, const char *name, int n, const double *lo, const double *hi)
+{
+    check_call *call = &s->answer->call;
+    call->name = name;
+    call->stage[0] = '\0';
+    call->count = hi != NULL ? 2 * n : n;
+    memcpy(call->number, lo, (size_t)n * sizeof *lo);
+    if (hi != NULL) memcpy(call->number + n, hi, (size_t)n * sizeof *hi);
+}
+
+static imp_status noted(const subject *s, imp_status status)
+{
+    s->answer->call.name = NULL;
+    return status;
+}
+
+imp_status subject_eval(const subject *s, size_t count, const double *p, double *x, double *error)
+{
+    const imp_instance *i = s->instance;
+    memset(x, 0xff, 3 * count * sizeof *x); /* NaN: shows what is not written */
+    if (error != NULL) memset(error, 0xff, 3 * count * sizeof *error);
+    note(s, "eval", s->n, p, NULL);
+    return noted(s, i->surface != NULL ? i->surface->eval(i->self, count, p, x, error)
+                                       : i->map->eval(i->self, count, p, x, error));
+}
+
+static imp_status surface_rate(const subject *s, const box *where, double rate[3][BOX_DIMS])
+{
+    const imp_region region = imp_region_between(where->lo, where->hi);
+    imp_rate_matrix m;
+    memset(&m, 0xff, sizeof m); /* NaN again */
+    const imp_status status = s->instance->surface->rate(s->instance->self, &region, &m);
+    for (int i = 0; i < 3; ++i) {
+        memcpy(rate[i], m.m[i], sizeof m.m[i]);
+        rate[i][3] = 0;
+    }
+    return status;
+}
+
+static imp_status map_rate(const subject *s, const box *where, double rate[3][BOX_DIMS])
+{
+    imp_box4 space;
+    imp_map_rates m;
+    memset(&m, 0xff, sizeof m);
+    memcpy(space.lo, where->lo, sizeof space.lo);
+    memcpy(space.hi, where->hi, sizeof space.hi);
+    const imp_status status = s->instance->map->rate(s->instance->self, &space, &m);
+    memcpy(rate, m.m, sizeof m.m);
+    return status;
+}
+
+imp_status subject_rate(const subject *s, const box *where, double rate[3][BOX_DIMS])
+{
+    note(s, "rate", s->n, where->lo, where->hi);
+    return noted(s, s->n == 3 ? surface_rate(s, where, rate) : map_rate(s, where, rate));
+}
+
+imp_status subject_include(const subject *s, const imp_region *region, imp_model model[3])
+{
+    note(s, "include", 3, region->lo, region->hi);
+    memset(model, 0xff, 3 * sizeof *model);
+    return noted(s, s->instance->surface->include(s->instance->self, region, model));
+}
+
+imp_status subject_apply(const subject *s, const imp_model in[4], imp_model out[3])
+{
+    double lo[4], hi[4];
+    for (int i = 0; i < 4; ++i) {
+        lo[i] = in[i].lo;
+        hi[i] = in[i].hi;
+    }
+    note(s, "apply", 4, lo, hi);
+    memset(out, 0xff, 3 * sizeof *out);
+    return noted(s, s->instance->map->apply(s->instance->self, in, out));
+}
+
+void subject_operands(const box *where, imp_model in[4])
+{
+    const imp_region region = imp_region_between(where->lo, where->hi);
+    for (int i = 0; i < 3; ++i) in[i] = imp_param(&region, i);
+    in[3] = imp_between(where->lo[3], where->hi[3]);
+}
+
+imp_status subject_model(const subject *s, box where, imp_model model[3])
+{
+    imp_model in[4];
+    const imp_region region = imp_region_between(where.lo, where.hi);
+    memset(model, 0, 3 * sizeof *model);
+    if (s->n == 3)
+        return s->instance->surface->include != NULL ? subject_include(s, &region, model) : IMP_OK;
+    subject_operands(&where, in);
+    return s->instance->map->apply != NULL ? subject_apply(s, in, model) : IMP_OK;
+}
+
+/* --- Direct checks of each result ----------------------------------------------------- */
+
+static bool judge_point(const subject *s, const double *p, const double *x, const double *error)
+{
+    for (int i = 0; i < 3; ++i) {
+        if (!isfinite(x[i]))
+            return answer_fail_for(s->answer, FAULT_VALUE, "eval gives %c = %g at %s", "xyz"[i],
+                                   x[i], subject_point_text(s->n, p).text);
+        if (error != NULL && !(error[i] >= 0 && error[i] < INFINITY))
+            return answer_fail_for(s->answer, FAULT_ERROR, "eval gives the error %g of %c at %s",
+                                   error[i], "xyz"[i], subject_point_text(s->n, p).text);
+    }
+    return true;
+}
+
+bool subject_eval_sane(const subject *s, size_t count, const double *p, double *x, double *error)
+{
+    const imp_status status = subject_eval(s, count, p, x, error);
+    if (status != IMP_OK)
+        return answer_fail_for(
+            s->answer, FAULT_VALUE, "eval returned '%s' for %zu points, the first at %s",
+            subject_status_name(status), count, subject_point_text(s->n, p).text);
+    for (size_t k = 0; k < count; ++k)
+        if (!judge_point(s, p + k * (size_t)s->n, x + 3 * k, error != NULL ? error + 3 * k : NULL))
+            return false;
+    return true;
+}
+
+bool subject_rate_sane(const subject *s, const box *where, double rate[3][BOX_DIMS])
+{
+    const imp_status status = subject_rate(s, where, rate);
+    const subject_text at = subject_box_text(s->n, where->lo, where->hi);
+    if (status == IMP_UNBOUNDED) return false;
+    if (status != IMP_OK)
+        return answer_fail_for(s->answer, FAULT_RATE, "rate returned '%s' over %s",
+                               subject_status_name(status), at.text);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < s->n; ++j)
+            if (!(rate[i][j] >= 0 && rate[i][j] < INFINITY))
+                return answer_fail_for(s->answer, FAULT_RATE, "the rate of %c by %c is %g over %s",
+                                       "xyz"[i], letter(s->n, j), rate[i][j], at.text);
+    return true;
+}
+
+/* --- Domains ------------------------------------------------------------------------- */
+
+static void cut_times(double *lo, double *hi)
+{
+    const bool from = *lo > -INFINITY, to = *hi < INFINITY;
+    if (!from && !to)
+        *lo = -1, *hi = 3;
+    else if (!from)
+        *lo = *hi - 4;
+    else if (!to)
+        *hi = *lo + 4;
+}
+
+static bool judge_domain(const subject *s)
+{
+    const box *d = &s->domain;
+    for (int j = 0; j < s->n; ++j)
+        if (!(d->lo[j] <= d->hi[j] && d->lo[j] > -INFINITY && d->hi[j] < INFINITY))
+            return answer_fail_for(s->answer, FAULT_DOMAIN, "the domain is empty or infinite: %s",
+                                   subject_box_text(s->n, d->lo, d->hi).text);
+    return true;
+}
+
+bool subject_make(subject *s, const imp_instance *instance, const imp_instance *twin,
+                  check_answer *answer)
+{
+    *s = (subject){.instance = instance, .twin = twin, .answer = answer};
+    s->n = instance->surface != NULL ? 3 : 4;
+    const int t = s->n - 1;
+    for (int j = 0; j < 3; ++j) s->domain.lo[j] = -2, s->domain.hi[j] = 2;
+    answer->call = (check_call){.name = "domain"};
+    if (instance->surface != NULL)
+        instance->surface->domain(instance->self, s->domain.lo, s->domain.hi);
+    else
+        instance->map->time_domain(instance->self, &s->domain.lo[t], &s->domain.hi[t]);
+    answer->call.name = NULL;
+    cut_times(&s->domain.lo[t], &s->domain.hi[t]);
+    return judge_domain(s);
+}

@@ -1,0 +1,22 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CHECK_VALUES_H
+#define TOOLS_CHECK_VALUES_H
+
+#include <impinge/impinge.h>
+#include <jansson.h>
+
+/* What a stage, "sphere radius=2", gives its parameters, as the host reads it. */
+
+/* All of it: {"type": "sphere", "radius": 2}. NULL: it cannot be read, or no memory. */
+json_t *stage_values(const imp_registry *registry, imp_type_kind kind, const char *stage);
+
+/* A parameter's value among them, or the table's default. NULL: absent, or no memory. */
+json_t *stage_value(const json_t *values, const imp_parameter *row);
+
+/* The stage with the parameter's value, text, replaced or added. Free it. NULL: it cannot be read, or
+ * no memory. */
+char *stage_with(const imp_registry *registry, imp_type_kind kind, const char *stage,
+                 const char *parameter, const char *value);
+
+#endif

@@ -1,0 +1,361 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/common/nearest.h"
+#include "tools/check/list.h"
+#include "tools/check/report.h"
+#include "tools/check/subject.h"
+#include "tools/cli/output.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/query.h"
+#include "tools/cli/verbs.h"
+
+/* --- The operand -------------------------------------------------------------------- */
+
+#define BLANKS " \t\n\r" /* as in a pipeline */
+
+/* A path has a slash in it or ends in .so; a type's name has and does neither. */
+static bool is_path(const char *operand)
+{
+    const size_t length = strlen(operand);
+    return strpbrk(operand, BLANKS "=") == NULL &&
+           (strchr(operand, '/') != NULL ||
+            (length > 3 && strcmp(operand + length - 3, ".so") == 0));
+}
+
+/* The file a type comes from, looked up in a child: other plugins are loaded on the way. */
+typedef struct lookup {
+    bool found;
+    char file[4096];
+    char near[80]; /* the nearest existing name */
+} lookup;
+
+typedef struct wanted {
+    const arguments *args;
+    char name[80]; /* the operand up to its first blank */
+} wanted;
+
+static void lookup_work(void *result, const void *data)
+{
+    lookup *l = result;
+    const wanted *w = data;
+    imp_type_info info;
+    nearest near = {.wanted = w->name};
+    imp_registry *registry = query_registry(w->args);
+    for (size_t i = 0; registry != NULL && imp_registry_type(registry, i, &info); ++i) {
+        nearest_offer(&near, info.name);
+        if (l->found || strcmp(info.name, w->name) != 0) continue;
+        snprintf(l->file, sizeof l->file, "%s", info.file);
+        l->found = true;
+    }
+    if (near.best != NULL) snprintf(l->near, sizeof l->near, "%s", near.best);
+}
+
+static exit_status find_type(const arguments *args, const wanted *w, double seconds, lookup *l)
+{
+    const char *speaker = args->verb->name;
+    const child_fate fate = child_run(lookup_work, l, w, seconds);
+    if (fate.end != CHILD_DONE)
+        return complain(EXIT_DATA, speaker, "looking for '%s' among the plugins %s", w->name,
+                        fate_text_of(fate, seconds).text);
+    if (l->found) return EXIT_ANSWERED;
+    if (l->near[0] != '\0')
+        return complain(EXIT_DATA, speaker,
+                        "unknown type '%s', did you mean '%s'? `impinge list` shows all", w->name,
+                        l->near);
+    return complain(EXIT_DATA, speaker,
+                    "unknown type '%s'; `impinge list` shows all; a file has a '/' in its name "
+                    "or ends in .so",
+                    w->name);
+}
+
+static exit_status find_file(const arguments *args, const char *path, lookup *l)
+{
+    char *absolute = realpath(path, NULL);
+    if (absolute == NULL || access(absolute, R_OK) != 0 || strlen(absolute) >= sizeof l->file) {
+        const int error = errno;
+        free(absolute);
+        return complain(EXIT_DATA, args->verb->name, "%s: %s", path, strerror(error));
+    }
+    strcpy(l->file, absolute);
+    free(absolute);
+    return EXIT_ANSWERED;
+}
+
+/* --- How ---------------------------------------------------------------------------- */
+
+typedef struct job {
+    const arguments *args;
+    const char *operand;
+    wanted type; /* name empty: all types of the file */
+    double seconds;
+    double effort;
+    uint64_t seed;
+    const option_value *formula, *domain; /* or NULL */
+    const option_value *only;             /* NULL: all checks */
+    check_report report;
+    lookup *file; /* these are shared with children */
+    survey *survey;
+    check_answer *answer;
+    check_misreading *misreading;
+} job;
+
+static double number_or(const arguments *args, const char *name, double otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->number[0] : otherwise;
+}
+
+/* " --NAME VALUE", or nothing if it was not given. Free it. NULL: no memory. */
+static char *option_again(const arguments *args, const char *name)
+{
+    const option_value *value = arguments_option(args, name);
+    if (value == NULL) return strdup("");
+    char *word = output_shell_word(value->text), *text = NULL;
+    if (word != NULL && asprintf(&text, " --%s %s", name, word) < 0) text = NULL;
+    free(word);
+    return text;
+}
+
+/* The command line that repeats the run. Free it. NULL: no memory. */
+static char *command_line(const job *j)
+{
+    static const char *const options[] = {"formula", "domain", "effort", "plugin-path"};
+    char *operand = output_shell_word(j->operand), *line = NULL;
+    if (operand == NULL ||
+        asprintf(&line, "impinge check %s --seed %llu", operand, (unsigned long long)j->seed) < 0)
+        line = NULL;
+    free(operand);
+    for (size_t k = 0; k < sizeof options / sizeof *options && line != NULL; ++k) {
+        char *given = option_again(j->args, options[k]), *longer = NULL;
+        if (given == NULL || asprintf(&longer, "%s%s", line, given) < 0) longer = NULL;
+        free(given);
+        free(line);
+        line = longer;
+    }
+    return line;
+}
+
+/* The operand, if it has more than a type's name; else NULL. */
+static const char *given_stage(const job *j)
+{
+    const char *type = j->type.name;
+    return type[0] != '\0' && strcmp(j->operand, type) != 0 ? j->operand : NULL;
+}
+
+static const char *text_or_null(const option_value *value)
+{
+    return value != NULL ? value->text : NULL;
+}
+
+static bool is_wanted(const job *j, size_t check)
+{
+    return j->only == NULL || strcmp(check_names[check], check_names[j->only->choice]) == 0;
+}
+
+/* --- Running ------------------------------------------------------------------------ */
+
+/* False after a hang, or a crash in create or destroy: every further check would fail too. */
+static bool run_check(job *j, check_task *task, size_t check)
+{
+    task->check = check;
+    progress_show("%s: %s", task->type != NULL ? task->type : j->file->file, check_names[check]);
+    const child_fate fate = check_run(task, j->seconds, j->answer);
+    progress_wipe();
+    report_add(&j->report, check_names[check], check_is_of_bounds(check), j->answer);
+    return fate.end == CHILD_DONE || (fate.end != CHILD_LATE && j->answer->call.stage[0] == '\0');
+}
+
+static void run_checks(job *j, check_task *task, bool of_file)
+{
+    bool go_on = true;
+    for (size_t k = 0; go_on && check_names[k] != NULL; ++k) {
+        if (check_is_of_file(k) != of_file || !is_wanted(j, k)) continue;
+        go_on = run_check(j, task, k);
+    }
+}
+
+static void run_type(job *j, const survey_type *t)
+{
+    check_task task = {.file = j->file->file, .kind = t->kind, .type = t->name};
+    task.seed = j->seed;
+    task.effort = j->effort;
+    task.formula = text_or_null(j->formula);
+    task.domain = text_or_null(j->domain);
+    for (int k = 0; k < CHECK_STAGES; ++k) task.stage[k] = t->stage[k][0] ? t->stage[k] : NULL;
+    if (given_stage(j) != NULL) {
+        task.stage[0] = given_stage(j);
+        task.stage[1] = NULL;
+    }
+    report_type(&j->report, t->kind, t->name, task.stage);
+    run_checks(j, &task, false);
+    report_type_end(&j->report);
+}
+
+static bool load(job *j)
+{
+    const child_fate fate = check_survey(j->file->file, j->seconds, j->survey);
+    const survey *s = j->survey;
+    *j->answer = (check_answer){.verdict = CHECK_PASS};
+    if (fate.end != CHILD_DONE)
+        answer_fail(j->answer, "the plugin %s when it was loaded or its types were tried",
+                    fate_text_of(fate, j->seconds).text);
+    else if (!s->is_taken)
+        answer_fail(j->answer, "the host rejects it: %s", s->reason);
+    else
+        answer_pass(j->answer, "%s: %zu type%s", s->plugin, s->count, s->count == 1 ? "" : "s");
+    report_add(&j->report, "load", false, j->answer);
+    return j->answer->verdict == CHECK_PASS;
+}
+
+/* Parameters and formula of the user are read first, so that their errors are not reported as the
+ * plugin's. */
+static exit_status read_asked(job *j)
+{
+    const char *speaker = j->args->verb->name, *type = j->type.name;
+    const check_task task = {.file = j->file->file,
+                             .type = type[0] != '\0' ? type : NULL,
+                             .stage = {given_stage(j)},
+                             .formula = text_or_null(j->formula),
+                             .domain = text_or_null(j->domain)};
+    if (task.stage[0] == NULL && task.formula == NULL && task.domain == NULL) return EXIT_ANSWERED;
+    check_try(&task, j->seconds, j->misreading);
+    if (j->misreading->stage[0] != '\0')
+        return complain(EXIT_DATA, speaker, "'%s': %s", j->operand, j->misreading->stage);
+    if (j->misreading->formula[0] != '\0')
+        return complain(EXIT_USAGE, speaker, "--formula cannot be read: %s",
+                        j->misreading->formula);
+    if (j->misreading->domain[0] != '\0')
+        return complain(EXIT_USAGE, speaker, "--domain cannot be read: %s", j->misreading->domain);
+    return EXIT_ANSWERED;
+}
+
+static exit_status run_all(job *j)
+{
+    if (!report_begin(&j->report, j->file->file, j->effort))
+        return complain_of_memory(j->args->verb->name);
+    if (load(j)) {
+        check_task task = {.file = j->file->file, .seed = j->seed, .effort = j->effort};
+        run_checks(j, &task, true);
+        for (size_t k = 0; k < j->survey->count; ++k)
+            if (j->type.name[0] == '\0' || strcmp(j->type.name, j->survey->type[k].name) == 0)
+                run_type(j, &j->survey->type[k]);
+    }
+    return report_end(&j->report, j->args->verb->name);
+}
+
+static exit_status find_and_run(job *j)
+{
+    const size_t name = strcspn(j->operand, BLANKS);
+    exit_status status;
+    if (is_path(j->operand)) {
+        status = find_file(j->args, j->operand, j->file);
+    } else {
+        snprintf(j->type.name, sizeof j->type.name, "%.*s", name < 79 ? (int)name : 79, j->operand);
+        status = find_type(j->args, &j->type, j->seconds, j->file);
+    }
+    if (status == EXIT_ANSWERED) status = read_asked(j);
+    return status == EXIT_ANSWERED ? run_all(j) : status;
+}
+
+static exit_status run(const arguments *args)
+{
+    const option_value *seed = arguments_option(args, "seed");
+    job j = {.args = args, .operand = args->operands[0], .type = {.args = args}};
+    j.seconds = number_or(args, "max-seconds", 60);
+    j.effort = number_or(args, "effort", 1);
+    j.seed = seed != NULL ? seed->count : 1;
+    j.formula = arguments_option(args, "formula");
+    j.domain = arguments_option(args, "domain");
+    j.only = arguments_option(args, "only");
+    j.file = child_memory(sizeof *j.file);
+    j.survey = child_memory(sizeof *j.survey);
+    j.answer = child_memory(sizeof *j.answer);
+    j.misreading = child_memory(sizeof *j.misreading);
+    char *again = command_line(&j);
+    j.report = (check_report){
+        .as_json = arguments_option(args, "json") != NULL, .again = again, .seed = j.seed};
+    const bool ready = j.file != NULL && j.survey != NULL && j.answer != NULL &&
+                       j.misreading != NULL && again != NULL;
+    const exit_status status = ready ? find_and_run(&j) : complain_of_memory(args->verb->name);
+    free(again);
+    child_memory_free(j.file, sizeof *j.file);
+    child_memory_free(j.survey, sizeof *j.survey);
+    child_memory_free(j.answer, sizeof *j.answer);
+    child_memory_free(j.misreading, sizeof *j.misreading);
+    return status;
+}
+
+/* --- Options ------------------------------------------------------------------------ */
+
+static const option options_check[] = {
+    {.name = "seed",
+     .kind = OPTION_COUNT,
+     .argument = "N",
+     .help = "what everything is drawn from; the same seed, the same search (1)"},
+    {.name = "effort",
+     .kind = OPTION_NUMBER,
+     .argument = "N",
+     .min_open = true,
+     .help = "search N times as long (1)"},
+    {.name = "formula",
+     .kind = OPTION_TEXT,
+     .argument = "X;Y;Z",
+     .help =
+         "what the surface or map is said to be, in the language of the type formula: prove it"},
+    {.name = "domain",
+     .kind = OPTION_TEXT,
+     .argument = "U;V;T",
+     .help = "what u, v and perhaps t are said to run over, as in '0,2*pi; -1,1'; of a map, t"},
+    {.name = "only",
+     .kind = OPTION_CHOICE,
+     .argument = "CHECK",
+     .choices = check_names,
+     .help = "run this check alone"},
+    {.name = "max-seconds",
+     .kind = OPTION_NUMBER,
+     .argument = "S",
+     .min_open = true,
+     .help = "a check that takes longer than S seconds has failed (60)"},
+    {.name = NULL},
+};
+
+static const option *const tables[] = {options_check, options_registry, options_always, NULL};
+
+const verb verb_check = {
+    .name = "check",
+    .operands = "FILE|TYPE",
+    .summary = "Try to refute what a plugin claims, and all else the ABI asks of it",
+    .details =
+        "Runs named checks on a plugin's file, or on one type by its name, each in a child "
+        "process:\n"
+        "a plugin that crashes or hangs has failed a check. Types are tried as in their example\n"
+        "and with all defaults; 'TYPE name=value ...' tries that surface or map instead.\n"
+        "\n"
+        "Rates, inclusions and errors are claims. Looking from outside can refute them: a type is\n"
+        "labelled tested(comparisons, seed) or refuted, with a counterexample and a command line\n"
+        "that finds it again. Where the formula is known, from --formula or because the type's "
+        "own\n"
+        "parameters x, y and z are one, branch and bound in intervals proves them, region by\n"
+        "region, whatever the plugin computes: proved(claims, seed).\n"
+        "\n"
+        "The domain is compared with --domain; else ends that almost meet are pointed out, as a "
+        "note.\n"
+        "A mistake that shows in several checks is reported once, and the others are named.\n"
+        "\n"
+        "Exit status: 0 nothing failed, 2 the formula or domain cannot be read, 4 no such file or "
+        "type or "
+        "wrong\n"
+        "parameters, 6 a check failed.\n",
+    .example = "impinge check sphere",
+    .operand_min = 1,
+    .operand_max = 1,
+    .options = tables,
+    .run = run};

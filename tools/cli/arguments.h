@@ -1,0 +1,36 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_ARGUMENTS_H
+#define TOOLS_CLI_ARGUMENTS_H
+
+#include "tools/cli/options.h"
+
+/* The command line, sorted out
+ * ============================
+ *   impinge [OPTION]... VERB [OPTION or OPERAND]... [-- OPERAND...]
+ *
+ * The first word that is neither an option nor an option's value is the verb. An option's value
+ * follows it, or '='; any value will do, negative numbers included. Given twice, the last wins.
+ * "--" ends the options; "-" is an operand (standard input). */
+
+struct verb;
+
+typedef struct arguments {
+    const struct verb *verb; /* NULL: none given */
+    const char **operands;
+    size_t operand_count;
+    option_value *values; /* in the order given */
+    size_t value_count;
+} arguments;
+
+/* Sorts argv into *arguments, checks every value, and that the verb takes that many operands
+ * (unless
+ * --help or --version is among the options). Strings stay argv's. Call arguments_free in any case.
+ */
+exit_status arguments_read(arguments *args, int argc, const char *const *argv);
+void arguments_free(arguments *args);
+
+/* The last value given for the option, or NULL. */
+const option_value *arguments_option(const arguments *args, const char *name);
+
+#endif

@@ -1,0 +1,40 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_CLEARANCE_H
+#define TOOLS_CLI_CLEARANCE_H
+
+#include <impinge/impinge.h>
+#include <jansson.h>
+
+/* Minimum distances, for people and for programs: tools/schema/clearance.schema.json. */
+
+typedef struct clearance_table {
+    const imp_scene *scene;
+    const imp_clearance *answers; /* of one kind: slices, or pairs of bodies; or one */
+    size_t count;
+} clearance_table;
+
+/* "holds", "violated", "undecided"; NULL: nothing was required. */
+const char *clearance_verdict_name(imp_requirement verdict);
+
+/* The answer that stands for all: of least lower and of least upper bound, violated where one is
+ * violated, and so on. count > 0. */
+imp_clearance clearance_summary(const clearance_table *table);
+
+/* Puts the tightest first. */
+void clearance_sort(imp_clearance *answers, size_t count);
+
+/* Lines to standard output, verdict first. Bounds are rounded to the side that claims less. */
+void clearance_print(const imp_scene *scene, const imp_clearance *answer);
+void clearance_print_pairs(const clearance_table *table);
+
+/* CSV: the head, and one line a slice. */
+void clearance_print_csv_head(void);
+void clearance_print_csv(const imp_clearance *slice);
+
+json_t *clearance_json(const imp_scene *scene, const imp_clearance *answer);
+json_t *clearance_slice_json(const imp_clearance *slice);
+/* A list, slices or pairs of bodies. */
+json_t *clearance_list_json(const clearance_table *table, bool slices);
+
+#endif

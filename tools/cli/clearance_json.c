@@ -1,0 +1,98 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/cli/clearance.h"
+
+#include <math.h>
+
+#include "tools/cli/output.h"
+#include "tools/cli/result.h"
+
+const char *clearance_verdict_name(imp_requirement verdict)
+{
+    switch (verdict) {
+    case IMP_REQUIREMENT_HOLDS:
+        return "holds";
+    case IMP_REQUIREMENT_VIOLATED:
+        return "violated";
+    case IMP_REQUIREMENT_UNDECIDED:
+        return "undecided";
+    case IMP_REQUIREMENT_NONE:
+        break;
+    }
+    return NULL;
+}
+
+/* Takes over `value`; 0: done. */
+static int set(json_t *object, const char *key, json_t *value)
+{
+    return json_object_set_new(object, key, value);
+}
+
+static int set_required(json_t *object, const imp_scene *scene, const imp_clearance *r)
+{
+    if (r->verdict == IMP_REQUIREMENT_NONE) return 0;
+    int failed = set(object, "verdict", json_string(clearance_verdict_name(r->verdict)));
+    failed |= set(object, "required", output_json_number(r->required));
+    if (r->verdict != IMP_REQUIREMENT_VIOLATED) return failed;
+    const bool known = !isnan(r->t_violated);
+    failed |= set(object, "t_violated", output_json_number(r->t_violated));
+    failed |=
+        set(object, "a_violated", known ? result_side_json(scene, &r->a_violated) : json_null());
+    failed |=
+        set(object, "b_violated", known ? result_side_json(scene, &r->b_violated) : json_null());
+    return failed;
+}
+
+static json_t *pair_json(const imp_scene *scene, const size_t body[2])
+{
+    return json_pack("[o,o]", output_json_text(imp_scene_body_name(scene, body[0])),
+                     output_json_text(imp_scene_body_name(scene, body[1])));
+}
+
+static json_t *checked(json_t *object, int failed)
+{
+    if (!failed) return object;
+    json_decref(object);
+    return NULL;
+}
+
+json_t *clearance_json(const imp_scene *scene, const imp_clearance *r)
+{
+    json_t *object =
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reason",
+                  result_reason_json(r->reason), "lower", output_json_number(r->lower), "upper",
+                  output_json_number(r->upper), "t", output_json_number(r->t), "a",
+                  r->has_witness ? result_side_json(scene, &r->a) : json_null(), "b",
+                  r->has_witness ? result_side_json(scene, &r->b) : json_null(), "normal",
+                  r->has_normal ? result_vector_json(r->normal) : json_null(), "stats",
+                  result_stats_json(&r->stats));
+    if (object == NULL) return NULL;
+    int failed = set_required(object, scene, r);
+    if (r->body[0] != SIZE_MAX) failed |= set(object, "bodies", pair_json(scene, r->body));
+    return checked(object, failed);
+}
+
+json_t *clearance_slice_json(const imp_clearance *r)
+{
+    json_t *object =
+        json_pack("{s:o, s:o, s:o, s:o, s:o}", "t0", output_json_number(r->t_start), "t1",
+                  output_json_number(r->t_end), "lower", output_json_number(r->lower), "upper",
+                  output_json_number(r->upper), "t", output_json_number(r->t));
+    if (object == NULL || r->verdict == IMP_REQUIREMENT_NONE) return object;
+    return checked(object, set(object, "verdict", json_string(clearance_verdict_name(r->verdict))));
+}
+
+json_t *clearance_list_json(const clearance_table *table, bool slices)
+{
+    json_t *list = json_array();
+    for (size_t k = 0; k < table->count; ++k) {
+        json_t *one = slices ? clearance_slice_json(&table->answers[k])
+                             : clearance_json(table->scene, &table->answers[k]);
+        if (json_array_append_new(list, one) == 0) continue;
+        json_decref(list);
+        return NULL;
+    }
+    return list;
+}

@@ -1,0 +1,18 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_CRASH_H
+#define TOOLS_CLI_CRASH_H
+
+/* When a plugin crashes or exits in the middle of its work, the command says which one and in what
+ * callback, and ends with EXIT_PLUGIN. A crash of our own stays what it is. */
+void crash_prepare(void);
+
+/* The same for a thread of our own: its stack for signals (NULL: no memory, and a plugin that uses
+ * up the thread's stack ends the process without a message), to be handed to crash_thread_end. */
+void *crash_thread_begin(void);
+void crash_thread_end(void *stack);
+
+/* A cleanup handler of the thread (pthread_cleanup_push): a plugin has ended it. */
+void crash_thread_left(void *unused);
+
+#endif

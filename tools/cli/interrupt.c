@@ -1,0 +1,32 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/cli/interrupt.h"
+
+#include <signal.h>
+#include <stdatomic.h>
+
+/* A signal handler has no arguments of ours. Lock-free. */
+static atomic_bool came;
+
+static void on_signal(int number)
+{
+    (void)number;
+    atomic_store(&came, true);
+}
+
+/* No SA_RESTART: a read that waits for the next scene ends too. */
+void interrupt_prepare(void)
+{
+    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    const int numbers[] = {SIGINT, SIGTERM};
+    for (int i = 0; i < 2; ++i) {
+        struct sigaction before;
+        if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+        sigaction(numbers[i], &action, NULL);
+    }
+}
+
+bool interrupt_came(void) { return atomic_load(&came); }

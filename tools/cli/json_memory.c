@@ -1,0 +1,26 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/cli/json_memory.h"
+
+#include <errno.h>
+#include <jansson.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+/* Jansson's functions take no context: one for the process. */
+static atomic_bool failed;
+
+static void *allocate(size_t size)
+{
+    void *memory = atomic_load(&failed) ? NULL : malloc(size);
+    if (memory != NULL) return memory;
+    atomic_store(&failed, true);
+    errno = ENOMEM;
+    return NULL;
+}
+
+void json_memory_prepare(void) { json_set_alloc_funcs(allocate, free); }
+
+bool json_memory_failed(void) { return atomic_load(&failed); }

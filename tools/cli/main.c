@@ -1,0 +1,54 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <locale.h>
+#include <stdio.h>
+
+#include "tools/cli/crash.h"
+#include "tools/cli/output.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/verbs.h"
+
+static exit_status print_version(void)
+{
+    printf("impinge %s (%s)\n", PACKAGE_VERSION, imp_version());
+    return EXIT_ANSWERED;
+}
+
+static exit_status print_help(const verb *v)
+{
+    if (v != NULL)
+        help_verb(v);
+    else
+        help_overview();
+    return EXIT_ANSWERED;
+}
+
+static exit_status run(const arguments *args)
+{
+    if (arguments_option(args, "help") != NULL) return print_help(args->verb);
+    if (arguments_option(args, "version") != NULL) return print_version();
+    if (args->verb != NULL) return args->verb->run(args);
+    return complain(EXIT_USAGE, NULL,
+                    "which verb? `impinge help` shows all, `impinge demo` a first "
+                    "contact");
+}
+
+int main(int argc, char **argv)
+{
+    /* Numbers have a point, whatever a plugin makes of the process's locale. */
+    uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
+    progress_begin();
+    output_prepare();
+    crash_prepare();
+    arguments args;
+    exit_status status = arguments_read(&args, argc, (const char *const *)argv);
+    const char *speaker = args.verb != NULL ? args.verb->name : NULL;
+    output_choose_colour(arguments_option(&args, "no-color") == NULL);
+    if (status == EXIT_ANSWERED) status = run(&args);
+    arguments_free(&args);
+    progress_wipe();
+    const exit_status finished = output_finish(speaker);
+    return (int)(status > finished ? status : finished);
+}

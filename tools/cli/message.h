@@ -1,0 +1,45 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_MESSAGE_H
+#define TOOLS_CLI_MESSAGE_H
+
+#include <impinge/impinge.h>
+
+/* What the command answers to the shell, and how it complains
+ * ===========================================================
+ * Results go to standard output, complaints to standard error, one line each:
+ *
+ *   impinge: pair: --gamma must be a number greater than 0, not '-1'
+ *
+ * A complaint says what was found and what is allowed. Every function that complains
+ * returns the exit status that belongs to it, so that callers write `return complain(...)`. */
+
+/* Exit statuses: a contract with scripts. Where several things were asked, the greatest wins. */
+typedef enum exit_status {
+    EXIT_ANSWERED = 0,
+    EXIT_CONTACT = 1, /* with --exit-code only */
+    EXIT_USAGE = 2,
+    EXIT_UNDECIDED = 3,
+    EXIT_DATA = 4, /* scene or data wrong, file not readable or writable, out of memory */
+    EXIT_PLUGIN = 5,
+    EXIT_CONFORMANCE = 6
+} exit_status;
+
+/* The status for an error the library returned. */
+exit_status status_of_code(imp_code code);
+
+/* Writes "impinge: VERB: text" (or "impinge: text" where verb is NULL) and returns `status`.
+ * Control characters in the text are shown as '?', so that names cannot forge lines. */
+exit_status complain(exit_status status, const char *verb, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Its text, or that of its code. */
+const char *message_of(const imp_error *error);
+
+/* The same for an error of the library. */
+exit_status complain_of(const imp_error *error, const char *verb);
+
+/* The same for memory that ran out in the command itself. */
+exit_status complain_of_memory(const char *verb);
+
+#endif

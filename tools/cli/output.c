@@ -1,0 +1,195 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/cli/json_memory.h"
+#include "tools/cli/output.h"
+#include "tools/cli/standard_output.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void output_prepare(void)
+{
+    for (int fd = 0; fd <= 2; ++fd)
+        if (fcntl(fd, F_GETFD) == -1 && errno == EBADF)
+            (void)!open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN); /* a file that may grow no more is an error */
+    standard_output_prepare();
+    json_memory_prepare();
+}
+
+static exit_status complain_of_output(const char *verb)
+{
+    const int error = errno;
+    if (error == EPIPE) return EXIT_DATA; /* nobody reads any more, as behind `| head` */
+    return complain(EXIT_DATA, verb, "standard output: %s", strerror(error));
+}
+
+/* What was made of JSON that lost a part of itself is not printed. One complaint is enough. */
+static exit_status refuse_damaged(const char *verb)
+{
+    static bool complained;
+    standard_output_discard();
+    if (!complained) complain_of_memory(verb);
+    complained = true;
+    return EXIT_DATA;
+}
+
+exit_status output_flush(const char *verb)
+{
+    if (json_memory_failed()) return refuse_damaged(verb);
+    return standard_output_flush() ? EXIT_ANSWERED : complain_of_output(verb);
+}
+
+exit_status output_finish(const char *verb)
+{
+    if (json_memory_failed()) return refuse_damaged(verb);
+    return standard_output_close() ? EXIT_ANSWERED : complain_of_output(verb);
+}
+
+static bool coloured;
+
+void output_choose_colour(bool wanted)
+{
+    const char *refused = getenv("NO_COLOR"), *terminal = getenv("TERM");
+    coloured = wanted && (refused == NULL || refused[0] == '\0') && standard_output_is_terminal() &&
+               terminal != NULL && strcmp(terminal, "dumb") != 0;
+}
+
+const char *output_colour(output_tint tint)
+{
+    static const char *const sequences[] = {"\033[0m", "\033[1m", "\033[1;31m", "\033[1;32m",
+                                            "\033[1;33m"};
+    return coloured ? sequences[tint] : "";
+}
+
+/* Characters of the number that the text begins with. */
+static size_t number_length(const char *text) { return strspn(text, "+-.0123456789eE"); }
+
+/* The number that `from` begins with to `to`, in the fewest digits that read back exactly. Answers
+ * the characters written: at most those read. */
+static size_t write_shortest(const char *from, char *to)
+{
+    const size_t length = number_length(from);
+    const double number = strtod(from, NULL);
+    char text[32];
+    memmove(to, from, length);
+    if (memchr(to, '.', length) == NULL && memchr(to, 'e', length) == NULL) return length;
+    for (int digits = 15; digits < 17; ++digits) {
+        const size_t shorter = (size_t)snprintf(text, sizeof text, "%.*g", digits, number);
+        if (shorter >= length || strtod(text, NULL) != number) continue;
+        memcpy(to, text, shorter);
+        return shorter;
+    }
+    return length;
+}
+
+/* Jansson writes all numbers in one precision: 17 digits are always enough, and seldom needed. */
+static void shorten_numbers(char *text)
+{
+    char *to = text;
+    bool quoted = false;
+    while (*text != '\0') {
+        if (*text == '"') quoted = !quoted;
+        if (quoted && *text == '\\') *to++ = *text++;
+        if (!quoted && (*text == '-' || (*text >= '0' && *text <= '9'))) {
+            const size_t length = number_length(text);
+            to += write_shortest(text, to);
+            text += length;
+        } else {
+            *to++ = *text++;
+        }
+    }
+    *to = '\0';
+}
+
+exit_status output_json(json_t *object, const char *verb)
+{
+    char *text = object != NULL ? json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(17)) : NULL;
+    json_decref(object);
+    if (text == NULL) return json_memory_failed() ? refuse_damaged(verb) : complain_of_memory(verb);
+    shorten_numbers(text);
+    puts(text);
+    free(text);
+    return output_flush(verb);
+}
+
+json_t *output_json_text(const char *text)
+{
+    if (text == NULL) return json_null();
+    json_t *string = json_string(text);
+    if (string != NULL) return string;
+    char *plain = strdup(text);
+    for (char *c = plain; c != NULL && *c != '\0'; ++c)
+        if ((unsigned char)*c >= 0x80) *c = '?';
+    string = plain != NULL ? json_string(plain) : NULL;
+    free(plain);
+    return string;
+}
+
+json_t *output_json_number(double number)
+{
+    return isfinite(number) ? json_real(number) : json_null();
+}
+
+static bool is_plain_word(const char *text)
+{
+    return text[0] != '\0' &&
+           text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                             "0123456789+,-./:=@_")] == '\0';
+}
+
+char *output_shell_word(const char *text)
+{
+    if (is_plain_word(text)) return strdup(text);
+    char *word = malloc(4 * strlen(text) + 3), *out = word;
+    if (word == NULL) return NULL;
+    *out++ = '\'';
+    for (; *text != '\0'; ++text) {
+        if (*text == '\'') {
+            memcpy(out, "'\\''", 4);
+            out += 4;
+        } else {
+            *out++ = *text;
+        }
+    }
+    memcpy(out, "'", 2);
+    return word;
+}
+
+/* The decimal of 10 digits next to that of `text` (as "%.9e" prints it), on the wanted side. */
+static double next_decimal(const char *text, int side)
+{
+    char digits[32], next[48], *exponent, *to = digits;
+    for (; *text != '\0'; ++text)
+        if (*text != '.') *to++ = *text;
+    *to = '\0';
+    const long long whole = strtoll(digits, &exponent, 10);
+    snprintf(next, sizeof next, "%llde%ld", whole + side, strtol(exponent + 1, NULL, 10) - 9);
+    return strtod(next, NULL);
+}
+
+/* 10 digits: the nearest decimal if it is on the wanted side, else the next one, which is less than
+ * one unit in the last digit away. 17 digits where neither is, next to the largest double. */
+static number_text number_on_side(double number, int side)
+{
+    number_text n;
+    snprintf(n.text, sizeof n.text, "%.9e", number);
+    const double nearest = strtod(n.text, NULL);
+    const bool fits = !isfinite(number) || side * nearest >= side * number;
+    const double chosen = fits ? nearest : next_decimal(n.text, side);
+    snprintf(n.text, sizeof n.text, "%.10g", chosen);
+    if (!isfinite(chosen) && isfinite(number)) snprintf(n.text, sizeof n.text, "%.17g", number);
+    return n;
+}
+
+number_text output_number_lower(double number) { return number_on_side(number, -1); }
+number_text output_number_upper(double number) { return number_on_side(number, 1); }

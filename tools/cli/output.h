@@ -1,0 +1,59 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_OUTPUT_H
+#define TOOLS_CLI_OUTPUT_H
+
+#include <jansson.h>
+
+#include "tools/cli/message.h"
+
+/* Standard output, with nothing lost in silence
+ * =============================================
+ * A full disk is an error of the command, told; a pipe whose reader has left ends it quietly. Print with stdio as usual; call
+ * output_finish before exit, or output_flush after each line of a stream. */
+
+/* To be called first of all: closed standard streams are opened so that no file of ours lands on
+ * their numbers while writing to them still fails, and a closed pipe is an error, not a signal. */
+void output_prepare(void);
+
+/* Complain on behalf of `verb` and answer EXIT_DATA if anything could not be written. */
+exit_status output_flush(const char *verb);
+exit_status output_finish(const char *verb);
+
+/* Colour for people: none unless it is wanted, standard output is a terminal that has colours, and
+ * NO_COLOR is not in the environment. */
+void output_choose_colour(bool wanted);
+
+/* What begins a tint, or ends all (PLAIN); "" where there are none. */
+typedef enum output_tint {
+    OUTPUT_PLAIN,
+    OUTPUT_BOLD,
+    OUTPUT_RED,
+    OUTPUT_GREEN,
+    OUTPUT_YELLOW
+} output_tint;
+const char *output_colour(output_tint tint);
+
+/* Prints the object on one line, numbers with 17 digits, and drops the reference. NULL: memory ran
+ * out when it was made. */
+exit_status output_json(json_t *object, const char *verb);
+
+/* A JSON string of a text that ought to be UTF-8; other bytes are shown as '?'. NULL text: null. */
+json_t *output_json_text(const char *text);
+
+/* A JSON number; null where JSON has none (NaN, infinities). */
+json_t *output_json_number(double number);
+
+/* The text as one word of a shell command line, in quotes where it needs them. Free it. NULL: no
+ * memory. */
+char *output_shell_word(const char *text);
+
+/* A decimal of about 10 digits that is not above (lower) or not below (upper) the number, so that
+ * what is printed claims no more than what is proved. */
+typedef struct number_text {
+    char text[32];
+} number_text;
+number_text output_number_lower(double number);
+number_text output_number_upper(double number);
+
+#endif

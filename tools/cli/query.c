@@ -1,0 +1,250 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/cli/query.h"
+
+#include <math.h>
+#include <sched.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/cli/build_tree.h"
+#include "tools/cli/input.h"
+#include "tools/cli/interrupt.h"
+#include "tools/cli/output.h"
+#include "tools/cli/progress.h"
+#include "tools/cli/result.h"
+#include "tools/cli/verbs.h"
+
+/* The plugins of the build tree we run from stand behind those the environment names and before the
+ * installed ones, so that a program just built meets the plugins built with it. */
+static bool add_build_tree(void)
+{
+    const char *built = build_tree_plugins(), *named = getenv("IMPINGE_PLUGIN_PATH");
+    char *path;
+    if (built == NULL) return true;
+    if (named == NULL || named[0] == '\0') return setenv("IMPINGE_PLUGIN_PATH", built, 1) == 0;
+    if (asprintf(&path, "%s:%s", named, built) < 0) return false;
+    const bool done = setenv("IMPINGE_PLUGIN_PATH", path, 1) == 0;
+    free(path);
+    return done;
+}
+
+imp_registry *query_registry_first(const char *path, unsigned flags, const char *speaker)
+{
+    imp_registry *registry = NULL;
+    if (add_build_tree()) registry = imp_registry_open(path, flags);
+    if (registry == NULL) complain_of_memory(speaker);
+    return registry;
+}
+
+static void warn(const imp_registry *registry, const char *speaker)
+{
+    imp_plugin_refusal warning;
+    for (size_t i = 0; imp_registry_warning(registry, i, &warning); ++i)
+        complain(EXIT_ANSWERED, speaker, "warning: %s: %s", warning.file, warning.reason);
+}
+
+imp_registry *query_registry(const arguments *args)
+{
+    const option_value *path = arguments_option(args, "plugin-path");
+    const unsigned flags = arguments_option(args, "secure") != NULL ? IMP_REGISTRY_SECURE : 0;
+    imp_registry *registry =
+        query_registry_first(path != NULL ? path->text : NULL, flags, args->verb->name);
+    const option_value *isolate = arguments_option(args, "isolate");
+    if (registry != NULL) warn(registry, args->verb->name);
+    if (registry == NULL || isolate == NULL) return registry;
+    imp_error error = {0};
+    const char *names = strcmp(isolate->text, "all") == 0 ? NULL : isolate->text;
+    if (imp_registry_isolate(registry, names, &error) == IMP_SUCCESS) return registry;
+    complain_of(&error, args->verb->name);
+    imp_registry_free(registry);
+    return NULL;
+}
+
+exit_status query_check(const arguments *args)
+{
+    const option_value *gamma = arguments_option(args, "gamma");
+    const option_value *clearance = arguments_option(args, "clearance");
+    const option_value *method = arguments_option(args, "method");
+    const char *const paper_only[] = {"bounds", "rates"};
+    if (gamma != NULL && clearance != NULL && clearance->number[0] >= gamma->number[0])
+        return complain(EXIT_USAGE, args->verb->name, "--clearance %s must be less than --gamma %s",
+                        clearance->text, gamma->text);
+    for (int i = 0; i < 2; ++i)
+        if (arguments_option(args, paper_only[i]) != NULL &&
+            (method == NULL || method->choice != IMP_METHOD_PAPER))
+            return complain(EXIT_USAGE, args->verb->name, "--%s belongs to --method paper",
+                            paper_only[i]);
+    return EXIT_ANSWERED;
+}
+
+static double number_or(const arguments *args, const char *name, double otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->number[0] : otherwise;
+}
+
+static uint64_t count_or(const arguments *args, const char *name, uint64_t otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->count : otherwise;
+}
+
+static size_t choice_or(const arguments *args, const char *name, size_t otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->choice : otherwise;
+}
+
+static bool goes_on(void *context, const imp_progress *p)
+{
+    (void)context;
+    if (isnan(p->t_lower))
+        progress_show("%ju pairs tested", (uintmax_t)p->pairs);
+    else
+        progress_show("%ju pairs tested, clear until t = %s", (uintmax_t)p->pairs,
+                      output_number_lower(p->t_lower).text);
+    return !interrupt_came();
+}
+
+imp_options query_options(const imp_scene *scene, const arguments *args)
+{
+    imp_options o = imp_options_default(scene);
+    const option_value *time = arguments_option(args, "time");
+    if (time != NULL) o.t_start = time->number[0], o.t_end = time->number[1];
+    o.gamma = number_or(args, "gamma", o.gamma);
+    o.clearance = number_or(args, "clearance", o.clearance);
+    o.max_pairs = count_or(args, "max-pairs", args->verb->max_pairs);
+    o.max_seconds = number_or(args, "max-seconds", o.max_seconds);
+    o.max_bytes = count_or(args, "max-bytes", o.max_bytes);
+    o.method = (imp_method)choice_or(args, "method", o.method);
+    o.bounds = (imp_bounds)choice_or(args, "bounds", o.bounds);
+    o.rates = (imp_rates)choice_or(args, "rates", o.rates);
+    o.audit = arguments_option(args, "audit") != NULL;
+    o.progress = goes_on;
+    return o;
+}
+
+imp_code query_run(imp_query *query, imp_result *result, imp_error *error)
+{
+    const imp_code code = imp_query_step(query, 0, error);
+    progress_wipe();
+    *result = imp_query_result(query);
+    return code;
+}
+
+imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result, imp_error *error)
+{
+    const imp_options options = query_options(scene, args);
+    *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
+    const imp_code code = imp_scene_solve(scene, &options, result, error);
+    progress_wipe();
+    return code;
+}
+
+size_t query_threads(const arguments *args)
+{
+    enum { THREADS_MAX = 1024 };
+    const uint64_t asked = count_or(args, "threads", 0);
+    cpu_set_t usable;
+    int count = sched_getaffinity(0, sizeof usable, &usable) == 0 ? CPU_COUNT(&usable) : 1;
+    if (asked > 0) count = asked < THREADS_MAX ? (int)asked : THREADS_MAX;
+    return count > 0 ? (size_t)count : 1;
+}
+
+exit_status query_status(const imp_result *result, const arguments *args)
+{
+    if (result->verdict == IMP_UNDECIDED) return EXIT_UNDECIDED;
+    if (result->verdict == IMP_CONTACT && arguments_option(args, "exit-code") != NULL)
+        return EXIT_CONTACT;
+    return EXIT_ANSWERED;
+}
+
+json_t *query_scene_json(const arguments *args)
+{
+    if (args->operand_count == 2)
+        return json_pack("[o,o]", output_json_text(args->operands[0]),
+                         output_json_text(args->operands[1]));
+    if (args->operand_count == 1 && strcmp(args->operands[0], "-") != 0)
+        return output_json_text(args->operands[0]);
+    return json_null();
+}
+
+static json_t *answer_json(const imp_scene *scene, const imp_result *result, const arguments *args)
+{
+    json_t *object = result_json(scene, result);
+    if (object == NULL || json_object_set_new(object, "scene", query_scene_json(args)) == 0)
+        return object;
+    json_decref(object);
+    return NULL;
+}
+
+exit_status query_print(const imp_scene *scene, const imp_result *result, const arguments *args)
+{
+    if (arguments_option(args, "json") != NULL)
+        return output_json(answer_json(scene, result, args), args->verb->name);
+    result_print(scene, result);
+    return output_flush(args->verb->name);
+}
+
+/* What went wrong, on standard error; with --json also as the one object on standard output. */
+static exit_status refused(const imp_error *error, const arguments *args)
+{
+    const exit_status status = complain_of(error, args->verb->name);
+    if (arguments_option(args, "json") == NULL) return status;
+    const exit_status printed = output_json(
+        json_pack("{s:o}", "error", output_json_text(message_of(error))), args->verb->name);
+    return printed != EXIT_ANSWERED ? printed : status;
+}
+
+static exit_status answer(imp_scene *scene, const arguments *args)
+{
+    imp_result result;
+    imp_error error = {0};
+    if (query_solve(scene, args, &result, &error) != IMP_SUCCESS) return refused(&error, args);
+    const exit_status printed = query_print(scene, &result, args);
+    return printed != EXIT_ANSWERED ? printed : query_status(&result, args);
+}
+
+exit_status query_answer(imp_scene *scene, const imp_error *error, const arguments *args)
+{
+    if (scene == NULL) return refused(error, args);
+    interrupt_prepare();
+    const exit_status status = answer(scene, args);
+    imp_scene_free(scene);
+    return status;
+}
+
+/* Files are read by the library; standard input is read here, whole. */
+static imp_scene *scene_of_standard_input(imp_registry *registry, const arguments *args,
+                                          bool *complained, imp_error *error)
+{
+    input_text t = {0};
+    imp_scene *scene = NULL;
+    const char *name = input_name("-");
+    *complained = !input_read(stdin, name, args->verb->name, &t);
+    if (!*complained) scene = imp_scene_from_json(registry, t.text, t.length, name, error);
+    free(t.text);
+    return scene;
+}
+
+imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *complained,
+                       imp_error *error)
+{
+    *complained = false;
+    if (args->operand_count == 2)
+        return imp_scene_from_pair(registry, args->operands[0], args->operands[1], error);
+    return strcmp(args->operands[0], "-") == 0
+               ? scene_of_standard_input(registry, args, complained, error)
+               : imp_scene_from_file(registry, args->operands[0], error);
+}
+
+exit_status query_answer_file(imp_registry *registry, const char *path, const arguments *args)
+{
+    imp_error error = {0};
+    imp_scene *scene = imp_scene_from_file(registry, path, &error);
+    return query_answer(scene, &error, args);
+}

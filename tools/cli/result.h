@@ -1,0 +1,43 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_RESULT_H
+#define TOOLS_CLI_RESULT_H
+
+#include <impinge/impinge.h>
+#include <jansson.h>
+
+/* A result, for people and for programs. */
+
+/* Some lines to standard output, verdict first. Whatever bound they state is rounded to the side
+ * that claims less. */
+void result_print(const imp_scene *scene, const imp_result *result);
+
+/* One object, as tools/schema/result.schema.json says. NULL: no memory. */
+json_t *result_json(const imp_scene *scene, const imp_result *result);
+
+/* "clear", "contact", "undecided". */
+const char *result_verdict_name(imp_verdict verdict);
+
+/* --- Parts of both, for other answers ----------------------------------------------------- */
+
+/* Lines behind the first begin with a label. */
+void result_print_label(const char *label);
+void result_print_sides(const imp_scene *scene, const imp_side *a, const imp_side *b);
+void result_print_normal(const double *normal); /* NULL: undefined */
+void result_print_cost(const imp_stats *stats);
+
+/* Why a search was ended, and the cure. */
+typedef struct excuse {
+    const char *why, *cure;
+} excuse;
+excuse result_excuse(imp_reason reason);
+
+/* Why nothing was searched, or NULL. */
+const char *result_reason_of_none(imp_reason reason);
+
+json_t *result_reason_json(imp_reason reason);
+json_t *result_vector_json(const double v[3]);
+json_t *result_side_json(const imp_scene *scene, const imp_side *side);
+json_t *result_stats_json(const imp_stats *stats);
+
+#endif

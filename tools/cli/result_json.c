@@ -1,0 +1,89 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/cli/output.h"
+#include "tools/cli/result.h"
+
+const char *result_verdict_name(imp_verdict verdict)
+{
+    switch (verdict) {
+    case IMP_CLEAR:
+        return "clear";
+    case IMP_CONTACT:
+        return "contact";
+    case IMP_UNDECIDED:
+        return "undecided";
+    }
+    return "undecided";
+}
+
+json_t *result_reason_json(imp_reason reason)
+{
+    switch (reason) {
+    case IMP_REASON_NONE:
+        return json_null();
+    case IMP_REASON_NO_TIME:
+        return json_string("no-time");
+    case IMP_REASON_NO_PAIRS:
+        return json_string("no-pairs");
+    case IMP_REASON_PAIRS:
+        return json_string("max-pairs");
+    case IMP_REASON_SECONDS:
+        return json_string("max-seconds");
+    case IMP_REASON_MEMORY:
+        return json_string("max-bytes");
+    case IMP_REASON_RUNNING:
+    case IMP_REASON_CANCELLED:
+        return json_string("cancelled");
+    case IMP_REASON_RESOLUTION:
+        return json_string("resolution");
+    }
+    return json_null();
+}
+
+json_t *result_vector_json(const double v[3])
+{
+    return json_pack("[o,o,o]", output_json_number(v[0]), output_json_number(v[1]),
+                     output_json_number(v[2]));
+}
+
+static json_t *times_json(const double times[2])
+{
+    if (!(times[0] <= times[1])) return json_null();
+    return json_pack("[o,o]", output_json_number(times[0]), output_json_number(times[1]));
+}
+
+json_t *result_side_json(const imp_scene *scene, const imp_side *side)
+{
+    return json_pack("{s:o, s:I, s:o, s:o, s:o}", "body",
+                     output_json_text(imp_scene_body_name(scene, side->body)), "surface",
+                     (json_int_t)side->surface, "u", output_json_number(side->u), "v",
+                     output_json_number(side->v), "point", result_vector_json(side->point));
+}
+
+json_t *result_stats_json(const imp_stats *stats)
+{
+    return json_pack("{s:o, s:I, s:I, s:I, s:I, s:I}", "seconds",
+                     output_json_number(stats->seconds), "pairs", (json_int_t)stats->pairs, "nodes",
+                     (json_int_t)stats->nodes, "peak_heap", (json_int_t)stats->peak_heap,
+                     "witness_searches", (json_int_t)stats->witness_searches, "bytes",
+                     (json_int_t)stats->bytes);
+}
+
+/* json_pack with "o" takes NULL for an error and frees the rest. */
+json_t *result_json(const imp_scene *scene, const imp_result *r)
+{
+    const bool contact = r->verdict == IMP_CONTACT;
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
+                     result_verdict_name(r->verdict), "reason", result_reason_json(r->reason), "t",
+                     contact ? output_json_number(r->t) : json_null(), "t_lower",
+                     output_json_number(r->t_lower), "t_examined", times_json(r->t_examined), "gap",
+                     contact ? output_json_number(r->gap) : json_null(), "gamma",
+                     output_json_number(r->gamma), "gamma_clear",
+                     output_json_number(r->gamma_clear), "a",
+                     contact ? result_side_json(scene, &r->a) : json_null(), "b",
+                     contact ? result_side_json(scene, &r->b) : json_null(), "normal",
+                     contact && r->has_normal ? result_vector_json(r->normal) : json_null(),
+                     "stats", result_stats_json(&r->stats));
+}

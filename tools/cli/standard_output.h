@@ -1,0 +1,32 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_STANDARD_OUTPUT_H
+#define TOOLS_CLI_STANDARD_OUTPUT_H
+
+#include <stdbool.h>
+
+/* A standard output that plugins cannot reach
+ * ===========================================
+ * A plugin runs in this process and may print. What it writes to descriptor 1, or prints while one
+ * of its callbacks runs, goes to standard error; what a copy of the process prints (a plugin may
+ * fork) is dropped. The command prints with stdio as usual: `stdout` then collects its text, which
+ * goes to a private copy of descriptor 1. A signal or a slow reader interrupts no write. */
+
+void standard_output_prepare(void);
+
+/* From now on the text goes to that file, which may be closed then. False: errno says why. */
+bool standard_output_replace(int descriptor);
+
+/* Writes out what has been collected. False: errno says why; also if an earlier write failed and
+ * that was not reported yet. */
+bool standard_output_flush(void);
+
+bool standard_output_is_terminal(void);
+
+/* Drops what has been collected. */
+void standard_output_discard(void);
+
+/* Flushes and closes. */
+bool standard_output_close(void);
+
+#endif

@@ -1,0 +1,243 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "tools/cli/clearance.h"
+#include "tools/cli/interrupt.h"
+#include "tools/cli/output.h"
+#include "tools/cli/query.h"
+#include "tools/cli/verbs.h"
+
+/* Pairs between two looks at what is done: some milliseconds. */
+#define STEP_PAIRS 2048
+
+typedef struct measuring {
+    const arguments *args;
+    const imp_scene *scene;
+    imp_query *query;
+    bool json, each, profile;
+    imp_clearance *answers;
+    size_t count, told; /* how many there are, and how many slices have been printed */
+} measuring;
+
+/* --- What is asked ------------------------------------------------------------------------ */
+
+static exit_status check(const arguments *args)
+{
+    const option_value *profile = arguments_option(args, "profile");
+    if (profile != NULL && profile->count == 0)
+        return complain(EXIT_USAGE, args->verb->name, "--profile must be at least 1, not '%s'",
+                        profile->text);
+    if (profile != NULL && arguments_option(args, "each") != NULL)
+        return complain(EXIT_USAGE, args->verb->name, "--each and --profile exclude each other");
+    return EXIT_ANSWERED;
+}
+
+static imp_clearance_options asked_for(const arguments *args)
+{
+    imp_clearance_options asked = imp_clearance_options_default();
+    const option_value *tolerance = arguments_option(args, "tolerance");
+    const option_value *required = arguments_option(args, "require");
+    const option_value *profile = arguments_option(args, "profile");
+    asked.each = arguments_option(args, "each") != NULL;
+    if (tolerance != NULL) asked.tolerance = tolerance->number[0];
+    if (required != NULL) asked.required = required->number[0];
+    if (profile != NULL) asked.slices = profile->count;
+    return asked;
+}
+
+/* --- While it runs -------------------------------------------------------------------------- */
+
+static exit_status tell_slice(const measuring *m, const imp_clearance *slice)
+{
+    if (m->json) return output_json(clearance_slice_json(slice), m->args->verb->name);
+    clearance_print_csv(slice);
+    return output_flush(m->args->verb->name);
+}
+
+/* Reads all answers; prints the slices that are new among those done, in any case at the end. */
+static exit_status take_answers(measuring *m, bool ended)
+{
+    for (size_t k = m->told; k < m->count; ++k) {
+        m->answers[k].struct_size = (uint32_t)sizeof *m->answers;
+        imp_clearance_read(m->query, k, &m->answers[k], NULL);
+        if (!ended && m->answers[k].reason == IMP_REASON_RUNNING) return EXIT_ANSWERED;
+        if (m->answers[k].reason == IMP_REASON_RUNNING) m->answers[k].reason = IMP_REASON_CANCELLED;
+        const exit_status status = m->profile ? tell_slice(m, &m->answers[k]) : EXIT_ANSWERED;
+        if (status != EXIT_ANSWERED) return status;
+        m->told = k + 1;
+    }
+    return EXIT_ANSWERED;
+}
+
+static exit_status run_query(measuring *m)
+{
+    imp_error error = {0};
+    imp_reason reason = IMP_REASON_RUNNING;
+    exit_status status = EXIT_ANSWERED;
+    while (reason == IMP_REASON_RUNNING && status == EXIT_ANSWERED && !interrupt_came()) {
+        if (imp_query_step(m->query, STEP_PAIRS, &error) != IMP_SUCCESS)
+            return complain_of(&error, m->args->verb->name);
+        reason = imp_query_result(m->query).reason;
+        status = take_answers(m, reason != IMP_REASON_RUNNING);
+    }
+    return status == EXIT_ANSWERED ? take_answers(m, true) : status;
+}
+
+/* --- At the end ------------------------------------------------------------------------------- */
+
+/* Only where pairs of bodies were asked for and all are ignored is there no answer at all. */
+static imp_clearance nothing(const measuring *m)
+{
+    const option_value *required = arguments_option(m->args, "require");
+    return (imp_clearance){.reason = IMP_REASON_NO_PAIRS,
+                           .verdict =
+                               required != NULL ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_NONE,
+                           .required = required != NULL ? required->number[0] : 0,
+                           .body = {SIZE_MAX, SIZE_MAX},
+                           .lower = INFINITY,
+                           .upper = INFINITY,
+                           .t = NAN,
+                           .t_violated = NAN};
+}
+
+static json_t *whole_json(const measuring *m, const clearance_table *table,
+                          const imp_clearance *all)
+{
+    json_t *object = clearance_json(m->scene, all);
+    const char *key = m->profile ? "slices" : "pairs";
+    int failed = json_object_set_new(object, "scene", query_scene_json(m->args));
+    if (m->profile || m->each)
+        failed |= json_object_set_new(object, key, clearance_list_json(table, m->profile));
+    if (!failed) return object;
+    json_decref(object);
+    return NULL;
+}
+
+static exit_status status_of(const imp_clearance *all)
+{
+    switch (all->verdict) {
+    case IMP_REQUIREMENT_VIOLATED:
+        return EXIT_CONTACT;
+    case IMP_REQUIREMENT_UNDECIDED:
+        return EXIT_UNDECIDED;
+    case IMP_REQUIREMENT_HOLDS:
+        return EXIT_ANSWERED;
+    case IMP_REQUIREMENT_NONE:
+        break;
+    }
+    const bool answered = all->reason == IMP_REASON_NONE || all->reason == IMP_REASON_NO_PAIRS ||
+                          all->reason == IMP_REASON_NO_TIME;
+    return answered ? EXIT_ANSWERED : EXIT_UNDECIDED;
+}
+
+static exit_status conclude(measuring *m)
+{
+    const char *speaker = m->args->verb->name;
+    if (m->each) clearance_sort(m->answers, m->count);
+    const clearance_table table = {m->scene, m->answers, m->count};
+    imp_clearance all = m->count > 0 ? clearance_summary(&table) : nothing(m);
+    all.stats = imp_query_result(m->query).stats;
+    exit_status status = EXIT_ANSWERED;
+    if (m->json) {
+        status = output_json(whole_json(m, &table, &all), speaker);
+    } else if (!m->profile) {
+        clearance_print(m->scene, &all);
+        if (m->each && m->count > 0) clearance_print_pairs(&table);
+        status = output_flush(speaker);
+    }
+    return status != EXIT_ANSWERED ? status : status_of(&all);
+}
+
+static exit_status measure(measuring *m)
+{
+    m->count = imp_clearance_count(m->query);
+    m->answers = calloc(m->count + 1, sizeof *m->answers);
+    if (m->answers == NULL) return complain_of_memory(m->args->verb->name);
+    if (m->profile && !m->json) clearance_print_csv_head();
+    exit_status status = run_query(m);
+    if (status == EXIT_ANSWERED) status = conclude(m);
+    free(m->answers);
+    return status;
+}
+
+static exit_status measure_scene(imp_scene *scene, const arguments *args)
+{
+    imp_error error = {0};
+    const imp_options options = query_options(scene, args);
+    const imp_clearance_options asked = asked_for(args);
+    measuring m = {.args = args,
+                   .scene = scene,
+                   .json = arguments_option(args, "json") != NULL,
+                   .each = asked.each,
+                   .profile = arguments_option(args, "profile") != NULL};
+    m.query = imp_clearance_new(scene, &options, &asked, &error);
+    if (m.query == NULL) return complain_of(&error, args->verb->name);
+    const exit_status status = measure(&m);
+    imp_query_free(m.query);
+    return status;
+}
+
+static exit_status run(const arguments *args)
+{
+    const exit_status checked = check(args);
+    if (checked != EXIT_ANSWERED) return checked;
+    imp_registry *registry = query_registry(args);
+    if (registry == NULL) return EXIT_DATA;
+    imp_error error = {0};
+    bool complained;
+    imp_scene *scene = query_scene(registry, args, &complained, &error);
+    exit_status status = EXIT_DATA;
+    interrupt_prepare();
+    if (scene != NULL)
+        status = measure_scene(scene, args);
+    else if (!complained)
+        status = complain_of(&error, args->verb->name);
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+    return status;
+}
+
+static const option clearance_options[] = {
+    {.name = "tolerance",
+     .kind = OPTION_NUMBER,
+     .argument = "R",
+     .min = 1e-9,
+     .help = "done when upper - lower is at most R times upper; below 1 (1e-3)"},
+    {.name = "require",
+     .kind = OPTION_NUMBER,
+     .argument = "DISTANCE",
+     .min_open = true,
+     .help = "say whether bodies always stay so far apart; exit 0, 1 or 3"},
+    {.name = "each", .help = "measure each two bodies that do not ignore each other"},
+    {.name = "profile",
+     .kind = OPTION_COUNT,
+     .argument = "N",
+     .help = "measure N equal slices of time, as CSV or, with --json, JSON lines"},
+    {.name = NULL}};
+
+static const option *const tables[] = {clearance_options, options_search, options_registry,
+                                       options_always, NULL};
+
+const verb verb_clearance = {
+    .name = "clearance",
+    .operands = "SCENE | A B",
+    .summary = "Find how near bodies come, with proof",
+    .details =
+        "The minimum distance over the interval and over all pairs of bodies of a scene file\n"
+        "('-': standard input), or of two pipelines as of `impinge pair`. The answer is a "
+        "bracket:\n"
+        "nearer than its lower end bodies never come, which is proved; its upper end is the\n"
+        "distance of two points of them at one time. What is no farther apart than gamma touches.\n"
+        "\n"
+        "--require D answers holds, violated, with the earliest time, or undecided. Where the\n"
+        "minimum lies between D (1 - 1e-6) and D, either of the first two is right.\n",
+    .example = "impinge clearance 'sphere' 'sphere center=-3,3,0 ! translate velocity=6,0,0' \\\n"
+               "               --require 0.9",
+    .operand_min = 1,
+    .operand_max = 2,
+    .options = tables,
+    .run = run};

@@ -1,0 +1,35 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_VERBS_H
+#define TOOLS_CLI_VERBS_H
+
+#include "tools/cli/arguments.h"
+
+/* The verbs of the command: one file each (verb_NAME.c), one row each in verbs.c. */
+
+typedef struct verb {
+    const char *name;
+    const char *operands; /* as in the usage line; "" if none */
+    const char *summary;  /* one line */
+    const char *details;  /* paragraphs for `impinge help VERB`, each line ended */
+    const char *example;  /* a command line that works as it stands */
+    size_t operand_min, operand_max;
+    uint64_t max_pairs;           /* of a query, unless --max-pairs says otherwise; 0: no limit */
+    const option *const *options; /* tables, NULL-terminated */
+    exit_status (*run)(const arguments *args);
+} verb;
+
+/* All verbs in the order of help, NULL-terminated. */
+const verb *const *verbs_all(void);
+
+/* The verb of that name, or NULL. */
+const verb *verb_find(const char *name);
+
+/* Complains about a verb there is not, with the nearest there is. */
+exit_status verb_unknown(const char *speaker, const char *name);
+
+/* `impinge help` and `impinge help VERB`, to standard output. */
+void help_overview(void);
+void help_verb(const verb *v);
+
+#endif

@@ -1,0 +1,14 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_PROOF_BOX_H
+#define TOOLS_PROOF_BOX_H
+
+/* A box of 3 or 4 parameters. Points and boxes have n numbers each; those beyond n are 0. */
+
+enum { BOX_DIMS = 4 };
+
+typedef struct box {
+    double lo[BOX_DIMS], hi[BOX_DIMS]; /* lo <= hi, finite */
+} box;
+
+#endif

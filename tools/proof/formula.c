@@ -1,0 +1,86 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/proof/formula.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "tools/proof/steps.h"
+
+formula *formula_read(const formula_scope *scope, const char *const text[3], char *fault,
+                      size_t size)
+{
+    formula *f = calloc(1, sizeof *f);
+    const bool read = f != NULL && reader_read(scope, text, f, fault, size);
+    if (read) f->value = calloc((size_t)f->count, sizeof *f->value);
+    if (read && f->value != NULL) return f;
+    if (f == NULL || read) snprintf(fault, size, "memory ran out");
+    formula_free(f);
+    return NULL;
+}
+
+void formula_free(formula *f)
+{
+    if (f != NULL) free(f->value);
+    free(f);
+}
+
+/* --- Computing ------------------------------------------------------------------------------ */
+
+static jet joined(const step *s, const jet *x, const jet *y)
+{
+    switch (s->kind) {
+    case STEP_ADD:
+        return jet_add(x, y);
+    case STEP_SUBTRACT:
+        return jet_sub(x, y);
+    case STEP_MULTIPLY:
+        return x == y ? jet_apply(jet_sqr_, x) : jet_mul(x, y);
+    case STEP_DIVIDE:
+        return jet_div(x, y);
+    case STEP_POWER:
+        return jet_power(x, y);
+    case STEP_MIN:
+        return jet_min(x, y);
+    case STEP_MAX:
+        return jet_max(x, y);
+    case STEP_ANGLE:
+        return jet_angle(x, y);
+    default:
+        return jet_copysign(x, y);
+    }
+}
+
+static jet computed(const formula *f, const step *s, int n)
+{
+    const jet *a[3];
+    for (int k = 0; k < 3; ++k) a[k] = &f->value[k < s->count ? s->operand[k] : 0];
+    switch (s->kind) {
+    case STEP_NUMBER:
+        return jet_constant(n, ld_interval_of(s->number));
+    case STEP_PI:
+        return jet_constant(n, ld_interval_pi());
+    case STEP_E:
+        return jet_constant(n, ld_interval_e());
+    case STEP_NEGATE:
+        return jet_neg(a[0]);
+    case STEP_FUNCTION:
+        return jet_apply(s->function, a[0]);
+    case STEP_LENGTH:
+        return jet_length(a, s->count);
+    default:
+        return joined(s, a[0], a[1]);
+    }
+}
+
+void formula_jets(formula *f, const jet *variables, jet out[3])
+{
+    for (int k = 0; k < f->count; ++k) {
+        const step *s = &f->steps[k];
+        f->value[k] =
+            s->kind == STEP_VARIABLE ? variables[s->operand[0]] : computed(f, s, variables[0].n);
+    }
+    for (int i = 0; i < 3; ++i) out[i] = f->value[f->out[i]];
+}

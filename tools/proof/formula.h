@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_PROOF_FORMULA_H
+#define TOOLS_PROOF_FORMULA_H
+
+#include <stddef.h>
+
+#include "tools/proof/jet.h"
+
+/* The stated formula of a surface or a map
+ * =====================================
+ * Three texts, for x, y and z, read and computed without the code that makes plugins from formulas,
+ * because that code is under test: a separate reader, no rewriting, jets of intervals.
+ *
+ *   sum      = product { ("+" | "-") product }
+ *   product  = signed { ("*" | "/") signed }
+ *   signed   = { "+" | "-" } power
+ *   power    = operand [ "^" signed ]
+ *   operand  = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
+ *
+ * Numbers stand for the nearest double; names are the variables, the constants given, pi, e and
+ * functions. The language is that of the types that take formulas as text; `impinge info formula`
+ * lists it. */
+
+typedef struct formula_scope {
+    const char *variables; /* a letter each: "uvt" */
+    size_t count;          /* constants */
+    const char *const *name;
+    const double *value;
+} formula_scope;
+
+typedef struct formula formula;
+
+/* NULL: `fault` says why. The caller frees the formula. */
+formula *formula_read(const formula_scope *scope, const char *const text[3], char *fault,
+                      size_t size);
+void formula_free(formula *f);
+
+/* x, y, z from jets of the variables. Not thread-safe: the formula stores intermediate values. */
+void formula_jets(formula *f, const jet *variables, jet out[3]);
+
+#endif

@@ -1,0 +1,267 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/proof/steps.h"
+
+enum { DEPTH_MAX = 200, ARGUMENTS_MAX = 16 };
+
+typedef struct reader {
+    const formula_scope *scope;
+    formula *f;
+    const char *text, *at;
+    int depth;
+    char *fault; /* empty: none. Afterwards the text counts as ended. */
+    size_t size;
+} reader;
+
+__attribute__((format(printf, 2, 3))) static int fail(reader *r, const char *format, ...)
+{
+    if (r->fault[0] == '\0') {
+        const int used = snprintf(r->fault, r->size, "'%.60s', character %d: ", r->text,
+                                  (int)(r->at - r->text) + 1);
+        va_list arguments;
+        va_start(arguments, format);
+        if (used >= 0 && (size_t)used < r->size)
+            vsnprintf(r->fault + used, r->size - (size_t)used, format, arguments);
+        va_end(arguments);
+    }
+    r->at = "";
+    return 0;
+}
+
+static bool is_same(const step *a, const step *b)
+{
+    return a->kind == b->kind && a->count == b->count && a->function == b->function &&
+           memcmp(a->operand, b->operand, sizeof a->operand) == 0 && a->number == b->number;
+}
+
+/* What was computed before is not computed again. */
+static int add_step(reader *r, step s)
+{
+    formula *f = r->f;
+    for (int k = f->count - 1; k >= 0; --k)
+        if (is_same(&f->steps[k], &s)) return k;
+    if (f->count == STEPS_MAX) return fail(r, "the formulas have more than %d steps", STEPS_MAX);
+    f->steps[f->count] = s;
+    return f->count++;
+}
+
+static int join(reader *r, step_kind k, int a, int b)
+{
+    return add_step(r, (step){.kind = k, .operand = {a, b}, .count = 2});
+}
+
+static char peek(reader *r)
+{
+    while (*r->at == ' ' || *r->at == '\t' || *r->at == '\n' || *r->at == '\r') ++r->at;
+    return *r->at;
+}
+
+static bool take(reader *r, char sign)
+{
+    if (peek(r) != sign) return false;
+    ++r->at;
+    return true;
+}
+
+/* --- Names ---------------------------------------------------------------------------------- */
+
+typedef struct name {
+    const char *text;
+    step_kind kind;
+    jet_function *function;
+    int least, most;
+} name;
+
+static const name functions[] = {
+    {"abs", STEP_FUNCTION, jet_abs_, 1, 1},    {"fabs", STEP_FUNCTION, jet_abs_, 1, 1},
+    {"acos", STEP_FUNCTION, jet_acos_, 1, 1},  {"asin", STEP_FUNCTION, jet_asin_, 1, 1},
+    {"atan", STEP_FUNCTION, jet_atan_, 1, 1},  {"cbrt", STEP_FUNCTION, jet_cbrt_, 1, 1},
+    {"cos", STEP_FUNCTION, jet_cos_, 1, 1},    {"cosh", STEP_FUNCTION, jet_cosh_, 1, 1},
+    {"exp", STEP_FUNCTION, jet_exp_, 1, 1},    {"ln", STEP_FUNCTION, jet_log_, 1, 1},
+    {"log", STEP_FUNCTION, jet_log_, 1, 1},    {"sin", STEP_FUNCTION, jet_sin_, 1, 1},
+    {"sinh", STEP_FUNCTION, jet_sinh_, 1, 1},  {"sq", STEP_FUNCTION, jet_sqr_, 1, 1},
+    {"sqr", STEP_FUNCTION, jet_sqr_, 1, 1},    {"sqrt", STEP_FUNCTION, jet_sqrt_, 1, 1},
+    {"tan", STEP_FUNCTION, jet_tan_, 1, 1},    {"tanh", STEP_FUNCTION, jet_tanh_, 1, 1},
+    {"atan2", STEP_ANGLE, NULL, 2, 2},         {"copysign", STEP_COPYSIGN, NULL, 2, 2},
+    {"hypot", STEP_LENGTH, NULL, 2, 3},        {"pow", STEP_POWER, NULL, 2, 2},
+    {"min", STEP_MIN, NULL, 2, ARGUMENTS_MAX}, {"fmin", STEP_MIN, NULL, 2, ARGUMENTS_MAX},
+    {"max", STEP_MAX, NULL, 2, ARGUMENTS_MAX}, {"fmax", STEP_MAX, NULL, 2, ARGUMENTS_MAX},
+};
+
+static int number(reader *r, double value)
+{
+    return add_step(r, (step){.kind = STEP_NUMBER, .number = value});
+}
+
+static int function(reader *r, jet_function *g, int x)
+{
+    return add_step(r, (step){.kind = STEP_FUNCTION, .operand = {x}, .count = 1, .function = g});
+}
+
+/* Functions that are composed of others; -1: not one of them. */
+static int apply_composite(reader *r, const char *f, const int *a, int count)
+{
+    if (count == 1 && strcmp(f, "log2") == 0)
+        return join(r, STEP_DIVIDE, function(r, jet_log_, a[0]),
+                    function(r, jet_log_, number(r, 2)));
+    if (count == 1 && strcmp(f, "log10") == 0)
+        return join(r, STEP_DIVIDE, function(r, jet_log_, a[0]),
+                    function(r, jet_log_, number(r, 10)));
+    if (count == 1 && strcmp(f, "exp2") == 0) return join(r, STEP_POWER, number(r, 2), a[0]);
+    if (count == 3 && strcmp(f, "clamp") == 0)
+        return join(r, STEP_MIN, join(r, STEP_MAX, a[0], a[1]), a[2]);
+    if (count == 3 && strcmp(f, "lerp") == 0)
+        return join(r, STEP_ADD, a[0],
+                    join(r, STEP_MULTIPLY, a[2], join(r, STEP_SUBTRACT, a[1], a[0])));
+    return -1;
+}
+
+static int apply_name(reader *r, const name *f, const int *a, int count)
+{
+    if (f->kind != STEP_MIN && f->kind != STEP_MAX) {
+        step s = {.kind = f->kind, .count = count, .function = f->function};
+        memcpy(s.operand, a, (size_t)count * sizeof *a);
+        return add_step(r, s);
+    }
+    int x = a[0];
+    for (int k = 1; k < count; ++k) x = join(r, f->kind, x, a[k]);
+    return x;
+}
+
+static int apply(reader *r, const char *f, const int *a, int count)
+{
+    if (r->fault[0] != '\0') return 0;
+    for (size_t k = 0; k < sizeof functions / sizeof *functions; ++k)
+        if (strcmp(functions[k].text, f) == 0 && count >= functions[k].least &&
+            count <= functions[k].most)
+            return apply_name(r, &functions[k], a, count);
+    const int made = apply_composite(r, f, a, count);
+    return made >= 0 ? made : fail(r, "there is no function %s of %d arguments", f, count);
+}
+
+static int read_name(reader *r, const char *word)
+{
+    const formula_scope *s = r->scope;
+    const char *variable = word[1] == '\0' ? strchr(s->variables, word[0]) : NULL;
+    if (variable != NULL) return (int)(variable - s->variables);
+    for (size_t k = 0; k < s->count; ++k)
+        if (strcmp(s->name[k], word) == 0) return number(r, s->value[k]);
+    if (strcmp(word, "pi") == 0) return add_step(r, (step){.kind = STEP_PI});
+    if (strcmp(word, "e") == 0) return add_step(r, (step){.kind = STEP_E});
+    return fail(r, "'%s' is neither a variable (%s) nor a constant", word, s->variables);
+}
+
+/* --- Grammar ---------------------------------------------------------------------------------- */
+
+static int read_sum(reader *r);
+static int read_signed(reader *r);
+
+static int read_call(reader *r, const char *word)
+{
+    int argument[ARGUMENTS_MAX], count = 0;
+    do {
+        if (count == ARGUMENTS_MAX) return fail(r, "more than %d arguments", ARGUMENTS_MAX);
+        argument[count++] = read_sum(r);
+    } while (take(r, ','));
+    if (!take(r, ')')) return fail(r, "expected ',' or ')'");
+    return apply(r, word, argument, count);
+}
+
+static int read_word(reader *r)
+{
+    char word[64];
+    const size_t length = strspn(r->at, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"
+                                        "0123456789");
+    if (length == 0 || length >= sizeof word) return fail(r, "expected a number, a name or '('");
+    memcpy(word, r->at, length);
+    word[length] = '\0';
+    r->at += length;
+    return take(r, '(') ? read_call(r, word) : read_name(r, word);
+}
+
+static int read_number(reader *r)
+{
+    char *end;
+    const double value = strtod(r->at, &end);
+    if (!isfinite(value)) return fail(r, "this number overflows");
+    r->at = end;
+    return number(r, value);
+}
+
+static int read_operand(reader *r)
+{
+    const char c = peek(r);
+    if ((c >= '0' && c <= '9') || c == '.') return read_number(r);
+    if (!take(r, '(')) return read_word(r);
+    const int x = read_sum(r);
+    return take(r, ')') ? x : fail(r, "expected an operator or ')'");
+}
+
+static int read_power(reader *r)
+{
+    const int x = read_operand(r);
+    return take(r, '^') ? join(r, STEP_POWER, x, read_signed(r)) : x;
+}
+
+static int read_signed(reader *r)
+{
+    bool negative = false;
+    if (r->depth == DEPTH_MAX) return fail(r, "more than %d levels deep", DEPTH_MAX);
+    for (; peek(r) == '+' || peek(r) == '-'; ++r->at) negative ^= *r->at == '-';
+    ++r->depth;
+    const int x = read_power(r);
+    --r->depth;
+    return negative ? add_step(r, (step){.kind = STEP_NEGATE, .operand = {x}, .count = 1}) : x;
+}
+
+static int read_product(reader *r)
+{
+    int x = read_signed(r);
+    for (;;) {
+        if (take(r, '*'))
+            x = join(r, STEP_MULTIPLY, x, read_signed(r));
+        else if (take(r, '/'))
+            x = join(r, STEP_DIVIDE, x, read_signed(r));
+        else
+            return x;
+    }
+}
+
+static int read_sum(reader *r)
+{
+    int x = read_product(r);
+    for (;;) {
+        if (take(r, '+'))
+            x = join(r, STEP_ADD, x, read_product(r));
+        else if (take(r, '-'))
+            x = join(r, STEP_SUBTRACT, x, read_product(r));
+        else
+            return x;
+    }
+}
+
+static void read_text(reader *r, const char *text, int *out)
+{
+    r->text = r->at = text;
+    *out = read_sum(r);
+    if (r->fault[0] == '\0' && peek(r) != '\0') fail(r, "expected an operator or the end");
+}
+
+bool reader_read(const formula_scope *scope, const char *const text[3], formula *f, char *fault,
+                 size_t size)
+{
+    reader r = {.scope = scope, .f = f, .fault = fault, .size = size};
+    fault[0] = '\0';
+    for (int j = 0; scope->variables[j] != '\0'; ++j)
+        add_step(&r, (step){.kind = STEP_VARIABLE, .operand = {j}, .number = j});
+    for (int i = 0; i < 3 && fault[0] == '\0'; ++i) read_text(&r, text[i], &f->out[i]);
+    return fault[0] == '\0';
+}

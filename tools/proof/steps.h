@@ -1,0 +1,49 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_PROOF_STEPS_H
+#define TOOLS_PROOF_STEPS_H
+
+#include "tools/proof/formula.h"
+
+/* A formula as a list of steps, each from earlier ones: reader.c makes it from the texts and
+ * formula.c computes it. The first steps are the variables. */
+
+typedef enum step_kind {
+    STEP_NUMBER,
+    STEP_PI,
+    STEP_E,
+    STEP_VARIABLE,
+    STEP_NEGATE,
+    STEP_ADD,
+    STEP_SUBTRACT,
+    STEP_MULTIPLY,
+    STEP_DIVIDE,
+    STEP_POWER,
+    STEP_MIN,
+    STEP_MAX,
+    STEP_ANGLE,
+    STEP_LENGTH,
+    STEP_COPYSIGN,
+    STEP_FUNCTION
+} step_kind;
+
+enum { STEPS_MAX = 4096 };
+
+typedef struct step {
+    step_kind kind;
+    int operand[3], count; /* earlier steps; of STEP_VARIABLE, its index */
+    double number;
+    jet_function *function;
+} step;
+
+struct formula {
+    int count, out[3];
+    step steps[STEPS_MAX];
+    jet *value; /* of each step */
+};
+
+/* Reads the texts. False: `fault` says why. */
+bool reader_read(const formula_scope *scope, const char *const text[3], formula *f, char *fault,
+                 size_t size);
+
+#endif

@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_VIEW_CANVAS_H
+#define TOOLS_VIEW_CANVAS_H
+
+#include <stdio.h>
+
+#include "tools/view/raster.h"
+
+/* Flat drawing, into pixels or as SVG
+ * ===================================
+ * Lines, filled convex shapes and words, at pixels of the picture, y downward. What is drawn later
+ * covers what was drawn before. */
+
+typedef struct pen {
+    colour colour;
+    double width; /* pixels */
+} pen;
+
+typedef enum canvas_anchor { CANVAS_LEFT, CANVAS_MIDDLE, CANVAS_RIGHT } canvas_anchor;
+
+typedef struct canvas {
+    double width, height;
+    raster *raster; /* pixels go there, */
+    FILE *file;     /* or elements of SVG here */
+} canvas;
+
+/* An SVG picture: its head, and its end. */
+canvas canvas_svg_begin(FILE *file, double width, double height);
+void canvas_svg_end(const canvas *c);
+
+/* n points as x, y, x, y ... */
+void canvas_line(canvas *c, const double *xy, size_t n, pen p);
+void canvas_shape(canvas *c, const double *xy, size_t n, colour fill);
+void canvas_disc(canvas *c, double x, double y, double radius, colour fill);
+
+/* Words whose baseline begins, has its middle, or ends at x, y; `size` is the height of a line of
+ * text, pixels. ASCII; other bytes are shown as '?'. */
+void canvas_text(canvas *c, double x, double y, double size, canvas_anchor anchor, colour tint,
+                 const char *text);
+
+#endif

@@ -1,0 +1,108 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/view/html.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "tools/cli/input.h"
+#include "tools/view/html_data.h"
+
+static const char *const libraries[] = {THREEJSDIR "/build/three.min.js",
+                                        THREEJSDIR "/examples/js/controls/OrbitControls.js"};
+
+/* The first that is missing, or NULL. */
+static const char *missing_library(void)
+{
+    for (int k = 0; k < 2; ++k)
+        if (access(libraries[k], R_OK) != 0) return libraries[k];
+    return NULL;
+}
+
+bool html_is_available(void) { return missing_library() == NULL; }
+
+exit_status html_check(const char *path, const char *verb)
+{
+    const char *missing = missing_library();
+    if (missing == NULL) return EXIT_ANSWERED;
+    return complain(EXIT_USAGE, verb,
+                    "'%s': a page needs three.js, and %s is not there; install libjs-three, or "
+                    "configure --with-threejs=DIR and build again",
+                    path, missing);
+}
+
+static exit_status read_file(const char *path, const char *verb, input_text *text)
+{
+    FILE *file = input_open(path, verb);
+    if (file == NULL) return EXIT_DATA;
+    const bool read = input_read(file, path, verb, text);
+    input_close(file);
+    return read ? EXIT_ANSWERED : EXIT_DATA;
+}
+
+/* A script inside a page. Where its text would end the element, the slash is escaped, which means the
+ * same in a string and in a regular expression. */
+static void put_script(const char *text, size_t length, FILE *file)
+{
+    static const char end[] = "</script";
+    for (size_t k = 0; k < length; ++k) {
+        const bool ends =
+            length - k >= sizeof end - 1 && memcmp(text + k, end, sizeof end - 1) == 0;
+        fputc(text[k], file);
+        if (ends) fputc('\\', file);
+    }
+}
+
+static exit_status put_library(int index, FILE *file, const char *verb)
+{
+    input_text text = {0};
+    const exit_status status = read_file(libraries[index], verb, &text);
+    if (status == EXIT_ANSWERED) put_script(text.text, text.length, file);
+    free(text.text);
+    return status;
+}
+
+static exit_status put_data(const html_page *page, FILE *file, const char *verb)
+{
+    json_t *data = html_data(page);
+    char *text = data != NULL ? json_dumps(data, JSON_COMPACT | JSON_REAL_PRECISION(17)) : NULL;
+    if (text != NULL) put_script(text, strlen(text), file);
+    free(text);
+    json_decref(data);
+    return text != NULL ? EXIT_ANSWERED : complain_of_memory(verb);
+}
+
+/* The template with each @WORD@ replaced. */
+static exit_status put_page(const char *template, const html_page *page, FILE *file,
+                            const char *verb)
+{
+    static const char *const words[] = {"@THREE@", "@ORBIT@", "@DATA@"};
+    exit_status status = EXIT_ANSWERED;
+    for (int k = 0; k < 3 && status == EXIT_ANSWERED; ++k) {
+        const char *at = strstr(template, words[k]);
+        if (at == NULL) return complain(EXIT_DATA, verb, "page.html: %s is missing", words[k]);
+        fwrite(template, 1, (size_t)(at - template), file);
+        status = k < 2 ? put_library(k, file, verb) : put_data(page, file, verb);
+        template = at + strlen(words[k]);
+    }
+    fputs(template, file);
+    return status;
+}
+
+exit_status html_write(const html_page *page, FILE *file, const char *verb)
+{
+    input_text text = {0};
+    char *path = input_package_file("page.html", verb), *template = NULL;
+    exit_status status = path != NULL ? read_file(path, verb, &text) : EXIT_DATA;
+    if (status == EXIT_ANSWERED) {
+        template = strndup(text.text, text.length);
+        status = template != NULL ? put_page(template, page, file, verb) : complain_of_memory(verb);
+    }
+    free(template);
+    free(text.text);
+    free(path);
+    return status;
+}

@@ -1,0 +1,13 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_VIEW_HTML_DATA_H
+#define TOOLS_VIEW_HTML_DATA_H
+
+#include <jansson.h>
+
+#include "tools/view/html.h"
+
+/* What the page's script reads: arrays in base64, 32 bits a number, little-endian. NULL: no memory. */
+json_t *html_data(const html_page *page);
+
+#endif

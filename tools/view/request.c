@@ -1,0 +1,85 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/view/request.h"
+
+#include "tools/cli/verbs.h"
+
+const option request_options[] = {
+    {.name = "output",
+     .kind = OPTION_TEXT,
+     .argument = "FILE",
+     .help = "write here (also -o FILE); the extension selects the format"},
+    {.name = "width", .kind = OPTION_COUNT, .argument = "PX", .help = "of the picture (1200)"},
+    {.name = "height", .kind = OPTION_COUNT, .argument = "PX", .help = "of the picture (960)"},
+    {.name = "azimuth",
+     .kind = OPTION_NUMBER,
+     .argument = "DEGREES",
+     .min = -360,
+     .help = "look from here, from +x toward +y (the contact is seen)"},
+    {.name = "elevation",
+     .kind = OPTION_NUMBER,
+     .argument = "DEGREES",
+     .min = -90,
+     .help = "and from this far above the xy plane"},
+    {.name = "zoom",
+     .kind = OPTION_NUMBER,
+     .argument = "FACTOR",
+     .min_open = true,
+     .help = "magnify, about the contact if there is one (1)"},
+    {.name = "at",
+     .kind = OPTION_NUMBER,
+     .argument = "T",
+     .min = -1e300,
+     .help = "show this moment alone (start, contact and end)"},
+    {.name = "tolerance",
+     .kind = OPTION_NUMBER,
+     .argument = "LENGTH",
+     .min_open = true,
+     .help = "draw surfaces at least this exactly (1/2000 of all there is)"},
+    {.name = "frames",
+     .kind = OPTION_COUNT,
+     .argument = "N",
+     .help = "of animations: moments in all (61)"},
+    {.name = NULL}};
+
+static double number_or(const arguments *args, const char *name, double otherwise, bool *given)
+{
+    const option_value *value = arguments_option(args, name);
+    if (given != NULL) *given = value != NULL;
+    return value != NULL ? value->number[0] : otherwise;
+}
+
+/* A count between `lo` and `hi`. */
+static exit_status count_in(const arguments *args, const char *name, uint64_t otherwise,
+                            uint64_t lo, uint64_t hi, uint64_t *count)
+{
+    const option_value *value = arguments_option(args, name);
+    *count = value != NULL ? value->count : otherwise;
+    if (*count >= lo && *count <= hi) return EXIT_ANSWERED;
+    return complain(EXIT_USAGE, args->verb->name, "--%s must be from %u to %u, not '%s'", name,
+                    (unsigned)lo, (unsigned)hi, value->text);
+}
+
+exit_status request_read(const arguments *args, view_request *request)
+{
+    const option_value *output = arguments_option(args, "output");
+    uint64_t width, height, frames;
+    exit_status status = count_in(args, "width", 1200, 64, 8192, &width);
+    if (status == EXIT_ANSWERED) status = count_in(args, "height", 960, 64, 8192, &height);
+    if (status == EXIT_ANSWERED) status = count_in(args, "frames", 61, 2, 2000, &frames);
+    if (status != EXIT_ANSWERED) return status;
+    *request = (view_request){.verb = args->verb->name,
+                              .output = output != NULL ? output->text : NULL,
+                              .width = (double)width,
+                              .height = (double)height,
+                              .zoom = number_or(args, "zoom", 1, NULL),
+                              .tolerance = number_or(args, "tolerance", 0, NULL),
+                              .frames = (size_t)frames,
+                              .body_count = SIZE_MAX};
+    request->from.azimuth = number_or(args, "azimuth", -55, &request->has_azimuth);
+    request->from.elevation = number_or(args, "elevation", 25, &request->has_elevation);
+    request->at = number_or(args, "at", 0, &request->has_at);
+    return EXIT_ANSWERED;
+}
