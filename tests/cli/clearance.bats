@@ -94,8 +94,8 @@ END
 }
 
 @test "an interrupt ends it with the bracket so far" {
-    run -3 timeout --preserve-status -s INT 1 "$IMPINGE" clearance "${endless[@]:0:2}" --gamma 1e-12 --tolerance 1e-9 \
-        --max-bytes 0 --json
+    interrupted 3 INT "$IMPINGE" clearance "${endless[@]:0:2}" --gamma 1e-12 \
+        --tolerance 1e-9 --max-bytes 0 --json
     valid clearance
     json '.reason == "cancelled" and .lower == 0 and .upper < 1e-3'
 }

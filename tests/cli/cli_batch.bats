@@ -106,8 +106,7 @@ options=()
         {"name": "a", "surfaces": [{"type": "sphere"}]},
         {"name": "b", "surfaces": [{"type": "sphere", "radius": 1.000000002}]}]}' | tr -d '\n'
         echo && scene '"id": 3,'; } >scenes.jsonl
-    run -3 --separate-stderr timeout --preserve-status --signal=INT --foreground 1.5 \
-        "$IMPINGE" batch scenes.jsonl --max-bytes 0
+    interrupted 3 INT "$IMPINGE" batch scenes.jsonl --max-bytes 0
     valid result
     jq -es 'map(.id) == [1, 2] and .[1].reason == "cancelled"' <<<"$output"
     [[ $stderr == *'interrupted after line 2' ]]
@@ -234,8 +233,7 @@ without_seconds() { jq -c 'if .stats then del(.stats.seconds) else . end'; }
         {"name": "a", "surfaces": [{"type": "sphere"}]},
         {"name": "b", "surfaces": [{"type": "sphere", "radius": 1.000000002}]}]}' | tr -d '\n'
         echo && scene '"id": 3,'; } >scenes.jsonl
-    run -3 --separate-stderr timeout --preserve-status --signal=INT --foreground 1.5 \
-        "$IMPINGE" batch scenes.jsonl --max-bytes 0 --resume out
+    interrupted 3 INT "$IMPINGE" batch scenes.jsonl --max-bytes 0 --resume out
     [ "$(jq -s -c 'map(.id)' out)" = '[1]' ]
     run -3 --separate-stderr "$IMPINGE" batch scenes.jsonl --max-pairs 1000 --resume out
     [ "$(jq -s -c 'map(.id)' out)" = '[1,2,3]' ]

@@ -152,8 +152,7 @@ load ../support/cli_helper
 @test "SIGINT and SIGTERM end the search, and what is proved is printed" {
     local signal
     for signal in INT TERM; do
-        run -3 --separate-stderr timeout --preserve-status --signal="$signal" --foreground 1.5 \
-            "$IMPINGE" pair "${endless[@]}" --json
+        interrupted 3 "$signal" "$IMPINGE" pair "${endless[@]}" --json
         valid result
         json '.verdict == "undecided" and .reason == "cancelled" and .t_lower == 0'
     done

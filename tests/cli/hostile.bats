@@ -59,8 +59,7 @@ hostile() {
     "$IMPINGE" list >/dev/null
     setsid "$IMPINGE" pair "${endless[@]}" --isolate all --json >out 2>errors &
     pid=$!
-    until [ -n "$(cat "/proc/$pid/task/$pid/children")" ]; do sleep 0.1; done # its worker
-    sleep 1
+    at_work "$pid" TERM
     kill -TERM -- "-$pid"
     wait "$pid" || status=$?
     [ "$status" -eq 3 ] && [ ! -s errors ]

@@ -43,6 +43,38 @@ fails() {
     [[ ${#stderr_lines[@]} -eq 1 && $stderr == "impinge: "* && $stderr == *"$text"* ]]
 }
 
+# Waits until a process catches a signal and has then used half a second of processor time: it is at
+# its search, however busy the machine is: at_work PID SIGNAL.
+at_work() {
+    local bit caught used limit=
+    bit=$(($(kill -l "$2") - 1))
+    while caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status") && [ -n "$caught" ]; do
+        if (((16#$caught >> bit) & 1)); then
+            used=$(awk '{ sub(/.*\) /, ""); print $12 + $13 }' "/proc/$1/stat") # in ticks
+            : "${limit:=$((used + $(getconf CLK_TCK) / 2))}"
+            [ "$used" -lt "$limit" ] || return 0
+        fi
+        sleep 0.05
+    done
+    return 1
+}
+
+# interrupted STATUS SIGNAL COMMAND...: the signal ends the command at its search, with that status.
+# Sets output and stderr as run does.
+interrupted() {
+    local expected=$1 signal=$2 pid status=0
+    shift 2
+    env --default-signal="$signal" "$@" >interrupted.out 2>interrupted.err &
+    pid=$!
+    at_work "$pid" "$signal"
+    kill -s "$signal" "$pid"
+    wait "$pid" || status=$?
+    output=$(<interrupted.out)
+    stderr=$(<interrupted.err)
+    echo "status $status: $output $stderr"
+    [ "$status" -eq "$expected" ]
+}
+
 # json FILTER [ARG]...: jq -e over what the last run printed.
 json() { jq -e "$@" <<<"$output"; }
 
