@@ -48,6 +48,7 @@ tools_check = \
 tools_bench = \
     tools/bench/bench.h \
     tools/bench/cases.c \
+    tools/bench/conformal.c \
     tools/bench/json.c \
     tools/bench/measure.c \
     tools/bench/patches.c \

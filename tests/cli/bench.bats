@@ -72,8 +72,15 @@ measured() {
     measured '.sets[] | select(.set == "spikes").findings.narrowest_over_widest_swing < 10'
 }
 
-@test "no scene of any set is left open, and none takes 64 megabytes" {
-    measured '[.sets[].cases[].methods[]] | length >= 50 and
+@test "parts that slide a hundredth apart are proved clear" {
+    measured '[.sets[] | select(.set == "conformal").cases[] | select(.case | test("c = 0.1$")) |
+        .methods[0]] | length == 5 and all(.verdicts.clear == 1 and .pairs.max <= 10000)'
+    measured 'row("conformal"; "shaft, c = 0.01") | .verdicts.clear == 1'
+    measured 'row("conformal"; "race, c = 0.001") | .verdicts.clear == 1'
+}
+
+@test "no scene of any other set is left open, and none takes 64 megabytes" {
+    measured '[.sets[] | select(.set != "conformal").cases[].methods[]] | length >= 50 and
         all(.verdicts.undecided == 0 and .bytes.max < 64 * 1024 * 1024)'
 }
 
@@ -87,7 +94,8 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
 @test "JSON is as its schema says, with and without the paper's method" {
     output=$(<"$bench")
     valid bench
-    json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving", "clearance"]'
+    json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving", "clearance",
+        "conformal"]'
     json 'all(.sets[] | select(.set != "clearance").cases[].methods[];
         .method == "models" and .ratio == null)'
     run -0 small --json
@@ -105,6 +113,17 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     [[ $output == *'ends at 100 pairs a scene'*'  paper  '*'>10'* ]]
     run -0 "$IMPINGE" bench moving --repeat 1 --max-pairs 100 --method models
     [[ $output != *'paper'* ]]
+}
+
+@test "parts that slide are given the budget" {
+    run -0 "$IMPINGE" bench conformal --repeat 1 --max-pairs 500 --json
+    valid bench
+    json '[.sets[0].cases[].case] == [("shaft", "socket", "piston", "race", "thread") as $part |
+        (0.1, 0.01, 0.001, (1e-6 | select($part == "piston"))) as $c |
+        "\($part), c = \(if $c == 1e-6 then "1e-06" else $c end)"]'
+    json 'all(.sets[0].cases[].methods[]; .method == "models" and .verdicts.contact == 0 and
+        (.ended == 1) == (.pairs.max >= 500) and .pairs.max <= 502)'
+    json '[.sets[0].cases[].methods[0].ended] | add | . > 4 and . < 16'
 }
 
 @test "counts are the same in every run" {

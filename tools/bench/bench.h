@@ -55,6 +55,9 @@ void bench_begin(bench_cases *list, double gamma, double clearance, const char *
 bench_scene *bench_add_pair(bench_cases *list, char *a, char *b);
 bench_scene *bench_add_text(bench_cases *list, char *text);
 
+/* Text that printf makes, in memory of its own; NULL: no memory. */
+char *bench_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
 void bench_cases_free(bench_cases *list);
 
 /* --- Methods and sets --------------------------------------------------------------------- */
@@ -71,6 +74,7 @@ typedef struct bench_method {
     imp_bounds bounds;
     imp_rates rates;
     bench_question question;
+    bool capped; /* whether it ends at the request's budget */
 } bench_method;
 
 /* What the command line asks for. */
@@ -78,7 +82,7 @@ typedef struct bench_request {
     const char *verb;     /* who complains */
     bool only;            /* whether one kind of method alone is wanted, */
     imp_method method;    /* and which */
-    uint64_t max_pairs;   /* budget of the paper's method for one scene; 0: none */
+    uint64_t max_pairs;   /* budget of methods that are capped, for one scene; 0: none */
     uint64_t repeats;     /* how often a scene is timed; at least 1 */
     uint64_t count, seed; /* of random patches besides the file's */
 } bench_request;
@@ -133,6 +137,12 @@ typedef struct bench_set {
 /* All sets, NULL-terminated; the one of that name, or NULL. */
 const bench_set *const *bench_sets_all(void);
 const bench_set *bench_set_find(const char *name);
+
+/* Machine parts that slide in each other. */
+extern const bench_set bench_conformal;
+
+/* What building a set answers once its cases are added. */
+exit_status bench_built(const bench_cases *list, const bench_request *request);
 
 /* --- Random scenes ------------------------------------------------------------------------ */
 

@@ -70,6 +70,21 @@ void bench_cases_free(bench_cases *list)
     *list = (bench_cases){0};
 }
 
+char *bench_text(const char *format, ...)
+{
+    char *text;
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    return length >= 0 ? text : NULL;
+}
+
+exit_status bench_built(const bench_cases *list, const bench_request *request)
+{
+    return list->no_memory ? complain_of_memory(request->verb) : EXIT_ANSWERED;
+}
+
 /* --- Random numbers ----------------------------------------------------------------------- */
 
 void bench_direction(uint64_t *state, double n[3])

@@ -34,7 +34,7 @@ static imp_options options_of(const imp_scene *scene, const bench_case *c, const
     o.method = m->method;
     o.bounds = m->bounds;
     o.rates = m->rates;
-    if (m->method == IMP_METHOD_PAPER) o.max_pairs = request->max_pairs;
+    if (m->capped) o.max_pairs = request->max_pairs;
     return o;
 }
 

@@ -5,15 +5,18 @@
 #include "tools/bench/bench.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 /* --- Methods ------------------------------------------------------------------------------ */
 
 #define METHOD(ID, NAME, METHOD, BOUNDS, RATES)                                                    \
-    static const bench_method ID = {NAME, IMP_METHOD_##METHOD, IMP_BOUNDS_##BOUNDS,                \
-                                    IMP_RATES_##RATES, BENCH_CONTACT}
+    static const bench_method ID = {NAME,                                                          \
+                                    IMP_METHOD_##METHOD,                                           \
+                                    IMP_BOUNDS_##BOUNDS,                                           \
+                                    IMP_RATES_##RATES,                                             \
+                                    BENCH_CONTACT,                                                 \
+                                    IMP_METHOD_##METHOD == IMP_METHOD_PAPER}
 METHOD(models, "models", MODELS, BOX, FULL);
 METHOD(boxes, "paper", PAPER, BOX, FULL);
 METHOD(boxes_column, "paper, column", PAPER, BOX, COLUMN);
@@ -22,28 +25,16 @@ METHOD(balls, "paper, spheres", PAPER, SPHERE, FULL);
 METHOD(balls_column, "paper, spheres, column", PAPER, SPHERE, COLUMN);
 METHOD(balls_constant, "paper, spheres, constant", PAPER, SPHERE, CONSTANT);
 
-static const bench_method clearance_method = {"clearance", IMP_METHOD_MODELS, IMP_BOUNDS_BOX,
-                                              IMP_RATES_FULL, BENCH_CLEARANCE};
+static const bench_method clearance_method = {"clearance",    IMP_METHOD_MODELS, IMP_BOUNDS_BOX,
+                                              IMP_RATES_FULL, BENCH_CLEARANCE,   false};
 static const bench_method proof_method = {"solve, 0.99 of it", IMP_METHOD_MODELS, IMP_BOUNDS_BOX,
-                                          IMP_RATES_FULL, BENCH_PROOF};
+                                          IMP_RATES_FULL,      BENCH_PROOF,       false};
 
 static const bench_method *const usual[] = {&models, &boxes, &balls, NULL};
 static const bench_method *const all_rates[] = {
     &models, &boxes, &boxes_column, &boxes_constant, &balls, &balls_column, &balls_constant, NULL};
 
 /* --- Words -------------------------------------------------------------------------------- */
-
-/* Text that snprintf makes, in memory of its own; NULL: no memory. */
-static char *text_of(const char *format, ...) __attribute__((format(printf, 1, 2)));
-static char *text_of(const char *format, ...)
-{
-    char *text;
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = vasprintf(&text, format, arguments);
-    va_end(arguments);
-    return length >= 0 ? text : NULL;
-}
 
 /* A vector as pipelines take it. */
 typedef struct vector_text {
@@ -55,11 +46,6 @@ static vector_text vector(const double x[3], double scale)
     vector_text v;
     snprintf(v.text, sizeof v.text, "%.17g,%.17g,%.17g", scale * x[0], scale * x[1], scale * x[2]);
     return v;
-}
-
-static exit_status built(const bench_cases *list, const bench_request *request)
-{
-    return list->no_memory ? complain_of_memory(request->verb) : EXIT_ANSWERED;
 }
 
 /* What the last `step` cases cost beyond the `step` before them, over what those cost beyond the
@@ -79,7 +65,8 @@ enum { GAPS = sizeof gaps / sizeof *gaps, DIRECTIONS = 20 };
 /* Two unit spheres whose centres are 2 + gap apart along n. */
 static void add_gap(bench_cases *list, double gap, const double n[3])
 {
-    bench_add_pair(list, text_of("sphere"), text_of("sphere center=%s", vector(n, 2 + gap).text));
+    bench_add_pair(list, bench_text("sphere"),
+                   bench_text("sphere center=%s", vector(n, 2 + gap).text));
 }
 
 static exit_status build_figure7(bench_cases *list, const bench_request *request)
@@ -97,7 +84,7 @@ static exit_status build_figure7(bench_cases *list, const bench_request *request
             add_gap(list, gaps[k], n);
         }
     }
-    return built(list, request);
+    return bench_built(list, request);
 }
 
 static size_t find_figure7(const bench_tally *tallies, size_t count, bench_finding *findings)
@@ -133,7 +120,7 @@ static exit_status build_bicubic(bench_cases *list, const bench_request *request
                     gamma[k]);
         bench_add_patches(list, request->seed, request->count);
     }
-    return status == EXIT_ANSWERED ? built(list, request) : status;
+    return status == EXIT_ANSWERED ? bench_built(list, request) : status;
 }
 
 static const bench_set bicubic = {
@@ -160,10 +147,10 @@ static void add_head_on(bench_cases *list, double width)
 {
     const double *n = at_0_7_and_0_4;
     bench_scene *scene = bench_add_pair(
-        list, text_of("spike width=%g spikes=[[0.7,0.4],[2.5,-0.6]]", width),
-        text_of("spike width=%g spikes=[[3.8415926535897932,-0.4],[5.5,0.7]] ! translate "
-                "offset=[[%s],[%s]]",
-                width, vector(n, 5).text, vector(n, -2).text));
+        list, bench_text("spike width=%g spikes=[[0.7,0.4],[2.5,-0.6]]", width),
+        bench_text("spike width=%g spikes=[[3.8415926535897932,-0.4],[5.5,0.7]] ! translate "
+                   "offset=[[%s],[%s]]",
+                   width, vector(n, 5).text, vector(n, -2).text));
     if (scene == NULL) return;
     scene->has_reference = scene->meets = true;
     scene->t = 0.5;
@@ -176,12 +163,12 @@ static void add_swing(bench_cases *list, double width)
     double centre[3];
     for (int i = 0; i < 3; ++i) centre[i] = 1.5 * (at_0_and_0_3[i] - at_2_and_minus_0_5[i]);
     bench_add_pair(list,
-                   text_of("spike radius=0.5 height=1.5 width=%g spikes=[[0,0.3],[2,-1]] ! "
-                           "rotate angle=-0.5,1",
-                           width),
-                   text_of("spike radius=0.5 height=1.5 width=%g spikes=[[2,-0.5],[4,1]] ! "
-                           "translate offset=[[%s]]",
-                           width, vector(centre, 1).text));
+                   bench_text("spike radius=0.5 height=1.5 width=%g spikes=[[0,0.3],[2,-1]] ! "
+                              "rotate angle=-0.5,1",
+                              width),
+                   bench_text("spike radius=0.5 height=1.5 width=%g spikes=[[2,-0.5],[4,1]] ! "
+                              "translate offset=[[%s]]",
+                              width, vector(centre, 1).text));
 }
 
 static exit_status build_spikes(bench_cases *list, const bench_request *request)
@@ -194,7 +181,7 @@ static exit_status build_spikes(bench_cases *list, const bench_request *request)
         bench_begin(list, 1e-6, -1, "swing, width %g", widths[k]);
         add_swing(list, widths[k]);
     }
-    return built(list, request);
+    return bench_built(list, request);
 }
 
 static size_t find_spikes(const bench_tally *tallies, size_t count, bench_finding *findings)
@@ -233,7 +220,7 @@ enum { TORI = sizeof two_tori / sizeof *two_tori };
 
 static void add_tori(bench_cases *list, int k)
 {
-    bench_add_pair(list, text_of("%s", two_tori[k].a), text_of("%s", two_tori[k].b));
+    bench_add_pair(list, bench_text("%s", two_tori[k].a), bench_text("%s", two_tori[k].b));
 }
 
 static exit_status build_tori(bench_cases *list, const bench_request *request)
@@ -244,7 +231,7 @@ static exit_status build_tori(bench_cases *list, const bench_request *request)
             bench_begin(list, gamma[g], -1, "%s, gamma %g", two_tori[k].name, gamma[g]);
             add_tori(list, k);
         }
-    return built(list, request);
+    return bench_built(list, request);
 }
 
 static const bench_set tori = {
@@ -269,10 +256,10 @@ static void add_flight(bench_cases *list, uint64_t *state)
     bench_direction(state, n);
     bench_direction(state, aside);
     for (int i = 0; i < 3; ++i) v[i] = -4 * n[i] + 0.5 * aside[i];
-    bench_scene *scene = bench_add_pair(list, text_of("sphere"),
-                                        text_of("sphere radius=0.5 center=%s ! translate "
-                                                "velocity=%s",
-                                                vector(n, 3).text, vector(v, 1).text));
+    bench_scene *scene = bench_add_pair(list, bench_text("sphere"),
+                                        bench_text("sphere radius=0.5 center=%s ! translate "
+                                                   "velocity=%s",
+                                                   vector(n, 3).text, vector(v, 1).text));
     if (scene == NULL) return;
     const double c[3] = {3 * n[0], 3 * n[1], 3 * n[2]};
     scene->has_reference = scene->meets = true;
@@ -292,7 +279,7 @@ static exit_status build_moving(bench_cases *list, const bench_request *request)
         bench_begin(list, gamma[k], -1, "gamma %g", gamma[k]);
         add_flights(list);
     }
-    return built(list, request);
+    return bench_built(list, request);
 }
 
 static const bench_set moving = {
@@ -316,7 +303,7 @@ static exit_status build_rates(bench_cases *list, const bench_request *request)
         bench_begin(list, gamma[k], -1, "patches, gamma %g", gamma[k]);
         bench_add_patches(list, 1, 10);
     }
-    return built(list, request);
+    return bench_built(list, request);
 }
 
 static const bench_set rates = {"rates",
@@ -335,7 +322,7 @@ static void add_arm(bench_cases *list, uint64_t *state)
     double rate[3], place[3];
     for (int k = 0; k < 3; ++k) rate[k] = random_between(state, -1.5, 1.5);
     bench_direction(state, place);
-    char *arm = text_of(
+    char *arm = bench_text(
         "{\"bodies\": [{\"name\": \"fixture\", \"surfaces\": [{\"type\": \"sphere\", \"radius\": "
         "0.3, \"center\": [%.17g,%.17g,%.17g]}]}, {\"name\": \"1\", \"surfaces\": [{\"type\": "
         "\"ellipsoid\", \"center\": [0.5,0,0], \"radii\": [0.5,0.1,0.1]}], \"maps\": [{\"type\": "
@@ -372,7 +359,7 @@ static exit_status build_clearance(bench_cases *list, const bench_request *reque
     bench_begin(list, 1e-6, -1, "arms, to 0.9 of contact");
     for (int k = 0; k < 12; ++k) add_arm(list, &state);
     cut_last(list, 0.9);
-    return status == EXIT_ANSWERED ? built(list, request) : status;
+    return status == EXIT_ANSWERED ? bench_built(list, request) : status;
 }
 
 static const bench_set clearance_set = {
@@ -383,8 +370,8 @@ static const bench_set clearance_set = {
 
 /* --- All ---------------------------------------------------------------------------------- */
 
-static const bench_set *const all[] = {&figure7, &bicubic, &spikes,        &tori,
-                                       &rates,   &moving,  &clearance_set, NULL};
+static const bench_set *const all[] = {&figure7, &bicubic,       &spikes,          &tori, &rates,
+                                       &moving,  &clearance_set, &bench_conformal, NULL};
 
 const bench_set *const *bench_sets_all(void) { return all; }
 

@@ -195,7 +195,8 @@ static const option bench_options[] = {
     {.name = "max-pairs",
      .kind = OPTION_COUNT,
      .argument = "N",
-     .help = "end the paper's method at N pairs a scene (K, M, G: thousands); 0: never (100K)"},
+     .help = "end the paper's method, and conformal scenes, at N pairs a scene (K, M, G: "
+             "thousands); 0: never (100K)"},
     {.name = "repeat",
      .kind = OPTION_COUNT,
      .argument = "N",
@@ -224,6 +225,7 @@ const verb verb_bench = {
         "  rates    boxes and spheres from rates of three forms\n"
         "  moving   spheres in flight, at ever smaller gamma\n"
         "  clearance  least distances, and proofs of 0.99 of them\n"
+        "  conformal  machine parts that slide in each other, ever tighter\n"
         "\n"
         "Counters are the same in every run; only times differ.\n",
     .example = "impinge bench moving --method models",
