@@ -30,6 +30,7 @@ plugin_LTLIBRARIES = \
     plugins/sweep.la \
     plugins/taper.la \
     plugins/torus.la \
+    plugins/trajectory.la \
     plugins/translate.la \
     plugins/triangle.la \
     plugins/twist.la \
@@ -96,6 +97,8 @@ plugins_taper_la_SOURCES = plugins/maps/taper.c
 plugins_taper_la_LDFLAGS = $(plugin_ldflags)
 plugins_torus_la_SOURCES = plugins/surfaces/torus.c
 plugins_torus_la_LDFLAGS = $(plugin_ldflags)
+plugins_trajectory_la_SOURCES = plugins/maps/trajectory.c
+plugins_trajectory_la_LDFLAGS = $(plugin_ldflags)
 plugins_translate_la_SOURCES = plugins/maps/translate.c
 plugins_translate_la_LDFLAGS = $(plugin_ldflags)
 plugins_triangle_la_SOURCES = plugins/surfaces/triangle.c
@@ -138,6 +141,7 @@ plugins_segment_la_LIBADD = plugins/libcommon.la
 plugins_superellipsoid_la_LIBADD = plugins/libcommon.la
 plugins_supertoroid_la_LIBADD = plugins/libcommon.la
 plugins_taper_la_LIBADD = plugins/libcommon.la
+plugins_trajectory_la_LIBADD = plugins/libcommon.la
 plugins_translate_la_LIBADD = plugins/libcommon.la
 plugins_triangle_la_LIBADD = plugins/libcommon.la
 plugins_twist_la_LIBADD = plugins/libcommon.la

@@ -97,7 +97,7 @@ static imp_status course_set_table(course *c, const csv_numbers *table, bool lin
         return IMP_INTERNAL;
     }
     c->table = spline_place(keys, width, 0, c->memory);
-    c->table.linear = linear;
+    c->table.kinked = linear;
     for (size_t i = 0; i < keys; ++i) {
         c->table.time[i] = table->number[i * table->columns];
         for (size_t j = 0; j < width; ++j) {

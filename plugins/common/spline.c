@@ -54,7 +54,7 @@ static imp_interval spline_rise(imp_interval a, imp_interval b, double factor, i
     return imp_interval_div(imp_interval_scale(imp_interval_sub(b, a), factor), h);
 }
 
-/* Of a linear curve. The control points between the ends divide the way, so that values stay in the
+/* Of a straight piece. The control points between the ends divide the way, so that values stay in the
  * hull of the ends: (2 a + b) / 3 and (a + 2 b) / 3. */
 static void spline_set_line(const spline *s, const imp_interval *key, size_t piece, spline_cubic *c)
 {
@@ -70,12 +70,28 @@ static void spline_set_line(const spline *s, const imp_interval *key, size_t pie
     c->third = none;
 }
 
+/* With g'' = a. Its slope is the secant - a h/2 at the start and + a h/2 at the end. */
+static void spline_set_parabola(const spline *s, const imp_interval *key, size_t piece, double a,
+                                spline_cubic *c)
+{
+    const imp_interval h = spline_step(s, piece, piece + 1), three = imp_interval_make(3, 3);
+    const imp_interval half = imp_interval_scale(imp_interval_scale(h, a), 0.5);
+    spline_set_line(s, key, piece, c);
+    c->slope[0] = imp_interval_sub(c->slope[1], half);
+    c->slope[2] = imp_interval_add(c->slope[1], half);
+    const imp_interval up = imp_interval_mul(h, c->slope[0]);
+    const imp_interval down = imp_interval_mul(h, c->slope[2]);
+    c->value[1] = imp_interval_add(c->value[0], imp_interval_div(up, three));
+    c->value[2] = imp_interval_sub(c->value[3], imp_interval_div(down, three));
+    for (int k = 0; k < 2; ++k) c->bend[k] = imp_interval_scale(imp_interval_make(a, a), 0.5);
+}
+
 /* The control points next to the ends are a third of a step up their slopes. */
 static void spline_set_cubic(const spline *s, const imp_interval *key, size_t piece,
                              spline_cubic *c)
 {
     const imp_interval h = spline_step(s, piece, piece + 1), three = imp_interval_make(3, 3);
-    if (s->linear) {
+    if (s->kinked) {
         spline_set_line(s, key, piece, c);
         return;
     }
@@ -125,6 +141,24 @@ bool spline_set(const spline *s, const imp_interval *keys, size_t *piece)
     return true;
 }
 
+bool spline_set_parabolas(const spline *s, const imp_interval *keys, const double *accelerations,
+                          size_t *piece)
+{
+    for (size_t i = 0; i < s->pieces; ++i)
+        for (size_t lane = 0; lane < s->lanes; ++lane) {
+            const double a = accelerations != NULL ? accelerations[3 * i + lane] : 0;
+            spline_cubic *c = spline_lane(s, i, lane);
+            if (a != 0)
+                spline_set_parabola(s, keys + lane, i, a, c);
+            else
+                spline_set_line(s, keys + lane, i, c);
+            *piece = i;
+            if (!spline_set_leaf(c, spline_node(s, s->pieces + i) + SPLINE_COLUMNS * lane))
+                return false;
+        }
+    return true;
+}
+
 void spline_grow(const spline *s)
 {
     for (size_t k = s->pieces - 1; k > 0; --k)
@@ -159,12 +193,6 @@ imp_interval spline_at(const imp_interval *control, int count, imp_interval part
 
 /* --- Spans --------------------------------------------------------------------------- */
 
-/* Times from lo to hi, in the pieces first ... last; the middle m lies in the piece `at`. */
-typedef struct spline_span {
-    double lo, hi, m;
-    size_t first, last, at;
-} spline_span;
-
 /* The last piece that begins at t or before; from `least` on. */
 static size_t spline_find(const spline *s, double t, size_t least)
 {
@@ -179,8 +207,7 @@ static size_t spline_find(const spline *s, double t, size_t least)
     return lo;
 }
 
-/* lo, m and hi are between the first and the last key. */
-static spline_span spline_span_of(const spline *s, double lo, double m, double hi)
+spline_span spline_span_of(const spline *s, double lo, double m, double hi)
 {
     spline_span span = {.lo = lo, .hi = hi, .m = m};
     span.first = spline_find(s, lo, 0);
@@ -218,6 +245,29 @@ static imp_interval spline_bend_over(const spline *s, const spline_span *span, s
     return between != NULL ? spline_hull(bend, between[SPLINE_COLUMNS * lane + SPLINE_BEND]) : bend;
 }
 
+/* Slopes of one piece of a curve with kinks between two times in it; of a straight one the secant
+ * as it is. */
+static imp_interval spline_slopes_within(const spline *s, size_t piece, size_t lane, double lo,
+                                         double hi)
+{
+    const spline_cubic *c = spline_lane(s, piece, lane);
+    if (c->bend[0].lo == 0 && c->bend[0].hi == 0) return c->slope[0];
+    return spline_hull(spline_at(c->slope, 3, spline_part(s, piece, lo)),
+                       spline_at(c->slope, 3, spline_part(s, piece, hi)));
+}
+
+/* Slopes over a span of several pieces of a curve with kinks: monotonic in each piece. */
+static imp_interval spline_slopes_over(const spline *s, const spline_span *span, size_t lane,
+                                       const imp_interval *between)
+{
+    imp_interval first =
+        spline_slopes_within(s, span->first, lane, span->lo, s->time[span->first + 1]);
+    imp_interval last = spline_slopes_within(s, span->last, lane, s->time[span->last], span->hi);
+    imp_interval slopes = spline_hull(first, last);
+    return between != NULL ? spline_hull(slopes, between[SPLINE_COLUMNS * lane + SPLINE_SLOPE])
+                           : slopes;
+}
+
 /* The middle of x; adds to *e what x has on either side of it, times scale. */
 static double spline_middle(imp_interval x, double scale, double *e)
 {
@@ -252,7 +302,7 @@ static double spline_series(const spline *s, const spline_span *span, size_t lan
     return imp_interval_mag(imp_interval_add(slope, rise));
 }
 
-/* The same of a linear curve across several pieces with those slopes. */
+/* The same of a curve with kinks across several pieces with those slopes. */
 static double spline_fan(const spline *s, const spline_span *span, size_t lane, imp_interval slopes,
                          imp_series *g)
 {
@@ -292,9 +342,11 @@ void spline_models(const spline *s, imp_model t, imp_model *lanes, imp_interval 
     const bool far = spline_nodes(s, &span, node, between);
     for (size_t lane = 0; lane < s->lanes; ++lane) {
         const imp_interval *whole = node + SPLINE_COLUMNS * lane;
-        const double slope = s->linear && span.first != span.last
-                                 ? spline_fan(s, &span, lane, whole[SPLINE_SLOPE], &g)
-                                 : spline_series(s, &span, lane, far ? between : NULL, &g);
+        const imp_interval *inner = far ? between : NULL;
+        const double slope =
+            s->kinked && span.first != span.last
+                ? spline_fan(s, &span, lane, spline_slopes_over(s, &span, lane, inner), &g)
+                : spline_series(s, &span, lane, inner, &g);
         lanes[lane] = imp_compose(&t, &g, whole[SPLINE_VALUE],
                                   imp_smaller(slope, imp_interval_mag(whole[SPLINE_SLOPE])));
     }

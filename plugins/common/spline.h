@@ -23,10 +23,11 @@
  *
  *   g(m + y) = g(m) + g'(m) y + h y^2,   h between the least and the greatest g''/2 of the span.
  *
- * A linear curve goes straight from key to key, with kinks there: each piece is a cubic whose bends are
- * 0. Across several pieces g is Lipschitz, and differences are means of slopes, so
+ * A curve with kinks has slopes that jump at its keys. It goes straight from key to key, each piece
+ * a cubic whose bends are 0, or along parabolas of given accelerations. Across several pieces g is
+ * Lipschitz, and differences are means of slopes, so
  *
- *   g(m + y) = g(m) + h y,   h between the least and the greatest slope of the pieces touched.
+ *   g(m + y) = g(m) + h y,   h between the least and the greatest slope of the span.
  *
  * A binary tree over the pieces holds the range of each lane, of its slope and of g''/2: a
  * span across a thousand pieces asks for some twenty nodes. */
@@ -41,7 +42,7 @@ typedef struct spline_cubic {
 
 typedef struct spline {
     size_t pieces, lanes, width; /* width: intervals in a node */
-    bool linear;
+    bool kinked;
     double *time;        /* pieces + 1 */
     spline_cubic *cubic; /* lanes per piece */
     imp_interval *tree;  /* node k has children 2k and 2k+1; piece i is node pieces + i */
@@ -73,6 +74,11 @@ imp_interval spline_hull(imp_interval x, imp_interval y);
  * time is too short for what happens in it, and *piece says which. */
 bool spline_set(const spline *s, const imp_interval *keys, size_t *piece);
 
+/* The same for a curve with kinks whose pieces are parabolas: row i of `accelerations`, a number for
+ * each of the first three lanes, is g'' in piece i. NULL: straight lines. */
+bool spline_set_parabolas(const spline *s, const imp_interval *keys, const double *accelerations,
+                          size_t *piece);
+
 /* Fills the rest of the tree, when the leaves are complete. */
 void spline_grow(const spline *s);
 
@@ -84,6 +90,15 @@ enum { SPLINE_WIDTH_MAX = 32 };
 /* The time at which a track stands that holds its ends: t, or the end of the track nearest to it.
  * Where t crosses an end this has a kink, and the rate 1 on its side of it. */
 imp_model spline_hold(const spline *s, imp_model t);
+
+/* Times from lo to hi, in the pieces first ... last; the middle m lies in the piece `at`. */
+typedef struct spline_span {
+    double lo, hi, m;
+    size_t first, last, at;
+} spline_span;
+
+/* lo, m and hi are between the first and the last key. */
+spline_span spline_span_of(const spline *s, double lo, double m, double hi);
 
 /* Models of all lanes over the times of the model t; and in `node` (width intervals) the ranges
  * over all of the pieces that t touches. */

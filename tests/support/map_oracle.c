@@ -307,6 +307,58 @@ void keyframes_oracle(const type_arguments *arguments, const number p[4], number
     }
 }
 
+/* --- Trajectories ----------------------------------------------------------------------------- */
+
+/* x turned by the unit quaternion of key i. */
+static void turn_by_key(const imp_value *rotations, size_t i, number x[3])
+{
+    number q[4];
+    for (size_t j = 0; j < 4; ++j) q[j] = num(rotations->number[4 * i + j]);
+    turn_by_quaternion(q, x);
+}
+
+/* x turned by the spin of piece i for the time s. */
+static void turn_by_spin(const imp_value *spins, size_t i, number s, number x[3])
+{
+    number k[3], w[3] = {x[0], x[1], x[2]};
+    const double *spin = spins->number + 3 * i;
+    for (int j = 0; j < 3; ++j) k[j] = num(spin[j]);
+    if (spin[0] == 0 && spin[1] == 0 && spin[2] == 0) return;
+    const number angle = num_mul(num_sqrt(dot(k, k)), s);
+    normalize(k);
+    turn(k, angle, w, x);
+}
+
+void trajectory_oracle(const type_arguments *arguments, const number p[4], number x[3])
+{
+    const imp_value *times = argument(arguments, "times");
+    const imp_value *positions = argument(arguments, "positions");
+    const imp_value *accelerations = argument(arguments, "accelerations");
+    const imp_value *rotations = argument(arguments, "rotations");
+    const imp_value *spins = argument(arguments, "spins");
+    track g = {.time = times->number, .keys = times->count};
+    const size_t i = piece_at(&g, num_near(p[3]));
+    const number h = step(&g, i), s = num_sub(p[3], num(g.time[i])), part = num_div(s, h);
+    from_center(arguments, p, x);
+    if (rotations->count) {
+        number early[3] = {x[0], x[1], x[2]}, late[3] = {x[0], x[1], x[2]}, end[3];
+        turn_by_key(rotations, i, early);
+        turn_by_key(rotations, i + 1, late);
+        for (int k = 0; k < 3; ++k) x[k] = end[k] = early[k];
+        turn_by_spin(spins, i, s, x);
+        turn_by_spin(spins, i, h, end);
+        for (int k = 0; k < 3; ++k) x[k] = num_add(x[k], num_mul(part, num_sub(late[k], end[k])));
+    }
+    for (size_t k = 0; k < 3; ++k) {
+        const number from = num(positions->number[3 * i + k]);
+        const number to = num(positions->number[3 * i + 3 + k]);
+        x[k] = num_add(x[k], num_add(from, num_mul(part, num_sub(to, from))));
+        if (!accelerations->count) continue;
+        const number a = num_div(num(accelerations->number[3 * i + k]), num(2));
+        x[k] = num_sub(x[k], num_mul(a, num_mul(s, num_sub(h, s))));
+    }
+}
+
 /* --- Free-form deformation: the control points themselves ------------------------------------ */
 
 static number bernstein(unsigned n, unsigned i, number u)

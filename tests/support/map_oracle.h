@@ -11,7 +11,7 @@
 typedef void map_oracle(const type_arguments *arguments, const number p[4], number x[3]);
 
 map_oracle scale_oracle, screw_oracle, taper_oracle, twist_oracle, bend_oracle, wave_oracle,
-    keyframes_oracle, ffd_oracle;
+    keyframes_oracle, trajectory_oracle, ffd_oracle;
 
 /* Number i of the map's table, if it has one: "times", and the rows called `values`. */
 bool table_oracle(const type_arguments *arguments, const char *values, size_t i, number t,

@@ -212,6 +212,11 @@ static const struct limit {
     {"bend", "{}", 4, 2.9},
     {"wave", "{\"amplitude\": [0,0,0.1], \"wave_vector\": [6,0,0]}", 1.3, 1.3},
     {"keyframes", "{\"times\": [0,0.5,1], \"positions\": [@3[?,?,?]]}", 1.3, 1.2},
+    {"trajectory",
+     "{\"times\": [0,1], \"positions\": [@2[?,?,?]],"
+     " \"rotations\": [[1,0,0,0],[0.7316888688738209,0,0,0.6816387600233341]],"
+     " \"spins\": [[0,0,1.5]], \"accelerations\": [[0,0,-9.81]]}",
+     1.5, 1.4},
     {"keyframes", "{\"times\": [0,1], \"rotations\": [[1,0,0,0],[0.8,0.6,0,0]]}", 1.5, 1.4},
     {"ffd", "{\"lo\": [-2,-2,-2], \"hi\": [2,2,2], \"points\": [@8[?,?,?]]}", 2.6, 2.4},
     {"ffd", "{\"lo\": [-2,-2,-2], \"hi\": [2,2,2], \"lattice\": [4,4,4], \"points\": [@64[?,?,?]]}",
@@ -302,7 +307,32 @@ START_TEST(models_of_linear_tables_are_exact_between_kinks_and_tight_across)
 }
 END_TEST
 
-SUITE_MAIN("maps", tables_pass_through_their_rows_and_go_straight_between_them,
+START_TEST(a_trajectory_follows_parabolas_and_turns_at_constant_spin)
+{
+    /* Up at 5 and down under 10; then up at 2 and a half turn more. */
+    instance made =
+        map("trajectory", "{\"times\": [0,1,3], \"positions\": [[0,0,1],[2,0,1],[2,0,-15]],"
+                          " \"accelerations\": [[0,0,-10],[0,0,-10]],"
+                          " \"rotations\": [[1,0,0,0],[0,0,0,1],[-1,0,0,0]],"
+                          " \"spins\": [[0,0,3.141592653589793],"
+                          "[0,0,1.5707963267948966]], \"center\": [1,0,0]}");
+    double lo, hi;
+    made.map->time_domain(made.self, &lo, &hi);
+    ck_assert(lo == 0 && hi == 3);
+    expect_image(&made, (double[4]){2, 0, 0, 0}, (double[3]){1, 0, 1}, 1e-14);
+    expect_image(&made, (double[4]){2, 0, 0, 0.5}, (double[3]){1, 1, 2.25}, 1e-14);
+    expect_image(&made, (double[4]){2, 0, 0, 1}, (double[3]){1, 0, 1}, 1e-14);
+    expect_image(&made, (double[4]){2, 0, 0, 2}, (double[3]){2, -1, -2}, 1e-14);
+    expect_image(&made, (double[4]){2, 0, 0, 3}, (double[3]){3, 0, -15}, 1e-14);
+    const double after[4] = {0, 0, 0, 3.0000000000000004};
+    double x[3];
+    ck_assert_int_eq(made.map->eval(made.self, 1, after, x, NULL), IMP_DOMAIN);
+    instance_free(&made);
+}
+END_TEST
+
+SUITE_MAIN("maps", a_trajectory_follows_parabolas_and_turns_at_constant_spin,
+           tables_pass_through_their_rows_and_go_straight_between_them,
            tables_hold_or_are_undefined_beyond_their_ends,
            models_of_linear_tables_are_exact_between_kinks_and_tight_across,
            a_turn_of_the_screw_advances_by_its_pitch,

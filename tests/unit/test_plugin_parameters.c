@@ -172,6 +172,27 @@ static const struct refusal {
     {"! keyframes times=0,1 rotations=[[0,0,0,0],[1,0,0,0]]", "rotations/0", "length 0"},
     {"! keyframes times=0,1 rotations=[[1,0,0,0],[0,1,0,0]]", "rotations/1", "180 degrees"},
     {"! keyframes times=0,1e-300 positions=[[0,0,0],[1e50,0,0]]", "positions/1", "too far"},
+    {"! trajectory times=0,1", "positions", "missing"},
+    {"! trajectory times=[0] positions=[[0,0,0]]", "times", "two or more"},
+    {"! trajectory times=0,0 positions=[[0,0,0],[1,0,0]]", "times/1", "increase"},
+    {"! trajectory times=0,1 positions=[[0,0,0]]", "positions",
+     "1 positions for 2 times; must be 2"},
+    {"! trajectory times=0,1 positions=[[0,0,0],[1,0,0]] accelerations=[[0,0,1],[0,0,1]]",
+     "accelerations", "must be 1"},
+    {"! trajectory times=0,1 positions=[[0,0,0],[1,0,0]] spins=[[0,0,1]]", "spins", "together"},
+    {"! trajectory times=0,1 positions=[[0,0,0],[1,0,0]] rotations=[[1,0,0,0],[1,0,0,0]]"
+     " spins=[[0,0,1],[0,0,1]]",
+     "spins", "must be 1"},
+    {"! trajectory times=0,1 positions=[[0,0,0],[1,0,0]] rotations=[[1,0,0,0],[1,0,0,0]]"
+     " spins=[[0,0,1]]",
+     "rotations/1", "spin leads to"},
+    {"! trajectory times=0,1 positions=[[0,0,0],[1,0,0]] rotations=[[1,0,0,0],[1,0,0,0.1]]"
+     " spins=[[0,0,0]]",
+     "rotations/1", "length 1.00498"},
+    {"! trajectory times=0,1 positions=[[0,0,0],[1,0,0]] rotations=[[1,0,0,0],[1,0,0,0]]"
+     " spins=[[0,0,1e-200]]",
+     "spins/0", "must be 0"},
+    {"! trajectory times=0,1e-300 positions=[[0,0,0],[1e50,0,0]]", "positions/1", "too far"},
     {"! ffd", "points", "missing"},
     {"! ffd points=[[0,0,0]]", "points", "must be 8"},
     {"! ffd lattice=1,2,2 points=[[0,0,0]]", "lattice", "2"},
