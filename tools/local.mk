@@ -74,6 +74,7 @@ tools_cli = \
     tools/cli/options.c tools/cli/options.h \
     tools/cli/ordered_pool.c tools/cli/ordered_pool.h \
     tools/cli/output.c tools/cli/output.h \
+    tools/cli/output_file.c tools/cli/output_file.h \
     tools/cli/program.c tools/cli/program.h \
     tools/cli/progress.c tools/cli/progress.h \
     tools/cli/project.c tools/cli/project.h \
@@ -83,6 +84,7 @@ tools_cli = \
     tools/cli/result_text.c \
     tools/cli/series.c tools/cli/series.h \
     tools/cli/standard_output.c tools/cli/standard_output.h \
+    tools/cli/vec.h \
     tools/cli/verb_batch.c \
     tools/cli/verb_build.c \
     tools/cli/verb_clearance.c \
@@ -106,7 +108,6 @@ tools_view = \
     tools/view/html_data.c tools/view/html_data.h \
     tools/view/mesh.c tools/view/mesh.h \
     tools/view/obj.c \
-    tools/view/output_file.c tools/view/output_file.h \
     tools/view/picture.c tools/view/picture.h \
     tools/view/plot.c tools/view/plot.h \
     tools/view/plot_source.c tools/view/plot_source.h \
@@ -120,7 +121,6 @@ tools_view = \
     tools/view/storyboard.c tools/view/storyboard.h \
     tools/view/stroke_font.c tools/view/stroke_font.h \
     tools/view/subject.c tools/view/subject.h \
-    tools/view/vec.h \
     tools/view/view.c tools/view/view.h \
     tools/view/vtu.c \
     tools/view/verb_demo.c \

@@ -3,7 +3,7 @@
 #ifndef TOOLS_VIEW_CAMERA_H
 #define TOOLS_VIEW_CAMERA_H
 
-#include "tools/view/vec.h"
+#include "tools/cli/vec.h"
 
 /* A parallel projection: lengths stay lengths, so an error in the world is one on the picture. */
 

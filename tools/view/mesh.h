@@ -5,7 +5,7 @@
 
 #include <impinge/impinge.h>
 
-#include "tools/view/vec.h"
+#include "tools/cli/vec.h"
 
 /* Surfaces as triangles, with a known error
  * =========================================

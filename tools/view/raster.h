@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "tools/view/vec.h"
+#include "tools/cli/vec.h"
 
 /* A z-buffer
  * ==========

@@ -8,9 +8,9 @@
 
 #include "tools/cli/input.h"
 #include "tools/cli/output.h"
+#include "tools/cli/output_file.h"
 #include "tools/cli/program.h"
 #include "tools/cli/verbs.h"
-#include "tools/view/output_file.h"
 #include "tools/view/plot_source.h"
 #include "tools/view/png.h"
 

@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "tools/cli/output.h"
+#include "tools/cli/output_file.h"
 #include "tools/view/animation.h"
 #include "tools/view/html.h"
-#include "tools/view/output_file.h"
 #include "tools/view/png.h"
 #include "tools/view/storyboard.h"
 

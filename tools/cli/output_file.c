@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/view/output_file.h"
+#include "tools/cli/output_file.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef TOOLS_VIEW_OUTPUT_FILE_H
-#define TOOLS_VIEW_OUTPUT_FILE_H
+#ifndef TOOLS_CLI_OUTPUT_FILE_H
+#define TOOLS_CLI_OUTPUT_FILE_H
 
 #include <stdio.h>
 

@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef TOOLS_VIEW_VEC_H
-#define TOOLS_VIEW_VEC_H
+#ifndef TOOLS_CLI_VEC_H
+#define TOOLS_CLI_VEC_H
 
 #include <math.h>
 
-/* Points and directions of pictures. */
+/* Points and directions. */
 
 typedef struct vec {
     double x[3];
