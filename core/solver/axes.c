@@ -104,12 +104,13 @@ IMP_QUAD_INLINE bool w_range_take(w_range *s, const cuts *c)
     return !(s->lo > s->hi);
 }
 
-/* Of length 1 to 2, pointing from A to B at the range of w's start. */
-IMP_QUAD_INLINE imp_quad bundle_orient(bundle *n, const relative *r, double start)
+/* Of length 1 to 2, pointing from A to B at w. */
+IMP_QUAD_INLINE imp_quad bundle_orient(bundle *n, const relative *r, double w)
 {
     const imp_quad longest = imp_quad_max(
         imp_quad_abs(n->x[0]), imp_quad_max(imp_quad_abs(n->x[1]), imp_quad_abs(n->x[2])));
-    const imp_quad way = along(n, r->delta) + along(n, r->drift) * imp_quad_all(start);
+    const imp_quad way = along(n, r->delta) + along(n, r->drift) * imp_quad_all(w) +
+                         along(n, r->bend) * imp_quad_all(w * w);
     const imp_quad one = imp_quad_pick(way < imp_quad_all(0), imp_quad_all(-1), imp_quad_all(1));
     const imp_quad scale = one / longest;
     for (int i = 0; i < 3; ++i) {
@@ -155,7 +156,8 @@ IMP_QUAD_INLINE chord chord_under(const forms *f, const forms *g)
 }
 
 /* Lemma (one axis). Let x of A and y of B have fixed parameters s_a, s_b. But for the slack,
- * n.(y - x) is then linear in w. The least of it over all s_a, s_b is concave in w, being a
+ * n.(y - x) is then linear in w, plus n.bend w^2, which lies between min(n.bend, 0) and
+ * max(n.bend, 0). The least of what is linear over all s_a, s_b is concave in w, being a
  * minimum of linear functions, and so lies above its chord; the greatest lies below its own.
  * At either end of the window, w = -1 and w = 1, they are
  *
@@ -168,7 +170,7 @@ IMP_QUAD_INLINE chord chord_under(const forms *f, const forms *g)
  * Rounding, in units of u R, R = sum_i |n_i| magnitude_i:
  *
  *   relative_at                            RELATIVE_ROUNDING
- *   dots n.x                               6: of a form 3, of offset and drift 3
+ *   dots n.x                               6: of a form 3, of offset, drift and bend 3
  *   slopes at the ends                     2: product, sum
  *   least values of both forms             2 QUADRATIC_ROUNDING
  *   chord, low +- drift, limit - low      16: sums of at most 4 R
@@ -184,6 +186,7 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
     const forms a = project(n, &r->a), b = project(n, &r->b);
     const forms minus_a = negative(&a), minus_b = negative(&b);
     const imp_quad offset = along(n, r->delta), drift = along(n, r->drift);
+    const imp_quad bend = along(n, r->bend), none = imp_quad_all(0);
     const imp_quad size = weighted(n, r->magnitude);
     const imp_quad slack = weighted(n, r->slack) +
                            size * imp_quad_all(AXIS_ROUNDING * UNIT_ROUNDOFF) +
@@ -193,14 +196,16 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
     const imp_quad limit = imp_quad_pick(sane, limit_upper(n, clearance), imp_quad_all(INFINITY));
     const chord near = chord_under(&b, &minus_a);
     cuts c = {imp_quad_all(-1), imp_quad_all(1), (imp_quad_mask){0}};
-    cut(&c, offset + near.middle - slack, drift + near.tilt, limit);
-    if (lines != NULL) add_lines(lines, n, sane, offset + near.middle - slack, drift + near.tilt);
-    const imp_quad seen =
-        imp_quad_abs(drift) - offset + min_upper_bound(&a) + min_upper_bound(&minus_b);
-    if (imp_quad_any(seen > imp_quad_all(0))) {
+    const imp_quad low = offset + imp_quad_min(bend, none) + near.middle - slack;
+    cut(&c, low, drift + near.tilt, limit);
+    if (lines != NULL) add_lines(lines, n, sane, low, drift + near.tilt);
+    const imp_quad high = offset + imp_quad_max(bend, none);
+    const imp_quad seen = imp_quad_abs(drift) - offset + min_upper_bound(&a) +
+                          min_upper_bound(&minus_b) - imp_quad_min(bend, none);
+    if (imp_quad_any(seen > none)) {
         const chord far = chord_under(&a, &minus_b);
-        cut(&c, far.middle - offset - slack, far.tilt - drift, limit);
-        if (lines != NULL) add_lines(lines, n, sane, far.middle - offset - slack, far.tilt - drift);
+        cut(&c, far.middle - high - slack, far.tilt - drift, limit);
+        if (lines != NULL) add_lines(lines, n, sane, far.middle - high - slack, far.tilt - drift);
     }
     return w_range_take(s, &c);
 }
@@ -211,12 +216,11 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
 IMP_QUAD_INLINE bool cut_along_axes(const relative *r, double clearance, w_range *s, vec3 *axis,
                                     gap_lines *lines)
 {
-    const vec3 delta = vec3_from(r->delta), drift = vec3_from(r->drift);
-    const vec3 here = vec3_sub(delta, vec3_scale(drift, -r->focus));
-    const vec3 end = vec3_sub(delta, vec3_scale(drift, r->focus > 0 ? 1 : -1));
+    const vec3 here = relative_offset(r, r->focus);
+    const vec3 end = relative_offset(r, r->focus > 0 ? -1 : 1);
     vec3 best = vec3_norm1(*axis) > 0 ? *axis : here;
     const bool apart = gjk_axis(r, r->focus, &best);
-    if (apart) *axis = best;
+    *axis = apart ? best : (vec3){{0, 0, 0}};
     bundle n = bundle_of(apart ? best : here, r->a.normal, r->b.normal, end);
     return bundle_cut(r, &n, clearance, s, lines);
 }

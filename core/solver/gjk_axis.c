@@ -31,7 +31,8 @@ IMP_QUAD_INLINE void shape_take(shape *z, int k, const slice *f, double w, imp_q
 IMP_QUAD_INLINE shape shape_at(const relative *r, double w)
 {
     shape z;
-    z.centre = imp_quad_load(r->delta) + imp_quad_all(w) * imp_quad_load(r->drift);
+    z.centre = imp_quad_load(r->delta) + imp_quad_all(w) * imp_quad_load(r->drift) +
+               imp_quad_all(w * w) * imp_quad_load(r->bend);
     z.slack = imp_quad_load(r->slack);
     shape_take(&z, 0, &r->b, w, imp_quad_all(1));
     shape_take(&z, 1, &r->a, w, imp_quad_all(-1));

@@ -17,7 +17,7 @@ typedef struct pair {
     double key[2];      /* the least comes first; no NaN */
     double moment;      /* of the window, that decides: where the distance may be least */
     uint64_t serial;    /* order of making */
-    vec3 axis;          /* that parted the nodes best; 0: none yet */
+    vec3 axis;          /* that parted the nodes best at the window's start or moment; 0: none */
     node *a, *b;
     uint32_t candidate_pair; /* which two surfaces of the scene: index of the query's list */
     uint32_t wait;           /* generations until a witness is sought again */

@@ -13,12 +13,9 @@
  * s0 = (mid - c) / d and k = half / d, abs(s0) + k <= 1 up to rounding. Substituting,
  *
  *   a + bt s_t + qtt s_t^2 = [a + bt s0 + qtt s0^2] + [k (bt + 2 qtt s0)] w + qtt k^2 w^2
- *   bu s_u + qut s_u s_t   = [bu + qut s0] s_u + [qut k] s_u w      (v alike)
- *
- * The term in w^2 has no place in the form. As w^2 is 1/2 give or take 1/2, half of it goes to the
- * middle and half its size to the slack, weighted by the window. */
+ *   bu s_u + qut s_u s_t   = [bu + qut s0] s_u + [qut k] s_u w      (v alike) */
 typedef struct moved {
-    imp_quad shift, drift, slack;
+    imp_quad shift, drift, bend;
     imp_quad magnitude; /* of the slice */
 } moved;
 
@@ -33,7 +30,7 @@ IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
     const imp_quad bu = imp_quad_load(f->bu) + qut * s0, bv = imp_quad_load(f->bv) + qvt * s0;
     const imp_quad quu = imp_quad_load(f->quu), quv = imp_quad_load(f->quv),
                    qvv = imp_quad_load(f->qvv);
-    const imp_quad quw = qut * k, qvw = qvt * k, bow = imp_quad_all(0.5) * (k * k) * qtt;
+    const imp_quad quw = qut * k, qvw = qvt * k;
     imp_quad_store(s->bu, bu);
     imp_quad_store(s->bv, bv);
     imp_quad_store(s->quu, quu);
@@ -42,8 +39,7 @@ IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
     imp_quad_store(s->quw, quw);
     imp_quad_store(s->qvw, qvw);
     s->normal = vec3_cross(vec3_from(s->bu), vec3_from(s->bv));
-    return (moved){(bt + qtt * s0) * s0 + bow, k * (bt + imp_quad_all(2) * qtt * s0),
-                   imp_quad_load(n->e) + imp_quad_abs(bow),
+    return (moved){(bt + qtt * s0) * s0, k * (bt + imp_quad_all(2) * qtt * s0), (k * k) * qtt,
                    imp_quad_abs(bu) + imp_quad_abs(bv) + imp_quad_abs(quu) + imp_quad_abs(quv) +
                        imp_quad_abs(qvv) + (imp_quad_abs(quw) + imp_quad_abs(qvw))};
 }
@@ -52,20 +48,21 @@ IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
  * most, of each node's
  *
  *              |bt|   2 |qtt|   |q.t|   |apart|   the result
- *   shift       5       6                                       11 |qtt|
+ *   shift       4       4                                        7 |qtt|
  *   drift       3       4                             1          7 |qtt|
+ *   bend                2                             1          4 |qtt|
  *   slopes                        3                   1
  *   turns                         2
  *   apart                                  1
  *   delta       1       1                             1
- *   slack                                             4
+ *   slack                                             3
  *
  * Columns of the nodes' terms add up to at most MOTION_ROUNDING, which is added to the slack; that of
  * the result is RELATIVE_ROUNDING, which users of it count. Large motions and far places thus cost u
  * of themselves, once, before they cancel. */
 enum { MOTION_ROUNDING = 16 };
-_Static_assert(5 + 3 + 1 <= MOTION_ROUNDING, "|bt|");
-_Static_assert(6 + 4 + 1 <= MOTION_ROUNDING, "2 |qtt|");
+_Static_assert(4 + 3 + 1 <= MOTION_ROUNDING, "|bt|");
+_Static_assert(4 + 4 + 2 + 1 <= MOTION_ROUNDING, "2 |qtt|");
 _Static_assert(3 + 2 <= MOTION_ROUNDING, "|qut|, |qvt|");
 PAD_COVERS(4, 1); /* half of the window: one difference */
 
@@ -79,15 +76,18 @@ IMP_QUAD_INLINE void recentre(const node *a, const node *b, const time_window *w
     r->share = TUNING_GJK_GAP;
     const moved ma = slice_at(a, r->mid, r->half, &r->a), mb = slice_at(b, r->mid, r->half, &r->b);
     const imp_quad apart = imp_quad_load(b->f.a) - imp_quad_load(a->f.a);
-    const imp_quad delta = apart + (mb.shift - ma.shift), drift = mb.drift - ma.drift;
+    const imp_quad delta = apart + (mb.shift - ma.shift), drift = mb.drift - ma.drift,
+                   bend = mb.bend - ma.bend;
     const imp_quad motion = imp_quad_load(a->motion) + imp_quad_load(b->motion);
-    const imp_quad slack = (ma.slack + mb.slack) + imp_quad_all(MOTION_ROUNDING * UNIT_ROUNDOFF) *
-                                                       (imp_quad_abs(apart) + motion);
+    const imp_quad slack =
+        (imp_quad_load(a->e) + imp_quad_load(b->e)) +
+        imp_quad_all(MOTION_ROUNDING * UNIT_ROUNDOFF) * (imp_quad_abs(apart) + motion);
     imp_quad_store(r->delta, delta);
     imp_quad_store(r->drift, drift);
+    imp_quad_store(r->bend, bend);
     imp_quad_store(r->slack, slack);
     imp_quad_store(r->magnitude, slack + imp_quad_abs(delta) + imp_quad_abs(drift) +
-                                     (ma.magnitude + mb.magnitude));
+                                     imp_quad_abs(bend) + (ma.magnitude + mb.magnitude));
 }
 
 IMP_QUAD_WIDE static void see_wide(const node *a, const node *b, const time_window *window,

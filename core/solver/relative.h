@@ -19,12 +19,12 @@ typedef struct slice {
     vec3 normal;           /* bu x bv: at the window's middle, which may be far from the node's */
 } slice;
 
-/* B - A over the window: offset delta + drift * w, plus slice b, minus slice a, give or take slack.
- */
+/* B - A over the window: offset delta + drift * w + bend * w^2, plus slice b, minus slice a, give or
+ * take slack. */
 typedef struct relative {
     slice a, b;
-    double delta[4], drift[4];
-    double slack[4];     /* both remainders, what moving the centre put there, and its rounding */
+    double delta[4], drift[4], bend[4];
+    double slack[4];     /* both remainders, and the rounding of moving the centre */
     double magnitude[4]; /* >= sum of abs of the coefficients above */
     double mid, half;    /* of the window; half is rounded up */
     double share;        /* of the widest gap along any axis, that a search for one must come to */
@@ -36,6 +36,14 @@ typedef struct relative {
 enum { RELATIVE_ROUNDING = 4 };
 
 void relative_at(const node *a, const node *b, const time_window *window, relative *r);
+
+/* The offset at w, about. */
+static inline vec3 relative_offset(const relative *r, double w)
+{
+    vec3 x;
+    for (int i = 0; i < 3; ++i) x.x[i] = r->delta[i] + (r->drift[i] + r->bend[i] * w) * w;
+    return x;
+}
 
 /* Where w may be: [lo, hi] within [-1, 1]. */
 typedef struct w_range {

@@ -139,13 +139,33 @@ static double gain_in_time(const pair *p, const node *n, double scale)
                                    : TUNING_FREE_TIME_CUT * n->nonlinear_extent[PARAMETER_T];
 }
 
+/* Whether no fixed axis parts the nodes, whose surfaces are nearly parallel: only a field of normals
+ * will, for which slopes are no obstacle. */
+static bool is_tangent(const pair *p)
+{
+    const vec3 a = p->a->normal, b = p->b->normal;
+    const double cosine = vec3_dot(a, b), least = TUNING_FIELD_COSINE;
+    return !(vec3_norm1(p->axis) > 0) &&
+           cosine * cosine > least * least * vec3_dot(a, a) * vec3_dot(b, b);
+}
+
+/* What a cut along u or v is worth. Of tangent nodes only what bends counts: a cylinder that is too
+ * wide for the field is not cut in length. The slopes decide where nothing bends. */
+static double gain_in_place(const node *n, parameter j, bool tangent)
+{
+    return tangent
+               ? TUNING_TANGENT_CUT * n->nonlinear_extent[j] + TUNING_TANGENT_SLOPE * n->extent[j]
+               : n->extent[j];
+}
+
 cut cut_by_spread(const pair *p, double scale)
 {
+    const bool tangent = is_tangent(p);
     cut best = {-1, PARAMETER_U, 0};
     for (int side = 0; side < 2; ++side) {
         const node *n = side_of(p, side);
-        cut_consider(&best, p, side, PARAMETER_U, n->extent[0]);
-        cut_consider(&best, p, side, PARAMETER_V, n->extent[1]);
+        cut_consider(&best, p, side, PARAMETER_U, gain_in_place(n, PARAMETER_U, tangent));
+        cut_consider(&best, p, side, PARAMETER_V, gain_in_place(n, PARAMETER_V, tangent));
         cut_consider(&best, p, side, PARAMETER_T, gain_in_time(p, n, scale));
     }
     return best;
@@ -169,10 +189,11 @@ imp_code cut_take(const cut *c, int half, const candidate_pair *both, pair *p, b
     const double at = (*slot)->region.c[c->along];
     *some = c->along != PARAMETER_T || half_is_needed(&p->window, at, half);
     if (!*some) return IMP_SUCCESS;
-    tree_growth growth = {0};
-    const imp_code code = node_child(t, *slot, c->along, half, slot, &growth, error);
-    stats->nodes += growth.nodes;
-    stats->bytes += growth.bytes;
+    const uint64_t nodes = tree_node_count(t);
+    const size_t bytes = tree_bytes(t);
+    const imp_code code = node_child(t, *slot, c->along, half, slot, error);
+    stats->nodes += tree_node_count(t) - nodes;
+    stats->bytes += tree_bytes(t) - bytes;
     if (code != IMP_SUCCESS) return code;
     p->window = window_common(p->window, pair_times(p->a, p->b));
     *some = p->window.lo <= p->window.hi;

@@ -23,6 +23,12 @@
 /* The same where one half is enough.
  * 4: +2.6, 16: -1.2 */
 #define TUNING_FREE_TIME_CUT 8
+/* Weight of what is not linear in place, of tangent nodes.
+ * 2: 0.0, 8: 0.0 */
+#define TUNING_TANGENT_CUT 4
+/* And of slopes.
+ * 0x1p-6: 0.0, 0x1p-20: 0.0 */
+#define TUNING_TANGENT_SLOPE 0x1p-12
 /* u and v are no longer cut: extents below (gamma - clearance) / this.
  * 32, 128: no change */
 #define TUNING_TINY 64

@@ -344,8 +344,8 @@ static double gap_along(const relative *r, vec3 n)
     double a[2], b[2], gap = 0;
     slice_extent(&r->a, n, &a[0], &a[1]);
     slice_extent(&r->b, n, &b[0], &b[1]);
-    for (int i = 0; i < 3; ++i)
-        gap += n.x[i] * (r->delta[i] - r->drift[i]) - fabs(n.x[i]) * r->slack[i];
+    const vec3 offset = relative_offset(r, -1);
+    for (int i = 0; i < 3; ++i) gap += n.x[i] * offset.x[i] - fabs(n.x[i]) * r->slack[i];
     return (gap + b[0] - a[1]) / vec3_norm(n);
 }
 
@@ -366,7 +366,7 @@ START_TEST(no_axis_shows_much_more_than_twice_the_gap_of_the_nearest)
             for (int i = 0; i < 3; ++i) axis.x[i] = random_between(&state, -1, 1);
             best = fmax(best, gap_along(&r, axis));
         }
-        vec3 axis = vec3_sub(vec3_from(r.delta), vec3_from(r.drift));
+        vec3 axis = relative_offset(&r, -1);
         const bool found = gjk_axis(&r, -1, &axis);
         if (best == 0) continue;
         ++apart;
@@ -413,6 +413,37 @@ START_TEST(the_field_of_normals_parts_caps_that_no_axis_does)
     ck_assert(axes_cut(&r, 1e-6, &axes, &axis, NULL));
     ck_assert(axes.lo == -1 && axes.hi == 1);
     ck_assert(!normal_field_cut(&r, 1e-6, &field, NULL));
+}
+END_TEST
+
+/* Turns the cap of radius 1 by -k to k about the other side's centre, along u. */
+static void turn_cap(node *x, double h, double k)
+{
+    for (int i = 0; i < 3; ++i) {
+        const double u = x->f.bu[i] / h, n = -2 * x->f.quu[i] / (h * h);
+        x->f.bt[i] = k * u;
+        x->f.qut[i] = -h * k * n;
+        x->f.qtt[i] = -0.5 * k * k * n;
+        x->motion[i] = fabs(x->f.bt[i]) + fabs(x->f.qut[i]) + 2 * fabs(x->f.qtt[i]);
+    }
+}
+
+START_TEST(the_field_of_normals_turns_with_time)
+{
+    /* a shaft in its bore, which the turn moves along by as much as they are wide */
+    for (int side = 0; side < 3; ++side) {
+        meeting m = two_caps(0.1, 1, 1e-4);
+        if (side != 1) turn_cap(&m.a, 0.1, 0.1);
+        if (side != 0) turn_cap(&m.b, 0.1, side == 1 ? 0.1 : -0.1);
+        relative r;
+        w_range axes = {-1, 1}, field = {-1, 1};
+        vec3 axis = {{0, 0, 0}};
+        relative_at(&m.a, &m.b, &m.window, &r);
+        ck_assert(axes_cut(&r, 1e-6, &axes, &axis, NULL));
+        ck_assert(axes.lo == -1 && axes.hi == 1);
+        ck_assert_msg(!normal_field_cut(&r, 1e-6, &field, NULL), "side %d: [%g, %g]", side,
+                      field.lo, field.hi);
+    }
 }
 END_TEST
 
@@ -531,7 +562,8 @@ SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
            neither_axes_nor_field_of_normals_lose_a_meeting_alone,
            a_share_keeps_every_moment_within_the_limit,
            no_axis_shows_much_more_than_twice_the_gap_of_the_nearest,
-           where_hulls_meet_there_is_no_gjk_axis, the_field_of_normals_parts_caps_that_no_axis_does,
+           where_hulls_meet_there_is_no_gjk_axis, the_field_of_normals_turns_with_time,
+           the_field_of_normals_parts_caps_that_no_axis_does,
            caps_that_touch_with_their_tops_are_not_parted_at_any_size,
            a_window_shrinks_to_the_moment_of_contact, infinities_and_nans_never_part_anything,
            boxes_and_balls_are_apart_only_beyond_the_clearance,
