@@ -4,8 +4,12 @@
 # One line per suite: tests/unit/NAME is built from tests/unit/NAME.c and linked with everything in
 # core, internal symbols included.
 check_suites = \
+    tests/fuzz/cache \
+    tests/fuzz/csv \
     tests/fuzz/elf \
     tests/fuzz/formula \
+    tests/fuzz/pipeline \
+    tests/fuzz/proof \
     tests/fuzz/scene \
     tests/unit/test_alloc_failure \
     tests/unit/test_callers_mode \
@@ -37,11 +41,13 @@ check_suites = \
     tests/unit/test_query_memory \
     tests/unit/test_registry \
     tests/unit/test_scene_file \
+    tests/unit/test_scene_judge \
     tests/unit/test_separation \
     tests/unit/test_series \
     tests/unit/test_spheres \
     tests/unit/test_steps \
     tests/unit/test_surface \
+    tests/unit/test_threads \
     tests/unit/test_times \
     tests/unit/test_touchings
 
@@ -65,6 +71,8 @@ type_oracle = tests/support/oracle_number.c tests/support/oracle_number.h \
     tests/support/expression_oracle.c tests/support/expression_oracle.h \
     tests/support/map_oracle.c tests/support/map_oracle.h \
     tests/support/instance.c tests/support/instance.h
+tests_unit_test_scene_judge_SOURCES = tests/unit/test_scene_judge.c tests/fuzz/scene_judge.c \
+    tests/fuzz/scene_judge.h
 tests_unit_test_mesh_SOURCES = tests/unit/test_mesh.c tools/view/mesh.c tools/view/mesh.h
 tests_unit_test_keyframes_SOURCES = tests/unit/test_keyframes.c tests/support/map_images.h $(type_oracle)
 tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
@@ -294,22 +302,86 @@ noinst_HEADERS += tests/support/built_plugins.h tests/support/oracle.h tests/sup
 noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/slab.h tests/support/model_value.h
 
 # Fuzz targets, run on the inputs of their folders; tests/fuzz/run searches for more.
-tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/replay.c tests/fuzz/fuzz.h
+tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/elf_changes.c tests/fuzz/elf_changes.h \
+    tests/fuzz/replay.c tests/fuzz/fuzz.h
+tests_fuzz_cache_SOURCES = tests/fuzz/cache.c tests/fuzz/replay.c tests/fuzz/fuzz_mutate.h
+tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c
+tests_fuzz_csv_LDADD = plugins/libcommon.la $(LDADD)
+tests_fuzz_pipeline_SOURCES = tests/fuzz/pipeline.c tests/fuzz/replay.c tests/fuzz/fuzz_registry.h
+tests_fuzz_pipeline_LDADD = $(LDADD) $(JANSSON_LIBS)
+tests_fuzz_proof_SOURCES = tests/fuzz/proof.c tests/fuzz/replay.c
+tests_fuzz_proof_LDADD = plugins/libexpression.la tools/libproof.la $(LDADD)
 tests_fuzz_formula_SOURCES = tests/fuzz/formula.c tests/fuzz/replay.c
 tests_fuzz_formula_LDADD = plugins/libexpression.la tools/libproof.la $(LDADD)
-tests_fuzz_scene_SOURCES = tests/fuzz/scene.c tests/fuzz/replay.c
+tests_fuzz_scene_SOURCES = tests/fuzz/scene.c tests/fuzz/scene_judge.c tests/fuzz/scene_judge.h \
+    tests/fuzz/replay.c
+
+# What tests/fuzz/run builds: libraries that tell libFuzzer what runs, and plugins that do not.
+.PHONY: fuzz-libraries fuzz-plugins
+fuzz-libraries: core/libcore.la tools/libproof.la plugins/libexpression.la plugins/libcommon.la \
+    $(plugin_LTLIBRARIES)
+fuzz-plugins: $(check_LTLIBRARIES)
 EXTRA_DIST += \
+    tests/fuzz/cache.d/codes \
+    tests/fuzz/cache.d/cut \
+    tests/fuzz/cache.d/empty \
+    tests/fuzz/cache.d/large_numbers \
+    tests/fuzz/cache.d/no_reason \
+    tests/fuzz/cache.d/nul \
+    tests/fuzz/cache.d/other_version \
+    tests/fuzz/cache.d/relative \
+    tests/fuzz/cache.d/tabs \
+    tests/fuzz/cache.d/two_lines \
+    tests/fuzz/cache.dict \
+    tests/fuzz/csv.d/blanks \
+    tests/fuzz/csv.d/by_name \
+    tests/fuzz/csv.d/empty \
+    tests/fuzz/csv.d/few \
+    tests/fuzz/csv.d/long_number \
+    tests/fuzz/csv.d/nul \
+    tests/fuzz/csv.d/old_line_ends \
+    tests/fuzz/csv.d/overflow \
+    tests/fuzz/csv.d/plain \
+    tests/fuzz/csv.d/quotes \
+    tests/fuzz/csv.d/word \
+    tests/fuzz/csv.dict \
+    tests/fuzz/elf.d/class \
+    tests/fuzz/elf.d/cut \
+    tests/fuzz/elf.d/cut_header \
+    tests/fuzz/elf.d/cut_to_nothing \
+    tests/fuzz/elf.d/dynamic_address \
+    tests/fuzz/elf.d/dynamic_gone \
+    tests/fuzz/elf.d/dynamic_hash \
+    tests/fuzz/elf.d/dynamic_strtab \
+    tests/fuzz/elf.d/dynamic_tag \
     tests/fuzz/elf.d/entry \
+    tests/fuzz/elf.d/kind \
     tests/fuzz/elf.d/machine \
     tests/fuzz/elf.d/magic \
+    tests/fuzz/elf.d/note_major \
+    tests/fuzz/elf.d/note_name \
+    tests/fuzz/elf.d/note_size \
+    tests/fuzz/elf.d/order \
     tests/fuzz/elf.d/overlap \
+    tests/fuzz/elf.d/overlap_two_files \
+    tests/fuzz/elf.d/phentsize \
     tests/fuzz/elf.d/phnum \
     tests/fuzz/elf.d/phoff \
+    tests/fuzz/elf.d/relocation_addend \
+    tests/fuzz/elf.d/relocation_far \
+    tests/fuzz/elf.d/relocation_kind \
     tests/fuzz/elf.d/segment_address \
+    tests/fuzz/elf.d/segment_align \
     tests/fuzz/elf.d/segment_size \
+    tests/fuzz/elf.d/segment_type \
+    tests/fuzz/elf.d/segment_wraps \
+    tests/fuzz/elf.d/shnum \
     tests/fuzz/elf.d/shoff \
+    tests/fuzz/elf.d/symbol_name \
+    tests/fuzz/elf.d/symbol_value \
     tests/fuzz/elf.d/text \
     tests/fuzz/elf.d/unchanged \
+    tests/fuzz/elf.d/version \
     tests/fuzz/formula.d/deep.txt \
     tests/fuzz/formula.d/functions.txt \
     tests/fuzz/formula.d/kinks.txt \
@@ -319,6 +391,32 @@ EXTRA_DIST += \
     tests/fuzz/formula.d/overflow.txt \
     tests/fuzz/formula.d/smooth.txt \
     tests/fuzz/formula.d/zero.txt \
+    tests/fuzz/formula.dict \
+    tests/fuzz/pipeline.d/all_kinds.txt \
+    tests/fuzz/pipeline.d/blanks.txt \
+    tests/fuzz/pipeline.d/brackets.txt \
+    tests/fuzz/pipeline.d/creates.txt \
+    tests/fuzz/pipeline.d/empty_stage.txt \
+    tests/fuzz/pipeline.d/huge.txt \
+    tests/fuzz/pipeline.d/liberties.txt \
+    tests/fuzz/pipeline.d/no_value.txt \
+    tests/fuzz/pipeline.d/not_utf8.txt \
+    tests/fuzz/pipeline.d/open.txt \
+    tests/fuzz/pipeline.d/stage_map.txt \
+    tests/fuzz/pipeline.d/twice.txt \
+    tests/fuzz/pipeline.d/unknown.txt \
+    tests/fuzz/pipeline.dict \
+    tests/fuzz/proof.d/bad.txt \
+    tests/fuzz/proof.d/composed.txt \
+    tests/fuzz/proof.d/constants.txt \
+    tests/fuzz/proof.d/deep.txt \
+    tests/fuzz/proof.d/edges.txt \
+    tests/fuzz/proof.d/kinks.txt \
+    tests/fuzz/proof.d/overflow.txt \
+    tests/fuzz/proof.d/powers.txt \
+    tests/fuzz/proof.d/signs.txt \
+    tests/fuzz/proof.d/smooth.txt \
+    tests/fuzz/proof.dict \
     tests/fuzz/scene.d/all_kinds.json \
     tests/fuzz/scene.d/bad_shapes.json \
     tests/fuzz/scene.d/bar.txt \
@@ -332,7 +430,6 @@ EXTRA_DIST += \
     tests/fuzz/scene.d/quotes.txt \
     tests/fuzz/scene.d/sphere.txt \
     tests/fuzz/scene.d/two_pipelines.txt \
-    tests/fuzz/formula.dict \
     tests/fuzz/scene.dict \
     tests/fuzz/run
 

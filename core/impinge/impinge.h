@@ -21,9 +21,15 @@ extern "C" {
  *   imp_query      one question about a scene: who touches first, and when?
  *
  * A scene keeps the plugins it uses loaded through its registry: free queries first,
- * then scenes, then the registry. Objects are not locked: use one from one
- * thread at a time; different scenes may be used from different threads at once.
- * Only imp_query_cancel may be called from anywhere, signal handlers included.
+ * then scenes, then the registry.
+ *
+ * Threads: a registry and a scene are only read once they are made, and may be used by several
+ * threads at once: to make scenes, to evaluate, to begin and to step queries. Queries of one scene
+ * share its trees, which are locked where they grow, and answer as if each were alone, bit for bit;
+ * only what depends on who came first differs, stats.nodes and stats.bytes, and so does where
+ * max_seconds or max_bytes end a query. A query and a builder belong to one thread at a time. Before
+ * something is freed all other threads must be done with it, and imp_registry_isolate needs the
+ * registry to itself. Only imp_query_cancel may be called from anywhere, signal handlers included.
  *
  * Structs that may grow begin with their size as the program was compiled, and grow at the end: the
  * library reads and writes no further. The inline functions below set it.
@@ -375,7 +381,7 @@ typedef struct imp_side {
 typedef struct imp_stats {
     double seconds;     /* wall clock spent in imp_query_step */
     uint64_t pairs;     /* pairs of nodes tested for separation */
-    uint64_t nodes;     /* nodes made for this query */
+    uint64_t nodes;     /* nodes made by this query, not found made */
     uint64_t peak_heap; /* most pairs waiting at once */
     uint64_t witness_searches;
     uint64_t bytes; /* peak memory of trees and heap */

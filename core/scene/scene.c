@@ -6,6 +6,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,6 +38,8 @@ struct imp_scene {
     size_t group_count, group_capacity;
     key_pairs ignored;
     scene_settings settings;
+    pthread_mutex_t
+        lock; /* of the members' lists of trees; all else is only read once it is built */
 };
 
 /* --- Building ------------------------------------------------------------------- */
@@ -44,7 +47,9 @@ struct imp_scene {
 imp_scene *scene_new(void)
 {
     imp_scene *scene = calloc(1, sizeof *scene);
-    if (scene != NULL) scene->settings = (scene_settings){0, 1, 1e-6, -1};
+    if (scene == NULL) return NULL;
+    scene->settings = (scene_settings){0, 1, 1e-6, -1};
+    pthread_mutex_init(&scene->lock, NULL);
     return scene;
 }
 
@@ -69,6 +74,7 @@ void imp_scene_free(imp_scene *scene)
     free(scene->groups);
     free(scene->bodies);
     key_pairs_clear(&scene->ignored);
+    pthread_mutex_destroy(&scene->lock);
     free(scene);
 }
 
@@ -295,19 +301,28 @@ imp_code imp_options_read(const imp_scene *scene, imp_options *options, imp_erro
 
 /* --- Trees ----------------------------------------------------------------------------- */
 
-imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
-                    lent_tree *lent, imp_error *error)
+static imp_code member_tree(member *m, const tree_plan *plan, tree **found, tree_growth *growth,
+                            imp_error *error)
 {
-    member *m = &scene->bodies[body].members[index];
     for (size_t k = 0; k < m->tree_count; ++k)
         if (tree_is_of(m->trees[k], plan)) {
-            *lent = (lent_tree){m->trees[k], false};
+            *found = m->trees[k];
             return IMP_SUCCESS;
         }
     tree **trees = array_reserve(m->trees, m->tree_count, &m->tree_capacity, sizeof *trees);
     if (trees == NULL) return error_set_memory(error);
     m->trees = trees;
-    const imp_code code = tree_new(m->surface, plan, &trees[m->tree_count], error);
-    if (code == IMP_SUCCESS) *lent = (lent_tree){trees[m->tree_count++], true};
+    const imp_code code = tree_new(m->surface, plan, found, growth, error);
+    if (code == IMP_SUCCESS) trees[m->tree_count++] = *found;
+    return code;
+}
+
+imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
+                    tree **found, tree_growth *growth, imp_error *error)
+{
+    pthread_mutex_lock(&scene->lock);
+    const imp_code code =
+        member_tree(&scene->bodies[body].members[index], plan, found, growth, error);
+    pthread_mutex_unlock(&scene->lock);
     return code;
 }

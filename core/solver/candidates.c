@@ -56,19 +56,18 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
                             .t_end = hi[2] < options->t_end ? hi[2] : options->t_end,
                             .audit = options->audit ? bound_audit_run : NULL};
     if (plan.t_start > plan.t_end) return IMP_SUCCESS;
-    lent_tree lent;
-    const imp_code code = scene_tree(all->scene, body, index, &plan, &lent, error);
+    tree *t;
+    tree_growth growth = {0};
+    const imp_code code = scene_tree(all->scene, body, index, &plan, &t, &growth, error);
     if (code != IMP_SUCCESS) return code;
-    if (lent.fresh) {
-        all->stats->nodes += tree_node_count(lent.tree);
-        all->stats->bytes += tree_bytes(lent.tree);
-    }
-    const node *root = tree_root(lent.tree);
+    all->stats->nodes += growth.nodes;
+    all->stats->bytes += growth.bytes;
+    const node *root = tree_root(t);
     const size_t k = all->list->count++;
     all->boxes[k].owner = k;
     memcpy(all->boxes[k].lo, root->lo, sizeof root->lo);
     memcpy(all->boxes[k].hi, root->hi, sizeof root->hi);
-    all->list->candidates[k] = (candidate){lent.tree, body, index, -1};
+    all->list->candidates[k] = (candidate){t, body, index, -1};
     return IMP_SUCCESS;
 }
 

@@ -189,11 +189,10 @@ imp_code cut_take(const cut *c, int half, const candidate_pair *both, pair *p, b
     const double at = (*slot)->region.c[c->along];
     *some = c->along != PARAMETER_T || half_is_needed(&p->window, at, half);
     if (!*some) return IMP_SUCCESS;
-    const uint64_t nodes = tree_node_count(t);
-    const size_t bytes = tree_bytes(t);
-    const imp_code code = node_child(t, *slot, c->along, half, slot, error);
-    stats->nodes += tree_node_count(t) - nodes;
-    stats->bytes += tree_bytes(t) - bytes;
+    tree_growth growth = {0};
+    const imp_code code = node_child(t, *slot, c->along, half, slot, &growth, error);
+    stats->nodes += growth.nodes;
+    stats->bytes += growth.bytes;
     if (code != IMP_SUCCESS) return code;
     p->window = window_common(p->window, pair_times(p->a, p->b));
     *some = p->window.lo <= p->window.hi;

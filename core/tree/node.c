@@ -5,8 +5,8 @@
 #include "core/tree/node.h"
 
 #include <assert.h>
+#include <pthread.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/base/rounding.h"
 #include "core/base/status.h"
@@ -25,14 +25,13 @@ struct tree {
     const surface *surface;
     tree_plan plan;
     node *root;
+    pthread_mutex_t lock; /* of chunks, and of every node's children while one is published */
     chunk *chunks;
-    uint64_t count;
-    size_t bytes;
 };
 
 /* --- Memory ------------------------------------------------------------------- */
 
-static node *node_alloc(tree *t)
+static node *node_alloc(tree *t, tree_growth *growth)
 {
     if (t->chunks == NULL || t->chunks->used == t->chunks->capacity) {
         const size_t wanted = t->chunks == NULL ? 1 : CHUNK_GROWTH * t->chunks->capacity;
@@ -42,19 +41,10 @@ static node *node_alloc(tree *t)
         if (fresh == NULL) return NULL;
         *fresh = (chunk){.next = t->chunks, .capacity = capacity};
         t->chunks = fresh;
-        t->bytes += bytes;
+        growth->bytes += bytes;
     }
-    node *n = &t->chunks->nodes[t->chunks->used++];
-    memset(n, 0, sizeof *n);
-    t->count += 1;
-    return n;
-}
-
-/* Takes back the node that node_alloc gave last. */
-static void node_unalloc(tree *t)
-{
-    t->chunks->used -= 1;
-    t->count -= 1;
+    growth->nodes += 1;
+    return &t->chunks->nodes[t->chunks->used++];
 }
 
 /* --- Faults of plugins ---------------------------------------------------------- */
@@ -157,24 +147,45 @@ static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
     return IMP_SUCCESS;
 }
 
-static imp_code node_make(tree *t, imp_region region, node **made, imp_error *error)
+static imp_code node_fill(const tree *t, imp_region region, node *n, imp_error *error)
 {
-    node *n = node_alloc(t);
-    if (n == NULL) return error_set_memory(error);
-    n->region = region;
+    *n = (node){.region = region};
     imp_code code =
         t->plan.kind == TREE_MODELS ? fill_from_model(t, n, error) : fill_from_rates(t, n, error);
     if (code == IMP_SUCCESS && t->plan.audit != NULL) code = t->plan.audit(t->surface, n, error);
-    if (code == IMP_SUCCESS)
-        *made = n;
-    else
-        node_unalloc(t);
     return code;
+}
+
+/* A copy of a filled node, in the slot unless another thread's is there already. NULL: no memory. */
+static node *node_publish(tree *t, const node *filled, _Atomic(node *) *slot, tree_growth *growth)
+{
+    pthread_mutex_lock(&t->lock);
+    node *n = atomic_load_explicit(slot, memory_order_relaxed);
+    if (n == NULL) {
+        n = node_alloc(t, growth);
+        if (n != NULL) {
+            *n = *filled;
+            atomic_store_explicit(slot, n, memory_order_release);
+        }
+    }
+    pthread_mutex_unlock(&t->lock);
+    return n;
+}
+
+static imp_code node_make(tree *t, imp_region region, _Atomic(node *) *slot, node **made,
+                          tree_growth *growth, imp_error *error)
+{
+    node filled;
+    const imp_code code = node_fill(t, region, &filled, error);
+    if (code != IMP_SUCCESS) return code;
+    *made = node_publish(t, &filled, slot, growth);
+    return *made != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
 /* --- Trees ------------------------------------------------------------------------------ */
 
-imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, imp_error *error)
+imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
+                  imp_error *error)
 {
     double lo[3], hi[3];
     surface_domain(s, lo, hi);
@@ -183,12 +194,16 @@ imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, imp_erro
     hi[2] = plan->t_end;
     tree *t = calloc(1, sizeof *t);
     if (t == NULL) return error_set_memory(error);
-    *t = (tree){.surface = s, .plan = *plan, .bytes = sizeof *t};
-    const imp_code code = node_make(t, region_make(lo, hi), &t->root, error);
-    if (code == IMP_SUCCESS)
+    *t = (tree){.surface = s, .plan = *plan};
+    pthread_mutex_init(&t->lock, NULL);
+    _Atomic(node *) root = NULL;
+    const imp_code code = node_make(t, region_make(lo, hi), &root, &t->root, growth, error);
+    if (code == IMP_SUCCESS) {
+        growth->bytes += sizeof *t;
         *made = t;
-    else
+    } else {
         tree_free(t);
+    }
     return code;
 }
 
@@ -200,6 +215,7 @@ void tree_free(tree *t)
         free(t->chunks);
         t->chunks = next;
     }
+    pthread_mutex_destroy(&t->lock);
     free(t);
 }
 
@@ -213,18 +229,17 @@ bool tree_is_of(const tree *t, const tree_plan *plan)
            t->plan.t_end == plan->t_end && t->plan.audit == plan->audit;
 }
 
-uint64_t tree_node_count(const tree *t) { return t->count; }
-
-size_t tree_bytes(const tree *t) { return t->bytes; }
-
-imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, imp_error *error)
+imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
+                    imp_error *error)
 {
-    node **slot = &parent->child[j][side];
-    if (*slot == NULL) {
-        const imp_code code = node_make(t, region_half(&parent->region, j, side), slot, error);
+    _Atomic(node *) *slot = &parent->child[j][side];
+    node *made = atomic_load_explicit(slot, memory_order_acquire);
+    if (made == NULL) {
+        const imp_region half = region_half(&parent->region, j, side);
+        const imp_code code = node_make(t, half, slot, &made, growth, error);
         if (code != IMP_SUCCESS) return code;
     }
-    *child = *slot;
+    *child = made;
     return IMP_SUCCESS;
 }
 

@@ -3,6 +3,8 @@
 #ifndef CORE_TREE_NODE_H
 #define CORE_TREE_NODE_H
 
+#include <stdatomic.h>
+
 #include "core/surface/region.h"
 #include "core/surface/surface.h"
 #include "core/tree/vec.h"
@@ -11,7 +13,11 @@
  * ==========================================================
  * The nodes of a surface form a k-d tree that is made lazily: the halves of a node along a
  * parameter are made on first use, and then serve every pair and every later query.
- * A node may be halved along any of its parameters. A tree belongs to one thread at a time. */
+ * A node may be halved along any of its parameters.
+ *
+ * Trees may be used from several threads at once. A node is filled by whoever asks for it first,
+ * published once, and never changes. Two threads that ask at the same moment fill one each: as both
+ * are the same to the last bit, the first that is published serves both, the other is dropped. */
 
 /* What a node's inclusion is made from. */
 typedef enum tree_kind {
@@ -41,7 +47,7 @@ typedef struct node {
     double nonlinear_extent[3]; /* the same for what is not linear in the parameters; length */
     double time_remainder;      /* time's share in e where its rate is known, about; length */
     bool bounded;               /* f, e, lo, hi are all finite */
-    struct node *child[3][2];
+    _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
 } node;
 
 typedef struct tree tree;
@@ -56,22 +62,27 @@ typedef struct tree_plan {
     node_audit audit;      /* may be NULL */
 } tree_plan;
 
+/* What calls have made, summed up. */
+typedef struct tree_growth {
+    uint64_t nodes;
+    size_t bytes;
+} tree_growth;
+
 /* A tree over the surface's whole (u, v) and [t_start, t_end]; the root is made at once.
  * `s` must outlive it. */
-imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, imp_error *error);
+imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
+                  imp_error *error);
 void tree_free(tree *t);
 
 node *tree_root(const tree *t);
 const surface *tree_surface(const tree *t);
 bool tree_is_of(const tree *t, const tree_plan *plan);
 
-/* Made so far, over all queries. */
-uint64_t tree_node_count(const tree *t);
-size_t tree_bytes(const tree *t);
-
 /* The half of `parent` below (side 0) or above (1) its centre along j. Precondition:
- * region_can_split. IMP_ERROR_PLUGIN names the type, the region and what it answered. */
-imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, imp_error *error);
+ * region_can_split. What this call makes, if anything, is added to *growth. IMP_ERROR_PLUGIN names the
+ * type, the region and what it answered. */
+imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
+                    imp_error *error);
 
 /* Why there is no going on at a node without bounds that cannot be halved: IMP_ERROR_PLUGIN names
  * the type, and the place where it is undefined or the region over which it has no bounds. */

@@ -20,20 +20,37 @@ typedef struct csv_reader {
     imp_create_error *why;
 } csv_reader;
 
-/* The next line that counts, without its end; *more is false at the end of the file. */
+/* Reads a line, without its end ("\n", "\r\n" or "\r"); *length is 0 for an empty one. False: none is left. */
+static bool csv_read_line(csv_reader *r, size_t *length)
+{
+    int c = getc(r->file);
+    if (c == EOF) return false;
+    *length = 0;
+    for (; c != EOF && c != '\n' && c != '\r' && *length < CSV_LINE_MAX - 1; c = getc(r->file))
+        r->text[(*length)++] = (char)c;
+    if (c == '\r') c = getc(r->file);
+    if (c != '\n' && c != EOF) ungetc(c, r->file);
+    r->text[*length] = '\0';
+    r->line += 1;
+    return true;
+}
+
+/* The next line that counts; *more is false at the end of the file. */
 static imp_status csv_next_line(csv_reader *r, bool *more)
 {
     for (;;) {
-        *more = fgets(r->text, CSV_LINE_MAX, r->file) != NULL;
-        if (!*more && ferror(r->file))
+        size_t length = 0;
+        *more = csv_read_line(r, &length);
+        if (ferror(r->file))
             return imp_reject(r->why, r->row, -1, "'%.120s' cannot be read", r->path);
         if (!*more) return IMP_OK;
-        r->line += 1;
-        char *end = r->text + strcspn(r->text, "\r\n");
-        if (strlen(r->text) == CSV_LINE_MAX - 1)
+        if (length == CSV_LINE_MAX - 1)
             return imp_reject(r->why, r->row, -1, "'%.120s' line %lu is longer than %d bytes",
                               r->path, r->line, CSV_LINE_MAX - 2);
-        *end = '\0';
+        if (strlen(r->text) != length)
+            return imp_reject(r->why, r->row, -1,
+                              "'%.120s' line %lu: found a byte 0, allowed is text", r->path,
+                              r->line);
         if (r->text[strspn(r->text, " \t")] != '\0' && r->text[0] != '#') return IMP_OK;
     }
 }
