@@ -429,7 +429,9 @@ EXTRA_DIST += \
     tests/fuzz/scene.d/patch.json \
     tests/fuzz/scene.d/quotes.txt \
     tests/fuzz/scene.d/sphere.txt \
+    tests/fuzz/scene.d/tiny_gap.txt \
     tests/fuzz/scene.d/two_pipelines.txt \
+    tests/fuzz/scene.d/undefined.txt \
     tests/fuzz/scene.dict \
     tests/fuzz/run
 

@@ -279,11 +279,13 @@ static imp_code descend(const search *g, double gamma, state *s, imp_error *erro
 
 /* D shorter than this, in error bounds, has a direction that is mostly rounding. */
 static const double NORMAL_FROM = 64;
+/* Its length has a finite inverse. */
+static const double NORMAL_LEAST = 0x1p-1000;
 
 /* Lemma. The exact points are within the two error vectors of those computed, so their distance is
  * at most gap + |error_a|_1 + |error_b|_1. Roundings: of the gap differences 1, squares
  * 1, sums 2 and the root, which halves them and counts 1, (2 * 1 + 1 + 2) / 2 + 1 < 4; of the errors
- * 5 sums; then their sum. */
+ * 5 sums; then their sum. A gap below 2^-1022 loses 2^-1075 more (vec3_norm). */
 PAD_COVERS(16, 5 + 1);
 static imp_code evaluate_gap(const search *g, const state *s, witness *found, imp_error *error)
 {
@@ -299,8 +301,8 @@ static imp_code evaluate_gap(const search *g, const state *s, witness *found, im
         found->point[side] = s->x[side];
     }
     found->gap = s->gap;
-    found->gap_upper = padded_upper(s->gap + eval_error, 16);
-    found->has_normal = s->gap > NORMAL_FROM * eval_error && s->gap > 0;
+    found->gap_upper = padded_upper(s->gap + eval_error, 16) + PRODUCTS_UNDERFLOW;
+    found->has_normal = s->gap > NORMAL_FROM * eval_error && s->gap > NORMAL_LEAST;
     found->normal = found->has_normal ? vec3_scale(s->apart, 1 / s->gap) : (vec3){{0, 0, 0}};
     return IMP_SUCCESS;
 }

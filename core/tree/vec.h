@@ -35,7 +35,16 @@ static inline vec3 vec3_cross(vec3 a, vec3 b)
                    a.x[0] * b.x[1] - a.x[1] * b.x[0]}};
 }
 
-static inline double vec3_norm(vec3 a) { return sqrt(vec3_dot(a, a)); }
+/* Where squares would underflow, |a| 2^600 is computed instead: of components below 2^-449, the largest
+ * of which is 2^-1074 at least, the scaled squares are between 2^-948 and 2^302. Unless |a| is below
+ * 2^-1022, the scaling is exact. */
+static inline double vec3_norm(vec3 a)
+{
+    const double square = vec3_dot(a, a);
+    if (!(square < 0x1p-900)) return sqrt(square);
+    const vec3 scaled = vec3_scale(a, 0x1p600);
+    return sqrt(vec3_dot(scaled, scaled)) * 0x1p-600;
+}
 
 static inline double vec3_norm1(vec3 a) { return fabs(a.x[0]) + fabs(a.x[1]) + fabs(a.x[2]); }
 

@@ -162,6 +162,25 @@ START_TEST(the_normal_points_from_a_to_b_along_the_line_of_centres)
 }
 END_TEST
 
+/* query_distance computes squares, which are 0 here. */
+START_TEST(a_gap_whose_square_underflows_is_told_and_no_contact_of_a_smaller_gamma)
+{
+    question q = {.a = "point velocity=1,1,0", .b = "point position=1e-170,0,0", .gamma = 1e-160};
+    imp_registry *registry = query_registry();
+    imp_scene *scene = imp_scene_from_pair(registry, q.a, q.b, NULL);
+    imp_options options = query_options(scene, &q);
+    imp_result r;
+    ck_assert_int_eq(imp_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+    ck_assert(r.verdict == IMP_CONTACT && r.gap == 1e-170);
+    ck_assert(r.has_normal && r.normal[0] == 1);
+    options.gamma = 1e-200;
+    ck_assert_int_eq(imp_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+    ck_assert(r.verdict != IMP_CONTACT);
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+}
+END_TEST
+
 START_TEST(every_form_of_the_paper_agrees_with_the_models)
 {
     question q = {.a = "sphere center=-2,0.3,0.1 ! translate velocity=2,0,0",
@@ -199,5 +218,6 @@ SUITE_MAIN("spheres", spheres_in_general_directions_meet_when_the_formula_says,
            a_small_sphere_inside_a_hollow_one_touches_nothing_until_it_reaches_the_wall,
            a_query_of_one_moment_is_answered,
            the_normal_points_from_a_to_b_along_the_line_of_centres,
+           a_gap_whose_square_underflows_is_told_and_no_contact_of_a_smaller_gamma,
            every_form_of_the_paper_agrees_with_the_models,
            the_same_question_has_the_same_answer_bit_for_bit)
