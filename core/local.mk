@@ -28,7 +28,7 @@ core_surface = \
     core/surface/part.c core/surface/part.h \
     core/surface/region.c core/surface/region.h \
     core/surface/surface.c core/surface/surface.h \
-    core/surface/surface_include.c \
+    core/surface/surface_include.c core/surface/surface_net.c \
     core/surface/surface_parts.h \
     core/surface/surface_rate.c
 

@@ -157,6 +157,7 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/nurbs_cells.c plugins/patch/nurbs_cells.h \
     plugins/patch/patch.c plugins/patch/patch.h \
     plugins/patch/patch_include.c plugins/patch/patch_include.h \
+    plugins/patch/patch_net.c plugins/patch/patch_net.h \
     plugins/patch/patch_rate.c plugins/patch/patch_rate.h \
     plugins/patch/patch_series.c plugins/patch/patch_series.h \
     plugins/patch/pieces.c plugins/patch/pieces.h

@@ -168,6 +168,7 @@ check_LTLIBRARIES = \
     tests/plugins/liar_map_rate.la \
     tests/plugins/liar_model_time.la \
     tests/plugins/liar_nan.la \
+    tests/plugins/liar_net.la \
     tests/plugins/liar_percent.la \
     tests/plugins/liar_range.la \
     tests/plugins/liar_refusal.la \
@@ -178,6 +179,7 @@ check_LTLIBRARIES = \
     tests/plugins/liar_spot.la \
     tests/plugins/liar_time.la \
     tests/plugins/liar_truthful.la \
+    tests/plugins/liar_truthful_net.la \
     tests/plugins/map_rate_negative.la \
     tests/plugins/mistakes_bounds.la \
     tests/plugins/mistakes_manners.la \
@@ -242,6 +244,7 @@ tests_plugins_liar_leak_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_map_rate_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_model_time_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_nan_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_net_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_percent_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_range_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_refusal_la_LDFLAGS = $(test_plugin_ldflags)
@@ -252,6 +255,7 @@ tests_plugins_liar_single_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_spot_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_time_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_truthful_net_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_map_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_bounds_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_manners_la_LDFLAGS = $(test_plugin_ldflags)

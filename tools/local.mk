@@ -30,6 +30,7 @@ tools_check = \
     tools/check/guard.c tools/check/guard.h \
     tools/check/inclusions.c tools/check/inclusions.h \
     tools/check/list.c tools/check/list.h \
+    tools/check/nets.c tools/check/nets.h \
     tools/check/map_operand.c tools/check/map_operand.h \
     tools/check/pair.c tools/check/pair.h \
     tools/check/points.c tools/check/points.h \

@@ -114,6 +114,8 @@ typedef struct imp_type_info {
     const char *shadowed_by;         /* file of the earlier type of that name, or NULL */
     const imp_parameter *parameters; /* step by parameter_size bytes */
     size_t parameter_count, parameter_size;
+    const char *capabilities; /* what this host uses of it, names with blanks between: "core", always;
+                                 "order-2": include or apply; "net" */
 } imp_type_info;
 
 /* Types in the order found, shadowed ones included. Returns false past the last. */

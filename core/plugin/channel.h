@@ -25,6 +25,7 @@ typedef enum channel_request {
     REQUEST_EVAL,
     REQUEST_RATE,
     REQUEST_INCLUDE, /* a map: apply */
+    REQUEST_NET,
     REQUEST_DESTROY
 } channel_request;
 
@@ -45,6 +46,7 @@ typedef struct channel {
     imp_rate_matrix rates;
     imp_map_rates map_rates;
     imp_model in[4], out[3];
+    imp_net net; /* a map: also what it is given */
     unsigned char bytes[CHANNEL_BYTES];
 } channel;
 

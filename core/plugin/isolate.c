@@ -161,6 +161,20 @@ static imp_status surface_include_of(const void *self, const imp_region *region,
     return status;
 }
 
+/* Of a surface or a map. */
+static imp_status net_of(const void *self, const imp_region *region, imp_net *net)
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    i->worker->channel->region = *region;
+    i->worker->channel->net = *net;
+    status = worker_request(i->worker, i, REQUEST_NET);
+    *net = i->worker->channel->net;
+    worker_leave(i->worker);
+    return status;
+}
+
 static void map_times_of(const void *self, double *lo, double *hi)
 {
     *lo = stand_in_of(self)->lo[0];
@@ -210,7 +224,8 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
                            .domain = surface_domain_of,
                            .eval = surface_eval_of,
                            .rate = surface_rate_of,
-                           .include = type->include != NULL ? surface_include_of : NULL};
+                           .include = type->include != NULL ? surface_include_of : NULL,
+                           .net = type->net != NULL ? net_of : NULL};
     return i;
 }
 
@@ -227,7 +242,8 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
                                      .time_domain = map_times_of,
                                      .eval = map_eval_of,
                                      .rate = map_rate_of,
-                                     .apply = type->apply != NULL ? map_apply_of : NULL};
+                                     .apply = type->apply != NULL ? map_apply_of : NULL,
+                                     .net = type->net != NULL ? net_of : NULL};
     return i;
 }
 

@@ -165,7 +165,7 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
                            "summary, equation, example or source is not a line of text");
     if (null_callback != NULL)
         return place_error(&type, error, IMP_ERROR_PLUGIN,
-                           "%s is NULL; only include and apply may be", null_callback);
+                           "%s is NULL; only include, apply and net may be", null_callback);
     return check_table(&view->table, &type, error);
 }
 

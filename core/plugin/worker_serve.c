@@ -76,6 +76,7 @@ static imp_status obey_surface(channel *c, const imp_surface_type *type)
     double *error = c->wants_error ? c->error : NULL;
     if (c->request == REQUEST_EVAL) return type->eval(c->self, c->n, c->p, c->x, error);
     if (c->request == REQUEST_RATE) return type->rate(c->self, &c->region, &c->rates);
+    if (c->request == REQUEST_NET) return type->net(c->self, &c->region, &c->net);
     return type->include(c->self, &c->region, c->out);
 }
 
@@ -84,6 +85,7 @@ static imp_status obey_map(channel *c, const imp_map_type *type)
     double *error = c->wants_error ? c->error : NULL;
     if (c->request == REQUEST_EVAL) return type->eval(c->self, c->n, c->p, c->x, error);
     if (c->request == REQUEST_RATE) return type->rate(c->self, &c->box, &c->map_rates);
+    if (c->request == REQUEST_NET) return type->net(c->self, &c->region, &c->net);
     return type->apply(c->self, c->in, c->out);
 }
 

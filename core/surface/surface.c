@@ -150,6 +150,9 @@ const char *surface_status_text(imp_status status)
         return "a rate is negative, infinite or NaN";
     case SURFACE_BAD_MODEL:
         return "a remainder is negative or NaN, a range inverted or NaN, or a rate negative or NaN";
+    case SURFACE_BAD_NET:
+        return "a control net has too many points, a number that is infinite or NaN, a negative "
+               "error, or a weight that is not positive";
     case SURFACE_CRASHED:
         return "crashes or ends its process, in which it runs isolated";
     case SURFACE_HUNG:

@@ -63,6 +63,7 @@ bool surface_undefined_part(const surface *s, double lo, double hi, surface_part
 #define SURFACE_LOST 1007       /* ... was ended because of another instance */
 #define SURFACE_FORKED 1008     /* ... belongs to another process than this one */
 #define SURFACE_NO_PROCESS 1009 /* ... could not be made */
+#define SURFACE_BAD_NET 1010
 
 /* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
@@ -80,5 +81,9 @@ imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_mat
 
 /* The inclusion function of the composition, Taylor models of order 2; boxes from eval and rate where a part has no better. */
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3]);
+
+/* The control net of the composition over a region (imp_net). IMP_UNBOUNDED: it has none there, as where
+ * the type or a map has none. */
+imp_status surface_net(const surface *s, const imp_region *region, imp_net *net);
 
 #endif

@@ -9,8 +9,8 @@
 
 /* The inside of a surface
  * =======================
- * For part.c and its three files: surface.c (life, names), surface_rate.c (points and rates) and
- * surface_include.c (inclusions). Everything that a callback gives is checked where it comes
+ * For part.c and its files: surface.c (life, names), surface_rate.c (points and rates) and
+ * surface_include.c (inclusions), and surface_net.c. Everything that a callback gives is checked where it comes
  * from, before anything is computed with it: behind a product or a sum a breach might not show. */
 
 typedef struct mapping {

@@ -172,3 +172,39 @@ imp_status linear_include(const void *self, const imp_region *region, imp_model 
         model[i] = late ? imp_unbounded(f->depends[i]) : linear_model(f, i, region);
     return late ? IMP_UNBOUNDED : IMP_OK;
 }
+
+/* --- The net over a region --- */
+
+static double at_corner(const double *k, double u, double w)
+{
+    return u * k[LINEAR_U] + w * (k[LINEAR_V] + u * k[LINEAR_UV]);
+}
+
+/* Lemma. Being linear in u and in v, the surface is the bilinear patch of its values at the corners of
+ * the region. A number of point + tau velocity is a sum as in linear_at, but that the time is split in two:
+ * through at most 12 roundings each, which linear_noise covers. The place is what was given. */
+imp_status linear_net(const void *self, const imp_region *region, imp_net *net)
+{
+    const linear *f = self;
+    const double middle = region->c[2];
+    if (linear_is_late(region)) return IMP_UNBOUNDED;
+    for (int i = 0; i < 3; ++i) {
+        if (f->depends[i] & 1) net->degree[0] = 1;
+        if (f->depends[i] & 2) net->degree[1] = 1;
+        if (f->depends[i] & 4) net->is_moving = 1;
+    }
+    const int n = (int)net->degree[0], m = (int)net->degree[1];
+    for (int i = 0; i < 3; ++i) {
+        const double *k = f->still[i], *v = f->motion[i];
+        for (int corner = 0; corner < (n + 1) * (m + 1); ++corner) {
+            const double u = corner / (m + 1) == 0 ? region->lo[0] : region->hi[0];
+            const double w = corner % (m + 1) == 0 ? region->lo[1] : region->hi[1];
+            const double speed = v[LINEAR_1] + at_corner(v, u, w);
+            net->velocity[i][corner] = speed;
+            net->point[i][corner] = at_corner(k, u, w) + middle * speed;
+        }
+        net->place[i] = k[LINEAR_1];
+        net->error[i] = f->depends[i] ? linear_noise(k, v, region) : 0;
+    }
+    return IMP_OK;
+}

@@ -53,4 +53,7 @@ imp_status linear_rate(const void *self, const imp_region *region, imp_rate_matr
 /* As imp_surface_type.include. */
 imp_status linear_include(const void *self, const imp_region *region, imp_model model[3]);
 
+/* As imp_surface_type.net: the values at the region's corners. */
+imp_status linear_net(const void *self, const imp_region *region, imp_net *net);
+
 #endif

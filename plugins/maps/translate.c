@@ -78,8 +78,28 @@ static imp_status translate_apply(const void *self, const imp_model in[4], imp_m
     return moved_apply(self, in, out);
 }
 
+/* Lemma (error). The displacement at the middle time, c0 + c1 c, and its sum with the place: 3 roundings
+ * of |place| + |c0| + |c1 c| at most; the drift, c1 added, 1 of its size, for d at most. */
+static imp_status translate_net(const void *self, const imp_region *region, imp_net *net)
+{
+    const course *way = self;
+    const size_t count = way->polynomial.count;
+    const double middle = region->c[2];
+    if (count == 0 || count > 2) return IMP_UNBOUNDED;
+    for (size_t i = 0; i < 3; ++i) {
+        const double *c = way->polynomial.coefficient + i * count, speed = count > 1 ? c[1] : 0;
+        const double size = fabs(net->place[i]) + fabs(c[0]) + fabs(speed * middle);
+        net->place[i] += c[0] + speed * middle;
+        net->drift[i] += speed;
+        net->error[i] += (4 * size + 2 * fabs(net->drift[i]) * region->d[2]) * 0x1p-53 + IMP_TINY;
+        net->error[i] *= 1 + 0x1p-50;
+    }
+    return IMP_OK;
+}
+
 static const imp_map_type translate = {
     IMP_MAP_FIELDS_OF("translate", translate, translate, translate_destroy, translate_rate),
+    .net = translate_net,
     .summary = "moves along a straight line, along a polynomial in time, or by a table",
     .equation = "(x,y,z) + velocity t, or (x,y,z) + sum_k offset_k t^k, or (x,y,z) + the "
                 "table's value at t",

@@ -4,12 +4,14 @@
 #include "plugins/common/publish.h"
 #include "plugins/patch/parameters.h"
 #include "plugins/patch/patch_include.h"
+#include "plugins/patch/patch_net.h"
 #include "plugins/patch/patch_rate.h"
 
 #include <impinge/plugin.h>
 
 /* A Bezier patch whose control points move linearly. All of its mathematics is in patch.h,
- * patch_rate.h and patch_include.h. */
+ * patch_rate.h, patch_include.h and
+ * patch_net.h. */
 
 enum { DEGREE, POINTS, WEIGHTS, VELOCITIES };
 
@@ -72,8 +74,14 @@ static imp_status bezier_include(const void *self, const imp_region *region, imp
     return patch_include(self, region, model);
 }
 
+static imp_status bezier_net(const void *self, const imp_region *region, imp_net *net)
+{
+    return patch_net(self, region, net);
+}
+
 static const imp_surface_type bezier = {
     IMP_SURFACE_FIELDS(bezier, bezier),
+    .net = bezier_net,
     .summary = "Bezier patch of any degree up to 20, polynomial or rational, moving linearly",
     .equation =
         "sum_ij B_i(u) B_j(v) w_ij (points_ij + t velocities_ij) / sum_ij B_i(u) B_j(v) w_ij, "

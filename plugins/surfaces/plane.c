@@ -70,6 +70,7 @@ static void plane_domain(const void *self, double lo[3], double hi[3])
 
 static const imp_surface_type plane = {
     IMP_SURFACE_FIELDS(plane, linear),
+    .net = linear_net,
     .summary = "parallelogram, the piece of a plane between two edges",
     .equation = "origin + u edge_u + v edge_v, u and v in [0,1]",
     .source = NULL,

@@ -35,6 +35,7 @@ static void point_domain(const void *self, double lo[3], double hi[3])
 
 static const imp_surface_type point = {
     IMP_SURFACE_FIELDS(point, linear),
+    .net = linear_net,
     .summary = "a single point, at rest or moving along a straight line",
     .equation = "position + t velocity; u = v = 0",
     .source = NULL,

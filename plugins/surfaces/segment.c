@@ -44,6 +44,7 @@ static void segment_domain(const void *self, double lo[3], double hi[3])
 
 static const imp_surface_type segment = {
     IMP_SURFACE_FIELDS(segment, linear),
+    .net = linear_net,
     .summary = "straight segment between two ends that move linearly (edge-edge queries)",
     .equation = "(1-u) p_0(t) + u p_1(t), p_k(t) = points_k + t velocities_k, u in [0,1], v = 0",
     .source = NULL,

@@ -45,6 +45,7 @@ static void triangle_domain(const void *self, double lo[3], double hi[3])
 
 static const imp_surface_type triangle = {
     IMP_SURFACE_FIELDS(triangle, linear),
+    .net = linear_net,
     .summary = "triangle whose corners move linearly (vertex-face queries)",
     .equation = "p_0(t) + u (p_1(t) - p_0(t) + v (p_2(t) - p_1(t))), p_k(t) = points_k + t "
                 "velocities_k, u and v in [0,1]",

@@ -46,7 +46,7 @@ extern "C" {
  *     host reads no further than that size.
  *   - The caller owns every output buffer. Nothing is freed across the boundary.
  *   - Tables, names and texts live as long as the shared object is loaded.
- *   - After create, an instance never changes. eval, rate, include and apply are
+ *   - After create, an instance never changes. eval, rate, include, apply and net are
  *     pure: no allocation, no errno, no change of rounding mode or of any other
  *     floating-point setting, same answer every time, safe from many threads at
  *     once [thread-safe]. create and destroy are called by one thread at a time
@@ -187,6 +187,30 @@ typedef struct imp_model {
     uint32_t reserved; /* 0 */
 } imp_model;
 
+/* The most control points of a net. */
+enum { IMP_NET_POINTS = 36 };
+
+/* A control net over a region: a moving Bezier patch of degrees n and m that the surface follows. For
+ * every (u, v, t) in the region, with s = (p - lo) / (hi - lo) for u and v (0 where lo == hi), the
+ * Bernstein polynomials B of degrees n and m, tau = t - c[2], and each coordinate f of the surface,
+ *
+ *   | f - (place + tau drift + sum_ij b_ij (point_k + tau velocity_k)) | <= error,
+ *   b_ij = w_k B_i(s_u) B_j(s_v) / sum of all of these,   k = i (m + 1) + j,   i <= n, j <= m.
+ *
+ * So the convex hull of the control points holds the surface at each moment, but for the error. The
+ * host has set all to 0, and reads the first (n + 1) (m + 1) points, IMP_NET_POINTS at most. Far from
+ * the origin, place and drift keep points and velocities small. All finite, error >= 0, weights > 0. */
+typedef struct imp_net {
+    uint32_t degree[2];                 /* n along u, m along v */
+    uint32_t is_moving;                 /* 0: velocities are all 0 */
+    uint32_t is_weighted;               /* 0: weights are all 1, whatever stands there */
+    double place[3], drift[3];          /* length, length/time */
+    double error[3];                    /* length */
+    double point[3][IMP_NET_POINTS];    /* of x, of y, of z; length */
+    double velocity[3][IMP_NET_POINTS]; /* length/time */
+    double weight[IMP_NET_POINTS];      /* 1; only their ratios matter */
+} imp_net;
+
 /* --- Types ------------------------------------------------------------------------ */
 
 /* Flag of a type or map that is defined for some times only, and whose surface does not exist at
@@ -232,6 +256,11 @@ typedef struct imp_surface_type {
     /* Order-2 inclusion of x, y, z over a region inside the domain. May be NULL: the
      * host then uses eval at the centre and rate. [thread-safe] */
     imp_status (*include)(const void *self, const imp_region *region, imp_model model[3]);
+
+    /* Control net over a region inside the domain: for polynomials and rationals of low degree it says
+     * more than include. IMP_UNBOUNDED: there is none over this region, and *net is ignored; smaller
+     * ones may have one. May be NULL: there is none at all. [thread-safe] */
+    imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
 } imp_surface_type;
 
 /* --- Maps -------------------------------------------------------------------- */
@@ -268,6 +297,11 @@ typedef struct imp_map_type {
      * `out` do not overlap. May be NULL: the host then uses rate and the chain rule
      * (paper, section 5: M_g[:,j] = P M_f[:,j], + p_t for j = t). [thread-safe] */
     imp_status (*apply)(const void *self, const imp_model in[4], imp_model out[3]);
+
+    /* Turns the net of a surface over a region into the net of its image, in place: for maps that are
+     * affine in space and leave motions linear in time. IMP_UNBOUNDED: the image has none over this
+     * region. May be NULL: it never has one. [thread-safe] */
+    imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
 } imp_map_type;
 
 /* --- The plugin ---------------------------------------------------------------- */
@@ -374,10 +408,15 @@ IMP_LAYOUT(sizeof(imp_rate_matrix) == 72 && sizeof(imp_map_rates) == 96);
 IMP_LAYOUT(sizeof(imp_model) == 136 && offsetof(imp_model, q) == 32);
 IMP_LAYOUT(offsetof(imp_model, e) == 80 && offsetof(imp_model, rate) == 104);
 IMP_LAYOUT(offsetof(imp_model, depends) == 128);
-IMP_LAYOUT(sizeof(imp_surface_type) == 112 && offsetof(imp_surface_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_net) == 2104 && offsetof(imp_net, place) == 16);
+IMP_LAYOUT(offsetof(imp_net, error) == 64 && offsetof(imp_net, point) == 88);
+IMP_LAYOUT(offsetof(imp_net, velocity) == 952 && offsetof(imp_net, weight) == 1816);
+IMP_LAYOUT(sizeof(imp_surface_type) == 120 && offsetof(imp_surface_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_surface_type, create) == 64 && offsetof(imp_surface_type, include) == 104);
-IMP_LAYOUT(sizeof(imp_map_type) == 112 && offsetof(imp_map_type, name) == 16);
+IMP_LAYOUT(offsetof(imp_surface_type, net) == 112);
+IMP_LAYOUT(sizeof(imp_map_type) == 120 && offsetof(imp_map_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);
+IMP_LAYOUT(offsetof(imp_map_type, net) == 112);
 IMP_LAYOUT(sizeof(imp_surface_factory) == 16 && sizeof(imp_map_factory) == 16);
 IMP_LAYOUT(sizeof(imp_plugin) == 56 && offsetof(imp_plugin, name) == 16);
 IMP_LAYOUT(offsetof(imp_plugin, get_factory) == 48);

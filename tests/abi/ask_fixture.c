@@ -59,6 +59,18 @@ static void print_models(const imp_model model[3])
     }
 }
 
+static void print_net(const imp_net *net)
+{
+    const size_t points = (net->degree[0] + 1) * (net->degree[1] + 1);
+    printf("  degrees %u %u moving %u weighted %u\n", net->degree[0], net->degree[1], net->is_moving,
+           net->is_weighted);
+    print("place", net->place, 3);
+    print("drift", net->drift, 3);
+    print("error", net->error, 3);
+    for (int i = 0; i < 3; ++i) print("points", net->point[i], points);
+    for (int i = 0; i < 3; ++i) print("velocities", net->velocity[i], points);
+}
+
 static void ask_surface(const imp_surface_type *type, const imp_region *region)
 {
     void *self;
@@ -72,10 +84,15 @@ static void ask_surface(const imp_surface_type *type, const imp_region *region)
         printf("  include answers %d\n", type->include(self, region, model));
         print_models(model);
     }
+    if (type->net != NULL) {
+        imp_net net = {.degree = {0, 0}};
+        printf("  net answers %d\n", type->net(self, region, &net));
+        print_net(&net);
+    }
     type->destroy(self);
 }
 
-static void ask_map(const imp_map_type *type, const imp_model in[4])
+static void ask_map(const imp_map_type *type, const imp_model in[4], const imp_region *region)
 {
     void *self;
     imp_map_rates rates;
@@ -88,6 +105,11 @@ static void ask_map(const imp_map_type *type, const imp_model in[4])
     if (type->apply != NULL) {
         printf("  apply answers %d\n", type->apply(self, in, out));
         print_models(out);
+    }
+    if (type->net != NULL) {
+        imp_net net = {.place = {1, 2, 3}, .drift = {0.5, 0.25, 0.125}, .error = {0, 0, 0x1p-30}};
+        printf("  net answers %d\n", type->net(self, region, &net));
+        print_net(&net);
     }
     type->destroy(self);
 }
@@ -115,7 +137,7 @@ static void ask_plugin(const imp_plugin *plugin)
            plugin->abi_minor);
     models_of(&region, in);
     for (uint32_t i = 0; i < surfaces->count; ++i) ask_surface(surfaces->types[i], &region);
-    for (uint32_t i = 0; i < maps->count; ++i) ask_map(maps->types[i], in);
+    for (uint32_t i = 0; i < maps->count; ++i) ask_map(maps->types[i], in, &region);
 }
 
 static void ask_file(const char *folder)

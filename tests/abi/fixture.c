@@ -3,7 +3,7 @@
 
 /* The source of fixture_1_0.so, a plugin built when the ABI was 1.0, which every later release must
  * load and ask with the same answers (tests/cli/sdk.bats). It uses all that the ABI has: every kind of
- * parameter, types with and without include, maps with and without apply. No libm, whose answers
+ * parameter, types with and without include, maps with and without apply, both with and without net. No libm, whose answers
  * might change. README beside this file says how it was built. */
 
 #include <impinge/formula.h>
@@ -223,6 +223,22 @@ static imp_status bare_rate(const void *self, const imp_region *region, imp_rate
     return t > 1.5 ? IMP_UNBOUNDED : IMP_OK;
 }
 
+/* Bilinear in u and v, linear in t. */
+static imp_status bare_net(const void *self, const imp_region *region, imp_net *net)
+{
+    (void)self;
+    net->degree[0] = net->degree[1] = net->is_moving = 1;
+    for (int k = 0; k < 4; ++k) {
+        const double u = k < 2 ? region->lo[0] : region->hi[0];
+        const double v = k % 2 == 0 ? region->lo[1] : region->hi[1];
+        net->point[0][k] = u, net->point[1][k] = v;
+        net->velocity[2][k] = 1 - u * v;
+        net->point[2][k] = region->c[2] * (1 - u * v);
+    }
+    net->error[2] = 0x1p-49;
+    return IMP_OK;
+}
+
 static const imp_surface_type bare = {
     SIZE_OF(imp_surface_type),
     .parameter_size = (uint32_t)sizeof(imp_parameter),
@@ -235,6 +251,7 @@ static const imp_surface_type bare = {
     .domain = bare_domain,
     .eval = bare_eval,
     .rate = bare_rate,
+    .net = bare_net,
 };
 
 /* --- Maps, with and without apply ----------------------------------------------------- */
@@ -289,13 +306,22 @@ static imp_status rise_rate(const void *self, const imp_box4 *box, imp_map_rates
     return IMP_OK;
 }
 
+static imp_status rise_net(const void *self, const imp_region *region, imp_net *net)
+{
+    (void)self;
+    net->place[2] += region->c[2];
+    net->drift[2] += 1;
+    net->error[2] += 0x1p-52 * (fabs(net->place[2]) + fabs(net->drift[2]) * region->d[2]);
+    return IMP_OK;
+}
+
 static const imp_map_type rise = {
     SIZE_OF(imp_map_type),       .parameter_size = (uint32_t)sizeof(imp_parameter),
     .name = "fixture_rise",      .summary = "rises, without apply",
     .equation = "(x, y, z + t)", .example = "fixture_rise",
     .create = create_nothing,    .destroy = destroy_nothing,
     .time_domain = always,       .eval = rise_eval,
-    .rate = rise_rate,
+    .rate = rise_rate,           .net = rise_net,
 };
 
 /* --- The plugin ----------------------------------------------------------------------- */

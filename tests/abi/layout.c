@@ -65,6 +65,11 @@ static void regions(void)
     FIELD(imp_model, a), FIELD(imp_model, b), FIELD(imp_model, q), FIELD(imp_model, e);
     FIELD(imp_model, lo), FIELD(imp_model, hi), FIELD(imp_model, rate);
     FIELD(imp_model, depends), FIELD(imp_model, reserved);
+    NUMBER(IMP_NET_POINTS);
+    FIXED(imp_net);
+    FIELD(imp_net, degree), FIELD(imp_net, is_moving), FIELD(imp_net, is_weighted);
+    FIELD(imp_net, place), FIELD(imp_net, drift), FIELD(imp_net, error);
+    FIELD(imp_net, point), FIELD(imp_net, velocity), FIELD(imp_net, weight);
 }
 
 /* Callbacks: the compiler says whether the field still has that type. */
@@ -90,14 +95,16 @@ static void types(void)
     TYPE_FIELDS(imp_surface_type);
     FIELD(imp_surface_type, domain), FIELD(imp_surface_type, eval);
     FIELD(imp_surface_type, rate), FIELD(imp_surface_type, include);
+    FIELD(imp_surface_type, net);
     CALL(imp_surface_type, domain, void (*)(const void *, double *, double *));
     CALL(imp_surface_type, rate,
          imp_status(*)(const void *, const imp_region *, imp_rate_matrix *));
     CALL(imp_surface_type, include, imp_status(*)(const void *, const imp_region *, imp_model *));
+    CALL(imp_surface_type, net, imp_status(*)(const void *, const imp_region *, imp_net *));
     GROWS(imp_map_type);
     TYPE_FIELDS(imp_map_type);
     FIELD(imp_map_type, time_domain), FIELD(imp_map_type, eval);
-    FIELD(imp_map_type, rate), FIELD(imp_map_type, apply);
+    FIELD(imp_map_type, rate), FIELD(imp_map_type, apply), FIELD(imp_map_type, net);
     CALL(imp_map_type, time_domain, void (*)(const void *, double *, double *));
     CALL(imp_map_type, rate, imp_status(*)(const void *, const imp_box4 *, imp_map_rates *));
     CALL(imp_map_type, apply, imp_status(*)(const void *, const imp_model *, imp_model *));

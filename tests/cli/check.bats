@@ -84,6 +84,12 @@ blamed() {
     exposes errors liar_single ''
 }
 
+@test "a control net that is a tenth too small is exposed, and the same net in full is not" {
+    exposes nets liar_net 'off the control net, whose error is'
+    run -0 "$IMPINGE" check "$liars/liar_truthful_net.so" --only nets
+    [[ $output == *'pass  nets '*comparisons* ]]
+}
+
 @test "a map's missing rates and wrong models are exposed" {
     exposes rates liar_map_rate 'the rates are too small'
     exposes inclusions liar_map_rate 'off the quadratic'

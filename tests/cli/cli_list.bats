@@ -111,6 +111,15 @@ load ../support/cli_helper
     [[ $output == *'example '*'plugin '*'Apache-2.0'*'file '*'/sphere.so' ]]
 }
 
+@test "info lists what the host uses of a type" {
+    uses() { "$IMPINGE" info "$1" --json | jq -r '.types[0].capabilities | join(" ")'; }
+    [ "$(uses sphere)" = 'core order-2' ]
+    [ "$(uses bezier)" = 'core order-2 net' ]
+    [ "$(uses translate)" = 'core order-2 net' ]
+    run -0 "$IMPINGE" info triangle
+    [[ $output == *'uses       core order-2 net'* ]]
+}
+
 @test "info tells shapes of lists, and what is required" {
     run -0 "$IMPINGE" info bezier
     [[ $output == *'degree: vector of 2 integers, each from '*' to '*'; required'* ]]

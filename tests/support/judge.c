@@ -90,3 +90,57 @@ bool judge_rates(int n, const double *rate, const double *p, const double *q, nu
         return refute(why, "changes by %g where rates allow %g", num_near(way), num_near(bound));
     return true;
 }
+
+/* --- Nets ------------------------------------------------------------------------------------- */
+
+/* Bernstein polynomials of degree n at s, k = 0 ... n. */
+static void bernstein(uint32_t n, number s, number b[IMP_NET_POINTS])
+{
+    const number rest = num_sub(num(1), s);
+    b[0] = num(1);
+    for (uint32_t k = 1; k <= n; ++k) {
+        b[k] = num_mul(b[k - 1], s);
+        for (uint32_t i = k - 1; i > 0; --i)
+            b[i] = num_add(num_mul(b[i - 1], s), num_mul(b[i], rest));
+        b[0] = num_mul(b[0], rest);
+    }
+}
+
+void net_value(const imp_net *net, const imp_region *region, const double p[3], number x[3])
+{
+    const uint32_t m = net->degree[1], count = (net->degree[0] + 1) * (m + 1);
+    const number tau = num_sub(num(p[2]), num(region->c[2]));
+    number b[2][IMP_NET_POINTS], share[IMP_NET_POINTS], all = num(0);
+    for (int j = 0; j < 2; ++j) {
+        const number lo = num(region->lo[j]), side = num_sub(num(region->hi[j]), lo);
+        const bool some = region->hi[j] > region->lo[j];
+        bernstein(net->degree[j], some ? num_div(num_sub(num(p[j]), lo), side) : num(0), b[j]);
+    }
+    for (uint32_t k = 0; k < count; ++k) {
+        share[k] = num_mul(b[0][k / (m + 1)], b[1][k % (m + 1)]);
+        if (net->is_weighted) share[k] = num_mul(share[k], num(net->weight[k]));
+        all = num_add(all, share[k]);
+    }
+    for (int i = 0; i < 3; ++i) {
+        number sum = num(0);
+        for (uint32_t k = 0; k < count; ++k) {
+            number at = num(net->point[i][k]);
+            if (net->is_moving) at = num_add(at, num_mul(tau, num(net->velocity[i][k])));
+            sum = num_add(sum, num_mul(share[k], at));
+        }
+        const number base = num_add(num(net->place[i]), num_mul(tau, num(net->drift[i])));
+        x[i] = num_add(base, num_div(sum, all));
+    }
+}
+
+bool judge_net(const imp_net *net, const imp_region *region, const double p[3],
+               const number exact[3], fault *why)
+{
+    number x[3];
+    net_value(net, region, p, x);
+    for (int i = 0; i < 3; ++i)
+        if (num_is_less(num(net->error[i]), num_abs(num_sub(x[i], exact[i]))))
+            return refute(why, "coordinate %d is %a, off the net's patch at %a by more than %a", i,
+                          num_near(exact[i]), num_near(x[i]), net->error[i]);
+    return true;
+}

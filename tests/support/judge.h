@@ -21,6 +21,13 @@ bool judge_point(const double x[3], const double error[3], const number exact[3]
 /* Quadratic and remainder, range, and form of three models, for the value at s. */
 bool judge_models(const imp_model model[3], const number s[3], const number exact[3], fault *fault);
 
+/* The patch of a net over a region, exactly: coordinates at p = (u, v, t). */
+void net_value(const imp_net *net, const imp_region *region, const double p[3], number x[3]);
+
+/* That it is within the net's error there. */
+bool judge_net(const imp_net *net, const imp_region *region, const double p[3],
+               const number exact[3], fault *fault);
+
 /* |f_i(p) - f_i(q)| <= sum_j rate_j |p_j - q_j| for one coordinate, n parameters. */
 bool judge_rates(int n, const double *rate, const double *p, const double *q, number at_p,
                  number at_q, fault *fault);

@@ -118,6 +118,14 @@ static void domain(const void *self, double lo[3], double hi[3])
     memcpy(hi, (double[3]){1, 2, INFINITY}, 3 * sizeof *hi);
 }
 
+static imp_status net(const void *self, const imp_region *region, imp_net *out)
+{
+    (void)self;
+    for (int k = 0; k < IMP_NET_POINTS; ++k) out->point[2][k] = region->lo[0] / (k + 1);
+    out->error[1] = region->hi[2];
+    return region->lo[0] < 0.5 ? IMP_OK : IMP_UNBOUNDED;
+}
+
 static const imp_surface_type bowl = {.name = "bowl",
                                       .parameter_count = 1,
                                       .create = make,
@@ -125,7 +133,8 @@ static const imp_surface_type bowl = {.name = "bowl",
                                       .domain = domain,
                                       .eval = eval,
                                       .rate = rate,
-                                      .include = include};
+                                      .include = include,
+                                      .net = net};
 static const imp_surface_type fussy = {.name = "fussy",
                                        .create = complain,
                                        .destroy = free,
@@ -179,6 +188,10 @@ START_TEST(answers_from_another_process_are_the_same_bit_for_bit)
     ck_assert_int_eq(type->rate(i, &r, &rates[0]), rate(&zero, &r, &rates[1]));
     ck_assert(memcmp(m[0], m[1], sizeof m[0]) == 0);
     ck_assert(memcmp(&rates[0], &rates[1], sizeof rates[0]) == 0);
+    imp_net nets[2];
+    memset(nets, 0, sizeof nets);
+    ck_assert_int_eq(type->net(i, &r, &nets[0]), net(&zero, &r, &nets[1]));
+    ck_assert(memcmp(&nets[0], &nets[1], sizeof nets[0]) == 0 && nets[0].error[1] == 1);
     double lo[3], hi[3];
     type->domain(i, lo, hi);
     ck_assert(lo[1] == -2 && hi[0] == 1 && hi[2] == INFINITY);

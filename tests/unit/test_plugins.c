@@ -18,14 +18,14 @@ enum { REGIONS = 60, POINTS = 6 };
 /* Parts of the claimed bounds that are judged instead of the whole: 1 each in earnest, less to
  * see that a bound too low is found. */
 typedef struct shares {
-    double error, remainder, rate;
+    double error, remainder, rate, net;
 } shares;
 
 /* What is being tried, for the message when it fails. */
 typedef struct trial {
     const instance *instance;
     shares share;
-    size_t refuted[3]; /* with less than 1: of errors, of remainders, of rates */
+    size_t refuted[4]; /* with less than 1: of errors, of remainders, of rates, of nets */
     uint64_t random;
     const double *lo, *hi; /* of the region or box */
     int dimensions;
@@ -41,11 +41,11 @@ static void describe_box(const trial *t, char *text, size_t size)
                            t->hi[j], t->p[j], t->q[j]);
 }
 
-enum { ERROR, REMAINDER, RATE };
+enum { ERROR, REMAINDER, RATE, NET };
 
 static void expect(trial *t, bool holds, int kind, const char *what)
 {
-    const double share[3] = {t->share.error, t->share.remainder, t->share.rate};
+    const double share[4] = {t->share.error, t->share.remainder, t->share.rate, t->share.net};
     char where[600] = "";
     t->refuted[kind] += !holds;
     if (holds || share[kind] < 1) return;
@@ -132,6 +132,25 @@ static void try_surface_region(trial *t, const imp_region *region)
     }
 }
 
+static void try_surface_net(trial *t, const imp_region *region)
+{
+    const instance *made = t->instance;
+    imp_net net = {.degree = {0, 0}};
+    errno = 0;
+    const imp_status status = made->surface->net(made->self, region, &net);
+    expect_status(t, status, "net");
+    ck_assert_msg(errno == 0, "%s sets errno", made->view.name);
+    if (status != IMP_OK) return;
+    for (int i = 0; i < 3; ++i) net.error[i] *= t->share.net;
+    for (int k = 0; k < POINTS; ++k) {
+        number truth[3];
+        num_forget();
+        sample_point(&t->random, 3, region->lo, region->hi, t->p);
+        exact(made, t->p, 3, truth);
+        expect(t, judge_net(&net, region, t->p, truth, &t->fault), NET, "net");
+    }
+}
+
 static void try_surface(trial *t)
 {
     double lo[3], hi[3];
@@ -141,6 +160,7 @@ static void try_surface(trial *t)
         imp_region region = sample_region(&t->random, lo, hi);
         t->lo = region.lo, t->hi = region.hi;
         try_surface_region(t, &region);
+        if (t->instance->surface->net != NULL) try_surface_net(t, &region);
     }
 }
 
@@ -196,6 +216,40 @@ static void try_map_models(trial *t, const sample_models *models)
     }
 }
 
+/* The image of a random moving patch, weighted or not, against the net of its image. */
+static void try_map_net(trial *t, const imp_region *region)
+{
+    const instance *made = t->instance;
+    const type_oracle *row = oracles;
+    imp_net given = {.degree = {(uint32_t)random_between(&t->random, 0, 3), 2},
+                     .is_moving = (uint32_t)random_between(&t->random, 0, 2),
+                     .is_weighted = (uint32_t)random_between(&t->random, 0, 2)};
+    while (strcmp(row->type, made->view.name) != 0) ++row;
+    for (int i = 0; i < 3; ++i) {
+        given.place[i] = random_between(&t->random, -8, 8);
+        given.drift[i] = random_between(&t->random, -8, 8);
+        for (int k = 0; k < IMP_NET_POINTS; ++k) {
+            given.point[i][k] = random_between(&t->random, -1, 1);
+            given.velocity[i][k] = random_between(&t->random, -1, 1);
+            given.weight[k] = random_between(&t->random, 0.25, 4);
+        }
+    }
+    imp_net net = given;
+    const imp_status status = made->map->net(made->self, region, &net);
+    expect_status(t, status, "net");
+    if (status != IMP_OK) return;
+    for (int i = 0; i < 3; ++i) net.error[i] *= t->share.net;
+    for (int k = 0; k < POINTS; ++k) {
+        number at[4], truth[3];
+        num_forget();
+        sample_point(&t->random, 3, region->lo, region->hi, t->p);
+        net_value(&given, region, t->p, at);
+        at[3] = num(t->p[2]);
+        row->map(&made->arguments, at, truth);
+        expect(t, judge_net(&net, region, t->p, truth, &t->fault), NET, "net");
+    }
+}
+
 static void try_map(trial *t)
 {
     double t_lo, t_hi;
@@ -209,20 +263,21 @@ static void try_map(trial *t)
         t->dimensions = 3;
         t->lo = models.region.lo, t->hi = models.region.hi;
         try_map_models(t, &models);
+        if (t->instance->map->net != NULL) try_map_net(t, &models.region);
     }
 }
 
 /* --- Tests ------------------------------------------------------------------------------------ */
 
-static const shares whole = {1, 1, 1};
+static const shares whole = {1, 1, 1, 1};
 
 /* `seen`, unless NULL, receives per type what was refuted. */
 static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share,
-                              void (*seen)(const type_oracle *row, const size_t refuted[3]))
+                              void (*seen)(const type_oracle *row, const size_t refuted[4]))
 {
     imp_registry *registry = built_registry();
     for (size_t k = 0; k < oracle_count; ++k) {
-        size_t refuted[3] = {0};
+        size_t refuted[4] = {0};
         if ((oracles[k].surface != NULL) != surfaces) continue;
         for (size_t i = 0; oracles[k].instances[i] != NULL; ++i) {
             uint64_t random = suite_seed() + 1000 * i;
@@ -230,7 +285,7 @@ static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share
                 instance_make(registry, oracles[k].type, oracles[k].instances[i], &random);
             trial t = {.instance = &made, .share = share, .random = random};
             try(&t);
-            for (int kind = 0; kind < 3; ++kind) refuted[kind] += t.refuted[kind];
+            for (int kind = 0; kind < 4; ++kind) refuted[kind] += t.refuted[kind];
             instance_free(&made);
         }
         if (seen != NULL) seen(&oracles[k], refuted);
@@ -250,7 +305,7 @@ START_TEST(every_point_model_and_rate_of_a_map_holds_against_its_formula)
 }
 END_TEST
 
-static void expect_refuted(const type_oracle *row, const size_t refuted[3])
+static void expect_refuted(const type_oracle *row, const size_t refuted[4])
 {
     ck_assert_msg(refuted[ERROR] && refuted[REMAINDER] && refuted[RATE],
                   "%s: refuted %zu errors, %zu remainders, %zu rates", row->type, refuted[ERROR],
@@ -260,9 +315,31 @@ static void expect_refuted(const type_oracle *row, const size_t refuted[3])
 /* These tests must be able to fail: for every type they find what is too low. */
 START_TEST(bounds_that_are_too_low_are_found)
 {
-    const shares low = {0.01, 0.5, 0.9};
+    const shares low = {0.01, 0.5, 0.9, 1};
     for_each_instance(true, try_surface, low, expect_refuted);
     for_each_instance(false, try_map, low, expect_refuted);
+}
+END_TEST
+
+static size_t types_with_nets;
+
+static void expect_net_refuted(const type_oracle *row, const size_t refuted[4])
+{
+    const char *const with_nets[] = {"bezier", "point", "segment", "triangle", "plane", "translate"};
+    for (size_t k = 0; k < sizeof with_nets / sizeof *with_nets; ++k) {
+        if (strcmp(row->type, with_nets[k]) != 0) continue;
+        ck_assert_msg(refuted[NET] > 0, "%s: no net was refuted", row->type);
+        types_with_nets += 1;
+    }
+}
+
+START_TEST(nets_without_their_errors_are_found)
+{
+    const shares low = {1, 1, 1, 0};
+    types_with_nets = 0;
+    for_each_instance(true, try_surface, low, expect_net_refuted);
+    for_each_instance(false, try_map, low, expect_net_refuted);
+    ck_assert_uint_eq(types_with_nets, 6);
 }
 END_TEST
 
@@ -305,4 +382,5 @@ END_TEST
 SUITE_MAIN("plugins", every_built_type_has_an_oracle,
            every_point_model_and_rate_of_a_surface_holds_against_its_formula,
            every_point_model_and_rate_of_a_map_holds_against_its_formula,
-           bounds_that_are_too_low_are_found, a_batch_of_points_is_the_points_one_by_one)
+           bounds_that_are_too_low_are_found, nets_without_their_errors_are_found,
+           a_batch_of_points_is_the_points_one_by_one)

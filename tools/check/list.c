@@ -13,6 +13,7 @@
 #include "tools/check/domain.h"
 #include "tools/check/file.h"
 #include "tools/check/inclusions.h"
+#include "tools/check/nets.h"
 #include "tools/check/points.h"
 #include "tools/check/proof.h"
 #include "tools/check/purity.h"
@@ -47,14 +48,16 @@ static const check all[] = {
     {.name = "rates", .of_subject = rates_check, .of_bounds = true},
     {.name = "errors", .of_subject = errors_check, .of_bounds = true},
     {.name = "inclusions", .of_subject = inclusions_check, .of_bounds = true},
+    {.name = "nets", .of_subject = nets_check},
     {.name = "proof", .of_subject = proof_check, .of_bounds = true},
     {.name = "tightness", .of_subject = tightness_check},
     {.name = "cost", .of_subject = cost_check},
 };
 const char *const check_names[] = {
-    "exports", "factories",   "parameters", "arguments",   "memory",  "finite",
-    "domain",  "determinism", "state",      "environment", "buffers", "rates",
-    "errors",  "inclusions",  "proof",      "tightness",   "cost",    NULL};
+    "exports", "factories",   "parameters", "arguments",   "memory",    "finite",
+    "domain",  "determinism", "state",      "environment", "buffers",   "rates",
+    "errors",  "inclusions",  "nets",       "proof",       "tightness", "cost",
+    NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");

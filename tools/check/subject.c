@@ -166,6 +166,19 @@ imp_status subject_apply(const subject *s, const imp_model in[4], imp_model out[
     return noted(s, s->instance->map->apply(s->instance->self, in, out));
 }
 
+imp_status subject_net(const subject *s, const imp_region *region, imp_net *net)
+{
+    note(s, "net", 3, region->lo, region->hi);
+    memset(net, 0, sizeof *net);
+    return noted(s, s->instance->surface->net(s->instance->self, region, net));
+}
+
+imp_status subject_map_net(const subject *s, const imp_region *region, imp_net *net)
+{
+    note(s, "net", 3, region->lo, region->hi);
+    return noted(s, s->instance->map->net(s->instance->self, region, net));
+}
+
 void subject_operands(const box *where, imp_model in[4])
 {
     const imp_region region = imp_region_between(where->lo, where->hi);

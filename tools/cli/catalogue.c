@@ -129,15 +129,26 @@ static json_t *parameters_json(const imp_type_info *info)
     return rows;
 }
 
+static json_t *capabilities_json(const imp_type_info *info)
+{
+    json_t *names = json_array();
+    for (const char *name = info->capabilities; *name != '\0';) {
+        const size_t length = strcspn(name, " ");
+        json_array_append_new(names, json_stringn(name, length));
+        name += length + (name[length] == ' ');
+    }
+    return names;
+}
+
 json_t *catalogue_full_json(const imp_type_info *info)
 {
     json_t *type = catalogue_short_json(info);
     json_t *more = json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equation", output_json_text(info->equation),
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equation", output_json_text(info->equation),
         "source", output_json_text(info->source), "parameters", parameters_json(info), "example",
         output_json_text(info->example), "plugin", output_json_text(info->plugin), "version",
         output_json_text(info->version), "license", output_json_text(info->license), "author",
-        output_json_text(info->author));
+        output_json_text(info->author), "capabilities", capabilities_json(info));
     if (type == NULL || more == NULL || json_object_update(type, more) != 0) {
         json_decref(type);
         type = NULL;

@@ -90,6 +90,7 @@ static void print_type(const imp_registry *registry, const imp_type_info *info)
     print_command(registry, info);
     printf("  %-10s %s %s, %s, %s\n", "plugin", info->plugin, info->version, info->license,
            info->author);
+    print_line("uses", info->capabilities);
     print_line("file", info->file);
 }
 

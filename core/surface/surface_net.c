@@ -1,0 +1,47 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <string.h>
+
+#include "core/surface/surface_parts.h"
+
+/* False where a number is not finite or an error negative; also in points that are not used. */
+static bool is_sane(const imp_net *net)
+{
+    const size_t points = (size_t)(net->degree[0] + 1) * (net->degree[1] + 1);
+    bool sane = true;
+    for (int i = 0; i < 3; ++i) {
+        sane = sane && isfinite(net->place[i]) && isfinite(net->drift[i]);
+        sane = sane && net->error[i] >= 0 && net->error[i] < INFINITY;
+        for (size_t k = 0; k < points; ++k)
+            sane = sane && isfinite(net->point[i][k]) && isfinite(net->velocity[i][k]);
+    }
+    for (size_t k = 0; k < points && net->is_weighted; ++k)
+        sane = sane && net->weight[k] > 0 && net->weight[k] < INFINITY;
+    return sane;
+}
+
+static bool fits(const imp_net *net)
+{
+    return net->degree[0] < IMP_NET_POINTS && net->degree[1] < IMP_NET_POINTS &&
+           (net->degree[0] + 1) * (net->degree[1] + 1) <= IMP_NET_POINTS;
+}
+
+imp_status surface_net(const surface *s, const imp_region *region, imp_net *net)
+{
+    if (s->type->net == NULL) return IMP_UNBOUNDED;
+    for (size_t k = 0; k < s->map_count; ++k)
+        if (s->maps[k].type->net == NULL) return IMP_UNBOUNDED;
+    const fp_mode mode = fp_mode_read();
+    memset(net, 0, sizeof *net);
+    active_callback_begin(s->type->name, "net");
+    imp_status status = s->type->net(s->self, region, net);
+    if (status == IMP_OK && !(fits(net) && is_sane(net))) status = SURFACE_BAD_NET;
+    for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
+        active_callback_begin(s->maps[k].type->name, "net");
+        status = s->maps[k].type->net(s->maps[k].self, region, net);
+        if (status == IMP_OK && !(fits(net) && is_sane(net))) status = SURFACE_BAD_NET;
+    }
+    return surface_guarded(mode, status);
+}
