@@ -82,6 +82,7 @@ core_solver = \
     core/solver/query.c core/solver/query_parts.h \
     core/solver/query_answer.c \
     core/solver/query_clearance.c \
+    core/solver/query_divide.c \
     core/solver/relative.c core/solver/relative.h \
     core/solver/separation.c core/solver/separation.h \
     core/solver/subdivision.c core/solver/subdivision.h \

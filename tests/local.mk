@@ -32,6 +32,7 @@ check_suites = \
     tests/unit/test_misuse \
     tests/unit/test_map_answers \
     tests/unit/test_parameters \
+    tests/unit/test_parts \
     tests/unit/test_pair_heap \
     tests/unit/test_pending \
     tests/unit/test_pipeline \
@@ -73,6 +74,11 @@ type_oracle = tests/support/oracle_number.c tests/support/oracle_number.h \
     tests/support/instance.c tests/support/instance.h
 tests_unit_test_scene_judge_SOURCES = tests/unit/test_scene_judge.c tests/fuzz/scene_judge.c \
     tests/fuzz/scene_judge.h
+# Scenes of many bodies, for programs and for the command.
+tests_unit_test_parts_SOURCES = tests/unit/test_parts.c tools/bench/crowd.c tools/bench/crowd.h
+tests_support_crowd_scene_SOURCES = tests/support/crowd_scene.c tools/bench/crowd.c
+tests_support_crowd_scene_LDADD = -lm
+check_PROGRAMS += tests/support/crowd_scene
 tests_unit_test_mesh_SOURCES = tests/unit/test_mesh.c tools/view/mesh.c tools/view/mesh.h
 tests_unit_test_keyframes_SOURCES = tests/unit/test_keyframes.c tests/support/map_images.h $(type_oracle)
 tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
@@ -110,6 +116,7 @@ bats_suites = \
     tests/cli/page.bats \
     tests/cli/series.bats \
     tests/cli/plot.bats \
+    tests/cli/progress.bats \
     tests/cli/view.bats \
     tests/cli/why.bats
 

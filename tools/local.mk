@@ -50,6 +50,7 @@ tools_bench = \
     tools/bench/bench.h \
     tools/bench/cases.c \
     tools/bench/conformal.c \
+    tools/bench/crowd.c tools/bench/crowd.h \
     tools/bench/json.c \
     tools/bench/measure.c \
     tools/bench/patches.c \
@@ -63,10 +64,12 @@ tools_cli = \
     tools/cli/build_tree.c tools/cli/build_tree.h \
     tools/cli/catalogue.c tools/cli/catalogue.h \
     tools/cli/clearance.h \
+    tools/cli/clearance_each.c \
     tools/cli/clearance_json.c \
     tools/cli/clearance_text.c \
     tools/cli/compile.c tools/cli/compile.h \
     tools/cli/crash.c tools/cli/crash.h \
+    tools/cli/each.c tools/cli/each.h \
     tools/cli/input.c tools/cli/input.h \
     tools/cli/interrupt.c tools/cli/interrupt.h \
     tools/cli/json_memory.c tools/cli/json_memory.h \
@@ -76,6 +79,7 @@ tools_cli = \
     tools/cli/ordered_pool.c tools/cli/ordered_pool.h \
     tools/cli/output.c tools/cli/output.h \
     tools/cli/output_file.c tools/cli/output_file.h \
+    tools/cli/parts.c tools/cli/parts.h \
     tools/cli/program.c tools/cli/program.h \
     tools/cli/progress.c tools/cli/progress.h \
     tools/cli/project.c tools/cli/project.h \

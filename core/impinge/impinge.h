@@ -336,6 +336,7 @@ typedef struct imp_progress {
     uint64_t heap;       /* pairs that wait */
     double seconds;      /* spent so far */
     double lower, upper; /* bracket of a least distance so far; NAN where it is not asked for */
+    double gap;          /* least distance of two points evaluated so far; NAN: none */
 } imp_progress;
 
 /* Called by the thread that steps a query, about ten times a second. Answers whether to go on: false
@@ -463,6 +464,22 @@ IMP_EXPORT imp_code imp_query_refine(imp_query *query, double gamma, double clea
  * search without the two bodies of that answer; step again for the next, which is later or at the same
  * time. CLEAR is then said of all bodies that are left. */
 IMP_EXPORT imp_code imp_query_pass(imp_query *query, imp_error *error);
+
+/* Each two bodies by themselves, perhaps by several threads: divides a query that has not been stepped
+ * into *count parts, one for each two bodies that come near each other, in the order of the scene. The
+ * query itself is then about the bodies that no part is about, and clear. Where a limit comes first
+ * there are no parts, and its result says so. Of a clearance (imp_clearance_new, without `each`) there
+ * is a part for each two bodies that are ever both there, however far apart. */
+IMP_EXPORT imp_code imp_query_divide(imp_query *query, size_t *count, imp_error *error);
+
+/* The two bodies of a part, the smaller index first; false past the last. */
+IMP_EXPORT bool imp_query_part_bodies(const imp_query *query, size_t index, size_t body[2]);
+
+/* A query about these two bodies alone, to be stepped, read and freed like any. It has trees of its own,
+ * so that answers and stats but for seconds are the same for any number of threads and any order: parts
+ * may be made, stepped and freed by different threads at once. The divided query must outlive it.
+ * max_pairs and max_bytes hold for each part, max_seconds for all from imp_query_divide on. */
+IMP_EXPORT imp_query *imp_query_part(const imp_query *query, size_t index, imp_error *error);
 
 /* Ends the running step soon, as UNDECIDED, or, when none is running, the next one. [any thread,
  * async-signal-safe] */

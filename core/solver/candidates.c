@@ -184,6 +184,62 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
     return code;
 }
 
+/* --- Parts ---------------------------------------------------------------------------------- */
+
+/* The candidates of one side of some pairs of the same two bodies: neighbours in the list. */
+typedef struct candidate_span {
+    const candidate *first;
+    size_t count;
+} candidate_span;
+
+static candidate_span span_of(const candidate_pair *pairs, size_t count, int side)
+{
+    const candidate *lo = pairs[0].side[side], *hi = lo;
+    for (size_t k = 1; k < count; ++k) {
+        const candidate *c = pairs[k].side[side];
+        lo = c < lo ? c : lo;
+        hi = c > hi ? c : hi;
+    }
+    return (candidate_span){lo, (size_t)(hi - lo) + 1};
+}
+
+/* The part's own candidate in place of the whole list's, with a tree; NULL: no memory. */
+static candidate *own_candidate(candidate *place, const candidate *from, imp_stats *stats)
+{
+    if (place->tree != NULL) return place;
+    *place = (candidate){.body = from->body, .surface = from->surface, .eval_error = -1};
+    tree_growth growth = {0};
+    if (tree_new_from_root(from->tree, &place->tree, &growth, NULL) != IMP_SUCCESS) return NULL;
+    stats->bytes += growth.bytes;
+    return place;
+}
+
+imp_code candidates_part(candidate_list *list, const candidate_list *whole, size_t first,
+                         size_t count, imp_stats *stats, imp_error *error)
+{
+    const candidate_pair *pairs = whole->pairs + first;
+    const candidate_span span[2] = {span_of(pairs, count, 0), span_of(pairs, count, 1)};
+    *list = (candidate_list){.count = span[0].count + span[1].count,
+                             .pair_count = count,
+                             .pair_capacity = count,
+                             .complete = true,
+                             .owns_trees = true};
+    list->candidates = calloc(list->count, sizeof *list->candidates);
+    list->pairs = malloc(count * sizeof *list->pairs);
+    bool ok = list->candidates != NULL && list->pairs != NULL;
+    for (size_t k = 0; ok && k < count; ++k)
+        for (int side = 0; side < 2; ++side) {
+            const candidate *from = pairs[k].side[side];
+            const size_t before = side == 0 ? 0 : span[0].count;
+            candidate *place = list->candidates + before + (size_t)(from - span[side].first);
+            list->pairs[k].side[side] = own_candidate(place, from, stats);
+            ok = ok && list->pairs[k].side[side] != NULL;
+        }
+    if (ok) return IMP_SUCCESS;
+    candidates_clear(list);
+    return error_set_memory(error);
+}
+
 uint64_t candidates_bytes(const candidate_list *list)
 {
     return list->count * sizeof *list->candidates + list->pair_capacity * sizeof *list->pairs;
@@ -191,6 +247,8 @@ uint64_t candidates_bytes(const candidate_list *list)
 
 void candidates_clear(candidate_list *list)
 {
+    for (size_t k = 0; list->owns_trees && list->candidates != NULL && k < list->count; ++k)
+        tree_free(list->candidates[k].tree);
     free(list->candidates);
     free(list->pairs);
     *list = (candidate_list){0};

@@ -18,7 +18,8 @@ typedef struct candidate_list {
     candidate_pair *pairs; /* by body of a, body of b, surface of a, surface of b */
     size_t pair_count, pair_capacity;
     bool complete;
-} candidate_list; /* begins as {0}; candidates_clear frees */
+    bool owns_trees; /* else they are the scene's */
+} candidate_list;    /* begins as {0}; candidates_clear frees */
 
 /* Asked at least once for each surface: whether a limit of the query is reached, with the bytes
  * that the list and the new trees hold. */
@@ -33,6 +34,11 @@ typedef struct candidate_limit {
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
                          double clearance, const candidate_limit *limit, imp_stats *stats,
                          imp_error *error);
+
+/* Fills an empty list with `count` pairs of another from `first` on, all of the same two bodies, and
+ * trees of its own. `whole` is only read, also by other threads. Bytes are added to `stats`. */
+imp_code candidates_part(candidate_list *list, const candidate_list *whole, size_t first,
+                         size_t count, imp_stats *stats, imp_error *error);
 
 uint64_t candidates_bytes(const candidate_list *list);
 

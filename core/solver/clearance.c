@@ -120,6 +120,27 @@ imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options 
     return code;
 }
 
+imp_code clearance_part(const clearance_search *whole, const size_t body[2],
+                        clearance_search **made, imp_error *error)
+{
+    clearance_search *c = calloc(1, sizeof *c);
+    if (c == NULL) return error_set_memory(error);
+    *c = (clearance_search){.scene = whole->scene,
+                            .any_pair = true,
+                            .options = whole->options,
+                            .asked = whole->asked,
+                            .parts = calloc(whole->asked.slices, sizeof *c->parts)};
+    if (c->parts == NULL) {
+        clearance_free(c);
+        return error_set_memory(error);
+    }
+    add_slices(c, body[0], body[1]);
+    *made = c;
+    return IMP_SUCCESS;
+}
+
+bool clearance_is_each(const clearance_search *c) { return c->asked.each; }
+
 void clearance_free(clearance_search *c)
 {
     if (c == NULL) return;
@@ -372,6 +393,8 @@ imp_clearance clearance_answer(const clearance_search *c, size_t index, imp_reas
     if (c->parts[index].done) return answer;
     if (index == c->current && c->stage == STAGE_DISTANCE) take_bracket(c, &answer);
     if (index == c->current && c->stage != STAGE_NEXT) answer.stats = cost(c);
+    if (c->asked.required > 0 && answer.verdict == IMP_REQUIREMENT_NONE)
+        answer.verdict = IMP_REQUIREMENT_UNDECIDED; /* not begun */
     answer.reason = reason;
     return answer;
 }

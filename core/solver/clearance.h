@@ -18,6 +18,10 @@ typedef struct clearance_search clearance_search;
 imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options *options,
                        const imp_clearance_options *asked, clearance_search **made,
                        imp_error *error);
+/* The same question about two bodies alone. `whole` is only read. */
+imp_code clearance_part(const clearance_search *whole, const size_t body[2],
+                        clearance_search **made, imp_error *error);
+bool clearance_is_each(const clearance_search *c);
 void clearance_free(clearance_search *c);
 
 /* Divides the candidates, which must outlive it like `stats`, into parts. */

@@ -103,6 +103,7 @@ void imp_query_free(imp_query *query)
     impact_clear(&query->impact);
     clearance_free(query->clearance);
     candidates_clear(&query->candidates);
+    free(query->parts);
     free(query);
 }
 
@@ -113,17 +114,17 @@ void imp_query_cancel(imp_query *query)
 
 /* --- Running ------------------------------------------------------------------------------- */
 
-static void finish(imp_query *query, imp_verdict verdict, imp_reason reason)
+void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason)
 {
     query->verdict = verdict;
     query->reason = reason;
     if (verdict == IMP_CLEAR) query->impact.t_lower = query->options.t_end;
 }
 
-static imp_reason reason_of_clear(const examined_times *examined)
+imp_reason query_reason_of_clear(const imp_query *query)
 {
-    if (!examined->any_pair) return IMP_REASON_NO_PAIRS;
-    return examined->lo <= examined->hi ? IMP_REASON_NONE : IMP_REASON_NO_TIME;
+    if (!query->examined.any_pair) return IMP_REASON_NO_PAIRS;
+    return query->examined.lo <= query->examined.hi ? IMP_REASON_NONE : IMP_REASON_NO_TIME;
 }
 
 /* Whether one surface of the contact found stays as it is for all of the query's times. */
@@ -144,17 +145,17 @@ static void conclude(imp_query *query, impact_state state)
     case IMPACT_RUNNING:
         break;
     case IMPACT_CONTACT:
-        finish(query, IMP_CONTACT, IMP_REASON_NONE);
+        query_finish(query, IMP_CONTACT, IMP_REASON_NONE);
         query->at_rest = is_at_rest(query, 0) && is_at_rest(query, 1);
         break;
     case IMPACT_CLEAR:
-        finish(query, IMP_CLEAR, reason_of_clear(&query->examined));
+        query_finish(query, IMP_CLEAR, query_reason_of_clear(query));
         break;
     case IMPACT_RESOLUTION:
-        finish(query, IMP_UNDECIDED, IMP_REASON_RESOLUTION);
+        query_finish(query, IMP_UNDECIDED, IMP_REASON_RESOLUTION);
         break;
     case IMPACT_NO_MEMORY:
-        finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
+        query_finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
         break;
     }
 }
@@ -220,13 +221,15 @@ static void report(imp_query *query, double seconds)
                              .heap = query->impact.heap.count,
                              .seconds = seconds,
                              .lower = NAN,
-                             .upper = NAN};
+                             .upper = NAN,
+                             .gap = query->impact.any_gap ? query->impact.least_gap : NAN};
     if (query->clearance != NULL) {
         const clearance_state state = clearance_look(query->clearance);
         progress.t_lower = state.t_lower;
         progress.heap = state.heap;
         progress.lower = state.lower;
         progress.upper = state.upper;
+        progress.gap = state.upper < INFINITY ? state.upper : NAN;
     }
     if (!options->progress(options->progress_context, &progress)) imp_query_cancel(query);
 }
@@ -244,11 +247,12 @@ typedef struct collecting {
     imp_reason reason;
 } collecting;
 
-/* Each candidate pair is a pair to test: with more of them than max_pairs the search cannot end. */
+/* Each candidate pair is a pair to test: with more of them than max_pairs the search cannot end. In a
+ * divided query that limit is each part's own. */
 static bool limit_is_reached(void *context, uint64_t bytes, uint64_t pairs)
 {
     collecting *c = context;
-    const uint64_t most = c->query->options.max_pairs;
+    const uint64_t most = c->query->divided > 0 ? 0 : c->query->options.max_pairs;
     tick(c->query, c->seconds_before, c->start);
     note_bytes(c->query, bytes);
     c->reason = exhausted(c->query, c->query->stats.seconds);
@@ -258,7 +262,7 @@ static bool limit_is_reached(void *context, uint64_t bytes, uint64_t pairs)
 
 /* What a limit ends begins anew with the next step. Where the minimum distance is asked for, all
  * surfaces count, however far apart. */
-static imp_code begin(imp_query *query, double start, imp_error *error)
+imp_code query_collect(imp_query *query, double start, imp_error *error)
 {
     const double near = query->clearance == NULL ? query->impact.clearance : INFINITY;
     collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
@@ -266,10 +270,15 @@ static imp_code begin(imp_query *query, double start, imp_error *error)
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options, near,
                                           &limit, &query->stats, error);
     query->impact.candidate_pairs = query->candidates.pairs;
-    if (code != IMP_SUCCESS) return code;
-    if (!query->candidates.complete)
-        finish(query, IMP_UNDECIDED, c.reason);
-    else if (query->clearance != NULL)
+    if (code == IMP_SUCCESS && !query->candidates.complete)
+        query_finish(query, IMP_UNDECIDED, c.reason);
+    return code;
+}
+
+static imp_code begin(imp_query *query, double start, imp_error *error)
+{
+    const imp_code code = query_collect(query, start, error);
+    if (query->candidates.complete && query->clearance != NULL)
         clearance_begin(query->clearance, &query->candidates, &query->stats);
     return code;
 }
@@ -290,7 +299,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
         note_bytes(query, candidates_bytes(&query->candidates));
         const imp_reason reason = exhausted(query, query->stats.seconds);
         if (reason != IMP_REASON_NONE)
-            finish(query, IMP_UNDECIDED, reason);
+            query_finish(query, IMP_UNDECIDED, reason);
         else if (query->stats.pairs >= until)
             break;
         else
@@ -299,7 +308,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     query->stats.seconds = before + (clock_seconds() - start);
     note_bytes(query, candidates_bytes(&query->candidates));
     if (code == IMP_ERROR_MEMORY) {
-        finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
+        query_finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
         return IMP_SUCCESS;
     }
     query->failed = code != IMP_SUCCESS;
@@ -330,7 +339,7 @@ FP_APART static imp_code refine(imp_query *query, double gamma, double clearance
             finer.gamma, finer.clearance, query->impact.gamma, query->impact.clearance);
     if (!impact_refine(&query->impact, finer.gamma, finer.clearance, query->candidates.pair_count))
         return error_set_memory(error);
-    if (query->verdict == IMP_CONTACT) finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
+    if (query->verdict == IMP_CONTACT) query_finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;
 }
 
@@ -352,6 +361,6 @@ imp_code imp_query_pass(imp_query *query, imp_error *error)
         return error_set(error, IMP_ERROR_USAGE,
                          "pass: this query has found no contact, and nothing that is unresolved");
     if (!impact_pass(&query->impact, query->candidates.pair_count)) return error_set_memory(error);
-    finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
+    query_finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;
 }

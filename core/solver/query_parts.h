@@ -8,8 +8,8 @@
 #include "core/solver/clearance.h"
 #include "core/solver/examined_times.h"
 
-/* What the files of the query share: query.c runs it, query_answer.c and query_clearance.c tell how
- * far it has come. */
+/* What the files of the query share: query.c runs it, query_divide.c divides it, query_answer.c
+ * and query_clearance.c tell how far it has come. */
 
 struct imp_query {
     imp_scene *scene;
@@ -27,6 +27,19 @@ struct imp_query {
     clearance_search *clearance; /* NULL: the earliest contact is asked for, by the following */
     impact impact;
     size_t candidates_tested; /* how many candidate pairs have been tested */
+    size_t *parts;     /* NULL: not divided; where the candidates of each two bodies begin, */
+    size_t part_count; /* and, at this index, where the last ones end */
+    double divided;    /* seconds of the clock when it was */
 };
+
+/* Ends the query, or the step, with an answer. */
+void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason);
+
+/* What the query answers where nothing comes near anything. */
+imp_reason query_reason_of_clear(const imp_query *query);
+
+/* Fills the list of candidates, unless a limit comes first, which ends the query. `start` is when the
+ * step began. */
+imp_code query_collect(imp_query *query, double start, imp_error *error);
 
 #endif

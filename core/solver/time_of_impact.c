@@ -81,8 +81,13 @@ static imp_code find_witness(impact *im, const pair *p, bool moving, witness *se
     const tree *const trees[2] = {both->side[0]->tree, both->side[1]->tree};
     const node *const nodes[2] = {p->a, p->b};
     im->stats->witness_searches += 1;
-    return moving ? witness_seek(trees, nodes, p->window.lo, im->gamma, seen, error)
-                  : witness_at_centres(trees, nodes, p->window.lo, seen, error);
+    const imp_code code = moving ? witness_seek(trees, nodes, p->window.lo, im->gamma, seen, error)
+                                 : witness_at_centres(trees, nodes, p->window.lo, seen, error);
+    if (code == IMP_SUCCESS && (!im->any_gap || seen->gap < im->least_gap)) {
+        im->any_gap = true;
+        im->least_gap = seen->gap;
+    }
+    return code;
 }
 
 static impact_state contact(impact *im, const witness *seen)

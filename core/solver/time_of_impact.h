@@ -33,9 +33,11 @@ typedef struct impact {
     uint64_t serial, refined; /* of the next pair; of the first after impact_refine */
     double t_lower;
     time_window
-        *roots;    /* of candidate pairs, for impact_refine; NAN: unknown; NULL: never refined */
-    bool *passed;  /* candidate pairs that impact_pass leaves out; NULL: none */
-    witness found; /* IMPACT_CONTACT: the witness, */
+        *roots;       /* of candidate pairs, for impact_refine; NAN: unknown; NULL: never refined */
+    bool *passed;     /* candidate pairs that impact_pass leaves out; NULL: none */
+    bool any_gap;     /* whether any two points were evaluated, */
+    double least_gap; /* and the least distance of two; length */
+    witness found;    /* IMPACT_CONTACT: the witness, */
     uint32_t found_candidate; /* whose pair was followed last: with IMPACT_CONTACT, the witness's */
 } impact; /* the caller sets gamma ... stats and t_lower, the rest is 0; impact_clear frees */
 

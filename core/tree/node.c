@@ -6,7 +6,9 @@
 
 #include <assert.h>
 #include <pthread.h>
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/base/rounding.h"
 #include "core/base/status.h"
@@ -205,6 +207,25 @@ imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_gro
         tree_free(t);
     }
     return code;
+}
+
+imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error)
+{
+    tree_growth of_root = {0};
+    tree *copy = calloc(1, sizeof *copy);
+    if (copy == NULL) return error_set_memory(error);
+    *copy = (tree){.surface = t->surface, .plan = t->plan};
+    pthread_mutex_init(&copy->lock, NULL);
+    copy->root = node_alloc(copy, &of_root);
+    if (copy->root == NULL) {
+        tree_free(copy);
+        return error_set_memory(error);
+    }
+    memset(copy->root, 0, sizeof *copy->root);
+    memcpy(copy->root, t->root, offsetof(node, child)); /* what is before, which no thread changes */
+    growth->bytes += sizeof *copy + of_root.bytes;
+    *made = copy;
+    return IMP_SUCCESS;
 }
 
 void tree_free(tree *t)

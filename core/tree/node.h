@@ -72,6 +72,10 @@ typedef struct tree_growth {
  * `s` must outlive it. */
 imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
                   imp_error *error);
+
+/* Another tree of the same surface and plan, whose root is a copy, and not counted: for searches whose
+ * counts are to be the same whatever other threads do. */
+imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error);
 void tree_free(tree *t);
 
 node *tree_root(const tree *t);

@@ -20,6 +20,22 @@ END
     echo
 }
 
+@test "each two of many bodies: the same bytes for any number of threads" {
+    "$top_builddir"/tests/support/crowd_scene 9 3 >crowd.json
+    for threads in 1 2; do
+        "$IMPINGE" clearance crowd.json --each --json --tolerance 0.1 --threads "$threads" |
+            sed -E 's/"seconds":[^,]*,//g' >"answers.$threads"
+        cmp answers.1 "answers.$threads"
+    done
+    jq -e '.pairs | length == 36 and ([.[].upper] | . == sort) and all(.lower <= .upper)' answers.1
+}
+
+@test "what a budget keeps from being begun is undecided too" {
+    run -3 "$IMPINGE" clearance 'sphere' 'sphere center=5,0,0' --require 1 --profile 3 \
+        --max-pairs 1 --json
+    jq -s -e 'any(.verdict == "undecided") and all(has("verdict"))' <<<"$output"
+}
+
 @test "the minimum distance is bracketed, with its witness" {
     run -0 "$IMPINGE" clearance "${passing[@]}" --json
     valid clearance

@@ -36,7 +36,42 @@ END
     four >four.json
     run -3 "$IMPINGE" solve four.json --each --json --max-pairs 20
     valid result
-    jq -s -e 'length == 5 and .[-1].verdict == "undecided" and .[-1].reason == "max-pairs"' <<<"$output"
+    jq -s -e 'length == 5 and any(.verdict == "undecided" and .reason == "max-pairs") and
+        all(.[3:][]; .verdict == "clear")' <<<"$output"
+}
+
+without_seconds() { sed -E 's/"seconds":[^,]*,//g'; }
+
+@test "many bodies, deforming ones among them: the same bytes for any number of threads" {
+    "$top_builddir"/tests/support/crowd_scene 60 1 >crowd.json
+    for threads in 1 2 5; do
+        "$IMPINGE" solve crowd.json --each --json --threads "$threads" >answers
+        without_seconds <answers >"answers.$threads"
+        cmp answers.1 "answers.$threads"
+    done
+    output=$(<answers)
+    valid result
+    jq -s -e 'length == 60 * 59 / 2 and (map(select(.verdict != "clear")) | length >= 5) and
+        ([.[] | .verdict == "clear"] | . == sort) and ([.[] | .t_lower] | . == sort)' answers
+}
+
+@test "threads are for --each" {
+    scene >scene.json
+    fails 2 "--threads belongs to --each" "$IMPINGE" solve scene.json --threads 2
+    fails 2 "--threads belongs to --each" "$IMPINGE" clearance scene.json --threads 2
+}
+
+@test "the first body whose plugin fails is named, however many threads there are" {
+    four | sed 's/"sphere", "center": \[1,0,0\]/"eval_nan_late"/' >four.json
+    mkdir plugins
+    cp "$top_builddir"/tests/plugins/.libs/eval_nan_late.so plugins
+    for threads in 1 3; do
+        run -5 --separate-stderr "$IMPINGE" solve four.json --each --threads "$threads" \
+            --plugin-path plugins
+        [ -z "$output" ]
+        echo "$stderr" >"said.$threads"
+        cmp said.1 "said.$threads"
+    done
 }
 
 @test "finer and finer from one search" {

@@ -24,7 +24,7 @@ unguarded_functions() { # FOLDER
         imp_registry_refusal imp_registry_warning imp_instance_free imp_scene_from_file
         imp_scene_free imp_scene_body_count imp_scene_body_name imp_scene_surface_count
         imp_scene_domain imp_options_read imp_query_free imp_query_read imp_query_pending
-        imp_query_cancel imp_query_pass imp_scene_ignores imp_scene_solve imp_clearance_options_read imp_clearance_count
+        imp_query_cancel imp_query_pass imp_query_part_bodies imp_scene_ignores imp_scene_solve imp_clearance_options_read imp_clearance_count
         imp_builder_new imp_builder_time imp_builder_gamma imp_builder_body imp_builder_parent
         imp_builder_group imp_builder_ignore "
     local name

@@ -24,6 +24,9 @@ exit_status batch_shard_read(const arguments *args, batch_shard *shard);
 /* The "id" of a scene's line, or null, also where the line is no JSON. NULL: no memory. */
 json_t *batch_line_id(const input_text *line);
 
+/* The same of a line that is known to be a scene, without reading it all again. */
+json_t *batch_scene_id(const input_text *line);
+
 typedef struct batch_resume {
     FILE *file;       /* NULL: not resumed */
     const char *path; /* the caller's */

@@ -14,6 +14,19 @@ typedef struct clearance_table {
     size_t count;
 } clearance_table;
 
+/* --each: an answer for each two bodies that do not ignore each other, by several threads. */
+typedef struct clearance_each {
+    const imp_scene *scene;
+    imp_query *query; /* of the whole scene; is divided */
+    double required;
+    size_t threads;
+} clearance_each;
+
+/* The answers, in the order of the scene and to be freed, and what they cost together. On an error
+ * there are none. */
+imp_code clearance_each_run(const clearance_each *of, imp_clearance **answers, size_t *count,
+                            imp_stats *stats, imp_error *error);
+
 /* "holds", "violated", "undecided"; NULL: nothing was required. */
 const char *clearance_verdict_name(imp_requirement verdict);
 

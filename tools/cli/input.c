@@ -79,6 +79,12 @@ bool input_read_line(FILE *file, const char *name, const char *verb, input_text 
     return judge(take(file, '\n', line), name, "it has a line", verb);
 }
 
+bool input_is_file(const char *path)
+{
+    struct stat is;
+    return !is_standard_input(path) && stat(path, &is) == 0 && S_ISREG(is.st_mode);
+}
+
 bool input_is_same(const char *a, const char *b)
 {
     struct stat a_is, b_is;

@@ -28,6 +28,9 @@ typedef struct input_text {
 bool input_read(FILE *file, const char *name, const char *verb, input_text *text);
 bool input_read_line(FILE *file, const char *name, const char *verb, input_text *line);
 
+/* Is it a regular file, which may be read twice? */
+bool input_is_file(const char *path);
+
 /* Do both paths lead to one file that exists? */
 bool input_is_same(const char *a, const char *b);
 

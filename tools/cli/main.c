@@ -46,9 +46,11 @@ int main(int argc, char **argv)
     exit_status status = arguments_read(&args, argc, (const char *const *)argv);
     const char *speaker = args.verb != NULL ? args.verb->name : NULL;
     output_choose_colour(arguments_option(&args, "no-color") == NULL);
+    const option_value *progress = arguments_option(&args, "progress");
+    if (progress != NULL) progress_choose((progress_mode)progress->choice);
     if (status == EXIT_ANSWERED) status = run(&args);
     arguments_free(&args);
-    progress_wipe();
+    progress_end();
     const exit_status finished = output_finish(speaker);
     return (int)(status > finished ? status : finished);
 }

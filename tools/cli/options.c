@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/cli/options.h"
 #include "core/common/nearest.h"
+#include "tools/cli/options.h"
 
 #include <errno.h>
 #include <math.h>
@@ -35,6 +35,8 @@ static const char *const methods[] = {"models", "paper", NULL};
 static const char *const bounds[] = {"box", "sphere", NULL};
 static const char *const rates[] = {"full", "column", "constant", NULL};
 
+static const char *const progress[] = {"auto", "json", "none", NULL}; /* progress_mode */
+
 const option options_search[] = {
     {.name = "time",
      .kind = OPTION_INTERVAL,
@@ -57,6 +59,11 @@ const option options_search[] = {
      .kind = OPTION_BYTES,
      .argument = "N",
      .help = "use at most N bytes (K, M, G: times 1024); 0: no limit (1G)"},
+    {.name = "progress",
+     .kind = OPTION_CHOICE,
+     .argument = "HOW",
+     .choices = progress,
+     .help = "how far it is, to standard error: auto (to a terminal), json, none"},
     {.name = "audit", .help = "hold the bounds of every region against points of it; slower"},
     {.name = NULL},
 };

@@ -17,6 +17,7 @@ struct ordered_pool {
     char *items;
     bool *worked; /* by slot */
     size_t submitted, taken, finished;
+    size_t idle; /* workers that wait */
     bool finishing, stopped, closed;
     pthread_mutex_t lock;
     pthread_cond_t work_or_end, room;
@@ -44,7 +45,9 @@ static void finish_in_order(ordered_pool *pool)
         pool->stopped = pool->stopped || !go_on;
         pool->worked[pool->finished % pool->plan.items] = false;
         pool->finished += 1;
-        pthread_cond_signal(&pool->room);
+        /* not for every item: waking the owner for each costs more than an easy item's work */
+        if (pool->stopped || 2 * (pool->submitted - pool->finished) <= pool->plan.items)
+            pthread_cond_signal(&pool->room);
     }
     pool->finishing = false;
 }
@@ -66,10 +69,13 @@ static void *worker(void *context)
     pthread_cleanup_push(crash_thread_left, NULL);
     pthread_mutex_lock(&pool->lock);
     while (!pool->closed || pool->taken < pool->submitted) {
-        if (pool->taken < pool->submitted)
+        if (pool->taken < pool->submitted) {
             take_one(pool);
-        else
+        } else {
+            pool->idle += 1;
             pthread_cond_wait(&pool->work_or_end, &pool->lock);
+            pool->idle -= 1;
+        }
     }
     pthread_mutex_unlock(&pool->lock);
     pthread_cleanup_pop(0);
@@ -124,7 +130,7 @@ void ordered_pool_submit(ordered_pool *pool)
 {
     pthread_mutex_lock(&pool->lock);
     pool->submitted += 1;
-    pthread_cond_signal(&pool->work_or_end);
+    if (pool->idle > 0) pthread_cond_signal(&pool->work_or_end);
     pthread_mutex_unlock(&pool->lock);
 }
 

@@ -75,14 +75,19 @@ const char *output_colour(output_tint tint)
 static size_t number_length(const char *text) { return strspn(text, "+-.0123456789eE"); }
 
 /* The number that `from` begins with to `to`, in the fewest digits that read back exactly. Answers
- * the characters written: at most those read. */
+ * the characters written: at most those read. A text of up to 15 characters is one of 15 digits already,
+ * perhaps with a ".0" that Jansson adds to whole numbers. */
 static size_t write_shortest(const char *from, char *to)
 {
     const size_t length = number_length(from);
-    const double number = strtod(from, NULL);
     char text[32];
+    if (length <= 15 || (memchr(from, '.', length) == NULL && memchr(from, 'e', length) == NULL)) {
+        const bool whole = length > 2 && memcmp(from + length - 2, ".0", 2) == 0;
+        memmove(to, from, length);
+        return whole ? length - 2 : length;
+    }
+    const double number = strtod(from, NULL);
     memmove(to, from, length);
-    if (memchr(to, '.', length) == NULL && memchr(to, 'e', length) == NULL) return length;
     for (int digits = 15; digits < 17; ++digits) {
         const size_t shorter = (size_t)snprintf(text, sizeof text, "%.*g", digits, number);
         if (shorter >= length || strtod(text, NULL) != number) continue;
@@ -111,15 +116,26 @@ static void shorten_numbers(char *text)
     *to = '\0';
 }
 
-exit_status output_json(json_t *object, const char *verb)
+char *output_json_line(json_t *object)
 {
-    char *text = object != NULL ? json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(17)) : NULL;
+    const size_t flags = JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENCODE_ANY;
+    char *text = object != NULL ? json_dumps(object, flags) : NULL;
     json_decref(object);
+    if (text != NULL) shorten_numbers(text);
+    return text;
+}
+
+exit_status output_line(char *text, const char *verb)
+{
     if (text == NULL) return json_memory_failed() ? refuse_damaged(verb) : complain_of_memory(verb);
-    shorten_numbers(text);
     puts(text);
     free(text);
     return output_flush(verb);
+}
+
+exit_status output_json(json_t *object, const char *verb)
+{
+    return output_line(output_json_line(object), verb);
 }
 
 json_t *output_json_text(const char *text)

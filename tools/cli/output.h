@@ -38,6 +38,12 @@ const char *output_colour(output_tint tint);
  * out when it was made. */
 exit_status output_json(json_t *object, const char *verb);
 
+/* The same line as text, which the caller frees; [any thread]. NULL: no memory. */
+char *output_json_line(json_t *object);
+
+/* Prints such a line and frees it. NULL: memory ran out when it was made. */
+exit_status output_line(char *text, const char *verb);
+
 /* A JSON string of a text that ought to be UTF-8; other bytes are shown as '?'. NULL text: null. */
 json_t *output_json_text(const char *text);
 

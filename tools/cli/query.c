@@ -4,7 +4,6 @@
 
 #include "tools/cli/query.h"
 
-#include <math.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -102,11 +101,7 @@ static size_t choice_or(const arguments *args, const char *name, size_t otherwis
 static bool goes_on(void *context, const imp_progress *p)
 {
     (void)context;
-    if (isnan(p->t_lower))
-        progress_show("%ju pairs tested", (uintmax_t)p->pairs);
-    else
-        progress_show("%ju pairs tested, clear until t = %s", (uintmax_t)p->pairs,
-                      output_number_lower(p->t_lower).text);
+    progress_search(p);
     return !interrupt_came();
 }
 

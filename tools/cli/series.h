@@ -5,18 +5,15 @@
 
 #include "tools/cli/arguments.h"
 
-/* More than one answer from one search
- * ====================================
- * solve --each: the first contact of each two bodies, in order of time, each printed when it is
- * proved; then the bodies that stay clear, or were left undecided. solve --refine G1,G2,...: one
- * answer for each gamma. */
+/* solve --refine G1,G2,...: one answer for each gamma, from one search. */
 
+/* What solve may be asked besides its first contact: --each (each.h) and --refine. */
 extern const option options_series[];
 
-/* Whether either is asked for; complains of what does not go together. */
-exit_status series_check(const arguments *args, bool *asked);
+/* Complains of what does not go together. */
+exit_status series_check(const arguments *args);
 
-/* Prints all answers. The exit status is that of the whole. */
+/* Prints all answers of --refine. The exit status is that of the last. */
 exit_status series_answer(imp_scene *scene, const arguments *args);
 
 #endif

@@ -10,6 +10,7 @@
 #include "tools/cli/interrupt.h"
 #include "tools/cli/ordered_pool.h"
 #include "tools/cli/output.h"
+#include "tools/cli/progress.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
@@ -29,6 +30,7 @@ typedef struct batch {
     /* changed while the pool runs by finish_line only, and before its first line by is_wanted */
     size_t failures; /* lines answered by an error */
     size_t answered; /* number of the last line answered */
+    uint64_t done;   /* scenes answered, by earlier runs too */
     exit_status worst;
     bool over; /* nothing more is printed */
 } batch;
@@ -39,7 +41,7 @@ enum { ITEMS_PER_THREAD = 8 }; /* enough that a slow line does not leave the oth
 typedef struct batch_item {
     input_text text;
     size_t line;
-    json_t *answer;
+    char *answer;       /* a line of JSON; NULL: none, or no memory */
     exit_status status; /* what the answer stands for */
     bool failed, interrupted;
 } batch_item;
@@ -51,15 +53,17 @@ static void keep_worst(batch *b, exit_status status)
 
 /* --- One line; on any thread ------------------------------------------------------------------- */
 
-/* One object of the id and, behind it, what `rest` holds. Takes over both; NULL: no memory. */
-static json_t *answer_of(json_t *id, json_t *rest)
+/* One line of the id and, behind it, what `rest` holds, which has a key. Takes over both; NULL: no
+ * memory. */
+static char *answer_of(json_t *id, json_t *rest)
 {
-    json_t *object = json_pack("{s:o}", "id", id);
-    const bool failed = object == NULL || rest == NULL || json_object_update(object, rest) != 0;
-    json_decref(rest);
-    if (!failed) return object;
-    json_decref(object);
-    return NULL;
+    char *id_text = output_json_line(id), *rest_text = output_json_line(rest), *line = NULL;
+    if (id_text != NULL && rest_text != NULL &&
+        asprintf(&line, "{\"id\":%s,%s", id_text, rest_text + 1) < 0)
+        line = NULL;
+    free(id_text);
+    free(rest_text);
+    return line;
 }
 
 static json_t *error_json(batch_item *item, const imp_error *error)
@@ -92,6 +96,13 @@ static json_t *solve_line(const batch *b, batch_item *item)
     return answer;
 }
 
+static void answer_line(const batch *b, batch_item *item)
+{
+    json_t *rest = solve_line(b, item);
+    json_t *id = item->failed ? batch_line_id(&item->text) : batch_scene_id(&item->text);
+    item->answer = answer_of(id, rest);
+}
+
 static void work_on_line(void *context, void *of)
 {
     const batch *b = context;
@@ -101,7 +112,7 @@ static void work_on_line(void *context, void *of)
     if (interrupt_came())
         item->interrupted = true; /* not begun: no answer */
     else
-        item->answer = answer_of(batch_line_id(&item->text), solve_line(b, item));
+        answer_line(b, item);
 }
 
 /* In order, one at a time. What a signal has cut short ends the output: printed, as it says how far
@@ -112,15 +123,16 @@ static bool finish_line(void *context, void *of)
     batch_item *item = of;
     b->over = b->over || (item->interrupted && (item->answer == NULL || b->resume.file != NULL));
     if (b->over) {
-        json_decref(item->answer);
+        free(item->answer);
         return false;
     }
     b->failures += item->failed;
     b->answered = item->line;
     keep_worst(b, item->status);
-    const exit_status printed = output_json(item->answer, b->args->verb->name);
+    const exit_status printed = output_line(item->answer, b->args->verb->name);
     keep_worst(b, printed);
     b->over = printed != EXIT_ANSWERED || item->interrupted;
+    progress_count(++b->done);
     return !b->over;
 }
 
@@ -163,8 +175,25 @@ static void read_lines(batch *b, FILE *file, ordered_pool *pool)
     if (!ok) b->input_failed = true;
 }
 
+/* How many scenes of the file are ours; 0: unknown. */
+static uint64_t count_scenes(const batch *b)
+{
+    const char *path = b->args->operands[0];
+    FILE *file = progress_is_wanted() && input_is_file(path) ? fopen(path, "r") : NULL;
+    input_text line = {0};
+    uint64_t count = 0;
+    while (file != NULL && input_read_line(file, path, b->args->verb->name, &line) &&
+           line.length > 0 && !interrupt_came())
+        count += !is_blank(&line);
+    if (file != NULL) fclose(file);
+    free(line.text);
+    return (count + b->shard.count - 1 - b->shard.index) / b->shard.count;
+}
+
 static void answer_lines(batch *b, FILE *file)
 {
+    b->done = b->resume.answers;
+    progress_count_from(b->done, count_scenes(b), "scenes");
     const size_t threads = query_threads(b->args);
     const ordered_pool_plan plan = {.threads = threads,
                                     .items = ITEMS_PER_THREAD * threads,

@@ -20,6 +20,7 @@ typedef struct measuring {
     imp_query *query;
     bool json, each, profile;
     imp_clearance *answers;
+    imp_stats stats;
     size_t count, told; /* how many there are, and how many slices have been printed */
 } measuring;
 
@@ -33,18 +34,24 @@ static exit_status check(const arguments *args)
                         profile->text);
     if (profile != NULL && arguments_option(args, "each") != NULL)
         return complain(EXIT_USAGE, args->verb->name, "--each and --profile exclude each other");
+    if (arguments_option(args, "threads") != NULL && arguments_option(args, "each") == NULL)
+        return complain(EXIT_USAGE, args->verb->name, "--threads belongs to --each");
     return EXIT_ANSWERED;
+}
+
+static double required_of(const arguments *args)
+{
+    const option_value *required = arguments_option(args, "require");
+    return required != NULL ? required->number[0] : 0;
 }
 
 static imp_clearance_options asked_for(const arguments *args)
 {
     imp_clearance_options asked = imp_clearance_options_default();
     const option_value *tolerance = arguments_option(args, "tolerance");
-    const option_value *required = arguments_option(args, "require");
     const option_value *profile = arguments_option(args, "profile");
-    asked.each = arguments_option(args, "each") != NULL;
     if (tolerance != NULL) asked.tolerance = tolerance->number[0];
-    if (required != NULL) asked.required = required->number[0];
+    asked.required = required_of(args);
     if (profile != NULL) asked.slices = profile->count;
     return asked;
 }
@@ -92,11 +99,10 @@ static exit_status run_query(measuring *m)
 /* Only where pairs of bodies were asked for and all are ignored is there no answer at all. */
 static imp_clearance nothing(const measuring *m)
 {
-    const option_value *required = arguments_option(m->args, "require");
+    const double required = required_of(m->args);
     return (imp_clearance){.reason = IMP_REASON_NO_PAIRS,
-                           .verdict =
-                               required != NULL ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_NONE,
-                           .required = required != NULL ? required->number[0] : 0,
+                           .verdict = required > 0 ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_NONE,
+                           .required = required,
                            .body = {SIZE_MAX, SIZE_MAX},
                            .lower = INFINITY,
                            .upper = INFINITY,
@@ -140,7 +146,7 @@ static exit_status conclude(measuring *m)
     if (m->each) clearance_sort(m->answers, m->count);
     const clearance_table table = {m->scene, m->answers, m->count};
     imp_clearance all = m->count > 0 ? clearance_summary(&table) : nothing(m);
-    all.stats = imp_query_result(m->query).stats;
+    all.stats = m->stats;
     exit_status status = EXIT_ANSWERED;
     if (m->json) {
         status = output_json(whole_json(m, &table, &all), speaker);
@@ -152,6 +158,18 @@ static exit_status conclude(measuring *m)
     return status != EXIT_ANSWERED ? status : status_of(&all);
 }
 
+static exit_status measure_each(measuring *m)
+{
+    imp_error error = {0};
+    json_object_seed(0); /* before there are threads */
+    const clearance_each of = {m->scene, m->query, required_of(m->args), query_threads(m->args)};
+    if (clearance_each_run(&of, &m->answers, &m->count, &m->stats, &error) != IMP_SUCCESS)
+        return complain_of(&error, m->args->verb->name);
+    const exit_status status = conclude(m);
+    free(m->answers);
+    return status;
+}
+
 static exit_status measure(measuring *m)
 {
     m->count = imp_clearance_count(m->query);
@@ -159,6 +177,7 @@ static exit_status measure(measuring *m)
     if (m->answers == NULL) return complain_of_memory(m->args->verb->name);
     if (m->profile && !m->json) clearance_print_csv_head();
     exit_status status = run_query(m);
+    m->stats = imp_query_result(m->query).stats;
     if (status == EXIT_ANSWERED) status = conclude(m);
     free(m->answers);
     return status;
@@ -172,11 +191,11 @@ static exit_status measure_scene(imp_scene *scene, const arguments *args)
     measuring m = {.args = args,
                    .scene = scene,
                    .json = arguments_option(args, "json") != NULL,
-                   .each = asked.each,
+                   .each = arguments_option(args, "each") != NULL,
                    .profile = arguments_option(args, "profile") != NULL};
     m.query = imp_clearance_new(scene, &options, &asked, &error);
     if (m.query == NULL) return complain_of(&error, args->verb->name);
-    const exit_status status = measure(&m);
+    const exit_status status = m.each ? measure_each(&m) : measure(&m);
     imp_query_free(m.query);
     return status;
 }
@@ -213,6 +232,10 @@ static const option clearance_options[] = {
      .min_open = true,
      .help = "say whether bodies always stay so far apart; exit 0, 1 or 3"},
     {.name = "each", .help = "measure each two bodies that do not ignore each other"},
+    {.name = "threads",
+     .kind = OPTION_COUNT,
+     .argument = "N",
+     .help = "with --each: N threads; the answers are the same (all processors)"},
     {.name = "profile",
      .kind = OPTION_COUNT,
      .argument = "N",

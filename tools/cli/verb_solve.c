@@ -2,32 +2,34 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "tools/cli/each.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/query.h"
 #include "tools/cli/series.h"
 #include "tools/cli/verbs.h"
 
-static exit_status answer(imp_scene *scene, const imp_error *error, bool series,
-                          const arguments *args)
+static exit_status answer(imp_scene *scene, const imp_error *error, const arguments *args)
 {
-    if (scene == NULL || !series) return query_answer(scene, error, args);
+    const bool by_pairs = arguments_option(args, "each") != NULL;
+    if (scene == NULL || !(by_pairs || arguments_option(args, "refine") != NULL))
+        return query_answer(scene, error, args);
     interrupt_prepare();
-    const exit_status status = series_answer(scene, args);
+    const exit_status status = by_pairs ? each_answer(scene, args) : series_answer(scene, args);
     imp_scene_free(scene);
     return status;
 }
 
 static exit_status run(const arguments *args)
 {
-    bool series, complained;
+    bool complained;
     exit_status status = query_check(args);
-    if (status == EXIT_ANSWERED) status = series_check(args, &series);
+    if (status == EXIT_ANSWERED) status = series_check(args);
     if (status != EXIT_ANSWERED) return status;
     imp_registry *registry = query_registry(args);
     if (registry == NULL) return EXIT_DATA;
     imp_error error = {0};
     imp_scene *scene = query_scene(registry, args, &complained, &error);
-    status = complained ? EXIT_DATA : answer(scene, &error, series, args);
+    status = complained ? EXIT_DATA : answer(scene, &error, args);
     imp_registry_free(registry);
     return status;
 }
@@ -53,9 +55,11 @@ const verb verb_solve = {
         "'ignore'\n"
         "names together. Options given here override what the scene asks for.\n"
         "\n"
-        "--each prints the first contact of each two bodies as soon as it is proved, with --json "
-        "one\n"
-        "object a line; bodies that never touch come last.\n",
+        "--each prints the first contact of each two bodies, in order of time, with --json one "
+        "object a\n"
+        "line; bodies that never touch come last. --max-pairs and --max-bytes then hold for each "
+        "two\n"
+        "bodies.\n",
     .example =
         "echo '{\"bodies\": [{\"name\": \"a\", \"surfaces\": [{\"type\": \"sphere\"}]},\n"
         "        {\"name\": \"b\", \"surfaces\": [{\"type\": \"sphere\", \"center\": [3,0,0]}],\n"

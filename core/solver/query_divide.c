@@ -1,0 +1,154 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdlib.h>
+
+#include "core/base/clock.h"
+#include "core/base/fp_mode.h"
+#include "core/base/status.h"
+#include "core/solver/query_parts.h"
+
+/* --- Dividing ------------------------------------------------------------------------------- */
+
+static bool same_bodies(const candidate_pair *p, const candidate_pair *q)
+{
+    return p->side[0]->body == q->side[0]->body && p->side[1]->body == q->side[1]->body;
+}
+
+/* The list is in the order of the scene, so that the candidates of two bodies stand together. */
+static imp_code find_parts(imp_query *query, imp_error *error)
+{
+    const candidate_list *list = &query->candidates;
+    size_t count = 0;
+    for (size_t k = 0; k < list->pair_count; ++k)
+        count += k == 0 || !same_bodies(&list->pairs[k - 1], &list->pairs[k]);
+    query->parts = malloc((count + 1) * sizeof *query->parts);
+    if (query->parts == NULL) return error_set_memory(error);
+    query->part_count = 0;
+    for (size_t k = 0; k < list->pair_count; ++k)
+        if (k == 0 || !same_bodies(&list->pairs[k - 1], &list->pairs[k]))
+            query->parts[query->part_count++] = k;
+    query->parts[count] = list->pair_count;
+    return IMP_SUCCESS;
+}
+
+/* What is left for the query itself: the bodies of no candidate. */
+static imp_code conclude(imp_query *query, imp_error *error)
+{
+    static const candidate_list none = {.complete = true};
+    imp_reason reason = IMP_REASON_RUNNING;
+    imp_code code = IMP_SUCCESS;
+    query->candidates_tested = query->candidates.pair_count;
+    query_finish(query, IMP_CLEAR, query_reason_of_clear(query));
+    if (query->clearance == NULL) return IMP_SUCCESS;
+    clearance_begin(query->clearance, &none, &query->stats);
+    while (code == IMP_SUCCESS && reason == IMP_REASON_RUNNING)
+        code = clearance_work(query->clearance, &reason, error);
+    return code;
+}
+
+FP_APART static imp_code divide(imp_query *query, imp_error *error)
+{
+    if (query->candidates.complete || query->failed)
+        return error_set(error, IMP_ERROR_USAGE, "divide: this query has been stepped already");
+    if (query->clearance != NULL && clearance_is_each(query->clearance))
+        return error_set(error, IMP_ERROR_USAGE,
+                         "divide: got a clearance with `each`, must be one without: its parts are "
+                         "of two bodies each");
+    query->divided = clock_seconds();
+    imp_code code = query_collect(query, query->divided, error);
+    if (code == IMP_SUCCESS && query->candidates.complete) {
+        code = find_parts(query, error);
+        if (code == IMP_SUCCESS) code = conclude(query, error);
+    }
+    if (query->parts == NULL) query->divided = 0;
+    query->stats.seconds += query->parts == NULL ? 0 : clock_seconds() - query->divided;
+    query->failed = code != IMP_SUCCESS;
+    return code;
+}
+
+imp_code imp_query_divide(imp_query *query, size_t *count, imp_error *error)
+{
+    if (query == NULL || count == NULL) return error_set_missing(error, "imp_query_divide");
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = divide(query, error);
+    fp_environment_leave(&environment);
+    *count = code == IMP_SUCCESS ? query->part_count : 0;
+    return code;
+}
+
+/* --- Parts ---------------------------------------------------------------------------------- */
+
+bool imp_query_part_bodies(const imp_query *query, size_t index, size_t body[2])
+{
+    if (query == NULL || body == NULL || index >= query->part_count) return false;
+    const candidate_pair *first = &query->candidates.pairs[query->parts[index]];
+    for (int side = 0; side < 2; ++side) body[side] = first->side[side]->body;
+    return true;
+}
+
+/* A query like the divided one, with nothing done yet. */
+static imp_query *fresh_query(const imp_query *whole, imp_error *error)
+{
+    imp_query *query = calloc(1, sizeof *query);
+    if (query == NULL) {
+        error_set_memory(error);
+        return NULL;
+    }
+    query->scene = whole->scene;
+    query->options = whole->options;
+    query->examined = whole->examined;
+    query->verdict = IMP_UNDECIDED;
+    query->reason = IMP_REASON_RUNNING;
+    query->impact = (impact){.gamma = whole->impact.gamma,
+                             .clearance = whole->impact.clearance,
+                             .window = whole->impact.window,
+                             .method = whole->impact.method,
+                             .bounds = whole->impact.bounds,
+                             .stats = &query->stats,
+                             .t_lower = whole->options.t_start};
+    atomic_init(&query->cancelled, false);
+    return query;
+}
+
+/* The limit of time is that of all parts together; 0 would be none. */
+static double seconds_left(const imp_query *whole)
+{
+    const double left = whole->options.max_seconds - (clock_seconds() - whole->divided);
+    return left > 0 ? left : 0x1p-1000;
+}
+
+FP_APART static imp_query *part_of(const imp_query *whole, size_t index, imp_error *error)
+{
+    size_t body[2];
+    if (!imp_query_part_bodies(whole, index, body)) {
+        error_set(error, IMP_ERROR_USAGE, "part: got %zu, must be below the number of parts, %zu",
+                  index, whole != NULL ? whole->part_count : 0);
+        return NULL;
+    }
+    imp_query *query = fresh_query(whole, error);
+    if (query == NULL) return NULL;
+    if (query->options.max_seconds > 0) query->options.max_seconds = seconds_left(whole);
+    const size_t first = whole->parts[index];
+    imp_code code = candidates_part(&query->candidates, &whole->candidates, first,
+                                    whole->parts[index + 1] - first, &query->stats, error);
+    query->impact.candidate_pairs = query->candidates.pairs;
+    if (code == IMP_SUCCESS && whole->clearance != NULL)
+        code = clearance_part(whole->clearance, body, &query->clearance, error);
+    if (code == IMP_SUCCESS) {
+        if (query->clearance != NULL)
+            clearance_begin(query->clearance, &query->candidates, &query->stats);
+        return query;
+    }
+    imp_query_free(query);
+    return NULL;
+}
+
+imp_query *imp_query_part(const imp_query *whole, size_t index, imp_error *error)
+{
+    const fp_environment environment = fp_environment_enter();
+    imp_query *query = part_of(whole, index, error);
+    fp_environment_leave(&environment);
+    return query;
+}

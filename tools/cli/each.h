@@ -1,0 +1,33 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_EACH_H
+#define TOOLS_CLI_EACH_H
+
+#include "tools/cli/arguments.h"
+#include "tools/cli/parts.h"
+
+/* solve --each: the first contact of each two bodies
+ * ==================================================
+ * What is not clear comes in order of time, then by the bodies' places in the scene; what is clear
+ * follows in the order of the scene. Bodies that the broad phase parts have the answer of the divided
+ * query. */
+
+typedef struct each {
+    const arguments *args;
+    const imp_scene *scene;
+    parts_plan plan;
+    imp_result *answers; /* of the parts */
+} each;
+
+/* Divides the scene; its parts may then be solved (parts.h). Complains of what is wrong. */
+exit_status each_begin(each *e, imp_scene *scene, const arguments *args);
+
+/* Prints all answers, those of the parts being there. The exit status is that of the worst. */
+exit_status each_print(const each *e);
+
+void each_end(each *e); /* also after each_begin has failed */
+
+/* All of that. */
+exit_status each_answer(imp_scene *scene, const arguments *args);
+
+#endif

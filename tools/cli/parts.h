@@ -1,0 +1,31 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_PARTS_H
+#define TOOLS_CLI_PARTS_H
+
+#include <impinge/impinge.h>
+
+#include "tools/cli/ordered_pool.h"
+
+/* A query about each two bodies of a scene, by several threads
+ * ============================================================
+ * The query is divided (imp_query_divide); each part is solved to its end by one thread. What is
+ * taken from a part does not depend on the others, so that neither does what is made of all of them
+ * on the number of threads. */
+
+typedef struct parts_plan {
+    imp_query *whole; /* divided */
+    size_t count;     /* of its parts */
+    size_t threads;
+    void (*take)(void *context, size_t index, imp_query *part); /* [any of the threads] */
+    void *context;
+} parts_plan;
+
+/* Solves part `index` and has its answer taken. [any thread] */
+imp_code parts_solve(const parts_plan *plan, size_t index, imp_error *error);
+
+/* Solves all parts. Where some fail, the error is that of the first of them in the order
+ * of the scene. */
+imp_code parts_run(const parts_plan *plan, imp_error *error);
+
+#endif
