@@ -8,13 +8,13 @@ core_common = \
     core/common/array.h \
     core/common/child.c core/common/child.h \
     core/common/child_process.c core/common/child_process.h \
+    core/common/clock.h \
     core/common/nearest.c core/common/nearest.h \
     core/common/random.h
 
 core_base = \
     core/impinge/impinge.h \
     core/base/active_callback.c core/base/active_callback.h \
-    core/base/clock.h \
     core/base/file_text.c core/base/file_text.h \
     core/base/fp_mode.h \
     core/base/place.c core/base/place.h \

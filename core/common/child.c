@@ -4,6 +4,7 @@
 
 #include "core/common/child.h"
 #include "core/common/child_process.h"
+#include "core/common/clock.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -12,7 +13,6 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 void *child_memory(size_t size)
@@ -26,23 +26,16 @@ void child_memory_free(void *memory, size_t size)
     if (memory != NULL) munmap(memory, size);
 }
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* True if a byte came: the work is done. False on end of file or when time is up. */
 static bool wait_for_byte(int fd, double deadline, bool *late)
 {
     for (;;) {
-        const double left = deadline - now();
+        const double left = deadline - clock_seconds();
         struct pollfd watched = {.fd = fd, .events = POLLIN};
         const int ready = poll(&watched, 1, left > 0 ? (int)(left * 1e3) + 1 : 0);
         if (ready < 0 && errno == EINTR) continue;
         *late = ready == 0;
-        if (ready == 0 && now() < deadline) continue;
+        if (ready == 0 && clock_seconds() < deadline) continue;
         if (ready <= 0) return false;
         char byte;
         return read(fd, &byte, 1) == 1;
@@ -70,7 +63,7 @@ static child_fate watch(pid_t child, int fd, double seconds)
 {
     bool late = false;
     int status = 0;
-    const bool done = wait_for_byte(fd, now() + seconds, &late);
+    const bool done = wait_for_byte(fd, clock_seconds() + seconds, &late);
     const int stopped = late ? stopping_signal(child) : 0;
     if (done || late) kill(-child, SIGKILL);
     while (waitpid(child, &status, 0) < 0)

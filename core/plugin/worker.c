@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/common/child_process.h"
+#include "core/common/clock.h"
 #include "core/plugin/worker.h"
 #include "core/surface/surface.h"
 
@@ -16,7 +17,6 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { GLANCE_MS = 100 }; /* between looks at whether the worker lives */
@@ -171,8 +171,7 @@ static imp_status look_at_deadline(const worker *w)
 
 static struct timespec in_a_glance(void)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    struct timespec t = clock_now();
     t.tv_nsec += GLANCE_MS * 1000000L;
     t.tv_sec += t.tv_nsec / 1000000000L;
     t.tv_nsec %= 1000000000L;

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/base/clock.h"
 #include "core/base/status.h"
+#include "core/common/clock.h"
 
 /* A pair of bodies, or all, during a slice of time. */
 typedef struct part {

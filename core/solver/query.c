@@ -7,10 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/base/clock.h"
 #include "core/base/fp_mode.h"
 #include "core/base/sized.h"
 #include "core/base/status.h"
+#include "core/common/clock.h"
 
 /* --- Creation and destruction ------------------------------------------------------------ */
 

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "core/common/clock.h"
 #include "tools/check/clearance_cost.h"
 #include "tools/check/pair.h"
 
@@ -138,13 +138,6 @@ void tightness_check(const subject *s, uint64_t *random, double effort)
 enum { BATCH = 64 };
 #define MEASURED_SECONDS 0.01 /* per call: enough for two digits */
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 typedef struct load {
     const subject *s;
     double p[BATCH * BOX_DIMS], x[BATCH * 3], error[BATCH * 3];
@@ -170,13 +163,13 @@ static void all_models(load *l)
 static double measure(load *l, void (*run)(load *))
 {
     run(l);
-    const double start = now();
+    const double start = clock_seconds();
     double spent;
     long rounds = 0;
     do {
         run(l);
         ++rounds;
-        spent = now() - start;
+        spent = clock_seconds() - start;
     } while (spent < MEASURED_SECONDS);
     return 1e9 * spent / ((double)rounds * BATCH);
 }

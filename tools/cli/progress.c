@@ -8,13 +8,13 @@
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "core/common/clock.h"
 #include "tools/cli/output.h"
 
 /* Progress has no owner but the process: one line on its standard error. */
-static struct timespec begun;
+static double begun;
 static progress_mode mode;
 static atomic_bool shown;
 static atomic_llong next_show; /* ns since the command began */
@@ -25,7 +25,7 @@ static struct {
     atomic_ullong done, told;
 } count;
 
-void progress_begin(void) { clock_gettime(CLOCK_MONOTONIC, &begun); }
+void progress_begin(void) { begun = clock_seconds(); }
 
 void progress_choose(progress_mode chosen) { mode = chosen; }
 
@@ -34,12 +34,7 @@ bool progress_is_wanted(void)
     return mode == PROGRESS_JSON || (mode == PROGRESS_AUTO && isatty(STDERR_FILENO));
 }
 
-static double seconds_since_begun(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)(now.tv_sec - begun.tv_sec) + 1e-9 * (double)(now.tv_nsec - begun.tv_nsec);
-}
+static double seconds_since_begun(void) { return clock_seconds() - begun; }
 
 /* Whether it is time to show something; one of several threads that ask at once is answered yes. */
 static bool is_due(double seconds)
