@@ -6,9 +6,11 @@
 
 core_common = \
     core/common/array.h \
+    core/common/c_locale.h \
     core/common/child.c core/common/child.h \
     core/common/child_process.c core/common/child_process.h \
     core/common/clock.h \
+    core/common/fp_control.h \
     core/common/nearest.c core/common/nearest.h \
     core/common/random.h
 

@@ -25,6 +25,7 @@ check_suites = \
     tests/unit/test_guarantees \
     tests/unit/test_lanes \
     tests/unit/test_limits \
+    tests/unit/test_locale \
     tests/unit/test_loosened \
     tests/unit/test_mechanism \
     tests/unit/test_mesh \

@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/base/status.h"
+#include "core/common/c_locale.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -49,7 +50,9 @@ imp_code error_set_v(imp_error *error, imp_code code, const char *format, va_lis
     int saved = errno;
     error->code = code;
     error->text[0] = '\0';
+    const c_locale locale = c_locale_enter();
     vsnprintf(error->text, sizeof error->text, format, arguments);
+    c_locale_leave(&locale);
     end_at_character(error->text, sizeof error->text);
     errno = saved;
     return code;

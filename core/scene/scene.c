@@ -199,7 +199,7 @@ const surface *scene_surface(const imp_scene *scene, size_t body, size_t index)
 /* A callback's refusal of what lies outside the domain is the caller's fault. */
 static imp_code refusal(const surface *s, imp_status status, imp_error *why)
 {
-    surface_fault(s, why, ": %s", surface_status_text(status));
+    surface_fault(s, why, ": %s", surface_status_told(s, status).text);
     if (status != IMP_DOMAIN) return surface_set_code(status, why);
     if (why != NULL) why->code = IMP_ERROR_USAGE;
     return IMP_ERROR_USAGE;

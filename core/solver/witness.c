@@ -73,7 +73,7 @@ static imp_code point_at(const tree *t, const double *p, vec3 *x, double eval_er
 {
     const imp_status status = surface_eval(tree_surface(t), 1, p, x->x, eval_error);
     if (status != IMP_OK) {
-        point_fault(t, p, surface_status_text(status), error);
+        point_fault(t, p, surface_status_told(tree_surface(t), status).text, error);
         return surface_set_code(status, error);
     }
     if (!isfinite(vec3_norm1(*x)))

@@ -16,31 +16,30 @@
 /* What destroy does to the floating-point mode is undone. */
 static void destroy(const char *type, void (*destroy_it)(void *), void *self)
 {
-    const fp_mode mode = fp_mode_read();
-    active_callback_begin(type, "destroy");
+    const fp_mode mode = surface_call_begin(type, "destroy");
     destroy_it(self);
-    surface_guarded(mode, IMP_OK);
+    surface_call_end(mode, IMP_OK);
 }
 
 /* Domains are asked for once; one that is not finite in u and v, inverted or NaN is a breach. */
 static void take_domain(shared_part *p)
 {
-    const fp_mode mode = fp_mode_read();
-    active_callback_begin(p->surface->name, "domain");
+    const fp_mode mode = surface_call_begin(p->surface->name, "domain");
     p->surface->domain(p->self, p->lo, p->hi);
+    p->breach = surface_call_end(mode, IMP_OK);
     bool good = p->lo[0] > -INFINITY && p->lo[1] > -INFINITY;
     good = good && p->hi[0] < INFINITY && p->hi[1] < INFINITY;
     for (int j = 0; j < 3; ++j) good = good && p->lo[j] <= p->hi[j];
-    p->breach = surface_guarded(mode, good ? IMP_OK : SURFACE_BAD_DOMAIN);
+    if (p->breach == IMP_OK && !good) p->breach = SURFACE_BAD_DOMAIN;
 }
 
 static void take_times(shared_part *p)
 {
-    const fp_mode mode = fp_mode_read();
     p->lo[2] = -INFINITY, p->hi[2] = INFINITY;
-    active_callback_begin(p->map->name, "time_domain");
+    const fp_mode mode = surface_call_begin(p->map->name, "time_domain");
     p->map->time_domain(p->self, &p->lo[2], &p->hi[2]);
-    p->breach = surface_guarded(mode, p->lo[2] <= p->hi[2] ? IMP_OK : SURFACE_BAD_DOMAIN);
+    p->breach = surface_call_end(mode, IMP_OK);
+    if (p->breach == IMP_OK && !(p->lo[2] <= p->hi[2])) p->breach = SURFACE_BAD_DOMAIN;
 }
 
 shared_part *part_of_surface(const imp_surface_type *type, void *self)

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/base/active_callback.h"
 #include "core/base/status.h"
 #include "core/base/text.h"
 #include "core/common/array.h"
@@ -170,6 +171,16 @@ const char *surface_status_text(imp_status status)
     default:
         return "returned an unknown status";
     }
+}
+
+surface_told surface_status_told(const surface *s, imp_status status)
+{
+    surface_told told;
+    const char *callback, *type = active_callback_last(&callback);
+    snprintf(told.text, sizeof told.text, "%s", surface_status_text(status));
+    if (s->map_count > 0 && type != NULL)
+        text_append(told.text, sizeof told.text, " (%s of '%s')", callback, type);
+    return told;
 }
 
 imp_code surface_set_code(imp_status status, imp_error *error)

@@ -42,8 +42,8 @@ static imp_status model_from_rates(const surface *s, const imp_region *region,
 static imp_status include_type(const surface *s, const imp_region *region, imp_model model[3])
 {
     if (s->type->include != NULL) {
-        active_callback_begin(s->type->name, "include");
-        return s->type->include(s->self, region, model);
+        const fp_mode mode = surface_call_begin(s->type->name, "include");
+        return surface_call_end(mode, s->type->include(s->self, region, model));
     }
     imp_rate_matrix rates;
     const imp_status status = surface_type_rate(s, region, &rates);
@@ -109,8 +109,9 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
     if (!models_are_sane(model, !*unbounded)) return SURFACE_BAD_MODEL;
     if (models_are_finite(model) && map->type->apply != NULL) {
         const imp_model in[4] = {model[0], model[1], model[2], model_of_time(region)};
-        active_callback_begin(map->type->name, "apply");
+        const fp_mode mode = surface_call_begin(map->type->name, "apply");
         status = map->type->apply(map->self, in, model);
+        status = surface_call_end(mode, status);
     } else if (!*unbounded) {
         status = include_by_chain_rule(s, k, region, model);
         if (status == IMP_UNBOUNDED) model_unbounded(model);
@@ -124,11 +125,10 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
 
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3])
 {
-    const fp_mode mode = fp_mode_read();
     imp_status status = include_type(s, region, model);
     bool unbounded = status == IMP_UNBOUNDED;
     if (unbounded) status = IMP_OK;
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k)
         status = include_through_map(s, k, region, model, &unbounded);
-    return surface_guarded(mode, status == IMP_OK && unbounded ? IMP_UNBOUNDED : status);
+    return status == IMP_OK && unbounded ? IMP_UNBOUNDED : status;
 }

@@ -31,12 +31,20 @@ struct surface {
     size_t index;               /* its number there */
 };
 
-/* Ends a group of callbacks. The mode is read once after all of them: what they computed is thrown
- * away if they changed it. */
-static inline imp_status surface_guarded(fp_mode before, imp_status status)
+/* A callback is called between these two. What it computed is thrown away if it changed the mode,
+ * which is put back before anything else is computed: an exception that it lets trap would else be
+ * raised in the callback after it, or by the host. */
+static inline fp_mode surface_call_begin(const char *type, const char *callback)
 {
+    active_callback_begin(type, callback);
+    return fp_mode_read();
+}
+
+static inline imp_status surface_call_end(fp_mode before, imp_status status)
+{
+    const bool kept = fp_mode_kept(before);
     active_callback_end();
-    return fp_mode_kept(before) ? status : SURFACE_CHANGED_MODE;
+    return kept ? status : SURFACE_CHANGED_MODE;
 }
 
 /* Rates as they come from a callback, checked. */

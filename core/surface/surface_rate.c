@@ -18,14 +18,18 @@ static imp_status checked_rates(imp_status status, const double *rates, int coun
 
 imp_status surface_type_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates)
 {
-    active_callback_begin(s->type->name, "rate");
-    return checked_rates(s->type->rate(s->self, region, rates), rates->m[0], 9);
+    const fp_mode mode = surface_call_begin(s->type->name, "rate");
+    imp_status status = s->type->rate(s->self, region, rates);
+    status = surface_call_end(mode, status);
+    return checked_rates(status, rates->m[0], 9);
 }
 
 imp_status surface_map_rate(const mapping *map, const imp_box4 *box, imp_map_rates *rates)
 {
-    active_callback_begin(map->type->name, "rate");
-    return checked_rates(map->type->rate(map->self, box, rates), rates->m[0], 12);
+    const fp_mode mode = surface_call_begin(map->type->name, "rate");
+    imp_status status = map->type->rate(map->self, box, rates);
+    status = surface_call_end(mode, status);
+    return checked_rates(status, rates->m[0], 12);
 }
 
 enum { BATCH = 16 }; /* points a call to a map takes at once; keeps buffers on the stack */
@@ -66,8 +70,9 @@ static imp_status batch_through_map(const mapping *map, size_t n, const double *
         memcpy(in + 4 * k, x + 3 * k, 3 * sizeof *x);
         in[4 * k + 3] = p[3 * k + 2];
     }
-    active_callback_begin(map->type->name, "eval");
+    const fp_mode mode = surface_call_begin(map->type->name, "eval");
     imp_status status = map->type->eval(map->self, n, in, x, error == NULL ? NULL : own);
+    status = surface_call_end(mode, status);
     if (status != IMP_OK || error == NULL) return status;
     for (size_t k = 0; k < n; ++k) {
         status = error_through_map(map, in + 4 * k, error + 3 * k, own + 3 * k);
@@ -84,8 +89,9 @@ static imp_status batch_through_map(const mapping *map, size_t n, const double *
 static imp_status eval_under(const surface *s, size_t maps, size_t n, const double *p, double *x,
                              double *error)
 {
-    active_callback_begin(s->type->name, "eval");
+    const fp_mode mode = surface_call_begin(s->type->name, "eval");
     imp_status status = s->type->eval(s->self, n, p, x, error);
+    status = surface_call_end(mode, status);
     for (size_t k = 0; k < maps && status == IMP_OK; ++k)
         for (size_t from = 0; from < n && status == IMP_OK; from += BATCH) {
             const size_t count = n - from < BATCH ? n - from : BATCH;
@@ -97,8 +103,7 @@ static imp_status eval_under(const surface *s, size_t maps, size_t n, const doub
 
 imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, double *error)
 {
-    const fp_mode mode = fp_mode_read();
-    return surface_guarded(mode, eval_under(s, s->map_count, n, p, x, error));
+    return eval_under(s, s->map_count, n, p, x, error);
 }
 
 /* --- Rates ---------------------------------------------------------------------- */
@@ -146,7 +151,7 @@ imp_status surface_chain_rule(const imp_map_rates *p, const imp_rate_matrix *in,
     return finite ? IMP_OK : IMP_UNBOUNDED;
 }
 
-static imp_status rate_of(const surface *s, const imp_region *region, imp_rate_matrix *rates)
+imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates)
 {
     imp_status status = surface_type_rate(s, region, rates);
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
@@ -166,10 +171,4 @@ static imp_status rate_of(const surface *s, const imp_region *region, imp_rate_m
         if (status == IMP_OK) status = surface_chain_rule(&p, &inner, rates);
     }
     return status;
-}
-
-imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates)
-{
-    const fp_mode mode = fp_mode_read();
-    return surface_guarded(mode, rate_of(s, region, rates));
 }

@@ -61,7 +61,7 @@ static imp_code fault(const tree *t, const imp_region *r, const char *what, imp_
 static imp_code status_fault(const tree *t, const imp_region *r, imp_status status,
                              imp_error *error)
 {
-    fault(t, r, surface_status_text(status), error);
+    fault(t, r, surface_status_told(t->surface, status).text, error);
     return surface_set_code(status, error);
 }
 
@@ -271,7 +271,7 @@ imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error)
     const imp_status status = surface_eval(t->surface, 1, p, x, NULL);
     if (status != IMP_OK)
         return surface_fault(t->surface, error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0],
-                             p[1], p[2], surface_status_text(status));
+                             p[1], p[2], surface_status_told(t->surface, status).text);
     return fault(t, &n->region,
                  t->plan.kind == TREE_MODELS
                      ? "has no bounds there, however small the region; shrink its domain, or the "

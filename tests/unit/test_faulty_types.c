@@ -2,6 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <fenv.h>
+
+#include "core/base/fp_mode.h"
 #include "tests/support/sphere_scenes.h"
 
 /* Types that break promises of the ABI: each ends the query with an error that names the type, the
@@ -192,6 +195,168 @@ START_TEST(points_that_are_none_are_caught)
 }
 END_TEST
 
+/* --- The floating-point mode ---------------------------------------------------------------- */
+
+static void round_upward(void) { fesetround(FE_UPWARD); }
+
+/* Exceptions that trap: without a hand that puts the mode back at once, the host's next inexact sum
+ * raises SIGFPE. */
+static void let_exceptions_trap(void)
+{
+#if defined(__GLIBC__)
+    feclearexcept(FE_ALL_EXCEPT);
+    feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT);
+#endif
+}
+
+#if defined(__x86_64__)
+static void set_x87(unsigned short word) { __asm__ volatile("fldcw %0" : : "m"(word)); }
+static void x87_single(void) { set_x87(0x007F); }
+static void x87_upward(void) { set_x87(0x0B7F); }
+
+/* Also with an exception pending, which the next x87 instruction would raise. */
+static void x87_trapping(void)
+{
+    volatile long double third = 3;
+    third = 1 / third;
+    set_x87(0x0340);
+}
+#endif
+
+static const struct {
+    const char *name;
+    void (*set)(void);
+} modes[] = {
+    {"upward", round_upward},       {"trapping", let_exceptions_trap},
+#if defined(__x86_64__)
+    {"x87 of 24 bits", x87_single}, {"x87 upward", x87_upward},
+    {"x87 trapping", x87_trapping},
+#endif
+};
+enum { MODES = sizeof modes / sizeof *modes };
+
+/* A ball, or a map that is the identity, whose callback leaves a mode behind. */
+typedef struct vandal {
+    ball b;
+    const char *callback;
+    int mode;
+} vandal;
+
+static imp_status leave_mode(const void *self, const char *callback, imp_status status)
+{
+    const vandal *l = self;
+    if (strcmp(l->callback, callback) == 0) modes[l->mode].set();
+    return status;
+}
+
+static imp_status vandal_eval(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    return leave_mode(self, "eval", ball_formula_eval(self, n, p, x, error));
+}
+static imp_status vandal_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
+{
+    return leave_mode(self, "rate", ball_formula_rate(self, region, rates));
+}
+static imp_status vandal_include(const void *self, const imp_region *region, imp_model model[3])
+{
+    return leave_mode(self, "include", ball_formula_include(self, region, model));
+}
+static const imp_surface_type vandal_type = {.name = "vandal",
+                                             .flags = IMP_ABSENT_OUTSIDE_TIMES,
+                                             .destroy = ball_destroy,
+                                             .domain = ball_domain,
+                                             .eval = vandal_eval,
+                                             .rate = vandal_rate,
+                                             .include = vandal_include};
+
+static void third_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                          imp_model out[3])
+{
+    (void)self, (void)t;
+    out[0] = imp_scale(x, 1.0 / 3);
+    out[1] = imp_scale(y, 1.0 / 3);
+    out[2] = imp_scale(z, 1.0 / 3);
+}
+IMP_MAP_FORMULA(third_formula)
+
+static imp_status map_vandal_eval(const void *self, size_t n, const double *p, double *x,
+                                  double *error)
+{
+    return leave_mode(self, "eval", third_formula_eval(self, n, p, x, error));
+}
+static imp_status map_vandal_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
+{
+    return leave_mode(self, "rate", third_formula_rate(self, box, rates));
+}
+static imp_status map_vandal_apply(const void *self, const imp_model in[4], imp_model out[3])
+{
+    return leave_mode(self, "apply", third_formula_apply(self, in, out));
+}
+static void always(const void *self, double *lo, double *hi)
+{
+    (void)self;
+    *lo = -INFINITY, *hi = INFINITY;
+}
+static const imp_map_type honest_map = {.name = "third",
+                                        .destroy = ball_destroy,
+                                        .time_domain = always,
+                                        .eval = third_formula_eval,
+                                        .rate = third_formula_rate,
+                                        .apply = third_formula_apply},
+                          vandal_map = {.name = "vandal",
+                                        .destroy = ball_destroy,
+                                        .time_domain = always,
+                                        .eval = map_vandal_eval,
+                                        .rate = map_vandal_rate,
+                                        .apply = map_vandal_apply};
+
+/* The vandal, as the ball or as the map, among honest parts: found, named, and its mode put back. */
+static void is_found(const vandal *l, bool as_map, imp_method method)
+{
+    const ball still = {.radius = 1};
+    imp_scene *scene = scene_new();
+    ck_assert_ptr_nonnull(scene);
+    ck_assert_int_eq(spheres_add(scene, &ball_type, &still), IMP_SUCCESS);
+    ck_assert_int_eq(scene_add_body(scene, "two"), IMP_SUCCESS);
+    surface *s = surface_new(as_map ? &ball_type : &vandal_type, (void *)(uintptr_t)&l->b);
+    ck_assert_ptr_nonnull(s);
+    ck_assert_int_eq(surface_add_map(s, &honest_map, (void *)(uintptr_t)l), IMP_SUCCESS);
+    if (as_map)
+        ck_assert_int_eq(surface_add_map(s, &vandal_map, (void *)(uintptr_t)l), IMP_SUCCESS);
+    ck_assert_int_eq(surface_add_map(s, &honest_map, (void *)(uintptr_t)l), IMP_SUCCESS);
+    ck_assert_int_eq(scene_add_surface(scene, 1, s), IMP_SUCCESS);
+    imp_options options = imp_options_default(scene);
+    options.method = method;
+    options.max_pairs = 1000;
+    const fp_mode before = fp_mode_read();
+    char culprit[80];
+    imp_error error = {IMP_SUCCESS, ""};
+    imp_query *query = imp_query_new(scene, &options, &error);
+    const imp_code code = query != NULL ? imp_query_step(query, 0, &error) : error.code;
+    snprintf(culprit, sizeof culprit, "(%s of 'vandal')", l->callback);
+    ck_assert_msg(code == IMP_ERROR_PLUGIN && strstr(error.text, "floating-point mode") != NULL &&
+                      strstr(error.text, culprit) != NULL,
+                  "%s, %s of a %s: code %d, '%s'", modes[l->mode].name, l->callback,
+                  as_map ? "map" : "ball", (int)code, error.text);
+    ck_assert_msg(fp_mode_read() == before, "%s", modes[l->mode].name);
+    imp_query_free(query);
+    imp_scene_free(scene);
+}
+
+START_TEST(a_changed_mode_is_put_back_at_once_and_its_callback_named)
+{
+    static const char *const callbacks[] = {"eval", "rate", "include"};
+    for (int mode = 0; mode < MODES; ++mode)
+        for (int k = 0; k < 3; ++k) {
+            const imp_method method = k == 1 ? IMP_METHOD_PAPER : IMP_METHOD_MODELS;
+            vandal l = {FLIGHT, callbacks[k], mode};
+            is_found(&l, false, method);
+            if (k == 2) l.callback = "apply";
+            is_found(&l, true, method);
+        }
+}
+END_TEST
+
 /* --- No bounds ---------------------------------------------------------------------------- */
 
 /* A ball without bounds over every region that holds `at` in the parameters of the set. */
@@ -327,6 +492,7 @@ END_TEST
 SUITE_MAIN("faulty_types", models_that_are_no_bounds_are_caught,
            rates_that_are_no_bounds_are_caught_under_both_methods,
            statuses_that_are_none_end_the_query, points_that_are_none_are_caught,
+           a_changed_mode_is_put_back_at_once_and_its_callback_named,
            a_place_without_bounds_at_any_size_is_told,
            a_moment_without_bounds_is_told_and_never_passed,
            infinite_rates_do_not_matter_where_the_models_are_finite,
