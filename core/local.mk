@@ -12,7 +12,8 @@ core_common = \
     core/common/clock.h \
     core/common/fp_control.h \
     core/common/nearest.c core/common/nearest.h \
-    core/common/random.h
+    core/common/random.h \
+    core/common/system_error.h
 
 core_base = \
     core/impinge/impinge.h \

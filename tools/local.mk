@@ -26,6 +26,7 @@ tools_check = \
     tools/check/cost.c tools/check/cost.h \
     tools/check/fate.c tools/check/fate.h \
     tools/check/domain.c tools/check/domain.h \
+    tools/check/environment.c tools/check/environment.h \
     tools/check/file.c tools/check/file.h \
     tools/check/guard.c tools/check/guard.h \
     tools/check/inclusions.c tools/check/inclusions.h \

@@ -4,6 +4,7 @@
 
 #include "core/base/file_text.h"
 #include "core/common/array.h"
+#include "core/common/system_error.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -14,7 +15,8 @@
 
 static imp_code fail(const char *path, imp_error *error)
 {
-    return error_set(error, IMP_ERROR_FILE, "%s: cannot be read: %s", path, strerror(errno));
+    return error_set(error, IMP_ERROR_FILE, "%s: cannot be read: %s", path,
+                     system_error_text(errno));
 }
 
 static imp_code read_all(int fd, const char *path, char **text, size_t *length, imp_error *error)

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "core/common/system_error.h"
 #include "core/plugin/elf_file.h"
 #include "core/plugin/elf_probe.h"
 #include "core/plugin/elf_segments.h"
@@ -62,9 +63,9 @@ bool elf_identity_is_at(elf_identity file, const char *path)
 static bool check_file(elf_file *file, elf_probe *probe, elf_check *check)
 {
     struct stat facts;
-    if (file->fd < 0) return answer(check, false, "cannot be opened: %s", strerror(errno));
+    if (file->fd < 0) return answer(check, false, "cannot be opened: %s", system_error_text(errno));
     if (fstat(file->fd, &facts) != 0)
-        return answer(check, false, "cannot be examined: %s", strerror(errno));
+        return answer(check, false, "cannot be examined: %s", system_error_text(errno));
     if (!S_ISREG(facts.st_mode))
         return answer(check, false, "%s; a plugin is a regular file",
                       S_ISDIR(facts.st_mode) ? "is a directory" : "is a device, pipe or socket");

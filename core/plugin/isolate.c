@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "core/common/system_error.h"
 #include "core/plugin/isolate.h"
 #include "core/plugin/value_bytes.h"
 
@@ -61,7 +62,7 @@ imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error
     unsigned char *bytes = malloc(size + 1);
     i->worker = bytes != NULL ? worker_pool_take(i->pool, i->type) : NULL;
     if (i->worker == NULL) {
-        snprintf(why->text, sizeof why->text, "%s", strerror(errno));
+        snprintf(why->text, sizeof why->text, "%s", system_error_text(errno));
         free(bytes);
         return SURFACE_NO_PROCESS;
     }

@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/common/child.h"
+#include "core/common/system_error.h"
 #include "core/plugin/load_probe.h"
 
 #include <signal.h>
@@ -48,7 +49,8 @@ static void refuse_for_now(load_outcome *outcome, child_fate fate)
 {
     if (fate.end == CHILD_NOT_RUN)
         load_outcome_refuse(outcome, LOAD_OPEN, "trial",
-                            "no process to load it in could be made: %s", strerror(fate.number));
+                            "no process to load it in could be made: %s",
+                            system_error_text(fate.number));
     else
         load_outcome_refuse(outcome, LOAD_OPEN, "trial",
                             "the process that loaded it was %s from outside: signal %d (%s)",

@@ -46,6 +46,32 @@ const char *registry_nearest(const imp_registry *registry, imp_type_kind kind, c
     return search.best;
 }
 
+/* Whether a file is called NAME.so. */
+static bool is_file_of(const char *file, const char *name)
+{
+    const char *slash = strrchr(file, '/'), *base = slash != NULL ? slash + 1 : file;
+    const size_t length = strlen(name);
+    return strncmp(base, name, length) == 0 && strcmp(base + length, ".so") == 0;
+}
+
+registry_text registry_left_out(const imp_registry *registry, const char *name)
+{
+    registry_text left_out = {""};
+    const remarks *all = &registry->refusals;
+    if (all->count == 0) return left_out;
+    const remark *one = &all->all[0];
+    for (size_t i = 0; i < all->count; ++i)
+        if (is_file_of(all->all[i].file, name)) one = &all->all[i];
+    if (all->count == 1)
+        snprintf(left_out.text, sizeof left_out.text, "; '%.250s' was left out: %.380s", one->file,
+                 one->text);
+    else
+        snprintf(left_out.text, sizeof left_out.text,
+                 "; %zu files were left out, such as '%.250s': %.350s", all->count, one->file,
+                 one->text);
+    return left_out;
+}
+
 static bool isolates(const imp_registry *registry, const char *name)
 {
     if (registry->isolated == NULL || registry->isolated[0] == '\0')

@@ -27,6 +27,13 @@ const char *registry_find_file(const imp_registry *registry, imp_type_kind kind,
 /* Where instances of that type are isolated; NULL: they are not. */
 worker_pool *registry_isolation(const imp_registry *registry, const char *name);
 
+/* Why a name may be unknown: "; 2 files were left out, such as '/a/b.so': <reason>", or "" if none was.
+ * A file called NAME.so comes first. */
+typedef struct registry_text {
+    char text[700];
+} registry_text;
+registry_text registry_left_out(const imp_registry *registry, const char *name);
+
 /* The name of that kind nearest to `name`; NULL: none is near. */
 const char *registry_nearest(const imp_registry *registry, imp_type_kind kind, const char *name);
 

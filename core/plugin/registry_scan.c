@@ -5,6 +5,7 @@
 #include "core/base/fp_mode.h"
 #include "core/base/status.h"
 #include "core/common/array.h"
+#include "core/common/system_error.h"
 #include "core/plugin/registry_parts.h"
 
 #include <errno.h>
@@ -121,7 +122,8 @@ static bool scan_file(imp_registry *r, const char *path)
 static bool scan_names(imp_registry *r, const char *directory, const plugin_names *names)
 {
     char *absolute = realpath(directory, NULL);
-    if (absolute == NULL) return errno != ENOMEM && add_refusal(r, directory, strerror(errno));
+    if (absolute == NULL)
+        return errno != ENOMEM && add_refusal(r, directory, system_error_text(errno));
     bool good = true;
     for (size_t i = 0; i < names->count && good; ++i) {
         size_t size = strlen(absolute) + strlen(names->name[i]) + 2;
@@ -154,7 +156,7 @@ static bool scan_directory(imp_registry *r, const search_directory *directory)
         return false;
     plugin_names names;
     names_status status = plugin_names_read(&names, directory->path);
-    const char *why = status == NAMES_UNREADABLE ? strerror(errno) : NULL;
+    const char *why = status == NAMES_UNREADABLE ? system_error_text(errno) : NULL;
     if (status == NAMES_NO_DIRECTORY && directory->named) why = "there is no such directory";
     bool good = status != NAMES_MEMORY;
     if (why != NULL) good = add_refusal(r, directory->path, why);
@@ -201,7 +203,7 @@ imp_registry *imp_registry_new(const char *path) { return imp_registry_open(path
 FP_APART static bool scan_one(imp_registry *r, const char *file)
 {
     char *absolute = realpath(file, NULL);
-    if (absolute == NULL) return errno != ENOMEM && add_refusal(r, file, strerror(errno));
+    if (absolute == NULL) return errno != ENOMEM && add_refusal(r, file, system_error_text(errno));
     r->cache = load_cache_read();
     bool good = r->cache != NULL && scan_file(r, absolute);
     load_cache_close(r->cache);

@@ -32,11 +32,13 @@ static imp_code refuse_type(const imp_registry *registry, imp_type_kind kind, co
         return place_error(at, error, IMP_ERROR_SCENE, "got the %s '%s', must be a %s; %s",
                            kind_word(other), name, kind_word(kind), verb);
     const char *near = registry_nearest(registry, kind, name);
+    const registry_text left_out = registry_left_out(registry, name);
     if (near != NULL)
-        return place_error(at, error, IMP_ERROR_SCENE, "unknown %s '%.80s', did you mean '%s'? %s",
-                           kind_word(kind), name, near, verb);
-    return place_error(at, error, IMP_ERROR_SCENE, "unknown %s '%.80s'; %s", kind_word(kind), name,
-                       verb);
+        return place_error(at, error, IMP_ERROR_SCENE,
+                           "unknown %s '%.80s', did you mean '%s'? %s%s", kind_word(kind), name, near,
+                           verb, left_out.text);
+    return place_error(at, error, IMP_ERROR_SCENE, "unknown %s '%.80s'; %s%s", kind_word(kind), name,
+                       verb, left_out.text);
 }
 
 static imp_code read_type(const json_t *object, imp_type_kind kind, const place *at,

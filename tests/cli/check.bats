@@ -246,6 +246,37 @@ follows() {
     exposes environment liar_rounding 'rate changes the rounding mode'
 }
 
+# leaves TYPE PHASE SIN TEXT: the check of the environment fails with that text.
+leaves() {
+    HOSTILE="$2 $3" run -6 "$IMPINGE" check "$1" --plugin-path "$PWD/own" --only environment
+    echo "$1 $2 $3: $output"
+    [[ $output == *"FAIL  environment "*"$2 $4"* ]]
+}
+
+@test "a change of what belongs to the thread or the process is exposed, in each callback" {
+    local phase
+    mkdir own
+    ln -s "$liars/hostile.so" own
+    for phase in create domain eval rate include destroy; do
+        leaves hostile $phase write 'writes to standard output'
+        leaves hostile $phase chdir "changes the working directory to '/'"
+    done
+    for phase in time_domain eval rate apply; do
+        leaves hostile-map $phase write 'writes to standard output'
+    done
+    leaves hostile eval print 'writes to standard output'
+    leaves hostile destroy umask 'changes the umask to 777, before '
+    leaves hostile create block 'changes the signal mask: signal 10 ('
+    leaves hostile domain trap 'changes how subnormal numbers are treated, which exceptions trap'
+    leaves hostile-map apply round 'changes the rounding mode'
+    leaves hostile include errno 'sets errno to 33'
+    leaves hostile rate uselocale 'changes the locale'
+    LC_ALL=C.UTF-8 leaves hostile eval locale 'changes the locale'
+    leaves hostile eval thread 'leaves a thread behind'
+    [ "$(uname -m)" != x86_64 ] || leaves hostile rate x87 'changes how subnormal numbers are treated'
+    run -0 "$IMPINGE" check hostile --plugin-path "$PWD/own" --only environment
+}
+
 @test "writing beyond an output is exposed" {
     exposes buffers liar_beyond 'eval writes beyond its outputs'
 }

@@ -165,6 +165,29 @@ patched() {
     still_works
 }
 
+@test "an unknown type is answered with the plugins that were left out, and why" {
+    takes kit
+    truncate -s 1000 plugins/kit.so
+    fails 4 "unknown surface type 'kit'" pair kit sphere
+    [[ $stderr == *"; '$PWD/plugins/kit.so' was left out: headers: "* ]]
+    printf x >plugins/another.so
+    fails 4 "; 2 files were left out, such as '$PWD/plugins/kit.so': headers: " pair kit sphere
+}
+
+@test "where the limit on open files is reached, the message says so" {
+    local limit
+    ! has_sanitizers || skip 'AddressSanitizer needs descriptors of its own'
+    for limit in 4 5; do
+        rm -rf cache
+        XDG_CACHE_HOME=$PWD/cache LD_LIBRARY_PATH=$top_builddir/.libs \
+            run -4 --separate-stderr bash -c 'exec 3>&- 4>&- 5>&- 6>&- 7>&-; exec "$@"' - \
+            prlimit --nofile=$limit "$top_builddir/tools/.libs/impinge" pair sphere 'sphere center=3,0,0' \
+            --plugin-path "$top_builddir/plugins/.libs"
+        echo "$limit: $stderr"
+        [[ $stderr == *"unknown surface type 'sphere'"*'left out'*'the limit on open files'*'(ulimit -n)'* ]]
+    done
+}
+
 # --- Directories ---------------------------------------------------------------------------------------
 
 @test "a directory that anyone may write to is warned of, and refused with --secure" {

@@ -13,43 +13,63 @@ setup() {
     # shellcheck disable=SC2154 # top_builddir comes from the environment
     cp "$top_builddir/tests/plugins/.libs/hostile.so" plugins
     export XDG_CACHE_HOME=$PWD/cache
+    here=$PWD
 }
 
 # Any slab meets it at t = 0.9.
 ball='sphere radius=.5 center=.3,.2,1.4'
 
-# hostile PHASE SIN [OPTION]...: the pair of the plugin and the ball; it is loaded in its right mind
-# once, so that what happens while it is loaded happens in the host.
+# Those that are called for a surface, and for a map on an innocent one. rate: by the 1990 method.
+surface='create domain eval rate include destroy'
+map='create time_domain eval rate apply destroy'
+lifted='plane origin=-1,-1,0 edge_u=2,0,0 edge_v=0,2,0 ! hostile-map'
+
+# hostile PHASE SIN [OPTION]...: the pair of the plugin's surface, or with OPERAND another, and the
+# ball; it is loaded in its right mind once, so that what happens while it is loaded happens in the
+# host.
 hostile() {
-    [ -d cache ] || "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
-    HOSTILE="$1 $2" timeout 60 "$IMPINGE" pair hostile "$ball" --plugin-path "$PWD/plugins" --json "${@:3}"
+    local method=models
+    [ "$1" != rate ] || method=paper
+    [ -d "$here/cache" ] || "$IMPINGE" list --plugin-path "$here/plugins" >/dev/null
+    HOSTILE="$1 $2" timeout 60 env --default-signal=QUIT,TERM "$IMPINGE" pair "${OPERAND-hostile}" \
+        "$ball" --method $method --gamma 0.1 --plugin-path "$here/plugins" --json "${@:3}"
+}
+
+# contact COMMAND...: the answer is one line that says so.
+contact() {
+    run -0 --separate-stderr "$@"
+    echo "$*: $output / $stderr"
+    [ "${#lines[@]}" -eq 1 ]
+    json '.verdict == "contact"'
 }
 
 # --- Isolated ----------------------------------------------------------------------------------------
 
 @test "isolated, what a plugin prints does not reach the answer" {
     local phase sin
-    for phase in create domain eval include destroy; do
+    for phase in $surface; do
         for sin in print write; do
-            run -0 --separate-stderr hostile $phase $sin --isolate all
-            [ "${#lines[@]}" -eq 1 ]
-            json '.verdict == "contact"'
+            contact hostile $phase $sin --isolate all
         done
+    done
+    for phase in $map; do
+        OPERAND=$lifted contact hostile $phase write --isolate all
     done
 }
 
 @test "isolated, a plugin that forks and returns gives one answer" {
     local phase
-    for phase in create domain eval include destroy; do
-        run -0 --separate-stderr hostile $phase fork --isolate all
-        [ "${#lines[@]}" -eq 1 ]
-        json '.verdict == "contact"'
+    for phase in $surface; do
+        contact hostile $phase fork --isolate all
+    done
+    for phase in $map; do
+        OPERAND=$lifted contact hostile $phase fork --isolate all
     done
 }
 
 @test "isolated, the children of a plugin end with the query and hold no pipe" {
     export -f hostile
-    export ball
+    export ball here
     run -0 timeout 30 bash -c 'hostile eval child --isolate all | cat'
     json '.verdict == "contact"'
 }
@@ -83,29 +103,37 @@ hostile() {
 
 # --- In the host's own process ---------------------------------------------------------------------
 
-callbacks='create domain eval include destroy'
-
 # Ways to crash while loaded or unloaded; with AddressSanitizer the recursion ends in its own stack.
 crashes() { echo crash abort && { has_sanitizers || echo overflow; }; }
 
 # Ways to end the process; AddressSanitizer ends it itself where the main thread does.
 ends() { echo exit _exit _Exit quick_exit && { has_sanitizers || echo pthread_exit; }; }
 
-# named PHASE SIN WHAT: the hostile pair ends with status 5 and one line that names plugin and phase.
+# named PHASE SIN WHAT [WHO]: the hostile pair ends with status 5 and one line that names plugin and
+# phase.
 named() {
     run -5 --separate-stderr hostile "$1" "$2"
     echo "$1 $2: $output / $stderr"
-    [[ $stderr == "impinge: "*hostile*"' $3 in its $1;"* && ${#stderr_lines[@]} -eq 1 ]]
+    [[ $stderr == "impinge: "*"${4-hostile}"*"' $3 in its $1;"* && ${#stderr_lines[@]} -eq 1 ]]
 }
 
 @test "a crash or the end of the process is laid at the door of the type, in each callback" {
     local phase sin
-    for phase in $callbacks; do
+    for phase in $surface; do
         for sin in crash abort overflow; do named $phase $sin crashes; done
         for sin in $(ends); do
             named $phase $sin 'ends the process'
         done
         named $phase fork 'forks the process'
+    done
+}
+
+@test "the same in each callback of a map is laid at the door of the map" {
+    local phase sin
+    for phase in $map; do
+        for sin in crash overflow; do OPERAND=$lifted named $phase $sin crashes hostile-map; done
+        OPERAND=$lifted named $phase exit 'ends the process' hostile-map
+        OPERAND=$lifted named $phase fork 'forks the process' hostile-map
     done
 }
 
@@ -140,27 +168,147 @@ named() {
 
 @test "what a plugin prints goes to standard error, and the answer stays an answer" {
     local phase sin
-    for phase in constructor get_factory $callbacks destructor; do
+    for phase in constructor get_factory $surface destructor; do
         for sin in print write; do
-            run -0 --separate-stderr hostile $phase $sin
-            echo "$phase $sin: $output / $stderr"
-            [ "${#lines[@]}" -eq 1 ]
-            json '.verdict == "contact"'
+            contact hostile $phase $sin
             [[ $stderr == '{"verdict": '* ]]
+        done
+    done
+    for phase in $map; do
+        OPERAND=$lifted contact hostile $phase write
+        [[ $stderr == '{"verdict": "written"}' ]]
+    done
+}
+
+@test "a changed floating-point mode ends the query and is laid at the door of the type" {
+    local phase sin
+    for phase in create domain eval rate include; do
+        run -5 --separate-stderr hostile $phase round
+        echo "$phase: $stderr"
+        [[ $stderr == *"'hostile'"* && $stderr == *' mode '* ]]
+    done
+    for phase in create time_domain eval rate apply; do
+        OPERAND=$lifted run -5 --separate-stderr hostile $phase round
+        [[ $stderr == *"'hostile-map'"* && $stderr == *' mode '* ]]
+    done
+    for sin in round x87 trap; do
+        contact hostile destroy $sin
+        contact hostile destructor $sin
+        run -4 --separate-stderr hostile constructor $sin
+        [[ $stderr == *"'$PWD/plugins/hostile.so'"*'changes the mode of arithmetic'* ]]
+    done
+}
+
+@test "whatever a plugin makes of working directory, umask, signals, locale and threads: the answer stays" {
+    local phase sin
+    for phase in constructor create eval destroy; do
+        for sin in chdir umask block thread errno uselocale; do
+            contact hostile $phase $sin
         done
     done
 }
 
 @test "isolated, whatever a callback does ends the query, not the host" {
     local phase sin
-    for phase in create domain eval include; do
+    for phase in create domain eval rate include; do
         for sin in crash abort overflow exit _exit _Exit quick_exit pthread_exit; do
             run -5 --separate-stderr hostile $phase $sin --isolate all
             [[ $stderr == *"hostile"*"crashes or ends its process, in which it runs isolated" ]]
         done
     done
-    for sin in crash exit pthread_exit; do
-        run -0 --separate-stderr hostile destroy $sin --isolate all
-        json '.verdict == "contact"'
+    for phase in create time_domain eval rate apply; do
+        for sin in crash exit; do
+            OPERAND=$lifted run -5 --separate-stderr hostile $phase $sin --isolate all
+            echo "$phase $sin: $stderr"
+            [[ $stderr == *"'hostile-map'"*"crashes or ends its process, in which it runs isolated"* ||
+                $stderr == *"crashes or ends its process, in which it runs isolated ($phase of 'hostile-map')" ]]
+        done
     done
+    for sin in crash exit pthread_exit; do
+        contact hostile destroy $sin --isolate all
+        OPERAND=$lifted contact hostile destroy $sin --isolate all
+    done
+}
+
+# --- Hangs -----------------------------------------------------------------------------------------------
+
+# in_folder NAME COMMAND...: runs it there; its output, errors and status are files. A plugin that
+# hangs makes the file `hangs`, with the number of its process.
+in_folder() {
+    local status=0
+    cd "$1" || return
+    "${@:2}" >out 2>errors || status=$?
+    echo "$status" >status
+}
+
+# Begins a query for each phase, of the surface or the map, in a folder PREFIX-PHASE.
+all_hang() {
+    local phase
+    for phase in $surface; do
+        mkdir "surface-$phase"
+        in_folder "surface-$phase" hostile "$phase" hang "$@" &
+    done
+    for phase in $map; do
+        mkdir "map-$phase"
+        OPERAND=$lifted in_folder "map-$phase" hostile "$phase" hang "$@" &
+    done
+}
+
+@test "isolated, a callback that hangs is ended after 5 s and named, and its process with it" {
+    local folder
+    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
+    all_hang --isolate all
+    wait
+    for folder in surface-* map-*; do
+        echo "$folder: $(<"$folder/status") $(<"$folder/errors")"
+        [ -s "$folder/hangs" ]
+        run ! kill -0 "$(<"$folder/hangs")"
+        if [[ $folder == *-destroy ]]; then
+            [ "$(<"$folder/status")" -eq 0 ] && [ "$(jq -r .verdict "$folder/out")" = contact ]
+        else
+            [ "$(<"$folder/status")" -eq 5 ] && [ "$(jq 'has("error")' "$folder/out")" = true ]
+            [[ $(<"$folder/errors") == *hostile*'does not answer within 5 s'* ]]
+            [[ $folder == surface-* || $(<"$folder/errors") == *"'hostile-map'"* ]]
+        fi
+    done
+}
+
+@test "a callback that hangs in the host is named when SIGQUIT ends the command" {
+    local folder phase
+    ulimit -c 0
+    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
+    all_hang
+    for phase in constructor get_factory destructor; do
+        mkdir "file-$phase"
+        in_folder "file-$phase" hostile $phase hang &
+    done
+    for folder in surface-* map-* file-*; do
+        until [ -s "$folder/hangs" ]; do sleep 0.05; done
+        kill -QUIT "$(<"$folder/hangs")"
+    done
+    wait
+    for folder in surface-* map-* file-*; do
+        phase=${folder#*-}
+        echo "$folder: $(<"$folder/status") $(<"$folder/errors")"
+        [ "$(<"$folder/status")" -eq 131 ]
+        case $folder in
+        surface-*) [[ $(<"$folder/errors") == "impinge: interrupted in $phase of type 'hostile';"* ]] ;;
+        map-*) [[ $(<"$folder/errors") == "impinge: interrupted in $phase of type 'hostile-map';"* ]] ;;
+        *) [[ $(<"$folder/errors") == "impinge: interrupted in $phase of plugin '$PWD/plugins/hostile.so'"* ]] ;;
+        esac
+    done
+}
+
+@test "of two signals that end a search the second names a callback that hangs" {
+    local pid
+    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
+    mkdir search
+    in_folder search hostile eval hang &
+    until [ -s search/hangs ]; do sleep 0.05; done
+    pid=$(<search/hangs)
+    while kill -TERM "$pid" 2>/dev/null; do sleep 0.05; done
+    wait
+    echo "$(<search/status) $(<search/errors)"
+    [ "$(<search/status)" -eq 143 ]
+    [[ $(<search/errors) == "impinge: interrupted in eval of type 'hostile'; where a callback hangs, --isolate ends it after 5 s"* ]]
 }

@@ -2,17 +2,25 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <errno.h>
+#include <fcntl.h>
+#include <fenv.h>
+#include <locale.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include <impinge/formula.h>
 
 #include "slab.h"
 
 /* Commits the sin that the environment asks for, in the phase that it asks for:
- * HOSTILE="eval exit". Without it a slab like any other. */
+ * HOSTILE="eval exit". Without it a slab like any other, and hostile-map a map that lets a surface
+ * rise. */
 
 /* Returns only where the stack ends at 0. */
 static size_t use_stack(size_t depth)
@@ -29,8 +37,71 @@ static void leave_child(void)
     _exit(0);
 }
 
+/* The number of the process goes to the file `hangs`. */
+static void hang(void)
+{
+    const int file = open("hangs", O_CREAT | O_WRONLY, 0666);
+    dprintf(file, "%d\n", (int)getpid());
+    close(file);
+    for (;;) pause();
+}
+
+static void *sleep_on(void *unused)
+{
+    for (;;) pause();
+    return unused;
+}
+
+static void leave_thread(void)
+{
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, sleep_on, NULL) == 0) pthread_detach(thread);
+}
+
+static void block_signal(void)
+{
+    sigset_t blocked;
+    sigemptyset(&blocked);
+    sigaddset(&blocked, SIGUSR1);
+    pthread_sigmask(SIG_BLOCK, &blocked, NULL);
+}
+
+static void let_exceptions_trap(void)
+{
+#if defined(__GLIBC__)
+    feclearexcept(FE_ALL_EXCEPT);
+    feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT);
+#endif
+}
+
+/* x87 with 24 bits, where there is one. */
+static void lose_precision(void)
+{
+#if defined(__x86_64__)
+    const unsigned short word = 0x007F;
+    __asm__ volatile("fldcw %0" : : "m"(word));
+#endif
+}
+
+/* To what belongs to the thread or the process. */
+static void change_environment(const char *sin)
+{
+    const int error = errno;
+    if (strcmp(sin, "round") == 0) fesetround(FE_UPWARD);
+    if (strcmp(sin, "trap") == 0) let_exceptions_trap();
+    if (strcmp(sin, "x87") == 0) lose_precision();
+    if (strcmp(sin, "chdir") == 0) (void)!chdir("/");
+    if (strcmp(sin, "umask") == 0) umask(0777);
+    if (strcmp(sin, "block") == 0) block_signal();
+    if (strcmp(sin, "locale") == 0) setlocale(LC_ALL, "");
+    if (strcmp(sin, "uselocale") == 0) uselocale(newlocale(LC_ALL_MASK, "C.UTF-8", (locale_t)0));
+    if (strcmp(sin, "thread") == 0) leave_thread();
+    errno = strcmp(sin, "errno") == 0 ? EDOM : error;
+}
+
 static void commit(const char *sin)
 {
+    change_environment(sin);
     if (strcmp(sin, "crash") == 0) raise(SIGSEGV);
     if (strcmp(sin, "abort") == 0) abort();
     if (strcmp(sin, "overflow") == 0) use_stack(SIZE_MAX);
@@ -39,7 +110,7 @@ static void commit(const char *sin)
     if (strcmp(sin, "_Exit") == 0) _Exit(0);
     if (strcmp(sin, "quick_exit") == 0) quick_exit(0);
     if (strcmp(sin, "pthread_exit") == 0) pthread_exit(NULL);
-    if (strcmp(sin, "hang") == 0) sleep(1000);
+    if (strcmp(sin, "hang") == 0) hang();
     if (strcmp(sin, "fork") == 0) fork();
     if (strcmp(sin, "child") == 0) leave_child();
     if (strcmp(sin, "print") == 0) puts("{\"verdict\": \"printed\"}"), fflush(stdout);
@@ -97,8 +168,8 @@ static imp_status include(const void *self, const imp_region *region, imp_model 
     return slab_include(self, region, model);
 }
 
-static const imp_surface_type type = {
-    .struct_size = sizeof type,
+static const imp_surface_type surface_type = {
+    .struct_size = sizeof surface_type,
     .parameter_count = 1,
     .parameter_size = sizeof(imp_parameter),
     .name = "hostile",
@@ -113,13 +184,78 @@ static const imp_surface_type type = {
     .rate = rate,
     .include = include,
 };
-static const imp_surface_type *const types[] = {&type};
-static const imp_surface_factory factory = {sizeof factory, 1, types};
+
+/* --- The map (x, y, z) -> (x, y, z + t) ------------------------------------------------------- */
+
+static void time_domain(const void *self, double *lo, double *hi)
+{
+    (void)self;
+    enter("time_domain");
+    *lo = -INFINITY, *hi = INFINITY;
+}
+
+static imp_status map_eval(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    (void)self;
+    enter("eval");
+    for (size_t k = 0; k < n; ++k) {
+        const double at[3] = {p[4 * k], p[4 * k + 1], p[4 * k + 2] + p[4 * k + 3]};
+        memcpy(x + 3 * k, at, sizeof at);
+    }
+    for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0x1p-52 * fabs(x[k]);
+    return IMP_OK;
+}
+
+static imp_status map_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
+{
+    (void)self, (void)box;
+    enter("rate");
+    memset(rates, 0, sizeof *rates);
+    for (int i = 0; i < 3; ++i) rates->m[i][i] = 1;
+    rates->m[2][3] = 1;
+    return IMP_OK;
+}
+
+static imp_status apply(const void *self, const imp_model in[4], imp_model out[3])
+{
+    (void)self;
+    enter("apply");
+    const imp_model sum = imp_add(in[2], in[3]);
+    out[0] = in[0];
+    out[1] = in[1];
+    out[2] = sum;
+    return IMP_OK;
+}
+
+static const imp_map_type map_type = {
+    .struct_size = sizeof map_type,
+    .parameter_count = 1,
+    .parameter_size = sizeof(imp_parameter),
+    .name = "hostile-map",
+    .summary = "lift",
+    .equation = "(x, y, z + t)",
+    .example = "hostile-map",
+    .parameters = slab_table,
+    .create = create,
+    .destroy = destroy,
+    .time_domain = time_domain,
+    .eval = map_eval,
+    .rate = map_rate,
+    .apply = apply,
+};
+
+/* --- The file ----------------------------------------------------------------------------------- */
+
+static const imp_surface_type *const surface_types[] = {&surface_type};
+static const imp_map_type *const map_types[] = {&map_type};
+static const imp_surface_factory surface_factory = {sizeof surface_factory, 1, surface_types};
+static const imp_map_factory map_factory = {sizeof map_factory, 1, map_types};
 
 static const void *get_factory(const char *id)
 {
     enter("get_factory");
-    return strcmp(id, IMP_SURFACE_FACTORY) == 0 ? &factory : NULL;
+    if (strcmp(id, IMP_SURFACE_FACTORY) == 0) return &surface_factory;
+    return strcmp(id, IMP_MAP_FACTORY) == 0 ? &map_factory : NULL;
 }
 
 IMPINGE_PLUGIN("hostile", "1.0", "Apache-2.0", "tests", get_factory);

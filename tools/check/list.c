@@ -11,6 +11,7 @@
 #include "tools/check/buffers.h"
 #include "tools/check/cost.h"
 #include "tools/check/domain.h"
+#include "tools/check/environment.h"
 #include "tools/check/file.h"
 #include "tools/check/inclusions.h"
 #include "tools/check/nets.h"
@@ -43,7 +44,7 @@ static const check all[] = {
     {.name = "domain", .of_subject = domain_check},
     {.name = "determinism", .of_subject = determinism_check},
     {.name = "state", .of_stage = state_check},
-    {.name = "environment", .of_subject = environment_check},
+    {.name = "environment", .of_stage = environment_check},
     {.name = "buffers", .of_subject = buffers_check},
     {.name = "rates", .of_subject = rates_check, .of_bounds = true},
     {.name = "errors", .of_subject = errors_check, .of_bounds = true},

@@ -6,8 +6,6 @@
 
 #include <impinge/formula.h>
 
-#include <errno.h>
-#include <fenv.h>
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
@@ -115,59 +113,4 @@ void determinism_check(const subject *s, uint64_t *random, double effort)
     ask(&brother, &q, &other);
     if (!same(s, &first, &other, "between instances of the same parameters")) return;
     same_in_threads(s, &q, &first);
-}
-
-/* --- Environment ---------------------------------------------------------------------------- */
-
-/* Rounding mode, and where we know how: subnormals and traps. The sticky exception flags are
- * nobody's business. */
-typedef struct environment {
-    int rounding, error;
-    unsigned control;
-} environment;
-
-static environment read_environment(void)
-{
-    environment e = {fegetround(), errno, 0};
-#if defined(__x86_64__)
-    e.control = __builtin_ia32_stmxcsr() & ~0x3fu;
-#endif
-    return e;
-}
-
-static bool is_kept(const subject *s, const environment *before, const char *call)
-{
-    const environment now = read_environment();
-    ++s->answer->tests;
-    if (now.rounding != before->rounding)
-        return answer_fail(s->answer, "%s changes the rounding mode", call);
-    if (now.control != before->control)
-        return answer_fail(s->answer,
-                           "%s changes how subnormal numbers are treated, or traps (MXCSR %#x, "
-                           "before %#x)",
-                           call, now.control, before->control);
-    if (now.error != before->error)
-        return answer_fail(s->answer, "%s sets errno to %d", call, now.error);
-    return true;
-}
-
-void environment_check(const subject *s, uint64_t *random, double effort)
-{
-    double x[3], error[3], rate[3][BOX_DIMS];
-    imp_model model[3];
-    static questions q;
-    (void)effort;
-    draw_questions(s, random, &q);
-    errno = 0;
-    const environment before = read_environment();
-    for (int k = 0; k < POINTS; ++k) {
-        subject_eval(s, 1, q.p + k * s->n, x, error);
-        if (!is_kept(s, &before, "eval")) return;
-    }
-    for (int k = 0; k < BOXES; ++k) {
-        subject_rate(s, &q.where[k], rate);
-        if (!is_kept(s, &before, "rate")) return;
-        subject_model(s, q.where[k], model);
-        if (!is_kept(s, &before, s->n == 3 ? "include" : "apply")) return;
-    }
 }

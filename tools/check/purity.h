@@ -5,13 +5,8 @@
 
 #include "tools/check/subject.h"
 
-/* What the ABI requires of every call. The effort has no influence. */
-
 /* The results are the same bit for bit: called again, one point at a time, by four threads at once,
- * and from another instance of the same parameters. */
+ * and from another instance of the same parameters. The effort has no influence. */
 void determinism_check(const subject *s, uint64_t *random, double effort);
-
-/* Each call leaves rounding mode, subnormals, traps and errno unchanged. */
-void environment_check(const subject *s, uint64_t *random, double effort);
 
 #endif

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/common/system_error.h"
 #include "tools/cli/output.h"
 #include "tools/cli/standard_output.h"
 #include "tools/cli/verbs.h"
@@ -146,7 +147,7 @@ static bool take_over_stdout(const batch_resume *resume, int fd, off_t end)
 {
     return (ftruncate(fd, end) == 0 && lseek(fd, end, SEEK_SET) == end && fflush(stdout) == 0 &&
             standard_output_replace(fd)) ||
-           fail(resume, strerror(errno));
+           fail(resume, system_error_text(errno));
 }
 
 bool batch_resume_open(batch_resume *resume, const char *path, const arguments *args)
@@ -157,10 +158,10 @@ bool batch_resume_open(batch_resume *resume, const char *path, const arguments *
     if (input_is_same(path, args->operands[0]))
         return fail(resume, "the output must not be the input");
     const int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (fd < 0) return fail(resume, strerror(errno));
+    if (fd < 0) return fail(resume, system_error_text(errno));
     resume->file = fopen(path, "r");
     off_t end;
-    bool ok = resume->file != NULL || fail(resume, strerror(errno));
+    bool ok = resume->file != NULL || fail(resume, system_error_text(errno));
     ok = ok && count_answers(resume, &end) && take_over_stdout(resume, fd, end);
     if (ok) rewind(resume->file);
     close(fd);

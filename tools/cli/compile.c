@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/common/system_error.h"
 #include "tools/cli/build_tree.h"
 #include "tools/cli/program.h"
 
@@ -132,7 +133,7 @@ static exit_status tell(const program_end *end, const char *compiler, const char
         return complain(EXIT_DATA, verb,
                         "the compiler '%s' cannot be run: %s; CC (for C++: CXX) in the "
                         "environment names another",
-                        compiler, strerror(end->error));
+                        compiler, system_error_text(end->error));
     if (end->status == 0) return EXIT_ANSWERED;
     if (end->said != NULL && end->said[0] != '\0')
         return complain(EXIT_DATA, verb, "%s was not built: %s", source, first_error(end->said));

@@ -56,6 +56,20 @@ static void on_crash(int number)
     raise(number);
 }
 
+void crash_interrupted(int number)
+{
+    const char *callback, *type = imp_call_in_progress(&callback);
+    if (type != NULL && prepared == getpid()) {
+        say("impinge: interrupted in ");
+        say(callback);
+        say(type[0] == '/' ? " of plugin '" : " of type '");
+        say(type);
+        say(type[0] == '/' ? "'\n" : "'; where a callback hangs, --isolate ends it after 5 s\n");
+    }
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
 static void on_exit_in_call(void) { blame_if_in_call("ends the process"); }
 static void on_fork_in_call(void) { blame_if_in_call("forks the process"); }
 
@@ -103,6 +117,10 @@ void crash_prepare(void)
     sigaltstack(&stack, NULL);
     const int fatal[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
     for (size_t k = 0; k < sizeof fatal / sizeof *fatal; ++k) sigaction(fatal[k], &action, NULL);
+    action.sa_handler = crash_interrupted;
+    struct sigaction usual;
+    if (sigaction(SIGQUIT, NULL, &usual) == 0 && usual.sa_handler != SIG_IGN)
+        sigaction(SIGQUIT, &action, NULL);
     atexit(on_exit_in_call);
     at_quick_exit(on_exit_in_call);
     pthread_atfork(on_fork_in_call, NULL, NULL);

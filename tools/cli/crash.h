@@ -7,6 +7,11 @@
  * callback, and ends with EXIT_PLUGIN. A crash of our own stays what it is. */
 void crash_prepare(void);
 
+/* A handler for signals by which the user ends the command: says in whose callback this thread is, in
+ * case that hangs, and lets the signal end the process. SIGQUIT has it from the beginning,
+ * unless it is ignored. */
+void crash_interrupted(int number);
+
 /* The same for a thread of our own: its stack for signals (NULL: no memory, and a plugin that uses
  * up the thread's stack ends the process without a message), to be handed to crash_thread_end. */
 void *crash_thread_begin(void);

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/common/system_error.h"
 #include "tools/cli/build_tree.h"
 
 static bool is_standard_input(const char *path) { return strcmp(path, "-") == 0; }
@@ -22,7 +23,7 @@ FILE *input_open(const char *path, const char *verb)
 {
     if (is_standard_input(path)) return stdin;
     FILE *file = fopen(path, "r");
-    if (file == NULL) complain(EXIT_DATA, verb, "%s: %s", path, strerror(errno));
+    if (file == NULL) complain(EXIT_DATA, verb, "%s: %s", path, system_error_text(errno));
     return file;
 }
 
@@ -65,7 +66,7 @@ static bool judge(bool taken, const char *name, const char *what, const char *ve
     if (errno == EFBIG)
         complain(EXIT_DATA, verb, "%s: %s longer than %zu bytes", name, what, INPUT_MAX);
     else
-        complain(EXIT_DATA, verb, "%s: %s", name, strerror(errno));
+        complain(EXIT_DATA, verb, "%s: %s", name, system_error_text(errno));
     return false;
 }
 

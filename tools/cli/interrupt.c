@@ -7,19 +7,21 @@
 #include <signal.h>
 #include <stdatomic.h>
 
+#include "tools/cli/crash.h"
+
 /* A signal handler has no arguments of ours. Lock-free. */
 static atomic_bool came;
 
 static void on_signal(int number)
 {
-    (void)number;
+    signal(number, crash_interrupted);
     atomic_store(&came, true);
 }
 
 /* No SA_RESTART: a read that waits for the next scene ends too. */
 void interrupt_prepare(void)
 {
-    struct sigaction action = {.sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_ONSTACK};
     sigemptyset(&action.sa_mask);
     const int numbers[] = {SIGINT, SIGTERM};
     for (int i = 0; i < 2; ++i) {

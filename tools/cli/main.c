@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <locale.h>
 #include <stdio.h>
 
+#include "core/common/c_locale.h"
 #include "tools/cli/crash.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
@@ -38,7 +38,7 @@ static exit_status run(const arguments *args)
 int main(int argc, char **argv)
 {
     /* Numbers have a point, whatever a plugin makes of the process's locale. */
-    uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
+    c_locale_enter();
     progress_begin();
     output_prepare();
     crash_prepare();

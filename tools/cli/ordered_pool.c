@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <stdlib.h>
 
+#include "core/common/c_locale.h"
 #include "tools/cli/crash.h"
 
 /* Counters that only grow: finished <= taken <= submitted <= finished + items. Item k is in slot
@@ -66,6 +67,7 @@ static void *worker(void *context)
 {
     ordered_pool *pool = context;
     void *stack = crash_thread_begin();
+    c_locale_enter(); /* as main does */
     pthread_cleanup_push(crash_thread_left, NULL);
     pthread_mutex_lock(&pool->lock);
     while (!pool->closed || pool->taken < pool->submitted) {

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "core/common/system_error.h"
 #include "tools/cli/json_memory.h"
 #include "tools/cli/output.h"
 #include "tools/cli/standard_output.h"
@@ -30,7 +31,7 @@ static exit_status complain_of_output(const char *verb)
 {
     const int error = errno;
     if (error == EPIPE) return EXIT_DATA; /* nobody reads any more, as behind `| head` */
-    return complain(EXIT_DATA, verb, "standard output: %s", strerror(error));
+    return complain(EXIT_DATA, verb, "standard output: %s", system_error_text(error));
 }
 
 /* What was made of JSON that lost a part of itself is not printed. One complaint is enough. */

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "core/common/system_error.h"
 #include "tools/cli/output_file.h"
 
 #include <errno.h>
@@ -12,7 +13,8 @@
 
 static exit_status fail(output_file *out, int error)
 {
-    const exit_status status = complain(EXIT_DATA, out->verb, "%s: %s", out->path, strerror(error));
+    const exit_status status =
+        complain(EXIT_DATA, out->verb, "%s: %s", out->path, system_error_text(error));
     if (out->draft != NULL) unlink(out->draft);
     free(out->draft);
     free(out->path);

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/common/system_error.h"
 #include "tools/cli/input.h"
 
 /* --- Texts ------------------------------------------------------------------------ */
@@ -86,13 +87,14 @@ static bool is_empty(DIR *directory)
 static exit_status open_empty(const char *folder, int *at, const char *verb)
 {
     DIR *directory = opendir(folder);
-    if (directory == NULL) return complain(EXIT_DATA, verb, "%s: %s", folder, strerror(errno));
+    if (directory == NULL)
+        return complain(EXIT_DATA, verb, "%s: %s", folder, system_error_text(errno));
     const bool empty = is_empty(directory);
     *at = empty ? fcntl(dirfd(directory), F_DUPFD_CLOEXEC, 3) : -1;
     closedir(directory);
     if (empty && *at >= 0) return EXIT_ANSWERED;
     return complain(EXIT_DATA, verb, "%s: %s", folder,
-                    empty ? strerror(errno) : "the folder is not empty; name a new one");
+                    empty ? system_error_text(errno) : "the folder is not empty; name a new one");
 }
 
 /* Makes the folder if need be and opens it; complains if it is not empty. */
@@ -100,7 +102,7 @@ static exit_status open_folder(const char *folder, bool *made, int *at, const ch
 {
     *made = mkdir(folder, 0777) == 0;
     if (!*made && errno != EEXIST)
-        return complain(EXIT_DATA, verb, "%s: %s", folder, strerror(errno));
+        return complain(EXIT_DATA, verb, "%s: %s", folder, system_error_text(errno));
     const exit_status status = open_empty(folder, at, verb);
     if (status != EXIT_ANSWERED && *made) rmdir(folder);
     return status;
@@ -149,7 +151,8 @@ static exit_status write_files(const char *folder, const project_file *files, ch
     if (status != EXIT_ANSWERED) return status;
     for (size_t i = 0; i < count && status == EXIT_ANSWERED; ++i)
         if (!write_text(at, &files[i], texts[i]))
-            status = complain(EXIT_DATA, verb, "%s/%s: %s", folder, files[i].path, strerror(errno));
+            status = complain(EXIT_DATA, verb, "%s/%s: %s", folder, files[i].path,
+                              system_error_text(errno));
     if (status != EXIT_ANSWERED) remove_files(at, files, count);
     close(at);
     if (status != EXIT_ANSWERED && made) rmdir(folder);

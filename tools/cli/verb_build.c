@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/common/system_error.h"
 #include "tools/cli/catalogue.h"
 #include "tools/cli/compile.h"
 #include "tools/cli/input.h"
@@ -76,7 +77,7 @@ static exit_status find_folder(building *b, const arguments *args)
                         "neither XDG_DATA_HOME nor HOME names your folder for data");
     if (!install) snprintf(asked, sizeof asked, "%s", output != NULL ? output->text : ".");
     if ((install && !make_folders(asked)) || realpath(asked, b->folder) == NULL)
-        return complain(EXIT_DATA, b->verb, "%s: %s", asked, strerror(errno));
+        return complain(EXIT_DATA, b->verb, "%s: %s", asked, system_error_text(errno));
     if (strchr(b->folder, ':') != NULL)
         return complain(EXIT_DATA, b->verb,
                         "%s: a folder of plugins cannot have ':' in its name, which separates "
@@ -101,7 +102,7 @@ static exit_status make_trial(building *b)
 {
     if (!join(b->trial, sizeof b->trial, b->folder, ".impinge-XXXXXX")) return too_long(b);
     if (mkdtemp(b->trial) != NULL) return EXIT_ANSWERED;
-    return complain(EXIT_DATA, b->verb, "%s: %s", b->folder, strerror(errno));
+    return complain(EXIT_DATA, b->verb, "%s: %s", b->folder, system_error_text(errno));
 }
 
 /* --- Does the loader take it? ----------------------------------------------------- */
@@ -178,7 +179,7 @@ static exit_status build_in_trial(const building *b, const char *file, const cha
     if (status == EXIT_ANSWERED) status = try_plugin(b, file, target);
     if (status != EXIT_ANSWERED) return status;
     if (rename(file, target) != 0)
-        return complain(EXIT_DATA, b->verb, "%s: %s", target, strerror(errno));
+        return complain(EXIT_DATA, b->verb, "%s: %s", target, system_error_text(errno));
     printf("in %s\n", target);
     return EXIT_ANSWERED;
 }
@@ -209,7 +210,7 @@ static exit_status run(const arguments *args)
                         "%s: a source file is wanted, which ends in .c, .cc, .cpp or .cxx",
                         b.source);
     if (access(b.source, R_OK) != 0)
-        return complain(EXIT_DATA, b.verb, "%s: %s", b.source, strerror(errno));
+        return complain(EXIT_DATA, b.verb, "%s: %s", b.source, system_error_text(errno));
     return build(&b, args);
 }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/common/system_error.h"
 #include "tools/cli/input.h"
 #include "tools/cli/output.h"
 #include "tools/cli/output_file.h"
@@ -129,7 +130,7 @@ static exit_status plot_set(const char *set, const arguments *args)
     const program_end end = program_run(words, PROGRAM_OUTPUT, false);
     exit_status status = (exit_status)end.status;
     if (end.error != 0)
-        status = complain(EXIT_DATA, args->verb->name, "bench %s: %s", set, strerror(end.error));
+        status = complain(EXIT_DATA, args->verb->name, "bench %s: %s", set, system_error_text(end.error));
     else if (status == EXIT_ANSWERED && end.said != NULL)
         status = show_bench(end.said, strlen(end.said), set, args);
     free(end.said);
