@@ -4,9 +4,9 @@
 
 #include <stdlib.h>
 
-#include "core/base/clock.h"
 #include "core/base/fp_mode.h"
 #include "core/base/status.h"
+#include "core/common/clock.h"
 #include "core/solver/query_parts.h"
 
 /* --- Dividing ------------------------------------------------------------------------------- */

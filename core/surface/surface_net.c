@@ -28,20 +28,25 @@ static bool fits(const imp_net *net)
            (net->degree[0] + 1) * (net->degree[1] + 1) <= IMP_NET_POINTS;
 }
 
+static imp_status judge(imp_status status, const imp_net *net)
+{
+    return status == IMP_OK && !(fits(net) && is_sane(net)) ? SURFACE_BAD_NET : status;
+}
+
 imp_status surface_net(const surface *s, const imp_region *region, imp_net *net)
 {
     if (s->type->net == NULL) return IMP_UNBOUNDED;
     for (size_t k = 0; k < s->map_count; ++k)
         if (s->maps[k].type->net == NULL) return IMP_UNBOUNDED;
-    const fp_mode mode = fp_mode_read();
     memset(net, 0, sizeof *net);
-    active_callback_begin(s->type->name, "net");
+    const fp_mode mode = surface_call_begin(s->type->name, "net");
     imp_status status = s->type->net(s->self, region, net);
-    if (status == IMP_OK && !(fits(net) && is_sane(net))) status = SURFACE_BAD_NET;
+    status = judge(surface_call_end(mode, status), net);
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
-        active_callback_begin(s->maps[k].type->name, "net");
-        status = s->maps[k].type->net(s->maps[k].self, region, net);
-        if (status == IMP_OK && !(fits(net) && is_sane(net))) status = SURFACE_BAD_NET;
+        const mapping *map = &s->maps[k];
+        const fp_mode before = surface_call_begin(map->type->name, "net");
+        status = map->type->net(map->self, region, net);
+        status = judge(surface_call_end(before, status), net);
     }
-    return surface_guarded(mode, status);
+    return status;
 }
