@@ -39,11 +39,40 @@ static void approach_take(approach *near, const relative *r, const gap_lines *li
     near->moment = r->mid + r->half * w;
 }
 
+/* Whether both nodes are nearly flat, so that GJK decides at each moment and only time is left to be
+ * searched: halves would learn no more of u and v. */
+static bool are_flat(const node *a, const node *b)
+{
+    double bent = 0, extent = 0;
+    const node *both[2] = {a, b};
+    for (int k = 0; k < 2; ++k) {
+        const quadratic3 *f = &both[k]->f;
+        for (int i = 0; i < 3; ++i)
+            bent += both[k]->e[i] + fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]);
+        extent += both[k]->extent[PARAMETER_U] + both[k]->extent[PARAMETER_V];
+    }
+    return TUNING_FLAT * bent < extent;
+}
+
+/* The axis that is best at the end of what is left: once two edges have crossed, the axis that was
+ * best before is the wrong one. */
+static bool cut_at_end(const node *a, const node *b, double clearance, time_window *window)
+{
+    relative r;
+    w_range s = {-1, 1};
+    vec3 axis = {{0, 0, 0}};
+    relative_at(a, b, window, &r);
+    r.focus = 1;
+    if (!axes_cut(&r, clearance, &s, &axis, NULL)) return false;
+    window_cut(window, &r, &s);
+    return true;
+}
+
 /* `near` is NULL where only the window matters. */
 static bool shrink(const node *a, const node *b, double clearance, time_window *window, vec3 *axis,
                    approach *near)
 {
-    for (int round = 0; round < TUNING_WINDOW_ROUNDS; ++round) {
+    for (int round = 1;; ++round) {
         relative r;
         gap_lines lines;
         w_range s = {-1, 1};
@@ -58,9 +87,12 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
         if (!normal_field_cut(&r, clearance, &s, kept)) return false;
         window_cut(window, &r, &s);
         if (near != NULL) approach_take(near, &r, &lines, s);
-        if (!(s.hi - s.lo < TUNING_WINDOW_SHRINKS)) break; /* a new centre would not help much */
+        if (!(s.hi - s.lo < 2)) return true;
+        const bool flat = are_flat(a, b);
+        if (flat && near == NULL && s.lo > -1 && !cut_at_end(a, b, clearance, window)) return false;
+        if (round == (flat ? TUNING_FLAT_ROUNDS : TUNING_WINDOW_ROUNDS)) return true;
+        if (!flat && !(s.hi - s.lo < TUNING_WINDOW_SHRINKS)) return true;
     }
-    return true;
 }
 
 bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,

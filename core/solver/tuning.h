@@ -73,6 +73,12 @@
 /* Width in w, of 2, below which a new centre is worth it.
  * 0.25: +0.3, 1: -1.0 */
 #define TUNING_WINDOW_SHRINKS 0.5
+/* Nodes are nearly flat: what bends is below 1 / this of their extents.
+ * 16: 0.0, 256: 0.0 */
+#define TUNING_FLAT 64
+/* Centres at most, of flat nodes.
+ * 3: 0.0, 8: 0.0 */
+#define TUNING_FLAT_ROUNDS 4
 /* At most; six are usual.
  * 6: +1.0, 10: +0.1, 40: 0.0 */
 #define TUNING_GJK_STEPS 20

@@ -447,6 +447,34 @@ START_TEST(the_field_of_normals_turns_with_time)
 }
 END_TEST
 
+/* An edge along v that slides over one along u, `gap` above it, and over both of its ends. */
+static meeting two_edges(double gap)
+{
+    const double n[3] = {0.48, 0.6, 0.64}, u[3] = {0.8, 0, -0.6}, v[3] = {-0.36, 0.8, -0.48};
+    meeting m = two_caps(1, 1, gap);
+    for (int i = 0; i < 3; ++i) {
+        m.a.f.bv[i] = m.b.f.bv[i] = 0;
+        m.a.f.quu[i] = m.a.f.qvv[i] = m.b.f.quu[i] = m.b.f.qvv[i] = 0;
+        m.b.f.a[i] = gap * n[i] + 0.1 * u[i];
+        m.b.f.bu[i] = v[i] + 0.3 * u[i];
+        m.b.f.bt[i] = 2.5 * u[i];
+        m.b.motion[i] = fabs(m.b.f.bt[i]);
+    }
+    m.a.extent[0] = m.b.extent[0] = 1;
+    return m;
+}
+
+START_TEST(edges_that_slide_past_each_other_are_parted_at_once)
+{
+    for (int k = 5; k < 26; ++k) {
+        meeting m = two_edges(ldexp(1, -k));
+        vec3 axis = {{0, 0, 0}};
+        ck_assert_msg(!separation_by_models(&m.a, &m.b, ldexp(0.25, -k), &m.window, &axis),
+                      "2^-%d apart: [%g, %g] is left", k, m.window.lo, m.window.hi);
+    }
+}
+END_TEST
+
 START_TEST(where_hulls_meet_there_is_no_gjk_axis)
 {
     meeting m = two_caps(0.1, -1, -0.001);
@@ -562,8 +590,9 @@ SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
            neither_axes_nor_field_of_normals_lose_a_meeting_alone,
            a_share_keeps_every_moment_within_the_limit,
            no_axis_shows_much_more_than_twice_the_gap_of_the_nearest,
-           where_hulls_meet_there_is_no_gjk_axis, the_field_of_normals_turns_with_time,
-           the_field_of_normals_parts_caps_that_no_axis_does,
+           where_hulls_meet_there_is_no_gjk_axis,
+           edges_that_slide_past_each_other_are_parted_at_once,
+           the_field_of_normals_turns_with_time, the_field_of_normals_parts_caps_that_no_axis_does,
            caps_that_touch_with_their_tops_are_not_parted_at_any_size,
            a_window_shrinks_to_the_moment_of_contact, infinities_and_nans_never_part_anything,
            boxes_and_balls_are_apart_only_beyond_the_clearance,
