@@ -131,8 +131,18 @@ libimpinge_exports = -Wl,--version-script=$(top_srcdir)/core/libimpinge.map
 else
 libimpinge_exports = -export-symbols-regex '^imp_'
 endif
-libimpinge_la_LDFLAGS = -version-info 0:0:0 -no-undefined $(libimpinge_exports)
+libimpinge_la_LDFLAGS = -shared -version-info 0:0:0 -no-undefined $(libimpinge_exports)
 EXTRA_libimpinge_la_DEPENDENCIES = core/libimpinge.map
+
+# For programs that link everything in. One object, whose internal symbols are local: in an archive of
+# many they would be the program's too, and collide with its own.
+archivedir = $(libdir)
+archive_DATA = libimpinge.a
+libimpinge.a: core/libcore.la
+	$(AM_V_GEN)$(LD) -r -o core/impinge.o --whole-archive core/.libs/libcore.a && \
+	  $(OBJCOPY) --localize-hidden core/impinge.o && rm -f $@ && $(AR) cr $@ core/impinge.o && \
+	  $(RANLIB) $@
+CLEANFILES += libimpinge.a core/impinge.o
 
 core_includedir = $(pkgincludedir)
 core_include_HEADERS = core/impinge/impinge.h

@@ -56,4 +56,8 @@ EXTRA_DIST += \
 
 # Programs that use the library, beside the plugins that the guide builds.
 hostexamplesdir = $(docdir)/examples
-dist_hostexamples_DATA = sdk/examples/arm.c sdk/examples/arm.py
+dist_hostexamples_DATA = \
+    sdk/examples/arm.c \
+    sdk/examples/arm.py \
+    sdk/examples/linked_in.c \
+    sdk/examples/steps.c

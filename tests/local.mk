@@ -26,6 +26,7 @@ check_suites = \
     tests/unit/test_lanes \
     tests/unit/test_limits \
     tests/unit/test_locale \
+    tests/unit/test_linked_in \
     tests/unit/test_loosened \
     tests/unit/test_mechanism \
     tests/unit/test_mesh \
@@ -289,6 +290,8 @@ alloc_failure_ldflags = -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=fr
     -Wl,--wrap=strdup,--wrap=strndup
 tests_unit_test_alloc_failure_SOURCES = tests/unit/test_alloc_failure.c tests/support/alloc_failure.c
 tests_unit_test_alloc_failure_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_linked_in_SOURCES = tests/unit/test_linked_in.c tests/support/alloc_failure.c
+tests_unit_test_linked_in_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_query_memory_SOURCES = tests/unit/test_query_memory.c tests/support/alloc_failure.c
 tests_unit_test_query_memory_LDFLAGS = $(alloc_failure_ldflags)
 

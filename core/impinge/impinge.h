@@ -28,8 +28,8 @@ extern "C" {
  * share its trees, which are locked where they grow, and answer as if each were alone, bit for bit;
  * only what depends on who came first differs, stats.nodes and stats.bytes, and so does where
  * max_seconds or max_bytes end a query. A query and a builder belong to one thread at a time. Before
- * something is freed all other threads must be done with it, and imp_registry_isolate needs the
- * registry to itself. Only imp_query_cancel may be called from anywhere, signal handlers included.
+ * something is freed all other threads must be done with it; imp_registry_isolate and imp_registry_add
+ * need the registry to themselves. Only imp_query_cancel may be called from anywhere, signal handlers included.
  *
  * Structs that may grow begin with their size as the program was compiled, and grow at the end: the
  * library reads and writes no further. The inline functions below set it.
@@ -87,12 +87,21 @@ IMP_EXPORT imp_registry *imp_registry_new(const char *path);
 
 /* The same with flags: IMP_REGISTRY_SECURE passes over directories that anyone may write to
  * (otherwise imp_registry_warning reports them). A file that was never seen is loaded in a
- * child process first; the outcome is kept in the user's cache ($XDG_CACHE_HOME/impinge/trials). */
-enum { IMP_REGISTRY_SECURE = 1 };
+ * child process first; the outcome is kept in the user's cache ($XDG_CACHE_HOME/impinge/trials).
+ * IMP_REGISTRY_ONLY_PATH: the directories of `path` alone, or none, for programs that bring their types
+ * along by imp_registry_add. */
+enum { IMP_REGISTRY_SECURE = 1, IMP_REGISTRY_ONLY_PATH = 2 };
 IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
 
 /* The same of one plugin file alone, taken or refused. */
 IMP_EXPORT imp_registry *imp_registry_from_file(const char *file);
+
+/* Adds the types of a plugin that is linked into the program, after all others; it must stay as long
+ * as the registry, which nothing else may use meanwhile. It is compiled with its symbol renamed
+ * (IMPINGE_PLUGIN_SYMBOL in <impinge/surface.h>). Its entry and tables are checked as those of a file,
+ * and IMP_ERROR_PLUGIN adds nothing. A plugin that is there already is ignored. */
+IMP_EXPORT imp_code imp_registry_add(imp_registry *registry, const imp_plugin *plugin,
+                                     imp_error *error);
 IMP_EXPORT void imp_registry_free(imp_registry *registry);
 
 /* From now on, new instances of these types (names between commas; NULL: all) live in other
@@ -105,11 +114,13 @@ IMP_EXPORT imp_code imp_registry_isolate(imp_registry *registry, const char *nam
 
 typedef enum imp_type_kind { IMP_KIND_SURFACE, IMP_KIND_MAP } imp_type_kind;
 
+#define IMP_LINKED_IN "linked into the program"
+
 /* One type found. Strings live as long as the registry. */
 typedef struct imp_type_info {
     imp_type_kind kind;
     const char *name, *summary, *equation, *source, *example; /* source may be NULL */
-    const char *file;                                         /* absolute path of the plugin */
+    const char *file; /* absolute path of the plugin, or IMP_LINKED_IN */
     const char *plugin, *version, *license, *author;
     const char *shadowed_by;         /* file of the earlier type of that name, or NULL */
     const imp_parameter *parameters; /* step by parameter_size bytes */

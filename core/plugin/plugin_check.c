@@ -62,7 +62,7 @@ imp_code plugin_check_entry(const imp_plugin *entry, const elf_probe *note, imp_
 {
     imp_code code = check_head(entry, error);
     if (code == IMP_SUCCESS) code = check_strings(entry, error);
-    if (code == IMP_SUCCESS) code = check_agreement(entry, note, error);
+    if (code == IMP_SUCCESS && note != NULL) code = check_agreement(entry, note, error);
     if (code == IMP_SUCCESS && entry->get_factory == NULL)
         code = fault(error, "get_factory is NULL", "without it no type can be found");
     return code;

@@ -15,7 +15,7 @@
  * Errors name the type and parameter, what was found and what is allowed; the file is for the
  * caller to add. The code is IMP_ERROR_PLUGIN, or IMP_ERROR_MEMORY if memory ran out. */
 
-/* The entry by itself and against the note found in the file. */
+/* The entry by itself and against the note found in the file; NULL: it comes from no file. */
 imp_code plugin_check_entry(const imp_plugin *entry, const elf_probe *note, imp_error *error);
 
 /* The factories the entry answered; either may be NULL, not both. */

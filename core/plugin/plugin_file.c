@@ -162,6 +162,20 @@ imp_code plugin_file_open(plugin_file *plugin, const char *path, load_cache *cac
     return code;
 }
 
+imp_code plugin_file_link(plugin_file *plugin, const imp_plugin *entry, imp_error *error)
+{
+    *plugin = (plugin_file){.entry = entry};
+    load_outcome out = {.code = IMP_SUCCESS};
+    if (plugin_check_entry(entry, NULL, &out.error) != IMP_SUCCESS) {
+        refuse_checked(&out, LOAD_ENTRY, "entry");
+    } else {
+        active_callback_begin(entry->name, "get_factory");
+        step_tables(plugin, IMP_LINKED_IN, &out);
+        active_callback_end();
+    }
+    return outcome_error(&out, error);
+}
+
 static bool examine(const char *path, imp_finding_sink tell, void *context)
 {
     elf_probe facts;

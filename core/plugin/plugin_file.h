@@ -16,7 +16,7 @@
 
 typedef struct plugin_file {
     elf_probe facts;
-    void *handle;                        /* of dlopen */
+    void *handle;                        /* of dlopen; NULL: linked in */
     const imp_plugin *entry;             /* this and all below live in the shared object */
     const imp_surface_factory *surfaces; /* NULL: offers none */
     const imp_map_factory *maps;         /* NULL: offers none */
@@ -27,6 +27,9 @@ typedef struct plugin_file {
  * not be opened): IMP_ERROR_PLUGIN, or IMP_ERROR_MEMORY if memory ran out. */
 imp_code plugin_file_open(plugin_file *plugin, const char *path, load_cache *cache,
                           imp_error *error);
+
+/* The same of a plugin that is linked into the program: its entry and tables are checked. */
+imp_code plugin_file_link(plugin_file *plugin, const imp_plugin *entry, imp_error *error);
 
 /* Nothing of the plugin may be used any more. */
 void plugin_file_close(plugin_file *plugin, const char *path);

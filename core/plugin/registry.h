@@ -10,7 +10,7 @@
 
 /* Types by name
  * =============
- * A registry is filled once, when it is made, and then only read. Surfaces and maps are two
+ * A registry is filled when it is made, and by imp_registry_add; else it is only read. Surfaces and maps are two
  * name spaces; in each the first type of a name is the one that is found, later ones are
  * shadowed. Plugins stay loaded until imp_registry_free. */
 
@@ -21,7 +21,7 @@ imp_registry *registry_scan(const search_path *path, unsigned flags);
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name);
 const imp_map_type *registry_find_map(const imp_registry *registry, const char *name);
 
-/* Path of the plugin that the type of that name comes from; NULL: unknown type. */
+/* Path of the plugin that the type of that name comes from, or IMP_LINKED_IN; NULL: unknown type. */
 const char *registry_find_file(const imp_registry *registry, imp_type_kind kind, const char *name);
 
 /* Where instances of that type are isolated; NULL: they are not. */

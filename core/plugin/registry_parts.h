@@ -9,10 +9,10 @@
 
 /* The inside of a registry
  * ========================
- * For its two files: registry_scan.c fills it, once; registry.c finds what is there. */
+ * For its two files: registry_scan.c fills it; registry.c finds what is there. */
 
 typedef struct loaded_plugin {
-    char *path; /* absolute */
+    char *path; /* absolute; IMP_LINKED_IN */
     plugin_file file;
 } loaded_plugin;
 

@@ -193,7 +193,9 @@ imp_registry *registry_scan(const search_path *path, unsigned flags)
 imp_registry *imp_registry_open(const char *path, unsigned flags)
 {
     search_path all = {.count = 0};
-    imp_registry *r = search_path_add_defaults(&all, path) ? registry_scan(&all, flags) : NULL;
+    const bool good = (flags & IMP_REGISTRY_ONLY_PATH) != 0 ? search_path_add(&all, path, true)
+                                                            : search_path_add_defaults(&all, path);
+    imp_registry *r = good ? registry_scan(&all, flags) : NULL;
     search_path_clear(&all);
     return r;
 }
@@ -222,4 +224,38 @@ imp_registry *imp_registry_from_file(const char *file)
     if (good) return r;
     imp_registry_free(r);
     return NULL;
+}
+
+/* --- Linked in ------------------------------------------------------------------------ */
+
+/* Undoes what add_plugin did of the last plugin before memory ran out. */
+static void forget_from(imp_registry *r, size_t plugins, size_t types)
+{
+    r->type_count = types;
+    if (r->plugin_count == plugins) return;
+    loaded_plugin *last = r->plugin[--r->plugin_count];
+    free(last->path);
+    free(last);
+}
+
+FP_APART static imp_code add_linked(imp_registry *r, const imp_plugin *entry, imp_error *error)
+{
+    for (size_t k = 0; k < r->plugin_count; ++k)
+        if (r->plugin[k]->file.entry == entry) return IMP_SUCCESS;
+    plugin_file file;
+    const imp_code code = plugin_file_link(&file, entry, error);
+    if (code != IMP_SUCCESS) return code;
+    const size_t plugins = r->plugin_count, types = r->type_count;
+    if (add_plugin(r, IMP_LINKED_IN, &file)) return IMP_SUCCESS;
+    forget_from(r, plugins, types);
+    return error_set_memory(error);
+}
+
+imp_code imp_registry_add(imp_registry *registry, const imp_plugin *plugin, imp_error *error)
+{
+    if (registry == NULL || plugin == NULL) return error_set_missing(error, "imp_registry_add");
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = add_linked(registry, plugin, error);
+    fp_environment_leave(&environment);
+    return code;
 }

@@ -38,8 +38,7 @@ struct imp_scene {
     size_t group_count, group_capacity;
     key_pairs ignored;
     scene_settings settings;
-    pthread_mutex_t
-        lock; /* of the members' lists of trees; all else is only read once it is built */
+    pthread_mutex_t lock; /* of the members' lists of trees; all else is only read once built */
 };
 
 /* --- Building ------------------------------------------------------------------- */

@@ -333,8 +333,15 @@ typedef struct imp_plugin {
     const void *(*get_factory)(const char *id);
 } imp_plugin;
 
-/* The one symbol a plugin exports; IMPINGE_PLUGIN defines it. */
-extern IMP_EXPORT const imp_plugin impinge_plugin;
+/* The one symbol a plugin exports; IMPINGE_PLUGIN defines it. Plugins that are linked into a program,
+ * which hands them to imp_registry_add, are each compiled with a name of their own for it, as by
+ * -DIMPINGE_PLUGIN_SYMBOL=seashell_plugin. */
+#ifdef IMPINGE_PLUGIN_SYMBOL
+#define IMP_LINKED_IN_
+#else
+#define IMPINGE_PLUGIN_SYMBOL impinge_plugin
+#endif
+extern IMP_EXPORT const imp_plugin IMPINGE_PLUGIN_SYMBOL;
 
 /* The same facts for a host that has not run any of our code yet. ELF note, owner
  * "Impinge", type 1, descriptor: abi_major, abi_minor (32 bits each), then name and
@@ -344,6 +351,9 @@ extern IMP_EXPORT const imp_plugin impinge_plugin;
 #define IMP_NOTE_TYPE 1
 #define IMP_TEXT_OF_(x) #x
 #define IMP_TEXT_OF(x) IMP_TEXT_OF_(x)
+#ifdef IMP_LINKED_IN_ /* nothing reads a program's notes */
+#define IMP_NOTE_(NAME, VERSION) extern const imp_plugin IMPINGE_PLUGIN_SYMBOL
+#else
 #define IMP_NOTE_(NAME, VERSION)                                                                   \
     __asm__(".pushsection .note.impinge,\"a\",%note\n"                                             \
             "\t.balign 4\n"                                                                        \
@@ -357,20 +367,21 @@ extern IMP_EXPORT const imp_plugin impinge_plugin;
                                                   "\t.asciz \"" VERSION "\"\n"                     \
                                                   "773:\t.balign 4\n"                              \
                                                   "\t.popsection\n")
+#endif
 
 /* Defines the plugin, once per shared object, at file scope. Strings are literals; GET_FACTORY
  * is a function as in imp_plugin. One type per file? See IMPINGE_SURFACE_PLUGIN below. */
 #define IMPINGE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, GET_FACTORY)                                \
     IMP_NOTE_(NAME, VERSION);                                                                      \
-    const imp_plugin impinge_plugin = {IMP_PLUGIN_MAGIC,                                           \
-                                       (uint32_t)sizeof(imp_plugin),                               \
-                                       IMP_ABI_MAJOR,                                              \
-                                       IMP_ABI_MINOR,                                              \
-                                       NAME,                                                       \
-                                       VERSION,                                                    \
-                                       LICENSE,                                                    \
-                                       AUTHOR,                                                     \
-                                       GET_FACTORY}
+    const imp_plugin IMPINGE_PLUGIN_SYMBOL = {IMP_PLUGIN_MAGIC,                                    \
+                                              (uint32_t)sizeof(imp_plugin),                        \
+                                              IMP_ABI_MAJOR,                                       \
+                                              IMP_ABI_MINOR,                                       \
+                                              NAME,                                                \
+                                              VERSION,                                             \
+                                              LICENSE,                                             \
+                                              AUTHOR,                                              \
+                                              GET_FACTORY}
 
 #define IMP_SINGLE_PLUGIN_(FACTORY, ID, NAME, VERSION, LICENSE, AUTHOR, TYPE)                      \
     static const FACTORY##_type *const imp_types_[] = {&(TYPE)};                                   \

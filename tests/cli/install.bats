@@ -156,6 +156,52 @@ END
     [ "${BASH_REMATCH[1]}" -ge 6 ]
 }
 
+# compile_example NAME FLAG...: a program of the installed examples, with the installed library.
+compile_example() {
+    local name=$1
+    shift
+    # shellcheck disable=SC2046 # flags are words
+    $CC -std=c11 -Wall -Wextra -Werror -o "$name" "$prefix/share/doc/impinge/examples/$name.c" "$@" \
+        $(pkg-config --cflags --libs impinge) -Wl,-rpath,"$prefix/lib"
+}
+
+@test "the installed examples ask an arm's clearance, and step a ball that never leaves its room" {
+    compile_example arm
+    run -0 ./arm "$prefix/share/impinge/arm.json"
+    [ "$output" = 'holds, tightest 2.886 mm at t = 0.556 between link5 and fixture' ]
+    compile_example steps
+    run -0 ./steps # from 0.25, 70 lengths to and fro in a room of 1.8
+    [ "$output" = 't = 10, x = -0.0500, 39 bounces, outside at 0 steps' ]
+}
+
+@test "a static program with three plugins linked in needs neither files nor folders" {
+    local name
+    for name in seashell twirl hand_rates; do
+        # shellcheck disable=SC2046 # flags are words
+        $CC -c -O1 -ffp-contract=off -Wall -Wextra -Werror -DIMPINGE_PLUGIN_SYMBOL="${name}_plugin" \
+            "$prefix/share/doc/impinge/sdk/examples/$name.c" $(pkg-config --cflags impinge-sdk)
+    done
+    # shellcheck disable=SC2046 # flags are words
+    $CC -static -Wall -Wextra -Werror "$prefix/share/doc/impinge/examples/linked_in.c" ./*.o \
+        $(pkg-config --static --cflags --libs impinge) -o linked_in
+    run -0 env -i ./linked_in
+    [ "${lines[0]}" = 'surface seashell, linked into the program' ]
+    [ "${lines[1]}" = 'map twirl, linked into the program' ]
+    [ "${lines[2]}" = 'surface blade, linked into the program' ]
+    [ "${lines[3]}" = clear ]
+}
+
+@test "the archive has no symbol but the library's that a program's could collide with" {
+    nm "$prefix/lib/libimpinge.a" | sed -n 's/.* [TDRBCV] //p' >symbols
+    [ "$(wc -l <symbols)" -ge 40 ]
+    run ! grep -v '^imp_' symbols
+}
+
+@test "the README and the news are installed" {
+    cmp "$prefix/share/doc/impinge/README.md" "$top_srcdir/README.md"
+    cmp "$prefix/share/doc/impinge/NEWS" "$top_srcdir/NEWS"
+}
+
 @test "a plugin built with impinge-sdk.pc alone is found on the plugin path" {
     build_plugin unit_square
     run -0 env IMPINGE_PLUGIN_PATH="$PWD" "$impinge" list
