@@ -97,7 +97,7 @@ static void cut_consider(cut *best, const pair *p, int side, parameter j, double
 
 cut cut_by_contribution(const pair *p)
 {
-    cut best = {-1, PARAMETER_U, 0};
+    cut best = CUT_NONE;
     for (int side = 0; side < 2; ++side)
         for (int j = 0; j < 3; ++j)
             cut_consider(&best, p, side, (parameter)j, side_of(p, side)->extent[j]);
@@ -161,7 +161,7 @@ static double gain_in_place(const node *n, parameter j, bool tangent)
 cut cut_by_spread(const pair *p, double scale)
 {
     const bool tangent = is_tangent(p);
-    cut best = {-1, PARAMETER_U, 0};
+    cut best = CUT_NONE;
     for (int side = 0; side < 2; ++side) {
         const node *n = side_of(p, side);
         cut_consider(&best, p, side, PARAMETER_U, gain_in_place(n, PARAMETER_U, tangent));
@@ -171,9 +171,28 @@ cut cut_by_spread(const pair *p, double scale)
     return best;
 }
 
+/* How far points of a node leave linear motion within the window, about. */
+static double bend_of(const pair *p, const node *n)
+{
+    const double part = 0.5 * (p->window.hi - p->window.lo) / n->region.d[PARAMETER_T];
+    const double bend = fabs(n->f.qtt[0]) + fabs(n->f.qtt[1]) + fabs(n->f.qtt[2]);
+    return n->time_remainder + (part < 1 ? part * part * bend : bend);
+}
+
+cut cut_by_bend(const pair *p, double scale)
+{
+    const double bend[2] = {bend_of(p, p->a), bend_of(p, p->b)}, all = bend[0] + bend[1];
+    const double place =
+        pair_curvature(p) + pair_remainder(p) - (p->a->time_remainder + p->b->time_remainder);
+    cut best = CUT_NONE;
+    if (!(all > scale && TUNING_BEND_OF_PLACE * all > place)) return best;
+    for (int side = 0; side < 2; ++side) cut_consider(&best, p, side, PARAMETER_T, bend[side]);
+    return best;
+}
+
 cut cut_in_time(const pair *p)
 {
-    cut best = {-1, PARAMETER_T, 0};
+    cut best = CUT_NONE;
     for (int side = 0; side < 2; ++side)
         cut_consider(&best, p, side, PARAMETER_T, side_of(p, side)->region.d[PARAMETER_T]);
     return best;

@@ -49,6 +49,7 @@ typedef struct cut {
     parameter along;
     double gain;
 } cut;
+#define CUT_NONE ((cut){-1, PARAMETER_U, 0})
 
 /* The paper: the parameter of either node that contributes most to its box. */
 cut cut_by_contribution(const pair *p);
@@ -56,6 +57,10 @@ cut cut_by_contribution(const pair *p);
 /* Models: what moves a point most along u or v, or bends it in time; what is below `scale`, a length,
  * does not matter. */
 cut cut_by_spread(const pair *p, double scale);
+
+/* Time of the node whose points leave linear motion most within the window, where that of both hides
+ * more than `scale`, a length, and counts beside what bends and blurs along u and v. Else CUT_NONE. */
+cut cut_by_bend(const pair *p, double scale);
 
 /* Nothing more to learn from u and v: the later of the two nodes' times is halved. */
 cut cut_in_time(const pair *p);

@@ -161,10 +161,18 @@ static imp_code follow_paper(impact *im, const pair *p, impact_state *state, imp
     return IMP_SUCCESS;
 }
 
-/* gamma - clearance is what is to be told apart; by default half of gamma. */
+/* What is to be told apart; by default half of gamma. */
+static double room(const impact *im) { return im->gamma - im->clearance; }
+
+/* What is smaller does not matter: gamma, or less where the room is less than half of it. */
+static double scale(const impact *im)
+{
+    return 2 * room(im) < im->gamma ? 2 * room(im) : im->gamma;
+}
+
 static bool precision_ends(const impact *im, const pair *p, double flat)
 {
-    return pair_precision_ends(p, candidate_pair_of(im, p), im->gamma - im->clearance, flat);
+    return pair_precision_ends(p, candidate_pair_of(im, p), room(im), flat);
 }
 
 /* Whether a search may pay: the polynomials are good enough for gamma, or all that there will ever
@@ -173,9 +181,18 @@ static bool witness_is_likely(const impact *im, const pair *p)
 {
     if (p->wait > 0) return false;
     const double remainder = pair_remainder(p);
-    return TUNING_WITNESS_GAMMA * remainder <= im->gamma ||
+    return TUNING_WITNESS_GAMMA * remainder <= scale(im) ||
            TUNING_WITNESS_EXTENT * pair_extent(p) <= remainder ||
            precision_ends(im, p, TUNING_WITNESS_FLAT);
+}
+
+/* The pairs that hold the points of a contact are near each other for a long time where gamma is wide
+ * and its room narrow: how motion bends in that time, not place, is what keeps their starts from being
+ * found. */
+static cut choose_cut(const impact *im, const pair *p)
+{
+    const cut bend = scale(im) < im->gamma ? cut_by_bend(p, scale(im)) : CUT_NONE;
+    return bend.side >= 0 ? bend : cut_by_spread(p, scale(im));
 }
 
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
@@ -193,8 +210,8 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
     } else if (p->wait > 0) {
         p->wait -= 1;
     }
-    const bool tiny = TUNING_TINY * pair_extent(p) <= im->gamma - im->clearance;
-    const cut c = tiny ? cut_in_time(p) : cut_by_spread(p, im->gamma);
+    const bool tiny = TUNING_TINY * pair_extent(p) <= room(im);
+    const cut c = tiny ? cut_in_time(p) : choose_cut(im, p);
     if (c.side >= 0) return split(im, p, c, state, error);
     *state = IMPACT_RESOLUTION;
     return IMP_SUCCESS;

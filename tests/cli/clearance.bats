@@ -70,6 +70,15 @@ END
     [[ ${lines[0]} =~ ^'holds, tightest 2.'[0-9]+' at t = 0.5'[0-9]+' between "link5" and "fixture"'$ ]]
 }
 
+@test "the first moment of a long violation is found in thousands of pairs, not millions" {
+    local required
+    for required in 4 5 6 10; do
+        run -1 "$IMPINGE" clearance "$top_srcdir/tools/data/arm.json" --require "$required" --json \
+            --max-pairs 100000
+        json ".verdict == \"violated\" and .stats.pairs < 8000 and .t_violated > 0.4"
+    done
+}
+
 @test "what meets has no clearance" {
     run -0 "$IMPINGE" clearance "$left" "$right" --json
     valid clearance
