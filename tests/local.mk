@@ -18,6 +18,7 @@ check_suites = \
     tests/unit/test_contacts \
     tests/unit/test_elf_probe \
     tests/unit/test_isolate \
+    tests/unit/test_isolated_threads \
     tests/unit/test_expression \
     tests/unit/test_expression_faults \
     tests/unit/test_faulty_types \
@@ -431,12 +432,14 @@ EXTRA_DIST += \
     tests/fuzz/proof.d/powers.txt \
     tests/fuzz/proof.d/signs.txt \
     tests/fuzz/proof.d/smooth.txt \
+    tests/fuzz/proof.d/whole_exponents.txt \
     tests/fuzz/proof.dict \
     tests/fuzz/scene.d/all_kinds.json \
     tests/fuzz/scene.d/bad_shapes.json \
     tests/fuzz/scene.d/bar.txt \
     tests/fuzz/scene.d/deep.json \
     tests/fuzz/scene.d/formula_sheet.txt \
+    tests/fuzz/scene.d/huge.txt \
     tests/fuzz/scene.d/kit.txt \
     tests/fuzz/scene.d/nested_maps.txt \
     tests/fuzz/scene.d/not_utf8.json \
@@ -512,6 +515,14 @@ EXTRA_DIST += \
 
 # With sanitizers a second full run is slow and shows nothing new of scripts and installation; and
 # AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
-.PHONY: check-sanitized
+.PHONY: check-sanitized check-threads
 check-sanitized:
 	$(MAKE) check TESTS='$(filter-out $(script_suites) tests/cli/hostile.bats,$(TESTS))'
+
+# With configure --enable-sanitizers=thread: what threads share. Only what these suites need is made. A
+# copy made by fork leaves threads unjoined, which are its original's.
+thread_suites = tests/unit/test_threads tests/unit/test_isolated_threads
+thread_types = rotate superellipsoid torus translate
+check-threads: $(thread_types:%=plugins/%.la) $(thread_suites)
+	TSAN_OPTIONS="report_thread_leaks=0 $$TSAN_OPTIONS" \
+	  $(MAKE) check-TESTS TESTS='$(thread_suites)' check_PROGRAMS= check_LTLIBRARIES=
