@@ -115,6 +115,7 @@ bats_suites = \
     tests/cli/host.bats \
     tests/cli/hostile.bats \
     tests/cli/matrix.bats \
+    tests/cli/mpi.bats \
     tests/cli/python.bats \
     tests/cli/page.bats \
     tests/cli/series.bats \

@@ -61,6 +61,7 @@ tools_bench = \
 
 tools_cli = \
     tools/cli/arguments.c tools/cli/arguments.h \
+    tools/cli/batch.c tools/cli/batch.h \
     tools/cli/batch_resume.c tools/cli/batch_resume.h \
     tools/cli/build_tree.c tools/cli/build_tree.h \
     tools/cli/catalogue.c tools/cli/catalogue.h \
@@ -74,7 +75,6 @@ tools_cli = \
     tools/cli/input.c tools/cli/input.h \
     tools/cli/interrupt.c tools/cli/interrupt.h \
     tools/cli/json_memory.c tools/cli/json_memory.h \
-    tools/cli/main.c \
     tools/cli/message.c tools/cli/message.h \
     tools/cli/options.c tools/cli/options.h \
     tools/cli/ordered_pool.c tools/cli/ordered_pool.h \
@@ -134,9 +134,27 @@ tools_view = \
     tools/view/verb_plot.c \
     tools/view/verb_view.c
 
+# All but main, for both commands.
+noinst_LIBRARIES += tools/libtools.a
+tools_libtools_a_SOURCES = $(tools_cli) $(tools_check) $(tools_bench) $(tools_view)
+tools_libs = tools/libtools.a tools/libproof.la core/libcommon.la libimpinge.la $(JANSSON_LIBS) \
+    $(LIBPNG_LIBS) -lm
+
 bin_PROGRAMS += tools/impinge
-tools_impinge_SOURCES = $(tools_cli) $(tools_check) $(tools_bench) $(tools_view)
-tools_impinge_LDADD = tools/libproof.la core/libcommon.la libimpinge.la $(JANSSON_LIBS) $(LIBPNG_LIBS) -lm
+tools_impinge_SOURCES = tools/cli/main.c
+tools_impinge_LDADD = $(tools_libs)
+
+# batch and solve --each for clusters, where there is MPI.
+if HAVE_MPI
+bin_PROGRAMS += tools/impinge-mpi
+endif
+tools_impinge_mpi_SOURCES = \
+    tools/mpi/main.c \
+    tools/mpi/ranks.c tools/mpi/ranks.h \
+    tools/mpi/ranks_batch.c \
+    tools/mpi/ranks_each.c
+tools_impinge_mpi_CFLAGS = $(AM_CFLAGS) $(MPI_CFLAGS)
+tools_impinge_mpi_LDADD = $(tools_libs) $(MPI_LIBS)
 
 dist_man_MANS = tools/impinge.1
 pkgdata_DATA = \

@@ -145,12 +145,12 @@ static bool count_answers(batch_resume *resume, off_t *end)
 /* Standard output goes behind the last whole answer from now on. */
 static bool take_over_stdout(const batch_resume *resume, int fd, off_t end)
 {
-    return (ftruncate(fd, end) == 0 && lseek(fd, end, SEEK_SET) == end && fflush(stdout) == 0 &&
+    return (lseek(fd, end, SEEK_SET) == end && fflush(stdout) == 0 &&
             standard_output_replace(fd)) ||
            fail(resume, system_error_text(errno));
 }
 
-bool batch_resume_open(batch_resume *resume, const char *path, const arguments *args)
+bool batch_resume_open(batch_resume *resume, const char *path, const arguments *args, off_t *size)
 {
     *resume = (batch_resume){.path = path,
                              .verb = args->verb->name,
@@ -162,7 +162,10 @@ bool batch_resume_open(batch_resume *resume, const char *path, const arguments *
     resume->file = fopen(path, "r");
     off_t end;
     bool ok = resume->file != NULL || fail(resume, system_error_text(errno));
-    ok = ok && count_answers(resume, &end) && take_over_stdout(resume, fd, end);
+    ok = ok && count_answers(resume, &end) &&
+         (ftruncate(fd, end) == 0 || fail(resume, system_error_text(errno))) &&
+         (size != NULL || take_over_stdout(resume, fd, end));
+    if (ok && size != NULL) *size = end;
     if (ok) rewind(resume->file);
     close(fd);
     return ok;

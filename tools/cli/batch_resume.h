@@ -37,8 +37,9 @@ typedef struct batch_resume {
 } batch_resume; /* begins as {0} */
 
 /* Opens the file, or makes it, cuts off a torn last line, and lets standard output go behind the
- * answers. Complains and answers false if that cannot be. */
-bool batch_resume_open(batch_resume *resume, const char *path, const arguments *args);
+ * answers, unless `size` is given: then the caller writes from there on. Complains and answers false if
+ * that cannot be. */
+bool batch_resume_open(batch_resume *resume, const char *path, const arguments *args, off_t *size);
 
 /* Complains if the file could not be written. */
 exit_status batch_resume_close(batch_resume *resume);

@@ -28,6 +28,9 @@ typedef enum exit_status {
 /* The status for an error the library returned. */
 exit_status status_of_code(imp_code code);
 
+/* Of several processes that find the same fault one complains; the others only answer the status. */
+void complain_aloud(bool aloud);
+
 /* Writes "impinge: VERB: text" (or "impinge: text" where verb is NULL) and returns `status`.
  * Control characters in the text are shown as '?', so that names cannot forge lines. */
 exit_status complain(exit_status status, const char *verb, const char *format, ...)
