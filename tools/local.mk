@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # Of core, the command sees the public API and core/common. Rooms, bottom-up: proof and cli,
-# then check, bench and view.
+# then check, bench, simulate and view.
 
 # The interval arithmetic that the checker proves with, for the command and its tests.
 noinst_LTLIBRARIES += tools/libproof.la
@@ -134,9 +134,22 @@ tools_view = \
     tools/view/verb_plot.c \
     tools/view/verb_view.c
 
+tools_simulate = \
+    tools/simulate/mass.c tools/simulate/mass.h \
+    tools/simulate/meeting.c tools/simulate/meeting.h \
+    tools/simulate/mover.c tools/simulate/mover.h \
+    tools/simulate/record.c tools/simulate/record.h \
+    tools/simulate/response.c tools/simulate/response.h \
+    tools/simulate/rigid.h \
+    tools/simulate/setup.c tools/simulate/setup.h \
+    tools/simulate/simulation.c tools/simulate/simulation.h \
+    tools/simulate/touch.c tools/simulate/touch.h \
+    tools/simulate/verb_simulate.c
+
 # All but main, for both commands.
 noinst_LIBRARIES += tools/libtools.a
-tools_libtools_a_SOURCES = $(tools_cli) $(tools_check) $(tools_bench) $(tools_view)
+tools_libtools_a_SOURCES = $(tools_cli) $(tools_check) $(tools_bench) $(tools_simulate) \
+    $(tools_view)
 tools_libs = tools/libtools.a tools/libproof.la core/libcommon.la libimpinge.la $(JANSSON_LIBS) \
     $(LIBPNG_LIBS) -lm
 
@@ -170,6 +183,7 @@ pkgdata_DATA = \
     tools/schema/matrix.schema.json \
     tools/schema/result.schema.json \
     tools/schema/scene.schema.json \
+    tools/schema/simulate.schema.json \
     tools/schema/types.schema.json \
     tools/schema/why.schema.json
 

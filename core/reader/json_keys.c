@@ -46,6 +46,19 @@ imp_code json_keys_check(json_t *object, const char *const *keys, const char *wh
     return IMP_SUCCESS;
 }
 
+imp_code json_keys_refuse(const json_t *object, const char *const *keys, const place *at,
+                          imp_error *error)
+{
+    for (; *keys != NULL; ++keys) {
+        if (json_object_get(object, *keys) == NULL) continue;
+        place member = place_key(at, *keys);
+        return place_error(&member, error, IMP_ERROR_SCENE,
+                           "found a motion that is not computed yet; `impinge simulate` makes a "
+                           "scene of it");
+    }
+    return IMP_SUCCESS;
+}
+
 imp_code json_keys_array(const json_t *object, const char *key, bool required, const place *at,
                          json_t **array, imp_error *error)
 {

@@ -14,6 +14,10 @@
 imp_code json_keys_check(json_t *object, const char *const *keys, const char *what, const place *at,
                          imp_error *error);
 
+/* That none of the keys is there: they ask for a motion that only a simulation computes. */
+imp_code json_keys_refuse(const json_t *object, const char *const *keys, const place *at,
+                          imp_error *error);
+
 /* The array at `key` of an object at `at`. If it is required, it must be there and not empty;
  * else *array may become NULL. */
 imp_code json_keys_array(const json_t *object, const char *key, bool required, const place *at,

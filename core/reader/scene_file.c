@@ -15,8 +15,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const scene_keys[] = {"time",   "gamma", "clearance", "define", "bodies",
-                                         "ignore", "id",    "reference", "note",   NULL};
+static const char *const scene_keys[] = {"time",   "gamma",   "clearance", "define",
+                                         "bodies", "ignore",  "id",        "reference",
+                                         "note",   "gravity", "events",    NULL};
+static const char *const simulated_keys[] = {"gravity", NULL};
 
 /* --- Settings ------------------------------------------------------------------------ */
 
@@ -80,6 +82,7 @@ static imp_scene *scene_of(const scene_source *source, json_t *root, const place
     imp_code code = scene_bodies_start(&b, source, error);
     if (code == IMP_SUCCESS)
         code = json_keys_check(root, scene_keys, "a scene, {\"bodies\": [...]}", at, error);
+    if (code == IMP_SUCCESS) code = json_keys_refuse(root, simulated_keys, at, error);
     if (code == IMP_SUCCESS) code = read_settings(&b, root, at);
     if (code == IMP_SUCCESS) code = scene_json_read(&b, root, at);
     if (code == IMP_SUCCESS) return scene_bodies_finish(&b, at);

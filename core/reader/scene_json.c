@@ -7,7 +7,13 @@
 #include "core/plugin/json_describe.h"
 #include "core/reader/json_keys.h"
 
-static const char *const body_keys[] = {"name", "surfaces", "maps", "parent", "group", NULL};
+/* What bodies are made of is for simulations; here it is ignored. */
+static const char *const body_keys[] = {"name",     "surfaces", "maps",   "parent",   "group",
+                                        "mass",     "inertia",  "center", "friction", "restitution",
+                                        "velocity", "spin",     NULL};
+
+/* A motion that is still to be computed is refused: an answer without it would be about another scene. */
+static const char *const simulated_keys[] = {"velocity", "spin", NULL};
 
 /* --- Names --------------------------------------------------------------------------------- */
 
@@ -61,6 +67,7 @@ static imp_code add_body(scene_bodies *b, json_t *body, const place *at)
     const size_t index = b->assembly.count;
     const place at_surfaces = place_key(at, "surfaces"), at_maps = place_key(at, "maps");
     imp_code code = json_keys_check(body, body_keys, "a body, {\"surfaces\": [...]}", at, b->error);
+    if (code == IMP_SUCCESS) code = json_keys_refuse(body, simulated_keys, at, b->error);
     if (code == IMP_SUCCESS) code = begin(b, body, at);
     if (code == IMP_SUCCESS) code = read_groups(b, index, body, at);
     if (code == IMP_SUCCESS)

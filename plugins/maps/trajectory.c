@@ -25,8 +25,18 @@
  * moves like a point at distance 1.
  *
  * So velocities and spins may jump at keys, places do not. A span of times within one piece has the
- * formula above. One across several pieces has R(m + y) = R(m) + E, |E| <= y times the greatest
- * speed of the pieces touched; and of the position what spline.h says of curves with kinks. */
+ * formula above; of the position across several pieces spline.h says what is known.
+ *
+ * Lemma. Over several pieces, with W at least all speeds of the last lemma and eta at least all 3 max
+ * |D_i| (1 + |spin_i| h), X = R x moves by dX/dt = spin x X + E, |E| <= eta |x|: in one piece spin x X
+ * = spin x (turn M x + s D x), and s |spin| |D x| and |D x| are the difference. So |dX/dt| <= V |x|
+ * with V = W (1 + 4 MISMATCH) + eta, and from the middle m of the span, |y| <= r,
+ *
+ *   X(m + y) = X(m) + g x X(m) + F,   |F| <= (W V r / 2 + eta) r |x|,
+ *
+ * where g is the integral of the spin from m on, whose coordinates have slopes between the least and the
+ * greatest of those pieces. F depends on time by at most (W V r + eta) |x|, and on x as it depends on
+ * |x|, being linear in x. Near a point that touches, g x X(m) is along the surfaces. */
 
 enum { TIMES, POSITIONS, ACCELERATIONS, ROTATIONS, SPINS, CENTER };
 
@@ -59,6 +69,7 @@ static const imp_parameter parameters[] = {
 /* Entry (i,j) of R is along + cos A across + sin A turned + s drift, A = speed s. */
 typedef struct rotation {
     near_constant along[3][3], across[3][3], turned[3][3], drift[3][3], speed;
+    double spin[3];
 } rotation;
 
 typedef struct trajectory_instance {
@@ -206,10 +217,10 @@ static near_constant near_within(imp_interval x)
     return (near_constant){m, imp_interval_radius_upper(x, m)};
 }
 
-/* One piece, from the rotation `from` to `to` in the time h. The answer: how fast entries change;
- * infinite where spin and rotations do not agree. */
-static imp_interval set_rotation(rotation *r, const double *spin, const matrix *from,
-                                 const matrix *to, imp_interval h)
+/* One piece, from the rotation `from` to `to` in the time h. bound[0]: how fast entries change at most,
+ * infinite where spin and rotations do not agree; bound[1]: eta. */
+static void set_rotation(rotation *r, const double *spin, const matrix *from, const matrix *to,
+                         imp_interval h, imp_interval bound[2])
 {
     turn_parts p = parts_of_spin(spin);
     const imp_interval angle = imp_interval_mul(p.speed, h);
@@ -232,8 +243,10 @@ static imp_interval set_rotation(rotation *r, const double *spin, const matrix *
             r->drift[i][j] = near_within(drift);
         }
     r->speed = near_within(p.speed);
+    memcpy(r->spin, spin, sizeof r->spin);
     const double speed = miss <= MISMATCH ? imp_sum_up(p.speed.hi + most) : INFINITY;
-    return imp_interval_make(0, speed);
+    bound[0] = imp_interval_make(0, speed);
+    bound[1] = imp_interval_make(0, 3 * most * (1 + angle.hi) * IMP_SLACK);
 }
 
 /* Returns the index of the first invalid piece; `pieces` if all are valid. */
@@ -244,10 +257,10 @@ static size_t set_rotations(trajectory_instance *s, const imp_value *values)
     matrix from = matrix_of_quaternion(q);
     for (size_t i = 0; i < path->pieces; ++i) {
         const matrix to = matrix_of_quaternion(q + 4 * (i + 1));
-        imp_interval *speed = spline_node(path, path->pieces + i) + path->width - 1;
-        *speed = set_rotation(&s->rotation[i], values[SPINS].number + 3 * i, &from, &to,
-                              spline_step(path, i, i + 1));
-        if (!imp_interval_is_finite(*speed)) return i;
+        imp_interval *bound = spline_node(path, path->pieces + i) + path->width - 2;
+        set_rotation(&s->rotation[i], values[SPINS].number + 3 * i, &from, &to,
+                     spline_step(path, i, i + 1), bound);
+        if (!imp_interval_is_finite(bound[0]) || !imp_interval_is_finite(bound[1])) return i;
         from = to;
     }
     return path->pieces;
@@ -281,12 +294,12 @@ static imp_status trajectory_create(const imp_value *values, void **self, imp_cr
 {
     imp_status status = check(values, why);
     if (status != IMP_OK) return status;
-    const size_t keys = values[TIMES].count, bytes = spline_bytes(keys, 3, 1);
+    const size_t keys = values[TIMES].count, bytes = spline_bytes(keys, 3, 2);
     const bool turns = imp_is_given(&values[ROTATIONS]);
     trajectory_instance *s = malloc(sizeof *s + bytes + keys * sizeof(rotation));
     imp_interval *key = malloc(3 * keys * sizeof *key);
     if (s != NULL && key != NULL) {
-        s->path = spline_place(keys, 3, turns, s->memory);
+        s->path = spline_place(keys, 3, turns ? 2 : 0, s->memory);
         s->path.kinked = true;
         s->rotation = turns ? (rotation *)((char *)s->memory + bytes) : NULL;
         status = fill(s, values, key, why);
@@ -334,30 +347,77 @@ static void matrix_at(const rotation *r, double start, imp_model t, double speed
         }
 }
 
-/* R over times t of several pieces: R at their middle, and what |y| times the speed adds. */
-static void matrix_across(const trajectory_instance *s, const spline_span *span, imp_model t,
-                          double speed, imp_model out[3][3])
+static double size_upper(const imp_model x[3])
 {
-    matrix_at(&s->rotation[span->at], s->path.time[span->at], imp_num(span->m), speed, out);
-    imp_series g = imp_series_around(imp_model_range(&t));
+    imp_interval square = exact(0);
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            const double most = 1 + 2 * MISMATCH;
-            g.c[0] = out[i][j].a;
-            g.e = (out[i][j].e + speed * g.r) * IMP_SLACK;
-            out[i][j] = imp_compose(&t, &g, imp_interval_make(-most, most), speed);
-        }
+        square = imp_interval_add(square, imp_interval_sqr(imp_interval_make(x[i].lo, x[i].hi)));
+    return imp_interval_sqrt(square).hi;
 }
 
 /* R x, no longer than (1 + 3 MISMATCH) |x|. */
 static void turn(imp_model r[3][3], const imp_model x[3], imp_model out[3])
 {
-    imp_interval square = exact(0);
-    for (int i = 0; i < 3; ++i)
-        square = imp_interval_add(square, imp_interval_sqr(imp_interval_make(x[i].lo, x[i].hi)));
-    const double most = imp_round_up(imp_interval_sqrt(square).hi * (1 + 4 * MISMATCH));
+    const double most = imp_round_up(size_upper(x) * (1 + 4 * MISMATCH));
     for (int i = 0; i < 3; ++i)
         out[i] = imp_model_within(imp_dot3(r[i], x), imp_interval_make(-most, most));
+}
+
+/* Joins the spins of the pieces of a span; as the speed says, where these are too many to ask each. */
+static void spins_of(const trajectory_instance *s, const spline_span *span, double speed,
+                     imp_interval spin[3])
+{
+    enum { FEW = 16 };
+    const bool many = span->last - span->first >= FEW;
+    for (int j = 0; j < 3; ++j) {
+        spin[j] = many ? imp_interval_make(-speed, speed) : exact(s->rotation[span->first].spin[j]);
+        for (size_t k = span->first + 1; k <= span->last && !many; ++k)
+            spin[j] = spline_hull(spin[j], exact(s->rotation[k].spin[j]));
+    }
+}
+
+/* The integral of the spin from the middle of t on, a coordinate of it. */
+static imp_model turned_since_middle(imp_interval spin, const imp_model *t)
+{
+    imp_series g = imp_series_around(imp_model_range(t));
+    g.c[1] = imp_interval_mid(spin);
+    g.e = imp_interval_radius_upper(spin, g.c[1]) * g.r * IMP_SLACK;
+    const double most = imp_interval_mag(spin), far = imp_round_up(most * g.r);
+    return imp_compose(t, &g, imp_interval_make(-far, far), most);
+}
+
+/* R x over times of several pieces, by the last lemma above. */
+static void turn_across(const trajectory_instance *s, const spline_span *span,
+                        const imp_interval *node, imp_model t, const imp_model x[3],
+                        imp_model out[3])
+{
+    const double speed = node[s->path.width - 2].hi, stray = node[s->path.width - 1].hi;
+    const double r = imp_series_around(imp_model_range(&t)).r;
+    const double fast = speed * (1 + 4 * MISMATCH) + stray, most = size_upper(x);
+    const double slip = (0.5 * speed * fast * r + stray) * r * IMP_SLACK;
+    const double drift = (speed * fast * r + stray) * most * IMP_SLACK;
+    imp_model m[3][3], w[3], g[3];
+    imp_interval spin[3];
+    matrix_at(&s->rotation[span->at], s->path.time[span->at], imp_num(span->m), speed, m);
+    turn(m, x, w);
+    spins_of(s, span, speed, spin);
+    for (int j = 0; j < 3; ++j) g[j] = turned_since_middle(spin[j], &t);
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        imp_model sum = imp_sub(imp_mul(g[j], w[k]), imp_mul(g[k], w[j]));
+        sum = imp_add(w[i], sum);
+        const double e = slip * most * IMP_SLACK + IMP_TINY;
+        sum.e = imp_sum_up(sum.e + e);
+        sum.lo = imp_sum_down(sum.lo - e);
+        sum.hi = imp_sum_up(sum.hi + e);
+        sum.depends |= t.depends;
+        for (int p = 0; p < 3; ++p) {
+            const double rates = x[0].rate[p] + x[1].rate[p] + x[2].rate[p];
+            sum.rate[p] = (sum.rate[p] + (slip * rates + drift * t.rate[p]) + IMP_TINY) * IMP_SLACK;
+        }
+        const double limit = imp_round_up(most * (1 + 4 * MISMATCH));
+        out[i] = imp_model_within(imp_model_finish(sum), imp_interval_make(-limit, limit));
+    }
 }
 
 static void trajectory_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
@@ -372,13 +432,11 @@ static void trajectory_formula(const void *self, imp_model x, imp_model y, imp_m
     imp_interval node[SPLINE_WIDTH_MAX];
     spline_models(&s->path, t, lane, node);
     memcpy(out, w, sizeof w);
-    if (s->rotation != NULL) {
-        const double speed = node[s->path.width - 1].hi;
-        if (span.first == span.last)
-            matrix_at(&s->rotation[span.at], s->path.time[span.at], t, speed, r);
-        else
-            matrix_across(s, &span, t, speed, r);
+    if (s->rotation != NULL && span.first == span.last) {
+        matrix_at(&s->rotation[span.at], s->path.time[span.at], t, node[s->path.width - 2].hi, r);
         turn(r, w, out);
+    } else if (s->rotation != NULL) {
+        turn_across(s, &span, node, t, w, out);
     }
     for (int i = 0; i < 3; ++i) out[i] = imp_add(out[i], lane[i]);
 }

@@ -112,13 +112,32 @@ START_TEST(unknown_keys_are_refused_with_the_nearest)
     assert_wrong(SCENE(",'gama':1"),
                  "s.json: /gama: unknown key, did you mean 'gamma'? "
                  "Valid keys are time, gamma, clearance, define, bodies, ignore, "
-                 "id, reference, note");
+                 "id, reference, note, gravity, events");
     assert_wrong("{'bodies':[{'surface':[" KIT "]}]}",
                  "s.json: /bodies/0/surface: unknown key, did you mean 'surfaces'? Valid keys "
-                 "are name, surfaces, maps, parent, group");
+                 "are name, surfaces, maps, parent, group, mass, inertia, center, "
+                 "friction, restitution, velocity, spin");
     assert_wrong(SCENE(",'comment':1"),
                  "s.json: /comment: unknown key; valid keys are time, gamma, clearance, "
-                 "define, bodies, ignore, id, reference, note");
+                 "define, bodies, ignore, id, reference, note, gravity, events");
+}
+END_TEST
+
+START_TEST(properties_of_bodies_are_ignored_and_motions_to_compute_refused)
+{
+    assert_wrong("{'bodies':[{'surfaces':[" KIT "],'mass':1,'velocity':[1,0,0]}]}",
+                 "s.json: /bodies/0/velocity: found a motion that is not computed yet; `impinge "
+                 "simulate` makes a scene of it");
+    assert_wrong("{'bodies':[{'surfaces':[" KIT "],'spin':[1,0,0]}]}",
+                 "s.json: /bodies/0/spin: found a motion that is not computed yet; `impinge "
+                 "simulate` makes a scene of it");
+    assert_wrong(SCENE(",'gravity':[0,0,-1]"),
+                 "s.json: /gravity: found a motion that is not computed yet; `impinge simulate` "
+                 "makes a scene of it");
+    imp_scene *scene =
+        read_good("{'events':[],'bodies':[{'surfaces':[" KIT "],'mass':1,'inertia':0,"
+                  "'center':0,'restitution':1,'friction':1}]}");
+    imp_scene_free(scene);
 }
 END_TEST
 
@@ -361,9 +380,10 @@ SUITE_MAIN("scene_file", a_scene_has_its_bodies_surfaces_and_names,
            settings_are_taken_or_have_their_presets, an_instant_is_an_interval,
            settings_out_of_range_are_refused, maps_of_the_surface_come_before_maps_of_the_body,
            ignored_pairs_are_named, names_of_bodies_are_unique_lines,
-           unknown_keys_are_refused_with_the_nearest, missing_and_misshapen_parts_are_told,
-           types_are_told_when_unknown_or_of_the_wrong_sort, parameters_are_told_by_their_pointer,
-           complaints_of_create_are_told_by_their_pointer,
+           unknown_keys_are_refused_with_the_nearest,
+           properties_of_bodies_are_ignored_and_motions_to_compute_refused,
+           missing_and_misshapen_parts_are_told, types_are_told_when_unknown_or_of_the_wrong_sort,
+           parameters_are_told_by_their_pointer, complaints_of_create_are_told_by_their_pointer,
            broken_promises_of_create_are_the_plugins_fault, syntax_is_told_by_line_and_column,
            a_byte_order_mark_is_passed_over, nesting_without_end_is_refused,
            files_are_read_or_refused_with_the_cause, arguments_that_are_null_are_wrong_usage,

@@ -15,6 +15,7 @@
     ROW(pair)                                                                                      \
     ROW(solve)                                                                                     \
     ROW(clearance)                                                                                 \
+    ROW(simulate)                                                                                  \
     ROW(batch)                                                                                     \
     ROW(view)                                                                                      \
     ROW(plot)                                                                                      \

@@ -1,0 +1,193 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/simulate/meeting.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "tools/cli/interrupt.h"
+
+double searching_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* --- The scene of two bodies ----------------------------------------------------------------- */
+
+/* A copy of the body under its path. NULL: no memory. */
+static json_t *body_json(const searching *s, size_t body)
+{
+    const actor *a = &s->setup->actors[body];
+    json_t *copy = json_copy(a->json), *maps = json_array();
+    int failed =
+        copy == NULL || maps == NULL || json_object_set_new(copy, "name", json_string(a->name));
+    json_object_del(copy, "group");
+    failed |= json_array_extend(maps, json_object_get(copy, "maps")) &&
+              json_object_get(copy, "maps") != NULL;
+    if (a->moves) failed |= json_array_append(maps, s->movers[body].map);
+    failed |= json_object_set(copy, "maps", maps);
+    json_decref(maps);
+    if (!failed) return copy;
+    json_decref(copy);
+    return NULL;
+}
+
+/* A body's parents come too, and are not tested with anything. */
+static int add_parents(const searching *s, size_t body, json_t *bodies, json_t *ignore)
+{
+    const json_t *parent = json_object_get(s->setup->actors[body].json, "parent");
+    int failed = 0;
+    while (parent != NULL && !failed) {
+        const size_t up = setup_find(s->setup, json_string_value(parent));
+        const char *name = s->setup->actors[up].name;
+        for (size_t i = 0; i < json_array_size(bodies); ++i) {
+            const char *other =
+                json_string_value(json_object_get(json_array_get(bodies, i), "name"));
+            if (strcmp(other, name) == 0) return failed;
+            failed |= json_array_append_new(ignore, json_pack("[s,s]", other, name));
+        }
+        failed |= json_array_append_new(bodies, body_json(s, up));
+        parent = json_object_get(s->setup->actors[up].json, "parent");
+    }
+    return failed;
+}
+
+static char *scene_text(const searching *s, const meeting *m)
+{
+    json_t *bodies = json_array(), *ignore = json_array(), *root = json_object();
+    json_t *define = json_object_get(s->setup->stripped, "define");
+    int failed = 0;
+    for (int k = 0; k < 2; ++k) failed |= json_array_append_new(bodies, body_json(s, m->body[k]));
+    for (int k = 0; k < 2; ++k) failed |= add_parents(s, m->body[k], bodies, ignore);
+    failed |= json_object_set_new(root, "bodies", bodies);
+    failed |= json_object_set_new(root, "ignore", ignore);
+    if (define != NULL) failed |= json_object_set(root, "define", define);
+    char *text = failed ? NULL : json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    json_decref(root);
+    return text;
+}
+
+imp_code meeting_make_scene(searching *s, meeting *m)
+{
+    if (m->scene != NULL && !m->stale) return IMP_SUCCESS;
+    imp_scene_free(m->scene);
+    m->scene = NULL;
+    char *text = scene_text(s, m);
+    if (text == NULL) {
+        s->error = (imp_error){.code = IMP_ERROR_MEMORY};
+        return IMP_ERROR_MEMORY;
+    }
+    m->scene =
+        imp_scene_from_json(s->setup->registry, text, strlen(text), s->setup->name, &s->error);
+    free(text);
+    m->stale = false;
+    return m->scene != NULL ? IMP_SUCCESS : s->error.code;
+}
+
+/* --- Searches ---------------------------------------------------------------------------------- */
+
+static bool goes_on(void *context, const imp_progress *progress)
+{
+    (void)context, (void)progress;
+    return !interrupt_came();
+}
+
+/* What is left of the budgets goes to each search. */
+static imp_code solve(searching *s, const meeting *m, double from, double to, double gamma,
+                      double clearance, imp_result *result)
+{
+    imp_options o = s->setup->options;
+    o.t_start = from, o.t_end = to;
+    o.gamma = gamma, o.clearance = clearance;
+    o.max_pairs = s->max_pairs == 0 ? 0 : s->pairs < s->max_pairs ? s->max_pairs - s->pairs : 1;
+    o.max_seconds = s->deadline < INFINITY ? fmax(s->deadline - searching_clock(), 1e-9) : 0;
+    o.progress = goes_on;
+    result->struct_size = (uint32_t)sizeof *result;
+    const imp_code code = imp_scene_solve(m->scene, &o, result, &s->error);
+    if (code != IMP_SUCCESS) return code;
+    s->pairs += result->stats.pairs;
+    s->searches += 1;
+    return code;
+}
+
+typedef struct step {
+    double gamma, clearance;
+} step;
+
+static step step_of(const searching *s, int level)
+{
+    const double least = s->setup->options.clearance;
+    const double h = ldexp(s->setup->options.gamma - least, -level);
+    return (step){least + h, least + 0.75 * h};
+}
+
+static void set_undecided(meeting *m, const imp_result *r)
+{
+    m->kind = MEETING_UNDECIDED;
+    m->reason = r->reason;
+    m->t = r->t_lower;
+}
+
+static void set_contact(meeting *m, const imp_result *r)
+{
+    m->kind = MEETING_CONTACT;
+    m->t = r->t;
+    m->side[0] = r->a;
+    m->side[1] = r->b;
+}
+
+imp_code meeting_level(searching *s, const meeting *m, double t, int least, int *level,
+                       meeting *now)
+{
+    imp_result r;
+    *now = *m;
+    now->kind = MEETING_NEVER;
+    for (*level = least; *level < LEVEL_NONE; ++*level) {
+        const step at = step_of(s, *level);
+        const double clearance = at.gamma * (1 + 1e-12);
+        const double gamma = at.gamma + (at.gamma - s->setup->options.clearance) / 4;
+        const imp_code code = solve(s, m, t, t, gamma, clearance, &r);
+        if (code != IMP_SUCCESS || r.verdict == IMP_CLEAR) return code;
+        if (r.verdict == IMP_CONTACT) set_contact(now, &r);
+        if (r.verdict == IMP_UNDECIDED && r.reason != IMP_REASON_RESOLUTION) {
+            set_undecided(now, &r);
+            now->t = t;
+            return IMP_SUCCESS;
+        }
+    }
+    return IMP_SUCCESS;
+}
+
+/* The search at one level. */
+static imp_code find_at(searching *s, meeting *m, double t, int level)
+{
+    const step at = step_of(s, level);
+    imp_result r;
+    const imp_code code = solve(s, m, t, s->end, at.gamma, at.clearance, &r);
+    if (code != IMP_SUCCESS) return code;
+    m->level = level;
+    m->kind = MEETING_NEVER;
+    m->t = s->end;
+    if (r.verdict == IMP_CONTACT) set_contact(m, &r);
+    if (r.verdict == IMP_UNDECIDED) set_undecided(m, &r);
+    return IMP_SUCCESS;
+}
+
+imp_code meeting_find(searching *s, meeting *m, double t, int level)
+{
+    meeting now;
+    imp_code code = find_at(s, m, t, level);
+    if (code != IMP_SUCCESS || level == 0 || m->kind != MEETING_CONTACT) return code;
+    const double middle = t + 0.5 * (m->t - t);
+    if (!(middle > t)) return code;
+    int apart;
+    code = meeting_level(s, m, middle, 0, &apart, &now);
+    if (code != IMP_SUCCESS) return code;
+    if (now.kind == MEETING_UNDECIDED) *m = now;
+    return now.kind == MEETING_NEVER && apart == 0 ? find_at(s, m, middle, 0) : code;
+}
