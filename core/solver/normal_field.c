@@ -22,20 +22,19 @@ static local to_local(const frame *f, const double *x)
     return (local){{vec3_dot(f->t[0], v), vec3_dot(f->t[1], v)}, vec3_dot(f->n, v)};
 }
 
-/* A slice in the frame. */
+/* Terms of second order: s_u^2, s_u s_v, s_v^2, s_u w, s_v w. */
+enum { UU, UV, VV, UW, VW, SECONDS };
+
+/* A slice in the frame: slopes along u and v, and terms of second order. */
 typedef struct local_slice {
-    local l[2]; /* slopes along u, v */
-    local uu, uv, vv;
-    local lw[2]; /* how the slopes turn with w */
+    local l[2], q[SECONDS];
 } local_slice;
 
 static local_slice slice_to_local(const frame *f, const slice *s)
 {
     return (local_slice){{to_local(f, s->bu), to_local(f, s->bv)},
-                         to_local(f, s->quu),
-                         to_local(f, s->quv),
-                         to_local(f, s->qvv),
-                         {to_local(f, s->quw), to_local(f, s->qvw)}};
+                         {to_local(f, s->quu), to_local(f, s->quv), to_local(f, s->qvv),
+                          to_local(f, s->quw), to_local(f, s->qvw)}};
 }
 
 /* The frame between the two normals; false where the surfaces have none or are not nearly tangent.
@@ -74,37 +73,46 @@ static bool curvature(const local_slice *s, form *k)
     if (!(fabs(det) > 0x1p-20 * (fabs(ux * vy) + fabs(uy * vx)))) return false;
     /* s = J y with J the inverse of [u v]; K = J' H J, H = [[2 uu, uv], [uv, 2 vv]] */
     const double a = vy / det, b = -vx / det, c = -uy / det, d = ux / det;
-    const double hxx = 2 * s->uu.n, hxy = s->uv.n, hyy = 2 * s->vv.n;
+    const double hxx = 2 * s->q[UU].n, hxy = s->q[UV].n, hyy = 2 * s->q[VV].n;
     k->xx = a * a * hxx + 2 * a * c * hxy + c * c * hyy;
     k->xy = a * b * hxx + (a * d + b * c) * hxy + c * d * hyy;
     k->yy = b * b * hxx + 2 * b * d * hxy + d * d * hyy;
     return true;
 }
 
-/* How the field turns along one parameter: m = -K l / 2, in the tangents. */
-static void turn(const form *k, const local_slice *s, double m[2][2])
+static double dot2(const double *m, const local *x) { return m[0] * x->t[0] + m[1] * x->t[1]; }
+
+/* How the field turns with one surface's parameters: m = -K x / 2 for each of its terms x, in the
+ * tangents. */
+typedef struct turn {
+    double l[2][2], q[SECONDS][2];
+} turn;
+
+static void turn_by(const form *k, const local *x, double m[2])
 {
-    for (int j = 0; j < 2; ++j) {
-        const double x = s->l[j].t[0], y = s->l[j].t[1];
-        m[j][0] = -0.5 * (k->xx * x + k->xy * y);
-        m[j][1] = -0.5 * (k->xy * x + k->yy * y);
-    }
+    m[0] = -0.5 * (k->xx * x->t[0] + k->xy * x->t[1]);
+    m[1] = -0.5 * (k->xy * x->t[0] + k->yy * x->t[1]);
 }
 
-static double dot2(const double *m, const local *x) { return m[0] * x->t[0] + m[1] * x->t[1]; }
+static void turn_choose(const form *k, const local_slice *s, turn *m)
+{
+    for (int j = 0; j < 2; ++j) turn_by(k, &s->l[j], m->l[j]);
+    for (int j = 0; j < SECONDS; ++j) turn_by(k, &s->q[j], m->q[j]);
+}
 
 /* How fast a surface's own normal turns, in the tangents: m.l + n0.lw = 0 for both slopes. */
 static void turn_in_time(const local_slice *s, double m[2])
 {
     const local *u = &s->l[0], *v = &s->l[1];
     const double det = u->t[0] * v->t[1] - u->t[1] * v->t[0];
-    m[0] = (v->t[1] * -s->lw[0].n - u->t[1] * -s->lw[1].n) / det;
-    m[1] = (u->t[0] * -s->lw[1].n - v->t[0] * -s->lw[0].n) / det;
+    m[0] = (v->t[1] * -s->q[UW].n - u->t[1] * -s->q[VW].n) / det;
+    m[1] = (u->t[0] * -s->q[VW].n - v->t[0] * -s->q[UW].n) / det;
 }
 
 /* The numbers m of the lemma. */
 typedef struct turns {
-    double a[2][2], b[2][2], w[2];
+    turn a, b;
+    double w[2];
 } turns;
 
 /* False where the slopes are too nearly parallel to say. */
@@ -114,8 +122,8 @@ static bool turns_choose(const local_slice *a, const local_slice *b, turns *m)
     if (!curvature(a, &ka) || !curvature(b, &kb)) return false;
     const form mean = {0.5 * (ka.xx + kb.xx), 0.5 * (ka.xy + kb.xy), 0.5 * (ka.yy + kb.yy)};
     double wa[2], wb[2];
-    turn(&mean, a, m->a);
-    turn(&mean, b, m->b);
+    turn_choose(&mean, a, &m->a);
+    turn_choose(&mean, b, &m->b);
     turn_in_time(a, wa);
     turn_in_time(b, wb);
     for (int i = 0; i < 2; ++i) m->w[i] = 0.5 * (wa[i] + wb[i]);
@@ -127,26 +135,83 @@ typedef struct path {
     local delta, drift, bend;
 } path;
 
-/* One surface's part of n.(B - A) at w, into lane k of p: sign +1 for B, -1 for A. */
-static void part(const local_slice *s, const double m[2][2], const turns *all, const path *x,
-                 double w, double sign, int k, quadratics *p)
+/* What the field's turn by one term makes of the other, and the other way round. */
+static double both_ways(const local_slice *s, const turn *m, int q, int l)
 {
-    double slope[2];
-    for (int j = 0; j < 2; ++j)
-        slope[j] = sign * (s->l[j].n + w * (s->lw[j].n + dot2(all->w, &s->l[j]))) +
-                   (dot2(m[j], &x->delta) + w * dot2(m[j], &x->drift));
-    p->bs[k] = slope[0];
-    p->br[k] = slope[1];
-    p->qss[k] = sign * (s->uu.n + dot2(m[0], &s->l[0]));
-    p->qsr[k] = sign * (s->uv.n + dot2(m[0], &s->l[1]) + dot2(m[1], &s->l[0]));
-    p->qrr[k] = sign * (s->vv.n + dot2(m[1], &s->l[1]));
+    return dot2(m->l[l], &s->q[q]) + dot2(m->q[q], &s->l[l]);
 }
 
-/* Along tangent k, of all but the slopes: at most this. */
-static double tangential_rest(const local_slice *s, int k)
+/* One surface's part of n.(B - A) at w, into lane k of p: sign +1 for B, -1 for A. */
+static void part(const local_slice *s, const turn *m, const double *mw, const path *x, double w,
+                 double sign, int k, quadratics *p)
 {
-    return fabs(s->uu.t[k]) + fabs(s->uv.t[k]) + fabs(s->vv.t[k]) +
-           (fabs(s->lw[0].t[k]) + fabs(s->lw[1].t[k]));
+    const local at = {{x->delta.t[0] + w * x->drift.t[0], x->delta.t[1] + w * x->drift.t[1]}, 0};
+    double slope[2];
+    for (int j = 0; j < 2; ++j)
+        slope[j] = sign * (s->l[j].n + w * (s->q[UW + j].n + dot2(mw, &s->l[j]))) +
+                   (dot2(m->l[j], &at) + w * dot2(m->q[UW + j], &x->delta));
+    p->bs[k] = slope[0];
+    p->br[k] = slope[1];
+    p->qss[k] = sign * (s->q[UU].n + dot2(m->l[0], &s->l[0]) +
+                        w * (dot2(mw, &s->q[UU]) + both_ways(s, m, UW, 0))) +
+                dot2(m->q[UU], &at);
+    p->qsr[k] =
+        sign * (s->q[UV].n + dot2(m->l[0], &s->l[1]) + dot2(m->l[1], &s->l[0]) +
+                w * (dot2(mw, &s->q[UV]) + both_ways(s, m, UW, 1) + both_ways(s, m, VW, 0))) +
+        dot2(m->q[UV], &at);
+    p->qrr[k] = sign * (s->q[VV].n + dot2(m->l[1], &s->l[1]) +
+                        w * (dot2(mw, &s->q[VV]) + both_ways(s, m, VW, 1))) +
+                dot2(m->q[VV], &at);
+}
+
+/* At most, of the terms of third order in s_u and s_v of one surface's part; and of those in
+ * w^2. */
+static double cubic_upper(const local_slice *s, const turn *m)
+{
+    return fabs(both_ways(s, m, UU, 0)) + fabs(both_ways(s, m, UU, 1) + both_ways(s, m, UV, 0)) +
+           fabs(both_ways(s, m, UV, 1) + both_ways(s, m, VV, 0)) + fabs(both_ways(s, m, VV, 1));
+}
+
+static double squared_time_upper(const local_slice *s, const turn *m, const double *mw,
+                                 const path *x, double sign)
+{
+    double sum = 0;
+    for (int j = 0; j < 2; ++j)
+        sum += fabs(dot2(m->l[j], &x->bend) + dot2(m->q[UW + j], &x->drift) +
+                    sign * dot2(mw, &s->q[UW + j]));
+    return sum;
+}
+
+/* At most, of terms that have parameters of both surfaces: slopes of one, anything of the other. */
+static double cross_upper(const local_slice *a, const local_slice *b, const turn *ma,
+                          const turn *mb)
+{
+    double sum = 0;
+    for (int k = 0; k < 2; ++k) {
+        for (int l = 0; l < 2; ++l)
+            sum += fabs(dot2(ma->l[k], &b->l[l]) - dot2(mb->l[l], &a->l[k]));
+        for (int q = 0; q < SECONDS; ++q)
+            sum += fabs(dot2(ma->l[k], &b->q[q]) - dot2(mb->q[q], &a->l[k])) +
+                   fabs(dot2(mb->l[k], &a->q[q]) - dot2(ma->q[q], &b->l[k]));
+    }
+    return sum;
+}
+
+/* How far the slopes (0) and terms of second order (1) turn the field along tangent i, at most. */
+static double turned(const turn *m, int order, int i)
+{
+    double sum = 0;
+    for (int j = 0; j < 2 && order == 0; ++j) sum += fabs(m->l[j][i]);
+    for (int j = 0; j < SECONDS && order == 1; ++j) sum += fabs(m->q[j][i]);
+    return sum;
+}
+
+/* At most, of the terms of second order along tangent i. */
+static double tangential_rest(const local_slice *s, int i)
+{
+    double sum = 0;
+    for (int j = 0; j < SECONDS; ++j) sum += fabs(s->q[j].t[i]);
+    return sum;
 }
 
 static double weighted(vec3 n, const double *x)
@@ -154,27 +219,30 @@ static double weighted(vec3 n, const double *x)
     return fabs(n.x[0]) * x[0] + fabs(n.x[1]) * x[1] + fabs(n.x[2]) * x[2];
 }
 
-/* Lemma. Let D = delta + drift w + bend w^2 + (slopes and curvature of B) - (those of A) + rest,
- * |rest_i| <= slack_i, where the slopes l_k are l_k + lw_k w in truth, and
+/* Lemma. Let D = delta + drift w + bend w^2 + (terms of B) - (those of A) + rest, |rest_i| <= slack_i,
+ * where the terms of a surface are its slopes l_k s_k, its q_j z_j of second order, z_j being s_u^2,
+ * s_u s_v, s_v^2, s_u w or s_v w; and
  *
- *   n(s, w) = n0 + m_w + sum_k s_k m_k,   k over the four parameters, m_k = m_k1 t1 + m_k2 t2 and
- *                                         m_w = w (m_w1 t1 + m_w2 t2) for any numbers m.
+ *   n = n0 + w m_w + sum_k s_k m_k + sum_j z_j m_j   over the terms of both surfaces, m_k being
+ *                                                   m_k1 t1 + m_k2 t2, for any numbers m.
  *
  * Then n.D is the sum of
  *
  *   n0.delta + (n0.drift + m_w.delta) w
- *   (n0.bend + m_w.drift) w^2                 at least its coefficient or 0
- *   part B (s_b) + part A (s_a)               terms of each surface's own parameters, with the slopes
- *                                               that they have at w
- *   sum s_k s_l (m_k.l_l - m_l.l_k)           k of A, l of B, "cross": vanishes for m = -K l / 2
- *   (sum s_k m_k + w m_w).(curvature and      at most mu.(|curvatures| + |turns| + |bend|), along t1
- *     turns of B - those of A + bend w^2)       and t2, but for what the parts and w^2 have of it
- *   n.rest                                    at most (|n0| + mu1 |t1| + mu2 |t2|).slack
+ *   (n0.bend + m_w.drift) w^2      at least its coefficient or 0
+ *   part B (s_b) + part A (s_a)    what has one surface's parameters alone, is of second order in
+ *                                    them and linear in w: part()
+ *   their terms of third order     cubic_upper
+ *   their terms in w^2             squared_time_upper: s_k (m_k.bend + m_kw.drift +- m_w.l_kw)
+ *   s_k z_j (m_k.q_j - m_j.l_k)    k of one, j of the other, and s_k s_l likewise: cross_upper;
+ *                                    vanishes for m = -K x / 2
+ *   w^3 m_w.bend
+ *   z_j m_j.(z_i q_i, w^2 bend)    at most nu.(sum of |q| of both + |bend|), along t1 and t2
+ *   n.rest                         at most (|n0| + mu1 |t1| + mu2 |t2|).slack
  *
- * where mu_i = |m_wi| + sum_k |m_ki| bounds how far the field turns. In the parts only the slopes
- * depend on w, and linearly: +-(l_k + lw_k w).n0 + m_k.(delta + drift w) +- w m_w.l_k. So the least
- * value over s of each part is concave in w, and lies above the chord between the ends of the window.
- * And |n.D| <= |n| |D|, where
+ * where nu_i = sum_j |m_ji| and mu_i = |m_wi| + sum_k |m_ki| + nu_i bound how far the field turns.
+ * For fixed s the parts are linear in w. So the least value over s of each is concave in w, and lies
+ * above the chord between the ends of the window. And |n.D| <= |n| |D|, where
  *
  *   |n|^2 <= |n0|^2 + 2 sum_i mu_i |n0.t_i| + (sum_i mu_i |t_i|)^2.
  *
@@ -183,44 +251,44 @@ static double weighted(vec3 n, const double *x)
  * tangent or accurate.
  *
  * Rounding, in units of u size, size = |n0|.magnitude + 2 sum_i mu_i |t_i|.magnitude: each magnitude
- * is multiplied by n0 once, and by at most mu in all.
+ * is multiplied by n0 once, and by each m at most once.
  *
  *   relative_at                           RELATIVE_ROUNDING
  *   coordinates in the frame              3: product, two sums
- *   coefficients of the parts             7: product, times w, sums of at most five terms
+ *   coefficients of the parts            14: product, times w, sums of at most twelve terms
  *   least values of both parts            2 QUADRATIC_ROUNDING
- *   cross                                 4: product, three sums
+ *   coefficients of the other terms       8: product, sums of at most seven terms
  *   low, its chord                       12: product, sums of at most six terms, of 2 size
- *   mu, slack and size themselves        64: fewer than 20 operations, each on less than 3 size
+ *   mu, slack and size themselves        96: fewer than 32 operations, each on less than 3 size
  */
-enum { FIELD_ROUNDING = 512, SLACK_PAD = 32, MU_PAD = 8, DOT_ROUNDING = 8, LENGTH_PAD = 32 };
-_Static_assert(RELATIVE_ROUNDING + 3 + 7 + 2 * QUADRATIC_ROUNDING + 4 + 12 + 64 <= FIELD_ROUNDING,
+enum { FIELD_ROUNDING = 512, SLACK_PAD = 64, MU_PAD = 32, DOT_ROUNDING = 8, LENGTH_PAD = 32 };
+_Static_assert(RELATIVE_ROUNDING + 3 + 14 + 2 * QUADRATIC_ROUNDING + 8 + 12 + 96 <= FIELD_ROUNDING,
                "rounding along a field of normals");
-PAD_COVERS(SLACK_PAD, 4 + 4 + 1 + 9); /* sums of a rest, of rests, times mu, sums in all */
-PAD_COVERS(MU_PAD, 4);                /* four sums */
-PAD_COVERS(LENGTH_PAD, (2 * (4 + 1 + 1) + 1 + 2 + 1) / 2 + 1 + 1); /* lean^2; sums; root; product */
+PAD_COVERS(SLACK_PAD, 4 + 20 + 14 + 16); /* cross; of second order, times nu; sums in all */
+PAD_COVERS(MU_PAD, 4 + 10);              /* slopes and w, terms of second order */
+PAD_COVERS(LENGTH_PAD, (2 * (14 + 1) + 1 + 2 + 1) / 2 + 1 + 1); /* lean^2; sums; root; product */
 
 /* What the lemma takes off, and the length of n. False: too large to tell. */
 static bool slack_and_length(const relative *r, const frame *f, const local_slice *a,
                              const local_slice *b, const turns *m, const path *x,
                              double *slack_upper, double *length_upper)
 {
-    double slack = QUADRATIC_UNDERFLOW + weighted(f->n, r->slack);
+    double slack = QUADRATIC_UNDERFLOW + weighted(f->n, r->slack) +
+                   cross_upper(a, b, &m->a, &m->b) + cubic_upper(a, &m->a) + cubic_upper(b, &m->b) +
+                   squared_time_upper(a, &m->a, m->w, x, -1) +
+                   squared_time_upper(b, &m->b, m->w, x, 1) + fabs(dot2(m->w, &x->bend));
     double size = weighted(f->n, r->magnitude);
     double tilt = 0, lean = 0;
-    for (int k = 0; k < 2; ++k) {
-        const double mu = padded_upper(fabs(m->a[0][k]) + fabs(m->a[1][k]) + fabs(m->b[0][k]) +
-                                           fabs(m->b[1][k]) + fabs(m->w[k]),
-                                       MU_PAD);
-        slack += mu * (fabs(x->bend.t[k]) + tangential_rest(a, k) + tangential_rest(b, k) +
-                       weighted(f->t[k], r->slack));
-        size += 2 * mu * weighted(f->t[k], r->magnitude);
-        tilt += mu * fabs(vec3_dot(f->n, f->t[k])) + mu * (DOT_ROUNDING * UNIT_ROUNDOFF);
-        lean += mu * vec3_norm(f->t[k]);
+    for (int i = 0; i < 2; ++i) {
+        const double nu = turned(&m->a, 1, i) + turned(&m->b, 1, i);
+        const double mu =
+            padded_upper(turned(&m->a, 0, i) + turned(&m->b, 0, i) + fabs(m->w[i]) + nu, MU_PAD);
+        slack += nu * (tangential_rest(a, i) + tangential_rest(b, i) + fabs(x->bend.t[i])) +
+                 mu * weighted(f->t[i], r->slack);
+        size += 2 * mu * weighted(f->t[i], r->magnitude);
+        tilt += mu * fabs(vec3_dot(f->n, f->t[i])) + mu * (DOT_ROUNDING * UNIT_ROUNDOFF);
+        lean += mu * vec3_norm(f->t[i]);
     }
-    for (int k = 0; k < 2; ++k)
-        for (int l = 0; l < 2; ++l)
-            slack += fabs(dot2(m->a[k], &b->l[l]) - dot2(m->b[l], &a->l[k]));
     if (!(size < 0x1p400)) return false;
     *slack_upper =
         slack + (slack * (SLACK_PAD * UNIT_ROUNDOFF) + size * (FIELD_ROUNDING * UNIT_ROUNDOFF));
@@ -245,8 +313,8 @@ static height height_of(const relative *r, const local_slice *a, const local_sli
                 x->bend.n + dot2(m->w, &x->drift),
                 {none, none, none, none, none}};
     for (int end = 0; end < 2; ++end) {
-        part(a, m->a, m, x, 2 * end - 1, -1, 2 * end, &h.parts);
-        part(b, m->b, m, x, 2 * end - 1, 1, 2 * end + 1, &h.parts);
+        part(a, &m->a, m->w, x, 2 * end - 1, -1, 2 * end, &h.parts);
+        part(b, &m->b, m->w, x, 2 * end - 1, 1, 2 * end + 1, &h.parts);
     }
     if (!(h.offset + (h.drift + h.bend * r->focus) * r->focus < 0)) return h;
     const quadratics *p = &h.parts;
