@@ -447,6 +447,70 @@ START_TEST(the_field_of_normals_turns_with_time)
 }
 END_TEST
 
+/* Adds to x what lies along u and v, at most `size`, and a little along n. */
+static void add_across(uint64_t *state, double *x, double size)
+{
+    const double n[3] = {0.48, 0.6, 0.64}, u[3] = {0.8, 0, -0.6}, v[3] = {-0.36, 0.8, -0.48};
+    const double little = random_power(state, -12, -3);
+    double c[3];
+    for (int k = 0; k < 3; ++k) c[k] = (k == 0 ? little : size) * random_between(state, -1, 1);
+    for (int i = 0; i < 3; ++i) x[i] += c[0] * n[i] + c[1] * u[i] + c[2] * v[i];
+}
+
+/* Two nearly parallel surfaces that bend little, but move and are warped within their planes as
+ * much as they are wide. At s and m->t they are g apart, nearly across. */
+static meeting warped(uint64_t *state, double s[4], double g)
+{
+    meeting m = two_caps(1, 1, 0);
+    double apart[3] = {0.48 * g, 0.6 * g, 0.64 * g};
+    node *both[2] = {&m.a, &m.b};
+    for (int side = 0; side < 2; ++side) {
+        quadratic3 *f = &both[side]->f;
+        double *const all[] = {f->quu, f->quv, f->qvv, f->qut, f->qvt, f->bt, f->qtt};
+        memset(f->quu, 0, sizeof f->quu);
+        memset(f->qvv, 0, sizeof f->qvv);
+        for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+            add_across(state, all[k], random_bits(state) % 2 ? random_power(state, -8, 1) : 0);
+        for (int i = 0; i < 3; ++i)
+            both[side]->motion[i] =
+                fabs(f->bt[i]) + 2 * fabs(f->qtt[i]) + fabs(f->qut[i]) + fabs(f->qvt[i]);
+    }
+    for (int k = 0; k < 4; ++k) s[k] = corner_or_inside(state);
+    m.t = 0.5 + 0.5 * corner_or_inside(state);
+    add_across(state, apart, g * random_power(state, -8, -3));
+    for (int i = 0; i < 3; ++i) {
+        m.gap[i] = apart[i];
+        m.b.f.a[i] = (double)(apart[i] + point(&m.a, i, s, m.t, 0) - point(&m.b, i, s + 2, m.t, 0));
+    }
+    return m;
+}
+
+START_TEST(the_field_of_normals_proves_no_more_than_the_distance)
+{
+    uint64_t state = suite_seed() + 5;
+    int proved = 0;
+    for (int k = 0; k < suite_times(400000); ++k) {
+        double s[4];
+        const meeting m = warped(&state, s, random_power(&state, -12, 1));
+        const double gap =
+            (double)sqrtl(m.gap[0] * m.gap[0] + m.gap[1] * m.gap[1] + m.gap[2] * m.gap[2]);
+        relative r;
+        w_range all = {-1, 1};
+        gap_lines lines;
+        gap_lines_begin(&lines);
+        relative_at(&m.a, &m.b, &m.window, &r);
+        normal_field_cut(&r, 0, &all, &lines);
+        if (lines.count == 1) continue;
+        const double w = (m.t - r.mid) / r.half;
+        const double lower = lines.line[1].low + lines.line[1].drift * w;
+        proved += lower > 0.25 * gap;
+        ck_assert_msg(lower <= gap * (1 + 1e-9), "case %d: %g apart at w = %g, proved %g", k, gap,
+                      w, lower);
+    }
+    ck_assert_int_gt(proved, suite_times(400000) / 100);
+}
+END_TEST
+
 /* An edge along v that slides over one along u, `gap` above it, and over both of its ends. */
 static meeting two_edges(double gap)
 {
@@ -592,7 +656,9 @@ SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
            no_axis_shows_much_more_than_twice_the_gap_of_the_nearest,
            where_hulls_meet_there_is_no_gjk_axis,
            edges_that_slide_past_each_other_are_parted_at_once,
-           the_field_of_normals_turns_with_time, the_field_of_normals_parts_caps_that_no_axis_does,
+           the_field_of_normals_turns_with_time,
+           the_field_of_normals_proves_no_more_than_the_distance,
+           the_field_of_normals_parts_caps_that_no_axis_does,
            caps_that_touch_with_their_tops_are_not_parted_at_any_size,
            a_window_shrinks_to_the_moment_of_contact, infinities_and_nans_never_part_anything,
            boxes_and_balls_are_apart_only_beyond_the_clearance,
