@@ -46,13 +46,29 @@ dist_examples_DATA = \
 # Innermost first.
 sdk_folders = $(templatedir) $(examplesdir) $(sdkdocdir) $(hostexamplesdir) $(docdir)
 
-# The Python module, installed by pip from here, and an example for programs: C and Python.
-EXTRA_DIST += \
-    sdk/python/pyproject.toml \
+# The Python module, also installed by pip from here. Installed by make it knows its library.
+python_module = \
     sdk/python/impinge/__init__.py \
     sdk/python/impinge/_library.py \
+    sdk/python/impinge/builder.py \
+    sdk/python/impinge/errors.py \
+    sdk/python/impinge/py.typed \
+    sdk/python/impinge/query.py \
+    sdk/python/impinge/registry.py \
     sdk/python/impinge/results.py \
     sdk/python/impinge/scene.py
+EXTRA_DIST += sdk/python/pyproject.toml $(python_module)
+if HAVE_PYTHON
+pythonmoduledir = $(pythondir)/impinge
+pythonmodule_DATA = $(python_module) sdk/python/_installed.py
+sdk/python/_installed.py: Makefile
+	$(AM_V_GEN)$(MKDIR_P) sdk/python && echo 'LIBRARY = "$(libdir)/libimpinge.so.0"' >$@
+CLEANFILES += sdk/python/_installed.py
+uninstall-hook: uninstall-pycache
+uninstall-pycache:
+	rm -rf "$(DESTDIR)$(pythonmoduledir)/__pycache__"
+	-rmdir "$(DESTDIR)$(pythonmoduledir)" 2>/dev/null
+endif
 
 # Programs that use the library, beside the plugins that the guide builds.
 hostexamplesdir = $(docdir)/examples
@@ -60,4 +76,5 @@ dist_hostexamples_DATA = \
     sdk/examples/arm.c \
     sdk/examples/arm.py \
     sdk/examples/linked_in.c \
+    sdk/examples/profile.py \
     sdk/examples/steps.c

@@ -46,6 +46,15 @@ setup_file() {
     [ "$count" -eq 2 ]
 }
 
+@test "the README's Python answers" {
+    [ "$PYTHON3" != no ] || skip "no python3 with numpy and pytest"
+    has_sanitizers && skip "a library with AddressSanitizer needs a program with it"
+    sed -n '/^    import impinge, numpy/,/^    print/s/^    //p' "$top_srcdir/README.md" >"$BATS_TEST_TMPDIR/program.py"
+    export IMPINGE_LIBRARY=$top_builddir/.libs/libimpinge.so PYTHONPATH=$top_srcdir/sdk/python
+    IMPINGE_PLUGIN_PATH=$top_builddir/plugins/.libs run -0 "$PYTHON3" -B "$BATS_TEST_TMPDIR/program.py"
+    [[ $output == "Result(verdict='"* ]]
+}
+
 @test "the README's arm keeps its distance" {
     cd "$top_srcdir"
     run -0 impinge clearance tools/data/arm.json --require 2

@@ -3,8 +3,10 @@
 
 """The Python module, over the library and plugins of the build tree."""
 
+import ctypes
 import os
 import pathlib
+import signal
 import threading
 
 import impinge
@@ -120,3 +122,129 @@ def test_parents_groups_and_files_make_an_arm():
     clearance = scene.clearance(required=2)
     assert clearance.verdict == "holds" and clearance.lower >= 2 * (1 - 1e-6)
     assert {clearance.a.body, clearance.b.body} == {"link5", "fixture"}
+
+
+def crowd() -> impinge.Scene:
+    """Three balls that meet a wall one after the other, one that never does, and two that ignore."""
+    builder = impinge.Builder()
+    builder.body("wall").surface("plane", origin=[-5, -5, 0], edge_u=[10, 0, 0], edge_v=[0, 10, 0])
+    for k, height in enumerate((1.5, 1.25, 1.75, 4.5)):
+        builder.body(f"ball{k}", group="balls").surface(
+            "sphere", radius=0.5, center=[3 * k - 5, 0, height]).map(
+            "translate", velocity=[0, 0, -2])
+    builder.ignore("balls", "balls")
+    return builder.build()
+
+
+def test_each_pair_meets_in_order_of_time_and_what_stays_clear_comes_last():
+    results = list(crowd().solve_each())
+    assert [r.bodies[1] for r in results] == ["ball1", "ball0", "ball2", "ball3"]
+    assert [r.verdict for r in results] == ["contact"] * 3 + ["clear"]
+    assert all(abs(r.t - t) < 1e-5 for r, t in zip(results, (0.375, 0.5, 0.625)))
+    assert results[0].a.body == "wall" and not results[0].at_rest
+
+
+def test_each_pair_is_there_as_soon_as_it_is_proved():
+    generator = crowd().solve_each()
+    assert next(generator).bodies == ("wall", "ball1")
+    generator.close()
+    cut_short = list(crowd().solve_each(max_pairs=3))
+    assert cut_short[-1].verdict == "undecided" and cut_short[-1].bodies is None
+
+
+def test_finer_answers_come_from_one_search():
+    results = list(flying().build().refine([1e-8, 1e-2, 1e-4]))
+    assert [r.gamma for r in results] == [1e-2, 1e-4, 1e-8]
+    assert results[-1].t == pytest.approx(flying().build().solve(gamma=1e-8).t, abs=1e-8)
+    assert list(flying().build().refine([])) == []
+
+
+ENDLESS = ("sphere radius=1", "sphere radius=1.000000002")
+
+
+def endless() -> impinge.Scene:
+    return impinge.Scene.from_pair(*ENDLESS)
+
+
+def test_a_progress_sink_sees_a_search_advance_and_ends_it():
+    seen = []
+
+    def sink(progress):
+        seen.append(progress)
+        return len(seen) < 2
+
+    result = endless().solve(gamma=1e-9, progress=sink)
+    assert result.verdict == "undecided" and result.reason == "cancelled"
+    assert len(seen) == 2 and seen[1].pairs > seen[0].pairs and "pairs=" in repr(seen[0])
+    assert seen[0].t_lower == 0 and seen[0].upper is None
+
+
+def test_an_exception_of_a_sink_goes_on_to_the_caller():
+    def sink(progress):
+        raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        endless().solve(gamma=1e-9, progress=sink)
+
+
+def test_an_interrupt_ends_a_search():
+    def sink(progress):
+        signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt):
+        endless().solve(gamma=1e-9, progress=sink)
+    thread = threading.main_thread().ident
+    with pytest.raises(KeyboardInterrupt):  # also while no sink is called
+        threading.Thread(target=lambda: signal.pthread_kill(thread, signal.SIGINT)).start()
+        endless().solve(gamma=1e-9, max_bytes=1 << 40)  # nothing else ends it
+
+
+def test_a_budget_ends_a_search_with_what_is_proved():
+    result = endless().solve(gamma=1e-9, max_pairs=500)
+    assert result.verdict == "undecided" and result.reason == "pairs" and result.pairs >= 500
+    with pytest.raises(TypeError, match="max_pears"):
+        endless().solve(max_pears=1)
+
+
+def test_arrays_of_doubles_are_not_copied():
+    from impinge.builder import _argument
+
+    points = numpy.zeros((16, 3))
+    address = ctypes.cast(_argument("points", points, []).number, ctypes.c_void_p).value
+    assert address == points.ctypes.data
+    turned = numpy.asfortranarray(points)
+    kept = []
+    _argument("points", turned, kept)
+    assert kept[0].flags.c_contiguous and kept[0].shape == (16, 3)
+
+
+def test_a_batch_takes_scenes_as_it_needs_them_and_can_be_closed():
+    taken = []
+
+    def scenes():
+        for k in range(1000):
+            taken.append(k)
+            yield flying().build()
+
+    results = impinge.batch(scenes(), threads=2)
+    assert next(results).verdict == "contact"
+    results.close()
+    assert len(taken) < 10
+
+
+def test_what_is_not_there_is_named():
+    scene = flying().build()
+    with pytest.raises(impinge.UsageError, match="left, right"):
+        scene.eval("middle", 0, [[0, 0, 0]])
+    with pytest.raises(impinge.UsageError, match="gamma: got 'wide'"):
+        scene.solve(gamma="wide")
+
+
+def test_everything_public_is_documented_and_typed():
+    for name in impinge.__all__:
+        assert getattr(impinge, name).__doc__, name
+    for kind in (impinge.Scene, impinge.Builder, impinge.Body):
+        for name, member in vars(kind).items():
+            if callable(member) and not name.startswith("_"):
+                assert member.__doc__ and "return" in member.__annotations__, name
+    assert (pathlib.Path(impinge.__file__).parent / "py.typed").exists()

@@ -10,12 +10,13 @@
 """
 
 from . import _library
-from .results import Clearance, Profile, Result, Side
-from .scene import (Body, Builder, FileError, ImpingeError, PluginError, Scene, SceneError,
-                    UsageError, batch)
+from .builder import Body, Builder
+from .errors import FileError, ImpingeError, PluginError, SceneError, UsageError
+from .results import Clearance, Profile, Progress, Result, Side
+from .scene import Scene, batch
 
 __all__ = ["Body", "Builder", "Clearance", "FileError", "ImpingeError", "PluginError", "Profile",
-           "Result", "Scene", "SceneError", "Side", "UsageError", "batch", "version"]
+           "Progress", "Result", "Scene", "SceneError", "Side", "UsageError", "batch", "version"]
 
 
 def version() -> str:

@@ -3,13 +3,15 @@
 
 """The C interface of libimpinge (<impinge/impinge.h>), as ctypes sees it.
 
-The library is the one that the environment's IMPINGE_LIBRARY names, or else the installed one.
+The library is the one that the environment's IMPINGE_LIBRARY names, or else that which this module was
+installed with, or that which the dynamic linker or pkg-config finds.
 Structs that grow begin with their size, so that a newer library runs with this module.
 """
 
 import ctypes as c
-import ctypes.util
 import os
+import subprocess
+from typing import Iterator
 
 
 class Error(c.Structure):
@@ -127,6 +129,9 @@ class Clearance(c.Structure):
     ]
 
 
+CLEAR, CONTACT = 0, 1  # imp_verdict
+RESOLUTION, RUNNING = 7, 8  # imp_reason
+
 _P, _S, _D, _N = c.c_void_p, c.c_char_p, c.c_double, c.c_size_t
 _E, _A = c.POINTER(Error), c.POINTER(Argument)
 
@@ -156,7 +161,12 @@ _FUNCTIONS = {
     "imp_builder_ignore": (c.c_int, _P, _S, _S, _E),
     "imp_builder_finish": (_P, _P, _E),
     "imp_options_read": (c.c_int, _P, c.POINTER(Options), _E),
-    "imp_scene_solve": (c.c_int, _P, c.POINTER(Options), c.POINTER(Result), _E),
+    "imp_scene_ignores": (c.c_bool, _P, _N, _N),
+    "imp_query_new": (_P, _P, c.POINTER(Options), _E),
+    "imp_query_read": (c.c_int, _P, c.POINTER(Result), _E),
+    "imp_query_refine": (c.c_int, _P, _D, _D, _E),
+    "imp_query_pass": (c.c_int, _P, _E),
+    "imp_query_cancel": (None, _P),
     "imp_clearance_options_read": (c.c_int, c.POINTER(ClearanceOptions), _E),
     "imp_clearance_new": (_P, _P, c.POINTER(Options), c.POINTER(ClearanceOptions), _E),
     "imp_clearance_count": (_N, _P),
@@ -166,9 +176,41 @@ _FUNCTIONS = {
 }
 
 
+_NAME = "libimpinge.so.0"
+
+
+def _candidates() -> Iterator[str]:
+    named = os.environ.get("IMPINGE_LIBRARY")
+    if named:
+        yield named
+        return
+    try:
+        from ._installed import LIBRARY  # written by make install
+
+        yield LIBRARY
+    except ImportError:
+        pass
+    yield _NAME
+    try:
+        asked = subprocess.run(["pkg-config", "--variable=libdir", "impinge"], check=True,
+                               capture_output=True, text=True)
+        yield os.path.join(asked.stdout.strip(), _NAME)
+    except (OSError, subprocess.CalledProcessError):
+        pass
+
+
+def _open() -> c.CDLL:
+    tried = []
+    for path in _candidates():
+        try:
+            return c.CDLL(path)
+        except OSError as error:
+            tried.append(str(error))
+    raise ImportError(f"{'; '.join(tried)}. Install Impinge, or let IMPINGE_LIBRARY name its {_NAME}")
+
+
 def _load() -> c.CDLL:
-    path = os.environ.get("IMPINGE_LIBRARY") or ctypes.util.find_library("impinge")
-    library = c.CDLL(path or "libimpinge.so.0")
+    library = _open()
     for name, (result, *arguments) in _FUNCTIONS.items():
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments

@@ -44,12 +44,25 @@ class Result:
     normal: Optional[Tuple[float, float, float]]
     pairs: int
     seconds: float
+    at_rest: bool = False  # contact of two surfaces that do not move: they overlap
+    bodies: Optional[Tuple[str, str]] = None  # of `solve_each`
 
     def time_left(self, t: float) -> float:
         """Time left from t until contact; negative when that is past, infinite when clear."""
         if self.verdict == "clear":
             return float("inf")
         return (self.t if self.t is not None else self.t_lower) - t
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a question has come: proved up to `t_lower`, or a bracket of the least distance."""
+
+    t_lower: Optional[float]
+    pairs: int
+    seconds: float
+    lower: Optional[float]
+    upper: Optional[float]
 
 
 @dataclass(frozen=True)
@@ -93,7 +106,15 @@ def _side(names: Tuple[str, ...], side: lib.Side) -> Side:
     return Side(names[side.body], side.surface, side.u, side.v, tuple(side.point))
 
 
-def result_of(names: Tuple[str, ...], r: lib.Result) -> Result:
+def progress_of(r: lib.Result, bracket: Optional[lib.Clearance]) -> Progress:
+    """From the C structs; `bracket` of the least distance that is sought now, if one is."""
+    if bracket is None:
+        return Progress(r.t_lower, r.stats.pairs, r.stats.seconds, None, None)
+    return Progress(None, r.stats.pairs, r.stats.seconds, bracket.lower, bracket.upper)
+
+
+def result_of(names: Tuple[str, ...], r: lib.Result,
+              pair: Optional[Tuple[int, int]] = None) -> Result:
     """From the C struct; `names` are those of the bodies."""
     contact = _VERDICTS[r.verdict] == "contact"
     return Result(
@@ -101,7 +122,8 @@ def result_of(names: Tuple[str, ...], r: lib.Result) -> Result:
         t_lower=r.t_lower, gap=_number(r.gap), gamma=r.gamma, gamma_clear=r.gamma_clear,
         a=_side(names, r.a) if contact else None, b=_side(names, r.b) if contact else None,
         normal=tuple(r.normal) if r.has_normal else None, pairs=r.stats.pairs,
-        seconds=r.stats.seconds)
+        seconds=r.stats.seconds, at_rest=r.at_rest,
+        bodies=(names[pair[0]], names[pair[1]]) if pair is not None else None)
 
 
 def clearance_of(names: Tuple[str, ...], k: lib.Clearance) -> Clearance:
