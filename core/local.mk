@@ -37,6 +37,7 @@ core_surface = \
 
 core_tree = \
     core/tree/bound_audit.c core/tree/bound_audit.h \
+    core/tree/hierarchy.c core/tree/hierarchy.h \
     core/tree/node.c core/tree/node.h \
     core/tree/node_model.c core/tree/node_model.h \
     core/tree/vec.h

@@ -13,6 +13,7 @@ plugin_LTLIBRARIES = \
     plugins/formula.la \
     plugins/keyframes.la \
     plugins/map-formula.la \
+    plugins/mesh.la \
     plugins/nurbs.la \
     plugins/plane.la \
     plugins/point.la \
@@ -63,6 +64,8 @@ plugins_keyframes_la_SOURCES = plugins/maps/keyframes.c
 plugins_keyframes_la_LDFLAGS = $(plugin_ldflags)
 plugins_map_formula_la_SOURCES = plugins/maps/map-formula.c
 plugins_map_formula_la_LDFLAGS = $(plugin_ldflags)
+plugins_mesh_la_SOURCES = plugins/surfaces/mesh.c
+plugins_mesh_la_LDFLAGS = $(plugin_ldflags)
 plugins_nurbs_la_SOURCES = plugins/surfaces/nurbs.c
 plugins_nurbs_la_LDFLAGS = $(plugin_ldflags)
 plugins_plane_la_SOURCES = plugins/surfaces/plane.c
@@ -168,6 +171,18 @@ plugins_nurbs_la_LIBADD = plugins/libpatch.la
 plugins_product_la_LIBADD = plugins/libpatch.la
 plugins_revolution_la_LIBADD = plugins/libpatch.la
 plugins_sweep_la_LIBADD = plugins/libpatch.la
+
+# Files of triangles.
+noinst_LTLIBRARIES += plugins/libmesh.la
+plugins_libmesh_la_SOURCES = \
+    plugins/mesh/mesh_file.c plugins/mesh/mesh_file.h \
+    plugins/mesh/mesh_obj.c \
+    plugins/mesh/mesh_off.c \
+    plugins/mesh/mesh_stl.c \
+    plugins/mesh/mesh_text.c plugins/mesh/mesh_text.h \
+    plugins/mesh/triangles.c plugins/mesh/triangles.h
+plugins_libmesh_la_LDFLAGS =
+plugins_mesh_la_LIBADD = plugins/libmesh.la plugins/libcommon.la
 
 # The language of formulas, for both types that take formulas as text.
 noinst_LTLIBRARIES += plugins/libexpression.la

@@ -8,6 +8,7 @@ check_suites = \
     tests/fuzz/csv \
     tests/fuzz/elf \
     tests/fuzz/formula \
+    tests/fuzz/mesh \
     tests/fuzz/pipeline \
     tests/fuzz/proof \
     tests/fuzz/scene \
@@ -38,6 +39,7 @@ check_suites = \
     tests/unit/test_parts \
     tests/unit/test_pair_heap \
     tests/unit/test_pending \
+    tests/unit/test_pieces \
     tests/unit/test_pipeline \
     tests/unit/test_plugin_parameters \
     tests/unit/test_quadratic \
@@ -203,6 +205,14 @@ check_LTLIBRARIES = \
     tests/plugins/note_disagrees.la \
     tests/plugins/null_callback.la \
     tests/plugins/null_string.la \
+    tests/plugins/pieces.la \
+    tests/plugins/pieces_change.la \
+    tests/plugins/pieces_half.la \
+    tests/plugins/pieces_lie.la \
+    tests/plugins/pieces_many.la \
+    tests/plugins/pieces_none.la \
+    tests/plugins/pieces_null.la \
+    tests/plugins/pieces_times.la \
     tests/plugins/rate_infinite.la \
     tests/plugins/rate_lies.la \
     tests/plugins/rate_negative.la \
@@ -279,6 +289,14 @@ tests_plugins_no_note_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_note_disagrees_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_null_callback_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_null_string_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_pieces_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_pieces_change_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_pieces_half_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_pieces_lie_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_pieces_many_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_pieces_none_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_pieces_null_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_pieces_times_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_rate_infinite_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_rate_lies_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)
@@ -316,7 +334,8 @@ tests_unit_test_formula_SOURCES = tests/unit/test_formula.c tests/support/oracle
 tests_unit_test_model_SOURCES = tests/unit/test_model.c tests/support/oracle.c
 
 noinst_HEADERS += tests/support/built_plugins.h tests/support/oracle.h tests/support/suite.h tests/support/query_helpers.h tests/support/sphere_scenes.h tests/support/scene_variants.h tests/support/sandbox.h tests/support/kit_registry.h tests/support/scene_text.h tests/support/alloc_failure.h tests/plugins/tiny.h tests/plugins/liar.h
-noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/slab.h tests/support/model_value.h
+noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/slab.h tests/plugins/stack.h \
+    tests/support/model_value.h
 
 # Fuzz targets, run on the inputs of their folders; tests/fuzz/run searches for more.
 tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/elf_changes.c tests/fuzz/elf_changes.h \
@@ -324,6 +343,8 @@ tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/elf_changes.c tests/fuzz/el
 tests_fuzz_cache_SOURCES = tests/fuzz/cache.c tests/fuzz/replay.c tests/fuzz/fuzz_mutate.h
 tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c
 tests_fuzz_csv_LDADD = plugins/libcommon.la $(LDADD)
+tests_fuzz_mesh_SOURCES = tests/fuzz/mesh.c tests/fuzz/replay.c
+tests_fuzz_mesh_LDADD = plugins/libmesh.la $(LDADD)
 tests_fuzz_pipeline_SOURCES = tests/fuzz/pipeline.c tests/fuzz/replay.c tests/fuzz/fuzz_registry.h
 tests_fuzz_pipeline_LDADD = $(LDADD) $(JANSSON_LIBS)
 tests_fuzz_proof_SOURCES = tests/fuzz/proof.c tests/fuzz/replay.c
@@ -336,7 +357,7 @@ tests_fuzz_scene_SOURCES = tests/fuzz/scene.c tests/fuzz/scene_judge.c tests/fuz
 # What tests/fuzz/run builds: libraries that tell libFuzzer what runs, and plugins that do not.
 .PHONY: fuzz-libraries fuzz-plugins
 fuzz-libraries: core/libcore.la tools/libproof.la plugins/libexpression.la plugins/libcommon.la \
-    $(plugin_LTLIBRARIES)
+    plugins/libmesh.la $(plugin_LTLIBRARIES)
 fuzz-plugins: $(check_LTLIBRARIES)
 EXTRA_DIST += \
     tests/fuzz/cache.d/codes \
@@ -409,6 +430,31 @@ EXTRA_DIST += \
     tests/fuzz/formula.d/smooth.txt \
     tests/fuzz/formula.d/zero.txt \
     tests/fuzz/formula.dict \
+    tests/fuzz/mesh.d/empty \
+    tests/fuzz/mesh.d/obj_back \
+    tests/fuzz/mesh.d/obj_bent \
+    tests/fuzz/mesh.d/obj_beyond \
+    tests/fuzz/mesh.d/obj_concave \
+    tests/fuzz/mesh.d/obj_continued \
+    tests/fuzz/mesh.d/obj_huge_index \
+    tests/fuzz/mesh.d/obj_nan \
+    tests/fuzz/mesh.d/obj_nul \
+    tests/fuzz/mesh.d/obj_patch \
+    tests/fuzz/mesh.d/obj_plain \
+    tests/fuzz/mesh.d/obj_star \
+    tests/fuzz/mesh.d/off_cut \
+    tests/fuzz/mesh.d/off_huge_count \
+    tests/fuzz/mesh.d/off_huge_face \
+    tests/fuzz/mesh.d/off_more \
+    tests/fuzz/mesh.d/off_one_line_head \
+    tests/fuzz/mesh.d/off_plain \
+    tests/fuzz/mesh.d/stl_binary \
+    tests/fuzz/mesh.d/stl_binary_count \
+    tests/fuzz/mesh.d/stl_binary_cut \
+    tests/fuzz/mesh.d/stl_binary_nan \
+    tests/fuzz/mesh.d/stl_text \
+    tests/fuzz/mesh.d/stl_text_cut \
+    tests/fuzz/mesh.dict \
     tests/fuzz/pipeline.d/all_kinds.txt \
     tests/fuzz/pipeline.d/blanks.txt \
     tests/fuzz/pipeline.d/brackets.txt \

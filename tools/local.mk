@@ -34,6 +34,7 @@ tools_check = \
     tools/check/nets.c tools/check/nets.h \
     tools/check/map_operand.c tools/check/map_operand.h \
     tools/check/pair.c tools/check/pair.h \
+    tools/check/pieces.c tools/check/pieces.h \
     tools/check/points.c tools/check/points.h \
     tools/check/proof.c tools/check/proof.h \
     tools/check/purity.c tools/check/purity.h \

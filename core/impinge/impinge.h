@@ -126,7 +126,7 @@ typedef struct imp_type_info {
     const imp_parameter *parameters; /* step by parameter_size bytes */
     size_t parameter_count, parameter_size;
     const char *capabilities; /* what this host uses of it, names with blanks between: "core", always;
-                                 "order-2": include or apply; "net" */
+                                 "order-2": include or apply; "net"; "pieces" */
 } imp_type_info;
 
 /* Types in the order found, shadowed ones included. Returns false past the last. */
@@ -300,6 +300,11 @@ IMP_EXPORT bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b);
 IMP_EXPORT const char *imp_scene_body_name(const imp_scene *scene, size_t body);
 IMP_EXPORT size_t imp_scene_surface_count(const imp_scene *scene, size_t body);
 
+/* Of how many pieces a surface consists, as a mesh of its triangles; 1: it is one. Each has its own
+ * domain; imp_scene_eval, _include and _domain are about the first piece, imp_piece_eval, _include and
+ * _domain about any. 0: there is no such surface. */
+IMP_EXPORT size_t imp_scene_piece_count(const imp_scene *scene, size_t body, size_t surface);
+
 /* n points p[3*k] = (u, v, t) of one surface, maps applied, to x[3*k] and, unless NULL,
  * error[3*k]. */
 IMP_EXPORT imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t surface, size_t n,
@@ -314,6 +319,18 @@ IMP_EXPORT imp_code imp_scene_include(const imp_scene *scene, size_t body, size_
  * when they have none in common, lo[2] > hi[2]. */
 IMP_EXPORT void imp_scene_domain(const imp_scene *scene, size_t body, size_t surface, double lo[3],
                                  double hi[3]);
+
+/* A surface of the scene, or one of its pieces. */
+typedef struct imp_place {
+    size_t body, surface, piece;
+} imp_place;
+
+/* The same of one piece. */
+IMP_EXPORT imp_code imp_piece_eval(const imp_scene *scene, imp_place at, size_t n, const double *p,
+                                   double *x, double *error, imp_error *why);
+IMP_EXPORT imp_code imp_piece_include(const imp_scene *scene, imp_place at, const double lo[3],
+                                      const double hi[3], imp_model model[3], imp_error *why);
+IMP_EXPORT void imp_piece_domain(const imp_scene *scene, imp_place at, double lo[3], double hi[3]);
 
 /* --- Queries ----------------------------------------------------------------------- */
 
@@ -388,6 +405,7 @@ static inline imp_options imp_options_default(const imp_scene *scene)
 /* One side of a witness. */
 typedef struct imp_side {
     size_t body, surface; /* indices in the scene */
+    size_t piece;         /* of a surface of pieces, which one; else 0 */
     double u, v;
     double point[3]; /* world space */
 } imp_side;
@@ -452,11 +470,12 @@ static inline imp_result imp_query_result(const imp_query *query)
 }
 
 /* Two regions, one of each side's surface, that the search has not parted for good: over u[0]..u[1]
- * and v[0]..v[1] they are proved to stay farther apart than gamma_clear before t_lower. */
+ * and v[0]..v[1] of one piece, or, where `piece` is SIZE_MAX, over several whole pieces, they are proved to stay farther apart than gamma_clear before t_lower. */
 typedef struct imp_pending {
     double t_lower;
     struct imp_pending_side {
         size_t body, surface; /* indices in the scene */
+        size_t piece;         /* SIZE_MAX: some pieces or all; u and v mean nothing then */
         double u[2], v[2];
     } a, b;
 } imp_pending;

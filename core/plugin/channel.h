@@ -22,6 +22,7 @@ enum {
 typedef enum channel_request {
     REQUEST_VALUES, /* bytes: the next part of the parameter values for REQUEST_CREATE */
     REQUEST_CREATE,
+    REQUEST_PIECE,  /* of `self`: the one with number n */
     REQUEST_EVAL,
     REQUEST_RATE,
     REQUEST_INCLUDE, /* a map: apply */
@@ -37,7 +38,9 @@ typedef struct channel {
     void *self; /* the instance, as the worker knows it: set by REQUEST_CREATE */
     imp_status status;
     imp_create_error why;
-    double lo[3], hi[3]; /* domain, after REQUEST_CREATE; a map: times in [0] */
+    const void *piece; /* as the worker knows it: set by REQUEST_PIECE; or NULL */
+    size_t pieces;     /* set by REQUEST_CREATE of a type that has them; else 0 */
+    double lo[3], hi[3]; /* domain, after REQUEST_CREATE and _PIECE; a map: times in [0] */
     size_t n;            /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values */
     int wants_error;
     double p[4 * CHANNEL_POINTS], x[3 * CHANNEL_POINTS], error[3 * CHANNEL_POINTS];

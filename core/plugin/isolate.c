@@ -4,6 +4,7 @@
 
 #include "core/common/system_error.h"
 #include "core/plugin/isolate.h"
+#include "core/base/unconst.h"
 #include "core/plugin/value_bytes.h"
 
 #include <errno.h>
@@ -18,7 +19,10 @@ struct isolated {
     worker_pool *pool;
     worker *worker;      /* NULL: none was to be had */
     void *self;          /* the instance, as the worker knows it; NULL: not created */
+    const void *user;    /* whose requests they are: itself, or what it is a piece of */
     double lo[3], hi[3]; /* domain; a map: times in [0] */
+    isolated *pieces;    /* piece_count of them, unless that breaks the ABI; or NULL */
+    size_t piece_count;
 };
 
 /* --- Creation and destruction ------------------------------------------------------------ */
@@ -50,8 +54,39 @@ static imp_status request_create(isolated *i, const unsigned char *bytes, size_t
     i->self = status == IMP_OK ? c->self : NULL;
     memcpy(i->lo, c->lo, sizeof i->lo);
     memcpy(i->hi, c->hi, sizeof i->hi);
+    i->piece_count = status == IMP_OK ? c->pieces : 0;
     worker_leave(i->worker);
     return status;
+}
+
+/* Asks for all pieces; one that is NULL stays without `self`. */
+static imp_status request_pieces(isolated *i)
+{
+    channel *c = i->worker->channel;
+    imp_status status = worker_enter(i->worker, i);
+    if (status != IMP_OK) return status;
+    for (size_t k = 0; k < i->piece_count && status == IMP_OK; ++k) {
+        isolated *piece = &i->pieces[k];
+        c->self = i->self;
+        c->n = k;
+        status = worker_request(i->worker, i, REQUEST_PIECE);
+        *piece = (isolated){.type = i->type,
+                            .worker = i->worker,
+                            .user = i,
+                            .self = status == IMP_OK ? unconst(c->piece) : NULL};
+        memcpy(piece->lo, c->lo, sizeof piece->lo);
+        memcpy(piece->hi, c->hi, sizeof piece->hi);
+    }
+    worker_leave(i->worker);
+    return status;
+}
+
+/* A count that breaks the ABI is the host's to refuse. */
+static imp_status create_pieces(isolated *i)
+{
+    if (i->piece_count == 0 || i->piece_count > IMP_PIECES_MAX) return IMP_OK;
+    i->pieces = malloc(i->piece_count * sizeof *i->pieces);
+    return i->pieces != NULL ? request_pieces(i) : IMP_INTERNAL;
 }
 
 imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error *why)
@@ -69,7 +104,8 @@ imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error
     value_bytes_write(values, count, bytes);
     const imp_status status = request_create(i, bytes, size, count, why);
     free(bytes);
-    return status == IMP_OK && i->self == NULL ? IMP_INTERNAL : status;
+    if (status == IMP_OK && i->self == NULL) return IMP_INTERNAL;
+    return status == IMP_OK ? create_pieces(i) : status;
 }
 
 void isolate_destroy(void *self)
@@ -82,6 +118,7 @@ void isolate_destroy(void *self)
         worker_leave(i->worker);
     }
     if (i->worker != NULL) worker_pool_return(i->pool, i->worker);
+    free(i->pieces);
     free(i);
 }
 
@@ -92,7 +129,7 @@ static isolated *stand_in_of(const void *self) { return (isolated *)(uintptr_t)s
 
 static imp_status enter(isolated *i)
 {
-    const imp_status status = worker_enter(i->worker, i);
+    const imp_status status = worker_enter(i->worker, i->user);
     if (status == IMP_OK) i->worker->channel->self = i->self;
     return status;
 }
@@ -106,7 +143,7 @@ static imp_status some_points(isolated *i, size_t n, size_t width, const double 
     c->n = n;
     c->wants_error = error != NULL;
     memcpy(c->p, p, width * n * sizeof *p);
-    status = worker_request(i->worker, i, REQUEST_EVAL);
+    status = worker_request(i->worker, i->user, REQUEST_EVAL);
     memcpy(x, c->x, 3 * n * sizeof *x);
     if (error != NULL) memcpy(error, c->error, 3 * n * sizeof *error);
     worker_leave(i->worker);
@@ -144,7 +181,7 @@ static imp_status surface_rate_of(const void *self, const imp_region *region,
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
     i->worker->channel->region = *region;
-    status = worker_request(i->worker, i, REQUEST_RATE);
+    status = worker_request(i->worker, i->user, REQUEST_RATE);
     *rates = i->worker->channel->rates;
     worker_leave(i->worker);
     return status;
@@ -156,7 +193,7 @@ static imp_status surface_include_of(const void *self, const imp_region *region,
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
     i->worker->channel->region = *region;
-    status = worker_request(i->worker, i, REQUEST_INCLUDE);
+    status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
     memcpy(model, i->worker->channel->out, 3 * sizeof *model);
     worker_leave(i->worker);
     return status;
@@ -170,10 +207,18 @@ static imp_status net_of(const void *self, const imp_region *region, imp_net *ne
     if (status != IMP_OK) return status;
     i->worker->channel->region = *region;
     i->worker->channel->net = *net;
-    status = worker_request(i->worker, i, REQUEST_NET);
+    status = worker_request(i->worker, i->user, REQUEST_NET);
     *net = i->worker->channel->net;
     worker_leave(i->worker);
     return status;
+}
+
+static size_t piece_count_of(const void *self) { return stand_in_of(self)->piece_count; }
+
+static const void *piece_of(const void *self, size_t k)
+{
+    const isolated *i = self;
+    return i->pieces[k].self != NULL ? &i->pieces[k] : NULL;
 }
 
 static void map_times_of(const void *self, double *lo, double *hi)
@@ -193,7 +238,7 @@ static imp_status map_rate_of(const void *self, const imp_box4 *box, imp_map_rat
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
     i->worker->channel->box = *box;
-    status = worker_request(i->worker, i, REQUEST_RATE);
+    status = worker_request(i->worker, i->user, REQUEST_RATE);
     *rates = i->worker->channel->map_rates;
     worker_leave(i->worker);
     return status;
@@ -205,7 +250,7 @@ static imp_status map_apply_of(const void *self, const imp_model in[4], imp_mode
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
     memcpy(i->worker->channel->in, in, 4 * sizeof *in);
-    status = worker_request(i->worker, i, REQUEST_INCLUDE);
+    status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
     memcpy(out, i->worker->channel->out, 3 * sizeof *out);
     worker_leave(i->worker);
     return status;
@@ -216,7 +261,9 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
     isolated *i = calloc(1, sizeof *i);
     if (i == NULL) return NULL;
     i->pool = pool;
+    i->user = i;
     i->type.surface = type;
+    const bool pieces = part_offers_pieces(type);
     i->surface_stand_in =
         (imp_surface_type){.struct_size = sizeof i->surface_stand_in,
                            .flags = type->flags,
@@ -226,7 +273,9 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
                            .eval = surface_eval_of,
                            .rate = surface_rate_of,
                            .include = type->include != NULL ? surface_include_of : NULL,
-                           .net = type->net != NULL ? net_of : NULL};
+                           .net = type->net != NULL ? net_of : NULL,
+                           .piece_count = pieces ? piece_count_of : NULL,
+                           .piece = pieces ? piece_of : NULL};
     return i;
 }
 
@@ -235,6 +284,7 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
     isolated *i = calloc(1, sizeof *i);
     if (i == NULL) return NULL;
     i->pool = pool;
+    i->user = i;
     i->type.map = type;
     i->map_stand_in = (imp_map_type){.struct_size = sizeof i->map_stand_in,
                                      .flags = type->flags,

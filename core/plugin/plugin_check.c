@@ -179,9 +179,12 @@ static imp_code check_size(uint32_t size, size_t least, uint32_t flags, imp_erro
         size, least, flags, (unsigned)IMP_ABSENT_OUTSIDE_TIMES);
 }
 
+/* Callbacks appended since may be missing. */
+#define SURFACE_TYPE_FIRST offsetof(imp_surface_type, piece_count)
+
 static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 {
-    imp_code code = check_size(type->struct_size, sizeof *type, type->flags, error);
+    imp_code code = check_size(type->struct_size, SURFACE_TYPE_FIRST, type->flags, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_surface(type);
     const char *null_callback = type->create == NULL    ? "create"
@@ -190,7 +193,12 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
                                 : type->eval == NULL    ? "eval"
                                 : type->rate == NULL    ? "rate"
                                                         : NULL;
-    return check_view(&view, null_callback, error);
+    code = check_view(&view, null_callback, error);
+    if (code != IMP_SUCCESS || type->struct_size < sizeof *type) return code;
+    if ((type->piece_count == NULL) == (type->piece == NULL)) return IMP_SUCCESS;
+    place at = place_argument(NULL, view.name);
+    return place_error(&at, error, IMP_ERROR_PLUGIN, "%s is NULL; give piece_count and piece, or neither",
+                       type->piece == NULL ? "piece" : "piece_count");
 }
 
 static imp_code check_map(const imp_map_type *type, imp_error *error)

@@ -130,16 +130,6 @@ imp_code imp_registry_isolate(imp_registry *registry, const char *names, imp_err
     return IMP_SUCCESS;
 }
 
-/* By whether it has models (1) and nets (2). */
-static const char *capabilities_of(const found_type *found)
-{
-    static const char *const names[] = {"core", "core order-2", "core net", "core order-2 net"};
-    const imp_surface_type *s = found->type;
-    const imp_map_type *m = found->type;
-    if (found->kind == IMP_KIND_SURFACE) return names[(s->include != NULL) + 2 * (s->net != NULL)];
-    return names[(m->apply != NULL) + 2 * (m->net != NULL)];
-}
-
 bool imp_registry_type(const imp_registry *registry, size_t index, imp_type_info *info)
 {
     if (registry == NULL || info == NULL || index >= registry->type_count) return false;
@@ -161,7 +151,7 @@ bool imp_registry_type(const imp_registry *registry, size_t index, imp_type_info
         .parameters = found->view.table.rows,
         .parameter_count = found->view.table.count,
         .parameter_size = found->view.table.stride,
-        .capabilities = capabilities_of(found),
+        .capabilities = found->capabilities,
     };
     return true;
 }

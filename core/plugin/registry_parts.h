@@ -27,6 +27,7 @@ typedef struct found_type {
     const void *type;                 /* imp_surface_type or imp_map_type */
     const loaded_plugin *from;        /* who offers it */
     const loaded_plugin *shadowed_by; /* NULL: it is the one found */
+    char capabilities[64];            /* as in imp_type_info */
 } found_type;
 
 /* A file or directory and what is to be said of it. */

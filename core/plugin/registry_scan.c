@@ -7,6 +7,7 @@
 #include "core/common/array.h"
 #include "core/common/system_error.h"
 #include "core/plugin/registry_parts.h"
+#include "core/surface/part.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -31,6 +32,18 @@ static bool add_refusal(imp_registry *r, const char *file, const char *reason)
     return add_remark(&r->refusals, file, reason);
 }
 
+/* Appends to "core"; all words together fit. */
+static void list_capabilities(found_type *found)
+{
+    const imp_surface_type *surface = found->kind == IMP_KIND_SURFACE ? found->type : NULL;
+    const imp_map_type *map = found->kind == IMP_KIND_MAP ? found->type : NULL;
+    const bool second = surface != NULL ? surface->include != NULL : map->apply != NULL;
+    const bool net = surface != NULL ? surface->net != NULL : map->net != NULL;
+    const bool pieces = surface != NULL && part_offers_pieces(surface);
+    snprintf(found->capabilities, sizeof found->capabilities, "core%s%s%s",
+             second ? " order-2" : "", net ? " net" : "", pieces ? " pieces" : "");
+}
+
 static bool add_type(imp_registry *r, const loaded_plugin *from, imp_type_kind kind,
                      const void *type, type_view view)
 {
@@ -39,7 +52,8 @@ static bool add_type(imp_registry *r, const loaded_plugin *from, imp_type_kind k
     r->type = grown;
     const found_type *earlier = registry_find(r, kind, view.name);
     r->type[r->type_count++] =
-        (found_type){kind, view, type, from, earlier != NULL ? earlier->from : NULL};
+        (found_type){kind, view, type, from, earlier != NULL ? earlier->from : NULL, "core"};
+    list_capabilities(&r->type[r->type_count - 1]);
     return true;
 }
 

@@ -43,10 +43,19 @@ static imp_status create_with(channel *c, worker_type type, const imp_value *val
     const imp_status status = type.surface != NULL ? type.surface->create(values, &c->self, &c->why)
                                                    : type.map->create(values, &c->self, &c->why);
     if (status != IMP_OK || c->self == NULL) return status;
-    if (type.surface != NULL)
-        type.surface->domain(c->self, c->lo, c->hi);
-    else
+    if (type.surface == NULL)
         type.map->time_domain(c->self, &c->lo[0], &c->hi[0]);
+    else if (part_offers_pieces(type.surface))
+        c->pieces = type.surface->piece_count(c->self);
+    else
+        type.surface->domain(c->self, c->lo, c->hi);
+    return IMP_OK;
+}
+
+static imp_status piece(channel *c, const imp_surface_type *type)
+{
+    c->piece = type->piece(c->self, c->n);
+    if (c->piece != NULL) type->domain(c->piece, c->lo, c->hi);
     return IMP_OK;
 }
 
@@ -55,6 +64,7 @@ static imp_status create(channel *c, worker_type type, received *r)
     imp_value *values = c->n > 0 ? value_bytes_read(r->bytes, c->n) : NULL;
     imp_status status = c->n == 0 || values != NULL ? IMP_OK : out_of_memory(c);
     c->self = NULL;
+    c->pieces = 0;
     if (status == IMP_OK) status = create_with(c, type, values);
     free(values);
     free(r->bytes);
@@ -96,6 +106,8 @@ static imp_status obey(channel *c, worker_type type, received *r)
         return receive(c, r);
     case REQUEST_CREATE:
         return create(c, type, r);
+    case REQUEST_PIECE:
+        return piece(c, type.surface);
     case REQUEST_DESTROY:
         return destroy(c, type);
     default:

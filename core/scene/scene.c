@@ -98,6 +98,11 @@ imp_code scene_add_surface(imp_scene *scene, size_t index, surface *s)
         surface_free(s);
         return IMP_ERROR_MEMORY;
     }
+    if (surface_divide(s) != IMP_SUCCESS) {
+        surface_free(s);
+        b->members = members;
+        return IMP_ERROR_MEMORY;
+    }
     surface_set_body(s, b->name, b->count);
     members[b->count++] = (member){.surface = s};
     b->members = members;
@@ -195,6 +200,21 @@ const surface *scene_surface(const imp_scene *scene, size_t body, size_t index)
     return scene->bodies[body].members[index].surface;
 }
 
+size_t imp_scene_piece_count(const imp_scene *scene, size_t body, size_t index)
+{
+    const surface *s = scene_surface(scene, body, index);
+    if (s == NULL) return 0;
+    return surface_piece_count(s) > 0 ? surface_piece_count(s) : 1;
+}
+
+/* NULL: there is none. */
+static const surface *piece_at(const imp_scene *scene, imp_place at)
+{
+    const surface *s = scene_surface(scene, at.body, at.surface);
+    if (s == NULL || at.piece >= imp_scene_piece_count(scene, at.body, at.surface)) return NULL;
+    return surface_piece_count(s) > 0 ? surface_piece(s, at.piece) : s;
+}
+
 /* A callback's refusal of what lies outside the domain is the caller's fault. */
 static imp_code refusal(const surface *s, imp_status status, imp_error *why)
 {
@@ -204,16 +224,20 @@ static imp_code refusal(const surface *s, imp_status status, imp_error *why)
     return IMP_ERROR_USAGE;
 }
 
-static imp_code no_surface(size_t body, size_t index, imp_error *why)
+static imp_code no_surface(const imp_scene *scene, imp_place at, imp_error *why)
 {
-    return error_set(why, IMP_ERROR_USAGE, "body %zu has no surface %zu", body, index);
+    const size_t pieces = imp_scene_piece_count(scene, at.body, at.surface);
+    if (pieces > 0)
+        return error_set(why, IMP_ERROR_USAGE, "body %zu, surface %zu has no piece %zu, but %zu",
+                         at.body, at.surface, at.piece, pieces);
+    return error_set(why, IMP_ERROR_USAGE, "body %zu has no surface %zu", at.body, at.surface);
 }
 
-FP_APART static imp_code eval(const imp_scene *scene, size_t body, size_t index, size_t n,
-                              const double *p, double *x, double *error, imp_error *why)
+FP_APART static imp_code eval(const imp_scene *scene, imp_place at, size_t n, const double *p,
+                              double *x, double *error, imp_error *why)
 {
-    const surface *s = scene_surface(scene, body, index);
-    if (s == NULL) return no_surface(body, index, why);
+    const surface *s = piece_at(scene, at);
+    if (s == NULL) return no_surface(scene, at, why);
     const imp_status status = surface_eval(s, n, p, x, error);
     return status == IMP_OK ? IMP_SUCCESS : refusal(s, status, why);
 }
@@ -229,28 +253,44 @@ static bool is_inside(const surface *s, const double lo[3], const double hi[3])
     return true;
 }
 
-FP_APART static imp_code include(const imp_scene *scene, size_t body, size_t index,
-                                 const double lo[3], const double hi[3], imp_model model[3],
-                                 imp_error *why)
+FP_APART static imp_code include(const imp_scene *scene, imp_place at, const double lo[3],
+                                 const double hi[3], imp_model model[3], imp_error *why)
 {
-    const surface *s = scene_surface(scene, body, index);
-    if (s == NULL) return no_surface(body, index, why);
+    const surface *s = piece_at(scene, at);
+    if (s == NULL) return no_surface(scene, at, why);
     if (!is_inside(s, lo, hi))
         return error_set(why, IMP_ERROR_USAGE,
                          "body %zu, surface %zu: region (%g..%g, %g..%g, %g..%g), must be finite "
                          "and inside the domain",
-                         body, index, lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]);
+                         at.body, at.surface, lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]);
     const imp_region region = region_make(lo, hi);
     const imp_status status = surface_include(s, &region, model);
     return status == IMP_OK || status == IMP_UNBOUNDED ? IMP_SUCCESS : refusal(s, status, why);
 }
 
-imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t index, size_t n,
-                        const double *p, double *x, double *error, imp_error *why)
+imp_code imp_piece_eval(const imp_scene *scene, imp_place at, size_t n, const double *p, double *x,
+                        double *error, imp_error *why)
 {
     if (scene == NULL || p == NULL || x == NULL) return error_set_missing(why, "imp_scene_eval");
     const fp_environment environment = fp_environment_enter();
-    const imp_code code = eval(scene, body, index, n, p, x, error, why);
+    const imp_code code = eval(scene, at, n, p, x, error, why);
+    fp_environment_leave(&environment);
+    return code;
+}
+
+imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t index, size_t n,
+                        const double *p, double *x, double *error, imp_error *why)
+{
+    return imp_piece_eval(scene, (imp_place){body, index, 0}, n, p, x, error, why);
+}
+
+imp_code imp_piece_include(const imp_scene *scene, imp_place at, const double lo[3],
+                           const double hi[3], imp_model model[3], imp_error *why)
+{
+    if (scene == NULL || lo == NULL || hi == NULL || model == NULL)
+        return error_set_missing(why, "imp_scene_include");
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = include(scene, at, lo, hi, model, why);
     fp_environment_leave(&environment);
     return code;
 }
@@ -258,20 +298,20 @@ imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t index, size_
 imp_code imp_scene_include(const imp_scene *scene, size_t body, size_t index, const double lo[3],
                            const double hi[3], imp_model model[3], imp_error *why)
 {
-    if (scene == NULL || lo == NULL || hi == NULL || model == NULL)
-        return error_set_missing(why, "imp_scene_include");
-    const fp_environment environment = fp_environment_enter();
-    const imp_code code = include(scene, body, index, lo, hi, model, why);
-    fp_environment_leave(&environment);
-    return code;
+    return imp_piece_include(scene, (imp_place){body, index, 0}, lo, hi, model, why);
+}
+
+void imp_piece_domain(const imp_scene *scene, imp_place at, double lo[3], double hi[3])
+{
+    const surface *s = piece_at(scene, at);
+    if (lo == NULL || hi == NULL) return;
+    for (int j = 0; j < 3; ++j) lo[j] = INFINITY, hi[j] = -INFINITY;
+    if (s != NULL) surface_domain(s, lo, hi);
 }
 
 void imp_scene_domain(const imp_scene *scene, size_t body, size_t index, double lo[3], double hi[3])
 {
-    const surface *s = scene_surface(scene, body, index);
-    if (lo == NULL || hi == NULL) return;
-    for (int j = 0; j < 3; ++j) lo[j] = INFINITY, hi[j] = -INFINITY;
-    if (s != NULL) surface_domain(s, lo, hi);
+    imp_piece_domain(scene, (imp_place){body, index, 0}, lo, hi);
 }
 
 void scene_options(const imp_scene *scene, imp_options *options)

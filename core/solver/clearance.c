@@ -214,7 +214,7 @@ static imp_code begin_part(clearance_search *c, imp_error *error)
 static imp_side side_of(const clearance_search *c, uint32_t k, const witness *w, int side)
 {
     const candidate *of = c->list->pairs[k].side[side];
-    imp_side s = {of->body, of->surface, w->u[side], w->v[side], {0, 0, 0}};
+    imp_side s = {of->body, of->surface, w->piece[side], w->u[side], w->v[side], {0, 0, 0}};
     memcpy(s.point, w->point[side].x, sizeof s.point);
     return s;
 }

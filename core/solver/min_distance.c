@@ -129,12 +129,13 @@ static void test_and_push(min_distance *m, pair p)
 
 static imp_code find_witness(min_distance *m, const pair *p, imp_error *error)
 {
-    const candidate_pair *both = &m->candidates[p->candidate_pair];
-    const tree *const trees[2] = {both->side[0]->tree, both->side[1]->tree};
-    const node *const nodes[2] = {p->a, p->b};
+    pair single = *p;
     witness seen;
+    imp_code code = pair_descend(&single, &m->candidates[p->candidate_pair], m->stats, error);
+    if (code != IMP_SUCCESS) return code;
+    const node *const nodes[2] = {single.a, single.b};
     m->stats->witness_searches += 1;
-    const imp_code code = witness_seek(trees, nodes, p->moment, m->upper, &seen, error);
+    code = witness_seek(nodes, p->moment, m->upper, &seen, error);
     if (code != IMP_SUCCESS || !(seen.gap_upper < m->upper)) return code;
     m->upper = seen.gap_upper;
     m->found = seen;
@@ -169,6 +170,7 @@ static imp_code split(min_distance *m, const pair *p, cut c, imp_error *error)
 
 static cut choose_cut(const min_distance *m, const pair *p)
 {
+    if (pair_has_cluster(p)) return cut_by_spread(p, scale(m));
     if (pair_precision_ends(p, &m->candidates[p->candidate_pair], room(m), 1))
         return (cut){-1, PARAMETER_U, 0};
     return TUNING_TINY * pair_extent(p) <= room(m) ? cut_in_time(p) : cut_by_spread(p, scale(m));

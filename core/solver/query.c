@@ -131,9 +131,15 @@ imp_reason query_reason_of_clear(const imp_query *query)
 static bool is_at_rest(const imp_query *query, int side)
 {
     const candidate *c = query->candidates.pairs[query->impact.found_candidate].side[side];
+    const surface *s = tree_surface(c->tree);
+    const imp_region *times = &tree_root(c->tree)->region;
+    double lo[3], hi[3];
     imp_rate_matrix rates;
-    if (surface_rate(tree_surface(c->tree), &tree_root(c->tree)->region, &rates) != IMP_OK)
-        return false;
+    if (surface_piece_count(s) > 0) s = surface_piece(s, query->impact.found.piece[side]);
+    surface_domain(s, lo, hi);
+    lo[2] = times->lo[2], hi[2] = times->hi[2];
+    const imp_region region = region_make(lo, hi);
+    if (surface_rate(s, &region, &rates) != IMP_OK) return false;
     bool rests = true;
     for (int i = 0; i < 3; ++i) rests = rests && rates.m[i][PARAMETER_T] == 0;
     return rests;

@@ -13,7 +13,7 @@ static imp_side side_of(const imp_query *query, int side)
 {
     const candidate *of = query->candidates.pairs[query->impact.found_candidate].side[side];
     const witness *w = &query->impact.found;
-    imp_side s = {of->body, of->surface, w->u[side], w->v[side], {0, 0, 0}};
+    imp_side s = {of->body, of->surface, w->piece[side], w->u[side], w->v[side], {0, 0, 0}};
     memcpy(s.point, w->point[side].x, sizeof s.point);
     return s;
 }
@@ -74,9 +74,11 @@ static struct imp_pending_side pending_side(const imp_query *query, size_t k, in
                                             const node *n)
 {
     const candidate *c = query->candidates.pairs[k].side[side];
-    const imp_region *r = n != NULL ? &n->region : &tree_root(c->tree)->region;
+    const node *of = n != NULL ? n : tree_root(c->tree);
+    const imp_region *r = &of->region;
     return (struct imp_pending_side){c->body,
                                      c->surface,
+                                     of->many != NULL ? SIZE_MAX : surface_piece_index(of->surface),
                                      {r->lo[PARAMETER_U], r->hi[PARAMETER_U]},
                                      {r->lo[PARAMETER_V], r->hi[PARAMETER_V]}};
 }

@@ -6,22 +6,47 @@
 
 #include "core/solver/tuning.h"
 #include "core/solver/witness.h"
+#include "core/tree/bound_audit.h"
 
 /* --- What a pair is like ---------------------------------------------------------------- */
 
-/* Evaluates the middle of the root at both ends and in the middle of its times. */
+/* Evaluates the middle of a surface at both ends and in the middle of the root's times. */
+static imp_code measure_surface(const surface *s, const node *root, double *largest,
+                                imp_error *error)
+{
+    double lo[3], hi[3];
+    const imp_region *r = &root->region;
+    surface_domain(s, lo, hi);
+    lo[2] = r->lo[2], hi[2] = r->hi[2];
+    const imp_region whole = region_make(lo, hi);
+    const double times[3] = {r->lo[2], r->c[2], r->hi[2]};
+    for (int k = 0; k < 3; ++k) {
+        double eval_error;
+        vec3 x;
+        const double p[3] = {whole.c[0], whole.c[1], times[k]};
+        imp_code code = witness_eval_error(s, p, &eval_error, &x, error);
+        if (code == IMP_SUCCESS && root->many == NULL)
+            code = bound_audit_holds_at(s, root, p, x.x, error);
+        if (code != IMP_SUCCESS) return code;
+        if (eval_error > *largest) *largest = eval_error;
+    }
+    return IMP_SUCCESS;
+}
+
+enum { PIECES_MEASURED = 16 };
+
 static imp_code measure(candidate *c, imp_error *error)
 {
     if (c->eval_error >= 0) return IMP_SUCCESS;
-    const imp_region *r = &tree_root(c->tree)->region;
-    const double times[3] = {r->lo[2], r->c[2], r->hi[2]};
+    const node *root = tree_root(c->tree);
+    const size_t samples = root->many != NULL ? PIECES_MEASURED : 1;
     double largest = 0;
-    for (int k = 0; k < 3; ++k) {
-        double eval_error;
-        const imp_code code = witness_eval_error(c->tree, (double[3]){r->c[0], r->c[1], times[k]},
-                                                 &eval_error, error);
+    for (size_t k = 0; k < samples; ++k) {
+        const surface *s = root->many != NULL
+                               ? hierarchy_sample(root->many->of, k, PIECES_MEASURED)
+                               : root->surface;
+        const imp_code code = measure_surface(s, root, &largest, error);
         if (code != IMP_SUCCESS) return code;
-        if (eval_error > largest) largest = eval_error;
     }
     c->eval_error = largest;
     return IMP_SUCCESS;
@@ -32,6 +57,8 @@ imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error)
     const imp_code code = measure(both->side[0], error);
     return code == IMP_SUCCESS ? measure(both->side[1], error) : code;
 }
+
+bool pair_has_cluster(const pair *p) { return p->a->many != NULL || p->b->many != NULL; }
 
 time_window window_common(time_window x, time_window y)
 {
@@ -215,5 +242,24 @@ imp_code cut_take(const cut *c, int half, const candidate_pair *both, pair *p, b
     if (code != IMP_SUCCESS) return code;
     p->window = window_common(p->window, pair_times(p->a, p->b));
     *some = p->window.lo <= p->window.hi;
+    return IMP_SUCCESS;
+}
+
+imp_code pair_descend(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error)
+{
+    while (pair_has_cluster(p)) {
+        const cut c = {p->a->many != NULL ? 0 : 1, PARAMETER_U, 0};
+        pair half[2] = {*p, *p};
+        double distance[2];
+        for (int k = 0; k < 2; ++k) {
+            bool some;
+            const imp_code code = cut_take(&c, k, both, &half[k], &some, stats, error);
+            if (code != IMP_SUCCESS) return code;
+            distance[k] = half[k].a->bounded && half[k].b->bounded
+                              ? separation_boxes_lower(half[k].a, half[k].b)
+                              : INFINITY;
+        }
+        *p = half[distance[1] < distance[0] ? 1 : 0];
+    }
     return IMP_SUCCESS;
 }

@@ -14,7 +14,8 @@
 typedef struct candidate {
     tree *tree;
     size_t body, surface;
-    double eval_error; /* of points evaluated, about; < 0: not measured yet; length */
+    double eval_error; /* of points evaluated, about, of 16 of its pieces if it has more; < 0: not
+                          measured yet; length */
 } candidate;
 
 /* Two of different bodies that may come near each other. */
@@ -34,6 +35,13 @@ time_window pair_times(const node *a, const node *b);
 /* Of both nodes: remainders, and how much u and v move points across them; length, about. */
 double pair_remainder(const pair *p);
 double pair_extent(const pair *p);
+
+/* Whether a node of it is a cluster of pieces: it has no points of its own to evaluate, and is halved
+ * further whatever its size. */
+bool pair_has_cluster(const pair *p);
+
+/* Goes down to one piece each, always to the half whose box is nearer. */
+imp_code pair_descend(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error);
 
 /* A key for the heap, after p->serial is set: the squared distance of the centres at time t. Where a
  * node has no bounds the pair comes behind all others, the last made first, so that a place that has

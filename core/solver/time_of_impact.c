@@ -77,12 +77,10 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
 static imp_code find_witness(impact *im, const pair *p, bool moving, witness *seen,
                              imp_error *error)
 {
-    const candidate_pair *both = candidate_pair_of(im, p);
-    const tree *const trees[2] = {both->side[0]->tree, both->side[1]->tree};
     const node *const nodes[2] = {p->a, p->b};
     im->stats->witness_searches += 1;
-    const imp_code code = moving ? witness_seek(trees, nodes, p->window.lo, im->gamma, seen, error)
-                                 : witness_at_centres(trees, nodes, p->window.lo, seen, error);
+    const imp_code code = moving ? witness_seek(nodes, p->window.lo, im->gamma, seen, error)
+                                 : witness_at_centres(nodes, p->window.lo, seen, error);
     if (code == IMP_SUCCESS && (!im->any_gap || seen->gap < im->least_gap)) {
         im->any_gap = true;
         im->least_gap = seen->gap;
@@ -148,7 +146,7 @@ static imp_code follow_paper(impact *im, const pair *p, impact_state *state, imp
 {
     const double farthest = im->bounds == IMP_BOUNDS_BOX ? separation_farthest_of_boxes(p->a, p->b)
                                                          : separation_farthest_of_balls(p->a, p->b);
-    if (farthest <= im->gamma) {
+    if (farthest <= im->gamma && !pair_has_cluster(p)) {
         witness seen;
         const imp_code code = find_witness(im, p, false, &seen, error);
         if (code != IMP_SUCCESS) return code;
@@ -197,6 +195,7 @@ static cut choose_cut(const impact *im, const pair *p)
 
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
+    if (pair_has_cluster(p)) return split(im, p, cut_by_spread(p, im->gamma), state, error);
     if (witness_is_likely(im, p)) {
         witness seen;
         const imp_code code = find_witness(im, p, true, &seen, error);

@@ -17,10 +17,10 @@
 enum { UNKNOWNS = 4 };
 
 typedef struct search {
-    const tree *const *trees;
     const node *const *nodes;
     double t;
-    double lo[UNKNOWNS], hi[UNKNOWNS]; /* of y */
+    double lo[UNKNOWNS], hi[UNKNOWNS];     /* of y */
+    double whole_lo[2][3], whole_hi[2][3]; /* domains of the two surfaces */
 } search;
 
 typedef struct state {
@@ -39,48 +39,49 @@ static bool node_is_flat(const node *n)
 /* y may leave the node by one half-width, not the surface. */
 static void search_begin(search *g)
 {
+    for (int side = 0; side < 2; ++side)
+        surface_domain(g->nodes[side]->surface, g->whole_lo[side], g->whole_hi[side]);
     for (int k = 0; k < UNKNOWNS; ++k) {
         const imp_region *r = &g->nodes[k / 2]->region;
-        const imp_region *whole = &tree_root(g->trees[k / 2])->region;
         const int j = k % 2;
         g->lo[k] = g->hi[k] = 0;
         if (!(r->d[j] > 0)) continue;
-        g->lo[k] = fmax(-2, (whole->lo[j] - r->c[j]) / r->d[j]);
-        g->hi[k] = fmin(2, (whole->hi[j] - r->c[j]) / r->d[j]);
+        g->lo[k] = fmax(-2, (g->whole_lo[k / 2][j] - r->c[j]) / r->d[j]);
+        g->hi[k] = fmin(2, (g->whole_hi[k / 2][j] - r->c[j]) / r->d[j]);
     }
 }
 
 static void side_parameters(const search *g, int side, const double *y, double p[3])
 {
     const imp_region *r = &g->nodes[side]->region;
-    const imp_region *whole = &tree_root(g->trees[side])->region;
+    const double *lo = g->whole_lo[side], *hi = g->whole_hi[side];
     for (int j = 0; j < 2; ++j) {
         const double x = r->c[j] + r->d[j] * y[2 * side + j];
-        p[j] = x < whole->lo[j] ? whole->lo[j] : x > whole->hi[j] ? whole->hi[j] : x;
+        p[j] = x < lo[j] ? lo[j] : x > hi[j] ? hi[j] : x;
     }
     p[2] = g->t;
 }
 
-static imp_code point_fault(const tree *t, const double p[3], const char *what, imp_error *error)
+static imp_code point_fault(const surface *s, const double p[3], const char *what, imp_error *error)
 {
-    return surface_fault(tree_surface(t), error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0],
+    return surface_fault(s, error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0],
                          p[1], p[2], what);
 }
 
 /* The point at p and, unless eval_error is NULL, the bounds of its errors. */
-static imp_code point_at(const tree *t, const double *p, vec3 *x, double eval_error[3],
+static imp_code point_at(const surface *s, const double *p, vec3 *x, double eval_error[3],
                          imp_error *error)
 {
-    const imp_status status = surface_eval(tree_surface(t), 1, p, x->x, eval_error);
+    const imp_status status = surface_eval(s, 1, p, x->x, eval_error);
     if (status != IMP_OK) {
-        point_fault(t, p, surface_status_told(tree_surface(t), status).text, error);
+        point_fault(s, p, surface_status_told(s, status).text, error);
         return surface_set_code(status, error);
     }
     if (!isfinite(vec3_norm1(*x)))
-        return point_fault(t, p, "eval gives a point that is infinite or NaN", error);
+        return point_fault(s, p, "eval gives a point that is infinite or NaN", error);
     for (int i = 0; eval_error != NULL && i < 3; ++i)
         if (!(eval_error[i] >= 0))
-            return point_fault(t, p, "eval's error bound is negative or NaN", error);
+            return point_fault(s, p, "eval's error bound is negative or NaN", error);
     return IMP_SUCCESS;
 }
 
@@ -89,9 +90,9 @@ static imp_code state_at(const search *g, const double *y, state *s, imp_error *
     memcpy(s->y, y, sizeof s->y);
     for (int side = 0; side < 2; ++side) {
         side_parameters(g, side, y, s->p[side]);
-        imp_code code = point_at(g->trees[side], s->p[side], &s->x[side], NULL, error);
+        imp_code code = point_at(g->nodes[side]->surface, s->p[side], &s->x[side], NULL, error);
         if (code == IMP_SUCCESS)
-            code = bound_audit_holds_at(tree_surface(g->trees[side]), g->nodes[side], s->p[side],
+            code = bound_audit_holds_at(g->nodes[side]->surface, g->nodes[side], s->p[side],
                                         s->x[side].x, error);
         if (code != IMP_SUCCESS) return code;
     }
@@ -140,7 +141,7 @@ static imp_code derive_from_points(const search *g, int side, const state *s, de
         side_parameters(g, side, y, p);
         if (p[j] == s->p[side][j]) continue;
         vec3 x;
-        const imp_code code = point_at(g->trees[side], p, &x, NULL, error);
+        const imp_code code = point_at(g->nodes[side]->surface, p, &x, NULL, error);
         if (code != IMP_SUCCESS) return code;
         out->by[j] = vec3_scale(vec3_sub(x, s->x[side]), 1 / (y[k] - s->y[k]));
     }
@@ -293,9 +294,10 @@ static imp_code evaluate_gap(const search *g, const state *s, witness *found, im
     for (int side = 0; side < 2; ++side) {
         vec3 x;
         double e[3];
-        const imp_code code = point_at(g->trees[side], s->p[side], &x, e, error);
+        const imp_code code = point_at(g->nodes[side]->surface, s->p[side], &x, e, error);
         if (code != IMP_SUCCESS) return code;
         for (int i = 0; i < 3; ++i) eval_error += e[i];
+        found->piece[side] = surface_piece_index(g->nodes[side]->surface);
         found->u[side] = s->p[side][0];
         found->v[side] = s->p[side][1];
         found->point[side] = s->x[side];
@@ -307,10 +309,10 @@ static imp_code evaluate_gap(const search *g, const state *s, witness *found, im
     return IMP_SUCCESS;
 }
 
-static imp_code search_run(const tree *const trees[2], const node *const nodes[2], double t,
+static imp_code search_run(const node *const nodes[2], double t,
                            double gamma, bool moving, witness *found, imp_error *error)
 {
-    search g = {.trees = trees, .nodes = nodes, .t = t};
+    search g = {.nodes = nodes, .t = t};
     state s;
     search_begin(&g);
     imp_code code = state_at(&g, (double[UNKNOWNS]){0, 0, 0, 0}, &s, error);
@@ -318,24 +320,23 @@ static imp_code search_run(const tree *const trees[2], const node *const nodes[2
     return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
 }
 
-imp_code witness_seek(const tree *const trees[2], const node *const nodes[2], double t,
+imp_code witness_seek(const node *const nodes[2], double t,
                       double gamma, witness *found, imp_error *error)
 {
-    return search_run(trees, nodes, t, gamma, true, found, error);
+    return search_run(nodes, t, gamma, true, found, error);
 }
 
-imp_code witness_eval_error(const tree *t, const double p[3], double *eval_error, imp_error *error)
+imp_code witness_eval_error(const surface *s, const double p[3], double *eval_error, vec3 *x,
+                            imp_error *error)
 {
-    vec3 x;
     double e[3];
-    const imp_code code = point_at(t, p, &x, e, error);
-    if (code != IMP_SUCCESS) return code;
-    *eval_error = padded_upper(e[0] + e[1] + e[2], 8);
-    return bound_audit_holds_at(tree_surface(t), tree_root(t), p, x.x, error);
+    const imp_code code = point_at(s, p, x, e, error);
+    if (code == IMP_SUCCESS) *eval_error = padded_upper(e[0] + e[1] + e[2], 8);
+    return code;
 }
 
-imp_code witness_at_centres(const tree *const trees[2], const node *const nodes[2], double t,
+imp_code witness_at_centres(const node *const nodes[2], double t,
                             witness *found, imp_error *error)
 {
-    return search_run(trees, nodes, t, 0, false, found, error);
+    return search_run(nodes, t, 0, false, found, error);
 }

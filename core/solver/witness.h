@@ -10,7 +10,8 @@
  * Found by damped Gauss-Newton steps on the gap. Finding none proves nothing. */
 
 typedef struct witness {
-    double u[2], v[2]; /* of surface a and b */
+    size_t piece[2];   /* of surface a and b, 0 where it is one, */
+    double u[2], v[2]; /* and where on it */
     vec3 point[2];
     double gap;       /* distance of the points as computed; length */
     double gap_upper; /* proved bound of the distance of the exact points */
@@ -18,16 +19,17 @@ typedef struct witness {
     vec3 normal; /* unit, a to b */
 } witness;
 
-/* Seeks the nearest points of the two surfaces at time t, from the middles of the two nodes; gives
+/* Seeks the nearest points of the two surfaces at time t, from the middles of the two nodes, neither of which is a cluster; gives
  * up early where the gap stays far above gamma. IMP_ERROR_PLUGIN when an evaluation fails. */
-imp_code witness_seek(const tree *const trees[2], const node *const nodes[2], double t,
+imp_code witness_seek(const node *const nodes[2], double t,
                       double gamma, witness *found, imp_error *error);
 
-/* Bound of the distance from the point that is evaluated at p = (u, v, t) to the exact one. */
-imp_code witness_eval_error(const tree *t, const double p[3], double *eval_error, imp_error *error);
+/* The point *x that is evaluated at p = (u, v, t), and a bound of its distance to the exact one. */
+imp_code witness_eval_error(const surface *s, const double p[3], double *eval_error, vec3 *x,
+                            imp_error *error);
 
 /* The points at the middles themselves, without a search: the paper's termination. */
-imp_code witness_at_centres(const tree *const trees[2], const node *const nodes[2], double t,
+imp_code witness_at_centres(const node *const nodes[2], double t,
                             witness *found, imp_error *error);
 
 #endif

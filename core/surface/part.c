@@ -5,6 +5,7 @@
 #include "core/surface/part.h"
 
 #include <assert.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,15 +23,56 @@ static void destroy(const char *type, void (*destroy_it)(void *), void *self)
 }
 
 /* Domains are asked for once; one that is not finite in u and v, inverted or NaN is a breach. */
-static void take_domain(shared_part *p)
+imp_status part_domain(const imp_surface_type *type, const void *self, double lo[3], double hi[3])
 {
-    const fp_mode mode = surface_call_begin(p->surface->name, "domain");
-    p->surface->domain(p->self, p->lo, p->hi);
+    const fp_mode mode = surface_call_begin(type->name, "domain");
+    type->domain(self, lo, hi);
+    const imp_status status = surface_call_end(mode, IMP_OK);
+    bool good = lo[0] > -INFINITY && lo[1] > -INFINITY;
+    good = good && hi[0] < INFINITY && hi[1] < INFINITY;
+    for (int j = 0; j < 3; ++j) good = good && lo[j] <= hi[j];
+    return status == IMP_OK && !good ? SURFACE_BAD_DOMAIN : status;
+}
+
+bool part_offers_pieces(const imp_surface_type *type)
+{
+    return type->struct_size >= offsetof(imp_surface_type, piece) + sizeof type->piece &&
+           type->piece_count != NULL && type->piece != NULL;
+}
+
+/* One piece, and whether it keeps the rules; p->lo and p->hi are those of the first. */
+static imp_status take_piece(shared_part *p, size_t k)
+{
+    double lo[3], hi[3];
+    const fp_mode mode = surface_call_begin(p->surface->name, "piece");
+    p->pieces[k] = p->surface->piece(p->self, k);
+    imp_status status = surface_call_end(mode, IMP_OK);
+    if (status != IMP_OK) return status;
+    if (p->pieces[k] == NULL) return SURFACE_NULL_PIECE;
+    status = part_domain(p->surface, p->pieces[k], lo, hi);
+    if (k == 0) {
+        memcpy(p->lo, lo, sizeof lo);
+        memcpy(p->hi, hi, sizeof hi);
+    }
+    return status == IMP_OK && (lo[2] != p->lo[2] || hi[2] != p->hi[2]) ? SURFACE_PIECE_TIMES
+                                                                        : status;
+}
+
+/* False: no memory. */
+static bool take_pieces(shared_part *p)
+{
+    const fp_mode mode = surface_call_begin(p->surface->name, "piece_count");
+    const size_t count = p->surface->piece_count(p->self);
     p->breach = surface_call_end(mode, IMP_OK);
-    bool good = p->lo[0] > -INFINITY && p->lo[1] > -INFINITY;
-    good = good && p->hi[0] < INFINITY && p->hi[1] < INFINITY;
-    for (int j = 0; j < 3; ++j) good = good && p->lo[j] <= p->hi[j];
-    if (p->breach == IMP_OK && !good) p->breach = SURFACE_BAD_DOMAIN;
+    if (p->breach == IMP_OK && (count == 0 || count > IMP_PIECES_MAX))
+        p->breach = SURFACE_PIECE_COUNT;
+    if (p->breach == IMP_OK) {
+        p->pieces = malloc(count * sizeof *p->pieces);
+        if (p->pieces == NULL) return false;
+        p->piece_count = count;
+    }
+    for (size_t k = 0; k < p->piece_count && p->breach == IMP_OK; ++k) p->breach = take_piece(p, k);
+    return true;
 }
 
 static void take_times(shared_part *p)
@@ -51,7 +93,12 @@ shared_part *part_of_surface(const imp_surface_type *type, void *self)
     }
     *p = (shared_part){.surface = type, .self = self, .holders = 1};
     part_add_label(p, type->name);
-    take_domain(p);
+    if (!part_offers_pieces(type)) {
+        p->breach = part_domain(type, self, p->lo, p->hi);
+    } else if (!take_pieces(p)) {
+        part_release(p);
+        return NULL;
+    }
     return p;
 }
 
@@ -83,6 +130,7 @@ void part_release(shared_part *p)
         destroy(p->surface->name, p->surface->destroy, p->self);
     else
         destroy(p->map->name, p->map->destroy, p->self);
+    free(p->pieces);
     free(p);
 }
 

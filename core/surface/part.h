@@ -19,15 +19,24 @@ typedef struct shared_part {
     void *self;
     size_t holders;
     double lo[3], hi[3]; /* a surface's domain; of a map, the times alone: [2] */
+    const void **pieces; /* instances that `self` owns, in place of it; NULL: it is one surface */
+    size_t piece_count;  /* 0: it is one surface */
     imp_status breach;   /* IMP_OK, or for surface_status_text: how the domain breaks the ABI;
                                    then the part may only be released */
     char label[PART_LABEL_MAX]; /* as on a command line, shortened: "sphere radius=2" */
 } shared_part;
 
-/* Takes over the instance `self`, and asks for its domain; the caller holds the part. NULL: no
+/* Takes over the instance `self`, and asks for its domain, or those of its pieces, which have their
+ * times in common, and of which `lo` and `hi` are the first's; the caller holds the part. NULL: no
  * memory; the instance is destroyed then too. */
 shared_part *part_of_surface(const imp_surface_type *type, void *self);
 shared_part *part_of_map(const imp_map_type *type, void *self);
+
+/* Whether instances of the type may consist of pieces. */
+bool part_offers_pieces(const imp_surface_type *type);
+
+/* The domain of an instance; IMP_OK, or how it breaks the ABI. */
+imp_status part_domain(const imp_surface_type *type, const void *self, double lo[3], double hi[3]);
 
 /* Appends to the label, or dots in its place: at the end of a label that is full. */
 void part_add_label(shared_part *p, const char *text);

@@ -21,9 +21,13 @@
 surface *surface_new_of(shared_part *type)
 {
     assert(type->surface != NULL);
-    surface *s = malloc(sizeof *s);
+    surface *s = malloc(sizeof *s + PART_LABEL_MAX);
     if (s == NULL) return NULL;
-    *s = (surface){.type = type->surface, .self = type->self, .origin = part_hold(type)};
+    *s = (surface){.type = type->surface,
+                   .self = type->piece_count > 0 ? type->pieces[0] : type->self,
+                   .origin = part_hold(type),
+                   .label = (char *)(s + 1)};
+    s->label[0] = '\0';
     memcpy(s->lo, type->lo, sizeof s->lo);
     memcpy(s->hi, type->hi, sizeof s->hi);
     part_label_add(s->label, type->label);
@@ -65,8 +69,44 @@ void surface_free(surface *s)
     if (s == NULL) return;
     for (size_t k = 0; k < s->map_count; ++k) part_release(s->maps[k].origin);
     free(s->maps);
+    free(s->pieces);
     part_release(s->origin);
     free(s);
+}
+
+imp_code surface_divide(surface *s)
+{
+    const shared_part *origin = s->origin;
+    if (origin->piece_count == 0) return IMP_SUCCESS;
+    s->pieces = malloc(origin->piece_count * sizeof *s->pieces);
+    if (s->pieces == NULL) return IMP_ERROR_MEMORY;
+    s->piece_count = origin->piece_count;
+    for (size_t k = 0; k < s->piece_count; ++k) {
+        double lo[3], hi[3];
+        surface *piece = &s->pieces[k];
+        *piece = *s;
+        piece->whole = s;
+        piece->pieces = NULL;
+        piece->piece_count = 0;
+        piece->self = origin->pieces[k];
+        if (part_domain(s->type, piece->self, lo, hi) != IMP_OK) continue; /* good when it was made */
+        memcpy(piece->lo, lo, 2 * sizeof *lo);
+        memcpy(piece->hi, hi, 2 * sizeof *hi);
+    }
+    return IMP_SUCCESS;
+}
+
+size_t surface_piece_count(const surface *s) { return s->piece_count; }
+
+const surface *surface_piece(const surface *s, size_t k)
+{
+    assert(k < s->piece_count);
+    return &s->pieces[k];
+}
+
+size_t surface_piece_index(const surface *s)
+{
+    return s->whole != NULL ? (size_t)(s - s->whole->pieces) : 0;
 }
 
 const char *surface_label(const surface *s) { return s->label; }
@@ -75,6 +115,7 @@ void surface_set_body(surface *s, const char *body, size_t index)
 {
     s->body = body;
     s->index = index;
+    for (size_t k = 0; k < s->piece_count; ++k) surface_set_body(&s->pieces[k], body, index);
 }
 
 imp_code surface_fault(const surface *s, imp_error *error, const char *format, ...)
@@ -86,6 +127,7 @@ imp_code surface_fault(const surface *s, imp_error *error, const char *format, .
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
     error_set(error, IMP_ERROR_PLUGIN, "type '%s'%s%s", s->label, what[0] == ':' ? "" : " ", what);
+    if (s->whole != NULL) error_prefix(error, "piece %zu", surface_piece_index(s));
     if (s->body != NULL) error_prefix(error, "body '%.80s', surface %zu", s->body, s->index);
     text_clean(error->text);
     return IMP_ERROR_PLUGIN;
@@ -147,6 +189,12 @@ const char *surface_status_text(imp_status status)
         return "changes the floating-point mode of its caller, which breaks every bound";
     case SURFACE_BAD_DOMAIN:
         return "has a domain that is empty, NaN, or infinite in u or v";
+    case SURFACE_PIECE_COUNT:
+        return "gives a piece_count that is 0 or above IMP_PIECES_MAX; it must be at least 1";
+    case SURFACE_NULL_PIECE:
+        return "gives NULL for one of its pieces; each must be an instance that it owns";
+    case SURFACE_PIECE_TIMES:
+        return "has pieces whose domains differ in time; give all of them the same times";
     case SURFACE_BAD_RATES:
         return "a rate is negative, infinite or NaN";
     case SURFACE_BAD_MODEL:

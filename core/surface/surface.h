@@ -24,6 +24,17 @@ imp_code surface_add_map(surface *s, const imp_map_type *type, void *self);
 
 void surface_free(surface *s);
 
+/* Where its type's instance consists of pieces: makes a surface of each, under the same maps. No map
+ * may be added after that. What is asked of the whole is then answered for its first piece. */
+imp_code surface_divide(surface *s);
+
+/* 0: it is one surface. */
+size_t surface_piece_count(const surface *s);
+const surface *surface_piece(const surface *s, size_t k); /* k < surface_piece_count */
+
+/* Its number among the pieces of a surface; 0 for what is none. */
+size_t surface_piece_index(const surface *s);
+
 /* How messages call it: "sphere radius=2 ! rotate rate=1", or its beginning. */
 const char *surface_label(const surface *s);
 
@@ -64,6 +75,9 @@ bool surface_undefined_part(const surface *s, double lo, double hi, surface_part
 #define SURFACE_FORKED 1008     /* ... belongs to another process than this one */
 #define SURFACE_NO_PROCESS 1009 /* ... could not be made */
 #define SURFACE_BAD_NET 1010
+#define SURFACE_PIECE_COUNT 1011
+#define SURFACE_NULL_PIECE 1012
+#define SURFACE_PIECE_TIMES 1013
 
 /* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
@@ -92,5 +106,12 @@ imp_status surface_include(const surface *s, const imp_region *region, imp_model
 /* The control net of the composition over a region (imp_net). IMP_UNBOUNDED: it has none there, as where
  * the type or a map has none. */
 imp_status surface_net(const surface *s, const imp_region *region, imp_net *net);
+/* The inclusion of the type alone, under none of the maps. */
+imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3]);
+
+/* What the maps make of anything whose coordinates have the models `model` over the region, replaced
+ * by those of its image. Where u or v number the points of a set, a rate is how far apart they may be:
+ * 1 counts as the distance of any two. */
+imp_status surface_include_image(const surface *s, const imp_region *region, imp_model model[3]);
 
 #endif

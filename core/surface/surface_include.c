@@ -80,29 +80,80 @@ static imp_model model_of_time(const imp_region *region)
     return t;
 }
 
-static imp_status include_by_chain_rule(const surface *s, size_t k, const imp_region *region,
-                                        imp_model model[3])
+/* What rates say of map k over the models: its own, and those of the composition. */
+static imp_status rates_through_map(const surface *s, size_t k, const imp_region *region,
+                                    const imp_model model[3], imp_box4 *box, imp_map_rates *p,
+                                    imp_rate_matrix *rates)
 {
     double lo[3], hi[3];
-    imp_rate_matrix inner, rates;
+    imp_rate_matrix inner;
     for (int i = 0; i < 3; ++i) {
         lo[i] = model[i].lo;
         hi[i] = model[i].hi;
         memcpy(inner.m[i], model[i].rate, sizeof inner.m[i]);
     }
+    if (!surface_box4_from(lo, hi, region, box)) return IMP_UNBOUNDED;
+    const imp_status status = surface_map_rate(&s->maps[k], box, p);
+    return status == IMP_OK ? surface_chain_rule(p, &inner, rates) : status;
+}
+
+/* Map k on top of the models, by rates alone. */
+typedef imp_status box_step(const surface *s, size_t k, const imp_region *region,
+                            imp_model model[3]);
+
+static imp_status include_by_chain_rule(const surface *s, size_t k, const imp_region *region,
+                                        imp_model model[3])
+{
     imp_box4 box;
     imp_map_rates p;
-    if (!surface_box4_from(lo, hi, region, &box)) return IMP_UNBOUNDED;
-    imp_status status = surface_map_rate(&s->maps[k], &box, &p);
-    if (status == IMP_OK) status = surface_chain_rule(&p, &inner, &rates);
+    imp_rate_matrix rates;
+    const imp_status status = rates_through_map(s, k, region, model, &box, &p, &rates);
+    return status == IMP_OK ? model_from_rates(s, region, &rates, k + 1, model) : status;
+}
+
+/* The same where no point of what is included is known: the image of the box of the models. Lemma.
+ * The box is convex and holds its centre c, so a point of it maps to within sum_j P_ij h_j of phi(c),
+ * h_j >= |x_j - c_j|; phi(c) is within `error` of what eval gives. Four products, each of which goes
+ * through at most four sums. */
+PAD_COVERS(16, 1 + 4);
+static imp_status include_box(const surface *s, size_t k, const imp_region *region,
+                              imp_model model[3])
+{
+    imp_box4 box;
+    imp_map_rates p;
+    imp_rate_matrix rates;
+    double c[4], half[4], x[3], error[3];
+    imp_status status = rates_through_map(s, k, region, model, &box, &p, &rates);
     if (status != IMP_OK) return status;
-    return model_from_rates(s, region, &rates, k + 1, model);
+    for (int j = 0; j < 4; ++j) {
+        c[j] = 0.5 * box.lo[j] + 0.5 * box.hi[j];
+        if (!(c[j] >= box.lo[j])) c[j] = box.lo[j];
+        if (!(c[j] <= box.hi[j])) c[j] = box.hi[j];
+        const double below = sum_upper(c[j], -box.lo[j]);
+        const double above = sum_upper(box.hi[j], -c[j]);
+        half[j] = below > above ? below : above;
+    }
+    const fp_mode mode = surface_call_begin(s->maps[k].type->name, "eval");
+    status = surface_call_end(mode, s->maps[k].type->eval(s->maps[k].self, 1, c, x, error));
+    if (status != IMP_OK) return status;
+    memset(model, 0, 3 * sizeof *model);
+    for (int i = 0; i < 3; ++i) {
+        double sum = error[i];
+        for (int j = 0; j < 4; ++j) sum += p.m[i][j] * half[j];
+        model[i].a = x[i];
+        model[i].e = padded_upper(sum, 16) + PRODUCTS_UNDERFLOW;
+        model[i].lo = difference_lower(x[i], model[i].e);
+        model[i].hi = sum_upper(x[i], model[i].e);
+        memcpy(model[i].rate, rates.m[i], sizeof model[i].rate);
+        model[i].depends = 7;
+    }
+    return IMP_OK;
 }
 
 /* One map on top of the models. `*unbounded` says that rates are no longer to be trusted, though
  * polynomials and ranges may still be. */
 static imp_status include_through_map(const surface *s, size_t k, const imp_region *region,
-                                      imp_model model[3], bool *unbounded)
+                                      box_step *step, imp_model model[3], bool *unbounded)
 {
     const mapping *map = &s->maps[k];
     imp_status status = IMP_UNBOUNDED;
@@ -113,7 +164,7 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
         status = map->type->apply(map->self, in, model);
         status = surface_call_end(mode, status);
     } else if (!*unbounded) {
-        status = include_by_chain_rule(s, k, region, model);
+        status = step(s, k, region, model);
         if (status == IMP_UNBOUNDED) model_unbounded(model);
     } else {
         model_unbounded(model);
@@ -123,12 +174,31 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
     return IMP_OK;
 }
 
-imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3])
+/* All maps on top of models that came with `status`. */
+static imp_status include_through_maps(const surface *s, const imp_region *region,
+                                       box_step *step, imp_status status, imp_model model[3])
 {
-    imp_status status = include_type(s, region, model);
     bool unbounded = status == IMP_UNBOUNDED;
     if (unbounded) status = IMP_OK;
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k)
-        status = include_through_map(s, k, region, model, &unbounded);
+        status = include_through_map(s, k, region, step, model, &unbounded);
     return status == IMP_OK && unbounded ? IMP_UNBOUNDED : status;
+}
+
+imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3])
+{
+    const imp_status status = include_type(s, region, model);
+    return include_through_maps(s, region, include_by_chain_rule, status, model);
+}
+
+imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3])
+{
+    const imp_status status = include_type(s, region, model);
+    return status == IMP_OK && !models_are_sane(model, true) ? SURFACE_BAD_MODEL : status;
+}
+
+imp_status surface_include_image(const surface *s, const imp_region *region, imp_model model[3])
+{
+    const imp_status status = models_are_finite(model) ? IMP_OK : IMP_UNBOUNDED;
+    return include_through_maps(s, region, include_box, status, model);
 }

@@ -21,14 +21,17 @@ typedef struct mapping {
 
 struct surface {
     const imp_surface_type *type;
-    void *self;
+    const void *self;
     shared_part *origin; /* held */
     size_t map_count, map_capacity;
     mapping *maps;
-    double lo[3], hi[3];        /* the domain */
-    char label[PART_LABEL_MAX]; /* as on a command line, shortened */
-    const char *body;           /* name of the body it belongs to, or NULL */
-    size_t index;               /* its number there */
+    double lo[3], hi[3]; /* the domain */
+    char *label;         /* as on a command line, shortened; a piece's is the whole's */
+    const char *body;    /* name of the body it belongs to, or NULL */
+    size_t index;        /* its number there */
+    surface *pieces;     /* piece_count of them, which share origin, maps and label; or NULL */
+    size_t piece_count;
+    const surface *whole; /* what it is a piece of, or NULL */
 };
 
 /* A callback is called between these two. What it computed is thrown away if it changed the mode,

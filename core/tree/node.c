@@ -29,6 +29,7 @@ struct tree {
     node *root;
     pthread_mutex_t lock; /* of chunks, and of every node's children while one is published */
     chunk *chunks;
+    hierarchy *pieces; /* NULL: it is one surface */
 };
 
 /* --- Memory ------------------------------------------------------------------- */
@@ -51,17 +52,17 @@ static node *node_alloc(tree *t, tree_growth *growth)
 
 /* --- Faults of plugins ---------------------------------------------------------- */
 
-static imp_code fault(const tree *t, const imp_region *r, const char *what, imp_error *error)
+static imp_code fault(const node *n, const char *what, imp_error *error)
 {
-    return surface_fault(t->surface, error,
+    const imp_region *r = &n->region;
+    return surface_fault(n->surface, error,
                          "over u [%.17g, %.17g], v [%.17g, %.17g], t [%.17g, %.17g]: %s", r->lo[0],
                          r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], what);
 }
 
-static imp_code status_fault(const tree *t, const imp_region *r, imp_status status,
-                             imp_error *error)
+static imp_code status_fault(const node *n, imp_status status, imp_error *error)
 {
-    fault(t, r, surface_status_told(t->surface, status).text, error);
+    fault(n, surface_status_told(n->surface, status).text, error);
     return surface_set_code(status, error);
 }
 
@@ -70,11 +71,14 @@ static imp_code status_fault(const tree *t, const imp_region *r, imp_status stat
 static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
 {
     imp_model model[3];
-    const imp_status status = surface_include(t->surface, &n->region, model);
+    if (n->many != NULL) cluster_models(n->many, &n->region, model);
+    const imp_status status = n->many != NULL
+                                  ? surface_include_image(t->surface, &n->region, model)
+                                  : surface_include(n->surface, &n->region, model);
     if (status != IMP_OK && status != IMP_UNBOUNDED)
-        return status_fault(t, &n->region, status, error);
+        return status_fault(n, status, error);
     const char *breach = node_take_model(n, model, status == IMP_UNBOUNDED);
-    return breach != NULL ? fault(t, &n->region, breach, error) : IMP_SUCCESS;
+    return breach != NULL ? fault(n, breach, error) : IMP_SUCCESS;
 }
 
 /* --- Nodes of rates ----------------------------------------------------------------- */
@@ -124,18 +128,38 @@ static void take_infinite(node *n)
     n->bounded = false;
 }
 
+/* A cluster has no rates of its own: its box, and the ball around that. Roundings of the radius: half a
+ * side 2, square 1, sums 2, which the root halves, and its own: (2 * 2 + 1 + 2) / 2 + 1 < 8 - 2. */
+PAD_COVERS(8, 5);
+static imp_code fill_from_box(const tree *t, node *n, imp_error *error)
+{
+    const imp_code code = fill_from_model(t, n, error);
+    if (code != IMP_SUCCESS) return code;
+    if (!n->bounded) return take_infinite(n), IMP_SUCCESS;
+    memset(&n->f, 0, sizeof n->f);
+    for (int i = 0; i < 3; ++i) {
+        n->f.a[i] = 0.5 * n->lo[i] + 0.5 * n->hi[i];
+        const double below = sum_upper(n->f.a[i], -n->lo[i]);
+        const double above = sum_upper(n->hi[i], -n->f.a[i]);
+        n->e[i] = below > above ? below : above;
+        n->radius += n->e[i] * n->e[i];
+    }
+    n->radius = padded_upper(sqrt(n->radius), 8) + ROOT_UNDERFLOW;
+    return IMP_SUCCESS;
+}
+
 static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
 {
     imp_rate_matrix rates;
-    imp_status status = surface_rate(t->surface, &n->region, &rates);
+    imp_status status = surface_rate(n->surface, &n->region, &rates);
     if (status == IMP_UNBOUNDED) return take_infinite(n), IMP_SUCCESS;
-    if (status != IMP_OK) return status_fault(t, &n->region, status, error);
-    status = surface_eval(t->surface, 1, n->region.c, n->f.a, n->e);
-    if (status != IMP_OK) return status_fault(t, &n->region, status, error);
+    if (status != IMP_OK) return status_fault(n, status, error);
+    status = surface_eval(n->surface, 1, n->region.c, n->f.a, n->e);
+    if (status != IMP_OK) return status_fault(n, status, error);
     n->bounded = true;
     for (int i = 0; i < 3; ++i) {
         if (!(n->e[i] >= 0 && isfinite(n->f.a[i])))
-            return fault(t, &n->region, "the centre's value or error is not a number", error);
+            return fault(n, "the centre's value or error is not a number", error);
         n->radius += n->e[i];
     }
     reach_from_rates(n, t->plan.kind, &rates);
@@ -149,12 +173,21 @@ static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
     return IMP_SUCCESS;
 }
 
-static imp_code node_fill(const tree *t, imp_region region, node *n, imp_error *error)
+/* Which points a node is to bound, and when. */
+typedef struct node_place {
+    imp_region region;
+    const surface *surface;
+    const cluster *many;
+} node_place;
+
+static imp_code node_fill(const tree *t, const node_place *place, node *n, imp_error *error)
 {
-    *n = (node){.region = region};
-    imp_code code =
-        t->plan.kind == TREE_MODELS ? fill_from_model(t, n, error) : fill_from_rates(t, n, error);
-    if (code == IMP_SUCCESS && t->plan.audit != NULL) code = t->plan.audit(t->surface, n, error);
+    *n = (node){.region = place->region, .surface = place->surface, .many = place->many};
+    imp_code code = t->plan.kind == TREE_MODELS ? fill_from_model(t, n, error)
+                    : n->many != NULL           ? fill_from_box(t, n, error)
+                                                : fill_from_rates(t, n, error);
+    if (code == IMP_SUCCESS && t->plan.audit != NULL && n->many == NULL)
+        code = t->plan.audit(n->surface, n, error);
     return code;
 }
 
@@ -174,11 +207,11 @@ static node *node_publish(tree *t, const node *filled, _Atomic(node *) *slot, tr
     return n;
 }
 
-static imp_code node_make(tree *t, imp_region region, _Atomic(node *) *slot, node **made,
+static imp_code node_make(tree *t, const node_place *place, _Atomic(node *) *slot, node **made,
                           tree_growth *growth, imp_error *error)
 {
     node filled;
-    const imp_code code = node_fill(t, region, &filled, error);
+    const imp_code code = node_fill(t, place, &filled, error);
     if (code != IMP_SUCCESS) return code;
     *made = node_publish(t, &filled, slot, growth);
     return *made != NULL ? IMP_SUCCESS : error_set_memory(error);
@@ -186,20 +219,48 @@ static imp_code node_make(tree *t, imp_region region, _Atomic(node *) *slot, nod
 
 /* --- Trees ------------------------------------------------------------------------------ */
 
-imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
-                  imp_error *error)
+/* The whole of one surface, during these times. */
+static node_place place_of_surface(const surface *s, double t_start, double t_end)
 {
     double lo[3], hi[3];
     surface_domain(s, lo, hi);
-    assert(lo[2] <= plan->t_start && plan->t_start <= plan->t_end && plan->t_end <= hi[2]);
-    lo[2] = plan->t_start;
-    hi[2] = plan->t_end;
+    assert(lo[2] <= t_start && t_start <= t_end && t_end <= hi[2]);
+    lo[2] = t_start;
+    hi[2] = t_end;
+    return (node_place){region_make(lo, hi), s, NULL};
+}
+
+static node_place place_of_cluster(const cluster *many, double t_start, double t_end)
+{
+    const double lo[3] = {-1, 0, t_start}, hi[3] = {1, 0, t_end};
+    return (node_place){region_make(lo, hi), hierarchy_surface(many->of), many};
+}
+
+static imp_code make_root(tree *t, tree_growth *growth, imp_error *error)
+{
+    const tree_plan *plan = &t->plan;
+    node_place place = place_of_surface(t->surface, plan->t_start, plan->t_end);
+    if (surface_piece_count(t->surface) == 1) {
+        place.surface = surface_piece(t->surface, 0);
+    } else if (surface_piece_count(t->surface) > 1) {
+        const imp_code code =
+            hierarchy_new(t->surface, plan->t_start, plan->t_end, &t->pieces, error);
+        if (code != IMP_SUCCESS) return code;
+        growth->bytes += hierarchy_bytes(t->pieces);
+        place = place_of_cluster(hierarchy_root(t->pieces), plan->t_start, plan->t_end);
+    }
+    _Atomic(node *) root = NULL;
+    return node_make(t, &place, &root, &t->root, growth, error);
+}
+
+imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
+                  imp_error *error)
+{
     tree *t = calloc(1, sizeof *t);
     if (t == NULL) return error_set_memory(error);
     *t = (tree){.surface = s, .plan = *plan};
     pthread_mutex_init(&t->lock, NULL);
-    _Atomic(node *) root = NULL;
-    const imp_code code = node_make(t, region_make(lo, hi), &root, &t->root, growth, error);
+    const imp_code code = make_root(t, growth, error);
     if (code == IMP_SUCCESS) {
         growth->bytes += sizeof *t;
         *made = t;
@@ -236,6 +297,7 @@ void tree_free(tree *t)
         free(t->chunks);
         t->chunks = next;
     }
+    hierarchy_free(t->pieces);
     pthread_mutex_destroy(&t->lock);
     free(t);
 }
@@ -250,14 +312,26 @@ bool tree_is_of(const tree *t, const tree_plan *plan)
            t->plan.t_end == plan->t_end && t->plan.audit == plan->audit;
 }
 
+/* What a half of a node is to bound. */
+static node_place place_of_half(const node *parent, parameter j, int side)
+{
+    const imp_region *r = &parent->region;
+    if (parent->many == NULL || j != PARAMETER_U)
+        return (node_place){region_half(r, j, side), parent->surface, parent->many};
+    const cluster *half = parent->many->child[side];
+    if (half != NULL) return place_of_cluster(half, r->lo[2], r->hi[2]);
+    return place_of_surface(surface_piece(parent->surface, parent->many->piece[side]), r->lo[2],
+                            r->hi[2]);
+}
+
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error)
 {
     _Atomic(node *) *slot = &parent->child[j][side];
     node *made = atomic_load_explicit(slot, memory_order_acquire);
     if (made == NULL) {
-        const imp_region half = region_half(&parent->region, j, side);
-        const imp_code code = node_make(t, half, slot, &made, growth, error);
+        const node_place half = place_of_half(parent, j, side);
+        const imp_code code = node_make(t, &half, slot, &made, growth, error);
         if (code != IMP_SUCCESS) return code;
     }
     *child = made;
@@ -268,11 +342,11 @@ imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error)
 {
     double x[3];
     const double *p = n->region.c;
-    const imp_status status = surface_eval(t->surface, 1, p, x, NULL);
+    const imp_status status = surface_eval(n->surface, 1, p, x, NULL);
     if (status != IMP_OK)
-        return surface_fault(t->surface, error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0],
-                             p[1], p[2], surface_status_told(t->surface, status).text);
-    return fault(t, &n->region,
+        return surface_fault(n->surface, error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0],
+                             p[1], p[2], surface_status_told(n->surface, status).text);
+    return fault(n,
                  t->plan.kind == TREE_MODELS
                      ? "has no bounds there, however small the region; shrink its domain, or the "
                        "times asked for, to where it (and each map on it) is bounded"

@@ -7,12 +7,15 @@
 
 #include "core/surface/region.h"
 #include "core/surface/surface.h"
+#include "core/tree/hierarchy.h"
 #include "core/tree/vec.h"
 
 /* Nodes: regions of one surface with Taylor models that hold
  * ==========================================================
  * The nodes of a surface form a k-d tree that is made lazily: the halves of a node along a
  * parameter are made on first use, and then serve every pair and every later query.
+ * Where the surface consists of pieces, the nodes above them are clusters of pieces (hierarchy.h): u
+ * of such a node runs over the pieces, from -1 to 1, and halving it along u gives its two halves.
  * A node may be halved along any of its parameters.
  *
  * Trees may be used from several threads at once. A node is filled by whoever asks for it first,
@@ -47,6 +50,8 @@ typedef struct node {
     double nonlinear_extent[3]; /* the same for what is not linear in the parameters; length */
     double time_remainder;      /* time's share in e where its rate is known, about; length */
     bool bounded;               /* f, e, lo, hi are all finite */
+    const surface *surface;     /* whose points are bounded: a piece, or the whole */
+    const cluster *many;        /* of these pieces of it; NULL: of one surface */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
 } node;
 

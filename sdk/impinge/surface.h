@@ -261,7 +261,21 @@ typedef struct imp_surface_type {
      * more than include. IMP_UNBOUNDED: there is none over this region, and *net is ignored; smaller
      * ones may have one. May be NULL: there is none at all. [thread-safe] */
     imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
+
+    /* Capability `pieces`; both or neither, and a struct_size that ends before them means neither.
+     *
+     * An instance may stand for many surfaces: a mesh for its triangles. piece(self, k), k <
+     * piece_count(self), is an instance of the same type that `self` owns, never NULL, the same one
+     * each time, valid until `self` is destroyed; it is never passed to destroy, piece_count or
+     * piece. piece_count is from 1 to IMP_PIECES_MAX and never changes. The host then calls domain,
+     * eval, rate and include for the pieces alone; their domains must have the same times. The
+     * pieces are one surface of the scene and move together: they are not tested with each other.
+     * [main-thread], like create */
+    size_t (*piece_count)(const void *self);
+    const void *(*piece)(const void *self, size_t k);
 } imp_surface_type;
+
+#define IMP_PIECES_MAX ((size_t)1 << 24)
 
 /* --- Maps -------------------------------------------------------------------- */
 
@@ -422,9 +436,10 @@ IMP_LAYOUT(offsetof(imp_model, depends) == 128);
 IMP_LAYOUT(sizeof(imp_net) == 2104 && offsetof(imp_net, place) == 16);
 IMP_LAYOUT(offsetof(imp_net, error) == 64 && offsetof(imp_net, point) == 88);
 IMP_LAYOUT(offsetof(imp_net, velocity) == 952 && offsetof(imp_net, weight) == 1816);
-IMP_LAYOUT(sizeof(imp_surface_type) == 120 && offsetof(imp_surface_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_surface_type) == 136 && offsetof(imp_surface_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_surface_type, create) == 64 && offsetof(imp_surface_type, include) == 104);
 IMP_LAYOUT(offsetof(imp_surface_type, net) == 112);
+IMP_LAYOUT(offsetof(imp_surface_type, piece_count) == 120);
 IMP_LAYOUT(sizeof(imp_map_type) == 120 && offsetof(imp_map_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);
 IMP_LAYOUT(offsetof(imp_map_type, net) == 112);

@@ -96,6 +96,9 @@ static void types(void)
     FIELD(imp_surface_type, domain), FIELD(imp_surface_type, eval);
     FIELD(imp_surface_type, rate), FIELD(imp_surface_type, include);
     FIELD(imp_surface_type, net);
+    FIELD(imp_surface_type, piece_count), FIELD(imp_surface_type, piece);
+    CALL(imp_surface_type, piece_count, size_t (*)(const void *));
+    CALL(imp_surface_type, piece, const void *(*)(const void *, size_t));
     CALL(imp_surface_type, domain, void (*)(const void *, double *, double *));
     CALL(imp_surface_type, rate,
          imp_status(*)(const void *, const imp_region *, imp_rate_matrix *));

@@ -469,3 +469,14 @@ missed() {
     done
     fails 2 "did you mean 'rates'?" "$IMPINGE" check plane --only rate
 }
+
+# --- Pieces ------------------------------------------------------------------------------------------
+
+@test "pieces that change, are missing, have other times or lie are exposed; those in order are not" {
+    run -0 "$IMPINGE" check "$liars/pieces.so" --only pieces --only rates
+    exposes pieces pieces_none 'piece_count is 0, must be from 1 to'
+    exposes pieces pieces_null 'piece gives NULL for number 1'
+    exposes pieces pieces_change 'piece 0 is another instance when asked for again'
+    exposes pieces pieces_times 'piece 2 exists for t in'
+    exposes rates pieces_lie 'the rates are too small'
+}

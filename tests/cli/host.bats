@@ -469,6 +469,24 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
     blames domain_rounds "domain_rounds.so) changes the floating-point mode" --isolate all
 }
 
+@test "pieces that are none, too many, missing or of other times end the query; those in order are named" {
+    takes pieces pieces_none pieces_many pieces_null pieces_times pieces_half
+    blames pieces_none "pieces_none.so) gives a piece_count that is 0 or above IMP_PIECES_MAX"
+    blames pieces_many "pieces_many.so) gives a piece_count that is 0 or above IMP_PIECES_MAX"
+    blames pieces_null "pieces_null.so) gives NULL for one of its pieces"
+    blames pieces_null "pieces_null.so) gives NULL for one of its pieces" --isolate all
+    blames pieces_many "pieces_many.so) gives a piece_count that is 0 or above" --isolate all
+    blames pieces_times "pieces_times.so) has pieces whose domains differ in time"
+    run -0 list --json
+    left_out pieces_half.so 'pieces_half: piece is NULL; give piece_count and piece, or neither'
+    local way
+    for way in '' '--isolate all'; do
+        # shellcheck disable=SC2086 # words on purpose
+        run -0 pair pieces 'sphere radius=.25 center=.3,.2,3.5 ! translate velocity=0,0,-1' --json $way
+        json '.verdict == "contact" and .a.piece == 2 and (.b | has("piece") | not) and .t > 0.62 and .t < 0.63'
+    done
+}
+
 @test "points that are no numbers end the query and name body, type, parameters and point" {
     takes eval_nan_late eval_error_negative
     blames 'eval_nan_late height=.1' "body 'a', surface 0: type 'eval_nan_late height=0.1' at u = "

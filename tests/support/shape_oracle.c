@@ -103,13 +103,26 @@ void segment_oracle(const type_arguments *arguments, const number p[3], number x
         x[i] = between(corner(arguments, 0, i, p[2]), corner(arguments, 1, i, p[2]), p[0]);
 }
 
-void triangle_oracle(const type_arguments *arguments, const number p[3], number x[3])
+static void triangle_of(const type_arguments *arguments, const size_t k[3], const number p[3],
+                        number x[3])
 {
     for (size_t i = 0; i < 3; ++i) {
         number opposite =
-            between(corner(arguments, 1, i, p[2]), corner(arguments, 2, i, p[2]), p[1]);
-        x[i] = between(corner(arguments, 0, i, p[2]), opposite, p[0]);
+            between(corner(arguments, k[1], i, p[2]), corner(arguments, k[2], i, p[2]), p[1]);
+        x[i] = between(corner(arguments, k[0], i, p[2]), opposite, p[0]);
     }
+}
+
+void triangle_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    triangle_of(arguments, (const size_t[3]){0, 1, 2}, p, x);
+}
+
+void mesh_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    size_t k[3];
+    for (size_t j = 0; j < 3; ++j) k[j] = (size_t)num_near(argument_at(arguments, "faces", j));
+    triangle_of(arguments, k, p, x);
 }
 
 /* --- Superquadric ------------------------------------------------------------------------- */

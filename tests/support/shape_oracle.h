@@ -17,6 +17,7 @@ surface_oracle plane_oracle;
 surface_oracle point_oracle;
 surface_oracle segment_oracle;
 surface_oracle triangle_oracle;
+surface_oracle mesh_oracle; /* the first three corners of the first face */
 surface_oracle ripple_oracle;
 surface_oracle superellipsoid_oracle;
 surface_oracle supertoroid_oracle;

@@ -250,6 +250,13 @@ const type_oracle oracles[] = {
      .instances = {"{}", "{\"points\": [@3[?,?,?]], \"velocities\": [@3[?,?,?]]}",
                    "{\"points\": [@2[1e8,?,?],[?,-1e8,1e-9]], \"velocities\": [@3[?,1e6,0]]}",
                    "{\"points\": [@3[?,?,1]]}"}},
+    {.type = "mesh", /* its first piece */
+     .surface = mesh_oracle,
+     .instances = {"{\"points\": [@3[?,?,?]], \"faces\": [[0,1,2]]}",
+                   "{\"points\": [@5[?,?,?]], \"faces\": [[4,1,3],[0,1,2]], \"velocities\": [@5[?,?,?]]}",
+                   "{\"points\": [@2[1e8,?,?],[?,-1e8,1e-9]], \"faces\": [[2,0,1]],"
+                   " \"velocities\": [@3[?,1e6,0]]}",
+                   "{\"points\": [[0,0,?],[1,0,0],[2,3,?]], \"faces\": [[1,2,0]]}"}},
     {.type = "ripple",
      .surface = ripple_oracle,
      .instances = {"{}",

@@ -225,7 +225,7 @@ void arguments_check(imp_registry *registry, const imp_type_info *type, const ch
     json_t *given = stage_values(registry, type->kind, stage);
     if (!list_make(&list, type, given))
         answer_skip(answer, "the arguments could not be created");
-    else if (subject_make(&s, &host, &host, answer))
+    else if (subject_make(&s, &host, &host, 0, answer))
         check_guarded(&list, &s, stage);
     json_decref(given);
     list_free(&list);

@@ -15,6 +15,7 @@
 #include "tools/check/file.h"
 #include "tools/check/inclusions.h"
 #include "tools/check/nets.h"
+#include "tools/check/pieces.h"
 #include "tools/check/points.h"
 #include "tools/check/proof.h"
 #include "tools/check/purity.h"
@@ -46,6 +47,7 @@ static const check all[] = {
     {.name = "state", .of_stage = state_check},
     {.name = "environment", .of_stage = environment_check},
     {.name = "buffers", .of_subject = buffers_check},
+    {.name = "pieces", .of_stage = pieces_check},
     {.name = "rates", .of_subject = rates_check, .of_bounds = true},
     {.name = "errors", .of_subject = errors_check, .of_bounds = true},
     {.name = "inclusions", .of_subject = inclusions_check, .of_bounds = true},
@@ -55,10 +57,10 @@ static const check all[] = {
     {.name = "cost", .of_subject = cost_check},
 };
 const char *const check_names[] = {
-    "exports", "factories",   "parameters", "arguments",   "memory",    "finite",
-    "domain",  "determinism", "state",      "environment", "buffers",   "rates",
-    "errors",  "inclusions",  "nets",       "proof",       "tightness", "cost",
-    NULL};
+    "exports", "factories",   "parameters", "arguments",   "memory",  "finite",
+    "domain",  "determinism", "state",      "environment", "buffers", "pieces",
+    "rates",   "errors",      "inclusions", "nets",        "proof",   "tightness",
+    "cost",    NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");
@@ -76,19 +78,31 @@ static bool find_type(const imp_registry *registry, const check_task *task, imp_
     return false;
 }
 
-static void check_instances(const check *c, const check_task *task, const imp_registry *registry,
-                            const imp_type_info *info, const char *stage, const imp_instance *one,
-                            const imp_instance *twin, check_answer *answer)
+static void check_piece(const check *c, const check_task *task, const imp_registry *registry,
+                        const imp_type_info *info, const char *stage, const imp_instance *one,
+                        const imp_instance *twin, size_t k, check_answer *answer)
 {
     subject s;
     uint64_t random = draw_stream(task->seed, c->name, stage);
-    if (!subject_make(&s, one, twin, answer)) return;
+    if (!subject_make(&s, one, twin, k, answer)) return;
     s.registry = registry;
     s.type = info;
     s.stage = stage;
     s.formula = task->formula;
     s.said_domain = task->domain;
     c->of_subject(&s, &random, task->effort);
+}
+
+/* Of many pieces the first, that in the middle, and the last. */
+static void check_instances(const check *c, const check_task *task, const imp_registry *registry,
+                            const imp_type_info *info, const char *stage, const imp_instance *one,
+                            const imp_instance *twin, check_answer *answer)
+{
+    const size_t count = subject_piece_count(one, answer);
+    const size_t piece[3] = {0, count / 2, count > 0 ? count - 1 : 0};
+    for (int k = 0; k < 3 && answer->verdict != CHECK_FAIL; ++k)
+        if (k == 0 || piece[k] != piece[k - 1])
+            check_piece(c, task, registry, info, stage, one, twin, piece[k], answer);
 }
 
 static void check_stage(const check *c, const check_task *task, const char *stage,

@@ -221,7 +221,7 @@ void state_check(imp_registry *registry, const imp_type_info *type, const char *
     w.code = made.surface != NULL ? (uintptr_t)made.surface->eval : (uintptr_t)made.map->eval;
     dl_iterate_phdr(look_at, &w);
     add_heap(&w);
-    if (subject_make(&s, &made, &made, answer)) check_calls(&s, &w);
+    if (subject_make(&s, &made, &made, 0, answer)) check_calls(&s, &w);
     forget(&w);
     subject_destroy(&made, stage, answer);
 }

@@ -7,6 +7,7 @@
 #include <impinge/formula.h>
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -264,10 +265,43 @@ static bool judge_domain(const subject *s)
     return true;
 }
 
-bool subject_make(subject *s, const imp_instance *instance, const imp_instance *twin,
+static bool offers_pieces(const imp_surface_type *type)
+{
+    return type != NULL &&
+           type->struct_size >= offsetof(imp_surface_type, piece) + sizeof type->piece &&
+           type->piece_count != NULL && type->piece != NULL;
+}
+
+size_t subject_piece_count(const imp_instance *instance, check_answer *answer)
+{
+    if (!offers_pieces(instance->surface)) return 0;
+    answer->call = (check_call){.name = "piece_count"};
+    const size_t count = instance->surface->piece_count(instance->self);
+    answer->call.name = NULL;
+    return count;
+}
+
+/* The k-th piece of an instance, or itself. Pieces are only ever asked, which changes nothing. */
+static const imp_instance *piece_of(const imp_instance *instance, size_t k, imp_instance *piece,
+                                    check_answer *answer)
+{
+    if (k >= subject_piece_count(instance, answer)) return instance;
+    answer->call = (check_call){.name = "piece"};
+    const void *self = instance->surface->piece(instance->self, k);
+    answer->call.name = NULL;
+    *piece = (imp_instance){instance->surface, NULL, (void *)(uintptr_t)self};
+    return self != NULL ? piece : NULL;
+}
+
+bool subject_make(subject *s, const imp_instance *instance, const imp_instance *twin, size_t k,
                   check_answer *answer)
 {
-    *s = (subject){.instance = instance, .twin = twin, .answer = answer};
+    *s = (subject){.answer = answer};
+    s->instance = piece_of(instance, k, &s->one, answer);
+    s->twin = piece_of(twin, k, &s->other, answer);
+    if (s->instance == NULL || s->twin == NULL)
+        return answer_fail_for(answer, FAULT_DOMAIN, "piece gives NULL for number %zu", k);
+    instance = s->instance;
     s->n = instance->surface != NULL ? 3 : 4;
     const int t = s->n - 1;
     for (int j = 0; j < 3; ++j) s->domain.lo[j] = -2, s->domain.hi[j] = 2;

@@ -15,6 +15,7 @@
  * answer first. */
 
 typedef struct subject {
+    imp_instance one, other; /* pieces of instances, where these consist of pieces */
     const imp_instance *instance;
     const imp_instance *twin; /* another of the same parameters */
     const imp_registry *registry;
@@ -28,9 +29,13 @@ typedef struct subject {
                  */
 } subject;
 
-/* False, and the check fails, if the domain is invalid. */
-bool subject_make(subject *s, const imp_instance *instance, const imp_instance *twin,
+/* False, and the check fails, if the domain is invalid. Where instances consist of pieces, their k-th;
+ * it must not be copied then. */
+bool subject_make(subject *s, const imp_instance *instance, const imp_instance *twin, size_t k,
                   check_answer *answer);
+
+/* Of how many pieces an instance consists; 0: it is one surface, or a map. */
+size_t subject_piece_count(const imp_instance *instance, check_answer *answer);
 
 /* From a stage, "sphere radius=2", and back. */
 imp_code subject_create(imp_registry *registry, imp_type_kind kind, const char *stage,

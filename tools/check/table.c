@@ -46,7 +46,7 @@ static bool has_points(const trial *t, const char *stage)
     uint64_t random = draw_stream(1, "points", "");
     if (subject_create(t->registry, t->type->kind, stage, &made, &error, t->answer) != IMP_SUCCESS)
         return true;
-    bool sane = subject_make(&s, &made, &made, t->answer);
+    bool sane = subject_make(&s, &made, &made, 0, t->answer);
     for (int k = 0; k < 16 && sane; ++k) {
         double p[BOX_DIMS], x[3], error_of[3];
         draw_point(&random, &s.domain, s.n, p);
@@ -203,7 +203,7 @@ static bool one_life(const trial *t)
     double rate[3][BOX_DIMS], x[3], e[3];
     if (subject_create(t->registry, t->type->kind, t->text, &i, &error, t->answer) != IMP_SUCCESS)
         return answer_fail(t->answer, "'%.300s' does not work: %s", t->text, error.text);
-    if (subject_make(&s, &i, &i, t->answer)) {
+    if (subject_make(&s, &i, &i, 0, t->answer)) {
         subject_eval(&s, 1, s.domain.lo, x, e);
         subject_rate(&s, &s.domain, rate);
     }

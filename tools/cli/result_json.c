@@ -56,9 +56,12 @@ static json_t *times_json(const double times[2])
 
 json_t *result_side_json(const imp_scene *scene, const imp_side *side)
 {
-    return json_pack("{s:o, s:I, s:o, s:o, s:o}", "body",
+    const bool pieces = imp_scene_piece_count(scene, side->body, side->surface) > 1;
+    return json_pack("{s:o, s:I, s:o*, s:o, s:o, s:o}", "body",
                      output_json_text(imp_scene_body_name(scene, side->body)), "surface",
-                     (json_int_t)side->surface, "u", output_json_number(side->u), "v",
+                     (json_int_t)side->surface, "piece",
+                     pieces ? json_integer((json_int_t)side->piece) : NULL, "u",
+                     output_json_number(side->u), "v",
                      output_json_number(side->v), "point", result_vector_json(side->point));
 }
 

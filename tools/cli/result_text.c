@@ -24,7 +24,7 @@ static void print_vector(const double v[3]) { printf("(%.10g, %.10g, %.10g)", v[
 
 /* The columns of one side; both sides are padded to the wider of the two. */
 typedef struct side_text {
-    char surface[32], u[32], v[32];
+    char surface[64], u[32], v[32];
     const char *body;
 } side_text;
 
@@ -32,6 +32,8 @@ static side_text side_columns(const imp_scene *scene, const imp_side *side)
 {
     side_text text;
     snprintf(text.surface, sizeof text.surface, "%zu", side->surface);
+    if (imp_scene_piece_count(scene, side->body, side->surface) > 1)
+        snprintf(text.surface, sizeof text.surface, "%zu piece %zu", side->surface, side->piece);
     snprintf(text.u, sizeof text.u, "%.10g", side->u);
     snprintf(text.v, sizeof text.v, "%.10g", side->v);
     text.body = imp_scene_body_name(scene, side->body);

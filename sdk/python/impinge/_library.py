@@ -55,6 +55,7 @@ class Side(c.Structure):
     _fields_ = [
         ("body", c.c_size_t),
         ("surface", c.c_size_t),
+        ("piece", c.c_size_t),
         ("u", c.c_double),
         ("v", c.c_double),
         ("point", c.c_double * 3),

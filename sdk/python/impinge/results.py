@@ -22,6 +22,7 @@ class Side:
 
     body: str
     surface: int
+    piece: int
     u: float
     v: float
     point: Tuple[float, float, float]
@@ -103,7 +104,7 @@ def _number(x: float) -> Optional[float]:
 
 
 def _side(names: Tuple[str, ...], side: lib.Side) -> Side:
-    return Side(names[side.body], side.surface, side.u, side.v, tuple(side.point))
+    return Side(names[side.body], side.surface, side.piece, side.u, side.v, tuple(side.point))
 
 
 def progress_of(r: lib.Result, bracket: Optional[lib.Clearance]) -> Progress:

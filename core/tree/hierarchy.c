@@ -1,0 +1,275 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/tree/hierarchy.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/rounding.h"
+#include "core/base/status.h"
+#include "core/surface/region.h"
+
+struct hierarchy {
+    const surface *surface;
+    double lo, hi, c, d; /* the times, as in imp_region */
+    uint32_t *order;     /* the pieces; those of a cluster stand together */
+    cluster *clusters;   /* count - 1 of them, a parent before its children; the root is the first */
+    size_t count;        /* of pieces */
+    size_t used;         /* clusters made */
+};
+
+/* --- The bounds of one piece -------------------------------------------------------------- */
+
+static void bound_nothing(cluster_bound *b)
+{
+    memset(b, 0, sizeof *b);
+    for (int i = 0; i < 3; ++i) b->e[i] = b->rate[i] = INFINITY;
+}
+
+/* Lemma. What is linear in t stays; all other terms of the model are at most their coefficients, as
+ * |s| <= 1: two slopes, six coefficients, the remainder, 8 sums. What does not depend on t lies in
+ * its range, half of which, rounded, is two roundings off. */
+PAD_COVERS(16, 8);
+PAD_COVERS(4, 2);
+static void bound_piece(cluster_bound *b, int i, const imp_model *m)
+{
+    b->rate[i] = m->rate[2];
+    if (!(m->depends & 1u << PARAMETER_T)) {
+        b->a[i] = 0.5 * m->lo + 0.5 * m->hi;
+        const double below = b->a[i] - m->lo, above = m->hi - b->a[i];
+        b->b[i] = 0;
+        b->e[i] = padded_upper(below > above ? below : above, 4);
+        return;
+    }
+    double sum = m->e + fabs(m->b[0]) + fabs(m->b[1]);
+    for (int k = 0; k < 6; ++k) sum += fabs(m->q[k]);
+    b->a[i] = m->a;
+    b->b[i] = m->b[2];
+    b->e[i] = padded_upper(sum, 16);
+}
+
+static bool is_bound(const cluster_bound *b)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) sum += fabs(b->a[i]) + fabs(b->b[i]) + b->e[i] + b->rate[i];
+    return sum < INFINITY;
+}
+
+static imp_code take_piece(const hierarchy *h, size_t k, cluster_bound *b, imp_error *error)
+{
+    const surface *piece = surface_piece(h->surface, k);
+    double lo[3], hi[3];
+    imp_model model[3];
+    surface_domain(piece, lo, hi);
+    lo[2] = h->lo, hi[2] = h->hi;
+    const imp_region region = region_make(lo, hi);
+    const imp_status status = surface_include_bare(piece, &region, model);
+    if (status != IMP_OK && status != IMP_UNBOUNDED) {
+        surface_fault(piece, error, "over its domain, t [%.17g, %.17g]: %s", h->lo, h->hi,
+                      surface_status_told(piece, status).text);
+        return surface_set_code(status, error);
+    }
+    for (int i = 0; i < 3; ++i) bound_piece(b, i, &model[i]);
+    if (status == IMP_UNBOUNDED || !is_bound(b)) bound_nothing(b);
+    return IMP_SUCCESS;
+}
+
+/* --- The bounds of two together ------------------------------------------------------------- */
+
+/* Lemma. With the mean slope b, a part stays within e' = e + |b_part - b| of its a, since |s| <= 1;
+ * the middle a of what both cover is e from its ends at most. Roundings: e' 3, its ends 1, their
+ * distance from a 1; ends are moved outward by their rounding, which is relative to |a|. */
+PAD_COVERS(8, 3 + 1 + 1);
+static void bound_both(cluster_bound *to, const cluster_bound *x, const cluster_bound *y)
+{
+    for (int i = 0; i < 3; ++i) {
+        const double b = 0.5 * x->b[i] + 0.5 * y->b[i];
+        const double ex = padded_upper(x->e[i] + fabs(x->b[i] - b), 8);
+        const double ey = padded_upper(y->e[i] + fabs(y->b[i] - b), 8);
+        const double lo_x = difference_lower(x->a[i], ex), hi_x = sum_upper(x->a[i], ex);
+        const double lo_y = difference_lower(y->a[i], ey), hi_y = sum_upper(y->a[i], ey);
+        const double lo = lo_x < lo_y ? lo_x : lo_y, hi = hi_x > hi_y ? hi_x : hi_y;
+        to->b[i] = b;
+        to->a[i] = 0.5 * lo + 0.5 * hi;
+        const double below = sum_upper(to->a[i], -lo), above = sum_upper(hi, -to->a[i]);
+        to->e[i] = below > above ? below : above;
+        to->rate[i] = x->rate[i] > y->rate[i] ? x->rate[i] : y->rate[i];
+    }
+    if (!is_bound(x) || !is_bound(y) || !is_bound(to)) bound_nothing(to);
+}
+
+/* --- Halving ------------------------------------------------------------------------------------ */
+
+/* Where pieces are, for choosing only. */
+typedef struct building {
+    hierarchy *h;
+    const cluster_bound *pieces;
+    int axis;
+} building;
+
+static bool is_before(const building *b, uint32_t x, uint32_t y)
+{
+    const double at_x = b->pieces[x].a[b->axis], at_y = b->pieces[y].a[b->axis];
+    return at_x != at_y ? at_x < at_y : x < y;
+}
+
+static uint32_t middle_of(const building *b, uint32_t x, uint32_t y, uint32_t z)
+{
+    if (is_before(b, y, x)) return is_before(b, z, y) ? y : is_before(b, z, x) ? z : x;
+    return is_before(b, z, x) ? x : is_before(b, z, y) ? z : y;
+}
+
+/* Puts the `count` pieces in such an order that none of the first `half` comes after any other, in a
+ * total order, so that the answer is the same everywhere (Hoare's selection). */
+static void select_half(const building *b, uint32_t *order, size_t count, size_t half)
+{
+    size_t first = 0, last = count - 1;
+    while (first < last) {
+        const uint32_t pivot =
+            middle_of(b, order[first], order[first + (last - first) / 2], order[last]);
+        size_t i = first, j = last;
+        for (;; ++i, --j) {
+            while (is_before(b, order[i], pivot)) ++i;
+            while (is_before(b, pivot, order[j])) --j;
+            if (i >= j) break;
+            const uint32_t swapped = order[i];
+            order[i] = order[j];
+            order[j] = swapped;
+        }
+        if (half <= j)
+            last = j;
+        else
+            first = j + 1;
+    }
+}
+
+static int longest_axis(const building *b, const uint32_t *order, size_t count)
+{
+    int longest = 0;
+    double most = -1;
+    for (int i = 0; i < 3; ++i) {
+        double lo = INFINITY, hi = -INFINITY;
+        for (size_t k = 0; k < count; ++k) {
+            const double at = b->pieces[order[k]].a[i];
+            if (at < lo) lo = at;
+            if (at > hi) hi = at;
+        }
+        if (hi - lo > most) most = hi - lo, longest = i;
+    }
+    return longest;
+}
+
+/* The cluster of the pieces order[0] to order[count - 1], count >= 2. Halves are equal, so that the
+ * depth is the logarithm of their number. */
+static cluster *build(const building *b, uint32_t *order, size_t count)
+{
+    building own = *b;
+    cluster *made = &b->h->clusters[b->h->used++];
+    const size_t half[2] = {count / 2, count - count / 2};
+    const cluster_bound *bounds[2];
+    own.axis = longest_axis(b, order, count);
+    select_half(&own, order, count, half[0]);
+    made->of = b->h;
+    for (int side = 0; side < 2; ++side) {
+        uint32_t *from = order + (side == 0 ? 0 : half[0]);
+        made->child[side] = half[side] > 1 ? build(b, from, half[side]) : NULL;
+        made->piece[side] = *from;
+        bounds[side] = made->child[side] != NULL ? &made->child[side]->bound : &b->pieces[*from];
+    }
+    bound_both(&made->bound, bounds[0], bounds[1]);
+    return made;
+}
+
+/* --- Hierarchies ------------------------------------------------------------------------------- */
+
+static imp_code fill(hierarchy *h, cluster_bound *pieces, imp_error *error)
+{
+    for (size_t k = 0; k < h->count; ++k) {
+        const imp_code code = take_piece(h, k, &pieces[k], error);
+        if (code != IMP_SUCCESS) return code;
+        h->order[k] = (uint32_t)k;
+    }
+    build(&(building){h, pieces, 0}, h->order, h->count);
+    return IMP_SUCCESS;
+}
+
+imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy **made,
+                       imp_error *error)
+{
+    assert(surface_piece_count(s) >= 2);
+    const imp_region times =
+        region_make((double[3]){0, 0, t_start}, (double[3]){0, 0, t_end});
+    hierarchy *h = calloc(1, sizeof *h);
+    if (h == NULL) return error_set_memory(error);
+    *h = (hierarchy){.surface = s,
+                     .lo = t_start,
+                     .hi = t_end,
+                     .c = times.c[2],
+                     .d = times.d[2],
+                     .count = surface_piece_count(s)};
+    h->order = malloc(h->count * sizeof *h->order);
+    h->clusters = malloc((h->count - 1) * sizeof *h->clusters);
+    cluster_bound *pieces = malloc(h->count * sizeof *pieces);
+    imp_code code = h->order == NULL || h->clusters == NULL || pieces == NULL
+                        ? error_set_memory(error)
+                        : fill(h, pieces, error);
+    free(pieces);
+    if (code == IMP_SUCCESS)
+        *made = h;
+    else
+        hierarchy_free(h);
+    return code;
+}
+
+void hierarchy_free(hierarchy *h)
+{
+    if (h == NULL) return;
+    free(h->order);
+    free(h->clusters);
+    free(h);
+}
+
+const cluster *hierarchy_root(const hierarchy *h) { return h->clusters; }
+
+const surface *hierarchy_surface(const hierarchy *h) { return h->surface; }
+
+size_t hierarchy_bytes(const hierarchy *h)
+{
+    return sizeof *h + h->count * sizeof *h->order + (h->count - 1) * sizeof *h->clusters;
+}
+
+const surface *hierarchy_sample(const hierarchy *h, size_t k, size_t n)
+{
+    return surface_piece(h->surface, h->order[h->count * k / n]);
+}
+
+/* Lemma. t = c' + d' s', so s = (c' - c) / d + (d' / d) s', both at most about 1 in magnitude: a' and b'
+ * are off by at most 8 u (|a| + |b|), from five roundings each. Two points of a cluster are no farther
+ * apart than 2 e' at any one time, and each moves at its rate. */
+enum { TIMES_ROUNDING = 8 };
+PAD_COVERS(8, 4);
+void cluster_models(const cluster *c, const imp_region *region, imp_model model[3])
+{
+    const hierarchy *h = c->of;
+    const cluster_bound *bound = &c->bound;
+    const double shift = h->d > 0 ? (region->c[2] - h->c) / h->d : 0;
+    const double scale = h->d > 0 ? region->d[2] / h->d : 0;
+    memset(model, 0, 3 * sizeof *model);
+    for (int i = 0; i < 3; ++i) {
+        imp_model *m = &model[i];
+        m->a = bound->a[i] + bound->b[i] * shift;
+        m->b[2] = bound->b[i] * scale;
+        m->e = padded_upper(
+            bound->e[i] + TIMES_ROUNDING * UNIT_ROUNDOFF * (fabs(bound->a[i]) + fabs(bound->b[i])),
+            8) + PRODUCTS_UNDERFLOW;
+        const double reach = sum_upper(m->e, fabs(m->b[2]));
+        m->lo = difference_lower(m->a, reach);
+        m->hi = sum_upper(m->a, reach);
+        m->rate[0] = 2 * m->e;
+        m->rate[2] = bound->rate[i];
+        m->depends = 1u << PARAMETER_U | (bound->rate[i] > 0 ? 1u << PARAMETER_T : 0);
+    }
+}

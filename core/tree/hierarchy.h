@@ -1,0 +1,48 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_TREE_HIERARCHY_H
+#define CORE_TREE_HIERARCHY_H
+
+#include "core/surface/surface.h"
+
+/* A bounding volume hierarchy over the pieces of one surface
+ * ==========================================================
+ * Each cluster is a set of pieces in a box that moves linearly, before any map: for every point of
+ * them and every time t of the hierarchy, with s = (t - c) / d in [-1, 1],
+ *
+ *   | x_i - (a_i + b_i s) | <= e_i
+ *
+ * Halved at the median of the longest axis, down to single pieces. Immutable once built. */
+
+typedef struct cluster_bound {
+    double a[3], b[3], e[3]; /* length; e may be infinite: there are no bounds */
+    double rate[3];          /* length / time: of each piece, in t */
+} cluster_bound;
+
+typedef struct hierarchy hierarchy;
+
+typedef struct cluster {
+    const hierarchy *of;
+    cluster_bound bound;
+    const struct cluster *child[2]; /* NULL: it is one piece, */
+    uint32_t piece[2];              /* this one */
+} cluster;
+
+/* Over the times t_start..t_end, finite and within the domain. Precondition: `s` has two pieces or
+ * more. Fails as node_child does. */
+imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy **made,
+                       imp_error *error);
+void hierarchy_free(hierarchy *h); /* NULL is none */
+
+const cluster *hierarchy_root(const hierarchy *h);
+const surface *hierarchy_surface(const hierarchy *h);
+size_t hierarchy_bytes(const hierarchy *h);
+
+/* The k-th of n pieces that are spread over all of it. */
+const surface *hierarchy_sample(const hierarchy *h, size_t k, size_t n);
+
+/* Models of a cluster over a region whose times are part of the hierarchy's, before any map. Its u
+ * stands for which point of the cluster is meant. */
+void cluster_models(const cluster *c, const imp_region *region, imp_model model[3]);
+
+#endif

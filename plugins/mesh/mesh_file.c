@@ -1,0 +1,74 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/mesh/mesh_file.h"
+
+#include <stdio.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+imp_status mesh_read_bytes(mesh_format format, const char *bytes, size_t length, triangles *to,
+                           triangles_fault *fault)
+{
+    imp_status (*const read[])(const char *, size_t, triangles *, triangles_fault *) = {
+        [MESH_OBJ] = mesh_read_obj, [MESH_OFF] = mesh_read_off, [MESH_STL] = mesh_read_stl};
+    const imp_status status = read[format](bytes, length, to, fault);
+    if (status != IMP_OK || to->count > 0) return status;
+    return triangles_refuse(fault, 0, "no faces in it; a mesh needs one at least");
+}
+
+static bool find_format(const char *path, mesh_format *format)
+{
+    static const char *const ends[] = {[MESH_OBJ] = ".obj", [MESH_OFF] = ".off", [MESH_STL] = ".stl"};
+    const size_t length = strlen(path);
+    for (int k = 0; k < 3; ++k)
+        if (length > 4 && strcasecmp(path + length - 4, ends[k]) == 0) {
+            *format = (mesh_format)k;
+            return true;
+        }
+    return false;
+}
+
+enum { BYTES_MAX = 1 << 30 };
+
+/* Only files: a pipe or a device might never end. At most as much as the file was long when it was
+ * opened; NULL: it cannot be read, or no memory (*status). */
+static char *read_whole(const char *path, int row, size_t *length, imp_status *status,
+                        imp_create_error *why)
+{
+    struct stat facts;
+    *status = imp_reject(why, row, -1, "'%.180s' cannot be read", path);
+    if (stat(path, &facts) != 0 || !S_ISREG(facts.st_mode)) return NULL;
+    if (facts.st_size > BYTES_MAX) {
+        imp_reject(why, row, -1, "'%.140s' has %lld bytes, may have 2^30; divide the mesh", path,
+                   (long long)facts.st_size);
+        return NULL;
+    }
+    FILE *file = fopen(path, "rbe");
+    if (file == NULL) return NULL;
+    char *bytes = malloc((size_t)facts.st_size + 1);
+    if (bytes != NULL) *length = fread(bytes, 1, (size_t)facts.st_size, file);
+    *status = bytes == NULL ? IMP_INTERNAL : ferror(file) ? *status : IMP_OK;
+    fclose(file);
+    if (*status == IMP_OK) return bytes;
+    free(bytes);
+    return NULL;
+}
+
+imp_status mesh_read_file(const char *path, int row, triangles *to, imp_create_error *why)
+{
+    mesh_format format;
+    size_t length = 0;
+    imp_status status;
+    triangles_fault fault = {0, ""};
+    if (!find_format(path, &format))
+        return imp_reject(why, row, -1, "'%.160s' ends in none of .obj, .off, .stl", path);
+    char *bytes = read_whole(path, row, &length, &status, why);
+    if (bytes == NULL) return status;
+    status = mesh_read_bytes(format, bytes, length, to, &fault);
+    free(bytes);
+    if (status != IMP_PARAMETER) return status;
+    if (fault.line > 0)
+        return imp_reject(why, row, -1, "'%.80s', line %zu: %s", path, fault.line, fault.text);
+    return imp_reject(why, row, -1, "'%.80s': %s", path, fault.text);
+}

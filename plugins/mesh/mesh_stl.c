@@ -1,0 +1,102 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/mesh/mesh_file.h"
+#include "plugins/mesh/mesh_text.h"
+
+/* STL. As text: solid, then for each triangle "facet normal ...", "outer loop", three "vertex x y z",
+ * "endloop", "endfacet", at last "endsolid". Binary: 80 bytes, the number of triangles, and 50 bytes
+ * for each: normal and three points in single precision, and two bytes more; little-endian. */
+
+enum { HEAD = 84, RECORD = 50 };
+
+static uint32_t word_at(const char *bytes)
+{
+    const unsigned char *b = (const unsigned char *)bytes;
+    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+}
+
+static double single_at(const char *bytes)
+{
+    const uint32_t word = word_at(bytes);
+    float x;
+    memcpy(&x, &word, sizeof x);
+    return x;
+}
+
+/* Three points and the triangle between them. */
+static imp_status add_triangle(triangles *to, double x[3][3], size_t line, triangles_fault *fault)
+{
+    imp_status status = IMP_OK;
+    const int64_t first = (int64_t)to->point_count;
+    for (int k = 0; k < 3 && status == IMP_OK; ++k)
+        status = triangles_add_point(to, x[k], line, fault);
+    if (status != IMP_OK) return status;
+    return triangles_add_face(to, (const int64_t[]){first, first + 1, first + 2}, 3, line, fault);
+}
+
+static imp_status read_binary(const char *bytes, size_t count, triangles *to,
+                              triangles_fault *fault)
+{
+    for (size_t k = 0; k < count; ++k) {
+        double x[3][3];
+        const char *record = bytes + HEAD + RECORD * k;
+        for (size_t i = 0; i < 9; ++i) {
+            x[i / 3][i % 3] = single_at(record + 12 + 4 * i);
+            if (!isfinite(x[i / 3][i % 3]))
+                return triangles_refuse(fault, 0, "triangle %zu (from 0): coordinate %g", k,
+                                        x[i / 3][i % 3]);
+        }
+        const imp_status status = add_triangle(to, x, 0, fault);
+        if (status != IMP_OK) return status;
+    }
+    return IMP_OK;
+}
+
+/* --- Text --------------------------------------------------------------------------------- */
+
+/* The lines of a triangle, in their order. */
+static const char *const steps[] = {"facet",  "outer",   "vertex",  "vertex",
+                                    "vertex", "endloop", "endfacet"};
+enum { STEPS = sizeof steps / sizeof *steps, FIRST_VERTEX = 2 };
+
+static imp_status read_line(mesh_text *text, int *step, double x[3][3], triangles *to,
+                            triangles_fault *fault)
+{
+    const char *word = mesh_text_word(text);
+    if (*step == 0 && (strcmp(word, "solid") == 0 || strcmp(word, "endsolid") == 0)) return IMP_OK;
+    if (strcmp(word, steps[*step]) != 0)
+        return triangles_refuse(fault, text->line, "'%.40s' in place of '%s'", word, steps[*step]);
+    imp_status status = IMP_OK;
+    if (strcmp(word, "vertex") == 0) status = mesh_text_point(text, x[*step - FIRST_VERTEX], fault);
+    *step = (*step + 1) % STEPS;
+    if (status == IMP_OK && *step == 0) status = add_triangle(to, x, text->line, fault);
+    return status;
+}
+
+static imp_status read_text(const char *bytes, size_t length, triangles *to, triangles_fault *fault)
+{
+    mesh_text text = {.at = bytes, .end = bytes + length};
+    imp_status status = IMP_OK;
+    int step = 0;
+    double x[3][3];
+    while (status == IMP_OK && mesh_text_line(&text, false))
+        status = read_line(&text, &step, x, to, fault);
+    if (status == IMP_OK) status = mesh_text_status(&text);
+    if (status == IMP_OK && step != 0)
+        status = triangles_refuse(fault, text.line, "the file ends before '%s'", steps[step]);
+    mesh_text_clear(&text);
+    return status;
+}
+
+/* The length decides: text may begin with any 84 bytes, and a binary file with "solid". */
+imp_status mesh_read_stl(const char *bytes, size_t length, triangles *to, triangles_fault *fault)
+{
+    const size_t count = length >= HEAD ? word_at(bytes + HEAD - 4) : 0;
+    if (length >= HEAD && length == HEAD + RECORD * count) return read_binary(bytes, count, to, fault);
+    if (length >= 5 && memcmp(bytes, "solid", 5) == 0) return read_text(bytes, length, to, fault);
+    return triangles_refuse(fault, 0,
+                            "neither text, which begins with 'solid', nor binary: %zu bytes, and %zu "
+                            "for %zu triangles",
+                            length, HEAD + RECORD * count, count);
+}

@@ -1,0 +1,383 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "core/scene/scene.h"
+#include "core/tree/node.h"
+#include "tests/support/built_plugins.h"
+
+/* Bodies of many surfaces: what holds of a cluster of pieces, and that a mesh answers as its triangles
+ * do one by one. */
+
+static imp_registry *registry;
+
+static void open_registry(void) { registry = built_registry(); }
+static void close_registry(void) { imp_registry_free(registry); }
+
+/* --- Meshes --------------------------------------------------------------------------------- */
+
+enum { SIDE = 7, POINTS = SIDE * SIDE, FACES = 2 * (SIDE - 1) * (SIDE - 1), TEXT = 1 << 16 };
+
+typedef struct sheet {
+    double point[POINTS][3], velocity[POINTS][3];
+    int face[FACES][3];
+} sheet;
+
+/* A rough square of triangles around (0, 0, z). */
+static sheet rough_sheet(uint64_t *random, double z, double speed)
+{
+    sheet s;
+    for (int k = 0; k < POINTS; ++k) {
+        s.point[k][0] = (k % SIDE) / 3.0 - 1 + random_between(random, -0.1, 0.1);
+        s.point[k][1] = (k / SIDE) / 3.0 - 1 + random_between(random, -0.1, 0.1);
+        s.point[k][2] = z + random_between(random, -0.2, 0.2);
+        for (int i = 0; i < 3; ++i) s.velocity[k][i] = speed * random_between(random, -1, 1);
+    }
+    int (*f)[3] = s.face;
+    for (int j = 0; j + 1 < SIDE; ++j)
+        for (int i = 0; i + 1 < SIDE; ++i) {
+            const int a = SIDE * j + i, b = a + 1, c = a + SIDE, d = c + 1;
+            memcpy(*f++, (int[3]){a, b, c}, sizeof *f);
+            memcpy(*f++, (int[3]){b, d, c}, sizeof *f);
+        }
+    return s;
+}
+
+static void print_vectors(FILE *out, const char *name, double (*x)[3], const int *which, int count)
+{
+    fprintf(out, ",\"%s\":[", name);
+    for (int k = 0; k < count; ++k) {
+        const double *p = x[which != NULL ? which[k] : k];
+        fprintf(out, "%s[%.17g,%.17g,%.17g]", k > 0 ? "," : "", p[0], p[1], p[2]);
+    }
+    fprintf(out, "]");
+}
+
+static void print_mesh(FILE *out, sheet *s)
+{
+    fprintf(out, "{\"type\":\"mesh\",\"faces\":[");
+    for (int k = 0; k < FACES; ++k)
+        fprintf(out, "%s[%d,%d,%d]", k > 0 ? "," : "", s->face[k][0], s->face[k][1], s->face[k][2]);
+    fprintf(out, "]");
+    print_vectors(out, "points", s->point, NULL, POINTS);
+    print_vectors(out, "velocities", s->velocity, NULL, POINTS);
+    fprintf(out, "}");
+}
+
+static void print_triangles(FILE *out, sheet *s)
+{
+    for (int k = 0; k < FACES; ++k) {
+        fprintf(out, "%s{\"type\":\"triangle\"", k > 0 ? "," : "");
+        print_vectors(out, "points", s->point, s->face[k], 3);
+        print_vectors(out, "velocities", s->velocity, s->face[k], 3);
+        fprintf(out, "}");
+    }
+}
+
+static const char *const motions[] = {
+    "",
+    "{\"type\":\"translate\",\"velocity\":[0,0.2,-1.5]}",
+    "{\"type\":\"rotate\",\"axis\":[1,2,0],\"rate\":3},"
+    "{\"type\":\"translate\",\"velocity\":[0.1,0.2,-1.2]}",
+    "{\"type\":\"twist\"},{\"type\":\"rotate\",\"axis\":[0,0,1],\"rate\":-2}",
+};
+enum { MOTIONS = sizeof motions / sizeof *motions };
+
+static imp_scene *scene_of(sheet sheets[2], const char *motion, bool whole)
+{
+    static char text[TEXT * 8];
+    FILE *out = fmemopen(text, sizeof text, "w");
+    fprintf(out, "{\"gamma\":1e-4,\"bodies\":[");
+    for (int b = 0; b < 2; ++b) {
+        fprintf(out, "%s{\"name\":\"%c\",\"surfaces\":[", b > 0 ? "," : "", 'a' + b);
+        (whole ? print_mesh : print_triangles)(out, &sheets[b]);
+        fprintf(out, "],\"maps\":[%s]}", b > 0 ? motion : "");
+    }
+    fprintf(out, "]}");
+    ck_assert_int_eq(fclose(out), 0);
+    imp_error error;
+    imp_scene *scene = imp_scene_from_json(registry, text, strlen(text), "test", &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    return scene;
+}
+
+/* --- Clusters ------------------------------------------------------------------------------- */
+
+typedef struct visit {
+    uint64_t random;
+    const tree *tree;
+    int points;
+} visit;
+
+/* A point of the piece at a time of the node lies within the node's bounds. */
+static void expect_inside(visit *v, const node *n, const surface *piece)
+{
+    double p[3], x[3], error[3];
+    const imp_region *r = &n->region;
+    for (int j = 0; j < 2; ++j) p[j] = random_between(&v->random, 0, 1);
+    p[2] = random_between(&v->random, r->lo[2], r->hi[2]);
+    ck_assert_int_eq(surface_eval(piece, 1, p, x, error), IMP_OK);
+    const double s = r->d[2] > 0 ? (p[2] - r->c[2]) / r->d[2] : 0;
+    for (int i = 0; i < 3; ++i) {
+        const double middle = n->f.a[i] + n->f.bt[i] * s + n->f.qtt[i] * s * s;
+        const double slack = error[i] + 1e-14 * (1 + fabs(x[i]));
+        ck_assert_msg(fabs(x[i] - middle) <= n->e[i] + slack, "coordinate %d: %g off, %g allowed", i,
+                      fabs(x[i] - middle), n->e[i]);
+        ck_assert(x[i] >= n->lo[i] - slack && x[i] <= n->hi[i] + slack);
+    }
+    v->points += 1;
+}
+
+static void visit_pieces(visit *v, const node *n, const cluster *c)
+{
+    for (int side = 0; side < 2; ++side)
+        if (c->child[side] != NULL)
+            visit_pieces(v, n, c->child[side]);
+        else
+            expect_inside(v, n, surface_piece(n->surface, c->piece[side]));
+}
+
+/* Of a cluster and, at half its times, of its halves. */
+static void visit_clusters(visit *v, tree *t, node *n)
+{
+    tree_growth growth = {0};
+    if (n->many == NULL) return;
+    ck_assert(n->bounded);
+    visit_pieces(v, n, n->many);
+    for (int side = 0; side < 2; ++side) {
+        node *half = n, *child;
+        if (random_between(&v->random, 0, 1) < 0.5 && region_can_split(&n->region, PARAMETER_T))
+            ck_assert_int_eq(node_child(t, n, PARAMETER_T, side, &half, &growth, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(node_child(t, half, PARAMETER_U, side, &child, &growth, NULL), IMP_SUCCESS);
+        visit_clusters(v, t, child);
+    }
+}
+
+static int check_surface(uint64_t seed, const surface *s, tree_kind kind)
+{
+    tree *t = NULL;
+    tree_growth growth = {0};
+    const tree_plan plan = {.kind = kind, .t_start = 0.125, .t_end = 0.9};
+    ck_assert_int_eq(tree_new(s, &plan, &t, &growth, NULL), IMP_SUCCESS);
+    visit v = {.random = seed, .tree = t};
+    visit_clusters(&v, t, tree_root(t));
+    tree_free(t);
+    return v.points;
+}
+
+START_TEST(every_point_of_every_piece_lies_in_all_clusters_above_it)
+{
+    uint64_t random = suite_seed();
+    for (int k = 0; k < suite_times(4); ++k)
+        for (int m = 0; m < MOTIONS; ++m) {
+            sheet sheets[2] = {rough_sheet(&random, 0, 0), rough_sheet(&random, 1, m % 2)};
+            imp_scene *scene = scene_of(sheets, motions[m], true);
+            ck_assert_uint_eq(imp_scene_piece_count(scene, 1, 0), FACES);
+            for (size_t b = 0; b < 2; ++b) {
+                const surface *s = scene_surface(scene, b, 0);
+                ck_assert_int_ge(check_surface(random, s, TREE_MODELS), 5 * FACES);
+                check_surface(random, s, TREE_RATES_FULL);
+            }
+            imp_scene_free(scene);
+        }
+}
+END_TEST
+
+/* The same under a map that has rates alone. */
+START_TEST(a_map_without_models_bounds_the_box_of_a_cluster)
+{
+    imp_instance map;
+    ck_assert_int_eq(imp_instance_from_text(registry, IMP_KIND_MAP, "rotate axis=1,1,0 rate=2", &map,
+                                            NULL),
+                     IMP_SUCCESS);
+    imp_map_type rates_alone = *map.map;
+    rates_alone.apply = NULL;
+    const char *text = "mesh points=[[0,0,0],[1,0,0],[0,1,0],[0,0,1]] "
+                       "faces=[[0,2,1],[0,1,3],[0,3,2],[1,2,3]]";
+    imp_instance shape;
+    ck_assert_int_eq(imp_instance_from_text(registry, IMP_KIND_SURFACE, text, &shape, NULL),
+                     IMP_SUCCESS);
+    surface *s = surface_new(shape.surface, shape.self);
+    ck_assert_int_eq(surface_add_map(s, &rates_alone, map.self), IMP_SUCCESS);
+    ck_assert_int_eq(surface_divide(s), IMP_SUCCESS);
+    ck_assert_uint_eq(surface_piece_count(s), 4);
+    ck_assert_int_ge(check_surface(suite_seed(), s, TREE_MODELS), 4);
+    surface_free(s);
+}
+END_TEST
+
+/* --- Answers -------------------------------------------------------------------------------- */
+
+static imp_result solve(imp_scene *scene, imp_method method)
+{
+    imp_options options = imp_options_default(scene);
+    options.method = method;
+    options.gamma = method == IMP_METHOD_PAPER ? 1e-2 : 1e-4;
+    options.audit = method == IMP_METHOD_MODELS;
+    imp_result r = {.struct_size = sizeof r};
+    imp_error error;
+    ck_assert_msg(imp_scene_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s", error.text);
+    return r;
+}
+
+/* The witness of one side is where its piece is. */
+static void expect_point(const imp_scene *scene, const imp_side *side, double t)
+{
+    const double p[3] = {side->u, side->v, t};
+    double x[3];
+    const imp_place at = {side->body, side->surface, side->piece};
+    ck_assert_int_eq(imp_piece_eval(scene, at, 1, p, x, NULL, NULL), IMP_SUCCESS);
+    ck_assert_mem_eq(x, side->point, sizeof x);
+}
+
+static void compare(sheet sheets[2], const char *motion, imp_method method)
+{
+    imp_scene *whole = scene_of(sheets, motion, true), *apart = scene_of(sheets, motion, false);
+    const imp_result a = solve(whole, method), b = solve(apart, method);
+    ck_assert_int_eq(a.verdict, b.verdict);
+    ck_assert_double_eq_tol(a.t_lower, b.t_lower, a.gamma);
+    if (a.verdict == IMP_CONTACT) {
+        ck_assert_double_le(a.gap, a.gamma);
+        expect_point(whole, &a.a, a.t);
+        expect_point(whole, &a.b, a.t);
+        ck_assert_uint_lt(a.b.piece, FACES);
+        ck_assert_uint_eq(a.a.surface, 0);
+        ck_assert_uint_eq(b.a.piece, 0);
+    }
+    imp_scene_free(whole);
+    imp_scene_free(apart);
+}
+
+START_TEST(a_mesh_meets_another_when_their_triangles_do)
+{
+    uint64_t random = suite_seed();
+    for (int k = 0; k < suite_times(3); ++k)
+        for (int m = 0; m < MOTIONS; ++m) {
+            sheet sheets[2] = {rough_sheet(&random, 0, 0.1), rough_sheet(&random, 1.2, m % 2)};
+            compare(sheets, motions[m], IMP_METHOD_MODELS);
+            if (k == 0 && m == 1) compare(sheets, motions[m], IMP_METHOD_PAPER);
+        }
+}
+END_TEST
+
+START_TEST(a_mesh_keeps_the_distance_that_its_triangles_keep)
+{
+    uint64_t random = suite_seed();
+    sheet sheets[2] = {rough_sheet(&random, 0, 0), rough_sheet(&random, 3, 0.5)};
+    double bracket[2][2];
+    for (int whole = 0; whole < 2; ++whole) {
+        imp_scene *scene = scene_of(sheets, motions[1], whole);
+        const imp_options options = imp_options_default(scene);
+        imp_query *query = imp_clearance_new(scene, &options, NULL, NULL);
+        ck_assert_ptr_nonnull(query);
+        ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+        imp_clearance answer = {.struct_size = sizeof answer};
+        ck_assert_int_eq(imp_clearance_read(query, 0, &answer, NULL), IMP_SUCCESS);
+        ck_assert(answer.has_witness && answer.reason == IMP_REASON_NONE);
+        expect_point(scene, &answer.a, answer.t);
+        expect_point(scene, &answer.b, answer.t);
+        bracket[whole][0] = answer.lower, bracket[whole][1] = answer.upper;
+        imp_query_free(query);
+        imp_scene_free(scene);
+    }
+    ck_assert(bracket[0][0] <= bracket[1][1] && bracket[1][0] <= bracket[0][1]);
+    ck_assert_double_le(bracket[1][1] - bracket[1][0], 1.001e-3 * bracket[1][1]);
+}
+END_TEST
+
+START_TEST(finer_answers_of_a_mesh_agree_with_those_found_afresh)
+{
+    uint64_t random = suite_seed();
+    sheet sheets[2] = {rough_sheet(&random, 0, 0), rough_sheet(&random, 1.2, 0)};
+    imp_scene *scene = scene_of(sheets, motions[2], true);
+    const imp_options options = imp_options_default(scene);
+    imp_query *query = imp_query_new(scene, &options, NULL);
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(imp_query_result(query).verdict, IMP_CONTACT);
+    ck_assert_int_eq(imp_query_refine(query, 1e-8, -1, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    const imp_result fine = imp_query_result(query);
+    ck_assert_int_eq(fine.verdict, IMP_CONTACT);
+    ck_assert_double_le(fine.gap, 1e-8);
+    imp_options finer = options;
+    finer.gamma = 1e-8;
+    imp_result afresh = {.struct_size = sizeof afresh};
+    ck_assert_int_eq(imp_scene_solve(scene, &finer, &afresh, NULL), IMP_SUCCESS);
+    ck_assert_double_eq_tol(fine.t, afresh.t, 1e-7);
+    imp_query_free(query);
+    imp_scene_free(scene);
+}
+END_TEST
+
+/* --- What may be asked ---------------------------------------------------------------------- */
+
+START_TEST(pieces_are_counted_and_asked_one_by_one)
+{
+    uint64_t random = suite_seed();
+    sheet sheets[2] = {rough_sheet(&random, 0, 0), rough_sheet(&random, 1.2, 0)};
+    imp_scene *whole = scene_of(sheets, "", true), *apart = scene_of(sheets, "", false);
+    ck_assert_uint_eq(imp_scene_piece_count(whole, 0, 0), FACES);
+    ck_assert_uint_eq(imp_scene_piece_count(apart, 0, FACES - 1), 1);
+    ck_assert_uint_eq(imp_scene_piece_count(whole, 0, 1), 0);
+    for (size_t k = 0; k < FACES; ++k) {
+        const double p[3] = {0.25, 0.75, 0.5};
+        double x[2][3];
+        ck_assert_int_eq(imp_piece_eval(whole, (imp_place){1, 0, k}, 1, p, x[0], NULL, NULL),
+                         IMP_SUCCESS);
+        ck_assert_int_eq(imp_scene_eval(apart, 1, k, 1, p, x[1], NULL, NULL), IMP_SUCCESS);
+        ck_assert_mem_eq(x[0], x[1], sizeof x[0]);
+    }
+    imp_error error;
+    const double p[3] = {0, 0, 0};
+    double x[3], lo[3], hi[3];
+    ck_assert_int_eq(imp_piece_eval(whole, (imp_place){0, 0, FACES}, 1, p, x, NULL, &error),
+                     IMP_ERROR_USAGE);
+    ck_assert_str_eq(error.text, "body 0, surface 0 has no piece 72, but 72");
+    imp_piece_domain(whole, (imp_place){0, 0, FACES}, lo, hi);
+    ck_assert(lo[0] > hi[0]);
+    imp_scene_free(whole);
+    imp_scene_free(apart);
+}
+END_TEST
+
+START_TEST(what_waits_names_a_piece_or_several)
+{
+    uint64_t random = suite_seed();
+    sheet sheets[2] = {rough_sheet(&random, 0, 0), rough_sheet(&random, 1.2, 0)};
+    imp_scene *scene = scene_of(sheets, motions[1], true);
+    const imp_options options = imp_options_default(scene);
+    imp_query *query = imp_query_new(scene, &options, NULL);
+    bool several = false, single = false;
+    imp_pending p;
+    for (int step = 0; step < 100000 && !(several && single); ++step) {
+        ck_assert_int_eq(imp_query_step(query, 1, NULL), IMP_SUCCESS);
+        if (imp_query_result(query).reason != IMP_REASON_RUNNING) break;
+        for (size_t k = 0; imp_query_pending(query, k, &p); ++k) {
+            ck_assert(p.a.piece == SIZE_MAX || p.a.piece < FACES);
+            several = several || p.a.piece == SIZE_MAX;
+            single = single || p.a.piece < FACES;
+        }
+    }
+    ck_assert(several && single);
+    imp_query_free(query);
+    imp_scene_free(scene);
+}
+END_TEST
+
+int main(void)
+{
+    const TTest *const tests[] = {
+        every_point_of_every_piece_lies_in_all_clusters_above_it,
+        a_map_without_models_bounds_the_box_of_a_cluster,
+        a_mesh_meets_another_when_their_triangles_do,
+        a_mesh_keeps_the_distance_that_its_triangles_keep,
+        finer_answers_of_a_mesh_agree_with_those_found_afresh,
+        pieces_are_counted_and_asked_one_by_one,
+        what_waits_names_a_piece_or_several,
+    };
+    return suite_main_with("pieces", tests, sizeof tests / sizeof *tests, open_registry,
+                           close_registry);
+}

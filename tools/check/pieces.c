@@ -1,0 +1,73 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/check/pieces.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct visit {
+    const imp_instance *whole;
+    size_t count;
+    const void **pieces; /* as they were first answered */
+    check_answer *answer;
+} visit;
+
+static bool take(visit *v, size_t k)
+{
+    subject s;
+    if (!subject_make(&s, v->whole, v->whole, k, v->answer)) return false;
+    v->pieces[k] = s.instance->self;
+    double x[3], error[3], first[3], times[2][3];
+    for (int j = 0; j < 3; ++j) first[j] = s.domain.lo[j];
+    s.instance->surface->domain(v->pieces[0], times[0], times[1]);
+    const double lo = times[0][2], hi = times[1][2];
+    s.instance->surface->domain(v->pieces[k], times[0], times[1]);
+    if (times[0][2] != lo || times[1][2] != hi)
+        return answer_fail_for(v->answer, FAULT_DOMAIN,
+                               "piece %zu exists for t in [%g, %g], piece 0 for [%g, %g]", k,
+                               times[0][2], times[1][2], lo, hi);
+    return subject_eval_sane(&s, 1, first, x, error);
+}
+
+/* Whether piece k is what it was. */
+static bool is_kept(const visit *v, size_t k)
+{
+    v->answer->tests += 1;
+    v->answer->call = (check_call){.name = "piece"};
+    const bool kept = v->whole->surface->piece(v->whole->self, k) == v->pieces[k];
+    v->answer->call.name = NULL;
+    return kept || answer_fail(v->answer, "piece %zu is another instance when asked for again", k);
+}
+
+static bool visit_all(visit *v)
+{
+    for (size_t k = 0; k < v->count; ++k)
+        if (!take(v, k)) return false;
+    for (size_t k = 0; k < v->count; ++k)
+        if (!is_kept(v, k)) return false;
+    const size_t now = subject_piece_count(v->whole, v->answer);
+    return now == v->count || answer_fail(v->answer, "piece_count was %zu, and then %zu", v->count, now);
+}
+
+void pieces_check(imp_registry *registry, const imp_type_info *type, const char *stage,
+                  check_answer *answer)
+{
+    imp_instance made;
+    imp_error error;
+    if (subject_create(registry, type->kind, stage, &made, &error, answer) != IMP_SUCCESS) {
+        answer_fail(answer, "'%.300s' does not work: %s", stage, error.text);
+        return;
+    }
+    visit v = {.whole = &made, .count = subject_piece_count(&made, answer), .answer = answer};
+    const bool has = strstr(type->capabilities, "pieces") != NULL;
+    if (has && (v.count == 0 || v.count > IMP_PIECES_MAX))
+        answer_fail(answer, "piece_count is %zu, must be from 1 to %zu", v.count, IMP_PIECES_MAX);
+    else if (has) {
+        v.pieces = malloc(v.count * sizeof *v.pieces);
+        if (v.pieces != NULL) visit_all(&v);
+    }
+    free(v.pieces);
+    subject_destroy(&made, stage, answer);
+}
