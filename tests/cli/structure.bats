@@ -26,7 +26,8 @@ unguarded_functions() { # FOLDER
         imp_scene_domain imp_options_read imp_query_free imp_query_read imp_query_pending
         imp_query_cancel imp_query_pass imp_query_part_bodies imp_scene_ignores imp_scene_solve imp_clearance_options_read imp_clearance_count
         imp_builder_new imp_builder_time imp_builder_gamma imp_builder_body imp_builder_parent
-        imp_builder_group imp_builder_ignore "
+        imp_builder_group imp_builder_ignore imp_scene_piece_count imp_scene_eval imp_scene_include
+        imp_piece_domain "
     local name
     for name in $(grep -h -A1 '^IMP_EXPORT' "$1/core/impinge/impinge.h" |
         grep -o 'imp_[a-z_]*(' | tr -d '('); do
@@ -50,7 +51,7 @@ unguarded_functions() { # FOLDER
     echo 'double imp_sum(double x, double y) { return x + y; }' >>"$copy/core/base/status.c"
     sed -i '/fp_environment_enter/d' "$copy/core/scene/scene.c"
     run unguarded_functions "$copy"
-    [[ $output == *imp_scene_eval*imp_sum* ]]
+    [[ $output == *imp_piece_eval*imp_sum* ]]
 }
 
 # --- Direction of includes -----------------------------------------------------------------

@@ -48,7 +48,7 @@ static void check_surface(imp_registry *registry, const char *text, double toler
     ck_assert_msg(scene != NULL, "%s", error.text);
     mesh m;
     double upper;
-    ck_assert_int_eq(mesh_make(scene, 0, 0, &plan, &m, &error), IMP_SUCCESS);
+    ck_assert_int_eq(mesh_make(scene, (imp_place){0, 0, 0}, &plan, &m, &error), IMP_SUCCESS);
     ck_assert_int_eq(mesh_move(scene, &m, t, &error), IMP_SUCCESS);
     ck_assert_int_eq(mesh_error(scene, &m, t, &upper, &error), IMP_SUCCESS);
     ck_assert_msg(upper <= tolerance, "%s: %g of %g", text, upper, tolerance);

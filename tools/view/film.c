@@ -172,7 +172,7 @@ static imp_code take_frame(film *f, size_t frame, imp_error *error)
         track *t = &f->tracks[k];
         mesh *m = &f->stage.meshes[k];
         double lo[3], hi[3], upper = 0;
-        imp_scene_domain(f->stage.scene, m->body, m->surface, lo, hi);
+        imp_piece_domain(f->stage.scene, (imp_place){m->body, m->surface, m->piece}, lo, hi);
         const double at = fmin(fmax(f->times[frame], lo[2]), hi[2]);
         t->there[frame] = at == f->times[frame];
         t->always_there &= t->there[frame];

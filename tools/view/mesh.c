@@ -46,12 +46,14 @@ static void take_shares(cell_error *cell, const imp_model *m)
     cell->share[1] += fabs(m->q[IMP_VV]) + both + e * (all > 0 ? bv / all : 0.5);
 }
 
+static imp_place place_of(const mesh *m) { return (imp_place){m->body, m->surface, m->piece}; }
+
 static imp_code cell_measure(const imp_scene *scene, const mesh *m, size_t i, size_t j, double t,
                              cell_error *cell, imp_error *error)
 {
     const double lo[3] = {m->u[i], m->v[j], t}, hi[3] = {m->u[i + 1], m->v[j + 1], t};
     imp_model model[3];
-    const imp_code code = imp_scene_include(scene, m->body, m->surface, lo, hi, model, error);
+    const imp_code code = imp_piece_include(scene, place_of(m), lo, hi, model, error);
     if (code != IMP_SUCCESS) return code;
     *cell = (cell_error){0};
     double sum = 0;
@@ -156,11 +158,15 @@ static imp_code judge_grid(const imp_scene *scene, const mesh *view, const mesh_
     return code;
 }
 
-static imp_code refine(const imp_scene *scene, size_t body, size_t surface, const mesh_plan *plan,
+static imp_code refine(const imp_scene *scene, imp_place of, const mesh_plan *plan,
                        lines both[2], imp_error *error)
 {
     for (bool split = true; split;) {
-        const mesh view = {.body = body, .surface = surface, .u = both[0].at, .v = both[1].at};
+        const mesh view = {.body = of.body,
+                           .surface = of.surface,
+                           .piece = of.piece,
+                           .u = both[0].at,
+                           .v = both[1].at};
         const imp_code code = judge_grid(scene, &view, plan, both, error);
         if (code != IMP_SUCCESS) return code;
         if (both[0].count * both[1].count >= plan->max_cells) return code;
@@ -170,21 +176,22 @@ static imp_code refine(const imp_scene *scene, size_t body, size_t surface, cons
     return IMP_SUCCESS;
 }
 
-imp_code mesh_make(const imp_scene *scene, size_t body, size_t surface, const mesh_plan *plan,
-                   mesh *made, imp_error *error)
+imp_code mesh_make(const imp_scene *scene, imp_place of, const mesh_plan *plan, mesh *made,
+                   imp_error *error)
 {
     double lo[3], hi[3];
     lines both[2];
-    imp_scene_domain(scene, body, surface, lo, hi);
-    *made = (mesh){.body = body, .surface = surface};
+    imp_piece_domain(scene, of, lo, hi);
+    *made = (mesh){.body = of.body, .surface = of.surface, .piece = of.piece};
     bool room = true;
     for (int k = 0; k < 2; ++k)
         room &= lines_begin(&both[k], lo[k], hi[k], plan->lines, plan->max_cells + 1);
-    imp_code code = room ? refine(scene, body, surface, plan, both, error) : mesh_no_memory(error);
+    imp_code code = room ? refine(scene, of, plan, both, error) : mesh_no_memory(error);
     if (code == IMP_SUCCESS) {
         const size_t n = both[0].count * both[1].count;
-        *made = (mesh){body,
-                       surface,
+        *made = (mesh){of.body,
+                       of.surface,
+                       of.piece,
                        both[0].count,
                        both[1].count,
                        both[0].at,
@@ -217,7 +224,7 @@ void mesh_free(mesh *m)
 bool mesh_exists(const imp_scene *scene, const mesh *m, double t)
 {
     double lo[3], hi[3];
-    imp_scene_domain(scene, m->body, m->surface, lo, hi);
+    imp_piece_domain(scene, place_of(m), lo, hi);
     return lo[2] <= t && t <= hi[2];
 }
 
@@ -299,7 +306,7 @@ static imp_code move_row(const imp_scene *scene, mesh *m, const offsets *o, size
                          double *p, double *x, imp_error *error)
 {
     for (size_t j = 0; j < m->nv; ++j) five_points(o, m->u[i], m->v[j], t, p + 15 * j);
-    const imp_code code = imp_scene_eval(scene, m->body, m->surface, 5 * m->nv, p, x, NULL, error);
+    const imp_code code = imp_piece_eval(scene, place_of(m), 5 * m->nv, p, x, NULL, error);
     for (size_t j = 0; j < m->nv && code == IMP_SUCCESS; ++j)
         take_five(m, i * m->nv + j, x + 15 * j);
     return code;

@@ -14,7 +14,7 @@
  * (i,j) to corner (i+1,j+1). The grid is made once; points and normals are those of one time. */
 
 typedef struct mesh {
-    size_t body, surface; /* in the scene */
+    size_t body, surface, piece; /* in the scene */
     size_t nu, nv;        /* lines of constant u and of constant v; at least 2 each */
     double *u, *v;        /* ascending, over the whole domain */
     bool *marked_u;       /* lines that a picture shows */
@@ -36,7 +36,7 @@ typedef struct mesh_plan {
 } mesh_plan;
 
 /* Makes the grid; points and normals are those of no time yet. */
-imp_code mesh_make(const imp_scene *scene, size_t body, size_t surface, const mesh_plan *plan,
+imp_code mesh_make(const imp_scene *scene, imp_place of, const mesh_plan *plan,
                    mesh *made, imp_error *error);
 void mesh_free(mesh *m);
 

@@ -21,6 +21,11 @@ static void take_side(const film *f, const struct imp_pending_side *side, double
     for (size_t k = 0; k < f->count; ++k) {
         const mesh *m = f->tracks[k].mesh;
         if (side->body != m->body || side->surface != m->surface) continue;
+        if (side->piece == SIZE_MAX) { /* perhaps all of it */
+            for (size_t i = 0; i < cells_of(m); ++i) r->pairs[k][i] = tested;
+            continue;
+        }
+        if (side->piece != m->piece) continue;
         for (size_t i = 0; i + 1 < m->nu; ++i)
             for (size_t j = 0; j + 1 < m->nv && overlaps(m->u + i, side->u); ++j)
                 if (overlaps(m->v + j, side->v)) r->pairs[k][i * (m->nv - 1) + j] = tested;
