@@ -96,7 +96,7 @@ START_TEST(cells_out_of_focus_stay_coarse)
     mesh m;
     imp_error error = {IMP_SUCCESS, ""};
     double upper;
-    ck_assert_int_eq(mesh_make(scene, 0, 0, &plan, &m, &error), IMP_SUCCESS);
+    ck_assert_int_eq(mesh_make(scene, (imp_place){0, 0, 0}, &plan, &m, &error), IMP_SUCCESS);
     ck_assert_int_eq(mesh_error(scene, &m, t, &upper, &error), IMP_SUCCESS);
     ck_assert_double_le(upper, plan.tolerance);
     ck_assert_uint_lt(m.nu * m.nv, 60000);

@@ -184,7 +184,7 @@ static void check_life(watch *w, imp_registry *registry, const imp_type_info *ty
     }
     bool kept = host_keeps(w, "create");
     errno = w->before.error;
-    kept = kept && subject_make(&s, &made, &made, w->answer);
+    kept = kept && subject_make(&s, &made, &made, 0, w->answer);
     kept = kept && is_kept(w, made.surface != NULL ? "domain" : "time_domain");
     kept = kept && calls_keep(w, &s);
     subject_destroy(&made, stage, w->answer);
