@@ -147,6 +147,44 @@ static imp_scene *nudged_pair(imp_registry *registry)
 START_TEST(a_pair_is_whole_or_not_there) { scenes_are_whole_or_not_there(nudged_pair); }
 END_TEST
 
+/* The scene of PLENTY, nearly, without text. */
+static imp_code put_in(imp_builder *b)
+{
+    static const double points[9] = {1, 2, 3, 4, 5, 6, 7, 8, 9}, by[3] = {0, 1, 0};
+    const imp_argument shape[] = {imp_argument_number("radius", 1),
+                                  imp_argument_rows("points", points, 3, 3),
+                                  imp_argument_text("label", "x")};
+    const imp_argument nudge = imp_argument_list("by", by, 3);
+    size_t first, second;
+    imp_code code = imp_builder_time(b, 0, 2, &error);
+    if (code == IMP_SUCCESS) code = imp_builder_body(b, "a", &first, &error);
+    if (code == IMP_SUCCESS) code = imp_builder_surface(b, first, "kit", shape, 3, &error);
+    if (code == IMP_SUCCESS)
+        code = imp_builder_surface_map(b, first, 0, "nudge", &nudge, 1, &error);
+    if (code == IMP_SUCCESS) code = imp_builder_group(b, first, "g", &error);
+    if (code == IMP_SUCCESS) code = imp_builder_body(b, NULL, &second, &error);
+    if (code == IMP_SUCCESS) code = imp_builder_surface(b, second, "kit", shape, 1, &error);
+    if (code == IMP_SUCCESS) code = imp_builder_map(b, second, "nudge", &nudge, 1, &error);
+    if (code == IMP_SUCCESS) code = imp_builder_parent(b, second, first, &error);
+    return code == IMP_SUCCESS ? imp_builder_ignore(b, "g", "body1", &error) : code;
+}
+
+static imp_scene *built(imp_registry *registry)
+{
+    imp_builder *b = imp_builder_new(registry);
+    error.code = IMP_ERROR_MEMORY; /* which imp_builder_new has no place to say */
+    const bool good = b != NULL && put_in(b) == IMP_SUCCESS;
+    imp_scene *scene = good ? imp_builder_finish(b, &error) : NULL;
+    imp_builder_free(b);
+    return scene;
+}
+
+START_TEST(a_scene_built_without_text_is_whole_or_not_there)
+{
+    scenes_are_whole_or_not_there(built);
+}
+END_TEST
+
 START_TEST(a_file_that_does_not_fit_into_memory_is_told)
 {
     imp_registry *registry = kit_registry();
@@ -165,4 +203,5 @@ END_TEST
 
 SUITE_MAIN("alloc_failure", a_registry_is_whole_or_not_there, the_search_path_is_whole_or_refused,
            a_scene_is_whole_or_not_there, a_pair_is_whole_or_not_there,
+           a_scene_built_without_text_is_whole_or_not_there,
            a_file_that_does_not_fit_into_memory_is_told)

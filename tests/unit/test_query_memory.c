@@ -141,6 +141,75 @@ START_TEST(solving_at_once_tells_of_memory_too)
 }
 END_TEST
 
+/* --- Clearance ---------------------------------------------------------------------------- */
+
+/* Up to t = 0.25 the first two bodies come as near as 0.75, and nearer than 1 from 1 / 6 on. */
+static imp_query *begin_clearance(imp_scene *scene, const imp_clearance_options *asked,
+                                  imp_error *error)
+{
+    imp_options options = imp_options_default(scene);
+    options.t_end = 0.25;
+    return imp_clearance_new(scene, &options, asked, error);
+}
+
+/* Brackets hold what they should, and are whole where memory sufficed. */
+static void check_brackets(const imp_query *query, const imp_clearance_options *asked, bool whole)
+{
+    double least = INFINITY;
+    for (size_t k = 0; k < imp_clearance_count(query); ++k) {
+        imp_clearance a = {.struct_size = (uint32_t)sizeof a};
+        ck_assert_int_eq(imp_clearance_read(query, k, &a, NULL), IMP_SUCCESS);
+        ck_assert(a.reason == (whole ? IMP_REASON_NONE : IMP_REASON_MEMORY) ||
+                  a.reason == IMP_REASON_NONE);
+        ck_assert(a.lower <= a.upper && a.upper >= 0.75);
+        if (a.lower < least) least = a.lower;
+        if (whole && asked->required > 0 && a.body[1] == 1)
+            ck_assert(fabs(a.t_violated - 1. / 6) < 1e-6);
+    }
+    ck_assert(least <= 0.75 && (!whole || least > 0.749));
+}
+
+static bool clearance_failing_at(size_t n, const imp_clearance_options *asked)
+{
+    imp_error error = {IMP_SUCCESS, ""};
+    imp_scene *scene = make_scene();
+    imp_code code = IMP_SUCCESS;
+    alloc_failure_begin(n);
+    imp_query *query = begin_clearance(scene, asked, &error);
+    if (query != NULL) code = imp_query_step(query, 0, &error);
+    const bool failed = alloc_failure_end();
+    ck_assert_int_eq(code, IMP_SUCCESS);
+    if (query == NULL) {
+        ck_assert_int_eq(error.code, IMP_ERROR_MEMORY);
+    } else {
+        check_brackets(query, asked, !failed);
+        ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+        check_brackets(query, asked, true);
+    }
+    imp_query_free(query);
+    imp_scene_free(scene);
+    return failed;
+}
+
+START_TEST(a_clearance_out_of_memory_keeps_its_brackets_and_can_go_on)
+{
+    imp_clearance_options asked[2] = {imp_clearance_options_default(),
+                                      imp_clearance_options_default()};
+    asked[0].each = true, asked[0].required = 1;
+    asked[1].slices = 3;
+    const size_t before = alloc_failure_live();
+    for (int k = 0; k < 2; ++k) {
+        size_t n = 0;
+        for (bool failed = true; failed && n < ATTEMPTS;) {
+            failed = clearance_failing_at(++n, &asked[k]);
+            assert_nothing_left(before, n);
+        }
+        ck_assert_uint_gt(n, 12);
+    }
+}
+END_TEST
+
 SUITE_MAIN("query_memory", a_scene_is_whole_or_not_there,
            a_query_out_of_memory_is_undecided_with_what_is_proved_and_can_go_on,
-           so_is_the_papers_method, solving_at_once_tells_of_memory_too)
+           so_is_the_papers_method, solving_at_once_tells_of_memory_too,
+           a_clearance_out_of_memory_keeps_its_brackets_and_can_go_on)
