@@ -76,6 +76,7 @@ core_solver = \
     core/solver/broad_phase.c core/solver/broad_phase.h \
     core/solver/candidates.c core/solver/candidates.h \
     core/solver/clearance.c core/solver/clearance.h \
+    core/solver/clearance_parts.c core/solver/clearance_parts.h \
     core/solver/examined_times.c core/solver/examined_times.h \
     core/solver/gap_lines.c core/solver/gap_lines.h \
     core/solver/gjk_axis.c core/solver/gjk_axis.h \
