@@ -15,6 +15,7 @@ check_suites = \
     tests/unit/test_alloc_failure \
     tests/unit/test_callers_mode \
     tests/unit/test_clearance \
+    tests/unit/test_broad_phase \
     tests/unit/test_builder \
     tests/unit/test_contacts \
     tests/unit/test_elf_probe \

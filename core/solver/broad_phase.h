@@ -6,7 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Which boxes are near each other? Sweep and prune along x: every pair of the boxes whose gap along
+/* Which boxes are near each other? Sweep and prune along the axis on which the
+ * boxes crowd least: every pair of the boxes whose gap along
  * every axis is at most the clearance is visited, and (lo, hi) that are infinite or NaN count as
  * near all. */
 

@@ -1,0 +1,96 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "core/solver/broad_phase.h"
+#include "tests/support/suite.h"
+
+/* The sweep visits each two boxes that are near each other, whichever axis it runs along, once. */
+
+enum { BOXES = 60 };
+
+static unsigned char visits[BOXES][BOXES];
+
+static bool go_on(void *context)
+{
+    (void)context;
+    return true;
+}
+
+static bool note(void *context, size_t a, size_t b)
+{
+    (void)context;
+    visits[a < b ? a : b][a < b ? b : a] += 1;
+    return true;
+}
+
+/* False for a NaN. */
+static bool apart(const swept_box *a, const swept_box *b, double clearance)
+{
+    for (int i = 0; i < 3; ++i)
+        if (a->lo[i] - b->hi[i] > clearance || b->lo[i] - a->hi[i] > clearance) return true;
+    return false;
+}
+
+/* Boxes of sides up to 0.2 in a room of that width along `crowded`, and of 5 else; some without bounds. */
+static void draw(swept_box *boxes, int crowded, uint64_t *state)
+{
+    const double odd[] = {NAN, INFINITY, -INFINITY, 0};
+    for (size_t k = 0; k < BOXES; ++k) {
+        boxes[k].owner = k;
+        for (int i = 0; i < 3; ++i) {
+            const double room = i == crowded ? 0.2 : 5;
+            boxes[k].lo[i] = random_between(state, 0, room);
+            boxes[k].hi[i] = boxes[k].lo[i] + random_between(state, 0, 0.2);
+        }
+        if (random_bits(state) % 8 != 0) continue;
+        boxes[k].lo[random_bits(state) % 3] = odd[random_bits(state) % 4];
+        if (random_bits(state) % 2 == 0)
+            boxes[k].hi[random_bits(state) % 3] = odd[random_bits(state) % 2];
+    }
+}
+
+START_TEST(each_two_near_boxes_are_visited_once_along_any_axis)
+{
+    uint64_t state = suite_seed();
+    const broad_phase_visitor visitor = {go_on, note, NULL};
+    for (int round = 0; round < suite_times(300); ++round) {
+        swept_box boxes[BOXES], given[BOXES];
+        const double clearance = round % 2 == 0 ? 1e-6 : 0.1;
+        draw(boxes, round % 3, &state);
+        memcpy(given, boxes, sizeof boxes);
+        memset(visits, 0, sizeof visits);
+        ck_assert(broad_phase_visit(boxes, BOXES, clearance, &visitor));
+        for (size_t a = 0; a < BOXES; ++a)
+            for (size_t b = a + 1; b < BOXES; ++b) {
+                ck_assert_uint_le(visits[a][b], 1);
+                ck_assert(visits[a][b] == 1 || apart(&given[a], &given[b], clearance));
+            }
+    }
+}
+END_TEST
+
+/* Each box starts where the one before ends along one axis, and all lie upon each other along the others. */
+START_TEST(the_sweep_runs_along_the_axis_that_is_not_crowded)
+{
+    const broad_phase_visitor visitor = {go_on, note, NULL};
+    for (int axis = 0; axis < 3; ++axis) {
+        swept_box boxes[BOXES];
+        for (size_t k = 0; k < BOXES; ++k) {
+            const size_t place = (7 * k) % BOXES; /* 7 and BOXES have no common factor */
+            boxes[k] = (swept_box){{0, 0, 0}, {1, 1, 1}, k};
+            boxes[k].lo[axis] = 2.0 * (double)place;
+            boxes[k].hi[axis] = boxes[k].lo[axis] + 1;
+        }
+        memset(visits, 0, sizeof visits);
+        ck_assert(broad_phase_visit(boxes, BOXES, 0.5, &visitor));
+        for (size_t k = 1; k < BOXES; ++k) ck_assert(boxes[k - 1].lo[axis] < boxes[k].lo[axis]);
+    }
+}
+END_TEST
+
+SUITE_MAIN("broad phase", each_two_near_boxes_are_visited_once_along_any_axis,
+           the_sweep_runs_along_the_axis_that_is_not_crowded)
