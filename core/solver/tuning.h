@@ -23,10 +23,10 @@
  * 4: +2.6, 16: -1.2 */
 #define TUNING_FREE_TIME_CUT 8
 /* Weight of what is not linear in place, of tangent nodes.
- * 2: 0.0, 8: 0.0 */
+ * 2: -0.1, 8: 0.0; of the conformal set 2: +1.1, 8: +5.5 */
 #define TUNING_TANGENT_CUT 4
 /* And of slopes.
- * 0x1p-6: 0.0, 0x1p-20: 0.0 */
+ * 0x1p-6, 0x1p-20: 0.0; of the conformal set 0x1p-6: +11.5 */
 #define TUNING_TANGENT_SLOPE 0x1p-12
 /* Where gamma has a narrow room, motion that bends within the window counts from 1 / this of place on.
  * Pairs of the arm of tools/data with 3 to 20 mm required, 21467 in all: 1: +30, 4: +15,
@@ -77,10 +77,10 @@
  * 0.25: +0.3, 1: -1.0 */
 #define TUNING_WINDOW_SHRINKS 0.5
 /* Nodes are nearly flat: what bends is below 1 / this of their extents.
- * 16: 0.0, 256: 0.0 */
+ * 16: -0.1, 256: 0.0 */
 #define TUNING_FLAT 64
 /* Centres at most, of flat nodes.
- * 3: 0.0, 8: 0.0 */
+ * 3, 8: 0.0 */
 #define TUNING_FLAT_ROUNDS 4
 /* At most; six are usual.
  * 6: +1.0, 10: +0.1, 40: 0.0 */
