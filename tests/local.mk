@@ -30,6 +30,7 @@ check_suites = \
     tests/unit/test_limits \
     tests/unit/test_locale \
     tests/unit/test_linked_in \
+    tests/unit/test_load_cache \
     tests/unit/test_loosened \
     tests/unit/test_mechanism \
     tests/unit/test_mesh \
@@ -336,7 +337,7 @@ tests_unit_test_formula_SOURCES = tests/unit/test_formula.c tests/support/oracle
 tests_unit_test_model_SOURCES = tests/unit/test_model.c tests/support/oracle.c
 
 noinst_HEADERS += tests/support/built_plugins.h tests/support/oracle.h tests/support/suite.h tests/support/query_helpers.h tests/support/sphere_scenes.h tests/support/scene_variants.h tests/support/sandbox.h tests/support/kit_registry.h tests/support/scene_text.h tests/support/alloc_failure.h tests/plugins/tiny.h tests/plugins/liar.h
-noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/slab.h tests/plugins/stack.h \
+noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/slab.h tests/plugins/slack_net.h tests/plugins/stack.h \
     tests/support/model_value.h
 
 # Fuzz targets, run on the inputs of their folders; tests/fuzz/run searches for more.

@@ -104,7 +104,7 @@ static void surface_refused(imp_argument argument, imp_code code, const char *me
     imp_builder *b = begin();
     good(imp_builder_body(b, "pot", NULL, &error));
     const imp_argument all[] = {imp_argument_number("radius", 1), argument};
-    const bool again = strcmp(argument.name, "radius") == 0;
+    const bool again = argument.name != NULL && strcmp(argument.name, "radius") == 0;
     refused(imp_builder_surface(b, 0, "kit", all + again, (size_t)2 - again, &error), code,
             message);
     imp_builder_free(b);
@@ -132,6 +132,29 @@ START_TEST(errors_name_body_and_parameter)
     surface_refused(imp_argument_text("label", NULL), IMP_ERROR_SCENE, "is NULL");
     surface_refused(imp_argument_text("type", "x"), IMP_ERROR_SCENE, "type: is given twice");
     surface_refused(strange, IMP_ERROR_USAGE, "kind 9 of rank 0 does not exist");
+}
+END_TEST
+
+START_TEST(tables_and_names_that_cannot_be_are_refused)
+{
+    const char *names[] = {"q", NULL};
+    const double numbers[] = {1, 2};
+    imp_argument a = imp_argument_of("constants", IMP_TABLE, 0);
+    a.string = names, a.number = numbers, a.extent[0] = 2;
+    surface_refused(a, IMP_ERROR_SCENE, "constants: element 1 has no name of UTF-8");
+    names[1] = "\xC0";
+    surface_refused(a, IMP_ERROR_SCENE, "constants: element 1 has no name of UTF-8");
+    const double infinite[] = {INFINITY, 2};
+    a.number = infinite;
+    surface_refused(a, IMP_ERROR_SCENE, "constants: element 0 has no name of UTF-8 or no finite");
+    a.number = NULL;
+    surface_refused(a, IMP_ERROR_USAGE, "constants: the array is NULL");
+    surface_refused(imp_argument_number(NULL, 1), IMP_ERROR_USAGE, "an argument has no name");
+    surface_refused(imp_argument_number("\xFF", 1), IMP_ERROR_USAGE, "an argument has no name");
+    imp_builder *b = begin();
+    good(imp_builder_body(b, NULL, NULL, &error));
+    refused(imp_builder_surface(b, 0, "\xFF", NULL, 0, &error), IMP_ERROR_USAGE, "not UTF-8");
+    imp_builder_free(b);
 }
 END_TEST
 
@@ -195,5 +218,6 @@ START_TEST(time_left_is_the_papers_h)
 END_TEST
 
 SUITE_MAIN("builder", a_scene_built_is_the_scene_that_is_written, values_of_every_kind_are_taken,
-           errors_name_body_and_parameter, calls_out_of_order_are_refused,
-           a_builder_that_is_done_takes_nothing_more, time_left_is_the_papers_h)
+           errors_name_body_and_parameter, tables_and_names_that_cannot_be_are_refused,
+           calls_out_of_order_are_refused, a_builder_that_is_done_takes_nothing_more,
+           time_left_is_the_papers_h)
