@@ -119,6 +119,7 @@ bats_suites = \
     tests/cli/host.bats \
     tests/cli/hostile.bats \
     tests/cli/matrix.bats \
+    tests/cli/mesh.bats \
     tests/cli/mpi.bats \
     tests/cli/python.bats \
     tests/cli/page.bats \
