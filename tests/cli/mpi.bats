@@ -15,11 +15,11 @@ ranks() {
 
 setup_file() {
     export OMPI_MCA_plm_rsh_agent=/bin/false # no other machines
-    # libraries of MPI keep what they have until the end
-    export ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0
     export why_not=
     if [ ! -x "$top_builddir/tools/impinge-mpi" ]; then
         why_not='configure found no MPI (libopenmpi-dev)'
+    elif has_sanitizers; then
+        why_not='libraries of MPI are not made for AddressSanitizer'
     elif ! command -v mpirun >/dev/null; then
         why_not='no mpirun (openmpi-bin)'
     elif ! limit=30 ranks 2 true >/dev/null 2>&1; then
@@ -82,7 +82,7 @@ many() {
     { many 300 && echo '{"id": 301, "bodies": [{"surfaces": [{"type": "eval_crashes"}]},
         {"surfaces": [{"type": "sphere"}]}]}' | tr -d '\n' && echo && scene '"id": 302,'; } >scenes.jsonl
     run ! ranks 4 "$mpi" batch scenes.jsonl --resume out --plugin-path plugins
-    has_sanitizers || [[ $output == *"type 'eval_crashes' crashes in its "* ]]
+    [[ $output == *"type 'eval_crashes' crashes in its "* ]]
     [ "$(head -n 256 out | jq -s -c 'map(.id) == [range(1; 257)]')" = true ]
     run ranks 4 "$mpi" batch scenes.jsonl --resume out --plugin-path plugins --isolate eval_crashes
     [ "$(jq -s -c 'map(.id) == [range(1; 303)]' out)" = true ]
