@@ -85,11 +85,13 @@ typedef struct imp_registry imp_registry;
  * plugin directory, and the installed one. Returns NULL only when memory runs out. */
 IMP_EXPORT imp_registry *imp_registry_new(const char *path);
 
-/* The same with flags: IMP_REGISTRY_SECURE passes over directories that anyone may write to
- * (otherwise imp_registry_warning reports them). A file that was never seen is loaded in a
- * child process first; the outcome is kept in the user's cache ($XDG_CACHE_HOME/impinge/trials).
- * IMP_REGISTRY_ONLY_PATH: the directories of `path` alone, or none, for programs that bring their types
- * along by imp_registry_add. */
+/* The same with flags: IMP_REGISTRY_SECURE refuses files and directories that others than root and the
+ * user could change or replace: on the whole real path, through links, nothing may belong to another
+ * user or be writable by everybody (directories above may, if they are sticky). Without it
+ * imp_registry_warning reports directories that anyone may write to. A file that was never seen is
+ * loaded in a child process first; the outcome is kept in the user's cache
+ * ($XDG_CACHE_HOME/impinge/trials). IMP_REGISTRY_ONLY_PATH: the directories of `path` alone, or none,
+ * for programs that bring their types along by imp_registry_add. */
 enum { IMP_REGISTRY_SECURE = 1, IMP_REGISTRY_ONLY_PATH = 2 };
 IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
 

@@ -6,6 +6,7 @@
 #include "core/base/status.h"
 #include "core/common/array.h"
 #include "core/common/system_error.h"
+#include "core/plugin/file_trust.h"
 #include "core/plugin/registry_parts.h"
 #include "core/surface/part.h"
 
@@ -14,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* --- Filling. Each returns false only when memory ran out. -------------------------- */
 
@@ -117,6 +119,8 @@ static bool identify(const char *path, file_identity *id)
 static bool scan_file(imp_registry *r, const char *path)
 {
     file_identity id;
+    trust_fault fault;
+    if (r->secure && !file_is_trusted(path, &fault)) return add_refusal(r, path, fault.text);
     if (identify(path, &id)) {
         if (was_seen(r, id)) return true;
         if (!add_seen(r, id)) return false;
@@ -159,11 +163,11 @@ static bool anyone_may_write(const char *directory)
 
 static bool scan_directory(imp_registry *r, const search_directory *directory)
 {
-    const bool open_to_all = anyone_may_write(directory->path);
-    if (open_to_all && r->secure)
-        return add_refusal(r, directory->path,
-                           "anyone may write to this directory: refused; chmod o-w it");
-    if (open_to_all &&
+    trust_fault fault;
+    if (r->secure && access(directory->path, F_OK) == 0 &&
+        !file_is_trusted(directory->path, &fault))
+        return add_refusal(r, directory->path, fault.text);
+    if (!r->secure && anyone_may_write(directory->path) &&
         !add_remark(&r->warnings, directory->path,
                     "anyone may write to this directory, so anyone's code may run here; chmod o-w "
                     "it (--secure takes no plugins from it)"))

@@ -201,13 +201,71 @@ patched() {
     json '.types | any(.name == "kit")'
     run -0 list --json --secure
     json '.warnings == [] and (.refused | length == 1)
-        and (.refused[0].reason | contains("refused; chmod o-w"))'
+        and (.refused[0].reason | endswith("is a directory that anyone may write to; chmod o-w it"))'
     json '.types | all(.name != "kit")'
     fails 4 "unknown surface type 'kit'" pair 'kit radius=1' sphere --secure
     run -0 --separate-stderr pair "$left" "$right" --json
     [[ $stderr == 'impinge: pair: warning: '* ]]
     json '.verdict == "contact"'
     chmod 755 plugins
+    run -0 list --json --secure
+    json '.refused == [] and any(.types[]; .name == "kit")'
+}
+
+# distrusted FILE PATH TEXT: list --secure gives that reason for plugins/FILE (or plugins, where FILE is
+# empty), which names the path; the type kit is not taken.
+distrusted() {
+    run -0 list --json --secure
+    json --arg file "$PWD/plugins${1:+/$1}" --arg start "'$2' $3" \
+        '[.refused[] | select(.file == $file) | .reason] | length == 1 and (.[0] | startswith($start))' ||
+        { jq .refused <<<"$output" && return 1; }
+    json '.types | all(.name != "kit")'
+}
+
+@test "--secure takes no file that others could change or replace, on the whole way to it" {
+    takes kit
+    chmod 666 plugins/kit.so
+    distrusted kit.so "$PWD/plugins/kit.so" 'is a file that anyone may write to; chmod o-w it'
+    chmod 644 plugins/kit.so
+    mkdir -p elsewhere/deep
+    mv plugins/kit.so elsewhere/deep
+    ln -s ../between plugins/kit.so
+    ln -s elsewhere/deep/kit.so between
+    run -0 list --json --secure
+    json '.refused == [] and any(.types[]; .name == "kit")'
+    chmod 777 elsewhere
+    distrusted kit.so "$PWD/elsewhere" 'is a directory that anyone may write to; chmod o-w it'
+    chmod 1777 elsewhere # others cannot replace what is in it
+    run -0 list --json --secure
+    json '.refused == [] and any(.types[]; .name == "kit")'
+    chmod 1777 elsewhere/deep plugins # nor here, but add to it
+    distrusted '' "$PWD/plugins" 'is a directory that anyone may write to; chmod o-w it'
+    chmod 755 elsewhere elsewhere/deep plugins
+    chmod 646 elsewhere/deep/kit.so
+    distrusted kit.so "$PWD/elsewhere/deep/kit.so" 'is a file that anyone may write to'
+    chmod 644 elsewhere/deep/kit.so
+    chmod 777 .
+    distrusted '' "$PWD" 'is a directory that anyone may write to'
+    chmod 755 .
+    run -0 list --json --secure
+    json '.refused == [] and any(.types[]; .name == "kit")'
+}
+
+@test "--secure takes nothing that belongs to others than root and the user" {
+    [ "$(id -u)" -eq 0 ] || skip 'only root can give files away'
+    takes kit
+    local at
+    for at in plugins/kit.so plugins .; do
+        chown 12345 $at
+        distrusted "$(basename $at | grep so || :)" "$(realpath "$at")" \
+            'belongs to user 12345, who is neither root nor the one running this; chown it, or copy'
+        chown 0 $at
+    done
+    mv plugins/kit.so real.so
+    ln -s ../real.so plugins/kit.so
+    chown -h 12345 plugins/kit.so
+    distrusted kit.so "$PWD/plugins/kit.so" 'belongs to user 12345'
+    chown -h 0 plugins/kit.so
     run -0 list --json --secure
     json '.refused == [] and any(.types[]; .name == "kit")'
 }

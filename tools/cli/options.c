@@ -27,7 +27,7 @@ const option options_registry[] = {
      .kind = OPTION_TEXT,
      .argument = "TYPE[,TYPE]",
      .help = "run these types in processes of their own; all: every type"},
-    {.name = "secure", .help = "ignore plugins in directories that anyone may write to"},
+    {.name = "secure", .help = "refuse plugins that others could change or replace"},
     {.name = NULL},
 };
 
