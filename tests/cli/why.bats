@@ -6,6 +6,51 @@
 
 load ../support/cli_helper
 
+# printable: nothing that the last run printed has a control character, or the byte of one, in it.
+printable() {
+    ! LC_ALL=C grep -q '[[:cntrl:]]' <<<"$output$stderr" || { cat -v <<<"$output$stderr" && return 1; }
+    ! grep -q $'\xc2\x9b' <<<"$output$stderr"
+}
+
+@test "names of files are printed with control characters escaped" {
+    local evil=$'evil \e[31m\a\n\x7f\xc2\x9b \'\\.so' name where
+    mkdir $'folder\e[7m'
+    cd $'folder\e[7m'
+    # shellcheck disable=SC2154 # top_builddir comes from the environment
+    cp "$top_builddir/tests/plugins/.libs/kit.so" "$evil"
+    cp "$top_builddir/tests/plugins/.libs/null_callback.so" $'bad\e]0;title\a.so'
+    printf x >$'worse\r\x80.so'
+    where='folder\x1b[7m/evil \x1b[31m\x07\n\x7f\xc2\x9b '"'\\.so"
+    run -0 --separate-stderr "$IMPINGE" list --refused --plugin-path .
+    printable
+    [[ $output == *'/bad\x1b]0;title\x07.so: types: '* && $output == *'/worse\x0d\x80.so: '* ]]
+    run -0 --separate-stderr "$IMPINGE" list --files --plugin-path .
+    printable
+    [[ $output == *"$where"* ]]
+    run -0 --separate-stderr "$IMPINGE" why "$evil"
+    printable
+    [[ $output == 'evil \x1b[31m'* ]]
+    run -0 --separate-stderr "$IMPINGE" info kit --plugin-path .
+    printable
+    [[ $output == *"$where"* ]]
+    for name in *.so; do
+        run --separate-stderr "$IMPINGE" check "./$name" --only exports
+        printable
+    done
+    fails 4 'were left out, such as ' "$IMPINGE" pair nothing sphere --plugin-path .
+    printable
+    fails 4 'gone\x1b[31m' "$IMPINGE" solve $'gone\e[31m.json'
+    chmod 777 .
+    run -0 --separate-stderr "$IMPINGE" pair "$left" "$right" --plugin-path .:$'none\e[1m'
+    printable
+    chmod 755 .
+    cp "$top_builddir/tests/plugins/.libs/hostile.so" .
+    "$IMPINGE" list --plugin-path . >/dev/null 2>&1
+    HOSTILE='constructor crash' run -5 --separate-stderr "$IMPINGE" pair sphere sphere --plugin-path .
+    printable
+    [[ $stderr == *'folder\x1b[7m/hostile.so'"' crashes in its constructor;"* ]]
+}
+
 checks='file format class machine kind headers segments note abi'
 
 @test "every check of a good plugin passes, in order" {

@@ -20,11 +20,7 @@ static const char *verdict_name(check_verdict verdict)
 /* Texts of plugins may have several lines. */
 static void print_line(const char *before, const char *between, const char *text)
 {
-    char line[2048];
-    snprintf(line, sizeof line, "%s", text);
-    for (char *c = line; *c != '\0'; ++c)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
-    printf("%s%s%s\n", before, between, line);
+    printf("%s%s%s\n", before, between, message_shown(text).text);
 }
 
 bool report_begin(check_report *r, const char *file, double effort)

@@ -33,7 +33,7 @@ _Noreturn static void leave(int status)
 _Noreturn static void blame(const char *type, const char *callback, const char *what)
 {
     say(type[0] == '/' ? "impinge: plugin '" : "impinge: type '");
-    say(type);
+    say(message_shown(type).text);
     say("' ");
     say(what);
     say(" in its ");
@@ -63,7 +63,7 @@ void crash_interrupted(int number)
         say("impinge: interrupted in ");
         say(callback);
         say(type[0] == '/' ? " of plugin '" : " of type '");
-        say(type);
+        say(message_shown(type).text);
         say(type[0] == '/' ? "'\n" : "'; where a callback hangs, --isolate ends it after 5 s\n");
     }
     signal(number, SIG_DFL);

@@ -6,6 +6,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 exit_status status_of_code(imp_code code)
 {
@@ -24,12 +25,48 @@ exit_status status_of_code(imp_code code)
     return EXIT_DATA;
 }
 
-static void hide_control_characters(char *text)
+/* Bytes that follow the first in a character of UTF-8; -1: no character begins so. */
+static int bytes_after(unsigned char first)
 {
-    for (; *text != '\0'; ++text) {
-        const unsigned char c = (unsigned char)*text;
-        if (c < 0x20 || c == 0x7F) *text = '?';
+    if (first < 0x80) return 0;
+    if (first < 0xC2 || first > 0xF4) return -1;
+    return first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
+}
+
+/* Bytes of the character that can be shown as it is; 0: it is none. */
+static size_t shown_length(const unsigned char *c)
+{
+    const int after = bytes_after(c[0]);
+    if (c[0] < 0x20 || c[0] == 0x7F || after < 0) return 0;
+    if (c[0] == 0xC2 && c[1] < 0xA0) return 0; /* C1 */
+    for (int k = 1; k <= after; ++k)
+        if ((c[k] & 0xC0) != 0x80) return 0;
+    return (size_t)after + 1;
+}
+
+message_text message_shown(const char *text)
+{
+    static const char digits[] = "0123456789abcdef";
+    message_text shown;
+    size_t used = 0;
+    for (const unsigned char *c = (const unsigned char *)text; *c != '\0';) {
+        const size_t length = shown_length(c);
+        if (used + 5 > sizeof shown.text) break;
+        if (length > 0) {
+            memcpy(shown.text + used, c, length);
+            used += length;
+        } else if (*c == '\n') {
+            memcpy(shown.text + used, "\\n", 2);
+            used += 2;
+        } else {
+            const char escape[4] = {'\\', 'x', digits[*c >> 4], digits[*c & 15]};
+            memcpy(shown.text + used, escape, sizeof escape);
+            used += sizeof escape;
+        }
+        c += length > 0 ? length : 1;
     }
+    shown.text[used] = '\0';
+    return shown;
 }
 
 static bool silent;
@@ -44,8 +81,8 @@ exit_status complain(exit_status status, const char *verb, const char *format, .
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
-    hide_control_characters(text);
-    fprintf(stderr, "impinge: %s%s%s\n", verb != NULL ? verb : "", verb != NULL ? ": " : "", text);
+    fprintf(stderr, "impinge: %s%s%s\n", verb != NULL ? verb : "", verb != NULL ? ": " : "",
+            message_shown(text).text);
     return status;
 }
 

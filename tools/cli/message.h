@@ -25,6 +25,14 @@ typedef enum exit_status {
     EXIT_CONFORMANCE = 6
 } exit_status;
 
+/* A text with its control characters, C1 included, and bytes that are no UTF-8 written as \x1b, so
+ * that names of files neither forge lines nor steer a terminal; a line break is \n. What does not fit
+ * is cut. [async-signal-safe] */
+typedef struct message_text {
+    char text[4096];
+} message_text;
+message_text message_shown(const char *text);
+
 /* The status for an error the library returned. */
 exit_status status_of_code(imp_code code);
 
@@ -32,7 +40,7 @@ exit_status status_of_code(imp_code code);
 void complain_aloud(bool aloud);
 
 /* Writes "impinge: VERB: text" (or "impinge: text" where verb is NULL) and returns `status`.
- * Control characters in the text are shown as '?', so that names cannot forge lines. */
+ * Control characters in the text are escaped. */
 exit_status complain(exit_status status, const char *verb, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

@@ -164,9 +164,29 @@ static bool is_plain_word(const char *text)
                              "0123456789+,-./:=@_")] == '\0';
 }
 
+/* As $'...', which bash, ksh and zsh read. */
+static char *escaped_word(const char *text)
+{
+    char *word = malloc(4 * strlen(text) + 4), *out = word;
+    if (word == NULL) return NULL;
+    out = stpcpy(out, "$'");
+    for (; *text != '\0'; ++text) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '\'' || c == '\\')
+            *out++ = '\\', *out++ = *text;
+        else if (c < 0x20 || c >= 0x7F)
+            out += sprintf(out, "\\x%02x", c);
+        else
+            *out++ = *text;
+    }
+    strcpy(out, "'");
+    return word;
+}
+
 char *output_shell_word(const char *text)
 {
     if (is_plain_word(text)) return strdup(text);
+    if (strcmp(message_shown(text).text, text) != 0) return escaped_word(text);
     char *word = malloc(4 * strlen(text) + 3), *out = word;
     if (word == NULL) return NULL;
     *out++ = '\'';

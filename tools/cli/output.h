@@ -50,8 +50,8 @@ json_t *output_json_text(const char *text);
 /* A JSON number; null where JSON has none (NaN, infinities). */
 json_t *output_json_number(double number);
 
-/* The text as one word of a shell command line, in quotes where it needs them. Free it. NULL: no
- * memory. */
+/* The text as one word of a shell command line, in quotes where it needs them, and with control
+ * characters escaped. Free it. NULL: no memory. */
 char *output_shell_word(const char *text);
 
 /* A decimal of about 10 digits that is not above (lower) or not below (upper) the number, so that

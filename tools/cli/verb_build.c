@@ -154,7 +154,7 @@ static size_t print_types(const imp_registry *registry, const char *file, const 
         printf("%s %s: %s\n", catalogue_kind_name(info.kind), info.name, info.summary);
         if (other != NULL)
             printf("  There is another %s in %s; of two, the first found is used.\n", info.name,
-                   other);
+                   message_shown(other).text);
         ++count;
     }
     return count;
@@ -180,7 +180,7 @@ static exit_status build_in_trial(const building *b, const char *file, const cha
     if (status != EXIT_ANSWERED) return status;
     if (rename(file, target) != 0)
         return complain(EXIT_DATA, b->verb, "%s: %s", target, system_error_text(errno));
-    printf("in %s\n", target);
+    printf("in %s\n", message_shown(target).text);
     return EXIT_ANSWERED;
 }
 

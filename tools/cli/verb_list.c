@@ -79,10 +79,11 @@ static void print_types(const type_list *list, bool files)
         printf("%-7s  %s%-*s%s  ", catalogue_kind_name(t->kind), output_colour(OUTPUT_BOLD), name,
                t->name, output_colour(OUTPUT_PLAIN));
         if (files)
-            puts(t->file);
+            puts(message_shown(t->file).text);
         else
             print_wrapped(t->summary, 7 + 2 + name + 2);
-        if (t->shadowed_by != NULL) printf("%-7s  shadowed by %s\n", "", t->shadowed_by);
+        if (t->shadowed_by != NULL)
+            printf("%-7s  shadowed by %s\n", "", message_shown(t->shadowed_by).text);
     }
 }
 
@@ -116,7 +117,7 @@ static void print_refusals(const imp_registry *registry)
 {
     imp_plugin_refusal refusal;
     for (size_t i = 0; imp_registry_refusal(registry, i, &refusal); ++i)
-        printf("%s: %s\n", refusal.file, refusal.reason);
+        printf("%s: %s\n", message_shown(refusal.file).text, message_shown(refusal.reason).text);
     if (refusal_count(registry) == 0) puts("Nothing was rejected.");
 }
 

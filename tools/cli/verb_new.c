@@ -171,7 +171,7 @@ static exit_status print_commands(const project_kind *kind, const char *folder, 
                "  %s check %s\n"
                "  %s pair %s %s\n\n"
                "Its mathematics is in %s.c. The guide: " SDKDOCDIR "/README\n",
-               folder, kind->called, at, rest, command, args->operands[0], command, word_a, word_b,
+               message_shown(folder).text, kind->called, at, rest, command, args->operands[0], command, word_a, word_b,
                args->operands[0]);
     if (build_tree_data() != NULL)
         puts("First install Impinge itself: this command runs from the folder it was built in.");

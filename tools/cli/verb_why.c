@@ -22,7 +22,7 @@ static const char *finding_name(imp_finding finding)
 static void print_finding(void *context, const char *check, imp_finding finding, const char *text)
 {
     (void)context;
-    printf("  %-9s %-11s %s\n", check, finding_name(finding), text);
+    printf("  %-9s %-11s %s\n", check, finding_name(finding), message_shown(text).text);
 }
 
 static void add_finding(void *context, const char *check, imp_finding finding, const char *text)
@@ -44,7 +44,7 @@ static exit_status run(const arguments *args)
                         args->verb->name);
         return status != EXIT_ANSWERED ? status : good ? EXIT_ANSWERED : EXIT_PLUGIN;
     }
-    printf("%s\n", path);
+    puts(message_shown(path).text);
     const bool good = imp_plugin_examine(path, print_finding, NULL);
     puts(good ? "This file is accepted." : "This file is rejected.");
     return good ? EXIT_ANSWERED : EXIT_PLUGIN;

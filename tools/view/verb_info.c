@@ -21,7 +21,8 @@ static bool is_asked_for(const imp_type_info *info, const char *name)
 
 static void print_line(const char *label, const char *text)
 {
-    if (text != NULL && text[0] != '\0') printf("  %-10s %s\n", label, text);
+    if (text != NULL && text[0] != '\0')
+        printf("  %-10s %s\n", label, message_shown(text).text);
 }
 
 static void print_parameter(const imp_parameter *p)

@@ -65,7 +65,7 @@ static exit_status write_file(const plot *p, const arguments *args)
     }
     status = output_file_end(&out, good);
     if (!good) return complain_of_memory(args->verb->name);
-    if (status == EXIT_ANSWERED) printf("%s: %dx%d pixels\n", path, WIDTH, HEIGHT);
+    if (status == EXIT_ANSWERED) printf("%s: %dx%d pixels\n", message_shown(path).text, WIDTH, HEIGHT);
     return status;
 }
 

@@ -241,7 +241,7 @@ exit_status view_write(const subject *what, const view_request *request)
     if (code == IMP_ERROR_FILE && error.text[0] == '\0') return EXIT_DATA; /* complained of */
     if (code != IMP_SUCCESS) return complain_of(&error, request->verb);
     if (status != EXIT_ANSWERED) return status;
-    printf("%s: %s, surfaces to within %s\n", request->output, w.what,
+    printf("%s: %s, surfaces to within %s\n", message_shown(request->output).text, w.what,
            output_number_upper(w.error_upper).text);
     return output_flush(request->verb);
 }
