@@ -29,7 +29,7 @@ load ../support/cli_helper
 }
 
 @test "control characters in names do not reach the terminal" {
-    fails 2 "'a?[2Jb?c'" "$IMPINGE" $'a\e[2Jb\nc'
+    fails 2 "'a\\x1b[2Jb\\nc'" "$IMPINGE" $'a\e[2Jb\nc'
 }
 
 # --- Options ----------------------------------------------------------------------------------
