@@ -121,6 +121,7 @@ bats_suites = \
     tests/cli/matrix.bats \
     tests/cli/mesh.bats \
     tests/cli/mpi.bats \
+    tests/cli/memory.bats \
     tests/cli/python.bats \
     tests/cli/page.bats \
     tests/cli/series.bats \
@@ -222,9 +223,11 @@ check_LTLIBRARIES = \
     tests/plugins/rate_negative.la \
     tests/plugins/twin.la \
     tests/plugins/undefined_symbol.la \
-    tests/plugins/wrong_abi_major.la
+    tests/plugins/wrong_abi_major.la \
+    tests/support/fail_allocation.la
 test_plugin_ldflags = -module -avoid-version -shared -rpath /nowhere
 tests_plugins_fast_math_la_LDFLAGS = $(test_plugin_ldflags) -Wc,-ffast-math
+tests_support_fail_allocation_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_bad_name_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_bad_parameter_table_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_constructor_aborts_la_LDFLAGS = $(test_plugin_ldflags)

@@ -76,6 +76,9 @@ IMP_EXPORT const char *imp_code_text(imp_code code);
  * none. For handlers of SIGSEGV and the like, to say whose fault it is. [async-signal-safe] */
 IMP_EXPORT const char *imp_call_in_progress(const char **callback);
 
+/* The library uses jansson for scenes and parameters, and leaves its allocator (json_set_alloc_funcs)
+ * to the program. */
+
 /* --- Registry: the types available ---------------------------------------------- */
 
 typedef struct imp_registry imp_registry;

@@ -29,7 +29,9 @@ static void step_open(plugin_file *plugin, const char *path, load_outcome *out)
     const fp_mode before = fp_mode_read();
     plugin->handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     const bool kept = fp_mode_kept(before);
-    if (plugin->handle == NULL) {
+    if (plugin->handle == NULL && errno == ENOMEM) {
+        out->code = IMP_ERROR_MEMORY; /* nothing of the file has run that could have set it */
+    } else if (plugin->handle == NULL) {
         const char *why = dlerror();
         load_outcome_refuse(out, LOAD_OPEN, "load",
                             "%.600s; link it with every library it uses, and see that they are "

@@ -5,6 +5,7 @@
 #include "core/plugin/parameters.h"
 #include "core/reader/pipeline_value.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,10 +81,12 @@ static imp_code parse(const char *text, size_t length, bool list, json_t **json,
     used += write_json(text, length, buffer + used);
     if (list) buffer[used++] = ']';
     json_error_t fault;
+    errno = 0; /* jansson tells a few failed allocations as errors of syntax */
     *json = json_loadb(buffer, used, PARAMETERS_JSON_FLAGS | JSON_DECODE_ANY, &fault);
+    const bool no_memory = errno == ENOMEM || fault.text[0] == '\0';
     free(buffer);
     if (*json != NULL) return IMP_SUCCESS;
-    if (fault.text[0] == '\0') return IMP_ERROR_MEMORY;
+    if (no_memory) return IMP_ERROR_MEMORY;
     snprintf(why, why_size, "got %.*s, which is not a JSON value: %.90s",
              length < 60 ? (int)length : 60, text, fault.text);
     return IMP_ERROR_SCENE;

@@ -11,6 +11,7 @@
 #include "core/reader/scene_file.h"
 #include "core/reader/scene_json.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -142,9 +143,13 @@ FP_APART static imp_scene *from_json(imp_registry *registry, const char *text, s
         return NULL;
     }
     json_error_t fault;
+    errno = 0; /* jansson tells a few failed allocations as errors of syntax */
     json_t *root = json_loadb(text, length, PARAMETERS_JSON_FLAGS, &fault);
     if (root == NULL) {
-        refuse_syntax(name, &fault, error);
+        if (errno == ENOMEM)
+            error_set_memory(error);
+        else
+            refuse_syntax(name, &fault, error);
         return NULL;
     }
     imp_scene *scene = scene_of_text(registry, root, name, error);

@@ -4,6 +4,7 @@
 
 #include "tests/support/alloc_failure.h"
 
+#include <errno.h>
 #include <jansson.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -24,7 +25,12 @@ char *__wrap_strndup(const char *text, size_t length);
 
 static size_t calls, failing;
 
-static bool is_this_one(void) { return ++calls == failing; }
+static bool is_this_one(void)
+{
+    if (++calls != failing) return false;
+    errno = ENOMEM;
+    return true;
+}
 
 /* --- Blocks alive: open addressing; a block freed that is not ours is somebody else's -- */
 

@@ -40,7 +40,7 @@ int main(int argc, char **argv)
     /* Numbers have a point, whatever a plugin makes of the process's locale. */
     c_locale_enter();
     progress_begin();
-    output_prepare();
+    if (!output_prepare()) return EXIT_DATA;
     crash_prepare();
     arguments args;
     exit_status status = arguments_read(&args, argc, (const char *const *)argv);

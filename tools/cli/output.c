@@ -16,15 +16,17 @@
 #include <string.h>
 #include <unistd.h>
 
-void output_prepare(void)
+bool output_prepare(void)
 {
     for (int fd = 0; fd <= 2; ++fd)
         if (fcntl(fd, F_GETFD) == -1 && errno == EBADF)
             (void)!open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN); /* a file that may grow no more is an error */
-    standard_output_prepare();
     json_memory_prepare();
+    if (standard_output_prepare()) return true;
+    complain_of_memory(NULL);
+    return false;
 }
 
 static exit_status complain_of_output(const char *verb)

@@ -13,8 +13,9 @@
  * output_finish before exit, or output_flush after each line of a stream. */
 
 /* To be called first of all: closed standard streams are opened so that no file of ours lands on
- * their numbers while writing to them still fails, and a closed pipe is an error, not a signal. */
-void output_prepare(void);
+ * their numbers while writing to them still fails, and a closed pipe is an error, not a signal.
+ * False, and it complains: no memory. */
+bool output_prepare(void);
 
 /* Complain on behalf of `verb` and answer EXIT_DATA if anything could not be written. */
 exit_status output_flush(const char *verb);

@@ -89,18 +89,19 @@ static ssize_t take(void *unused, const char *text, size_t length)
 }
 
 /* With no descriptor left, plugins share descriptor 1. */
-void standard_output_prepare(void)
+bool standard_output_prepare(void)
 {
+    const cookie_io_functions_t functions = {.write = take};
+    FILE *stream = fopencookie(NULL, "w", functions);
+    if (stream == NULL) return false;
     const int copy = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
     output.descriptor = copy >= 0 ? copy : STDOUT_FILENO;
     output.owner = getpid();
     output.is_terminal = isatty(output.descriptor);
     if (copy >= 0) dup2(STDERR_FILENO, STDOUT_FILENO);
-    const cookie_io_functions_t functions = {.write = take};
-    FILE *stream = fopencookie(NULL, "w", functions);
-    if (stream == NULL) return;
     setvbuf(stream, NULL, _IONBF, 0);
     stdout = stream;
+    return true;
 }
 
 bool standard_output_replace(int descriptor)

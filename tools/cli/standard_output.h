@@ -12,7 +12,8 @@
  * fork) is dropped. The command prints with stdio as usual: `stdout` then collects its text, which
  * goes to a private copy of descriptor 1. A signal or a slow reader interrupts no write. */
 
-void standard_output_prepare(void);
+/* False: no memory. */
+bool standard_output_prepare(void);
 
 /* From now on the text goes to that file, which may be closed then. False: errno says why. */
 bool standard_output_replace(int descriptor);
