@@ -14,13 +14,14 @@
 static const char *const ball = "sphere radius=0.5 ! translate velocity=1,0,0";
 static const char *const wall = "sphere radius=0.5 center=1.5,0,0";
 
+static imp_registry *registry;
 static imp_scene *scene;
 static imp_options options;
 
 static imp_result solved(const char *a, const char *b)
 {
     imp_error error;
-    imp_registry *registry = built_registry();
+    registry = built_registry();
     scene = imp_scene_from_pair(registry, a, b, &error);
     ck_assert_msg(scene != NULL, "%s", error.text);
     options = imp_options_default(scene);
@@ -36,14 +37,22 @@ static void judge(const imp_result *r)
     scene_judge_by_clearance(scene, &options, r);
 }
 
+static void close_scene(void)
+{
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+}
+
 START_TEST(true_answers_pass)
 {
     const imp_result contact = solved(ball, wall);
     ck_assert_int_eq(contact.verdict, IMP_CONTACT);
     judge(&contact);
+    close_scene();
     const imp_result clear = solved("sphere", "sphere center=0,0,3");
     ck_assert_int_eq(clear.verdict, IMP_CLEAR);
     judge(&clear);
+    close_scene();
 }
 END_TEST
 
