@@ -80,8 +80,8 @@ static void print_triangles(FILE *out, sheet *s)
 static const char *const motions[] = {
     "",
     "{\"type\":\"translate\",\"velocity\":[0,0.2,-1.5]}",
-    "{\"type\":\"rotate\",\"axis\":[1,2,0],\"rate\":3},"
-    "{\"type\":\"translate\",\"velocity\":[0.1,0.2,-1.2]}",
+    ("{\"type\":\"rotate\",\"axis\":[1,2,0],\"rate\":3},"
+     "{\"type\":\"translate\",\"velocity\":[0.1,0.2,-1.2]}"),
     "{\"type\":\"twist\"},{\"type\":\"rotate\",\"axis\":[0,0,1],\"rate\":-2}",
 };
 enum { MOTIONS = sizeof motions / sizeof *motions };
