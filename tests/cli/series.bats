@@ -32,6 +32,30 @@ END
     [[ ${lines[1]} == "contact at t = 0.50"*": a, c" && ${lines[4]} == "clear: b, d" ]]
 }
 
+@test "an answer is printed as soon as no other can come before it" {
+    cat >slow.json <<'END'
+{"gamma": 1e-9, "bodies": [
+{"name": "left", "surfaces": [{"type": "sphere", "center": [-2,9,0]}],
+"maps": [{"type": "translate", "velocity": [2,0,0]}], "group": ["two"]},
+{"name": "right", "surfaces": [{"type": "sphere", "center": [1,9,0]}], "group": ["two"]},
+{"name": "shell", "surfaces": [{"type": "sphere", "radius": 1.000000002}], "group": ["nested"]},
+{"name": "grows", "surfaces": [{"type": "sphere"}],
+"maps": [{"type": "scale", "factors": [[0.5], [0.5]]}], "group": ["nested"]}],
+"ignore": [["two", "nested"]]}
+END
+    coproc env --default-signal=INT "$IMPINGE" solve slow.json --each --max-bytes 0 --max-pairs 0
+    local pid=$COPROC_PID status=0 rest
+    exec {answers}<&"${COPROC[0]}"
+    read -r output <&"$answers" # before the end, which a lifetime would not see
+    [[ $output == "contact at t = 0.49"*": left, right" ]]
+    kill -INT "$pid"
+    rest=$(cat <&"$answers")
+    wait "$pid" || status=$?
+    [ "$status" -eq 3 ]
+    echo "$rest"
+    [[ $rest == "undecided from t = "*": shell, grows" ]]
+}
+
 @test "what a budget leaves is undecided" {
     four >four.json
     run -3 "$IMPINGE" solve four.json --each --json --max-pairs 20

@@ -4,11 +4,13 @@
 
 #include "tools/cli/each.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tools/cli/output.h"
+#include "tools/cli/progress.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
@@ -46,17 +48,24 @@ void each_end(each *e)
 
 /* --- Lines ------------------------------------------------------------------------------------ */
 
+typedef struct timed {
+    double t;
+    size_t part;
+} timed;
+
 /* While lines are printed. What stays clear without a search has the same line for any two bodies but
  * for their names: it is made once, in two halves. */
-typedef struct printing {
-    const each *e;
+struct printing {
+    each *e;
     bool json;
     imp_result rest; /* of the divided query */
     char **names;    /* of bodies, as JSON */
     char *head, *tail;
-    size_t lines;
-    exit_status worst;
-} printing;
+    size_t *waiting; /* parts whose answers have not come */
+    timed *order;    /* answers that are not clear, by time; the first `shown` are printed */
+    size_t waiting_count, count, shown, lines;
+    exit_status worst, status;
+};
 
 static json_t *line_json(const each *e, const imp_result *r, json_t *names)
 {
@@ -114,11 +123,6 @@ static exit_status print_line(printing *p, const imp_result *r, size_t a, size_t
 
 /* --- Their order ------------------------------------------------------------------------------ */
 
-typedef struct timed {
-    double t;
-    size_t part;
-} timed;
-
 static int by_time(const void *p, const void *q)
 {
     const timed *x = p, *y = q;
@@ -126,20 +130,38 @@ static int by_time(const void *p, const void *q)
     return x->part < y->part ? -1 : 1;
 }
 
-static exit_status print_timed(printing *p, timed *order)
+/* Orders the answers that have come and are not clear, behind those that are printed. */
+static void collect_timed(printing *p)
 {
-    const each *e = p->e;
-    size_t count = 0;
-    for (size_t k = 0; k < e->plan.count; ++k)
-        if (e->answers[k].verdict != IMP_CLEAR) order[count++] = (timed){e->answers[k].t_lower, k};
-    qsort(order, count, sizeof *order, by_time);
-    exit_status status = EXIT_ANSWERED;
-    for (size_t k = 0; k < count && status == EXIT_ANSWERED; ++k) {
-        size_t body[2];
-        imp_query_part_bodies(e->plan.whole, order[k].part, body);
-        status = print_line(p, &e->answers[order[k].part], body[0], body[1]);
+    size_t waiting = 0;
+    for (size_t k = 0; k < p->waiting_count; ++k) {
+        const imp_result *r = &p->e->answers[p->waiting[k]];
+        if (r->struct_size == 0)
+            p->waiting[waiting++] = p->waiting[k];
+        else if (r->verdict != IMP_CLEAR)
+            p->order[p->count++] = (timed){r->t_lower, p->waiting[k]};
     }
-    return status;
+    p->waiting_count = waiting;
+    qsort(p->order + p->shown, p->count - p->shown, sizeof *p->order, by_time);
+}
+
+/* Prints those before the time up to which all others are clear. */
+static bool advance(void *context, double t_lower)
+{
+    const each *e = context;
+    printing *p = e->printing;
+    const size_t before = p->shown;
+    collect_timed(p);
+    for (; p->shown < p->count && p->order[p->shown].t < t_lower; ++p->shown) {
+        size_t body[2];
+        const size_t part = p->order[p->shown].part;
+        if (p->shown == before) progress_wipe();
+        imp_query_part_bodies(e->plan.whole, part, body);
+        p->status = print_line(p, &e->answers[part], body[0], body[1]);
+        if (p->status != EXIT_ANSWERED) return false;
+    }
+    if (p->shown > before) p->status = output_flush(e->args->verb->name);
+    return p->status == EXIT_ANSWERED;
 }
 
 /* Parts are in the order of the scene. */
@@ -180,34 +202,68 @@ static bool prepare_json(printing *p)
     return true;
 }
 
-exit_status each_print(const each *e)
+static void printing_end(printing *p)
 {
-    const char *speaker = e->args->verb->name;
-    printing p = {.e = e,
-                  .json = arguments_option(e->args, "json") != NULL,
-                  .rest = imp_query_result(e->plan.whole)};
-    timed *order = calloc(e->plan.count + 1, sizeof *order);
-    exit_status status = order == NULL || (p.json && !prepare_json(&p))
-                             ? complain_of_memory(speaker)
-                             : EXIT_ANSWERED;
-    if (status == EXIT_ANSWERED) status = print_timed(&p, order);
-    if (status == EXIT_ANSWERED) status = print_clear(&p);
-    if (status == EXIT_ANSWERED) status = output_flush(speaker);
-    for (size_t k = 0; p.names != NULL && k < imp_scene_body_count(e->scene); ++k) free(p.names[k]);
-    free(p.names);
-    free(p.head);
-    free(order);
-    return status != EXIT_ANSWERED ? status : p.worst;
+    for (size_t k = 0; p->names != NULL && k < imp_scene_body_count(p->e->scene); ++k)
+        free(p->names[k]);
+    free(p->names);
+    free(p->head);
+    free(p->waiting);
+    free(p->order);
+}
+
+static exit_status printing_begin(printing *p, each *e)
+{
+    *p = (printing){.e = e,
+                    .json = arguments_option(e->args, "json") != NULL,
+                    .rest = imp_query_result(e->plan.whole),
+                    .waiting = calloc(e->plan.count + 1, sizeof *p->waiting),
+                    .order = calloc(e->plan.count + 1, sizeof *p->order)};
+    e->printing = p;
+    if (p->waiting == NULL || p->order == NULL || (p->json && !prepare_json(p)))
+        return complain_of_memory(e->args->verb->name);
+    for (; p->waiting_count < e->plan.count; ++p->waiting_count)
+        p->waiting[p->waiting_count] = p->waiting_count;
+    return EXIT_ANSWERED;
+}
+
+/* What is left, all answers being there. */
+static exit_status print_rest(printing *p)
+{
+    advance(p->e, INFINITY);
+    if (p->status == EXIT_ANSWERED) p->status = print_clear(p);
+    if (p->status == EXIT_ANSWERED) p->status = output_flush(p->e->args->verb->name);
+    return p->status != EXIT_ANSWERED ? p->status : p->worst;
+}
+
+exit_status each_print(each *e)
+{
+    printing p;
+    exit_status status = printing_begin(&p, e);
+    if (status == EXIT_ANSWERED) status = print_rest(&p);
+    printing_end(&p);
+    return status;
+}
+
+/* Solves the parts, and prints each answer as soon as no other can come before it. */
+static exit_status solve_and_print(each *e)
+{
+    printing p;
+    imp_error error = {0};
+    exit_status status = printing_begin(&p, e);
+    e->plan.advance = advance;
+    if (status == EXIT_ANSWERED && parts_run(&e->plan, &error) != IMP_SUCCESS)
+        status = complain_of(&error, e->args->verb->name);
+    if (status == EXIT_ANSWERED) status = p.status == EXIT_ANSWERED ? print_rest(&p) : p.status;
+    printing_end(&p);
+    return status;
 }
 
 exit_status each_answer(imp_scene *scene, const arguments *args)
 {
     each e;
-    imp_error error = {0};
     exit_status status = each_begin(&e, scene, args);
-    if (status == EXIT_ANSWERED && parts_run(&e.plan, &error) != IMP_SUCCESS)
-        status = complain_of(&error, args->verb->name);
-    if (status == EXIT_ANSWERED) status = each_print(&e);
+    if (status == EXIT_ANSWERED) status = solve_and_print(&e);
     each_end(&e);
     return status;
 }

@@ -12,22 +12,25 @@
  * follows in the order of the scene. Bodies that the broad phase parts have the answer of the divided
  * query. */
 
+typedef struct printing printing;
+
 typedef struct each {
     const arguments *args;
     const imp_scene *scene;
     parts_plan plan;
-    imp_result *answers; /* of the parts */
+    imp_result *answers; /* of the parts; all bytes 0: not there yet */
+    printing *printing;  /* while it lasts */
 } each;
 
 /* Divides the scene; its parts may then be solved (parts.h). Complains of what is wrong. */
 exit_status each_begin(each *e, imp_scene *scene, const arguments *args);
 
 /* Prints all answers, those of the parts being there. The exit status is that of the worst. */
-exit_status each_print(const each *e);
+exit_status each_print(each *e);
 
 void each_end(each *e); /* also after each_begin has failed */
 
-/* All of that. */
+/* All of that; each line is printed as soon as no other can come before it. */
 exit_status each_answer(imp_scene *scene, const arguments *args);
 
 #endif

@@ -4,6 +4,9 @@
 
 #include "tools/cli/parts.h"
 
+#include <math.h>
+#include <stdlib.h>
+
 #include "tools/cli/interrupt.h"
 #include "tools/cli/progress.h"
 
@@ -20,56 +23,111 @@ imp_code parts_solve(const parts_plan *plan, size_t index, imp_error *error)
 
 /* --- All parts -------------------------------------------------------------------------------- */
 
+/* A part that has had its turns so far. */
+typedef struct open_part {
+    size_t index;
+    imp_query *query; /* NULL before its first turn and after its last */
+} open_part;
+
 typedef struct parts_run_state {
     const parts_plan *plan;
-    size_t done;     /* changed by finish_part only */
-    imp_error error; /* the first in order; begins as a success */
+    open_part *open;
+    size_t count;    /* of them */
+    size_t done;     /* changed by finish_turn only */
+    imp_error error; /* the first; begins as a success */
 } parts_run_state;
 
-typedef struct part_item {
-    size_t index;
+typedef struct turn {
+    open_part *part;
     imp_error error;
-} part_item;
+} turn;
 
-static void work_on_part(void *context, void *of)
+static imp_code take_turn(const parts_plan *plan, open_part *part, imp_error *error)
 {
-    const parts_run_state *run = context;
-    part_item *item = of;
-    item->error = (imp_error){.code = IMP_SUCCESS};
-    item->error.code = parts_solve(run->plan, item->index, &item->error);
+    enum { PAIRS_A_TURN = 2000 };
+    if (part->query == NULL) part->query = imp_query_part(plan->whole, part->index, error);
+    if (part->query == NULL) return error->code;
+    if (interrupt_came()) imp_query_cancel(part->query);
+    const imp_code code =
+        imp_query_step(part->query, plan->advance != NULL ? PAIRS_A_TURN : 0, error);
+    if (code != IMP_SUCCESS) return code;
+    if (plan->advance != NULL && imp_query_result(part->query).reason == IMP_REASON_RUNNING)
+        return IMP_SUCCESS;
+    plan->take(plan->context, part->index, part->query);
+    imp_query_free(part->query);
+    part->query = NULL;
+    return IMP_SUCCESS;
 }
 
-static bool finish_part(void *context, void *of)
+static void work_on_turn(void *context, void *of)
+{
+    const parts_run_state *run = context;
+    turn *item = of;
+    item->error = (imp_error){.code = IMP_SUCCESS};
+    item->error.code = take_turn(run->plan, item->part, &item->error);
+}
+
+static bool finish_turn(void *context, void *of)
 {
     parts_run_state *run = context;
-    const part_item *item = of;
+    const turn *item = of;
     if (run->error.code == IMP_SUCCESS) run->error = item->error;
-    progress_count(++run->done);
+    run->done += item->part->query == NULL;
+    progress_count(run->done);
     return run->error.code == IMP_SUCCESS;
 }
 
-imp_code parts_run(const parts_plan *plan, imp_error *error)
+/* One turn for each open part; those that are done are closed. */
+static imp_code take_turns(parts_run_state *run)
 {
     enum { ITEMS_PER_THREAD = 64 };
-    parts_run_state run = {.plan = plan, .error = {.code = IMP_SUCCESS}};
-    const size_t threads = plan->threads < plan->count ? plan->threads : plan->count;
-    if (plan->count == 0) return IMP_SUCCESS;
+    const size_t threads = run->plan->threads < run->count ? run->plan->threads : run->count;
     const ordered_pool_plan pool_plan = {.threads = threads,
                                          .items = ITEMS_PER_THREAD * threads,
-                                         .item_size = sizeof(part_item),
-                                         .work = work_on_part,
-                                         .finish = finish_part,
-                                         .context = &run};
+                                         .item_size = sizeof(turn),
+                                         .work = work_on_turn,
+                                         .finish = finish_turn,
+                                         .context = run};
     ordered_pool *pool = ordered_pool_new(&pool_plan);
-    if (pool == NULL) return error->code = IMP_ERROR_MEMORY;
-    part_item *item;
-    progress_count_from(0, plan->count, "pairs of bodies");
-    for (size_t k = 0; k < plan->count && (item = ordered_pool_next(pool)) != NULL; ++k) {
-        item->index = k;
+    if (pool == NULL) return run->error.code = IMP_ERROR_MEMORY;
+    turn *item;
+    for (size_t k = 0; k < run->count && (item = ordered_pool_next(pool)) != NULL; ++k) {
+        item->part = &run->open[k];
         ordered_pool_submit(pool);
     }
     ordered_pool_join(pool);
     ordered_pool_free(pool);
+    return run->error.code;
+}
+
+/* Drops the parts that are done. What is proved of all others. */
+static double close_parts(parts_run_state *run)
+{
+    double t_lower = INFINITY;
+    size_t kept = 0;
+    for (size_t k = 0; k < run->count; ++k) {
+        if (run->open[k].query == NULL) continue;
+        const double t = imp_query_result(run->open[k].query).t_lower;
+        if (t < t_lower) t_lower = t;
+        run->open[kept++] = run->open[k];
+    }
+    run->count = kept;
+    return t_lower;
+}
+
+imp_code parts_run(const parts_plan *plan, imp_error *error)
+{
+    parts_run_state run = {.plan = plan, .count = plan->count, .error = {.code = IMP_SUCCESS}};
+    run.open = calloc(plan->count + 1, sizeof *run.open);
+    if (run.open == NULL) return error->code = IMP_ERROR_MEMORY;
+    for (size_t k = 0; k < run.count; ++k) run.open[k].index = k;
+    progress_count_from(0, plan->count, "pairs of bodies");
+    while (run.count > 0 && take_turns(&run) == IMP_SUCCESS) {
+        const double t_lower = close_parts(&run);
+        if (plan->advance != NULL && !plan->advance(plan->context, t_lower)) break;
+    }
+    for (size_t k = 0; k < run.count; ++k) imp_query_free(run.open[k].query);
+    free(run.open);
     progress_wipe();
     if (run.error.code != IMP_SUCCESS) *error = run.error;
     return run.error.code;
