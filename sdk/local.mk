@@ -64,7 +64,7 @@ pythonmodule_DATA = $(python_module) sdk/python/_installed.py
 sdk/python/_installed.py: Makefile
 	$(AM_V_GEN)$(MKDIR_P) sdk/python && echo 'LIBRARY = "$(libdir)/libimpinge.so.0"' >$@
 CLEANFILES += sdk/python/_installed.py
-uninstall-hook: uninstall-pycache
+uninstall_python = uninstall-pycache
 uninstall-pycache:
 	rm -rf "$(DESTDIR)$(pythonmoduledir)/__pycache__"
 	-rmdir "$(DESTDIR)$(pythonmoduledir)" 2>/dev/null
