@@ -236,5 +236,5 @@ verbs() { "$IMPINGE" help | sed -n 's/^  \([a-z]*\) .*/\1/p'; }
     [ -z "$stderr" ]
     export IMPINGE near
     run script -qec '"$IMPINGE" pair sphere "$near" --gamma 1e-9 --max-bytes 0 --max-seconds 1.8' /dev/null
-    [[ $output == *'pairs tested'*$'\e[K'* ]]
+    [[ $output == *' pairs, '*' wait, clear until t = 0'*$'\e[K'* ]]
 }

@@ -6,7 +6,7 @@
 
 load ../support/cli_helper
 
-quick=(--max-pairs 2000 --gamma 1e-2)
+quick=(--max-pairs 3000 --gamma 1e-2)
 
 # How many types of a sort are in force.
 count() { "$IMPINGE" list --json | jq --arg sort "$1" '[.types[] | select(.kind == $sort
@@ -28,7 +28,7 @@ count() { "$IMPINGE" list --json | jq --arg sort "$1" '[.types[] | select(.kind 
     json '.failed == 0'
     json "(.cells | length) == $surfaces * ($surfaces + $maps)"
     json "[.cells[] | select(.a == .b)] | length == $surfaces"
-    json 'all(.cells[]; .pairs <= 2000)'
+    json 'all(.cells[]; .pairs <= 3000)'
 }
 
 @test "--all prints each pair as well" {
