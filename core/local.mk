@@ -38,6 +38,7 @@ core_surface = \
 core_tree = \
     core/tree/bound_audit.c core/tree/bound_audit.h \
     core/tree/hierarchy.c core/tree/hierarchy.h \
+    core/tree/net.c core/tree/net.h \
     core/tree/node.c core/tree/node.h \
     core/tree/node_model.c core/tree/node_model.h \
     core/tree/vec.h
@@ -81,6 +82,7 @@ core_solver = \
     core/solver/examined_times.c core/solver/examined_times.h \
     core/solver/gap_lines.c core/solver/gap_lines.h \
     core/solver/gjk_axis.c core/solver/gjk_axis.h \
+    core/solver/simplex.h \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/normal_field.c core/solver/normal_field.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
@@ -90,6 +92,7 @@ core_solver = \
     core/solver/query_clearance.c \
     core/solver/query_divide.c \
     core/solver/relative.c core/solver/relative.h \
+    core/solver/net_axis.c core/solver/net_axis.h \
     core/solver/separation.c core/solver/separation.h \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \

@@ -225,6 +225,26 @@ IMP_QUAD_INLINE bool cut_along_axes(const relative *r, double clearance, w_range
     return bundle_cut(r, &n, clearance, s, lines);
 }
 
+/* The same with an axis that is known; nothing is searched for. */
+IMP_QUAD_INLINE bool cut_along_given(const relative *r, double clearance, w_range *s, vec3 axis)
+{
+    const vec3 end = vec3_sub(vec3_from(r->delta), vec3_scale(vec3_from(r->drift), -1));
+    bundle n = bundle_of(axis, r->a.normal, r->b.normal, end);
+    return bundle_cut(r, &n, clearance, s, NULL);
+}
+
+IMP_QUAD_WIDE static bool cut_along_given_wide(const relative *r, double clearance, w_range *s,
+                                               vec3 axis)
+{
+    return cut_along_given(r, clearance, s, axis);
+}
+
+bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis)
+{
+    return imp_quad_is_wide() ? cut_along_given_wide(r, clearance, s, axis)
+                              : cut_along_given(r, clearance, s, axis);
+}
+
 IMP_QUAD_WIDE static bool cut_along_axes_wide(const relative *r, double clearance, w_range *s,
                                               vec3 *axis, gap_lines *lines)
 {

@@ -16,4 +16,7 @@
  * axes prove of the distance is added to `lines`, unless NULL. */
 bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines);
 
+/* The same along an axis that was found elsewhere, both normals and the line of centres. */
+bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis);
+
 #endif

@@ -21,6 +21,7 @@ typedef struct pair {
     node *a, *b;
     uint32_t candidate_pair; /* which two surfaces of the scene: index of the query's list */
     uint32_t wait;           /* generations until a witness is sought again */
+    bool is_seen_only;       /* separation_first_look may have left too much */
 } pair;
 
 typedef struct pair_heap {

@@ -6,6 +6,7 @@
 
 #include "core/base/rounding.h"
 #include "core/solver/axes.h"
+#include "core/solver/net_axis.h"
 #include "core/solver/normal_field.h"
 #include "core/solver/tuning.h"
 
@@ -95,12 +96,56 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
     }
 }
 
+/* --- Nets -------------------------------------------------------------------------------------- */
+
+static bool have_nets(const node *a, const node *b) { return a->net != NULL && b->net != NULL; }
+
+/* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls show,
+ * or any that can be found where the hulls meet. */
+static bool cut_by_models(const node *a, const node *b, double clearance, time_window *window,
+                          vec3 *axis, bool found)
+{
+    relative r;
+    w_range s = {-1, 1};
+    relative_at(a, b, window, &r);
+    if (found ? !axes_cut_along(&r, clearance, &s, *axis)
+              : !axes_cut(&r, clearance, &s, axis, NULL))
+        return false;
+    if (!normal_field_cut(&r, clearance, &s, NULL)) return false;
+    window_cut(window, &r, &s);
+    return true;
+}
+
+/* Hulls at the start of the window again and again, as long as that pays; then the quadratics, once. */
+static bool shrink_by_nets(const node *a, const node *b, double clearance, time_window *window,
+                           vec3 *axis)
+{
+    bool found = true, pays = true;
+    if (!(vec3_norm1(*axis) > 0)) *axis = vec3_sub(vec3_from(b->f.a), vec3_from(a->f.a));
+    for (int round = 0; round < TUNING_WINDOW_ROUNDS && found && pays; ++round) {
+        const double length = window->hi - window->lo;
+        found = net_axis_seek(a, b, window->lo, axis);
+        if (found && !net_axis_cut(a, b, *axis, clearance, window)) return false;
+        pays = window->hi - window->lo < TUNING_NET_SHRINKS * length;
+    }
+    return cut_by_models(a, b, clearance, window, axis, found);
+}
+
 bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
                           vec3 *axis)
 {
     if (!a->bounded || !b->bounded) return true;
     if (separation_of_boxes(a, b, clearance)) return false;
+    if (have_nets(a, b)) return shrink_by_nets(a, b, clearance, window, axis);
     return shrink(a, b, clearance, window, axis, NULL);
+}
+
+bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,
+                           vec3 *axis, bool *more)
+{
+    *more = have_nets(a, b) && vec3_norm1(*axis) > 0;
+    return *more ? net_axis_cut(a, b, *axis, clearance, window)
+                 : separation_by_models(a, b, clearance, window, axis);
 }
 
 bool separation_approach(const node *a, const node *b, double clearance, time_window *window,

@@ -16,7 +16,15 @@ static bool pair_may_be_near(const impact *im, pair *p)
     if (im->method == IMP_METHOD_PAPER)
         return im->bounds == IMP_BOUNDS_BOX ? !separation_of_boxes(p->a, p->b, im->clearance)
                                             : !separation_of_balls(p->a, p->b, im->clearance);
+    p->is_seen_only = false;
     return separation_by_models(p->a, p->b, im->clearance, &p->window, &p->axis);
+}
+
+/* Sooner, and to be completed when the pair is popped: a third of what is pushed never is. */
+static bool pair_may_be_near_at_first(const impact *im, pair *p)
+{
+    if (im->method == IMP_METHOD_PAPER) return pair_may_be_near(im, p);
+    return separation_first_look(p->a, p->b, im->clearance, &p->window, &p->axis, &p->is_seen_only);
 }
 
 /* Puts the pair of p's nodes on the heap, which has room, unless they stay apart. p->window holds
@@ -24,7 +32,7 @@ static bool pair_may_be_near(const impact *im, pair *p)
 static void test_and_push(impact *im, pair p)
 {
     im->stats->pairs += 1;
-    if (!pair_may_be_near(im, &p)) return;
+    if (!pair_may_be_near_at_first(im, &p)) return;
     p.serial = im->serial++;
     p.key[0] = p.window.lo;
     p.key[1] = pair_order(&p, p.window.lo);
@@ -285,6 +293,22 @@ static bool is_still_first(impact *im, pair *p)
     return false;
 }
 
+/* Completes the test of a pair that was only looked at; false: it is pruned, or waits for its later start. */
+static bool is_first_when_tested(impact *im, pair *p)
+{
+    if (!p->is_seen_only) return true;
+    if (!pair_may_be_near(im, p)) return false;
+    if (im->heap.count == 0 || !(p->window.lo > pair_heap_top(&im->heap)->key[0])) {
+        if (p->window.lo > im->t_lower) im->t_lower = p->window.lo;
+        p->key[0] = p->window.lo;
+        return true;
+    }
+    p->key[0] = p->window.lo;
+    p->key[1] = pair_order(p, p->window.lo);
+    pair_heap_push(&im->heap, p);
+    return false;
+}
+
 bool impact_pass(impact *im, size_t count)
 {
     if (im->passed == NULL) im->passed = calloc(count, sizeof *im->passed);
@@ -316,6 +340,7 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     if (im->passed != NULL && im->passed[p.candidate_pair]) return IMP_SUCCESS;
     if (p.window.lo > im->t_lower) im->t_lower = p.window.lo;
     if (!is_still_first(im, &p)) return IMP_SUCCESS;
+    if (!is_first_when_tested(im, &p)) return IMP_SUCCESS;
     pair followed = p;
     const imp_code code = follow(im, &followed, state, error);
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);

@@ -82,6 +82,9 @@
 /* Centres at most, of flat nodes.
  * 3, 8: 0.0 */
 #define TUNING_FLAT_ROUNDS 4
+/* Part of the window that hulls of nets have to leave at most, to be sought again at its new start. Pairs
+ * of bicubic patches at gamma 1e-6: 0.25: +1, 0.75: -1, 0.9: -3 of 164 */
+#define TUNING_NET_SHRINKS 0.5
 /* At most; six are usual.
  * 6: +1.0, 10: +0.1, 40: 0.0 */
 #define TUNING_GJK_STEPS 20

@@ -64,6 +64,43 @@ static int coordinate_outside(const node *n, const double p[3], const double x[3
     return -1;
 }
 
+/* Of the box of a net at time t, moved outward for rounding: t - time and its products 2, sums 3 of the
+ * sizes below, and as much for those sums themselves. */
+enum { NET_ROUNDING = 16 };
+_Static_assert(2 * (2 + 3) <= NET_ROUNDING, "rounding of a net's box");
+
+/* The coordinate that leaves the box of the node's net, which holds its hull, beyond rounding, or -1. */
+static int coordinate_off_net(const net *f, double t, const double x[3], const double eval_error[3])
+{
+    const double tau = t - f->time;
+    for (int i = 0; i < 3; ++i) {
+        const double *at = f->numbers + i * f->stride, base = f->place[i] + tau * f->drift[i];
+        const double size = fabs(x[i]) + fabs(f->place[i]) + fabs(tau * f->drift[i]) + f->most[i];
+        double lo = INFINITY, hi = -INFINITY;
+        for (int k = 0; k < f->stride; ++k) {
+            const double y = f->is_moving ? at[k] + tau * at[k + 3 * f->stride] : at[k];
+            if (y < lo) lo = y;
+            if (y > hi) hi = y;
+        }
+        const double slack =
+            f->error[i] + eval_error[i] + NET_ROUNDING * UNIT_ROUNDOFF * size;
+        if (x[i] - base + slack < lo || x[i] - base - slack > hi) return i;
+    }
+    return -1;
+}
+
+static imp_code lie_of_net(const surface *s, const node *n, const double p[3], const double x[3],
+                           int i, imp_error *error)
+{
+    const imp_region *r = &n->region;
+    return surface_fault(s, error,
+                         "breaks its control net over u [%.17g, %.17g], v [%.17g, %.17g], "
+                         "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g its %c is %.17g, "
+                         "which is not in the hull of the control points, give or take %.3g",
+                         r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1],
+                         p[2], "xyz"[i], x[i], n->net->error[i]);
+}
+
 static imp_code lie(const surface *s, const node *n, const double p[3], const double x[3], int i,
                     imp_error *error)
 {
@@ -77,6 +114,15 @@ static imp_code lie(const surface *s, const node *n, const double p[3], const do
                          "the bounds say %.17g +- %.3g within [%.17g, %.17g]",
                          r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1],
                          p[2], axis, x[i], middle, n->e[i], n->lo[i], n->hi[i]);
+}
+
+static imp_code judge(const surface *s, const node *n, const double p[3], const double x[3],
+                      const double eval_error[3], imp_error *error)
+{
+    int i = coordinate_outside(n, p, x, eval_error);
+    if (i >= 0) return lie(s, n, p, x, i, error);
+    i = n->net != NULL ? coordinate_off_net(n->net, p[2], x, eval_error) : -1;
+    return i >= 0 ? lie_of_net(s, n, p, x, i, error) : IMP_SUCCESS;
 }
 
 /* A point with its error bounds; what cannot be evaluated is no evidence here. */
@@ -94,10 +140,10 @@ imp_code bound_audit_holds_at(const surface *s, const node *n, const double p[3]
     if (!n->bounded || !region_holds(&n->region, p)) return IMP_SUCCESS;
     double eval_error[3], again[3];
     for (int i = 0; i < 3; ++i) eval_error[i] = 0;
-    if (coordinate_outside(n, p, x, eval_error) < 0) return IMP_SUCCESS;
-    if (!evaluate(s, p, again, eval_error)) return IMP_SUCCESS;
-    const int i = coordinate_outside(n, p, again, eval_error);
-    return i < 0 ? IMP_SUCCESS : lie(s, n, p, again, i, error);
+    const bool fine = coordinate_outside(n, p, x, eval_error) < 0 &&
+                      (n->net == NULL || coordinate_off_net(n->net, p[2], x, eval_error) < 0);
+    if (fine || !evaluate(s, p, again, eval_error)) return IMP_SUCCESS;
+    return judge(s, n, p, again, eval_error, error);
 }
 
 enum { AUDIT_POINTS = 8 };
@@ -127,8 +173,8 @@ imp_code bound_audit_run(const surface *s, const node *n, imp_error *error)
         double p[3], x[3], eval_error[3];
         audit_point(&n->region, &state, p);
         if (!evaluate(s, p, x, eval_error)) continue;
-        const int i = coordinate_outside(n, p, x, eval_error);
-        if (i >= 0) return lie(s, n, p, x, i, error);
+        const imp_code code = judge(s, n, p, x, eval_error, error);
+        if (code != IMP_SUCCESS) return code;
     }
     return IMP_SUCCESS;
 }

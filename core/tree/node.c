@@ -23,6 +23,13 @@ typedef struct chunk {
     node nodes[];
 } chunk;
 
+/* Blocks of nets: room for 1, 4, 16, 64, 64, ... as the chunks. */
+typedef struct arena {
+    struct arena *next;
+    size_t used, capacity; /* bytes */
+    double memory[];
+} arena;
+
 struct tree {
     const surface *surface;
     tree_plan plan;
@@ -30,6 +37,7 @@ struct tree {
     pthread_mutex_t lock; /* of chunks, and of every node's children while one is published */
     chunk *chunks;
     hierarchy *pieces; /* NULL: it is one surface */
+    arena *nets;
 };
 
 /* --- Memory ------------------------------------------------------------------- */
@@ -48,6 +56,24 @@ static node *node_alloc(tree *t, tree_growth *growth)
     }
     growth->nodes += 1;
     return &t->chunks->nodes[t->chunks->used++];
+}
+
+/* Room for a net; NULL: no memory. */
+static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
+{
+    if (t->nets == NULL || t->nets->capacity - t->nets->used < bytes) {
+        const size_t wanted = t->nets == NULL ? bytes : CHUNK_GROWTH * t->nets->capacity;
+        const size_t most = CHUNK_NODES_MAX * bytes;
+        const size_t capacity = wanted < bytes ? bytes : wanted < most ? wanted : most;
+        arena *fresh = malloc(sizeof *fresh + capacity);
+        if (fresh == NULL) return NULL;
+        *fresh = (arena){.next = t->nets, .capacity = capacity};
+        t->nets = fresh;
+        growth->bytes += sizeof *fresh + capacity;
+    }
+    net *n = (net *)(void *)((char *)t->nets->memory + t->nets->used);
+    t->nets->used += bytes;
+    return n;
 }
 
 /* --- Faults of plugins ---------------------------------------------------------- */
@@ -173,6 +199,43 @@ static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
     return IMP_SUCCESS;
 }
 
+/* --- Nets -------------------------------------------------------------------------------- */
+
+/* Which half of which node a node is. */
+typedef struct node_origin {
+    const node *parent;
+    parameter along;
+    int side;
+} node_origin;
+
+/* The net as the type gives it, where it has one that can be computed with. */
+static imp_code ask_net(node *n, net_buffer *room, imp_error *error)
+{
+    imp_net given;
+    const imp_status status = surface_net(n->surface, &n->region, &given);
+    if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
+    if (status != IMP_OK) return status_fault(n, status, error);
+    if (net_take(net_in(room), &given, &n->region)) n->net = net_in(room);
+    return IMP_SUCCESS;
+}
+
+/* From the parent's where that can be halved. `origin` is NULL for the root. */
+static imp_code fill_net(const tree *t, node *n, const node_origin *origin, net_buffer *room,
+                         imp_error *error)
+{
+    if (t->plan.kind != TREE_MODELS || !n->bounded || n->many != NULL) return IMP_SUCCESS;
+    if (origin == NULL || origin->parent->net == NULL || origin->parent->surface != n->surface ||
+        !net_can_halve(&origin->parent->region, origin->along))
+        return ask_net(n, room, error);
+    n->net = origin->parent->net;
+    if (origin->along == PARAMETER_T) return IMP_SUCCESS;
+    net_halve(n->net, origin->along, origin->side, net_in(room));
+    n->net = net_in(room);
+    return IMP_SUCCESS;
+}
+
+/* --- Any node ----------------------------------------------------------------------------- */
+
 /* Which points a node is to bound, and when. */
 typedef struct node_place {
     imp_region region;
@@ -180,40 +243,59 @@ typedef struct node_place {
     const cluster *many;
 } node_place;
 
-static imp_code node_fill(const tree *t, const node_place *place, node *n, imp_error *error)
+static imp_code node_fill(const tree *t, const node_place *place, const node_origin *origin,
+                          node *n, net_buffer *room, imp_error *error)
 {
     *n = (node){.region = place->region, .surface = place->surface, .many = place->many};
     imp_code code = t->plan.kind == TREE_MODELS ? fill_from_model(t, n, error)
                     : n->many != NULL           ? fill_from_box(t, n, error)
                                                 : fill_from_rates(t, n, error);
+    if (code == IMP_SUCCESS) code = fill_net(t, n, origin, room, error);
     if (code == IMP_SUCCESS && t->plan.audit != NULL && n->many == NULL)
         code = t->plan.audit(n->surface, n, error);
     return code;
 }
 
-/* A copy of a filled node, in the slot unless another thread's is there already. NULL: no memory. */
-static node *node_publish(tree *t, const node *filled, _Atomic(node *) *slot, tree_growth *growth)
+/* A copy of a filled node and of the net in `room`, in memory of the tree. NULL: no memory. */
+static node *node_copy(tree *t, const node *filled, const net_buffer *room, tree_growth *growth)
+{
+    const net *own = filled->net;
+    if (own == (const net *)(const void *)room->memory) {
+        const size_t bytes = net_bytes(own);
+        net *kept = net_alloc(t, bytes, growth);
+        if (kept == NULL) return NULL;
+        own = memcpy(kept, own, bytes);
+    }
+    node *n = node_alloc(t, growth);
+    if (n == NULL) return NULL;
+    *n = *filled;
+    n->net = own;
+    return n;
+}
+
+/* The same in the slot, unless another thread's is there already. NULL: no memory. */
+static node *node_publish(tree *t, const node *filled, const net_buffer *room,
+                          _Atomic(node *) *slot, tree_growth *growth)
 {
     pthread_mutex_lock(&t->lock);
     node *n = atomic_load_explicit(slot, memory_order_relaxed);
     if (n == NULL) {
-        n = node_alloc(t, growth);
-        if (n != NULL) {
-            *n = *filled;
-            atomic_store_explicit(slot, n, memory_order_release);
-        }
+        n = node_copy(t, filled, room, growth);
+        if (n != NULL) atomic_store_explicit(slot, n, memory_order_release);
     }
     pthread_mutex_unlock(&t->lock);
     return n;
 }
 
-static imp_code node_make(tree *t, const node_place *place, _Atomic(node *) *slot, node **made,
-                          tree_growth *growth, imp_error *error)
+static imp_code node_make(tree *t, const node_place *place, const node_origin *origin,
+                          _Atomic(node *) *slot, node **made, tree_growth *growth,
+                          imp_error *error)
 {
     node filled;
-    const imp_code code = node_fill(t, place, &filled, error);
+    net_buffer room;
+    const imp_code code = node_fill(t, place, origin, &filled, &room, error);
     if (code != IMP_SUCCESS) return code;
-    *made = node_publish(t, &filled, slot, growth);
+    *made = node_publish(t, &filled, &room, slot, growth);
     return *made != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
@@ -250,7 +332,7 @@ static imp_code make_root(tree *t, tree_growth *growth, imp_error *error)
         place = place_of_cluster(hierarchy_root(t->pieces), plan->t_start, plan->t_end);
     }
     _Atomic(node *) root = NULL;
-    return node_make(t, &place, &root, &t->root, growth, error);
+    return node_make(t, &place, NULL, &root, &t->root, growth, error);
 }
 
 imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
@@ -284,6 +366,15 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
     }
     memset(copy->root, 0, sizeof *copy->root);
     memcpy(copy->root, t->root, offsetof(node, child)); /* what is before, which no thread changes */
+    if (t->root->net != NULL) {
+        const size_t bytes = net_bytes(t->root->net);
+        net *own = net_alloc(copy, bytes, &of_root);
+        if (own == NULL) {
+            tree_free(copy);
+            return error_set_memory(error);
+        }
+        copy->root->net = memcpy(own, t->root->net, bytes);
+    }
     growth->bytes += sizeof *copy + of_root.bytes;
     *made = copy;
     return IMP_SUCCESS;
@@ -298,6 +389,11 @@ void tree_free(tree *t)
         t->chunks = next;
     }
     hierarchy_free(t->pieces);
+    while (t->nets != NULL) {
+        arena *next = t->nets->next;
+        free(t->nets);
+        t->nets = next;
+    }
     pthread_mutex_destroy(&t->lock);
     free(t);
 }
@@ -331,7 +427,8 @@ imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, 
     node *made = atomic_load_explicit(slot, memory_order_acquire);
     if (made == NULL) {
         const node_place half = place_of_half(parent, j, side);
-        const imp_code code = node_make(t, &half, slot, &made, growth, error);
+        const node_origin origin = {parent, j, side};
+        const imp_code code = node_make(t, &half, &origin, slot, &made, growth, error);
         if (code != IMP_SUCCESS) return code;
     }
     *child = made;

@@ -8,6 +8,7 @@
 #include "core/surface/region.h"
 #include "core/surface/surface.h"
 #include "core/tree/hierarchy.h"
+#include "core/tree/net.h"
 #include "core/tree/vec.h"
 
 /* Nodes: regions of one surface with Taylor models that hold
@@ -52,6 +53,7 @@ typedef struct node {
     bool bounded;               /* f, e, lo, hi are all finite */
     const surface *surface;     /* whose points are bounded: a piece, or the whole */
     const cluster *many;        /* of these pieces of it; NULL: of one surface */
+    const net *net;             /* NULL: it has none */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
 } node;
 

@@ -588,6 +588,12 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
     still_works
 }
 
+@test "control nets that break the ABI end the query, and --audit finds those that points refute" {
+    takes net_nan liar_net
+    blames net_nan "type 'net_nan' over u [0, 4], v [0, 4], t [0, 1]: a control net has too many points"
+    blames liar_net "type 'liar_net' breaks its control net over u [" --audit
+}
+
 @test "callbacks that change the arithmetic end the query" {
     takes eval_rounds include_rounds
     blames eval_rounds "type 'eval_rounds' at u = 0, v = 0, t = 0: changes the floating-point mode"

@@ -21,6 +21,13 @@
 #define w_range_cut narrow_w_range_cut
 #define gjk_axis narrow_gjk_axis
 #define axes_cut narrow_axes_cut
+#define axes_cut_along narrow_axes_cut_along
+#define net_bytes narrow_net_bytes
+#define net_take narrow_net_take
+#define net_can_halve narrow_net_can_halve
+#define net_halve narrow_net_halve
+#define net_axis_seek narrow_net_axis_seek
+#define net_axis_cut narrow_net_axis_cut
 #include "core/solver/relative.c"
 #include "core/tree/node_model.c"
 #define along along_nearest
@@ -28,17 +35,29 @@
 #include "core/solver/gjk_axis.c"
 #undef along
 #undef search
+#define along along_net
+#include "core/solver/net_axis.c"
+#include "core/tree/net.c"
+#undef along
 #include "core/solver/axes.c"
 #undef imp_quad_is_wide
 #undef node_take_model
 #undef relative_at
 #undef gjk_axis
 #undef axes_cut
+#undef axes_cut_along
+#undef net_halve
+#undef net_axis_seek
+#undef net_axis_cut
 
 const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite);
 void relative_at(const node *a, const node *b, const time_window *window, relative *r);
 bool gjk_axis(const relative *r, double w, vec3 *axis);
 bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines);
+bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis);
+void net_halve(const net *n, parameter j, int side, net *half);
+bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
+bool net_axis_cut(const node *a, const node *b, vec3 axis, double clearance, time_window *window);
 
 /* What a NaN is made of is no answer. */
 static bool same_bits(const void *x, const void *y, size_t numbers)
@@ -111,6 +130,10 @@ static void check_pair(uint64_t *state, const node *a, const node *b)
     ck_assert(same_bits(&n, &m, 3) && same_bits(&s, &t, 2));
     ck_assert_int_eq(seen.count, narrow_seen.count);
     ck_assert(same_bits(seen.line, narrow_seen.line, 2 * (size_t)seen.count));
+    s = t = (w_range){-1, 1};
+    ck_assert(axes_cut_along(&wide, clearance, &s, n) ==
+              narrow_axes_cut_along(&wide, clearance, &t, n));
+    ck_assert(same_bits(&s, &t, 2));
 }
 
 START_TEST(nodes_and_cuts_are_the_same_in_wide_and_narrow_registers)
@@ -121,6 +144,56 @@ START_TEST(nodes_and_cuts_are_the_same_in_wide_and_narrow_registers)
         check_node(&state, &a);
         check_node(&state, &b);
         check_pair(&state, &a, &b);
+    }
+}
+END_TEST
+
+/* A node with a random net, its halves the same in both. */
+static void check_net(uint64_t *state, node *n, net_buffer *room)
+{
+    imp_net given = {.degree = {3, 3}};
+    net_buffer narrow;
+    if (random_bits(state) % 2)
+        for (int j = 0; j < 2; ++j) given.degree[j] = (uint32_t)(random_bits(state) % 4);
+    given.is_moving = random_bits(state) % 2;
+    given.is_weighted = random_bits(state) % 4 == 0;
+    for (int i = 0; i < 3; ++i) {
+        given.place[i] = random_between(state, -2, 2);
+        given.drift[i] = random_between(state, -2, 2);
+        for (int k = 0; k < IMP_NET_POINTS; ++k) {
+            given.point[i][k] = random_between(state, -1, 1);
+            given.velocity[i][k] = random_between(state, -1, 1);
+            given.weight[k] = random_between(state, 0.5, 2);
+        }
+    }
+    *n = (node){.region = region_make((double[3]){0, 0, 0}, (double[3]){1, 1, 1})};
+    ck_assert(narrow_net_take(net_in(room), &given, &n->region));
+    n->net = net_in(room);
+    for (int k = 0; k < 4; ++k) {
+        const parameter j = random_bits(state) % 2 ? PARAMETER_U : PARAMETER_V;
+        const int side = (int)(random_bits(state) % 2);
+        const net_buffer parent = *room;
+        const net *from = (const net *)(const void *)parent.memory;
+        net_halve(from, j, side, net_in(room));
+        narrow_net_halve(from, j, side, net_in(&narrow));
+        ck_assert(memcmp(room, &narrow, narrow_net_bytes(from)) == 0);
+    }
+}
+
+START_TEST(nets_and_their_axes_are_the_same_in_wide_and_narrow_registers)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(20000); ++k) {
+        node a, b;
+        net_buffer room_a, room_b;
+        check_net(&state, &a, &room_a);
+        check_net(&state, &b, &room_b);
+        vec3 n = {{draw(&state, 1), draw(&state, 1), draw(&state, 1)}}, m = n;
+        time_window w = {random_between(&state, 0, 0.5), random_between(&state, 0.5, 1)}, v = w;
+        ck_assert(net_axis_seek(&a, &b, w.lo, &n) == narrow_net_axis_seek(&a, &b, w.lo, &m));
+        ck_assert(same_bits(&n, &m, 3));
+        ck_assert(net_axis_cut(&a, &b, n, 1e-3, &w) == narrow_net_axis_cut(&a, &b, n, 1e-3, &v));
+        ck_assert(same_bits(&w, &v, 2));
     }
 }
 END_TEST
@@ -165,4 +238,5 @@ START_TEST(patches_are_the_same_in_wide_and_narrow_registers)
 END_TEST
 
 SUITE_MAIN("lanes", nodes_and_cuts_are_the_same_in_wide_and_narrow_registers,
+           nets_and_their_axes_are_the_same_in_wide_and_narrow_registers,
            patches_are_the_same_in_wide_and_narrow_registers)

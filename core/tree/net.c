@@ -1,0 +1,197 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/tree/net.h"
+
+#include <string.h>
+
+#include "core/base/rounding.h"
+
+/* --- As a type gives it ------------------------------------------------------------------- */
+
+static int stride_of(int points) { return (points + IMP_QUAD - 1) / IMP_QUAD * IMP_QUAD; }
+
+size_t net_bytes(const net *n)
+{
+    const int columns = 3 + (n->is_moving ? 3 : 0) + (n->is_weighted ? 1 : 0);
+    return sizeof(net) + (size_t)(n->stride * columns) * sizeof(double);
+}
+
+static void take_column(double *to, int stride, const double *from, int points)
+{
+    for (int k = 0; k < stride; ++k) to[k] = from[k < points ? k : points - 1];
+}
+
+static double greatest(const double *x, int points)
+{
+    double most = 0;
+    for (int k = 0; k < points; ++k)
+        if (fabs(x[k]) > most) most = fabs(x[k]);
+    return most;
+}
+
+/* Products of two numbers, and of a number and two weights, stay within a double. */
+#define NET_LARGE 0x1p300
+
+static bool is_moderate(const imp_net *given, const net *n, int points)
+{
+    bool fine = true;
+    for (int i = 0; i < 3; ++i)
+        fine = fine && fabs(given->place[i]) < NET_LARGE && fabs(given->drift[i]) < NET_LARGE &&
+               n->most[i] < NET_LARGE && given->error[i] < NET_LARGE;
+    for (int k = 0; k < points && given->is_weighted; ++k)
+        fine = fine && given->weight[k] < NET_LARGE && given->weight[k] > 1 / NET_LARGE;
+    return fine;
+}
+
+PAD_COVERS(4, 2); /* most: a product and a sum */
+
+bool net_take(net *n, const imp_net *given, const imp_region *region)
+{
+    const int points = (int)((given->degree[0] + 1) * (given->degree[1] + 1));
+    *n = (net){.degree = {(int)given->degree[0], (int)given->degree[1]},
+               .stride = stride_of(points),
+               .is_moving = given->is_moving != 0,
+               .is_weighted = given->is_weighted != 0,
+               .time = region->c[PARAMETER_T]};
+    for (int i = 0; i < 3; ++i) {
+        n->place[i] = given->place[i];
+        n->drift[i] = given->drift[i];
+        n->error[i] = given->error[i];
+        n->most[i] = greatest(given->point[i], points);
+        if (n->is_moving)
+            n->most[i] = padded_upper(
+                n->most[i] + region->d[PARAMETER_T] * greatest(given->velocity[i], points), 4);
+    }
+    if (!is_moderate(given, n, points)) return false;
+    double *to = n->numbers;
+    for (int i = 0; i < 3; ++i, to += n->stride) take_column(to, n->stride, given->point[i], points);
+    for (int i = 0; i < 3 && n->is_moving; ++i, to += n->stride)
+        take_column(to, n->stride, given->velocity[i], points);
+    if (n->is_weighted) take_column(to, n->stride, given->weight, points);
+    return true;
+}
+
+/* --- Halves ----------------------------------------------------------------------------------- */
+
+/* Lemma. lo + hi is s + e exactly (D. Knuth), so with e = 0 and s = 2 c the cut is in the middle. */
+bool net_can_halve(const imp_region *region, parameter j)
+{
+    if (j == PARAMETER_T) return true;
+    const double lo = region->lo[j], hi = region->hi[j], s = lo + hi, part = s - lo;
+    const double e = (lo - (s - part)) + (hi - part);
+    return e == 0 && s == 2 * region->c[j];
+}
+
+/* De Casteljau at the middle, in place: x[0], x[step], ... of degree n become those of a half. */
+static void halve_plain(double *x, int n, int step, int side)
+{
+    for (int used = 1; used <= n; ++used)
+        if (side == 0)
+            for (int i = n; i >= used; --i) x[i * step] = 0.5 * (x[(i - 1) * step] + x[i * step]);
+        else
+            for (int i = 0; i <= n - used; ++i)
+                x[i * step] = 0.5 * (x[i * step] + x[(i + 1) * step]);
+}
+
+/* The same of a cubic in every number of a row of four, which lie `row` apart. */
+IMP_QUAD_INLINE void halve_rows(double *x, int row, int side)
+{
+    const imp_quad half = imp_quad_all(0.5), r0 = imp_quad_load(x), r1 = imp_quad_load(x + row);
+    const imp_quad r2 = imp_quad_load(x + 2 * row), r3 = imp_quad_load(x + 3 * row);
+    const imp_quad p = half * (r0 + r1), q = half * (r1 + r2), r = half * (r2 + r3);
+    const imp_quad pq = half * (p + q), qr = half * (q + r), mid = half * (pq + qr);
+    if (side == 0) {
+        imp_quad_store(x + row, p), imp_quad_store(x + 2 * row, pq), imp_quad_store(x + 3 * row, mid);
+    } else {
+        imp_quad_store(x, mid), imp_quad_store(x + row, qr), imp_quad_store(x + 2 * row, r);
+    }
+}
+
+/* A bicubic patch: in turned columns where it is halved along v. */
+IMP_QUAD_INLINE void halve_bicubic(double *x, int columns, parameter j, int side)
+{
+    for (int c = 0; c < columns; ++c, x += 16) {
+        double turned[16];
+        if (j == PARAMETER_U) {
+            halve_rows(x, 4, side);
+            continue;
+        }
+        for (int k = 0; k < 16; ++k) turned[k] = x[k % 4 * 4 + k / 4];
+        halve_rows(turned, 4, side);
+        for (int k = 0; k < 16; ++k) x[k] = turned[k % 4 * 4 + k / 4];
+    }
+}
+
+IMP_QUAD_WIDE static void halve_bicubic_wide(double *x, int columns, parameter j, int side)
+{
+    halve_bicubic(x, columns, j, side);
+}
+
+/* The mean of two numbers by their weights. */
+static double mean(double x, double w, double y, double z) { return (w * x + z * y) / (w + z); }
+
+/* The same in `columns` columns, `apart` from each other, by the weights w. */
+static void halve_weighted(double *x, double *w, int columns, int apart, int n, int step, int side)
+{
+    for (int used = 1; used <= n; ++used)
+        for (int k = 0; k <= n - used; ++k) {
+            const int lower = side == 0 ? n - 1 - k : k, upper = lower + 1;
+            const int to = (side == 0 ? upper : lower) * step;
+            const double low = w[lower * step], high = w[upper * step];
+            for (int c = 0; c < columns; ++c) {
+                double *y = x + c * apart;
+                y[to] = mean(y[lower * step], low, y[upper * step], high);
+            }
+            w[to] = 0.5 * (low + high);
+        }
+}
+
+/* Lemma (error). Over the region's times a number is at most M = `most` in size, and so are means of such,
+ * but for a factor below 2 that the budgets have room for. Halving goes through n steps. In units of u M:
+ *
+ *   without weights   a step rounds the sum                                          1
+ *   with weights      a step rounds two products, two sums and the quotient          5
+ *                     weights, computed, are off by a factor of 1 + n u at most,
+ *                     which moves a mean of points 2 M apart by                    2 n
+ *                     and the patch itself, of the half, once more, by             2 n
+ *
+ * so n, and n (5 + 2 n) + 2 n; twice that is added. Underflows are below 2^-1000. */
+static double halving_units(const net *p, int n)
+{
+    return 2 * (p->is_weighted ? n * (5 + 2 * n) + 2 * n : n);
+}
+
+/* Any patch: line after line, then the copies of the last point. */
+static void halve_lines(net *f, parameter j, int side)
+{
+    const int n = f->degree[j], other = f->degree[!j], inner = f->degree[1] + 1;
+    const int step = j == PARAMETER_U ? inner : 1, next = j == PARAMETER_U ? 1 : inner;
+    const int columns = f->is_moving ? 6 : 3, points = (n + 1) * (other + 1);
+    double *x = f->numbers, *w = x + columns * f->stride;
+    for (int line = 0; line <= other; ++line)
+        if (f->is_weighted)
+            halve_weighted(x + line * next, w + line * next, columns, f->stride, n, step, side);
+        else
+            for (int c = 0; c < columns; ++c)
+                halve_plain(x + c * f->stride + line * next, n, step, side);
+    for (int c = 0; c < columns + (f->is_weighted ? 1 : 0); ++c)
+        for (int k = points; k < f->stride; ++k)
+            x[c * f->stride + k] = x[c * f->stride + points - 1];
+}
+
+void net_halve(const net *p, parameter j, int side, net *half)
+{
+    const int columns = p->is_moving ? 6 : 3, n = p->degree[j];
+    memcpy(half, p, net_bytes(p));
+    if (n != 3 || p->degree[!j] != 3 || p->is_weighted)
+        halve_lines(half, j, side);
+    else if (imp_quad_is_wide())
+        halve_bicubic_wide(half->numbers, columns, j, side);
+    else
+        halve_bicubic(half->numbers, columns, j, side);
+    for (int i = 0; i < 3; ++i)
+        half->error[i] = sum_upper(p->error[i], halving_units(p, n) * UNIT_ROUNDOFF * p->most[i] +
+                                                    0x1p-1000);
+}

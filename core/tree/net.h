@@ -1,0 +1,46 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_TREE_NET_H
+#define CORE_TREE_NET_H
+
+#include "core/surface/region.h"
+
+#include <stdbool.h>
+
+/* Control nets of nodes
+ * =====================
+ * What imp_net says of a region, as a node keeps it: the numbers of one coordinate lie side by side, in
+ * whole quads of which the last is filled with copies of the last point. A child's net is made from its
+ * parent's by de Casteljau where a region is halved exactly; halves in time share one. */
+
+typedef struct net {
+    int degree[2];
+    int stride; /* points, rounded up to whole quads */
+    bool is_moving, is_weighted;
+    double time;               /* motion counts from here */
+    double place[3], drift[3]; /* added to points, to velocities */
+    double error[3];           /* the surface is off the patch by this at most, over the region; length */
+    double most[3];            /* >= |point| + |t - time| |velocity| over the times it was made for; length */
+    double numbers[]; /* x, y, z of points, the same of velocities if moving, weights if weighted */
+} net;
+
+/* Room for any net. */
+typedef struct net_buffer {
+    double memory[sizeof(net) / sizeof(double) + 7 * IMP_NET_POINTS];
+} net_buffer;
+
+static inline net *net_in(net_buffer *room) { return (net *)(void *)room->memory; }
+
+size_t net_bytes(const net *n);
+
+/* Fills n, which has room, from a sane net over a region. False: its numbers are too large or too small
+ * to be computed with; n is not filled. */
+bool net_take(net *n, const imp_net *given, const imp_region *region);
+
+/* Whether the halves of a region along j have nets by halving: j is time, or the cut exactly in the middle. */
+bool net_can_halve(const imp_region *region, parameter j);
+
+/* Fills `half`, which has room for as much, with the net of the lower (0) or upper half along u or v. */
+void net_halve(const net *n, parameter j, int side, net *half);
+
+#endif

@@ -1,0 +1,286 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <string.h>
+
+#include "core/common/random.h"
+#include "core/solver/net_axis.h"
+#include "tests/support/judge.h"
+#include "tests/support/suite.h"
+
+/* Nets of nodes and their axes: halves against exact patches, windows against exact distances, the axis
+ * that is found against many others. */
+
+typedef struct netted {
+    imp_net given;
+    net_buffer room;
+    node n;
+} netted;
+
+static void draw_net(uint64_t *state, uint32_t n, uint32_t m, double far, netted *made)
+{
+    imp_net *g = &made->given;
+    memset(g, 0, sizeof *g);
+    g->degree[0] = n, g->degree[1] = m;
+    g->is_moving = random_bits(state) % 4 != 0;
+    g->is_weighted = random_bits(state) % 3 == 0;
+    for (int i = 0; i < 3; ++i) {
+        g->place[i] = far * random_between(state, -1, 1);
+        g->drift[i] = random_between(state, -2, 2);
+        for (int k = 0; k < IMP_NET_POINTS; ++k) {
+            g->point[i][k] = random_between(state, -1, 1);
+            g->velocity[i][k] = random_between(state, -1, 1);
+            g->weight[k] = random_power(state, -4, 4);
+        }
+    }
+}
+
+static void take(netted *made, const double lo[3], const double hi[3])
+{
+    made->n = (node){.region = region_make(lo, hi)};
+    ck_assert(net_take(net_in(&made->room), &made->given, &made->n.region));
+    made->n.net = net_in(&made->room);
+}
+
+static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
+
+/* What the host keeps, as a type would give it. */
+static imp_net given_by(const net *f)
+{
+    imp_net g = {.degree = {(uint32_t)f->degree[0], (uint32_t)f->degree[1]},
+                 .is_moving = f->is_moving,
+                 .is_weighted = f->is_weighted};
+    const int points = (f->degree[0] + 1) * (f->degree[1] + 1), columns = f->is_moving ? 6 : 3;
+    for (int i = 0; i < 3; ++i) {
+        g.place[i] = f->place[i], g.drift[i] = f->drift[i], g.error[i] = f->error[i];
+        for (int k = 0; k < points; ++k) {
+            g.point[i][k] = f->numbers[i * f->stride + k];
+            if (f->is_moving) g.velocity[i][k] = f->numbers[(3 + i) * f->stride + k];
+            g.weight[k] = f->is_weighted ? f->numbers[columns * f->stride + k] : 1;
+        }
+    }
+    return g;
+}
+
+/* --- Halves -------------------------------------------------------------------------------------- */
+
+/* How many of the points of nets halved again and again are surely farther off the first patch than
+ * `share` of the errors says. */
+static int off_after_halving(uint64_t *state, double share)
+{
+    netted a;
+    int off = 0;
+    const uint32_t n = (uint32_t)(random_bits(state) % 4), m = (uint32_t)(random_bits(state) % 6);
+    const bool bicubic = random_bits(state) % 2;
+    draw_net(state, bicubic ? 3 : n, bicubic ? 3 : m, 0, &a);
+    take(&a, zero, one);
+    const imp_region whole = a.n.region;
+    imp_region region = whole;
+    for (int depth = 0; depth < 24; ++depth) {
+        const parameter j = (parameter)(random_bits(state) % 2);
+        const int side = (int)(random_bits(state) % 2);
+        const net_buffer parent = a.room;
+        ck_assert(net_can_halve(&region, j));
+        region = region_half(&region, j, side);
+        net_halve((const net *)(const void *)parent.memory, j, side, net_in(&a.room));
+        imp_net now = given_by(a.n.net);
+        for (int i = 0; i < 3; ++i) now.error[i] *= share;
+        const double p[3] = {random_between(state, region.lo[0], region.hi[0]),
+                             random_between(state, region.lo[1], region.hi[1]),
+                             random_between(state, 0, 1)};
+        number exact[3];
+        fault why;
+        num_forget();
+        net_value(&a.given, &whole, p, exact);
+        off += !judge_net(&now, &region, p, exact, &why);
+    }
+    return off;
+}
+
+START_TEST(halves_of_nets_follow_the_patch_within_their_errors)
+{
+    uint64_t state = suite_seed();
+    int low = 0;
+    for (int k = 0; k < suite_times(150); ++k) {
+        ck_assert_int_eq(off_after_halving(&state, 1), 0);
+        low += off_after_halving(&state, 0.001);
+    }
+    ck_assert_int_gt(low, 0);
+}
+END_TEST
+
+START_TEST(only_a_cut_in_the_exact_middle_halves_a_net)
+{
+    const double tenth = 0.1, lo[3] = {0.1, -1, 0}, hi[3] = {0.7, 3, 1};
+    imp_region r = region_make(lo, hi);
+    ck_assert(net_can_halve(&r, PARAMETER_V) && net_can_halve(&r, PARAMETER_T));
+    ck_assert(!net_can_halve(&r, PARAMETER_U)); /* 0.1 + 0.7 is not a double */
+    r = region_make((double[3]){-tenth, 0, 0}, (double[3]){tenth, 0x1p-1074, 1});
+    ck_assert(net_can_halve(&r, PARAMETER_U));
+    ck_assert(!net_can_halve(&r, PARAMETER_V));
+}
+END_TEST
+
+START_TEST(numbers_too_large_or_small_make_no_net)
+{
+    uint64_t state = suite_seed();
+    netted a;
+    draw_net(&state, 2, 2, 1, &a);
+    a.n.region = region_make(zero, one);
+    a.given.point[1][4] = 1e200;
+    ck_assert(!net_take(net_in(&a.room), &a.given, &a.n.region));
+    a.given.point[1][4] = 0;
+    a.given.is_weighted = 1;
+    a.given.weight[8] = 1e-200;
+    ck_assert(!net_take(net_in(&a.room), &a.given, &a.n.region));
+    a.given.weight[8] = 1;
+    ck_assert(net_take(net_in(&a.room), &a.given, &a.n.region));
+}
+END_TEST
+
+/* --- Windows ----------------------------------------------------------------------------------------- */
+
+/* A surely smaller distance than the clearance, at random parameters and time t. */
+static bool surely_near(uint64_t *state, const netted *a, const netted *b, double t,
+                        double clearance)
+{
+    number x[2][3], sum;
+    const netted *both[2] = {a, b};
+    num_forget();
+    for (int side = 0; side < 2; ++side) {
+        const double p[3] = {random_fraction(state), random_fraction(state), t};
+        net_value(&both[side]->given, &both[side]->n.region, p, x[side]);
+    }
+    sum = num(0);
+    for (int i = 0; i < 3; ++i) sum = num_add(sum, num_sqr(num_sub(x[0][i], x[1][i])));
+    return num_is_less(sum, num_sqr(num(clearance)));
+}
+
+START_TEST(nothing_is_near_outside_of_the_window_that_an_axis_leaves)
+{
+    uint64_t state = suite_seed();
+    int cuts = 0, apart = 0;
+    for (int k = 0; k < suite_times(3000); ++k) {
+        netted a, b;
+        const double far = random_bits(&state) % 2 ? 2 : 0.5;
+        draw_net(&state, (uint32_t)(random_bits(&state) % 4), (uint32_t)(random_bits(&state) % 4),
+                 far, &a);
+        draw_net(&state, (uint32_t)(random_bits(&state) % 4), 3, far, &b);
+        take(&a, zero, one);
+        take(&b, zero, one);
+        vec3 axis = {{random_between(&state, -1, 1), random_between(&state, -1, 1), 1}};
+        time_window w = {0, 1};
+        const double clearance = random_power(&state, -6, 1);
+        net_axis_seek(&a.n, &b.n, 0, &axis);
+        const bool some = net_axis_cut(&a.n, &b.n, axis, clearance, &w);
+        apart += !some;
+        cuts += some && (w.lo > 0 || w.hi < 1);
+        for (int l = 0; l < 4 && (!some || w.lo > 0); ++l) {
+            const double t = some ? random_between(&state, 0, w.lo) : random_fraction(&state);
+            ck_assert(!surely_near(&state, &a, &b, t, clearance));
+        }
+        if (some && w.hi < 1)
+            ck_assert(!surely_near(&state, &a, &b, random_between(&state, w.hi, 1), clearance));
+    }
+    ck_assert_int_gt(cuts, suite_times(3000) / 20);
+    ck_assert_int_gt(apart, suite_times(3000) / 20);
+}
+END_TEST
+
+/* Two points on a line, from 1 apart to 0: nearer than the clearance c from t = 1 - c on, to the last
+ * bits, however far from the origin; and never later. */
+START_TEST(the_window_of_two_points_starts_when_they_are_near)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(2000); ++k) {
+        netted a = {.given = {.degree = {0, 0}}}, b = a;
+        const double far = ldexp(1, (int)random_between(&state, -8, 20));
+        const double clearance = random_power(&state, -30, -1);
+        const int i = (int)random_between(&state, 0, 3);
+        a.given.place[i] = far, b.given.place[i] = far + 1;
+        b.given.drift[i] = -1;
+        b.given.point[i][0] = -0.5; /* at t = 1/2 */
+        take(&a, zero, one);
+        take(&b, zero, one);
+        vec3 axis = {{0, 0, 0}};
+        axis.x[i] = random_power(&state, -20, 20);
+        time_window w = {0, 1};
+        ck_assert(net_axis_cut(&a.n, &b.n, axis, clearance, &w));
+        ck_assert(w.lo <= 1 - clearance && w.hi == 1);
+        ck_assert(w.lo >= 1 - clearance - 64 * 0x1p-53 * (far + 4));
+    }
+}
+END_TEST
+
+START_TEST(an_error_of_the_nets_counts_along_the_axis)
+{
+    netted a = {.given = {.degree = {0, 0}}}, b = a;
+    b.given.point[2][0] = 1;
+    a.given.error[2] = 0.25, b.given.error[2] = 0.5;
+    a.given.error[0] = 100;
+    take(&a, zero, one);
+    take(&b, zero, one);
+    time_window w = {0, 1};
+    ck_assert(net_axis_cut(&a.n, &b.n, (vec3){{0, 0, 1}}, 0.2500001, &w));
+    ck_assert(!net_axis_cut(&a.n, &b.n, (vec3){{0, 0, 1}}, 0.2499999, &w));
+}
+END_TEST
+
+/* --- Axes ---------------------------------------------------------------------------------------------- */
+
+/* The least of n.(y - x) over all pairs of control points at time t, for n of length 1. */
+static double brute_gap(const netted *a, const netted *b, double t, vec3 n)
+{
+    double least = INFINITY;
+    const imp_net *f = &a->given, *g = &b->given;
+    for (uint32_t k = 0; k < (f->degree[0] + 1) * (f->degree[1] + 1); ++k)
+        for (uint32_t l = 0; l < (g->degree[0] + 1) * (g->degree[1] + 1); ++l) {
+            double gap = 0;
+            for (int i = 0; i < 3; ++i) {
+                const double tau = t - 0.5;
+                const double x = f->place[i] + f->point[i][k] +
+                                 tau * (f->drift[i] + (f->is_moving ? f->velocity[i][k] : 0));
+                const double y = g->place[i] + g->point[i][l] +
+                                 tau * (g->drift[i] + (g->is_moving ? g->velocity[i][l] : 0));
+                gap += n.x[i] * (y - x);
+            }
+            if (gap < least) least = gap;
+        }
+    return least / vec3_norm(n);
+}
+
+START_TEST(the_axis_found_shows_most_of_what_any_axis_shows)
+{
+    enum { AXES = 300 };
+    uint64_t state = suite_seed();
+    int found = 0, met = 0;
+    for (int k = 0; k < suite_times(200); ++k) {
+        netted a, b;
+        draw_net(&state, (uint32_t)(random_bits(&state) % 4), 3, 2, &a);
+        draw_net(&state, 3, (uint32_t)(random_bits(&state) % 4), 2, &b);
+        take(&a, zero, one);
+        take(&b, zero, one);
+        const double t = random_fraction(&state);
+        vec3 axis = {{1, 0, 0}};
+        const bool some = net_axis_seek(&a.n, &b.n, t, &axis);
+        const double shown = some ? brute_gap(&a, &b, t, axis) : 0;
+        found += some, met += !some;
+        for (int l = 0; l < AXES; ++l) {
+            const vec3 n = {{random_between(&state, -1, 1), random_between(&state, -1, 1),
+                             random_between(&state, -1, 1)}};
+            const double other = brute_gap(&a, &b, t, n);
+            ck_assert_msg(shown >= 0.69 * other || other < 1e-9, "%g, another axis %g", shown, other);
+        }
+    }
+    ck_assert_int_gt(found, suite_times(200) / 5);
+    ck_assert_int_gt(met, suite_times(200) / 20);
+}
+END_TEST
+
+SUITE_MAIN("nets", halves_of_nets_follow_the_patch_within_their_errors,
+           only_a_cut_in_the_exact_middle_halves_a_net, numbers_too_large_or_small_make_no_net,
+           nothing_is_near_outside_of_the_window_that_an_axis_leaves,
+           the_window_of_two_points_starts_when_they_are_near,
+           an_error_of_the_nets_counts_along_the_axis,
+           the_axis_found_shows_most_of_what_any_axis_shows)
