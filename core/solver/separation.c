@@ -98,7 +98,16 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
 
 /* --- Nets -------------------------------------------------------------------------------------- */
 
-static bool have_nets(const node *a, const node *b) { return a->net != NULL && b->net != NULL; }
+static bool is_curved(const net *f)
+{
+    return f->degree[0] > 1 || f->degree[1] > 1 || f->is_weighted;
+}
+
+/* Of two bilinear patches quadratics say all that hulls do. */
+static bool have_nets(const node *a, const node *b)
+{
+    return a->net != NULL && b->net != NULL && (is_curved(a->net) || is_curved(b->net));
+}
 
 /* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls show,
  * or any that can be found where the hulls meet. */
@@ -116,7 +125,8 @@ static bool cut_by_models(const node *a, const node *b, double clearance, time_w
     return true;
 }
 
-/* Hulls at the start of the window again and again, as long as that pays; then the quadratics, once. */
+/* Hulls at the start of the window again and again, as long as that pays; then the quadratics: once, but of
+ * flat nodes as ever, from both ends. */
 static bool shrink_by_nets(const node *a, const node *b, double clearance, time_window *window,
                            vec3 *axis)
 {
@@ -128,7 +138,8 @@ static bool shrink_by_nets(const node *a, const node *b, double clearance, time_
         if (found && !net_axis_cut(a, b, *axis, clearance, window)) return false;
         pays = window->hi - window->lo < TUNING_NET_SHRINKS * length;
     }
-    return cut_by_models(a, b, clearance, window, axis, found);
+    return are_flat(a, b) ? shrink(a, b, clearance, window, axis, NULL)
+                          : cut_by_models(a, b, clearance, window, axis, found);
 }
 
 bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
