@@ -10,8 +10,7 @@
 #include <impinge/plugin.h>
 
 /* A Bezier patch whose control points move linearly. All of its mathematics is in patch.h,
- * patch_rate.h, patch_include.h and
- * patch_net.h. */
+ * patch_rate.h, patch_include.h and patch_net.h. */
 
 enum { DEGREE, POINTS, WEIGHTS, VELOCITIES };
 

@@ -230,6 +230,22 @@ verbs() { "$IMPINGE" help | sed -n 's/^  \([a-z]*\) .*/\1/p'; }
     [ -z "$stderr" ]
 }
 
+@test "a signal while a slow reader blocks the pipe cuts no line" {
+    "$top_builddir"/tests/support/crowd_scene 60 1 >crowd.json
+    mkfifo pipe
+    env --default-signal=TERM "$IMPINGE" solve crowd.json --each --json >pipe &
+    local pid=$! status=0
+    exec {slow}<pipe
+    until [[ $(<"/proc/$pid/wchan") == *pipe_write ]]; do
+        kill -0 "$pid"
+        sleep 0.1
+    done
+    kill -TERM "$pid"
+    jq -es 'length == 60 * 59 / 2' <&"$slow"
+    wait "$pid" || status=$?
+    [ "$status" -eq 0 ]
+}
+
 @test "a long search shows on a terminal how far it came, and nowhere else" {
     command -v script >/dev/null || skip 'no script'
     run --separate-stderr "$IMPINGE" pair "${endless[@]}" --max-seconds 1.3
