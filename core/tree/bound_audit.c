@@ -82,8 +82,7 @@ static int coordinate_off_net(const net *f, double t, const double x[3], const d
             if (y < lo) lo = y;
             if (y > hi) hi = y;
         }
-        const double slack =
-            f->error[i] + eval_error[i] + NET_ROUNDING * UNIT_ROUNDOFF * size;
+        const double slack = f->error[i] + eval_error[i] + NET_ROUNDING * UNIT_ROUNDOFF * size;
         if (x[i] - base + slack < lo || x[i] - base - slack > hi) return i;
     }
     return -1;
@@ -96,9 +95,9 @@ static imp_code lie_of_net(const surface *s, const node *n, const double p[3], c
     return surface_fault(s, error,
                          "breaks its control net over u [%.17g, %.17g], v [%.17g, %.17g], "
                          "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g its %c is %.17g, "
-                         "which is not in the hull of the control points, give or take %.3g",
+                         "which is outside the hull of the control points by more than %.3g",
                          r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1],
-                         p[2], "xyz"[i], x[i], n->net->error[i]);
+                         p[2], "xyz"[i], x[i], n -> net -> error[i]);
 }
 
 static imp_code lie(const surface *s, const node *n, const double p[3], const double x[3], int i,

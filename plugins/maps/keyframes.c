@@ -88,12 +88,12 @@ static imp_status check_rotations(const imp_value *rotations, imp_create_error *
         const double *q = rotations->number + 4 * i, length = sqrt(quaternion_dot(q, q));
         if (!(fabs(length - 1) <= UNIT_SLACK))
             return imp_reject(why, ROTATIONS, (int64_t)i,
-                              "[%g,%g,%g,%g] has length %.9g; must be 1, give or take %g", q[0],
-                              q[1], q[2], q[3], length, UNIT_SLACK);
+                              "[%g,%g,%g,%g] has length %.9g; must be 1 within %g", q[0], q[1],
+                              q[2], q[3], length, UNIT_SLACK);
         if (i > 0 && !(fabs(quaternion_dot(q - 4, q)) >= NEAR_MIN))
             return imp_reject(why, ROTATIONS, (int64_t)i,
-                              "turned by %.0f degrees from the key before; must be up to 170, so "
-                              "that the way is clear: give keys between them",
+                              "turned by %.0f degrees from the key before; must be at most 170, or "
+                              "the direction of rotation is ambiguous: add a key between them",
                               acos(imp_smaller(fabs(quaternion_dot(q - 4, q)), 1)) * 360 /
                                   IMP_PI_LOWER);
     }
@@ -104,7 +104,8 @@ static imp_status check(const imp_value *values, imp_create_error *why)
 {
     imp_status status = check_times(&values[TIMES], why);
     if (!imp_is_given(&values[POSITIONS]) && !imp_is_given(&values[ROTATIONS]))
-        return imp_reject(why, -1, -1, "neither positions nor rotations are given; give some");
+        return imp_reject(why, -1, -1,
+                          "neither positions nor rotations are given; one of them is required");
     if (status == IMP_OK) status = check_count(values, POSITIONS, why);
     if (status == IMP_OK) status = check_count(values, ROTATIONS, why);
     if (status == IMP_OK) status = check_rotations(&values[ROTATIONS], why);

@@ -107,8 +107,8 @@ static imp_status check_rotations(const imp_value *rotations, imp_create_error *
         const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
         if (!(fabs(length - 1) <= UNIT_SLACK))
             return imp_reject(why, ROTATIONS, (int64_t)i,
-                              "[%g,%g,%g,%g] has length %.9g; must be 1, give or take %g", q[0],
-                              q[1], q[2], q[3], length, UNIT_SLACK);
+                              "[%g,%g,%g,%g] has length %.9g; must be 1 within %g", q[0], q[1],
+                              q[2], q[3], length, UNIT_SLACK);
     }
     return IMP_OK;
 }
