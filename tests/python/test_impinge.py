@@ -188,6 +188,9 @@ def test_an_exception_of_a_sink_goes_on_to_the_caller():
 
 
 def test_an_interrupt_ends_a_search():
+    # Where the tests run in the background Python finds SIGINT ignored, and leaves it so.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+
     def sink(progress):
         signal.raise_signal(signal.SIGINT)
 
@@ -197,6 +200,7 @@ def test_an_interrupt_ends_a_search():
     with pytest.raises(KeyboardInterrupt):  # also while no sink is called
         threading.Thread(target=lambda: signal.pthread_kill(thread, signal.SIGINT)).start()
         endless().solve(gamma=1e-9, max_bytes=1 << 40)  # nothing else ends it
+    signal.signal(signal.SIGINT, before)
 
 
 def test_a_budget_ends_a_search_with_what_is_proved():
