@@ -160,7 +160,7 @@ IMP_QUAD_INLINE imp_quad along(const double *x, int stride, const imp_quad n[3])
 }
 
 IMP_QUAD_INLINE window_ends lowest_heights(const net *f, const time_window *w, const imp_quad n[3],
-                                    int stride)
+                                           int stride)
 {
     const imp_quad t0 = imp_quad_all(w->lo - f->time), t1 = imp_quad_all(w->hi - f->time);
     imp_quad early = imp_quad_all(INFINITY), late = early;
@@ -178,7 +178,8 @@ IMP_QUAD_INLINE window_ends lowest_heights(const net *f, const time_window *w, c
 }
 
 /* Unrolled for bicubic patches. */
-IMP_QUAD_INLINE window_ends lowest_heights_of(const net *f, const time_window *w, vec3 axis, double sign)
+IMP_QUAD_INLINE window_ends lowest_heights_of(const net *f, const time_window *w, vec3 axis,
+                                              double sign)
 {
     const imp_quad n[3] = {imp_quad_all(sign * axis.x[0]), imp_quad_all(sign * axis.x[1]),
                            imp_quad_all(sign * axis.x[2])};
@@ -187,14 +188,15 @@ IMP_QUAD_INLINE window_ends lowest_heights_of(const net *f, const time_window *w
 
 /* Cuts the window to where the line from g0 at its start to g1 at its end is not above `limit`. In units
  * of u: the two differences and the quotient 3 of what is cut; its product with the length, itself
- * rounded, 2; the sum 1 of |t|. */
+ * rounded, 2; the sum 1 of |t|. WINDOW_TINY covers what underflows. */
 enum { CUT_ROUNDING = 8 };
 _Static_assert(3 + 2 + 1 <= CUT_ROUNDING, "rounding of a cut");
 
 static bool line_cut(double g0, double g1, double limit, time_window *w)
 {
     const double length = w->hi - w->lo;
-    const double slack = CUT_ROUNDING * UNIT_ROUNDOFF * (fabs(w->lo) + fabs(w->hi) + length);
+    const double slack =
+        CUT_ROUNDING * UNIT_ROUNDOFF * (fabs(w->lo) + fabs(w->hi) + length) + WINDOW_TINY;
     const bool early = g0 > limit, late = g1 > limit;
     if (early && late) return false;
     const double share = (g0 - limit) / (g0 - g1), at = w->lo + length * share;
@@ -224,10 +226,8 @@ IMP_QUAD_INLINE bool cut_along(const node *a, const node *b, vec3 axis, double c
                          slack_upper(a->net, b->net, n, early > late ? early : late);
     const window_ends low = lowest_heights_of(b->net, window, n, 1);
     const window_ends high = lowest_heights_of(a->net, window, n, -1);
-    const double g0 =
-        low.lo + high.lo + vec3_dot(n, places_apart(a->net, b->net, window->lo));
-    const double g1 =
-        low.hi + high.hi + vec3_dot(n, places_apart(a->net, b->net, window->hi));
+    const double g0 = low.lo + high.lo + vec3_dot(n, places_apart(a->net, b->net, window->lo));
+    const double g1 = low.hi + high.hi + vec3_dot(n, places_apart(a->net, b->net, window->hi));
     if (!(g0 < INFINITY && g1 < INFINITY && limit < INFINITY)) return true;
     return line_cut(g0, g1, padded_upper(limit, 4), window);
 }

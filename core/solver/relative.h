@@ -11,6 +11,9 @@ typedef struct time_window {
     double lo, hi; /* lo <= hi */
 } time_window;
 
+/* More than what two products that underflow are off by: windows are cut with that much to spare. */
+#define WINDOW_TINY 0x1p-1070
+
 /* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v that
  * holds at its middle, and how its slopes turn with w. x, y, z and a 0, here and below. */
 typedef struct slice {

@@ -11,13 +11,13 @@
 #include "core/solver/tuning.h"
 
 /* Cuts the window to the part that `s` leaves, rounded outward. In units of u (|mid| + half): half w
- * is off by 1, its sum with mid by 1, that with the slack by 1. */
+ * is off by 1, its sum with mid by 1, that with the slack by 1. WINDOW_TINY covers what underflows. */
 enum { WINDOW_ROUNDING = 4 };
 _Static_assert(1 + 1 + 1 <= WINDOW_ROUNDING, "rounding of a window");
 
 static void window_cut(time_window *window, const relative *r, const w_range *s)
 {
-    const double slack = (fabs(r->mid) + r->half) * (WINDOW_ROUNDING * UNIT_ROUNDOFF);
+    const double slack = (fabs(r->mid) + r->half) * (WINDOW_ROUNDING * UNIT_ROUNDOFF) + WINDOW_TINY;
     const double lo = r->mid + r->half * s->lo - slack, hi = r->mid + r->half * s->hi + slack;
     if (s->lo > -1 && lo > window->lo) window->lo = lo < window->hi ? lo : window->hi;
     if (s->hi < 1 && hi < window->hi) window->hi = hi > window->lo ? hi : window->lo;

@@ -31,14 +31,16 @@ static double greatest(const double *x, int points)
     return most;
 }
 
-/* Products of two numbers, and of a number and two weights, stay within a double. */
+/* Products of two numbers, and of a number and two weights, stay within a double; so do those of an axis,
+ * a velocity and a time, and an underflow of the first two times a time is far below 2^-490. */
 #define NET_LARGE 0x1p300
 
-static bool is_moderate(const imp_net *given, const net *n, int points)
+static bool is_moderate(const imp_net *given, const net *n, const imp_region *region, int points)
 {
-    bool fine = true;
+    bool fine = fabs(region->c[PARAMETER_T]) + region->d[PARAMETER_T] < NET_LARGE;
     for (int i = 0; i < 3; ++i)
         fine = fine && fabs(given->place[i]) < NET_LARGE && fabs(given->drift[i]) < NET_LARGE &&
+               (!n->is_moving || greatest(given->velocity[i], points) < NET_LARGE) &&
                n->most[i] < NET_LARGE && given->error[i] < NET_LARGE;
     for (int k = 0; k < points && given->is_weighted; ++k)
         fine = fine && given->weight[k] < NET_LARGE && given->weight[k] > 1 / NET_LARGE;
@@ -64,9 +66,10 @@ bool net_take(net *n, const imp_net *given, const imp_region *region)
             n->most[i] = padded_upper(
                 n->most[i] + region->d[PARAMETER_T] * greatest(given->velocity[i], points), 4);
     }
-    if (!is_moderate(given, n, points)) return false;
+    if (!is_moderate(given, n, region, points)) return false;
     double *to = n->numbers;
-    for (int i = 0; i < 3; ++i, to += n->stride) take_column(to, n->stride, given->point[i], points);
+    for (int i = 0; i < 3; ++i, to += n->stride)
+        take_column(to, n->stride, given->point[i], points);
     for (int i = 0; i < 3 && n->is_moving; ++i, to += n->stride)
         take_column(to, n->stride, given->velocity[i], points);
     if (n->is_weighted) take_column(to, n->stride, given->weight, points);
@@ -103,7 +106,8 @@ IMP_QUAD_INLINE void halve_rows(double *x, int row, int side)
     const imp_quad p = half * (r0 + r1), q = half * (r1 + r2), r = half * (r2 + r3);
     const imp_quad pq = half * (p + q), qr = half * (q + r), mid = half * (pq + qr);
     if (side == 0) {
-        imp_quad_store(x + row, p), imp_quad_store(x + 2 * row, pq), imp_quad_store(x + 3 * row, mid);
+        imp_quad_store(x + row, p), imp_quad_store(x + 2 * row, pq),
+            imp_quad_store(x + 3 * row, mid);
     } else {
         imp_quad_store(x, mid), imp_quad_store(x + row, qr), imp_quad_store(x + 2 * row, r);
     }
@@ -192,6 +196,6 @@ void net_halve(const net *p, parameter j, int side, net *half)
     else
         halve_bicubic(half->numbers, columns, j, side);
     for (int i = 0; i < 3; ++i)
-        half->error[i] = sum_upper(p->error[i], halving_units(p, n) * UNIT_ROUNDOFF * p->most[i] +
-                                                    0x1p-1000);
+        half->error[i] =
+            sum_upper(p->error[i], halving_units(p, n) * UNIT_ROUNDOFF * p->most[i] + 0x1p-1000);
 }

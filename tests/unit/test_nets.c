@@ -136,6 +136,15 @@ START_TEST(numbers_too_large_or_small_make_no_net)
     ck_assert(!net_take(net_in(&a.room), &a.given, &a.n.region));
     a.given.weight[8] = 1;
     ck_assert(net_take(net_in(&a.room), &a.given, &a.n.region));
+    a.given.is_moving = 1;
+    a.given.velocity[2][8] =
+        1e300; /* at a single time: infinite along an axis, times a time of 0 */
+    a.n.region = region_make(zero, (const double[3]){1, 1, 0});
+    ck_assert(!net_take(net_in(&a.room), &a.given, &a.n.region));
+    a.given.velocity[2][8] = 0;
+    a.n.region =
+        region_make(zero, (const double[3]){1, 1, 1e300}); /* what underflows is multiplied */
+    ck_assert(!net_take(net_in(&a.room), &a.given, &a.n.region));
 }
 END_TEST
 
@@ -270,7 +279,8 @@ START_TEST(the_axis_found_shows_most_of_what_any_axis_shows)
             const vec3 n = {{random_between(&state, -1, 1), random_between(&state, -1, 1),
                              random_between(&state, -1, 1)}};
             const double other = brute_gap(&a, &b, t, n);
-            ck_assert_msg(shown >= 0.69 * other || other < 1e-9, "%g, another axis %g", shown, other);
+            ck_assert_msg(shown >= 0.69 * other || other < 1e-9, "%g, another axis %g", shown,
+                          other);
         }
     }
     ck_assert_int_gt(found, suite_times(200) / 5);
