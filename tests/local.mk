@@ -136,10 +136,10 @@ bats_suites = \
 
 # Tests of the sources, the scripts and the installation.
 script_suites = \
-    tests/cli/preparation.bats \
-    tests/cli/sdk.bats \
+    tests/cli/install.bats \
     tests/cli/structure.bats \
-    tests/cli/install.bats
+    tests/cli/sdk.bats \
+    tests/cli/preparation.bats
 
 # Plugins for the tests of the loader, mostly faulty: tests/plugins/NAME.la is built from
 # tests/plugins/NAME.c. Never installed; -rpath makes libtool build a shared object all the same.
@@ -518,6 +518,12 @@ TESTS =
 without_check =
 without_mpfi =
 without_bats =
+# The longest first, so that no processor waits for them at the end.
+if HAVE_BATS
+TESTS += $(script_suites) $(bats_suites)
+else
+without_bats += $(bats_suites) $(script_suites)
+endif
 if HAVE_CHECK
 check_PROGRAMS += $(check_suites)
 TESTS += $(check_suites)
@@ -529,11 +535,6 @@ without_mpfi += $(mpfi_suites)
 endif
 else
 without_check += $(check_suites) $(mpfi_suites)
-endif
-if HAVE_BATS
-TESTS += $(bats_suites) $(script_suites)
-else
-without_bats += $(bats_suites) $(script_suites)
 endif
 
 check-local:
