@@ -22,7 +22,7 @@ static bool append(mesh_text *text, size_t *used, const char *from, size_t lengt
     return true;
 }
 
-/* One line as it stands in the file, without its end: "\n", "\r\n" or "\r". */
+/* One line of the file, without its end: "\n", "\r\n" or "\r". */
 static const char *take_line(mesh_text *text, size_t *length)
 {
     const char *from = text->at, *stop = from;

@@ -161,7 +161,7 @@ static exit_status open_output(ranked_batch *r, const char *path)
                                                         "%s: cannot be written", path));
 }
 
-/* Failures are told once, for all ranks. */
+/* Failures are reported once, for all ranks. */
 static exit_status sum_up(ranked_batch *r)
 {
     int64_t total[2] = {(int64_t)r->b.failures, (int64_t)r->b.answered}, lines = (int64_t)r->b.line;
