@@ -153,6 +153,7 @@ plugins_wave_la_LIBADD = plugins/libcommon.la
 # Patches of control points, and what is built of them.
 noinst_LTLIBRARIES += plugins/libpatch.la
 plugins_libpatch_la_SOURCES = \
+    plugins/patch/cell_net.c plugins/patch/cell_net.h \
     plugins/patch/curve.c plugins/patch/curve.h \
     plugins/patch/ffd_model.c plugins/patch/ffd_model.h \
     plugins/patch/knots.c plugins/patch/knots.h \

@@ -21,6 +21,14 @@
  * at most (4n + 1) 2^-53 max|P| (1 + 2^-40): 3n as above, one rounding of the product, at most n of
  * the sums. Averages of averages add up: (4n + 4m + 2) for a patch of degrees n, m. */
 
+/* n over k, exactly as long as n times it is below 2^53. */
+static inline double bernstein_choose(int n, int k)
+{
+    double ways = 1;
+    for (int i = 0; i < k; ++i) ways = ways * (n - i) / (i + 1);
+    return ways;
+}
+
 /* One more argument w: n + 1 weights become n + 2. */
 static inline void bernstein_extend(double *weight, int n, double w)
 {

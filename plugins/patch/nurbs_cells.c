@@ -129,13 +129,8 @@ bool nurbs_make_cells(const nurbs_instance *f)
 
 /* --- Inside one cell --- */
 
-#define CELL_SLIP 0x1p-51 /* more than (u - k) / h is off by: three roundings, |x| <= 1 */
-
-/* A region of u or v as one of x or y, which surely holds it; answers at least |x' - x| where x' =
- * c' + d' s stands for x = (c + d s - k) / h. (More than rounding only where u is much greater than
- * h: its own resolution is coarse there.) */
-static double cell_localize(const knots *k, size_t span, const imp_region *region, int side,
-                            imp_region *local)
+double cell_localize(const knots *k, size_t span, const imp_region *region, int side,
+                     imp_region *local)
 {
     const double from = k->ends[span], h = k->ends[span + 1] - from;
     const double lo = (region->lo[side] - from) / h - CELL_SLIP;
@@ -147,17 +142,20 @@ static double cell_localize(const knots *k, size_t span, const imp_region *regio
     return fabs((region->c[side] - from) / h - c) + fabs(region->d[side] / h - d) + 2 * CELL_SLIP;
 }
 
-/* From a model over x and y to one over u and v. Where both x' and x are in the cell, f differs by
- * at most the gauge times their distance. */
+double cell_slip(const cell *c, int axis, double late, const double shift[2])
+{
+    double slip = 0;
+    for (int side = 0; side < 2; ++side)
+        slip += shift[side] * (c->gauge[side][axis] + late * c->gauge_motion[side][axis]);
+    return slip * SLACK + IMP_TINY;
+}
+
+/* From a model over x and y to one over u and v. */
 static void cell_globalize(const cell *c, int axis, double late, const double h[2],
                            const double shift[2], imp_model *g)
 {
-    double slip = 0;
-    for (int side = 0; side < 2; ++side) {
-        slip += shift[side] * (c->gauge[side][axis] + late * c->gauge_motion[side][axis]);
-        g->rate[side] = g->rate[side] / h[side] * SLACK;
-    }
-    slip = slip * SLACK + IMP_TINY;
+    const double slip = cell_slip(c, axis, late, shift);
+    for (int side = 0; side < 2; ++side) g->rate[side] = g->rate[side] / h[side] * SLACK;
     g->e = imp_sum_up(g->e + slip);
     g->lo = imp_sum_down(g->lo - slip);
     g->hi = imp_sum_up(g->hi + slip);

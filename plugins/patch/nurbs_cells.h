@@ -44,6 +44,18 @@ static inline const cell *nurbs_cell(const nurbs_instance *f, size_t i, size_t j
 /* All cells; their memory is there. False: no memory for what is needed meanwhile. */
 bool nurbs_make_cells(const nurbs_instance *f);
 
+#define CELL_SLIP 0x1p-51 /* more than (u - k) / h is off by: three roundings, |x| <= 1 */
+
+/* A region of u or v as one of x or y, which surely holds it; answers at least |x' - x| where x' =
+ * c' + d' s stands for x = (c + d s - k) / h. (More than rounding only where u is much greater than
+ * h: its own resolution is coarse there.) */
+double cell_localize(const knots *k, size_t span, const imp_region *region, int side,
+                     imp_region *local);
+
+/* Where both x' and x are in the cell, f differs by at most the gauge times their distance: at least that,
+ * in one coordinate, for |t| <= late. */
+double cell_slip(const cell *c, int axis, double late, const double shift[2]);
+
 /* As imp_surface_type.include, for a region inside cell i, j. */
 imp_status cell_include(const nurbs_instance *f, size_t i, size_t j, const imp_region *region,
                         imp_model model[3]);

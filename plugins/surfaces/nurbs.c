@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "plugins/common/publish.h"
+#include "plugins/patch/cell_net.h"
 #include "plugins/patch/nurbs_cells.h"
 #include "plugins/patch/parameters.h"
 
@@ -273,8 +274,16 @@ static imp_status nurbs_rate(const void *self, const imp_region *region, imp_rat
     return status;
 }
 
+static imp_status nurbs_net(const void *self, const imp_region *region, imp_net *net)
+{
+    const nurbs_instance *f = self;
+    if (!nurbs_has(f, region->lo) || !nurbs_has(f, region->hi)) return IMP_UNBOUNDED;
+    return nurbs_cell_net(f, region, net);
+}
+
 static const imp_surface_type nurbs = {
     IMP_SURFACE_FIELDS_OF("nurbs", nurbs, nurbs, nurbs_destroy),
+    .net = nurbs_net,
     .summary = "NURBS surface of any degree up to 20, rational or not, moving linearly",
     .equation =
         "sum_ij N_i(u) N_j(v) w_ij (points_ij + t velocities_ij) / sum_ij N_i(u) N_j(v) w_ij, "

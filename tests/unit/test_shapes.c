@@ -223,6 +223,35 @@ START_TEST(a_rational_circle_of_four_arcs_is_round)
 }
 END_TEST
 
+/* A region inside a cell has the net that a Bezier patch has there; one that a knot crosses has none. */
+START_TEST(a_nurbs_has_nets_between_its_knots)
+{
+    const char *points = "\"points\": [@12[?,?,?]], \"weights\": [@12+], \"velocities\": [@12[?,?,?]]";
+    char text[300];
+    snprintf(text, sizeof text, "{\"degree\": [3,2], %s}", points);
+    instance bezier = shape("bezier", text);
+    snprintf(text, sizeof text, "{\"degree\": [3,2], %s, \"knots_u\": [0,0,0,0,1,1,1,1], \"knots_v\": [0,0,0,1,1,1]}", points);
+    instance nurbs = shape("nurbs", text);
+    const imp_region inside = region_make((double[3]){0.2, 0.5, 0.1}, (double[3]){0.4, 0.9, 0.3});
+    imp_net f = {.degree = {0, 0}}, g = f;
+    ck_assert_int_eq(bezier.surface->net(bezier.self, &inside, &f), IMP_OK);
+    ck_assert_int_eq(nurbs.surface->net(nurbs.self, &inside, &g), IMP_OK);
+    for (int i = 0; i < 3; ++i) {
+        ck_assert_double_le(g.error[i], 1e-11);
+        for (int k = 0; k < 12; ++k) {
+            ck_assert_double_eq_tol(f.place[i] + f.point[i][k], g.place[i] + g.point[i][k], 1e-11);
+            ck_assert_double_eq_tol(f.weight[k], g.weight[k], 1e-11);
+        }
+    }
+    instance_free(&bezier);
+    instance_free(&nurbs);
+    nurbs = shape("nurbs", "{}"); /* a knot at 1 */
+    const imp_region crossed = region_make((double[3]){0.5, 0, 0}, (double[3]){1.5, 1, 1});
+    ck_assert_int_eq(nurbs.surface->net(nurbs.self, &crossed, &g), IMP_UNBOUNDED);
+    instance_free(&nurbs);
+}
+END_TEST
+
 /* A region that a knot crosses is not left with a box: halved, it loses three quarters of its
  * remainder, as the curvature jumps there; and seven eighths where even that is continuous. */
 static double remainder_across(const char *knots, int degree, int points, double half)
@@ -365,7 +394,7 @@ SUITE_MAIN("shapes", moving_points_segments_and_planes_are_followed_exactly,
            exponents_beyond_two_are_refused_with_the_reason,
            a_rational_quarter_of_a_circle_turns_into_half_a_sphere,
            a_sweep_is_the_sum_of_its_curves, a_nurbs_without_inner_knots_is_a_bezier_patch,
-           a_rational_circle_of_four_arcs_is_round,
+           a_rational_circle_of_four_arcs_is_round, a_nurbs_has_nets_between_its_knots,
            bounds_across_a_knot_tighten_as_fast_as_the_surface_is_smooth,
            a_surface_of_many_knots_is_bounded_as_a_whole_and_in_the_small,
            a_falling_vertex_meets_a_face, an_edge_meets_an_edge,
