@@ -6,6 +6,7 @@
 plugin_LTLIBRARIES = \
     plugins/bend.la \
     plugins/bezier.la \
+    plugins/bezier-triangle.la \
     plugins/cone.la \
     plugins/cylinder.la \
     plugins/ellipsoid.la \
@@ -50,6 +51,8 @@ plugins_bend_la_SOURCES = plugins/maps/bend.c
 plugins_bend_la_LDFLAGS = $(plugin_ldflags)
 plugins_bezier_la_SOURCES = plugins/surfaces/bezier.c
 plugins_bezier_la_LDFLAGS = $(plugin_ldflags)
+plugins_bezier_triangle_la_SOURCES = plugins/surfaces/bezier-triangle.c
+plugins_bezier_triangle_la_LDFLAGS = $(plugin_ldflags)
 plugins_cone_la_SOURCES = plugins/surfaces/cone.c
 plugins_cone_la_LDFLAGS = $(plugin_ldflags)
 plugins_cylinder_la_SOURCES = plugins/surfaces/cylinder.c
@@ -164,9 +167,11 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/patch_net.c plugins/patch/patch_net.h \
     plugins/patch/patch_rate.c plugins/patch/patch_rate.h \
     plugins/patch/patch_series.c plugins/patch/patch_series.h \
-    plugins/patch/pieces.c plugins/patch/pieces.h
+    plugins/patch/pieces.c plugins/patch/pieces.h \
+    plugins/patch/triangle.c plugins/patch/triangle.h
 plugins_libpatch_la_LDFLAGS =
 plugins_bezier_la_LIBADD = plugins/libpatch.la
+plugins_bezier_triangle_la_LIBADD = plugins/libpatch.la
 plugins_ffd_la_LIBADD = plugins/libpatch.la
 plugins_nurbs_la_LIBADD = plugins/libpatch.la
 plugins_product_la_LIBADD = plugins/libpatch.la

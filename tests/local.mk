@@ -111,6 +111,7 @@ tests_unit_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 # Command-line tests; the environment below tells them where things are.
 bats_suites = \
     tests/cli/bench.bats \
+    tests/cli/bezier_triangle.bats \
     tests/cli/check.bats \
     tests/cli/cli.bats \
     tests/cli/clearance.bats \

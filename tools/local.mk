@@ -179,6 +179,7 @@ pkgdata_DATA = \
     tools/data/bolt.json \
     tools/data/bowl.json \
     tools/data/page.html \
+    tools/data/pebble.json \
     tools/data/recoil.json \
     tools/data/teapot.json \
     tools/schema/bench.schema.json \

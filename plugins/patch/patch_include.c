@@ -259,21 +259,23 @@ imp_status patch_include(const patch *f, const imp_region *region, imp_model mod
 
 /* --- A whole patch --- */
 
-/* NULL: no memory. free() it. */
+bool patch_finish(patch *f)
+{
+    double *work = malloc(patch_points(f->degree) * (size_t)f->lanes * sizeof *work);
+    if (work == NULL) return false;
+    patch_set_differences(f, 0);
+    patch_set_differences(f, 1);
+    patch_set_series(f, work);
+    free(work);
+    return true;
+}
+
 patch *patch_new(const patch_data *data)
 {
     patch *f = patch_allocate(data);
     if (f == NULL) return NULL;
-    double *work = malloc(patch_points(f->degree) * (size_t)f->lanes * sizeof *work);
-    if (work != NULL) {
-        patch_set_net(f, data);
-        patch_set_differences(f, 0);
-        patch_set_differences(f, 1);
-        patch_set_series(f, work);
-    } else {
-        free(f);
-        f = NULL;
-    }
-    free(work);
-    return f;
+    patch_set_net(f, data);
+    if (patch_finish(f)) return f;
+    free(f);
+    return NULL;
 }

@@ -18,6 +18,9 @@
 /* As imp_surface_type.include. */
 imp_status patch_include(const patch *f, const imp_region *region, imp_model model[3]);
 
+/* Differences and series, from the net. False: no memory. */
+bool patch_finish(patch *f);
+
 /* A whole patch. NULL: no memory. free() it. */
 patch *patch_new(const patch_data *data);
 

@@ -125,6 +125,38 @@ void mesh_oracle(const type_arguments *arguments, const number p[3], number x[3]
     triangle_of(arguments, k, p, x);
 }
 
+static number factorial(size_t n)
+{
+    double product = 1;
+    for (size_t k = 2; k <= n; ++k) product *= (double)k;
+    return num(product);
+}
+
+/* All (n-k, k-j, j) in the order of the control points, k outside. */
+void bezier_triangle_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    const size_t n = (size_t)argument(arguments, "degree")->number[0];
+    const imp_value *faces = argument(arguments, "faces"), *heavy = argument(arguments, "weights");
+    const number a = num_sub(num(1), p[0]), b = num_mul(p[0], num_sub(num(1), p[1]));
+    const number c = num_mul(p[0], p[1]);
+    number sum[3] = {num(0), num(0), num(0)}, total = num(0);
+    size_t count = 0;
+    for (size_t k = 0; k <= n; ++k)
+        for (size_t j = 0; j <= k; ++j, ++count) {
+            const size_t from = faces->count ? (size_t)faces->number[count] : count;
+            const unsigned i[3] = {(unsigned)(n - k), (unsigned)(k - j), (unsigned)j};
+            number weight = factorial(n);
+            for (int l = 0; l < 3; ++l) weight = num_div(weight, factorial(i[l]));
+            weight = num_mul(weight, num_mul(num_power(a, i[0]), num_power(b, i[1])));
+            weight = num_mul(weight, num_power(c, i[2]));
+            if (heavy->count) weight = num_mul(weight, num(heavy->number[from]));
+            total = num_add(total, weight);
+            for (size_t axis = 0; axis < 3; ++axis)
+                sum[axis] = num_add(sum[axis], num_mul(weight, corner(arguments, from, axis, p[2])));
+        }
+    for (int axis = 0; axis < 3; ++axis) x[axis] = num_div(sum[axis], total);
+}
+
 /* --- Superquadric ------------------------------------------------------------------------- */
 
 /* |s|^p with |s| <= 1, p = 2 / exponent. */

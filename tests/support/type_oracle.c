@@ -219,6 +219,20 @@ const type_oracle oracles[] = {
           "{\"degree\": [3,3], \"points\": [@16[?,?,0.3]], \"velocities\": [@16[?,1e3,0.1]]}",
           "{\"degree\": [1,2], \"points\": [[1,0,0],[1,1,0],[0,1,0],[1,0,1],[1,1,1],[0,1,1]],"
           " \"weights\": [1,0.7071067811865476,1,1e-9,1e9,1]}"}},
+    {.type = "bezier-triangle", /* its first piece */
+     .surface = bezier_triangle_oracle,
+     .instances =
+         {"{}", "{\"degree\": 1, \"points\": [@3[?,?,?]], \"velocities\": [@3[?,?,?]]}",
+          "{\"degree\": 2, \"points\": [@6[?,?,?]], \"weights\": [@6+]}",
+          "{\"degree\": 3, \"points\": [@10[?,?,?]], \"velocities\": [@10[?,?,?]]}",
+          "{\"degree\": 3, \"points\": [@10[?,?,?]], \"weights\": [@10+],"
+          " \"velocities\": [@10[?,?,?]]}",
+          "{\"degree\": 5, \"points\": [@21[1e8,?,?]], \"velocities\": [@21[?,1e3,0]]}",
+          "{\"degree\": 10, \"points\": [@66[?,?,?]], \"weights\": [@66+],"
+          " \"velocities\": [@66[?,?,?]]}",
+          "{\"degree\": 2, \"points\": [@7[?,?,?]], \"faces\": [[6,1,3,0,2,5],[0,1,2,3,4,5]],"
+          " \"weights\": [@7+], \"velocities\": [@7[?,?,?]]}",
+          "{\"degree\": 4, \"points\": [@15[?,?,1]], \"weights\": [1,@13+,1e9]}"}},
     {.type = "ellipsoid",
      .surface = ellipsoid_oracle,
      .instances = {"{}", "{\"radii\": [+,+,+], \"center\": [?,?,?]}",

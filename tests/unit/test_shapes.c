@@ -83,6 +83,129 @@ START_TEST(a_collapsed_edge_is_one_point)
 }
 END_TEST
 
+/* --- Bezier triangles ------------------------------------------------------------------------- */
+
+static void expect_same_points(const instance *a, const instance *b, double most)
+{
+    for (int k = 0; k <= 100; ++k) {
+        double x[3], y[3];
+        point_of(a, k % 11 / 10., k / 11 / 10., 0.3, x);
+        point_of(b, k % 11 / 10., k / 11 / 10., 0.3, y);
+        for (int i = 0; i < 3; ++i) ck_assert_double_eq_tol(x[i], y[i], most);
+    }
+}
+
+START_TEST(a_bezier_triangle_of_degree_1_is_a_triangle)
+{
+    const char *corners = "\"points\": [@3[?,?,?]], \"velocities\": [@3[?,?,?]]}";
+    char text[120];
+    snprintf(text, sizeof text, "{\"degree\": 1, %s", corners);
+    instance bezier = shape("bezier-triangle", text);
+    snprintf(text, sizeof text, "{%s", corners);
+    instance plain = shape("triangle", text);
+    expect_same_points(&bezier, &plain, 1e-14);
+    instance_free(&bezier);
+    instance_free(&plain);
+}
+END_TEST
+
+/* The polar form of x^2 + y^2 is the dot product: control points above corners and edges' middles. */
+START_TEST(a_quadratic_triangle_holds_a_paraboloid)
+{
+    instance made =
+        shape("bezier-triangle",
+              "{\"degree\": 2, \"points\": [[-1,-1,2],[0,-0.5,-1],[-0.5,1,-3],[1,0,1],[0.5,1.5,0],[0,3,9]]}");
+    for (int k = 0; k <= 100; ++k) {
+        double x[3];
+        point_of(&made, k % 11 / 10., k / 11 / 10., 0, x);
+        ck_assert_double_eq_tol(x[2], x[0] * x[0] + x[1] * x[1], 1e-14);
+    }
+    instance_free(&made);
+}
+END_TEST
+
+/* G. Farin, B. Piper, A. Worsey, The octant of a sphere as a non-degenerate triangular Bezier patch, 1987.
+ * As JSON, or as a pipeline. */
+static const char *octant_text(bool as_pipeline)
+{
+    static char text[1200];
+    const double a = (sqrt(3) - 1) / sqrt(3), b = (sqrt(3) + 1) / (2 * sqrt(3));
+    const double c = 1 - (5 - sqrt(2)) * (7 - sqrt(3)) / 46;
+    const double far = 4 * sqrt(3) * (sqrt(3) - 1), near = 3 * sqrt(2);
+    const double inner = sqrt(2. / 3) * (3 + 2 * sqrt(2) - sqrt(3));
+    const double p[15][4] = {{0, 0, 1, far},   {a, 0, 1, near}, {0, a, 1, near}, {b, 0, b, 4},
+                             {c, c, 1, inner}, {0, b, b, 4},    {1, 0, a, near}, {1, c, c, inner},
+                             {c, 1, c, inner}, {0, 1, a, near}, {1, 0, 0, far},  {1, a, 0, near},
+                             {b, b, 0, 4},     {a, 1, 0, near}, {0, 1, 0, far}};
+    FILE *out = fmemopen(text, sizeof text, "w");
+    fputs(as_pipeline ? "bezier-triangle degree=4 points=[" : "{\"degree\": 4, \"points\": [", out);
+    for (int k = 0; k < 15; ++k)
+        fprintf(out, "%s[%.17g,%.17g,%.17g]", k > 0 ? "," : "", p[k][0], p[k][1], p[k][2]);
+    fputs(as_pipeline ? "] weights=[" : "], \"weights\": [", out);
+    for (int k = 0; k < 15; ++k) fprintf(out, "%s%.17g", k > 0 ? "," : "", p[k][3]);
+    fputs(as_pipeline ? "]" : "]}", out);
+    ck_assert_int_eq(fclose(out), 0);
+    return text;
+}
+
+START_TEST(a_rational_quartic_triangle_is_an_octant_of_a_sphere)
+{
+    instance made = shape("bezier-triangle", octant_text(false));
+    for (int k = 0; k <= 100; ++k) {
+        double x[3];
+        point_of(&made, k % 11 / 10., k / 11 / 10., 0, x);
+        ck_assert_double_eq_tol(x[0] * x[0] + x[1] * x[1] + x[2] * x[2], 1, 4e-15);
+    }
+    instance_free(&made);
+}
+END_TEST
+
+START_TEST(each_face_is_a_triangle_of_its_own_points)
+{
+    instance many = shape("bezier-triangle",
+                          "{\"degree\": 1, \"points\": [[0,0,0],[1,0,0],[0,1,0],[5,5,5]],"
+                          " \"velocities\": [@4[0,0,1]], \"faces\": [[0,1,2],[1,3,2]]}");
+    instance one = shape("bezier-triangle",
+                         "{\"degree\": 1, \"points\": [[1,0,0],[5,5,5],[0,1,0]],"
+                         " \"velocities\": [@3[0,0,1]]}");
+    ck_assert_uint_eq(many.surface->piece_count(many.self), 2);
+    ck_assert_uint_eq(one.surface->piece_count(one.self), 1);
+    for (int k = 0; k <= 100; ++k) {
+        const double p[3] = {k % 11 / 10., k / 11 / 10., 0.3};
+        double x[3], y[3];
+        point_of(&one, p[0], p[1], p[2], x);
+        const void *second = many.surface->piece(many.self, 1);
+        ck_assert_int_eq(many.surface->eval(second, 1, p, y, NULL), IMP_OK);
+        ck_assert_mem_eq(x, y, sizeof x);
+    }
+    instance_free(&many);
+    instance_free(&one);
+}
+END_TEST
+
+/* Halved toward the corner into which u = 0 collapses, a triangle loses seven eighths of its remainder
+ * each time, and its net follows it. */
+START_TEST(bounds_shrink_at_the_collapsed_corner_as_anywhere)
+{
+    instance made = shape("bezier-triangle", "{\"degree\": 3, \"points\": [@10[?,?,?]]}");
+    double last = 0;
+    for (double size = 0x1p-6; size > 0x1p-10; size /= 2) {
+        imp_model model[3];
+        imp_net net = {.degree = {0, 0}};
+        const imp_region region =
+            region_make((double[3]){0, 0, 0}, (double[3]){size, 1, 0});
+        models_of(&made, region.lo, region.hi, model);
+        const double e = fmax(model[0].e, fmax(model[1].e, model[2].e));
+        ck_assert(last == 0 || e < 0.3 * last);
+        last = e;
+        ck_assert_int_eq(made.surface->net(made.self, &region, &net), IMP_OK);
+        for (int k = 0; k < 16; ++k)
+            ck_assert_double_le(fabs(net.place[0] + net.point[0][k] - model[0].a), 16 * size);
+    }
+    instance_free(&made);
+}
+END_TEST
+
 /* --- Superquadrics -------------------------------------------------------------------------- */
 
 static double superellipsoid_equation(const double x[3], const double exponents[2])
@@ -379,6 +502,26 @@ START_TEST(the_apex_of_a_cone_pierces)
 }
 END_TEST
 
+START_TEST(triangles_of_a_paraboloid_and_of_a_sphere_are_met_where_these_are)
+{
+    expect_contact("bezier-triangle degree=2 points=[[-1,-1,2],[0,-0.5,-1],[-0.5,1,-3],[1,0,1],"
+                   "[0.5,1.5,0],[0,3,9]]",
+                   "point position=0.1,0.2,1.05 velocity=0,0,-2", 0.5, 1e-6);
+    expect_contact(octant_text(true), "point position=0.48,0.6,1.64 velocity=0,0,-2", 0.5, 1e-6);
+}
+END_TEST
+
+/* The corner u = 0 of both, the degenerate one, meets a corner: they move along the line between. */
+START_TEST(collapsed_corners_meet)
+{
+    expect_contact("bezier-triangle degree=3 points=[[0,0,0],[1,0,-1],[0,1,-1],[2,0,-2],[1,1,-2],[0,2,-2],"
+                   "[3,0,-2],[2,1,-2],[1,2,-2],[0,3,-2]]",
+                   "bezier-triangle points=[[0,0,2],[-1,0,2.5],[0,-1,2.5],[-2,0,3],[-1,-1,3],[0,-2,3]] ! "
+                   "translate velocity=0,0,-4",
+                   0.5, 1e-6);
+}
+END_TEST
+
 /* Exponents 2 make an octahedron, whose face x + y + z = 1 holds (1/3, 1/3, 1/3). */
 START_TEST(the_bevel_of_a_superellipsoid_is_met_where_it_is)
 {
@@ -389,7 +532,11 @@ END_TEST
 
 SUITE_MAIN("shapes", moving_points_segments_and_planes_are_followed_exactly,
            a_triangle_whose_corners_part_is_followed_but_for_one_cubic_term,
-           a_collapsed_edge_is_one_point, superellipsoids_satisfy_their_implicit_equation,
+           a_collapsed_edge_is_one_point, a_bezier_triangle_of_degree_1_is_a_triangle,
+           a_quadratic_triangle_holds_a_paraboloid,
+           a_rational_quartic_triangle_is_an_octant_of_a_sphere,
+           each_face_is_a_triangle_of_its_own_points,
+           bounds_shrink_at_the_collapsed_corner_as_anywhere, superellipsoids_satisfy_their_implicit_equation,
            superquadrics_move_at_most_at_speed_two_for_every_exponent,
            exponents_beyond_two_are_refused_with_the_reason,
            a_rational_quarter_of_a_circle_turns_into_half_a_sphere,
@@ -400,4 +547,5 @@ SUITE_MAIN("shapes", moving_points_segments_and_planes_are_followed_exactly,
            a_falling_vertex_meets_a_face, an_edge_meets_an_edge,
            a_bullet_does_not_pass_through_a_plate, a_turning_ellipsoid_reaches_a_plane,
            a_wave_rises_to_a_point, the_apex_of_a_cone_pierces,
-           the_bevel_of_a_superellipsoid_is_met_where_it_is)
+           the_bevel_of_a_superellipsoid_is_met_where_it_is,
+           triangles_of_a_paraboloid_and_of_a_sphere_are_met_where_these_are, collapsed_corners_meet)
