@@ -59,8 +59,9 @@ check_suites = \
     tests/unit/test_times \
     tests/unit/test_touchings
 
-# The same, with MPFI as the judge of bounds.
+# The same, with MPFI as the judge of bounds; the longest first.
 mpfi_suites = \
+    tests/unit/test_plugins \
     tests/unit/test_checker \
     tests/unit/test_expression_bounds \
     tests/unit/test_formula \
@@ -69,7 +70,6 @@ mpfi_suites = \
     tests/unit/test_model \
     tests/unit/test_nested \
     tests/unit/test_nets \
-    tests/unit/test_plugins \
     tests/unit/test_shapes \
     tests/unit/test_tightness
 
@@ -520,6 +520,14 @@ without_check =
 without_mpfi =
 without_bats =
 # The longest first, so that no processor waits for them at the end.
+if HAVE_CHECK
+if HAVE_MPFI
+check_PROGRAMS += $(mpfi_suites)
+TESTS += $(mpfi_suites)
+else
+without_mpfi += $(mpfi_suites)
+endif
+endif
 if HAVE_BATS
 TESTS += $(script_suites) $(bats_suites)
 else
@@ -528,12 +536,6 @@ endif
 if HAVE_CHECK
 check_PROGRAMS += $(check_suites)
 TESTS += $(check_suites)
-if HAVE_MPFI
-check_PROGRAMS += $(mpfi_suites)
-TESTS += $(mpfi_suites)
-else
-without_mpfi += $(mpfi_suites)
-endif
 else
 without_check += $(check_suites) $(mpfi_suites)
 endif

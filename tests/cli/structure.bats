@@ -123,13 +123,15 @@ plugin_names() {
     "$IMPINGE" list | awk '$1 == "surface" || $1 == "map" { print $2 }'
 }
 
+without_comments() { gcc -fpreprocessed -dD -E -P -x c "$1" 2>/dev/null; }
+
 # Strings of core (comments do not count) that are a type's name, or hold one as a pipeline
 # would: name, blank, parameter, equals sign.
 named_in_core() {
     local file names
     names=$(plugin_names | sort -u | paste -sd'|')
-    for file in "$1"/core/*/*.[ch]; do
-        gcc -fpreprocessed -dD -E -P -x c "$file" 2>/dev/null | grep -v '^#include' |
+    for file in $(grep -lE "\"($names)\"|\<($names) +[a-z_]+=" "$1"/core/*/*.[ch]); do
+        without_comments "$file" | grep -v '^#include' |
             grep -oE '"([^"\\]|\\.)*"' | grep -E "^\"($names)\"$|\<($names) +[a-z_]+=" |
             sed "s|^|${file#"$1"/}: |"
     done
@@ -156,10 +158,9 @@ core/base/status.c: "sphere radius=2"' ]
 
 # Names that end in '_' are the SDK's own, and config.h is not installed (comments do not count).
 beyond_the_sdk() {
-    local file
-    for file in "$1"/plugins/*/*.[ch]; do
-        gcc -fpreprocessed -dD -E -P -x c "$file" 2>/dev/null |
-            grep -oE '\b(imp|IMP)_[A-Za-z0-9_]*_\b|<config.h>' | sed "s|^|${file#"$1"/}: |"
+    local file names='\b(imp|IMP)_[A-Za-z0-9_]*_\b|<config.h>'
+    for file in $(grep -lE "$names" "$1"/plugins/*/*.[ch]); do
+        without_comments "$file" | grep -oE "$names" | sed "s|^|${file#"$1"/}: |"
     done
 }
 
@@ -211,9 +212,9 @@ IMPINGE_PLUGIN("smallest", "1", "MIT", "nobody", get_factory);'
     compiles clang "$smallest_plugin"
 }
 
-# Words for a compiler that is to read a file of ours: what only MPI's users need, and whether it is there.
-mpi_flags() { pkg-config --cflags ompi-c 2>/dev/null | sed 's/-I/-isystem/g'; }
-is_readable() { [[ $1 != */tools/mpi/* ]] || [ -n "$(mpi_flags)" ]; }
+# What only MPI's users need from a compiler; without it their files are not read.
+mpi_flags=$(pkg-config --cflags ompi-c 2>/dev/null | sed 's/-I/-isystem/g')
+is_readable() { [[ $1 != */tools/mpi/* ]] || [ -n "$mpi_flags" ]; }
 
 @test "each private header compiles alone" {
     local header before
@@ -221,34 +222,34 @@ is_readable() { [[ $1 != */tools/mpi/* ]] || [ -n "$(mpi_flags)" ]; }
         is_readable "$header" || continue
         before=$'#include <config.h>\n' # but not in plugins
         [[ $header != */plugins/*/* ]] || before=
-        # shellcheck disable=SC2046 # words on purpose
+        # shellcheck disable=SC2086 # words on purpose
         gcc -x c -std=c11 -Wno-psabi -Wall -Wextra -Werror -fsyntax-only -Wno-unused-function \
-            $(mpi_flags) -I"$top_builddir" -I"$top_srcdir" -I"$top_srcdir/sdk" -I"$top_srcdir/core" - \
+            $mpi_flags -I"$top_builddir" -I"$top_srcdir" -I"$top_srcdir/sdk" -I"$top_srcdir/core" - \
             <<<"$before#include \"${header#"$top_srcdir"/}\""
     done
 }
 
 @test "clang finds nothing to warn of in any source" {
     command -v clang >/dev/null || skip "clang not found"
-    local file
+    local file sources=()
     for file in "$top_srcdir"/{core,plugins,tools,tests}/*/*.c; do
-        is_readable "$file" || continue
-        # shellcheck disable=SC2046 # words on purpose
-        clang -std=c11 -O2 -ffp-contract=off -Wall -Wextra -Werror -fsyntax-only \
-            -DPLUGINDIR='""' -DPKGDATADIR='""' -DPKGCONFIGDIR='""' -DINCLUDEDIR='""' \
-            -DSDKDOCDIR='""' -DTHREEJSDIR='""' -I"$top_builddir" -I"$top_srcdir" -I"$top_srcdir/sdk" \
-            $(mpi_flags) -I"$top_srcdir/core" "$file"
+        ! is_readable "$file" || sources+=("$file")
     done
+    # shellcheck disable=SC2086 # words on purpose
+    clang -std=c11 -O2 -ffp-contract=off -Wall -Wextra -Werror -fsyntax-only \
+        -DPLUGINDIR='""' -DPKGDATADIR='""' -DPKGCONFIGDIR='""' -DINCLUDEDIR='""' \
+        -DSDKDOCDIR='""' -DTHREEJSDIR='""' -I"$top_builddir" -I"$top_srcdir" -I"$top_srcdir/sdk" \
+        -I"$top_srcdir/core" $mpi_flags "${sources[@]}"
 }
 
 # Feature macros must be set before the first header of the system. Plugins include nothing of the
 # build: third parties could build them.
 first_includes() { # SOURCES
-    local file
-    cd "$1" || return
-    for file in {core,tools}/*/*.c tests/{unit,support,fuzz}/*.c; do
-        [ "$(grep -m 1 '^#include' "$file")" = '#include <config.h>' ] || echo "$file"
-    done
+    cd "$1" && awk '
+        FNR == 1 { if (file && first != "#include <config.h>") print file; file = FILENAME; first = "" }
+        /^#include/ && !first { first = $0 }
+        END { if (first != "#include <config.h>") print file }
+    ' {core,tools}/*/*.c tests/{unit,support,fuzz}/*.c
 }
 
 @test "every source of core, tools and tests begins with config.h" {
@@ -345,16 +346,18 @@ source_files() {
 
 # Sources without their two-line head; a first line of #! or for shellcheck may stand above it.
 headless() {
-    local file licence head owner
-    for file in $(source_files "$1"); do
-        owner='The Impinge authors'
-        [[ $file != sdk/template/* ]] || owner=@author@ # of what `impinge new` writes
-        licence=Apache-2.0
-        [[ $file != sdk/* ]] || licence=MIT
-        head=$(head -n 3 "$1/$file" | grep -vE '^#!|^# shellcheck' | head -n 2)
-        [[ $head == *"SPDX-FileCopyrightText: $owner"*"SPDX-License-Identifier: $licence"* ]] ||
-            echo "$file"
-    done
+    # The owner in sdk/template, that is, of what `impinge new` writes, is a parameter.
+    (cd "$1" && source_files . | xargs awk '
+        function judge() {
+            owner = file ~ "^sdk/template/" ? "@author@" : "The Impinge authors"
+            licence = file ~ "^sdk/" ? "MIT" : "Apache-2.0"
+            if (!index(first, "SPDX-FileCopyrightText: " owner) ||
+                !index(second, "SPDX-License-Identifier: " licence)) print file
+        }
+        FNR == 1 { if (file) judge(); file = FILENAME; first = second = "" }
+        FNR <= 3 && !/^#!|^# shellcheck/ { if (!first) first = $0; else if (!second) second = $0 }
+        FNR > 3 { nextfile }
+        END { judge() }')
 }
 
 @test "every source begins with its licence, MIT in sdk and Apache-2.0 elsewhere" {
@@ -376,14 +379,13 @@ headless() {
 
 # What is not listed is not built, not run, and missing from `make dist`.
 @test "every plugin, every suite and every header is listed in its local.mk" {
-    local file name
-    for file in "$top_srcdir"/{plugins,tests,tools,core}/*/*.[ch] "$top_srcdir"/sdk/impinge/*.h \
-        "$top_srcdir"/tests/cli/*.bats; do
-        [ -e "$file" ] || continue
-        name=${file#"$top_srcdir"/}
-        grep -qwF "$name" "$top_srcdir/${name%%/*}/local.mk" ||
-            grep -qwF "${name%.c}.la" "$top_srcdir/${name%%/*}/local.mk" ||
-            { [[ $name == tests/*.c ]] && grep -qwF "${name%.c}" "$top_srcdir/tests/local.mk"; } ||
+    local word name
+    declare -A listed
+    cd "$top_srcdir"
+    for word in $(cat {core,plugins,sdk,tests,tools}/local.mk); do listed[$word]=1; done
+    for name in {plugins,tests,tools,core}/*/*.[ch] sdk/impinge/*.h tests/cli/*.bats; do
+        [ -n "${listed[$name]-}${listed[${name%.c}.la]-}" ] ||
+            { [[ $name == tests/*.c ]] && [ -n "${listed[${name%.c}]-}" ]; } ||
             { echo "$name"; false; }
     done
 }
