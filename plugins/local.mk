@@ -27,6 +27,7 @@ plugin_LTLIBRARIES = \
     plugins/segment.la \
     plugins/sphere.la \
     plugins/spike.la \
+    plugins/subdivision.la \
     plugins/superellipsoid.la \
     plugins/supertoroid.la \
     plugins/sweep.la \
@@ -93,6 +94,8 @@ plugins_sphere_la_SOURCES = plugins/surfaces/sphere.c
 plugins_sphere_la_LDFLAGS = $(plugin_ldflags)
 plugins_spike_la_SOURCES = plugins/surfaces/spike.c
 plugins_spike_la_LDFLAGS = $(plugin_ldflags)
+plugins_subdivision_la_SOURCES = plugins/surfaces/subdivision.c
+plugins_subdivision_la_LDFLAGS = $(plugin_ldflags)
 plugins_superellipsoid_la_SOURCES = plugins/surfaces/superellipsoid.c
 plugins_superellipsoid_la_LDFLAGS = $(plugin_ldflags)
 plugins_supertoroid_la_SOURCES = plugins/surfaces/supertoroid.c
@@ -168,6 +171,7 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/patch_rate.c plugins/patch/patch_rate.h \
     plugins/patch/patch_series.c plugins/patch/patch_series.h \
     plugins/patch/pieces.c plugins/patch/pieces.h \
+    plugins/patch/spline_patch.c plugins/patch/spline_patch.h \
     plugins/patch/triangle.c plugins/patch/triangle.h
 plugins_libpatch_la_LDFLAGS =
 plugins_bezier_la_LIBADD = plugins/libpatch.la
@@ -178,17 +182,29 @@ plugins_product_la_LIBADD = plugins/libpatch.la
 plugins_revolution_la_LIBADD = plugins/libpatch.la
 plugins_sweep_la_LIBADD = plugins/libpatch.la
 
-# Files of triangles.
+# Files of triangles and polygons.
 noinst_LTLIBRARIES += plugins/libmesh.la
 plugins_libmesh_la_SOURCES = \
     plugins/mesh/mesh_file.c plugins/mesh/mesh_file.h \
     plugins/mesh/mesh_obj.c \
     plugins/mesh/mesh_off.c \
+    plugins/mesh/mesh_parameters.c plugins/mesh/mesh_parameters.h \
     plugins/mesh/mesh_stl.c \
     plugins/mesh/mesh_text.c plugins/mesh/mesh_text.h \
     plugins/mesh/triangles.c plugins/mesh/triangles.h
 plugins_libmesh_la_LDFLAGS =
 plugins_mesh_la_LIBADD = plugins/libmesh.la plugins/libcommon.la
+
+# Control meshes, and the surfaces over their quads.
+noinst_LTLIBRARIES += plugins/libsubdivision.la
+plugins_libsubdivision_la_SOURCES = \
+    plugins/subdivision/control_build.h \
+    plugins/subdivision/control_mesh.c plugins/subdivision/control_mesh.h \
+    plugins/subdivision/control_refine.c \
+    plugins/subdivision/corner.c plugins/subdivision/corner.h \
+    plugins/subdivision/quad.c plugins/subdivision/quad.h
+plugins_libsubdivision_la_LDFLAGS =
+plugins_subdivision_la_LIBADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la
 
 # The language of formulas, for both types that take formulas as text.
 noinst_LTLIBRARIES += plugins/libexpression.la

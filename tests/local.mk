@@ -77,6 +77,7 @@ mpfi_suites = \
 type_oracle = tests/support/oracle_number.c tests/support/oracle_number.h \
     tests/support/type_oracle.c tests/support/type_oracle.h \
     tests/support/shape_oracle.c tests/support/shape_oracle.h \
+    tests/support/subdivision_oracle.c \
     tests/support/expression_oracle.c tests/support/expression_oracle.h \
     tests/support/map_oracle.c tests/support/map_oracle.h \
     tests/support/instance.c tests/support/instance.h

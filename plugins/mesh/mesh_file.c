@@ -63,6 +63,11 @@ imp_status mesh_read_file(const char *path, int row, triangles *to, imp_create_e
     triangles_fault fault = {0, ""};
     if (!find_format(path, &format))
         return imp_reject(why, row, -1, "'%.160s' ends in none of .obj, .off, .stl", path);
+    if (to->keeps_faces && format == MESH_STL)
+        return imp_reject(why, row, -1,
+                          "'%.120s': triangles of an STL file share no points; write it as .obj or "
+                          ".off",
+                          path);
     char *bytes = read_whole(path, row, &length, &status, why);
     if (bytes == NULL) return status;
     status = mesh_read_bytes(format, bytes, length, to, &fault);

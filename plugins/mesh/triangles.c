@@ -9,6 +9,7 @@ void triangles_clear(triangles *t)
 {
     free(t->point);
     free(t->corner);
+    free(t->first);
     *t = (triangles){0};
 }
 
@@ -58,6 +59,35 @@ static imp_status add_triangle(triangles *t, uint32_t a, uint32_t b, uint32_t c,
     t->corner = grown;
     uint32_t *corner = grown + 3 * t->count++;
     corner[0] = a, corner[1] = b, corner[2] = c;
+    return IMP_OK;
+}
+
+/* --- Whole faces --------------------------------------------------------------------------- */
+
+/* Room for `more` numbers beside those in use. NULL: no memory; the old ones are still there. */
+static uint32_t *room_for(uint32_t *items, size_t used, size_t more, size_t *capacity)
+{
+    if (items != NULL && more <= *capacity - used) return items;
+    const size_t wanted = 2 * (used + more) + 64;
+    uint32_t *grown = realloc(items, wanted * sizeof *grown);
+    if (grown != NULL) *capacity = wanted;
+    return grown;
+}
+
+static imp_status keep_face(triangles *t, const int64_t *corner, size_t count, size_t line,
+                            triangles_fault *fault)
+{
+    if (t->count >= IMP_PIECES_MAX)
+        return triangles_refuse(fault, line, "more than %zu faces; divide the mesh", IMP_PIECES_MAX);
+    uint32_t *first = room_for(t->first, t->count, 1, &t->first_capacity);
+    if (first == NULL) return IMP_INTERNAL;
+    t->first = first;
+    uint32_t *corners = room_for(t->corner, t->corner_count, count, &t->capacity);
+    if (corners == NULL) return IMP_INTERNAL;
+    t->corner = corners;
+    first[t->count++] = (uint32_t)t->corner_count;
+    for (size_t k = 0; k < count; ++k) corners[t->corner_count++] = (uint32_t)corner[k];
+    t->faces += 1;
     return IMP_OK;
 }
 
@@ -151,6 +181,7 @@ imp_status triangles_add_face(triangles *t, const int64_t *corner, size_t count,
             return triangles_refuse(fault, line,
                                     "corner %zu of face %zu is point %lld of %zu (from 0)", k,
                                     t->faces, (long long)corner[k], t->point_count);
+    if (t->keeps_faces) return keep_face(t, corner, count, line, fault);
     if (count > 3) {
         const polygon p = measure(t, corner, count);
         if (p.size > 0 && (!is_plane(&p) || !is_convex(&p)))

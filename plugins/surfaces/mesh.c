@@ -3,25 +3,17 @@
 
 #include "plugins/common/linear.h"
 #include "plugins/common/publish.h"
-#include "plugins/mesh/mesh_file.h"
+#include "plugins/mesh/mesh_parameters.h"
 
 /* Each triangle is a piece: that of the type for single triangles, made of the points when it is asked
  * for something. */
 
-enum { FILE_NAME, POINTS, FACES, VELOCITIES };
-
 static const imp_parameter parameters[] = {
-    [FILE_NAME] = IMP_ROW_OF(IMP_STRING, "file", "1", NULL, IMP_OPTIONAL | IMP_FILE, 0, 0, 0,
-                             -INFINITY, INFINITY,
-                             "triangles or polygons: .obj, .off, or .stl (text or binary)"),
-    [POINTS] = IMP_ROW("points", "length", NULL, IMP_OPTIONAL, 2, 0, 3, -TRIANGLES_FAR,
-                       TRIANGLES_FAR, "points [x,y,z] at t = 0, in place of a file"),
-    [FACES] = IMP_ROW_OF(IMP_INTEGER, "faces", "1", NULL, IMP_OPTIONAL, 2, 0, 0, 0, 0x1p32,
-                         "corners of each face, by number of the point, from 0; polygons are plane "
-                         "and convex"),
-    [VELOCITIES] = IMP_ROW("velocities", "length/time", NULL, IMP_OPTIONAL, 2, 0, 3,
-                           -TRIANGLES_FAR, TRIANGLES_FAR,
-                           "velocity of each point; default: at rest"),
+    [MESH_FILE] = ROW_MESH_FILE("triangles or polygons: .obj, .off, or .stl (text or binary)"),
+    [MESH_POINTS] = ROW_MESH_POINTS,
+    [MESH_FACES] = ROW_MESH_FACES("corners of each face, by number of the point, from 0; polygons "
+                                  "are plane and convex"),
+    [MESH_VELOCITIES] = ROW_MESH_VELOCITIES,
 };
 
 typedef struct mesh mesh;
@@ -50,61 +42,6 @@ static void mesh_destroy(void *self)
 
 /* --- Creation ------------------------------------------------------------------------------- */
 
-static imp_status take_points(const imp_value *values, triangles *to, imp_create_error *why)
-{
-    triangles_fault fault = {0, ""};
-    for (size_t k = 0; k < values[POINTS].extent[0]; ++k) {
-        const imp_status status =
-            triangles_add_point(to, values[POINTS].number + 3 * k, 0, &fault);
-        if (status == IMP_PARAMETER) imp_reject(why, POINTS, (int64_t)k, "%s", fault.text);
-        if (status != IMP_OK) return status;
-    }
-    return IMP_OK;
-}
-
-static imp_status take_faces(const imp_value *values, triangles *to, imp_create_error *why)
-{
-    const size_t corners = values[FACES].extent[1];
-    int64_t *corner = malloc(corners * sizeof *corner);
-    imp_status status = corner != NULL ? IMP_OK : IMP_INTERNAL;
-    for (size_t k = 0; status == IMP_OK && k < values[FACES].extent[0]; ++k) {
-        triangles_fault fault = {0, ""};
-        for (size_t j = 0; j < corners; ++j)
-            corner[j] = (int64_t)values[FACES].number[corners * k + j];
-        status = triangles_add_face(to, corner, corners, 0, &fault);
-        if (status == IMP_PARAMETER) imp_reject(why, FACES, (int64_t)k, "%s", fault.text);
-    }
-    free(corner);
-    return status;
-}
-
-static imp_status take_shape(const imp_value *values, triangles *to, imp_create_error *why)
-{
-    const bool points = imp_is_given(&values[POINTS]), faces = imp_is_given(&values[FACES]);
-    if (imp_is_given(&values[FILE_NAME]) && (points || faces))
-        return imp_reject(why, FILE_NAME, -1, "a file and points or faces are given; give one");
-    if (imp_is_given(&values[FILE_NAME]))
-        return mesh_read_file(values[FILE_NAME].string[0], FILE_NAME, to, why);
-    if (!points || !faces)
-        return imp_reject(why, points ? FACES : POINTS, -1,
-                          "must be given, where no file is; a mesh has points and faces, or a file");
-    const imp_status status = take_points(values, to, why);
-    return status == IMP_OK ? take_faces(values, to, why) : status;
-}
-
-static imp_status take_velocities(const imp_value *values, mesh *m, imp_create_error *why)
-{
-    const imp_value *v = &values[VELOCITIES];
-    if (!imp_is_given(v)) return IMP_OK;
-    if (v->extent[0] != m->triangles.point_count)
-        return imp_reject(why, VELOCITIES, -1, "%zu velocities for %zu points; give each one",
-                          v->extent[0], m->triangles.point_count);
-    m->velocity = malloc(v->count * sizeof *m->velocity);
-    if (m->velocity == NULL) return IMP_INTERNAL;
-    memcpy(m->velocity, v->number, v->count * sizeof *m->velocity);
-    return IMP_OK;
-}
-
 static imp_status make_pieces(mesh *m)
 {
     m->pieces = malloc(m->triangles.count * sizeof *m->pieces);
@@ -123,8 +60,9 @@ static imp_status mesh_create(const imp_value *values, void **self, imp_create_e
 {
     mesh *m = calloc(1, sizeof *m);
     if (m == NULL) return IMP_INTERNAL;
-    imp_status status = take_shape(values, &m->triangles, why);
-    if (status == IMP_OK) status = take_velocities(values, m, why);
+    imp_status status = mesh_take_shape(values, &m->triangles, why);
+    if (status == IMP_OK)
+        status = mesh_take_velocities(values, m->triangles.point_count, &m->velocity, why);
     if (status == IMP_OK) status = make_pieces(m);
     if (status == IMP_OK)
         *self = m;

@@ -359,7 +359,7 @@ build_our_types() {
     flags="-std=c11 -O0 -ffp-contract=off -fvisibility=hidden -fPIC -Wall -Wextra -Werror -Wno-psabi \
         -I. $(pkg-config --cflags impinge-sdk)"
     cp -R "$top_srcdir/plugins" . && chmod -R u+w plugins
-    find plugins/{common,expression,mesh,patch} -name '*.c' | sort >shared
+    find plugins/{common,expression,mesh,patch,subdivision} -name '*.c' | sort >shared
     find plugins/{surfaces,maps} -name '*.c' | sort >types
     # shellcheck disable=SC2086 # flags are words
     xargs -P2 -I{} $CC $flags -c -o {}.o {} <shared

@@ -271,6 +271,27 @@ const type_oracle oracles[] = {
                    "{\"points\": [@2[1e8,?,?],[?,-1e8,1e-9]], \"faces\": [[2,0,1]],"
                    " \"velocities\": [@3[?,1e6,0]]}",
                    "{\"points\": [[0,0,?],[1,0,0],[2,3,?]], \"faces\": [[1,2,0]]}"}},
+    {.type = "subdivision", /* its first piece */
+     .surface = subdivision_oracle,
+     .instances = {
+         /* a cube, and one that moves; a tetrahedron, whose second step leaves quads */
+         "{\"points\": [[-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],[-1,1,1],[1,1,1]],"
+         " \"faces\": [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]}",
+         "{\"points\": [@8[?,?,?]], \"velocities\": [@8[?,?,?]],"
+         " \"faces\": [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]}",
+         "{\"points\": [@4[?,?,?]], \"faces\": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}",
+         /* regular: inside, and with a border on two sides, and on four */
+         "{\"points\": [@16[?,?,?]], \"velocities\": [@16[?,?,?]],"
+         " \"faces\": [[5,9,10,6],[0,4,5,1],[1,5,6,2],[2,6,7,3],[4,8,9,5],[6,10,11,7],[8,12,13,9],"
+         "[9,13,14,10],[10,14,15,11]]}",
+         "{\"points\": [@9[1e8,?,?]],"
+         " \"faces\": [[0,3,4,1],[1,4,5,2],[3,6,7,4],[4,7,8,5]]}",
+         "{\"points\": [@4[?,?,?]], \"velocities\": [@4[?,1e3,?]], \"faces\": [[0,1,2,3]]}",
+         /* five faces at a point inside, and at the border three */
+         "{\"points\": [@11[?,?,?]], \"velocities\": [@11[?,?,?]],"
+         " \"faces\": [[0,1,2,3],[0,3,4,5],[0,5,6,7],[0,7,8,9],[0,9,10,1]]}",
+         "{\"points\": [@8[?,?,0.25]], \"velocities\": [@8[?,?,0]],"
+         " \"faces\": [[2,3,0,1],[0,3,4,5],[7,0,5,6]]}"}},
     {.type = "ripple",
      .surface = ripple_oracle,
      .instances = {"{}",

@@ -1,0 +1,194 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/patch/spline_patch.h"
+
+#include "plugins/patch/chebyshev.h"
+#include "plugins/patch/patch_include.h"
+#include "plugins/patch/patch_net.h"
+
+#include <impinge/interval.h>
+#include <impinge/quad.h>
+#include <string.h>
+
+/* A patch whose net is on the stack. */
+typedef struct spline_patch {
+    patch f;
+    double net[SPLINE_POINTS * PATCH_LANES_MAX], series[SPLINE_POINTS * PATCH_LANES_MAX];
+} spline_patch;
+
+/* --- From B-splines to another basis ---------------------------------------------------------- */
+
+/* out_ij = sum_rs m_ri m_sj in_rs / scale^2 for all lanes; m is 4 by 4, row by row. */
+static void change_basis(const double m[SPLINE_POINTS], double scale, int lanes, const double *in,
+                         double *out)
+{
+    imp_quad half[SPLINE_POINTS * 2];
+    const int group = lanes / IMP_QUAD, row = SPLINE_SIDE * group;
+    const imp_quad *from = (const imp_quad *)in;
+    imp_quad *to = (imp_quad *)out;
+    const double shrink = 1 / (scale * scale);
+    for (int i = 0; i < SPLINE_SIDE; ++i)
+        for (int x = 0; x < row; ++x)
+            half[i * row + x] = m[i] * from[x] + m[4 + i] * from[row + x] +
+                                m[8 + i] * from[2 * row + x] + m[12 + i] * from[3 * row + x];
+    for (int i = 0; i < SPLINE_SIDE; ++i)
+        for (int j = 0; j < SPLINE_SIDE; ++j)
+            for (int x = 0; x < group; ++x) {
+                const imp_quad *r = half + i * row + x;
+                to[i * row + j * group + x] =
+                    shrink * (m[j] * r[0] + m[4 + j] * r[group] + m[8 + j] * r[2 * group] +
+                              m[12 + j] * r[3 * group]);
+            }
+}
+
+/* Of Bezier points: N_r(u) = sum_i m_ri B_i(u) / 6. */
+static const double to_bernstein[SPLINE_POINTS] = {1, 0, 0, 0, 4, 4, 2, 1, 1, 2, 4, 4, 0, 0, 0, 1};
+
+/* Of Chebyshev polynomials in x = 2u - 1: N_r(u) = sum_i m_ri T_i(x) / 192. For (1 - u)^3 / 6 =
+ * (1 - x)^3 / 48 with x^2 = (1 + T_2) / 2, x^3 = (3 T_1 + T_3) / 4; the others likewise. */
+static const double to_chebyshev[SPLINE_POINTS] = {10, -15, 6, -1, 86, -51, -6, 3,
+                                                   86, 51, -6, -3, 10, 15,  6,  1};
+
+/* Lemma. The entries are whole numbers, so an entry of the result passes, in each of two steps, a product
+ * and at most three sums, at last the quotient, which has 3: 11 roundings, each of a number at most the
+ * sum of |m| over a column, over the scale, times `most` per step: 1 for Bezier points, which are means;
+ * (192 + 132 + 24 + 8) / 192 < 1.86 in all for Chebyshev polynomials. */
+enum { BASIS_ROUNDINGS = 11 };
+#define CHEBYSHEV_SIZE (1.86 * 1.86)
+
+/* --- The patch ----------------------------------------------------------------------------------- */
+
+/* Roundings of a number of the net: patch_set_net's 2. A point may itself be the difference of two, which
+ * the caller counts. */
+static void begin(const spline_data *data, spline_patch *s)
+{
+    const patch_data given = {.degree = {3, 3},
+                              .points = data->points,
+                              .velocities = data->moves ? data->velocities : NULL};
+    memset(&s->f, 0, sizeof s->f);
+    s->f.degree[0] = s->f.degree[1] = 3;
+    s->f.lanes = data->moves ? 8 : 4;
+    s->f.net = s->net;
+    patch_set_net(&s->f, &given);
+}
+
+/* Adds the place to the patch's own; what that rounds, and the points' slip, is left to the caller. */
+static void set_place(const spline_data *data, spline_patch *s)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        s->f.place[axis] += data->place[axis];
+        s->f.drift[axis] += data->drift[axis];
+    }
+}
+
+/* At least |exact - patch| where |t| <= late: the points' slip, and the rounding of the two sums. */
+static double slip_upper(const spline_data *data, const patch *f, int axis, double late)
+{
+    const double still = data->slip[axis] + ROUNDING * fabs(f->place[axis]);
+    const double motion = data->slip_motion[axis] + ROUNDING * fabs(f->drift[axis]);
+    return (still + late * motion) * SLACK;
+}
+
+static void set_bezier(spline_patch *s)
+{
+    double points[SPLINE_POINTS * PATCH_LANES_MAX];
+    memcpy(points, s->net, (size_t)(SPLINE_POINTS * s->f.lanes) * sizeof *points);
+    change_basis(to_bernstein, 6, s->f.lanes, points, s->net);
+    s->f.units = 2 + BASIS_ROUNDINGS;
+}
+
+/* The derivative of a B-spline has the differences of its control points, which are off by 2 slip and by
+ * 2 units of `most`. */
+static void set_slopes(const spline_data *data, patch *f)
+{
+    for (int side = 0; side < 2; ++side) {
+        const int step = (side == 0 ? SPLINE_SIDE : 1) * f->lanes;
+        for (int lane = 0; lane < f->lanes; ++lane) {
+            const double slip =
+                lane % 4 == 3 ? 0 : lane < 4 ? data->slip[lane] : data->slip_motion[lane - 4];
+            double most = 0;
+            for (int k = 0; k < SPLINE_POINTS; ++k) {
+                if ((side == 0 ? k / SPLINE_SIDE : k % SPLINE_SIDE) == SPLINE_SIDE - 1) continue;
+                const double *x = f->net + k * f->lanes + lane;
+                most = imp_larger(most, fabs(x[step] - x[0]));
+            }
+            f->slope[side][lane] =
+                (most + 2 * slip + 2 * (f->units + 1) * ROUNDING * f->most[lane]) * SLACK;
+        }
+    }
+}
+
+/* As patch_set_series, with the terms of its lemma for n = m = 3: reach_i = sqrt(2i + 1) and
+ * error_i = chebyshev_shift_error(i), rounded up. */
+static void set_noise(patch *f)
+{
+    static const double reach[SPLINE_SIDE] = {1, 1.7321, 2.2361, 2.6458};
+    static const double error[SPLINE_SIDE] = {0, 0.5, 16.86, 53.84};
+    double units[PATCH_LANES_MAX] = {0};
+    for (int i = 0; i < SPLINE_SIDE; ++i)
+        for (int j = 0; j < SPLINE_SIDE; ++j) {
+            const double weight = error[i] + error[j] + 8 * reach[i] * reach[j];
+            for (int lane = 0; lane < f->lanes; ++lane)
+                units[lane] += weight * fabs(f->series[(4 * i + j) * f->lanes + lane]);
+        }
+    for (int lane = 0; lane < f->lanes; ++lane) {
+        const double made = f->units + BASIS_ROUNDINGS * CHEBYSHEV_SIZE;
+        f->noise[lane] = (units[lane] + made * f->most[lane]) * ROUNDING * SLACK + IMP_TINY;
+    }
+}
+
+/* --- What is asked ---------------------------------------------------------------------------------- */
+
+void spline_point(const spline_data *data, const double p[3], double x[3], double error[3])
+{
+    spline_patch s;
+    begin(data, &s);
+    set_place(data, &s);
+    set_bezier(&s);
+    patch_point(&s.f, p, x, error);
+    for (int axis = 0; axis < 3; ++axis)
+        error[axis] = (error[axis] + slip_upper(data, &s.f, axis, fabs(p[2]))) * SLACK;
+}
+
+imp_status spline_include(const spline_data *data, const imp_region *region, imp_model model[3])
+{
+    spline_patch s;
+    begin(data, &s);
+    set_place(data, &s);
+    s.f.units = 2;
+    s.f.series = s.series;
+    set_slopes(data, &s.f);
+    change_basis(to_chebyshev, 192, s.f.lanes, s.net, s.series);
+    set_noise(&s.f);
+    const double late = fabs(region->c[2]) + region->d[2];
+    const imp_status status = patch_include(&s.f, region, model);
+    for (int axis = 0; axis < 3 && status == IMP_OK; ++axis) {
+        imp_model *g = &model[axis];
+        const double slip = slip_upper(data, &s.f, axis, late) + IMP_TINY;
+        g->e = imp_sum_up(g->e + slip);
+        g->lo = imp_sum_down(g->lo - slip);
+        g->hi = imp_sum_up(g->hi + slip);
+        for (int side = 0; side < 2; ++side)
+            g->rate[side] = (g->rate[side] + 2 * (data->slip[axis] + late * data->slip_motion[axis])) *
+                            SLACK;
+        if (data->moves)
+            g->rate[2] =
+                (g->rate[2] + data->slip_motion[axis] + ROUNDING * fabs(s.f.drift[axis])) * SLACK;
+    }
+    return status;
+}
+
+imp_status spline_net(const spline_data *data, const imp_region *region, imp_net *net)
+{
+    spline_patch s;
+    begin(data, &s);
+    set_place(data, &s);
+    set_bezier(&s);
+    const double late = fabs(region->c[2]) + region->d[2];
+    const imp_status status = patch_net(&s.f, region, net);
+    for (int axis = 0; axis < 3 && status == IMP_OK; ++axis)
+        net->error[axis] =
+            imp_sum_up(net->error[axis] + slip_upper(data, &s.f, axis, late) + IMP_TINY);
+    return status;
+}

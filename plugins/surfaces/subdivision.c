@@ -1,0 +1,230 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/publish.h"
+#include "plugins/mesh/mesh_parameters.h"
+#include "plugins/subdivision/quad.h"
+
+/* A quad between quads, of whose corners one at most is extraordinary, is a piece. Other faces are divided
+ * by steps of subdivision until they are such quads: two steps at most, as the first leaves only quads,
+ * and the second one extraordinary corner each. */
+
+static const imp_parameter parameters[] = {
+    [MESH_FILE] = ROW_MESH_FILE("control mesh: .obj or .off"),
+    [MESH_POINTS] = ROW_MESH_POINTS,
+    [MESH_FACES] = ROW_MESH_FACES("corners of each face, by number of the point, from 0; all faces go "
+                                  "round the same way"),
+    [MESH_VELOCITIES] = ROW_MESH_VELOCITIES,
+};
+
+enum { LEVELS = 3 };
+
+typedef struct subdivision {
+    quad first; /* so that the whole can be asked like its first piece */
+    control_mesh level[LEVELS];
+    quad *pieces;
+    size_t count, capacity;
+    quad_gauge *gauges;
+    size_t gauge_count;
+} subdivision;
+
+static void subdivision_destroy(void *self)
+{
+    subdivision *s = self;
+    for (int k = 0; k < LEVELS; ++k) control_clear(&s->level[k]);
+    free(s->pieces);
+    free(s->gauges);
+    free(s);
+}
+
+/* --- Pieces ------------------------------------------------------------------------------------ */
+
+/* Whether all faces at a point are quads. */
+static bool is_among_quads(const control_mesh *m, uint32_t h)
+{
+    const control_point *p = &m->fan[m->corner[h]];
+    uint32_t g = p->start;
+    for (uint16_t k = 0; k < p->faces; ++k, g = control_turn_left(m, g))
+        if (!control_is_quad(m, m->face[g])) return false;
+    return true;
+}
+
+/* Whether a face is a piece; *start is then its half-edge from the extraordinary corner, or its first. */
+static bool is_piece(const control_mesh *m, uint32_t f, uint32_t *start, bool *is_regular)
+{
+    *start = m->first[f];
+    *is_regular = true;
+    if (!control_is_quad(m, f)) return false;
+    for (uint32_t h = m->first[f]; h < m->first[f + 1]; ++h) {
+        if (!is_among_quads(m, h)) return false;
+        if (corner_is_regular(&m->fan[m->corner[h]])) continue;
+        if (!*is_regular) return false;
+        *is_regular = false;
+        *start = h;
+    }
+    return true;
+}
+
+static bool add_piece(subdivision *s, quad piece)
+{
+    if (s->count == s->capacity) {
+        const size_t wanted = 2 * s->capacity + 64;
+        quad *grown = realloc(s->pieces, wanted * sizeof *grown);
+        if (grown == NULL) return false;
+        s->pieces = grown;
+        s->capacity = wanted;
+    }
+    s->pieces[s->count++] = piece;
+    return true;
+}
+
+/* A gauge that is not there yet, for pieces that will have one. */
+static const quad_gauge to_be_measured;
+
+/* Makes pieces of the wanted faces of a level; those that are none stay wanted. *left: how many quads
+ * these become, at least. */
+static imp_status take_level(subdivision *s, const control_mesh *m, bool *wanted, size_t *left)
+{
+    *left = 0;
+    for (uint32_t f = 0; f < m->face_count; ++f) {
+        uint32_t start;
+        bool is_regular;
+        if (!wanted[f]) continue;
+        wanted[f] = !is_piece(m, f, &start, &is_regular);
+        if (wanted[f]) {
+            *left += m->first[f + 1] - m->first[f];
+        } else {
+            if (!add_piece(s, (quad){m, is_regular ? NULL : &to_be_measured, start}))
+                return IMP_INTERNAL;
+            s->gauge_count += !is_regular;
+        }
+    }
+    return IMP_OK;
+}
+
+static imp_status divide(subdivision *s, imp_create_error *why)
+{
+    size_t left = 0;
+    bool *wanted = malloc(s->level[0].face_count * sizeof *wanted);
+    if (wanted == NULL) return IMP_INTERNAL;
+    for (size_t f = 0; f < s->level[0].face_count; ++f) wanted[f] = true;
+    imp_status status = take_level(s, &s->level[0], wanted, &left);
+    for (int k = 1; k < LEVELS && status == IMP_OK && left > 0; ++k) {
+        bool *finer = NULL;
+        if (s->count + left > IMP_PIECES_MAX)
+            status = imp_reject(why, -1, -1, "more than %zu quads after %d steps; divide the mesh",
+                                IMP_PIECES_MAX, k);
+        if (status == IMP_OK) status = control_refine(&s->level[k - 1], wanted, &s->level[k], &finer);
+        free(wanted);
+        wanted = finer;
+        if (status == IMP_OK) status = take_level(s, &s->level[k], wanted, &left);
+    }
+    free(wanted);
+    return status;
+}
+
+static imp_status measure(subdivision *s)
+{
+    size_t used = 0;
+    if (s->gauge_count == 0) return IMP_OK;
+    s->gauges = malloc(s->gauge_count * sizeof *s->gauges);
+    if (s->gauges == NULL) return IMP_INTERNAL;
+    for (size_t k = 0; k < s->count; ++k)
+        if (s->pieces[k].gauge != NULL) {
+            quad_measure(&s->pieces[k], &s->gauges[used]);
+            s->pieces[k].gauge = &s->gauges[used++];
+        }
+    return IMP_OK;
+}
+
+/* --- Creation ----------------------------------------------------------------------------------- */
+
+static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_error *why)
+{
+    triangles given = {.keeps_faces = true};
+    triangles_fault fault = {0, ""};
+    double *velocity = NULL;
+    const int row = imp_is_given(&values[MESH_FILE]) ? MESH_FILE : MESH_FACES;
+    imp_status status = mesh_take_shape(values, &given, why);
+    if (status == IMP_OK) status = mesh_take_velocities(values, given.point_count, &velocity, why);
+    if (status != IMP_OK) {
+        triangles_clear(&given);
+        return status;
+    }
+    status = control_begin(&s->level[0], &given, velocity, &fault);
+    if (status == IMP_PARAMETER) imp_reject(why, row, -1, "%s (numbers from 0)", fault.text);
+    return status;
+}
+
+static imp_status subdivision_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    subdivision *s = calloc(1, sizeof *s);
+    if (s == NULL) return IMP_INTERNAL;
+    imp_status status = take_mesh(s, values, why);
+    if (status == IMP_OK) status = divide(s, why);
+    if (status == IMP_OK) status = measure(s);
+    if (status == IMP_OK) {
+        for (int k = 0; k < LEVELS; ++k) control_settle(&s->level[k]);
+        s->first = s->pieces[0];
+        *self = s;
+    } else {
+        subdivision_destroy(s);
+    }
+    return status;
+}
+
+static size_t subdivision_piece_count(const void *self) { return ((const subdivision *)self)->count; }
+
+static const void *subdivision_piece(const void *self, size_t k)
+{
+    return &((const subdivision *)self)->pieces[k];
+}
+
+/* --- One piece ------------------------------------------------------------------------------------ */
+
+static void subdivision_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    imp_set_domain(lo, hi, 0, 1, 0, 1);
+}
+
+static imp_status subdivision_include(const void *self, const imp_region *region, imp_model model[3])
+{
+    return quad_include(self, region, model);
+}
+
+static imp_status subdivision_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
+{
+    imp_model model[3];
+    const imp_status status = quad_include(self, region, model);
+    for (int i = 0; i < 3 && status == IMP_OK; ++i)
+        memcpy(rates->m[i], model[i].rate, sizeof rates->m[i]);
+    return status;
+}
+
+static imp_status subdivision_net(const void *self, const imp_region *region, imp_net *net)
+{
+    return quad_net(self, region, net);
+}
+
+static const imp_surface_type subdivision_type = {
+    IMP_TYPE_FIELDS(imp_surface_type, "subdivision", subdivision, subdivision_destroy),
+    .domain = subdivision_domain,
+    .eval = quad_eval,
+    .rate = subdivision_rate,
+    .include = subdivision_include,
+    .net = subdivision_net,
+    .piece_count = subdivision_piece_count,
+    .piece = subdivision_piece,
+    .summary = "Catmull-Clark surface of a control mesh of any polygons, whose points may move linearly",
+    .equation = "limit of subdivision, points_k + t velocities_k; at a border: of its cubic B-spline, "
+                "which ends at corners; each quad: u and v in [0,1]",
+    .source = "E. Catmull, J. Clark, Recursively generated B-spline surfaces, Computer-Aided Design "
+              "1978; J. Stam, SIGGRAPH 1998",
+    .example = "subdivision points=[[-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],"
+               "[-1,1,1],[1,1,1]] "
+               "faces=[[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]",
+};
+
+IMPINGE_SURFACE_PLUGIN("subdivision", PLUGIN_VERSION, "Apache-2.0", "The Impinge authors",
+                       subdivision_type);
