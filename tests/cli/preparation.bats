@@ -49,6 +49,11 @@ setup() {
     [ "$(count_log "$log" PASS)" = "0 0 1" ]
 }
 
+@test "a suite that cannot run here counts as skipped" {
+    echo 'skipped: localedef cannot make a locale here' >"$log"
+    [ "$(count_log "$log" SKIP)" = "0 0 1" ]
+}
+
 @test "no test at all is a failure" {
     run -1 finish
     [ "${lines[-1]}" = "0 passed, 0 failed" ]
