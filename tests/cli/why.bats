@@ -40,6 +40,13 @@ printable() {
     fails 4 'were left out, such as ' "$IMPINGE" pair nothing sphere --plugin-path .
     printable
     fails 4 'gone\x1b[31m' "$IMPINGE" solve $'gone\e[31m.json'
+    run -0 --separate-stderr "$IMPINGE" list --json --plugin-path .
+    printable
+    [ "$(jq -j '.types[] | select(.name == "kit").file' <<<"$output" | od -c)" = "$(printf %s "$PWD/$evil" | od -c)" ]
+    scene '"id": "\u007f\u009b31m\u00a0\u00c2",' >evil.jsonl
+    run -0 --separate-stderr "$IMPINGE" batch evil.jsonl
+    printable
+    [[ $output == '{"id":"\u007f\u009b31m'$'\xc2\xa0\xc3\x82"'* ]]
     chmod 777 .
     run -0 --separate-stderr "$IMPINGE" pair "$left" "$right" --plugin-path .:$'none\e[1m'
     printable

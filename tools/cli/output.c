@@ -119,13 +119,46 @@ static void shorten_numbers(char *text)
     *to = '\0';
 }
 
+/* The next character that steers a terminal and that Jansson writes as it is: DEL, or one of C1 (U+0080 to
+ * U+009F), which is two bytes in UTF-8. NULL: there is none. */
+static const char *next_control(const char *text)
+{
+    while ((text = strpbrk(text, "\x7f\xc2")) != NULL && *text == '\xc2' &&
+           (unsigned char)text[1] >= 0xA0)
+        text += 1;
+    return text;
+}
+
+/* The same text with these as \u009b, in memory of its own; NULL: no memory. */
+static char *escape_controls(const char *text)
+{
+    char *escaped = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&escaped, &length);
+    if (out == NULL) return NULL;
+    for (const char *control; (control = next_control(text)) != NULL;) {
+        const bool single = *control == '\x7f';
+        const unsigned code = single ? 0x7F : (unsigned char)control[1];
+        fprintf(out, "%.*s\\u%04x", (int)(control - text), text, code);
+        text = control + (single ? 1 : 2);
+    }
+    fputs(text, out);
+    if (fclose(out) == 0) return escaped;
+    free(escaped);
+    return NULL;
+}
+
 char *output_json_line(json_t *object)
 {
     const size_t flags = JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENCODE_ANY;
     char *text = object != NULL ? json_dumps(object, flags) : NULL;
     json_decref(object);
-    if (text != NULL) shorten_numbers(text);
-    return text;
+    if (text == NULL) return NULL;
+    shorten_numbers(text);
+    if (next_control(text) == NULL) return text;
+    char *escaped = escape_controls(text);
+    free(text);
+    return escaped;
 }
 
 exit_status output_line(char *text, const char *verb)

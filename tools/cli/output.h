@@ -35,8 +35,8 @@ typedef enum output_tint {
 } output_tint;
 const char *output_colour(output_tint tint);
 
-/* Prints the object on one line, numbers with 17 digits, and drops the reference. NULL: memory ran
- * out when it was made. */
+/* Prints the object on one line, numbers with 17 digits and all control characters escaped, and drops the
+ * reference. NULL: memory ran out when it was made. */
 exit_status output_json(json_t *object, const char *verb);
 
 /* The same line as text, which the caller frees; [any thread]. NULL: no memory. */
