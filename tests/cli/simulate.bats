@@ -231,6 +231,56 @@ END
     [[ ${lines[0]} == "ended early from t = 0 to 0.44721"* ]]
 }
 
+@test "a signal ends the motion between two events, and what is proved so far is written" {
+    local signal
+    # Each search of it is short, and there is no end of them.
+    echo "{\"time\": [0,1e4], \"gravity\": [0,0,-10], \"bodies\": [$floor}, $(ball ball 2 0,0,1.5)]}" >bounce.json
+    for signal in INT TERM; do
+        interrupted 3 "$signal" "$IMPINGE" simulate bounce.json -o out.json --json --max-events 1000000000
+        [ -z "$stderr" ]
+        valid simulate
+        json '.reason == "cancelled" and .impacts > 0 and .time[1] < 1e4'
+        jq -e --argjson last "$(jq '.time[1]' <<<"$output")" \
+            '.time[1] == $last and (.events | length) > 0 and .events[-1].t <= $last' out.json
+        run -0 "$IMPINGE" solve out.json --json --time "0,$(jq '.events[0].t' out.json)"
+        json --slurpfile out out.json '.verdict == "contact" and (.t - $out[0].events[0].t | fabs) < 1e-4'
+    done
+}
+
+@test "a signal ends a search that would take a lifetime" {
+    local gap='{"name": "b", "mass": 1, "surfaces": [{"type": "sphere", "radius": 1.000000002}]}'
+    echo "{\"gamma\": 1e-9, \"bodies\": [{\"name\": \"a\", \"surfaces\": [{\"type\": \"sphere\"}]}, $gap]}" >near.json
+    interrupted 3 TERM "$IMPINGE" simulate near.json -o out.json --json --max-bytes 0
+    valid simulate
+    json '.reason == "cancelled" and .time == [0, 0] and .events == []'
+    [ "$(jq -c '.time | map(floor)' out.json)" = '[0,0]' ]
+}
+
+@test "--max-seconds ends the motion, and no search is begun after that" {
+    echo "{\"time\": [0,1e4], \"gravity\": [0,0,-10], \"bodies\": [$floor}, $(ball ball 2 0,0,1.5)]}" >bounce.json
+    run -3 "$IMPINGE" simulate bounce.json -o out.json --json --max-seconds 1e-9
+    valid simulate
+    json '.reason == "max-seconds" and .time == [0, 0] and .stats.searches == 0'
+    run -3 "$IMPINGE" simulate bounce.json -o out.json --json --max-seconds 0.5 --max-events 1000000000
+    valid simulate
+    json '.reason == "max-seconds" and .time[1] < 1e4'
+}
+
+@test "a budget that ends in the middle of an event leaves the event out" {
+    local pairs most
+    cradle 8e-7 3 >cradle.json
+    simulated cradle.json
+    cp out.json whole.json
+    # All impacts are at one time.
+    [ "$(jq '[.events[].t] | unique | length' whole.json)" = 1 ]
+    most=$(jq .stats.pairs <<<"$output")
+    for ((pairs = 1; pairs <= most; pairs += most / 12)); do
+        run "$IMPINGE" simulate cradle.json -o out.json --max-pairs $pairs
+        echo "$pairs: $status"
+        [ "$(jq -c .events out.json)" = '[]' ] || [ "$(jq -c .events out.json)" = "$(jq -c .events whole.json)" ]
+    done
+}
+
 # wrong TEXT FILTER: the scene changed so is refused with that text, and nothing is written.
 wrong() {
     jq "$2" good.json >wrong.json

@@ -17,6 +17,12 @@ double searching_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+imp_reason searching_end(const searching *s)
+{
+    if (interrupt_came()) return IMP_REASON_CANCELLED;
+    return searching_clock() >= s->deadline ? IMP_REASON_SECONDS : IMP_REASON_NONE;
+}
+
 /* --- The scene of two bodies ----------------------------------------------------------------- */
 
 /* A copy of the body under its path. NULL: no memory. */

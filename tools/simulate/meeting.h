@@ -61,6 +61,9 @@ typedef struct searching {
 
 double searching_clock(void);
 
+/* Whether a signal has come or the time is up: NONE, CANCELLED or SECONDS. */
+imp_reason searching_end(const searching *s);
+
 /* Makes the scene, unless it is made and not stale. Codes of the library; `error` says more. */
 imp_code meeting_make_scene(searching *s, meeting *m);
 

@@ -63,6 +63,13 @@ static exit_status refuse_overlap(const simulation *s, const meeting *m)
         s->setup->options.clearance);
 }
 
+static void set_undecided(meeting *m, double t, imp_reason reason)
+{
+    m->kind = MEETING_UNDECIDED;
+    m->reason = reason;
+    m->t = t;
+}
+
 /* The next meeting from t on, at `least` or a level above. */
 static exit_status predict(simulation *s, meeting *m, double t, int least)
 {
@@ -71,15 +78,18 @@ static exit_status predict(simulation *s, meeting *m, double t, int least)
     m->kind = MEETING_NEVER;
     m->t = s->search.end;
     if (is_asleep(s, m)) return EXIT_ANSWERED;
+    const imp_reason end = searching_end(&s->search);
+    if (end != IMP_REASON_NONE) {
+        set_undecided(m, t, end);
+        return EXIT_ANSWERED;
+    }
     imp_code code = meeting_make_scene(&s->search, m);
     if (code == IMP_SUCCESS) code = meeting_level(&s->search, m, t, least, &level, &now);
     if (code != IMP_SUCCESS) return complain_of_search(s);
     if (now.kind == MEETING_UNDECIDED) {
         *m = now;
     } else if (level == LEVEL_NONE) {
-        m->kind = MEETING_UNDECIDED;
-        m->reason = IMP_REASON_RESOLUTION;
-        m->t = t;
+        set_undecided(m, t, IMP_REASON_RESOLUTION);
         m->level = level;
     } else if (meeting_find(&s->search, m, t, level) != IMP_SUCCESS) {
         return complain_of_search(s);
@@ -110,6 +120,7 @@ typedef struct event {
     contact *contacts;
     size_t *meeting; /* of each contact */
     size_t count;
+    imp_reason cut; /* why not all contacts are known; NONE: they are */
 } event;
 
 static bool is_gathered(const event *e, size_t index)
@@ -134,7 +145,7 @@ static exit_status add_contact(simulation *s, event *e, size_t index, const meet
     return EXIT_ANSWERED;
 }
 
-/* Adds the meeting if the two touch at t. */
+/* Adds the meeting if the two touch at t, or cuts the event where that cannot be found out. */
 static exit_status add_touching(simulation *s, event *e, size_t index, double t)
 {
     meeting *m = &s->meetings[index], now;
@@ -142,6 +153,7 @@ static exit_status add_touching(simulation *s, event *e, size_t index, double t)
     imp_code code = meeting_make_scene(&s->search, m);
     if (code == IMP_SUCCESS) code = meeting_level(&s->search, m, t, 0, &level, &now);
     if (code != IMP_SUCCESS) return complain_of_search(s);
+    if (now.kind == MEETING_UNDECIDED) e->cut = now.reason;
     return now.kind == MEETING_CONTACT ? add_contact(s, e, index, &now, level - 1) : EXIT_ANSWERED;
 }
 
@@ -227,11 +239,32 @@ static exit_status predict_again(simulation *s, const event *e, double t)
     return status;
 }
 
+static const char *name_of(imp_reason reason)
+{
+    switch (reason) {
+    case IMP_REASON_PAIRS:
+        return "max-pairs";
+    case IMP_REASON_SECONDS:
+        return "max-seconds";
+    case IMP_REASON_MEMORY:
+        return "max-bytes";
+    case IMP_REASON_RESOLUTION:
+        return "resolution";
+    default:
+        return "cancelled";
+    }
+}
+
 static exit_status respond(simulation *s, event *e, double t)
 {
     states_at(s, t, e->now.state);
     exit_status status = gather(s, e, t);
     if (status != EXIT_ANSWERED) return status;
+    if (e->cut != IMP_REASON_NONE) {
+        s->reason = name_of(e->cut);
+        fall(s, t);
+        return status;
+    }
     const double before = sums_at(s, e->now.state).energy;
     memcpy(e->now.rests, s->rests, s->setup->count * sizeof *s->rests);
     response_resolve(&e->now, e->contacts, e->count);
@@ -329,31 +362,15 @@ static exit_status predict_all(simulation *s)
     return EXIT_ANSWERED;
 }
 
-static const char *reason_of(const meeting *m)
-{
-    switch (m->reason) {
-    case IMP_REASON_PAIRS:
-        return "max-pairs";
-    case IMP_REASON_SECONDS:
-        return "max-seconds";
-    case IMP_REASON_MEMORY:
-        return "max-bytes";
-    case IMP_REASON_RESOLUTION:
-        return "resolution";
-    default:
-        return "cancelled";
-    }
-}
-
 static exit_status run(simulation *s)
 {
     exit_status status = predict_all(s);
-    while (status == EXIT_ANSWERED) {
+    while (status == EXIT_ANSWERED && s->reason == NULL) {
         const meeting *first = earliest(s);
         const double t = first != NULL ? first->t : s->search.end;
         if (first == NULL || first->kind == MEETING_UNDECIDED || s->events >= s->max_events) {
             if (first != NULL)
-                s->reason = first->kind == MEETING_UNDECIDED ? reason_of(first) : "max-events";
+                s->reason = first->kind == MEETING_UNDECIDED ? name_of(first->reason) : "max-events";
             fall(s, t);
             break;
         }
