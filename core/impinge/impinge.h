@@ -76,6 +76,12 @@ IMP_EXPORT const char *imp_code_text(imp_code code);
  * none. For handlers of SIGSEGV and the like, to say whose fault it is. [async-signal-safe] */
 IMP_EXPORT const char *imp_call_in_progress(const char **callback);
 
+/* The same of another thread, which hangs perhaps: of that which imp_call_of_thread was called in, and
+ * which has not ended. [async-signal-safe] */
+typedef struct imp_call imp_call;
+IMP_EXPORT const imp_call *imp_call_of_thread(void);
+IMP_EXPORT const char *imp_call_read(const imp_call *call, const char **callback);
+
 /* The library uses jansson for scenes and parameters, and leaves its allocator (json_set_alloc_funcs)
  * to the program. */
 
@@ -147,6 +153,12 @@ IMP_EXPORT bool imp_registry_refusal(const imp_registry *registry, size_t index,
 /* Directories whose plugins were taken all the same, and why they should not be trusted. */
 IMP_EXPORT bool imp_registry_warning(const imp_registry *registry, size_t index,
                                      imp_plugin_refusal *warning);
+
+/* Isolated types whose destroy crashed or did not return, one entry for each type, in the order in which
+ * it happened: by then no query is left that could answer with an error. `reason` names the type; an
+ * entry for which there is no memory is missing. [any thread] */
+IMP_EXPORT bool imp_registry_fault(const imp_registry *registry, size_t index,
+                                   imp_plugin_refusal *fault);
 
 /* Everything that is checked of a plugin file, in order, each with a verdict: told one by one. What
  * comes after a refusal and depends on it is not reached. Loads the file in a child process

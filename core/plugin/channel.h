@@ -30,11 +30,22 @@ typedef enum channel_request {
     REQUEST_DESTROY
 } channel_request;
 
+/* What REQUEST_CREATE and REQUEST_PIECE run, one after the other. */
+typedef enum channel_callback {
+    CALLBACK_CREATE,
+    CALLBACK_DOMAIN,
+    CALLBACK_TIME_DOMAIN,
+    CALLBACK_PIECE_COUNT,
+    CALLBACK_PIECE,
+    CALLBACK_COUNT
+} channel_callback;
+
 typedef struct channel {
     sem_t requested, replied;
     uint64_t number;            /* of the request */
     _Atomic uint64_t answering; /* number of the request that was answered last */
     channel_request request;
+    _Atomic unsigned callback; /* channel_callback that was begun last */
     void *self; /* the instance, as the worker knows it: set by REQUEST_CREATE */
     imp_status status;
     imp_create_error why;

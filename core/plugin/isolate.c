@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "core/base/active_callback.h"
 #include "core/common/system_error.h"
 #include "core/plugin/isolate.h"
 #include "core/base/unconst.h"
@@ -89,7 +90,18 @@ static imp_status create_pieces(isolated *i)
     return i->pieces != NULL ? request_pieces(i) : IMP_INTERNAL;
 }
 
-imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error *why)
+/* For messages: the callback that this thread began last is the one that ended the worker. */
+static void name_callback(const isolated *i)
+{
+    static const char *const names[CALLBACK_COUNT] = {"create", "domain", "time_domain",
+                                                      "piece_count", "piece"};
+    const unsigned last = i->worker != NULL ? atomic_load(&i->worker->channel->callback) : 0;
+    active_callback_begin(i->type.surface != NULL ? i->type.surface->name : i->type.map->name,
+                          names[last < CALLBACK_COUNT ? last : CALLBACK_CREATE]);
+    active_callback_end();
+}
+
+static imp_status create(isolated *i, const imp_value *values, imp_create_error *why)
 {
     const size_t count =
         i->type.surface != NULL ? i->type.surface->parameter_count : i->type.map->parameter_count;
@@ -108,15 +120,28 @@ imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error
     return status == IMP_OK ? create_pieces(i) : status;
 }
 
+imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error *why)
+{
+    const imp_status status = create(i, values, why);
+    if (status > IMP_INTERNAL) name_callback(i);
+    return status;
+}
+
+/* There is no one to answer to: the pool keeps what went wrong. */
+static void request_destroy(isolated *i)
+{
+    if (i->self == NULL || worker_enter(i->worker, i) != IMP_OK) return;
+    i->worker->channel->self = i->self;
+    const imp_status end = worker_request(i->worker, i, REQUEST_DESTROY);
+    worker_leave(i->worker);
+    if (end == SURFACE_CRASHED || end == SURFACE_HUNG) worker_pool_note(i->pool, i->type, end);
+}
+
 void isolate_destroy(void *self)
 {
     isolated *i = self;
     if (i == NULL) return;
-    if (i->self != NULL && worker_enter(i->worker, i) == IMP_OK) {
-        i->worker->channel->self = i->self;
-        worker_request(i->worker, i, REQUEST_DESTROY);
-        worker_leave(i->worker);
-    }
+    request_destroy(i);
     if (i->worker != NULL) worker_pool_return(i->pool, i->worker);
     free(i->pieces);
     free(i);

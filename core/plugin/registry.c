@@ -173,6 +173,26 @@ bool imp_registry_warning(const imp_registry *registry, size_t index, imp_plugin
     return registry != NULL && tell(&registry->warnings, index, warning);
 }
 
+/* The file that the type comes from. */
+static const char *file_of(const imp_registry *r, worker_type type)
+{
+    const void *wanted = type.surface != NULL ? (const void *)type.surface : type.map;
+    size_t i = 0;
+    while (r->type[i].type != wanted) ++i;
+    return r->type[i].from->path;
+}
+
+bool imp_registry_fault(const imp_registry *registry, size_t index, imp_plugin_refusal *fault)
+{
+    worker_type type;
+    const char *text;
+    if (registry == NULL || fault == NULL || registry->workers == NULL ||
+        !worker_pool_fault(registry->workers, index, &type, &text))
+        return false;
+    *fault = (imp_plugin_refusal){file_of(registry, type), text};
+    return true;
+}
+
 /* --- Creation and destruction ------------------------------------------------------------ */
 
 static void free_plugin(loaded_plugin *plugin)

@@ -40,22 +40,30 @@ static imp_status receive(channel *c, received *r)
 
 static imp_status create_with(channel *c, worker_type type, const imp_value *values)
 {
+    atomic_store(&c->callback, CALLBACK_CREATE);
     const imp_status status = type.surface != NULL ? type.surface->create(values, &c->self, &c->why)
                                                    : type.map->create(values, &c->self, &c->why);
     if (status != IMP_OK || c->self == NULL) return status;
-    if (type.surface == NULL)
+    if (type.surface == NULL) {
+        atomic_store(&c->callback, CALLBACK_TIME_DOMAIN);
         type.map->time_domain(c->self, &c->lo[0], &c->hi[0]);
-    else if (part_offers_pieces(type.surface))
+    } else if (part_offers_pieces(type.surface)) {
+        atomic_store(&c->callback, CALLBACK_PIECE_COUNT);
         c->pieces = type.surface->piece_count(c->self);
-    else
+    } else {
+        atomic_store(&c->callback, CALLBACK_DOMAIN);
         type.surface->domain(c->self, c->lo, c->hi);
+    }
     return IMP_OK;
 }
 
 static imp_status piece(channel *c, const imp_surface_type *type)
 {
+    atomic_store(&c->callback, CALLBACK_PIECE);
     c->piece = type->piece(c->self, c->n);
-    if (c->piece != NULL) type->domain(c->piece, c->lo, c->hi);
+    if (c->piece == NULL) return IMP_OK;
+    atomic_store(&c->callback, CALLBACK_DOMAIN);
+    type->domain(c->piece, c->lo, c->hi);
     return IMP_OK;
 }
 

@@ -74,8 +74,10 @@ static imp_code judge_failure(imp_status status, const type_view *view, const ch
                               const place *at, imp_error *error)
 {
     if (status > IMP_INTERNAL) {
-        place_error(at, error, IMP_ERROR_PLUGIN, "create of '%s' (%s) %s%s%s", view->name, file,
-                    surface_status_text(status), why->text[0] != '\0' ? ": " : "", why->text);
+        const char *callback;
+        active_callback_last(&callback);
+        place_error(at, error, IMP_ERROR_PLUGIN, "%s of '%s' (%s) %s%s%s", callback, view->name,
+                    file, surface_status_text(status), why->text[0] != '\0' ? ": " : "", why->text);
         return surface_set_code(status, error);
     }
     if (status == IMP_PARAMETER)
@@ -257,7 +259,7 @@ imp_code scene_build_part(const scene_source *source, imp_type_kind kind, const 
     }
     code = place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", name,
                        registry_find_file(source->registry, kind, name),
-                       surface_status_text(p->breach));
+                       surface_status_of_last(p->breach).text);
     part_release(p);
     return code;
 }

@@ -221,14 +221,27 @@ const char *surface_status_text(imp_status status)
     }
 }
 
-surface_told surface_status_told(const surface *s, imp_status status)
+/* Whether the text of the status leaves open which callback gave it. */
+static bool is_of_any_callback(imp_status status)
+{
+    return status == SURFACE_CRASHED || status == SURFACE_HUNG || status == SURFACE_CHANGED_MODE;
+}
+
+static surface_told told_of_last(imp_status status, bool named)
 {
     surface_told told;
     const char *callback, *type = active_callback_last(&callback);
     snprintf(told.text, sizeof told.text, "%s", surface_status_text(status));
-    if (s->map_count > 0 && type != NULL)
+    if (type != NULL && (named || is_of_any_callback(status)))
         text_append(told.text, sizeof told.text, " (%s of '%s')", callback, type);
     return told;
+}
+
+surface_told surface_status_of_last(imp_status status) { return told_of_last(status, false); }
+
+surface_told surface_status_told(const surface *s, imp_status status)
+{
+    return told_of_last(status, s->map_count > 0);
 }
 
 imp_code surface_set_code(imp_status status, imp_error *error)

@@ -82,11 +82,14 @@ bool surface_undefined_part(const surface *s, double lo, double hi, surface_part
 /* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
 
-/* The same for an answer of a surface; under maps with the callback that gave it, since the label
- * names all: "... (rate of 'twist')". To be asked before any other callback is called. */
+/* The same for what a callback of this thread answered last: where the text leaves open which it was,
+ * with its name: "... (rate of 'twist')". To be asked before any other callback is called. */
 typedef struct surface_told {
     char text[400];
 } surface_told;
+surface_told surface_status_of_last(imp_status status);
+
+/* The same for an answer of a surface; also under maps, since its label names all. */
 surface_told surface_status_told(const surface *s, imp_status status);
 
 /* Replaces the code of an error by that of the status that caused it, and answers it:

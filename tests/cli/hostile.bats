@@ -14,6 +14,7 @@ setup() {
     cp "$top_builddir/tests/plugins/.libs/hostile.so" plugins
     export XDG_CACHE_HOME=$PWD/cache
     here=$PWD
+    surroundings=()
 }
 
 # Any slab meets it at t = 0.9.
@@ -31,7 +32,7 @@ hostile() {
     local method=models
     [ "$1" != rate ] || method=paper
     [ -d "$here/cache" ] || "$IMPINGE" list --plugin-path "$here/plugins" >/dev/null
-    HOSTILE="$1 $2" timeout 60 env --default-signal=QUIT,TERM "$IMPINGE" pair "${OPERAND-hostile}" \
+    HOSTILE="$1 $2" timeout 60 env --default-signal=QUIT,TERM "${surroundings[@]}" "$IMPINGE" pair "${OPERAND-hostile}" \
         "$ball" --method $method --gamma 0.1 --plugin-path "$here/plugins" --json "${@:3}"
 }
 
@@ -185,11 +186,11 @@ named() {
     for phase in create domain eval rate include; do
         run -5 --separate-stderr hostile $phase round
         echo "$phase: $stderr"
-        [[ $stderr == *"'hostile'"* && $stderr == *' mode '* ]]
+        [[ $stderr == *"'hostile'"* && $stderr == *' mode '* && $stderr == *"$phase"* ]]
     done
     for phase in create time_domain eval rate apply; do
         OPERAND=$lifted run -5 --separate-stderr hostile $phase round
-        [[ $stderr == *"'hostile-map'"* && $stderr == *' mode '* ]]
+        [[ $stderr == *"'hostile-map'"* && $stderr == *' mode '* && $stderr == *"$phase"* ]]
     done
     for sin in round x87 trap; do
         contact hostile destroy $sin
@@ -206,27 +207,41 @@ named() {
             contact hostile $phase $sin
         done
     done
+    # One in which numbers have a comma, which the plugin makes that of the process.
+    "$top_srcdir"/tests/support/comma_locale . || skip "localedef cannot make a locale here"
+    surroundings=(LOCPATH="$PWD" LC_ALL=comma_XX)
+    for phase in constructor create eval destroy; do
+        contact hostile $phase locale
+    done
 }
 
-@test "isolated, whatever a callback does ends the query, not the host" {
-    local phase sin
+# blamed PHASE TYPE WHAT TEXT: names the phase and the type, and says what they did.
+blamed() {
+    [[ $4 == *": $1 of '$2' ($PWD/plugins/hostile.so) $3"* || $4 == *": $3"*" ($1 of '$2')" ||
+        ($1 == destroy && $4 == *"/hostile.so: destroy of '$2' $3"*) ]]
+}
+
+@test "isolated, whatever a callback does ends the query, not the host, and is laid at the door of the type" {
+    local phase sin end='crashes or ends its process, in which it runs isolated'
     for phase in create domain eval rate include; do
         for sin in crash abort overflow exit _exit _Exit quick_exit pthread_exit; do
             run -5 --separate-stderr hostile $phase $sin --isolate all
-            [[ $stderr == *"hostile"*"crashes or ends its process, in which it runs isolated" ]]
+            echo "$phase $sin: $stderr"
+            blamed $phase hostile "$end" "$stderr"
         done
     done
     for phase in create time_domain eval rate apply; do
         for sin in crash exit; do
             OPERAND=$lifted run -5 --separate-stderr hostile $phase $sin --isolate all
             echo "$phase $sin: $stderr"
-            [[ $stderr == *"'hostile-map'"*"crashes or ends its process, in which it runs isolated"* ||
-                $stderr == *"crashes or ends its process, in which it runs isolated ($phase of 'hostile-map')" ]]
+            blamed $phase hostile-map "$end" "$stderr"
         done
     done
     for sin in crash exit pthread_exit; do
         contact hostile destroy $sin --isolate all
+        blamed destroy hostile "$end" "$stderr"
         OPERAND=$lifted contact hostile destroy $sin --isolate all
+        blamed destroy hostile-map "$end" "$stderr"
     done
 }
 
@@ -255,7 +270,7 @@ all_hang() {
 }
 
 @test "isolated, a callback that hangs is ended after 5 s and named, and its process with it" {
-    local folder
+    local folder type
     "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
     all_hang --isolate all
     wait
@@ -267,9 +282,10 @@ all_hang() {
             [ "$(<"$folder/status")" -eq 0 ] && [ "$(jq -r .verdict "$folder/out")" = contact ]
         else
             [ "$(<"$folder/status")" -eq 5 ] && [ "$(jq 'has("error")' "$folder/out")" = true ]
-            [[ $(<"$folder/errors") == *hostile*'does not answer within 5 s'* ]]
-            [[ $folder == surface-* || $(<"$folder/errors") == *"'hostile-map'"* ]]
         fi
+        type=hostile
+        [[ $folder == surface-* ]] || type=hostile-map
+        blamed "${folder#*-}" $type 'does not answer within 5 s' "$(<"$folder/errors")"
     done
 }
 
@@ -311,4 +327,66 @@ all_hang() {
     echo "$(<search/status) $(<search/errors)"
     [ "$(<search/status)" -eq 143 ]
     [[ $(<search/errors) == "impinge: interrupted in eval of type 'hostile'; where a callback hangs, --isolate ends it after 5 s"* ]]
+}
+
+# A batch of two lines of which the first one hangs: hanging_batch TYPES PHASE.
+hanging_batch() {
+    {
+        scene '"id": 1,' | jq -c --argjson with "$1" '.bodies[0] += $with'
+        scene '"id": 2,'
+    } >scenes.jsonl
+    local method=models
+    [ "$2" != rate ] || method=paper
+    HOSTILE="$2 hang" env --default-signal=QUIT,TERM "$IMPINGE" batch scenes.jsonl --threads 2 \
+        --method $method --plugin-path "$here/plugins"
+}
+
+# ended_by SIGNAL STATUS TYPE BATCH...: a batch hangs in a thread of its own; the signal, twice if need
+# be, ends it and names what hangs, and not what waits.
+ended_by() {
+    local pid folder="$3-${*: -1}-$1"
+    mkdir "$folder"
+    in_folder "$folder" "${@:4}" &
+    until [ -s "$folder/hangs" ]; do sleep 0.05; done
+    pid=$(<"$folder/hangs")
+    while kill -s "$1" "$pid" 2>/dev/null; do sleep 0.05; done
+    wait
+    echo "$folder: $(<"$folder/status") $(<"$folder/errors")"
+    [ "$(<"$folder/status")" -eq "$2" ]
+    [[ $'\n'$(<"$folder/errors") == *$'\nimpinge: interrupted in '"${*: -1} of type '$3'; where"* ]]
+}
+
+@test "a callback that hangs in a thread of a batch is named by the signals that end it" {
+    local phase
+    ulimit -c 0
+    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
+    for phase in $surface; do
+        ended_by QUIT 131 hostile hanging_batch '{"surfaces": [{"type": "hostile"}]}' "$phase"
+    done
+    for phase in $map; do
+        ended_by QUIT 131 hostile-map hanging_batch '{"maps": [{"type": "hostile-map"}]}' "$phase"
+    done
+    ended_by TERM 143 hostile hanging_batch '{"surfaces": [{"type": "hostile"}]}' eval
+}
+
+@test "isolated, a callback that hangs in a thread of a batch costs its line, and the type is named" {
+    local phase
+    "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
+    for phase in eval destroy; do
+        {
+            scene '"id": 1,' | jq -c '.bodies[0].surfaces = [{"type": "hostile"}]'
+            scene '"id": 2,'
+        } >scenes.jsonl
+        HOSTILE="$phase hang" run --separate-stderr "$IMPINGE" batch scenes.jsonl --threads 2 \
+            --plugin-path "$PWD/plugins" --isolate all
+        echo "$phase: $status $output / $stderr"
+        [ "${#lines[@]}" -eq 2 ] && [ "$(jq -r .verdict <<<"${lines[1]}")" = contact ]
+        if [ $phase = destroy ]; then
+            [ "$status" -eq 0 ] && [ "$(jq 'has("verdict")' <<<"${lines[0]}")" = true ]
+            blamed destroy hostile 'does not answer within 5 s' "$stderr"
+        else
+            [ "$status" -eq 5 ]
+            blamed $phase hostile 'does not answer within 5 s' "$(jq -r .error <<<"${lines[0]}")"
+        fi
+    done
 }

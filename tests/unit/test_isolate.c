@@ -30,7 +30,9 @@ enum {
     THREAD_EXIT_IN_EVAL,
     KILLED_IN_EVAL,
     STOPPED_IN_EVAL,
-    EXIT_IN_DESTROY
+    EXIT_IN_DESTROY,
+    HANG_IN_DESTROY,
+    KILLED_IN_DESTROY
 };
 
 static imp_status make(const imp_value *values, void **self, imp_create_error *why)
@@ -87,7 +89,10 @@ static imp_status eval(const void *self, size_t n, const double *p, double *x, d
 
 static void destroy(void *self)
 {
-    if (*(const double *)self == EXIT_IN_DESTROY) exit(0);
+    const double sin = *(const double *)self;
+    if (sin == EXIT_IN_DESTROY) exit(0);
+    while (sin == HANG_IN_DESTROY) pause();
+    if (sin == KILLED_IN_DESTROY) raise(SIGKILL);
     free(self);
 }
 
@@ -256,6 +261,24 @@ START_TEST(no_child_is_left_behind)
     worker_pool_free(pool);
     pool = NULL;
     ck_assert_int_eq(waitpid(-1, NULL, WNOHANG), -1);
+}
+END_TEST
+
+START_TEST(what_destroy_did_is_kept_once_for_each_type)
+{
+    worker_type type;
+    const char *text;
+    ck_assert(!worker_pool_fault(pool, 0, &type, &text));
+    isolate_destroy(isolated_bowl(0, IMP_OK));
+    isolate_destroy(isolated_bowl(KILLED_IN_DESTROY, IMP_OK));
+    ck_assert(!worker_pool_fault(pool, 0, &type, &text));
+    isolate_destroy(isolated_bowl(HANG_IN_DESTROY, IMP_OK));
+    isolate_destroy(isolated_bowl(EXIT_IN_DESTROY, IMP_OK));
+    ck_assert(worker_pool_fault(pool, 0, &type, &text));
+    ck_assert(type.surface == &bowl && type.map == NULL);
+    ck_assert_str_eq(text, "destroy of 'bowl' does not answer within 5 s; it ran isolated, and its "
+                           "process was ended");
+    ck_assert(!worker_pool_fault(pool, 1, &type, &text));
 }
 END_TEST
 
@@ -449,6 +472,7 @@ int main(void)
         a_changed_floating_point_mode_is_seen_there_too,
         complaints_of_create_come_through,
         no_child_is_left_behind,
+        what_destroy_did_is_kept_once_for_each_type,
         instances_of_a_type_share_a_process,
         an_innocent_instance_is_lost_and_a_new_one_is_served,
         a_copy_of_the_host_is_refused_and_ends_nothing,

@@ -40,6 +40,8 @@ START_TEST(registries_take_no_missing_object)
     ck_assert(!imp_registry_type(NULL, 0, &info));
     ck_assert(!imp_registry_refusal(NULL, 0, &refusal));
     ck_assert(!imp_registry_warning(NULL, 0, &refusal));
+    ck_assert(!imp_registry_fault(NULL, 0, &refusal));
+    ck_assert_ptr_null(imp_call_read(NULL, NULL));
     ck_assert(!imp_plugin_examine(NULL, NULL, NULL));
     ck_assert_ptr_null(imp_registry_from_file(NULL));
     expect_usage(imp_registry_isolate(NULL, NULL, &error), "imp_registry_isolate");
@@ -53,6 +55,8 @@ START_TEST(registries_take_no_missing_object)
     ck_assert(!imp_registry_type(registry, 0, NULL));
     ck_assert(!imp_registry_refusal(registry, 0, NULL));
     ck_assert(!imp_registry_warning(registry, 0, NULL));
+    ck_assert(!imp_registry_fault(registry, 0, NULL));
+    ck_assert(!imp_registry_fault(registry, 0, &refusal));
     expect_usage(imp_instance_from_text(registry, IMP_KIND_SURFACE, NULL, &instance, &error),
                  "imp_instance_from_text");
     expect_usage(imp_instance_from_text(registry, IMP_KIND_SURFACE, "sphere", NULL, &error),

@@ -184,6 +184,6 @@ void batch_sum_up(batch *b)
 
 void batch_end(batch *b)
 {
-    imp_registry_free(b->registry);
+    query_registry_free(b->registry);
     if (b->file != NULL) input_close(b->file);
 }

@@ -7,6 +7,7 @@
 #include <impinge/impinge.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/syscall.h>
@@ -56,15 +57,51 @@ static void on_crash(int number)
     raise(number);
 }
 
+/* --- Threads and their calls ------------------------------------------------------------------ */
+
+/* Main and as many as --threads allows; the calls of any more would not be known. */
+enum { THREADS_MAX = 1025 };
+
+/* Where the call of each thread can be read; NULL: free. */
+static const imp_call *_Atomic calls[THREADS_MAX];
+static _Thread_local size_t own_call = THREADS_MAX;
+
+/* Set when a handler begins to read them, for good: it ends the process. */
+static atomic_bool calls_are_read;
+
+static void enter_call(void)
+{
+    for (own_call = 0; own_call < THREADS_MAX; ++own_call) {
+        const imp_call *free_place = NULL;
+        if (atomic_compare_exchange_strong(&calls[own_call], &free_place, imp_call_of_thread()))
+            return;
+    }
+}
+
+/* A thread that ends takes its call along, so it waits where the handler may have found that. */
+static void leave_call(void)
+{
+    if (own_call == THREADS_MAX) return;
+    atomic_store(&calls[own_call], NULL);
+    while (atomic_load(&calls_are_read)) pause();
+}
+
+static void say_interrupted(const char *type, const char *callback)
+{
+    say("impinge: interrupted in ");
+    say(callback);
+    say(type[0] == '/' ? " of plugin '" : " of type '");
+    say(message_shown(type).text);
+    say(type[0] == '/' ? "'\n" : "'; where a callback hangs, --isolate ends it after 5 s\n");
+}
+
 void crash_interrupted(int number)
 {
-    const char *callback, *type = imp_call_in_progress(&callback);
-    if (type != NULL && prepared == getpid()) {
-        say("impinge: interrupted in ");
-        say(callback);
-        say(type[0] == '/' ? " of plugin '" : " of type '");
-        say(message_shown(type).text);
-        say(type[0] == '/' ? "'\n" : "'; where a callback hangs, --isolate ends it after 5 s\n");
+    if (prepared == getpid()) atomic_store(&calls_are_read, true);
+    for (size_t k = 0; k < THREADS_MAX && prepared == getpid(); ++k) {
+        const imp_call *call = atomic_load(&calls[k]);
+        const char *callback, *type = imp_call_read(call, &callback);
+        if (type != NULL) say_interrupted(type, callback);
     }
     signal(number, SIG_DFL);
     raise(number);
@@ -90,12 +127,14 @@ void *crash_thread_begin(void)
     void *room = malloc(SIGNAL_STACK);
     const stack_t stack = {.ss_sp = room, .ss_size = SIGNAL_STACK};
     if (room != NULL) sigaltstack(&stack, NULL);
+    enter_call();
     return room;
 }
 
 void crash_thread_end(void *stack)
 {
     const stack_t none = {.ss_flags = SS_DISABLE};
+    leave_call();
     sigaltstack(&none, NULL);
     free(stack);
 }
@@ -113,6 +152,7 @@ void crash_prepare(void)
     const stack_t stack = {.ss_sp = room, .ss_size = sizeof room};
     struct sigaction action = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK};
     prepared = getpid();
+    enter_call();
     sigemptyset(&action.sa_mask);
     sigaltstack(&stack, NULL);
     const int fatal[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};

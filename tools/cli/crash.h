@@ -7,8 +7,8 @@
  * callback, and ends with EXIT_PLUGIN. A crash of our own stays what it is. */
 void crash_prepare(void);
 
-/* A handler for signals by which the user ends the command: says in whose callback this thread is, in
- * case that hangs, and lets the signal end the process. SIGQUIT has it from the beginning,
+/* A handler for signals by which the user ends the command: says in whose callbacks the threads are, in
+ * case one hangs, and lets the signal end the process. SIGQUIT has it from the beginning,
  * unless it is ignored. */
 void crash_interrupted(int number);
 

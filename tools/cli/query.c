@@ -63,6 +63,14 @@ imp_registry *query_registry(const arguments *args)
     return NULL;
 }
 
+void query_registry_free(imp_registry *registry)
+{
+    imp_plugin_refusal fault;
+    for (size_t i = 0; imp_registry_fault(registry, i, &fault); ++i)
+        complain(EXIT_ANSWERED, NULL, "warning: %s: %s", fault.file, fault.reason);
+    imp_registry_free(registry);
+}
+
 exit_status query_check(const arguments *args)
 {
     const option_value *gamma = arguments_option(args, "gamma");

@@ -13,7 +13,10 @@
  * should not be trusted; complains and answers NULL when memory runs out. */
 imp_registry *query_registry(const arguments *args);
 
-/* The same with `path` (colon-separated directories, may be NULL) in place of --plugin-path, and
+/* Frees it and warns of isolated types whose destroy crashed or did not return. NULL is accepted. */
+void query_registry_free(imp_registry *registry);
+
+/* As query_registry, with `path` (colon-separated directories, may be NULL) in place of --plugin-path, and
  * the flags of imp_registry_open. */
 imp_registry *query_registry_first(const char *path, unsigned flags, const char *verb);
 

@@ -216,7 +216,7 @@ static exit_status run(const arguments *args)
     else if (!complained)
         status = complain_of(&error, args->verb->name);
     imp_scene_free(scene);
-    imp_registry_free(registry);
+    query_registry_free(registry);
     return status;
 }
 

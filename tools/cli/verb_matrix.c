@@ -166,7 +166,7 @@ static exit_status run(const arguments *args)
     for (size_t k = 0; next_type(&m, IMP_KIND_MAP, &k, &info) && !interrupt_came();)
         row_of_map(&m, &info);
     const exit_status status = finish(&m);
-    imp_registry_free(registry);
+    query_registry_free(registry);
     return status;
 }
 

@@ -14,7 +14,7 @@ static exit_status run(const arguments *args)
     imp_error error = {0};
     imp_scene *scene = imp_scene_from_pair(registry, args->operands[0], args->operands[1], &error);
     const exit_status status = query_answer(scene, &error, args);
-    imp_registry_free(registry);
+    query_registry_free(registry);
     return status;
 }
 

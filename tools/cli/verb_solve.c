@@ -30,7 +30,7 @@ static exit_status run(const arguments *args)
     imp_error error = {0};
     imp_scene *scene = query_scene(registry, args, &complained, &error);
     status = complained ? EXIT_DATA : answer(scene, &error, args);
-    imp_registry_free(registry);
+    query_registry_free(registry);
     return status;
 }
 

@@ -90,6 +90,6 @@ exit_status ranks_each(const arguments *args)
     if (status == EXIT_ANSWERED) status = solve_and_print(&e);
     each_end(&e);
     imp_scene_free(scene);
-    imp_registry_free(registry);
+    query_registry_free(registry);
     return status;
 }

@@ -332,7 +332,7 @@ void setup_free(setup *s)
 {
     free(s->actors);
     imp_scene_free(s->still);
-    imp_registry_free(s->registry);
+    query_registry_free(s->registry);
     json_decref(s->root);
     json_decref(s->stripped);
 }

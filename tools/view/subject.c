@@ -109,6 +109,6 @@ void subject_free(subject *s)
 {
     imp_query_free(s->query);
     imp_scene_free(s->scene);
-    imp_registry_free(s->registry);
+    query_registry_free(s->registry);
     *s = (subject){0};
 }

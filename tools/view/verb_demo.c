@@ -237,7 +237,7 @@ static exit_status run(const arguments *args)
     char *path = input_package_file(d->file, args->verb->name);
     if (path != NULL) status = d->show(registry, path, args);
     free(path);
-    imp_registry_free(registry);
+    query_registry_free(registry);
     return status;
 }
 

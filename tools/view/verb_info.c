@@ -188,7 +188,7 @@ static exit_status run(const arguments *args)
         is_known(registry, args->operands[0]) ? print_all(registry, args) : unknown(registry, args);
     if (status == EXIT_ANSWERED && arguments_option(args, "view") != NULL)
         status = draw_first(registry, args);
-    imp_registry_free(registry);
+    query_registry_free(registry);
     return status;
 }
 
