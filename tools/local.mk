@@ -51,13 +51,16 @@ tools_check = \
 tools_bench = \
     tools/bench/bench.h \
     tools/bench/cases.c \
+    tools/bench/columns.c tools/bench/columns.h \
     tools/bench/conformal.c \
     tools/bench/crowd.c tools/bench/crowd.h \
+    tools/bench/crowds.c \
     tools/bench/json.c \
     tools/bench/measure.c \
     tools/bench/patches.c \
     tools/bench/print.c \
     tools/bench/sets.c \
+    tools/bench/stream.c \
     tools/bench/verb_bench.c
 
 tools_cli = \

@@ -9,7 +9,7 @@ load ../support/cli_helper
 
 setup_file() {
     export bench=$BATS_FILE_TMPDIR/bench.json
-    "$IMPINGE" bench --method models --repeat 1 --json >"$bench"
+    "$IMPINGE" bench --method models --repeat 1 --up-to 1000 --json >"$bench"
 }
 
 # measured FILTER: jq -e over all sets; `row(SET; CASE)` is the default method's row of that case.
@@ -97,8 +97,8 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     output=$(<"$bench")
     valid bench
     json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving", "clearance",
-        "conformal"]'
-    json 'all(.sets[] | select(.set != "clearance").cases[].methods[];
+        "conformal", "bodies", "surfaces", "batch"]'
+    json 'all(.sets[] | select(.set != "clearance" and .set != "batch").cases[].methods[];
         .method == "models" and .ratio == null)'
     run -0 small --json
     valid bench
@@ -126,6 +126,44 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
     json 'all(.sets[0].cases[].methods[]; .method == "models" and .verdicts.contact == 0 and
         (.ended == 1) == (.pairs.max >= 500) and .pairs.max <= 502)'
     json '[.sets[0].cases[].methods[0].ended] | add | . > 4 and . < 16'
+}
+
+@test "bodies, triangles and scenes grow up to the number asked for" {
+    output=$(<"$bench")
+    json '[.sets[-3:][].cases[].case] == ["100 bodies", "1000 bodies", "100 triangles each",
+        "1000 triangles each", "100 pairs of spheres", "100 pairs of patches",
+        "1000 pairs of spheres", "1000 pairs of patches"]'
+    run -0 "$IMPINGE" bench bodies surfaces --up-to 999 --repeat 1 --json
+    valid bench
+    json '[.sets[].cases[].case] == ["100 bodies", "100 triangles each"]'
+    json 'all(.sets[].cases[].methods[]; .verdicts.contact == 1 and .bytes.max > 0)'
+}
+
+@test "the crowd's first contact and the meshes' are found for little more than the candidates" {
+    measured 'row("bodies"; "1000 bodies") | .verdicts.contact == 1 and .pairs.max < 20000'
+    measured 'row("surfaces"; "1000 triangles each") | .verdicts.contact == 1 and .pairs.max < 20000'
+}
+
+@test "a batch gives the answers of its scenes one by one, by any number of threads" {
+    measured '.sets[] | select(.set == "batch") | .cases[] | [.methods[] |
+        {method, verdicts, pairs, nodes, witness_searches, peak_heap, bytes}] |
+        [.[].method] == ["solve, one by one", "batch, 1 thread", "batch, 2 threads"] and
+        (map(del(.method)) | unique | length == 1)'
+    measured '.sets[] | select(.set == "batch") |
+        .findings.two_threads_faster > 0 and .findings.two_threads_processor > 0 and
+        (.findings | has("overhead_us")) and all(.cases[].methods[]; .processor_seconds > 0)'
+    run -0 "$IMPINGE" bench batch --up-to 100 --repeat 1
+    [[ $output == *'100 pairs of patches (100 scenes)'*'  batch, 2 threads  '*'us a scene beyond'* ]]
+}
+
+@test "a set that the paper's method is not for is refused where named, and else left out" {
+    fails 2 "set 'conformal' is for the default method only: leave out --method, or the set" \
+        "$IMPINGE" bench moving conformal --method paper
+    run -0 --separate-stderr "$IMPINGE" bench --method paper --max-pairs 1 --repeat 1 --json
+    valid bench
+    json '[.sets[].set] == ["figure7", "bicubic", "spikes", "tori", "rates", "moving"]'
+    [ "$(grep -c 'is for the default method only, and left out' <<<"$stderr")" -eq 5 ]
+    [[ $stderr == *"set 'bodies'"* ]]
 }
 
 @test "counts are the same in every run" {
@@ -176,6 +214,7 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
 @test "repeats are one or more, and a seed belongs to a count" {
     fails 2 "--repeat must be at least 1, not '0'" "$IMPINGE" bench --repeat 0
     fails 2 '--seed belongs to --count' "$IMPINGE" bench bicubic --seed 7
+    fails 2 "--up-to must be at least 100, not '99'" "$IMPINGE" bench bodies --up-to 99
 }
 
 @test "a set whose types are missing is told so" {

@@ -15,7 +15,7 @@
  * the set answers every case, each scene afresh, and its counters are tallied:
  *
  *   bench_sets     which sets there are, and their scenes (bench_patches: random patches)
- *   bench_measure  one method on one case -> tally
+ *   bench_measure  one method on one case -> tally (bench_measure_stream: a stream of scenes)
  *   bench_print    tallies as a table for people; bench_json: for programs
  *
  * Scenes come from fixed seeds without a call to libm but sqrt, so that all counters are the same
@@ -65,7 +65,8 @@ void bench_cases_free(bench_cases *list);
 typedef enum bench_question {
     BENCH_CONTACT,   /* when do they first touch? */
     BENCH_CLEARANCE, /* how near do they come? */
-    BENCH_PROOF      /* do they stay 0.99 of the least distance apart? */
+    BENCH_PROOF,     /* do they stay 0.99 of the least distance apart? */
+    BENCH_STREAM     /* contact, of all scenes one after the other, reading them included */
 } bench_question;
 
 typedef struct bench_method {
@@ -74,7 +75,8 @@ typedef struct bench_method {
     imp_bounds bounds;
     imp_rates rates;
     bench_question question;
-    bool capped; /* whether it ends at the request's budget */
+    bool capped;    /* whether it ends at the request's budget */
+    size_t threads; /* BENCH_STREAM: of the batch; 0: no batch, each scene is read and solved */
 } bench_method;
 
 /* What the command line asks for. */
@@ -85,7 +87,10 @@ typedef struct bench_request {
     uint64_t max_pairs;   /* budget of methods that are capped, for one scene; 0: none */
     uint64_t repeats;     /* how often a scene is timed; at least 1 */
     uint64_t count, seed; /* of random patches besides the file's */
+    uint64_t up_to;       /* bodies, triangles or scenes of a case at most; at least: */
 } bench_request;
+
+enum { BENCH_SIZE_LEAST = 100 }; /* that each set of sizes has a case for */
 
 /* Over the scenes of a case. */
 typedef struct bench_spread {
@@ -97,6 +102,7 @@ typedef struct bench_tally {
     size_t scenes, verdicts[3]; /* by imp_verdict */
     size_t ended;               /* undecided because the budget ended */
     bench_spread pairs, nodes, searches, heap, bytes, seconds;
+    double processor; /* BENCH_STREAM: seconds a scene of all threads; `seconds` are the clock's */
     size_t references, agreed; /* scenes with a reference; whose verdict is the same */
     double earliest, latest;   /* of t_lower - reference, in time: over the contacts among them, and
                                   over all of them that meet; NAN if there is none */
@@ -129,17 +135,21 @@ typedef struct bench_set {
     const char *about;                  /* lines for people */
     const bench_method *const *methods; /* NULL-terminated */
     exit_status (*build)(bench_cases *list, const bench_request *request);
-    /* Draws up to BENCH_FINDINGS_MAX findings from the models' tallies, one a case, and answers how
-     * many; NULL: none ever. */
-    size_t (*find)(const bench_tally *models, size_t count, bench_finding *findings);
+    /* Draws up to BENCH_FINDINGS_MAX findings from the results of all cases, whose first rows are the
+     * default method's, and answers how many; NULL: none ever. */
+    size_t (*find)(const bench_result *results, size_t count, bench_finding *findings);
 } bench_set;
 
 /* All sets, NULL-terminated; the one of that name, or NULL. */
 const bench_set *const *bench_sets_all(void);
 const bench_set *bench_set_find(const char *name);
 
-/* Machine parts that slide in each other. */
-extern const bench_set bench_conformal;
+/* Machine parts that slide in each other; scenes of many bodies; meshes of many triangles; streams of
+ * scenes. */
+extern const bench_set bench_conformal, bench_bodies, bench_surfaces, bench_batch;
+
+/* Whether the request measures any method of the set. */
+bool bench_set_is_measured(const bench_set *set, const bench_request *request);
 
 /* What building a set answers once its cases are added. */
 exit_status bench_built(const bench_cases *list, const bench_request *request);
@@ -159,6 +169,10 @@ exit_status bench_add_file(bench_cases *list, const char *verb);
 /* Everything about one method on one case. Errors are the library's. */
 imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_method *m,
                        const bench_request *request, bench_tally *tally, imp_error *error);
+
+/* The same of BENCH_STREAM. Times are the median of `repeats` runs. */
+imp_code bench_measure_stream(imp_registry *registry, const bench_case *c, const bench_method *m,
+                              const bench_request *request, bench_tally *tally, imp_error *error);
 
 /* What the numbers mean; what a set is about and the head of its table; one case of it. */
 void bench_print_request(const bench_request *request);

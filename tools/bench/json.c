@@ -37,13 +37,14 @@ static json_t *ratio_json(const bench_tally *t, const bench_row *baseline)
 static json_t *row_json(const bench_row *row, const bench_row *baseline)
 {
     const bench_tally *t = &row->tally;
-    return json_pack("{s:s, s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "method",
+    json_t *processor = row->method->question == BENCH_STREAM ? json_real(t->processor) : NULL;
+    return json_pack("{s:s, s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o*}", "method",
                      row->method->name, "verdicts", verdicts_json(t), "ended", (json_int_t)t->ended,
                      "pairs", spread_json(&t->pairs), "nodes", spread_json(&t->nodes),
                      "witness_searches", spread_json(&t->searches), "peak_heap",
                      spread_json(&t->heap), "bytes", spread_json(&t->bytes), "seconds",
                      spread_json(&t->seconds), "ratio", ratio_json(t, baseline), "reference",
-                     reference_json(t));
+                     reference_json(t), "processor_seconds", processor);
 }
 
 json_t *bench_result_json(const bench_result *result)

@@ -2,10 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/bench/bench.h"
+#include "tools/bench/columns.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -123,71 +122,6 @@ static imp_code solve_once(imp_registry *registry, const bench_scene *s, const b
     return code;
 }
 
-/* --- Many numbers ------------------------------------------------------------------------- */
-
-static int ascending(const void *p, const void *q)
-{
-    const double a = *(const double *)p, b = *(const double *)q;
-    return a < b ? -1 : a > b;
-}
-
-/* Sorts x; count > 0. */
-static double median(double *x, size_t count)
-{
-    qsort(x, count, sizeof *x, ascending);
-    return 0.5 * (x[(count - 1) / 2] + x[count / 2]);
-}
-
-static bench_spread spread(double *x, size_t count)
-{
-    bench_spread s = {0, count > 0 ? median(x, count) : 0, count > 0 ? x[count - 1] : 0};
-    for (size_t k = 0; k < count; ++k) s.mean += x[k] / (double)count;
-    return s;
-}
-
-enum { PAIRS, NODES, SEARCHES, HEAP, BYTES, SECONDS, COLUMNS, REPEATS_MAX = 101 };
-
-/* The numbers of all scenes, a column each. */
-typedef struct columns {
-    size_t count;
-    double *of[COLUMNS];
-} columns;
-
-static void columns_free(columns *x)
-{
-    for (int k = 0; k < COLUMNS; ++k) free(x->of[k]);
-}
-
-static bool columns_make(columns *x, size_t count)
-{
-    bool made = true;
-    x->count = 0;
-    for (int k = 0; k < COLUMNS; ++k) {
-        x->of[k] = calloc(count + 1, sizeof *x->of[k]);
-        made = made && x->of[k] != NULL;
-    }
-    return made;
-}
-
-static void columns_add(columns *x, const imp_stats *stats, double seconds)
-{
-    const double row[COLUMNS] = {
-        (double)stats->pairs,     (double)stats->nodes, (double)stats->witness_searches,
-        (double)stats->peak_heap, (double)stats->bytes, seconds};
-    for (int k = 0; k < COLUMNS; ++k) x->of[k][x->count] = row[k];
-    x->count += 1;
-}
-
-static void columns_tally(columns *x, bench_tally *tally)
-{
-    tally->pairs = spread(x->of[PAIRS], x->count);
-    tally->nodes = spread(x->of[NODES], x->count);
-    tally->searches = spread(x->of[SEARCHES], x->count);
-    tally->heap = spread(x->of[HEAP], x->count);
-    tally->bytes = spread(x->of[BYTES], x->count);
-    tally->seconds = spread(x->of[SECONDS], x->count);
-}
-
 /* --- One case ----------------------------------------------------------------------------- */
 
 /* Timed `repeats` times, unless once takes long enough to be told exactly. */
@@ -196,6 +130,7 @@ static imp_code solve(imp_registry *registry, const bench_scene *s, const bench_
                       double *seconds, imp_error *error)
 {
     const double long_enough = 0.02;
+    enum { REPEATS_MAX = 101 };
     double times[REPEATS_MAX];
     size_t count = 0;
     imp_code code = IMP_SUCCESS;
@@ -203,7 +138,7 @@ static imp_code solve(imp_registry *registry, const bench_scene *s, const bench_
         code = solve_once(registry, s, c, m, request, result, &times[count++], error);
     } while (code == IMP_SUCCESS && times[count - 1] < long_enough && count < request->repeats &&
              count < REPEATS_MAX);
-    *seconds = median(times, count);
+    *seconds = columns_median(times, count);
     return code;
 }
 
@@ -239,6 +174,8 @@ static imp_code fill(imp_registry *registry, const bench_case *c, const bench_me
 imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_method *m,
                        const bench_request *request, bench_tally *tally, imp_error *error)
 {
+    if (m->question == BENCH_STREAM)
+        return bench_measure_stream(registry, c, m, request, tally, error);
     *tally = (bench_tally){.scenes = c->count, .earliest = NAN, .latest = NAN};
     columns x;
     *error = (imp_error){.code = IMP_ERROR_MEMORY};

@@ -11,12 +11,11 @@
 /* --- Methods ------------------------------------------------------------------------------ */
 
 #define METHOD(ID, NAME, METHOD, BOUNDS, RATES)                                                    \
-    static const bench_method ID = {NAME,                                                          \
-                                    IMP_METHOD_##METHOD,                                           \
-                                    IMP_BOUNDS_##BOUNDS,                                           \
-                                    IMP_RATES_##RATES,                                             \
-                                    BENCH_CONTACT,                                                 \
-                                    IMP_METHOD_##METHOD == IMP_METHOD_PAPER}
+    static const bench_method ID = {.name = NAME,                                                  \
+                                    .method = IMP_METHOD_##METHOD,                                 \
+                                    .bounds = IMP_BOUNDS_##BOUNDS,                                 \
+                                    .rates = IMP_RATES_##RATES,                                    \
+                                    .capped = IMP_METHOD_##METHOD == IMP_METHOD_PAPER}
 METHOD(models, "models", MODELS, BOX, FULL);
 METHOD(boxes, "paper", PAPER, BOX, FULL);
 METHOD(boxes_column, "paper, column", PAPER, BOX, COLUMN);
@@ -25,10 +24,10 @@ METHOD(balls, "paper, spheres", PAPER, SPHERE, FULL);
 METHOD(balls_column, "paper, spheres, column", PAPER, SPHERE, COLUMN);
 METHOD(balls_constant, "paper, spheres, constant", PAPER, SPHERE, CONSTANT);
 
-static const bench_method clearance_method = {"clearance",    IMP_METHOD_MODELS, IMP_BOUNDS_BOX,
-                                              IMP_RATES_FULL, BENCH_CLEARANCE,   false};
-static const bench_method proof_method = {"solve, 0.99 of it", IMP_METHOD_MODELS, IMP_BOUNDS_BOX,
-                                          IMP_RATES_FULL,      BENCH_PROOF,       false};
+static const bench_method clearance_method = {
+    .name = "clearance", .method = IMP_METHOD_MODELS, .question = BENCH_CLEARANCE};
+static const bench_method proof_method = {
+    .name = "solve, 0.99 of it", .method = IMP_METHOD_MODELS, .question = BENCH_PROOF};
 
 static const bench_method *const usual[] = {&models, &boxes, &balls, NULL};
 static const bench_method *const all_rates[] = {
@@ -48,12 +47,15 @@ static vector_text vector(const double x[3], double scale)
     return v;
 }
 
+/* The default method's pairs a scene. */
+static double pairs_of(const bench_result *result) { return result->rows[0].tally.pairs.mean; }
+
 /* What the last `step` cases cost beyond the `step` before them, over what those cost beyond the
  * `step` before; `end` counts the cases. 1 is a cost like the logarithm. */
-static double growth(const bench_tally *tallies, size_t end, size_t step)
+static double growth(const bench_result *results, size_t end, size_t step)
 {
-    const double last = tallies[end - 1].pairs.mean, middle = tallies[end - 1 - step].pairs.mean,
-                 first = tallies[end - 1 - 2 * step].pairs.mean;
+    const double last = pairs_of(&results[end - 1]), middle = pairs_of(&results[end - 1 - step]),
+                 first = pairs_of(&results[end - 1 - 2 * step]);
     return (last - middle) / (middle - first);
 }
 
@@ -87,10 +89,10 @@ static exit_status build_figure7(bench_cases *list, const bench_request *request
     return bench_built(list, request);
 }
 
-static size_t find_figure7(const bench_tally *tallies, size_t count, bench_finding *findings)
+static size_t find_figure7(const bench_result *results, size_t count, bench_finding *findings)
 {
-    findings[0] = (bench_finding){.key = "growth_to_1e-6", .value = growth(tallies, count - 2, 2)};
-    findings[1] = (bench_finding){.key = "growth_to_1e-8", .value = growth(tallies, count, 2)};
+    findings[0] = (bench_finding){.key = "growth_to_1e-6", .value = growth(results, count - 2, 2)};
+    findings[1] = (bench_finding){.key = "growth_to_1e-8", .value = growth(results, count, 2)};
     for (int k = 0; k < 2; ++k)
         snprintf(
             findings[k].text, sizeof findings[k].text,
@@ -184,10 +186,10 @@ static exit_status build_spikes(bench_cases *list, const bench_request *request)
     return bench_built(list, request);
 }
 
-static size_t find_spikes(const bench_tally *tallies, size_t count, bench_finding *findings)
+static size_t find_spikes(const bench_result *results, size_t count, bench_finding *findings)
 {
-    const double head_on = tallies[WIDTHS - 1].pairs.mean / tallies[0].pairs.mean;
-    const double swing = tallies[count - 1].pairs.mean / tallies[WIDTHS].pairs.mean;
+    const double head_on = pairs_of(&results[WIDTHS - 1]) / pairs_of(&results[0]);
+    const double swing = pairs_of(&results[count - 1]) / pairs_of(&results[WIDTHS]);
     findings[0] = (bench_finding){.key = "narrowest_over_widest_head_on", .value = head_on};
     findings[1] = (bench_finding){.key = "narrowest_over_widest_swing", .value = swing};
     snprintf(findings[0].text, sizeof findings[0].text,
@@ -370,10 +372,18 @@ static const bench_set clearance_set = {
 
 /* --- All ---------------------------------------------------------------------------------- */
 
-static const bench_set *const all[] = {&figure7, &bicubic,       &spikes,          &tori, &rates,
-                                       &moving,  &clearance_set, &bench_conformal, NULL};
+static const bench_set *const all[] = {
+    &figure7,         &bicubic,      &spikes,         &tori,        &rates, &moving, &clearance_set,
+    &bench_conformal, &bench_bodies, &bench_surfaces, &bench_batch, NULL};
 
 const bench_set *const *bench_sets_all(void) { return all; }
+
+bool bench_set_is_measured(const bench_set *set, const bench_request *request)
+{
+    const bench_method *const *m = set->methods;
+    while (request->only && *m != NULL && (*m)->method != request->method) ++m;
+    return *m != NULL;
+}
 
 const bench_set *bench_set_find(const char *name)
 {

@@ -11,6 +11,8 @@
  * thread and answered by any. Who owns the batch decides where answers go: verb_batch.c to standard
  * output, from a pool of threads; tools/mpi to a file, from many processes. */
 
+enum { BATCH_ITEMS_PER_THREAD = 16 }; /* under way: a slow line leaves no other thread idle */
+
 typedef struct batch {
     const arguments *args;
     imp_registry *registry;

@@ -12,8 +12,6 @@
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
 
-enum { ITEMS_PER_THREAD = 16 }; /* enough that a slow line does not leave the other threads idle */
-
 static void work_on_line(void *context, void *of) { batch_answer(context, of); }
 
 /* In order, one at a time. What a signal has cut short ends the output: printed, as it says how far
@@ -41,7 +39,7 @@ static void answer_lines(batch *b)
     progress_count_from(b->done, batch_scene_count(b), "scenes");
     const size_t threads = query_threads(b->args);
     const ordered_pool_plan plan = {.threads = threads,
-                                    .items = ITEMS_PER_THREAD * threads,
+                                    .items = BATCH_ITEMS_PER_THREAD * threads,
                                     .item_size = sizeof(batch_item),
                                     .work = work_on_line,
                                     .finish = finish_line,
