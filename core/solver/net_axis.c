@@ -85,12 +85,13 @@ IMP_QUAD_INLINE vec3 lowest_of(const hulls *h, vec3 n)
 /* As gjk_axis.c does it, on points. */
 IMP_QUAD_INLINE bool seek(const node *a, const node *b, double t, vec3 *axis)
 {
+    const net *f = node_net_made(a), *g = node_net_made(b);
     hulls h;
-    h.quads_a = a->net->stride / IMP_QUAD;
-    h.quads_b = b->net->stride / IMP_QUAD;
-    h.apart = places_apart(a->net, b->net, t);
-    cloud_at(a->net, t, &h.a);
-    cloud_at(b->net, t, &h.b);
+    h.quads_a = f->stride / IMP_QUAD;
+    h.quads_b = g->stride / IMP_QUAD;
+    h.apart = places_apart(f, g, t);
+    cloud_at(f, t, &h.a);
+    cloud_at(g, t, &h.b);
     simplex s = on_point(lowest_of(&h, *axis));
     for (int k = 0; k < TUNING_GJK_STEPS; ++k) {
         const vec3 lowest = lowest_of(&h, s.nearest);
@@ -219,15 +220,16 @@ IMP_QUAD_INLINE bool cut_along(const node *a, const node *b, vec3 axis, double c
     for (int i = 1; i < 3; ++i)
         if (fabs(axis.x[i]) > longest) longest = fabs(axis.x[i]);
     if (!(longest > 0x1p-400 && longest < 0x1p400)) return true;
+    const net *p = node_net_made(a), *q = node_net_made(b);
     const vec3 n = vec3_scale(axis, 1 / longest);
-    const double early = fabs(window->lo - a->net->time) + fabs(window->lo - b->net->time);
-    const double late = fabs(window->hi - a->net->time) + fabs(window->hi - b->net->time);
+    const double early = fabs(window->lo - p->time) + fabs(window->lo - q->time);
+    const double late = fabs(window->hi - p->time) + fabs(window->hi - q->time);
     const double limit = padded_upper(vec3_norm(n) * clearance, 16) +
-                         slack_upper(a->net, b->net, n, early > late ? early : late);
-    const window_ends low = lowest_heights_of(b->net, window, n, 1);
-    const window_ends high = lowest_heights_of(a->net, window, n, -1);
-    const double g0 = low.lo + high.lo + vec3_dot(n, places_apart(a->net, b->net, window->lo));
-    const double g1 = low.hi + high.hi + vec3_dot(n, places_apart(a->net, b->net, window->hi));
+                         slack_upper(p, q, n, early > late ? early : late);
+    const window_ends low = lowest_heights_of(q, window, n, 1);
+    const window_ends high = lowest_heights_of(p, window, n, -1);
+    const double g0 = low.lo + high.lo + vec3_dot(n, places_apart(p, q, window->lo));
+    const double g1 = low.hi + high.hi + vec3_dot(n, places_apart(p, q, window->hi));
     if (!(g0 < INFINITY && g1 < INFINITY && limit < INFINITY)) return true;
     return line_cut(g0, g1, padded_upper(limit, 4), window);
 }

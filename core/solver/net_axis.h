@@ -8,7 +8,8 @@
 /* Separating axes of two control nets
  * ===================================
  * Each node lies in the convex hull of its control points, give or take the net's error, and the
- * hull is a body of few points that move linearly. Both nodes have a net (node.h). */
+ * hull is a body of few points that move linearly. Both nodes have a net, which was asked
+ * for (node_net). */
 
 /* Turns `axis`, which may be any direction but 0, to one that shows most of the widest gap of the hulls at
  * time t: GJK on their Minkowski difference. False: the hulls meet then; `axis` is as it was. */

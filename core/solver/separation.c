@@ -106,7 +106,8 @@ static bool is_curved(const net *f)
 /* Of two bilinear patches quadratics say all that hulls do. */
 static bool have_nets(const node *a, const node *b)
 {
-    return a->net != NULL && b->net != NULL && (is_curved(a->net) || is_curved(b->net));
+    const net *f = node_net_made(a), *g = node_net_made(b);
+    return f != NULL && g != NULL && (is_curved(f) || is_curved(g));
 }
 
 /* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls show,

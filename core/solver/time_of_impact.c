@@ -9,6 +9,11 @@
 
 #include "core/solver/tuning.h"
 
+static const candidate_pair *candidate_pair_of(const impact *im, const pair *p)
+{
+    return &im->candidate_pairs[p->candidate_pair];
+}
+
 /* --- Test and push ---------------------------------------------------------------- */
 
 static bool pair_may_be_near(const impact *im, pair *p)
@@ -27,17 +32,37 @@ static bool pair_may_be_near_at_first(const impact *im, pair *p)
     return separation_first_look(p->a, p->b, im->clearance, &p->window, &p->axis, &p->is_seen_only);
 }
 
+/* Hulls part two nodes where both have a net: only then are nets made. Every later test of the pair finds
+ * what is found here. */
+static imp_code ask_for_nets(impact *im, const pair *p, imp_error *error)
+{
+    const candidate_pair *both = candidate_pair_of(im, p);
+    if (im->method == IMP_METHOD_PAPER || !surface_offers_net(p->a->surface) ||
+        !surface_offers_net(p->b->surface))
+        return IMP_SUCCESS;
+    const net *found;
+    tree_growth growth = {0};
+    imp_code code = node_net(both->side[0]->tree, p->a, &found, &growth, error);
+    if (code == IMP_SUCCESS && found != NULL)
+        code = node_net(both->side[1]->tree, p->b, &found, &growth, error);
+    im->stats->bytes += growth.bytes;
+    return code;
+}
+
 /* Puts the pair of p's nodes on the heap, which has room, unless they stay apart. p->window holds
  * the parent's window, cut to both nodes' times. */
-static void test_and_push(impact *im, pair p)
+static imp_code test_and_push(impact *im, pair p, imp_error *error)
 {
+    const imp_code code = ask_for_nets(im, &p, error);
+    if (code != IMP_SUCCESS) return code;
     im->stats->pairs += 1;
-    if (!pair_may_be_near_at_first(im, &p)) return;
+    if (!pair_may_be_near_at_first(im, &p)) return IMP_SUCCESS;
     p.serial = im->serial++;
     p.key[0] = p.window.lo;
     p.key[1] = pair_order(&p, p.window.lo);
     pair_heap_push(&im->heap, &p);
     if (im->heap.count > im->stats->peak_heap) im->stats->peak_heap = im->heap.count;
+    return IMP_SUCCESS;
 }
 
 imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, imp_error *error)
@@ -52,14 +77,11 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
     if (!pair_heap_reserve(&im->heap, 1)) return IMP_SUCCESS;
     *state = IMPACT_RUNNING;
     if (p.window.lo > p.window.hi) return IMP_SUCCESS;
-    test_and_push(im, p);
+    const imp_code code = test_and_push(im, p, error);
+    if (code == IMP_ERROR_MEMORY) *state = IMPACT_NO_MEMORY;
+    if (code != IMP_SUCCESS) return code == IMP_ERROR_MEMORY ? IMP_SUCCESS : code;
     if (im->heap.count == before) return IMP_SUCCESS;
     return candidate_pair_measure(both, error);
-}
-
-static const candidate_pair *candidate_pair_of(const impact *im, const pair *p)
-{
-    return &im->candidate_pairs[p->candidate_pair];
 }
 
 /* --- Splitting ---------------------------------------------------------------------------- */
@@ -69,13 +91,11 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
     for (int half = 0; half < 2; ++half) {
         pair child = *p;
         bool some;
-        const imp_code code =
+        imp_code code =
             cut_take(&c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
+        if (code == IMP_SUCCESS && some) code = test_and_push(im, child, error);
         if (code == IMP_ERROR_PLUGIN) return code;
-        if (code != IMP_SUCCESS)
-            *state = IMPACT_NO_MEMORY;
-        else if (some)
-            test_and_push(im, child);
+        if (code != IMP_SUCCESS) *state = IMPACT_NO_MEMORY;
     }
     return IMP_SUCCESS;
 }

@@ -109,6 +109,10 @@ imp_status surface_include(const surface *s, const imp_region *region, imp_model
 /* The control net of the composition over a region (imp_net). IMP_UNBOUNDED: it has none there, as where
  * the type or a map has none. */
 imp_status surface_net(const surface *s, const imp_region *region, imp_net *net);
+
+/* Whether the type and all maps can be asked for one; else it has none anywhere. */
+bool surface_offers_net(const surface *s);
+
 /* The inclusion of the type alone, under none of the maps. */
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3]);
 

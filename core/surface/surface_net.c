@@ -33,11 +33,16 @@ static imp_status judge(imp_status status, const imp_net *net)
     return status == IMP_OK && !(fits(net) && is_sane(net)) ? SURFACE_BAD_NET : status;
 }
 
+bool surface_offers_net(const surface *s)
+{
+    bool offers = s->type->net != NULL;
+    for (size_t k = 0; k < s->map_count; ++k) offers = offers && s->maps[k].type->net != NULL;
+    return offers;
+}
+
 imp_status surface_net(const surface *s, const imp_region *region, imp_net *net)
 {
-    if (s->type->net == NULL) return IMP_UNBOUNDED;
-    for (size_t k = 0; k < s->map_count; ++k)
-        if (s->maps[k].type->net == NULL) return IMP_UNBOUNDED;
+    if (!surface_offers_net(s)) return IMP_UNBOUNDED;
     memset(net, 0, sizeof *net);
     const fp_mode mode = surface_call_begin(s->type->name, "net");
     imp_status status = s->type->net(s->self, region, net);

@@ -97,7 +97,7 @@ static imp_code lie_of_net(const surface *s, const node *n, const double p[3], c
                          "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g its %c is %.17g, "
                          "which is outside the hull of the control points by more than %.3g",
                          r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1],
-                         p[2], "xyz"[i], x[i], n -> net -> error[i]);
+                         p[2], "xyz"[i], x[i], node_net_made(n)->error[i]);
 }
 
 static imp_code lie(const surface *s, const node *n, const double p[3], const double x[3], int i,
@@ -120,7 +120,8 @@ static imp_code judge(const surface *s, const node *n, const double p[3], const 
 {
     int i = coordinate_outside(n, p, x, eval_error);
     if (i >= 0) return lie(s, n, p, x, i, error);
-    i = n->net != NULL ? coordinate_off_net(n->net, p[2], x, eval_error) : -1;
+    const net *hull = node_net_made(n);
+    i = hull != NULL ? coordinate_off_net(hull, p[2], x, eval_error) : -1;
     return i >= 0 ? lie_of_net(s, n, p, x, i, error) : IMP_SUCCESS;
 }
 
@@ -139,8 +140,9 @@ imp_code bound_audit_holds_at(const surface *s, const node *n, const double p[3]
     if (!n->bounded || !region_holds(&n->region, p)) return IMP_SUCCESS;
     double eval_error[3], again[3];
     for (int i = 0; i < 3; ++i) eval_error[i] = 0;
+    const net *hull = node_net_made(n);
     const bool fine = coordinate_outside(n, p, x, eval_error) < 0 &&
-                      (n->net == NULL || coordinate_off_net(n->net, p[2], x, eval_error) < 0);
+                      (hull == NULL || coordinate_off_net(hull, p[2], x, eval_error) < 0);
     if (fine || !evaluate(s, p, again, eval_error)) return IMP_SUCCESS;
     return judge(s, n, p, again, eval_error, error);
 }

@@ -199,103 +199,163 @@ static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
     return IMP_SUCCESS;
 }
 
+const net net_none;
+
 /* --- Nets -------------------------------------------------------------------------------- */
 
-/* Which half of which node a node is. */
-typedef struct node_origin {
-    const node *parent;
-    parameter along;
-    int side;
-} node_origin;
-
-/* The net as the type gives it, where it has one that can be computed with. */
-static imp_code ask_net(node *n, net_buffer *room, imp_error *error)
+/* The net as the type gives it, in the room; NULL where it has none that can be computed with. */
+static imp_code ask_net(const node *n, net_buffer *room, const net **made, imp_error *error)
 {
     imp_net given;
     const imp_status status = surface_net(n->surface, &n->region, &given);
+    *made = NULL;
     if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
     if (status != IMP_OK) return status_fault(n, status, error);
-    if (net_take(net_in(room), &given, &n->region)) n->net = net_in(room);
+    if (net_take(net_in(room), &given, &n->region)) *made = net_in(room);
     return IMP_SUCCESS;
 }
 
-/* From the parent's where that can be halved. `origin` is NULL for the root. */
-static imp_code fill_net(const tree *t, node *n, const node_origin *origin, net_buffer *room,
-                         imp_error *error)
+static bool may_have_net(const tree *t, const node *n)
 {
-    if (t->plan.kind != TREE_MODELS || !n->bounded || n->many != NULL) return IMP_SUCCESS;
-    if (origin == NULL || origin->parent->net == NULL || origin->parent->surface != n->surface ||
-        !net_can_halve(&origin->parent->region, origin->along))
-        return ask_net(n, room, error);
-    n->net = origin->parent->net;
-    if (origin->along == PARAMETER_T) return IMP_SUCCESS;
-    net_halve(n->net, origin->along, origin->side, net_in(room));
-    n->net = net_in(room);
+    return t->plan.kind == TREE_MODELS && n->bounded && n->many == NULL &&
+           surface_offers_net(n->surface);
+}
+
+/* The net in the room, or the parent's itself; NULL: it has none. From the parent's where that can be
+ * halved. */
+static imp_code fill_net(tree *t, const node *n, net_buffer *room, const net **made,
+                         tree_growth *growth, imp_error *error)
+{
+    *made = NULL;
+    if (!may_have_net(t, n)) return IMP_SUCCESS;
+    const net *whole = NULL;
+    if (n->parent != NULL && n->parent->surface == n->surface &&
+        net_can_halve(&n->parent->region, n->along)) {
+        const imp_code code = node_net(t, n->parent, &whole, growth, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    if (whole == NULL) return ask_net(n, room, made, error);
+    *made = whole;
+    if (n->along == PARAMETER_T) return IMP_SUCCESS;
+    net_halve(whole, n->along, n->side, net_in(room));
+    *made = net_in(room);
+    return IMP_SUCCESS;
+}
+
+/* A copy in the tree of a net in the room. NULL: no memory. */
+static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
+{
+    const size_t bytes = net_bytes(filled);
+    net *kept = net_alloc(t, bytes, growth);
+    return kept != NULL ? memcpy(kept, filled, bytes) : NULL;
+}
+
+/* `filled` unless another thread's is there already. NULL: no memory. */
+static const net *net_publish(tree *t, node *n, const net *filled, bool is_in_tree,
+                              tree_growth *growth)
+{
+    pthread_mutex_lock(&t->lock);
+    const net *made = atomic_load_explicit(&n->net, memory_order_relaxed);
+    if (made == NULL) {
+        made = is_in_tree ? filled : net_copy(t, filled, growth);
+        if (made != NULL) atomic_store_explicit(&n->net, made, memory_order_release);
+    }
+    pthread_mutex_unlock(&t->lock);
+    return made;
+}
+
+static imp_code make_net(tree *t, node *n, tree_growth *growth, imp_error *error)
+{
+    net_buffer room;
+    const net *filled;
+    const imp_code code = fill_net(t, n, &room, &filled, growth, error);
+    if (code != IMP_SUCCESS) return code;
+    if (filled == NULL) filled = &net_none;
+    return net_publish(t, n, filled, filled != net_in(&room), growth) != NULL
+               ? IMP_SUCCESS
+               : error_set_memory(error);
+}
+
+imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error)
+{
+    /* ancestors first, from the top, so that none asks for its parent's in turn */
+    while (atomic_load_explicit(&n->net, memory_order_acquire) == NULL) {
+        node *first = n;
+        while (first->parent != NULL && first->parent->surface == n->surface &&
+               atomic_load_explicit(&first->parent->net, memory_order_acquire) == NULL)
+            first = first->parent;
+        const imp_code code = make_net(t, first, growth, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    *found = node_net_made(n);
     return IMP_SUCCESS;
 }
 
 /* --- Any node ----------------------------------------------------------------------------- */
 
-/* Which points a node is to bound, and when. */
+/* Which points a node is to bound, and when; which half of which node it is. */
 typedef struct node_place {
     imp_region region;
     const surface *surface;
     const cluster *many;
+    node *parent; /* NULL: it is the root */
+    parameter along;
+    int side;
 } node_place;
 
-static imp_code node_fill(const tree *t, const node_place *place, const node_origin *origin,
-                          node *n, net_buffer *room, imp_error *error)
+/* With the net, which is made again when it is needed. */
+static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
 {
-    *n = (node){.region = place->region, .surface = place->surface, .many = place->many};
-    imp_code code = t->plan.kind == TREE_MODELS ? fill_from_model(t, n, error)
-                    : n->many != NULL           ? fill_from_box(t, n, error)
-                                                : fill_from_rates(t, n, error);
-    if (code == IMP_SUCCESS) code = fill_net(t, n, origin, room, error);
-    if (code == IMP_SUCCESS && t->plan.audit != NULL && n->many == NULL)
-        code = t->plan.audit(n->surface, n, error);
+    net_buffer room;
+    const net *made;
+    imp_code code = fill_net(t, n, &room, &made, growth, error);
+    if (code != IMP_SUCCESS) return code;
+    atomic_store_explicit(&n->net, made, memory_order_relaxed);
+    code = t->plan.audit(n->surface, n, error);
+    atomic_store_explicit(&n->net, NULL, memory_order_relaxed);
     return code;
 }
 
-/* A copy of a filled node and of the net in `room`, in memory of the tree. NULL: no memory. */
-static node *node_copy(tree *t, const node *filled, const net_buffer *room, tree_growth *growth)
+static imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growth,
+                          imp_error *error)
 {
-    const net *own = filled->net;
-    if (own == (const net *)(const void *)room->memory) {
-        const size_t bytes = net_bytes(own);
-        net *kept = net_alloc(t, bytes, growth);
-        if (kept == NULL) return NULL;
-        own = memcpy(kept, own, bytes);
-    }
-    node *n = node_alloc(t, growth);
-    if (n == NULL) return NULL;
-    *n = *filled;
-    n->net = own;
-    return n;
+    *n = (node){.region = place->region,
+                .surface = place->surface,
+                .many = place->many,
+                .parent = place->parent,
+                .along = place->along,
+                .side = place->side};
+    imp_code code = t->plan.kind == TREE_MODELS ? fill_from_model(t, n, error)
+                    : n->many != NULL           ? fill_from_box(t, n, error)
+                                                : fill_from_rates(t, n, error);
+    if (code == IMP_SUCCESS && t->plan.audit != NULL && n->many == NULL)
+        code = audit(t, n, growth, error);
+    return code;
 }
 
-/* The same in the slot, unless another thread's is there already. NULL: no memory. */
-static node *node_publish(tree *t, const node *filled, const net_buffer *room,
-                          _Atomic(node *) *slot, tree_growth *growth)
+/* A copy of a filled node in the slot, unless another thread's is there already. NULL: no memory. */
+static node *node_publish(tree *t, const node *filled, _Atomic(node *) *slot, tree_growth *growth)
 {
     pthread_mutex_lock(&t->lock);
     node *n = atomic_load_explicit(slot, memory_order_relaxed);
     if (n == NULL) {
-        n = node_copy(t, filled, room, growth);
-        if (n != NULL) atomic_store_explicit(slot, n, memory_order_release);
+        n = node_alloc(t, growth);
+        if (n != NULL) {
+            *n = *filled;
+            atomic_store_explicit(slot, n, memory_order_release);
+        }
     }
     pthread_mutex_unlock(&t->lock);
     return n;
 }
 
-static imp_code node_make(tree *t, const node_place *place, const node_origin *origin,
-                          _Atomic(node *) *slot, node **made, tree_growth *growth,
-                          imp_error *error)
+static imp_code node_make(tree *t, const node_place *place, _Atomic(node *) *slot, node **made,
+                          tree_growth *growth, imp_error *error)
 {
     node filled;
-    net_buffer room;
-    const imp_code code = node_fill(t, place, origin, &filled, &room, error);
+    const imp_code code = node_fill(t, place, &filled, growth, error);
     if (code != IMP_SUCCESS) return code;
-    *made = node_publish(t, &filled, &room, slot, growth);
+    *made = node_publish(t, &filled, slot, growth);
     return *made != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
@@ -309,13 +369,14 @@ static node_place place_of_surface(const surface *s, double t_start, double t_en
     assert(lo[2] <= t_start && t_start <= t_end && t_end <= hi[2]);
     lo[2] = t_start;
     hi[2] = t_end;
-    return (node_place){region_make(lo, hi), s, NULL};
+    return (node_place){.region = region_make(lo, hi), .surface = s};
 }
 
 static node_place place_of_cluster(const cluster *many, double t_start, double t_end)
 {
     const double lo[3] = {-1, 0, t_start}, hi[3] = {1, 0, t_end};
-    return (node_place){region_make(lo, hi), hierarchy_surface(many->of), many};
+    return (node_place){
+        .region = region_make(lo, hi), .surface = hierarchy_surface(many->of), .many = many};
 }
 
 static imp_code make_root(tree *t, tree_growth *growth, imp_error *error)
@@ -332,7 +393,7 @@ static imp_code make_root(tree *t, tree_growth *growth, imp_error *error)
         place = place_of_cluster(hierarchy_root(t->pieces), plan->t_start, plan->t_end);
     }
     _Atomic(node *) root = NULL;
-    return node_make(t, &place, NULL, &root, &t->root, growth, error);
+    return node_make(t, &place, &root, &t->root, growth, error);
 }
 
 imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
@@ -365,16 +426,7 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
         return error_set_memory(error);
     }
     memset(copy->root, 0, sizeof *copy->root);
-    memcpy(copy->root, t->root, offsetof(node, child)); /* what is before, which no thread changes */
-    if (t->root->net != NULL) {
-        const size_t bytes = net_bytes(t->root->net);
-        net *own = net_alloc(copy, bytes, &of_root);
-        if (own == NULL) {
-            tree_free(copy);
-            return error_set_memory(error);
-        }
-        copy->root->net = memcpy(own, t->root->net, bytes);
-    }
+    memcpy(copy->root, t->root, offsetof(node, net)); /* what is before, which no thread changes */
     growth->bytes += sizeof *copy + of_root.bytes;
     *made = copy;
     return IMP_SUCCESS;
@@ -413,7 +465,9 @@ static node_place place_of_half(const node *parent, parameter j, int side)
 {
     const imp_region *r = &parent->region;
     if (parent->many == NULL || j != PARAMETER_U)
-        return (node_place){region_half(r, j, side), parent->surface, parent->many};
+        return (node_place){.region = region_half(r, j, side),
+                            .surface = parent->surface,
+                            .many = parent->many};
     const cluster *half = parent->many->child[side];
     if (half != NULL) return place_of_cluster(half, r->lo[2], r->hi[2]);
     return place_of_surface(surface_piece(parent->surface, parent->many->piece[side]), r->lo[2],
@@ -426,9 +480,9 @@ imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, 
     _Atomic(node *) *slot = &parent->child[j][side];
     node *made = atomic_load_explicit(slot, memory_order_acquire);
     if (made == NULL) {
-        const node_place half = place_of_half(parent, j, side);
-        const node_origin origin = {parent, j, side};
-        const imp_code code = node_make(t, &half, &origin, slot, &made, growth, error);
+        node_place half = place_of_half(parent, j, side);
+        half.parent = parent, half.along = j, half.side = side;
+        const imp_code code = node_make(t, &half, slot, &made, growth, error);
         if (code != IMP_SUCCESS) return code;
     }
     *child = made;

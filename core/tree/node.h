@@ -21,7 +21,8 @@
  *
  * Trees may be used from several threads at once. A node is filled by whoever asks for it first,
  * published once, and never changes. Two threads that ask at the same moment fill one each: as both
- * are the same to the last bit, the first that is published serves both, the other is dropped. */
+ * are the same to the last bit, the first that is published serves both, the other is dropped. A node's
+ * net comes later, when node_net first asks for it, and is published in the same way. */
 
 /* What a node's inclusion is made from. */
 typedef enum tree_kind {
@@ -39,6 +40,9 @@ typedef struct quadratic3 {
     double quu[4], quv[4], qut[4], qvv[4], qvt[4], qtt[4];
 } quadratic3;
 
+/* Stands for a net where it is known that there is none. Never read. */
+extern const net net_none;
+
 typedef struct node {
     imp_region region;
     quadratic3 f;               /* with e, encloses the surface over the region; length */
@@ -53,7 +57,10 @@ typedef struct node {
     bool bounded;               /* f, e, lo, hi are all finite */
     const surface *surface;     /* whose points are bounded: a piece, or the whole */
     const cluster *many;        /* of these pieces of it; NULL: of one surface */
-    const net *net;             /* NULL: it has none */
+    struct node *parent;        /* NULL: it is the root */
+    parameter along;            /* which half of the parent it is */
+    int side;
+    _Atomic(const net *) net;           /* NULL: not asked for yet; &net_none: it has none */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
 } node;
 
@@ -94,6 +101,17 @@ bool tree_is_of(const tree *t, const tree_plan *plan);
  * type, the region and what it answered. */
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error);
+
+/* The control net of the node, made now if it is asked for first; NULL: it has none. What this call makes
+ * is added to *growth. IMP_ERROR_PLUGIN as above. */
+imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error);
+
+/* The same of a node that was asked for it; NULL of any other. */
+static inline const net *node_net_made(const node *n)
+{
+    const net *made = atomic_load_explicit(&n->net, memory_order_acquire);
+    return made != &net_none ? made : NULL;
+}
 
 /* Why there is no going on at a node without bounds that cannot be halved: IMP_ERROR_PLUGIN names
  * the type, and the place where it is undefined or the region over which it has no bounds. */

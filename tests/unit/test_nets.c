@@ -7,6 +7,7 @@
 #include "core/common/random.h"
 #include "core/solver/net_axis.h"
 #include "tests/support/judge.h"
+#include "tests/support/sphere_scenes.h"
 #include "tests/support/suite.h"
 
 /* Nets of nodes and their axes: halves against exact patches, windows against exact distances, the axis
@@ -288,7 +289,49 @@ START_TEST(the_axis_found_shows_most_of_what_any_axis_shows)
 }
 END_TEST
 
-SUITE_MAIN("nets", halves_of_nets_follow_the_patch_within_their_errors,
+/* --- Who is asked for one ------------------------------------------------------------------------ */
+
+static int asked;
+
+static imp_status counting_net(const void *self, const imp_region *region, imp_net *to)
+{
+    (void)self, (void)region, (void)to;
+    asked += 1;
+    return IMP_UNBOUNDED;
+}
+
+/* How often types of which the first `offering` of two have the callback are asked for nets, by a query
+ * for the first contact or the minimum distance. */
+static int times_asked(int offering, bool minimum)
+{
+    static const ball a = {.radius = 1},
+                      b = {.radius = 1, .centre = {3, 0, 0}, .velocity = {-2, 0, 0}};
+    imp_surface_type type = ball_type;
+    type.net = counting_net;
+    imp_scene *scene = spheres_scene(offering > 0 ? &type : &ball_type, &a,
+                                     offering > 1 ? &type : &ball_type, &b);
+    const imp_options options = imp_options_default(scene);
+    imp_query *query = minimum ? imp_clearance_new(scene, &options, NULL, NULL)
+                               : imp_query_new(scene, &options, NULL);
+    asked = 0;
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    ck_assert_uint_gt(imp_query_result(query).stats.pairs, 10);
+    imp_query_free(query);
+    imp_scene_free(scene);
+    return asked;
+}
+
+START_TEST(a_net_is_asked_for_only_where_both_nodes_of_a_pair_may_have_one)
+{
+    ck_assert_int_eq(times_asked(0, false), 0);
+    ck_assert_int_eq(times_asked(1, false), 0);
+    ck_assert_int_gt(times_asked(2, false), 2);
+    ck_assert_int_eq(times_asked(2, true), 0);
+}
+END_TEST
+
+SUITE_MAIN("nets", a_net_is_asked_for_only_where_both_nodes_of_a_pair_may_have_one,
+           halves_of_nets_follow_the_patch_within_their_errors,
            only_a_cut_in_the_exact_middle_halves_a_net, numbers_too_large_or_small_make_no_net,
            nothing_is_near_outside_of_the_window_that_an_axis_leaves,
            the_window_of_two_points_starts_when_they_are_near,

@@ -11,14 +11,22 @@
 
 enum { THREADS = 6, QUESTIONS = 4 };
 
-static const char *const a_text = "superellipsoid ! rotate axis=1,0.2,0 rate=2";
-static const char *const b_text =
-    "torus ! rotate axis=0,1,1 rate=3 ! translate offset=[[2.7,0.2,0],[-1,0,0]]";
+/* Whose nodes have no nets, and have nets. */
+static const char *const turning[2] = {
+    "superellipsoid ! rotate axis=1,0.2,0 rate=2",
+    "torus ! rotate axis=0,1,1 rate=3 ! translate offset=[[2.7,0.2,0],[-1,0,0]]"};
+#define PATCH(Z, BULGE)                                                                            \
+    "bezier degree=[2,2] points=[[-1,-1," Z "],[-1,0.2," Z "],[-1,1," Z "],[0,-1," Z "],"          \
+    "[0.1,0," BULGE "],[0,1," Z "],[1,-1," Z "],[1,0.1," Z "],[1,1.2," Z "]]"
+static const char *const bending[2] = {
+    PATCH("0", "1.1") " velocities=[[0,0,0.2],[0,0,0],[0,0,0],[0.1,0,0],[0,0,1],[0,0,0],[0,0,0],"
+                      "[0,0,0],[0,0,-0.3]]",
+    PATCH("2", "0.7") " ! translate velocity=0.1,0.2,-2"};
 
-static imp_scene *turning(imp_registry *registry)
+static imp_scene *scene_of(imp_registry *registry, const char *const texts[2])
 {
     imp_error error = {IMP_SUCCESS, ""};
-    imp_scene *scene = imp_scene_from_pair(registry, a_text, b_text, &error);
+    imp_scene *scene = imp_scene_from_pair(registry, texts[0], texts[1], &error);
     ck_assert_msg(scene != NULL, "%s", error.text);
     return scene;
 }
@@ -100,7 +108,8 @@ typedef struct worker {
     pthread_t thread;
     pthread_barrier_t *start;
     imp_registry *registry;
-    imp_scene *scene; /* NULL: makes its own */
+    const char *const *texts;
+    imp_scene *scene; /* of the texts; NULL: makes its own */
     int number;
     answers answers;
 } worker;
@@ -110,18 +119,18 @@ static void *run(void *context)
     worker *w = context;
     pthread_barrier_wait(w->start);
     imp_scene *own =
-        w->scene == NULL ? imp_scene_from_pair(w->registry, a_text, b_text, NULL) : NULL;
+        w->scene == NULL ? imp_scene_from_pair(w->registry, w->texts[0], w->texts[1], NULL) : NULL;
     ask_all(w->scene != NULL ? w->scene : own, w->number, &w->answers);
     imp_scene_free(own);
     return NULL;
 }
 
 /* The answers of all threads are those of a scene that no thread has used before. */
-static void all_at_once(imp_registry *registry, imp_scene *scene)
+static void all_at_once(imp_registry *registry, const char *const texts[2], imp_scene *scene)
 {
     worker workers[THREADS];
     answers alone;
-    imp_scene *fresh = turning(registry);
+    imp_scene *fresh = scene_of(registry, texts);
     ask_all(fresh, 0, &alone);
     imp_scene_free(fresh);
     ck_assert_int_eq(alone.contact[0].verdict, IMP_CONTACT);
@@ -129,7 +138,11 @@ static void all_at_once(imp_registry *registry, imp_scene *scene)
     pthread_barrier_t start;
     pthread_barrier_init(&start, NULL, THREADS);
     for (int k = 0; k < THREADS; ++k) {
-        workers[k] = (worker){.start = &start, .registry = registry, .scene = scene, .number = k};
+        workers[k] = (worker){.start = &start,
+                              .registry = registry,
+                              .texts = texts,
+                              .scene = scene,
+                              .number = k};
         ck_assert_int_eq(pthread_create(&workers[k].thread, NULL, run, &workers[k]), 0);
     }
     for (int k = 0; k < THREADS; ++k) pthread_join(workers[k].thread, NULL);
@@ -137,21 +150,27 @@ static void all_at_once(imp_registry *registry, imp_scene *scene)
     for (int k = 0; k < THREADS; ++k) same_answers(&alone, &workers[k].answers);
 }
 
-START_TEST(threads_that_share_a_scene_get_the_answers_of_one_that_is_alone)
+static void share_a_scene(const char *const texts[2])
 {
     imp_registry *registry = query_registry();
-    imp_scene *scene = turning(registry);
-    all_at_once(registry, scene);
+    imp_scene *scene = scene_of(registry, texts);
+    all_at_once(registry, texts, scene);
     imp_scene_free(scene);
     imp_registry_free(registry);
+}
+
+START_TEST(threads_that_share_a_scene_get_the_answers_of_one_that_is_alone)
+{
+    share_a_scene(turning);
+    share_a_scene(bending);
 }
 END_TEST
 
 START_TEST(nodes_made_by_one_thread_are_not_made_again_by_the_next)
 {
     imp_registry *registry = query_registry();
-    imp_scene *scene = turning(registry);
-    all_at_once(registry, scene);
+    imp_scene *scene = scene_of(registry, turning);
+    all_at_once(registry, turning, scene);
     answers after;
     ask_all(scene, 0, &after);
     for (int k = 0; k < QUESTIONS; ++k) ck_assert_uint_eq(after.contact[k].stats.nodes, 0);
@@ -164,7 +183,7 @@ END_TEST
 START_TEST(threads_that_share_a_registry_make_scenes_at_once)
 {
     imp_registry *registry = query_registry();
-    all_at_once(registry, NULL);
+    all_at_once(registry, bending, NULL);
     imp_registry_free(registry);
 }
 END_TEST
@@ -180,7 +199,7 @@ static void *cancel(void *context)
 START_TEST(a_query_is_cancelled_by_another_thread)
 {
     imp_registry *registry = query_registry();
-    imp_scene *scene = turning(registry);
+    imp_scene *scene = scene_of(registry, turning);
     const imp_options options = imp_options_default(scene);
     imp_query *query = imp_query_new(scene, &options, NULL);
     pthread_t thread;
