@@ -79,6 +79,7 @@ core_solver = \
     core/solver/candidates.c core/solver/candidates.h \
     core/solver/clearance.c core/solver/clearance.h \
     core/solver/clearance_parts.c core/solver/clearance_parts.h \
+    core/solver/collect_pairs.c core/solver/collect_surfaces.c core/solver/collection.h \
     core/solver/examined_times.c core/solver/examined_times.h \
     core/solver/gap_lines.c core/solver/gap_lines.h \
     core/solver/gjk_axis.c core/solver/gjk_axis.h \
@@ -86,6 +87,8 @@ core_solver = \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/normal_field.c core/solver/normal_field.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
+    core/solver/pair_test.c core/solver/pair_test.h \
+    core/solver/parallel.c core/solver/parallel.h \
     core/solver/quadratic.h \
     core/solver/query.c core/solver/query_parts.h \
     core/solver/query_answer.c \

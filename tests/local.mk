@@ -37,6 +37,7 @@ check_suites = \
     tests/unit/test_metamorphic \
     tests/unit/test_misuse \
     tests/unit/test_map_answers \
+    tests/unit/test_parallel \
     tests/unit/test_parameters \
     tests/unit/test_parts \
     tests/unit/test_pair_heap \
@@ -84,6 +85,7 @@ type_oracle = tests/support/oracle_number.c tests/support/oracle_number.h \
 tests_unit_test_scene_judge_SOURCES = tests/unit/test_scene_judge.c tests/fuzz/scene_judge.c \
     tests/fuzz/scene_judge.h
 # Scenes of many bodies, for programs and for the command.
+tests_unit_test_parallel_SOURCES = tests/unit/test_parallel.c tools/bench/crowd.c tools/bench/crowd.h
 tests_unit_test_parts_SOURCES = tests/unit/test_parts.c tools/bench/crowd.c tools/bench/crowd.h
 tests_support_crowd_scene_SOURCES = tests/support/crowd_scene.c tools/bench/crowd.c
 tests_support_crowd_scene_LDADD = -lm
@@ -586,8 +588,8 @@ check-sanitized:
 
 # With configure --enable-sanitizers=thread: what threads share. Only what these suites need is made. A
 # copy made by fork leaves threads unjoined, which are its original's.
-thread_suites = tests/unit/test_threads tests/unit/test_isolated_threads
-thread_types = rotate superellipsoid torus translate
+thread_suites = tests/unit/test_threads tests/unit/test_isolated_threads tests/unit/test_parallel
+thread_types = bezier ellipsoid ripple rotate scale sphere superellipsoid torus translate triangle twist
 check-threads: $(thread_types:%=plugins/%.la) $(thread_suites)
 	TSAN_OPTIONS="report_thread_leaks=0 $$TSAN_OPTIONS" \
 	  $(MAKE) check-TESTS TESTS='$(thread_suites)' check_PROGRAMS= check_LTLIBRARIES=

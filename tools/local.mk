@@ -75,6 +75,7 @@ tools_cli = \
     tools/cli/clearance_text.c \
     tools/cli/compile.c tools/cli/compile.h \
     tools/cli/crash.c tools/cli/crash.h \
+    tools/cli/crew.c tools/cli/crew.h \
     tools/cli/each.c tools/cli/each.h \
     tools/cli/input.c tools/cli/input.h \
     tools/cli/interrupt.c tools/cli/interrupt.h \

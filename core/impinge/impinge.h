@@ -27,9 +27,13 @@ extern "C" {
  * threads at once: to make scenes, to evaluate, to begin and to step queries. Queries of one scene
  * share its trees, which are locked where they grow, and answer as if each were alone, bit for bit;
  * only what depends on who came first differs, stats.nodes and stats.bytes, and so does where
- * max_seconds or max_bytes end a query. A query and a builder belong to one thread at a time. Before
- * something is freed all other threads must be done with it; imp_registry_isolate and imp_registry_add
- * need the registry to themselves. Only imp_query_cancel may be called from anywhere, signal handlers included.
+ * max_seconds or max_bytes end a query. One query of a large scene uses several threads where the program
+ * lends it some (imp_options.parallel): for the trees, the broad phase and the first test of each two
+ * surfaces that come near each other. Its answer and stats but for seconds are the same without, but that
+ * stats.bytes depend on who came first until it is decided. A query and a builder belong to one thread
+ * at a time. Before something is freed all other threads must be done with it; imp_registry_isolate and
+ * imp_registry_add need the registry to themselves. Only imp_query_cancel may be called from anywhere,
+ * signal handlers included.
  *
  * Structs that may grow begin with their size as the program was compiled, and grow at the end: the
  * library reads and writes no further. The inline functions below set it.
@@ -388,6 +392,12 @@ typedef struct imp_progress {
  * ends the step as imp_query_cancel does. It must not step or free the query. */
 typedef bool (*imp_progress_sink)(void *context, const imp_progress *progress);
 
+/* How a program lends threads to a query: called by the thread that steps or divides it, calls work(of, 0)
+ * to work(of, count - 1) once each, by any threads and in any order, and returns when all have returned.
+ * Work may run code of plugins; it neither calls the program back nor fails. */
+typedef void (*imp_parallel)(void *context, void (*work)(void *of, size_t index), void *of,
+                             size_t count);
+
 /* Start from imp_options_default(scene) and change what you need. */
 typedef struct imp_options {
     uint32_t struct_size; /* sizeof(imp_options); grows at the end */
@@ -404,6 +414,8 @@ typedef struct imp_options {
     uint32_t reserved;          /* 0 */
     imp_progress_sink progress; /* NULL: none */
     void *progress_context;     /* handed to it */
+    imp_parallel parallel;      /* NULL: the thread that steps does all; parts never use it */
+    void *parallel_context;     /* handed to it */
 } imp_options;
 
 /* The options a scene asks for, and for the rest the library's own. *options comes with its

@@ -340,28 +340,48 @@ imp_code imp_options_read(const imp_scene *scene, imp_options *options, imp_erro
 
 /* --- Trees ----------------------------------------------------------------------------- */
 
-static imp_code member_tree(member *m, const tree_plan *plan, tree **found, tree_growth *growth,
-                            imp_error *error)
+/* NULL: there is none yet. */
+static tree *find_tree(const member *m, const tree_plan *plan)
 {
     for (size_t k = 0; k < m->tree_count; ++k)
-        if (tree_is_of(m->trees[k], plan)) {
-            *found = m->trees[k];
-            return IMP_SUCCESS;
-        }
-    tree **trees = array_reserve(m->trees, m->tree_count, &m->tree_capacity, sizeof *trees);
-    if (trees == NULL) return error_set_memory(error);
-    m->trees = trees;
-    const imp_code code = tree_new(m->surface, plan, found, growth, error);
-    if (code == IMP_SUCCESS) trees[m->tree_count++] = *found;
-    return code;
+        if (tree_is_of(m->trees[k], plan)) return m->trees[k];
+    return NULL;
 }
 
+/* Keeps the tree, unless another thread's is there already: then that one is found, and `made` freed.
+ * False: no memory. */
+static bool keep_tree(member *m, const tree_plan *plan, tree *made, tree **found)
+{
+    *found = find_tree(m, plan);
+    tree **trees = *found == NULL ? array_reserve(m->trees, m->tree_count, &m->tree_capacity,
+                                                  sizeof *trees)
+                                  : NULL;
+    if (trees == NULL) {
+        tree_free(made);
+        return *found != NULL;
+    }
+    m->trees = trees;
+    trees[m->tree_count++] = *found = made;
+    return true;
+}
+
+/* Trees are made outside the lock, so that threads make those of different surfaces at once. */
 imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
                     tree **found, tree_growth *growth, imp_error *error)
 {
+    member *m = &scene->bodies[body].members[index];
+    tree *made;
+    tree_growth own = {0};
     pthread_mutex_lock(&scene->lock);
-    const imp_code code =
-        member_tree(&scene->bodies[body].members[index], plan, found, growth, error);
+    *found = find_tree(m, plan);
     pthread_mutex_unlock(&scene->lock);
-    return code;
+    if (*found != NULL) return IMP_SUCCESS;
+    const imp_code code = tree_new(m->surface, plan, &made, &own, error);
+    if (code != IMP_SUCCESS) return code;
+    pthread_mutex_lock(&scene->lock);
+    const bool kept = keep_tree(m, plan, made, found);
+    pthread_mutex_unlock(&scene->lock);
+    if (!kept) return error_set_memory(error);
+    if (*found == made) growth->nodes += own.nodes, growth->bytes += own.bytes;
+    return IMP_SUCCESS;
 }

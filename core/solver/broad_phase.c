@@ -64,11 +64,7 @@ static int least_crowded(const swept_box *boxes, size_t count)
     return best;
 }
 
-/* Lemma. No two boxes within the clearance are left out. A box with a NaN along the axis starts before all
- * others and ends after them, so that the order is one of numbers. A box behind another in it starts no
- * earlier: once one is apart from it along the axis, so are all that follow. */
-bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
-                       const broad_phase_visitor *visitor)
+int broad_phase_sort(swept_box *boxes, size_t count)
 {
     static int (*const order[])(const void *, const void *) = {by_x, by_y, by_z};
     const int axis = least_crowded(boxes, count);
@@ -76,13 +72,30 @@ bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
         if (!(boxes[k].lo[axis] <= boxes[k].hi[axis]))
             boxes[k].lo[axis] = -INFINITY, boxes[k].hi[axis] = INFINITY;
     qsort(boxes, count, sizeof *boxes, order[axis]);
+    return axis;
+}
+
+/* Lemma. No two boxes within the clearance are left out. A box with a NaN along the axis starts before all
+ * others and ends after them, so that the order is one of numbers. A box behind another in it starts no
+ * earlier: once one is apart from it along the axis, so are all that follow. */
+bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
+                           double clearance, const broad_phase_visitor *visitor)
+{
+    for (size_t l = k + 1; l < count; ++l) {
+        if (apart(boxes[l].lo[axis], boxes[k].hi[axis], clearance)) break;
+        if (boxes_apart(&boxes[k], &boxes[l], clearance)) continue;
+        if (!visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner)) return false;
+    }
+    return true;
+}
+
+bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
+                       const broad_phase_visitor *visitor)
+{
+    const int axis = broad_phase_sort(boxes, count);
     for (size_t k = 0; k < count; ++k) {
         if (!visitor->next_box(visitor->context)) return false;
-        for (size_t l = k + 1; l < count; ++l) {
-            if (apart(boxes[l].lo[axis], boxes[k].hi[axis], clearance)) break;
-            if (boxes_apart(&boxes[k], &boxes[l], clearance)) continue;
-            if (!visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner)) return false;
-        }
+        if (!broad_phase_visit_box(boxes, count, axis, k, clearance, visitor)) return false;
     }
     return true;
 }

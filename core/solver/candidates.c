@@ -4,109 +4,13 @@
 
 #include "core/solver/candidates.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/base/status.h"
-#include "core/common/array.h"
-#include "core/scene/scene_trees.h"
-#include "core/solver/broad_phase.h"
-#include "core/tree/bound_audit.h"
+#include "core/solver/collection.h"
 
-/* --- Surfaces --------------------------------------------------------------------------- */
-
-typedef struct collection {
-    imp_scene *scene;
-    const imp_options *options;
-    const candidate_limit *limit;
-    imp_stats *stats;
-    swept_box *boxes;
-    candidate_list *list;
-    bool out_of_memory;
-} collection;
-
-static tree_kind kind_of(const imp_options *options)
-{
-    if (options->method == IMP_METHOD_MODELS) return TREE_MODELS;
-    switch (options->rates) {
-    case IMP_RATES_COLUMN:
-        return TREE_RATES_COLUMN;
-    case IMP_RATES_CONSTANT:
-        return TREE_RATES_CONSTANT;
-    default:
-        return TREE_RATES_FULL;
-    }
-}
-
-static bool limit_is_reached(const collection *all)
-{
-    return all->limit->is_reached(all->limit->context, candidates_bytes(all->list),
-                                  all->list->pair_count);
-}
-
-/* Adds one surface, if it exists at any of the query's times. */
-static imp_code collect_surface(collection *all, size_t body, size_t index, imp_error *error)
-{
-    const imp_options *options = all->options;
-    double lo[3], hi[3];
-    imp_scene_domain(all->scene, body, index, lo, hi);
-    const tree_plan plan = {.kind = kind_of(options),
-                            .t_start = lo[2] > options->t_start ? lo[2] : options->t_start,
-                            .t_end = hi[2] < options->t_end ? hi[2] : options->t_end,
-                            .audit = options->audit ? bound_audit_run : NULL};
-    if (plan.t_start > plan.t_end) return IMP_SUCCESS;
-    tree *t;
-    tree_growth growth = {0};
-    const imp_code code = scene_tree(all->scene, body, index, &plan, &t, &growth, error);
-    if (code != IMP_SUCCESS) return code;
-    all->stats->nodes += growth.nodes;
-    all->stats->bytes += growth.bytes;
-    const node *root = tree_root(t);
-    const size_t k = all->list->count++;
-    all->boxes[k].owner = k;
-    memcpy(all->boxes[k].lo, root->lo, sizeof root->lo);
-    memcpy(all->boxes[k].hi, root->hi, sizeof root->hi);
-    all->list->candidates[k] = (candidate){t, body, index, -1};
-    return IMP_SUCCESS;
-}
-
-/* *done: all surfaces are there; otherwise a limit came first. */
-static imp_code collect_surfaces(collection *all, bool *done, imp_error *error)
-{
-    *done = false;
-    for (size_t b = 0; b < imp_scene_body_count(all->scene); ++b)
-        for (size_t k = 0; k < imp_scene_surface_count(all->scene, b); ++k) {
-            if (limit_is_reached(all)) return IMP_SUCCESS;
-            const imp_code code = collect_surface(all, b, k, error);
-            if (code != IMP_SUCCESS) return code;
-        }
-    *done = true;
-    return IMP_SUCCESS;
-}
-
-/* --- Pairs ---------------------------------------------------------------------------------- */
-
-static bool go_on(void *context) { return !limit_is_reached(context); }
-
-/* Keeps two surfaces that come near each other, smaller body first; false: no memory. */
-static bool add_pair(void *context, size_t first, size_t second)
-{
-    collection *all = context;
-    candidate_list *list = all->list;
-    const size_t a = first < second ? first : second, b = first < second ? second : first;
-    const size_t bodies[2] = {list->candidates[a].body, list->candidates[b].body};
-    if (bodies[0] == bodies[1] || scene_ignores(all->scene, bodies[0], bodies[1])) return true;
-    candidate_pair *grown = NULL;
-    if (list->pair_count < UINT32_MAX)
-        grown = array_reserve(list->pairs, list->pair_count, &list->pair_capacity, sizeof *grown);
-    all->out_of_memory = grown == NULL;
-    if (grown == NULL) return false;
-    list->pairs = grown;
-    list->pairs[list->pair_count++] =
-        (candidate_pair){{&list->candidates[a], &list->candidates[b]}};
-    return true;
-}
+/* --- The order of pairs ------------------------------------------------------------------- */
 
 typedef enum sort_key { KEY_SURFACE_B, KEY_SURFACE_A, KEY_BODY_B, KEY_BODY_A, SORT_KEYS } sort_key;
 
@@ -146,39 +50,54 @@ static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
         to = list->pairs;
         list->pairs = sorted;
         list->pair_capacity = list->pair_count + 1;
-        *done = !limit_is_reached(all);
+        *done = !collection_must_end(all);
     }
     free(start);
     free(to);
     return code;
 }
 
-static imp_code collect_pairs(collection *all, double clearance, bool *done, imp_error *error)
+static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
 {
-    const broad_phase_visitor visitor = {go_on, add_pair, all};
-    *done = broad_phase_visit(all->boxes, all->list->count, clearance, &visitor);
+    *done = collection_add_pairs(all);
     if (all->out_of_memory) return error_set_memory(error);
     if (!*done || all->list->pair_count == 0) return IMP_SUCCESS;
     return sort_pairs(all, done, error);
+}
+
+/* Room to work in; false: no memory. */
+static bool prepare(collection *all)
+{
+    size_t most = 1; /* an array of none may be NULL */
+    for (size_t b = 0; b < imp_scene_body_count(all->scene); ++b)
+        most += imp_scene_surface_count(all->scene, b);
+    all->boxes = malloc(most * sizeof *all->boxes);
+    all->list->candidates = malloc(most * sizeof *all->list->candidates);
+    if (all->boxes == NULL || all->list->candidates == NULL) return false;
+    if (!parallel_is_on(all->options)) return true;
+    all->surfaces = malloc(SURFACES_A_ROUND * sizeof *all->surfaces);
+    all->sweep = calloc(TASKS_A_ROUND, sizeof *all->sweep);
+    return all->surfaces != NULL && all->sweep != NULL;
 }
 
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
                          double clearance, const candidate_limit *limit, imp_stats *stats,
                          imp_error *error)
 {
-    collection all = {
-        .scene = scene, .options = options, .limit = limit, .stats = stats, .list = list};
-    size_t most = 1; /* an array of none may be NULL */
-    for (size_t b = 0; b < imp_scene_body_count(scene); ++b)
-        most += imp_scene_surface_count(scene, b);
-    all.boxes = malloc(most * sizeof *all.boxes);
-    list->candidates = malloc(most * sizeof *list->candidates);
+    collection all = {.scene = scene,
+                      .options = options,
+                      .limit = limit,
+                      .stats = stats,
+                      .clearance = clearance,
+                      .list = list};
     bool done = false;
-    imp_code code = all.boxes == NULL || list->candidates == NULL
-                        ? error_set_memory(error)
-                        : collect_surfaces(&all, &done, error);
-    if (done) code = collect_pairs(&all, clearance, &done, error);
+    imp_code code =
+        prepare(&all) ? collection_add_surfaces(&all, &done, error) : error_set_memory(error);
+    collection_count_rest(&all);
+    if (done) code = collect_pairs(&all, &done, error);
     free(all.boxes);
+    free(all.surfaces);
+    free(all.sweep);
     list->complete = done && code == IMP_SUCCESS;
     if (!list->complete) candidates_clear(list);
     return code;

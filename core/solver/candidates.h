@@ -22,9 +22,11 @@ typedef struct candidate_list {
 } candidate_list;    /* begins as {0}; candidates_clear frees */
 
 /* Asked at least once for each surface: whether a limit of the query is reached, with the bytes
- * that the list and the new trees hold. */
+ * that the list and the new trees hold. By threads that look ahead: whether one is so near that they had
+ * better stop, with the bytes and pairs that they have made. [is_near: any thread] */
 typedef struct candidate_limit {
     bool (*is_reached)(void *context, uint64_t bytes, uint64_t pairs);
+    bool (*is_near)(void *context, uint64_t bytes, uint64_t pairs);
     void *context;
 } candidate_limit;
 

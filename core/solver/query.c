@@ -11,6 +11,7 @@
 #include "core/base/sized.h"
 #include "core/base/status.h"
 #include "core/common/clock.h"
+#include "core/solver/pair_test.h"
 
 /* --- Creation and destruction ------------------------------------------------------------ */
 
@@ -195,6 +196,8 @@ static imp_code search_contact(imp_query *query, imp_error *error)
     impact_state state = IMPACT_RUNNING;
     imp_code code = IMP_SUCCESS;
     if (query->candidates_tested < query->candidates.pair_count) {
+        pair_test_look_ahead(&query->impact, (uint32_t)query->candidates_tested,
+                             query->candidates.pair_count, &query->options);
         code =
             impact_add_candidate(&query->impact, (uint32_t)query->candidates_tested, &state, error);
         if (state == IMPACT_RUNNING) query->candidates_tested += 1;
@@ -254,16 +257,35 @@ typedef struct collecting {
 } collecting;
 
 /* Each candidate pair is a pair to test: with more of them than max_pairs the search cannot end. In a
- * divided query that limit is each part's own. */
+ * divided query that limit is each part's own. 0: none. */
+static uint64_t most_candidates(const imp_query *query)
+{
+    return query->divided > 0 ? 0 : query->options.max_pairs;
+}
+
 static bool limit_is_reached(void *context, uint64_t bytes, uint64_t pairs)
 {
     collecting *c = context;
-    const uint64_t most = c->query->divided > 0 ? 0 : c->query->options.max_pairs;
+    const uint64_t most = most_candidates(c->query);
     tick(c->query, c->seconds_before, c->start);
     note_bytes(c->query, bytes);
     c->reason = exhausted(c->query, c->query->stats.seconds);
     if (c->reason == IMP_REASON_NONE && most > 0 && pairs > most) c->reason = IMP_REASON_PAIRS;
     return c->reason != IMP_REASON_NONE;
+}
+
+/* Read while the query's own thread waits: nothing of it but `cancelled` changes. */
+static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
+{
+    const collecting *c = context;
+    const imp_query *query = c->query;
+    const imp_options *options = &query->options;
+    const uint64_t most = most_candidates(query);
+    return atomic_load_explicit(&query->cancelled, memory_order_relaxed) ||
+           (most > 0 && query->candidates.pair_count + pairs > most) ||
+           (options->max_bytes > 0 && query->peak_bytes + bytes > options->max_bytes) ||
+           (options->max_seconds > 0 &&
+            c->seconds_before + (clock_seconds() - c->start) >= options->max_seconds);
 }
 
 /* What a limit ends begins anew with the next step. Where the minimum distance is asked for, all
@@ -272,7 +294,7 @@ imp_code query_collect(imp_query *query, double start, imp_error *error)
 {
     const double near = query->clearance == NULL ? query->impact.clearance : INFINITY;
     collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
-    const candidate_limit limit = {limit_is_reached, &c};
+    const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options, near,
                                           &limit, &query->stats, error);
     query->impact.candidate_pairs = query->candidates.pairs;

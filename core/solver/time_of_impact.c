@@ -7,6 +7,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "core/solver/pair_test.h"
 #include "core/solver/tuning.h"
 
 static const candidate_pair *candidate_pair_of(const impact *im, const pair *p)
@@ -14,74 +15,44 @@ static const candidate_pair *candidate_pair_of(const impact *im, const pair *p)
     return &im->candidate_pairs[p->candidate_pair];
 }
 
-/* --- Test and push ---------------------------------------------------------------- */
+/* --- Push ------------------------------------------------------------------------- */
 
-static bool pair_may_be_near(const impact *im, pair *p)
+/* Counts a test, and puts the pair on the heap, which has room, unless its nodes stay apart. */
+static void push_tested(impact *im, const pair_test *t)
 {
-    if (im->method == IMP_METHOD_PAPER)
-        return im->bounds == IMP_BOUNDS_BOX ? !separation_of_boxes(p->a, p->b, im->clearance)
-                                            : !separation_of_balls(p->a, p->b, im->clearance);
-    p->is_seen_only = false;
-    return separation_by_models(p->a, p->b, im->clearance, &p->window, &p->axis);
-}
-
-/* Sooner, and to be completed when the pair is popped: a third of what is pushed never is. */
-static bool pair_may_be_near_at_first(const impact *im, pair *p)
-{
-    if (im->method == IMP_METHOD_PAPER) return pair_may_be_near(im, p);
-    return separation_first_look(p->a, p->b, im->clearance, &p->window, &p->axis, &p->is_seen_only);
-}
-
-/* Hulls part two nodes where both have a net: only then are nets made. Every later test of the pair finds
- * what is found here. */
-static imp_code ask_for_nets(impact *im, const pair *p, imp_error *error)
-{
-    const candidate_pair *both = candidate_pair_of(im, p);
-    if (im->method == IMP_METHOD_PAPER || !surface_offers_net(p->a->surface) ||
-        !surface_offers_net(p->b->surface))
-        return IMP_SUCCESS;
-    const net *found;
-    tree_growth growth = {0};
-    imp_code code = node_net(both->side[0]->tree, p->a, &found, &growth, error);
-    if (code == IMP_SUCCESS && found != NULL)
-        code = node_net(both->side[1]->tree, p->b, &found, &growth, error);
-    im->stats->bytes += growth.bytes;
-    return code;
-}
-
-/* Puts the pair of p's nodes on the heap, which has room, unless they stay apart. p->window holds
- * the parent's window, cut to both nodes' times. */
-static imp_code test_and_push(impact *im, pair p, imp_error *error)
-{
-    const imp_code code = ask_for_nets(im, &p, error);
-    if (code != IMP_SUCCESS) return code;
     im->stats->pairs += 1;
-    if (!pair_may_be_near_at_first(im, &p)) return IMP_SUCCESS;
+    im->stats->bytes += t->bytes;
+    if (!t->near) return;
+    pair p = t->p;
     p.serial = im->serial++;
     p.key[0] = p.window.lo;
     p.key[1] = pair_order(&p, p.window.lo);
     pair_heap_push(&im->heap, &p);
     if (im->heap.count > im->stats->peak_heap) im->stats->peak_heap = im->heap.count;
-    return IMP_SUCCESS;
+}
+
+/* p->window holds the parent's window, cut to both nodes' times. */
+static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
+{
+    pair_test t = {.p = *p};
+    const imp_code code = pair_test_first(im, &t, error);
+    if (code == IMP_SUCCESS) push_tested(im, &t);
+    return code;
 }
 
 imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[index];
     const size_t before = im->heap.count;
-    pair p = {.a = tree_root(both->side[0]->tree),
-              .b = tree_root(both->side[1]->tree),
-              .candidate_pair = index};
-    p.window = window_common(im->window, pair_times(p.a, p.b));
+    pair_test t;
     *state = IMPACT_NO_MEMORY;
     if (!pair_heap_reserve(&im->heap, 1)) return IMP_SUCCESS;
+    const imp_code code = pair_test_candidate(im, index, &t, error);
+    if (code == IMP_ERROR_MEMORY) return IMP_SUCCESS;
     *state = IMPACT_RUNNING;
-    if (p.window.lo > p.window.hi) return IMP_SUCCESS;
-    const imp_code code = test_and_push(im, p, error);
-    if (code == IMP_ERROR_MEMORY) *state = IMPACT_NO_MEMORY;
-    if (code != IMP_SUCCESS) return code == IMP_ERROR_MEMORY ? IMP_SUCCESS : code;
-    if (im->heap.count == before) return IMP_SUCCESS;
-    return candidate_pair_measure(both, error);
+    if (code != IMP_SUCCESS || !t.any_time) return code;
+    push_tested(im, &t);
+    return im->heap.count == before ? IMP_SUCCESS : candidate_pair_measure(both, error);
 }
 
 /* --- Splitting ---------------------------------------------------------------------------- */
@@ -93,7 +64,7 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
         bool some;
         imp_code code =
             cut_take(&c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
-        if (code == IMP_SUCCESS && some) code = test_and_push(im, child, error);
+        if (code == IMP_SUCCESS && some) code = test_and_push(im, &child, error);
         if (code == IMP_ERROR_PLUGIN) return code;
         if (code != IMP_SUCCESS) *state = IMPACT_NO_MEMORY;
     }
@@ -260,7 +231,7 @@ static time_window window_of_roots(impact *im, uint32_t index)
     pair p = {.a = tree_root(both->side[0]->tree), .b = tree_root(both->side[1]->tree)};
     p.window = window_common(im->window, pair_times(p.a, p.b));
     im->stats->pairs += 1;
-    return pair_may_be_near(im, &p) ? p.window : (time_window){INFINITY, -INFINITY};
+    return pair_test_fully(im, &p) ? p.window : (time_window){INFINITY, -INFINITY};
 }
 
 /* Lemma. Everything pruned so far is farther apart than the old clearance, and windows were cut by
@@ -274,6 +245,7 @@ bool impact_refine(impact *im, double gamma, double clearance, size_t count)
     }
     for (size_t k = 0; k < count; ++k)
         if (im->roots[k].lo > -INFINITY) im->roots[k] = (time_window){NAN, NAN};
+    pair_test_drop_ahead(im);
     im->gamma = gamma;
     im->clearance = clearance;
     im->refined = im->serial;
@@ -304,7 +276,7 @@ static bool is_still_first(impact *im, pair *p)
     if (p->window.lo > p->window.hi) return false;
     if (p->serial < im->refined && !(whole->lo > -INFINITY)) {
         im->stats->pairs += 1;
-        if (!pair_may_be_near(im, p)) return false;
+        if (!pair_test_fully(im, p)) return false;
         p->serial = im->serial++;
     }
     if (p->window.lo == p->key[0]) return true;
@@ -317,7 +289,7 @@ static bool is_still_first(impact *im, pair *p)
 static bool is_first_when_tested(impact *im, pair *p)
 {
     if (!p->is_seen_only) return true;
-    if (!pair_may_be_near(im, p)) return false;
+    if (!pair_test_fully(im, p)) return false;
     if (im->heap.count == 0 || !(p->window.lo > pair_heap_top(&im->heap)->key[0])) {
         if (p->window.lo > im->t_lower) im->t_lower = p->window.lo;
         p->key[0] = p->window.lo;
@@ -373,6 +345,8 @@ void impact_clear(impact *im)
     pair_heap_clear(&im->heap);
     free(im->roots);
     free(im->passed);
+    free(im->ahead.tests);
     im->roots = NULL;
     im->passed = NULL;
+    im->ahead = (tests_ahead){.tests = NULL};
 }

@@ -22,6 +22,21 @@ typedef enum impact_state {
     IMPACT_NO_MEMORY
 } impact_state;
 
+/* The first test of a pair. */
+typedef struct pair_test {
+    pair p;         /* the window that is left, and the axis */
+    bool near;      /* whether its nodes may be within the clearance */
+    bool any_time;  /* of a candidate pair: whether both surfaces exist at one time; else nothing else counts */
+    bool done;      /* ahead of its turn */
+    uint64_t bytes; /* of nets made for it */
+} pair_test;
+
+/* Of candidate pairs from `first` on, whose turn has not come. */
+typedef struct tests_ahead {
+    pair_test *tests;
+    uint32_t first, count;
+} tests_ahead;
+
 typedef struct impact {
     double gamma, clearance;
     time_window window; /* what is before or after does not count */
@@ -30,6 +45,7 @@ typedef struct impact {
     const candidate_pair *candidate_pairs; /* the caller's */
     imp_stats *stats;                      /* the caller's; bytes: of the trees, without the heap */
     pair_heap heap;
+    tests_ahead ahead; /* made by threads that look ahead (pair_test.h) */
     uint64_t serial, refined; /* of the next pair; of the first after impact_refine */
     double t_lower;
     time_window

@@ -23,14 +23,15 @@ static void take(void *context, size_t index, imp_query *part)
     e->answers[index] = imp_query_result(part);
 }
 
-exit_status each_begin(each *e, imp_scene *scene, const arguments *args)
+exit_status each_begin(each *e, imp_scene *scene, const arguments *args, size_t threads)
 {
     imp_error error = {0};
-    const imp_options options = query_options(scene, args);
+    imp_options options = query_options(scene, args);
     json_object_seed(0); /* before there are threads */
-    *e = (each){.args = args, .scene = scene};
+    *e = (each){.args = args, .scene = scene, .crew = {threads}};
+    query_lend_threads(&options, &e->crew);
     e->plan = (parts_plan){.whole = imp_query_new(scene, &options, &error),
-                           .threads = query_threads(args),
+                           .threads = threads,
                            .take = take,
                            .context = e};
     if (e->plan.whole == NULL ||
@@ -262,7 +263,7 @@ static exit_status solve_and_print(each *e)
 exit_status each_answer(imp_scene *scene, const arguments *args)
 {
     each e;
-    exit_status status = each_begin(&e, scene, args);
+    exit_status status = each_begin(&e, scene, args, query_threads(args));
     if (status == EXIT_ANSWERED) status = solve_and_print(&e);
     each_end(&e);
     return status;

@@ -4,6 +4,7 @@
 #define TOOLS_CLI_EACH_H
 
 #include "tools/cli/arguments.h"
+#include "tools/cli/crew.h"
 #include "tools/cli/parts.h"
 
 /* solve --each: the first contact of each two bodies
@@ -17,13 +18,15 @@ typedef struct printing printing;
 typedef struct each {
     const arguments *args;
     const imp_scene *scene;
+    crew crew; /* threads that the query is divided by */
     parts_plan plan;
     imp_result *answers; /* of the parts; all bytes 0: not there yet */
     printing *printing;  /* while it lasts */
 } each;
 
-/* Divides the scene; its parts may then be solved (parts.h). Complains of what is wrong. */
-exit_status each_begin(each *e, imp_scene *scene, const arguments *args);
+/* Divides the scene by so many threads; its parts may then be solved, by as many (parts.h). The struct
+ * stays where it is until each_end. Complains of what is wrong. */
+exit_status each_begin(each *e, imp_scene *scene, const arguments *args, size_t threads);
 
 /* Prints all answers, those of the parts being there. The exit status is that of the worst. */
 exit_status each_print(each *e);

@@ -139,13 +139,31 @@ imp_code query_run(imp_query *query, imp_result *result, imp_error *error)
     return code;
 }
 
+void query_lend_threads(imp_options *options, crew *c)
+{
+    if (c->threads < 2) return;
+    options->parallel = crew_run;
+    options->parallel_context = c;
+}
+
+static imp_code solve(imp_scene *scene, const imp_options *options, imp_result *result,
+                      imp_error *error)
+{
+    *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
+    const imp_code code = imp_scene_solve(scene, options, result, error);
+    progress_wipe();
+    return code;
+}
+
 imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result, imp_error *error)
 {
     const imp_options options = query_options(scene, args);
-    *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
-    const imp_code code = imp_scene_solve(scene, &options, result, error);
-    progress_wipe();
-    return code;
+    return solve(scene, &options, result, error);
+}
+
+size_t query_threads_asked(const arguments *args)
+{
+    return arguments_option(args, "threads") != NULL ? query_threads(args) : 1;
 }
 
 size_t query_threads(const arguments *args)
@@ -207,7 +225,10 @@ static exit_status answer(imp_scene *scene, const arguments *args)
 {
     imp_result result;
     imp_error error = {0};
-    if (query_solve(scene, args, &result, &error) != IMP_SUCCESS) return refused(&error, args);
+    imp_options options = query_options(scene, args);
+    crew threads = {query_threads_asked(args)};
+    query_lend_threads(&options, &threads);
+    if (solve(scene, &options, &result, &error) != IMP_SUCCESS) return refused(&error, args);
     const exit_status printed = query_print(scene, &result, args);
     return printed != EXIT_ANSWERED ? printed : query_status(&result, args);
 }

@@ -6,6 +6,7 @@
 #include <jansson.h>
 
 #include "tools/cli/arguments.h"
+#include "tools/cli/crew.h"
 
 /* From a scene and the command line to an answer. */
 
@@ -36,6 +37,12 @@ imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result
 /* How many threads --threads asks for; without it, or with 0, as many as there are processors that
  * this process may use. */
 size_t query_threads(const arguments *args);
+
+/* The same, but 1 without --threads. */
+size_t query_threads_asked(const arguments *args);
+
+/* Has a query use the threads of the crew, if it has more than one; the crew must outlive the query. */
+void query_lend_threads(imp_options *options, crew *c);
 
 /* The exit status a result stands for. */
 exit_status query_status(const imp_result *result, const arguments *args);

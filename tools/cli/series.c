@@ -17,7 +17,7 @@ const option options_series[] = {
     {.name = "threads",
      .kind = OPTION_COUNT,
      .argument = "N",
-     .help = "with --each: N threads; the answers are the same (all processors)"},
+     .help = "by N threads, the same answers (1; with --each all processors)"},
     {.name = "refine",
      .kind = OPTION_TEXT,
      .argument = "G1,G2,...",
@@ -42,8 +42,6 @@ exit_status series_check(const arguments *args)
     const char *speaker = args->verb->name;
     const option_value *refine = arguments_option(args, "refine");
     const bool each = arguments_option(args, "each") != NULL;
-    if (!each && arguments_option(args, "threads") != NULL)
-        return complain(EXIT_USAGE, speaker, "--threads belongs to --each");
     if (refine == NULL) return EXIT_ANSWERED;
     if (each) return complain(EXIT_USAGE, speaker, "--each and --refine exclude each other");
     const char *const excluded[] = {"gamma", "clearance"};
@@ -98,6 +96,8 @@ exit_status series_answer(imp_scene *scene, const arguments *args)
     imp_options options = query_options(scene, args);
     options.gamma = next_gamma(&text, INFINITY);
     options.clearance = -1;
+    crew threads = {query_threads_asked(args)};
+    query_lend_threads(&options, &threads);
     series s = {.args = args, .scene = scene};
     s.query = imp_query_new(scene, &options, &error);
     const exit_status status =

@@ -85,7 +85,7 @@ exit_status ranks_each(const arguments *args)
     if (registry != NULL) scene = query_scene(registry, args, &complained, &error);
     if (registry != NULL && scene == NULL)
         status = complained ? EXIT_DATA : complain_of(&error, args->verb->name);
-    if (scene != NULL) status = each_begin(&e, scene, args);
+    if (scene != NULL) status = each_begin(&e, scene, args, 1);
     status = ranks_worst(status);
     if (status == EXIT_ANSWERED) status = solve_and_print(&e);
     each_end(&e);

@@ -48,6 +48,8 @@ class Options(c.Structure):
         ("reserved", c.c_uint32),
         ("progress", c.c_void_p),
         ("progress_context", c.c_void_p),
+        ("parallel", c.c_void_p),
+        ("parallel_context", c.c_void_p),
     ]
 
 

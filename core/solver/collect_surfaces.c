@@ -1,0 +1,114 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <string.h>
+
+#include "core/scene/scene_trees.h"
+#include "core/solver/collection.h"
+#include "core/tree/bound_audit.h"
+
+static tree_kind kind_of(const imp_options *options)
+{
+    if (options->method == IMP_METHOD_MODELS) return TREE_MODELS;
+    switch (options->rates) {
+    case IMP_RATES_COLUMN:
+        return TREE_RATES_COLUMN;
+    case IMP_RATES_CONSTANT:
+        return TREE_RATES_CONSTANT;
+    default:
+        return TREE_RATES_FULL;
+    }
+}
+
+/* False: the surface exists at none of the query's times. */
+static bool plan_of(const collection *all, size_t body, size_t index, tree_plan *plan)
+{
+    const imp_options *options = all->options;
+    double lo[3], hi[3];
+    imp_scene_domain(all->scene, body, index, lo, hi);
+    *plan = (tree_plan){.kind = kind_of(options),
+                        .t_start = lo[2] > options->t_start ? lo[2] : options->t_start,
+                        .t_end = hi[2] < options->t_end ? hi[2] : options->t_end,
+                        .audit = options->audit ? bound_audit_run : NULL};
+    return plan->t_start <= plan->t_end;
+}
+
+/* Makes the trees of some surfaces. What fails is made again in its turn. */
+static void make_trees(void *of, size_t task)
+{
+    collection *all = of;
+    surface_ahead *s = all->surfaces + task * SURFACES_A_TASK;
+    for (size_t k = task * SURFACES_A_TASK; k < all->ahead && k < (task + 1) * SURFACES_A_TASK;
+         ++k, ++s) {
+        tree_plan plan;
+        tree *t;
+        if (collection_may_end(all, 0)) return;
+        if (!plan_of(all, s->body, s->surface, &plan)) continue;
+        if (scene_tree(all->scene, s->body, s->surface, &plan, &t, &s->growth, NULL) == IMP_SUCCESS)
+            atomic_fetch_add(&all->bytes_ahead, s->growth.bytes);
+    }
+}
+
+/* From this surface on. */
+static void look_ahead(collection *all, size_t body, size_t index)
+{
+    const size_t bodies = imp_scene_body_count(all->scene);
+    all->used = all->ahead = 0;
+    for (size_t b = body, k = index; b < bodies && all->ahead < SURFACES_A_ROUND;)
+        if (k < imp_scene_surface_count(all->scene, b))
+            all->surfaces[all->ahead++] = (surface_ahead){b, k++, {0}};
+        else
+            b += 1, k = 0;
+    atomic_store(&all->bytes_ahead, 0);
+    parallel_run(all->options, make_trees, all,
+                 (all->ahead + SURFACES_A_TASK - 1) / SURFACES_A_TASK);
+}
+
+static void count_growth(collection *all, const tree_growth *growth)
+{
+    all->stats->nodes += growth->nodes;
+    all->stats->bytes += growth->bytes;
+}
+
+void collection_count_rest(collection *all)
+{
+    for (; all->used < all->ahead; ++all->used)
+        count_growth(all, &all->surfaces[all->used].growth);
+}
+
+/* Adds one surface, if it exists at any of the query's times. */
+static imp_code collect_surface(collection *all, size_t body, size_t index, imp_error *error)
+{
+    tree_plan plan;
+    tree *t;
+    tree_growth growth = {0};
+    if (all->surfaces != NULL) {
+        if (all->used == all->ahead) look_ahead(all, body, index);
+        count_growth(all, &all->surfaces[all->used++].growth);
+    }
+    if (!plan_of(all, body, index, &plan)) return IMP_SUCCESS;
+    const imp_code code = scene_tree(all->scene, body, index, &plan, &t, &growth, error);
+    if (code != IMP_SUCCESS) return code;
+    count_growth(all, &growth);
+    const node *root = tree_root(t);
+    const size_t k = all->list->count++;
+    all->boxes[k].owner = k;
+    memcpy(all->boxes[k].lo, root->lo, sizeof root->lo);
+    memcpy(all->boxes[k].hi, root->hi, sizeof root->hi);
+    all->list->candidates[k] = (candidate){t, body, index, -1};
+    return IMP_SUCCESS;
+}
+
+imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error)
+{
+    *done = false;
+    for (size_t b = 0; b < imp_scene_body_count(all->scene); ++b)
+        for (size_t k = 0; k < imp_scene_surface_count(all->scene, b); ++k) {
+            if (collection_must_end(all)) return IMP_SUCCESS;
+            const imp_code code = collect_surface(all, b, k, error);
+            if (code != IMP_SUCCESS) return code;
+        }
+    *done = true;
+    return IMP_SUCCESS;
+}

@@ -1,0 +1,76 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_COLLECTION_H
+#define CORE_SOLVER_COLLECTION_H
+
+#include <stdatomic.h>
+
+#include "core/solver/broad_phase.h"
+#include "core/solver/candidates.h"
+#include "core/solver/parallel.h"
+
+/* What the files of the list of candidates share: candidates.c begins and sorts it, collect_surfaces.c
+ * and collect_pairs.c fill it, each also with threads that look ahead. */
+
+/* A surface whose tree is made ahead of its turn, and what that has made. */
+typedef struct surface_ahead {
+    size_t body, surface;
+    tree_growth growth;
+} surface_ahead;
+
+/* Boxes whose pairs are found ahead of their turn, and the pairs. */
+typedef struct sweep_ahead {
+    candidate_pair *pairs;
+    size_t count, capacity;
+    bool complete;
+} sweep_ahead;
+
+enum {
+    SURFACES_A_TASK = 16,
+    BOXES_A_TASK = 128,
+    TASKS_A_ROUND = 64,
+    SURFACES_A_ROUND = SURFACES_A_TASK * TASKS_A_ROUND
+};
+
+typedef struct collection {
+    imp_scene *scene;
+    const imp_options *options;
+    const candidate_limit *limit;
+    imp_stats *stats;
+    double clearance;
+    swept_box *boxes;
+    candidate_list *list;
+    bool out_of_memory;
+    /* by threads that look ahead: */
+    surface_ahead *surfaces; /* the first `used` of `ahead` have had their turn; NULL: no threads */
+    size_t used, ahead;
+    sweep_ahead *sweep; /* TASKS_A_ROUND of them; NULL: no threads */
+    size_t first_box;
+    int axis;
+    atomic_uint_least64_t bytes_ahead;
+} collection;
+
+/* Whether a limit ends it now; whether one is so near that threads that look ahead stop, with bytes_ahead of
+ * trees (pair_size 0) or of pairs of this size. [collection_may_end: any thread] */
+static inline bool collection_must_end(const collection *all)
+{
+    return all->limit->is_reached(all->limit->context, candidates_bytes(all->list),
+                                  all->list->pair_count);
+}
+
+static inline bool collection_may_end(collection *all, size_t pair_size)
+{
+    const uint64_t bytes = atomic_load(&all->bytes_ahead);
+    return all->limit->is_near(all->limit->context, bytes, pair_size > 0 ? bytes / pair_size : 0);
+}
+
+/* *done: all surfaces are there; otherwise a limit came first. */
+imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error);
+
+/* Counts the trees that were made, but whose turn does not come: they are the scene's all the same. */
+void collection_count_rest(collection *all);
+
+/* False: a limit, or no memory, which all->out_of_memory tells. */
+bool collection_add_pairs(collection *all);
+
+#endif

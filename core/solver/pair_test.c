@@ -1,0 +1,103 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/pair_test.h"
+
+#include <stdlib.h>
+
+#include "core/solver/parallel.h"
+
+bool pair_test_fully(const impact *im, pair *p)
+{
+    if (im->method == IMP_METHOD_PAPER)
+        return im->bounds == IMP_BOUNDS_BOX ? !separation_of_boxes(p->a, p->b, im->clearance)
+                                            : !separation_of_balls(p->a, p->b, im->clearance);
+    p->is_seen_only = false;
+    return separation_by_models(p->a, p->b, im->clearance, &p->window, &p->axis);
+}
+
+/* --- The first test --------------------------------------------------------------------------- */
+
+/* Hulls part two nodes where both have a net: only then are nets made. Every later test of the pair finds
+ * what is found here. */
+static imp_code ask_for_nets(const impact *im, pair_test *t, imp_error *error)
+{
+    const candidate_pair *both = &im->candidate_pairs[t->p.candidate_pair];
+    if (im->method == IMP_METHOD_PAPER || !surface_offers_net(t->p.a->surface) ||
+        !surface_offers_net(t->p.b->surface))
+        return IMP_SUCCESS;
+    const net *found;
+    tree_growth growth = {0};
+    imp_code code = node_net(both->side[0]->tree, t->p.a, &found, &growth, error);
+    if (code == IMP_SUCCESS && found != NULL)
+        code = node_net(both->side[1]->tree, t->p.b, &found, &growth, error);
+    t->bytes += growth.bytes;
+    return code;
+}
+
+imp_code pair_test_first(const impact *im, pair_test *t, imp_error *error)
+{
+    const imp_code code = ask_for_nets(im, t, error);
+    if (code != IMP_SUCCESS) return code;
+    t->near = im->method == IMP_METHOD_PAPER
+                  ? pair_test_fully(im, &t->p)
+                  : separation_first_look(t->p.a, t->p.b, im->clearance, &t->p.window, &t->p.axis,
+                                          &t->p.is_seen_only);
+    return IMP_SUCCESS;
+}
+
+/* --- Of candidate pairs ----------------------------------------------------------------------- */
+
+static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_error *error)
+{
+    const candidate_pair *both = &im->candidate_pairs[index];
+    *t = (pair_test){.p = {.a = tree_root(both->side[0]->tree),
+                           .b = tree_root(both->side[1]->tree),
+                           .candidate_pair = index}};
+    t->p.window = window_common(im->window, pair_times(t->p.a, t->p.b));
+    t->any_time = t->p.window.lo <= t->p.window.hi;
+    return t->any_time ? pair_test_first(im, t, error) : IMP_SUCCESS;
+}
+
+imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error *error)
+{
+    pair_test none = {.done = false}, *ahead = &none;
+    if (index - im->ahead.first < im->ahead.count)
+        ahead = &im->ahead.tests[index - im->ahead.first];
+    const uint64_t bytes = ahead->bytes;
+    ahead->bytes = 0; /* counted from here on with *t */
+    *t = *ahead;
+    const imp_code code = t->done ? IMP_SUCCESS : test_roots(im, index, t, error);
+    t->bytes += bytes;
+    return code;
+}
+
+enum { TESTS_A_TASK = 64, TASKS_A_ROUND = 64, TESTS_A_ROUND = TESTS_A_TASK * TASKS_A_ROUND };
+
+static void test_some(void *of, size_t task)
+{
+    impact *im = of;
+    const tests_ahead *ahead = &im->ahead;
+    for (size_t k = task * TESTS_A_TASK; k < ahead->count && k < (task + 1) * TESTS_A_TASK; ++k) {
+        pair_test *t = &ahead->tests[k];
+        t->done = test_roots(im, ahead->first + (uint32_t)k, t, NULL) == IMP_SUCCESS;
+    }
+}
+
+void pair_test_look_ahead(impact *im, uint32_t first, size_t count, const imp_options *options)
+{
+    tests_ahead *ahead = &im->ahead;
+    if (!parallel_is_on(options) || first - ahead->first < ahead->count) return;
+    if (ahead->tests == NULL) ahead->tests = malloc(TESTS_A_ROUND * sizeof *ahead->tests);
+    if (ahead->tests == NULL) return;
+    ahead->first = first;
+    ahead->count = count - first < TESTS_A_ROUND ? (uint32_t)(count - first) : TESTS_A_ROUND;
+    parallel_run(options, test_some, im, (ahead->count + TESTS_A_TASK - 1) / TESTS_A_TASK);
+}
+
+void pair_test_drop_ahead(impact *im)
+{
+    for (uint32_t k = 0; k < im->ahead.count; ++k) im->stats->bytes += im->ahead.tests[k].bytes;
+    im->ahead.count = 0;
+}

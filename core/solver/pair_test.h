@@ -1,0 +1,30 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_PAIR_TEST_H
+#define CORE_SOLVER_PAIR_TEST_H
+
+#include "core/solver/time_of_impact.h"
+
+/* Whether a pair's nodes may be within the clearance
+ * ==================================================
+ * The first test of a pair may leave more of its window than there is; it is completed when the pair is
+ * popped, as a third of what is pushed never is. Pairs of roots are tested first of all, perhaps ahead of
+ * their turn by several threads: a test depends on nothing but its two nodes. */
+
+/* Completely; p->window becomes what is left. Of a pair that had its first test, or whose nodes had. */
+bool pair_test_fully(const impact *im, pair *p);
+
+/* The first test of t->p, to the rest of *t. Makes the nodes' nets. */
+imp_code pair_test_first(const impact *im, pair_test *t, imp_error *error);
+
+/* The first test of the roots of candidate pair `index`: that made ahead, or one made now. */
+imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error *error);
+
+/* Has candidate pairs from `first` on, of `count` in all, tested by the threads of the program, unless
+ * that was done. */
+void pair_test_look_ahead(impact *im, uint32_t first, size_t count, const imp_options *options);
+
+/* Forgets the tests made ahead: they are not for the clearance in force. */
+void pair_test_drop_ahead(impact *im);
+
+#endif
