@@ -134,8 +134,10 @@ plugins_libcommon_la_SOURCES = \
     plugins/common/axis.c plugins/common/axis.h \
     plugins/common/course.c plugins/common/course.h \
     plugins/common/csv.c plugins/common/csv.h \
+    plugins/common/keys.c plugins/common/keys.h \
     plugins/common/linear.c plugins/common/linear.h \
     plugins/common/sinc.c plugins/common/sinc.h \
+    plugins/common/spin.c plugins/common/spin.h \
     plugins/common/spline.c plugins/common/spline.h \
     plugins/common/superquadric.c plugins/common/superquadric.h
 plugins_libcommon_la_LDFLAGS =

@@ -1,6 +1,7 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include "plugins/common/keys.h"
 #include "plugins/common/publish.h"
 #include "plugins/common/spline.h"
 
@@ -55,20 +56,9 @@ typedef struct keyframes_instance {
 
 /* --- Checks --- */
 
-#define UNIT_SLACK 1e-6
 /* Least cosine between quaternions of neighbours, which are half as far apart as their
  * orientations: 170 degrees. */
 #define NEAR_MIN 0.087
-
-static imp_status check_times(const imp_value *times, imp_create_error *why)
-{
-    if (times->count < 2) return imp_reject(why, TIMES, -1, "a single key; must be two or more");
-    for (size_t i = 1; i < times->count; ++i)
-        if (!(times->number[i - 1] < times->number[i]))
-            return imp_reject(why, TIMES, (int64_t)i, "%.17g after %.17g; times must increase",
-                              times->number[i], times->number[i - 1]);
-    return IMP_OK;
-}
 
 static imp_status check_count(const imp_value *values, int row, imp_create_error *why)
 {
@@ -84,30 +74,27 @@ static double quaternion_dot(const double *p, const double *q)
 
 static imp_status check_rotations(const imp_value *rotations, imp_create_error *why)
 {
-    for (size_t i = 0; i < rotations->count / 4; ++i) {
-        const double *q = rotations->number + 4 * i, length = sqrt(quaternion_dot(q, q));
-        if (!(fabs(length - 1) <= UNIT_SLACK))
-            return imp_reject(why, ROTATIONS, (int64_t)i,
-                              "[%g,%g,%g,%g] has length %.9g; must be 1 within %g", q[0], q[1],
-                              q[2], q[3], length, UNIT_SLACK);
-        if (i > 0 && !(fabs(quaternion_dot(q - 4, q)) >= NEAR_MIN))
+    for (size_t i = 1; i < rotations->count / 4; ++i) {
+        const double *q = rotations->number + 4 * i, cosine = fabs(quaternion_dot(q - 4, q));
+        if (!(cosine >= NEAR_MIN))
             return imp_reject(why, ROTATIONS, (int64_t)i,
                               "turned by %.0f degrees from the key before; must be at most 170, or "
                               "the direction of rotation is ambiguous: add a key between them",
-                              acos(imp_smaller(fabs(quaternion_dot(q - 4, q)), 1)) * 360 /
-                                  IMP_PI_LOWER);
+                              acos(imp_smaller(cosine, 1)) * 360 / IMP_PI_LOWER);
     }
     return IMP_OK;
 }
 
 static imp_status check(const imp_value *values, imp_create_error *why)
 {
-    imp_status status = check_times(&values[TIMES], why);
+    imp_status status = keys_check_times(TIMES, &values[TIMES], why);
     if (!imp_is_given(&values[POSITIONS]) && !imp_is_given(&values[ROTATIONS]))
         return imp_reject(why, -1, -1,
                           "neither positions nor rotations are given; one of them is required");
     if (status == IMP_OK) status = check_count(values, POSITIONS, why);
     if (status == IMP_OK) status = check_count(values, ROTATIONS, why);
+    if (status == IMP_OK)
+        status = keys_check_rotations(ROTATIONS, &values[ROTATIONS], why);
     if (status == IMP_OK) status = check_rotations(&values[ROTATIONS], why);
     return status;
 }

@@ -1,8 +1,9 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "plugins/common/near.h"
+#include "plugins/common/keys.h"
 #include "plugins/common/publish.h"
+#include "plugins/common/spin.h"
 #include "plugins/common/spline.h"
 
 #include <impinge/formula.h>
@@ -16,21 +17,15 @@
  *
  *   R(s) = turn(spin_i, s) M_i + s D_i,   D_i = (M_i+1 - turn(spin_i, h) M_i) / h,
  *
- * where M_i is the rotation of key i and turn(w, s) that by the angle |w| s about w. The last term
- * makes R continuous: R(h) = M_i+1 exactly, while doubles hold turn(spin_i, h) M_i only nearly. It
- * is refused where it is more than rounding and the like:
- *
- * Lemma. No entry of h D_i is above MISMATCH, so that no entry of R is beyond 1 + MISMATCH, |R x| <=
- * (1 + 3 MISMATCH) |x|, and no entry changes faster than |spin_i| + max |D_i|: a column of turn M_i
- * moves like a point at distance 1.
+ * where M_i is the rotation of key i: spin.h says more, and has a lemma. R is continuous.
  *
  * So velocities and spins may jump at keys, places do not. A span of times within one piece has the
  * formula above; of the position across several pieces spline.h says what is known.
  *
- * Lemma. Over several pieces, with W at least all speeds of the last lemma and eta at least all 3 max
+ * Lemma. Over several pieces, with W at least all speeds of that lemma and eta at least all 3 max
  * |D_i| (1 + |spin_i| h), X = R x moves by dX/dt = spin x X + E, |E| <= eta |x|: in one piece spin x X
  * = spin x (turn M x + s D x), and s |spin| |D x| and |D x| are the difference. So |dX/dt| <= V |x|
- * with V = W (1 + 4 MISMATCH) + eta, and from the middle m of the span, |y| <= r,
+ * with V = W (1 + 4 SPIN_MISMATCH) + eta, and from the middle m of the span, |y| <= r,
  *
  *   X(m + y) = X(m) + g x X(m) + F,   |F| <= (W V r / 2 + eta) r |x|,
  *
@@ -62,34 +57,16 @@ static const imp_parameter parameters[] = {
                               "to the positions"),
 };
 
-#define UNIT_SLACK 1e-6
-#define MISMATCH 1e-6
 #define SPIN_MIN 1e-100
-
-/* Entry (i,j) of R is along + cos A across + sin A turned + s drift, A = speed s. */
-typedef struct rotation {
-    near_constant along[3][3], across[3][3], turned[3][3], drift[3][3], speed;
-    double spin[3];
-} rotation;
 
 typedef struct trajectory_instance {
     double center[3];
-    rotation *rotation; /* one for each piece; NULL: none */
+    spin_turn *rotation; /* one for each piece; NULL: none */
     spline path; /* one further column if there are rotations: how fast entries of R change */
     spline_cubic memory[];
 } trajectory_instance;
 
 /* --- Checks --- */
-
-static imp_status check_times(const imp_value *times, imp_create_error *why)
-{
-    if (times->count < 2) return imp_reject(why, TIMES, -1, "a single key; must be two or more");
-    for (size_t i = 1; i < times->count; ++i)
-        if (!(times->number[i - 1] < times->number[i]))
-            return imp_reject(why, TIMES, (int64_t)i, "%.17g after %.17g; times must increase",
-                              times->number[i], times->number[i - 1]);
-    return IMP_OK;
-}
 
 /* `less`: by how much there are fewer than keys. */
 static imp_status check_count(const imp_value *values, int row, size_t less, imp_create_error *why)
@@ -98,19 +75,6 @@ static imp_status check_count(const imp_value *values, int row, size_t less, imp
     if (!imp_is_given(&values[row]) || values[row].extent[0] == wanted) return IMP_OK;
     return imp_reject(why, row, -1, "%zu %s for %zu times; must be %zu", values[row].extent[0],
                       parameters[row].name, values[TIMES].count, wanted);
-}
-
-static imp_status check_rotations(const imp_value *rotations, imp_create_error *why)
-{
-    for (size_t i = 0; i < rotations->count / 4; ++i) {
-        const double *q = rotations->number + 4 * i;
-        const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-        if (!(fabs(length - 1) <= UNIT_SLACK))
-            return imp_reject(why, ROTATIONS, (int64_t)i,
-                              "[%g,%g,%g,%g] has length %.9g; must be 1 within %g", q[0], q[1],
-                              q[2], q[3], length, UNIT_SLACK);
-    }
-    return IMP_OK;
 }
 
 /* No spin at all, or one whose square is no subnormal. */
@@ -128,7 +92,7 @@ static imp_status check_spins(const imp_value *spins, imp_create_error *why)
 
 static imp_status check(const imp_value *values, imp_create_error *why)
 {
-    imp_status status = check_times(&values[TIMES], why);
+    imp_status status = keys_check_times(TIMES, &values[TIMES], why);
     if (status == IMP_OK) status = check_count(values, POSITIONS, 0, why);
     if (status == IMP_OK) status = check_count(values, ACCELERATIONS, 1, why);
     if (status == IMP_OK && imp_is_given(&values[ROTATIONS]) != imp_is_given(&values[SPINS]))
@@ -136,132 +100,25 @@ static imp_status check(const imp_value *values, imp_create_error *why)
                           "given alone; rotations and spins belong together");
     if (status == IMP_OK) status = check_count(values, ROTATIONS, 0, why);
     if (status == IMP_OK) status = check_count(values, SPINS, 1, why);
-    if (status == IMP_OK) status = check_rotations(&values[ROTATIONS], why);
+    if (status == IMP_OK) status = keys_check_rotations(ROTATIONS, &values[ROTATIONS], why);
     if (status == IMP_OK) status = check_spins(&values[SPINS], why);
     return status;
 }
 
 /* --- Making one --- */
 
-typedef struct matrix {
-    imp_interval at[3][3];
-} matrix;
-
 static imp_interval exact(double x) { return imp_interval_make(x, x); }
-
-static matrix matrix_mul(const matrix *a, const matrix *b)
-{
-    matrix r;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            r.at[i][j] = exact(0);
-            for (int k = 0; k < 3; ++k)
-                r.at[i][j] =
-                    imp_interval_add(r.at[i][j], imp_interval_mul(a->at[i][k], b->at[k][j]));
-        }
-    return r;
-}
-
-/* The rotation of q / |q|: 1 + 2 (w [v] + v v' - v'v) / |q|^2. */
-static matrix matrix_of_quaternion(const double *q)
-{
-    matrix r;
-    imp_interval square[4], sum = exact(0);
-    for (int i = 0; i < 4; ++i) {
-        square[i] = imp_interval_sqr(exact(q[i]));
-        sum = imp_interval_add(sum, square[i]);
-    }
-    const imp_interval twice = imp_interval_div(exact(2), sum);
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        imp_interval both = imp_interval_mul(exact(q[1 + i]), exact(q[1 + j]));
-        imp_interval turn = imp_interval_mul(exact(q[0]), exact(q[1 + k]));
-        imp_interval lost = imp_interval_mul(imp_interval_add(square[1 + j], square[1 + k]), twice);
-        r.at[i][i] = imp_interval_sub(exact(1), lost);
-        r.at[i][j] = imp_interval_mul(imp_interval_sub(both, turn), twice);
-        r.at[j][i] = imp_interval_mul(imp_interval_add(both, turn), twice);
-    }
-    return r;
-}
-
-/* The parts of a turn about w: k k', 1 - k k' and k x, for k = w / |w|; and |w|. */
-typedef struct turn_parts {
-    matrix along, across, turned;
-    imp_interval speed;
-} turn_parts;
-
-static turn_parts parts_of_spin(const double *w)
-{
-    turn_parts p = {.speed = exact(0)};
-    imp_interval k[3];
-    for (int i = 0; i < 3; ++i) p.speed = imp_interval_add(p.speed, imp_interval_sqr(exact(w[i])));
-    p.speed = imp_interval_sqrt(p.speed);
-    const bool still = w[0] == 0 && w[1] == 0 && w[2] == 0;
-    for (int i = 0; i < 3; ++i) k[i] = still ? exact(0) : imp_interval_div(exact(w[i]), p.speed);
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            imp_interval both = i == j ? imp_interval_sqr(k[i]) : imp_interval_mul(k[i], k[j]);
-            p.along.at[i][j] = both;
-            p.across.at[i][j] = imp_interval_sub(exact(i == j), both);
-        }
-        p.turned.at[i][i] = exact(0);
-        p.turned.at[i][(i + 2) % 3] = k[(i + 1) % 3];
-        p.turned.at[i][(i + 1) % 3] = imp_interval_neg(k[(i + 2) % 3]);
-    }
-    return p;
-}
-
-static near_constant near_within(imp_interval x)
-{
-    const double m = imp_interval_mid(x);
-    return (near_constant){m, imp_interval_radius_upper(x, m)};
-}
-
-/* One piece, from the rotation `from` to `to` in the time h. bound[0]: how fast entries change at most,
- * infinite where spin and rotations do not agree; bound[1]: eta. */
-static void set_rotation(rotation *r, const double *spin, const matrix *from, const matrix *to,
-                         imp_interval h, imp_interval bound[2])
-{
-    turn_parts p = parts_of_spin(spin);
-    const imp_interval angle = imp_interval_mul(p.speed, h);
-    const imp_interval cosine = imp_interval_cos(angle), sine = imp_interval_sin(angle);
-    p.along = matrix_mul(&p.along, from);
-    p.across = matrix_mul(&p.across, from);
-    p.turned = matrix_mul(&p.turned, from);
-    double most = 0, miss = 0;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            imp_interval end = imp_interval_mul(cosine, p.across.at[i][j]);
-            end = imp_interval_add(end, imp_interval_mul(sine, p.turned.at[i][j]));
-            end = imp_interval_sub(to->at[i][j], imp_interval_add(end, p.along.at[i][j]));
-            const imp_interval drift = imp_interval_div(end, h);
-            miss = imp_larger(imp_interval_mag(end), miss);
-            most = imp_larger(imp_interval_mag(drift), most);
-            r->along[i][j] = near_within(p.along.at[i][j]);
-            r->across[i][j] = near_within(p.across.at[i][j]);
-            r->turned[i][j] = near_within(p.turned.at[i][j]);
-            r->drift[i][j] = near_within(drift);
-        }
-    r->speed = near_within(p.speed);
-    memcpy(r->spin, spin, sizeof r->spin);
-    const double speed = miss <= MISMATCH ? imp_sum_up(p.speed.hi + most) : INFINITY;
-    bound[0] = imp_interval_make(0, speed);
-    bound[1] = imp_interval_make(0, 3 * most * (1 + angle.hi) * IMP_SLACK);
-}
 
 /* Returns the index of the first invalid piece; `pieces` if all are valid. */
 static size_t set_rotations(trajectory_instance *s, const imp_value *values)
 {
     const spline *path = &s->path;
-    const double *q = values[ROTATIONS].number;
-    matrix from = matrix_of_quaternion(q);
     for (size_t i = 0; i < path->pieces; ++i) {
-        const matrix to = matrix_of_quaternion(q + 4 * (i + 1));
+        const double *q = values[ROTATIONS].number + 4 * i;
         imp_interval *bound = spline_node(path, path->pieces + i) + path->width - 2;
-        set_rotation(&s->rotation[i], values[SPINS].number + 3 * i, &from, &to,
-                     spline_step(path, i, i + 1), bound);
+        s->rotation[i] = spin_turn_make(values[SPINS].number + 3 * i, q, q + 4,
+                                        spline_step(path, i, i + 1), bound);
         if (!imp_interval_is_finite(bound[0]) || !imp_interval_is_finite(bound[1])) return i;
-        from = to;
     }
     return path->pieces;
 }
@@ -285,7 +142,7 @@ static imp_status fill(trajectory_instance *s, const imp_value *values, imp_inte
         return imp_reject(why, ROTATIONS, (int64_t)piece + 1,
                           "not where the spin leads to from the rotation before; entries of both "
                           "matrices must agree within %g",
-                          MISMATCH);
+                          SPIN_MISMATCH);
     spline_grow(&s->path);
     return IMP_OK;
 }
@@ -296,12 +153,12 @@ static imp_status trajectory_create(const imp_value *values, void **self, imp_cr
     if (status != IMP_OK) return status;
     const size_t keys = values[TIMES].count, bytes = spline_bytes(keys, 3, 2);
     const bool turns = imp_is_given(&values[ROTATIONS]);
-    trajectory_instance *s = malloc(sizeof *s + bytes + keys * sizeof(rotation));
+    trajectory_instance *s = malloc(sizeof *s + bytes + keys * sizeof(spin_turn));
     imp_interval *key = malloc(3 * keys * sizeof *key);
     if (s != NULL && key != NULL) {
         s->path = spline_place(keys, 3, turns ? 2 : 0, s->memory);
         s->path.kinked = true;
-        s->rotation = turns ? (rotation *)((char *)s->memory + bytes) : NULL;
+        s->rotation = turns ? (spin_turn *)((char *)s->memory + bytes) : NULL;
         status = fill(s, values, key, why);
         *self = s;
     } else {
@@ -319,48 +176,6 @@ static void trajectory_time_domain(const void *self, double *lo, double *hi)
     const trajectory_instance *s = self;
     *lo = s->path.time[0];
     *hi = s->path.time[s->path.pieces];
-}
-
-/* An entry of R, at most 1 + MISMATCH, rates at most `speed`. */
-static imp_model entry(imp_model r, const imp_model *t, double speed)
-{
-    const double most = 1 + 2 * MISMATCH;
-    for (int j = 0; j < 3; ++j)
-        if (r.depends >> j & 1)
-            r.rate[j] = imp_smaller(r.rate[j], imp_round_up(speed * t->rate[j]));
-    return imp_model_within(r, imp_interval_make(-most, most));
-}
-
-/* R over times t of one piece. */
-static void matrix_at(const rotation *r, double start, imp_model t, double speed,
-                      imp_model out[3][3])
-{
-    const imp_model s = imp_shift(t, -start);
-    imp_model sine, cosine;
-    imp_sincos(near_scale(s, r->speed), &sine, &cosine);
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            imp_model sum =
-                imp_add(near_scale(cosine, r->across[i][j]), near_scale(sine, r->turned[i][j]));
-            sum = imp_add(sum, near_scale(s, r->drift[i][j]));
-            out[i][j] = entry(near_shift(sum, r->along[i][j]), &t, speed);
-        }
-}
-
-static double size_upper(const imp_model x[3])
-{
-    imp_interval square = exact(0);
-    for (int i = 0; i < 3; ++i)
-        square = imp_interval_add(square, imp_interval_sqr(imp_interval_make(x[i].lo, x[i].hi)));
-    return imp_interval_sqrt(square).hi;
-}
-
-/* R x, no longer than (1 + 3 MISMATCH) |x|. */
-static void turn(imp_model r[3][3], const imp_model x[3], imp_model out[3])
-{
-    const double most = imp_round_up(size_upper(x) * (1 + 4 * MISMATCH));
-    for (int i = 0; i < 3; ++i)
-        out[i] = imp_model_within(imp_dot3(r[i], x), imp_interval_make(-most, most));
 }
 
 /* Joins the spins of the pieces of a span; as the speed says, where these are too many to ask each. */
@@ -393,13 +208,13 @@ static void turn_across(const trajectory_instance *s, const spline_span *span,
 {
     const double speed = node[s->path.width - 2].hi, stray = node[s->path.width - 1].hi;
     const double r = imp_series_around(imp_model_range(&t)).r;
-    const double fast = speed * (1 + 4 * MISMATCH) + stray, most = size_upper(x);
+    const double fast = speed * (1 + 4 * SPIN_MISMATCH) + stray, most = spin_size_upper(x);
     const double slip = (0.5 * speed * fast * r + stray) * r * IMP_SLACK;
     const double drift = (speed * fast * r + stray) * most * IMP_SLACK;
     imp_model m[3][3], w[3], g[3];
     imp_interval spin[3];
-    matrix_at(&s->rotation[span->at], s->path.time[span->at], imp_num(span->m), speed, m);
-    turn(m, x, w);
+    spin_matrix(&s->rotation[span->at], s->path.time[span->at], imp_num(span->m), speed, m);
+    spin_apply(m, x, w);
     spins_of(s, span, speed, spin);
     for (int j = 0; j < 3; ++j) g[j] = turned_since_middle(spin[j], &t);
     for (int i = 0; i < 3; ++i) {
@@ -415,7 +230,7 @@ static void turn_across(const trajectory_instance *s, const spline_span *span,
             const double rates = x[0].rate[p] + x[1].rate[p] + x[2].rate[p];
             sum.rate[p] = (sum.rate[p] + (slip * rates + drift * t.rate[p]) + IMP_TINY) * IMP_SLACK;
         }
-        const double limit = imp_round_up(most * (1 + 4 * MISMATCH));
+        const double limit = imp_round_up(most * (1 + 4 * SPIN_MISMATCH));
         out[i] = imp_model_within(imp_model_finish(sum), imp_interval_make(-limit, limit));
     }
 }
@@ -433,8 +248,8 @@ static void trajectory_formula(const void *self, imp_model x, imp_model y, imp_m
     spline_models(&s->path, t, lane, node);
     memcpy(out, w, sizeof w);
     if (s->rotation != NULL && span.first == span.last) {
-        matrix_at(&s->rotation[span.at], s->path.time[span.at], t, node[s->path.width - 2].hi, r);
-        turn(r, w, out);
+        spin_matrix(&s->rotation[span.at], s->path.time[span.at], t, node[s->path.width - 2].hi, r);
+        spin_apply(r, w, out);
     } else if (s->rotation != NULL) {
         turn_across(s, &span, node, t, w, out);
     }

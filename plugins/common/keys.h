@@ -1,0 +1,16 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_COMMON_KEYS_H
+#define PLUGINS_COMMON_KEYS_H
+
+#include <impinge/plugin.h>
+
+/* Keys of a motion: what their lists are checked for. `row`: of the parameter, for the complaint. */
+
+/* Two or more, increasing. */
+imp_status keys_check_times(int row, const imp_value *times, imp_create_error *why);
+
+/* Quaternions whose lengths are 1 within 1e-6. */
+imp_status keys_check_rotations(int row, const imp_value *rotations, imp_create_error *why);
+
+#endif
