@@ -32,6 +32,7 @@ tools_check = \
     tools/check/inclusions.c tools/check/inclusions.h \
     tools/check/list.c tools/check/list.h \
     tools/check/nets.c tools/check/nets.h \
+    tools/check/operand.c tools/check/operand.h \
     tools/check/map_operand.c tools/check/map_operand.h \
     tools/check/pair.c tools/check/pair.h \
     tools/check/pieces.c tools/check/pieces.h \
@@ -140,6 +141,8 @@ tools_view = \
     tools/view/verb_view.c
 
 tools_simulate = \
+    tools/simulate/course.c tools/simulate/course.h \
+    tools/simulate/event.c tools/simulate/event.h \
     tools/simulate/mass.c tools/simulate/mass.h \
     tools/simulate/meeting.c tools/simulate/meeting.h \
     tools/simulate/mover.c tools/simulate/mover.h \

@@ -2,14 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "core/common/nearest.h"
 #include "tools/check/list.h"
+#include "tools/check/operand.h"
 #include "tools/check/report.h"
 #include "tools/check/subject.h"
 #include "tools/cli/output.h"
@@ -17,91 +15,19 @@
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
 
-/* --- The operand -------------------------------------------------------------------- */
-
-#define BLANKS " \t\n\r" /* as in a pipeline */
-
-/* A path has a slash in it or ends in .so; a type's name has and does neither. */
-static bool is_path(const char *operand)
-{
-    const size_t length = strlen(operand);
-    return strpbrk(operand, BLANKS "=") == NULL &&
-           (strchr(operand, '/') != NULL ||
-            (length > 3 && strcmp(operand + length - 3, ".so") == 0));
-}
-
-/* The file a type comes from, looked up in a child: other plugins are loaded on the way. */
-typedef struct lookup {
-    bool found;
-    char file[4096];
-    char near[80]; /* the nearest existing name */
-} lookup;
-
-typedef struct wanted {
-    const arguments *args;
-    char name[80]; /* the operand up to its first blank */
-} wanted;
-
-static void lookup_work(void *result, const void *data)
-{
-    lookup *l = result;
-    const wanted *w = data;
-    imp_type_info info;
-    nearest near = {.wanted = w->name};
-    imp_registry *registry = query_registry(w->args);
-    for (size_t i = 0; registry != NULL && imp_registry_type(registry, i, &info); ++i) {
-        nearest_offer(&near, info.name);
-        if (l->found || strcmp(info.name, w->name) != 0) continue;
-        snprintf(l->file, sizeof l->file, "%s", info.file);
-        l->found = true;
-    }
-    if (near.best != NULL) snprintf(l->near, sizeof l->near, "%s", near.best);
-}
-
-static exit_status find_type(const arguments *args, const wanted *w, double seconds, lookup *l)
-{
-    const char *speaker = args->verb->name;
-    const child_fate fate = child_run(lookup_work, l, w, seconds);
-    if (fate.end != CHILD_DONE)
-        return complain(EXIT_DATA, speaker, "looking for '%s' among the plugins %s", w->name,
-                        fate_text_of(fate, seconds).text);
-    if (l->found) return EXIT_ANSWERED;
-    if (l->near[0] != '\0')
-        return complain(EXIT_DATA, speaker,
-                        "unknown type '%s', did you mean '%s'? `impinge list` shows all", w->name,
-                        l->near);
-    return complain(EXIT_DATA, speaker,
-                    "unknown type '%s'; `impinge list` shows all; a file has a '/' in its name "
-                    "or ends in .so",
-                    w->name);
-}
-
-static exit_status find_file(const arguments *args, const char *path, lookup *l)
-{
-    char *absolute = realpath(path, NULL);
-    if (absolute == NULL || access(absolute, R_OK) != 0 || strlen(absolute) >= sizeof l->file) {
-        const int error = errno;
-        free(absolute);
-        return complain(EXIT_DATA, args->verb->name, "%s: %s", path, strerror(error));
-    }
-    strcpy(l->file, absolute);
-    free(absolute);
-    return EXIT_ANSWERED;
-}
-
 /* --- How ---------------------------------------------------------------------------- */
 
 typedef struct job {
     const arguments *args;
     const char *operand;
-    wanted type; /* name empty: all types of the file */
+    operand_type type;
     double seconds;
     double effort;
     uint64_t seed;
     const option_value *formula, *domain; /* or NULL */
     const option_value *only;             /* NULL: all checks */
     check_report report;
-    lookup *file; /* these are shared with children */
+    operand_file *file; /* these are shared with children */
     survey *survey;
     check_answer *answer;
     check_misreading *misreading;
@@ -253,13 +179,13 @@ static exit_status run_all(job *j)
 
 static exit_status find_and_run(job *j)
 {
-    const size_t name = strcspn(j->operand, BLANKS);
+    const size_t name = strcspn(j->operand, OPERAND_BLANKS);
     exit_status status;
-    if (is_path(j->operand)) {
-        status = find_file(j->args, j->operand, j->file);
+    if (operand_is_path(j->operand)) {
+        status = operand_find_file(j->args, j->operand, j->file);
     } else {
         snprintf(j->type.name, sizeof j->type.name, "%.*s", name < 79 ? (int)name : 79, j->operand);
-        status = find_type(j->args, &j->type, j->seconds, j->file);
+        status = operand_find_type(j->args, &j->type, j->seconds, j->file);
     }
     if (status == EXIT_ANSWERED) status = read_asked(j);
     return status == EXIT_ANSWERED ? run_all(j) : status;
