@@ -32,15 +32,18 @@ core_surface = \
     core/surface/region.c core/surface/region.h \
     core/surface/surface.c core/surface/surface.h \
     core/surface/surface_include.c core/surface/surface_net.c \
-    core/surface/surface_parts.h \
+    core/surface/surface_parts.h core/surface/surface_pose.c \
     core/surface/surface_rate.c
 
 core_tree = \
     core/tree/bound_audit.c core/tree/bound_audit.h \
     core/tree/hierarchy.c core/tree/hierarchy.h \
+    core/tree/model_lanes.h \
     core/tree/net.c core/tree/net.h \
     core/tree/node.c core/tree/node.h \
     core/tree/node_model.c core/tree/node_model.h \
+    core/tree/pose.c core/tree/pose.h \
+    core/tree/posing.c core/tree/posing.h \
     core/tree/vec.h
 
 core_plugin = \

@@ -71,6 +71,7 @@ mpfi_suites = \
     tests/unit/test_model \
     tests/unit/test_nested \
     tests/unit/test_nets \
+    tests/unit/test_poses \
     tests/unit/test_shapes \
     tests/unit/test_tightness
 
@@ -96,6 +97,8 @@ tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
     tests/support/judge.c tests/support/judge.h \
     tests/support/sampling.c tests/support/sampling.h
 tests_unit_test_nets_SOURCES = tests/unit/test_nets.c \
+    tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
+tests_unit_test_poses_SOURCES = tests/unit/test_poses.c \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_maps_SOURCES = tests/unit/test_maps.c tests/support/map_images.h $(type_oracle)
 tests_unit_test_shapes_SOURCES = tests/unit/test_shapes.c $(type_oracle)
@@ -209,6 +212,7 @@ check_LTLIBRARIES = \
     tests/plugins/mistakes_bounds.la \
     tests/plugins/mistakes_manners.la \
     tests/plugins/mistakes_map.la \
+    tests/plugins/mistakes_pose.la \
     tests/plugins/mistakes_stated.la \
     tests/plugins/net_nan.la \
     tests/plugins/newer_minor.la \
@@ -296,6 +300,7 @@ tests_plugins_map_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_bounds_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_manners_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_map_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_mistakes_pose_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_stated_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_net_nan_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_newer_minor_la_LDFLAGS = $(test_plugin_ldflags)

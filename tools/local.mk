@@ -37,6 +37,7 @@ tools_check = \
     tools/check/pair.c tools/check/pair.h \
     tools/check/pieces.c tools/check/pieces.h \
     tools/check/points.c tools/check/points.h \
+    tools/check/poses.c tools/check/poses.h \
     tools/check/proof.c tools/check/proof.h \
     tools/check/purity.c tools/check/purity.h \
     tools/check/rates.c tools/check/rates.h \

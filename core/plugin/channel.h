@@ -27,6 +27,7 @@ typedef enum channel_request {
     REQUEST_RATE,
     REQUEST_INCLUDE, /* a map: apply */
     REQUEST_NET,
+    REQUEST_POSE, /* of a map over the times of in[3] */
     REQUEST_DESTROY
 } channel_request;
 
@@ -61,6 +62,7 @@ typedef struct channel {
     imp_map_rates map_rates;
     imp_model in[4], out[3];
     imp_net net; /* a map: also what it is given */
+    imp_pose pose;
     unsigned char bytes[CHANNEL_BYTES];
 } channel;
 

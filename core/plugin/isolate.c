@@ -281,6 +281,19 @@ static imp_status map_apply_of(const void *self, const imp_model in[4], imp_mode
     return status;
 }
 
+static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *pose)
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    i->worker->channel->in[3] = *t;
+    i->worker->channel->pose = *pose;
+    status = worker_request(i->worker, i->user, REQUEST_POSE);
+    *pose = i->worker->channel->pose;
+    worker_leave(i->worker);
+    return status;
+}
+
 isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
 {
     isolated *i = calloc(1, sizeof *i);
@@ -319,7 +332,8 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
                                      .eval = map_eval_of,
                                      .rate = map_rate_of,
                                      .apply = type->apply != NULL ? map_apply_of : NULL,
-                                     .net = type->net != NULL ? net_of : NULL};
+                                     .net = type->net != NULL ? net_of : NULL,
+                                     .rigid = part_offers_pose(type) ? map_rigid_of : NULL};
     return i;
 }
 

@@ -165,7 +165,7 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
                            "summary, equation, example or source is not a line of text");
     if (null_callback != NULL)
         return place_error(&type, error, IMP_ERROR_PLUGIN,
-                           "%s is NULL; only include, apply and net may be", null_callback);
+                           "%s is NULL; only include, apply, net and rigid may be", null_callback);
     return check_table(&view->table, &type, error);
 }
 
@@ -181,6 +181,7 @@ static imp_code check_size(uint32_t size, size_t least, uint32_t flags, imp_erro
 
 /* Callbacks appended since may be missing. */
 #define SURFACE_TYPE_FIRST offsetof(imp_surface_type, piece_count)
+#define MAP_TYPE_FIRST offsetof(imp_map_type, rigid)
 
 static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 {
@@ -203,7 +204,7 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 
 static imp_code check_map(const imp_map_type *type, imp_error *error)
 {
-    imp_code code = check_size(type->struct_size, sizeof *type, type->flags, error);
+    imp_code code = check_size(type->struct_size, MAP_TYPE_FIRST, type->flags, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_map(type);
     const char *null_callback = type->create == NULL        ? "create"

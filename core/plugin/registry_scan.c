@@ -42,8 +42,10 @@ static void list_capabilities(found_type *found)
     const bool second = surface != NULL ? surface->include != NULL : map->apply != NULL;
     const bool net = surface != NULL ? surface->net != NULL : map->net != NULL;
     const bool pieces = surface != NULL && part_offers_pieces(surface);
-    snprintf(found->capabilities, sizeof found->capabilities, "core%s%s%s",
-             second ? " order-2" : "", net ? " net" : "", pieces ? " pieces" : "");
+    const bool rigid = map != NULL && part_offers_pose(map);
+    snprintf(found->capabilities, sizeof found->capabilities, "core%s%s%s%s",
+             second ? " order-2" : "", net ? " net" : "", pieces ? " pieces" : "",
+             rigid ? " rigid" : "");
 }
 
 static bool add_type(imp_registry *r, const loaded_plugin *from, imp_type_kind kind,

@@ -104,6 +104,7 @@ static imp_status obey_map(channel *c, const imp_map_type *type)
     if (c->request == REQUEST_EVAL) return type->eval(c->self, c->n, c->p, c->x, error);
     if (c->request == REQUEST_RATE) return type->rate(c->self, &c->box, &c->map_rates);
     if (c->request == REQUEST_NET) return type->net(c->self, &c->region, &c->net);
+    if (c->request == REQUEST_POSE) return type->rigid(c->self, &c->in[3], &c->pose);
     return type->apply(c->self, c->in, c->out);
 }
 

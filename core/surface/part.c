@@ -40,6 +40,12 @@ bool part_offers_pieces(const imp_surface_type *type)
            type->piece_count != NULL && type->piece != NULL;
 }
 
+bool part_offers_pose(const imp_map_type *type)
+{
+    return type->struct_size >= offsetof(imp_map_type, rigid) + sizeof type->rigid &&
+           type->rigid != NULL;
+}
+
 /* One piece, and whether it keeps the rules; p->lo and p->hi are those of the first. */
 static imp_status take_piece(shared_part *p, size_t k)
 {

@@ -35,6 +35,9 @@ shared_part *part_of_map(const imp_map_type *type, void *self);
 /* Whether instances of the type may consist of pieces. */
 bool part_offers_pieces(const imp_surface_type *type);
 
+/* Whether the map says that it is rigid (imp_pose). */
+bool part_offers_pose(const imp_map_type *type);
+
 /* The domain of an instance; IMP_OK, or how it breaks the ABI. */
 imp_status part_domain(const imp_surface_type *type, const void *self, double lo[3], double hi[3]);
 

@@ -202,6 +202,9 @@ const char *surface_status_text(imp_status status)
     case SURFACE_BAD_NET:
         return "a control net has too many points, a number that is infinite or NaN, a negative "
                "error, or a weight that is not positive";
+    case SURFACE_BAD_POSE:
+        return "a pose depends on more than time, or has a number that is infinite or NaN, a negative "
+               "remainder or rate, or an inverted range";
     case SURFACE_CRASHED:
         return "crashes or ends its process, in which it runs isolated";
     case SURFACE_HUNG:

@@ -78,6 +78,7 @@ bool surface_undefined_part(const surface *s, double lo, double hi, surface_part
 #define SURFACE_PIECE_COUNT 1011
 #define SURFACE_NULL_PIECE 1012
 #define SURFACE_PIECE_TIMES 1013
+#define SURFACE_BAD_POSE 1014
 
 /* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
@@ -112,6 +113,17 @@ imp_status surface_net(const surface *s, const imp_region *region, imp_net *net)
 
 /* Whether the type and all maps can be asked for one; else it has none anywhere. */
 bool surface_offers_net(const surface *s);
+
+/* Whether all of its maps, of which there is one at least, are rigid, so that it may have a pose. */
+bool surface_is_rigid(const surface *s);
+
+/* The pose that all maps together have over the region's times (imp_pose), but that turn and turn^T turn
+ * are off those of a rotation by as much for each map as is allowed for one. IMP_UNBOUNDED: there is none.
+ * Precondition: surface_is_rigid. */
+imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose);
+
+/* At least |x'| / |x| for what such a pose makes of a vector x; 1 but for that slack. */
+double surface_pose_norm_upper(const surface *s);
 
 /* The inclusion of the type alone, under none of the maps. */
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3]);

@@ -70,8 +70,7 @@ static bool models_are_finite(const imp_model model[3])
     return true;
 }
 
-/* t itself over the region: c + d s, exact but for d, which region_make rounded up. */
-static imp_model model_of_time(const imp_region *region)
+imp_model surface_time(const imp_region *region)
 {
     imp_model t = {.a = region->c[2], .lo = region->lo[2], .hi = region->hi[2]};
     t.b[2] = region->d[2];
@@ -159,7 +158,7 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
     imp_status status = IMP_UNBOUNDED;
     if (!models_are_sane(model, !*unbounded)) return SURFACE_BAD_MODEL;
     if (models_are_finite(model) && map->type->apply != NULL) {
-        const imp_model in[4] = {model[0], model[1], model[2], model_of_time(region)};
+        const imp_model in[4] = {model[0], model[1], model[2], surface_time(region)};
         const fp_mode mode = surface_call_begin(map->type->name, "apply");
         status = map->type->apply(map->self, in, model);
         status = surface_call_end(mode, status);

@@ -10,7 +10,7 @@
 /* The inside of a surface
  * =======================
  * For part.c and its files: surface.c (life, names), surface_rate.c (points and rates) and
- * surface_include.c (inclusions), and surface_net.c. Everything that a callback gives is checked where it comes
+ * surface_include.c (inclusions), surface_net.c and surface_pose.c. Everything that a callback gives is checked where it comes
  * from, before anything is computed with it: behind a product or a sum a breach might not show. */
 
 typedef struct mapping {
@@ -53,6 +53,9 @@ static inline imp_status surface_call_end(fp_mode before, imp_status status)
 /* Rates as they come from a callback, checked. */
 imp_status surface_type_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates);
 imp_status surface_map_rate(const mapping *map, const imp_box4 *box, imp_map_rates *rates);
+
+/* t itself over the region: c + d s, exact but for d, which region_make rounded up. */
+imp_model surface_time(const imp_region *region);
 
 /* A box around a point f(c), reach to both sides. */
 typedef struct centred_box {

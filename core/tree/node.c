@@ -13,6 +13,7 @@
 #include "core/base/rounding.h"
 #include "core/base/status.h"
 #include "core/tree/node_model.h"
+#include "core/tree/posing.h"
 
 /* Chunks of 1, 4, 16, 64, 64, ... nodes: most surfaces of a large scene are never split. */
 enum { CHUNK_GROWTH = 4, CHUNK_NODES_MAX = 64 };
@@ -38,6 +39,7 @@ struct tree {
     chunk *chunks;
     hierarchy *pieces; /* NULL: it is one surface */
     arena *nets;
+    posing posing;
 };
 
 /* --- Memory ------------------------------------------------------------------- */
@@ -97,6 +99,7 @@ static imp_code status_fault(const node *n, imp_status status, imp_error *error)
 static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
 {
     imp_model model[3];
+    if (posing_fill(n)) return IMP_SUCCESS;
     if (n->many != NULL) cluster_models(n->many, &n->region, model);
     const imp_status status = n->many != NULL
                                   ? surface_include_image(t->surface, &n->region, model)
@@ -325,9 +328,13 @@ static imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth
                 .parent = place->parent,
                 .along = place->along,
                 .side = place->side};
-    imp_code code = t->plan.kind == TREE_MODELS ? fill_from_model(t, n, error)
-                    : n->many != NULL           ? fill_from_box(t, n, error)
-                                                : fill_from_rates(t, n, error);
+    imp_code code = IMP_SUCCESS;
+    if (t->plan.kind == TREE_MODELS && n->parent != NULL)
+        code = posing_begin(&t->posing, n, growth, error);
+    if (code != IMP_SUCCESS) return code;
+    code = t->plan.kind == TREE_MODELS ? fill_from_model(t, n, error)
+           : n->many != NULL           ? fill_from_box(t, n, error)
+                                       : fill_from_rates(t, n, error);
     if (code == IMP_SUCCESS && t->plan.audit != NULL && n->many == NULL)
         code = audit(t, n, growth, error);
     return code;
@@ -403,8 +410,10 @@ imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_gro
     if (t == NULL) return error_set_memory(error);
     *t = (tree){.surface = s, .plan = *plan};
     pthread_mutex_init(&t->lock, NULL);
+    t->posing.lock = &t->lock;
     const imp_code code = make_root(t, growth, error);
     if (code == IMP_SUCCESS) {
+        t->posing.root = t->root;
         growth->bytes += sizeof *t;
         *made = t;
     } else {
@@ -420,6 +429,7 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
     if (copy == NULL) return error_set_memory(error);
     *copy = (tree){.surface = t->surface, .plan = t->plan};
     pthread_mutex_init(&copy->lock, NULL);
+    copy->posing.lock = &copy->lock;
     copy->root = node_alloc(copy, &of_root);
     if (copy->root == NULL) {
         tree_free(copy);
@@ -446,6 +456,7 @@ void tree_free(tree *t)
         free(t->nets);
         t->nets = next;
     }
+    posing_clear(&t->posing);
     pthread_mutex_destroy(&t->lock);
     free(t);
 }

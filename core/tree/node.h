@@ -61,6 +61,8 @@ typedef struct node {
     parameter along;            /* which half of the parent it is */
     int side;
     _Atomic(const net *) net;           /* NULL: not asked for yet; &net_none: it has none */
+    struct shape *shape;        /* what is moved rigidly, */
+    struct span *span;          /* and when (posing.h); NULL: neither is known */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
 } node;
 

@@ -105,6 +105,20 @@ void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], i
     axis_transform(frame, cosine, sine, w, out);
 }
 
+/* A column of the matrix is a unit vector, which an angle moves by no more than itself. */
+void axis_matrix(const axis_frame *frame, imp_model angle, imp_model turn[3][3])
+{
+    imp_model sine, cosine;
+    imp_sincos(angle, &sine, &cosine);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            imp_model entry = axis_entry(frame, i, j, cosine, sine);
+            for (int p = 0; p < 3; ++p)
+                entry.rate[p] = imp_smaller(entry.rate[p], angle.rate[p]);
+            turn[i][j] = imp_model_within(entry, imp_interval_make(-1, 1));
+        }
+}
+
 void axis_stretch(const axis_frame *frame, imp_model factor, const imp_model w[3], imp_model out[3])
 {
     axis_transform(frame, factor, imp_num(0), w, out);

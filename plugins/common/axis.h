@@ -60,6 +60,9 @@ axis_frame axis_frame_of(const double axis[3]);
 /* w turned by an angle. */
 void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], imp_model out[3]);
 
+/* The matrix that turns by an angle, which depends on one parameter at most. */
+void axis_matrix(const axis_frame *frame, imp_model angle, imp_model turn[3][3]);
+
 /* w by a factor across the axis. */
 void axis_stretch(const axis_frame *frame, imp_model factor, const imp_model w[3],
                   imp_model out[3]);

@@ -303,8 +303,24 @@ static imp_status keyframes_apply(const void *self, const imp_model in[4], imp_m
     return keyframes_formula_apply(self, in, out);
 }
 
+static imp_status keyframes_rigid(const void *self, const imp_model *time, imp_pose *pose)
+{
+    const keyframes_instance *s = self;
+    imp_model lane[LANES_MAX], t = *time;
+    imp_interval node[SPLINE_WIDTH_MAX];
+    if (!is_inside(s, t.lo, t.hi)) return IMP_DOMAIN;
+    if (s->hold) t = spline_hold(&s->path, t);
+    spline_models(&s->path, t, lane, node);
+    imp_pose_at_rest(pose);
+    if (s->rotation)
+        rotation_matrix(s, lane + s->position, &t, node[s->path.width - 1].hi, pose->turn);
+    if (s->position) memcpy(pose->shift, lane, sizeof pose->shift);
+    return imp_pose_status(pose);
+}
+
 static const imp_map_type keyframes = {
     IMP_MAP_FIELDS(keyframes, keyframes),
+    .rigid = keyframes_rigid,
     .summary = "moves and turns smoothly through positions and orientations at given times",
     .equation =
         "R(q) (x,y,z) + p; p and q are cubics between keys, with the slope at each key from the "

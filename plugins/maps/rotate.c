@@ -101,8 +101,23 @@ static imp_status rotate_apply(const void *self, const imp_model in[4], imp_mode
     return turned_apply(self, in, out);
 }
 
+static imp_status rotate_rigid(const void *self, const imp_model *t, imp_pose *pose)
+{
+    const rotate_instance *s = self;
+    if (!course_is_defined(&s->angle, t->lo, t->hi)) return IMP_DOMAIN;
+    imp_model angle;
+    course_at(&s->angle, 1, *t, &angle);
+    axis_matrix(&s->axis, angle, pose->turn);
+    for (int i = 0; i < 3; ++i) {
+        pose->shift[i] = imp_num(s->center[i]);
+        pose->pivot[i] = s->center[i];
+    }
+    return imp_pose_status(pose);
+}
+
 static const imp_map_type rotate = {
     IMP_MAP_FIELDS_OF("rotate", rotate, rotate, rotate_destroy, rotate_rate),
+    .rigid = rotate_rigid,
     .summary = "turns about an axis, at a constant rate, by a polynomial angle or by a table",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t, sum_k angle_k t^k, or the "
                 "table's value at t: center + k (k.w) + cos A (w - k (k.w)) + sin A (k x w)",

@@ -72,8 +72,21 @@ static imp_status screw_rate(const void *self, const imp_box4 *box, imp_map_rate
     return axis_turn_rates(&s->axis, s->center, s->advance, angle, box, rates);
 }
 
+static imp_status screw_rigid(const void *self, const imp_model *t, imp_pose *pose)
+{
+    const screw_instance *s = self;
+    const imp_model angle = polynomial_at(&s->angle, 0, *t);
+    axis_matrix(&s->axis, angle, pose->turn);
+    for (int i = 0; i < 3; ++i) {
+        pose->shift[i] = imp_shift(near_scale(angle, s->advance[i]), s->center[i]);
+        pose->pivot[i] = s->center[i];
+    }
+    return imp_pose_status(pose);
+}
+
 static const imp_map_type screw = {
     IMP_MAP_FIELDS_OF("screw", screw, screw_formula, free, screw_rate),
+    .rigid = screw_rigid,
     .summary = "turns about an axis and moves along it in proportion to the angle",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t or sum_k angle_k t^k: center + "
                 "k (k.w + pitch A / 2pi) + cos A (w - k (k.w)) + sin A (k x w)",

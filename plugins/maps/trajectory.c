@@ -282,8 +282,29 @@ static imp_status trajectory_apply(const void *self, const imp_model in[4], imp_
     return trajectory_formula_apply(self, in, out);
 }
 
+/* Over times of one piece. The matrix is Q + E, Q a rotation and no entry of E above SPIN_MISMATCH, of which (Q +
+ * E)^T (Q + E) - 1 = Q^T E + E^T Q + E^T E; an entry of Q^T E is at most sqrt(3) SPIN_MISMATCH. So the whole is
+ * below 4 SPIN_MISMATCH, and IMP_RIGID_SLACK is 15 SPIN_MISMATCH. */
+static imp_status trajectory_rigid(const void *self, const imp_model *t, imp_pose *pose)
+{
+    const trajectory_instance *s = self;
+    imp_interval node[SPLINE_WIDTH_MAX];
+    if (!is_inside(s, t->lo, t->hi)) return IMP_DOMAIN;
+    const imp_series around = imp_series_around(imp_model_range(t));
+    const spline_span span = spline_span_of(&s->path, t->lo, around.m, t->hi);
+    if (s->rotation != NULL && span.first != span.last) return IMP_UNBOUNDED;
+    imp_pose_at_rest(pose);
+    spline_models(&s->path, *t, pose->shift, node);
+    memcpy(pose->pivot, s->center, sizeof pose->pivot);
+    if (s->rotation != NULL)
+        spin_matrix(&s->rotation[span.at], s->path.time[span.at], *t, node[s->path.width - 2].hi,
+                  pose->turn);
+    return imp_pose_status(pose);
+}
+
 static const imp_map_type trajectory = {
     IMP_MAP_FIELDS(trajectory, trajectory),
+    .rigid = trajectory_rigid,
     .summary = "moves along parabolas and turns at constant spin, from key to key",
     .equation = "with s = t - times_i, h = times_i+1 - times_i: p + R ((x,y,z) - center); p = "
                 "positions_i + "

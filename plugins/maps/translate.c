@@ -97,9 +97,18 @@ static imp_status translate_net(const void *self, const imp_region *region, imp_
     return IMP_OK;
 }
 
+static imp_status translate_rigid(const void *self, const imp_model *t, imp_pose *pose)
+{
+    if (!course_is_defined(self, t->lo, t->hi)) return IMP_DOMAIN;
+    imp_pose_at_rest(pose);
+    course_at(self, 3, *t, pose->shift);
+    return imp_pose_status(pose);
+}
+
 static const imp_map_type translate = {
     IMP_MAP_FIELDS_OF("translate", translate, translate, translate_destroy, translate_rate),
     .net = translate_net,
+    .rigid = translate_rigid,
     .summary = "moves along a straight line, along a polynomial in time, or by a table",
     .equation = "(x,y,z) + velocity t, or (x,y,z) + sum_k offset_k t^k, or (x,y,z) + the "
                 "table's value at t",

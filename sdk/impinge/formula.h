@@ -25,7 +25,14 @@ extern "C" {
  * The macros define ball_formula_eval, ball_formula_rate, ball_formula_include, and
  * spin_formula_eval, spin_formula_rate, spin_formula_apply: the callbacks of imp_surface_type and
  * imp_map_type, with proved bounds. A point is evaluated by running the formula on constants, which
- * gives the value and a bound of its rounding error. */
+ * gives the value and a bound of its rounding error.
+ *
+ * For a map that is rigid, write its pose instead, which depends on time alone:
+ *
+ *   static void swing_pose(const void *self, imp_model t, imp_pose *pose);
+ *   IMP_RIGID_FORMULA(swing_pose)
+ *
+ * It defines swing_pose_eval, swing_pose_rate, swing_pose_apply and swing_pose_rigid. */
 
 typedef void (*imp_surface_formula)(const void *self, imp_model u, imp_model v, imp_model t,
                                     imp_model out[3]);
@@ -186,6 +193,66 @@ static inline imp_status imp_map_formula_rate_(imp_map_formula f, const void *se
                                                   imp_model out[3])                                \
     {                                                                                              \
         return imp_map_formula_apply_(FORMULA, self, in, out);                                     \
+    }
+
+/* --- Rigid maps ------------------------------------------------------------------------------ */
+
+/* The pose of a map that moves nothing; what turns or moves is set after it. */
+static inline void imp_pose_at_rest(imp_pose *pose)
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) pose->turn[i][j] = imp_num(i == j);
+        pose->shift[i] = imp_num(0);
+        pose->pivot[i] = 0;
+    }
+}
+
+/* IMP_UNBOUNDED where anything is infinite. */
+static inline imp_status imp_pose_status(const imp_pose *pose)
+{
+    imp_status status = imp_formula_status_(pose->shift);
+    for (int i = 0; i < 3; i++)
+        if (imp_formula_status_(pose->turn[i]) != IMP_OK) status = IMP_UNBOUNDED;
+    return status;
+}
+
+/* The image of the point (x, y, z) = `at`. */
+static inline void imp_pose_apply(const imp_pose *pose, const imp_model at[3], imp_model out[3])
+{
+    imp_model w[3];
+    for (int i = 0; i < 3; i++) w[i] = imp_shift(at[i], -pose->pivot[i]);
+    for (int i = 0; i < 3; i++) out[i] = imp_add(imp_dot3(pose->turn[i], w), pose->shift[i]);
+}
+
+#define IMP_RIGID_FORMULA(FORMULA)                                                                 \
+    static IMP_UNUSED_ imp_status FORMULA##_rigid(const void *self, const imp_model *t,            \
+                                                  imp_pose *pose)                                  \
+    {                                                                                              \
+        FORMULA(self, *t, pose);                                                                   \
+        return imp_pose_status(pose);                                                              \
+    }                                                                                              \
+    static void FORMULA##_moved_(const void *self, imp_model x, imp_model y, imp_model z,          \
+                                 imp_model t, imp_model out[3])                                    \
+    {                                                                                              \
+        imp_pose pose;                                                                             \
+        const imp_model at[3] = {x, y, z};                                                         \
+        FORMULA(self, t, &pose);                                                                   \
+        imp_pose_apply(&pose, at, out);                                                            \
+    }                                                                                              \
+    static IMP_UNUSED_ imp_status FORMULA##_eval(const void *self, size_t n, const double *p,      \
+                                                 double *x, double *error)                         \
+    {                                                                                              \
+        return imp_map_formula_eval_(FORMULA##_moved_, self, n, p, x, error);                      \
+    }                                                                                              \
+    static IMP_UNUSED_ imp_status FORMULA##_rate(const void *self, const imp_box4 *box,            \
+                                                 imp_map_rates *rates)                             \
+    {                                                                                              \
+        return imp_map_formula_rate_(FORMULA##_moved_, self, box, rates);                          \
+    }                                                                                              \
+    static IMP_UNUSED_ imp_status FORMULA##_apply(const void *self, const imp_model in[4],         \
+                                                  imp_model out[3])                                \
+    {                                                                                              \
+        return imp_map_formula_apply_(FORMULA##_moved_, self, in, out);                            \
     }
 
 #ifdef __cplusplus

@@ -46,8 +46,8 @@ extern "C" {
  *     host reads no further than that size.
  *   - The caller owns every output buffer. Nothing is freed across the boundary.
  *   - Tables, names and texts live as long as the shared object is loaded.
- *   - After create, an instance never changes. eval, rate, include, apply and net are
- *     pure: no allocation, no errno, no change of rounding mode or of any other
+ *   - After create, an instance never changes. eval, rate, include, apply, net and rigid
+ *     are pure: no allocation, no errno, no change of rounding mode or of any other
  *     floating-point setting, same answer every time, safe from many threads at
  *     once [thread-safe]. create and destroy are called by one thread at a time
  *     [main-thread].
@@ -211,6 +211,22 @@ typedef struct imp_net {
     double weight[IMP_NET_POINTS];      /* 1; only their ratios matter */
 } imp_net;
 
+/* The pose of a rigid map over a span of times: for every point x of space and every time t of them,
+ *
+ *   phi(x, t) = shift(t) + turn(t) (x - pivot)
+ *
+ * turn(t) is a rotation: no entry of turn^T turn - 1 is beyond IMP_RIGID_SLACK in size, and its
+ * determinant is positive. The entries are models of functions of t alone, whose s_2 is that of t; the
+ * pivot is exact. Any pivot is right; best is one about which the map turns, because what is not known
+ * of a rotation moves a point the farther, the farther it is from the pivot. All finite. */
+#define IMP_RIGID_SLACK 0x1p-16
+
+typedef struct imp_pose {
+    imp_model turn[3][3]; /* row, column; 1 */
+    imp_model shift[3];   /* length */
+    double pivot[3];      /* length */
+} imp_pose;
+
 /* --- Types ------------------------------------------------------------------------ */
 
 /* Flag of a type or map that is defined for some times only, and whose surface does not exist at
@@ -316,6 +332,14 @@ typedef struct imp_map_type {
      * affine in space and leave motions linear in time. IMP_UNBOUNDED: the image has none over this
      * region. May be NULL: it never has one. [thread-safe] */
     imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
+
+    /* Capability `rigid`; a struct_size that ends before it means NULL: the map is not rigid.
+     *
+     * The pose over the times of a model of t that depends on no other parameter, or is constant.
+     * Surfaces that do not move by themselves are then bounded once, before the map, for all times.
+     * IMP_UNBOUNDED: there is no pose over these times, and *pose is ignored; shorter ones may have
+     * one. The host has set all to 0. [thread-safe] */
+    imp_status (*rigid)(const void *self, const imp_model *t, imp_pose *pose);
 } imp_map_type;
 
 /* --- The plugin ---------------------------------------------------------------- */
@@ -440,9 +464,11 @@ IMP_LAYOUT(sizeof(imp_surface_type) == 136 && offsetof(imp_surface_type, name) =
 IMP_LAYOUT(offsetof(imp_surface_type, create) == 64 && offsetof(imp_surface_type, include) == 104);
 IMP_LAYOUT(offsetof(imp_surface_type, net) == 112);
 IMP_LAYOUT(offsetof(imp_surface_type, piece_count) == 120);
-IMP_LAYOUT(sizeof(imp_map_type) == 120 && offsetof(imp_map_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_pose) == 1656 && offsetof(imp_pose, shift) == 1224);
+IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632);
+IMP_LAYOUT(sizeof(imp_map_type) == 128 && offsetof(imp_map_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);
-IMP_LAYOUT(offsetof(imp_map_type, net) == 112);
+IMP_LAYOUT(offsetof(imp_map_type, net) == 112 && offsetof(imp_map_type, rigid) == 120);
 IMP_LAYOUT(sizeof(imp_surface_factory) == 16 && sizeof(imp_map_factory) == 16);
 IMP_LAYOUT(sizeof(imp_plugin) == 56 && offsetof(imp_plugin, name) == 16);
 IMP_LAYOUT(offsetof(imp_plugin, get_factory) == 48);

@@ -70,6 +70,8 @@ static void regions(void)
     FIELD(imp_net, degree), FIELD(imp_net, is_moving), FIELD(imp_net, is_weighted);
     FIELD(imp_net, place), FIELD(imp_net, drift), FIELD(imp_net, error);
     FIELD(imp_net, point), FIELD(imp_net, velocity), FIELD(imp_net, weight);
+    FIXED(imp_pose);
+    FIELD(imp_pose, turn), FIELD(imp_pose, shift), FIELD(imp_pose, pivot);
 }
 
 /* Callbacks: the compiler says whether the field still has that type. */
@@ -108,9 +110,11 @@ static void types(void)
     TYPE_FIELDS(imp_map_type);
     FIELD(imp_map_type, time_domain), FIELD(imp_map_type, eval);
     FIELD(imp_map_type, rate), FIELD(imp_map_type, apply), FIELD(imp_map_type, net);
+    FIELD(imp_map_type, rigid);
     CALL(imp_map_type, time_domain, void (*)(const void *, double *, double *));
     CALL(imp_map_type, rate, imp_status(*)(const void *, const imp_box4 *, imp_map_rates *));
     CALL(imp_map_type, apply, imp_status(*)(const void *, const imp_model *, imp_model *));
+    CALL(imp_map_type, rigid, imp_status(*)(const void *, const imp_model *, imp_pose *));
 }
 
 static void plugins(void)

@@ -416,6 +416,23 @@ missed() {
     [ "$(wc -l <all)" -le 5 ] # the two truths, and three that are missed
 }
 
+@test "mistakes in the pose of a map are exposed, and a true one is not accused" {
+    local missed name
+    missed=$(missed pose --only poses)
+    [ "$missed" = pose_no_mistake ]
+    [ "$(wc -l <seen)" -eq 10 ]
+    says() { blamed pose "$1" --only poses && [[ $output == *"$2"* ]]; }
+    says pose_remainder_halved 'off the pose, whose remainder is'
+    says pose_rate_halved "and the pose's rate"
+    says pose_range_halved 'outside of the range'
+    says pose_turns_backward 'off the place where the pose'
+    says pose_depends_on_u 'turn[0][0] of the pose over t in [*] depends on more than t'
+    says pose_mirrors 'has the determinant -'
+    says pose_swells "which is no rotation's"
+    run -0 "$IMPINGE" check sphere --only poses
+    [[ $output == *'skip  poses '*'only maps have poses'* ]]
+}
+
 @test "bounds that are not padded are refuted by the last digits, and the cure is told" {
     shows proof bounds rate_not_padded 'ulp too little: round it outward' --formula "$tube"
     shows proof bounds range_not_padded 'ulp too little: round it outward' --formula "$tube"

@@ -115,7 +115,8 @@ load ../support/cli_helper
     uses() { "$IMPINGE" info "$1" --json | jq -r '.types[0].capabilities | join(" ")'; }
     [ "$(uses sphere)" = 'core order-2' ]
     [ "$(uses bezier)" = 'core order-2 net' ]
-    [ "$(uses translate)" = 'core order-2 net' ]
+    [ "$(uses translate)" = 'core order-2 net rigid' ]
+    [ "$(uses rotate)" = 'core order-2 rigid' ]
     run -0 "$IMPINGE" info triangle
     [[ $output == *'uses       core order-2 net'* ]]
 }

@@ -44,13 +44,13 @@ constructor_aborts: trial: loading it crashes: signal 6
 constructor_crashes: trial: loading it crashes: signal 11
 constructor_exits: trial: loading it ends the process with status 0; a plugin must not exit
 fp_mode: load: loading it changes the mode of arithmetic
-half_bad: types: half_bad: create is NULL; only include, apply and net may be
+half_bad: types: half_bad: create is NULL; only include, apply, net and rigid may be
 newer_minor: abi: abi_minor is 77, the host'"'"'s is 0 and may not be less; use a newer host, or
 no_entry: entry: does not export the symbol impinge_plugin; define it by the macro IMPINGE_PLUGIN
 no_factory: types: get_factory knows neither impinge.surface/1 nor impinge.map/1
 no_note: note: has no Impinge note: it is not a plugin, or was built without the macro
 note_disagrees: entry: impinge_plugin says note_disagrees 2.0, ABI 1.0, but the note
-null_callback: types: null_callback: eval is NULL; only include, apply and net may be
+null_callback: types: null_callback: eval is NULL; only include, apply, net and rigid may be
 null_string: entry: impinge_plugin: version, license or author is not a line of text; give all three
 undefined_symbol: nobody_defines_this; link it with every library it uses
 wrong_abi_major: abi: abi_major is 9, the host'"'"'s is 1; rebuild the plugin'
@@ -592,6 +592,13 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
     takes net_nan liar_net
     blames net_nan "type 'net_nan' over u [0, 4], v [0, 4], t [0, 1]: a control net has too many points"
     blames liar_net "type 'liar_net' breaks its control net over u [" --audit
+}
+
+@test "poses that break the ABI end the query, and --audit finds those that points refute" {
+    takes mistakes_pose
+    blames 'torus center=2,0,1 ! pose_depends_on_u' "! pose_depends_on_u' over t [0, 1]: a pose depends on more than time"
+    blames 'torus center=2,0,1 ! pose_turns_backward' 'breaks its own bounds over u ['
+    blames 'torus center=2,0,1 ! pose_turns_backward' 'breaks its own bounds over u [0, ' --audit
 }
 
 @test "callbacks that change the arithmetic end the query" {

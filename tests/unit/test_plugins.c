@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include <errno.h>
+#include <impinge/model.h>
 #include <string.h>
 
 #include "tests/support/built_plugins.h"
@@ -15,17 +16,19 @@
 
 enum { REGIONS = 60, POINTS = 6 };
 
+enum { ERROR, REMAINDER, RATE, NET, POSE, KINDS };
+
 /* Parts of the claimed bounds that are judged instead of the whole: 1 each in earnest, less to
  * see that a bound too low is found. */
 typedef struct shares {
-    double error, remainder, rate, net;
+    double error, remainder, rate, net, pose;
 } shares;
 
 /* What is being tried, for the message when it fails. */
 typedef struct trial {
     const instance *instance;
     shares share;
-    size_t refuted[4]; /* with less than 1: of errors, of remainders, of rates, of nets */
+    size_t refuted[KINDS]; /* with less than 1 */
     uint64_t random;
     const double *lo, *hi; /* of the region or box */
     int dimensions;
@@ -41,11 +44,10 @@ static void describe_box(const trial *t, char *text, size_t size)
                            t->hi[j], t->p[j], t->q[j]);
 }
 
-enum { ERROR, REMAINDER, RATE, NET };
-
 static void expect(trial *t, bool holds, int kind, const char *what)
 {
-    const double share[4] = {t->share.error, t->share.remainder, t->share.rate, t->share.net};
+    const double share[KINDS] = {t->share.error, t->share.remainder, t->share.rate, t->share.net,
+                                 t->share.pose};
     char where[600] = "";
     t->refuted[kind] += !holds;
     if (holds || share[kind] < 1) return;
@@ -250,6 +252,53 @@ static void try_map_net(trial *t, const imp_region *region)
     }
 }
 
+/* Column j of a pose at time t as the map's equation has it: the shift for j = 3, else how a point at the
+ * distance 1 from the pivot is turned. */
+static void exact_column(const instance *made, const imp_pose *pose, int j, double t, number x[3])
+{
+    const type_oracle *row = oracles;
+    number at[4] = {num(pose->pivot[0]), num(pose->pivot[1]), num(pose->pivot[2]), num(t)}, y[3];
+    while (strcmp(row->type, made->view.name) != 0) ++row;
+    row->map(&made->arguments, at, x);
+    if (j == 3) return;
+    at[j] = num_add(at[j], num(1));
+    row->map(&made->arguments, at, y);
+    for (int i = 0; i < 3; ++i) x[i] = num_sub(y[i], x[i]);
+}
+
+static void try_map_pose(trial *t, const imp_region *region)
+{
+    const instance *made = t->instance;
+    const imp_model time = region->d[2] > 0 ? imp_param(region, 2) : imp_num(region->c[2]);
+    imp_pose pose;
+    errno = 0;
+    memset(&pose, 0, sizeof pose);
+    const imp_status status = made->map->rigid(made->self, &time, &pose);
+    expect_status(t, status, "rigid");
+    ck_assert_msg(errno == 0, "%s sets errno", made->view.name);
+    if (status != IMP_OK) return;
+    for (int k = 0; k < POINTS; ++k) {
+        sample_point(&t->random, 3, region->lo, region->hi, t->p);
+        sample_point(&t->random, 3, region->lo, region->hi, t->q);
+        memcpy(t->q, t->p, 2 * sizeof *t->q);
+        for (int j = 0; j < 4; ++j) {
+            number s[3], at_p[3], at_q[3];
+            imp_model column[3];
+            num_forget();
+            sample_normalized(region, t->p, s);
+            exact_column(made, &pose, j, t->p[2], at_p);
+            exact_column(made, &pose, j, t->q[2], at_q);
+            for (int i = 0; i < 3; ++i) {
+                column[i] = j < 3 ? pose.turn[i][j] : pose.shift[i];
+                column[i].e *= t->share.pose;
+            }
+            const double *const rates[3] = {column[0].rate, column[1].rate, column[2].rate};
+            expect(t, judge_models(column, s, at_p, &t->fault), POSE, "pose");
+            try_change(t, 3, rates, at_p, at_q, "pose's rate");
+        }
+    }
+}
+
 static void try_map(trial *t)
 {
     double t_lo, t_hi;
@@ -264,20 +313,21 @@ static void try_map(trial *t)
         t->lo = models.region.lo, t->hi = models.region.hi;
         try_map_models(t, &models);
         if (t->instance->map->net != NULL) try_map_net(t, &models.region);
+        if (t->instance->map->rigid != NULL) try_map_pose(t, &models.region);
     }
 }
 
 /* --- Tests ------------------------------------------------------------------------------------ */
 
-static const shares whole = {1, 1, 1, 1};
+static const shares whole = {1, 1, 1, 1, 1};
 
 /* `seen`, unless NULL, receives per type what was refuted. */
 static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share,
-                              void (*seen)(const type_oracle *row, const size_t refuted[4]))
+                              void (*seen)(const type_oracle *row, const size_t refuted[KINDS]))
 {
     imp_registry *registry = built_registry();
     for (size_t k = 0; k < oracle_count; ++k) {
-        size_t refuted[4] = {0};
+        size_t refuted[KINDS] = {0};
         if ((oracles[k].surface != NULL) != surfaces) continue;
         for (size_t i = 0; oracles[k].instances[i] != NULL; ++i) {
             uint64_t random = suite_seed() + 1000 * i;
@@ -285,7 +335,7 @@ static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share
                 instance_make(registry, oracles[k].type, oracles[k].instances[i], &random);
             trial t = {.instance = &made, .share = share, .random = random};
             try(&t);
-            for (int kind = 0; kind < 4; ++kind) refuted[kind] += t.refuted[kind];
+            for (int kind = 0; kind < KINDS; ++kind) refuted[kind] += t.refuted[kind];
             instance_free(&made);
         }
         if (seen != NULL) seen(&oracles[k], refuted);
@@ -305,7 +355,7 @@ START_TEST(every_point_model_and_rate_of_a_map_holds_against_its_formula)
 }
 END_TEST
 
-static void expect_refuted(const type_oracle *row, const size_t refuted[4])
+static void expect_refuted(const type_oracle *row, const size_t refuted[KINDS])
 {
     ck_assert_msg(refuted[ERROR] && refuted[REMAINDER] && refuted[RATE],
                   "%s: refuted %zu errors, %zu remainders, %zu rates", row->type, refuted[ERROR],
@@ -315,7 +365,7 @@ static void expect_refuted(const type_oracle *row, const size_t refuted[4])
 /* These tests must be able to fail: for every type they find what is too low. */
 START_TEST(bounds_that_are_too_low_are_found)
 {
-    const shares low = {0.01, 0.5, 0.9, 1};
+    const shares low = {0.01, 0.5, 0.9, 1, 1};
     for_each_instance(true, try_surface, low, expect_refuted);
     for_each_instance(false, try_map, low, expect_refuted);
 }
@@ -323,7 +373,7 @@ END_TEST
 
 static size_t types_with_nets;
 
-static void expect_net_refuted(const type_oracle *row, const size_t refuted[4])
+static void expect_net_refuted(const type_oracle *row, const size_t refuted[KINDS])
 {
     const char *const with_nets[] = {"bezier", "bezier-triangle", "nurbs", "point",
                                      "segment", "triangle", "plane", "translate"};
@@ -336,11 +386,32 @@ static void expect_net_refuted(const type_oracle *row, const size_t refuted[4])
 
 START_TEST(nets_without_their_errors_are_found)
 {
-    const shares low = {1, 1, 1, 0};
+    const shares low = {1, 1, 1, 0, 1};
     types_with_nets = 0;
     for_each_instance(true, try_surface, low, expect_net_refuted);
     for_each_instance(false, try_map, low, expect_net_refuted);
     ck_assert_uint_eq(types_with_nets, 8);
+}
+END_TEST
+
+static size_t rigid_types;
+
+static void expect_pose_refuted(const type_oracle *row, const size_t refuted[KINDS])
+{
+    const char *const rigid[] = {"rotate", "screw", "translate", "keyframes", "trajectory"};
+    for (size_t k = 0; k < sizeof rigid / sizeof *rigid; ++k) {
+        if (strcmp(row->type, rigid[k]) != 0) continue;
+        ck_assert_msg(refuted[POSE] > 0, "%s: no pose was refuted", row->type);
+        rigid_types += 1;
+    }
+}
+
+START_TEST(poses_without_their_remainders_are_found)
+{
+    const shares low = {1, 1, 1, 1, 0};
+    rigid_types = 0;
+    for_each_instance(false, try_map, low, expect_pose_refuted);
+    ck_assert_uint_eq(rigid_types, 5);
 }
 END_TEST
 
@@ -384,4 +455,4 @@ SUITE_MAIN("plugins", every_built_type_has_an_oracle,
            every_point_model_and_rate_of_a_surface_holds_against_its_formula,
            every_point_model_and_rate_of_a_map_holds_against_its_formula,
            bounds_that_are_too_low_are_found, nets_without_their_errors_are_found,
-           a_batch_of_points_is_the_points_one_by_one)
+           poses_without_their_remainders_are_found, a_batch_of_points_is_the_points_one_by_one)

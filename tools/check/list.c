@@ -17,6 +17,7 @@
 #include "tools/check/nets.h"
 #include "tools/check/pieces.h"
 #include "tools/check/points.h"
+#include "tools/check/poses.h"
 #include "tools/check/proof.h"
 #include "tools/check/purity.h"
 #include "tools/check/rates.h"
@@ -52,6 +53,7 @@ static const check all[] = {
     {.name = "errors", .of_subject = errors_check, .of_bounds = true},
     {.name = "inclusions", .of_subject = inclusions_check, .of_bounds = true},
     {.name = "nets", .of_subject = nets_check},
+    {.name = "poses", .of_subject = poses_check},
     {.name = "proof", .of_subject = proof_check, .of_bounds = true},
     {.name = "tightness", .of_subject = tightness_check},
     {.name = "cost", .of_subject = cost_check},
@@ -59,8 +61,8 @@ static const check all[] = {
 const char *const check_names[] = {
     "exports", "factories",   "parameters", "arguments",   "memory",  "finite",
     "domain",  "determinism", "state",      "environment", "buffers", "pieces",
-    "rates",   "errors",      "inclusions", "nets",        "proof",   "tightness",
-    "cost",    NULL};
+    "rates",   "errors",      "inclusions", "nets",        "poses",   "proof",
+    "tightness", "cost",      NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");

@@ -180,6 +180,14 @@ imp_status subject_map_net(const subject *s, const imp_region *region, imp_net *
     return noted(s, s->instance->map->net(s->instance->self, region, net));
 }
 
+imp_status subject_rigid(const subject *s, const imp_model *t, imp_pose *pose)
+{
+    const double lo[4] = {0, 0, 0, t->lo}, hi[4] = {0, 0, 0, t->hi};
+    note(s, "rigid", 4, lo, hi);
+    memset(pose, 0, sizeof *pose);
+    return noted(s, s->instance->map->rigid(s->instance->self, t, pose));
+}
+
 void subject_operands(const box *where, imp_model in[4])
 {
     const imp_region region = imp_region_between(where->lo, where->hi);

@@ -60,6 +60,9 @@ imp_status subject_apply(const subject *s, const imp_model in[4], imp_model out[
 imp_status subject_net(const subject *s, const imp_region *region, imp_net *net);
 imp_status subject_map_net(const subject *s, const imp_region *region, imp_net *net);
 
+/* Only for maps that have it. */
+imp_status subject_rigid(const subject *s, const imp_model *t, imp_pose *pose);
+
 /* include or apply, whichever it has, over a box; a map's operands are x, y, z themselves, as if
  * they were u, v, t. IMP_OK with zeros: it has neither. */
 imp_status subject_model(const subject *s, box where, imp_model model[3]);

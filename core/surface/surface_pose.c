@@ -1,0 +1,116 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <impinge/model.h>
+#include <string.h>
+
+#include "core/surface/surface_parts.h"
+
+bool surface_is_rigid(const surface *s)
+{
+    for (size_t k = 0; k < s->map_count; ++k)
+        if (!part_offers_pose(s->maps[k].type)) return false;
+    return s->map_count > 0;
+}
+
+/* Lemma. With D = R^T R - 1, |R x|^2 = |x|^2 + x^T D x <= |x|^2 (1 + 3 max |D_ij|), so that one map makes
+ * x longer by a factor of 1 + 1.5 IMP_RIGID_SLACK at most; what is left of that slack outweighs a
+ * rounding by far. */
+double surface_pose_norm_upper(const surface *s)
+{
+    double norm = 1;
+    for (size_t k = 0; k < s->map_count; ++k) norm *= 1 + 2 * IMP_RIGID_SLACK;
+    return norm;
+}
+
+/* Of a function of time alone. */
+static bool is_sane(const imp_model *m)
+{
+    bool sane = m->e >= 0 && m->lo <= m->hi && m->rate[2] >= 0 && (m->depends & 3u) == 0;
+    sane = sane && isfinite(m->a) && isfinite(m->b[2]) && isfinite(m->q[IMP_TT]);
+    sane = sane && m->e < INFINITY && m->lo > -INFINITY && m->hi < INFINITY;
+    sane = sane && m->rate[2] < INFINITY && m->b[0] == 0 && m->b[1] == 0;
+    for (int k = 0; k < IMP_TT; ++k) sane = sane && m->q[k] == 0;
+    return sane;
+}
+
+static imp_status judge(imp_status status, const imp_pose *pose)
+{
+    if (status != IMP_OK) return status;
+    bool sane = true;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) sane = sane && is_sane(&pose->turn[i][j]);
+        sane = sane && is_sane(&pose->shift[i]) && isfinite(pose->pivot[i]);
+    }
+    return sane ? IMP_OK : SURFACE_BAD_POSE;
+}
+
+static bool turns(const imp_pose *pose)
+{
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (pose->turn[i][j].depends) return true;
+    return false;
+}
+
+/* Where a pose does not turn, every pivot is as good: that which it moves to the pivot of the next map, in
+ * the middle of the times, is better for that. With any p',
+ *
+ *   shift + R (x - p) = (shift + R (p' - p)) + R (x - p') */
+static void choose_pivot(const imp_pose *next, imp_pose *pose)
+{
+    double pivot[3];
+    imp_model way[3];
+    for (int j = 0; j < 3; ++j) {
+        pivot[j] = pose->pivot[j];
+        for (int i = 0; i < 3; ++i)
+            pivot[j] += pose->turn[i][j].a * (next->pivot[i] - pose->shift[i].a);
+        way[j] = imp_sub(imp_num(pivot[j]), imp_num(pose->pivot[j]));
+    }
+    for (int i = 0; i < 3; ++i)
+        pose->shift[i] = imp_add(pose->shift[i], imp_dot3(pose->turn[i], way));
+    memcpy(pose->pivot, pivot, sizeof pivot);
+}
+
+/* After `pose` comes `next`, S y with R x:
+ *
+ *   shift' + S (shift + R (x - p) - p') = (shift' + S (shift - p')) + S R (x - p) */
+static void add_pose(const imp_pose *next, double norm, imp_pose *pose)
+{
+    imp_pose all;
+    imp_model way[3];
+    if (turns(next) && !turns(pose)) choose_pivot(next, pose);
+    for (int i = 0; i < 3; ++i) way[i] = imp_shift(pose->shift[i], -next->pivot[i]);
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const imp_model column[3] = {pose->turn[0][j], pose->turn[1][j], pose->turn[2][j]};
+            all.turn[i][j] = imp_model_within(imp_dot3(next->turn[i], column),
+                                              imp_interval_make(-norm, norm));
+        }
+        all.shift[i] = imp_add(imp_dot3(next->turn[i], way), next->shift[i]);
+    }
+    memcpy(all.pivot, pose->pivot, sizeof all.pivot);
+    *pose = all;
+}
+
+imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose)
+{
+    const imp_model t = surface_time(region);
+    const double norm = surface_pose_norm_upper(s);
+    imp_status status = IMP_OK;
+    for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
+        const mapping *map = &s->maps[k];
+        imp_pose next;
+        memset(&next, 0, sizeof next);
+        const fp_mode mode = surface_call_begin(map->type->name, "rigid");
+        status = map->type->rigid(map->self, &t, &next);
+        status = judge(surface_call_end(mode, status), &next);
+        if (status != IMP_OK) return status;
+        if (k == 0)
+            *pose = next;
+        else
+            add_pose(&next, norm, pose);
+    }
+    return judge(IMP_OK, pose) == IMP_OK ? IMP_OK : IMP_UNBOUNDED;
+}

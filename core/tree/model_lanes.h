@@ -1,0 +1,110 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_TREE_MODEL_LANES_H
+#define CORE_TREE_MODEL_LANES_H
+
+#include <impinge/quad.h>
+#include <string.h>
+
+#include "core/base/rounding.h"
+#include "core/tree/node.h"
+
+/* The models of three coordinates side by side
+ * ============================================
+ * x, y and z of the same coefficient in one quad, whose fourth lane is 0. For the files that fill nodes,
+ * which compile what is here for either width of a register. */
+
+typedef struct model_lanes {
+    imp_quad a, b[3], q[6], e, lo, hi, rate[3];
+} model_lanes;
+
+IMP_QUAD_INLINE double lanes_sum(imp_quad x) { return x[0] + x[1] + x[2]; }
+
+/* How far u, v and t move each coordinate across the region, and how much of that is not linear.
+ * The remainder is distributed over them in proportion to what is unexplained of each: the curved
+ * part, and what the rate allows beyond the slope. Decides only what to split. A way through space
+ * counts by its length, about LENGTH_OF_SUM of the sum of its coordinates; the remainder, a box,
+ * counts in full; the weight of acceleration is measured. */
+static const double LENGTH_OF_SUM = 0.6;
+
+IMP_QUAD_INLINE void lanes_take_spread(node *n, const model_lanes *m)
+{
+    const imp_quad none = imp_quad_all(0), half = imp_quad_all(0.5),
+                   infinite = imp_quad_all(INFINITY);
+    const imp_quad uv = half * imp_quad_abs(m->q[IMP_UV]), ut = half * imp_quad_abs(m->q[IMP_UT]);
+    const imp_quad vt = half * imp_quad_abs(m->q[IMP_VT]);
+    const imp_quad curved[3] = {imp_quad_abs(m->q[IMP_UU]) + uv + ut,
+                                imp_quad_abs(m->q[IMP_VV]) + uv + vt,
+                                imp_quad_all(2) * imp_quad_abs(m->q[IMP_TT]) + ut + vt};
+    imp_quad unexplained[3], sum = none;
+    for (int j = 0; j < 3; ++j) {
+        const double d = n->region.d[j];
+        const imp_quad beyond =
+            imp_quad_max(m->rate[j] * imp_quad_all(d) - imp_quad_abs(m->b[j]), none);
+        unexplained[j] = imp_quad_pick(m->rate[j] < infinite, curved[j] + beyond,
+                                       imp_quad_all(d > 0 ? 0x1p500 : 0));
+        sum += unexplained[j];
+    }
+    const imp_quad_mask blamed = (sum > none) & (m->e < infinite);
+    for (int j = 0; j < 3; ++j) {
+        const imp_quad blame = imp_quad_pick(blamed, m->e * (unexplained[j] / sum), none);
+        const imp_quad bend = curved[j] + blame;
+        n->nonlinear_extent[j] = lanes_sum(bend);
+        n->extent[j] =
+            lanes_sum(imp_quad_all(LENGTH_OF_SUM) * (imp_quad_abs(m->b[j]) + curved[j]) + blame);
+        if (j == PARAMETER_T)
+            n->time_remainder = lanes_sum(imp_quad_pick(m->rate[j] < infinite, blame, none));
+    }
+}
+
+IMP_QUAD_INLINE void lanes_take_polynomial(quadratic3 *f, const model_lanes *m)
+{
+    imp_quad_store(f->a, m->a);
+    imp_quad_store(f->bu, m->b[0]);
+    imp_quad_store(f->bv, m->b[1]);
+    imp_quad_store(f->bt, m->b[2]);
+    imp_quad_store(f->quu, m->q[IMP_UU]);
+    imp_quad_store(f->quv, m->q[IMP_UV]);
+    imp_quad_store(f->qut, m->q[IMP_UT]);
+    imp_quad_store(f->qvv, m->q[IMP_VV]);
+    imp_quad_store(f->qvt, m->q[IMP_VT]);
+    imp_quad_store(f->qtt, m->q[IMP_TT]);
+}
+
+/* Whether polynomial, remainder and range are finite. */
+IMP_QUAD_INLINE bool lanes_are_bounded(const model_lanes *m)
+{
+    imp_quad sum = imp_quad_abs(m->a) + m->e;
+    for (int j = 0; j < 3; ++j) sum += imp_quad_abs(m->b[j]);
+    for (int k = 0; k < 6; ++k) sum += imp_quad_abs(m->q[k]);
+    const imp_quad infinite = imp_quad_all(INFINITY);
+    const imp_quad_mask fine = (sum < infinite) & (m->lo > -infinite) & (m->hi < infinite);
+    return !imp_quad_any(~fine);
+}
+
+/* The conditions of breach_of that hold for bounded models too. */
+IMP_QUAD_INLINE bool lanes_are_sound(const model_lanes *m)
+{
+    const imp_quad none = imp_quad_all(0), infinite = imp_quad_all(INFINITY);
+    imp_quad_mask fine = (m->e >= none) & (m->lo <= m->hi);
+    for (int j = 0; j < 3; ++j) fine &= (m->rate[j] >= none) & (m->rate[j] < infinite);
+    return !imp_quad_any(~fine);
+}
+
+/* Fills n with bounded models that keep the promises of imp_model. */
+IMP_QUAD_INLINE void lanes_take(node *n, const model_lanes *m)
+{
+    lanes_take_polynomial(&n->f, m);
+    imp_quad_store(n->e, m->e);
+    memcpy(n->lo, &m->lo, sizeof n->lo);
+    memcpy(n->hi, &m->hi, sizeof n->hi);
+    const imp_quad motion = imp_quad_abs(m->b[2]) + imp_quad_all(2) * imp_quad_abs(m->q[IMP_TT]) +
+                            imp_quad_abs(m->q[IMP_UT]) + imp_quad_abs(m->q[IMP_VT]);
+    PAD_COVERS(8, 3); /* three sums */
+    imp_quad_store(n->motion, quad_padded_upper(motion, 8));
+    lanes_take_spread(n, m);
+    n->bounded = true;
+    n->normal = vec3_cross(vec3_from(n->f.bu), vec3_from(n->f.bv));
+}
+
+#endif

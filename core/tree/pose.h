@@ -1,0 +1,44 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_TREE_POSE_H
+#define CORE_TREE_POSE_H
+
+#include "core/tree/node.h"
+
+/* Nodes from a shape and a pose
+ * =============================
+ * A shape is what lies in a part of a surface before its maps, where it does not move by itself: order-2
+ * Taylor models in s_u and s_v. A pose is what rigid maps do with it over a span of times, polynomials of
+ * degree 2 in s_t. Their product is the node: a twentieth of the work of an inclusion through the maps, and
+ * shape and pose each serve many nodes. x, y and z lie side by side; the fourth number of each is 0. */
+
+typedef struct shape_model {
+    double a[4], bu[4], bv[4], quu[4], quv[4], qvv[4]; /* length */
+    double e[4], lo[4], hi[4];                         /* as in imp_model; length */
+    double rate_u[4], rate_v[4];
+} shape_model;
+
+typedef struct pose_lanes {
+    double turn[3][3][4];    /* coefficients of 1, s, s^2; column; row */
+    double shift[3][4];      /* coefficients of 1, s, s^2; length */
+    double turn_error[3][4]; /* remainders, by column and row; */
+    double turn_most[3][4];  /* >= |entry|; */
+    double turn_size[3][4];  /* >= sum of its |coefficients|, but for 2 roundings; */
+    double turn_rate[3][4];  /* 1 / time */
+    double shift_error[4], shift_lo[4], shift_hi[4];
+    double shift_size[4], shift_rate[4]; /* length, length / time */
+    double pivot[4];                     /* length */
+    double norm;                         /* >= |turn x| / |x| */
+} pose_lanes;
+
+/* Fills p from a pose as the surface has it, and the norm of that. */
+void pose_take(pose_lanes *p, const imp_pose *given, double norm);
+
+/* Fills s from finite models. False: they depend on time. */
+bool shape_model_take(shape_model *s, const imp_model model[3]);
+
+/* Fills everything of n but region, origin and children, as node_take_model does, with the image of the
+ * shape. False: that is not bounded, or the models broke a promise, and n is not filled. */
+bool node_take_posed(node *n, const shape_model *s, const pose_lanes *p);
+
+#endif

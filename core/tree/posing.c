@@ -1,0 +1,189 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/tree/posing.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+
+typedef struct shape {
+    bool moves;    /* by itself: there are no shapes below it */
+    bool is_known; /* whether the model is filled */
+    shape_model model;
+    _Atomic(struct shape *) child[2][2]; /* along u and v */
+} shape;
+
+typedef struct span {
+    bool is_known; /* whether there is a pose */
+    pose_lanes pose;
+    _Atomic(struct span *) child[2];
+} span;
+
+/* --- Memory ------------------------------------------------------------------------------------- */
+
+typedef struct posing_block {
+    struct posing_block *next;
+    size_t used, capacity; /* bytes */
+    double memory[];
+} posing_block;
+
+/* Blocks of 2, 8, 32 and so on up to 32 KiB. */
+enum { BLOCK_FIRST = 2048, BLOCK_GROWTH = 4, BLOCK_MOST = 32768 };
+_Static_assert(sizeof(span) <= BLOCK_FIRST && sizeof(shape) <= BLOCK_FIRST, "each fits");
+
+static void *allocate(posing *g, size_t bytes, tree_growth *growth)
+{
+    if (g->blocks == NULL || g->blocks->capacity - g->blocks->used < bytes) {
+        const size_t wanted = g->blocks == NULL ? BLOCK_FIRST : BLOCK_GROWTH * g->blocks->capacity;
+        const size_t capacity = wanted < BLOCK_MOST ? wanted : BLOCK_MOST;
+        posing_block *fresh = malloc(sizeof *fresh + capacity);
+        if (fresh == NULL) return NULL;
+        *fresh = (posing_block){.next = g->blocks, .capacity = capacity};
+        g->blocks = fresh;
+        growth->bytes += sizeof *fresh + capacity;
+    }
+    void *room = (char *)g->blocks->memory + g->blocks->used;
+    g->blocks->used += bytes;
+    return room;
+}
+
+void posing_clear(posing *g)
+{
+    while (g->blocks != NULL) {
+        posing_block *next = g->blocks->next;
+        free(g->blocks);
+        g->blocks = next;
+    }
+}
+
+/* --- Shapes ---------------------------------------------------------------------------------------- */
+
+/* Over the u and v of a node, at all times of the root. What answers no model is asked again through all
+ * maps, which tells what is wrong. */
+static void shape_fill(shape *s, const node *n, const node *root)
+{
+    imp_region region = n->region;
+    imp_model model[3];
+    region.lo[2] = root->region.lo[2];
+    region.hi[2] = root->region.hi[2];
+    region.c[2] = root->region.c[2];
+    region.d[2] = root->region.d[2];
+    memset(s, 0, sizeof *s);
+    if (n->many != NULL)
+        cluster_models(n->many, &region, model);
+    else if (surface_include_bare(n->surface, &region, model) != IMP_OK)
+        return;
+    for (int i = 0; i < 3; ++i)
+        if (!(model[i].e < INFINITY)) return;
+    s->moves = !shape_model_take(&s->model, model);
+    s->is_known = !s->moves;
+}
+
+static shape *shape_publish(posing *g, const shape *filled, _Atomic(shape *) *slot,
+                            tree_growth *growth)
+{
+    pthread_mutex_lock(g->lock);
+    shape *s = atomic_load_explicit(slot, memory_order_relaxed);
+    if (s == NULL) {
+        s = allocate(g, sizeof *s, growth);
+        if (s != NULL) {
+            memcpy(s, filled, sizeof *s);
+            atomic_store_explicit(slot, s, memory_order_release);
+        }
+    }
+    pthread_mutex_unlock(g->lock);
+    return s;
+}
+
+/* The shape in the slot, that of n. NULL: no memory. */
+static shape *shape_in(posing *g, _Atomic(shape *) *slot, const node *n, tree_growth *growth)
+{
+    shape *s = atomic_load_explicit(slot, memory_order_acquire);
+    if (s != NULL) return s;
+    shape filled;
+    shape_fill(&filled, n, g->root);
+    return shape_publish(g, &filled, slot, growth);
+}
+
+/* --- Spans ------------------------------------------------------------------------------------------- */
+
+static imp_code span_fill(span *s, const node *n, imp_error *error)
+{
+    imp_pose given;
+    memset(s, 0, sizeof *s);
+    const imp_status status = surface_pose(n->surface, &n->region, &given);
+    if (status != IMP_OK && status != IMP_UNBOUNDED) {
+        surface_fault(n->surface, error, "over t [%.17g, %.17g]: %s", n->region.lo[2],
+                      n->region.hi[2], surface_status_told(n->surface, status).text);
+        return surface_set_code(status, error);
+    }
+    s->is_known = status == IMP_OK;
+    if (s->is_known) pose_take(&s->pose, &given, surface_pose_norm_upper(n->surface));
+    return IMP_SUCCESS;
+}
+
+static span *span_publish(posing *g, const span *filled, _Atomic(span *) *slot, tree_growth *growth)
+{
+    pthread_mutex_lock(g->lock);
+    span *s = atomic_load_explicit(slot, memory_order_relaxed);
+    if (s == NULL) {
+        s = allocate(g, sizeof *s, growth);
+        if (s != NULL) {
+            memcpy(s, filled, sizeof *s);
+            atomic_store_explicit(slot, s, memory_order_release);
+        }
+    }
+    pthread_mutex_unlock(g->lock);
+    return s;
+}
+
+/* *found: the span in the slot, that of n. */
+static imp_code span_in(posing *g, _Atomic(span *) *slot, const node *n, span **found,
+                        tree_growth *growth, imp_error *error)
+{
+    span filled;
+    *found = atomic_load_explicit(slot, memory_order_acquire);
+    if (*found != NULL) return IMP_SUCCESS;
+    const imp_code code = span_fill(&filled, n, error);
+    if (code != IMP_SUCCESS) return code;
+    *found = span_publish(g, &filled, slot, growth);
+    return *found != NULL ? IMP_SUCCESS : error_set_memory(error);
+}
+
+/* --- Nodes ------------------------------------------------------------------------------------------- */
+
+/* Those of the tree's root. *s is NULL where it does not move rigidly. */
+static imp_code begin_at_root(posing *g, shape **s, span **t, tree_growth *growth, imp_error *error)
+{
+    if (!surface_is_rigid(g->root->surface)) return IMP_SUCCESS;
+    *s = shape_in(g, &g->shape, g->root, growth);
+    if (*s == NULL) return error_set_memory(error);
+    return (*s)->moves ? IMP_SUCCESS : span_in(g, &g->span, g->root, t, growth, error);
+}
+
+imp_code posing_begin(posing *g, node *n, tree_growth *growth, imp_error *error)
+{
+    shape *s = n->parent->shape;
+    span *t = n->parent->span;
+    imp_code code = IMP_SUCCESS;
+    if (n->parent == g->root) code = begin_at_root(g, &s, &t, growth, error);
+    if (code != IMP_SUCCESS || s == NULL || s->moves) return code;
+    if (n->along == PARAMETER_T)
+        code = span_in(g, &t->child[n->side], n, &t, growth, error);
+    else
+        s = shape_in(g, &s->child[n->along][n->side], n, growth);
+    if (s == NULL) return error_set_memory(error);
+    if (code != IMP_SUCCESS || s->moves) return code;
+    n->shape = s;
+    n->span = t;
+    return IMP_SUCCESS;
+}
+
+bool posing_fill(node *n)
+{
+    return n->shape != NULL && n->shape->is_known && n->span->is_known &&
+           node_take_posed(n, &n->shape->model, &n->span->pose);
+}
