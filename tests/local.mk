@@ -91,7 +91,7 @@ tests_unit_test_parts_SOURCES = tests/unit/test_parts.c tools/bench/crowd.c tool
 tests_support_crowd_scene_SOURCES = tests/support/crowd_scene.c tools/bench/crowd.c
 tests_support_crowd_scene_LDADD = -lm
 check_PROGRAMS += tests/support/crowd_scene
-tests_unit_test_mesh_SOURCES = tests/unit/test_mesh.c tools/view/mesh.c tools/view/mesh.h
+tests_unit_test_mesh_SOURCES = tests/unit/test_mesh.c tools/view/mesh.c tools/view/mesh_points.c tools/view/mesh.h
 tests_unit_test_keyframes_SOURCES = tests/unit/test_keyframes.c tests/support/map_images.h $(type_oracle)
 tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
     tests/support/judge.c tests/support/judge.h \

@@ -119,7 +119,7 @@ tools_view = \
     tools/view/glb.c \
     tools/view/html.c tools/view/html.h \
     tools/view/html_data.c tools/view/html_data.h \
-    tools/view/mesh.c tools/view/mesh.h \
+    tools/view/mesh.c tools/view/mesh_points.c tools/view/mesh.h \
     tools/view/obj.c \
     tools/view/picture.c tools/view/picture.h \
     tools/view/plot.c tools/view/plot.h \

@@ -24,6 +24,11 @@ typedef struct mesh {
     double focus_radius;
 } mesh;
 
+static inline imp_place mesh_place(const mesh *m)
+{
+    return (imp_place){m->body, m->surface, m->piece};
+}
+
 /* How fine. Nothing more is split once there are max_cells. */
 typedef struct mesh_plan {
     const double *times; /* at which the error is to be within the tolerance */
