@@ -52,7 +52,8 @@ core_plugin = \
     core/plugin/elf_probe.c core/plugin/elf_probe.h \
     core/plugin/elf_segments.c core/plugin/elf_segments.h \
     core/plugin/file_trust.c core/plugin/file_trust.h \
-    core/plugin/isolate.c core/plugin/isolate.h \
+    core/plugin/isolate.c core/plugin/isolate.h core/plugin/isolate_parts.h \
+    core/plugin/isolate_stand_in.c \
     core/plugin/json_describe.c core/plugin/json_describe.h \
     core/plugin/load_cache.c \
     core/plugin/load_probe.c core/plugin/load_probe.h \

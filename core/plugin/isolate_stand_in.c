@@ -1,0 +1,200 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/plugin/isolate_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The rest of core sees an instance that never changes; the channel of its worker does. */
+static isolated *stand_in_of(const void *self) { return (isolated *)(uintptr_t)self; }
+
+static imp_status enter(isolated *i)
+{
+    const imp_status status = worker_enter(i->worker, i->user);
+    if (status == IMP_OK) i->worker->channel->self = i->self;
+    return status;
+}
+
+static imp_status some_points(isolated *i, size_t n, size_t width, const double *p, double *x,
+                              double *error)
+{
+    channel *c = i->worker->channel;
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    c->n = n;
+    c->wants_error = error != NULL;
+    memcpy(c->p, p, width * n * sizeof *p);
+    status = worker_request(i->worker, i->user, REQUEST_EVAL);
+    memcpy(x, c->x, 3 * n * sizeof *x);
+    if (error != NULL) memcpy(error, c->error, 3 * n * sizeof *error);
+    worker_leave(i->worker);
+    return status;
+}
+
+static imp_status points(isolated *i, size_t n, size_t width, const double *p, double *x,
+                         double *error)
+{
+    imp_status status = IMP_OK;
+    for (size_t from = 0; from < n && status == IMP_OK; from += CHANNEL_POINTS) {
+        const size_t count = n - from < CHANNEL_POINTS ? n - from : CHANNEL_POINTS;
+        status = some_points(i, count, width, p + width * from, x + 3 * from,
+                             error != NULL ? error + 3 * from : NULL);
+    }
+    return status;
+}
+
+static void surface_domain_of(const void *self, double lo[3], double hi[3])
+{
+    memcpy(lo, stand_in_of(self)->lo, 3 * sizeof *lo);
+    memcpy(hi, stand_in_of(self)->hi, 3 * sizeof *hi);
+}
+
+static imp_status surface_eval_of(const void *self, size_t n, const double *p, double *x,
+                                  double *error)
+{
+    return points(stand_in_of(self), n, 3, p, x, error);
+}
+
+static imp_status surface_rate_of(const void *self, const imp_region *region,
+                                  imp_rate_matrix *rates)
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    i->worker->channel->region = *region;
+    status = worker_request(i->worker, i->user, REQUEST_RATE);
+    *rates = i->worker->channel->rates;
+    worker_leave(i->worker);
+    return status;
+}
+
+static imp_status surface_include_of(const void *self, const imp_region *region, imp_model model[3])
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    i->worker->channel->region = *region;
+    status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
+    memcpy(model, i->worker->channel->out, 3 * sizeof *model);
+    worker_leave(i->worker);
+    return status;
+}
+
+/* Of a surface or a map. */
+static imp_status net_of(const void *self, const imp_region *region, imp_net *net)
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    i->worker->channel->region = *region;
+    i->worker->channel->net = *net;
+    status = worker_request(i->worker, i->user, REQUEST_NET);
+    *net = i->worker->channel->net;
+    worker_leave(i->worker);
+    return status;
+}
+
+static size_t piece_count_of(const void *self) { return stand_in_of(self)->piece_count; }
+
+static const void *piece_of(const void *self, size_t k)
+{
+    const isolated *i = self;
+    return i->pieces[k].self != NULL ? &i->pieces[k] : NULL;
+}
+
+static void map_times_of(const void *self, double *lo, double *hi)
+{
+    *lo = stand_in_of(self)->lo[0];
+    *hi = stand_in_of(self)->hi[0];
+}
+
+static imp_status map_eval_of(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    return points(stand_in_of(self), n, 4, p, x, error);
+}
+
+static imp_status map_rate_of(const void *self, const imp_box4 *box, imp_map_rates *rates)
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    i->worker->channel->box = *box;
+    status = worker_request(i->worker, i->user, REQUEST_RATE);
+    *rates = i->worker->channel->map_rates;
+    worker_leave(i->worker);
+    return status;
+}
+
+static imp_status map_apply_of(const void *self, const imp_model in[4], imp_model out[3])
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    memcpy(i->worker->channel->in, in, 4 * sizeof *in);
+    status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
+    memcpy(out, i->worker->channel->out, 3 * sizeof *out);
+    worker_leave(i->worker);
+    return status;
+}
+
+static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *pose)
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    i->worker->channel->in[3] = *t;
+    i->worker->channel->pose = *pose;
+    status = worker_request(i->worker, i->user, REQUEST_POSE);
+    *pose = i->worker->channel->pose;
+    worker_leave(i->worker);
+    return status;
+}
+
+isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
+{
+    isolated *i = calloc(1, sizeof *i);
+    if (i == NULL) return NULL;
+    i->pool = pool;
+    i->user = i;
+    i->type.surface = type;
+    const bool pieces = part_offers_pieces(type);
+    i->surface_stand_in =
+        (imp_surface_type){.struct_size = sizeof i->surface_stand_in,
+                           .flags = type->flags,
+                           .name = type->name,
+                           .destroy = isolate_destroy,
+                           .domain = surface_domain_of,
+                           .eval = surface_eval_of,
+                           .rate = surface_rate_of,
+                           .include = type->include != NULL ? surface_include_of : NULL,
+                           .net = type->net != NULL ? net_of : NULL,
+                           .piece_count = pieces ? piece_count_of : NULL,
+                           .piece = pieces ? piece_of : NULL};
+    return i;
+}
+
+isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
+{
+    isolated *i = calloc(1, sizeof *i);
+    if (i == NULL) return NULL;
+    i->pool = pool;
+    i->user = i;
+    i->type.map = type;
+    i->map_stand_in = (imp_map_type){.struct_size = sizeof i->map_stand_in,
+                                     .flags = type->flags,
+                                     .name = type->name,
+                                     .destroy = isolate_destroy,
+                                     .time_domain = map_times_of,
+                                     .eval = map_eval_of,
+                                     .rate = map_rate_of,
+                                     .apply = type->apply != NULL ? map_apply_of : NULL,
+                                     .net = type->net != NULL ? net_of : NULL,
+                                     .rigid = part_offers_pose(type) ? map_rigid_of : NULL};
+    return i;
+}
+
+const imp_surface_type *isolate_surface_type(const isolated *i) { return &i->surface_stand_in; }
+
+const imp_map_type *isolate_map_type(const isolated *i) { return &i->map_stand_in; }
