@@ -99,7 +99,9 @@ core_solver = \
     core/solver/query_clearance.c \
     core/solver/query_divide.c \
     core/solver/relative.c core/solver/relative.h \
+    core/solver/net_hull.h \
     core/solver/net_axis.c core/solver/net_axis.h \
+    core/solver/net_model_axis.c core/solver/net_model_axis.h \
     core/solver/separation.c core/solver/separation.h \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \

@@ -70,6 +70,7 @@ mpfi_suites = \
     tests/unit/test_maps \
     tests/unit/test_model \
     tests/unit/test_nested \
+    tests/unit/test_net_models \
     tests/unit/test_nets \
     tests/unit/test_poses \
     tests/unit/test_shapes \
@@ -96,7 +97,9 @@ tests_unit_test_keyframes_SOURCES = tests/unit/test_keyframes.c tests/support/ma
 tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
     tests/support/judge.c tests/support/judge.h \
     tests/support/sampling.c tests/support/sampling.h
-tests_unit_test_nets_SOURCES = tests/unit/test_nets.c \
+tests_unit_test_nets_SOURCES = tests/unit/test_nets.c tests/support/netted.h \
+    tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
+tests_unit_test_net_models_SOURCES = tests/unit/test_net_models.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_poses_SOURCES = tests/unit/test_poses.c \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h

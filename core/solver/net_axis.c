@@ -5,28 +5,9 @@
 #include "core/solver/net_axis.h"
 
 #include "core/base/rounding.h"
+#include "core/solver/net_hull.h"
 #include "core/solver/simplex.h"
 #include "core/solver/tuning.h"
-
-enum { QUADS_MAX = (IMP_NET_POINTS + IMP_QUAD - 1) / IMP_QUAD };
-
-/* --- The hulls at one time ---------------------------------------------------------------------- */
-
-/* The control points of a net, without its place. */
-typedef struct cloud {
-    imp_quad x[3][QUADS_MAX];
-} cloud;
-
-IMP_QUAD_INLINE void cloud_at(const net *f, double t, cloud *z)
-{
-    const imp_quad tau = imp_quad_all(t - f->time);
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < f->stride / IMP_QUAD; ++k) {
-            const double *x = f->numbers + i * f->stride + IMP_QUAD * k;
-            z->x[i][k] = imp_quad_load(x);
-            if (f->is_moving) z->x[i][k] += tau * imp_quad_load(x + 3 * f->stride);
-        }
-}
 
 /* How far B's place is from A's at time t. */
 IMP_QUAD_INLINE vec3 places_apart(const net *a, const net *b, double t)
@@ -38,29 +19,6 @@ IMP_QUAD_INLINE vec3 places_apart(const net *a, const net *b, double t)
     return apart;
 }
 
-IMP_QUAD_INLINE imp_quad height(const cloud *z, int k, const imp_quad n[3])
-{
-    return n[0] * z->x[0][k] + n[1] * z->x[1][k] + n[2] * z->x[2][k];
-}
-
-/* The point that lies lowest along the axis. */
-IMP_QUAD_INLINE vec3 lowest_point(const cloud *z, int quads, vec3 axis)
-{
-    const imp_quad n[3] = {imp_quad_all(axis.x[0]), imp_quad_all(axis.x[1]),
-                           imp_quad_all(axis.x[2])};
-    imp_quad low = height(z, 0, n), x[3] = {z->x[0][0], z->x[1][0], z->x[2][0]};
-    for (int k = 1; k < quads; ++k) {
-        const imp_quad here = height(z, k, n);
-        const imp_quad_mask lower = here < low;
-        low = imp_quad_pick(lower, here, low);
-        for (int i = 0; i < 3; ++i) x[i] = imp_quad_pick(lower, z->x[i][k], x[i]);
-    }
-    int best = 0;
-    for (int l = 1; l < IMP_QUAD; ++l)
-        if (low[l] < low[best]) best = l;
-    return (vec3){{x[0][best], x[1][best], x[2][best]}};
-}
-
 /* --- The search --------------------------------------------------------------------------------- */
 
 typedef struct hulls {
@@ -68,12 +26,6 @@ typedef struct hulls {
     int quads_a, quads_b;
     vec3 apart;
 } hulls;
-
-/* Unrolled for bicubic patches. */
-IMP_QUAD_INLINE vec3 lowest_of_cloud(const cloud *z, int quads, vec3 n)
-{
-    return quads == 4 ? lowest_point(z, 4, n) : lowest_point(z, quads, n);
-}
 
 IMP_QUAD_INLINE vec3 lowest_of(const hulls *h, vec3 n)
 {
@@ -142,69 +94,6 @@ IMP_QUAD_INLINE double slack_upper(const net *a, const net *b, vec3 n, double la
 }
 
 PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
-
-/* The least of n.x over the control points of a net, without its place, at both ends of a window. */
-typedef struct window_ends {
-    double lo, hi;
-} window_ends;
-
-IMP_QUAD_INLINE double least_of(imp_quad x)
-{
-    const double p = x[0] < x[1] ? x[0] : x[1], q = x[2] < x[3] ? x[2] : x[3];
-    return p < q ? p : q;
-}
-
-IMP_QUAD_INLINE imp_quad along(const double *x, int stride, const imp_quad n[3])
-{
-    return n[0] * imp_quad_load(x) + n[1] * imp_quad_load(x + stride) +
-           n[2] * imp_quad_load(x + 2 * stride);
-}
-
-IMP_QUAD_INLINE window_ends lowest_heights(const net *f, const time_window *w, const imp_quad n[3],
-                                           int stride)
-{
-    const imp_quad t0 = imp_quad_all(w->lo - f->time), t1 = imp_quad_all(w->hi - f->time);
-    imp_quad early = imp_quad_all(INFINITY), late = early;
-    for (int k = 0; k < stride; k += IMP_QUAD) {
-        const imp_quad p = along(f->numbers + k, stride, n);
-        if (f->is_moving) {
-            const imp_quad v = along(f->numbers + 3 * stride + k, stride, n);
-            early = imp_quad_min(p + t0 * v, early);
-            late = imp_quad_min(p + t1 * v, late);
-        } else {
-            early = late = imp_quad_min(p, early);
-        }
-    }
-    return (window_ends){least_of(early), least_of(late)};
-}
-
-/* Unrolled for bicubic patches. */
-IMP_QUAD_INLINE window_ends lowest_heights_of(const net *f, const time_window *w, vec3 axis,
-                                              double sign)
-{
-    const imp_quad n[3] = {imp_quad_all(sign * axis.x[0]), imp_quad_all(sign * axis.x[1]),
-                           imp_quad_all(sign * axis.x[2])};
-    return f->stride == 16 ? lowest_heights(f, w, n, 16) : lowest_heights(f, w, n, f->stride);
-}
-
-/* Cuts the window to where the line from g0 at its start to g1 at its end is not above `limit`. In units
- * of u: the two differences and the quotient 3 of what is cut; its product with the length, itself
- * rounded, 2; the sum 1 of |t|. WINDOW_TINY covers what underflows. */
-enum { CUT_ROUNDING = 8 };
-_Static_assert(3 + 2 + 1 <= CUT_ROUNDING, "rounding of a cut");
-
-static bool line_cut(double g0, double g1, double limit, time_window *w)
-{
-    const double length = w->hi - w->lo;
-    const double slack =
-        CUT_ROUNDING * UNIT_ROUNDOFF * (fabs(w->lo) + fabs(w->hi) + length) + WINDOW_TINY;
-    const bool early = g0 > limit, late = g1 > limit;
-    if (early && late) return false;
-    const double share = (g0 - limit) / (g0 - g1), at = w->lo + length * share;
-    if (early && at - slack > w->lo) w->lo = at - slack < w->hi ? at - slack : w->hi;
-    if (late && at + slack < w->hi) w->hi = at + slack > w->lo ? at + slack : w->lo;
-    return true;
-}
 
 /* Lemma (one axis). But for the error each surface lies in the hull of its net at every moment, so n.(y -
  * x) is at least the least over pairs of control points. Their motion is linear, so that least is concave

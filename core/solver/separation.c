@@ -7,6 +7,7 @@
 #include "core/base/rounding.h"
 #include "core/solver/axes.h"
 #include "core/solver/net_axis.h"
+#include "core/solver/net_model_axis.h"
 #include "core/solver/normal_field.h"
 #include "core/solver/tuning.h"
 
@@ -98,16 +99,27 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
 
 /* --- Nets -------------------------------------------------------------------------------------- */
 
-static bool is_curved(const net *f)
-{
-    return f->degree[0] > 1 || f->degree[1] > 1 || f->is_weighted;
-}
-
-/* Of two bilinear patches quadratics say all that hulls do. */
+/* Of bilinear patches quadratics say all that hulls do; one net is enough. */
 static bool have_nets(const node *a, const node *b)
 {
     const net *f = node_net_made(a), *g = node_net_made(b);
-    return f != NULL && g != NULL && (is_curved(f) || is_curved(g));
+    return a->bounded && b->bounded &&
+           ((f != NULL && net_is_curved(f)) || (g != NULL && net_is_curved(g)));
+}
+
+static bool seek_by_nets(const node *a, const node *b, double t, vec3 *axis)
+{
+    return node_net_made(a) != NULL && node_net_made(b) != NULL
+               ? net_axis_seek(a, b, t, axis)
+               : net_model_axis_seek(a, b, t, axis);
+}
+
+static bool cut_by_nets(const node *a, const node *b, vec3 axis, double clearance,
+                        time_window *window)
+{
+    return node_net_made(a) != NULL && node_net_made(b) != NULL
+               ? net_axis_cut(a, b, axis, clearance, window)
+               : net_model_axis_cut(a, b, axis, clearance, window);
 }
 
 /* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls show,
@@ -135,8 +147,8 @@ static bool shrink_by_nets(const node *a, const node *b, double clearance, time_
     if (!(vec3_norm1(*axis) > 0)) *axis = vec3_sub(vec3_from(b->f.a), vec3_from(a->f.a));
     for (int round = 0; round < TUNING_WINDOW_ROUNDS && found && pays; ++round) {
         const double length = window->hi - window->lo;
-        found = net_axis_seek(a, b, window->lo, axis);
-        if (found && !net_axis_cut(a, b, *axis, clearance, window)) return false;
+        found = seek_by_nets(a, b, window->lo, axis);
+        if (found && !cut_by_nets(a, b, *axis, clearance, window)) return false;
         pays = window->hi - window->lo < TUNING_NET_SHRINKS * length;
     }
     return are_flat(a, b) ? shrink(a, b, clearance, window, axis, NULL)
@@ -156,7 +168,7 @@ bool separation_first_look(const node *a, const node *b, double clearance, time_
                            vec3 *axis, bool *more)
 {
     *more = have_nets(a, b) && vec3_norm1(*axis) > 0;
-    return *more ? net_axis_cut(a, b, *axis, clearance, window)
+    return *more ? cut_by_nets(a, b, *axis, clearance, window)
                  : separation_by_models(a, b, clearance, window, axis);
 }
 

@@ -33,6 +33,12 @@ static inline net *net_in(net_buffer *room) { return (net *)(void *)room->memory
 
 size_t net_bytes(const net *n);
 
+/* Whether its hull says more than a bilinear patch, which a quadratic follows as well. */
+static inline bool net_is_curved(const net *n)
+{
+    return n->degree[0] > 1 || n->degree[1] > 1 || n->is_weighted;
+}
+
 /* Fills n, which has room, from a sane net over a region. False: its numbers are too large or too small
  * to be computed with; n is not filled. */
 bool net_take(net *n, const imp_net *given, const imp_region *region);

@@ -28,6 +28,8 @@
 #define net_halve narrow_net_halve
 #define net_axis_seek narrow_net_axis_seek
 #define net_axis_cut narrow_net_axis_cut
+#define net_model_axis_seek narrow_net_model_axis_seek
+#define net_model_axis_cut narrow_net_model_axis_cut
 #include "core/solver/relative.c"
 #include "core/tree/node_model.c"
 #define along along_nearest
@@ -37,6 +39,7 @@
 #undef search
 #define along along_net
 #include "core/solver/net_axis.c"
+#include "core/solver/net_model_axis.c"
 #include "core/tree/net.c"
 #undef along
 #include "core/solver/axes.c"
@@ -49,6 +52,8 @@
 #undef net_halve
 #undef net_axis_seek
 #undef net_axis_cut
+#undef net_model_axis_seek
+#undef net_model_axis_cut
 
 const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite);
 void relative_at(const node *a, const node *b, const time_window *window, relative *r);
@@ -58,6 +63,9 @@ bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis);
 void net_halve(const net *n, parameter j, int side, net *half);
 bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 bool net_axis_cut(const node *a, const node *b, vec3 axis, double clearance, time_window *window);
+bool net_model_axis_seek(const node *a, const node *b, double t, vec3 *axis);
+bool net_model_axis_cut(const node *a, const node *b, vec3 axis, double clearance,
+                        time_window *window);
 
 /* What a NaN is made of is no answer. */
 static bool same_bits(const void *x, const void *y, size_t numbers)
@@ -198,6 +206,28 @@ START_TEST(nets_and_their_axes_are_the_same_in_wide_and_narrow_registers)
 }
 END_TEST
 
+START_TEST(axes_of_a_net_and_a_model_are_the_same_in_wide_and_narrow_registers)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(20000); ++k) {
+        node a, b;
+        net_buffer room;
+        check_net(&state, &a, &room);
+        check_node(&state, &b);
+        if (!b.bounded) continue;
+        const bool turned = random_bits(&state) % 2;
+        const node *f = turned ? &b : &a, *g = turned ? &a : &b;
+        vec3 n = {{draw(&state, 1), draw(&state, 1), draw(&state, 1)}}, m = n;
+        time_window w = {random_between(&state, 0, 0.5), random_between(&state, 0.5, 1)}, v = w;
+        ck_assert(net_model_axis_seek(f, g, w.lo, &n) == narrow_net_model_axis_seek(f, g, w.lo, &m));
+        ck_assert(same_bits(&n, &m, 3));
+        ck_assert(net_model_axis_cut(f, g, n, 1e-3, &w) ==
+                  narrow_net_model_axis_cut(f, g, n, 1e-3, &v));
+        ck_assert(same_bits(&w, &v, 2));
+    }
+}
+END_TEST
+
 static patch *draw_moving_patch(uint64_t *state)
 {
     enum { SIDE = 5 };
@@ -239,4 +269,5 @@ END_TEST
 
 SUITE_MAIN("lanes", nodes_and_cuts_are_the_same_in_wide_and_narrow_registers,
            nets_and_their_axes_are_the_same_in_wide_and_narrow_registers,
+           axes_of_a_net_and_a_model_are_the_same_in_wide_and_narrow_registers,
            patches_are_the_same_in_wide_and_narrow_registers)
