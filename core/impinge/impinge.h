@@ -407,7 +407,7 @@ typedef struct imp_options {
     double clearance;      /* gamma_clear, in [0, gamma), length; < 0: gamma / 2 */
     uint64_t max_pairs;    /* pairs tested; 0: no limit */
     double max_seconds;    /* wall clock; 0: no limit */
-    uint64_t max_bytes;    /* memory of trees and heap; 0: no limit */
+    uint64_t max_bytes;    /* memory of scene, trees and heap; 0: no limit */
     imp_method method;
     imp_bounds bounds;
     imp_rates rates;
@@ -445,7 +445,7 @@ typedef struct imp_stats {
     uint64_t nodes;     /* nodes made by this query, not found made */
     uint64_t peak_heap; /* most pairs waiting at once */
     uint64_t witness_searches;
-    uint64_t bytes; /* peak memory of trees and heap */
+    uint64_t bytes; /* peak memory of scene, trees and heap, about; of a part without the scene */
 } imp_stats;
 
 /* What is proved so far. With gamma_clear = the clearance in force:

@@ -238,6 +238,17 @@ static void label_parameter(shared_part *p, const char *name, const json_t *valu
     part_add_label(p, text);
 }
 
+/* Of the numbers and texts in it. */
+static size_t bytes_given(const json_t *value)
+{
+    size_t bytes = json_is_string(value) ? json_string_length(value) : 0, i;
+    const char *key;
+    json_t *item;
+    json_array_foreach(value, i, item) bytes += bytes_given(item);
+    json_object_foreach((json_t *)unconst(value), key, item) bytes += bytes_given(item);
+    return bytes + (json_is_number(value) ? sizeof(double) : 0);
+}
+
 imp_code scene_build_part(const scene_source *source, imp_type_kind kind, const json_t *object,
                           const place *at, shared_part **made, imp_error *error)
 {
@@ -247,6 +258,7 @@ imp_code scene_build_part(const scene_source *source, imp_type_kind kind, const 
     shared_part *p =
         kind == IMP_KIND_SURFACE ? part_of_surface(i.surface, i.self) : part_of_map(i.map, i.self);
     if (p == NULL) return error_set_memory(error);
+    p->given = bytes_given(object);
     const char *key, *name = json_string_value(json_object_get(object, "type"));
     json_t *value;
     json_object_foreach((json_t *)unconst(object), key, value)

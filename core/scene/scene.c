@@ -173,6 +173,22 @@ bool scene_ignores(const imp_scene *scene, size_t a, size_t b)
     return false;
 }
 
+/* --- Memory --------------------------------------------------------------------- */
+
+uint64_t scene_bytes(const imp_scene *scene)
+{
+    uint64_t bytes = sizeof *scene + scene->capacity * sizeof *scene->bodies +
+                     scene->group_count * sizeof *scene->groups +
+                     scene->ignored.capacity * sizeof *scene->ignored.at;
+    for (size_t b = 0; b < scene->count; ++b) {
+        const scene_body *body = &scene->bodies[b];
+        bytes += strlen(body->name) + 1 + body->capacity * sizeof *body->members +
+                 body->group_capacity * sizeof *body->groups + 2 * PART_BLOCK;
+        for (size_t k = 0; k < body->count; ++k) bytes += surface_bytes(body->members[k].surface);
+    }
+    return bytes;
+}
+
 /* --- Asking ------------------------------------------------------------------------ */
 
 scene_settings *scene_settings_of(imp_scene *scene) { return &scene->settings; }

@@ -37,6 +37,9 @@ bool scene_ignores(const imp_scene *scene, size_t a, size_t b);
 /* NULL: there is none. */
 const surface *scene_surface(const imp_scene *scene, size_t body, size_t index);
 
+/* What its bodies and surfaces hold, about, without their trees. */
+uint64_t scene_bytes(const imp_scene *scene);
+
 /* What the scene file asks for; the defaults of imp_options_default. Preset: 0, 1, 1e-6, -1. */
 typedef struct scene_settings {
     double t_start, t_end, gamma, clearance;

@@ -76,6 +76,7 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
         return NULL;
     }
     query->scene = scene;
+    query->scene_bytes = scene_bytes(scene);
     query->options = *options;
     query->examined = examined;
     query->impact = im;
@@ -169,7 +170,7 @@ static void conclude(imp_query *query, impact_state state)
 
 static void note_bytes(imp_query *query, uint64_t of_candidates)
 {
-    uint64_t bytes = query->stats.bytes + sizeof *query +
+    uint64_t bytes = query->scene_bytes + query->stats.bytes + sizeof *query +
                      query->impact.heap.capacity * sizeof(pair) + of_candidates;
     if (query->clearance != NULL) bytes += clearance_look(query->clearance).bytes;
     if (bytes > query->peak_bytes) query->peak_bytes = bytes;

@@ -16,6 +16,7 @@ struct imp_query {
     imp_options options;
     examined_times examined;
     imp_stats stats; /* bytes: of the trees, without the heap */
+    uint64_t scene_bytes; /* 0 in a part of a divided query, which counts them */
     uint64_t peak_bytes;
     double next_report; /* seconds spent when options.progress is called next */
     bool failed;

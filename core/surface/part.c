@@ -121,6 +121,11 @@ shared_part *part_of_map(const imp_map_type *type, void *self)
     return p;
 }
 
+size_t part_bytes(const shared_part *p)
+{
+    return sizeof *p + p->given + 2 * PART_BLOCK + p->piece_count * sizeof *p->pieces;
+}
+
 shared_part *part_hold(shared_part *p)
 {
     p->holders += 1;

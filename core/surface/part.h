@@ -23,6 +23,7 @@ typedef struct shared_part {
     size_t piece_count;  /* 0: it is one surface */
     imp_status breach;   /* IMP_OK, or for surface_status_text: how the domain breaks the ABI;
                                    then the part may only be released */
+    size_t given;        /* bytes of the values it was made from: about what the instance keeps */
     char label[PART_LABEL_MAX]; /* as on a command line, shortened: "sphere radius=2" */
 } shared_part;
 
@@ -44,6 +45,10 @@ imp_status part_domain(const imp_surface_type *type, const void *self, double lo
 /* Appends to the label, or dots in its place: at the end of a label that is full. */
 void part_add_label(shared_part *p, const char *text);
 void part_label_add(char label[PART_LABEL_MAX], const char *text);
+
+/* What the part and its instance hold, about: each block with what the allocator adds. */
+enum { PART_BLOCK = 16 }; /* bytes */
+size_t part_bytes(const shared_part *p);
 
 shared_part *part_hold(shared_part *p);
 void part_release(shared_part *p); /* NULL is no shared_part */

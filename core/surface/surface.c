@@ -96,6 +96,15 @@ imp_code surface_divide(surface *s)
     return IMP_SUCCESS;
 }
 
+size_t surface_bytes(const surface *s)
+{
+    size_t bytes = sizeof *s + PART_LABEL_MAX + PART_BLOCK + s->piece_count * sizeof *s->pieces +
+                   s->map_capacity * sizeof *s->maps + part_bytes(s->origin) / s->origin->holders;
+    for (size_t k = 0; k < s->map_count; ++k)
+        bytes += part_bytes(s->maps[k].origin) / s->maps[k].origin->holders;
+    return bytes;
+}
+
 size_t surface_piece_count(const surface *s) { return s->piece_count; }
 
 const surface *surface_piece(const surface *s, size_t k)

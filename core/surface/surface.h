@@ -35,6 +35,9 @@ const surface *surface_piece(const surface *s, size_t k); /* k < surface_piece_c
 /* Its number among the pieces of a surface; 0 for what is none. */
 size_t surface_piece_index(const surface *s);
 
+/* What it holds, about: its pieces, and its share of what it has in common with other surfaces. */
+size_t surface_bytes(const surface *s);
+
 /* How messages call it: "sphere radius=2 ! rotate rate=1", or its beginning. */
 const char *surface_label(const surface *s);
 

@@ -87,7 +87,7 @@ static imp_options ten_pairs(imp_options o)
 
 static imp_options a_megabyte(imp_options o)
 {
-    o.max_bytes = 1 << 20; /* the trees of 1000 balls take about as much */
+    o.max_bytes = 3 << 19; /* the scene takes half a megabyte, the trees of 1000 balls one */
     return o;
 }
 
@@ -112,6 +112,19 @@ START_TEST(a_limit_of_bytes_counts_trees_and_candidate_pairs)
     const imp_result r = ask_crowd(a_megabyte);
     ck_assert_int_eq(r.reason, IMP_REASON_MEMORY);
     ck_assert_uint_lt(r.stats.bytes, 3 << 20);
+}
+END_TEST
+
+static imp_options less_than_the_scene(imp_options o)
+{
+    o.max_bytes = CROWD * 300; /* a body's surface alone takes more */
+    return o;
+}
+
+START_TEST(a_limit_of_bytes_counts_the_scene)
+{
+    ck_assert_int_eq(ask_crowd(less_than_the_scene).reason, IMP_REASON_MEMORY);
+    ck_assert_int_eq(atomic_load(&roots_made), 0);
 }
 END_TEST
 
@@ -181,6 +194,7 @@ END_TEST
 
 SUITE_MAIN("limits", a_limit_of_seconds_ends_a_query_before_the_first_tree,
            a_limit_of_pairs_ends_the_broad_phase, a_limit_of_bytes_counts_trees_and_candidate_pairs,
+           a_limit_of_bytes_counts_the_scene,
            a_query_is_cancelled_while_its_trees_are_made_and_may_go_on,
            a_limited_query_answers_as_if_it_had_none_once_the_limit_is_far,
            a_step_of_as_many_pairs_as_there_are_numbers_goes_to_the_end,
