@@ -503,6 +503,7 @@ EXTRA_DIST += \
     tests/fuzz/proof.d/powers.txt \
     tests/fuzz/proof.d/signs.txt \
     tests/fuzz/proof.d/smooth.txt \
+    tests/fuzz/proof.d/underflow.txt \
     tests/fuzz/proof.d/whole_exponents.txt \
     tests/fuzz/proof.dict \
     tests/fuzz/scene.d/all_kinds.json \

@@ -150,7 +150,7 @@ static near_constant divide_points(near_constant x, near_constant y)
  * slope is infinite or NaN, the result is unknown. */
 static near_constant function_at(near_constant x, double y, double slope)
 {
-    double inherited = x.error == 0 ? 0 : slope * x.error;
+    double inherited = x.error == 0 ? 0 : (slope + IMP_TINY) * x.error;
     return known(y, (fabs(y) * IMP_LIBM + inherited + IMP_TINY) * IMP_SLACK);
 }
 

@@ -146,7 +146,7 @@ static inline imp_terms_ imp_terms_deep_(const imp_model *x, const imp_series *s
  * than Q^2 / 2: hence 10; c3 p^3 and c3 r^2 p at most 12, and C,
  * itself off by 2 u n, adds 6 to the bound of D: 18.
  * Underflow: each product may lose 2^-1075, then is multiplied by at most one c_k and two of
- * what n or r bounds: IMP_TINY (1 + d1 + d2 + d3)(1 + n + r)^2. */
+ * what n or r + e bounds: IMP_TINY (1 + d1 + d2 + d3)(1 + n + r + e)^2. */
 static inline void imp_substitute_(const imp_model *x, const imp_series *s, imp_model *r)
 {
     double bb[6], a = x->a - s->m, c2 = s->c[2];
@@ -166,7 +166,7 @@ static inline void imp_substitute_(const imp_model *x, const imp_series *s, imp_
     double inherited = x->e * (d1 + d2 * (s->r + far) + 3 * d3 * far * far);
     double rounding =
         3 * fabs(s->c[0]) + n * (5 * (d1 + d3 * s->r * s->r) + n * (10 * d2 + 18 * d3 * n));
-    double w = 1 + n + s->r, underflow = (1 + d1 + d2 + d3) * w * w;
+    double w = 1 + n + far, underflow = (1 + d1 + d2 + d3) * w * w;
     r->e = (s->e + t.rest + d2 * half + inherited + (IMP_U * rounding + IMP_TINY * underflow)) *
            IMP_SLACK;
 }
@@ -185,10 +185,12 @@ static inline imp_model imp_compose(const imp_model *x, const imp_series *s, imp
     return imp_model_finish(r);
 }
 
-/* g at a point: y = g(x.a) as libm gives it, slope >= |g'| between x.a and the exact x. */
+/* g at a point: y = g(x.a) as libm gives it, slope >= |g'| between x.a and the exact x, but for
+ * underflow: a slope below 2^-1022 matters where x.e is large. */
 static inline imp_model imp_point_(const imp_model *x, double y, double slope)
 {
-    return imp_known(y, (fabs(y) * IMP_LIBM + slope * x->e + IMP_TINY) * IMP_SLACK);
+    double inherited = (slope + IMP_TINY) * x->e;
+    return imp_known(y, (fabs(y) * IMP_LIBM + inherited + IMP_TINY) * IMP_SLACK);
 }
 
 /* The same, where lo <= g <= hi always holds. */

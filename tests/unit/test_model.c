@@ -51,11 +51,13 @@ static double hostile_width(uint64_t *state, double centre)
 
 static double hostile_error(uint64_t *state, double centre, double width)
 {
-    switch (oracle_below(state, 4)) {
+    switch (oracle_below(state, 5)) {
     case 0:
         return 0;
     case 1:
         return fabs(centre) * 0x1p-52;
+    case 2:
+        return fabs(centre) * random_power(state, -52, -28);
     default:
         return width * random_power(state, -50, 0);
     }
