@@ -23,7 +23,19 @@ ball='sphere radius=.5 center=.3,.2,1.4'
 # Those that are called for a surface, and for a map on an innocent one. rate: by the 1990 method.
 surface='create domain eval rate include destroy'
 map='create time_domain eval rate apply destroy'
-lifted='plane origin=-1,-1,0 edge_u=2,0,0 edge_v=0,2,0 ! hostile-map'
+square='plane origin=-1,-1,0 edge_u=2,0,0 edge_v=0,2,0'
+lifted="$square ! hostile-map"
+
+usual_ball=$ball
+
+# Those that a type need not offer, as TYPE:PHASE; and of such a type the two operands.
+offered='hostile-net:net hostile-pieces:piece_count hostile-pieces:piece hostile-rigid:rigid'
+operands_of() {
+    OPERAND=$1 ball=$usual_ball
+    [ "$1" != hostile-rigid ] || OPERAND="$square ! hostile-rigid"
+    # Both have nets, or none is asked for.
+    [ "$1" != hostile-net ] || ball='plane origin=-1,-1,.9 edge_u=2,0,0 edge_v=0,2,0'
+}
 
 # hostile PHASE SIN [OPTION]...: the pair of the plugin's surface, or with OPERAND another, and the
 # ball; it is loaded in its right mind once, so that what happens while it is loaded happens in the
@@ -245,6 +257,26 @@ blamed() {
     done
 }
 
+@test "what a type need not offer is laid at its door alike" {
+    local each type phase end='crashes or ends its process, in which it runs isolated'
+    local ball=$ball OPERAND
+    for each in $offered; do
+        type=${each%:*} phase=${each#*:}
+        operands_of "$type"
+        named "$phase" crash crashes "$type"
+        named "$phase" exit 'ends the process' "$type"
+        named "$phase" fork 'forks the process' "$type"
+        contact hostile "$phase" write
+        contact hostile "$phase" write --isolate all
+        run -5 --separate-stderr hostile "$phase" crash --isolate all
+        echo "$each: $stderr"
+        blamed "$phase" "$type" "$end" "$stderr"
+        run -5 --separate-stderr hostile "$phase" round
+        echo "$each: $stderr"
+        [[ $stderr == *"'$type'"* && $stderr == *' mode '* && $stderr == *"$phase"* ]]
+    done
+}
+
 # --- Hangs -----------------------------------------------------------------------------------------------
 
 # in_folder NAME COMMAND...: runs it there; its output, errors and status are files. A plugin that
@@ -256,62 +288,61 @@ in_folder() {
     echo "$status" >status
 }
 
-# Begins a query for each phase, of the surface or the map, in a folder PREFIX-PHASE.
+# Begins a query for each phase, in a folder TYPE:PHASE.
 all_hang() {
-    local phase
+    local each phase ball=$ball
     for phase in $surface; do
-        mkdir "surface-$phase"
-        in_folder "surface-$phase" hostile "$phase" hang "$@" &
+        mkdir "hostile:$phase"
+        in_folder "hostile:$phase" hostile "$phase" hang "$@" &
     done
     for phase in $map; do
-        mkdir "map-$phase"
-        OPERAND=$lifted in_folder "map-$phase" hostile "$phase" hang "$@" &
+        mkdir "hostile-map:$phase"
+        OPERAND=$lifted in_folder "hostile-map:$phase" hostile "$phase" hang "$@" &
+    done
+    for each in $offered; do
+        mkdir "$each"
+        (operands_of "${each%:*}" && in_folder "$each" hostile "${each#*:}" hang "$@") &
     done
 }
 
 @test "isolated, a callback that hangs is ended after 5 s and named, and its process with it" {
-    local folder type
+    local folder
     "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
     all_hang --isolate all
     wait
-    for folder in surface-* map-*; do
+    for folder in hostile*:*; do
         echo "$folder: $(<"$folder/status") $(<"$folder/errors")"
         [ -s "$folder/hangs" ]
         run ! kill -0 "$(<"$folder/hangs")"
-        if [[ $folder == *-destroy ]]; then
+        if [[ $folder == *:destroy ]]; then
             [ "$(<"$folder/status")" -eq 0 ] && [ "$(jq -r .verdict "$folder/out")" = contact ]
         else
             [ "$(<"$folder/status")" -eq 5 ] && [ "$(jq 'has("error")' "$folder/out")" = true ]
         fi
-        type=hostile
-        [[ $folder == surface-* ]] || type=hostile-map
-        blamed "${folder#*-}" $type 'does not answer within 5 s' "$(<"$folder/errors")"
+        blamed "${folder#*:}" "${folder%:*}" 'does not answer within 5 s' "$(<"$folder/errors")"
     done
 }
 
 @test "a callback that hangs in the host is named when SIGQUIT ends the command" {
-    local folder phase
+    local folder phase whose
     ulimit -c 0
     "$IMPINGE" list --plugin-path "$PWD/plugins" >/dev/null
     all_hang
     for phase in constructor get_factory destructor; do
-        mkdir "file-$phase"
-        in_folder "file-$phase" hostile $phase hang &
+        mkdir "file:$phase"
+        in_folder "file:$phase" hostile $phase hang &
     done
-    for folder in surface-* map-* file-*; do
+    for folder in *:*; do
         until [ -s "$folder/hangs" ]; do sleep 0.05; done
         kill -QUIT "$(<"$folder/hangs")"
     done
     wait
-    for folder in surface-* map-* file-*; do
-        phase=${folder#*-}
+    for folder in *:*; do
+        whose="type '${folder%:*}';"
+        [[ $folder != file:* ]] || whose="plugin '$PWD/plugins/hostile.so'"
         echo "$folder: $(<"$folder/status") $(<"$folder/errors")"
         [ "$(<"$folder/status")" -eq 131 ]
-        case $folder in
-        surface-*) [[ $(<"$folder/errors") == "impinge: interrupted in $phase of type 'hostile';"* ]] ;;
-        map-*) [[ $(<"$folder/errors") == "impinge: interrupted in $phase of type 'hostile-map';"* ]] ;;
-        *) [[ $(<"$folder/errors") == "impinge: interrupted in $phase of plugin '$PWD/plugins/hostile.so'"* ]] ;;
-        esac
+        [[ $(<"$folder/errors") == "impinge: interrupted in ${folder#*:} of $whose"* ]]
     done
 }
 

@@ -168,22 +168,41 @@ static imp_status include(const void *self, const imp_region *region, imp_model 
     return slab_include(self, region, model);
 }
 
-static const imp_surface_type surface_type = {
-    .struct_size = sizeof surface_type,
-    .parameter_count = 1,
-    .parameter_size = sizeof(imp_parameter),
-    .name = "hostile",
-    .summary = "slab",
-    .equation = "(u, v, height + t)",
-    .example = "hostile",
-    .parameters = slab_table,
-    .create = create,
-    .destroy = destroy,
-    .domain = domain,
-    .eval = eval,
-    .rate = rate,
-    .include = include,
-};
+static imp_status net(const void *self, const imp_region *region, imp_net *out)
+{
+    (void)self, (void)region, (void)out;
+    enter("net");
+    return IMP_UNBOUNDED;
+}
+
+static size_t piece_count(const void *self)
+{
+    (void)self;
+    enter("piece_count");
+    return 1;
+}
+
+static const void *piece(const void *self, size_t k)
+{
+    (void)k;
+    enter("piece");
+    return self;
+}
+
+/* Its last rows: what else it offers. */
+#define HOSTILE_SURFACE(NAME, ...)                                                                 \
+    {                                                                                              \
+        .struct_size = sizeof(imp_surface_type), .parameter_count = 1,                             \
+        .parameter_size = sizeof(imp_parameter), .name = (NAME), .summary = "slab",                \
+        .equation = "(u, v, height + t)", .example = (NAME), .parameters = slab_table,             \
+        .create = create, .destroy = destroy, .domain = domain, .eval = eval, .rate = rate,        \
+        .include = include, __VA_ARGS__                                                            \
+    }
+
+static const imp_surface_type surface_type = HOSTILE_SURFACE("hostile", .source = NULL);
+static const imp_surface_type net_type = HOSTILE_SURFACE("hostile-net", .net = net);
+static const imp_surface_type pieces_type =
+    HOSTILE_SURFACE("hostile-pieces", .piece_count = piece_count, .piece = piece);
 
 /* --- The map (x, y, z) -> (x, y, z + t) ------------------------------------------------------- */
 
@@ -227,29 +246,35 @@ static imp_status apply(const void *self, const imp_model in[4], imp_model out[3
     return IMP_OK;
 }
 
-static const imp_map_type map_type = {
-    .struct_size = sizeof map_type,
-    .parameter_count = 1,
-    .parameter_size = sizeof(imp_parameter),
-    .name = "hostile-map",
-    .summary = "lift",
-    .equation = "(x, y, z + t)",
-    .example = "hostile-map",
-    .parameters = slab_table,
-    .create = create,
-    .destroy = destroy,
-    .time_domain = time_domain,
-    .eval = map_eval,
-    .rate = map_rate,
-    .apply = apply,
-};
+static imp_status rigid(const void *self, const imp_model *t, imp_pose *pose)
+{
+    (void)self;
+    enter("rigid");
+    for (int k = 0; k < 9; ++k) pose->turn[k / 3][k % 3] = imp_num(k / 3 == k % 3);
+    pose->shift[0] = pose->shift[1] = imp_num(0);
+    pose->shift[2] = *t;
+    for (int i = 0; i < 3; ++i) pose->pivot[i] = 0;
+    return IMP_OK;
+}
+
+#define HOSTILE_MAP(NAME, ...)                                                                     \
+    {                                                                                              \
+        .struct_size = sizeof(imp_map_type), .parameter_count = 1,                                 \
+        .parameter_size = sizeof(imp_parameter), .name = (NAME), .summary = "lift",                \
+        .equation = "(x, y, z + t)", .example = (NAME), .parameters = slab_table,                  \
+        .create = create, .destroy = destroy, .time_domain = time_domain, .eval = map_eval,        \
+        .rate = map_rate, .apply = apply, __VA_ARGS__                                              \
+    }
+
+static const imp_map_type map_type = HOSTILE_MAP("hostile-map", .source = NULL);
+static const imp_map_type rigid_type = HOSTILE_MAP("hostile-rigid", .rigid = rigid);
 
 /* --- The file ----------------------------------------------------------------------------------- */
 
-static const imp_surface_type *const surface_types[] = {&surface_type};
-static const imp_map_type *const map_types[] = {&map_type};
-static const imp_surface_factory surface_factory = {sizeof surface_factory, 1, surface_types};
-static const imp_map_factory map_factory = {sizeof map_factory, 1, map_types};
+static const imp_surface_type *const surface_types[] = {&surface_type, &net_type, &pieces_type};
+static const imp_map_type *const map_types[] = {&map_type, &rigid_type};
+static const imp_surface_factory surface_factory = {sizeof surface_factory, 3, surface_types};
+static const imp_map_factory map_factory = {sizeof map_factory, 2, map_types};
 
 static const void *get_factory(const char *id)
 {
