@@ -74,6 +74,7 @@ mpfi_suites = \
     tests/unit/test_nets \
     tests/unit/test_poses \
     tests/unit/test_shapes \
+    tests/unit/test_subdivision \
     tests/unit/test_tightness
 
 # What types are judged by, and instances of them.
@@ -105,6 +106,7 @@ tests_unit_test_poses_SOURCES = tests/unit/test_poses.c \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_maps_SOURCES = tests/unit/test_maps.c tests/support/map_images.h $(type_oracle)
 tests_unit_test_shapes_SOURCES = tests/unit/test_shapes.c $(type_oracle)
+tests_unit_test_subdivision_SOURCES = tests/unit/test_subdivision.c $(type_oracle)
 tests_unit_test_tightness_SOURCES = tests/unit/test_tightness.c $(type_oracle)
 tests_unit_test_plugins_SOURCES = tests/unit/test_plugins.c $(type_oracle) \
     tests/support/judge.c tests/support/judge.h \
@@ -139,6 +141,7 @@ bats_suites = \
     tests/cli/page.bats \
     tests/cli/series.bats \
     tests/cli/simulate.bats \
+    tests/cli/subdivision.bats \
     tests/cli/plot.bats \
     tests/cli/progress.bats \
     tests/cli/view.bats \
@@ -368,7 +371,7 @@ tests_fuzz_cache_SOURCES = tests/fuzz/cache.c tests/fuzz/replay.c tests/fuzz/fuz
 tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c
 tests_fuzz_csv_LDADD = plugins/libcommon.la $(LDADD)
 tests_fuzz_mesh_SOURCES = tests/fuzz/mesh.c tests/fuzz/replay.c
-tests_fuzz_mesh_LDADD = plugins/libmesh.la $(LDADD)
+tests_fuzz_mesh_LDADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la $(LDADD)
 tests_fuzz_pipeline_SOURCES = tests/fuzz/pipeline.c tests/fuzz/replay.c tests/fuzz/fuzz_registry.h
 tests_fuzz_pipeline_LDADD = $(LDADD) $(JANSSON_LIBS)
 tests_fuzz_proof_SOURCES = tests/fuzz/proof.c tests/fuzz/replay.c
@@ -460,12 +463,14 @@ EXTRA_DIST += \
     tests/fuzz/mesh.d/obj_beyond \
     tests/fuzz/mesh.d/obj_concave \
     tests/fuzz/mesh.d/obj_continued \
+    tests/fuzz/mesh.d/obj_cube \
     tests/fuzz/mesh.d/obj_huge_index \
     tests/fuzz/mesh.d/obj_nan \
     tests/fuzz/mesh.d/obj_nul \
     tests/fuzz/mesh.d/obj_patch \
     tests/fuzz/mesh.d/obj_plain \
     tests/fuzz/mesh.d/obj_star \
+    tests/fuzz/mesh.d/obj_two_fans \
     tests/fuzz/mesh.d/off_cut \
     tests/fuzz/mesh.d/off_huge_count \
     tests/fuzz/mesh.d/off_huge_face \

@@ -151,10 +151,11 @@ static imp_status check_fans(const control_mesh *m, const outgoing *o, triangles
         if (o->from[p + 1] - o->from[p] == m->fan[p].faces) continue;
         uint32_t k = o->from[p];
         while (is_in_fan(m, &m->fan[p], o->order[k])) ++k;
+        const uint32_t f = m->face[m->fan[p].start], other = m->face[o->order[k]];
         return triangles_refuse(fault, 0,
                                 "faces %u and %u meet at point %u alone, in two fans; give one of the "
                                 "fans a point of its own",
-                                m->face[m->fan[p].start], m->face[o->order[k]], p);
+                                f < other ? f : other, f < other ? other : f, p);
     }
     return IMP_OK;
 }

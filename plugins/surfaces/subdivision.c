@@ -144,7 +144,6 @@ static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_
     triangles given = {.keeps_faces = true};
     triangles_fault fault = {0, ""};
     double *velocity = NULL;
-    const int row = imp_is_given(&values[MESH_FILE]) ? MESH_FILE : MESH_FACES;
     imp_status status = mesh_take_shape(values, &given, why);
     if (status == IMP_OK) status = mesh_take_velocities(values, given.point_count, &velocity, why);
     if (status != IMP_OK) {
@@ -152,7 +151,11 @@ static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_
         return status;
     }
     status = control_begin(&s->level[0], &given, velocity, &fault);
-    if (status == IMP_PARAMETER) imp_reject(why, row, -1, "%s (numbers from 0)", fault.text);
+    if (status == IMP_PARAMETER && imp_is_given(&values[MESH_FILE]))
+        imp_reject(why, MESH_FILE, -1, "'%.60s': %s (numbers from 0)", values[MESH_FILE].string[0],
+                   fault.text);
+    else if (status == IMP_PARAMETER)
+        imp_reject(why, MESH_FACES, -1, "%s", fault.text);
     return status;
 }
 

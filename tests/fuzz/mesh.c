@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "plugins/mesh/mesh_file.h"
+#include "plugins/subdivision/control_mesh.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/fuzz_mutate.h"
 
@@ -10,7 +11,8 @@
 
 /* Whatever bytes a file of triangles holds, it is read or refused with a reason. What was read has
  * triangles, corners that are there and coordinates within limits, and is the same to the last bit
- * when it is written out as OFF and read again. The input's first byte says which format it is in. */
+ * when it is written out as OFF and read again. With faces kept whole, a control mesh is made of them or
+ * refused; its half-edges are each other's twins, also after a step. The input's first byte says which format it is in. */
 
 const char fuzz_target[] = "mesh";
 
@@ -48,11 +50,47 @@ static char *write_off(const triangles *t, size_t *length)
     return text;
 }
 
+static void judge_twins(const control_mesh *m)
+{
+    for (uint32_t h = 0; h < m->corner_count; ++h) {
+        const uint32_t twin = m->twin[h];
+        if (twin == CONTROL_NONE) continue;
+        FUZZ_REQUIRE(twin < m->corner_count && m->twin[twin] == h);
+        FUZZ_REQUIRE(m->corner[twin] == control_end(m, h) && control_end(m, twin) == m->corner[h]);
+    }
+}
+
+static void judge_control_mesh(mesh_format format, const char *bytes, size_t length)
+{
+    triangles faces = {.keeps_faces = true};
+    triangles_fault fault = {0, ""};
+    control_mesh coarse = {0}, fine = {0};
+    bool *wanted_fine = NULL;
+    if (read_bytes(format, bytes, length, &faces)) {
+        const imp_status status = control_begin(&coarse, &faces, NULL, &fault);
+        FUZZ_REQUIRE(status == IMP_OK || (status == IMP_PARAMETER && fault.text[0] != '\0'));
+        if (status == IMP_OK) {
+            bool *wanted = calloc(coarse.face_count, sizeof *wanted);
+            FUZZ_REQUIRE(wanted != NULL);
+            judge_twins(&coarse);
+            wanted[coarse.face_count / 2] = true;
+            FUZZ_REQUIRE(control_refine(&coarse, wanted, &fine, &wanted_fine) == IMP_OK);
+            judge_twins(&fine);
+            free(wanted);
+        }
+    }
+    free(wanted_fine);
+    control_clear(&fine);
+    control_clear(&coarse);
+    triangles_clear(&faces);
+}
+
 int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
 {
     static const mesh_format formats[] = {MESH_OBJ, MESH_OFF, MESH_STL};
     triangles first = {0}, second = {0};
     if (length == 0) return 0;
+    judge_control_mesh(formats[bytes[0] % 3], (const char *)bytes + 1, length - 1);
     if (read_bytes(formats[bytes[0] % 3], (const char *)bytes + 1, length - 1, &first)) {
         judge(&first);
         size_t written = 0;

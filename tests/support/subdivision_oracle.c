@@ -43,8 +43,8 @@ static void add_times(polygons *to, size_t p, const polygons *from, size_t k, do
     mpfi_t term;
     mpfi_init2(term, BITS);
     for (int i = 0; i < 3; ++i) {
-        mpfi_mul_d(term, from->x[k][i], factor);
-        mpfi_add(to->x[p][i], to->x[p][i], term);
+        if (factor != 1) mpfi_mul_d(term, from->x[k][i], factor);
+        mpfi_add(to->x[p][i], to->x[p][i], factor != 1 ? term : from->x[k][i]);
     }
     mpfi_clear(term);
 }
@@ -127,11 +127,12 @@ static void smooth_border(const polygons *m, size_t p, polygons *to, size_t at)
 {
     const bool is_corner = faces_at(m, p) == 1;
     add_times(to, at, m, p, is_corner ? 1 : 0.75);
-    for (size_t q = 0; q < m->points && !is_corner; ++q) {
-        size_t f, k;
-        const bool from = find_edge(m, p, q, &f, &k), back = find_edge(m, q, p, &f, &k);
-        if (from != back) add_times(to, at, m, q, 0.125);
-    }
+    for (size_t f = 0; f < m->faces && !is_corner; ++f)
+        for (size_t k = 0; k < m->corners[f]; ++k) {
+            const size_t a = corner_of(m, f, k), b = corner_of(m, f, k + 1);
+            if ((a == p || b == p) && is_border_edge(m, a, b))
+                add_times(to, at, m, a == p ? b : a, 0.125);
+        }
 }
 
 /* The point on the edge a b, made once: found again by its ends. */

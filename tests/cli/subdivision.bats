@@ -1,0 +1,74 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# The type subdivision: control meshes from files, and what is wrong with them.
+
+load ../support/cli_helper
+
+# refused SURFACE TEXT: it is refused with that text.
+refused() {
+    run -4 "$IMPINGE" pair "subdivision $1" sphere
+    echo "$output"
+    [[ $output == *"$2"* ]]
+}
+
+# The cube of the sides -1 and 1 as quads; as OBJ, numbered from 1.
+write_cube() {
+    printf 'v %s\n' '-1 -1 -1' '1 -1 -1' '-1 1 -1' '1 1 -1' '-1 -1 1' '1 -1 1' '-1 1 1' '1 1 1'
+    printf 'f %s\n' '1 3 4 2' '5 6 8 7' '1 2 6 5' '3 7 8 4' '1 5 7 3' '2 4 8 6'
+}
+
+@test "a file of polygons is divided into pieces, and answers as lists do" {
+    write_cube >cube.obj
+    local ball='sphere radius=0.25 center=0.4,0.4,2 ! translate velocity=0,0,-2' lists
+    lists=$("$IMPINGE" info subdivision | sed -n 's/^  example *//p')
+    "$IMPINGE" pair 'subdivision file=cube.obj' "$ball" --json | jq 'del(.scene, .stats)' >file
+    "$IMPINGE" pair "$lists" "$ball" --json | jq 'del(.scene, .stats)' >lists
+    diff file lists
+    jq -e '.verdict == "contact" and .a.piece < 24' file
+    # a pyramid: triangles and a square
+    printf 'v %s\n' '-1 -1 0' '1 -1 0' '1 1 0' '-1 1 0' '0 0 1' >pyramid.obj
+    printf 'f %s\n' '4 3 2 1' '1 2 5' '2 3 5' '3 4 5' '4 1 5' >>pyramid.obj
+    run -0 "$IMPINGE" pair 'subdivision file=pyramid.obj' 'point position=0,0,2 velocity=0,0,-2' --json
+    jq -e '.verdict == "contact" and .t < 1' <<<"$output"
+}
+
+@test "faces that are no surface are named, with the points and the cure" {
+    local points='points=[[0,0,0],[1,0,0],[1,1,0],[0,1,0],[2,0,0],[2,1,0]]'
+    refused "$points faces=[[0,1,2,1]]" 'face 0 has point 1 twice; leave one out, or divide the face'
+    refused "$points faces=[[0,1,2,3],[1,2,5,4]]" \
+        'faces 0 and 1 both go from point 1 to point 2; turn one of them round, or separate them'
+    refused "$points faces=[[0,1,3],[1,4,5],[1,2,3]]" \
+        'faces 1 and 2 meet at point 1 alone, in two fans; give one of the fans a point of its own'
+    refused "$points faces=[[0,1,3],[1,0,2],[0,1,4]]" 'faces 0 and 2 both go from point 0 to point 1'
+}
+
+@test "what is wrong with a file's faces is said with its name; a file without common points is refused" {
+    write_cube >cube.obj
+    echo 'f 1 3 4 2' >>cube.obj
+    refused file=cube.obj "file: 'cube.obj': faces 0 and 6 both go from point 0 to point 2"
+    printf 'solid s\nendsolid s\n' >s.stl
+    refused file=s.stl 'triangles of an STL file share no points; write it as .obj or .off'
+}
+
+@test "no more than 256 faces meet at a point, and no face has more corners" {
+    {
+        printf 'OFF\n258 257 0\n0 0 1\n'
+        seq 257 | awk '{ print cos($1 / 41), sin($1 / 41), 0 }'
+        seq 257 | awk '{ print 3, 0, $1, $1 % 257 + 1 }'
+    } >fan.off
+    refused file=fan.off '257 faces at point 0 (face 0 is one), may be 256; divide the mesh there'
+    {
+        printf 'OFF\n257 1 0\n'
+        seq 257 | awk '{ print cos($1 / 41), sin($1 / 41), 0 }'
+        echo 257 $(seq 0 256)
+    } >disk.off
+    refused file=disk.off 'face 0 has 257 corners, may have 256; divide it'
+}
+
+@test "a body of such a surface is drawn" {
+    write_cube >cube.obj
+    run -0 "$IMPINGE" view 'subdivision file=cube.obj' 'sphere radius=0.25 center=0,0,2' -o cube.svg
+    [ "$(grep -c '^<polyline' cube.svg)" -gt 100 ]
+}
