@@ -152,6 +152,69 @@ static void halve_weighted(double *x, double *w, int columns, int apart, int n, 
         }
 }
 
+/* The same of a bicubic patch, four lines at a time: the weights of the cubics, of the means of two, of three
+ * and of all four points. */
+typedef struct row_weights {
+    imp_quad point[4], two[3], three[2], all;
+} row_weights;
+
+IMP_QUAD_INLINE row_weights weights_of_rows(const double *w)
+{
+    const imp_quad half = imp_quad_all(0.5);
+    row_weights of;
+    for (int k = 0; k < 4; ++k) of.point[k] = imp_quad_load(w + 4 * k);
+    for (int k = 0; k < 3; ++k) of.two[k] = half * (of.point[k] + of.point[k + 1]);
+    for (int k = 0; k < 2; ++k) of.three[k] = half * (of.two[k] + of.two[k + 1]);
+    of.all = half * (of.three[0] + of.three[1]);
+    return of;
+}
+
+IMP_QUAD_INLINE imp_quad mean_of_rows(imp_quad x, imp_quad w, imp_quad y, imp_quad z)
+{
+    return (w * x + z * y) / (w + z);
+}
+
+IMP_QUAD_INLINE void halve_rows_weighted(double *x, const row_weights *w, int side)
+{
+    imp_quad r[4], two[3], three[2];
+    for (int k = 0; k < 4; ++k) r[k] = imp_quad_load(x + 4 * k);
+    for (int k = 0; k < 3; ++k) two[k] = mean_of_rows(r[k], w->point[k], r[k + 1], w->point[k + 1]);
+    for (int k = 0; k < 2; ++k)
+        three[k] = mean_of_rows(two[k], w->two[k], two[k + 1], w->two[k + 1]);
+    const imp_quad all = mean_of_rows(three[0], w->three[0], three[1], w->three[1]);
+    imp_quad_store(x, side == 0 ? r[0] : all);
+    imp_quad_store(x + 4, side == 0 ? two[0] : three[1]);
+    imp_quad_store(x + 8, side == 0 ? three[0] : two[2]);
+    imp_quad_store(x + 12, side == 0 ? all : r[3]);
+}
+
+IMP_QUAD_INLINE void turn(const double *x, double *turned)
+{
+    for (int k = 0; k < 16; ++k) turned[k] = x[k % 4 * 4 + k / 4];
+}
+
+IMP_QUAD_INLINE void halve_bicubic_weighted(double *x, int columns, parameter j, int side)
+{
+    double turned[16], *w = x + 16 * columns;
+    const bool is_turned = j == PARAMETER_V;
+    if (is_turned) turn(w, turned);
+    const row_weights of = weights_of_rows(is_turned ? turned : w);
+    for (int c = 0; c < columns; ++c, x += 16) {
+        if (is_turned) turn(x, turned);
+        halve_rows_weighted(is_turned ? turned : x, &of, side);
+        if (is_turned) turn(turned, x);
+    }
+    const imp_quad row[4] = {side == 0 ? of.point[0] : of.all, side == 0 ? of.two[0] : of.three[1],
+                             side == 0 ? of.three[0] : of.two[2], side == 0 ? of.all : of.point[3]};
+    for (int k = 0; k < 4; ++k) imp_quad_store((is_turned ? turned : w) + 4 * k, row[k]);
+    if (is_turned) turn(turned, w);
+}
+
+IMP_QUAD_WIDE static void halve_bicubic_weighted_wide(double *x, int columns, parameter j, int side)
+{
+    halve_bicubic_weighted(x, columns, j, side);
+}
+
 /* Lemma (error). Over the region's times a number is at most M = `most` in size, and so are means of such,
  * but for a factor below 2 that the budgets have room for. Halving goes through n steps. In units of u M:
  *
@@ -189,8 +252,12 @@ void net_halve(const net *p, parameter j, int side, net *half)
 {
     const int columns = p->is_moving ? 6 : 3, n = p->degree[j];
     memcpy(half, p, net_bytes(p));
-    if (n != 3 || p->degree[!j] != 3 || p->is_weighted)
+    if (n != 3 || p->degree[!j] != 3)
         halve_lines(half, j, side);
+    else if (p->is_weighted && imp_quad_is_wide())
+        halve_bicubic_weighted_wide(half->numbers, columns, j, side);
+    else if (p->is_weighted)
+        halve_bicubic_weighted(half->numbers, columns, j, side);
     else if (imp_quad_is_wide())
         halve_bicubic_wide(half->numbers, columns, j, side);
     else

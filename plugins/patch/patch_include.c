@@ -183,7 +183,7 @@ IMP_QUAD_WIDE static void patch_polynomial_wide(const patch *f, const imp_region
  * exactly for any c0 and c1; the numerator is small, so that little is lost in the quotient. Lemma:
  * X - c0 W has the noise of both, and its two roundings add ROUNDING (|c0| |W| + |X - c0 W|), of
  * which patch_assemble has the second. */
-static void patch_take_off(patch *f, imp_quad *series, int lane, double c)
+IMP_QUAD_INLINE void patch_take_off(patch *f, imp_quad *series, int lane, double c)
 {
     const size_t couples = patch_points(f->degree) * (size_t)(f->lanes / IMP_QUAD);
     double *radius = lane < 4 ? &f->place_radius[lane] : &f->drift_radius[lane - 4], weights = 0;
@@ -223,25 +223,58 @@ static imp_model patch_quotient(const patch *f, int axis, const imp_region *regi
     return imp_model_finish(g);
 }
 
-static void patch_rational(const patch *f, const imp_region *region, imp_model model[3])
+/* What the quotients are made of: numerators x, y, z and W as models, and the c0 and c1 taken off. */
+typedef struct patch_fractions {
+    imp_model x[4];
+    double off[3][2];
+} patch_fractions;
+
+IMP_QUAD_INLINE void patch_fractions_at(const patch *f, int n, int m, int lanes,
+                                        const imp_region *region, patch_fractions *to)
 {
     imp_quad c[PATCH_NUMBERS_MAX / IMP_QUAD], work[PATCH_NUMBERS_MAX / IMP_QUAD];
-    const int n = f->degree[0], m = f->degree[1];
-    double off[3][2] = {{0}};
-    imp_model x[4];
     patch shifted = *f;
-    patch_localize(f, n, m, f->lanes, region, c, work);
+    patch_localize(f, n, m, lanes, region, c, work);
     patch_forget_motion(&shifted);
+    memset(to->off, 0, sizeof to->off);
     for (int axis = 0; axis < 3; ++axis)
-        for (int lane = axis; lane < f->lanes; lane += 4) {
-            double w = c[PATCH_W / IMP_QUAD][PATCH_W % IMP_QUAD];
-            off[axis][lane / 4] = w > 0 ? c[lane / IMP_QUAD][lane % IMP_QUAD] / w : 0;
-            patch_take_off(&shifted, c, lane, off[axis][lane / 4]);
+        for (int lane = axis; lane < lanes; lane += 4) {
+            const double w = c[PATCH_W / IMP_QUAD][PATCH_W % IMP_QUAD];
+            to->off[axis][lane / 4] = w > 0 ? c[lane / IMP_QUAD][lane % IMP_QUAD] / w : 0;
+            patch_take_off(&shifted, c, lane, to->off[axis][lane / 4]);
         }
-    patch_models(&shifted, n, m, f->lanes, region, c, 4, x);
-    patch_cut(&x[PATCH_W], f->weight_lo, f->most[PATCH_W]);
+    patch_models(&shifted, n, m, lanes, region, c, 4, to->x);
+}
+
+/* The same for any degrees; fast for bicubic ones. */
+IMP_QUAD_INLINE void patch_fractions_of(const patch *f, const imp_region *region,
+                                        patch_fractions *to)
+{
+    const bool bicubic = f->degree[0] == 3 && f->degree[1] == 3;
+    if (bicubic && f->lanes == 8)
+        patch_fractions_at(f, 3, 3, 8, region, to);
+    else if (bicubic)
+        patch_fractions_at(f, 3, 3, 4, region, to);
+    else
+        patch_fractions_at(f, f->degree[0], f->degree[1], f->lanes, region, to);
+}
+
+IMP_QUAD_WIDE static void patch_fractions_wide(const patch *f, const imp_region *region,
+                                               patch_fractions *to)
+{
+    patch_fractions_of(f, region, to);
+}
+
+static void patch_rational(const patch *f, const imp_region *region, imp_model model[3])
+{
+    patch_fractions all;
+    if (imp_quad_is_wide())
+        patch_fractions_wide(f, region, &all);
+    else
+        patch_fractions_of(f, region, &all);
+    patch_cut(&all.x[PATCH_W], f->weight_lo, f->most[PATCH_W]);
     for (int axis = 0; axis < 3; ++axis)
-        model[axis] = patch_quotient(f, axis, region, &x[axis], &x[PATCH_W], off[axis]);
+        model[axis] = patch_quotient(f, axis, region, &all.x[axis], &all.x[PATCH_W], all.off[axis]);
 }
 
 imp_status patch_include(const patch *f, const imp_region *region, imp_model model[3])
