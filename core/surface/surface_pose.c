@@ -73,15 +73,29 @@ static void choose_pivot(const imp_pose *next, imp_pose *pose)
     memcpy(pose->pivot, pivot, sizeof pivot);
 }
 
+static bool is_identity(imp_model turn[3][3])
+{
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const imp_model *m = &turn[i][j];
+            if (m->depends != 0 || m->e != 0 || m->a != (i == j) || m->lo != m->hi) return false;
+        }
+    return true;
+}
+
 /* After `pose` comes `next`, S y with R x:
  *
  *   shift' + S (shift + R (x - p) - p') = (shift' + S (shift - p')) + S R (x - p) */
-static void add_pose(const imp_pose *next, double norm, imp_pose *pose)
+static void add_pose(imp_pose *next, double norm, imp_pose *pose)
 {
     imp_pose all;
     imp_model way[3];
     if (turns(next) && !turns(pose)) choose_pivot(next, pose);
     for (int i = 0; i < 3; ++i) way[i] = imp_shift(pose->shift[i], -next->pivot[i]);
+    if (is_identity(next->turn)) {
+        for (int i = 0; i < 3; ++i) pose->shift[i] = imp_add(way[i], next->shift[i]);
+        return;
+    }
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             const imp_model column[3] = {pose->turn[0][j], pose->turn[1][j], pose->turn[2][j]};

@@ -17,7 +17,8 @@ typedef struct shape {
 } shape;
 
 typedef struct span {
-    bool is_known; /* whether there is a pose */
+    bool is_known;   /* whether there is a pose */
+    bool is_uniform; /* it neither turns nor gains speed */
     pose_lanes pose;
     _Atomic(struct span *) child[2];
 } span;
@@ -30,8 +31,8 @@ typedef struct posing_block {
     double memory[];
 } posing_block;
 
-/* Blocks of 2, 8, 32 and so on up to 32 KiB. */
-enum { BLOCK_FIRST = 2048, BLOCK_GROWTH = 4, BLOCK_MOST = 32768 };
+/* Blocks of 2, 4 and 8 KiB, and more of these. */
+enum { BLOCK_FIRST = 2048, BLOCK_GROWTH = 2, BLOCK_MOST = 8192 };
 _Static_assert(sizeof(span) <= BLOCK_FIRST && sizeof(shape) <= BLOCK_FIRST, "each fits");
 
 static void *allocate(posing *g, size_t bytes, tree_growth *growth)
@@ -110,6 +111,16 @@ static shape *shape_in(posing *g, _Atomic(shape *) *slot, const node *n, tree_gr
 
 /* --- Spans ------------------------------------------------------------------------------------------- */
 
+static bool is_uniform(const imp_pose *pose)
+{
+    for (int i = 0; i < 3; ++i) {
+        if (pose->shift[i].q[IMP_TT] != 0) return false;
+        for (int j = 0; j < 3; ++j)
+            if (pose->turn[i][j].depends) return false;
+    }
+    return true;
+}
+
 static imp_code span_fill(span *s, const node *n, imp_error *error)
 {
     imp_pose given;
@@ -121,6 +132,7 @@ static imp_code span_fill(span *s, const node *n, imp_error *error)
         return surface_set_code(status, error);
     }
     s->is_known = status == IMP_OK;
+    s->is_uniform = s->is_known && is_uniform(&given);
     if (s->is_known) pose_take(&s->pose, &given, surface_pose_norm_upper(n->surface));
     return IMP_SUCCESS;
 }
@@ -155,13 +167,28 @@ static imp_code span_in(posing *g, _Atomic(span *) *slot, const node *n, span **
 
 /* --- Nodes ------------------------------------------------------------------------------------------- */
 
-/* Those of the tree's root. *s is NULL where it does not move rigidly. */
+/* Those of the tree's root. *s stays NULL where it does not move rigidly, or moves by itself; or uniformly
+ * without turning: then the inclusion through the maps is as cheap, and needs no memory beside the node. */
 static imp_code begin_at_root(posing *g, shape **s, span **t, tree_growth *growth, imp_error *error)
 {
-    if (!surface_is_rigid(g->root->surface)) return IMP_SUCCESS;
-    *s = shape_in(g, &g->shape, g->root, growth);
-    if (*s == NULL) return error_set_memory(error);
-    return (*s)->moves ? IMP_SUCCESS : span_in(g, &g->span, g->root, t, growth, error);
+    shape whole = {.moves = true};
+    span all = {.is_known = false};
+    if (atomic_load_explicit(&g->is_idle, memory_order_relaxed)) return IMP_SUCCESS;
+    *s = atomic_load_explicit(&g->shape, memory_order_acquire);
+    *t = atomic_load_explicit(&g->span, memory_order_acquire);
+    if (*s != NULL && *t != NULL) return IMP_SUCCESS;
+    const bool is_rigid = surface_is_rigid(g->root->surface);
+    const imp_code code = is_rigid ? span_fill(&all, g->root, error) : IMP_SUCCESS;
+    if (code != IMP_SUCCESS) return code;
+    if (is_rigid && !all.is_uniform) shape_fill(&whole, g->root, g->root);
+    if (all.is_uniform || whole.moves) {
+        *s = NULL;
+        atomic_store_explicit(&g->is_idle, true, memory_order_relaxed);
+        return IMP_SUCCESS;
+    }
+    *t = span_publish(g, &all, &g->span, growth);
+    *s = shape_publish(g, &whole, &g->shape, growth);
+    return *s != NULL && *t != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
 imp_code posing_begin(posing *g, node *n, tree_growth *growth, imp_error *error)

@@ -12,12 +12,13 @@
  * Where all maps of a surface are rigid, a tree of its shapes, halved along u and v, and one of spans of
  * time with their poses stand beside its tree of nodes. A node knows its shape and its span: halving it
  * along u or v halves the shape, along t the span. Both trees are made lazily, as the nodes are: filled
- * outside of the lock, published once. The root has neither; theirs are made with its first child, since
+ * outside of the lock, published once. The root has neither; its own are made with its first child, since
  * most surfaces of a large scene are never split. */
 
 typedef struct posing {
     pthread_mutex_t *lock;         /* the tree's: of memory and of publishing */
     const node *root;              /* of the tree */
+    _Atomic bool is_idle;          /* nodes of this surface are not posed */
     _Atomic(struct shape *) shape; /* of the root; NULL: not made yet */
     _Atomic(struct span *) span;
     struct posing_block *blocks;

@@ -54,6 +54,11 @@ void axis_cross(const imp_model a[3], const imp_model b[3], imp_model out[3])
     }
 }
 
+static imp_interval interval_of(near_constant k)
+{
+    return imp_interval_make(imp_sum_down(k.value - k.error), imp_sum_up(k.value + k.error));
+}
+
 /* --- Turning --- */
 
 axis_frame axis_frame_of(const double axis[3])
@@ -105,18 +110,50 @@ void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], i
     axis_transform(frame, cosine, sine, w, out);
 }
 
-/* A column of the matrix is a unit vector, which an angle moves by no more than itself. */
+/* Adds k x, number by number, to what is collected of one entry.
+ *
+ * Lemma. With |K - k| <= kappa, x = P + delta and |x| <= m, K x - k P = K delta + (K - k) P, at most
+ * (|k| + kappa) e + kappa (m + e). Each coefficient is a sum of two products, and one constant of a: at most 3
+ * roundings of what their sizes add up to. */
+static void add_share(near_constant k, const imp_model *x, imp_model *sum, double *size)
+{
+    const double most = imp_interval_mag(imp_model_range(x)), share = fabs(k.value) + k.error;
+    const imp_interval part = imp_interval_mul(interval_of(k), imp_model_range(x));
+    sum->a += k.value * x->a;
+    for (int j = 0; j < 3; ++j) {
+        sum->b[j] += k.value * x->b[j];
+        sum->rate[j] = (sum->rate[j] + share * x->rate[j]) * IMP_SLACK;
+    }
+    for (int j = 0; j < 6; ++j) sum->q[j] += k.value * x->q[j];
+    sum->e += share * x->e + k.error * (most + x->e);
+    sum->lo = imp_sum_down(sum->lo + part.lo);
+    sum->hi = imp_sum_up(sum->hi + part.hi);
+    sum->depends |= x->depends;
+    *size += fabs(k.value) * imp_model_size(x);
+}
+
+/* along + cos across + sin turned at once. A column of the matrix is a unit vector, which an angle moves by
+ * no more than itself. */
+static imp_model matrix_entry(const axis_frame *frame, int i, int j, const imp_model *cosine,
+                              const imp_model *sine, const imp_model *angle)
+{
+    const near_constant along = frame->along[i][j];
+    double size = fabs(along.value);
+    imp_model sum = imp_known(along.value, along.error);
+    if (!near_is_zero(frame->across[i][j])) add_share(frame->across[i][j], cosine, &sum, &size);
+    if (!near_is_zero(frame->turned[i][j])) add_share(frame->turned[i][j], sine, &sum, &size);
+    sum.e = (sum.e + (3 * IMP_U * size + IMP_TINY)) * IMP_SLACK;
+    for (int p = 0; p < 3; ++p) sum.rate[p] = imp_smaller(sum.rate[p], angle->rate[p]);
+    return imp_model_within(sum, imp_interval_make(-1, 1));
+}
+
 void axis_matrix(const axis_frame *frame, imp_model angle, imp_model turn[3][3])
 {
     imp_model sine, cosine;
     imp_sincos(angle, &sine, &cosine);
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            imp_model entry = axis_entry(frame, i, j, cosine, sine);
-            for (int p = 0; p < 3; ++p)
-                entry.rate[p] = imp_smaller(entry.rate[p], angle.rate[p]);
-            turn[i][j] = imp_model_within(entry, imp_interval_make(-1, 1));
-        }
+        for (int j = 0; j < 3; ++j)
+            turn[i][j] = matrix_entry(frame, i, j, &cosine, &sine, &angle);
 }
 
 void axis_stretch(const axis_frame *frame, imp_model factor, const imp_model w[3], imp_model out[3])
@@ -137,11 +174,6 @@ imp_model axis_moment(const imp_box4 *box)
 {
     imp_region moment = imp_region_between(box->lo + 1, box->hi + 1); /* of y, z, t */
     return imp_param(&moment, 2);
-}
-
-static imp_interval interval_of(near_constant k)
-{
-    return imp_interval_make(imp_sum_down(k.value - k.error), imp_sum_up(k.value + k.error));
 }
 
 static imp_interval turned_entry(const axis_frame *frame, int i, int j, imp_interval cosine,

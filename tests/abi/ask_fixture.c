@@ -111,6 +111,17 @@ static void ask_map(const imp_map_type *type, const imp_model in[4], const imp_r
         printf("  net answers %d\n", type->net(self, region, &net));
         print_net(&net);
     }
+    if (type->struct_size >= sizeof *type && type->rigid != NULL) {
+        imp_pose pose;
+        memset(&pose, 0, sizeof pose);
+        printf("  rigid answers %d\n", type->rigid(self, &in[3], &pose));
+        for (int i = 0; i < 3; ++i) {
+            const imp_model *row = pose.turn[i];
+            print("turn", (double[3]){row[0].a, row[1].a, row[2].a}, 3);
+        }
+        print_models(pose.shift);
+        print("pivot", pose.pivot, 3);
+    }
     type->destroy(self);
 }
 

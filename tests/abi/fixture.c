@@ -3,8 +3,8 @@
 
 /* The source of fixture_1_0.so, a plugin built when the ABI was 1.0, which every later release must
  * load and ask with the same answers (tests/cli/sdk.bats). It uses all that the ABI has: every kind of
- * parameter, types with and without include, maps with and without apply, both with and without net. No libm, whose answers
- * might change. README beside this file says how it was built. */
+ * parameter, types with and without include, maps with and without apply, both with and without net, a map with a
+ * pose. No libm, whose answers might change. README beside this file says how it was built. */
 
 #include <impinge/formula.h>
 #include <stdlib.h>
@@ -315,6 +315,14 @@ static imp_status rise_net(const void *self, const imp_region *region, imp_net *
     return IMP_OK;
 }
 
+static imp_status rise_rigid(const void *self, const imp_model *t, imp_pose *pose)
+{
+    (void)self;
+    imp_pose_at_rest(pose);
+    pose->shift[2] = *t;
+    return imp_pose_status(pose);
+}
+
 static const imp_map_type rise = {
     SIZE_OF(imp_map_type),       .parameter_size = (uint32_t)sizeof(imp_parameter),
     .name = "fixture_rise",      .summary = "rises, without apply",
@@ -322,6 +330,7 @@ static const imp_map_type rise = {
     .create = create_nothing,    .destroy = destroy_nothing,
     .time_domain = always,       .eval = rise_eval,
     .rate = rise_rate,           .net = rise_net,
+    .rigid = rise_rigid,
 };
 
 /* --- The plugin ----------------------------------------------------------------------- */

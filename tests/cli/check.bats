@@ -420,14 +420,16 @@ missed() {
     local missed name
     missed=$(missed pose --only poses)
     [ "$missed" = pose_no_mistake ]
-    [ "$(wc -l <seen)" -eq 10 ]
+    [ "$(wc -l <seen)" -eq 11 ]
     says() { blamed pose "$1" --only poses && [[ $output == *"$2"* ]]; }
     says pose_remainder_halved 'off the pose, whose remainder is'
     says pose_rate_halved "and the pose's rate"
     says pose_range_halved 'outside of the range'
-    says pose_turns_backward 'off the place where the pose'
-    says pose_depends_on_u 'turn[0][0] of the pose over t in [*] depends on more than t'
+    says pose_turns_backward 'off the pose, whose remainder is'
+    says pose_without_pivot 'shift[0] is '
+    says pose_depends_on_u 'depends on more than t'
     says pose_mirrors 'has the determinant -'
+    says pose_of_a_wave 'off the place where the pose over'
     says pose_swells "which is no rotation's"
     run -0 "$IMPINGE" check sphere --only poses
     [[ $output == *'skip  poses '*'only maps have poses'* ]]

@@ -50,6 +50,19 @@ static void swell(const void *self, imp_model t, imp_pose *pose)
 }
 IMP_RIGID_FORMULA(swell)
 
+/* The turn and a wave, which its pose leaves out: at the pivot, and 2 from it along y, there is none. */
+static void wave(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                 imp_model out[3])
+{
+    imp_pose pose;
+    const imp_model at[3] = {x, y, z};
+    turn(self, t, &pose);
+    imp_pose_apply(&pose, at, out);
+    imp_model phase = imp_mul(imp_shift(y, -2), imp_scale(imp_const_pi(), 0.5));
+    out[2] = imp_add(out[2], imp_scale(imp_sin(phase), 0.01));
+}
+IMP_MAP_FORMULA(wave)
+
 #define MISTAKE(NAME, CALLS, RIGID)                                                                \
     static const imp_map_type NAME##_type = {.struct_size = sizeof(imp_map_type),                  \
                                              .parameter_size = sizeof(imp_parameter),              \
@@ -122,6 +135,7 @@ static imp_status of_u(const void *self, const imp_model *t, imp_pose *pose)
 }
 MISTAKE(pose_depends_on_u, turn, of_u);
 
+MISTAKE(pose_of_a_wave, wave, turn_rigid);
 MISTAKE(pose_mirrors, mirror, mirror_rigid);
 MISTAKE(pose_swells, swell, swell_rigid);
 MISTAKE(pose_no_mistake, turn, turn_rigid);
@@ -130,7 +144,7 @@ static const imp_map_type *const maps[] = {
     &pose_remainder_halved_type, &pose_rate_halved_type,   &pose_range_halved_type,
     &pose_of_one_moment_type,    &pose_turns_backward_type, &pose_without_pivot_type,
     &pose_depends_on_u_type,     &pose_mirrors_type,        &pose_swells_type,
-    &pose_no_mistake_type};
+    &pose_of_a_wave_type,        &pose_no_mistake_type};
 static const imp_map_factory factory = {sizeof factory, sizeof maps / sizeof *maps, maps};
 
 static const void *get_factory(const char *id)

@@ -147,6 +147,33 @@ static const imp_surface_type fussy = {.name = "fussy",
                                        .eval = eval,
                                        .rate = rate};
 
+static void turn_pose(const void *self, imp_model t, imp_pose *pose)
+{
+    imp_pose_at_rest(pose);
+    imp_sincos(imp_shift(t, *(const double *)self), &pose->turn[1][0], &pose->turn[0][0]);
+    pose->turn[1][1] = pose->turn[0][0];
+    pose->turn[0][1] = imp_neg(pose->turn[1][0]);
+    pose->pivot[2] = 3;
+}
+IMP_RIGID_FORMULA(turn_pose)
+
+static void always(const void *self, double *lo, double *hi)
+{
+    (void)self;
+    *lo = -INFINITY, *hi = INFINITY;
+}
+
+static const imp_map_type turn = {.struct_size = sizeof turn,
+                                  .name = "turn",
+                                  .parameter_count = 1,
+                                  .create = make,
+                                  .destroy = free,
+                                  .time_domain = always,
+                                  .eval = turn_pose_eval,
+                                  .rate = turn_pose_rate,
+                                  .apply = turn_pose_apply,
+                                  .rigid = turn_pose_rigid};
+
 static worker_pool *pool;
 
 static void open_pool(void)
@@ -200,6 +227,25 @@ START_TEST(answers_from_another_process_are_the_same_bit_for_bit)
     double lo[3], hi[3];
     type->domain(i, lo, hi);
     ck_assert(lo[1] == -2 && hi[0] == 1 && hi[2] == INFINITY);
+    isolate_destroy(i);
+}
+END_TEST
+
+START_TEST(poses_from_another_process_are_the_same_bit_for_bit)
+{
+    const double start = 0.5;
+    const imp_value value = {.count = 1, .extent = {1, 1, 1}, .number = &start};
+    imp_create_error why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
+    isolated *i = isolate_map(pool, &turn);
+    ck_assert_ptr_nonnull(i);
+    ck_assert_int_eq(isolate_create(i, &value, &why), IMP_OK);
+    const imp_region r = {{0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}};
+    const imp_model t = imp_param(&r, 2);
+    imp_pose pose[2];
+    memset(pose, 0, sizeof pose);
+    ck_assert_int_eq(isolate_map_type(i)->rigid(i, &t, &pose[0]), IMP_OK);
+    ck_assert_int_eq(turn_pose_rigid(&start, &t, &pose[1]), IMP_OK);
+    ck_assert(memcmp(&pose[0], &pose[1], sizeof pose[0]) == 0 && pose[0].pivot[2] == 3);
     isolate_destroy(i);
 }
 END_TEST
@@ -467,6 +513,7 @@ int main(void)
 {
     const TTest *const tests[] = {
         answers_from_another_process_are_the_same_bit_for_bit,
+        poses_from_another_process_are_the_same_bit_for_bit,
         a_crash_costs_an_answer_and_every_later_one,
         a_call_that_never_comes_back_is_ended_in_time,
         a_changed_floating_point_mode_is_seen_there_too,

@@ -229,11 +229,11 @@ static bool judge_span(const subject *s, uint64_t *random)
         const long double at =
             span.d[2] > 0 ? ((long double)time[0] - span.c[2]) / span.d[2] : 0;
         if (!judge_rotation(s, &span, &pose, at)) return false;
-        if (!judge_image(s, random, &span, &pose, time[0])) return false;
         if (!see(s, &pose, time[0], &seen[0]) || !see(s, &pose, time[1], &seen[1]))
             return s->answer->verdict != CHECK_FAIL;
         for (int n = 0; n < ENTRIES; ++n)
             if (!judge_entry(s, &span, &pose, n / 4, n % 4, &seen[0], &seen[1])) return false;
+        if (!judge_image(s, random, &span, &pose, time[0])) return false;
     }
     return true;
 }
