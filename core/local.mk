@@ -31,6 +31,7 @@ core_surface = \
     core/surface/part.c core/surface/part.h \
     core/surface/region.c core/surface/region.h \
     core/surface/surface.c core/surface/surface.h \
+    core/surface/surface_distance.c \
     core/surface/surface_include.c core/surface/surface_net.c \
     core/surface/surface_parts.h core/surface/surface_pose.c \
     core/surface/surface_rate.c
@@ -84,6 +85,7 @@ core_solver = \
     core/solver/clearance.c core/solver/clearance.h \
     core/solver/clearance_parts.c core/solver/clearance_parts.h \
     core/solver/collect_pairs.c core/solver/collect_surfaces.c core/solver/collection.h \
+    core/solver/distance.c core/solver/distance.h \
     core/solver/examined_times.c core/solver/examined_times.h \
     core/solver/gap_lines.c core/solver/gap_lines.h \
     core/solver/gjk_axis.c core/solver/gjk_axis.h \

@@ -120,6 +120,7 @@ plugins_wave_la_LDFLAGS = $(plugin_ldflags)
 # What they share; private, never installed.
 noinst_HEADERS += \
     plugins/common/near.h \
+    plugins/common/squares.h \
     plugins/common/polynomial.h \
     plugins/common/publish.h \
     plugins/patch/bernstein.h \

@@ -53,6 +53,7 @@ check_suites = \
     tests/unit/test_scene_judge \
     tests/unit/test_separation \
     tests/unit/test_series \
+    tests/unit/test_sliding \
     tests/unit/test_spheres \
     tests/unit/test_steps \
     tests/unit/test_surface \
@@ -64,6 +65,7 @@ check_suites = \
 mpfi_suites = \
     tests/unit/test_plugins \
     tests/unit/test_checker \
+    tests/unit/test_distances \
     tests/unit/test_expression_bounds \
     tests/unit/test_formula \
     tests/unit/test_keyframes \
@@ -108,6 +110,9 @@ tests_unit_test_maps_SOURCES = tests/unit/test_maps.c tests/support/map_images.h
 tests_unit_test_shapes_SOURCES = tests/unit/test_shapes.c $(type_oracle)
 tests_unit_test_subdivision_SOURCES = tests/unit/test_subdivision.c $(type_oracle)
 tests_unit_test_tightness_SOURCES = tests/unit/test_tightness.c $(type_oracle)
+tests_unit_test_distances_SOURCES = tests/unit/test_distances.c $(type_oracle) \
+    tests/support/judge.c tests/support/judge.h \
+    tests/support/sampling.c tests/support/sampling.h
 tests_unit_test_plugins_SOURCES = tests/unit/test_plugins.c $(type_oracle) \
     tests/support/judge.c tests/support/judge.h \
     tests/support/sampling.c tests/support/sampling.h
@@ -168,6 +173,7 @@ check_LTLIBRARIES = \
     tests/plugins/create_null.la \
     tests/plugins/create_overflows.la \
     tests/plugins/create_rounds.la \
+    tests/plugins/distance_nan.la \
     tests/plugins/domain_crashes.la \
     tests/plugins/domain_nan.la \
     tests/plugins/domain_rounds.la \
@@ -192,6 +198,8 @@ check_LTLIBRARIES = \
     tests/plugins/liar_corners.la \
     tests/plugins/liar_counter.la \
     tests/plugins/liar_crash.la \
+    tests/plugins/liar_distance.la \
+    tests/plugins/liar_distance_remainder.la \
     tests/plugins/liar_errno.la \
     tests/plugins/liar_error.la \
     tests/plugins/liar_exports.la \
@@ -213,6 +221,7 @@ check_LTLIBRARIES = \
     tests/plugins/liar_spot.la \
     tests/plugins/liar_time.la \
     tests/plugins/liar_truthful.la \
+    tests/plugins/liar_truthful_distance.la \
     tests/plugins/liar_truthful_net.la \
     tests/plugins/map_rate_negative.la \
     tests/plugins/mistakes_bounds.la \
@@ -257,6 +266,7 @@ tests_plugins_create_fails_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_null_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_overflows_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_rounds_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_distance_nan_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_crashes_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_nan_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_rounds_la_LDFLAGS = $(test_plugin_ldflags)
@@ -280,6 +290,8 @@ tests_plugins_liar_beyond_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_corners_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_counter_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_crash_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_distance_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_distance_remainder_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_errno_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_error_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_exports_la_LDFLAGS = $(test_plugin_ldflags)
@@ -301,6 +313,7 @@ tests_plugins_liar_single_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_spot_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_time_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_truthful_distance_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_net_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_map_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_bounds_la_LDFLAGS = $(test_plugin_ldflags)
@@ -361,7 +374,7 @@ tests_unit_test_formula_SOURCES = tests/unit/test_formula.c tests/support/oracle
 tests_unit_test_model_SOURCES = tests/unit/test_model.c tests/support/oracle.c
 
 noinst_HEADERS += tests/support/built_plugins.h tests/support/comma_locale.h tests/support/oracle.h tests/support/suite.h tests/support/query_helpers.h tests/support/sphere_scenes.h tests/support/scene_variants.h tests/support/sandbox.h tests/support/kit_registry.h tests/support/scene_text.h tests/support/alloc_failure.h tests/plugins/tiny.h tests/plugins/liar.h
-noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/slab.h tests/plugins/slack_net.h tests/plugins/stack.h \
+noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/pipe.h tests/plugins/slab.h tests/plugins/slack_net.h tests/plugins/stack.h \
     tests/support/model_value.h
 
 # Fuzz targets, run on the inputs of their folders; tests/fuzz/run searches for more.

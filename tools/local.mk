@@ -25,6 +25,7 @@ tools_check = \
     tools/check/clearance_cost.c tools/check/clearance_cost.h \
     tools/check/cost.c tools/check/cost.h \
     tools/check/fate.c tools/check/fate.h \
+    tools/check/distances.c tools/check/distances.h \
     tools/check/domain.c tools/check/domain.h \
     tools/check/environment.c tools/check/environment.h \
     tools/check/file.c tools/check/file.h \

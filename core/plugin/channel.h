@@ -28,6 +28,7 @@ typedef enum channel_request {
     REQUEST_INCLUDE, /* a map: apply */
     REQUEST_NET,
     REQUEST_POSE, /* of a map over the times of in[3] */
+    REQUEST_DISTANCE,
     REQUEST_DESTROY
 } channel_request;
 

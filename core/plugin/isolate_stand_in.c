@@ -96,6 +96,18 @@ static imp_status net_of(const void *self, const imp_region *region, imp_net *ne
     return status;
 }
 
+static imp_status distance_of(const void *self, const imp_model point[4], imp_model *distance)
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    memcpy(i->worker->channel->in, point, 4 * sizeof *point);
+    status = worker_request(i->worker, i->user, REQUEST_DISTANCE);
+    *distance = i->worker->channel->out[0];
+    worker_leave(i->worker);
+    return status;
+}
+
 static size_t piece_count_of(const void *self) { return stand_in_of(self)->piece_count; }
 
 static const void *piece_of(const void *self, size_t k)
@@ -171,7 +183,8 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
                            .include = type->include != NULL ? surface_include_of : NULL,
                            .net = type->net != NULL ? net_of : NULL,
                            .piece_count = pieces ? piece_count_of : NULL,
-                           .piece = pieces ? piece_of : NULL};
+                           .piece = pieces ? piece_of : NULL,
+                           .distance = part_offers_distance(type) ? distance_of : NULL};
     return i;
 }
 

@@ -165,7 +165,8 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
                            "summary, equation, example or source is not a line of text");
     if (null_callback != NULL)
         return place_error(&type, error, IMP_ERROR_PLUGIN,
-                           "%s is NULL; only include, apply, net and rigid may be", null_callback);
+                           "%s is NULL; only include, apply, net, rigid and distance may be",
+                           null_callback);
     return check_table(&view->table, &type, error);
 }
 
@@ -195,7 +196,7 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
                                 : type->rate == NULL    ? "rate"
                                                         : NULL;
     code = check_view(&view, null_callback, error);
-    if (code != IMP_SUCCESS || type->struct_size < sizeof *type) return code;
+    if (code != IMP_SUCCESS || type->struct_size < offsetof(imp_surface_type, distance)) return code;
     if ((type->piece_count == NULL) == (type->piece == NULL)) return IMP_SUCCESS;
     place at = place_argument(NULL, view.name);
     return place_error(&at, error, IMP_ERROR_PLUGIN, "%s is NULL; give piece_count and piece, or neither",

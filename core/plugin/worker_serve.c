@@ -95,6 +95,7 @@ static imp_status obey_surface(channel *c, const imp_surface_type *type)
     if (c->request == REQUEST_EVAL) return type->eval(c->self, c->n, c->p, c->x, error);
     if (c->request == REQUEST_RATE) return type->rate(c->self, &c->region, &c->rates);
     if (c->request == REQUEST_NET) return type->net(c->self, &c->region, &c->net);
+    if (c->request == REQUEST_DISTANCE) return type->distance(c->self, c->in, c->out);
     return type->include(c->self, &c->region, c->out);
 }
 

@@ -4,7 +4,6 @@
 
 #include "core/solver/relative.h"
 
-#include "core/base/rounding.h"
 #include "core/solver/tuning.h"
 
 #include <impinge/quad.h>

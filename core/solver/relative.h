@@ -3,6 +3,7 @@
 #ifndef CORE_SOLVER_RELATIVE_H
 #define CORE_SOLVER_RELATIVE_H
 
+#include "core/base/rounding.h"
 #include "core/tree/node.h"
 
 /* Two nodes' models, re-centred on a window of time and seen from each other. */
@@ -52,6 +53,20 @@ static inline vec3 relative_offset(const relative *r, double w)
 typedef struct w_range {
     double lo, hi;
 } w_range;
+
+/* Cuts a window, whose middle and half these are, to the part that `s` leaves, rounded outward. In units
+ * of u (|mid| + half): half w is off by 1, its sum with mid by 1, that with the slack by 1. WINDOW_TINY
+ * covers what underflows. */
+enum { WINDOW_ROUNDING = 4 };
+_Static_assert(1 + 1 + 1 <= WINDOW_ROUNDING, "rounding of a window");
+
+static inline void window_cut(time_window *window, double mid, double half, const w_range *s)
+{
+    const double slack = (fabs(mid) + half) * (WINDOW_ROUNDING * UNIT_ROUNDOFF) + WINDOW_TINY;
+    const double lo = mid + half * s->lo - slack, hi = mid + half * s->hi + slack;
+    if (s->lo > -1 && lo > window->lo) window->lo = lo < window->hi ? lo : window->hi;
+    if (s->hi < 1 && hi < window->hi) window->hi = hi > window->lo ? hi : window->lo;
+}
 
 enum { W_RANGE_ROUNDING = 8 }; /* units of u by which a bound of w is moved outward */
 

@@ -11,19 +11,6 @@
 #include "core/solver/normal_field.h"
 #include "core/solver/tuning.h"
 
-/* Cuts the window to the part that `s` leaves, rounded outward. In units of u (|mid| + half): half w
- * is off by 1, its sum with mid by 1, that with the slack by 1. WINDOW_TINY covers what underflows. */
-enum { WINDOW_ROUNDING = 4 };
-_Static_assert(1 + 1 + 1 <= WINDOW_ROUNDING, "rounding of a window");
-
-static void window_cut(time_window *window, const relative *r, const w_range *s)
-{
-    const double slack = (fabs(r->mid) + r->half) * (WINDOW_ROUNDING * UNIT_ROUNDOFF) + WINDOW_TINY;
-    const double lo = r->mid + r->half * s->lo - slack, hi = r->mid + r->half * s->hi + slack;
-    if (s->lo > -1 && lo > window->lo) window->lo = lo < window->hi ? lo : window->hi;
-    if (s->hi < 1 && hi < window->hi) window->hi = hi > window->lo ? hi : window->lo;
-}
-
 /* The w of `moment`, kept within the window. */
 static double focus_of(const relative *r, double moment)
 {
@@ -66,7 +53,7 @@ static bool cut_at_end(const node *a, const node *b, double clearance, time_wind
     relative_at(a, b, window, &r);
     r.focus = 1;
     if (!axes_cut(&r, clearance, &s, &axis, NULL)) return false;
-    window_cut(window, &r, &s);
+    window_cut(window, r.mid, r.half, &s);
     return true;
 }
 
@@ -87,7 +74,7 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
         gap_lines *const kept = near != NULL ? &lines : NULL;
         if (!axes_cut(&r, clearance, &s, axis, kept)) return false;
         if (!normal_field_cut(&r, clearance, &s, kept)) return false;
-        window_cut(window, &r, &s);
+        window_cut(window, r.mid, r.half, &s);
         if (near != NULL) approach_take(near, &r, &lines, s);
         if (!(s.hi - s.lo < 2)) return true;
         const bool flat = are_flat(a, b);
@@ -134,7 +121,7 @@ static bool cut_by_models(const node *a, const node *b, double clearance, time_w
               : !axes_cut(&r, clearance, &s, axis, NULL))
         return false;
     if (!normal_field_cut(&r, clearance, &s, NULL)) return false;
-    window_cut(window, &r, &s);
+    window_cut(window, r.mid, r.half, &s);
     return true;
 }
 

@@ -185,16 +185,26 @@ static double gain_in_place(const node *n, parameter j, bool tangent)
                : n->extent[j];
 }
 
+static void consider_side(cut *best, const pair *p, int side, bool tangent, double scale)
+{
+    const node *n = side_of(p, side);
+    cut_consider(best, p, side, PARAMETER_U, gain_in_place(n, PARAMETER_U, tangent));
+    cut_consider(best, p, side, PARAMETER_V, gain_in_place(n, PARAMETER_V, tangent));
+    cut_consider(best, p, side, PARAMETER_T, gain_in_time(p, n, scale));
+}
+
 cut cut_by_spread(const pair *p, double scale)
 {
     const bool tangent = is_tangent(p);
     cut best = CUT_NONE;
-    for (int side = 0; side < 2; ++side) {
-        const node *n = side_of(p, side);
-        cut_consider(&best, p, side, PARAMETER_U, gain_in_place(n, PARAMETER_U, tangent));
-        cut_consider(&best, p, side, PARAMETER_V, gain_in_place(n, PARAMETER_V, tangent));
-        cut_consider(&best, p, side, PARAMETER_T, gain_in_time(p, n, scale));
-    }
+    for (int side = 0; side < 2; ++side) consider_side(&best, p, side, tangent, scale);
+    return best;
+}
+
+cut cut_alone(const pair *p, int side, double scale)
+{
+    cut best = CUT_NONE;
+    consider_side(&best, p, side, true, scale);
     return best;
 }
 

@@ -66,6 +66,9 @@ cut cut_by_contribution(const pair *p);
  * does not matter. */
 cut cut_by_spread(const pair *p, double scale);
 
+/* The same of one side alone; CUT_NONE: nothing is left to split of it. */
+cut cut_alone(const pair *p, int side, double scale);
+
 /* Time of the node whose points leave linear motion most within the window, where that of both hides
  * more than `scale`, a length, and counts beside what bends and blurs along u and v. Else CUT_NONE. */
 cut cut_by_bend(const pair *p, double scale);

@@ -7,6 +7,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "core/solver/distance.h"
 #include "core/solver/pair_test.h"
 #include "core/solver/tuning.h"
 
@@ -185,16 +186,52 @@ static bool witness_is_likely(const impact *im, const pair *p)
 
 /* The pairs that hold the points of a contact are near each other for a long time where gamma is wide
  * and its room narrow: how motion bends in that time, not place, is what keeps their starts from being
- * found. */
-static cut choose_cut(const impact *im, const pair *p)
+ * found. `side`: halve its node alone, if that can be; -1: either. */
+static cut choose_cut(const impact *im, const pair *p, int side)
 {
+    const cut alone = side >= 0 ? cut_alone(p, side, scale(im)) : CUT_NONE;
+    if (alone.side >= 0) return alone;
     const cut bend = scale(im) < im->gamma ? cut_by_bend(p, scale(im)) : CUT_NONE;
     return bend.side >= 0 ? bend : cut_by_spread(p, scale(im));
+}
+
+/* Whether no fixed axis parts the nodes from the start of their times on, as where surfaces slide along each
+ * other. Of surfaces that come to each other axes cut the start of the window first. */
+static bool may_slide(const pair *p)
+{
+    return !(vec3_norm1(p->axis) > 0) && !(p->window.lo > pair_times(p->a, p->b).lo);
+}
+
+/* What one node's distance from the other's surface shows of a pair. */
+typedef struct sight {
+    time_window left; /* of its window */
+    bool is_apart;
+    int side; /* whose node alone is worth halving; -1: neither */
+} sight;
+
+/* Of each of the two nodes while the answer is not known. */
+static imp_code look_from_each_side(const impact *im, const pair *p, sight *seen, imp_error *error)
+{
+    for (int side = 0; side < 2 && !seen->is_apart && seen->side < 0; ++side) {
+        const node *own = side == 0 ? p->a : p->b, *other = side == 0 ? p->b : p->a;
+        distance_view view;
+        if (!distance_is_known(other)) continue;
+        const imp_code code = distance_cut(own, other, im->clearance, &seen->left, &view, error);
+        if (code != IMP_SUCCESS) return code;
+        seen->is_apart = view.is_apart;
+        if (view.is_promising) seen->side = side;
+    }
+    return IMP_SUCCESS;
 }
 
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
     if (pair_has_cluster(p)) return split(im, p, cut_by_spread(p, im->gamma), state, error);
+    sight from_each = {p->window, false, -1};
+    if (may_slide(p)) {
+        const imp_code code = look_from_each_side(im, p, &from_each, error);
+        if (code != IMP_SUCCESS || from_each.is_apart) return code;
+    }
     if (witness_is_likely(im, p)) {
         witness seen;
         const imp_code code = find_witness(im, p, true, &seen, error);
@@ -208,8 +245,9 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
     } else if (p->wait > 0) {
         p->wait -= 1;
     }
+    p->window = from_each.left; /* not before: other pairs may start sooner */
     const bool tiny = TUNING_TINY * pair_extent(p) <= room(im);
-    const cut c = tiny ? cut_in_time(p) : choose_cut(im, p);
+    const cut c = tiny ? cut_in_time(p) : choose_cut(im, p, from_each.side);
     if (c.side >= 0) return split(im, p, c, state, error);
     *state = IMPACT_RESOLUTION;
     return IMP_SUCCESS;

@@ -97,6 +97,18 @@
 /* Of normals within 25 degrees, which are nearly tangent.
  * 0.5: 0.0, 0.99: 0.0 */
 #define TUNING_FIELD_COSINE 0.9
+/* --- Distances from a surface (distance.c): per cent of the pairs of the conformal set without its threads ---
+ */
+
+/* Remainder beside the distance's size from which on it is not only rounding.
+ * 0x1p-30, 0x1p-48: no change */
+#define TUNING_DISTANCE_ROUNDING 0x1p-40
+/* A node is too large from this part of its extents on.
+ * 0.25: +300, 1: -4 */
+#define TUNING_DISTANCE_EXTENT 0.5
+/* Level: the polynomial varies by less than this times the remainder.
+ * 4: +10, 64: no change */
+#define TUNING_DISTANCE_LEVEL 16
 
 /* --- The search for a witness (witness.c) --- */
 

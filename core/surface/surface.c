@@ -214,6 +214,9 @@ const char *surface_status_text(imp_status status)
     case SURFACE_BAD_POSE:
         return "a pose depends on more than time, or has a number that is infinite or NaN, a negative "
                "remainder or rate, or an inverted range";
+    case SURFACE_BAD_DISTANCE:
+        return "a distance from it has a remainder that is negative or NaN, or a range that is "
+               "inverted or NaN";
     case SURFACE_CRASHED:
         return "crashes or ends its process, in which it runs isolated";
     case SURFACE_HUNG:

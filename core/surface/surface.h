@@ -82,6 +82,7 @@ bool surface_undefined_part(const surface *s, double lo, double hi, surface_part
 #define SURFACE_NULL_PIECE 1012
 #define SURFACE_PIECE_TIMES 1013
 #define SURFACE_BAD_POSE 1014
+#define SURFACE_BAD_DISTANCE 1015
 
 /* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
@@ -127,6 +128,14 @@ imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *po
 
 /* At least |x'| / |x| for what such a pose makes of a vector x; 1 but for that slack. */
 double surface_pose_norm_upper(const surface *s);
+
+/* Whether distances from the surface are known. */
+bool surface_has_distance(const surface *s);
+
+/* Precondition: that. The distance from the whole surface, as in imp_surface_type, of a point with these
+ * models over the region, whose rates are not used. IMP_UNBOUNDED: nothing is known. */
+imp_status surface_distance(const surface *s, const imp_region *region, const imp_model point[3],
+                            imp_model *distance);
 
 /* The inclusion of the type alone, under none of the maps. */
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3]);

@@ -10,7 +10,7 @@
 /* The inside of a surface
  * =======================
  * For part.c and its files: surface.c (life, names), surface_rate.c (points and rates) and
- * surface_include.c (inclusions), surface_net.c and surface_pose.c. Everything that a callback gives is checked where it comes
+ * surface_include.c (inclusions), surface_net.c, surface_pose.c and surface_distance.c. Everything that a callback gives is checked where it comes
  * from, before anything is computed with it: behind a product or a sum a breach might not show. */
 
 typedef struct mapping {

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "plugins/common/publish.h"
+#include "plugins/common/squares.h"
 
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
@@ -53,8 +54,43 @@ static void cone_formula(const void *self, imp_model u, imp_model v, imp_model t
 }
 IMP_SURFACE_FORMULA(cone_formula)
 
+/* Lemma. Let points of space have cylindrical coordinates (q, phi, z), q >= 0, z from the base, and let
+ * y = (h - z) sign h. Those of the cone lie on the line |h| q = r y, y >= 0, from which (q, y) is
+ *
+ *   ||h| q - r y| / L >= ||h| q - r |y|| / L,   L = (h^2 + r^2)^(1/2),
+ *
+ * away, since q >= 0; points of space are no nearer. And
+ *
+ *   (h q)^2 - (r y)^2 = (|h| q - r |y|) (|h| q + r |y|),
+ *
+ * whose last factor is at most |h| Q + r Y where q <= Q, |y| <= Y: a bound without roots. */
+static imp_model cone_beyond(const cone_instance *s, const imp_model m[3])
+{
+    const double h = s->height, r = s->radius;
+    const double slant = greatest_root_upper(
+        &(imp_model){.hi = imp_round_up(imp_round_up(h * h) + imp_round_up(r * r))});
+    const imp_model across = sum_of_squares(m, 2), y = imp_shift(imp_neg(m[2]), h);
+    const imp_model sum =
+        imp_sub(imp_mul(across, imp_sqr(imp_num(h))), imp_sqr(imp_scale(y, r)));
+    const double along = imp_round_up(r * imp_interval_mag(imp_model_range(&y)));
+    const double most = imp_sum_up(imp_round_up(fabs(h) * greatest_root_upper(&across)) + along);
+    return imp_scale(sum, imp_larger(inverse_lower(imp_round_up(most * slant)), 0));
+}
+
+/* The distance from the endless double cone; of a disc, from its plane. */
+static imp_model cone_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const cone_instance *s = self;
+    (void)t;
+    const imp_model m[3] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]),
+                            imp_shift(z, -s->center[2])};
+    return s->height == 0 ? m[2] : cone_beyond(s, m);
+}
+IMP_DISTANCE_FORMULA(cone_gap)
+
 static const imp_surface_type cone = {
     IMP_SURFACE_FIELDS(cone, cone_formula),
+    .distance = cone_gap_distance,
     .summary = "lateral surface of a cone about the z axis, open at its base, up to the apex",
     .equation = "center + ((1-v) radius cos u, (1-v) radius sin u, height v), u in [0,2pi], "
                 "v in [0,1]",

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "plugins/common/publish.h"
+#include "plugins/common/squares.h"
 
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
@@ -51,8 +52,19 @@ static void cylinder_formula(const void *self, imp_model u, imp_model v, imp_mod
 }
 IMP_SURFACE_FORMULA(cylinder_formula)
 
+/* From the axis, less the radius: the distance from the endless cylinder. */
+static imp_model cylinder_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const cylinder_instance *s = self;
+    (void)z, (void)t;
+    const imp_model m[2] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1])};
+    return beyond_radius(sum_of_squares(m, 2), s->radius);
+}
+IMP_DISTANCE_FORMULA(cylinder_gap)
+
 static const imp_surface_type cylinder = {
     IMP_SURFACE_FIELDS(cylinder, cylinder_formula),
+    .distance = cylinder_gap_distance,
     .summary = "lateral surface of a cylinder about the z axis, open at both ends",
     .equation = "center + (radius cos u, radius sin u, height v), u in [0,2pi], v in [-1/2,1/2]",
     .source = NULL,

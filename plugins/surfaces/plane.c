@@ -4,6 +4,8 @@
 #include "plugins/common/linear.h"
 #include "plugins/common/publish.h"
 
+#include <impinge/formula.h>
+
 /* A parallelogram: the part of a plane that two edges span. */
 
 enum { ORIGIN, EDGE_U, EDGE_V };
@@ -15,6 +17,11 @@ static const imp_parameter parameters[] = {
     [EDGE_V] = ROW_NEAR_VECTOR("edge_v", "length", "[0,1,0]", 0,
                                "from the origin to the corner v = 1; not parallel to edge_u"),
 };
+
+typedef struct plane_instance {
+    linear surface; /* first: what linear.h does with an instance */
+    double normal[3], flatness; /* plane_gap */
+} plane_instance;
 
 static double greatest(const double x[3])
 {
@@ -46,21 +53,68 @@ static imp_status check_edges(const imp_value *values, imp_create_error *why)
                       v[0], v[1], v[2], u[0], u[1], u[2]);
 }
 
+/* a times a power of two, so that its greatest component is from 1/2 to 1, and b alike; components that
+ * underflow are negligible, as the normal need not be accurate. */
+static void normal_across(const double a[3], const double b[3], double n[3])
+{
+    int of_a, of_b;
+    frexp(greatest(a), &of_a);
+    frexp(greatest(b), &of_b);
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = ldexp(a[j], -of_a) * ldexp(b[k], -of_b) - ldexp(a[k], -of_a) * ldexp(b[j], -of_b);
+    }
+}
+
+/* Lemma (length). |n| as computed is within 4 roundings, each quotient within one more: so each component
+ * is at most 1 + 8 u times that of a unit vector, and (1 - 2^-48), rounded, takes off 30 u. */
+static void set_normal(plane_instance *s, const double u[3], const double v[3])
+{
+    double n[3], along[2] = {0, 0}, size = 0;
+    normal_across(u, v, n);
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int i = 0; i < 3; ++i) {
+        s->normal[i] = length > 0x1p-400 ? n[i] / length * (1 - 0x1p-48) : 0;
+        along[0] += s->normal[i] * u[i];
+        along[1] += s->normal[i] * v[i];
+        size += fabs(s->normal[i] * u[i]) + fabs(s->normal[i] * v[i]);
+    }
+    s->flatness = (fabs(along[0]) + fabs(along[1])) + 0x1p-48 * size + IMP_TINY;
+}
+
 static imp_status plane_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check_edges(values, why);
     if (status != IMP_OK) return status;
-    linear *f = calloc(1, sizeof *f);
-    if (f == NULL) return IMP_INTERNAL;
+    plane_instance *s = calloc(1, sizeof *s);
+    if (s == NULL) return IMP_INTERNAL;
+    linear *f = &s->surface;
     for (int i = 0; i < 3; ++i) {
         f->still[i][LINEAR_1] = values[ORIGIN].number[i];
         f->still[i][LINEAR_U] = values[EDGE_U].number[i];
         f->still[i][LINEAR_V] = values[EDGE_V].number[i];
     }
     linear_finish(f);
-    *self = f;
+    set_normal(s, values[EDGE_U].number, values[EDGE_V].number);
+    *self = s;
     return IMP_OK;
 }
+
+/* n.(x - origin), the distance from the endless plane. Lemma. Let |n| <= 1 and y = origin + u edge_u + v
+ * edge_v, u and v in [0, 1]. Then |x - y| >= |n.(x - origin) - n.(y - origin)|, and the last is at most
+ * |n.edge_u| + |n.edge_v| <= flatness, in which 2^-48 is 32 u of the terms' size: products and sums
+ * round 4 times, those of flatness itself 3. So n need not be accurate. */
+static imp_model plane_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const plane_instance *s = self;
+    const double *const origin[3] = {s->surface.still[0], s->surface.still[1], s->surface.still[2]};
+    const imp_model n[3] = {imp_num(s->normal[0]), imp_num(s->normal[1]), imp_num(s->normal[2])};
+    const imp_model m[3] = {imp_shift(x, -origin[0][LINEAR_1]), imp_shift(y, -origin[1][LINEAR_1]),
+                            imp_shift(z, -origin[2][LINEAR_1])};
+    (void)t;
+    return imp_add(imp_dot3(m, n), imp_between(-s->flatness, s->flatness));
+}
+IMP_DISTANCE_FORMULA(plane_gap)
 
 static void plane_domain(const void *self, double lo[3], double hi[3])
 {
@@ -71,6 +125,7 @@ static void plane_domain(const void *self, double lo[3], double hi[3])
 static const imp_surface_type plane = {
     IMP_SURFACE_FIELDS(plane, linear),
     .net = linear_net,
+    .distance = plane_gap_distance,
     .summary = "parallelogram, the piece of a plane between two edges",
     .equation = "origin + u edge_u + v edge_v, u and v in [0,1]",
     .source = NULL,

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "plugins/common/publish.h"
+#include "plugins/common/squares.h"
 
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
@@ -51,8 +52,20 @@ static void sphere_formula(const void *self, imp_model u, imp_model v, imp_model
 }
 IMP_SURFACE_FORMULA(sphere_formula)
 
+/* From the centre, less the radius. */
+static imp_model sphere_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const sphere_instance *s = self;
+    (void)t;
+    const imp_model m[3] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]),
+                            imp_shift(z, -s->center[2])};
+    return beyond_radius(sum_of_squares(m, 3), s->radius);
+}
+IMP_DISTANCE_FORMULA(sphere_gap)
+
 static const imp_surface_type sphere = {
     IMP_SURFACE_FIELDS(sphere, sphere_formula),
+    .distance = sphere_gap_distance,
     .summary = "sphere by longitude u and latitude v",
     .equation =
         "center + radius (cos v cos u, cos v sin u, sin v), u in [0,2pi], v in [-pi/2,pi/2]",

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "plugins/common/publish.h"
+#include "plugins/common/squares.h"
 
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
@@ -53,8 +54,25 @@ static void torus_formula(const void *self, imp_model u, imp_model v, imp_model 
 }
 IMP_SURFACE_FORMULA(torus_formula)
 
+/* From the middle of the tube, less its radius. Lemma. Let points of space have cylindrical coordinates
+ * (q, phi, z), q >= 0. Two of them are at least as far apart as their (q, z) are. Where minor <= major,
+ * those of the torus are the circle of that radius around (major, 0); it intersects itself otherwise,
+ * and that circle is not all. */
+static imp_model torus_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const torus_instance *s = self;
+    (void)t;
+    if (s->minor_radius > s->major_radius) return imp_unbounded(0);
+    const imp_model m[2] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1])};
+    const imp_model w[2] = {imp_shift(imp_sqrt(sum_of_squares(m, 2)), -s->major_radius),
+                            imp_shift(z, -s->center[2])};
+    return beyond_radius(sum_of_squares(w, 2), s->minor_radius);
+}
+IMP_DISTANCE_FORMULA(torus_gap)
+
 static const imp_surface_type torus = {
     IMP_SURFACE_FIELDS(torus, torus_formula),
+    .distance = torus_gap_distance,
     .summary = "torus around the z axis; u runs around the ring, v around the tube",
     .equation = "center + ((R + r cos v) cos u, (R + r cos v) sin u, r sin v), R = major_radius, "
                 "r = minor_radius, u and v in [0,2pi]",

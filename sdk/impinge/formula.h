@@ -32,12 +32,21 @@ extern "C" {
  *   static void swing_pose(const void *self, imp_model t, imp_pose *pose);
  *   IMP_RIGID_FORMULA(swing_pose)
  *
- * It defines swing_pose_eval, swing_pose_rate, swing_pose_apply and swing_pose_rigid. */
+ * It defines swing_pose_eval, swing_pose_rate, swing_pose_apply and swing_pose_rigid.
+ *
+ * The optional distance of a point from the surface (imp_surface_type.distance) can be a formula too:
+ *
+ *   static imp_model ball_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t);
+ *   IMP_DISTANCE_FORMULA(ball_gap)
+ *
+ * defines ball_gap_distance. */
 
 typedef void (*imp_surface_formula)(const void *self, imp_model u, imp_model v, imp_model t,
                                     imp_model out[3]);
 typedef void (*imp_map_formula)(const void *self, imp_model x, imp_model y, imp_model z,
                                 imp_model t, imp_model out[3]);
+typedef imp_model (*imp_distance_formula)(const void *self, imp_model x, imp_model y, imp_model z,
+                                          imp_model t);
 
 /* Values and errors of a point's three constants. A value that is not finite: IMP_DOMAIN. */
 static inline imp_status imp_formula_point_(const imp_model out[3], double *x, double *error)
@@ -117,6 +126,13 @@ static inline imp_status imp_map_formula_apply_(imp_map_formula f, const void *s
     return imp_formula_status_(out);
 }
 
+static inline imp_status imp_distance_formula_(imp_distance_formula f, const void *self,
+                                               const imp_model point[4], imp_model *distance)
+{
+    *distance = f(self, point[0], point[1], point[2], point[3]);
+    return distance->e < INFINITY ? IMP_OK : IMP_UNBOUNDED;
+}
+
 /* A region with these bounds: c is inside, d reaches both ends. */
 static inline imp_region imp_region_between(const double lo[3], const double hi[3])
 {
@@ -176,6 +192,13 @@ static inline imp_status imp_map_formula_rate_(imp_map_formula f, const void *se
                                                     imp_model model[3])                            \
     {                                                                                              \
         return imp_surface_formula_include_(FORMULA, self, region, model);                         \
+    }
+
+#define IMP_DISTANCE_FORMULA(FORMULA)                                                              \
+    static IMP_UNUSED_ imp_status FORMULA##_distance(const void *self, const imp_model point[4],   \
+                                                     imp_model *distance)                          \
+    {                                                                                              \
+        return imp_distance_formula_(FORMULA, self, point, distance);                              \
     }
 
 #define IMP_MAP_FORMULA(FORMULA)                                                                   \

@@ -46,7 +46,7 @@ extern "C" {
  *     host reads no further than that size.
  *   - The caller owns every output buffer. Nothing is freed across the boundary.
  *   - Tables, names and texts live as long as the shared object is loaded.
- *   - After create, an instance never changes. eval, rate, include, apply, net and rigid
+ *   - After create, an instance never changes. eval, rate, include, apply, net, rigid and distance
  *     are pure: no allocation, no errno, no change of rounding mode or of any other
  *     floating-point setting, same answer every time, safe from many threads at
  *     once [thread-safe]. create and destroy are called by one thread at a time
@@ -289,6 +289,21 @@ typedef struct imp_surface_type {
      * [main-thread], like create */
     size_t (*piece_count)(const void *self);
     const void *(*piece)(const void *self, size_t k);
+
+    /* Capability `distance`; NULL, or a struct_size that ends before it: there is none.
+     *
+     * How far moving points stay from the whole surface. `point` holds models over one region of the
+     * x, y and z of a point that depends on the region's parameters, anywhere in space, and of t; their
+     * rates are not known and may be infinite. *distance becomes a model (a, b, q, e, lo, hi, as in
+     * imp_model; rates are ignored) of any g with
+     *
+     *   |g(p)| <= |(x, y, z)(p) - f(u, v, t(p))|   for every p of the region, all u and v of the domain
+     *
+     * for every point that the models allow. The best g is the signed distance, negative on one side,
+     * or a number near it that is smooth at the surface: where two surfaces slide along each other the
+     * host parts them by it. The distance from a larger surface, such as an endless cylinder, will
+     * do. IMP_UNBOUNDED: nothing is known there. [thread-safe] */
+    imp_status (*distance)(const void *self, const imp_model point[4], imp_model *distance);
 } imp_surface_type;
 
 #define IMP_PIECES_MAX ((size_t)1 << 24)
@@ -460,10 +475,11 @@ IMP_LAYOUT(offsetof(imp_model, depends) == 128);
 IMP_LAYOUT(sizeof(imp_net) == 2104 && offsetof(imp_net, place) == 16);
 IMP_LAYOUT(offsetof(imp_net, error) == 64 && offsetof(imp_net, point) == 88);
 IMP_LAYOUT(offsetof(imp_net, velocity) == 952 && offsetof(imp_net, weight) == 1816);
-IMP_LAYOUT(sizeof(imp_surface_type) == 136 && offsetof(imp_surface_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_surface_type) == 144 && offsetof(imp_surface_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_surface_type, create) == 64 && offsetof(imp_surface_type, include) == 104);
 IMP_LAYOUT(offsetof(imp_surface_type, net) == 112);
 IMP_LAYOUT(offsetof(imp_surface_type, piece_count) == 120);
+IMP_LAYOUT(offsetof(imp_surface_type, distance) == 136);
 IMP_LAYOUT(sizeof(imp_pose) == 1656 && offsetof(imp_pose, shift) == 1224);
 IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632);
 IMP_LAYOUT(sizeof(imp_map_type) == 128 && offsetof(imp_map_type, name) == 16);

@@ -101,6 +101,9 @@ static void types(void)
     FIELD(imp_surface_type, piece_count), FIELD(imp_surface_type, piece);
     CALL(imp_surface_type, piece_count, size_t (*)(const void *));
     CALL(imp_surface_type, piece, const void *(*)(const void *, size_t));
+    FIELD(imp_surface_type, distance);
+    CALL(imp_surface_type, distance,
+         imp_status(*)(const void *, const imp_model *, imp_model *));
     CALL(imp_surface_type, domain, void (*)(const void *, double *, double *));
     CALL(imp_surface_type, rate,
          imp_status(*)(const void *, const imp_region *, imp_rate_matrix *));

@@ -90,6 +90,13 @@ blamed() {
     [[ $output == *'pass  nets '*comparisons* ]]
 }
 
+@test "distances that are too large or too sure are exposed, and true ones are not" {
+    exposes distances liar_distance 'a distance of at least '
+    exposes distances liar_distance_remainder 'a distance of at least '
+    run -0 "$IMPINGE" check "$liars/liar_truthful_distance.so" --only distances
+    [[ $output == *'pass  distances '*comparisons* ]]
+}
+
 @test "a map's missing rates and wrong models are exposed" {
     exposes rates liar_map_rate 'the rates are too small'
     exposes inclusions liar_map_rate 'off the quadratic'

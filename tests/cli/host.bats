@@ -44,13 +44,13 @@ constructor_aborts: trial: loading it crashes: signal 6
 constructor_crashes: trial: loading it crashes: signal 11
 constructor_exits: trial: loading it ends the process with status 0; a plugin must not exit
 fp_mode: load: loading it changes the mode of arithmetic
-half_bad: types: half_bad: create is NULL; only include, apply, net and rigid may be
+half_bad: types: half_bad: create is NULL; only include, apply, net, rigid and distance may be
 newer_minor: abi: abi_minor is 77, the host'"'"'s is 0 and may not be less; use a newer host, or
 no_entry: entry: does not export the symbol impinge_plugin; define it by the macro IMPINGE_PLUGIN
 no_factory: types: get_factory knows neither impinge.surface/1 nor impinge.map/1
 no_note: note: has no Impinge note: it is not a plugin, or was built without the macro
 note_disagrees: entry: impinge_plugin says note_disagrees 2.0, ABI 1.0, but the note
-null_callback: types: null_callback: eval is NULL; only include, apply, net and rigid may be
+null_callback: types: null_callback: eval is NULL; only include, apply, net, rigid and distance may be
 null_string: entry: impinge_plugin: version, license or author is not a line of text; give all three
 undefined_symbol: nobody_defines_this; link it with every library it uses
 wrong_abi_major: abi: abi_major is 9, the host'"'"'s is 1; rebuild the plugin'
@@ -599,6 +599,12 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
     blames 'torus center=2,0,1 ! pose_depends_on_u' "! pose_depends_on_u' over t [0, 1]: a pose depends on more than time"
     blames 'torus center=2,0,1 ! pose_turns_backward' 'breaks its own bounds over u ['
     blames 'torus center=2,0,1 ! pose_turns_backward' 'breaks its own bounds over u [0, ' --audit
+}
+
+@test "distances that break the ABI end the query" {
+    takes distance_nan
+    fails 5 "type 'distance_nan': a distance from it has a remainder that is negative or NaN" pair \
+        distance_nan 'cylinder radius=.99 height=1 center=0,0,1 ! rotate rate=3' --gamma 1e-3
 }
 
 @test "callbacks that change the arithmetic end the query" {

@@ -10,6 +10,7 @@
 #include "tools/check/arguments.h"
 #include "tools/check/buffers.h"
 #include "tools/check/cost.h"
+#include "tools/check/distances.h"
 #include "tools/check/domain.h"
 #include "tools/check/environment.h"
 #include "tools/check/file.h"
@@ -54,6 +55,7 @@ static const check all[] = {
     {.name = "inclusions", .of_subject = inclusions_check, .of_bounds = true},
     {.name = "nets", .of_subject = nets_check},
     {.name = "poses", .of_subject = poses_check},
+    {.name = "distances", .of_subject = distances_check},
     {.name = "proof", .of_subject = proof_check, .of_bounds = true},
     {.name = "tightness", .of_subject = tightness_check},
     {.name = "cost", .of_subject = cost_check},
@@ -61,8 +63,8 @@ static const check all[] = {
 const char *const check_names[] = {
     "exports", "factories",   "parameters", "arguments",   "memory",  "finite",
     "domain",  "determinism", "state",      "environment", "buffers", "pieces",
-    "rates",   "errors",      "inclusions", "nets",        "poses",   "proof",
-    "tightness", "cost",      NULL};
+    "rates",   "errors",      "inclusions", "nets",        "poses",   "distances",
+    "proof",    "tightness", "cost",      NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");

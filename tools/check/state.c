@@ -175,10 +175,21 @@ static void ask_model(const subject *s, uint64_t *random)
     for (int k = 0; k < BOXES; ++k) subject_model(s, draw_box(random, &s->domain, s->n), model);
 }
 
+static void ask_distance(const subject *s, uint64_t *random)
+{
+    const box space = {{-2, -2, -2, s->domain.lo[2]}, {2, 2, 2, s->domain.lo[2]}};
+    for (int k = 0; k < BOXES && subject_has_distance(s); ++k) {
+        imp_model in[4], g;
+        const box where = draw_box(random, &space, 4);
+        subject_operands(&where, in);
+        subject_distance(s, in, &g);
+    }
+}
+
 static const struct {
     const char *name;
     ask *calls;
-} all[] = {{"eval", ask_eval}, {"rate", ask_rate}, {"include or apply", ask_model}};
+} all[] = {{"eval", ask_eval}, {"rate", ask_rate}, {"include or apply", ask_model}, {"distance", ask_distance}};
 enum { CALLS = sizeof all / sizeof *all };
 
 static bool leaves_alone(const subject *s, watch *w, uint64_t *random, size_t which)

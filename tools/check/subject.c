@@ -188,6 +188,26 @@ imp_status subject_rigid(const subject *s, const imp_model *t, imp_pose *pose)
     return noted(s, s->instance->map->rigid(s->instance->self, t, pose));
 }
 
+bool subject_has_distance(const subject *s)
+{
+    const imp_surface_type *type = s->instance->surface;
+    return type != NULL &&
+           type->struct_size >= offsetof(imp_surface_type, distance) + sizeof type->distance &&
+           type->distance != NULL;
+}
+
+imp_status subject_distance(const subject *s, const imp_model point[4], imp_model *distance)
+{
+    double lo[4], hi[4];
+    for (int i = 0; i < 4; ++i) {
+        lo[i] = point[i].lo;
+        hi[i] = point[i].hi;
+    }
+    note(s, "distance", 4, lo, hi);
+    memset(distance, 0xff, sizeof *distance);
+    return noted(s, s->instance->surface->distance(s->instance->self, point, distance));
+}
+
 void subject_operands(const box *where, imp_model in[4])
 {
     const imp_region region = imp_region_between(where->lo, where->hi);

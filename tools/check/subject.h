@@ -63,6 +63,10 @@ imp_status subject_map_net(const subject *s, const imp_region *region, imp_net *
 /* Only for maps that have it. */
 imp_status subject_rigid(const subject *s, const imp_model *t, imp_pose *pose);
 
+/* Whether it is a surface that has it, and for those. */
+bool subject_has_distance(const subject *s);
+imp_status subject_distance(const subject *s, const imp_model point[4], imp_model *distance);
+
 /* include or apply, whichever it has, over a box; a map's operands are x, y, z themselves, as if
  * they were u, v, t. IMP_OK with zeros: it has neither. */
 imp_status subject_model(const subject *s, box where, imp_model model[3]);

@@ -1,0 +1,160 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/distance.h"
+
+#include "core/solver/quadratic.h"
+#include "core/solver/tuning.h"
+
+/* --- Asking ------------------------------------------------------------------------------------ */
+
+bool distance_is_known(const node *n) { return n->many == NULL && surface_has_distance(n->surface); }
+
+/* The models of a node's points. A node keeps no rates. */
+static void point_models(const node *n, imp_model model[3])
+{
+    const quadratic3 *f = &n->f;
+    for (int i = 0; i < 3; ++i)
+        model[i] = (imp_model){.a = f->a[i],
+                               .b = {f->bu[i], f->bv[i], f->bt[i]},
+                               .q = {f->quu[i], f->quv[i], f->qut[i], f->qvv[i], f->qvt[i], f->qtt[i]},
+                               .e = n->e[i],
+                               .lo = n->lo[i],
+                               .hi = n->hi[i],
+                               .rate = {INFINITY, INFINITY, INFINITY},
+                               .depends = 7};
+}
+
+/* *known false: nothing is known. */
+static imp_code ask(const node *a, const node *b, imp_model *g, bool *known, imp_error *error)
+{
+    imp_model point[3];
+    point_models(a, point);
+    const imp_status status = surface_distance(b->surface, &a->region, point, g);
+    *known = status == IMP_OK;
+    if (status == IMP_OK || status == IMP_UNBOUNDED) return IMP_SUCCESS;
+    surface_fault(b->surface, error, ": %s", surface_status_told(b->surface, status).text);
+    return surface_set_code(status, error);
+}
+
+/* --- Judging ----------------------------------------------------------------------------------- */
+
+/* Both sides of g over a window: g >= low[0] + drift[0] w - e, and -g >= low[1] + drift[1] w - e. */
+typedef struct sides {
+    double low[2], drift[2];
+} sides;
+
+/* The window is t = mid + half w, w in [-1, 1]; half is rounded up. */
+typedef struct span {
+    double mid, half;
+} span;
+
+PAD_COVERS(4, 1); /* half: one difference */
+static span span_of(const time_window *window)
+{
+    const double mid = 0.5 * window->lo + 0.5 * window->hi;
+    const double above = window->hi - mid, below = mid - window->lo;
+    return (span){mid, padded_upper(above > below ? above : below, 4)};
+}
+
+/* Lemma. For fixed s_u, s_v the polynomial of g is q_tt s_t^2 and what is linear in s_t. So between two
+ * times, s - k and s + k, it lies above its chord, less q_tt k^2 where q_tt > 0. The least value of the
+ * chords over s_u, s_v lies above the chord between the least values G0 and G1 at either end. The same
+ * holds for -g. So
+ *
+ *   g >= (G0 + G1) / 2 + w (G1 - G0) / 2 - max(q_tt, 0) k^2 - e,
+ *
+ * |g| <= |x - y| for each point x of the node and each y of the surface: where that exceeds the
+ * clearance on either side, the node is farther away than it.
+ * Rounding, in units of u S, S = |a| + sum |b| + sum |q|, |s_t| <= 1 but for rounding:
+ *
+ *   s_t = s +- k at the ends  8: differences, quotients, sum: 4 of |b_t| + 2 |q_tt| + |q_ut| + |q_vt|
+ *   value in the middle       4: product, sum, product, sum
+ *   slopes at the ends        2: product, sum
+ *   least values              QUADRATIC_ROUNDING
+ *   G                         2: sum, of 2 S
+ *   their chord               6: sums of 2 S, and w_range_cut's
+ *   q_tt k^2                  4: quotient twice, products
+ *   low                       8: sums of at most 4 S
+ */
+enum { DISTANCE_ROUNDING = 128 };
+_Static_assert(8 + 4 + 2 + QUADRATIC_ROUNDING + 2 + 6 + 4 + 8 <= DISTANCE_ROUNDING,
+               "rounding along a distance");
+PAD_COVERS(16, 10 + 3); /* S; e with it, and taken off low */
+
+static double size_upper(const imp_model *g)
+{
+    double size = fabs(g->a);
+    for (int j = 0; j < 3; ++j) size += fabs(g->b[j]);
+    for (int k = 0; k < 6; ++k) size += fabs(g->q[k]);
+    return padded_upper(size, 16);
+}
+
+static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
+{
+    const double d = r->d[PARAMETER_T], s = d > 0 ? (w->mid - r->c[PARAMETER_T]) / d : 0;
+    const double reach = d > 0 ? w->half / d : 0;
+    const imp_quad t = {s - reach, s + reach, s - reach, s + reach}, sign = {1, 1, -1, -1};
+    const quadratics p = {sign * (imp_quad_all(g->b[0]) + imp_quad_all(g->q[IMP_UT]) * t),
+                          sign * (imp_quad_all(g->b[1]) + imp_quad_all(g->q[IMP_VT]) * t),
+                          sign * imp_quad_all(g->q[IMP_UU]), sign * imp_quad_all(g->q[IMP_UV]),
+                          sign * imp_quad_all(g->q[IMP_VV])};
+    const imp_quad middle =
+        imp_quad_all(g->a) + (imp_quad_all(g->b[2]) + imp_quad_all(g->q[IMP_TT]) * t) * t;
+    const imp_quad least = sign * middle + quadratics_lower(&p);
+    sides both;
+    for (int k = 0; k < 2; ++k) {
+        const double start = least[2 * k], end = least[2 * k + 1];
+        const double bend = k == 0 ? g->q[IMP_TT] : -g->q[IMP_TT];
+        both.low[k] = 0.5 * (start + end) - (bend > 0 ? bend * (reach * reach) : 0);
+        both.drift[k] = 0.5 * (end - start);
+    }
+    return both;
+}
+
+/* Whether the remainder is what hides that the node is apart: the polynomial alone is, or hardly varies beside
+ * the remainder, as where the surfaces are parallel. Then halves of the node, whose remainders are a small
+ * part of it, are worth more than those of its neighbours. Not of remainders that are mere rounding, nor of nodes
+ * so large that these say nothing of the surface. */
+static bool promises(const imp_model *g, const sides *both, const node *n, double clearance,
+                     double size)
+{
+    const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
+    double least[2];
+    if (!(g->e > TUNING_DISTANCE_ROUNDING * size && g->e < TUNING_DISTANCE_EXTENT * extent))
+        return false;
+    for (int k = 0; k < 2; ++k) least[k] = both->low[k] - fabs(both->drift[k]);
+    const double farther = least[0] > least[1] ? least[0] : least[1];
+    const bool is_level = -(least[0] + least[1]) < TUNING_DISTANCE_LEVEL * g->e;
+    return farther > clearance || (is_level && farther + g->e > clearance);
+}
+
+/* Where the remainder is too large, the range may still do. */
+static bool is_range_apart(const imp_model *g, double clearance)
+{
+    return g->lo > clearance || -g->hi > clearance;
+}
+
+imp_code distance_cut(const node *a, const node *b, double clearance, time_window *window,
+                      distance_view *view, imp_error *error)
+{
+    imp_model g;
+    bool known;
+    *view = (distance_view){false, false};
+    const imp_code code = ask(a, b, &g, &known, error);
+    if (code != IMP_SUCCESS || !known) return code;
+    view->is_apart = is_range_apart(&g, clearance);
+    const double size = size_upper(&g);
+    if (view->is_apart || !(size < 0x1p400)) return IMP_SUCCESS;
+    const span whole = span_of(window);
+    const sides both = sides_of(&g, &a->region, &whole);
+    const double slack = padded_upper(g.e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) +
+                         QUADRATIC_UNDERFLOW;
+    w_range s = {-1, 1};
+    for (int k = 0; k < 2 && !view->is_apart; ++k)
+        view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], clearance);
+    view->is_promising = !view->is_apart && promises(&g, &both, a, clearance, size);
+    if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
+    return IMP_SUCCESS;
+}

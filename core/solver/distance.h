@@ -1,0 +1,32 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_DISTANCE_H
+#define CORE_SOLVER_DISTANCE_H
+
+#include <impinge/impinge.h>
+
+#include "core/solver/relative.h"
+
+/* One-sided separation: a node's distance from a whole surface
+ * ============================================================
+ * Where surfaces slide along each other, a node has many neighbours on the other surface, each of which
+ * has to be parted from it. The signed distance from the other surface, where its type knows it
+ * (imp_surface_type.distance), parts the node from all of them at once: it is a Taylor model over the
+ * node, in which what is parallel cancels, however small the gap. */
+
+/* What a node's distance from the surface of another shows over a window. */
+typedef struct distance_view {
+    bool is_apart;     /* farther than the clearance all the time */
+    bool is_promising; /* no: but halves of the node, which have smaller remainders, may be */
+} distance_view;
+
+/* Whether distances from the surface of n are known. */
+bool distance_is_known(const node *n);
+
+/* Cuts the window, which lies in both nodes' times, to the times at which points of `a` may be within the
+ * clearance of the whole surface of `b`; empty: *view says so, and the window stays. Preconditions:
+ * distance_is_known(b); both bounded. IMP_ERROR_PLUGIN: the callback breaks the ABI. */
+imp_code distance_cut(const node *a, const node *b, double clearance, time_window *window,
+                      distance_view *view, imp_error *error);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef PLUGINS_COMMON_SQUARES_H
+#define PLUGINS_COMMON_SQUARES_H
+
+#include <impinge/formula.h>
+
+/* Distances by their squares
+ * ==========================
+ * How far a point is from a round surface needs the root of a sum of squares. It is left out: the difference
+ * of two squares, times a number, is as sharp a bound near the surface, smooth everywhere, and terms
+ * of third order cancel in its sum. */
+
+/* x[0]^2 + ... + x[n-1]^2, n <= 3. */
+static inline imp_model sum_of_squares(const imp_model *x, int n)
+{
+    imp_model all[3] = {imp_num(0), imp_num(0), imp_num(0)};
+    imp_interval range = imp_interval_make(0, 0);
+    for (int i = 0; i < n; ++i) {
+        all[i] = x[i];
+        range = imp_interval_add(range, imp_interval_sqr(imp_model_range(&x[i])));
+    }
+    return imp_model_within(imp_dot3(all, all), range);
+}
+
+/* At least the root of the greatest value of a model that is never negative. */
+static inline double greatest_root_upper(const imp_model *square)
+{
+    return imp_round_up(sqrt(imp_larger(square->hi, 0)));
+}
+
+/* 1 / x at most, for x > 0. */
+static inline double inverse_lower(double x) { return imp_round_down(1 / x); }
+
+/* From q^2, q >= 0, a g with |g| <= |q - r| and the sign of q - r; r > 0. Lemma. q^2 - r^2 = (q - r)
+ * (q + r), and 0 < q + r <= Q + r where q <= Q. A factor that underflows, or is 1 / infinity, is not
+ * above 0 and taken as 0. */
+static inline imp_model beyond_radius(imp_model square, double r)
+{
+    const double factor = inverse_lower(imp_sum_up(greatest_root_upper(&square) + r));
+    return imp_scale(imp_sub(square, imp_sqr(imp_num(r))), imp_larger(factor, 0));
+}
+
+#endif

@@ -1,0 +1,195 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <errno.h>
+#include <string.h>
+
+#include "tests/support/built_plugins.h"
+#include "tests/support/instance.h"
+#include "tests/support/sampling.h"
+#include "tests/support/suite.h"
+
+/* Distances of the built types from random moving points against the exact ones in numbers of 200 bits: from
+ * whole cylinders, cones and planes, which are no nearer than their parts. */
+
+enum { REGIONS = 400, POINTS = 6 };
+
+typedef struct row {
+    const char *type, *parameters;
+    number (*exact)(const type_arguments *arguments, const number x[3]);
+} row;
+
+static number from(const type_arguments *arguments, const char *name, const number x[3], size_t i)
+{
+    return num_sub(x[i], argument_at(arguments, name, i));
+}
+
+static number across(const type_arguments *a, const number x[3])
+{
+    return num_hypot(from(a, "center", x, 0), from(a, "center", x, 1));
+}
+
+static number sphere(const type_arguments *a, const number x[3])
+{
+    const number to_center = num_hypot(across(a, x), from(a, "center", x, 2));
+    return num_abs(num_sub(to_center, argument_at(a, "radius", 0)));
+}
+
+static number cylinder(const type_arguments *a, const number x[3])
+{
+    return num_abs(num_sub(across(a, x), argument_at(a, "radius", 0)));
+}
+
+static number torus(const type_arguments *a, const number x[3])
+{
+    const number q = num_sub(across(a, x), argument_at(a, "major_radius", 0));
+    const number to_middle = num_hypot(q, from(a, "center", x, 2));
+    return num_abs(num_sub(to_middle, argument_at(a, "minor_radius", 0)));
+}
+
+/* From the line through (r, 0) and (0, h). */
+static number cone(const type_arguments *a, const number x[3])
+{
+    const number h = argument_at(a, "height", 0), r = argument_at(a, "radius", 0);
+    const number up = num_mul(r, num_sub(from(a, "center", x, 2), h));
+    return num_div(num_abs(num_add(num_mul(h, across(a, x)), up)), num_hypot(h, r));
+}
+
+static number plane(const type_arguments *a, const number x[3])
+{
+    number n[3], sum = num(0), square = num(0);
+    for (size_t i = 0; i < 3; ++i) {
+        const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = num_sub(num_mul(argument_at(a, "edge_u", j), argument_at(a, "edge_v", k)),
+                       num_mul(argument_at(a, "edge_u", k), argument_at(a, "edge_v", j)));
+        sum = num_add(sum, num_mul(n[i], from(a, "origin", x, i)));
+        square = num_add(square, num_sqr(n[i]));
+    }
+    return num_div(num_abs(sum), num_sqrt(square));
+}
+
+static const row rows[] = {
+    {"sphere", "{\"radius\": +, \"center\": [?, ?, ?]}", sphere},
+    {"sphere", "{\"radius\": 1}", sphere},
+    {"cylinder", "{\"radius\": +, \"height\": +, \"center\": [?, ?, ?]}", cylinder},
+    {"cylinder", "{\"radius\": 1}", cylinder},
+    {"torus", "{\"major_radius\": 5, \"minor_radius\": +, \"center\": [?, ?, ?]}", torus},
+    {"torus", "{\"major_radius\": 1, \"minor_radius\": 1}", torus},
+    {"cone", "{\"radius\": +, \"height\": +, \"center\": [?, ?, ?]}", cone},
+    {"cone", "{\"radius\": +, \"height\": -2}", cone},
+    {"cone", "{\"radius\": 1, \"height\": 1e-3}", cone},
+    {"cone", "{\"radius\": +, \"height\": 0, \"center\": [?, ?, ?]}", cone},
+    {"plane", "{\"origin\": [?, ?, ?], \"edge_u\": [?, ?, ?], \"edge_v\": [?, ?, ?]}", plane},
+    {"plane", "{\"edge_u\": [1e60, 0, 3e60], \"edge_v\": [0, 1e-60, ?]}", plane},
+};
+enum { ROWS = sizeof rows / sizeof *rows };
+
+/* Polynomial of g at s. */
+static number value_at(const imp_model *g, const number s[3])
+{
+    number x = num(g->a);
+    for (int j = 0; j < 3; ++j) x = num_add(x, num_mul(num(g->b[j]), s[j]));
+    for (int j = 0, k = 0; j < 3; ++j)
+        for (int l = j; l < 3; ++l, ++k) x = num_add(x, num_mul(num(g->q[k]), num_mul(s[j], s[l])));
+    return x;
+}
+
+/* Whether both some g with |g| <= exact is left by polynomial and remainder, and by the range. */
+static bool holds(const imp_model *g, const number s[3], number exact)
+{
+    const number off = num_sub(num_abs(value_at(g, s)), num(g->e));
+    const number beyond = num(g->lo > 0 ? g->lo : g->hi < 0 ? -g->hi : 0);
+    return !num_is_less(exact, off) && !num_is_less(exact, beyond);
+}
+
+typedef struct tally {
+    size_t judged, refuted;
+    double sharpest; /* of what is claimed, the greatest part of what is true */
+} tally;
+
+/* Remainders times `share`, g times `factor`. */
+static void try_points(const row *r, const instance *made, const sample_models *models,
+                       const imp_model *g, uint64_t *random, tally *t)
+{
+    for (int k = 0; k < POINTS; ++k) {
+        double p[3];
+        number x[4], s[3];
+        num_forget();
+        sample_point(random, 3, models->region.lo, models->region.hi, p);
+        sample_value(models, p, x);
+        sample_normalized(&models->region, p, s);
+        const number exact = r->exact(&made->arguments, x);
+        const double claimed = num_near(num_sub(num_abs(value_at(g, s)), num(g->e)));
+        t->judged += 1;
+        t->refuted += !holds(g, s, exact);
+        if (num_near(exact) > 0 && claimed / num_near(exact) > t->sharpest)
+            t->sharpest = claimed / num_near(exact);
+    }
+}
+
+static tally try_row(const imp_registry *registry, const row *r, double share, double factor)
+{
+    tally t = {0, 0, 0};
+    uint64_t random = suite_seed() + (uint64_t)(r - rows);
+    instance made = instance_make(registry, r->type, r->parameters, &random);
+    for (int k = 0; k < suite_times(REGIONS); ++k) {
+        sample_models models = sample_map_arguments(&random, -INFINITY, INFINITY);
+        imp_model g;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) models.in[i].rate[j] = INFINITY;
+        errno = 0;
+        const imp_status status = made.surface->distance(made.self, models.in, &g);
+        ck_assert_msg(status == IMP_OK || status == IMP_UNBOUNDED, "%s: %d", r->type, status);
+        ck_assert_int_eq(errno, 0);
+        if (status == IMP_UNBOUNDED) continue;
+        ck_assert(g.e >= 0 && g.lo <= g.hi);
+        g.e *= share * factor;
+        g.a *= factor;
+        for (int j = 0; j < 3; ++j) g.b[j] *= factor;
+        for (int j = 0; j < 6; ++j) g.q[j] *= factor;
+        try_points(r, &made, &models, &g, &random, &t);
+    }
+    instance_free(&made);
+    return t;
+}
+
+START_TEST(no_distance_is_claimed_that_is_greater_than_the_exact_one)
+{
+    imp_registry *registry = built_registry();
+    for (size_t k = 0; k < ROWS; ++k) {
+        const tally t = try_row(registry, &rows[k], 1, 1);
+        ck_assert_msg(t.judged > REGIONS && t.refuted == 0, "%s %s: %zu of %zu refuted",
+                      rows[k].type, rows[k].parameters, t.refuted, t.judged);
+        ck_assert_msg(t.sharpest > 0.5, "%s %s claims %g of the distance at most", rows[k].type,
+                      rows[k].parameters, t.sharpest);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+/* The test above must be able to fail. */
+START_TEST(distances_that_are_too_large_are_found)
+{
+    imp_registry *registry = built_registry();
+    for (size_t k = 0; k < ROWS; ++k) {
+        const tally large = try_row(registry, &rows[k], 1, 1.5);
+        const tally sure = try_row(registry, &rows[k], -1, 1);
+        ck_assert_msg(large.refuted > 0 && sure.refuted > 0, "%s %s: %zu, %zu refuted",
+                      rows[k].type, rows[k].parameters, large.refuted, sure.refuted);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+START_TEST(a_torus_that_intersects_itself_has_no_distance)
+{
+    imp_registry *registry = built_registry();
+    const row wide = {"torus", "{\"major_radius\": 1, \"minor_radius\": 1.5}", torus};
+    ck_assert_uint_eq(try_row(registry, &wide, 1, 1).judged, 0);
+    imp_registry_free(registry);
+}
+END_TEST
+
+SUITE_MAIN("distances", no_distance_is_claimed_that_is_greater_than_the_exact_one,
+           distances_that_are_too_large_are_found, a_torus_that_intersects_itself_has_no_distance)
