@@ -279,8 +279,11 @@ static void patch_rational(const patch *f, const imp_region *region, imp_model m
 
 imp_status patch_include(const patch *f, const imp_region *region, imp_model model[3])
 {
-    imp_status status = patch_region_status(region);
-    if (status != IMP_OK) return status;
+    const imp_status status = patch_region_status(region);
+    if (status != IMP_OK) {
+        for (int i = 0; i < 3; ++i) model[i] = imp_unbounded(7);
+        return status;
+    }
     if (f->rational)
         patch_rational(f, region, model);
     else if (imp_quad_is_wide())

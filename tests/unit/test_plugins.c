@@ -429,6 +429,48 @@ START_TEST(every_built_type_has_an_oracle)
 }
 END_TEST
 
+/* The times from -late to late, as far as they are within lo and hi. False: none. */
+static bool take_late_times(double late, imp_region *region, double lo[3], double hi[3])
+{
+    lo[2] = imp_larger(lo[2], -late);
+    hi[2] = imp_smaller(hi[2], late);
+    if (!(lo[2] <= hi[2])) return false;
+    *region = region_make(lo, hi);
+    return true;
+}
+
+/* Where there are no bounds the models say so: what was in them before is no bound. */
+static void try_late(trial *t)
+{
+    const instance *made = t->instance;
+    for (double late = 1; late <= 1e300; late *= 1e13) {
+        double lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0};
+        imp_region region;
+        imp_model model[3] = {{.e = -1}, {.e = -1}, {.e = -1}};
+        if (made->surface != NULL)
+            made->surface->domain(made->self, lo, hi);
+        else
+            made->map->time_domain(made->self, &lo[2], &hi[2]);
+        if (!take_late_times(late, &region, lo, hi)) continue;
+        const imp_model in[4] = {imp_num(1), imp_num(2), imp_num(3), imp_param(&region, 2)};
+        expect_status(t,
+                      made->surface != NULL ? made->surface->include(made->self, &region, model)
+                                            : made->map->apply(made->self, in, model),
+                      "late times");
+        for (int i = 0; i < 3; ++i)
+            ck_assert_msg(model[i].e >= 0 && model[i].lo <= model[i].hi,
+                          "%s %.300s over t [%g, %g]: coordinate %d was not set", made->view.name,
+                          made->text, region.lo[2], region.hi[2], i);
+    }
+}
+
+START_TEST(models_are_set_where_times_are_too_late_for_bounds)
+{
+    for_each_instance(true, try_late, whole, NULL);
+    for_each_instance(false, try_late, whole, NULL);
+}
+END_TEST
+
 /* Many points at once are what each is alone, and errors may be left out. */
 static void try_batch(trial *t)
 {
@@ -455,4 +497,5 @@ SUITE_MAIN("plugins", every_built_type_has_an_oracle,
            every_point_model_and_rate_of_a_surface_holds_against_its_formula,
            every_point_model_and_rate_of_a_map_holds_against_its_formula,
            bounds_that_are_too_low_are_found, nets_without_their_errors_are_found,
-           poses_without_their_remainders_are_found, a_batch_of_points_is_the_points_one_by_one)
+           poses_without_their_remainders_are_found,
+           models_are_set_where_times_are_too_late_for_bounds, a_batch_of_points_is_the_points_one_by_one)
