@@ -23,7 +23,8 @@ typedef struct candidate_pair {
     candidate *side[2];
 } candidate_pair;
 
-/* Measures eval_error of both: once for each surface of a query, not for each of its pairs. */
+/* Measures eval_error of both, unless it is known: once for each surface of a query, and only of those whose
+ * pairs are followed. */
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
 
 /* What lies in both; lo > hi: nothing. */

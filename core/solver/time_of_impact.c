@@ -43,17 +43,14 @@ static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
 
 imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, imp_error *error)
 {
-    const candidate_pair *both = &im->candidate_pairs[index];
-    const size_t before = im->heap.count;
     pair_test t;
     *state = IMPACT_NO_MEMORY;
     if (!pair_heap_reserve(&im->heap, 1)) return IMP_SUCCESS;
     const imp_code code = pair_test_candidate(im, index, &t, error);
     if (code == IMP_ERROR_MEMORY) return IMP_SUCCESS;
     *state = IMPACT_RUNNING;
-    if (code != IMP_SUCCESS || !t.any_time) return code;
-    push_tested(im, &t);
-    return im->heap.count == before ? IMP_SUCCESS : candidate_pair_measure(both, error);
+    if (code == IMP_SUCCESS && t.any_time) push_tested(im, &t);
+    return code;
 }
 
 /* --- Splitting ---------------------------------------------------------------------------- */
@@ -255,6 +252,8 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
 
 static imp_code follow(impact *im, pair *p, impact_state *state, imp_error *error)
 {
+    const imp_code code = candidate_pair_measure(candidate_pair_of(im, p), error);
+    if (code != IMP_SUCCESS) return code;
     if (!p->a->bounded || !p->b->bounded) return follow_unbounded(im, p, state, error);
     return im->method == IMP_METHOD_PAPER ? follow_paper(im, p, state, error)
                                           : follow_models(im, p, state, error);
