@@ -33,6 +33,7 @@ static imp_options options_of(const imp_scene *scene, const bench_case *c, const
     o.method = m->method;
     o.bounds = m->bounds;
     o.rates = m->rates;
+    o.max_bytes = 0; /* memory is measured, not limited */
     if (m->capped) o.max_pairs = request->max_pairs;
     return o;
 }
