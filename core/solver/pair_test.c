@@ -19,31 +19,25 @@ bool pair_test_fully(const impact *im, pair *p)
 
 /* --- The first test --------------------------------------------------------------------------- */
 
-/* Beside a node without a net only a curved one is of use. Where the parent's is not curved, or was not asked
- * for because that of its own parent is not, halves have no other; a cluster says nothing of its pieces. */
-static bool may_be_curved(const node *n)
-{
-    if (n->parent == NULL || n->parent->many != NULL) return true;
-    const net *made = atomic_load_explicit(&n->parent->net, memory_order_acquire);
-    return made == &net_none || (made != NULL && net_is_curved(made));
-}
-
-/* Hulls part two nodes where both have a net, or one that is curved: only then are nets made. Every later
- * test of the pair finds what is found here. */
+/* Hulls part two nodes where one of them bends and has a net: nets are made of those that may have one.
+ * Every later test of the pair finds what is found here. */
 static imp_code ask_for_nets(const impact *im, pair_test *t, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[t->p.candidate_pair];
     node *const nodes[2] = {t->p.a, t->p.b};
-    const net *of_a = NULL, *of_b;
+    bool offers[2], useful = false;
     tree_growth growth = {0};
     imp_code code = IMP_SUCCESS;
     if (im->method == IMP_METHOD_PAPER) return IMP_SUCCESS;
-    const bool second = surface_offers_net(nodes[1]->surface);
-    const bool wanted = second || may_be_curved(nodes[0]);
-    if (wanted && surface_offers_net(nodes[0]->surface))
-        code = node_net(both->side[0]->tree, nodes[0], &of_a, &growth, error);
-    if (code == IMP_SUCCESS && second && (of_a != NULL || may_be_curved(nodes[1])))
-        code = node_net(both->side[1]->tree, nodes[1], &of_b, &growth, error);
+    for (int side = 0; side < 2; ++side) {
+        offers[side] = surface_offers_net(nodes[side]->surface);
+        useful = useful || (offers[side] && node_bends(nodes[side]));
+    }
+    for (int side = 0; side < 2 && useful && code == IMP_SUCCESS; ++side) {
+        const net *found;
+        if (offers[side])
+            code = node_net(both->side[side]->tree, nodes[side], &found, &growth, error);
+    }
     t->bytes += growth.bytes;
     return code;
 }

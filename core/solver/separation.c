@@ -86,12 +86,17 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
 
 /* --- Nets -------------------------------------------------------------------------------------- */
 
+/* Asked for by each pair of it (pair_test.c), so that a test depends on its two nodes alone. */
+static bool has_useful_net(const node *n)
+{
+    const net *made = node_net_made(n);
+    return made != NULL && net_is_curved(made) && node_bends(n);
+}
+
 /* Of bilinear patches quadratics say all that hulls do; one net is enough. */
 static bool have_nets(const node *a, const node *b)
 {
-    const net *f = node_net_made(a), *g = node_net_made(b);
-    return a->bounded && b->bounded &&
-           ((f != NULL && net_is_curved(f)) || (g != NULL && net_is_curved(g)));
+    return a->bounded && b->bounded && (has_useful_net(a) || has_useful_net(b));
 }
 
 static bool seek_by_nets(const node *a, const node *b, double t, vec3 *axis)

@@ -115,6 +115,14 @@ static inline const net *node_net_made(const node *n)
     return made != &net_none ? made : NULL;
 }
 
+/* Whether its quadratic bends along u or v; of one that does not a net would say no more. */
+static inline bool node_bends(const node *n)
+{
+    bool bends = false;
+    for (int i = 0; i < 3; ++i) bends = bends || n->f.quu[i] != 0 || n->f.qvv[i] != 0;
+    return bends;
+}
+
 /* Why there is no going on at a node without bounds that cannot be halved: IMP_ERROR_PLUGIN names
  * the type, and the place where it is undefined or the region over which it has no bounds. */
 imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error);
