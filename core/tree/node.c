@@ -437,6 +437,7 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
     }
     memset(copy->root, 0, sizeof *copy->root);
     memcpy(copy->root, t->root, offsetof(node, net)); /* what is before, which no thread changes */
+    copy->posing.root = copy->root;
     growth->bytes += sizeof *copy + of_root.bytes;
     *made = copy;
     return IMP_SUCCESS;

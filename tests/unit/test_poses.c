@@ -345,6 +345,24 @@ START_TEST(shapes_are_shared_by_all_times_and_spans_by_all_places)
 }
 END_TEST
 
+START_TEST(a_tree_from_the_root_of_another_has_shapes_and_spans_of_its_own)
+{
+    uint64_t state = suite_seed();
+    tree_growth growth = {0};
+    moved_egg *e = egg_make(&state, 0, false, 1);
+    node *of_first = child_of(e, tree_root(e->t), PARAMETER_T, 0);
+    tree *first = e->t;
+    ck_assert_int_eq(tree_new_from_root(first, &e->t, &growth, NULL), IMP_SUCCESS);
+    const node *of_second = child_of(e, tree_root(e->t), PARAMETER_T, 0);
+    ck_assert(of_second->shape != NULL && of_second->span != NULL);
+    ck_assert_ptr_ne(of_first->shape, of_second->shape);
+    ck_assert_mem_eq(&of_first->f, &of_second->f, sizeof of_first->f);
+    ck_assert_mem_eq(of_first->e, of_second->e, sizeof of_first->e);
+    tree_free(first);
+    egg_free(e);
+}
+END_TEST
+
 /* Together the remainders are no larger than those of the inclusion through the maps. */
 START_TEST(remainders_are_no_larger_than_through_the_maps)
 {
@@ -370,4 +388,5 @@ SUITE_MAIN("poses", the_image_of_a_shape_lies_in_its_node, what_depends_on_time_
            nodes_under_chains_of_rigid_maps_hold_their_points,
            what_deforms_or_moves_by_itself_is_bounded_as_before,
            shapes_are_shared_by_all_times_and_spans_by_all_places,
+           a_tree_from_the_root_of_another_has_shapes_and_spans_of_its_own,
            remainders_are_no_larger_than_through_the_maps)
