@@ -131,3 +131,19 @@ END
     build_in demo
     run -7 "$top/build/demo/main"
 }
+
+# --- Coverage ---------------------------------------------------------------------------------
+
+@test "coverage says of lines that were not run in which function they are, and why" {
+    mkdir -p "$BATS_TEST_TMPDIR/tools" && cd "$BATS_TEST_TMPDIR"
+    printf '# FILE KIND\n= child ends by SIGKILL\ncore/a.c:serve child\n' >tools/coverage.gaps
+    line() { echo "{\"line_number\": $1, \"count\": $2, \"function_name\": \"$3\", \"branches\": [{\"count\": $2}]}"; }
+    echo "{\"files\": [{\"file\": \"$PWD/core/a.c\", \"lines\": [$(line 1 7 ask), $(line 2 0 ask),
+        $(line 5 0 serve), $(line 6 0 serve)]}]}" | tr -d '\n' >counts
+    run -0 python3 "$top_srcdir/tools/coverage.py" . -m <counts
+    echo "$output"
+    [ "${lines[2]}" = '    not run: ask 2 (unexplained)' ]
+    [ "${lines[3]}" = '    not run: serve 5-6 (child)' ]
+    [[ ${lines[4]} == 'core/ in all '*' 1 of     4   25.0 % '*' 1 of     4   25.0 %' ]]
+    [ "${lines[6]}" = '    2 lines not run, child: ends by SIGKILL' ]
+}
