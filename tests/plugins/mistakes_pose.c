@@ -135,6 +135,15 @@ static imp_status of_u(const void *self, const imp_model *t, imp_pose *pose)
 }
 MISTAKE(pose_depends_on_u, turn, of_u);
 
+static long asked;
+
+static imp_status remember(const void *self, const imp_model *t, imp_pose *pose)
+{
+    asked += 1;
+    return turn_rigid(self, t, pose);
+}
+MISTAKE(pose_remembers, turn, remember);
+
 MISTAKE(pose_of_a_wave, wave, turn_rigid);
 MISTAKE(pose_mirrors, mirror, mirror_rigid);
 MISTAKE(pose_swells, swell, swell_rigid);
@@ -144,7 +153,7 @@ static const imp_map_type *const maps[] = {
     &pose_remainder_halved_type, &pose_rate_halved_type,   &pose_range_halved_type,
     &pose_of_one_moment_type,    &pose_turns_backward_type, &pose_without_pivot_type,
     &pose_depends_on_u_type,     &pose_mirrors_type,        &pose_swells_type,
-    &pose_of_a_wave_type,        &pose_no_mistake_type};
+    &pose_of_a_wave_type,        &pose_remembers_type,      &pose_no_mistake_type};
 static const imp_map_factory factory = {sizeof factory, sizeof maps / sizeof *maps, maps};
 
 static const void *get_factory(const char *id)

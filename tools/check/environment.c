@@ -159,6 +159,11 @@ static bool calls_keep(const watch *w, const subject *s)
         if (!is_kept(w, "rate")) return false;
         subject_model(s, where, model);
         if (!is_kept(w, s->n == 3 ? "include" : "apply")) return false;
+        if (!subject_is_rigid(s)) continue;
+        const imp_region span = subject_span(&where);
+        imp_pose pose;
+        subject_pose(s, &span, &pose);
+        if (!is_kept(w, "rigid")) return false;
     }
     return true;
 }

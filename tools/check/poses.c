@@ -7,9 +7,7 @@
 #include <float.h>
 #include <impinge/formula.h>
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { SPANS = 1000, TIMES = 5, ENTRIES = 12 };
 
@@ -209,11 +207,9 @@ static bool judge_image(const subject *s, uint64_t *random, const imp_region *sp
 static bool judge_span(const subject *s, uint64_t *random)
 {
     const box where = draw_box(random, &s->domain, 4);
-    const imp_region span = imp_region_between(where.lo + 1, where.hi + 1); /* of y, z, t */
-    imp_model t = imp_param(&span, 2);
+    const imp_region span = subject_span(&where);
     imp_pose pose;
-    if (!(span.d[2] > 0)) t = imp_num(span.c[2]);
-    const imp_status status = subject_rigid(s, &t, &pose);
+    const imp_status status = subject_pose(s, &span, &pose);
     if (status == IMP_UNBOUNDED) return true;
     if (status != IMP_OK)
         return answer_fail(s->answer, "rigid returned '%s' over %s", subject_status_name(status),
@@ -240,10 +236,8 @@ static bool judge_span(const subject *s, uint64_t *random)
 
 void poses_check(const subject *s, uint64_t *random, double effort)
 {
-    const imp_map_type *map = s->instance->map;
-    if (map == NULL || map->struct_size < offsetof(imp_map_type, rigid) + sizeof map->rigid ||
-        map->rigid == NULL) {
-        answer_skip(s->answer, map == NULL ? "only maps have poses" : "the map has no pose");
+    if (!subject_is_rigid(s)) {
+        answer_skip(s->answer, s->n == 3 ? "only maps have poses" : "the map has no pose");
         return;
     }
     const double count = SPANS * effort;

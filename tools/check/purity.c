@@ -24,7 +24,8 @@ typedef struct answers {
     double x[POINTS * 3], error[POINTS * 3];
     double rate[BOXES][3][BOX_DIMS];
     imp_model model[BOXES][3];
-    double status[1 + 2 * BOXES];
+    imp_pose pose[BOXES];
+    double status[1 + 3 * BOXES];
 } answers;
 
 static void draw_questions(const subject *s, uint64_t *random, questions *q)
@@ -41,6 +42,9 @@ static void ask(const subject *s, const questions *q, answers *a)
     for (int k = 0; k < BOXES; ++k) {
         a->status[1 + 2 * k] = subject_rate(s, &q->where[k], a->rate[k]);
         a->status[2 + 2 * k] = subject_model(s, q->where[k], a->model[k]);
+        if (!subject_is_rigid(s)) continue;
+        const imp_region span = subject_span(&q->where[k]);
+        a->status[1 + 2 * BOXES + k] = subject_pose(s, &span, &a->pose[k]);
     }
 }
 
@@ -52,6 +56,7 @@ static bool same(const subject *s, const answers *a, const answers *b, const cha
                           : memcmp(a->error, b->error, sizeof a->error) != 0 ? "eval's errors"
                           : memcmp(a->rate, b->rate, sizeof a->rate) != 0    ? "the rates"
                           : memcmp(a->model, b->model, sizeof a->model) != 0 ? "the models"
+                          : memcmp(a->pose, b->pose, sizeof a->pose) != 0    ? "the poses"
                           : memcmp(a->status, b->status, sizeof a->status)   ? "the statuses"
                                                                              : NULL;
     s->answer->tests += POINTS + 2 * BOXES;

@@ -186,10 +186,24 @@ static void ask_distance(const subject *s, uint64_t *random)
     }
 }
 
+static void ask_pose(const subject *s, uint64_t *random)
+{
+    imp_pose pose;
+    for (int k = 0; k < BOXES; ++k) {
+        const box where = draw_box(random, &s->domain, s->n);
+        const imp_region span = subject_span(&where);
+        if (subject_is_rigid(s)) subject_pose(s, &span, &pose);
+    }
+}
+
 static const struct {
     const char *name;
     ask *calls;
-} all[] = {{"eval", ask_eval}, {"rate", ask_rate}, {"include or apply", ask_model}, {"distance", ask_distance}};
+} all[] = {{"eval", ask_eval},
+           {"rate", ask_rate},
+           {"include or apply", ask_model},
+           {"rigid", ask_pose},
+           {"distance", ask_distance}};
 enum { CALLS = sizeof all / sizeof *all };
 
 static bool leaves_alone(const subject *s, watch *w, uint64_t *random, size_t which)

@@ -180,12 +180,25 @@ imp_status subject_map_net(const subject *s, const imp_region *region, imp_net *
     return noted(s, s->instance->map->net(s->instance->self, region, net));
 }
 
-imp_status subject_rigid(const subject *s, const imp_model *t, imp_pose *pose)
+bool subject_is_rigid(const subject *s)
 {
-    const double lo[4] = {0, 0, 0, t->lo}, hi[4] = {0, 0, 0, t->hi};
-    note(s, "rigid", 4, lo, hi);
+    const imp_map_type *map = s->instance->map;
+    return map != NULL && map->struct_size >= offsetof(imp_map_type, rigid) + sizeof map->rigid &&
+           map->rigid != NULL;
+}
+
+imp_region subject_span(const box *where)
+{
+    return imp_region_between(where->lo + 1, where->hi + 1); /* of y, z, t */
+}
+
+imp_status subject_pose(const subject *s, const imp_region *span, imp_pose *pose)
+{
+    const imp_model t = span->d[2] > 0 ? imp_param(span, 2) : imp_num(span->c[2]);
     memset(pose, 0, sizeof *pose);
-    return noted(s, s->instance->map->rigid(s->instance->self, t, pose));
+    if (!subject_is_rigid(s)) return IMP_OK;
+    note(s, "rigid", 3, span->lo, span->hi);
+    return noted(s, s->instance->map->rigid(s->instance->self, &t, pose));
 }
 
 bool subject_has_distance(const subject *s)

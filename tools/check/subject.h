@@ -60,8 +60,12 @@ imp_status subject_apply(const subject *s, const imp_model in[4], imp_model out[
 imp_status subject_net(const subject *s, const imp_region *region, imp_net *net);
 imp_status subject_map_net(const subject *s, const imp_region *region, imp_net *net);
 
-/* Only for maps that have it. */
-imp_status subject_rigid(const subject *s, const imp_model *t, imp_pose *pose);
+/* Whether it is a map that has poses; that over the times of a box. IMP_OK with zeros: it has none. */
+bool subject_is_rigid(const subject *s);
+imp_status subject_pose(const subject *s, const imp_region *span, imp_pose *pose);
+
+/* The region whose times are those of a box of a map: for poses. */
+imp_region subject_span(const box *where);
 
 /* Whether it is a surface that has it, and for those. */
 bool subject_has_distance(const subject *s);
