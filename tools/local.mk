@@ -187,6 +187,7 @@ pkgdata_DATA = \
     tools/data/blade.json \
     tools/data/bolt.json \
     tools/data/bowl.json \
+    tools/data/die.json \
     tools/data/page.html \
     tools/data/pebble.json \
     tools/data/recoil.json \

@@ -59,18 +59,40 @@ enum { BASIS_ROUNDINGS = 11 };
 
 /* --- The patch ----------------------------------------------------------------------------------- */
 
-/* Roundings of a number of the net: patch_set_net's 2. A point may itself be the difference of two, which
- * the caller counts. */
+/* The middle of the numbers, how far they are from it, and what is left of them: one rounding each. */
+static void set_group(const imp_quad in[SPLINE_POINTS], int groups, double middle[4], double radius[4],
+                      double most[4], imp_quad *net)
+{
+    imp_quad lo = in[0], hi = in[0], greatest = {0};
+    for (int k = 1; k < SPLINE_POINTS; ++k) {
+        lo = imp_quad_min(in[k], lo);
+        hi = imp_quad_max(in[k], hi);
+    }
+    const imp_quad centre = lo + 0.5 * (hi - lo);
+    for (int k = 0; k < SPLINE_POINTS; ++k) {
+        net[k * groups] = in[k] - centre;
+        greatest = imp_quad_max(imp_quad_abs(net[k * groups]), greatest);
+    }
+    imp_quad_store(middle, centre);
+    imp_quad_store(radius, imp_quad_max(hi - centre, centre - lo) * SLACK);
+    imp_quad_store(most, greatest);
+}
+
+/* As patch_set_net. A point may itself be the difference of two, which the caller counts. */
 static void begin(const spline_data *data, spline_patch *s)
 {
-    const patch_data given = {.degree = {3, 3},
-                              .points = data->points,
-                              .velocities = data->moves ? data->velocities : NULL};
-    memset(&s->f, 0, sizeof s->f);
-    s->f.degree[0] = s->f.degree[1] = 3;
-    s->f.lanes = data->moves ? 8 : 4;
-    s->f.net = s->net;
-    patch_set_net(&s->f, &given);
+    patch *f = &s->f;
+    const int groups = data->moves ? 2 : 1;
+    memset(f, 0, sizeof *f);
+    f->degree[0] = f->degree[1] = 3;
+    f->lanes = groups * IMP_QUAD;
+    f->units = 2;
+    f->weight_lo = 1;
+    f->net = s->net;
+    imp_quad *net = (imp_quad *)s->net;
+    set_group(data->points, groups, f->place, f->place_radius, f->most, net);
+    if (data->moves)
+        set_group(data->velocities, groups, f->drift, f->drift_radius, f->most + IMP_QUAD, net + 1);
 }
 
 /* Adds the place to the patch's own; what that rounds, and the points' slip, is left to the caller. */
@@ -102,21 +124,23 @@ static void set_bezier(spline_patch *s)
  * 2 units of `most`. */
 static void set_slopes(const spline_data *data, patch *f)
 {
-    for (int side = 0; side < 2; ++side) {
-        const int step = (side == 0 ? SPLINE_SIDE : 1) * f->lanes;
-        for (int lane = 0; lane < f->lanes; ++lane) {
-            const double slip =
-                lane % 4 == 3 ? 0 : lane < 4 ? data->slip[lane] : data->slip_motion[lane - 4];
-            double most = 0;
-            for (int k = 0; k < SPLINE_POINTS; ++k) {
-                if ((side == 0 ? k / SPLINE_SIDE : k % SPLINE_SIDE) == SPLINE_SIDE - 1) continue;
-                const double *x = f->net + k * f->lanes + lane;
-                most = imp_larger(most, fabs(x[step] - x[0]));
-            }
-            f->slope[side][lane] =
-                (most + 2 * slip + 2 * (f->units + 1) * ROUNDING * f->most[lane]) * SLACK;
+    const int groups = f->lanes / IMP_QUAD;
+    const imp_quad *net = (const imp_quad *)f->net;
+    for (int side = 0; side < 2; ++side)
+        for (int g = 0; g < groups; ++g) {
+            const double *slip = g == 0 ? data->slip : data->slip_motion;
+            const int step = side == 0 ? SPLINE_SIDE : 1, rows = side == 0 ? 3 : 4;
+            imp_quad most = {0};
+            for (int i = 0; i < rows; ++i)
+                for (int j = 0; j < 7 - rows; ++j) {
+                    const int k = SPLINE_SIDE * i + j;
+                    most = imp_quad_max(
+                        imp_quad_abs(net[(k + step) * groups + g] - net[k * groups + g]), most);
+                }
+            most += 2 * imp_quad_of(slip[0], slip[1], slip[2], 0) +
+                    2 * (f->units + 1) * ROUNDING * imp_quad_load(f->most + g * IMP_QUAD);
+            imp_quad_store(f->slope[side] + g * IMP_QUAD, most * SLACK);
         }
-    }
 }
 
 /* As patch_set_series, with the terms of its lemma for n = m = 3: reach_i = sqrt(2i + 1) and
@@ -125,38 +149,79 @@ static void set_noise(patch *f)
 {
     static const double reach[SPLINE_SIDE] = {1, 1.7321, 2.2361, 2.6458};
     static const double error[SPLINE_SIDE] = {0, 0.5, 16.86, 53.84};
-    double units[PATCH_LANES_MAX] = {0};
-    for (int i = 0; i < SPLINE_SIDE; ++i)
-        for (int j = 0; j < SPLINE_SIDE; ++j) {
+    const int groups = f->lanes / IMP_QUAD;
+    const imp_quad *series = (const imp_quad *)f->series;
+    const double made = f->units + BASIS_ROUNDINGS * CHEBYSHEV_SIZE;
+    for (int g = 0; g < groups; ++g) {
+        imp_quad units = made * imp_quad_load(f->most + g * IMP_QUAD);
+        for (int k = 0; k < SPLINE_POINTS; ++k) {
+            const int i = k / SPLINE_SIDE, j = k % SPLINE_SIDE;
             const double weight = error[i] + error[j] + 8 * reach[i] * reach[j];
-            for (int lane = 0; lane < f->lanes; ++lane)
-                units[lane] += weight * fabs(f->series[(4 * i + j) * f->lanes + lane]);
+            units += weight * imp_quad_abs(series[k * groups + g]);
         }
-    for (int lane = 0; lane < f->lanes; ++lane) {
-        const double made = f->units + BASIS_ROUNDINGS * CHEBYSHEV_SIZE;
-        f->noise[lane] = (units[lane] + made * f->most[lane]) * ROUNDING * SLACK + IMP_TINY;
+        imp_quad_store(f->noise + g * IMP_QUAD, units * (ROUNDING * SLACK) + IMP_TINY);
     }
 }
 
-/* --- What is asked ---------------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------------- */
 
+/* The four B-splines at u. Lemma. With v = 1 - u rounded once, 4 + u^2 (3u - 6) is off by 22 units at
+ * most: 4 of its own, 3 of the product, 6 of u^2, 9 of 3u - 6; so each is within 6 units, v's included. */
+static void splines(double u, double n[SPLINE_SIDE])
+{
+    const double v = 1 - u;
+    n[0] = v * v * v / 6;
+    n[1] = (4 + u * u * (3 * u - 6)) / 6;
+    n[2] = (4 + v * v * (3 * v - 6)) / 6;
+    n[3] = u * u * u / 6;
+}
+
+/* Lemma. sum_ij N_i N_j p_ij, |p_ij| <= most: weights are off by 6 N_i + 6 N_j + N_i N_j units, 49 in all;
+ * products and sums add 16, and the differences p_ij one: POINT_UNITS. */
+enum { POINT_UNITS = 49 + 16 + 1 };
+
+static void sum_points(const spline_patch *s, const double p[3], double sum[PATCH_LANES_MAX])
+{
+    double along_u[SPLINE_SIDE], along_v[SPLINE_SIDE];
+    const int groups = s->f.lanes / IMP_QUAD;
+    const imp_quad *net = (const imp_quad *)s->f.net;
+    splines(p[0], along_u);
+    splines(p[1], along_v);
+    for (int g = 0; g < groups; ++g) {
+        imp_quad all = {0};
+        for (int k = 0; k < SPLINE_POINTS; ++k)
+            all += along_u[k / SPLINE_SIDE] * along_v[k % SPLINE_SIDE] * net[k * groups + g];
+        imp_quad_store(sum + g * IMP_QUAD, all);
+    }
+}
+
+/* As patch_point. */
 void spline_point(const spline_data *data, const double p[3], double x[3], double error[3])
 {
     spline_patch s;
+    double sum[PATCH_LANES_MAX] = {0};
     begin(data, &s);
     set_place(data, &s);
-    set_bezier(&s);
-    patch_point(&s.f, p, x, error);
-    for (int axis = 0; axis < 3; ++axis)
-        error[axis] = (error[axis] + slip_upper(data, &s.f, axis, fabs(p[2]))) * SLACK;
+    sum_points(&s, p, sum);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double place = s.f.place[axis] + sum[axis];
+        const double way = p[2] * (s.f.drift[axis] + sum[4 + axis]);
+        const double size = s.f.most[axis] + fabs(p[2]) * s.f.most[4 + axis];
+        x[axis] = place + way;
+        error[axis] = (POINT_UNITS * ROUNDING * size + 3 * ROUNDING * (fabs(place) + fabs(way)) +
+                       slip_upper(data, &s.f, axis, fabs(p[2]))) *
+                          SLACK +
+                      IMP_TINY;
+    }
 }
+
+/* --- Regions ---------------------------------------------------------------------------------- */
 
 imp_status spline_include(const spline_data *data, const imp_region *region, imp_model model[3])
 {
     spline_patch s;
     begin(data, &s);
     set_place(data, &s);
-    s.f.units = 2;
     s.f.series = s.series;
     set_slopes(data, &s.f);
     change_basis(to_chebyshev, 192, s.f.lanes, s.net, s.series);

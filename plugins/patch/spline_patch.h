@@ -5,6 +5,8 @@
 
 #include "plugins/patch/patch.h"
 
+#include <impinge/quad.h>
+
 /* A uniform bicubic B-spline patch
  * ================================
  * Made of 4 by 4 control points, on the stack, each time that something is asked of it:
@@ -17,9 +19,8 @@
 enum { SPLINE_SIDE = 4, SPLINE_POINTS = SPLINE_SIDE * SPLINE_SIDE };
 
 typedef struct spline_data {
-    double points[3 * SPLINE_POINTS];
-    double velocities[3 * SPLINE_POINTS];
-    bool moves;
+    imp_quad points[SPLINE_POINTS], velocities[SPLINE_POINTS]; /* x, y, z, 0 */
+    bool moves;                                                /* false: velocities are not read */
     double place[3], drift[3]; /* to be added to each point and each velocity */
     double slip[3], slip_motion[3];
 } spline_data;

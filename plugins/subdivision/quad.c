@@ -59,13 +59,11 @@ static void take_patch(const walk *w, int u, int v, spline_data *data)
     const corner_net *n = w->now;
     bool is_border = n->faces > 0;
     data->moves = n->groups == 2;
-    for (int x = 0; x < SPLINE_SIDE; ++x)
-        for (int y = 0; y < SPLINE_SIDE; ++y) {
-            const int k = 3 * (SPLINE_SIDE * x + y);
-            const imp_quad *p = n->grid[x + (u == FAR)][y + (v == FAR)];
-            for (int i = 0; i < 3; ++i) data->points[k + i] = p[0][i];
-            for (int i = 0; i < 3 && data->moves; ++i) data->velocities[k + i] = p[1][i];
-        }
+    for (int k = 0; k < SPLINE_POINTS; ++k) {
+        const imp_quad *p = n->grid[k / SPLINE_SIDE + (u == FAR)][k % SPLINE_SIDE + (v == FAR)];
+        data->points[k] = p[0];
+        if (data->moves) data->velocities[k] = p[1];
+    }
     for (int side = 0; side < 4; ++side) is_border = is_border || n->is_border[side];
     const double reflection = is_border ? CORNER_REFLECTION : 0;
     for (int i = 0; i < 3; ++i) {
@@ -99,18 +97,20 @@ static imp_region region_in_patch(const walk *w, const imp_region *region, int u
 
 /* --- The gauge ----------------------------------------------------------------------------------------- */
 
-static double greater_step(const corner_net *n, int lane, int side)
+/* The greatest step along u (side 0) or v between control points, but that at (-1,-1), of all lanes. */
+static void greater_steps(const corner_net *n, int side, double steps[CORNER_LANES])
 {
-    const int g = lane / IMP_QUAD, i = lane % IMP_QUAD;
-    double most = 0;
-    for (int x = 0; x < CORNER_FINE - (side == 0); ++x)
-        for (int y = 0; y < CORNER_FINE - (side == 1); ++y)
-            if (x + y > 0) {
-                const double here = n->grid[x][y][g][i];
-                const double next = n->grid[x + (side == 0)][y + (side == 1)][g][i];
-                most = imp_larger(most, fabs(next - here));
-            }
-    return most + 2 * n->slip[lane] + (2 * CORNER_REFLECTION + 0x1p-52) * n->most[lane];
+    for (int g = 0; g < n->groups; ++g) {
+        imp_quad most = {0};
+        for (int x = 0; x < CORNER_FINE - (side == 0); ++x)
+            for (int y = x == 0; y < CORNER_FINE - (side == 1); ++y)
+                most = imp_quad_max(imp_quad_abs(n->grid[x + (side == 0)][y + (side == 1)][g] -
+                                                 n->grid[x][y][g]),
+                                    most);
+        most += 2 * imp_quad_load(n->slip + g * IMP_QUAD) +
+                (2 * CORNER_REFLECTION + 0x1p-52) * imp_quad_load(n->most + g * IMP_QUAD);
+        imp_quad_store(steps + g * IMP_QUAD, most);
+    }
 }
 
 static bool is_small(const corner_net *n, const corner_net *first)
@@ -138,10 +138,12 @@ void quad_measure(const quad *q, quad_gauge *gauge)
     walk_begin(q, &w);
     while (w.level < QUAD_DEPTH_MAX && !is_small(w.now, &w.first)) {
         walk_step(&w);
-        for (int side = 0; side < 2; ++side)
+        for (int side = 0; side < 2; ++side) {
+            double steps[CORNER_LANES];
+            greater_steps(w.now, side, steps);
             for (int lane = 0; lane < w.now->groups * IMP_QUAD; ++lane)
-                rate[side][lane] = imp_larger(rate[side][lane],
-                                              ldexp(greater_step(w.now, lane, side), w.level));
+                rate[side][lane] = imp_larger(rate[side][lane], ldexp(steps[lane], w.level));
+        }
     }
     gauge->depth = w.level;
     for (int side = 0; side < 2; ++side)

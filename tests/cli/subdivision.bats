@@ -67,8 +67,13 @@ write_cube() {
     refused file=disk.off 'face 0 has 257 corners, may have 256; divide it'
 }
 
-@test "a body of such a surface is drawn" {
-    write_cube >cube.obj
-    run -0 "$IMPINGE" view 'subdivision file=cube.obj' 'sphere radius=0.25 center=0,0,2' -o cube.svg
-    [ "$(grep -c '^<polyline' cube.svg)" -gt 100 ]
+@test "a die that falls into a tray touches it as its clearance says, and both are drawn" {
+    local scene=$top_srcdir/tools/data/die.json t
+    run -0 "$IMPINGE" solve "$scene" --json
+    jq -e '.verdict == "contact" and .t > 0.5 and .t < 0.9' <<<"$output"
+    t=$(jq .t <<<"$output")
+    run -0 "$IMPINGE" clearance "$scene" --time "0,$(jq -n "$t - 0.01")" --json
+    jq -e '.lower > 0 and .upper < 0.1' <<<"$output"
+    run -0 "$IMPINGE" view "$scene" -o die.svg
+    [ "$(grep -c '^<polyline' die.svg)" -gt 100 ]
 }

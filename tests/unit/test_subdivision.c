@@ -97,7 +97,7 @@ START_TEST(a_border_is_a_cubic_spline_that_ends_at_corners)
     const double z[3] = {5, 7, 0};
     double x[3], error[3];
     point_of(&made, 0, 0, 0, x, error);
-    ck_assert(x[0] == 0 && x[1] == 0);
+    ck_assert_double_le(fabs(x[0]) + fabs(x[1]), 1e-15);
     ck_assert_double_eq_tol(x[2], 5, 1e-14);
     point_of(&made, 0, 1, 0, x, error);
     ck_assert_double_eq_tol(x[2], (z[0] + 4 * z[1] + z[2]) / 6, 1e-14);
