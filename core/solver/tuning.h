@@ -104,10 +104,10 @@
  * 0x1p-30, 0x1p-48: no change */
 #define TUNING_DISTANCE_ROUNDING 0x1p-40
 /* A node is too large from this part of its extents on.
- * 0.25: +300, 1: -4 */
+ * 0.25: +230, 1: -8, but linked tori 1: +10 */
 #define TUNING_DISTANCE_EXTENT 0.5
 /* Level: the polynomial varies by less than this times the remainder.
- * 4: +10, 64: no change */
+ * 4: +8, 64: no change */
 #define TUNING_DISTANCE_LEVEL 16
 
 /* --- The search for a witness (witness.c) --- */

@@ -6,6 +6,7 @@
 
 #include <dlfcn.h>
 #include <impinge/impinge.h>
+#include <impinge/model_arithmetic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,7 +72,7 @@ static void print_net(const imp_net *net)
     for (int i = 0; i < 3; ++i) print("velocities", net->velocity[i], points);
 }
 
-static void ask_surface(const imp_surface_type *type, const imp_region *region)
+static void ask_surface(const imp_surface_type *type, const imp_model in[4], const imp_region *region)
 {
     void *self;
     imp_rate_matrix rates;
@@ -88,6 +89,13 @@ static void ask_surface(const imp_surface_type *type, const imp_region *region)
         imp_net net = {.degree = {0, 0}};
         printf("  net answers %d\n", type->net(self, region, &net));
         print_net(&net);
+    }
+    if (type->struct_size >= sizeof *type && type->distance != NULL) {
+        imp_model gap[3];
+        const imp_model above[4] = {in[0], in[1], imp_shift(in[2], 4), in[3]};
+        memset(gap, 0, sizeof gap);
+        printf("  distance answers %d\n", type->distance(self, above, &gap[0]));
+        print_models(gap);
     }
     type->destroy(self);
 }
@@ -147,7 +155,7 @@ static void ask_plugin(const imp_plugin *plugin)
     printf("%s %s %s %u.%u\n", plugin->name, plugin->version, plugin->license, plugin->abi_major,
            plugin->abi_minor);
     models_of(&region, in);
-    for (uint32_t i = 0; i < surfaces->count; ++i) ask_surface(surfaces->types[i], &region);
+    for (uint32_t i = 0; i < surfaces->count; ++i) ask_surface(surfaces->types[i], in, &region);
     for (uint32_t i = 0; i < maps->count; ++i) ask_map(maps->types[i], in, &region);
 }
 

@@ -4,7 +4,7 @@
 /* The source of fixture_1_0.so, a plugin built when the ABI was 1.0, which every later release must
  * load and ask with the same answers (tests/cli/sdk.bats). It uses all that the ABI has: every kind of
  * parameter, types with and without include, maps with and without apply, both with and without net, a map with a
- * pose. No libm, whose answers might change. README beside this file says how it was built. */
+ * pose, a surface with distances. No libm, whose answers might change. README beside this file says how it was built. */
 
 #include <impinge/formula.h>
 #include <stdlib.h>
@@ -239,6 +239,14 @@ static imp_status bare_net(const void *self, const imp_region *region, imp_net *
     return IMP_OK;
 }
 
+/* How far above z = t, which the surface never is. */
+static imp_model bare_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    (void)self, (void)x, (void)y;
+    return imp_max(imp_sub(z, t), imp_num(0));
+}
+IMP_DISTANCE_FORMULA(bare_gap)
+
 static const imp_surface_type bare = {
     SIZE_OF(imp_surface_type),
     .parameter_size = (uint32_t)sizeof(imp_parameter),
@@ -252,6 +260,7 @@ static const imp_surface_type bare = {
     .eval = bare_eval,
     .rate = bare_rate,
     .net = bare_net,
+    .distance = bare_gap_distance,
 };
 
 /* --- Maps, with and without apply ----------------------------------------------------- */

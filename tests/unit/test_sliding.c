@@ -220,7 +220,7 @@ static imp_verdict try_slide(const kind *k, uint64_t *random)
     const bool first = random_bits(random) % 2;
     const question q = {.a = first ? text : s.fixed,
                         .b = first ? s.fixed : text,
-                        .gamma = c * random_power(random, -5, 0)};
+                        .gamma = c * random_power(random, -3, 0)};
     const imp_result r = ask_in(registry, &q);
     judge(k, &s, &q, &r);
     return r.verdict;
