@@ -99,6 +99,7 @@ void pair_test_look_ahead(impact *im, uint32_t first, size_t count, const imp_op
     if (ahead->tests == NULL) return;
     ahead->first = first;
     ahead->count = count - first < TESTS_A_ROUND ? (uint32_t)(count - first) : TESTS_A_ROUND;
+    for (uint32_t k = 0; k < ahead->count; ++k) ahead->tests[k] = (pair_test){.done = false};
     parallel_run(options, test_some, im, (ahead->count + TESTS_A_TASK - 1) / TESTS_A_TASK);
 }
 
