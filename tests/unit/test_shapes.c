@@ -353,7 +353,9 @@ START_TEST(a_nurbs_has_nets_between_its_knots)
     char text[300];
     snprintf(text, sizeof text, "{\"degree\": [3,2], %s}", points);
     instance bezier = shape("bezier", text);
-    snprintf(text, sizeof text, "{\"degree\": [3,2], %s, \"knots_u\": [0,0,0,0,1,1,1,1], \"knots_v\": [0,0,0,1,1,1]}", points);
+    snprintf(text, sizeof text,
+             "{\"degree\": [3,2], %s, \"knots_u\": [0,0,0,0,1,1,1,1], \"knots_v\": [0,0,0,1,1,1]}",
+             points);
     instance nurbs = shape("nurbs", text);
     const imp_region inside = region_make((double[3]){0.2, 0.5, 0.1}, (double[3]){0.4, 0.9, 0.3});
     imp_net f = {.degree = {0, 0}}, g = f;
