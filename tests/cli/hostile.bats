@@ -33,8 +33,8 @@ offered='hostile-net:net hostile-pieces:piece_count hostile-pieces:piece hostile
 operands_of() {
     OPERAND=$1 ball=$usual_ball
     [ "$1" != hostile-rigid ] || OPERAND="$square ! hostile-rigid"
-    # Both have nets, or none is asked for.
-    [ "$1" != hostile-net ] || ball='plane origin=-1,-1,.9 edge_u=2,0,0 edge_v=0,2,0'
+    # No net is asked for unless the other has one too, and bends.
+    [ "$1" != hostile-net ] || ball='bezier degree=2,1 points=[[-1,-1,1.4],[-1,1,1.4],[0,-1,.6],[0,1,.6],[1,-1,1.4],[1,1,1.4]]'
 }
 
 # hostile PHASE SIN [OPTION]...: the pair of the plugin's surface, or with OPERAND another, and the
