@@ -125,11 +125,20 @@ void mesh_oracle(const type_arguments *arguments, const number p[3], number x[3]
     triangle_of(arguments, k, p, x);
 }
 
-static number factorial(size_t n)
+/* n! / (i! j! k!), i + j + k = n: products of binomials, exact up to n = 20. */
+static double multinomial(unsigned n, unsigned j, unsigned k)
 {
-    double product = 1;
-    for (size_t k = 2; k <= n; ++k) product *= (double)k;
-    return num(product);
+    double ways = 1;
+    for (unsigned l = 0; l < j; ++l) ways = ways * (n - l) / (l + 1);
+    for (unsigned l = 0; l < k; ++l) ways = ways * (n - j - l) / (l + 1);
+    return ways;
+}
+
+/* x^0 to x^n. */
+static void powers(number x, size_t n, number *to)
+{
+    to[0] = num(1);
+    for (size_t k = 1; k <= n; ++k) to[k] = num_mul(to[k - 1], x);
 }
 
 /* All (n-k, k-j, j) in the order of the control points, k outside. */
@@ -137,18 +146,17 @@ void bezier_triangle_oracle(const type_arguments *arguments, const number p[3], 
 {
     const size_t n = (size_t)argument(arguments, "degree")->number[0];
     const imp_value *faces = argument(arguments, "faces"), *heavy = argument(arguments, "weights");
-    const number a = num_sub(num(1), p[0]), b = num_mul(p[0], num_sub(num(1), p[1]));
-    const number c = num_mul(p[0], p[1]);
+    number a[11], b[11], c[11];
+    powers(num_sub(num(1), p[0]), n, a);
+    powers(num_mul(p[0], num_sub(num(1), p[1])), n, b);
+    powers(num_mul(p[0], p[1]), n, c);
     number sum[3] = {num(0), num(0), num(0)}, total = num(0);
     size_t count = 0;
     for (size_t k = 0; k <= n; ++k)
         for (size_t j = 0; j <= k; ++j, ++count) {
             const size_t from = faces->count ? (size_t)faces->number[count] : count;
-            const unsigned i[3] = {(unsigned)(n - k), (unsigned)(k - j), (unsigned)j};
-            number weight = factorial(n);
-            for (int l = 0; l < 3; ++l) weight = num_div(weight, factorial(i[l]));
-            weight = num_mul(weight, num_mul(num_power(a, i[0]), num_power(b, i[1])));
-            weight = num_mul(weight, num_power(c, i[2]));
+            number weight = num(multinomial((unsigned)n, (unsigned)(k - j), (unsigned)j));
+            weight = num_mul(weight, num_mul(a[n - k], num_mul(b[k - j], c[j])));
             if (heavy->count) weight = num_mul(weight, num(heavy->number[from]));
             total = num_add(total, weight);
             for (size_t axis = 0; axis < 3; ++axis)
