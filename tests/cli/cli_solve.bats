@@ -76,8 +76,9 @@ arm() { # PARENTS
     arm parents >mechanism.json
     run -0 solve_text "$(cat mechanism.json)" --gamma 1e-4 --json
     json '.verdict == "contact" and .a.body == "c" and .b.body == "ball"'
-    [ "$(jq -c 'del(.stats.seconds)' <<<"$output")" = \
-        "$(solve_text "$(arm spelled-out)" --gamma 1e-4 --json | jq -c 'del(.stats.seconds)')" ]
+    # The scene as it is written differs, and max-bytes counts it.
+    [ "$(jq -c 'del(.stats.seconds, .stats.bytes)' <<<"$output")" = \
+        "$(solve_text "$(arm spelled-out)" --gamma 1e-4 --json | jq -c 'del(.stats.seconds, .stats.bytes)')" ]
     output=$(cat mechanism.json)
     valid scene
 }

@@ -13,7 +13,7 @@ setup_file() {
     mkdir "$HOME" "$BATS_FILE_TMPDIR/build"
     cd "$BATS_FILE_TMPDIR/build"
     "$top_srcdir"/configure -q -C --prefix="$prefix" CC="$CC" CFLAGS=-O0
-    make -s -j2 install plugin_LTLIBRARIES="$(echo plugins/{sphere,translate,rotate}.la)"
+    make -s -j2 install plugin_LTLIBRARIES="$(echo plugins/{sphere,plane,cylinder,translate,rotate}.la)"
     export PATH=$prefix/bin:$PATH PKG_CONFIG_PATH=$prefix/lib/pkgconfig
     export ACLOCAL_PATH=$prefix/share/aclocal
 
