@@ -173,6 +173,7 @@ check_LTLIBRARIES = \
     tests/plugins/create_null.la \
     tests/plugins/create_overflows.la \
     tests/plugins/create_rounds.la \
+    tests/plugins/distance_infinite.la \
     tests/plugins/distance_nan.la \
     tests/plugins/domain_crashes.la \
     tests/plugins/domain_nan.la \
@@ -245,6 +246,7 @@ check_LTLIBRARIES = \
     tests/plugins/pieces_none.la \
     tests/plugins/pieces_null.la \
     tests/plugins/pieces_times.la \
+    tests/plugins/pipe_absent.la \
     tests/plugins/rate_infinite.la \
     tests/plugins/rate_lies.la \
     tests/plugins/rate_negative.la \
@@ -266,6 +268,7 @@ tests_plugins_create_fails_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_null_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_overflows_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_rounds_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_distance_infinite_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_distance_nan_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_crashes_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_nan_la_LDFLAGS = $(test_plugin_ldflags)
@@ -337,6 +340,7 @@ tests_plugins_pieces_many_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_pieces_none_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_pieces_null_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_pieces_times_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_pipe_absent_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_rate_infinite_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_rate_lies_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)

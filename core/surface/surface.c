@@ -216,7 +216,7 @@ const char *surface_status_text(imp_status status)
                "remainder or rate, or an inverted range";
     case SURFACE_BAD_DISTANCE:
         return "a distance from it has a remainder that is negative or NaN, or a range that is "
-               "inverted or NaN";
+               "inverted, NaN or at infinity";
     case SURFACE_CRASHED:
         return "crashes or ends its process, in which it runs isolated";
     case SURFACE_HUNG:

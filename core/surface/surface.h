@@ -133,7 +133,8 @@ double surface_pose_norm_upper(const surface *s);
 bool surface_has_distance(const surface *s);
 
 /* Precondition: that. The distance from the whole surface, as in imp_surface_type, of a point with these
- * models over the region, whose rates are not used. IMP_UNBOUNDED: nothing is known. */
+ * models over the region, whose rates are not used. IMP_UNBOUNDED: nothing is known, as at times at which the
+ * surface does not exist. */
 imp_status surface_distance(const surface *s, const imp_region *region, const imp_model point[3],
                             imp_model *distance);
 

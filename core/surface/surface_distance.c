@@ -17,11 +17,12 @@ bool surface_has_distance(const surface *s)
     return s->map_count == 0 && part_offers_distance(s->type);
 }
 
-/* A NaN or an infinity among what bounds it: nothing is known. */
+/* A NaN or an infinity among the coefficients: nothing is known. Nothing is infinitely far away. */
 static imp_status judge(imp_status status, const imp_model *distance)
 {
     if (status != IMP_OK) return status;
     if (!(distance->e >= 0 && distance->lo <= distance->hi)) return SURFACE_BAD_DISTANCE;
+    if (!(distance->lo < INFINITY && distance->hi > -INFINITY)) return SURFACE_BAD_DISTANCE;
     double sum = fabs(distance->a) + distance->e;
     for (int j = 0; j < 3; ++j) sum += fabs(distance->b[j]);
     for (int k = 0; k < 6; ++k) sum += fabs(distance->q[k]);
@@ -31,6 +32,7 @@ static imp_status judge(imp_status status, const imp_model *distance)
 imp_status surface_distance(const surface *s, const imp_region *region, const imp_model point[3],
                             imp_model *distance)
 {
+    if (!(s->lo[2] <= region->lo[2] && region->hi[2] <= s->hi[2])) return IMP_UNBOUNDED;
     const imp_model at[4] = {point[0], point[1], point[2], surface_time(region)};
     const fp_mode mode = surface_call_begin(s->type->name, "distance");
     const imp_status status = s->type->distance(s->self, at, distance);

@@ -602,9 +602,18 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
 }
 
 @test "distances that break the ABI end the query" {
-    takes distance_nan
-    fails 5 "type 'distance_nan': a distance from it has a remainder that is negative or NaN" pair \
-        distance_nan 'cylinder radius=.99 height=1 center=0,0,1 ! rotate rate=3' --gamma 1e-3
+    takes distance_nan distance_infinite
+    local type within='cylinder radius=.99 height=1 center=0,0,1 ! rotate rate=3'
+    for type in distance_nan distance_infinite; do
+        fails 5 "type '$type': a distance from it has a remainder that is negative or NaN, or" \
+            pair $type "$within" --gamma 1e-3
+    done
+}
+
+@test "distances are asked for at times at which the surface exists" {
+    takes pipe_absent
+    run -0 pair pipe_absent 'cylinder radius=.99 height=1 center=0,0,1 ! rotate rate=3' --gamma 1e-3 --json
+    json '.verdict == "clear" and .t_examined == [0.25, 0.5]'
 }
 
 @test "callbacks that change the arithmetic end the query" {
