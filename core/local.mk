@@ -38,6 +38,7 @@ core_surface = \
 
 core_tree = \
     core/tree/bound_audit.c core/tree/bound_audit.h \
+    core/tree/distance_audit.c core/tree/distance_audit.h \
     core/tree/hierarchy.c core/tree/hierarchy.h \
     core/tree/model_lanes.h \
     core/tree/net.c core/tree/net.h \

@@ -8,6 +8,7 @@
 
 #include "core/base/rounding.h"
 #include "core/common/random.h"
+#include "core/tree/distance_audit.h"
 
 static bool region_holds(const imp_region *r, const double p[3])
 {
@@ -177,5 +178,5 @@ imp_code bound_audit_run(const surface *s, const node *n, imp_error *error)
         const imp_code code = judge(s, n, p, x, eval_error, error);
         if (code != IMP_SUCCESS) return code;
     }
-    return IMP_SUCCESS;
+    return distance_audit_run(n, &state, error);
 }

@@ -601,13 +601,18 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
     blames 'torus center=2,0,1 ! pose_turns_backward' 'breaks its own bounds over u [0, ' --audit
 }
 
-@test "distances that break the ABI end the query" {
-    takes distance_nan distance_infinite
+@test "distances that break the ABI end the query, and --audit finds those that points refute" {
+    takes distance_nan distance_infinite liar_distance liar_distance_remainder liar_truthful_distance
     local type within='cylinder radius=.99 height=1 center=0,0,1 ! rotate rate=3'
     for type in distance_nan distance_infinite; do
         fails 5 "type '$type': a distance from it has a remainder that is negative or NaN, or" \
             pair $type "$within" --gamma 1e-3
     done
+    for type in liar_distance liar_distance_remainder; do
+        fails 5 "type '$type' claims too large a distance over u [" pair $type "$within" --gamma 1e-3 --audit
+    done
+    run -0 pair liar_truthful_distance "$within" --gamma 1e-3 --audit --json
+    json '.verdict == "clear"'
 }
 
 @test "distances are asked for at times at which the surface exists" {
