@@ -224,7 +224,11 @@ IMP_QUAD_WIDE static void halve_bicubic_weighted_wide(double *x, int columns, pa
  *                     which moves a mean of points 2 M apart by                    2 n
  *                     and the patch itself, of the half, once more, by             2 n
  *
- * so n, and n (5 + 2 n) + 2 n; twice that is added. Underflows are below 2^-1000. */
+ * so n, and n (5 + 2 n) + 2 n; twice that is added. A step's two products underflow by 2^-1075 each, over
+ * weights that add up to 2^-299 at least: n <= 35 steps by less than 2^-769, of velocities times less than
+ * 2^300 (NET_LARGE). */
+#define HALVING_UNDERFLOW 0x1p-468
+
 static double halving_units(const net *p, int n)
 {
     return 2 * (p->is_weighted ? n * (5 + 2 * n) + 2 * n : n);
@@ -264,5 +268,6 @@ void net_halve(const net *p, parameter j, int side, net *half)
         halve_bicubic(half->numbers, columns, j, side);
     for (int i = 0; i < 3; ++i)
         half->error[i] =
-            sum_upper(p->error[i], halving_units(p, n) * UNIT_ROUNDOFF * p->most[i] + 0x1p-1000);
+            sum_upper(p->error[i],
+                      halving_units(p, n) * UNIT_ROUNDOFF * p->most[i] + HALVING_UNDERFLOW);
 }
