@@ -170,11 +170,20 @@ static bool precision_ends(const impact *im, const pair *p, double flat)
     return pair_precision_ends(p, candidate_pair_of(im, p), room(im), flat);
 }
 
+/* What one node's distance from the other's surface shows of a pair. */
+typedef struct sight {
+    time_window left; /* of its window */
+    bool is_apart;
+    int side; /* whose node alone is worth halving; -1: neither */
+} sight;
+
 /* Whether a search may pay: the polynomials are good enough for gamma, or all that there will ever
- * be. */
-static bool witness_is_likely(const impact *im, const pair *p)
+ * be. At one instant also where one side alone would be halved: surfaces that touch all over then would be
+ * halved down to gamma everywhere. */
+static bool witness_is_likely(const impact *im, const pair *p, const sight *seen)
 {
     if (p->wait > 0) return false;
+    if (seen->side >= 0 && !(p->window.lo < p->window.hi)) return true;
     const double remainder = pair_remainder(p);
     return TUNING_WITNESS_GAMMA * remainder <= scale(im) ||
            TUNING_WITNESS_EXTENT * pair_extent(p) <= remainder ||
@@ -199,13 +208,6 @@ static bool may_slide(const pair *p)
     return !(vec3_norm1(p->axis) > 0) && !(p->window.lo > pair_times(p->a, p->b).lo);
 }
 
-/* What one node's distance from the other's surface shows of a pair. */
-typedef struct sight {
-    time_window left; /* of its window */
-    bool is_apart;
-    int side; /* whose node alone is worth halving; -1: neither */
-} sight;
-
 /* Of each of the two nodes while the answer is not known. */
 static imp_code look_from_each_side(const impact *im, const pair *p, sight *seen, imp_error *error)
 {
@@ -229,7 +231,7 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
         const imp_code code = look_from_each_side(im, p, &from_each, error);
         if (code != IMP_SUCCESS || from_each.is_apart) return code;
     }
-    if (witness_is_likely(im, p)) {
+    if (witness_is_likely(im, p, &from_each)) {
         witness seen;
         const imp_code code = find_witness(im, p, true, &seen, error);
         if (code != IMP_SUCCESS) return code;

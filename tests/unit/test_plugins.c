@@ -27,6 +27,7 @@ typedef struct shares {
 /* What is being tried, for the message when it fails. */
 typedef struct trial {
     const instance *instance;
+    int regions; /* to be tried */
     shares share;
     size_t refuted[KINDS]; /* with less than 1 */
     uint64_t random;
@@ -158,7 +159,7 @@ static void try_surface(trial *t)
     double lo[3], hi[3];
     t->instance->surface->domain(t->instance->self, lo, hi);
     t->dimensions = 3;
-    for (int k = 0; k < suite_times(REGIONS); ++k) {
+    for (int k = 0; k < t->regions; ++k) {
         imp_region region = sample_region(&t->random, lo, hi);
         t->lo = region.lo, t->hi = region.hi;
         try_surface_region(t, &region);
@@ -305,7 +306,7 @@ static void try_poses(trial *t)
     double t_lo, t_hi;
     if (t->instance->map->rigid == NULL) return;
     t->instance->map->time_domain(t->instance->self, &t_lo, &t_hi);
-    for (int k = 0; k < suite_times(REGIONS); ++k) {
+    for (int k = 0; k < t->regions; ++k) {
         const sample_models models = sample_map_arguments(&t->random, t_lo, t_hi);
         t->dimensions = 3;
         t->lo = models.region.lo, t->hi = models.region.hi;
@@ -317,7 +318,7 @@ static void try_map(trial *t)
 {
     double t_lo, t_hi;
     t->instance->map->time_domain(t->instance->self, &t_lo, &t_hi);
-    for (int k = 0; k < suite_times(REGIONS); ++k) {
+    for (int k = 0; k < t->regions; ++k) {
         imp_box4 box = sample_box(&t->random, t_lo, t_hi);
         t->dimensions = 4;
         t->lo = box.lo, t->hi = box.hi;
@@ -335,11 +336,12 @@ static void try_map(trial *t)
 
 static const shares whole = {1, 1, 1, 1, 1};
 
-/* `seen`, unless NULL, receives per type what was refuted. */
+/* `seen`, unless NULL, receives per type what was refuted; few regions would not do for that. */
 static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share,
                               void (*seen)(const type_oracle *row, const size_t refuted[KINDS]))
 {
     imp_registry *registry = built_registry();
+    const int times = suite_times(REGIONS), regions = seen != NULL && times < REGIONS ? REGIONS : times;
     for (size_t k = 0; k < oracle_count; ++k) {
         size_t refuted[KINDS] = {0};
         if ((oracles[k].surface != NULL) != surfaces) continue;
@@ -347,7 +349,7 @@ static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share
             uint64_t random = suite_seed() + 1000 * i;
             instance made =
                 instance_make(registry, oracles[k].type, oracles[k].instances[i], &random);
-            trial t = {.instance = &made, .share = share, .random = random};
+            trial t = {.instance = &made, .regions = regions, .share = share, .random = random};
             try(&t);
             for (int kind = 0; kind < KINDS; ++kind) refuted[kind] += t.refuted[kind];
             instance_free(&made);

@@ -231,7 +231,7 @@ START_TEST(what_slides_is_answered_as_its_distance_at_each_moment_demands)
     uint64_t random = suite_seed();
     for (int k = 0; k < KINDS; ++k) {
         int seen[3] = {0, 0, 0};
-        for (int n = 0; n < suite_times(SCENES); ++n) seen[try_slide(&kinds[k], &random)] += 1;
+        for (int n = 0; n < SCENES || n < suite_times(SCENES); ++n) seen[try_slide(&kinds[k], &random)] += 1;
         ck_assert_msg(seen[IMP_CONTACT] > 0 && seen[IMP_CLEAR] > 0, "%s: %d contacts, %d clear",
                       kinds[k].name, seen[IMP_CONTACT], seen[IMP_CLEAR]);
     }
@@ -255,10 +255,22 @@ START_TEST(a_distance_spares_the_neighbours)
 }
 END_TEST
 
+/* One contact is enough: no side is halved down to gamma first. */
+START_TEST(what_touches_all_over_at_one_instant_is_found_at_once)
+{
+    const question q = {.a = "sphere radius=2", .b = "sphere ! scale factors=[[1],[1]]",
+                        .t_start = 1, .t_end = 1, .gamma = 1e-6};
+    const imp_result r = ask_in(registry, &q);
+    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_msg(r.stats.pairs <= 200, "%g pairs", (double)r.stats.pairs);
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {what_slides_is_answered_as_its_distance_at_each_moment_demands,
-                                  a_distance_spares_the_neighbours};
+                                  a_distance_spares_the_neighbours,
+                                  what_touches_all_over_at_one_instant_is_found_at_once};
     return suite_main_with("sliding", tests, sizeof tests / sizeof tests[0], open_registry,
                            close_registry);
 }
