@@ -50,7 +50,7 @@ static vec3 draw_direction(const imp_model model[3], uint64_t *state)
     return n;
 }
 
-/* Models of what is moved. In units of u: a and b are rounded once, ends of the range thrice. */
+/* Models of what is moved. In units of u: a and b are rounded once, ends of the range three times. */
 static void move(passage *w, const vec3 *n, double h, double k)
 {
     for (int i = 0; i < 3; ++i) {

@@ -70,7 +70,7 @@ void corner_take(const corner_points *of, const control_mesh *m, const corner_fr
 void corner_step(const corner_net *from, corner_net *to);
 
 /* What may be between a row beyond a border and twice the row at it less the next, in units of 2^-53
- * `most`: one rounding, of thrice `most` at its greatest, and where two rows meet of nine times it. */
+ * `most`: one rounding, of three times `most` at its greatest, and where two rows meet of nine times it. */
 #define CORNER_REFLECTION (16 * 0x1p-53)
 
 #endif
