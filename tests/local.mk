@@ -527,6 +527,7 @@ EXTRA_DIST += \
     tests/fuzz/proof.d/signs.txt \
     tests/fuzz/proof.d/smooth.txt \
     tests/fuzz/proof.d/underflow.txt \
+    tests/fuzz/proof.d/varying_exponent.txt \
     tests/fuzz/proof.d/whole_exponents.txt \
     tests/fuzz/proof.dict \
     tests/fuzz/scene.d/all_kinds.json \

@@ -168,7 +168,7 @@ static jet fixed_power(const jet *x, ld_interval k)
     return composed(x, (ld_interval[3]){ld_interval_power(x->v, k), slope, bend});
 }
 
-/* An exponent known with an error may be whole, and then negative numbers have a power too. */
+/* An exponent known with an error, or one that varies, may be whole, and then negative numbers have a power too. */
 static bool may_be_whole(ld_interval k) { return floorl(k.hi) >= k.lo; }
 
 /* x^k for fixed k, whole or not; else exp(y log x). */
@@ -178,8 +178,12 @@ jet jet_power(const jet *x, const jet *y)
     if (is_fixed(y) && ld_interval_is(y->v, k) && floorl(k) == k && fabsl(k) < 1e9L)
         return k == 0 ? jet_constant(x->n, ld_interval_of(1)) : whole_power(x, (int)k);
     const ld_interval all = ld_interval_entire();
-    if (is_fixed(y) && x->v.lo < 0 && may_be_whole(y->v))
-        return composed(x, (ld_interval[3]){all, all, all});
+    if (x->v.lo < 0 && may_be_whole(y->v)) {
+        const jet by_base = composed(x, (ld_interval[3]){all, all, all});
+        if (is_fixed(y)) return by_base;
+        const jet by_exponent = composed(y, (ld_interval[3]){all, all, all});
+        return jet_add(&by_base, &by_exponent);
+    }
     if (is_fixed(y)) return fixed_power(x, y->v);
     const jet log = jet_apply(jet_log_, x), exponent = jet_mul(y, &log);
     return jet_apply(jet_exp_, &exponent);
