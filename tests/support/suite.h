@@ -27,6 +27,13 @@ static inline int suite_times(int usual)
     return factor * usual < 1 ? 1 : (int)(factor * usual);
 }
 
+/* For tests that have to find something: never fewer than usual. */
+static inline int suite_times_at_least(int usual)
+{
+    const int times = suite_times(usual);
+    return times < usual ? usual : times;
+}
+
 /* `open` runs before each test and `close` after it; NULL: nothing. */
 static inline int suite_main_with(const char *title, const TTest *const *tests, size_t count,
                                   void (*open)(void), void (*close)(void))

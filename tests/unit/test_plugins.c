@@ -341,7 +341,7 @@ static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share
                               void (*seen)(const type_oracle *row, const size_t refuted[KINDS]))
 {
     imp_registry *registry = built_registry();
-    const int times = suite_times(REGIONS), regions = seen != NULL && times < REGIONS ? REGIONS : times;
+    const int regions = seen != NULL ? suite_times_at_least(REGIONS) : suite_times(REGIONS);
     for (size_t k = 0; k < oracle_count; ++k) {
         size_t refuted[KINDS] = {0};
         if ((oracles[k].surface != NULL) != surfaces) continue;
