@@ -428,6 +428,7 @@ EXTRA_DIST += \
     tests/fuzz/csv.d/quotes \
     tests/fuzz/csv.d/word \
     tests/fuzz/csv.dict \
+    tests/fuzz/elf.d/calls_malloc \
     tests/fuzz/elf.d/class \
     tests/fuzz/elf.d/cut \
     tests/fuzz/elf.d/cut_header \
@@ -473,6 +474,7 @@ EXTRA_DIST += \
     tests/fuzz/formula.d/open.txt \
     tests/fuzz/formula.d/overflow.txt \
     tests/fuzz/formula.d/smooth.txt \
+    tests/fuzz/formula.d/steep_power.txt \
     tests/fuzz/formula.d/zero.txt \
     tests/fuzz/formula.dict \
     tests/fuzz/mesh.d/empty \

@@ -29,10 +29,12 @@ lifted="$square ! hostile-map"
 usual_ball=$ball
 
 # Those that a type need not offer, as TYPE:PHASE; and of such a type the two operands.
-offered='hostile-net:net hostile-pieces:piece_count hostile-pieces:piece hostile-rigid:rigid'
+offered='hostile-net:net hostile-distance:distance hostile-pieces:piece_count hostile-pieces:piece hostile-rigid:rigid'
 operands_of() {
     OPERAND=$1 ball=$usual_ball
     [ "$1" != hostile-rigid ] || OPERAND="$square ! hostile-rigid"
+    # No distance is asked for unless the other is much the same for long: here it is nearly flat.
+    [ "$1" != hostile-distance ] || ball='sphere radius=9 center=.3,.2,9.9'
     # No net is asked for unless the other has one too, and bends.
     [ "$1" != hostile-net ] || ball='bezier degree=2,1 points=[[-1,-1,1.4],[-1,1,1.4],[0,-1,.6],[0,1,.6],[1,-1,1.4],[1,1,1.4]]'
 }

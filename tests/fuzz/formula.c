@@ -56,7 +56,7 @@ static double value_at(const imp_model *m, const double s[3])
     return sum;
 }
 
-/* 2^-45 of all terms covers the rounding of value_at. */
+/* 2^-45 of all terms covers the rounding of value_at and of its s. */
 static double size_of(const imp_model *m)
 {
     double sum = fabs(m->a);
@@ -74,9 +74,10 @@ static void judge(const expression_program *program, const double ends[3][2])
     for (int k = 0; k < POINTS; ++k) {
         double s[3], p[3], x[3], error[3];
         for (int j = 0; j < 3; ++j) {
-            s[j] = draw_s();
-            p[j] = region.c[j] + region.d[j] * s[j];
-            if (!(p[j] >= region.lo[j] && p[j] <= region.hi[j])) p[j] = region.c[j], s[j] = 0;
+            p[j] = region.c[j] + region.d[j] * draw_s();
+            if (!(p[j] >= region.lo[j] && p[j] <= region.hi[j])) p[j] = region.c[j];
+            /* Of p as it was rounded: in a narrow box that shifts s by more than 2^-45. */
+            s[j] = region.d[j] > 0 ? (p[j] - region.c[j]) / region.d[j] : 0;
         }
         if (expression_point(program, p, x, error) != IMP_OK) continue;
         for (int i = 0; i < 3; ++i) {

@@ -175,6 +175,13 @@ static imp_status net(const void *self, const imp_region *region, imp_net *out)
     return IMP_UNBOUNDED;
 }
 
+static imp_status distance(const void *self, const imp_model point[4], imp_model *out)
+{
+    (void)self, (void)point, (void)out;
+    enter("distance");
+    return IMP_UNBOUNDED;
+}
+
 static size_t piece_count(const void *self)
 {
     (void)self;
@@ -201,6 +208,8 @@ static const void *piece(const void *self, size_t k)
 
 static const imp_surface_type surface_type = HOSTILE_SURFACE("hostile", .source = NULL);
 static const imp_surface_type net_type = HOSTILE_SURFACE("hostile-net", .net = net);
+static const imp_surface_type distance_type =
+    HOSTILE_SURFACE("hostile-distance", .distance = distance);
 static const imp_surface_type pieces_type =
     HOSTILE_SURFACE("hostile-pieces", .piece_count = piece_count, .piece = piece);
 
@@ -271,9 +280,10 @@ static const imp_map_type rigid_type = HOSTILE_MAP("hostile-rigid", .rigid = rig
 
 /* --- The file ----------------------------------------------------------------------------------- */
 
-static const imp_surface_type *const surface_types[] = {&surface_type, &net_type, &pieces_type};
+static const imp_surface_type *const surface_types[] = {&surface_type, &net_type, &distance_type,
+                                                        &pieces_type};
 static const imp_map_type *const map_types[] = {&map_type, &rigid_type};
-static const imp_surface_factory surface_factory = {sizeof surface_factory, 3, surface_types};
+static const imp_surface_factory surface_factory = {sizeof surface_factory, 4, surface_types};
 static const imp_map_factory map_factory = {sizeof map_factory, 2, map_types};
 
 static const void *get_factory(const char *id)
