@@ -50,9 +50,13 @@ core_tree = \
 
 core_plugin = \
     core/plugin/channel.h \
+    core/plugin/elf_dynamic.c core/plugin/elf_dynamic.h \
     core/plugin/elf_file.c core/plugin/elf_file.h \
     core/plugin/elf_probe.c core/plugin/elf_probe.h \
+    core/plugin/elf_relocations.c \
     core/plugin/elf_segments.c core/plugin/elf_segments.h \
+    core/plugin/elf_symbols.c \
+    core/plugin/elf_tables.c core/plugin/elf_tables.h core/plugin/elf_tables_parts.h \
     core/plugin/file_trust.c core/plugin/file_trust.h \
     core/plugin/isolate.c core/plugin/isolate.h core/plugin/isolate_parts.h \
     core/plugin/isolate_stand_in.c \

@@ -20,6 +20,7 @@ check_suites = \
     tests/unit/test_contacts \
     tests/unit/test_distance_windows \
     tests/unit/test_elf_probe \
+    tests/unit/test_elf_tables \
     tests/unit/test_isolate \
     tests/unit/test_isolated_threads \
     tests/unit/test_expression \
@@ -462,6 +463,7 @@ EXTRA_DIST += \
     tests/fuzz/elf.d/shnum \
     tests/fuzz/elf.d/shoff \
     tests/fuzz/elf.d/symbol_name \
+    tests/fuzz/elf.d/symbol_name_far \
     tests/fuzz/elf.d/symbol_value \
     tests/fuzz/elf.d/text \
     tests/fuzz/elf.d/unchanged \

@@ -17,9 +17,8 @@ bool elf_file_has(const elf_file *file, uint64_t offset, uint64_t length)
     return offset <= file->size && length <= file->size - offset;
 }
 
-bool elf_file_read(const elf_file *file, uint64_t offset, void *buffer, size_t length)
+static bool read_bytes(const elf_file *file, uint64_t offset, void *buffer, size_t length)
 {
-    if (!elf_file_has(file, offset, length)) return false;
     char *to = buffer;
     while (length > 0) {
         ssize_t n = pread(file->fd, to, length, (off_t)offset);
@@ -32,7 +31,30 @@ bool elf_file_read(const elf_file *file, uint64_t offset, void *buffer, size_t l
     return true;
 }
 
-bool elf_file_segment(const elf_file *file, unsigned index, Elf64_Phdr *segment)
+static bool is_held(const elf_file *file, uint64_t offset, size_t length)
+{
+    return offset >= file->block_start && offset - file->block_start <= file->block_length &&
+           length <= file->block_length - (offset - file->block_start);
+}
+
+static void read_block(elf_file *file, uint64_t offset)
+{
+    const uint64_t start = offset / ELF_BLOCK * ELF_BLOCK, rest = file->size - start;
+    file->block_start = start;
+    file->block_length = rest < ELF_BLOCK ? rest : ELF_BLOCK;
+    if (!read_bytes(file, start, file->block, file->block_length)) file->block_length = 0;
+}
+
+bool elf_file_read(elf_file *file, uint64_t offset, void *buffer, size_t length)
+{
+    if (!elf_file_has(file, offset, length)) return false;
+    if (!is_held(file, offset, length)) read_block(file, offset);
+    if (!is_held(file, offset, length)) return read_bytes(file, offset, buffer, length);
+    memcpy(buffer, file->block + (offset - file->block_start), length);
+    return true;
+}
+
+bool elf_file_segment(elf_file *file, unsigned index, Elf64_Phdr *segment)
 {
     assert(index < file->header.e_phnum);
     uint64_t table = file->header.e_phoff, at = (uint64_t)index * sizeof *segment;
@@ -41,7 +63,7 @@ bool elf_file_segment(const elf_file *file, unsigned index, Elf64_Phdr *segment)
 
 static uint64_t rounded_up(uint64_t n, uint64_t step) { return (n + step - 1) / step * step; }
 
-static bool has_owner(const elf_file *file, uint64_t offset, uint64_t length, const char *owner)
+static bool has_owner(elf_file *file, uint64_t offset, uint64_t length, const char *owner)
 {
     char found[OWNER_MAX];
     return length == strlen(owner) + 1 && elf_file_read(file, offset, found, length) &&
@@ -50,7 +72,7 @@ static bool has_owner(const elf_file *file, uint64_t offset, uint64_t length, co
 
 /* Walks over the notes of one segment. No sum wraps around: sizes in a note have 32 bits, the
  * segment has at most NOTES_MAX bytes, and lies inside the file. */
-static elf_span find_in_segment(const elf_file *file, const Elf64_Phdr *segment, const char *owner,
+static elf_span find_in_segment(elf_file *file, const Elf64_Phdr *segment, const char *owner,
                                 uint32_t type)
 {
     elf_span none = {0, 0};
@@ -71,7 +93,7 @@ static elf_span find_in_segment(const elf_file *file, const Elf64_Phdr *segment,
     return none;
 }
 
-elf_span elf_file_find_note(const elf_file *file, const char *owner, uint32_t type)
+elf_span elf_file_find_note(elf_file *file, const char *owner, uint32_t type)
 {
     assert(strlen(owner) < OWNER_MAX);
     elf_span found = {0, 0};

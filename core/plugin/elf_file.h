@@ -14,10 +14,14 @@
  * overflow, and done by pread: a missing part is reported, never signalled.
  * Only files of this machine's word size and byte order make sense here. */
 
+enum { ELF_BLOCK = 4096 }; /* bytes */
+
 typedef struct elf_file {
     int fd;
     uint64_t size; /* bytes */
     Elf64_Ehdr header;
+    uint64_t block_start, block_length; /* the block that was read last, since tables are small */
+    unsigned char block[ELF_BLOCK];
 } elf_file;
 
 /* Bytes of a file. Length 0: not found. */
@@ -29,13 +33,13 @@ typedef struct elf_span {
 bool elf_file_has(const elf_file *file, uint64_t offset, uint64_t length);
 
 /* Reads exactly `length` bytes; false if the file does not have them (any more). */
-bool elf_file_read(const elf_file *file, uint64_t offset, void *buffer, size_t length);
+bool elf_file_read(elf_file *file, uint64_t offset, void *buffer, size_t length);
 
 /* Reads a program header; index < header.e_phnum. */
-bool elf_file_segment(const elf_file *file, unsigned index, Elf64_Phdr *segment);
+bool elf_file_segment(elf_file *file, unsigned index, Elf64_Phdr *segment);
 
 /* The descriptor of the first note of that owner and type in any note segment. */
-elf_span elf_file_find_note(const elf_file *file, const char *owner, uint32_t type);
+elf_span elf_file_find_note(elf_file *file, const char *owner, uint32_t type);
 
 /* In words: "64-bit", "little-endian", "x86-64". */
 const char *elf_class_name(unsigned char class);

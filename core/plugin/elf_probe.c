@@ -6,6 +6,7 @@
 #include "core/plugin/elf_file.h"
 #include "core/plugin/elf_probe.h"
 #include "core/plugin/elf_segments.h"
+#include "core/plugin/elf_tables.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -145,8 +146,19 @@ static bool check_headers(elf_file *file, elf_probe *probe, elf_check *check)
 static bool check_segments(elf_file *file, elf_probe *probe, elf_check *check)
 {
     (void)probe;
+    elf_loads loads;
     char text[200];
-    const bool good = elf_segments_check(file, text, sizeof text);
+    const bool good = elf_segments_check(file, &loads, text, sizeof text);
+    return answer(check, good, "%s%s", text, good ? "" : "; " CUT_SHORT);
+}
+
+static bool check_tables(elf_file *file, elf_probe *probe, elf_check *check)
+{
+    (void)probe;
+    elf_loads loads;
+    char text[200];
+    const bool good = elf_segments_check(file, &loads, text, sizeof text) &&
+                      elf_tables_check(file, &loads, text, sizeof text);
     return answer(check, good, "%s%s", text, good ? "" : "; " CUT_SHORT);
 }
 
@@ -232,6 +244,7 @@ static const check_row check_rows[PROBE_CHECKS] = {
     [PROBE_KIND] = {"kind", PROBE_CLASS, check_kind},
     [PROBE_HEADERS] = {"headers", PROBE_CLASS, check_headers},
     [PROBE_SEGMENTS] = {"segments", PROBE_HEADERS, check_segments},
+    [PROBE_TABLES] = {"tables", PROBE_SEGMENTS, check_tables},
     [PROBE_NOTE] = {"note", PROBE_HEADERS, check_note},
     [PROBE_ABI] = {"abi", PROBE_NOTE, check_abi},
 };

@@ -26,6 +26,7 @@ typedef enum elf_check_id {
     PROBE_KIND,     /* a shared object */
     PROBE_HEADERS,  /* tables of program and section headers inside the file */
     PROBE_SEGMENTS, /* everything to be mapped inside the file, and apart in memory */
+    PROBE_TABLES,   /* symbols, strings and relocations lead nowhere outside the object */
     PROBE_NOTE,     /* the note .note.impinge, well formed */
     PROBE_ABI,      /* a version of the ABI this host speaks */
     PROBE_CHECKS

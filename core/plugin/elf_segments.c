@@ -8,15 +8,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-enum { LOADS_MAX = 32 }; /* usual are 2 to 6 */
-
-/* The parts to be loaded, as found so far. */
-typedef struct loads {
-    Elf64_Phdr part[LOADS_MAX];
-    unsigned count;
-    uint64_t page; /* bytes */
-} loads;
-
 __attribute__((format(printf, 4, 5))) static bool refuse(unsigned index, char *text, size_t size,
                                                          const char *format, ...)
 {
@@ -56,7 +47,7 @@ static bool check_in_file(const elf_file *file, unsigned index, const Elf64_Phdr
                   (unsigned long long)file->size);
 }
 
-static bool add_load(const elf_file *file, unsigned index, const Elf64_Phdr *s, loads *l,
+static bool add_load(const elf_file *file, unsigned index, const Elf64_Phdr *s, elf_loads *l,
                      char *text, size_t size)
 {
     if (!check_in_file(file, index, s, text, size)) return false;
@@ -67,14 +58,14 @@ static bool add_load(const elf_file *file, unsigned index, const Elf64_Phdr *s, 
                       (unsigned long long)l->page);
     if (l->count > 0 && first_page(s, l->page) < end_page(&l->part[l->count - 1], l->page))
         return refuse(index, text, size, "overlaps the loadable part before it, or lies below it");
-    if (l->count == LOADS_MAX)
+    if (l->count == ELF_LOADS_MAX)
         return refuse(index, text, size, "is loadable part number %d, must be at most %d",
-                      LOADS_MAX + 1, LOADS_MAX);
+                      ELF_LOADS_MAX + 1, ELF_LOADS_MAX);
     l->part[l->count++] = *s;
     return true;
 }
 
-static bool read_loads(const elf_file *file, loads *l, char *text, size_t size)
+static bool read_loads(elf_file *file, elf_loads *l, char *text, size_t size)
 {
     for (unsigned i = 0; i < file->header.e_phnum; ++i) {
         Elf64_Phdr s;
@@ -91,7 +82,7 @@ static uint64_t used_memory(const Elf64_Phdr *s)
 }
 
 /* A linker may round the end of PT_GNU_RELRO up to a page, which is mapped all the same. */
-static bool is_inside(const Elf64_Phdr *s, const loads *l)
+static bool is_inside(const Elf64_Phdr *s, const elf_loads *l)
 {
     const uint64_t length = used_memory(s);
     for (unsigned k = 0; k < l->count; ++k) {
@@ -107,8 +98,7 @@ static bool is_followed(Elf64_Word type)
            type == PT_GNU_EH_FRAME || type == PT_PHDR;
 }
 
-static bool check_others(const elf_file *file, const loads *l, unsigned *dynamics, char *text,
-                         size_t size)
+static bool check_others(elf_file *file, elf_loads *l, unsigned *dynamics, char *text, size_t size)
 {
     for (unsigned i = 0; i < file->header.e_phnum; ++i) {
         Elf64_Phdr s;
@@ -117,21 +107,41 @@ static bool check_others(const elf_file *file, const loads *l, unsigned *dynamic
         if (read && !check_in_file(file, i, &s, text, size)) return false;
         if (is_followed(s.p_type) && !is_inside(&s, l))
             return refuse(i, text, size, "(type %#x) lies outside of what is loaded", s.p_type);
-        *dynamics += s.p_type == PT_DYNAMIC;
+        if (s.p_type == PT_DYNAMIC) l->dynamic = s, *dynamics += 1;
     }
     return true;
 }
 
-bool elf_segments_check(const elf_file *file, char *text, size_t size)
+bool elf_segments_check(elf_file *file, elf_loads *loads, char *text, size_t size)
 {
-    loads l = {.count = 0, .page = (uint64_t)sysconf(_SC_PAGESIZE)};
+    *loads = (elf_loads){.count = 0, .page = (uint64_t)sysconf(_SC_PAGESIZE)};
     unsigned dynamics = 0;
-    if (!read_loads(file, &l, text, size)) return false;
-    if (!check_others(file, &l, &dynamics, text, size)) return false;
-    if (l.count > 0 && dynamics > 0) {
-        snprintf(text, size, "%u to load, all inside the file", l.count);
+    if (!read_loads(file, loads, text, size)) return false;
+    if (!check_others(file, loads, &dynamics, text, size)) return false;
+    if (loads->count > 0 && dynamics == 1) {
+        snprintf(text, size, "%u to load, all inside the file", loads->count);
         return true;
     }
-    snprintf(text, size, "has no %s part", l.count == 0 ? "loadable" : "dynamic");
+    snprintf(text, size, "has %s part",
+             loads->count == 0 ? "no loadable"
+             : dynamics == 0   ? "no dynamic"
+                               : "more than one dynamic");
     return false;
+}
+
+const Elf64_Phdr *elf_loads_part(const elf_loads *loads, uint64_t address, uint64_t length)
+{
+    for (unsigned k = 0; k < loads->count; ++k) {
+        const Elf64_Phdr *part = &loads->part[k];
+        if (address < part->p_vaddr || address - part->p_vaddr > part->p_memsz) continue;
+        if (length <= part->p_memsz - (address - part->p_vaddr)) return part;
+    }
+    return NULL;
+}
+
+bool elf_loads_span(const elf_loads *loads, uint64_t address, uint64_t length)
+{
+    const uint64_t start = first_page(&loads->part[0], loads->page),
+                   end = end_page(&loads->part[loads->count - 1], loads->page);
+    return address >= start && address <= end && length <= end - address;
 }

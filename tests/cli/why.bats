@@ -58,7 +58,7 @@ printable() {
     [[ $stderr == *'folder\x1b[7m/hostile.so'"' crashes in its constructor;"* ]]
 }
 
-checks='file format class machine kind headers segments note abi'
+checks='file format class machine kind headers segments tables note abi'
 
 @test "every check of a good plugin passes, in order" {
     run -0 "$IMPINGE" why "$top_builddir/plugins/.libs/sphere.so"

@@ -1,0 +1,44 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/plugin/elf_dynamic.h"
+
+bool elf_dynamic_open(elf_dynamic *d, elf_file *file, const elf_loads *loads)
+{
+    d->file = file, d->loads = loads;
+    d->count = 0;
+    for (uint64_t at = loads->dynamic.p_vaddr; d->count < ELF_DYNAMIC_MAX;
+         at += sizeof(Elf64_Dyn)) {
+        if (!elf_dynamic_load(d, at, &d->entry[d->count], sizeof(Elf64_Dyn))) return false;
+        if (d->entry[d->count].d_tag == DT_NULL) return true;
+        d->count += 1;
+    }
+    return false;
+}
+
+bool elf_dynamic_find(const elf_dynamic *d, Elf64_Sxword tag, uint64_t *value)
+{
+    *value = 0;
+    for (unsigned k = d->count; k-- > 0;) {
+        if (d->entry[k].d_tag != tag) continue;
+        *value = d->entry[k].d_un.d_val;
+        return true;
+    }
+    return false;
+}
+
+bool elf_dynamic_has(const elf_dynamic *d, uint64_t address, uint64_t length)
+{
+    const Elf64_Phdr *part = elf_loads_part(d->loads, address, length);
+    if (part == NULL) return false;
+    const uint64_t within = address - part->p_vaddr;
+    return within <= part->p_filesz && length <= part->p_filesz - within;
+}
+
+bool elf_dynamic_load(const elf_dynamic *d, uint64_t address, void *to, size_t length)
+{
+    if (!elf_dynamic_has(d, address, length)) return false;
+    const Elf64_Phdr *part = elf_loads_part(d->loads, address, length);
+    return elf_file_read(d->file, part->p_offset + (address - part->p_vaddr), to, length);
+}

@@ -1,0 +1,23 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_PLUGIN_ELF_TABLES_H
+#define CORE_PLUGIN_ELF_TABLES_H
+
+#include "core/plugin/elf_segments.h"
+
+/* Whether what the dynamic loader follows stays inside the object
+ * ================================================================
+ * The loader believes the tables that the dynamic table points to. What leads out of the object may
+ * meet nothing in one process and other memory in the next, so that loading it for trial shows
+ * little. Accepted is a file where
+ *
+ *   - strings end inside the table of strings, and every name begins there;
+ *   - the table of hashes leads to symbols that are there, each of whose versions is declared;
+ *   - symbols, and what is relocated relative to the object, lie in its memory;
+ *   - relocations write to memory that may be written, of symbols that are there;
+ *   - constructors, destructors and resolvers lie in code.
+ *
+ * What code does is not examined. False: `text` says which table is wrong. */
+bool elf_tables_check(elf_file *file, const elf_loads *loads, char *text, size_t size);
+
+#endif
