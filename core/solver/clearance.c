@@ -206,8 +206,8 @@ clearance_state clearance_look(const clearance_search *c)
         .t_lower = c->stage == STAGE_VIOLATION ? c->violation.t_lower : NAN,
         .heap = searched ? m->heap.count + m->start_count : c->violation.heap.count,
         .bytes =
-            sizeof *c + c->count * sizeof *c->parts +
-            (m->start_capacity + m->heap.capacity + c->violation.heap.capacity) * sizeof(pair)};
+            sizeof *c + c->count * sizeof *c->parts + m->start_capacity * sizeof(pair) +
+            (m->heap.capacity + c->violation.heap.capacity) * PAIR_HEAP_BYTES};
 }
 
 size_t clearance_count(const clearance_search *c) { return c->count; }

@@ -7,20 +7,27 @@
 #include <assert.h>
 #include <stdlib.h>
 
-static bool pair_before(const pair *p, const pair *q)
+static bool place_before(const pair_place *p, const pair_place *q)
 {
     for (int k = 0; k < 2; ++k)
         if (p->key[k] != q->key[k]) return p->key[k] < q->key[k];
     return p->serial < q->serial;
 }
 
+/* Most searches have few pairs waiting: their first block is one that malloc has ready. */
+enum { CAPACITY_LEAST = 6 };
+
 bool pair_heap_reserve(pair_heap *heap, size_t more)
 {
     if (more <= heap->capacity - heap->count) return true;
-    const size_t capacity = 2 * (heap->count + more) + 64;
-    pair *pairs = realloc(heap->pairs, capacity * sizeof *pairs);
-    if (pairs == NULL) return false;
-    heap->pairs = pairs;
+    const size_t capacity = 2 * (heap->count + more) + CAPACITY_LEAST;
+    pair_place *places = realloc(heap->places, capacity * sizeof *places);
+    if (places == NULL) return false;
+    heap->places = places;
+    pair *slots = realloc(heap->slots, capacity * sizeof *slots);
+    if (slots == NULL) return false;
+    heap->slots = slots;
+    for (size_t k = heap->capacity; k < capacity; ++k) places[k].slot = k;
     heap->capacity = capacity;
     return true;
 }
@@ -28,42 +35,50 @@ bool pair_heap_reserve(pair_heap *heap, size_t more)
 void pair_heap_push(pair_heap *heap, const pair *p)
 {
     assert(heap->count < heap->capacity);
+    pair_place *places = heap->places;
     size_t hole = heap->count++;
+    const pair_place place = {{p->key[0], p->key[1]}, p->serial, places[hole].slot};
+    heap->slots[place.slot] = *p;
     while (hole > 0) {
         const size_t parent = (hole - 1) / 2;
-        if (!pair_before(p, &heap->pairs[parent])) break;
-        heap->pairs[hole] = heap->pairs[parent];
+        if (!place_before(&place, &places[parent])) break;
+        places[hole] = places[parent];
         hole = parent;
     }
-    heap->pairs[hole] = *p;
+    places[hole] = place;
 }
 
-const pair *pair_heap_top(const pair_heap *heap)
+const pair *pair_heap_at(const pair_heap *heap, size_t index)
 {
-    assert(heap->count > 0);
-    return &heap->pairs[0];
+    assert(index < heap->count);
+    return &heap->slots[heap->places[index].slot];
 }
+
+const pair *pair_heap_top(const pair_heap *heap) { return pair_heap_at(heap, 0); }
 
 pair pair_heap_pop(pair_heap *heap)
 {
     assert(heap->count > 0);
-    const pair top = heap->pairs[0], last = heap->pairs[--heap->count];
+    pair_place *places = heap->places;
+    const size_t count = --heap->count, free_slot = places[0].slot;
+    const pair_place last = places[count];
     size_t hole = 0;
     for (;;) {
         size_t child = 2 * hole + 1;
-        if (child >= heap->count) break;
-        if (child + 1 < heap->count && pair_before(&heap->pairs[child + 1], &heap->pairs[child]))
-            ++child;
-        if (!pair_before(&heap->pairs[child], &last)) break;
-        heap->pairs[hole] = heap->pairs[child];
+        if (child >= count) break;
+        if (child + 1 < count && place_before(&places[child + 1], &places[child])) ++child;
+        if (!place_before(&places[child], &last)) break;
+        places[hole] = places[child];
         hole = child;
     }
-    heap->pairs[hole] = last;
-    return top;
+    places[hole] = last;
+    places[count].slot = free_slot;
+    return heap->slots[free_slot];
 }
 
 void pair_heap_clear(pair_heap *heap)
 {
-    free(heap->pairs);
+    free(heap->places);
+    free(heap->slots);
     *heap = (pair_heap){0};
 }

@@ -24,16 +24,29 @@ typedef struct pair {
     bool is_seen_only;       /* separation_first_look may have left too much */
 } pair;
 
+/* What decides a pair's place on the heap, and where the pair itself is, which never moves. */
+typedef struct pair_place {
+    double key[2];
+    uint64_t serial;
+    size_t slot;
+} pair_place;
+
 typedef struct pair_heap {
-    pair *pairs;
+    pair_place *places; /* in the order of a heap; from `count` on, the slots that are free */
+    pair *slots;
     size_t count, capacity;
 } pair_heap; /* begins as {0}; pair_heap_clear frees */
+
+enum { PAIR_HEAP_BYTES = sizeof(pair_place) + sizeof(pair) }; /* for each of its capacity */
 
 /* Room for `more` pushes; false: no memory, the heap is as it was. */
 bool pair_heap_reserve(pair_heap *heap, size_t more);
 
 /* Precondition: there is room. */
 void pair_heap_push(pair_heap *heap, const pair *p);
+
+/* In no particular order, but the first first; precondition: index < count. */
+const pair *pair_heap_at(const pair_heap *heap, size_t index);
 
 /* The first; precondition: count > 0. */
 const pair *pair_heap_top(const pair_heap *heap);

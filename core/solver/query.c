@@ -171,7 +171,7 @@ static void conclude(imp_query *query, impact_state state)
 static void note_bytes(imp_query *query, uint64_t of_candidates)
 {
     uint64_t bytes = query->scene_bytes + query->stats.bytes + sizeof *query +
-                     query->impact.heap.capacity * sizeof(pair) + of_candidates;
+                     query->impact.heap.capacity * PAIR_HEAP_BYTES + of_candidates;
     if (query->clearance != NULL) bytes += clearance_look(query->clearance).bytes;
     if (bytes > query->peak_bytes) query->peak_bytes = bytes;
 }

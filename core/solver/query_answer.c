@@ -88,7 +88,7 @@ bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pendin
 {
     if (query == NULL || pending == NULL) return false;
     const pair_heap *heap = &query->impact.heap;
-    const pair *waiting = index < heap->count ? &heap->pairs[index] : NULL;
+    const pair *waiting = index < heap->count ? pair_heap_at(heap, index) : NULL;
     const size_t k = waiting != NULL ? waiting->candidate_pair
                                      : query->candidates_tested + (index - heap->count);
     if (query->clearance != NULL || k >= query->candidates.pair_count) return false;
