@@ -21,15 +21,25 @@ typedef struct cloud {
     imp_quad x[3][QUADS_MAX];
 } cloud;
 
-IMP_QUAD_INLINE void cloud_at(const net *f, double t, cloud *z)
+IMP_QUAD_INLINE void cloud_take(const net *f, double t, int quads, cloud *z)
 {
     const imp_quad tau = imp_quad_all(t - f->time);
+    const int stride = IMP_QUAD * quads;
     for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < f->stride / IMP_QUAD; ++k) {
-            const double *x = f->numbers + i * f->stride + IMP_QUAD * k;
+        for (int k = 0; k < quads; ++k) {
+            const double *x = f->numbers + i * stride + IMP_QUAD * k;
             z->x[i][k] = imp_quad_load(x);
-            if (f->is_moving) z->x[i][k] += tau * imp_quad_load(x + 3 * f->stride);
+            if (f->is_moving) z->x[i][k] += tau * imp_quad_load(x + 3 * stride);
         }
+}
+
+/* Unrolled for bicubic patches. */
+IMP_QUAD_INLINE void cloud_at(const net *f, double t, cloud *z)
+{
+    if (f->stride == 16)
+        cloud_take(f, t, 4, z);
+    else
+        cloud_take(f, t, f->stride / IMP_QUAD, z);
 }
 
 IMP_QUAD_INLINE imp_quad height(const cloud *z, int k, const imp_quad n[3])

@@ -98,33 +98,55 @@ static void halve_plain(double *x, int n, int step, int side)
                 x[i * step] = 0.5 * (x[i * step] + x[(i + 1) * step]);
 }
 
-/* The same of a cubic in every number of a row of four, which lie `row` apart. */
-IMP_QUAD_INLINE void halve_rows(double *x, int row, int side)
+/* Four rows of four numbers; and the same turned, so that rows are columns. */
+typedef struct rows {
+    imp_quad row[4];
+} rows;
+
+IMP_QUAD_INLINE rows rows_at(const double *x)
 {
-    const imp_quad half = imp_quad_all(0.5), r0 = imp_quad_load(x), r1 = imp_quad_load(x + row);
-    const imp_quad r2 = imp_quad_load(x + 2 * row), r3 = imp_quad_load(x + 3 * row);
-    const imp_quad p = half * (r0 + r1), q = half * (r1 + r2), r = half * (r2 + r3);
-    const imp_quad pq = half * (p + q), qr = half * (q + r), mid = half * (pq + qr);
-    if (side == 0) {
-        imp_quad_store(x + row, p), imp_quad_store(x + 2 * row, pq),
-            imp_quad_store(x + 3 * row, mid);
-    } else {
-        imp_quad_store(x, mid), imp_quad_store(x + row, qr), imp_quad_store(x + 2 * row, r);
-    }
+    return (rows){{imp_quad_load(x), imp_quad_load(x + 4), imp_quad_load(x + 8),
+                   imp_quad_load(x + 12)}};
+}
+
+IMP_QUAD_INLINE void rows_store(double *x, const rows *r)
+{
+    for (int k = 0; k < 4; ++k) imp_quad_store(x + 4 * k, r->row[k]);
+}
+
+IMP_QUAD_INLINE rows rows_turned(const rows *r)
+{
+    const imp_quad a = r->row[0], b = r->row[1], c = r->row[2], d = r->row[3];
+    const imp_quad even[2] = {{a[0], b[0], a[2], b[2]}, {c[0], d[0], c[2], d[2]}};
+    const imp_quad odd[2] = {{a[1], b[1], a[3], b[3]}, {c[1], d[1], c[3], d[3]}};
+    return (rows){{{even[0][0], even[0][1], even[1][0], even[1][1]},
+                   {odd[0][0], odd[0][1], odd[1][0], odd[1][1]},
+                   {even[0][2], even[0][3], even[1][2], even[1][3]},
+                   {odd[0][2], odd[0][3], odd[1][2], odd[1][3]}}};
+}
+
+/* The same of a cubic in every number of a row. */
+IMP_QUAD_INLINE rows rows_halved(const rows *x, int side)
+{
+    const imp_quad half = imp_quad_all(0.5), *const r = x->row;
+    const imp_quad p = half * (r[0] + r[1]), q = half * (r[1] + r[2]), s = half * (r[2] + r[3]);
+    const imp_quad pq = half * (p + q), qs = half * (q + s), mid = half * (pq + qs);
+    return side == 0 ? (rows){{r[0], p, pq, mid}} : (rows){{mid, qs, s, r[3]}};
 }
 
 /* A bicubic patch: in turned columns where it is halved along v. */
 IMP_QUAD_INLINE void halve_bicubic(double *x, int columns, parameter j, int side)
 {
     for (int c = 0; c < columns; ++c, x += 16) {
-        double turned[16];
+        const rows whole = rows_at(x);
         if (j == PARAMETER_U) {
-            halve_rows(x, 4, side);
-            continue;
+            const rows half = rows_halved(&whole, side);
+            rows_store(x, &half);
+        } else {
+            const rows turned = rows_turned(&whole), half = rows_halved(&turned, side);
+            const rows back = rows_turned(&half);
+            rows_store(x, &back);
         }
-        for (int k = 0; k < 16; ++k) turned[k] = x[k % 4 * 4 + k / 4];
-        halve_rows(turned, 4, side);
-        for (int k = 0; k < 16; ++k) x[k] = turned[k % 4 * 4 + k / 4];
     }
 }
 
@@ -158,11 +180,11 @@ typedef struct row_weights {
     imp_quad point[4], two[3], three[2], all;
 } row_weights;
 
-IMP_QUAD_INLINE row_weights weights_of_rows(const double *w)
+IMP_QUAD_INLINE row_weights weights_of_rows(const rows *w)
 {
     const imp_quad half = imp_quad_all(0.5);
     row_weights of;
-    for (int k = 0; k < 4; ++k) of.point[k] = imp_quad_load(w + 4 * k);
+    for (int k = 0; k < 4; ++k) of.point[k] = w->row[k];
     for (int k = 0; k < 3; ++k) of.two[k] = half * (of.point[k] + of.point[k + 1]);
     for (int k = 0; k < 2; ++k) of.three[k] = half * (of.two[k] + of.two[k + 1]);
     of.all = half * (of.three[0] + of.three[1]);
@@ -174,40 +196,33 @@ IMP_QUAD_INLINE imp_quad mean_of_rows(imp_quad x, imp_quad w, imp_quad y, imp_qu
     return (w * x + z * y) / (w + z);
 }
 
-IMP_QUAD_INLINE void halve_rows_weighted(double *x, const row_weights *w, int side)
+IMP_QUAD_INLINE rows rows_halved_weighted(const rows *x, const row_weights *w, int side)
 {
-    imp_quad r[4], two[3], three[2];
-    for (int k = 0; k < 4; ++k) r[k] = imp_quad_load(x + 4 * k);
+    const imp_quad *const r = x->row;
+    imp_quad two[3], three[2];
     for (int k = 0; k < 3; ++k) two[k] = mean_of_rows(r[k], w->point[k], r[k + 1], w->point[k + 1]);
     for (int k = 0; k < 2; ++k)
         three[k] = mean_of_rows(two[k], w->two[k], two[k + 1], w->two[k + 1]);
     const imp_quad all = mean_of_rows(three[0], w->three[0], three[1], w->three[1]);
-    imp_quad_store(x, side == 0 ? r[0] : all);
-    imp_quad_store(x + 4, side == 0 ? two[0] : three[1]);
-    imp_quad_store(x + 8, side == 0 ? three[0] : two[2]);
-    imp_quad_store(x + 12, side == 0 ? all : r[3]);
-}
-
-IMP_QUAD_INLINE void turn(const double *x, double *turned)
-{
-    for (int k = 0; k < 16; ++k) turned[k] = x[k % 4 * 4 + k / 4];
+    return side == 0 ? (rows){{r[0], two[0], three[0], all}} : (rows){{all, three[1], two[2], r[3]}};
 }
 
 IMP_QUAD_INLINE void halve_bicubic_weighted(double *x, int columns, parameter j, int side)
 {
-    double turned[16], *w = x + 16 * columns;
     const bool is_turned = j == PARAMETER_V;
-    if (is_turned) turn(w, turned);
-    const row_weights of = weights_of_rows(is_turned ? turned : w);
+    double *w = x + 16 * columns;
+    const rows weights = rows_at(w), lines = is_turned ? rows_turned(&weights) : weights;
+    const row_weights of = weights_of_rows(&lines);
     for (int c = 0; c < columns; ++c, x += 16) {
-        if (is_turned) turn(x, turned);
-        halve_rows_weighted(is_turned ? turned : x, &of, side);
-        if (is_turned) turn(turned, x);
+        const rows whole = rows_at(x), turned = is_turned ? rows_turned(&whole) : whole;
+        const rows half = rows_halved_weighted(&turned, &of, side);
+        const rows back = is_turned ? rows_turned(&half) : half;
+        rows_store(x, &back);
     }
-    const imp_quad row[4] = {side == 0 ? of.point[0] : of.all, side == 0 ? of.two[0] : of.three[1],
-                             side == 0 ? of.three[0] : of.two[2], side == 0 ? of.all : of.point[3]};
-    for (int k = 0; k < 4; ++k) imp_quad_store((is_turned ? turned : w) + 4 * k, row[k]);
-    if (is_turned) turn(turned, w);
+    const rows half = side == 0 ? (rows){{of.point[0], of.two[0], of.three[0], of.all}}
+                                : (rows){{of.all, of.three[1], of.two[2], of.point[3]}};
+    const rows back = is_turned ? rows_turned(&half) : half;
+    rows_store(w, &back);
 }
 
 IMP_QUAD_WIDE static void halve_bicubic_weighted_wide(double *x, int columns, parameter j, int side)

@@ -15,6 +15,7 @@ enum { STEP_ROUNDING = 3 };
 static void curve_part(int n, double lo, double hi, double *x, int step)
 {
     double given[PATCH_SIDE_MAX], part[PATCH_SIDE_MAX];
+    if (lo == 0 && hi == 1) return; /* all of it */
     for (int i = 0; i <= n; ++i) given[i] = x[i * step];
     for (int k = 0; k <= n; ++k) {
         memcpy(part, given, sizeof part);
