@@ -136,6 +136,7 @@ core_libcommon_la_SOURCES = $(core_common)
 noinst_LTLIBRARIES += core/libcore.la
 core_libcore_la_SOURCES = $(core_base) $(core_surface) $(core_tree) $(core_plugin) $(core_scene) \
     $(core_solver) $(core_reader)
+core_libcore_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 core_libcore_la_LIBADD = core/libcommon.la $(JANSSON_LIBS) -lm
 
 # The same objects, public symbols only.
