@@ -130,8 +130,25 @@ static bool cut_by_models(const node *a, const node *b, double clearance, time_w
     return true;
 }
 
-/* Hulls at the start of the window again and again, as long as that pays; then the quadratics: once, but of
- * flat nodes as ever, from both ends. */
+/* Whether quadratics may show more than hulls: a hull leaves its surface by a part of what bends, a quadratic
+ * by its remainder. */
+static bool are_models_closer(const node *a, const node *b)
+{
+    double remainder = 0, bend = 0;
+    const node *both[2] = {a, b};
+    if (node_net_made(a) == NULL || node_net_made(b) == NULL) return true;
+    for (int k = 0; k < 2; ++k) {
+        const quadratic3 *f = &both[k]->f;
+        for (int i = 0; i < 3; ++i) {
+            remainder += both[k]->e[i];
+            bend += fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]);
+        }
+    }
+    return TUNING_NET_BEND * remainder < bend;
+}
+
+/* Hulls at the start of the window again and again, as long as that pays; then the quadratics once, where
+ * they may show more. */
 static bool shrink_by_nets(const node *a, const node *b, double clearance, time_window *window,
                            vec3 *axis)
 {
@@ -143,8 +160,8 @@ static bool shrink_by_nets(const node *a, const node *b, double clearance, time_
         if (found && !cut_by_nets(a, b, *axis, clearance, window)) return false;
         pays = window->hi - window->lo < TUNING_NET_SHRINKS * length;
     }
-    return are_flat(a, b) ? shrink(a, b, clearance, window, axis, NULL)
-                          : cut_by_models(a, b, clearance, window, axis, found);
+    return (found && !are_models_closer(a, b)) ||
+           cut_by_models(a, b, clearance, window, axis, found);
 }
 
 bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
@@ -222,17 +239,14 @@ double separation_farthest_of_balls(const node *a, const node *b)
 
 double separation_centres(const node *a, const node *b, double t)
 {
+    const imp_region *g = &a->region, *h = &b->region;
+    const double s = g->d[2] > 0 ? (t - g->c[2]) / g->d[2] : 0;
+    const double r = h->d[2] > 0 ? (t - h->c[2]) / h->d[2] : 0;
     double sum = 0;
     for (int i = 0; i < 3; ++i) {
-        double x[2];
-        const node *both[2] = {a, b};
-        for (int k = 0; k < 2; ++k) {
-            const imp_region *g = &both[k]->region;
-            const quadratic3 *f = &both[k]->f;
-            const double s = g->d[2] > 0 ? (t - g->c[2]) / g->d[2] : 0;
-            x[k] = f->a[i] + (f->bt[i] + f->qtt[i] * s) * s;
-        }
-        sum += (x[1] - x[0]) * (x[1] - x[0]);
+        const double x = a->f.a[i] + (a->f.bt[i] + a->f.qtt[i] * s) * s;
+        const double y = b->f.a[i] + (b->f.bt[i] + b->f.qtt[i] * r) * r;
+        sum += (y - x) * (y - x);
     }
     return sum;
 }

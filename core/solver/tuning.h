@@ -85,6 +85,10 @@
 /* Part of the window that hulls of nets have to leave at most, to be sought again at its new start. Pairs
  * of bicubic patches at gamma 1e-6: 0.25: +1, 0.75: -1, 0.9: -3 of 164 */
 #define TUNING_NET_SHRINKS 0.5
+/* Part of what bends, of two nodes with nets, from which on their remainders are too large for quadratics to
+ * show more than hulls did. Pairs and instructions of bicubic patches, per cent: 2: -2, +5; 4: -2, +3;
+ * 16: +2, -2; of cubic triangles 4: +1, +8 */
+#define TUNING_NET_BEND 8
 /* At most; six are usual.
  * 6: +1.0, 10: +0.1, 40: 0.0 */
 #define TUNING_GJK_STEPS 20
