@@ -162,6 +162,9 @@ plugins_wave_la_LIBADD = plugins/libcommon.la
 # Patches of control points, and what is built of them.
 noinst_LTLIBRARIES += plugins/libpatch.la
 plugins_libpatch_la_SOURCES = \
+    plugins/patch/box_patch.c plugins/patch/box_patch.h \
+    plugins/patch/box_stencil.h \
+    plugins/patch/box_tables.c \
     plugins/patch/cell_net.c plugins/patch/cell_net.h \
     plugins/patch/curve.c plugins/patch/curve.h \
     plugins/patch/ffd_model.c plugins/patch/ffd_model.h \
@@ -174,6 +177,7 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/patch_rate.c plugins/patch/patch_rate.h \
     plugins/patch/patch_series.c plugins/patch/patch_series.h \
     plugins/patch/pieces.c plugins/patch/pieces.h \
+    plugins/patch/rough_points.c plugins/patch/rough_points.h \
     plugins/patch/spline_patch.c plugins/patch/spline_patch.h \
     plugins/patch/triangle.c plugins/patch/triangle.h
 plugins_libpatch_la_LDFLAGS =
@@ -204,8 +208,17 @@ plugins_libsubdivision_la_SOURCES = \
     plugins/subdivision/control_build.h \
     plugins/subdivision/control_mesh.c plugins/subdivision/control_mesh.h \
     plugins/subdivision/control_refine.c \
+    plugins/subdivision/control_smooth.c \
     plugins/subdivision/corner.c plugins/subdivision/corner.h \
-    plugins/subdivision/quad.c plugins/subdivision/quad.h
+    plugins/subdivision/corner_build.h \
+    plugins/subdivision/corner_quad.c \
+    plugins/subdivision/corner_triangle.c \
+    plugins/subdivision/face.c plugins/subdivision/face.h \
+    plugins/subdivision/gauge.c \
+    plugins/subdivision/quarter.h \
+    plugins/subdivision/quarter_box.c \
+    plugins/subdivision/quarter_spline.c \
+    plugins/subdivision/walk.c plugins/subdivision/walk.h
 plugins_libsubdivision_la_LDFLAGS =
 plugins_subdivision_la_LIBADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la
 

@@ -78,6 +78,7 @@ mpfi_suites = \
     tests/unit/test_nets \
     tests/unit/test_poses \
     tests/unit/test_shapes \
+    tests/unit/test_loop \
     tests/unit/test_subdivision \
     tests/unit/test_tightness
 
@@ -85,7 +86,9 @@ mpfi_suites = \
 type_oracle = tests/support/oracle_number.c tests/support/oracle_number.h \
     tests/support/type_oracle.c tests/support/type_oracle.h \
     tests/support/shape_oracle.c tests/support/shape_oracle.h \
+    tests/support/polygons.c tests/support/polygons.h \
     tests/support/subdivision_oracle.c \
+    tests/support/loop_oracle.c \
     tests/support/expression_oracle.c tests/support/expression_oracle.h \
     tests/support/map_oracle.c tests/support/map_oracle.h \
     tests/support/instance.c tests/support/instance.h
@@ -110,6 +113,7 @@ tests_unit_test_poses_SOURCES = tests/unit/test_poses.c \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_maps_SOURCES = tests/unit/test_maps.c tests/support/map_images.h $(type_oracle)
 tests_unit_test_shapes_SOURCES = tests/unit/test_shapes.c $(type_oracle)
+tests_unit_test_loop_SOURCES = tests/unit/test_loop.c $(type_oracle)
 tests_unit_test_subdivision_SOURCES = tests/unit/test_subdivision.c $(type_oracle)
 tests_unit_test_tightness_SOURCES = tests/unit/test_tightness.c $(type_oracle)
 tests_unit_test_distances_SOURCES = tests/unit/test_distances.c $(type_oracle) \

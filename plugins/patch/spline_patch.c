@@ -59,57 +59,11 @@ enum { BASIS_ROUNDINGS = 11 };
 
 /* --- The patch ----------------------------------------------------------------------------------- */
 
-/* The middle of the numbers, how far they are from it, and what is left of them: one rounding each. */
-static void set_group(const imp_quad in[SPLINE_POINTS], int groups, double middle[4], double radius[4],
-                      double most[4], imp_quad *net)
+static void begin(const rough_points *data, spline_patch *s)
 {
-    imp_quad lo = in[0], hi = in[0], greatest = {0};
-    for (int k = 1; k < SPLINE_POINTS; ++k) {
-        lo = imp_quad_min(in[k], lo);
-        hi = imp_quad_max(in[k], hi);
-    }
-    const imp_quad centre = lo + 0.5 * (hi - lo);
-    for (int k = 0; k < SPLINE_POINTS; ++k) {
-        net[k * groups] = in[k] - centre;
-        greatest = imp_quad_max(imp_quad_abs(net[k * groups]), greatest);
-    }
-    imp_quad_store(middle, centre);
-    imp_quad_store(radius, imp_quad_max(hi - centre, centre - lo) * SLACK);
-    imp_quad_store(most, greatest);
-}
-
-/* As patch_set_net. A point may itself be the difference of two, which the caller counts. */
-static void begin(const spline_data *data, spline_patch *s)
-{
-    patch *f = &s->f;
-    const int groups = data->moves ? 2 : 1;
-    memset(f, 0, sizeof *f);
-    f->degree[0] = f->degree[1] = 3;
-    f->lanes = groups * IMP_QUAD;
-    f->units = 2;
-    f->weight_lo = 1;
-    f->net = s->net;
-    imp_quad *net = (imp_quad *)s->net;
-    set_group(data->points, groups, f->place, f->place_radius, f->most, net);
-    if (data->moves)
-        set_group(data->velocities, groups, f->drift, f->drift_radius, f->most + IMP_QUAD, net + 1);
-}
-
-/* Adds the place to the patch's own; what that rounds, and the points' slip, is left to the caller. */
-static void set_place(const spline_data *data, spline_patch *s)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        s->f.place[axis] += data->place[axis];
-        s->f.drift[axis] += data->drift[axis];
-    }
-}
-
-/* At least |exact - patch| where |t| <= late: the points' slip, and the rounding of the two sums. */
-static double slip_upper(const spline_data *data, const patch *f, int axis, double late)
-{
-    const double still = data->slip[axis] + ROUNDING * fabs(f->place[axis]);
-    const double motion = data->slip_motion[axis] + ROUNDING * fabs(f->drift[axis]);
-    return (still + late * motion) * SLACK;
+    rough_begin(data, SPLINE_POINTS, &s->f, (imp_quad *)s->net);
+    s->f.degree[0] = s->f.degree[1] = 3;
+    s->f.net = s->net;
 }
 
 static void set_bezier(spline_patch *s)
@@ -120,15 +74,13 @@ static void set_bezier(spline_patch *s)
     s->f.units = 2 + BASIS_ROUNDINGS;
 }
 
-/* The derivative of a B-spline has the differences of its control points, which are off by 2 slip and by
- * 2 units of `most`. */
-static void set_slopes(const spline_data *data, patch *f)
+/* The derivative of a B-spline has the differences of its control points. */
+static void set_slopes(const rough_points *data, patch *f)
 {
     const int groups = f->lanes / IMP_QUAD;
     const imp_quad *net = (const imp_quad *)f->net;
     for (int side = 0; side < 2; ++side)
         for (int g = 0; g < groups; ++g) {
-            const double *slip = g == 0 ? data->slip : data->slip_motion;
             const int step = side == 0 ? SPLINE_SIDE : 1, rows = side == 0 ? 3 : 4;
             imp_quad most = {0};
             for (int i = 0; i < rows; ++i)
@@ -137,9 +89,7 @@ static void set_slopes(const spline_data *data, patch *f)
                     most = imp_quad_max(
                         imp_quad_abs(net[(k + step) * groups + g] - net[k * groups + g]), most);
                 }
-            most += 2 * imp_quad_of(slip[0], slip[1], slip[2], 0) +
-                    2 * (f->units + 1) * ROUNDING * imp_quad_load(f->most + g * IMP_QUAD);
-            imp_quad_store(f->slope[side] + g * IMP_QUAD, most * SLACK);
+            imp_quad_store(f->slope[side] + g * IMP_QUAD, rough_slope_upper(data, f, g, most));
         }
 }
 
@@ -196,12 +146,11 @@ static void sum_points(const spline_patch *s, const double p[3], double sum[PATC
 }
 
 /* As patch_point. */
-void spline_point(const spline_data *data, const double p[3], double x[3], double error[3])
+void spline_point(const rough_points *data, const double p[3], double x[3], double error[3])
 {
     spline_patch s;
     double sum[PATCH_LANES_MAX] = {0};
     begin(data, &s);
-    set_place(data, &s);
     sum_points(&s, p, sum);
     for (int axis = 0; axis < 3; ++axis) {
         const double place = s.f.place[axis] + sum[axis];
@@ -209,7 +158,7 @@ void spline_point(const spline_data *data, const double p[3], double x[3], doubl
         const double size = s.f.most[axis] + fabs(p[2]) * s.f.most[4 + axis];
         x[axis] = place + way;
         error[axis] = (POINT_UNITS * ROUNDING * size + 3 * ROUNDING * (fabs(place) + fabs(way)) +
-                       slip_upper(data, &s.f, axis, fabs(p[2]))) *
+                       rough_slip_upper(data, &s.f, axis, fabs(p[2]))) *
                           SLACK +
                       IMP_TINY;
     }
@@ -217,43 +166,25 @@ void spline_point(const spline_data *data, const double p[3], double x[3], doubl
 
 /* --- Regions ---------------------------------------------------------------------------------- */
 
-imp_status spline_include(const spline_data *data, const imp_region *region, imp_model model[3])
+imp_status spline_include(const rough_points *data, const imp_region *region, imp_model model[3])
 {
     spline_patch s;
     begin(data, &s);
-    set_place(data, &s);
     s.f.series = s.series;
     set_slopes(data, &s.f);
     change_basis(to_chebyshev, 192, s.f.lanes, s.net, s.series);
     set_noise(&s.f);
-    const double late = fabs(region->c[2]) + region->d[2];
     const imp_status status = patch_include(&s.f, region, model);
-    for (int axis = 0; axis < 3 && status == IMP_OK; ++axis) {
-        imp_model *g = &model[axis];
-        const double slip = slip_upper(data, &s.f, axis, late) + IMP_TINY;
-        g->e = imp_sum_up(g->e + slip);
-        g->lo = imp_sum_down(g->lo - slip);
-        g->hi = imp_sum_up(g->hi + slip);
-        for (int side = 0; side < 2; ++side)
-            g->rate[side] = (g->rate[side] + 2 * (data->slip[axis] + late * data->slip_motion[axis])) *
-                            SLACK;
-        if (data->moves)
-            g->rate[2] =
-                (g->rate[2] + data->slip_motion[axis] + ROUNDING * fabs(s.f.drift[axis])) * SLACK;
-    }
+    if (status == IMP_OK) rough_widen_model(data, &s.f, region, model);
     return status;
 }
 
-imp_status spline_net(const spline_data *data, const imp_region *region, imp_net *net)
+imp_status spline_net(const rough_points *data, const imp_region *region, imp_net *net)
 {
     spline_patch s;
     begin(data, &s);
-    set_place(data, &s);
     set_bezier(&s);
-    const double late = fabs(region->c[2]) + region->d[2];
     const imp_status status = patch_net(&s.f, region, net);
-    for (int axis = 0; axis < 3 && status == IMP_OK; ++axis)
-        net->error[axis] =
-            imp_sum_up(net->error[axis] + slip_upper(data, &s.f, axis, late) + IMP_TINY);
+    if (status == IMP_OK) rough_widen_net(data, &s.f, region, net);
     return status;
 }

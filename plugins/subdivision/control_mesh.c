@@ -72,6 +72,11 @@ static imp_status check_faces(const control_mesh *m, triangles_fault *fault)
         if (corners > CONTROL_VALENCE_MAX)
             return triangles_refuse(fault, 0, "face %u has %u corners, may have %d; divide it", f,
                                     corners, CONTROL_VALENCE_MAX);
+        if (m->loop != NULL && corners != 3)
+            return triangles_refuse(fault, 0,
+                                    "face %u has %u corners, Loop's scheme takes triangles; divide it "
+                                    "into such, or take scheme=catmull-clark",
+                                    f, corners);
         const uint32_t twice = repeated_corner(m, f);
         if (twice != CONTROL_NONE)
             return triangles_refuse(fault, 0,
@@ -191,9 +196,11 @@ imp_status control_connect(control_mesh *m, triangles_fault *fault)
     return status;
 }
 
-imp_status control_begin(control_mesh *m, triangles *from, double *velocity, triangles_fault *fault)
+imp_status control_begin(control_mesh *m, triangles *from, double *velocity, const box_tables *loop,
+                         triangles_fault *fault)
 {
-    *m = (control_mesh){.point_count = from->point_count,
+    *m = (control_mesh){.loop = loop,
+                        .point_count = from->point_count,
                         .face_count = from->count,
                         .corner_count = from->corner_count,
                         .point = from->point,

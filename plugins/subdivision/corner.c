@@ -1,36 +1,11 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "plugins/subdivision/corner.h"
+#include "plugins/subdivision/corner_build.h"
 
 #include <impinge/interval.h>
 
 /* --- Finding the points --------------------------------------------------------------------------- */
-
-/* Where the corners of the quad are, and the neighbours beyond each side: those next to its beginning, to
- * its end, and beyond its end. */
-static const int side_from[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-static const int side_out[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
-
-static uint32_t *grid_at(corner_points *to, const int from[2], const int out[2])
-{
-    return &to->grid[from[0] + out[0] + 1][from[1] + out[1] + 1];
-}
-
-/* The face beyond side k, half-edge h, and the one beyond that at the end of the side. Without a face
- * beyond a side, the points there are not there. */
-static void find_beyond(const control_mesh *m, uint32_t h, int k, corner_points *to)
-{
-    const int *a = side_from[k], *b = side_from[(k + 1) % 4], *out = side_out[k];
-    const uint32_t twin = m->twin[h];
-    if (twin == CONTROL_NONE) return;
-    *grid_at(to, a, out) = control_end(m, control_next(m, twin));
-    const uint32_t back = control_previous(m, twin);
-    *grid_at(to, b, out) = m->corner[back];
-    if (m->twin[back] == CONTROL_NONE) return;
-    const int far[2] = {b[0] + out[0], b[1] + out[1]};
-    *grid_at(to, far, side_out[(k + 1) % 4]) = control_end(m, control_next(m, m->twin[back]));
-}
 
 static void find_fan(const control_mesh *m, uint32_t h, corner_points *to)
 {
@@ -50,18 +25,21 @@ static void find_fan(const control_mesh *m, uint32_t h, corner_points *to)
     }
     to->edges = to->faces;
     if (!is_closed) to->edge[to->edges++] = m->corner[control_previous(m, last)];
-    to->has_fan = is_closed ? to->faces != 4 : to->faces > 2;
+    to->has_fan = !corner_is_regular(m, &(control_point){h, (uint16_t)to->faces, !is_closed});
 }
 
 void corner_find(const control_mesh *m, uint32_t h, corner_points *to)
 {
     for (int x = 0; x < CORNER_SIDE; ++x)
         for (int y = 0; y < CORNER_SIDE; ++y) to->grid[x][y] = CONTROL_NONE;
+    memset(to->missing, 0, sizeof to->missing);
+    memset(to->is_border, 0, sizeof to->is_border);
+    to->is_loop = m->loop != NULL;
     find_fan(m, h, to);
-    for (int k = 0; k < 4; ++k, h = control_next(m, h)) {
-        to->grid[side_from[k][0] + 1][side_from[k][1] + 1] = m->corner[h];
-        find_beyond(m, h, k, to);
-    }
+    if (to->is_loop)
+        triangle_find(m, h, to);
+    else
+        quad_find(m, h, to);
 }
 
 /* --- Where the corner lies ---------------------------------------------------------------------------- */
@@ -69,18 +47,22 @@ void corner_find(const control_mesh *m, uint32_t h, corner_points *to)
 /* The limit of one coordinate. With n faces, N = n (n + 5), all of
  *
  *   (n^2 c + 4 sum_k e_k + sum_k d_k) / N,   at a border (e_first + 4 c + e_last) / 6
+ *   of Loop's c + sum_k (e_k - c) / N,   N = n + 3 n / (8 share)
  *
  * are written as c and a mean of differences to c. Lemma. Those, at most `most`, are rounded once, their
- * sum at most 2 n times, product and quotient 3; the last sum once. */
+ * sum at most 2 n times, product and quotient 3; the last sum once. The share, from 0.23 to 0.61, is off by
+ * 2^-50; n / N = 1 / (1 + 3 / (8 share)) has the derivative 3/8 / (share + 3/8)^2 <= 1.03 by it, which makes
+ * 9 units, and N has 4 roundings. */
 static double limit_of(const corner_points *of, const double *list, size_t axis, double *error)
 {
     const double c = list[3 * (size_t)of->grid[1][1] + axis], n = of->faces;
-    double sum = 0, most = 0, weight = n * (n + 5);
+    double sum = 0, most = 0;
+    double weight = of->is_loop ? n + 3 * n / (8 * control_loop_share(of->faces)) : n * (n + 5);
     for (int k = 0; k < of->edges; ++k) {
         const double e = list[3 * (size_t)of->edge[k] + axis] - c;
         if (of->edges == of->faces) {
-            const double d = list[3 * (size_t)of->diagonal[k] + axis] - c;
-            sum += 4 * e + d;
+            const double d = of->is_loop ? 0 : list[3 * (size_t)of->diagonal[k] + axis] - c;
+            sum += of->is_loop ? e : 4 * e + d;
             most = imp_larger(most, fabs(d));
         } else if (k == 0 || k == of->faces) {
             sum += e, weight = 6;
@@ -88,7 +70,7 @@ static double limit_of(const corner_points *of, const double *list, size_t axis,
         most = imp_larger(most, fabs(e));
     }
     const double x = c + sum / weight;
-    *error = ((2 * n + 8) * most + fabs(x)) * 0x1p-53 * (1 + 0x1p-40);
+    *error = ((2 * n + 8 + (of->is_loop ? 13 : 0)) * most + fabs(x)) * 0x1p-53 * (1 + 0x1p-40);
     return x;
 }
 
@@ -104,30 +86,6 @@ void corner_limit(const corner_points *of, const control_mesh *m, corner_frame *
         limit->drift[axis] = limit_of(of, m->velocity, axis, &error->drift[axis]);
         error->drift[axis] += m->slip_motion[axis];
     }
-}
-
-/* --- Rows beyond a border ------------------------------------------------------------------------------ */
-
-/* A row (x fixed) or column (y fixed) of the grid: twice the one at the border less the next. */
-static void reflect_along(corner_net *n, int out, int inner, int next, bool is_row)
-{
-    for (int k = 0; k < CORNER_FINE; ++k)
-        for (int g = 0; g < n->groups; ++g) {
-            imp_quad *to = is_row ? &n->grid[out][k][g] : &n->grid[k][out][g];
-            const imp_quad a = is_row ? n->grid[inner][k][g] : n->grid[k][inner][g];
-            const imp_quad b = is_row ? n->grid[next][k][g] : n->grid[k][next][g];
-            *to = 2 * a - b;
-        }
-}
-
-/* Beyond the sides that are at a border; `last` is what lies beyond (1, 1). Columns first: the rows then
- * set their ends anew. */
-static void reflect(corner_net *n, int last)
-{
-    if (n->is_border[0]) reflect_along(n, 0, 1, 2, false);
-    if (n->is_border[2]) reflect_along(n, last, last - 1, last - 2, false);
-    if (n->is_border[3]) reflect_along(n, 0, 1, 2, true);
-    if (n->is_border[1]) reflect_along(n, last, last - 1, last - 2, true);
 }
 
 /* --- Taking points --------------------------------------------------------------------------------------- */
@@ -174,10 +132,9 @@ void corner_take(const corner_points *of, const control_mesh *m, const corner_fr
     to->faces = of->has_fan ? of->faces : 0;
     to->edges = of->has_fan ? of->edges : 0;
     to->at = of->at;
-    to->is_border[0] = of->grid[1][0] == CONTROL_NONE;
-    to->is_border[1] = of->grid[3][1] == CONTROL_NONE;
-    to->is_border[2] = of->grid[1][3] == CONTROL_NONE;
-    to->is_border[3] = of->grid[0][1] == CONTROL_NONE;
+    to->is_loop = of->is_loop;
+    memcpy(to->is_border, of->is_border, sizeof to->is_border);
+    memcpy(to->missing, of->missing, sizeof to->missing);
     memset(to->grid, 0, sizeof to->grid);
     for (int x = 0; x < CORNER_SIDE; ++x)
         for (int y = 0; y < CORNER_SIDE; ++y)
@@ -187,94 +144,31 @@ void corner_take(const corner_points *of, const control_mesh *m, const corner_fr
     for (int k = 0; k < to->edges; ++k) take_point(m, frame, of->edge[k], to->groups, to->edge[k]);
     for (int k = 0; k < to->faces; ++k)
         take_point(m, frame, of->diagonal[k], to->groups, to->diagonal[k]);
-    reflect(to, CORNER_SIDE - 1);
+    if (to->is_loop)
+        triangle_reflect(to, CORNER_SIDE);
+    else
+        quad_reflect(to, CORNER_SIDE);
     take_most(to, CORNER_SIDE);
     take_slip(m, frame, to);
 }
 
 /* --- One step ---------------------------------------------------------------------------------------------- */
 
-/* Numbers at -1 to 2 become those at -1/2, 0, 1/2, 1, 3/2: cubic B-splines by halves. */
-IMP_QUAD_INLINE void halve(const imp_quad in[CORNER_SIDE], imp_quad out[CORNER_FINE])
-{
-    for (int k = 0; k < 3; ++k) out[2 * k] = 0.5 * (in[k] + in[k + 1]);
-    for (int k = 0; k < 2; ++k) out[2 * k + 1] = 0.125 * (in[k] + 6 * in[k + 1] + in[k + 2]);
-}
-
-static void halve_grid(const corner_net *from, int g, corner_net *to)
-{
-    imp_quad half[CORNER_SIDE][CORNER_FINE];
-    for (int x = 0; x < CORNER_SIDE; ++x) {
-        imp_quad in[CORNER_SIDE];
-        for (int y = 0; y < CORNER_SIDE; ++y) in[y] = from->grid[x][y][g];
-        halve(in, half[x]);
-    }
-    for (int y = 0; y < CORNER_FINE; ++y) {
-        imp_quad in[CORNER_SIDE], out[CORNER_FINE];
-        for (int x = 0; x < CORNER_SIDE; ++x) in[x] = half[x][y];
-        halve(in, out);
-        for (int x = 0; x < CORNER_FINE; ++x) to->grid[x][y][g] = out[x];
-    }
-}
-
-/* The means of control_mesh.h, of the older points: with n faces all around, (1 - 7 / (4 n)) c +
- * 3 / (2 n^2) sum_k e_k + 1 / (4 n^2) sum_k d_k. */
-static void step_fan(const corner_net *from, int g, corner_net *to)
-{
-    const int n = from->faces, edges = from->edges;
-    const imp_quad c = from->centre[g];
-    imp_quad sum_e = {0}, sum_d = {0};
-    for (int k = 0; k < n; ++k) {
-        const imp_quad ends = from->edge[k][g] + from->edge[(k + 1) % edges][g];
-        to->diagonal[k][g] = 0.25 * (c + ends + from->diagonal[k][g]);
-        sum_d += from->diagonal[k][g];
-    }
-    for (int k = 0; k < edges; ++k) {
-        const imp_quad e = from->edge[k][g];
-        if (edges == n || (k > 0 && k < n))
-            to->edge[k][g] =
-                0.25 * (c + e + to->diagonal[k % n][g] + to->diagonal[(k + n - 1) % n][g]);
-        else
-            to->edge[k][g] = 0.5 * (c + e);
-        sum_e += e;
-    }
-    if (edges == n)
-        to->centre[g] = (1 - 7.0 / (4 * n)) * c + 1.5 / (n * n) * sum_e + 0.25 / (n * n) * sum_d;
-    else
-        to->centre[g] = 0.125 * (from->edge[0][g] + 6 * c + from->edge[n][g]);
-}
-
-/* What the grid alone does not say: the points that the fan's closing decides. */
-static void join_fan(corner_net *to)
-{
-    const int below = (to->at + to->edges - 1) % to->edges, left = (to->at + 2) % to->edges;
-    for (int g = 0; g < to->groups; ++g) {
-        to->grid[1][1][g] = to->centre[g];
-        if (!to->is_border[0]) to->grid[1][0][g] = to->edge[below][g];
-        if (!to->is_border[3]) to->grid[0][1][g] = to->edge[left][g];
-    }
-}
-
-/* Lemma (slip). All points but those beyond a border are means of such points: with a row there put as
- * 2 p_0 - p_1, (p_-1 + 6 p_0 + p_1) / 8 is p_0 and (p_-1 + p_0) / 2 is not needed but for the new such
- * row, which is set anew. So what points are off does not grow, and a step adds its own roundings: 3 for
- * each direction of the grid; 4 and 8 of the fan's means; n + 5 of its centre's; and what the rows beyond a
- * border are off. */
 void corner_step(const corner_net *from, corner_net *to)
 {
     to->groups = from->groups, to->faces = from->faces;
     to->edges = from->edges, to->at = from->at;
+    to->is_loop = from->is_loop;
     memcpy(to->is_border, from->is_border, sizeof to->is_border);
-    for (int g = 0; g < from->groups; ++g) {
-        halve_grid(from, g, to);
-        step_fan(from, g, to);
-    }
-    join_fan(to);
-    reflect(to, CORNER_FINE - 1);
-    to->is_border[1] = to->is_border[2] = false;
+    memcpy(to->missing, from->missing, sizeof to->missing);
+    if (from->is_loop)
+        triangle_step(from, to);
+    else
+        quad_step(from, to);
     take_most(to, CORNER_FINE);
     for (int lane = 0; lane < from->groups * IMP_QUAD; ++lane)
-        to->slip[lane] = (from->slip[lane] + ((from->faces + 12) * 0x1p-53 + CORNER_REFLECTION) *
+        to->slip[lane] = (from->slip[lane] + ((from->faces + CORNER_STEP_UNITS) * 0x1p-53 +
+                                              CORNER_REFLECTION) *
                                                  from->most[lane]) *
                          (1 + 0x1p-40);
 }

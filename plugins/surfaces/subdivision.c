@@ -3,11 +3,14 @@
 
 #include "plugins/common/publish.h"
 #include "plugins/mesh/mesh_parameters.h"
-#include "plugins/subdivision/quad.h"
+#include "plugins/subdivision/face.h"
 
 /* A quad between quads, of whose corners one at most is extraordinary, is a piece. Other faces are divided
  * by steps of subdivision until they are such quads: two steps at most, as the first leaves only quads,
- * and the second one extraordinary corner each. */
+ * and the second one extraordinary corner each. So is a triangle of Loop's scheme, for which one step is
+ * enough. */
+
+enum { SCHEME = MESH_VELOCITIES + 1 };
 
 static const imp_parameter parameters[] = {
     [MESH_FILE] = ROW_MESH_FILE("control mesh: .obj or .off"),
@@ -15,16 +18,19 @@ static const imp_parameter parameters[] = {
     [MESH_FACES] = ROW_MESH_FACES("corners of each face, by number of the point, from 0; all faces go "
                                   "round the same way"),
     [MESH_VELOCITIES] = ROW_MESH_VELOCITIES,
+    [SCHEME] = IMP_ROW_OF(IMP_STRING, "scheme", "1", "\"catmull-clark\"", 0, 0, 0, 0, -INFINITY, INFINITY,
+                          "rules of subdivision: catmull-clark, or loop, for triangles"),
 };
 
 enum { LEVELS = 3 };
 
 typedef struct subdivision {
-    quad first; /* so that the whole can be asked like its first piece */
+    face first; /* so that the whole can be asked like its first piece */
     control_mesh level[LEVELS];
-    quad *pieces;
+    box_tables *loop; /* NULL: not Loop's scheme */
+    face *pieces;
     size_t count, capacity;
-    quad_gauge *gauges;
+    face_gauge *gauges;
     size_t gauge_count;
 } subdivision;
 
@@ -34,14 +40,16 @@ static void subdivision_destroy(void *self)
     for (int k = 0; k < LEVELS; ++k) control_clear(&s->level[k]);
     free(s->pieces);
     free(s->gauges);
+    free(s->loop);
     free(s);
 }
 
 /* --- Pieces ------------------------------------------------------------------------------------ */
 
-/* Whether all faces at a point are quads. */
-static bool is_among_quads(const control_mesh *m, uint32_t h)
+/* Whether all faces at a point are quads, or Loop's triangles. */
+static bool is_among_alike(const control_mesh *m, uint32_t h)
 {
+    if (m->loop != NULL) return true;
     const control_point *p = &m->fan[m->corner[h]];
     uint32_t g = p->start;
     for (uint16_t k = 0; k < p->faces; ++k, g = control_turn_left(m, g))
@@ -54,10 +62,9 @@ static bool is_piece(const control_mesh *m, uint32_t f, uint32_t *start, bool *i
 {
     *start = m->first[f];
     *is_regular = true;
-    if (!control_is_quad(m, f)) return false;
     for (uint32_t h = m->first[f]; h < m->first[f + 1]; ++h) {
-        if (!is_among_quads(m, h)) return false;
-        if (corner_is_regular(&m->fan[m->corner[h]])) continue;
+        if (!is_among_alike(m, h)) return false;
+        if (corner_is_regular(m, &m->fan[m->corner[h]])) continue;
         if (!*is_regular) return false;
         *is_regular = false;
         *start = h;
@@ -65,11 +72,11 @@ static bool is_piece(const control_mesh *m, uint32_t f, uint32_t *start, bool *i
     return true;
 }
 
-static bool add_piece(subdivision *s, quad piece)
+static bool add_piece(subdivision *s, face piece)
 {
     if (s->count == s->capacity) {
         const size_t wanted = 2 * s->capacity + 64;
-        quad *grown = realloc(s->pieces, wanted * sizeof *grown);
+        face *grown = realloc(s->pieces, wanted * sizeof *grown);
         if (grown == NULL) return false;
         s->pieces = grown;
         s->capacity = wanted;
@@ -79,9 +86,9 @@ static bool add_piece(subdivision *s, quad piece)
 }
 
 /* A gauge that is not there yet, for pieces that will have one. */
-static const quad_gauge to_be_measured;
+static const face_gauge to_be_measured;
 
-/* Makes pieces of the wanted faces of a level; those that are none stay wanted. *left: how many quads
+/* Makes pieces of the wanted faces of a level; those that are none stay wanted. *left: how many faces
  * these become, at least. */
 static imp_status take_level(subdivision *s, const control_mesh *m, bool *wanted, size_t *left)
 {
@@ -92,9 +99,9 @@ static imp_status take_level(subdivision *s, const control_mesh *m, bool *wanted
         if (!wanted[f]) continue;
         wanted[f] = !is_piece(m, f, &start, &is_regular);
         if (wanted[f]) {
-            *left += m->first[f + 1] - m->first[f];
+            *left += m->loop != NULL ? 4 : m->first[f + 1] - m->first[f];
         } else {
-            if (!add_piece(s, (quad){m, is_regular ? NULL : &to_be_measured, start}))
+            if (!add_piece(s, (face){m, is_regular ? NULL : &to_be_measured, start}))
                 return IMP_INTERNAL;
             s->gauge_count += !is_regular;
         }
@@ -112,7 +119,7 @@ static imp_status divide(subdivision *s, imp_create_error *why)
     for (int k = 1; k < LEVELS && status == IMP_OK && left > 0; ++k) {
         bool *finer = NULL;
         if (s->count + left > IMP_PIECES_MAX)
-            status = imp_reject(why, -1, -1, "more than %zu quads after %d steps; divide the mesh",
+            status = imp_reject(why, -1, -1, "more than %zu faces after %d steps; divide the mesh",
                                 IMP_PIECES_MAX, k);
         if (status == IMP_OK) status = control_refine(&s->level[k - 1], wanted, &s->level[k], &finer);
         free(wanted);
@@ -131,7 +138,7 @@ static imp_status measure(subdivision *s)
     if (s->gauges == NULL) return IMP_INTERNAL;
     for (size_t k = 0; k < s->count; ++k)
         if (s->pieces[k].gauge != NULL) {
-            quad_measure(&s->pieces[k], &s->gauges[used]);
+            face_measure(&s->pieces[k], &s->gauges[used]);
             s->pieces[k].gauge = &s->gauges[used++];
         }
     return IMP_OK;
@@ -150,7 +157,7 @@ static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_
         triangles_clear(&given);
         return status;
     }
-    status = control_begin(&s->level[0], &given, velocity, &fault);
+    status = control_begin(&s->level[0], &given, velocity, s->loop, &fault);
     if (status == IMP_PARAMETER && imp_is_given(&values[MESH_FILE]))
         imp_reject(why, MESH_FILE, -1, "'%.60s': %s (numbers from 0)", values[MESH_FILE].string[0],
                    fault.text);
@@ -159,11 +166,24 @@ static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_
     return status;
 }
 
+static imp_status take_scheme(subdivision *s, const imp_value *values, imp_create_error *why)
+{
+    const char *name = values[SCHEME].string[0];
+    if (strcmp(name, "catmull-clark") == 0) return IMP_OK;
+    if (strcmp(name, "loop") != 0)
+        return imp_reject(why, SCHEME, -1, "'%.60s' is not a scheme; catmull-clark and loop are", name);
+    s->loop = malloc(sizeof *s->loop);
+    if (s->loop == NULL) return IMP_INTERNAL;
+    box_make_tables(s->loop);
+    return IMP_OK;
+}
+
 static imp_status subdivision_create(const imp_value *values, void **self, imp_create_error *why)
 {
     subdivision *s = calloc(1, sizeof *s);
     if (s == NULL) return IMP_INTERNAL;
-    imp_status status = take_mesh(s, values, why);
+    imp_status status = take_scheme(s, values, why);
+    if (status == IMP_OK) status = take_mesh(s, values, why);
     if (status == IMP_OK) status = divide(s, why);
     if (status == IMP_OK) status = measure(s);
     if (status == IMP_OK) {
@@ -193,13 +213,13 @@ static void subdivision_domain(const void *self, double lo[3], double hi[3])
 
 static imp_status subdivision_include(const void *self, const imp_region *region, imp_model model[3])
 {
-    return quad_include(self, region, model);
+    return face_include(self, region, model);
 }
 
 static imp_status subdivision_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
     imp_model model[3];
-    const imp_status status = quad_include(self, region, model);
+    const imp_status status = face_include(self, region, model);
     for (int i = 0; i < 3 && status == IMP_OK; ++i)
         memcpy(rates->m[i], model[i].rate, sizeof rates->m[i]);
     return status;
@@ -207,23 +227,25 @@ static imp_status subdivision_rate(const void *self, const imp_region *region, i
 
 static imp_status subdivision_net(const void *self, const imp_region *region, imp_net *net)
 {
-    return quad_net(self, region, net);
+    return face_net(self, region, net);
 }
 
 static const imp_surface_type subdivision_type = {
     IMP_TYPE_FIELDS(imp_surface_type, "subdivision", subdivision, subdivision_destroy),
     .domain = subdivision_domain,
-    .eval = quad_eval,
+    .eval = face_eval,
     .rate = subdivision_rate,
     .include = subdivision_include,
     .net = subdivision_net,
     .piece_count = subdivision_piece_count,
     .piece = subdivision_piece,
-    .summary = "Catmull-Clark surface of a control mesh of any polygons, whose points may move linearly",
+    .summary = "Catmull-Clark surface of a control mesh of any polygons, or Loop surface of one of "
+               "triangles; points may move linearly",
     .equation = "limit of subdivision, points_k + t velocities_k; at a border: of its cubic B-spline, "
-                "which ends at corners; each quad: u and v in [0,1]",
+                "which ends at corners; each quad: u and v in [0,1]; each triangle: as bezier-triangle",
     .source = "E. Catmull, J. Clark, Recursively generated B-spline surfaces, Computer-Aided Design "
-              "1978; J. Stam, SIGGRAPH 1998",
+              "1978; C. Loop, Smooth subdivision surfaces based on triangles, 1987; J. Stam, SIGGRAPH "
+              "1998 and 1999",
     .example = "subdivision points=[[-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],"
                "[-1,1,1],[1,1,1]] "
                "faces=[[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]",

@@ -34,6 +34,33 @@ write_cube() {
     jq -e '.verdict == "contact" and .t < 1' <<<"$output"
 }
 
+# An octahedron of the corners 1 and -1 on the axes; as OFF.
+write_octahedron() {
+    printf 'OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n'
+    printf '3 %s\n' '0 2 4' '2 1 4' '1 3 4' '3 0 4' '2 0 5' '1 2 5' '3 1 5' '0 3 5'
+}
+
+@test "triangles are subdivided by the scheme that is asked for" {
+    write_octahedron >octahedron.off
+    local point='point position=2,0,0 velocity=-2,0,0'
+    run -0 "$IMPINGE" pair 'subdivision scheme=loop file=octahedron.off' "$point" --gamma 1e-9 --json
+    jq -e '.verdict == "contact" and .a.piece < 32 and (.a.point[0] - 24 / 55 | fabs) < 1e-8' <<<"$output"
+    run -0 "$IMPINGE" pair 'subdivision file=octahedron.off' "$point" --gamma 1e-9 --json
+    jq -e '(.a.point[0] - 24 / 55 | fabs) > 1e-2' <<<"$output"
+    [ "$("$IMPINGE" pair 'subdivision scheme=catmull-clark file=octahedron.off' "$point" --gamma 1e-9 --json |
+        jq -c .t)" = "$(jq -c .t <<<"$output")" ]
+    run -0 "$IMPINGE" view 'subdivision scheme=loop file=octahedron.off ! rotate rate=1' "$point" -o ball.svg
+    [ "$(grep -c '^<polyline' ball.svg)" -gt 50 ]
+}
+
+@test "a scheme that is not there, and faces that it does not take, are refused with the cure" {
+    write_cube >cube.obj
+    refused 'scheme=butterfly file=cube.obj' "scheme: 'butterfly' is not a scheme; catmull-clark and loop are"
+    refused 'scheme=loop file=cube.obj' "face 0 has 4 corners, Loop's scheme takes triangles; divide it into"
+    refused 'scheme=loop points=[[0,0,0],[1,0,0],[1,1,0],[0,1,0],[2,0,0]] faces=[[0,1,2,3]]' \
+        'faces: face 0 has 4 corners'
+}
+
 @test "faces that are no surface are named, with the points and the cure" {
     local points='points=[[0,0,0],[1,0,0],[1,1,0],[0,1,0],[2,0,0],[2,1,0]]'
     refused "$points faces=[[0,1,2,1]]" 'face 0 has point 1 twice; leave one out, or divide the face'

@@ -60,14 +60,16 @@ static void judge_twins(const control_mesh *m)
     }
 }
 
-static void judge_control_mesh(mesh_format format, const char *bytes, size_t length)
+/* With `loop`: of Loop's scheme. */
+static void judge_control_mesh(mesh_format format, const char *bytes, size_t length,
+                               const box_tables *loop)
 {
     triangles faces = {.keeps_faces = true};
     triangles_fault fault = {0, ""};
     control_mesh coarse = {0}, fine = {0};
     bool *wanted_fine = NULL;
     if (read_bytes(format, bytes, length, &faces)) {
-        const imp_status status = control_begin(&coarse, &faces, NULL, &fault);
+        const imp_status status = control_begin(&coarse, &faces, NULL, loop, &fault);
         FUZZ_REQUIRE(status == IMP_OK || (status == IMP_PARAMETER && fault.text[0] != '\0'));
         if (status == IMP_OK) {
             bool *wanted = calloc(coarse.face_count, sizeof *wanted);
@@ -90,7 +92,9 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
     static const mesh_format formats[] = {MESH_OBJ, MESH_OFF, MESH_STL};
     triangles first = {0}, second = {0};
     if (length == 0) return 0;
-    judge_control_mesh(formats[bytes[0] % 3], (const char *)bytes + 1, length - 1);
+    judge_control_mesh(formats[bytes[0] % 3], (const char *)bytes + 1, length - 1, NULL);
+    static const box_tables tables; /* steps only pass them on */
+    judge_control_mesh(formats[bytes[0] % 3], (const char *)bytes + 1, length - 1, &tables);
     if (read_bytes(formats[bytes[0] % 3], (const char *)bytes + 1, length - 1, &first)) {
         judge(&first);
         size_t written = 0;

@@ -292,6 +292,28 @@ const type_oracle oracles[] = {
          " \"faces\": [[0,1,2,3],[0,3,4,5],[0,5,6,7],[0,7,8,9],[0,9,10,1]]}",
          "{\"points\": [@8[?,?,0.25]], \"velocities\": [@8[?,?,0]],"
          " \"faces\": [[2,3,0,1],[0,3,4,5],[7,0,5,6]]}"}},
+    {.type = "subdivision", /* Loop's */
+     .surface = subdivision_oracle,
+     .instances = {
+         /* an octahedron, and a tetrahedron that moves */
+         "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"faces\": [[0,1,2],[0,2,3],[0,3,4],[0,4,1],"
+         "[5,2,1],[5,3,2],[5,4,3],[5,1,4]]}",
+         "{\"scheme\": \"loop\", \"points\": [@4[?,?,?]], \"velocities\": [@4[?,?,?]],"
+         " \"faces\": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}",
+         /* regular: inside, at the border, and at a corner of it */
+         "{\"scheme\": \"loop\", \"points\": [@12[?,?,?]], \"velocities\": [@12[?,?,?]],"
+         " \"faces\": [[0,1,2],[1,3,2],[0,4,1],[0,2,5],[1,4,7],[1,7,6],[1,6,3],[2,3,8],[2,8,9],[2,9,5],"
+         "[0,5,10],[0,10,11],[0,11,4]]}",
+         "{\"scheme\": \"loop\", \"points\": [@6[1e8,?,?]], \"faces\": [[1,4,3],[0,1,3],[1,2,4],[3,4,5]]}",
+         "{\"scheme\": \"loop\", \"points\": [@3[?,?,?]], \"velocities\": [@3[?,1e3,?]],"
+         " \"faces\": [[0,1,2]]}",
+         /* seven faces at a point inside, and at the border two, with a border on one side and both */
+         "{\"scheme\": \"loop\", \"points\": [@9[?,?,?]], \"faces\": [[0,1,2],[0,2,3],[0,3,4],[0,4,5],"
+         "[0,5,6],[0,6,7],[0,7,1],[8,2,1],[8,3,2],[8,4,3],[8,5,4],[8,6,5],[8,7,6],[8,1,7]]}",
+         "{\"scheme\": \"loop\", \"points\": [@4[?,?,0.25]], \"velocities\": [@4[?,?,0]],"
+         " \"faces\": [[0,1,2],[0,2,3]]}",
+         "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"velocities\": [@6[?,?,?]],"
+         " \"faces\": [[0,1,2],[0,2,3],[0,3,4],[0,4,5]]}"}},
     {.type = "ripple",
      .surface = ripple_oracle,
      .instances = {"{}",
