@@ -528,6 +528,7 @@ EXTRA_DIST += \
     tests/fuzz/proof.d/composed.txt \
     tests/fuzz/proof.d/constants.txt \
     tests/fuzz/proof.d/deep.txt \
+    tests/fuzz/proof.d/divisor_small.txt \
     tests/fuzz/proof.d/edges.txt \
     tests/fuzz/proof.d/kinks.txt \
     tests/fuzz/proof.d/overflow.txt \

@@ -137,11 +137,10 @@ static near_constant multiply_points(near_constant x, near_constant y)
     return known(a, (inherited + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
 }
 
-/* |x/y - a/a'| <= (e + |a/a'| e') / least, least <= |y|. */
 static near_constant divide_points(near_constant x, near_constant y)
 {
     double a = x.value / y.value, least = imp_sum_down(fabs(y.value) - y.error);
-    double inherited = (x.error + imp_round_up(fabs(a)) * y.error) / least;
+    double inherited = (x.error + (imp_round_up(fabs(a)) * y.error + IMP_TINY)) / least;
     if (!(least > 0)) return nothing_known();
     return known(a, (inherited + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
 }

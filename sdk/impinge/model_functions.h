@@ -156,11 +156,12 @@ static inline imp_model imp_powi_positive_(imp_model x, int n)
 
 /* --- Quotients ----------------------------------------------------------------------------- */
 
-/* x / y at a point: |x / y - a / a'| <= (e + |a / a'| e') / min |y|. */
+/* x / y at a point: |x / y - a / a'| <= (e + |a / a'| e') / min |y|. A product that underflows is
+ * within IMP_TINY, which `least` may enlarge. */
 static inline imp_model imp_div_point_(const imp_model *x, const imp_model *y)
 {
     double a = x->a / y->a, least = imp_interval_mig(imp_model_range(y));
-    double inherited = (x->e + imp_round_up(fabs(a)) * y->e) / least;
+    double inherited = (x->e + (imp_round_up(fabs(a)) * y->e + IMP_TINY)) / least;
     return imp_known(a, (inherited + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
 }
 
@@ -226,7 +227,7 @@ static inline imp_model imp_div_exact_(imp_model x, double k)
     return imp_model_finish(x);
 }
 
-/* The rate of a quotient: (|x'| + |x / y| |y'|) / |y|. */
+/* The rate of a quotient: (|x'| + |x / y| |y'|) / |y|, underflow as at a point. */
 static inline imp_model imp_div(imp_model x, imp_model y)
 {
     double least = imp_interval_mig(imp_model_range(&y));
@@ -237,7 +238,7 @@ static inline imp_model imp_div(imp_model x, imp_model y)
     imp_interval range = imp_interval_div(imp_model_range(&x), imp_model_range(&y));
     imp_quotient_(&x, &y, least, &r);
     for (int j = 0; j < 3; j++) {
-        double change = x.rate[j] + imp_interval_mag(range) * y.rate[j];
+        double change = x.rate[j] + (imp_interval_mag(range) * y.rate[j] + IMP_TINY);
         r.rate[j] = (change / least + IMP_TINY) * IMP_SLACK;
     }
     r.lo = range.lo;

@@ -358,6 +358,21 @@ START_TEST(what_overflows_is_known_to_be_large_and_its_inverse_to_be_small)
 }
 END_TEST
 
+/* 2^-1074 over y = 1e-150 (1 + 1e-10 s): the product of quotient and error, or rate, underflows, but
+ * divided by y it counts. */
+START_TEST(errors_and_rates_that_underflow_before_they_are_divided_are_kept)
+{
+    const imp_model least = imp_num(0x1p-1074), point = imp_known(1e-150, 1e-160);
+    const imp_model at = imp_div(least, point);
+    ck_assert(at.e >= 0x1p-1074 / 1e-150 * 1e-10);
+    imp_region region = {.lo = {-1, -1, -1}, .hi = {1, 1, 1}, .d = {1, 1, 1}};
+    imp_model y = imp_param(&region, 0);
+    y = imp_add(imp_num(1e-150), imp_mul(imp_num(1e-160), y));
+    const imp_model over = imp_div(least, y);
+    ck_assert(over.rate[0] >= 0x1p-1074 / 1e-150 * 1e-10);
+}
+END_TEST
+
 /* --- Intervals ---------------------------------------------------------------------- */
 
 /* Somewhere in [lo, hi], the ends above all. */
@@ -397,4 +412,5 @@ SUITE_MAIN("model", every_value_that_the_operands_allow_is_covered,
            rates_hold_for_operands_that_change_as_fast_as_theirs_allow, no_answer_holds_a_nan,
            the_range_of_a_quadratic_covers_it,
            what_overflows_is_known_to_be_large_and_its_inverse_to_be_small,
+           errors_and_rates_that_underflow_before_they_are_divided_are_kept,
            intervals_cover_every_value)
