@@ -165,6 +165,21 @@ static imp_status check_fans(const control_mesh *m, const outgoing *o, triangles
     return IMP_OK;
 }
 
+/* Two triangles between the same points have all edges in common, and so would all that a step makes of
+ * them: no points tell which. Elsewhere two faces have one edge in common at most. */
+static imp_status check_pairs(const control_mesh *m, triangles_fault *fault)
+{
+    for (uint32_t p = 0; m->loop != NULL && p < m->point_count; ++p) {
+        const control_point *at = &m->fan[p];
+        if (at->start == CONTROL_NONE || at->is_border || at->faces > 2) continue;
+        return triangles_refuse(fault, 0,
+                                "faces %u and %u are all around point %u, Loop's scheme takes three or "
+                                "more; leave one out, or divide them",
+                                m->face[at->start], m->face[control_turn_left(m, at->start)], p);
+    }
+    return IMP_OK;
+}
+
 /* --- Building --------------------------------------------------------------------------------------- */
 
 static bool make_room(control_mesh *m)
@@ -191,6 +206,7 @@ imp_status control_connect(control_mesh *m, triangles_fault *fault)
         set_twins(m, &o);
         set_fans(m, &o);
         if (fault != NULL) status = check_fans(m, &o, fault);
+        if (fault != NULL && status == IMP_OK) status = check_pairs(m, fault);
     }
     outgoing_clear(&o);
     return status;

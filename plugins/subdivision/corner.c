@@ -98,7 +98,8 @@ static void take_most(corner_net *n, int side)
             for (int y = 0; y < side; ++y)
                 if (x + y > 0 || n->faces == 0) most = imp_quad_max(imp_quad_abs(n->grid[x][y][g]), most);
         for (int k = 0; k < n->edges; ++k) most = imp_quad_max(imp_quad_abs(n->edge[k][g]), most);
-        for (int k = 0; k < n->faces; ++k) most = imp_quad_max(imp_quad_abs(n->diagonal[k][g]), most);
+        for (int k = 0; k < n->faces && !n->is_loop; ++k)
+            most = imp_quad_max(imp_quad_abs(n->diagonal[k][g]), most);
         imp_quad_store(n->most + g * IMP_QUAD, most);
     }
 }
@@ -142,7 +143,7 @@ void corner_take(const corner_points *of, const control_mesh *m, const corner_fr
                 take_point(m, frame, of->grid[x][y], to->groups, to->grid[x][y]);
     memcpy(to->centre, to->grid[1][1], sizeof to->centre);
     for (int k = 0; k < to->edges; ++k) take_point(m, frame, of->edge[k], to->groups, to->edge[k]);
-    for (int k = 0; k < to->faces; ++k)
+    for (int k = 0; k < to->faces && !to->is_loop; ++k)
         take_point(m, frame, of->diagonal[k], to->groups, to->diagonal[k]);
     if (to->is_loop)
         triangle_reflect(to, CORNER_SIDE);

@@ -61,7 +61,7 @@ typedef struct corner_net {
     imp_quad grid[CORNER_FINE][CORNER_FINE][CORNER_GROUPS]; /* 4 by 4 at first, 5 by 5 after a step */
     imp_quad centre[CORNER_GROUPS];
     imp_quad edge[CONTROL_VALENCE_MAX + 1][CORNER_GROUPS];
-    imp_quad diagonal[CONTROL_VALENCE_MAX][CORNER_GROUPS];
+    imp_quad diagonal[CONTROL_VALENCE_MAX][CORNER_GROUPS]; /* of quads */
     double most[CORNER_LANES]; /* greatest |number| */
     double slip[CORNER_LANES]; /* at least |point - exact|, but for rows beyond a border */
 } corner_net;

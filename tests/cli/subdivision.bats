@@ -59,6 +59,8 @@ write_octahedron() {
     refused 'scheme=loop file=cube.obj' "face 0 has 4 corners, Loop's scheme takes triangles; divide it into"
     refused 'scheme=loop points=[[0,0,0],[1,0,0],[1,1,0],[0,1,0],[2,0,0]] faces=[[0,1,2,3]]' \
         'faces: face 0 has 4 corners'
+    refused 'scheme=loop points=[[0,0,0],[1,0,0],[1,1,0]] faces=[[0,1,2],[2,1,0]]' \
+        "faces 0 and 1 are all around point 0, Loop's scheme takes three or more; leave one out"
 }
 
 @test "faces that are no surface are named, with the points and the cure" {
