@@ -3,6 +3,7 @@
 
 #include "plugins/common/linear.h"
 
+#include <impinge/quad.h>
 #include <string.h>
 
 #define LAST_ROUNDING (0x1p-53 * (1 + 0x1p-50)) /* of a computed sum, relative */
@@ -73,12 +74,17 @@ static double linear_noise(const double *k, const double *v, const imp_region *r
 static double linear_most(double a, double b, double c, double d, const double x[2],
                           const double y[2])
 {
+    if (b == 0 && c == 0 && d == 0)
+        return a == 0 ? 0 : fabs(a) + 16 * 0x1p-53 * fabs(a) + IMP_TINY;
+    const imp_quad p = {x[0], x[1], x[0], x[1]}, q = {y[0], y[0], y[1], y[1]};
+    const imp_quad along_x = b * p, along_y = c * q, twist = d * p * q;
+    const imp_quad value = imp_quad_abs(a + along_x + along_y + twist);
+    const imp_quad sum =
+        fabs(a) + imp_quad_abs(along_x) + imp_quad_abs(along_y) + imp_quad_abs(twist);
     double most = 0, size = 0;
-    if (a == 0 && b == 0 && c == 0 && d == 0) return 0;
     for (int corner = 0; corner < 4; ++corner) {
-        double p = x[corner & 1], q = y[corner >> 1];
-        most = imp_larger(most, fabs(a + b * p + c * q + d * p * q));
-        size = imp_larger(size, fabs(a) + fabs(b * p) + fabs(c * q) + fabs(d * p * q));
+        most = imp_larger(most, value[corner]);
+        size = imp_larger(size, sum[corner]);
     }
     return most + 16 * 0x1p-53 * size + IMP_TINY;
 }
@@ -110,15 +116,13 @@ imp_status linear_rate(const void *self, const imp_region *region, imp_rate_matr
 static void linear_range(const double *k, const double *v, const imp_region *region, double noise,
                          imp_model *g)
 {
-    const double *u = region->lo, *w = region->hi;
+    const double *l = region->lo, *h = region->hi;
+    const imp_quad u = {l[0], l[0], h[0], h[0]}, w = {l[1], h[1], l[1], h[1]};
     double lo = INFINITY, hi = -INFINITY;
     for (int end = 0; end < 2; ++end) {
-        const double t = end ? w[2] : u[2], c = k[LINEAR_V] + t * v[LINEAR_V];
+        const double t = end ? h[2] : l[2], c = k[LINEAR_V] + t * v[LINEAR_V];
         const double b = k[LINEAR_U] + t * v[LINEAR_U], d = k[LINEAR_UV] + t * v[LINEAR_UV];
-        const double at_lo = t * v[LINEAR_1] + u[0] * b, at_hi = t * v[LINEAR_1] + w[0] * b;
-        const double side_lo = c + u[0] * d, side_hi = c + w[0] * d;
-        const double x[4] = {at_lo + u[1] * side_lo, at_lo + w[1] * side_lo, at_hi + u[1] * side_hi,
-                             at_hi + w[1] * side_hi};
+        const imp_quad x = (t * v[LINEAR_1] + u * b) + w * (c + u * d);
         for (int corner = 0; corner < 4; ++corner) {
             lo = imp_smaller(lo, x[corner]);
             hi = imp_larger(hi, x[corner]);
@@ -137,7 +141,7 @@ static void linear_affine_range(double noise, imp_model *g)
 }
 
 /* With p = c + d s substituted, K_k + t V_k = (K_k + c_t V_k) + d_t V_k s_t. */
-static imp_model linear_model(const linear *f, int i, const imp_region *region)
+static void linear_model(const linear *f, int i, const imp_region *region, imp_model *g)
 {
     const double *k = f->still[i], *v = f->motion[i];
     const double cu = region->c[0], cv = region->c[1], ct = region->c[2];
@@ -145,22 +149,21 @@ static imp_model linear_model(const linear *f, int i, const imp_region *region)
     const double b = k[LINEAR_U] + ct * v[LINEAR_U], c = k[LINEAR_V] + ct * v[LINEAR_V];
     const double d = k[LINEAR_UV] + ct * v[LINEAR_UV];
     const double noise = f->depends[i] ? linear_noise(k, v, region) : 0;
-    imp_model g = {.depends = f->depends[i]};
-    g.a = k[LINEAR_1] + ((ct * v[LINEAR_1] + cu * b) + cv * (c + cu * d));
-    g.b[0] = du * (b + cv * d);
-    g.b[1] = dv * (c + cu * d);
-    g.b[2] = dt * (v[LINEAR_1] + cu * v[LINEAR_U] + cv * (v[LINEAR_V] + cu * v[LINEAR_UV]));
-    g.q[IMP_UV] = du * dv * d;
-    g.q[IMP_UT] = du * dt * (v[LINEAR_U] + cv * v[LINEAR_UV]);
-    g.q[IMP_VT] = dv * dt * (v[LINEAR_V] + cu * v[LINEAR_UV]);
-    g.e = fabs(du * dv * dt * v[LINEAR_UV]) + noise;
-    if (g.depends) g.e += LAST_ROUNDING * fabs(g.a);
+    *g = (imp_model){.depends = f->depends[i]};
+    g->a = k[LINEAR_1] + ((ct * v[LINEAR_1] + cu * b) + cv * (c + cu * d));
+    g->b[0] = du * (b + cv * d);
+    g->b[1] = dv * (c + cu * d);
+    g->b[2] = dt * (v[LINEAR_1] + cu * v[LINEAR_U] + cv * (v[LINEAR_V] + cu * v[LINEAR_UV]));
+    g->q[IMP_UV] = du * dv * d;
+    g->q[IMP_UT] = du * dt * (v[LINEAR_U] + cv * v[LINEAR_UV]);
+    g->q[IMP_VT] = dv * dt * (v[LINEAR_V] + cu * v[LINEAR_UV]);
+    g->e = fabs(du * dv * dt * v[LINEAR_UV]) + noise;
+    if (g->depends) g->e += LAST_ROUNDING * fabs(g->a);
     if (f->is_affine[i])
-        linear_affine_range(noise, &g);
+        linear_affine_range(noise, g);
     else
-        linear_range(k, v, region, noise, &g);
-    linear_rates(k, v, region, g.rate);
-    return g;
+        linear_range(k, v, region, noise, g);
+    linear_rates(k, v, region, g->rate);
 }
 
 /* As imp_surface_type.include. */
@@ -169,7 +172,10 @@ imp_status linear_include(const void *self, const imp_region *region, imp_model 
     const linear *f = self;
     const bool late = linear_is_late(region);
     for (int i = 0; i < 3; ++i)
-        model[i] = late ? imp_unbounded(f->depends[i]) : linear_model(f, i, region);
+        if (late)
+            model[i] = imp_unbounded(f->depends[i]);
+        else
+            linear_model(f, i, region, &model[i]);
     return late ? IMP_UNBOUNDED : IMP_OK;
 }
 
