@@ -17,33 +17,33 @@ static bool region_holds(const imp_region *r, const double p[3])
     return true;
 }
 
-/* Coordinate i of the polynomial at p, and how far off rounding may be, in units of u times the sum
+/* The polynomial at p, x, y, z in lanes, and how far off rounding may be, in units of u times the sum
  * of the terms' sizes: s, two factors of at most 2 each; two products; nine sums. */
 enum { POLYNOMIAL_ROUNDING = 32 };
 _Static_assert(2 * 2 + 2 + 9 <= POLYNOMIAL_ROUNDING, "rounding of the polynomial");
 
-static double polynomial(const node *n, int i, const double p[3], double *rounding)
+IMP_QUAD_INLINE imp_quad polynomial(const node *n, const double p[3], imp_quad *rounding)
 {
     const quadratic3 *f = &n->f;
-    double s[3];
+    imp_quad s[3];
     for (int j = 0; j < 3; ++j)
-        s[j] = n->region.d[j] > 0 ? (p[j] - n->region.c[j]) / n->region.d[j] : 0;
-    const double term[10] = {f->a[i],
-                             f->bu[i] * s[0],
-                             f->bv[i] * s[1],
-                             f->bt[i] * s[2],
-                             f->quu[i] * s[0] * s[0],
-                             f->quv[i] * s[0] * s[1],
-                             f->qut[i] * s[0] * s[2],
-                             f->qvv[i] * s[1] * s[1],
-                             f->qvt[i] * s[1] * s[2],
-                             f->qtt[i] * s[2] * s[2]};
-    double sum = 0, size = 0;
+        s[j] = imp_quad_all(n->region.d[j] > 0 ? (p[j] - n->region.c[j]) / n->region.d[j] : 0);
+    const imp_quad term[10] = {imp_quad_load(f->a),
+                               imp_quad_load(f->bu) * s[0],
+                               imp_quad_load(f->bv) * s[1],
+                               imp_quad_load(f->bt) * s[2],
+                               imp_quad_load(f->quu) * s[0] * s[0],
+                               imp_quad_load(f->quv) * s[0] * s[1],
+                               imp_quad_load(f->qut) * s[0] * s[2],
+                               imp_quad_load(f->qvv) * s[1] * s[1],
+                               imp_quad_load(f->qvt) * s[1] * s[2],
+                               imp_quad_load(f->qtt) * s[2] * s[2]};
+    imp_quad sum = imp_quad_all(0), size = sum;
     for (int k = 0; k < 10; ++k) {
         sum += term[k];
-        size += fabs(term[k]);
+        size += imp_quad_abs(term[k]);
     }
-    *rounding = POLYNOMIAL_ROUNDING * UNIT_ROUNDOFF * size;
+    *rounding = imp_quad_all(POLYNOMIAL_ROUNDING * UNIT_ROUNDOFF) * size;
     return sum;
 }
 
@@ -55,11 +55,12 @@ PAD_COVERS(8, 2);            /* of e: two sums */
 static int coordinate_outside(const node *n, const double p[3], const double x[3],
                               const double eval_error[3])
 {
+    imp_quad rounding;
+    const imp_quad middle = polynomial(n, p, &rounding);
     for (int i = 0; i < 3; ++i) {
-        double rounding;
-        const double off = fabs(x[i] - polynomial(n, i, p, &rounding));
+        const double off = fabs(x[i] - middle[i]);
         const double slack = eval_error[i] + POINT_ROUNDING * UNIT_ROUNDOFF * fabs(x[i]);
-        if (off > padded_upper(n->e[i], 8) + slack + rounding) return i;
+        if (off > padded_upper(n->e[i], 8) + slack + rounding[i]) return i;
         if (x[i] + slack < n->lo[i] || x[i] - slack > n->hi[i]) return i;
     }
     return -1;
@@ -77,11 +78,17 @@ static int coordinate_off_net(const net *f, double t, const double x[3], const d
     for (int i = 0; i < 3; ++i) {
         const double *at = f->numbers + i * f->stride, base = f->place[i] + tau * f->drift[i];
         const double size = fabs(x[i]) + fabs(f->place[i]) + fabs(tau * f->drift[i]) + f->most[i];
-        double lo = INFINITY, hi = -INFINITY;
-        for (int k = 0; k < f->stride; ++k) {
-            const double y = f->is_moving ? at[k] + tau * at[k + 3 * f->stride] : at[k];
-            if (y < lo) lo = y;
-            if (y > hi) hi = y;
+        imp_quad least = imp_quad_all(INFINITY), most = -least;
+        for (int k = 0; k < f->stride; k += IMP_QUAD) {
+            imp_quad y = imp_quad_load(at + k);
+            if (f->is_moving) y += imp_quad_all(tau) * imp_quad_load(at + k + 3 * f->stride);
+            least = imp_quad_min(y, least);
+            most = imp_quad_max(y, most);
+        }
+        double lo = least[0], hi = most[0];
+        for (int l = 1; l < IMP_QUAD; ++l) {
+            if (least[l] < lo) lo = least[l];
+            if (most[l] > hi) hi = most[l];
         }
         const double slack = f->error[i] + eval_error[i] + NET_ROUNDING * UNIT_ROUNDOFF * size;
         if (x[i] - base + slack < lo || x[i] - base - slack > hi) return i;
@@ -104,9 +111,9 @@ static imp_code lie_of_net(const surface *s, const node *n, const double p[3], c
 static imp_code lie(const surface *s, const node *n, const double p[3], const double x[3], int i,
                     imp_error *error)
 {
-    double rounding;
+    imp_quad rounding;
     const imp_region *r = &n->region;
-    const double middle = polynomial(n, i, p, &rounding);
+    const double middle = polynomial(n, p, &rounding)[i];
     const char axis = "xyz"[i];
     return surface_fault(s, error,
                          "breaks its own bounds over u [%.17g, %.17g], v [%.17g, %.17g], "
