@@ -47,22 +47,25 @@ IMP_QUAD_INLINE imp_quad height(const cloud *z, int k, const imp_quad n[3])
     return n[0] * z->x[0][k] + n[1] * z->x[1][k] + n[2] * z->x[2][k];
 }
 
-/* The point that lies lowest along the axis. */
+/* The point that lies lowest along the axis; of several, the first of the lowest lane. */
 IMP_QUAD_INLINE vec3 lowest_point(const cloud *z, int quads, vec3 axis)
 {
     const imp_quad n[3] = {imp_quad_all(axis.x[0]), imp_quad_all(axis.x[1]),
                            imp_quad_all(axis.x[2])};
-    imp_quad low = height(z, 0, n), x[3] = {z->x[0][0], z->x[1][0], z->x[2][0]};
+    imp_quad low = height(z, 0, n);
+    imp_quad_mask at = {0, 1, 2, 3};
     for (int k = 1; k < quads; ++k) {
         const imp_quad here = height(z, k, n);
         const imp_quad_mask lower = here < low;
-        low = imp_quad_pick(lower, here, low);
-        for (int i = 0; i < 3; ++i) x[i] = imp_quad_pick(lower, z->x[i][k], x[i]);
+        const int64_t first = IMP_QUAD * k;
+        at = (lower & (imp_quad_mask){first, first + 1, first + 2, first + 3}) | (~lower & at);
+        low = imp_quad_min(here, low);
     }
-    int best = 0;
-    for (int l = 1; l < IMP_QUAD; ++l)
-        if (low[l] < low[best]) best = l;
-    return (vec3){{x[0][best], x[1][best], x[2][best]}};
+    const int64_t left = low[1] < low[0] ? at[1] : at[0], right = low[3] < low[2] ? at[3] : at[2];
+    const double least[2] = {low[1] < low[0] ? low[1] : low[0], low[3] < low[2] ? low[3] : low[2]};
+    const int64_t best = least[1] < least[0] ? right : left;
+    const double *x = (const double *)z->x + best;
+    return (vec3){{x[0], x[IMP_QUAD * QUADS_MAX], x[2 * IMP_QUAD * QUADS_MAX]}};
 }
 
 /* Unrolled for bicubic patches. */

@@ -321,6 +321,19 @@ static height height_of(const relative *r, const local_slice *a, const local_sli
     return (height){-h.offset, -h.drift, -h.bend, {-p->bs, -p->br, -p->qss, -p->qsr, -p->qrr}};
 }
 
+IMP_QUAD_WIDE static void least_values_wide(const quadratics *p, double least[IMP_QUAD])
+{
+    imp_quad_store(least, quadratics_lower(p));
+}
+
+static void least_values(const quadratics *p, double least[IMP_QUAD])
+{
+    if (imp_quad_is_wide())
+        least_values_wide(p, least);
+    else
+        imp_quad_store(least, quadratics_lower(p));
+}
+
 bool normal_field_cut(const relative *r, double clearance, w_range *s, gap_lines *lines)
 {
     frame f;
@@ -334,12 +347,15 @@ bool normal_field_cut(const relative *r, double clearance, w_range *s, gap_lines
     if (h.offset - h.drift + (seen[0] + seen[1]) <= 0 &&
         h.offset + h.drift + (seen[2] + seen[3]) <= 0)
         return true; /* nothing to cut, whatever the rest may be */
+    double least[IMP_QUAD];
+    least_values(&h.parts, least);
+    const double start = least[0] + least[1], end = least[2] + least[3];
+    const double middle = h.offset + 0.5 * (start + end) + (h.bend < 0 ? h.bend : 0);
+    const double drift = h.drift + 0.5 * (end - start);
+    if (lines == NULL && middle + fabs(drift) <= 0) return true; /* the same */
     double slack, length;
     if (!slack_and_length(r, &f, &a, &b, &m, &x, &slack, &length)) return true;
-    const imp_quad least = quadratics_lower(&h.parts);
-    const double start = least[0] + least[1], end = least[2] + least[3];
-    const double low = h.offset + 0.5 * (start + end) + (h.bend < 0 ? h.bend : 0) - slack;
-    const double drift = h.drift + 0.5 * (end - start);
+    const double low = middle - slack;
     if (lines != NULL) gap_lines_add(lines, low, drift, length);
     return w_range_cut(s, low, drift, length * clearance);
 }
