@@ -18,6 +18,7 @@ check_suites = \
     tests/unit/test_broad_phase \
     tests/unit/test_builder \
     tests/unit/test_contacts \
+    tests/unit/test_distance_maps \
     tests/unit/test_distance_windows \
     tests/unit/test_elf_probe \
     tests/unit/test_elf_tables \

@@ -96,7 +96,8 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
     all->boxes[k].owner = k;
     memcpy(all->boxes[k].lo, root->lo, sizeof root->lo);
     memcpy(all->boxes[k].hi, root->hi, sizeof root->hi);
-    all->list->candidates[k] = (candidate){t, body, index, -1};
+    all->list->candidates[k] =
+        (candidate){.tree = t, .body = body, .surface = index, .eval_error = -1};
     return IMP_SUCCESS;
 }
 

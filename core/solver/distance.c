@@ -4,12 +4,36 @@
 
 #include "core/solver/distance.h"
 
+#include <string.h>
+
 #include "core/solver/quadratic.h"
 #include "core/solver/tuning.h"
 
 /* --- Asking ------------------------------------------------------------------------------------ */
 
-bool distance_is_known(const node *n) { return n->many == NULL && surface_has_distance(n->surface); }
+/* About what remains of a node's remainder at one moment. */
+static double remainder_in_place(const node *n) { return n->e[0] + n->e[1] + n->e[2] - n->time_remainder; }
+
+/* So small that its remainder says something of the surface. */
+static bool is_small(const node *n)
+{
+    const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
+    return remainder_in_place(n) < TUNING_DISTANCE_EXTENT * extent;
+}
+
+static bool is_nearly_parallel(const node *a, const node *b)
+{
+    const double cosine = vec3_dot(a->normal, b->normal), least = TUNING_FIELD_COSINE;
+    return cosine * cosine > least * least * vec3_dot(a->normal, a->normal) * vec3_dot(b->normal, b->normal);
+}
+
+bool distance_is_known(const node *a, const node *b, size_t still_maps)
+{
+    if (b->many != NULL || !surface_has_distance(b->surface)) return false;
+    const size_t common = surface_common_maps(a->surface, b->surface);
+    if (surface_map_count(b->surface) - common > still_maps) return false;
+    return common == 0 || !is_small(a) || !is_small(b) || is_nearly_parallel(a, b);
+}
 
 /* The models of a node's points. A node keeps no rates. */
 static void point_models(const node *n, imp_model model[3])
@@ -26,16 +50,58 @@ static void point_models(const node *n, imp_model model[3])
                                .depends = 7};
 }
 
+/* Of the node's points before the maps that both surfaces end with. */
+static imp_status points_before(const node *a, size_t common, imp_model model[3])
+{
+    const surface *s = a->surface;
+    if (common > 0) return surface_include_inner(s, &a->region, surface_map_count(s) - common, model);
+    point_models(a, model);
+    return IMP_OK;
+}
+
+/* As node.nonlinear_extent: terms of second order, and a share of the remainder, by what the polynomial explains
+ * least. */
+static void bend_of(const imp_model model[3], const imp_region *r, double bend[3])
+{
+    memset(bend, 0, 3 * sizeof *bend);
+    for (int i = 0; i < 3; ++i) {
+        const imp_model *m = &model[i];
+        const double uv = 0.5 * fabs(m->q[IMP_UV]), ut = 0.5 * fabs(m->q[IMP_UT]);
+        const double vt = 0.5 * fabs(m->q[IMP_VT]);
+        const double curved[3] = {fabs(m->q[IMP_UU]) + uv + ut, fabs(m->q[IMP_VV]) + uv + vt,
+                                  2 * fabs(m->q[IMP_TT]) + ut + vt};
+        double unexplained[3], sum = 0;
+        for (int j = 0; j < 3; ++j) {
+            const double beyond = m->rate[j] * r->d[j] - fabs(m->b[j]);
+            sum += unexplained[j] = curved[j] + (beyond > 0 ? beyond : 0);
+        }
+        const bool is_blamed = sum > 0 && sum < INFINITY;
+        for (int j = 0; j < 3; ++j)
+            bend[j] += curved[j] + (is_blamed ? m->e * (unexplained[j] / sum) : 0);
+    }
+}
+
+static imp_code fault(const surface *s, imp_status status, imp_error *error)
+{
+    surface_fault(s, error, ": %s", surface_status_told(s, status).text);
+    return surface_set_code(status, error);
+}
+
 /* *known false: nothing is known. */
-static imp_code ask(const node *a, const node *b, imp_model *g, bool *known, imp_error *error)
+static imp_code ask(const node *a, const node *b, imp_model *g, double bend[3], bool *known,
+                    imp_error *error)
 {
     imp_model point[3];
-    point_models(a, point);
-    const imp_status status = surface_distance(b->surface, &a->region, point, g);
+    const size_t common = surface_common_maps(a->surface, b->surface);
+    imp_status status = points_before(a, common, point);
+    *known = false;
+    if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
+    if (status != IMP_OK) return fault(a->surface, status, error);
+    if (common > 0) bend_of(point, &a->region, bend);
+    status = surface_distance(b->surface, &a->region, surface_map_count(b->surface) - common, point, g);
     *known = status == IMP_OK;
     if (status == IMP_OK || status == IMP_UNBOUNDED) return IMP_SUCCESS;
-    surface_fault(b->surface, error, ": %s", surface_status_told(b->surface, status).text);
-    return surface_set_code(status, error);
+    return fault(b->surface, status, error);
 }
 
 /* --- Judging ----------------------------------------------------------------------------------- */
@@ -141,8 +207,9 @@ imp_code distance_cut(const node *a, const node *b, double clearance, time_windo
 {
     imp_model g;
     bool known;
-    *view = (distance_view){false, false};
-    const imp_code code = ask(a, b, &g, &known, error);
+    *view = (distance_view){false, false, {0, 0, 0}};
+    memcpy(view->bend, a->nonlinear_extent, sizeof view->bend);
+    const imp_code code = ask(a, b, &g, view->bend, &known, error);
     if (code != IMP_SUCCESS || !known) return code;
     view->is_apart = is_range_apart(&g, clearance);
     const double size = size_upper(&g);

@@ -18,14 +18,18 @@
 typedef struct distance_view {
     bool is_apart;     /* farther than the clearance all the time */
     bool is_promising; /* no: but halves of the node, which have smaller remainders, may be */
+    double bend[3];    /* how far u, v and t bend points beside the other surface, about; length */
 } distance_view;
 
-/* Whether distances from the surface of n are known. */
-bool distance_is_known(const node *n);
+/* Whether distances of points of a from the surface of b are known, and worth asking for. `still_maps`: of that
+ * surface (surface_still_maps); what turns further it does not bring back to a, whose points would be known less well.
+ * Maps that both have in common do not count, but then points are included anew: not where nodes are too large
+ * for an answer, or small and not parallel. */
+bool distance_is_known(const node *a, const node *b, size_t still_maps);
 
 /* Cuts the window, which lies in both nodes' times, to the times at which points of `a` may be within the
  * clearance of the whole surface of `b`; empty: *view says so, and the window stays. Preconditions:
- * distance_is_known(b); both bounded. IMP_ERROR_PLUGIN: the callback breaks the ABI. */
+ * distance_is_known; both bounded. IMP_ERROR_PLUGIN: the callback breaks the ABI. */
 imp_code distance_cut(const node *a, const node *b, double clearance, time_window *window,
                       distance_view *view, imp_error *error);
 

@@ -35,6 +35,17 @@ static imp_code measure_surface(const surface *s, const node *root, double *larg
 
 enum { PIECES_MEASURED = 16 };
 
+static imp_code count_still_maps(candidate *c, const node *root, imp_error *error)
+{
+    const surface *s = root->surface;
+    if (!surface_has_distance(s)) return IMP_SUCCESS;
+    const imp_status status = surface_still_maps(s, &root->region, &c->still_maps);
+    if (status == IMP_OK) return IMP_SUCCESS;
+    surface_fault(s, error, "over t [%.17g, %.17g]: %s", root->region.lo[PARAMETER_T],
+                  root->region.hi[PARAMETER_T], surface_status_told(s, status).text);
+    return surface_set_code(status, error);
+}
+
 static imp_code measure(candidate *c, imp_error *error)
 {
     if (c->eval_error >= 0) return IMP_SUCCESS;
@@ -48,8 +59,9 @@ static imp_code measure(candidate *c, imp_error *error)
         const imp_code code = measure_surface(s, root, &largest, error);
         if (code != IMP_SUCCESS) return code;
     }
-    c->eval_error = largest;
-    return IMP_SUCCESS;
+    const imp_code code = count_still_maps(c, root, error);
+    if (code == IMP_SUCCESS) c->eval_error = largest;
+    return code;
 }
 
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error)
@@ -158,12 +170,10 @@ static bool time_blurs(const pair *p, const node *n, double scale)
 
 /* What a cut in time is worth, on the scale of the spread. Linear motion costs nothing, so only
  * what bends counts; more where the cut is free, and most where it is and time blurs the node. */
-static double gain_in_time(const pair *p, const node *n, double scale)
+static double gain_in_time(const pair *p, const node *n, double bend, double scale)
 {
-    if (!is_one_half_enough(&p->window, n->region.c[PARAMETER_T]))
-        return TUNING_TIME_CUT * n->nonlinear_extent[PARAMETER_T];
-    return time_blurs(p, n, scale) ? INFINITY
-                                   : TUNING_FREE_TIME_CUT * n->nonlinear_extent[PARAMETER_T];
+    if (!is_one_half_enough(&p->window, n->region.c[PARAMETER_T])) return TUNING_TIME_CUT * bend;
+    return time_blurs(p, n, scale) ? INFINITY : TUNING_FREE_TIME_CUT * bend;
 }
 
 /* Whether no fixed axis parts the nodes, whose surfaces are nearly parallel: only a field of normals
@@ -178,33 +188,33 @@ static bool is_tangent(const pair *p)
 
 /* What a cut along u or v is worth. Of tangent nodes only what bends counts: a cylinder that is too
  * wide for the field is not cut in length. The slopes decide where nothing bends. */
-static double gain_in_place(const node *n, parameter j, bool tangent)
+static double gain_in_place(const node *n, parameter j, double bend, bool tangent)
 {
-    return tangent
-               ? TUNING_TANGENT_CUT * n->nonlinear_extent[j] + TUNING_TANGENT_SLOPE * n->extent[j]
-               : n->extent[j];
+    return tangent ? TUNING_TANGENT_CUT * bend + TUNING_TANGENT_SLOPE * n->extent[j] : n->extent[j];
 }
 
-static void consider_side(cut *best, const pair *p, int side, bool tangent, double scale)
+static void consider_side(cut *best, const pair *p, int side, bool tangent, const double bend[3],
+                          double scale)
 {
     const node *n = side_of(p, side);
-    cut_consider(best, p, side, PARAMETER_U, gain_in_place(n, PARAMETER_U, tangent));
-    cut_consider(best, p, side, PARAMETER_V, gain_in_place(n, PARAMETER_V, tangent));
-    cut_consider(best, p, side, PARAMETER_T, gain_in_time(p, n, scale));
+    for (parameter j = PARAMETER_U; j <= PARAMETER_V; ++j)
+        cut_consider(best, p, side, j, gain_in_place(n, j, bend[j], tangent));
+    cut_consider(best, p, side, PARAMETER_T, gain_in_time(p, n, bend[PARAMETER_T], scale));
 }
 
 cut cut_by_spread(const pair *p, double scale)
 {
     const bool tangent = is_tangent(p);
     cut best = CUT_NONE;
-    for (int side = 0; side < 2; ++side) consider_side(&best, p, side, tangent, scale);
+    for (int side = 0; side < 2; ++side)
+        consider_side(&best, p, side, tangent, side_of(p, side)->nonlinear_extent, scale);
     return best;
 }
 
-cut cut_alone(const pair *p, int side, double scale)
+cut cut_alone(const pair *p, int side, const double bend[3], double scale)
 {
     cut best = CUT_NONE;
-    consider_side(&best, p, side, true, scale);
+    consider_side(&best, p, side, true, bend, scale);
     return best;
 }
 

@@ -16,6 +16,7 @@ typedef struct candidate {
     size_t body, surface;
     double eval_error; /* of points evaluated, about, of 16 of its pieces if it has more; < 0: not
                           measured yet; length */
+    size_t still_maps;    /* then: of a surface with distances, surface_still_maps */
 } candidate;
 
 /* Two of different bodies that may come near each other. */
@@ -23,7 +24,7 @@ typedef struct candidate_pair {
     candidate *side[2];
 } candidate_pair;
 
-/* Measures eval_error of both, unless it is known: once for each surface of a query, and only of those whose
+/* Measures eval_error and still_maps of both, unless they are known: once for each surface of a query, and only of those whose
  * pairs are followed. */
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
 
@@ -67,8 +68,9 @@ cut cut_by_contribution(const pair *p);
  * does not matter. */
 cut cut_by_spread(const pair *p, double scale);
 
-/* The same of one side alone; CUT_NONE: nothing is left to split of it. */
-cut cut_alone(const pair *p, int side, double scale);
+/* The same of one side alone, whose points u, v and t bend by `bend`, lengths; CUT_NONE: nothing is left to split
+ * of it. */
+cut cut_alone(const pair *p, int side, const double bend[3], double scale);
 
 /* Time of the node whose points leave linear motion most within the window, where that of both hides
  * more than `scale`, a length, and counts beside what bends and blurs along u and v. Else CUT_NONE. */

@@ -6,6 +6,7 @@
 
 #include <assert.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/solver/distance.h"
 #include "core/solver/pair_test.h"
@@ -175,6 +176,7 @@ typedef struct sight {
     time_window left; /* of its window */
     bool is_apart;
     int side; /* whose node alone is worth halving; -1: neither */
+    double bend[3]; /* how far u, v and t bend its points beside the other surface, about; length */
 } sight;
 
 /* Whether a search may pay: the polynomials are good enough for gamma, or all that there will ever
@@ -192,10 +194,10 @@ static bool witness_is_likely(const impact *im, const pair *p, const sight *seen
 
 /* The pairs that hold the points of a contact are near each other for a long time where gamma is wide
  * and its room narrow: how motion bends in that time, not place, is what keeps their starts from being
- * found. `side`: halve its node alone, if that can be; -1: either. */
-static cut choose_cut(const impact *im, const pair *p, int side)
+ * found. What one side's distance shows comes first. */
+static cut choose_cut(const impact *im, const pair *p, const sight *seen)
 {
-    const cut alone = side >= 0 ? cut_alone(p, side, scale(im)) : CUT_NONE;
+    const cut alone = seen->side >= 0 ? cut_alone(p, seen->side, seen->bend, scale(im)) : CUT_NONE;
     if (alone.side >= 0) return alone;
     const cut bend = scale(im) < im->gamma ? cut_by_bend(p, scale(im)) : CUT_NONE;
     return bend.side >= 0 ? bend : cut_by_spread(p, scale(im));
@@ -213,12 +215,15 @@ static imp_code look_from_each_side(const impact *im, const pair *p, sight *seen
 {
     for (int side = 0; side < 2 && !seen->is_apart && seen->side < 0; ++side) {
         const node *own = side == 0 ? p->a : p->b, *other = side == 0 ? p->b : p->a;
+        const candidate *asked = candidate_pair_of(im, p)->side[!side];
         distance_view view;
-        if (!distance_is_known(other)) continue;
+        if (!distance_is_known(own, other, asked->still_maps)) continue;
         const imp_code code = distance_cut(own, other, im->clearance, &seen->left, &view, error);
         if (code != IMP_SUCCESS) return code;
         seen->is_apart = view.is_apart;
-        if (view.is_promising) seen->side = side;
+        if (!view.is_promising) continue;
+        seen->side = side;
+        memcpy(seen->bend, view.bend, sizeof seen->bend);
     }
     return IMP_SUCCESS;
 }
@@ -226,7 +231,7 @@ static imp_code look_from_each_side(const impact *im, const pair *p, sight *seen
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
     if (pair_has_cluster(p)) return split(im, p, cut_by_spread(p, im->gamma), state, error);
-    sight from_each = {p->window, false, -1};
+    sight from_each = {p->window, false, -1, {0, 0, 0}};
     if (may_slide(p)) {
         const imp_code code = look_from_each_side(im, p, &from_each, error);
         if (code != IMP_SUCCESS || from_each.is_apart) return code;
@@ -246,7 +251,7 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
     }
     p->window = from_each.left; /* not before: other pairs may start sooner */
     const bool tiny = TUNING_TINY * pair_extent(p) <= room(im);
-    const cut c = tiny ? cut_in_time(p) : choose_cut(im, p, from_each.side);
+    const cut c = tiny ? cut_in_time(p) : choose_cut(im, p, &from_each);
     if (c.side >= 0) return split(im, p, c, state, error);
     *state = IMPACT_RESOLUTION;
     return IMP_SUCCESS;

@@ -129,14 +129,27 @@ imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *po
 /* At least |x'| / |x| for what such a pose makes of a vector x; 1 but for that slack. */
 double surface_pose_norm_upper(const surface *s);
 
-/* Whether distances from the surface are known. */
+/* Whether distances from the surface may be known: its type knows them, and all of its maps are rigid. */
 bool surface_has_distance(const surface *s);
 
-/* Precondition: that. The distance from the whole surface, as in imp_surface_type, of a point with these
- * models over the region, whose rates are not used. IMP_UNBOUNDED: nothing is known, as at times at which the
- * surface does not exist. */
-imp_status surface_distance(const surface *s, const imp_region *region, const imp_model point[3],
-                            imp_model *distance);
+/* Precondition: that. The distance, as in imp_surface_type, of a point with these models over the region, whose
+ * rates are not used, from the whole surface under its first `maps` maps; or less, where the maps after these bring
+ * both nearer to each other. IMP_UNBOUNDED: nothing is known, as at times at which the surface does not exist. */
+imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
+                            const imp_model point[3], imp_model *distance);
+
+/* How many maps, counted from the last, are the same instances on both. */
+size_t surface_common_maps(const surface *a, const surface *b);
+
+size_t surface_map_count(const surface *s);
+
+/* Precondition: surface_has_distance. How many of its maps, counted from the first, do not turn it further during
+ * the region's times. */
+imp_status surface_still_maps(const surface *s, const imp_region *region, size_t *count);
+
+/* The inclusion under the first `maps` maps alone. */
+imp_status surface_include_inner(const surface *s, const imp_region *region, size_t maps,
+                                 imp_model model[3]);
 
 /* The inclusion of the type alone, under none of the maps. */
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3]);

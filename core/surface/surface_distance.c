@@ -2,8 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <impinge/model.h>
 #include <stddef.h>
 
+#include "core/base/rounding.h"
 #include "core/surface/surface_parts.h"
 
 bool part_offers_distance(const imp_surface_type *type)
@@ -14,8 +16,115 @@ bool part_offers_distance(const imp_surface_type *type)
 
 bool surface_has_distance(const surface *s)
 {
-    return s->map_count == 0 && part_offers_distance(s->type);
+    return part_offers_distance(s->type) && (s->map_count == 0 || surface_is_rigid(s));
 }
+
+size_t surface_map_count(const surface *s) { return s->map_count; }
+
+size_t surface_common_maps(const surface *a, const surface *b)
+{
+    size_t n = 0;
+    while (n < a->map_count && n < b->map_count &&
+           a->maps[a->map_count - 1 - n].origin == b->maps[b->map_count - 1 - n].origin)
+        ++n;
+    return n;
+}
+
+imp_status surface_still_maps(const surface *s, const imp_region *region, size_t *count)
+{
+    imp_pose pose;
+    for (*count = 0; *count < s->map_count; ++*count) {
+        const imp_status status = surface_pose_of_maps(s, *count, *count + 1, region, &pose);
+        if (status == IMP_UNBOUNDED || (status == IMP_OK && pose_turns(&pose))) break;
+        if (status != IMP_OK) return status;
+    }
+    return IMP_OK;
+}
+
+/* --- How far a pose is from rigid ------------------------------------------------------------------ */
+
+/* Of the true rotation R that a pose encloses, D = R^T R - 1. */
+typedef struct deviation {
+    double most[3][3]; /* >= |D_ij| at all times */
+    double row[3];     /* >= sums of its rows */
+    double norm;       /* >= |D x| / |x|, in the greatest and in the Euclidean norm, as D is symmetric */
+} deviation;
+
+/* Lemma. D_ij is the product of the columns i and j of R less that of the identity: in the range of the same of
+ * the models, which contain R. And with e = IMP_RIGID_SLACK, each of the K maps alone changes squares of
+ * lengths by a factor from 1 - 3 e to 1 + 3 e (surface_pose_norm_upper), all of them together from (1 - 3 e)^K to
+ * (1 + 3 e)^K, so that
+ *
+ *   |D_ij| <= |D| = max ||R x|^2 / |x|^2 - 1| <= (1 + 3 e)^K - 1 <= n^2 - 1,   n = (1 + 2 e)^K,
+ *
+ * since 1 - (1 - x)^K <= (1 + x)^K - 1. (1 + 2 e)^2 exceeds 1 + 3 e by more than e, which outweighs the
+ * roundings of n, its square and the difference. A row sums up three entries, by two roundings. */
+PAD_COVERS(4, 2);
+static deviation deviation_of(const imp_pose *pose, double norm)
+{
+    deviation d = {.norm = 0};
+    imp_model column[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) column[j][i] = pose->turn[i][j];
+    for (int i = 0; i < 3; ++i) {
+        for (int j = i; j < 3; ++j) {
+            const imp_model entry = imp_shift(imp_dot3(column[i], column[j]), -(double)(i == j));
+            const double found = imp_interval_mag(imp_model_range(&entry)), most = norm * norm - 1;
+            d.most[i][j] = d.most[j][i] = found < most ? found : most;
+        }
+    }
+    for (int i = 0; i < 3; ++i) {
+        d.row[i] = padded_upper(d.most[i][0] + d.most[i][1] + d.most[i][2], 4);
+        if (d.row[i] > d.norm) d.norm = d.row[i];
+    }
+    return d;
+}
+
+/* At most |R x| / |x|. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root of what is below 1 is above it. Also each
+ * map leaves sqrt(1 - 3 e) at least, and (1 + 2 e)^2 (1 - 3 e) > 1 + e / 2, so that 1 / n is less than that of
+ * all. */
+static double least_stretch(const deviation *d, double norm)
+{
+    const double found = difference_lower(1, d->norm);
+    return found > 1 / norm ? found : 1 / norm;
+}
+
+/* --- Before the maps ------------------------------------------------------------------------------- */
+
+/* Lemma. Let x = T + R (y - p) + r be a point that moves, y any point of the surface before the maps, and
+ * z = R^-1 (x - T). Then x - (T + R (y - p)) = R (z + p - y), whose length is at least that of z + p - y times
+ * the least stretch of R: the distance of z + p from the surface before the maps says how far x is from it
+ * after them. Of z, R^T (x - T) = R^T R z = z + D z is known. Let X_i >= |(R^T (x - T))_i| and d >= |D| in the
+ * greatest norm, d < 1. From z = R^T (x - T) - D z,
+ *
+ *   |z_i| <= X_i + row_i Z,   Z = max X / (1 - d) >= max |z_i|,   |(D z)_i| <= sum_j |D_ij| |z_j|.
+ *
+ * Roundings: 1 - d, quotient; product, sum; product, two sums. Underflows lose less than PRODUCTS_UNDERFLOW. */
+PAD_COVERS(16, 2 + 2 + 3);
+static bool take_back(const imp_pose *pose, const deviation *d, const imp_model point[3], imp_model at[3])
+{
+    imp_model way[3];
+    double reach[3], most = 0;
+    if (!(d->norm <= 0.5)) return false;
+    for (int i = 0; i < 3; ++i) way[i] = imp_sub(point[i], pose->shift[i]);
+    for (int j = 0; j < 3; ++j) {
+        const imp_model column[3] = {pose->turn[0][j], pose->turn[1][j], pose->turn[2][j]};
+        at[j] = imp_dot3(column, way);
+        reach[j] = imp_interval_mag(imp_model_range(&at[j]));
+        if (!(reach[j] <= most)) most = reach[j];
+    }
+    const double all = most / (1 - d->norm);
+    for (int i = 0; i < 3; ++i) {
+        double slack = 0;
+        for (int j = 0; j < 3; ++j) slack += d->most[i][j] * (reach[j] + d->row[j] * all);
+        if (d->norm != 0) slack = padded_upper(slack, 16) + PRODUCTS_UNDERFLOW;
+        at[i] = imp_add(imp_shift(at[i], pose->pivot[i]), imp_between(-slack, slack));
+        if (!(at[i].e < INFINITY && at[i].lo > -INFINITY && at[i].hi < INFINITY)) return false;
+    }
+    return true;
+}
+
+/* --- Asking ---------------------------------------------------------------------------------------- */
 
 /* A NaN or an infinity among the coefficients: nothing is known. Nothing is infinitely far away. */
 static imp_status judge(imp_status status, const imp_model *distance)
@@ -29,12 +138,50 @@ static imp_status judge(imp_status status, const imp_model *distance)
     return sum < INFINITY ? IMP_OK : IMP_UNBOUNDED;
 }
 
-imp_status surface_distance(const surface *s, const imp_region *region, const imp_model point[3],
-                            imp_model *distance)
+static imp_status distance_before_maps(const surface *s, const imp_region *region,
+                                       const imp_model point[3], imp_model *distance)
 {
-    if (!(s->lo[2] <= region->lo[2] && region->hi[2] <= s->hi[2])) return IMP_UNBOUNDED;
     const imp_model at[4] = {point[0], point[1], point[2], surface_time(region)};
     const fp_mode mode = surface_call_begin(s->type->name, "distance");
     const imp_status status = s->type->distance(s->self, at, distance);
     return judge(surface_call_end(mode, status), distance);
+}
+
+/* What the maps from `first` to the one before `end` do, if they are all rigid then. */
+static imp_status motion(const surface *s, size_t first, size_t end, const imp_region *region,
+                         imp_pose *pose, deviation *d, double *stretch)
+{
+    if (first == end) return IMP_OK;
+    const double norm = surface_pose_norm_upper(s);
+    const imp_status status = surface_pose_of_maps(s, first, end, region, pose);
+    if (status != IMP_OK) return status;
+    *d = deviation_of(pose, norm);
+    *stretch *= least_stretch(d, norm);
+    return IMP_OK;
+}
+
+/* Lemma. Maps that follow on both, and are rigid, stretch what is between any two points at the same time by their
+ * least stretch at least: |g| times that of all maps is no more than the distance after them. One product of
+ * stretches is rounded; imp_scale bounds what it rounds of g, which may depend on anything. */
+PAD_COVERS(2, 1);
+imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
+                            const imp_model point[3], imp_model *distance)
+{
+    imp_pose pose;
+    deviation d;
+    imp_model at[3];
+    double stretch = 1;
+    if (!(s->lo[2] <= region->lo[2] && region->hi[2] <= s->hi[2])) return IMP_UNBOUNDED;
+    if (s->map_count == 0) return distance_before_maps(s, region, point, distance);
+    imp_status status = motion(s, 0, maps, region, &pose, &d, &stretch);
+    if (status != IMP_OK) return status;
+    if (maps > 0 && !take_back(&pose, &d, point, at)) return IMP_UNBOUNDED;
+    status = motion(s, maps, s->map_count, region, &pose, &d, &stretch);
+    if (status != IMP_OK) return status;
+    status = distance_before_maps(s, region, maps > 0 ? at : point, distance);
+    if (status != IMP_OK) return status;
+    distance->depends = 7;
+    for (int j = 0; j < 3; ++j) distance->rate[j] = INFINITY;
+    *distance = imp_scale(*distance, stretch < 1 ? padded_lower(stretch, 2) : 1);
+    return IMP_OK;
 }

@@ -173,13 +173,13 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
     return IMP_OK;
 }
 
-/* All maps on top of models that came with `status`. */
-static imp_status include_through_maps(const surface *s, const imp_region *region,
+/* The first `maps` maps on top of models that came with `status`. */
+static imp_status include_through_maps(const surface *s, const imp_region *region, size_t maps,
                                        box_step *step, imp_status status, imp_model model[3])
 {
     bool unbounded = status == IMP_UNBOUNDED;
     if (unbounded) status = IMP_OK;
-    for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k)
+    for (size_t k = 0; k < maps && status == IMP_OK; ++k)
         status = include_through_map(s, k, region, step, model, &unbounded);
     return status == IMP_OK && unbounded ? IMP_UNBOUNDED : status;
 }
@@ -187,17 +187,24 @@ static imp_status include_through_maps(const surface *s, const imp_region *regio
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3])
 {
     const imp_status status = include_type(s, region, model);
-    return include_through_maps(s, region, include_by_chain_rule, status, model);
+    return include_through_maps(s, region, s->map_count, include_by_chain_rule, status, model);
+}
+
+imp_status surface_include_inner(const surface *s, const imp_region *region, size_t maps,
+                                 imp_model model[3])
+{
+    imp_status status = include_type(s, region, model);
+    status = include_through_maps(s, region, maps, include_by_chain_rule, status, model);
+    return status == IMP_OK && !models_are_sane(model, true) ? SURFACE_BAD_MODEL : status;
 }
 
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3])
 {
-    const imp_status status = include_type(s, region, model);
-    return status == IMP_OK && !models_are_sane(model, true) ? SURFACE_BAD_MODEL : status;
+    return surface_include_inner(s, region, 0, model);
 }
 
 imp_status surface_include_image(const surface *s, const imp_region *region, imp_model model[3])
 {
     const imp_status status = models_are_finite(model) ? IMP_OK : IMP_UNBOUNDED;
-    return include_through_maps(s, region, include_box, status, model);
+    return include_through_maps(s, region, s->map_count, include_box, status, model);
 }

@@ -71,6 +71,14 @@ imp_status surface_box_around(const surface *s, const imp_region *region,
 bool surface_box4_from(const double lo[3], const double hi[3], const imp_region *region,
                        imp_box4 *box);
 
+/* Whether its rotation depends on time. */
+bool pose_turns(const imp_pose *pose);
+
+/* The pose that the maps from `first` to the one before `end` have together, as surface_pose. Preconditions:
+ * first < end <= map_count; all of them are rigid. */
+imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end, const imp_region *region,
+                                imp_pose *pose);
+
 /* One step of the chain rule (paper, section 5): M_g[:,j] = P M_f[:,j], + p_t for j = t.
  * IMP_UNBOUNDED: a product of finite rates is too large for a double. */
 imp_status surface_chain_rule(const imp_map_rates *p, const imp_rate_matrix *in,

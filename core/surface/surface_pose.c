@@ -46,7 +46,7 @@ static imp_status judge(imp_status status, const imp_pose *pose)
     return sane ? IMP_OK : SURFACE_BAD_POSE;
 }
 
-static bool turns(const imp_pose *pose)
+bool pose_turns(const imp_pose *pose)
 {
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -90,7 +90,7 @@ static void add_pose(imp_pose *next, double norm, imp_pose *pose)
 {
     imp_pose all;
     imp_model way[3];
-    if (turns(next) && !turns(pose)) choose_pivot(next, pose);
+    if (pose_turns(next) && !pose_turns(pose)) choose_pivot(next, pose);
     for (int i = 0; i < 3; ++i) way[i] = imp_shift(pose->shift[i], -next->pivot[i]);
     if (is_identity(next->turn)) {
         for (int i = 0; i < 3; ++i) pose->shift[i] = imp_add(way[i], next->shift[i]);
@@ -108,12 +108,13 @@ static void add_pose(imp_pose *next, double norm, imp_pose *pose)
     *pose = all;
 }
 
-imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose)
+imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end, const imp_region *region,
+                                imp_pose *pose)
 {
     const imp_model t = surface_time(region);
     const double norm = surface_pose_norm_upper(s);
     imp_status status = IMP_OK;
-    for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
+    for (size_t k = first; k < end && status == IMP_OK; ++k) {
         const mapping *map = &s->maps[k];
         imp_pose next;
         memset(&next, 0, sizeof next);
@@ -121,10 +122,15 @@ imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *po
         status = map->type->rigid(map->self, &t, &next);
         status = judge(surface_call_end(mode, status), &next);
         if (status != IMP_OK) return status;
-        if (k == 0)
+        if (k == first)
             *pose = next;
         else
             add_pose(&next, norm, pose);
     }
     return judge(IMP_OK, pose) == IMP_OK ? IMP_OK : IMP_UNBOUNDED;
+}
+
+imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose)
+{
+    return surface_pose_of_maps(s, 0, s->map_count, region, pose);
 }

@@ -9,10 +9,11 @@
 #include "core/base/rounding.h"
 #include "core/common/random.h"
 
-/* Points beside the surface: each point f(p) of a part of the node, moved by (h + k s_j) n for some vector n
- * and s = (p - c) / d of the part. */
+/* Points beside the surface under its first `maps` maps: each point f(p) of a part of the node, moved by
+ * (h + k s_j) n for some vector n and s = (p - c) / d of the part. */
 typedef struct passage {
     imp_region region;
+    size_t maps;
     int along;       /* j; k is 0 where the part has no width along it */
     double way[3];   /* h n; length */
     double drift[3]; /* k n; length */
@@ -79,7 +80,8 @@ static bool draw_passage(const node *n, uint64_t *state, passage *w)
         const double d = w->region.d[j];
         if (d > 0 && !(d > 0x1p-30 * fabs(w->region.c[j]))) return false;
     }
-    if (surface_include_bare(n->surface, &w->region, w->point) != IMP_OK) return false;
+    w->maps = random_bits(state) % (surface_map_count(n->surface) + 1);
+    if (surface_include_inner(n->surface, &w->region, w->maps, w->point) != IMP_OK) return false;
     double extent = 0;
     for (int i = 0; i < 3; ++i)
         extent += fabs(w->point[i].b[0]) + fabs(w->point[i].b[1]) + w->point[i].e;
@@ -123,12 +125,13 @@ static imp_code lie_of_distance(const surface *s, const imp_region *r, double cl
 enum { PASSAGES = 8, STEPS = 4 };
 
 /* Lemma. A point that is moved by a vector is no farther from the surface than the vector is long, wherever the
- * surface is. s is from -1 + 2^-20 to 1 - 2^-20, or 0 where the region has no width, and so stands for a
+ * surface is, and whatever brings both nearer to each other after that. s is from -1 + 2^-20 to 1 - 2^-20, or 0 where the region has no width, and so stands for a
  * point of it; the vector's length has fewer than 2^10 roundings. */
 static imp_code judge_passage(const node *n, const passage *w, uint64_t *state, imp_error *error)
 {
     imp_model g;
-    if (surface_distance(n->surface, &w->region, w->point, &g) != IMP_OK) return IMP_SUCCESS;
+    if (surface_distance(n->surface, &w->region, w->maps, w->point, &g) != IMP_OK)
+        return IMP_SUCCESS;
     for (int k = 0; k < STEPS; ++k) {
         const double end = 1 - 0x1p-20;
         double s[3];

@@ -615,6 +615,16 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
     json '.verdict == "clear"'
 }
 
+@test "distances under rigid maps are held against points too" {
+    takes liar_distance liar_truthful_distance
+    local maps='! rotate axis=1,2,3 angle=0.7 ! translate velocity=1,2,3'
+    local within="cylinder radius=.99 height=1 center=0,0,1 ! rotate rate=3 $maps"
+    fails 5 "type 'liar_distance ! rotate axis=1,2,3 angle=0.7 ! translate velocity=1,2,3' claims too large a distance" \
+        pair "liar_distance $maps" "$within" --gamma 1e-3 --audit
+    run -0 pair "liar_truthful_distance $maps" "$within" --gamma 1e-3 --audit --json
+    json '.verdict == "clear"'
+}
+
 @test "distances are asked for at times at which the surface exists" {
     takes pipe_absent
     run -0 pair pipe_absent 'cylinder radius=.99 height=1 center=0,0,1 ! rotate rate=3' --gamma 1e-3 --json
