@@ -188,6 +188,7 @@ pkgdata_DATA = \
     tools/data/bolt.json \
     tools/data/bowl.json \
     tools/data/die.json \
+    tools/data/egg.json \
     tools/data/page.html \
     tools/data/pebble.json \
     tools/data/recoil.json \

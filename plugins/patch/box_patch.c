@@ -26,16 +26,33 @@ static void begin(const box_data *data, box_patch *b)
  * own, and passes 11 sums: 14 units of the sum of |entries| times `most`. */
 enum { TABLE_UNITS = 14 };
 
-static void multiply(const double *table, box_patch *b)
+IMP_QUAD_INLINE void multiply_groups(const double *table, int groups, const imp_quad *points,
+                                     imp_quad *to)
 {
-    const int groups = b->f.lanes / IMP_QUAD;
-    imp_quad *to = (imp_quad *)b->numbers;
     for (int k = 0; k < BOX_NUMBERS; ++k, table += BOX_POINTS)
         for (int g = 0; g < groups; ++g) {
-            imp_quad sum = table[0] * b->points[g];
-            for (int p = 1; p < BOX_POINTS; ++p) sum += table[p] * b->points[p * groups + g];
+            imp_quad sum = table[0] * points[g];
+            for (int p = 1; p < BOX_POINTS; ++p) sum += table[p] * points[p * groups + g];
             to[k * groups + g] = sum;
         }
+}
+
+static void multiply_narrow(const double *table, box_patch *b)
+{
+    multiply_groups(table, b->f.lanes / IMP_QUAD, b->points, (imp_quad *)b->numbers);
+}
+
+IMP_QUAD_WIDE static void multiply_wide(const double *table, box_patch *b)
+{
+    multiply_groups(table, b->f.lanes / IMP_QUAD, b->points, (imp_quad *)b->numbers);
+}
+
+static void multiply(const double *table, box_patch *b)
+{
+    if (imp_quad_is_wide())
+        multiply_wide(table, b);
+    else
+        multiply_narrow(table, b);
 }
 
 /* --- Points -------------------------------------------------------------------------------------------- */

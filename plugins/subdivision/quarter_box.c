@@ -5,8 +5,6 @@
 
 #include "plugins/patch/box_patch.h"
 
-#include <impinge/interval.h>
-
 /* A ring, 1 <= u 2^level <= 2, has two halves, v up to 1/2 and from there; each has a triangle at the outer
  * side and one that reaches to the inner (box_patch.h). The upper half is the lower one with x and y of the
  * grid exchanged. */
@@ -201,59 +199,21 @@ static imp_status add(const walk *w, const imp_region *whole, const imp_region *
     return status;
 }
 
-/* --- Nets ------------------------------------------------------------------------------------------------- */
-
-static imp_status net_of_area(const walk *w, const imp_region *region, const share *of, imp_net *net)
-{
-    box_data data;
-    const imp_region local = region_in_half(w, region, of->is_mirrored);
-    take_points(w, of->area, of->is_mirrored, &data);
-    return box_net(&data, &local, net);
-}
-
-/* The mean of two nets over a region, each of which holds for a part. Lemma. A point of either is off by
- * half of what they are apart, and 8 roundings of numbers that are no greater than `size`. */
-static void join_nets(const imp_net *other, double half_time, imp_net *net)
-{
-    for (int i = 0; i < 3; ++i) {
-        const double place = other->place[i] - net->place[i], drift = other->drift[i] - net->drift[i];
-        double apart = 0, size = 0;
-        for (int k = 0; k < BOX_NUMBERS; ++k) {
-            const double p = other->point[i][k] - net->point[i][k] + place;
-            const double v = other->velocity[i][k] - net->velocity[i][k] + drift;
-            apart = imp_larger(apart, fabs(p) + half_time * fabs(v));
-            size = imp_larger(size, fabs(net->point[i][k]) + fabs(other->point[i][k]) +
-                                        half_time * (fabs(net->velocity[i][k]) +
-                                                     fabs(other->velocity[i][k])));
-            net->point[i][k] += 0.5 * p;
-            net->velocity[i][k] += 0.5 * v;
-        }
-        size += fabs(net->place[i]) + fabs(other->place[i]) +
-                half_time * (fabs(net->drift[i]) + fabs(other->drift[i]));
-        net->error[i] = imp_larger(net->error[i], other->error[i]);
-        net->error[i] = (net->error[i] + 0.5 * apart + 8 * ROUNDING * size) * SLACK + IMP_TINY;
-    }
-}
-
+/* Where several triangles meet, a net of one of them, with how far the others are from it as its error, is
+ * of no more use than the quadratics: it took as many pairs or a few more. */
 static imp_status net_of(const walk *w, const imp_region *region, int u, int v, imp_net *net)
 {
     share shares[SHARES_MAX];
     box_data data;
-    imp_net other = {.is_moving = 0};
     (void)v;
     if (u == NEAR) {
         take_points(w, BOX_WHOLE, false, &data);
         return box_net(&data, region, net);
     }
-    if (u != FAR) return IMP_UNBOUNDED;
-    const int count = shares_of(w, region, shares);
-    if (count > 1 && shares[0].is_mirrored != shares[count - 1].is_mirrored) return IMP_UNBOUNDED;
-    imp_status status = net_of_area(w, region, &shares[0], net);
-    if (status == IMP_OK && count == 2) {
-        status = net_of_area(w, region, &shares[1], &other);
-        if (status == IMP_OK) join_nets(&other, region->d[2], net);
-    }
-    return status;
+    if (u != FAR || shares_of(w, region, shares) > 1) return IMP_UNBOUNDED;
+    const imp_region local = region_in_half(w, region, shares[0].is_mirrored);
+    take_points(w, shares[0].area, shares[0].is_mirrored, &data);
+    return box_net(&data, &local, net);
 }
 
 const quarter_type quarter_box = {box_at, is_one, include, add, net_of};
