@@ -5,6 +5,8 @@
 
 #include <impinge/quad.h>
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 /* Outward rounding
  * ================
@@ -49,8 +51,21 @@ IMP_QUAD_INLINE imp_quad quad_padded_upper(imp_quad x, int pad)
 }
 static inline double padded_lower(double x, int pad) { return x - x * (pad * UNIT_ROUNDOFF); }
 
+/* The next double above x, as nextafter gives it, but inline. Doubles of one sign are in the order of their
+ * bits. */
+static inline double double_above(double x)
+{
+    int64_t bits;
+    if (!(x < INFINITY)) return x;
+    if (x == 0) return 0x1p-1074;
+    memcpy(&bits, &x, sizeof bits);
+    bits += x > 0 ? 1 : -1;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
 /* x + y rounded up, x - y rounded down; never the exact value's wrong side, whatever underflows. */
-static inline double sum_upper(double x, double y) { return nextafter(x + y, INFINITY); }
-static inline double difference_lower(double x, double y) { return nextafter(x - y, -INFINITY); }
+static inline double sum_upper(double x, double y) { return double_above(x + y); }
+static inline double difference_lower(double x, double y) { return -double_above(-(x - y)); }
 
 #endif

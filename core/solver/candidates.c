@@ -61,7 +61,7 @@ static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
 {
     *done = collection_add_pairs(all);
     if (all->out_of_memory) return error_set_memory(error);
-    if (!*done || all->list->pair_count == 0) return IMP_SUCCESS;
+    if (!*done || all->list->pair_count < 2) return IMP_SUCCESS;
     return sort_pairs(all, done, error);
 }
 

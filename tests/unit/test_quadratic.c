@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "core/common/random.h"
 #include "core/solver/quadratic.h"
 #include "tests/support/suite.h"
 
@@ -147,7 +148,35 @@ START_TEST(the_spans_of_textbook_quadratics_are_exact)
 }
 END_TEST
 
-SUITE_MAIN("quadratic", no_value_of_a_random_quadratic_is_outside_its_span,
+/* --- Outward rounding --- */
+
+static void check_neighbours(double x)
+{
+    const double up = sum_upper(x, 0), down = difference_lower(x, 0);
+    const double above = nextafter(x, INFINITY), below = nextafter(x, -INFINITY);
+    ck_assert_msg(memcmp(&up, &above, sizeof up) == 0, "above %a: %a, not %a", x, up, above);
+    ck_assert_msg(memcmp(&down, &below, sizeof down) == 0, "below %a: %a, not %a", x, down, below);
+}
+
+START_TEST(sums_are_rounded_outward_to_the_next_double)
+{
+    const double least = 0x1p-1074, most = 0x1.fffffffffffffp1023;
+    const double special[] = {0, least, 0x1p-1022, 0x1.fffffffffffffp-1023, 1, most, INFINITY};
+    uint64_t random = suite_seed();
+    for (size_t k = 0; k < sizeof special / sizeof *special; ++k)
+        check_neighbours(special[k]), check_neighbours(-special[k]);
+    for (int k = 0; k < 100000; ++k) {
+        const uint64_t bits = random_bits(&random);
+        double x;
+        memcpy(&x, &bits, sizeof x);
+        if (!isnan(x)) check_neighbours(x);
+    }
+    ck_assert(isnan(sum_upper(NAN, 1)) && isnan(difference_lower(INFINITY, INFINITY)));
+}
+END_TEST
+
+SUITE_MAIN("quadratic", sums_are_rounded_outward_to_the_next_double,
+           no_value_of_a_random_quadratic_is_outside_its_span,
            no_value_of_a_nearly_singular_quadratic_is_outside_its_span,
            no_value_of_a_valley_is_outside_its_span,
            the_span_of_a_quadratic_is_no_wider_than_its_values,
