@@ -80,7 +80,9 @@ static bool draw_passage(const node *n, uint64_t *state, passage *w)
         const double d = w->region.d[j];
         if (d > 0 && !(d > 0x1p-30 * fabs(w->region.c[j]))) return false;
     }
-    w->maps = random_bits(state) % (surface_map_count(n->surface) + 1);
+    size_t still; /* as the solver asks */
+    if (surface_still_maps(n->surface, &w->region, &still) != IMP_OK) return false;
+    w->maps = random_bits(state) % (still + 1);
     if (surface_include_inner(n->surface, &w->region, w->maps, w->point) != IMP_OK) return false;
     double extent = 0;
     for (int i = 0; i < 3; ++i)
