@@ -234,7 +234,12 @@ static const surface *piece_at(const imp_scene *scene, imp_place at)
 /* A callback's refusal of what lies outside the domain is the caller's fault. */
 static imp_code refusal(const surface *s, imp_status status, imp_error *why)
 {
-    surface_fault(s, why, ": %s", surface_status_told(s, status).text);
+    surface_fault(
+        s, why, ": %s",
+        status == IMP_DOMAIN
+            ? "is undefined there, or too large for a double; imp_scene_domain answers where "
+              "it should be defined"
+            : surface_status_told(s, status).text);
     if (status != IMP_DOMAIN) return surface_set_code(status, why);
     if (why != NULL) why->code = IMP_ERROR_USAGE;
     return IMP_ERROR_USAGE;
@@ -369,9 +374,9 @@ static tree *find_tree(const member *m, const tree_plan *plan)
 static bool keep_tree(member *m, const tree_plan *plan, tree *made, tree **found)
 {
     *found = find_tree(m, plan);
-    tree **trees = *found == NULL ? array_reserve(m->trees, m->tree_count, &m->tree_capacity,
-                                                  sizeof *trees)
-                                  : NULL;
+    tree **trees = *found == NULL
+                       ? array_reserve(m->trees, m->tree_count, &m->tree_capacity, sizeof *trees)
+                       : NULL;
     if (trees == NULL) {
         tree_free(made);
         return *found != NULL;

@@ -118,8 +118,6 @@ size_t surface_piece_index(const surface *s)
     return s->whole != NULL ? (size_t)(s - s->whole->pieces) : 0;
 }
 
-const char *surface_label(const surface *s) { return s->label; }
-
 void surface_set_body(surface *s, const char *body, size_t index)
 {
     s->body = body;

@@ -38,9 +38,6 @@ size_t surface_piece_index(const surface *s);
 /* What it holds, about: its pieces, and its share of what it has in common with other surfaces. */
 size_t surface_bytes(const surface *s);
 
-/* How messages call it: "sphere radius=2 ! rotate rate=1", or its beginning. */
-const char *surface_label(const surface *s);
-
 /* Tells messages whose it is; the text must outlive the surface. */
 void surface_set_body(surface *s, const char *body, size_t index);
 

@@ -131,7 +131,15 @@ static imp_status net(const void *self, const imp_region *region, imp_net *out)
     return region->lo[0] < 0.5 ? IMP_OK : IMP_UNBOUNDED;
 }
 
-static const imp_surface_type bowl = {.name = "bowl",
+static imp_status distance(const void *self, const imp_model point[4], imp_model *out)
+{
+    (void)self;
+    *out = imp_sub(imp_add(point[0], point[3]), imp_mul(point[1], point[2]));
+    return point[3].a < 0.75 ? IMP_OK : IMP_UNBOUNDED;
+}
+
+static const imp_surface_type bowl = {.struct_size = sizeof bowl,
+                                      .name = "bowl",
                                       .parameter_count = 1,
                                       .create = make,
                                       .destroy = destroy,
@@ -139,7 +147,8 @@ static const imp_surface_type bowl = {.name = "bowl",
                                       .eval = eval,
                                       .rate = rate,
                                       .include = include,
-                                      .net = net};
+                                      .net = net,
+                                      .distance = distance};
 static const imp_surface_type fussy = {.name = "fussy",
                                        .create = complain,
                                        .destroy = free,
@@ -224,6 +233,14 @@ START_TEST(answers_from_another_process_are_the_same_bit_for_bit)
     memset(nets, 0, sizeof nets);
     ck_assert_int_eq(type->net(i, &r, &nets[0]), net(&zero, &r, &nets[1]));
     ck_assert(memcmp(&nets[0], &nets[1], sizeof nets[0]) == 0 && nets[0].error[1] == 1);
+    imp_model at[4], far[2];
+    memset(far, 0, sizeof far);
+    for (int k = 0; k < 4; ++k) at[k] = imp_param(&r, k % 3);
+    ck_assert_int_eq(type->distance(i, at, &far[0]), IMP_OK);
+    ck_assert_int_eq(distance(&zero, at, &far[1]), IMP_OK);
+    ck_assert(memcmp(&far[0], &far[1], sizeof far[0]) == 0);
+    at[3] = imp_num(1);
+    ck_assert_int_eq(type->distance(i, at, &far[0]), IMP_UNBOUNDED);
     double lo[3], hi[3];
     type->domain(i, lo, hi);
     ck_assert(lo[1] == -2 && hi[0] == 1 && hi[2] == INFINITY);

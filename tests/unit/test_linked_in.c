@@ -121,6 +121,22 @@ START_TEST(a_type_linked_in_is_isolated_like_any_other)
 }
 END_TEST
 
+START_TEST(what_is_isolated_must_be_the_name_of_a_type)
+{
+    imp_registry *registry = nothing_searched();
+    ck_assert_int_eq(imp_registry_add(registry, &blob_plugin, &error), IMP_SUCCESS);
+    ck_assert_int_eq(imp_registry_isolate(registry, "blob,blbo", &error), IMP_ERROR_USAGE);
+    ck_assert_str_eq(error.text,
+                     "unknown type 'blbo' to isolate, did you mean 'blob'? `impinge list` "
+                     "shows what there is");
+    ck_assert_int_eq(imp_registry_isolate(registry, "helicoid", &error), IMP_ERROR_USAGE);
+    ck_assert_str_eq(error.text,
+                     "unknown type 'helicoid' to isolate; `impinge list` shows what there is");
+    ck_assert_int_eq(meet(registry).verdict, IMP_CLEAR); /* in this process */
+    imp_registry_free(registry);
+}
+END_TEST
+
 START_TEST(types_found_before_shadow_those_added)
 {
     const imp_plugin again = blob_plugin;
@@ -195,6 +211,6 @@ END_TEST
 
 SUITE_MAIN("linked_in", a_registry_of_its_path_alone_searches_nothing_else,
            a_plugin_linked_in_offers_its_types_like_any_other,
-           a_type_linked_in_is_isolated_like_any_other, types_found_before_shadow_those_added,
-           a_faulty_plugin_adds_nothing_and_says_why,
+           a_type_linked_in_is_isolated_like_any_other, what_is_isolated_must_be_the_name_of_a_type,
+           types_found_before_shadow_those_added, a_faulty_plugin_adds_nothing_and_says_why,
            a_plugin_that_memory_runs_out_for_is_added_whole_afterwards)

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "tests/support/query_helpers.h"
 #include "tests/support/sphere_scenes.h"
 #include "tests/support/suite.h"
 
@@ -112,6 +113,25 @@ START_TEST(scenes_tell_nothing_of_what_is_not_there)
 }
 END_TEST
 
+/* x = sqrt(t) has no points before t = 0. */
+START_TEST(points_outside_of_a_domain_are_refused_with_the_type)
+{
+    imp_registry *registry = query_registry();
+    imp_scene *scene =
+        imp_scene_from_pair(registry, "formula x=sqrt(t) time=0,1", "sphere", &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    double x[3];
+    expect_usage(imp_scene_eval(scene, 0, 0, 1, (const double[3]){0.5, 0.5, -1}, x, NULL, &error),
+                 "type 'formula x='sqrt(t)' time=0,1': is undefined there");
+    ck_assert_int_eq(
+        imp_scene_eval(scene, 0, 0, 1, (const double[3]){0.5, 0.5, 0.25}, x, NULL, &error),
+        IMP_SUCCESS);
+    ck_assert(fabs(x[0] - 0.5) < 1e-15);
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+}
+END_TEST
+
 START_TEST(queries_take_no_missing_object)
 {
     imp_scene *scene = two_balls();
@@ -162,5 +182,6 @@ START_TEST(clearance_queries_take_no_missing_object)
 END_TEST
 
 SUITE_MAIN("misuse", registries_take_no_missing_object, scenes_are_not_made_from_nothing,
-           scenes_tell_nothing_of_what_is_not_there, queries_take_no_missing_object,
+           scenes_tell_nothing_of_what_is_not_there,
+           points_outside_of_a_domain_are_refused_with_the_type, queries_take_no_missing_object,
            clearance_queries_take_no_missing_object)

@@ -145,6 +145,11 @@ START_TEST(ranges_are_kept_and_told_with_their_ends)
     assert_refused(between, "{\"e\": 2.0000000000000004}",
                    "s: /e: got 2.0000000000000004, must be in (0, 2]");
     assert_numbers(between, "{\"e\": 2}", 1, 1, (double[]){2});
+    imp_parameter below = *between;
+    below.min = -INFINITY;
+    assert_refused(&below, "{\"e\": 3}", "s: /e: got 3, must be <= 2");
+    below.flags = IMP_MAX_OPEN;
+    assert_refused(&below, "{\"e\": 2}", "s: /e: got 2, must be < 2");
 }
 END_TEST
 

@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include <pthread.h>
+#include <time.h>
 
 #include "tests/support/query_helpers.h"
 #include "tools/bench/crowd.h"
@@ -150,6 +151,71 @@ START_TEST(a_part_of_a_clearance_is_the_clearance_of_two_bodies)
 }
 END_TEST
 
+/* Bodies of several surfaces, of which some pairs come near each other and some do not. */
+START_TEST(a_part_of_bodies_of_many_surfaces_is_the_scene_of_the_two)
+{
+    static const char *const bodies[3] = {
+        "{\"name\": \"a\", \"surfaces\": [{\"type\": \"sphere\"}, {\"type\": \"sphere\", "
+        "\"center\": "
+        "[2, 0, 0]}, {\"type\": \"torus\", \"center\": [1, 0, 2]}]}",
+        "{\"name\": \"b\", \"surfaces\": [{\"type\": \"sphere\", \"center\": [9, 0, 0]}, "
+        "{\"type\": "
+        "\"sphere\", \"center\": [6, 0, 0]}], \"maps\": [{\"type\": \"translate\", \"velocity\": "
+        "[-1, 0, "
+        "0]}]}",
+        "{\"name\": \"c\", \"surfaces\": [{\"type\": \"sphere\", \"center\": [1, 5, 0]}, "
+        "{\"type\": "
+        "\"sphere\", \"center\": [4, 5, 0]}], \"maps\": [{\"type\": \"translate\", \"velocity\": "
+        "[0, -1, "
+        "0]}]}"};
+    char text[2000];
+    snprintf(text, sizeof text, "{\"time\": [0, 8], \"bodies\": [%s, %s, %s]}", bodies[0],
+             bodies[1], bodies[2]);
+    imp_scene *all = imp_scene_from_json(registry, text, strlen(text), "all", NULL);
+    ck_assert_ptr_nonnull(all);
+    const imp_options some = imp_options_default(all);
+    imp_query *whole = imp_query_new(all, &some, NULL);
+    size_t count;
+    ck_assert_int_eq(imp_query_divide(whole, &count, NULL), IMP_SUCCESS);
+    ck_assert_uint_eq(count, 3);
+    for (size_t k = 0; k < count; ++k) {
+        size_t body[2];
+        ck_assert(imp_query_part_bodies(whole, k, body));
+        snprintf(text, sizeof text, "{\"time\": [0, 8], \"bodies\": [%s, %s]}", bodies[body[0]],
+                 bodies[body[1]]);
+        imp_scene *two = imp_scene_from_json(registry, text, strlen(text), "two", NULL);
+        imp_query *alone = imp_query_new(two, &some, NULL);
+        ck_assert_int_eq(imp_query_step(alone, 0, NULL), IMP_SUCCESS);
+        const imp_result part = solved(whole, k), own = imp_query_result(alone);
+        ck_assert(part.verdict == IMP_CONTACT && own.verdict == IMP_CONTACT);
+        ck_assert(part.t == own.t && part.gap == own.gap && part.stats.pairs == own.stats.pairs);
+        ck_assert(part.a.surface == own.a.surface && part.b.surface == own.b.surface);
+        imp_query_free(alone);
+        imp_scene_free(two);
+    }
+    imp_query_free(whole);
+    imp_scene_free(all);
+}
+END_TEST
+
+/* The first answer may come before the time is over; parts begun after it have none left. */
+START_TEST(parts_begun_after_the_time_of_all_are_undecided)
+{
+    size_t count, late = 0;
+    options.max_seconds = 0.05;
+    imp_query *whole = imp_query_new(scene, &options, NULL);
+    ck_assert_int_eq(imp_query_divide(whole, &count, NULL), IMP_SUCCESS);
+    if (count > 0) nanosleep(&(struct timespec){.tv_nsec = 60000000}, NULL);
+    for (size_t k = 0; k < count; ++k) {
+        const imp_result r = solved(whole, k);
+        ck_assert(r.verdict != IMP_UNDECIDED || r.reason == IMP_REASON_SECONDS);
+        late += r.verdict == IMP_UNDECIDED;
+    }
+    ck_assert(count > 0 ? late > 0 : imp_query_result(whole).reason == IMP_REASON_SECONDS);
+    imp_query_free(whole);
+}
+END_TEST
+
 START_TEST(a_limit_before_the_parts_leaves_none)
 {
     size_t count = 1, body[2];
@@ -208,6 +274,8 @@ int main(void)
     const TTest *const tests[] = {parts_and_passes_give_the_same_contacts,
                                   threads_at_once_and_any_order_give_the_same_answers_and_counts,
                                   a_part_of_a_clearance_is_the_clearance_of_two_bodies,
+                                  a_part_of_bodies_of_many_surfaces_is_the_scene_of_the_two,
+                                  parts_begun_after_the_time_of_all_are_undecided,
                                   a_limit_before_the_parts_leaves_none,
                                   limits_of_pairs_are_each_parts_own_and_of_time_those_of_all,
                                   what_cannot_be_divided_is_refused};

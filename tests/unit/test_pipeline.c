@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/reader/pipeline.h"
+#include "core/reader/pipeline_value.h"
 #include "tests/support/kit_registry.h"
 #include "tests/support/suite.h"
 
@@ -90,6 +91,30 @@ START_TEST(strings_need_quotes_only_for_blanks_and_bars)
     assert_becomes("kit label=a=b", "{'type':'kit','label':'a=b','maps':[]}");
     assert_becomes("kit label=\"a ! b\\n\"", "{'type':'kit','label':'a ! b\\n','maps':[]}");
     assert_becomes("kit label=\xC3\xA9", "{'type':'kit','label':'\xC3\xA9','maps':[]}");
+}
+END_TEST
+
+/* No type of ours has a list of strings yet; the ABI allows them. */
+START_TEST(lists_of_strings_need_no_brackets)
+{
+    const imp_parameter names = {.name = "names", .kind = IMP_STRING, .rank = 1};
+    static const char *const texts[] = {"one,\"two, three\",4", "[\"one\", \"two, three\", \"4\"]"};
+    for (int k = 0; k < 2; ++k) {
+        json_t *list = NULL;
+        char why[200] = "";
+        ck_assert_int_eq(
+            pipeline_value_read(&names, texts[k], strlen(texts[k]), &list, why, sizeof why),
+            IMP_SUCCESS);
+        char *found = json_dumps(list, JSON_COMPACT);
+        ck_assert_str_eq(found, "[\"one\",\"two, three\",\"4\"]");
+        free(found);
+        json_decref(list);
+    }
+    json_t *none = NULL;
+    char why[200] = "";
+    ck_assert_int_eq(pipeline_value_read(&names, "one,\"\\q\"", 8, &none, why, sizeof why),
+                     IMP_ERROR_SCENE);
+    ck_assert_str_ne(why, "");
 }
 END_TEST
 
@@ -215,7 +240,8 @@ END_TEST
 
 SUITE_MAIN("pipeline", a_type_alone_is_a_pipeline, values_are_json_or_short_for_it,
            numbers_may_lack_a_zero_and_have_a_plus, strings_need_quotes_only_for_blanks_and_bars,
-           maps_stand_behind_bars_in_order, what_cannot_be_read_is_told_by_its_character,
+           lists_of_strings_need_no_brackets, maps_stand_behind_bars_in_order,
+           what_cannot_be_read_is_told_by_its_character,
            values_that_are_no_json_are_told_with_jansson_s_words,
            what_does_not_fit_is_told_by_its_name, a_pair_is_a_scene_of_bodies_a_and_b,
            random_lines_are_read_or_refused_and_never_harm)
