@@ -86,7 +86,9 @@ static bool walk_to(const face *q, const imp_region *region, walk *w, int *u, in
 }
 
 /* The box of the control points, at any time t = c + d s of the region: |f - (place + t drift)| <= most +
- * |t| most of the velocities. Six roundings at most are of numbers no greater than `far`. */
+ * |t| most of the velocities. Six roundings at most are of numbers no greater than `far`. Points of this and
+ * all finer levels lie there, but p + q - r beyond a border: differences are at most 6 times as large, and
+ * |df/dv| of a triangle twice these (gauge.c). */
 static void include_square(const face *q, const walk *w, const imp_region *region, imp_model model[3])
 {
     const double c = region->c[2], d = region->d[2], late = fabs(c) + d;
@@ -107,6 +109,9 @@ static void include_square(const face *q, const walk *w, const imp_region *regio
         for (int side = 0; side < 2; ++side)
             g->rate[side] =
                 (q->gauge->rate[side][i] + late * q->gauge->rate_motion[side][i]) * SLACK;
+        if (n->is_loop)
+            g->rate[1] = imp_smaller(
+                g->rate[1], 12 * (n->most[i] + n->slip[i] + late * speed) * SLACK + IMP_TINY);
         g->rate[2] = moves ? (fabs(drift) + speed) * SLACK : 0;
         g->depends = moves ? 7 : 3;
     }

@@ -53,33 +53,43 @@ static bool is_small(const corner_net *n, const corner_net *first)
     return true;
 }
 
+/* Bounds of |df/du| or |df/dv| over the ring of a level. Its grid spans cells of side 2^-level, in which
+ * splines change by no more than their control points do from one to the next; but v of a triangle does
+ * not shrink with the level. */
+static void ring_rates(const walk *w, int side, double rates[CORNER_LANES])
+{
+    if (w->now->is_loop)
+        triangle_steps(w->now, side, rates);
+    else
+        quad_steps(w->now, side, rates);
+    for (int lane = 0; lane < w->now->groups * IMP_QUAD && !(w->now->is_loop && side == 1); ++lane)
+        rates[lane] = ldexp(rates[lane], w->level);
+}
+
 /* Lemma (the last square). Let w = max(u, v), h its side, q(u, v) the surface on w = h less the limit
  * point, |q| <= r. There the surface is replaced by limit + (w / h) q(u h / w, v h / w). Where u >= v its
  * derivative by v is that of q along the border u = h, and by u it is q / h - (v / u) times that: at most
  * r / h + rate_v. Likewise where v >= u. Of a triangle it is limit + (u / h) q(h, v), whose derivatives are
  * q / h and (u / h) times that of q. */
-static double with_last_square(double own, double other, double r, int level)
+static double with_last_square(const walk *w, int side, const double own[2], double r)
 {
-    return imp_larger(own, ldexp(r, level) + other) * SLACK + IMP_TINY;
+    double last = ldexp(r, w->level) + own[!side];
+    if (w->now->is_loop) last = side == 0 ? ldexp(r, w->level) : 0;
+    return imp_larger(own[side], last) * SLACK + IMP_TINY;
 }
 
-/* A step's grids span cells of side 2^-level, and splines change by no more than their control points do
- * from one to the next. */
 void face_measure(const face *q, face_gauge *gauge)
 {
     walk w;
-    double rate[2][CORNER_LANES] = {{0}};
+    double rate[CORNER_LANES][2] = {{0}};
     walk_begin(q, &w);
     while (w.level < FACE_DEPTH_MAX && !is_small(w.now, &w.first)) {
         walk_step(&w);
         for (int side = 0; side < 2; ++side) {
-            double steps[CORNER_LANES];
-            if (w.now->is_loop)
-                triangle_steps(w.now, side, steps);
-            else
-                quad_steps(w.now, side, steps);
+            double rates[CORNER_LANES];
+            ring_rates(&w, side, rates);
             for (int lane = 0; lane < w.now->groups * IMP_QUAD; ++lane)
-                rate[side][lane] = imp_larger(rate[side][lane], ldexp(steps[lane], w.level));
+                rate[lane][side] = imp_larger(rate[lane][side], rates[lane]);
         }
     }
     gauge->depth = w.level;
@@ -87,11 +97,10 @@ void face_measure(const face *q, face_gauge *gauge)
         for (int i = 0; i < 3; ++i) {
             const int m = IMP_QUAD + i;
             const double r = w.now->most[i] + w.now->slip[i] + w.error.place[i];
-            gauge->rate[side][i] = with_last_square(rate[side][i], rate[!side][i], r, w.level);
+            gauge->rate[side][i] = with_last_square(&w, side, rate[i], r);
             gauge->rate_motion[side][i] = 0;
             if (w.now->groups == 1) continue;
             const double r_motion = w.now->most[m] + w.now->slip[m] + w.error.drift[i];
-            gauge->rate_motion[side][i] =
-                with_last_square(rate[side][m], rate[!side][m], r_motion, w.level);
+            gauge->rate_motion[side][i] = with_last_square(&w, side, rate[m], r_motion);
         }
 }

@@ -40,15 +40,16 @@ static void smooth_inside(const polygons *m, size_t p, polygons *to, size_t at)
 }
 
 /* The point on the edge a b, made once: found again by its ends. */
-static size_t edge_point(const polygons *m, size_t a, size_t b, polygons *to,
+static size_t edge_point(const polygons *m, size_t a, size_t b, bool all, polygons *to,
                          size_t ends[POLYGONS_POINTS][2])
 {
     for (size_t p = m->points; p < to->points; ++p)
         if ((ends[p][0] == a && ends[p][1] == b) || (ends[p][0] == b && ends[p][1] == a)) return p;
     const size_t p = polygons_new_point(to);
-    const bool is_border = polygons_is_border_edge(m, a, b);
     size_t f, k;
     ends[p][0] = a, ends[p][1] = b;
+    if (!all && !polygons_has_corner(m, 0, a) && !polygons_has_corner(m, 0, b)) return p;
+    const bool is_border = polygons_is_border_edge(m, a, b);
     polygons_add(to, p, m, a, is_border ? 0.5 : 0.375);
     polygons_add(to, p, m, b, is_border ? 0.5 : 0.375);
     for (int way = 0; way < 2 && !is_border; ++way) {
@@ -58,14 +59,17 @@ static size_t edge_point(const polygons *m, size_t a, size_t b, polygons *to,
     return p;
 }
 
-/* Face f gives four: of its corners, each first of its own, and of its edges. */
-static void step(const polygons *m, polygons *to)
+/* Face f gives four: of its corners, each first of its own, and of its edges. `all`: else only what lies
+ * around the first face's four is in its place: what corners of that face and edges from them become. */
+static void step(const polygons *m, bool all, polygons *to)
 {
     size_t ends[POLYGONS_POINTS][2];
     to->points = to->faces = 0;
     for (size_t p = 0; p < m->points; ++p) polygons_new_point(to);
     for (size_t p = 0; p < m->points; ++p)
-        if (polygons_is_border(m, p))
+        if (!all && !polygons_has_corner(m, 0, p))
+            continue;
+        else if (polygons_is_border(m, p))
             polygons_smooth_border(m, p, to, p);
         else if (polygons_faces_at(m, p) > 0)
             smooth_inside(m, p, to, p);
@@ -73,7 +77,8 @@ static void step(const polygons *m, polygons *to)
         size_t edge[3];
         if (to->faces + 4 > POLYGONS_FACES) abort();
         for (size_t k = 0; k < 3; ++k)
-            edge[k] = edge_point(m, polygons_corner(m, f, k), polygons_corner(m, f, k + 1), to, ends);
+            edge[k] =
+                edge_point(m, polygons_corner(m, f, k), polygons_corner(m, f, k + 1), all, to, ends);
         for (size_t k = 0; k < 4; ++k) {
             size_t *face = to->corner[to->faces];
             face[0] = k < 3 ? m->corner[f][k] : edge[0];
@@ -105,7 +110,7 @@ static void take_first(const type_arguments *arguments, number t, polygons *to)
                 polygons_take_around(polygons_room(level), f, first, to);
                 return;
             }
-        if (level == 0) step(polygons_room(0), polygons_room(1));
+        if (level == 0) step(polygons_room(0), true, polygons_room(1));
     }
     abort();
 }
@@ -220,7 +225,7 @@ void loop_oracle(const type_arguments *arguments, const number p[3], number x[3]
     take_first(arguments, p[2], around);
     for (int level = 0; level < LEVELS_MAX && !is_flat(around); ++level) {
         const size_t child = descend(at);
-        step(around, polygons_room(0));
+        step(around, false, polygons_room(0));
         polygons_take_around(polygons_room(0), child, 0, around);
     }
     if (is_flat(around))

@@ -337,8 +337,7 @@ static imp_result first_contact(const char *a, const char *b)
     return r;
 }
 
-/* With n = 4 the share is 5/8 - 9/64 = 31/64, so the limit of (1,0,0) is 1 - 1 / (1 + 24/31) = 24/55. A face's
- * middle is the limit of no point: there the sum of x, y and z is that of the surface along (1,1,1). */
+/* With n = 4 the share is 5/8 - 9/64 = 31/64, so the limit of (1,0,0) is 1 - 1 / (1 + 24/31) = 24/55. */
 START_TEST(contact_at_an_extraordinary_point_comes_at_its_time)
 {
     imp_result r = first_contact(OCTAHEDRON, "point position=2,0,0 velocity=-2,0,0");
@@ -351,6 +350,41 @@ START_TEST(contact_at_an_extraordinary_point_comes_at_its_time)
 }
 END_TEST
 
+/* A double cone: tips at (0, 0, 1) and (0, 0, -1), n points around them. */
+static char *double_cone(int n)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    fprintf(out, "subdivision scheme=loop points=[[0,0,1],[0,0,-1]");
+    for (int k = 0; k < n; ++k) {
+        const double angle = 2 * acos(-1) * k / n;
+        fprintf(out, ",[%.17g,%.17g,0]", cos(angle), sin(angle));
+    }
+    fprintf(out, "] faces=[");
+    for (int k = 0; k < n; ++k) {
+        const int next = k + 1 < n ? k + 3 : 2;
+        fprintf(out, "%s[0,%d,%d],[1,%d,%d]", k > 0 ? "," : "", k + 2, next, next, k + 2);
+    }
+    fprintf(out, "]");
+    fclose(out);
+    return text;
+}
+
+START_TEST(contact_at_a_tip_of_any_valence_comes_at_its_time)
+{
+    const int valence[] = {3, 5, 7, 12, 60};
+    for (size_t k = 0; k < sizeof valence / sizeof *valence; ++k) {
+        char *cone = double_cone(valence[k]);
+        const double height = 1 - share_of(valence[k], true);
+        const imp_result r = first_contact(cone, "point position=0,0,2 velocity=0,0,-2");
+        ck_assert_int_eq(r.verdict, IMP_CONTACT);
+        ck_assert_double_eq_tol(r.t, 1 - height / 2, 1e-9);
+        free(cone);
+    }
+}
+END_TEST
+
 int main(void)
 {
     const TTest *const tests[] = {
@@ -359,6 +393,7 @@ int main(void)
         a_regular_grid_is_a_quartic_box_spline,
         the_border_does_not_depend_on_the_inside,
         contact_at_an_extraordinary_point_comes_at_its_time,
+        contact_at_a_tip_of_any_valence_comes_at_its_time,
     };
     return suite_main_with("loop", tests, sizeof tests / sizeof *tests, open_registry, close_registry);
 }
