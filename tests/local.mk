@@ -389,6 +389,8 @@ noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/pipe.h tests/plugins/sl
     tests/support/model_value.h
 
 # Fuzz targets, run on the inputs of their folders; tests/fuzz/run searches for more.
+# Plugins call its __cxa_finalize.
+tests_fuzz_elf_LDFLAGS = $(AM_LDFLAGS) -export-dynamic
 tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/elf_changes.c tests/fuzz/elf_changes.h \
     tests/fuzz/replay.c tests/fuzz/fuzz.h
 tests_fuzz_cache_SOURCES = tests/fuzz/cache.c tests/fuzz/replay.c tests/fuzz/fuzz_mutate.h
@@ -445,6 +447,7 @@ EXTRA_DIST += \
     tests/fuzz/elf.d/dynamic_strtab \
     tests/fuzz/elf.d/dynamic_tag \
     tests/fuzz/elf.d/entry \
+    tests/fuzz/elf.d/handle_lost \
     tests/fuzz/elf.d/kind \
     tests/fuzz/elf.d/machine \
     tests/fuzz/elf.d/magic \

@@ -8,6 +8,7 @@
 #include "tests/fuzz/elf_changes.h"
 #include "tests/fuzz/fuzz.h"
 
+#include <dlfcn.h>
 #include <pthread.h>
 #include <string.h>
 #include <unistd.h>
@@ -90,6 +91,16 @@ static void allow_leaks(bool allow)
 {
     void (*change)(void) = allow ? __lsan_disable : __lsan_enable;
     if (change != NULL) change();
+}
+
+/* A file whose handle is lost asks for the exit handlers of the whole program when it is unloaded. The
+ * command then ends and names the file; a search goes on. */
+__attribute__((visibility("default"))) void __cxa_finalize(void *handle);
+void __cxa_finalize(void *handle)
+{
+    void (*finalize)(void *);
+    *(void **)&finalize = dlsym(RTLD_NEXT, "__cxa_finalize");
+    if (handle != NULL && finalize != NULL) finalize(handle);
 }
 
 /* The unchanged files: two of a kind, and the good one of another. */
