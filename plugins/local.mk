@@ -141,6 +141,7 @@ plugins_libcommon_la_SOURCES = \
     plugins/common/spin.c plugins/common/spin.h \
     plugins/common/spline.c plugins/common/spline.h \
     plugins/common/superquadric.c plugins/common/superquadric.h
+plugins_libcommon_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 plugins_libcommon_la_LDFLAGS =
 plugins_bend_la_LIBADD = plugins/libcommon.la
 plugins_keyframes_la_LIBADD = plugins/libcommon.la
@@ -180,6 +181,7 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/rough_points.c plugins/patch/rough_points.h \
     plugins/patch/spline_patch.c plugins/patch/spline_patch.h \
     plugins/patch/triangle.c plugins/patch/triangle.h
+plugins_libpatch_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 plugins_libpatch_la_LDFLAGS =
 plugins_bezier_la_LIBADD = plugins/libpatch.la
 plugins_bezier_triangle_la_LIBADD = plugins/libpatch.la
