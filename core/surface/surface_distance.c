@@ -80,7 +80,7 @@ static deviation deviation_of(const imp_pose *pose, double norm)
     return d;
 }
 
-/* At most |R x| / |x|. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root of what is below 1 is above it. Also each
+/* At most |R x| / |x|, and 1. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root of what is below 1 is above it. Also each
  * map leaves sqrt(1 - 3 e) at least, and (1 + 2 e)^2 (1 - 3 e) > 1 + e / 2, so that 1 / n is less than that of
  * all. */
 static double least_stretch(const deviation *d, double norm)
@@ -147,41 +147,55 @@ static imp_status distance_before_maps(const surface *s, const imp_region *regio
     return judge(surface_call_end(mode, status), distance);
 }
 
-/* What the maps from `first` to the one before `end` do, if they are all rigid then. */
-static imp_status motion(const surface *s, size_t first, size_t end, const imp_region *region,
-                         imp_pose *pose, deviation *d, double *stretch)
+/* *stretch: times that of the maps from `first` on, if they are all rigid then. Of maps that turn with time no more
+ * is asked than what each may do: the remainders of their models say less. */
+static imp_status stretch_by(const surface *s, size_t first, const imp_region *region, double *stretch)
 {
-    if (first == end) return IMP_OK;
-    const double norm = surface_pose_norm_upper(s);
-    const imp_status status = surface_pose_of_maps(s, first, end, region, pose);
-    if (status != IMP_OK) return status;
-    *d = deviation_of(pose, norm);
-    *stretch *= least_stretch(d, norm);
+    const double norm = 1 + 2 * IMP_RIGID_SLACK; /* of one; exact */
+    for (size_t k = first; k < s->map_count; ++k) {
+        imp_pose pose;
+        const imp_status status = surface_pose_of_maps(s, k, k + 1, region, &pose);
+        if (status != IMP_OK) return status;
+        double least = 1 / norm;
+        if (!pose_turns(&pose)) {
+            const deviation d = deviation_of(&pose, norm);
+            least = least_stretch(&d, norm);
+        }
+        if (least < 1) *stretch = nextafter(*stretch * least, 0);
+    }
     return IMP_OK;
 }
 
+/* The point before the first `maps` maps, and their least stretch. */
+static imp_status take_back_before(const surface *s, size_t maps, const imp_region *region,
+                                   const imp_model point[3], imp_model at[3], double *stretch)
+{
+    imp_pose pose;
+    const double norm = surface_pose_norm_upper(s);
+    const imp_status status = surface_pose_of_maps(s, 0, maps, region, &pose);
+    if (status != IMP_OK) return status;
+    const deviation d = deviation_of(&pose, norm);
+    *stretch = least_stretch(&d, norm);
+    return take_back(&pose, &d, point, at) ? IMP_OK : IMP_UNBOUNDED;
+}
+
 /* Lemma. Maps that follow on both, and are rigid, stretch what is between any two points at the same time by their
- * least stretch at least: |g| times that of all maps is no more than the distance after them. One product of
- * stretches is rounded; imp_scale bounds what it rounds of g, which may depend on anything. */
-PAD_COVERS(2, 1);
+ * least stretch at least: |g| times that of all maps is no more than the distance after them. imp_scale bounds
+ * what it rounds of g, which may depend on anything. */
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance)
 {
-    imp_pose pose;
-    deviation d;
-    imp_model at[3];
+    imp_model at[3] = {point[0], point[1], point[2]};
     double stretch = 1;
+    imp_status status = IMP_OK;
     if (!(s->lo[2] <= region->lo[2] && region->hi[2] <= s->hi[2])) return IMP_UNBOUNDED;
     if (s->map_count == 0) return distance_before_maps(s, region, point, distance);
-    imp_status status = motion(s, 0, maps, region, &pose, &d, &stretch);
-    if (status != IMP_OK) return status;
-    if (maps > 0 && !take_back(&pose, &d, point, at)) return IMP_UNBOUNDED;
-    status = motion(s, maps, s->map_count, region, &pose, &d, &stretch);
-    if (status != IMP_OK) return status;
-    status = distance_before_maps(s, region, maps > 0 ? at : point, distance);
+    if (maps > 0) status = take_back_before(s, maps, region, point, at, &stretch);
+    if (status == IMP_OK) status = stretch_by(s, maps, region, &stretch);
+    if (status == IMP_OK) status = distance_before_maps(s, region, at, distance);
     if (status != IMP_OK) return status;
     distance->depends = 7;
     for (int j = 0; j < 3; ++j) distance->rate[j] = INFINITY;
-    *distance = imp_scale(*distance, stretch < 1 ? padded_lower(stretch, 2) : 1);
+    *distance = imp_scale(*distance, stretch);
     return IMP_OK;
 }
