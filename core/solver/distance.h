@@ -22,9 +22,8 @@ typedef struct distance_view {
 } distance_view;
 
 /* Whether distances of points of a from the surface of b are known, and worth asking for. `still_maps`: of that
- * surface (surface_still_maps); what turns further it does not bring back to a, whose points would be known less well.
- * Maps that both have in common do not count, but then points are included anew: not where nodes are too large
- * for an answer, or small and not parallel. */
+ * surface (surface_still_maps): where more of its own turn it nothing is asked. Maps that both have in common do not
+ * count, but then points are included anew: not for nodes that are small, and not parallel. */
 bool distance_is_known(const node *a, const node *b, size_t still_maps);
 
 /* Cuts the window, which lies in both nodes' times, to the times at which points of `a` may be within the
