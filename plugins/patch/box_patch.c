@@ -66,9 +66,15 @@ static void barycentric(const box_data *data, const double p[3], double at[3])
 {
     const double s = p[0], w = data->is_mirrored ? 1 - p[1] : p[1], y = 0.5 * ((1 + s) * w);
     switch (data->area) {
-    case BOX_OUTER: at[0] = 1 - s, at[1] = s - y, at[2] = y; break;
-    case BOX_INNER: at[0] = 1 - y, at[1] = s, at[2] = y - s; break;
-    default: at[0] = 1 - s, at[1] = s * (1 - w), at[2] = s * w; break;
+    case BOX_OUTER:
+        at[0] = 1 - s, at[1] = s - y, at[2] = y;
+        break;
+    case BOX_INNER:
+        at[0] = 1 - y, at[1] = s, at[2] = y - s;
+        break;
+    default:
+        at[0] = 1 - s, at[1] = s * (1 - w), at[2] = s * w;
+        break;
     }
 }
 
@@ -144,8 +150,8 @@ static void set_slopes(const box_data *data, patch *f, const imp_quad *points)
         imp_quad most[2] = {{0}, {0}};
         for (int e = 0; e < 3; ++e)
             for (int k = 0; k < 8; ++k) {
-                const imp_quad step = points[edge[e][k][1] * groups + g] -
-                                      points[edge[e][k][0] * groups + g];
+                const imp_quad step =
+                    points[edge[e][k][1] * groups + g] - points[edge[e][k][0] * groups + g];
                 most[e == across] = imp_quad_max(imp_quad_abs(step), most[e == across]);
             }
         for (int side = 0; side < 2; ++side)

@@ -71,11 +71,13 @@ void rough_widen_model(const rough_points *data, const patch *f, const imp_regio
         g->hi = imp_sum_up(g->hi + slip);
         for (int side = 0; side < 2; ++side) g->rate[side] = (g->rate[side] + slope) * SLACK;
         if (data->moves)
-            g->rate[2] = (g->rate[2] + data->slip_motion[axis] + ROUNDING * fabs(f->drift[axis])) * SLACK;
+            g->rate[2] =
+                (g->rate[2] + data->slip_motion[axis] + ROUNDING * fabs(f->drift[axis])) * SLACK;
     }
 }
 
-void rough_widen_net(const rough_points *data, const patch *f, const imp_region *region, imp_net *net)
+void rough_widen_net(const rough_points *data, const patch *f, const imp_region *region,
+                     imp_net *net)
 {
     const double late = fabs(region->c[2]) + region->d[2];
     for (int axis = 0; axis < 3; ++axis)

@@ -43,6 +43,7 @@ imp_quad rough_slope_upper(const rough_points *data, const patch *f, int group, 
 /* Makes bounds of the patch such of the splines that are meant. */
 void rough_widen_model(const rough_points *data, const patch *f, const imp_region *region,
                        imp_model model[3]);
-void rough_widen_net(const rough_points *data, const patch *f, const imp_region *region, imp_net *net);
+void rough_widen_net(const rough_points *data, const patch *f, const imp_region *region,
+                     imp_net *net);
 
 #endif

@@ -20,7 +20,8 @@ static void set_face_points(const control_mesh *m, const double *from, double *t
 }
 
 /* Of Loop's. */
-static void set_edge_means(const control_mesh *m, const uint32_t *edge, const double *from, double *to)
+static void set_edge_means(const control_mesh *m, const uint32_t *edge, const double *from,
+                           double *to)
 {
     for (uint32_t h = 0; h < m->corner_count; ++h) {
         const uint32_t twin = m->twin[h];
@@ -86,8 +87,8 @@ static void smooth_point(const control_mesh *m, const control_point *p, const do
 }
 
 /* Of Loop's. */
-static void smooth_among_triangles(const control_mesh *m, const control_point *p, const double *from,
-                                   double x[3])
+static void smooth_among_triangles(const control_mesh *m, const control_point *p,
+                                   const double *from, double x[3])
 {
     double around[3] = {0, 0, 0};
     uint32_t h = p->start;

@@ -90,14 +90,19 @@ void triangle_reflect(corner_net *n, int side)
 
 /* --- One step ---------------------------------------------------------------------------------------------- */
 
-static imp_quad at_grid(const corner_net *n, int x, int y, int g) { return n->grid[x + 1][y + 1][g]; }
+static imp_quad at_grid(const corner_net *n, int x, int y, int g)
+{
+    return n->grid[x + 1][y + 1][g];
+}
 
 /* The middle of an edge from (x, y) in direction d. */
 static imp_quad edge_point(const corner_net *n, int x, int y, int d, int g)
 {
-    const int *out = direction[d], *left = direction[turned(d + 1)], *right = direction[turned(d - 1)];
+    const int *out = direction[d], *left = direction[turned(d + 1)],
+              *right = direction[turned(d - 1)];
     return 0.375 * (at_grid(n, x, y, g) + at_grid(n, x + out[0], y + out[1], g)) +
-           0.125 * (at_grid(n, x + left[0], y + left[1], g) + at_grid(n, x + right[0], y + right[1], g));
+           0.125 * (at_grid(n, x + left[0], y + left[1], g) +
+                    at_grid(n, x + right[0], y + right[1], g));
 }
 
 static imp_quad corner_point(const corner_net *n, int x, int y, int g)

@@ -20,9 +20,9 @@ static void quad_steps(const corner_net *n, int side, double steps[CORNER_LANES]
         imp_quad most = {0};
         for (int x = 0; x < CORNER_FINE - (side == 0); ++x)
             for (int y = x == 0; y < CORNER_FINE - (side == 1); ++y)
-                most = imp_quad_max(imp_quad_abs(n->grid[x + (side == 0)][y + (side == 1)][g] -
-                                                 n->grid[x][y][g]),
-                                    most);
+                most = imp_quad_max(
+                    imp_quad_abs(n->grid[x + (side == 0)][y + (side == 1)][g] - n->grid[x][y][g]),
+                    most);
         set_steps(n, g, most, steps);
     }
 }

@@ -106,7 +106,8 @@ static bool inner_share(const half_box *b, half_box *to)
 }
 
 /* The box back in u and v, within the region. */
-static imp_region region_of(const walk *w, const imp_region *region, const half_box *b, bool is_upper)
+static imp_region region_of(const walk *w, const imp_region *region, const half_box *b,
+                            bool is_upper)
 {
     double lo[3], hi[3];
     memcpy(lo, region->lo, sizeof lo);
@@ -123,7 +124,8 @@ static int shares_of(const walk *w, const imp_region *region, share shares[SHARE
 {
     int count = 0;
     for (int upper = 0; upper <= 1; ++upper) {
-        const bool reaches = upper ? region->hi[1] > 0.5 || region->lo[1] >= 0.5 : region->lo[1] < 0.5;
+        const bool reaches =
+            upper ? region->hi[1] > 0.5 || region->lo[1] >= 0.5 : region->lo[1] < 0.5;
         const double from = upper ? imp_larger(region->lo[1], 0.5) : region->lo[1];
         const double to = upper ? region->hi[1] : imp_smaller(region->hi[1], 0.5);
         const half_box box = {{ldexp(region->lo[0], w->level), ldexp(region->hi[0], w->level)},
@@ -151,8 +153,10 @@ static bool is_one(const walk *w, const imp_region *region, int u, int v)
 static imp_region region_in_half(const walk *w, const imp_region *region, bool is_upper)
 {
     imp_region local = *region;
-    local.lo[0] = walk_local(w, region->lo[0], FAR), local.lo[1] = across_half(region->lo[1], is_upper);
-    local.hi[0] = walk_local(w, region->hi[0], FAR), local.hi[1] = across_half(region->hi[1], is_upper);
+    local.lo[0] = walk_local(w, region->lo[0], FAR),
+    local.lo[1] = across_half(region->lo[1], is_upper);
+    local.hi[0] = walk_local(w, region->hi[0], FAR),
+    local.hi[1] = across_half(region->hi[1], is_upper);
     local.c[0] = walk_local(w, region->c[0], FAR), local.c[1] = across_half(region->c[1], is_upper);
     local.d[0] = ldexp(region->d[0], w->level), local.d[1] = 2 * region->d[1];
     return local;

@@ -22,7 +22,8 @@ static void spline_at(const walk *w, int u, int v, const double p[3], double x[3
 {
     rough_points data;
     take_patch(w, u, v, &data);
-    spline_point(&data, (double[3]){walk_local(w, p[0], u), walk_local(w, p[1], v), p[2]}, x, error);
+    spline_point(&data, (double[3]){walk_local(w, p[0], u), walk_local(w, p[1], v), p[2]}, x,
+                 error);
 }
 
 static imp_region region_in_patch(const walk *w, const imp_region *region, int u, int v)

@@ -44,7 +44,8 @@ imp_region walk_part(const walk *w, const imp_region *region, int u, int v)
     for (int side = 0; side < 2; ++side) {
         const bool is_cut = side == 0 || !w->points.is_loop;
         lo[side] = part[side] == FAR ? imp_larger(region->lo[side], h) : region->lo[side];
-        hi[side] = part[side] == NEAR && is_cut ? imp_smaller(region->hi[side], h) : region->hi[side];
+        hi[side] =
+            part[side] == NEAR && is_cut ? imp_smaller(region->hi[side], h) : region->hi[side];
     }
     return imp_region_between(lo, hi);
 }
@@ -65,6 +66,7 @@ void walk_place(const walk *w, rough_points *to)
         to->place[i] = w->frame.place[i];
         to->drift[i] = w->frame.drift[i];
         to->slip[i] = n->slip[i] + reflection * n->most[i];
-        to->slip_motion[i] = to->moves ? n->slip[IMP_QUAD + i] + reflection * n->most[IMP_QUAD + i] : 0;
+        to->slip_motion[i] =
+            to->moves ? n->slip[IMP_QUAD + i] + reflection * n->most[IMP_QUAD + i] : 0;
     }
 }

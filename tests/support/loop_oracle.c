@@ -34,8 +34,7 @@ static void smooth_inside(const polygons *m, size_t p, polygons *to, size_t at)
                 polygons_add(to, at, m, polygons_corner(m, f, k + 1), 1);
     for (int i = 0; i < 3; ++i) {
         const number mean = num_div(to->x[at][i], num(n));
-        mpfi_set(to->x[at][i],
-                 num_add(m->x[p][i], num_mul(share, num_sub(mean, m->x[p][i]))));
+        mpfi_set(to->x[at][i], num_add(m->x[p][i], num_mul(share, num_sub(mean, m->x[p][i]))));
     }
 }
 
@@ -77,8 +76,8 @@ static void step(const polygons *m, bool all, polygons *to)
         size_t edge[3];
         if (to->faces + 4 > POLYGONS_FACES) abort();
         for (size_t k = 0; k < 3; ++k)
-            edge[k] =
-                edge_point(m, polygons_corner(m, f, k), polygons_corner(m, f, k + 1), all, to, ends);
+            edge[k] = edge_point(m, polygons_corner(m, f, k), polygons_corner(m, f, k + 1), all, to,
+                                 ends);
         for (size_t k = 0; k < 4; ++k) {
             size_t *face = to->corner[to->faces];
             face[0] = k < 3 ? m->corner[f][k] : edge[0];
@@ -140,20 +139,21 @@ static void ring_of(const polygons *m, size_t k, int axis, number ring[RING])
                 ring[d] = num_sub(num_add(own, ring[before]), ring[twice]);
             else if (at[after] != SIZE_MAX && at[further] != SIZE_MAX)
                 ring[d] = num_sub(num_add(own, ring[after]), ring[further]);
-            else if (at[(d + 3) % RING] != SIZE_MAX) /* one face: the corner is in the middle of these */
+            else if (at[(d + 3) % RING] !=
+                     SIZE_MAX) /* one face: the corner is in the middle of these */
                 ring[d] = num_sub(num_mul(num(2), own), ring[(d + 3) % RING]);
         }
 }
 
 /* 12 times the coefficients of a^4, a^3 b, a^3 c, a^2 b^2, a^2 b c, a^2 c^2, a b^3, ..., c^4. */
 static const int basis[BASIS][TERMS] = {
-    {6, 24, 24, 24, 60, 24, 8, 36, 36, 8, 1, 6, 12, 6, 1},  /* the corners */
+    {6, 24, 24, 24, 60, 24, 8, 36, 36, 8, 1, 6, 12, 6, 1}, /* the corners */
     {1, 8, 6, 24, 36, 12, 24, 60, 36, 6, 6, 24, 24, 8, 1},
     {1, 6, 8, 12, 36, 24, 6, 36, 60, 24, 1, 8, 24, 24, 6},
-    {1, 6, 2, 12, 6, 0, 6, 6, 0, 0, 1, 2, 0, 0, 0},         /* beyond a b, b c, c a */
+    {1, 6, 2, 12, 6, 0, 6, 6, 0, 0, 1, 2, 0, 0, 0}, /* beyond a b, b c, c a */
     {0, 0, 0, 0, 0, 0, 2, 6, 6, 2, 1, 6, 12, 6, 1},
     {1, 2, 6, 0, 6, 12, 0, 0, 6, 6, 0, 0, 0, 2, 1},
-    {1, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},          /* the other two of a, of b, of c */
+    {1, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, /* the other two of a, of b, of c */
     {1, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
     {0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 0},
     {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 0, 0, 0},
@@ -221,7 +221,8 @@ static size_t descend(number at[3])
 void loop_oracle(const type_arguments *arguments, const number p[3], number x[3])
 {
     polygons *around = polygons_room(2);
-    number at[3] = {num_sub(num(1), p[0]), num_mul(p[0], num_sub(num(1), p[1])), num_mul(p[0], p[1])};
+    number at[3] = {num_sub(num(1), p[0]), num_mul(p[0], num_sub(num(1), p[1])),
+                    num_mul(p[0], p[1])};
     take_first(arguments, p[2], around);
     for (int level = 0; level < LEVELS_MAX && !is_flat(around); ++level) {
         const size_t child = descend(at);

@@ -49,7 +49,8 @@ static int across(const triangle_list *m, int a, int b)
 {
     for (int f = 0; f < m->faces; ++f)
         for (int k = 0; k < 3; ++k)
-            if (m->corner[f][k] == a && m->corner[f][(k + 1) % 3] == b) return m->corner[f][(k + 2) % 3];
+            if (m->corner[f][k] == a && m->corner[f][(k + 1) % 3] == b)
+                return m->corner[f][(k + 2) % 3];
     return -1;
 }
 
@@ -241,7 +242,8 @@ static void check_mesh(triangle_list *m, int steps)
 START_TEST(points_are_limits_of_subdivision_at_corners_of_any_valence)
 {
     const int valence[] = {3, 4, 5, 7, 8, 12};
-    for (size_t k = 0; k < sizeof valence / sizeof *valence; ++k) check_mesh(cone(valence[k], false, true), 2);
+    for (size_t k = 0; k < sizeof valence / sizeof *valence; ++k)
+        check_mesh(cone(valence[k], false, true), 2);
     check_mesh(cone(40, false, true), 1);
 }
 END_TEST
@@ -395,5 +397,6 @@ int main(void)
         contact_at_an_extraordinary_point_comes_at_its_time,
         contact_at_a_tip_of_any_valence_comes_at_its_time,
     };
-    return suite_main_with("loop", tests, sizeof tests / sizeof *tests, open_registry, close_registry);
+    return suite_main_with("loop", tests, sizeof tests / sizeof *tests, open_registry,
+                           close_registry);
 }
