@@ -86,9 +86,9 @@
  * of bicubic patches at gamma 1e-6: 0.25: +1, 0.75: -1, 0.9: -3 of 164 */
 #define TUNING_NET_SHRINKS 0.5
 /* Part of what bends, of two nodes with nets, from which on their remainders are too large for quadratics to
- * show more than hulls did. Pairs and instructions of bicubic patches, per cent: 2: -2, +5; 4: -2, +3;
- * 16: +2, -2; of cubic triangles 4: +1, +8 */
-#define TUNING_NET_BEND 8
+ * show more than hulls did. Pairs of bicubic patches: 1 to 4: the same, for 4 % (1) and 2 % (2) more
+ * instructions than 4 */
+#define TUNING_NET_BEND 4
 /* At most; six are usual.
  * 6: +1.0, 10: +0.1, 40: 0.0 */
 #define TUNING_GJK_STEPS 20
