@@ -10,9 +10,10 @@
 
 /* The memory that the host shares with a worker
  * =============================================
- * The host writes a request and its number and posts `requested`; the worker writes the reply,
- * copies the number and posts `replied`. Only one of the two uses the channel at a time. A reply
- * counts only if it carries the number of the request that the host waits for. */
+ * The host writes a request and its number and posts `requested`; the worker works on a copy of its own,
+ * writes the reply, copies the number and posts `replied`. Only one of the two uses the channel at a time,
+ * also where a callback forks, and its copy goes on to write. A reply counts only if it carries the number
+ * of the request that the host waits for. */
 
 enum {
     CHANNEL_POINTS = 64,     /* of one REQUEST_EVAL */
@@ -22,7 +23,7 @@ enum {
 typedef enum channel_request {
     REQUEST_VALUES, /* bytes: the next part of the parameter values for REQUEST_CREATE */
     REQUEST_CREATE,
-    REQUEST_PIECE,  /* of `self`: the one with number n */
+    REQUEST_PIECE, /* of `self`: the one with number n */
     REQUEST_EVAL,
     REQUEST_RATE,
     REQUEST_INCLUDE, /* a map: apply */
@@ -42,17 +43,14 @@ typedef enum channel_callback {
     CALLBACK_COUNT
 } channel_callback;
 
-typedef struct channel {
-    sem_t requested, replied;
-    uint64_t number;            /* of the request */
-    _Atomic uint64_t answering; /* number of the request that was answered last */
+/* What requests and replies consist of. */
+typedef struct channel_work {
     channel_request request;
-    _Atomic unsigned callback; /* channel_callback that was begun last */
     void *self; /* the instance, as the worker knows it: set by REQUEST_CREATE */
     imp_status status;
     imp_create_error why;
-    const void *piece; /* as the worker knows it: set by REQUEST_PIECE; or NULL */
-    size_t pieces;     /* set by REQUEST_CREATE of a type that has them; else 0 */
+    const void *piece;   /* as the worker knows it: set by REQUEST_PIECE; or NULL */
+    size_t pieces;       /* set by REQUEST_CREATE of a type that has them; else 0 */
     double lo[3], hi[3]; /* domain, after REQUEST_CREATE and _PIECE; a map: times in [0] */
     size_t n;            /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values */
     int wants_error;
@@ -64,6 +62,14 @@ typedef struct channel {
     imp_model in[4], out[3];
     imp_net net; /* a map: also what it is given */
     imp_pose pose;
+} channel_work;
+
+typedef struct channel {
+    sem_t requested, replied;
+    uint64_t number;            /* of the request */
+    _Atomic uint64_t answering; /* number of the request that was answered last */
+    _Atomic unsigned callback;  /* channel_callback that was begun last */
+    channel_work work;
     unsigned char bytes[CHANNEL_BYTES];
 } channel;
 

@@ -18,9 +18,9 @@ static imp_status send_bytes(isolated *i, const unsigned char *bytes, size_t siz
 {
     channel *c = i->worker->channel;
     imp_status status = IMP_OK;
-    for (size_t at = 0; at < size && status == IMP_OK; at += c->n) {
-        c->n = size - at < CHANNEL_BYTES ? size - at : CHANNEL_BYTES;
-        memcpy(c->bytes, bytes + at, c->n);
+    for (size_t at = 0; at < size && status == IMP_OK; at += c->work.n) {
+        c->work.n = size - at < CHANNEL_BYTES ? size - at : CHANNEL_BYTES;
+        memcpy(c->bytes, bytes + at, c->work.n);
         status = worker_request(i->worker, i, REQUEST_VALUES);
     }
     return status;
@@ -29,7 +29,7 @@ static imp_status send_bytes(isolated *i, const unsigned char *bytes, size_t siz
 static imp_status request_create(isolated *i, const unsigned char *bytes, size_t size, size_t count,
                                  imp_create_error *why)
 {
-    channel *c = i->worker->channel;
+    channel_work *c = &i->worker->channel->work;
     imp_status status = worker_enter(i->worker, i);
     if (status != IMP_OK) return status;
     c->why = *why;
@@ -48,7 +48,7 @@ static imp_status request_create(isolated *i, const unsigned char *bytes, size_t
 /* Asks for all pieces; one that is NULL stays without `self`. */
 static imp_status request_pieces(isolated *i)
 {
-    channel *c = i->worker->channel;
+    channel_work *c = &i->worker->channel->work;
     imp_status status = worker_enter(i->worker, i);
     if (status != IMP_OK) return status;
     for (size_t k = 0; k < i->piece_count && status == IMP_OK; ++k) {
@@ -116,7 +116,7 @@ imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error
 static void request_destroy(isolated *i)
 {
     if (i->self == NULL || worker_enter(i->worker, i) != IMP_OK) return;
-    i->worker->channel->self = i->self;
+    i->worker->channel->work.self = i->self;
     const imp_status end = worker_request(i->worker, i, REQUEST_DESTROY);
     worker_leave(i->worker);
     if (end == SURFACE_CRASHED || end == SURFACE_HUNG) worker_pool_note(i->pool, i->type, end);

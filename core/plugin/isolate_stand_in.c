@@ -13,14 +13,14 @@ static isolated *stand_in_of(const void *self) { return (isolated *)(uintptr_t)s
 static imp_status enter(isolated *i)
 {
     const imp_status status = worker_enter(i->worker, i->user);
-    if (status == IMP_OK) i->worker->channel->self = i->self;
+    if (status == IMP_OK) i->worker->channel->work.self = i->self;
     return status;
 }
 
 static imp_status some_points(isolated *i, size_t n, size_t width, const double *p, double *x,
                               double *error)
 {
-    channel *c = i->worker->channel;
+    channel_work *c = &i->worker->channel->work;
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
     c->n = n;
@@ -63,9 +63,9 @@ static imp_status surface_rate_of(const void *self, const imp_region *region,
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
-    i->worker->channel->region = *region;
+    i->worker->channel->work.region = *region;
     status = worker_request(i->worker, i->user, REQUEST_RATE);
-    *rates = i->worker->channel->rates;
+    *rates = i->worker->channel->work.rates;
     worker_leave(i->worker);
     return status;
 }
@@ -75,9 +75,9 @@ static imp_status surface_include_of(const void *self, const imp_region *region,
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
-    i->worker->channel->region = *region;
+    i->worker->channel->work.region = *region;
     status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
-    memcpy(model, i->worker->channel->out, 3 * sizeof *model);
+    memcpy(model, i->worker->channel->work.out, 3 * sizeof *model);
     worker_leave(i->worker);
     return status;
 }
@@ -88,10 +88,10 @@ static imp_status net_of(const void *self, const imp_region *region, imp_net *ne
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
-    i->worker->channel->region = *region;
-    i->worker->channel->net = *net;
+    i->worker->channel->work.region = *region;
+    i->worker->channel->work.net = *net;
     status = worker_request(i->worker, i->user, REQUEST_NET);
-    *net = i->worker->channel->net;
+    *net = i->worker->channel->work.net;
     worker_leave(i->worker);
     return status;
 }
@@ -101,9 +101,9 @@ static imp_status distance_of(const void *self, const imp_model point[4], imp_mo
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
-    memcpy(i->worker->channel->in, point, 4 * sizeof *point);
+    memcpy(i->worker->channel->work.in, point, 4 * sizeof *point);
     status = worker_request(i->worker, i->user, REQUEST_DISTANCE);
-    *distance = i->worker->channel->out[0];
+    *distance = i->worker->channel->work.out[0];
     worker_leave(i->worker);
     return status;
 }
@@ -132,9 +132,9 @@ static imp_status map_rate_of(const void *self, const imp_box4 *box, imp_map_rat
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
-    i->worker->channel->box = *box;
+    i->worker->channel->work.box = *box;
     status = worker_request(i->worker, i->user, REQUEST_RATE);
-    *rates = i->worker->channel->map_rates;
+    *rates = i->worker->channel->work.map_rates;
     worker_leave(i->worker);
     return status;
 }
@@ -144,9 +144,9 @@ static imp_status map_apply_of(const void *self, const imp_model in[4], imp_mode
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
-    memcpy(i->worker->channel->in, in, 4 * sizeof *in);
+    memcpy(i->worker->channel->work.in, in, 4 * sizeof *in);
     status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
-    memcpy(out, i->worker->channel->out, 3 * sizeof *out);
+    memcpy(out, i->worker->channel->work.out, 3 * sizeof *out);
     worker_leave(i->worker);
     return status;
 }
@@ -156,10 +156,10 @@ static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *p
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
     if (status != IMP_OK) return status;
-    i->worker->channel->in[3] = *t;
-    i->worker->channel->pose = *pose;
+    i->worker->channel->work.in[3] = *t;
+    i->worker->channel->work.pose = *pose;
     status = worker_request(i->worker, i->user, REQUEST_POSE);
-    *pose = i->worker->channel->pose;
+    *pose = i->worker->channel->work.pose;
     worker_leave(i->worker);
     return status;
 }

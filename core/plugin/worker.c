@@ -185,7 +185,7 @@ static imp_status await_reply(worker *w, const void *user)
     const time_t deadline = until.tv_sec + WORKER_DEADLINE_S;
     while (until.tv_sec < deadline) {
         if (sem_clockwait(&w->channel->replied, CLOCK_MONOTONIC, &until) == 0) {
-            if (atomic_load(&c->answering) == c->number) return c->status;
+            if (atomic_load(&c->answering) == c->number) return c->work.status;
         } else if (errno == ETIMEDOUT) {
             const imp_status end = look(w);
             if (end != IMP_OK) return end_with(w, user, end);
@@ -217,7 +217,7 @@ void worker_leave(worker *w) { pthread_mutex_unlock(&w->lock); }
 
 imp_status worker_request(worker *w, const void *user, channel_request what)
 {
-    w->channel->request = what;
+    w->channel->work.request = what;
     w->channel->number += 1;
     sem_post(&w->channel->requested);
     return await_reply(w, user);

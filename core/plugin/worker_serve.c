@@ -14,131 +14,154 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What the worker keeps between requests: the bytes of values that have come so far. */
-typedef struct received {
+/* What the worker keeps between requests: the bytes of values that have come so far. And what it works
+ * on: a copy made by a callback that forks goes on to write what that callback is to answer. */
+typedef struct server {
+    channel *with;
+    channel_work work;
+    worker_type type;
+    pid_t process;
     unsigned char *bytes;
     size_t length, capacity;
-} received;
+} server;
 
-static imp_status out_of_memory(channel *c)
+/* Only the worker itself goes on after a callback. */
+static void end_copies(const server *s)
 {
-    snprintf(c->why.text, sizeof c->why.text, "out of memory in the process that isolates it");
+    if (getpid() != s->process) _exit(1);
+}
+
+static void begin(const server *s, channel_callback what)
+{
+    end_copies(s);
+    atomic_store(&s->with->callback, what);
+}
+
+static imp_status out_of_memory(channel_work *w)
+{
+    snprintf(w->why.text, sizeof w->why.text, "out of memory in the process that isolates it");
     return IMP_INTERNAL;
 }
 
-static imp_status receive(channel *c, received *r)
+static imp_status receive(server *s)
 {
-    while (r->bytes == NULL || r->capacity < r->length + c->n) {
-        unsigned char *grown = array_reserve(r->bytes, r->length + c->n, &r->capacity, 1);
-        if (grown == NULL) return out_of_memory(c);
-        r->bytes = grown;
+    channel_work *w = &s->work;
+    while (s->bytes == NULL || s->capacity < s->length + w->n) {
+        unsigned char *grown = array_reserve(s->bytes, s->length + w->n, &s->capacity, 1);
+        if (grown == NULL) return out_of_memory(w);
+        s->bytes = grown;
     }
-    memcpy(r->bytes + r->length, c->bytes, c->n);
-    r->length += c->n;
+    memcpy(s->bytes + s->length, s->with->bytes, w->n);
+    s->length += w->n;
     return IMP_OK;
 }
 
-static imp_status create_with(channel *c, worker_type type, const imp_value *values)
+static imp_status create_with(server *s, const imp_value *values)
 {
-    atomic_store(&c->callback, CALLBACK_CREATE);
-    const imp_status status = type.surface != NULL ? type.surface->create(values, &c->self, &c->why)
-                                                   : type.map->create(values, &c->self, &c->why);
-    if (status != IMP_OK || c->self == NULL) return status;
+    channel_work *w = &s->work;
+    const worker_type type = s->type;
+    begin(s, CALLBACK_CREATE);
+    const imp_status status = type.surface != NULL ? type.surface->create(values, &w->self, &w->why)
+                                                   : type.map->create(values, &w->self, &w->why);
+    if (status != IMP_OK || w->self == NULL) return status;
     if (type.surface == NULL) {
-        atomic_store(&c->callback, CALLBACK_TIME_DOMAIN);
-        type.map->time_domain(c->self, &c->lo[0], &c->hi[0]);
+        begin(s, CALLBACK_TIME_DOMAIN);
+        type.map->time_domain(w->self, &w->lo[0], &w->hi[0]);
     } else if (part_offers_pieces(type.surface)) {
-        atomic_store(&c->callback, CALLBACK_PIECE_COUNT);
-        c->pieces = type.surface->piece_count(c->self);
+        begin(s, CALLBACK_PIECE_COUNT);
+        w->pieces = type.surface->piece_count(w->self);
     } else {
-        atomic_store(&c->callback, CALLBACK_DOMAIN);
-        type.surface->domain(c->self, c->lo, c->hi);
+        begin(s, CALLBACK_DOMAIN);
+        type.surface->domain(w->self, w->lo, w->hi);
     }
     return IMP_OK;
 }
 
-static imp_status piece(channel *c, const imp_surface_type *type)
+static imp_status piece(server *s)
 {
-    atomic_store(&c->callback, CALLBACK_PIECE);
-    c->piece = type->piece(c->self, c->n);
-    if (c->piece == NULL) return IMP_OK;
-    atomic_store(&c->callback, CALLBACK_DOMAIN);
-    type->domain(c->piece, c->lo, c->hi);
+    channel_work *w = &s->work;
+    begin(s, CALLBACK_PIECE);
+    w->piece = s->type.surface->piece(w->self, w->n);
+    if (w->piece == NULL) return IMP_OK;
+    begin(s, CALLBACK_DOMAIN);
+    s->type.surface->domain(w->piece, w->lo, w->hi);
     return IMP_OK;
 }
 
-static imp_status create(channel *c, worker_type type, received *r)
+static imp_status create(server *s)
 {
-    imp_value *values = c->n > 0 ? value_bytes_read(r->bytes, c->n) : NULL;
-    imp_status status = c->n == 0 || values != NULL ? IMP_OK : out_of_memory(c);
-    c->self = NULL;
-    c->pieces = 0;
-    if (status == IMP_OK) status = create_with(c, type, values);
+    channel_work *w = &s->work;
+    imp_value *values = w->n > 0 ? value_bytes_read(s->bytes, w->n) : NULL;
+    imp_status status = w->n == 0 || values != NULL ? IMP_OK : out_of_memory(w);
+    w->self = NULL;
+    w->pieces = 0;
+    if (status == IMP_OK) status = create_with(s, values);
     free(values);
-    free(r->bytes);
-    *r = (received){NULL, 0, 0};
+    free(s->bytes);
+    s->bytes = NULL;
+    s->length = s->capacity = 0;
     return status;
 }
 
-static imp_status destroy(channel *c, worker_type type)
+static imp_status destroy(server *s)
 {
-    if (type.surface != NULL)
-        type.surface->destroy(c->self);
+    if (s->type.surface != NULL)
+        s->type.surface->destroy(s->work.self);
     else
-        type.map->destroy(c->self);
+        s->type.map->destroy(s->work.self);
     return IMP_OK;
 }
 
-static imp_status obey_surface(channel *c, const imp_surface_type *type)
+static imp_status obey_surface(channel_work *w, const imp_surface_type *type)
 {
-    double *error = c->wants_error ? c->error : NULL;
-    if (c->request == REQUEST_EVAL) return type->eval(c->self, c->n, c->p, c->x, error);
-    if (c->request == REQUEST_RATE) return type->rate(c->self, &c->region, &c->rates);
-    if (c->request == REQUEST_NET) return type->net(c->self, &c->region, &c->net);
-    if (c->request == REQUEST_DISTANCE) return type->distance(c->self, c->in, c->out);
-    return type->include(c->self, &c->region, c->out);
+    double *error = w->wants_error ? w->error : NULL;
+    if (w->request == REQUEST_EVAL) return type->eval(w->self, w->n, w->p, w->x, error);
+    if (w->request == REQUEST_RATE) return type->rate(w->self, &w->region, &w->rates);
+    if (w->request == REQUEST_NET) return type->net(w->self, &w->region, &w->net);
+    if (w->request == REQUEST_DISTANCE) return type->distance(w->self, w->in, w->out);
+    return type->include(w->self, &w->region, w->out);
 }
 
-static imp_status obey_map(channel *c, const imp_map_type *type)
+static imp_status obey_map(channel_work *w, const imp_map_type *type)
 {
-    double *error = c->wants_error ? c->error : NULL;
-    if (c->request == REQUEST_EVAL) return type->eval(c->self, c->n, c->p, c->x, error);
-    if (c->request == REQUEST_RATE) return type->rate(c->self, &c->box, &c->map_rates);
-    if (c->request == REQUEST_NET) return type->net(c->self, &c->region, &c->net);
-    if (c->request == REQUEST_POSE) return type->rigid(c->self, &c->in[3], &c->pose);
-    return type->apply(c->self, c->in, c->out);
+    double *error = w->wants_error ? w->error : NULL;
+    if (w->request == REQUEST_EVAL) return type->eval(w->self, w->n, w->p, w->x, error);
+    if (w->request == REQUEST_RATE) return type->rate(w->self, &w->box, &w->map_rates);
+    if (w->request == REQUEST_NET) return type->net(w->self, &w->region, &w->net);
+    if (w->request == REQUEST_POSE) return type->rigid(w->self, &w->in[3], &w->pose);
+    return type->apply(w->self, w->in, w->out);
 }
 
-static imp_status obey(channel *c, worker_type type, received *r)
+static imp_status obey(server *s)
 {
-    switch (c->request) {
+    switch (s->work.request) {
     case REQUEST_VALUES:
-        return receive(c, r);
+        return receive(s);
     case REQUEST_CREATE:
-        return create(c, type, r);
+        return create(s);
     case REQUEST_PIECE:
-        return piece(c, type.surface);
+        return piece(s);
     case REQUEST_DESTROY:
-        return destroy(c, type);
+        return destroy(s);
     default:
-        return type.surface != NULL ? obey_surface(c, type.surface) : obey_map(c, type.map);
+        return s->type.surface != NULL ? obey_surface(&s->work, s->type.surface)
+                                       : obey_map(&s->work, s->type.map);
     }
 }
 
-/* A callback may have forked, and then returns here twice: only the worker itself replies. */
 void worker_serve(channel *c, worker_type type)
 {
-    const pid_t self = getpid();
     const fp_mode mode = fp_mode_read();
-    received values = {NULL, 0, 0};
+    server s = {.with = c, .type = type, .process = getpid()};
     for (;;) {
         while (sem_wait(&c->requested) != 0)
             if (errno != EINTR) _exit(1);
-        const uint64_t number = c->number;
-        const imp_status status = obey(c, type, &values);
-        if (getpid() != self) _exit(1);
-        c->status = fp_mode_kept(mode) ? status : SURFACE_CHANGED_MODE;
-        atomic_store(&c->answering, number);
+        s.work = c->work;
+        const imp_status status = obey(&s);
+        end_copies(&s);
+        s.work.status = fp_mode_kept(mode) ? status : SURFACE_CHANGED_MODE;
+        c->work = s.work;
+        atomic_store(&c->answering, c->number);
         sem_post(&c->replied);
     }
 }

@@ -77,7 +77,9 @@ static imp_status eval(const void *self, size_t n, const double *p, double *x, d
     const double sin = *(const double *)self;
     if (sin == CRASH_IN_EVAL) raise(SIGSEGV);
     while (sin == HANG_IN_EVAL) pause();
-    if (sin == FORK_IN_EVAL) fork();
+    const bool is_copy = sin == FORK_IN_EVAL && fork() == 0;
+    volatile double *late = x; /* what a copy writes while the next requests are answered */
+    for (int k = 0; is_copy && k < 1 << 20; ++k) late[0] = -1 - k;
     if (sin == ALLOCATE_IN_EVAL) return allocate();
     if (sin == THREAD_EXIT_IN_EVAL) pthread_exit(NULL);
     if (sin == KILLED_IN_EVAL) raise(SIGKILL);
