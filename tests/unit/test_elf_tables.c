@@ -144,7 +144,7 @@ static size_t relocation_of(uint64_t start, uint64_t length)
 
 START_TEST(relocations_must_stay_inside)
 {
-    const size_t any = relocation_of(value_of(DT_FINI_ARRAY) + 8, far),
+    const size_t any = relocation_of(value_of(DT_FINI_ARRAY) + value_of(DT_FINI_ARRAYSZ), far),
                  addend = offsetof(Elf64_Rela, r_addend),
                  called = relocation_of(value_of(DT_INIT_ARRAY), value_of(DT_INIT_ARRAYSZ));
     assert_refused(value_at(DT_RELA), far, 8, "relocations lie outside");
