@@ -130,7 +130,8 @@ static void offer(nearest *n, const char *candidate)
 }
 
 /* Appends to the text in to[size]; what does not fit is cut. */
-static void append(char *to, size_t size, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static void append(char *to, size_t size, const char *format,
+                                                         ...)
 {
     size_t used = strlen(to);
     va_list arguments;

@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static void write_text(check_answer *answer, check_verdict verdict, const char *format,
-                       va_list list)
+__attribute__((format(printf, 3, 0))) static void
+write_text(check_answer *answer, check_verdict verdict, const char *format, va_list list)
 {
     answer->verdict = verdict;
     vsnprintf(answer->text, sizeof answer->text, format, list);
@@ -47,7 +47,8 @@ void answer_note(check_answer *answer, const char *format, ...)
     va_end(list);
 }
 
-static bool write_failure(check_answer *answer, unsigned faults, const char *format, va_list list)
+__attribute__((format(printf, 3, 0))) static bool
+write_failure(check_answer *answer, unsigned faults, const char *format, va_list list)
 {
     if (answer->verdict == CHECK_FAIL) return false;
     write_text(answer, CHECK_FAIL, format, list);
