@@ -410,7 +410,7 @@ tests_fuzz_scene_SOURCES = tests/fuzz/scene.c tests/fuzz/scene_judge.c tests/fuz
 # What tests/fuzz/run builds: libraries that tell libFuzzer what runs, and plugins that do not.
 .PHONY: fuzz-libraries fuzz-plugins
 fuzz-libraries: core/libcore.la tools/libproof.la plugins/libexpression.la plugins/libcommon.la \
-    plugins/libmesh.la $(plugin_LTLIBRARIES)
+    plugins/libmesh.la plugins/libsubdivision.la plugins/libpatch.la $(plugin_LTLIBRARIES)
 fuzz-plugins: $(check_LTLIBRARIES)
 EXTRA_DIST += \
     tests/fuzz/cache.d/codes \
