@@ -63,7 +63,7 @@ static void ring_rates(const walk *w, int side, double rates[CORNER_LANES])
     else
         quad_steps(w->now, side, rates);
     for (int lane = 0; lane < w->now->groups * IMP_QUAD && !(w->now->is_loop && side == 1); ++lane)
-        rates[lane] = ldexp(rates[lane], w->level);
+        rates[lane] = ldexp(rates[lane] + IMP_TINY, w->level); /* what underflowed, too */
 }
 
 /* Lemma (the last square). Let w = max(u, v), h its side, q(u, v) the surface on w = h less the limit
@@ -73,8 +73,8 @@ static void ring_rates(const walk *w, int side, double rates[CORNER_LANES])
  * q / h and (u / h) times that of q. */
 static double with_last_square(const walk *w, int side, const double own[2], double r)
 {
-    double last = ldexp(r, w->level) + own[!side];
-    if (w->now->is_loop) last = side == 0 ? ldexp(r, w->level) : 0;
+    double last = ldexp(r + IMP_TINY, w->level) + own[!side];
+    if (w->now->is_loop) last = side == 0 ? ldexp(r + IMP_TINY, w->level) : 0;
     return imp_larger(own[side], last) * SLACK + IMP_TINY;
 }
 
