@@ -28,17 +28,24 @@ bool elf_dynamic_find(const elf_dynamic *d, Elf64_Sxword tag, uint64_t *value)
     return false;
 }
 
-bool elf_dynamic_has(const elf_dynamic *d, uint64_t address, uint64_t length)
+/* Where in the file the bytes are that are loaded there; false: not all of them are in it. */
+static bool find_offset(const elf_dynamic *d, uint64_t address, uint64_t length, uint64_t *offset)
 {
     const Elf64_Phdr *part = elf_loads_part(d->loads, address, length);
     if (part == NULL) return false;
     const uint64_t within = address - part->p_vaddr;
+    *offset = part->p_offset + within;
     return within <= part->p_filesz && length <= part->p_filesz - within;
+}
+
+bool elf_dynamic_has(const elf_dynamic *d, uint64_t address, uint64_t length)
+{
+    uint64_t offset;
+    return find_offset(d, address, length, &offset);
 }
 
 bool elf_dynamic_load(const elf_dynamic *d, uint64_t address, void *to, size_t length)
 {
-    if (!elf_dynamic_has(d, address, length)) return false;
-    const Elf64_Phdr *part = elf_loads_part(d->loads, address, length);
-    return elf_file_read(d->file, part->p_offset + (address - part->p_vaddr), to, length);
+    uint64_t offset;
+    return find_offset(d, address, length, &offset) && elf_file_read(d->file, offset, to, length);
 }
