@@ -22,6 +22,23 @@ static inline imp_registry *query_registry(void)
     return registry;
 }
 
+/* The first contact of two surfaces at gamma 1e-9, each bound held against points. */
+static inline imp_result query_audited(const char *a, const char *b)
+{
+    imp_registry *plugins = query_registry();
+    imp_error error;
+    imp_scene *scene = imp_scene_from_pair(plugins, a, b, &error);
+    ck_assert_msg(scene != NULL, "%s", error.text);
+    imp_options options = imp_options_default(scene);
+    options.gamma = 1e-9;
+    options.audit = true;
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_msg(imp_scene_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s", error.text);
+    imp_scene_free(scene);
+    imp_registry_free(plugins);
+    return r;
+}
+
 /* What a question leaves open has the default: times [0, 1], gamma 1e-6, clearance gamma / 2,
  * models. */
 typedef struct question {

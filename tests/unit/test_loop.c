@@ -323,29 +323,13 @@ END_TEST
     "subdivision scheme=loop points=[[1,0,0],[-1,0,0],[0,1,0],[0,-1,0],[0,0,1],[0,0,-1]] "         \
     "faces=[[0,2,4],[2,1,4],[1,3,4],[3,0,4],[2,0,5],[1,2,5],[3,1,5],[0,3,5]]"
 
-static imp_result first_contact(const char *a, const char *b)
-{
-    imp_registry *plugins = query_registry();
-    imp_error error;
-    imp_scene *scene = imp_scene_from_pair(plugins, a, b, &error);
-    ck_assert_msg(scene != NULL, "%s", error.text);
-    imp_options options = imp_options_default(scene);
-    options.gamma = 1e-9;
-    options.audit = true;
-    imp_result r = {.struct_size = sizeof r};
-    ck_assert_msg(imp_scene_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s", error.text);
-    imp_scene_free(scene);
-    imp_registry_free(plugins);
-    return r;
-}
-
 /* With n = 4 the share is 5/8 - 9/64 = 31/64, so the limit of (1,0,0) is 1 - 1 / (1 + 24/31) = 24/55. */
 START_TEST(contact_at_an_extraordinary_point_comes_at_its_time)
 {
-    imp_result r = first_contact(OCTAHEDRON, "point position=2,0,0 velocity=-2,0,0");
+    imp_result r = query_audited(OCTAHEDRON, "point position=2,0,0 velocity=-2,0,0");
     ck_assert_int_eq(r.verdict, IMP_CONTACT);
     ck_assert_double_eq_tol(r.t, 1 - 12. / 55, 1e-9);
-    r = first_contact(OCTAHEDRON " velocities=[[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0]]",
+    r = query_audited(OCTAHEDRON " velocities=[[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0]]",
                       "point position=2,0,0 velocity=-1,0,0");
     ck_assert_int_eq(r.verdict, IMP_CONTACT);
     ck_assert_double_eq_tol(r.t, 1 - 12. / 55, 1e-9);
@@ -379,7 +363,7 @@ START_TEST(contact_at_a_tip_of_any_valence_comes_at_its_time)
     for (size_t k = 0; k < sizeof valence / sizeof *valence; ++k) {
         char *cone = double_cone(valence[k]);
         const double height = 1 - share_of(valence[k], true);
-        const imp_result r = first_contact(cone, "point position=0,0,2 velocity=0,0,-2");
+        const imp_result r = query_audited(cone, "point position=0,0,2 velocity=0,0,-2");
         ck_assert_int_eq(r.verdict, IMP_CONTACT);
         ck_assert_double_eq_tol(r.t, 1 - height / 2, 1e-9);
         free(cone);

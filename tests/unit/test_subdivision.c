@@ -17,8 +17,7 @@ static imp_registry *registry;
 static void open_registry(void) { registry = built_registry(); }
 static void close_registry(void) { imp_registry_free(registry); }
 
-#define CUBE_POINTS                                                                                \
-    "[[-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],[-1,1,1],[1,1,1]]"
+#define CUBE_POINTS "[[-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],[-1,1,1],[1,1,1]]"
 #define CUBE_FACES "[[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]"
 #define CUBE "\"points\": " CUBE_POINTS ", \"faces\": " CUBE_FACES
 
@@ -101,7 +100,8 @@ START_TEST(a_border_is_a_cubic_spline_that_ends_at_corners)
     ck_assert_double_eq_tol(x[2], 5, 1e-14);
     point_of(&made, 0, 1, 0, x, error);
     ck_assert_double_eq_tol(x[2], (z[0] + 4 * z[1] + z[2]) / 6, 1e-14);
-    point_of(&made, 0, 0.5, 0, x, error); /* (p_-1 + 23 p_0 + 23 p_1 + p_2) / 48, p_-1 = 2 p_0 - p_1 */
+    point_of(&made, 0, 0.5, 0, x,
+             error); /* (p_-1 + 23 p_0 + 23 p_1 + p_2) / 48, p_-1 = 2 p_0 - p_1 */
     ck_assert_double_eq_tol(x[2], (25 * z[0] + 22 * z[1] + z[2]) / 48, 1e-14);
     point_of(&made, 1, 1, 1, x, error);
     ck_assert_double_eq_tol(x[2], 9, 2e-14);
@@ -157,18 +157,23 @@ END_TEST
 
 static const char *const meshes[] = {
     "{" CUBE ", \"velocities\": [@8[?,?,?]]}",
-    "{\"points\": [@4[?,?,?]], \"velocities\": [@4[?,?,?]], \"faces\": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}",
+    "{\"points\": [@4[?,?,?]], \"velocities\": [@4[?,?,?]], \"faces\": "
+    "[[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}",
     "{\"points\": [@11[?,?,?]], \"faces\": [[0,1,2,3],[0,3,4,5],[0,5,6,7],[0,7,8,9],[0,9,10,1]]}",
-    "{\"points\": [@8[?,?,?]], \"velocities\": [@8[?,?,?]], \"faces\": [[2,3,0,1],[0,3,4,5],[7,0,5,6]]}",
+    "{\"points\": [@8[?,?,?]], \"velocities\": [@8[?,?,?]], \"faces\": "
+    "[[2,3,0,1],[0,3,4,5],[7,0,5,6]]}",
     /* two quads that have all four edges in common */
     "{\"points\": [@4[?,?,?]], \"faces\": [[0,1,2,3],[3,2,1,0]]}",
     /* of Loop's: 4, 3 and 12 faces at a point, and at the border 2 and 4 */
-    "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"velocities\": [@6[?,?,?]], \"faces\": [[0,1,2],[0,2,3],"
+    "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"velocities\": [@6[?,?,?]], \"faces\": "
+    "[[0,1,2],[0,2,3],"
     "[0,3,4],[0,4,1],[5,2,1],[5,3,2],[5,4,3],[5,1,4]]}",
     "{\"scheme\": \"loop\", \"points\": [@4[?,?,?]], \"faces\": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}",
-    "{\"scheme\": \"loop\", \"points\": [@13[?,?,?]], \"faces\": [[0,1,2],[0,2,3],[0,3,4],[0,4,5],[0,5,6],[0,6,7],"
+    "{\"scheme\": \"loop\", \"points\": [@13[?,?,?]], \"faces\": "
+    "[[0,1,2],[0,2,3],[0,3,4],[0,4,5],[0,5,6],[0,6,7],"
     "[0,7,8],[0,8,9],[0,9,10],[0,10,11],[0,11,12],[0,12,1]]}",
-    "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"velocities\": [@6[?,?,?]], \"faces\": [[0,1,2],[0,2,3],"
+    "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"velocities\": [@6[?,?,?]], \"faces\": "
+    "[[0,1,2],[0,2,3],"
     "[0,3,4],[0,4,5]]}",
     "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"faces\": [[1,4,3],[0,1,3],[1,2,4],[3,4,5]]}",
 };
@@ -176,7 +181,8 @@ enum { MESHES = sizeof meshes / sizeof *meshes, CLOSED_LOOP = 5, REGULAR = MESHE
 
 static bool is_near(const double x[3], const double y[3], double within)
 {
-    return fabs(x[0] - y[0]) <= within && fabs(x[1] - y[1]) <= within && fabs(x[2] - y[2]) <= within;
+    return fabs(x[0] - y[0]) <= within && fabs(x[1] - y[1]) <= within &&
+           fabs(x[2] - y[2]) <= within;
 }
 
 /* Whether a point on a side of a piece is on a side of another; twelve points of each side. */
@@ -228,7 +234,9 @@ static void any_place(uint64_t *random, const imp_region *r, double p[3])
 {
     for (int j = 0; j < 3; ++j) {
         const double share = random_between(random, -0.2, 1.2);
-        p[j] = share <= 0 ? r->lo[j] : share >= 1 ? r->hi[j] : r->lo[j] + share * (r->hi[j] - r->lo[j]);
+        p[j] = share <= 0   ? r->lo[j]
+               : share >= 1 ? r->hi[j]
+                            : r->lo[j] + share * (r->hi[j] - r->lo[j]);
         if (p[j] > r->hi[j]) p[j] = r->hi[j];
         if (j < 2 && random_between(random, 0, 1) < 0.3)
             p[j] = fmax(r->lo[j], p[j] * ldexp(1, -(int)random_between(random, 0, 40)));
@@ -290,7 +298,8 @@ static void soil_stack(void)
 START_TEST(bounds_shrink_toward_an_extraordinary_corner)
 {
     for (int m = 0; m < REGULAR; ++m) {
-        if (m == CLOSED_LOOP - 1) continue; /* two faces at each point: the first piece is regular */
+        if (m == CLOSED_LOOP - 1)
+            continue; /* two faces at each point: the first piece is regular */
         soil_stack();
         instance made = made_of(meshes[m]);
         double last = INFINITY, first = 0, e = 0;
@@ -313,31 +322,15 @@ END_TEST
 
 /* --- Contacts --------------------------------------------------------------------------------------------- */
 
-static imp_result first_contact(const char *a, const char *b)
-{
-    imp_registry *plugins = query_registry();
-    imp_error error;
-    imp_scene *scene = imp_scene_from_pair(plugins, a, b, &error);
-    ck_assert_msg(scene != NULL, "%s", error.text);
-    imp_options options = imp_options_default(scene);
-    options.gamma = 1e-9;
-    options.audit = true;
-    imp_result r = {.struct_size = sizeof r};
-    ck_assert_msg(imp_scene_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s", error.text);
-    imp_scene_free(scene);
-    imp_registry_free(plugins);
-    return r;
-}
-
 #define CUBE_SURFACE "subdivision points=" CUBE_POINTS " faces=" CUBE_FACES
 
 /* A point flies at the limit point (1,1,1) / 2 of a corner, and at (0, 0, 68 / 81). */
 START_TEST(contact_at_an_extraordinary_point_comes_at_its_time)
 {
-    imp_result r = first_contact(CUBE_SURFACE, "point position=2,2,2 velocity=-2,-2,-2");
+    imp_result r = query_audited(CUBE_SURFACE, "point position=2,2,2 velocity=-2,-2,-2");
     ck_assert_int_eq(r.verdict, IMP_CONTACT);
     ck_assert_double_eq_tol(r.t, 0.75, 1e-9);
-    r = first_contact(CUBE_SURFACE, "point position=0,0,2 velocity=0,0,-2");
+    r = query_audited(CUBE_SURFACE, "point position=0,0,2 velocity=0,0,-2");
     ck_assert_int_eq(r.verdict, IMP_CONTACT);
     ck_assert_double_eq_tol(r.t, 1 - 34. / 81, 1e-9);
 }
@@ -346,8 +339,9 @@ END_TEST
 /* Two cubes that move by their points' velocities meet in the middle, face to face. */
 START_TEST(moving_control_points_move_the_surface)
 {
-    imp_result r = first_contact(
-        CUBE_SURFACE " velocities=[[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0]]",
+    imp_result r = query_audited(
+        CUBE_SURFACE
+        " velocities=[[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0]]",
         "point position=2,0,0 velocity=-1,0,0");
     ck_assert_int_eq(r.verdict, IMP_CONTACT);
     ck_assert_double_eq_tol(r.t, 1 - 34. / 81, 1e-9);
