@@ -32,6 +32,7 @@ plugin_LTLIBRARIES = \
     plugins/supertoroid.la \
     plugins/sweep.la \
     plugins/taper.la \
+    plugins/thread.la \
     plugins/torus.la \
     plugins/trajectory.la \
     plugins/translate.la \
@@ -104,6 +105,8 @@ plugins_sweep_la_SOURCES = plugins/surfaces/sweep.c
 plugins_sweep_la_LDFLAGS = $(plugin_ldflags)
 plugins_taper_la_SOURCES = plugins/maps/taper.c
 plugins_taper_la_LDFLAGS = $(plugin_ldflags)
+plugins_thread_la_SOURCES = plugins/surfaces/thread.c
+plugins_thread_la_LDFLAGS = $(plugin_ldflags)
 plugins_torus_la_SOURCES = plugins/surfaces/torus.c
 plugins_torus_la_LDFLAGS = $(plugin_ldflags)
 plugins_trajectory_la_SOURCES = plugins/maps/trajectory.c

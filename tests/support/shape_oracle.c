@@ -52,6 +52,21 @@ void cone_oracle(const type_arguments *arguments, const number p[3], number x[3]
     add_center(arguments, x);
 }
 
+void thread_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    const imp_value *profile = argument(arguments, "profile");
+    number radius = scalar(arguments, "radius"), z = num_mul(scalar(arguments, "height"), p[1]);
+    number turns = num_div(z, scalar(arguments, "pitch"));
+    number phase = num_sub(num_mul(scalar(arguments, "starts"), p[0]),
+                           num_mul(num_mul(num(2), num_pi()), turns));
+    for (size_t k = 0; k < profile->count; ++k) {
+        number wave = num_cos(num_mul(num((double)(k + 1)), phase));
+        radius = num_add(radius, num_mul(num(profile->number[k]), wave));
+    }
+    ring(radius, z, p[0], x);
+    add_center(arguments, x);
+}
+
 void ripple_oracle(const type_arguments *arguments, const number p[3], number x[3])
 {
     number dx = argument_at(arguments, "direction", 0), dy = argument_at(arguments, "direction", 1);

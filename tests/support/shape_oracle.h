@@ -13,6 +13,7 @@ typedef void surface_oracle(const type_arguments *arguments, const number p[3], 
 surface_oracle ellipsoid_oracle;
 surface_oracle cylinder_oracle;
 surface_oracle cone_oracle;
+surface_oracle thread_oracle;
 surface_oracle plane_oracle;
 surface_oracle point_oracle;
 surface_oracle segment_oracle;

@@ -246,6 +246,13 @@ const type_oracle oracles[] = {
      .instances = {"{}", "{\"radius\": +, \"height\": ?, \"center\": [?,?,?]}",
                    "{\"radius\": 1e6, \"height\": 0}",
                    "{\"radius\": 1e-3, \"height\": -1e3, \"center\": [1e8,0,-1e8]}"}},
+    {.type = "thread",
+     .surface = thread_oracle,
+     .instances = {"{}", "{\"radius\": +, \"pitch\": +, \"height\": +, \"center\": [?,?,?]}",
+                   "{\"radius\": 4, \"profile\": [@3?], \"pitch\": -1.5, \"starts\": 3}",
+                   "{\"radius\": 1e6, \"profile\": 1e5, \"pitch\": 1e-3, \"height\": 1}",
+                   "{\"radius\": 1e-3, \"profile\": [-5e-4,0,4e-4], \"pitch\": 1e6, \"height\": 1e6,"
+                   " \"starts\": 7, \"center\": [1e8,0,-1e8]}"}},
     {.type = "plane",
      .surface = plane_oracle,
      .instances = {"{}", "{\"origin\": [?,?,?], \"edge_u\": [?,?,?], \"edge_v\": [?,?,?]}",

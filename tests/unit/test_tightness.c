@@ -116,6 +116,8 @@ static const struct limit {
     {"cylinder", "{}", 1.3, 1.1, 1.1},
     {"cone", "{}", 1.3, 1.1, 1.1},
     {"triangle", "{\"points\": [@3[?,?,?]], \"velocities\": [@3[?,?,?]]}", 1.01, 1.01, 1.01},
+    {"thread", "{}", 1.6, 1.2, 1.2},
+    {"thread", "{\"profile\": [0.1,0.05], \"starts\": 2}", 1.65, 1.2, 1.4},
     {"ripple", "{}", 1.4, 1.1, 1.1},
     {"superellipsoid", "{}", 1.9, 1.2, 1.6},
     {"superellipsoid", "{\"exponents\": [0.3,1.5]}", 1.7, 1.25, 1.7},

@@ -1,0 +1,218 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plugins/common/near.h"
+#include "plugins/common/publish.h"
+#include "plugins/common/squares.h"
+
+#include <impinge/formula.h>
+#include <impinge/plugin.h>
+
+/* Only the flanks, without end discs. The radius follows the phase, starts u - 2 pi z / pitch, z from the
+ * centre: a screw motion by starts * pitch a turn takes the endless thread into itself. */
+
+enum { RADIUS, PROFILE, PITCH, STARTS, HEIGHT, CENTER };
+enum { HARMONICS_MAX = 32, STARTS_MAX = 1000 };
+
+#define THREAD_FAR 1e100
+#define THREAD_SHORT 1e-100
+
+static const imp_parameter parameters[] = {
+    [RADIUS] =
+        IMP_ROW("radius", "length", "1", 0, 0, 0, 0, THREAD_SHORT, THREAD_FAR, "mean radius"),
+    [PROFILE] = IMP_ROW(
+        "profile", "length", "[0.1]", IMP_SCALAR_OK, 1, 0, 0, -THREAD_FAR, THREAD_FAR,
+        "amplitudes a_1, a_2, ... of the radius' waves from crest to crest; one alone is half "
+        "the depth"),
+    [PITCH] = IMP_ROW("pitch", "length", "0.5", 0, 0, 0, 0, -THREAD_FAR, THREAD_FAR,
+                      "along the axis from crest to crest, any but 0; negative: left-handed"),
+    [STARTS] = IMP_ROW_OF(IMP_INTEGER, "starts", "1", "1", 0, 0, 0, 0, 1, STARTS_MAX,
+                          "threads side by side; a turn advances by starts * pitch"),
+    [HEIGHT] = IMP_ROW("height", "length", "2", 0, 0, 0, 0, THREAD_SHORT, THREAD_FAR,
+                       "extent along the z axis"),
+    [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "middle of the axis"),
+};
+
+typedef struct thread_instance {
+    double radius, root; /* root: at most the least radius, > 0 */
+    double starts, height, center[3];
+    near_constant along_v, along_z; /* 2 pi height / pitch, 2 pi / pitch; rad, rad/length */
+    size_t count;
+    double profile[];
+} thread_instance;
+
+/* At most radius - |a_1| - |a_2| - ... */
+static double root_lower(double radius, const imp_value *profile)
+{
+    double sum = 0;
+    for (size_t k = 0; k < profile->count; ++k) sum = imp_sum_up(sum + fabs(profile->number[k]));
+    return imp_sum_down(radius - sum);
+}
+
+static imp_status check(const imp_value *values, imp_create_error *why)
+{
+    const imp_value *profile = &values[PROFILE];
+    const double pitch = values[PITCH].number[0], radius = values[RADIUS].number[0];
+    if (!(fabs(pitch) >= THREAD_SHORT))
+        return imp_reject(why, PITCH, -1, "got %g, must be any length but 0 (at least %g in size)",
+                          pitch, THREAD_SHORT);
+    if (profile->count > HARMONICS_MAX)
+        return imp_reject(why, PROFILE, -1, "%zu amplitudes given, at most %d are allowed",
+                          profile->count, HARMONICS_MAX);
+    if (!(root_lower(radius, profile) > 0))
+        return imp_reject(
+            why, PROFILE, -1,
+            "the sizes of the amplitudes add up to the radius, %g, or more; must be less", radius);
+    return IMP_OK;
+}
+
+static imp_status thread_create(const imp_value *values, void **self, imp_create_error *why)
+{
+    const imp_value *profile = &values[PROFILE];
+    const imp_status status = check(values, why);
+    if (status != IMP_OK) return status;
+    thread_instance *s = malloc(sizeof *s + profile->count * sizeof s->profile[0]);
+    if (s == NULL) return IMP_INTERNAL;
+    s->radius = values[RADIUS].number[0];
+    s->root = root_lower(s->radius, profile);
+    s->starts = values[STARTS].number[0];
+    s->height = values[HEIGHT].number[0];
+    imp_copy_vector(s->center, &values[CENTER]);
+    const imp_model wave = imp_div(imp_scale(imp_const_pi(), 2), imp_num(values[PITCH].number[0]));
+    s->along_z = near_of(wave);
+    s->along_v = near_of(imp_scale(wave, s->height));
+    s->count = profile->count;
+    memcpy(s->profile, profile->number, s->count * sizeof s->profile[0]);
+    *self = s;
+    return IMP_OK;
+}
+
+static void thread_domain(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    imp_set_domain(lo, hi, 0, IMP_TWO_PI_UPPER, -0.5, 0.5);
+}
+
+static imp_model radius_at(const thread_instance *s, imp_model phase)
+{
+    imp_model sum = imp_num(0);
+    for (size_t k = 0; k < s->count; ++k)
+        sum = imp_add(sum, imp_scale(imp_cos(imp_scale(phase, (double)(k + 1))), s->profile[k]));
+    return imp_shift(sum, s->radius);
+}
+
+static void thread_formula(const void *self, imp_model u, imp_model v, imp_model t,
+                           imp_model out[3])
+{
+    const thread_instance *s = self;
+    const imp_model phase = imp_sub(imp_scale(u, s->starts), near_scale(v, s->along_v));
+    const imp_model radius = radius_at(s, phase);
+    imp_model sin_u, cos_u;
+    (void)t;
+    imp_sincos(u, &sin_u, &cos_u);
+    out[0] = imp_shift(imp_mul(radius, cos_u), s->center[0]);
+    out[1] = imp_shift(imp_mul(radius, sin_u), s->center[1]);
+    out[2] = imp_shift(imp_scale(v, s->height), s->center[2]);
+}
+IMP_SURFACE_FORMULA(thread_formula)
+
+/* --- Distance ---------------------------------------------------------------------------------------
+ *
+ * Let a point have cylindrical coordinates (q, theta, z) about the axis, phase phi = starts theta - 2 pi z / pitch,
+ * and F = q - R(phi), which is 0 on the endless thread. At q > 0
+ *
+ *   |grad F|^2 = 1 + R'(phi)^2 |grad phi|^2,   |grad phi|^2 = (2 pi / pitch)^2 + (starts / q)^2.
+ *
+ * Lemma (way). Let p be a point, y the nearest to it of the endless thread, d how far apart they are, and m > 0
+ * at most the least radius. Since the point of the thread that lies radially from p is |F(p)| away,
+ * d <= |F(p)|. The points between p and y are s from p and d - s from y, s in [0, d], so that their q is at
+ * least q_p - s and m - (d - s): at least the mean of both,
+ *
+ *   q >= (q_p + m - d) / 2,   and   q >= m - d.
+ *
+ * There phi is no farther from that of p than d times the greatest |grad phi|. So where S >= |grad F| all the
+ * way, |F(p)| = |F(p) - F(y)| <= S d. */
+
+/* At most R' where the phase is within the range. */
+static double slope_upper(const thread_instance *s, imp_interval phase)
+{
+    imp_interval sum = imp_interval_make(0, 0);
+    for (size_t k = 0; k < s->count; ++k) {
+        const double order = (double)(k + 1);
+        const imp_interval sine = imp_interval_sin(imp_interval_scale(phase, order));
+        sum = imp_interval_add(sum,
+                               imp_interval_scale(imp_interval_scale(sine, s->profile[k]), order));
+    }
+    return imp_interval_mag(sum);
+}
+
+static double hypot_upper(double x, double y)
+{
+    return imp_round_up(sqrt(imp_sum_up(imp_round_up(x * x) + imp_round_up(y * y))));
+}
+
+/* S at most, for ways no longer than `way` from points with these phases, on which q >= least > 0. */
+static double steepness_upper(const thread_instance *s, imp_interval phase, double way,
+                              double least)
+{
+    const double wave = imp_sum_up(fabs(s->along_z.value) + s->along_z.error);
+    const double twist = hypot_upper(wave, imp_round_up(s->starts / least));
+    const double more = imp_round_up(way * twist);
+    const imp_interval near = imp_interval_add(phase, imp_interval_make(-more, more));
+    return hypot_upper(1, imp_round_up(slope_upper(s, near) * twist));
+}
+
+/* A factor that makes F a distance. Lemma. Let |F| <= most and q >= nearest for all points p, and h = m / 2.
+ * With q >= (nearest + m - most) / 2 all the way the factor may be 1 / S. And where d <= h, q >= h all the way;
+ * where d > h, a factor of h / most or less leaves |F| below d. */
+static double factor_lower(const thread_instance *s, imp_interval phase, double most,
+                           double nearest)
+{
+    const double half = 0.5 * s->root;
+    const double least = 0.5 * imp_sum_down(imp_sum_down(nearest + s->root) - most);
+    const double way = imp_smaller(most, half);
+    double open = 0, limited = inverse_lower(steepness_upper(s, phase, way, half));
+    if (least > 0) open = imp_larger(inverse_lower(steepness_upper(s, phase, most, least)), 0);
+    if (most > half) limited = imp_smaller(imp_round_down(half / most), limited);
+    return imp_larger(limited, open);
+}
+
+/* The angle about the axis, off by whole turns. Lemma. With (c, r) any vector but 0, (x', y') = (x c + y r,
+ * y c - x r) has the angle of (x, y) less that of (c, r), and |(c, r)| q as its length. */
+static imp_model angle_of(const imp_model m[2], imp_model q)
+{
+    const double size = imp_larger(fabs(m[0].a), fabs(m[1].a));
+    const double c = m[0].a / size, r = m[1].a / size;
+    const imp_model ahead = imp_add(imp_scale(m[0], c), imp_scale(m[1], r));
+    const imp_model aside = imp_sub(imp_scale(m[1], c), imp_scale(m[0], r));
+    if (!(ahead.lo > 0 && q.lo > 0)) return imp_unbounded(7);
+    const imp_model length = imp_sqrt(imp_add(imp_sqr(imp_num(c)), imp_sqr(imp_num(r))));
+    return imp_add(imp_asin(imp_div(aside, imp_mul(q, length))), imp_atan2(imp_num(r), imp_num(c)));
+}
+
+/* From the endless thread. */
+static imp_model thread_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const thread_instance *s = self;
+    const imp_model m[2] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1])};
+    const imp_model q = imp_sqrt(sum_of_squares(m, 2)), turn = imp_scale(angle_of(m, q), s->starts);
+    const imp_model phase = imp_sub(turn, near_scale(imp_shift(z, -s->center[2]), s->along_z));
+    const imp_model f = imp_sub(q, radius_at(s, phase));
+    (void)t;
+    return imp_scale(
+        f, factor_lower(s, imp_model_range(&phase), imp_interval_mag(imp_model_range(&f)), q.lo));
+}
+IMP_DISTANCE_FORMULA(thread_gap)
+
+static const imp_surface_type thread = {
+    IMP_SURFACE_FIELDS(thread, thread_formula),
+    .distance = thread_gap_distance,
+    .summary = "flanks of a screw thread about the z axis, of any profile",
+    .equation =
+        "center + (R cos u, R sin u, height v), R = radius + sum_k profile_k cos(k (starts u - "
+        "2 pi height v / pitch)), u in [0,2pi], v in [-1/2,1/2]",
+    .source = NULL,
+    .example = "thread radius=1 profile=0.1 pitch=0.5 height=2",
+};
+
+PUBLISH_SURFACE(thread);
