@@ -6,96 +6,165 @@
 #include <impinge/quad.h>
 #include <string.h>
 
+/* x, y and z are computed side by side, in the lanes of quads. */
+
 #define LAST_ROUNDING (0x1p-53 * (1 + 0x1p-50)) /* of a computed sum, relative */
+
+/* The coefficients in registers. */
+typedef struct linear_terms {
+    imp_quad k[LINEAR_TERMS], v[LINEAR_TERMS];
+} linear_terms;
+
+IMP_QUAD_INLINE linear_terms terms_of(const linear *f)
+{
+    linear_terms c;
+    for (int k = 0; k < LINEAR_TERMS; ++k) {
+        c.k[k] = imp_quad_load(f->still[k]);
+        c.v[k] = imp_quad_load(f->motion[k]);
+    }
+    return c;
+}
+
+/* Lanes that depend on u (1), v (2), t (4) or any of them. */
+IMP_QUAD_INLINE imp_quad_mask that_depend(const linear *f, int64_t on)
+{
+    imp_quad_mask depends;
+    memcpy(&depends, f->depends, sizeof depends);
+    return (depends & on) != 0;
+}
+
+IMP_QUAD_INLINE void finish(linear *f)
+{
+    const linear_terms c = terms_of(f);
+    const imp_quad none = imp_quad_all(0);
+    const imp_quad_mask cross = (c.k[LINEAR_UV] != none) | (c.v[LINEAR_UV] != none);
+    const imp_quad_mask turn = (c.v[LINEAR_U] != none) | (c.v[LINEAR_V] != none);
+    const imp_quad_mask u = cross | (c.k[LINEAR_U] != none) | (c.v[LINEAR_U] != none);
+    const imp_quad_mask w = cross | (c.k[LINEAR_V] != none) | (c.v[LINEAR_V] != none);
+    const imp_quad_mask t = turn | (c.v[LINEAR_1] != none) | (c.v[LINEAR_UV] != none);
+    const imp_quad_mask depends = (u & 1) | (w & 2) | (t & 4), is_affine = ~(cross | turn);
+    memcpy(f->depends, &depends, sizeof f->depends);
+    memcpy(f->is_affine, &is_affine, sizeof f->is_affine);
+}
+
+IMP_QUAD_WIDE static void finish_wide(linear *f) { finish(f); }
 
 void linear_finish(linear *f)
 {
-    for (int i = 0; i < 3; ++i) {
-        const double *k = f->still[i], *v = f->motion[i];
-        bool cross = k[LINEAR_UV] != 0 || v[LINEAR_UV] != 0;
-        bool u = cross || k[LINEAR_U] != 0 || v[LINEAR_U] != 0;
-        bool w = cross || k[LINEAR_V] != 0 || v[LINEAR_V] != 0;
-        bool t = v[LINEAR_1] != 0 || v[LINEAR_U] != 0 || v[LINEAR_V] != 0 || v[LINEAR_UV] != 0;
-        f->depends[i] = (u ? 1u : 0) | (w ? 2u : 0) | (t ? 4u : 0);
-        f->is_affine[i] = !cross && v[LINEAR_U] == 0 && v[LINEAR_V] == 0;
-    }
+    if (imp_quad_is_wide())
+        finish_wide(f);
+    else
+        finish(f);
 }
 
 /* At least sum_k |K_k + t V_k| |w_k| for |u|, |v|, |t| up to these, without K_1, but for a few
  * roundings. */
-static double linear_size(const double *k, const double *v, double u, double w, double t)
+IMP_QUAD_INLINE imp_quad linear_size(const linear_terms *c, double u, double w, double t)
 {
-    return t * fabs(v[LINEAR_1]) + u * (fabs(k[LINEAR_U]) + t * fabs(v[LINEAR_U])) +
-           w * (fabs(k[LINEAR_V]) + t * fabs(v[LINEAR_V])) +
-           u * w * (fabs(k[LINEAR_UV]) + t * fabs(v[LINEAR_UV]));
+    const imp_quad at = imp_quad_all(t);
+    imp_quad part[LINEAR_TERMS];
+    for (int k = LINEAR_U; k < LINEAR_TERMS; ++k)
+        part[k] = imp_quad_abs(c->k[k]) + at * imp_quad_abs(c->v[k]);
+    return at * imp_quad_abs(c->v[LINEAR_1]) + imp_quad_all(u) * part[LINEAR_U] +
+           imp_quad_all(w) * part[LINEAR_V] + imp_quad_all(u * w) * part[LINEAR_UV];
 }
 
-/* One coordinate of one point, and its error.
+/* --- Points --- */
+
+/* One point.
  *
  * Lemma. A term of the sum is K or t V times 1, u, v or u v. Its roundings: K or V once, t V once,
  * K + t V once, the products with u and v twice, sums at most three times: 8 of relative size
  * 2^-53, and two more pay for second order and for `size`. K_1 is rounded in the last sum only. */
-static double linear_at(const linear *f, int i, const double p[3], double *error)
+IMP_QUAD_INLINE imp_quad linear_at(const linear_terms *c, const double p[3])
 {
-    const double *k = f->still[i], *v = f->motion[i], u = p[0], w = p[1], t = p[2];
-    const double along_u = u * (k[LINEAR_U] + t * v[LINEAR_U]);
-    const double along_v =
-        w * ((k[LINEAR_V] + t * v[LINEAR_V]) + u * (k[LINEAR_UV] + t * v[LINEAR_UV]));
-    const double x = k[LINEAR_1] + ((t * v[LINEAR_1] + along_u) + along_v);
-    const double size = linear_size(k, v, fabs(u), fabs(w), fabs(t));
-    *error = f->depends[i] ? LAST_ROUNDING * fabs(x) + 10 * 0x1p-53 * size + IMP_TINY : 0;
-    return x;
+    const imp_quad u = imp_quad_all(p[0]), w = imp_quad_all(p[1]), t = imp_quad_all(p[2]);
+    const imp_quad along_u = u * (c->k[LINEAR_U] + t * c->v[LINEAR_U]);
+    const imp_quad along_v = w * ((c->k[LINEAR_V] + t * c->v[LINEAR_V]) +
+                                  u * (c->k[LINEAR_UV] + t * c->v[LINEAR_UV]));
+    return c->k[LINEAR_1] + ((t * c->v[LINEAR_1] + along_u) + along_v);
+}
+
+IMP_QUAD_INLINE imp_quad linear_error(const linear *f, const linear_terms *c, const double p[3],
+                                      imp_quad x)
+{
+    const imp_quad size = linear_size(c, fabs(p[0]), fabs(p[1]), fabs(p[2]));
+    const imp_quad error = imp_quad_all(LAST_ROUNDING) * imp_quad_abs(x) +
+                           imp_quad_all(10 * 0x1p-53) * size + imp_quad_all(IMP_TINY);
+    return imp_quad_pick(that_depend(f, 7), error, imp_quad_all(0));
+}
+
+IMP_QUAD_INLINE void take_three(double *to, imp_quad x)
+{
+    for (int i = 0; i < 3; ++i) to[i] = x[i];
+}
+
+IMP_QUAD_INLINE imp_status linear_points(const linear *f, size_t n, const double *p, double *x,
+                                         double *error)
+{
+    const linear_terms c = terms_of(f);
+    for (size_t k = 0; k < n; ++k, p += 3, x += 3) {
+        if (!(fabs(p[2]) <= LINEAR_LATE)) return IMP_DOMAIN;
+        const imp_quad at = linear_at(&c, p);
+        take_three(x, at);
+        if (error != NULL) take_three(error + 3 * k, linear_error(f, &c, p, at));
+    }
+    return IMP_OK;
+}
+
+IMP_QUAD_WIDE static imp_status points_wide(const linear *f, size_t n, const double *p, double *x,
+                                            double *error)
+{
+    return linear_points(f, n, p, x, error);
 }
 
 imp_status linear_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
-    const linear *f = self;
-    for (size_t k = 0; k < n; ++k) {
-        double slip[3];
-        if (!(fabs(p[3 * k + 2]) <= LINEAR_LATE)) return IMP_DOMAIN;
-        for (int i = 0; i < 3; ++i) x[3 * k + (size_t)i] = linear_at(f, i, p + 3 * k, &slip[i]);
-        if (error != NULL) memcpy(error + 3 * k, slip, sizeof slip);
-    }
-    return IMP_OK;
+    return imp_quad_is_wide() ? points_wide(self, n, p, x, error)
+                              : linear_points(self, n, p, x, error);
 }
 
 /* --- Bounds over a region --- */
 
 /* Covers the rounding of everything below but the last sum with K_1: a number there is a sum of
  * terms as above, through at most 12 roundings; four more pay for `size` and second order. */
-static double linear_noise(const double *k, const double *v, const imp_region *region)
+IMP_QUAD_INLINE imp_quad linear_noise(const linear *f, const linear_terms *c, const imp_region *region)
 {
     const double u = fabs(region->c[0]) + region->d[0], w = fabs(region->c[1]) + region->d[1];
-    return 16 * 0x1p-53 * linear_size(k, v, u, w, fabs(region->c[2]) + region->d[2]) + IMP_TINY;
+    const imp_quad size = linear_size(c, u, w, fabs(region->c[2]) + region->d[2]);
+    return imp_quad_pick(that_depend(f, 7),
+                         imp_quad_all(16 * 0x1p-53) * size + imp_quad_all(IMP_TINY), imp_quad_all(0));
 }
 
-/* At least |a + b x + c y + d x y| for x in [x_lo, x_hi], y in [y_lo, y_hi]; `x`, `y` are those
- * pairs. Six roundings at most reach a corner's value; as many more its coefficients. */
-static double linear_most(double a, double b, double c, double d, const double x[2],
-                          const double y[2])
+/* At least |a + b x + c y + d x y| for x in [x_lo, x_hi], y in [y_lo, y_hi], parameters j and k of the
+ * region. Six roundings at most reach a corner's value; as many more its coefficients. */
+IMP_QUAD_INLINE imp_quad linear_most(imp_quad a, imp_quad b, imp_quad c, imp_quad d,
+                                     const imp_region *region, int j, int k)
 {
-    if (b == 0 && c == 0 && d == 0)
-        return a == 0 ? 0 : fabs(a) + 16 * 0x1p-53 * fabs(a) + IMP_TINY;
-    const imp_quad p = {x[0], x[1], x[0], x[1]}, q = {y[0], y[0], y[1], y[1]};
-    const imp_quad along_x = b * p, along_y = c * q, twist = d * p * q;
-    const imp_quad value = imp_quad_abs(a + along_x + along_y + twist);
-    const imp_quad sum =
-        fabs(a) + imp_quad_abs(along_x) + imp_quad_abs(along_y) + imp_quad_abs(twist);
-    double most = 0, size = 0;
+    const double x[2] = {region->lo[j], region->hi[j]}, y[2] = {region->lo[k], region->hi[k]};
+    imp_quad most = imp_quad_all(0), size = imp_quad_all(0);
     for (int corner = 0; corner < 4; ++corner) {
-        most = imp_larger(most, value[corner]);
-        size = imp_larger(size, sum[corner]);
+        const imp_quad p = imp_quad_all(x[corner & 1]), q = imp_quad_all(y[corner >> 1]);
+        const imp_quad along_x = b * p, along_y = c * q, twist = d * p * q;
+        const imp_quad value = imp_quad_abs(a + along_x + along_y + twist);
+        const imp_quad sum =
+            imp_quad_abs(a) + imp_quad_abs(along_x) + imp_quad_abs(along_y) + imp_quad_abs(twist);
+        most = imp_quad_max(most, value);
+        size = imp_quad_max(size, sum);
     }
-    return most + 16 * 0x1p-53 * size + IMP_TINY;
+    return most + imp_quad_all(16 * 0x1p-53) * size + imp_quad_all(IMP_TINY);
 }
 
-static void linear_rates(const double *k, const double *v, const imp_region *region, double rate[3])
+/* A rate by what a coordinate does not depend on is 0. */
+IMP_QUAD_INLINE void linear_rates(const linear *f, const linear_terms *c, const imp_region *region,
+                                  imp_quad rate[3])
 {
-    const double u[2] = {region->lo[0], region->hi[0]}, w[2] = {region->lo[1], region->hi[1]};
-    const double t[2] = {region->lo[2], region->hi[2]};
-    rate[0] = linear_most(k[LINEAR_U], k[LINEAR_UV], v[LINEAR_U], v[LINEAR_UV], w, t);
-    rate[1] = linear_most(k[LINEAR_V], k[LINEAR_UV], v[LINEAR_V], v[LINEAR_UV], u, t);
-    rate[2] = linear_most(v[LINEAR_1], v[LINEAR_U], v[LINEAR_V], v[LINEAR_UV], u, w);
+    const imp_quad none = imp_quad_all(0);
+    const imp_quad *k = c->k, *v = c->v;
+    rate[0] = linear_most(k[LINEAR_U], k[LINEAR_UV], v[LINEAR_U], v[LINEAR_UV], region, 1, 2);
+    rate[1] = linear_most(k[LINEAR_V], k[LINEAR_UV], v[LINEAR_V], v[LINEAR_UV], region, 0, 2);
+    rate[2] = linear_most(v[LINEAR_1], v[LINEAR_U], v[LINEAR_V], v[LINEAR_UV], region, 0, 1);
+    for (int j = 0; j < 3; ++j) rate[j] = imp_quad_pick(that_depend(f, 1 << j), rate[j], none);
 }
 
 static bool linear_is_late(const imp_region *region)
@@ -107,83 +176,138 @@ static bool linear_is_late(const imp_region *region)
 imp_status linear_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
     const linear *f = self;
+    const linear_terms c = terms_of(f);
+    imp_quad rate[3];
     if (linear_is_late(region)) return IMP_UNBOUNDED;
-    for (int i = 0; i < 3; ++i) linear_rates(f->still[i], f->motion[i], region, rates->m[i]);
+    linear_rates(f, &c, region, rate);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) rates->m[i][j] = rate[j][i];
     return IMP_OK;
 }
 
+/* The models of the coordinates, side by side. */
+typedef struct linear_lanes {
+    imp_quad a, b[3], uv, ut, vt, e, lo, hi, rate[3];
+} linear_lanes;
+
 /* Least and greatest value at the region's corners: u and v at either end of time. */
-static void linear_range(const double *k, const double *v, const imp_region *region, double noise,
-                         imp_model *g)
+IMP_QUAD_INLINE void linear_range(const linear_terms *c, const imp_region *region, imp_quad noise,
+                                  linear_lanes *g)
 {
     const double *l = region->lo, *h = region->hi;
-    const imp_quad u = {l[0], l[0], h[0], h[0]}, w = {l[1], h[1], l[1], h[1]};
-    double lo = INFINITY, hi = -INFINITY;
-    for (int end = 0; end < 2; ++end) {
-        const double t = end ? h[2] : l[2], c = k[LINEAR_V] + t * v[LINEAR_V];
-        const double b = k[LINEAR_U] + t * v[LINEAR_U], d = k[LINEAR_UV] + t * v[LINEAR_UV];
-        const imp_quad x = (t * v[LINEAR_1] + u * b) + w * (c + u * d);
-        for (int corner = 0; corner < 4; ++corner) {
-            lo = imp_smaller(lo, x[corner]);
-            hi = imp_larger(hi, x[corner]);
-        }
+    imp_quad lo = imp_quad_all(INFINITY), hi = imp_quad_all(-INFINITY);
+    for (int corner = 0; corner < 8; ++corner) {
+        const double p[3] = {corner & 1 ? h[0] : l[0], corner & 2 ? h[1] : l[1],
+                             corner & 4 ? h[2] : l[2]};
+        const imp_quad u = imp_quad_all(p[0]), w = imp_quad_all(p[1]), t = imp_quad_all(p[2]);
+        const imp_quad along_u = c->k[LINEAR_U] + t * c->v[LINEAR_U];
+        const imp_quad along_v = c->k[LINEAR_V] + t * c->v[LINEAR_V];
+        const imp_quad twist = c->k[LINEAR_UV] + t * c->v[LINEAR_UV];
+        const imp_quad x = (t * c->v[LINEAR_1] + u * along_u) + w * (along_v + u * twist);
+        lo = imp_quad_min(lo, x);
+        hi = imp_quad_max(hi, x);
     }
-    g->lo = imp_sum_down(k[LINEAR_1] + (lo - noise));
-    g->hi = imp_sum_up(k[LINEAR_1] + (hi + noise));
+    g->lo = c->k[LINEAR_1] + (lo - noise);
+    g->hi = c->k[LINEAR_1] + (hi + noise);
 }
 
 /* The same without products, from the model: `noise` and e have room for its three sums. */
-static void linear_affine_range(double noise, imp_model *g)
+IMP_QUAD_INLINE void linear_affine_range(imp_quad noise, imp_quad_mask affine, linear_lanes *g)
 {
-    const double reach = fabs(g->b[0]) + fabs(g->b[1]) + fabs(g->b[2]) + g->e + noise;
-    g->lo = imp_sum_down(g->a - reach);
-    g->hi = imp_sum_up(g->a + reach);
+    const imp_quad reach =
+        imp_quad_abs(g->b[0]) + imp_quad_abs(g->b[1]) + imp_quad_abs(g->b[2]) + g->e + noise;
+    g->lo = imp_quad_pick(affine, g->a - reach, g->lo);
+    g->hi = imp_quad_pick(affine, g->a + reach, g->hi);
+}
+
+/* imp_sum_down and imp_sum_up of the ends. */
+IMP_QUAD_INLINE void round_outward(linear_lanes *g)
+{
+    g->lo -= imp_quad_abs(g->lo) * imp_quad_all(0x1p-52);
+    g->hi += imp_quad_abs(g->hi) * imp_quad_all(0x1p-52);
 }
 
 /* With p = c + d s substituted, K_k + t V_k = (K_k + c_t V_k) + d_t V_k s_t. */
-static void linear_model(const linear *f, int i, const imp_region *region, imp_model *g)
+IMP_QUAD_INLINE void linear_polynomial(const linear *f, const linear_terms *c, const imp_region *region,
+                                       imp_quad noise, linear_lanes *g)
 {
-    const double *k = f->still[i], *v = f->motion[i];
-    const double cu = region->c[0], cv = region->c[1], ct = region->c[2];
+    const imp_quad *k = c->k, *v = c->v;
     const double du = region->d[0], dv = region->d[1], dt = region->d[2];
-    const double b = k[LINEAR_U] + ct * v[LINEAR_U], c = k[LINEAR_V] + ct * v[LINEAR_V];
-    const double d = k[LINEAR_UV] + ct * v[LINEAR_UV];
-    const double noise = f->depends[i] ? linear_noise(k, v, region) : 0;
-    *g = (imp_model){.depends = f->depends[i]};
-    g->a = k[LINEAR_1] + ((ct * v[LINEAR_1] + cu * b) + cv * (c + cu * d));
-    g->b[0] = du * (b + cv * d);
-    g->b[1] = dv * (c + cu * d);
-    g->b[2] = dt * (v[LINEAR_1] + cu * v[LINEAR_U] + cv * (v[LINEAR_V] + cu * v[LINEAR_UV]));
-    g->q[IMP_UV] = du * dv * d;
-    g->q[IMP_UT] = du * dt * (v[LINEAR_U] + cv * v[LINEAR_UV]);
-    g->q[IMP_VT] = dv * dt * (v[LINEAR_V] + cu * v[LINEAR_UV]);
-    g->e = fabs(du * dv * dt * v[LINEAR_UV]) + noise;
-    if (g->depends) g->e += LAST_ROUNDING * fabs(g->a);
-    if (f->is_affine[i])
-        linear_affine_range(noise, g);
-    else
-        linear_range(k, v, region, noise, g);
-    linear_rates(k, v, region, g->rate);
+    const imp_quad cu = imp_quad_all(region->c[0]), cv = imp_quad_all(region->c[1]),
+                   ct = imp_quad_all(region->c[2]);
+    const imp_quad along_u = k[LINEAR_U] + ct * v[LINEAR_U], along_v = k[LINEAR_V] + ct * v[LINEAR_V];
+    const imp_quad twist = k[LINEAR_UV] + ct * v[LINEAR_UV];
+    const imp_quad turn_u = v[LINEAR_U] + cv * v[LINEAR_UV], turn_v = v[LINEAR_V] + cu * v[LINEAR_UV];
+    g->a = k[LINEAR_1] + ((ct * v[LINEAR_1] + cu * along_u) + cv * (along_v + cu * twist));
+    g->b[0] = imp_quad_all(du) * (along_u + cv * twist);
+    g->b[1] = imp_quad_all(dv) * (along_v + cu * twist);
+    g->b[2] = imp_quad_all(dt) * (v[LINEAR_1] + cu * v[LINEAR_U] + cv * turn_v);
+    g->uv = imp_quad_all(du * dv) * twist;
+    g->ut = imp_quad_all(du * dt) * turn_u;
+    g->vt = imp_quad_all(dv * dt) * turn_v;
+    g->e = imp_quad_abs(imp_quad_all(du * dv * dt) * v[LINEAR_UV]) + noise;
+    g->e += imp_quad_pick(that_depend(f, 7), imp_quad_all(LAST_ROUNDING) * imp_quad_abs(g->a),
+                          imp_quad_all(0));
+}
+
+/* Each field by itself, which is cheaper than all of them as one. */
+IMP_QUAD_INLINE void take_model(const linear_lanes *g, uint32_t depends, int i, imp_model *m)
+{
+    m->a = g->a[i];
+    for (int j = 0; j < 3; ++j) m->b[j] = g->b[j][i];
+    m->q[IMP_UU] = m->q[IMP_VV] = m->q[IMP_TT] = 0;
+    m->q[IMP_UV] = g->uv[i];
+    m->q[IMP_UT] = g->ut[i];
+    m->q[IMP_VT] = g->vt[i];
+    m->e = g->e[i];
+    m->lo = g->lo[i];
+    m->hi = g->hi[i];
+    for (int j = 0; j < 3; ++j) m->rate[j] = g->rate[j][i];
+    m->depends = depends;
+    m->reserved = 0;
+}
+
+IMP_QUAD_INLINE void linear_models(const linear *f, const imp_region *region, imp_model model[3])
+{
+    const linear_terms c = terms_of(f);
+    const imp_quad noise = linear_noise(f, &c, region);
+    imp_quad_mask affine;
+    linear_lanes g;
+    memcpy(&affine, f->is_affine, sizeof affine);
+    linear_polynomial(f, &c, region, noise, &g);
+    g.lo = g.hi = g.a;
+    if (imp_quad_any(~affine)) linear_range(&c, region, noise, &g);
+    linear_affine_range(noise, affine, &g);
+    round_outward(&g);
+    linear_rates(f, &c, region, g.rate);
+    for (int i = 0; i < 3; ++i) take_model(&g, (uint32_t)f->depends[i], i, &model[i]);
+}
+
+IMP_QUAD_WIDE static void models_wide(const linear *f, const imp_region *region, imp_model model[3])
+{
+    linear_models(f, region, model);
 }
 
 /* As imp_surface_type.include. */
 imp_status linear_include(const void *self, const imp_region *region, imp_model model[3])
 {
     const linear *f = self;
-    const bool late = linear_is_late(region);
-    for (int i = 0; i < 3; ++i)
-        if (late)
-            model[i] = imp_unbounded(f->depends[i]);
-        else
-            linear_model(f, i, region, &model[i]);
-    return late ? IMP_UNBOUNDED : IMP_OK;
+    if (linear_is_late(region)) {
+        for (int i = 0; i < 3; ++i) model[i] = imp_unbounded((uint32_t)f->depends[i]);
+        return IMP_UNBOUNDED;
+    }
+    if (imp_quad_is_wide())
+        models_wide(f, region, model);
+    else
+        linear_models(f, region, model);
+    return IMP_OK;
 }
 
 /* --- The net over a region --- */
 
-static double at_corner(const double *k, double u, double w)
+static double at_corner(const double k[LINEAR_TERMS][4], int i, double u, double w)
 {
-    return u * k[LINEAR_U] + w * (k[LINEAR_V] + u * k[LINEAR_UV]);
+    return u * k[LINEAR_U][i] + w * (k[LINEAR_V][i] + u * k[LINEAR_UV][i]);
 }
 
 /* Lemma. Being linear in u and in v, the surface is the bilinear patch of its values at the corners of
@@ -192,6 +316,7 @@ static double at_corner(const double *k, double u, double w)
 imp_status linear_net(const void *self, const imp_region *region, imp_net *net)
 {
     const linear *f = self;
+    const linear_terms c = terms_of(f);
     const double middle = region->c[2];
     if (linear_is_late(region)) return IMP_UNBOUNDED;
     for (int i = 0; i < 3; ++i) {
@@ -200,17 +325,17 @@ imp_status linear_net(const void *self, const imp_region *region, imp_net *net)
         if (f->depends[i] & 4) net->is_moving = 1;
     }
     const int n = (int)net->degree[0], m = (int)net->degree[1];
+    const imp_quad noise = linear_noise(f, &c, region);
     for (int i = 0; i < 3; ++i) {
-        const double *k = f->still[i], *v = f->motion[i];
         for (int corner = 0; corner < (n + 1) * (m + 1); ++corner) {
             const double u = corner / (m + 1) == 0 ? region->lo[0] : region->hi[0];
             const double w = corner % (m + 1) == 0 ? region->lo[1] : region->hi[1];
-            const double speed = v[LINEAR_1] + at_corner(v, u, w);
+            const double speed = f->motion[LINEAR_1][i] + at_corner(f->motion, i, u, w);
             net->velocity[i][corner] = speed;
-            net->point[i][corner] = at_corner(k, u, w) + middle * speed;
+            net->point[i][corner] = at_corner(f->still, i, u, w) + middle * speed;
         }
-        net->place[i] = k[LINEAR_1];
-        net->error[i] = f->depends[i] ? linear_noise(k, v, region) : 0;
+        net->place[i] = f->still[LINEAR_1][i];
+        net->error[i] = noise[i];
     }
     return IMP_OK;
 }

@@ -26,11 +26,12 @@ enum { LINEAR_1, LINEAR_U, LINEAR_V, LINEAR_UV, LINEAR_TERMS };
 #define LINEAR_FAR 1e100
 #define LINEAR_LATE 1e50
 
+/* x, y and z of each coefficient lie side by side; the fourth number is 0. */
 typedef struct linear {
-    double still[3][LINEAR_TERMS];  /* K, per coordinate */
-    double motion[3][LINEAR_TERMS]; /* V */
-    uint32_t depends[3];
-    bool is_affine[3]; /* no products of u, v, t */
+    double still[LINEAR_TERMS][4];  /* K */
+    double motion[LINEAR_TERMS][4]; /* V */
+    int64_t depends[4];             /* as in imp_model, of each coordinate */
+    int64_t is_affine[4];           /* no products of u, v, t: -1, else 0 */
 } linear;
 
 /* A list of COUNT corners, or of their velocities. */
@@ -41,7 +42,7 @@ typedef struct linear {
 #define ROW_NEAR_VECTOR(NAME, UNIT, DEFAULT, FLAGS, DOC)                                           \
     IMP_ROW(NAME, UNIT, DEFAULT, FLAGS, 1, 3, 0, -LINEAR_FAR, LINEAR_FAR, DOC)
 
-/* Completes f once its coefficients are set. */
+/* Completes f once its coefficients are set, fourth numbers included. */
 void linear_finish(linear *f);
 
 /* As imp_surface_type.eval. */

@@ -80,28 +80,23 @@ static const void *mesh_piece(const void *self, size_t k)
 
 /* --- One triangle ----------------------------------------------------------------------------- */
 
-static void set_corners(double term[LINEAR_TERMS], const double *list, const uint32_t *corner, int i)
+static void set_corners(double term[LINEAR_TERMS][4], const double *list, const uint32_t *corner)
 {
-    const double a = list[3 * (size_t)corner[0] + (size_t)i];
-    const double b = list[3 * (size_t)corner[1] + (size_t)i];
-    const double c = list[3 * (size_t)corner[2] + (size_t)i];
-    term[LINEAR_1] = a;
-    term[LINEAR_U] = b - a;
-    term[LINEAR_V] = 0;
-    term[LINEAR_UV] = c - b;
+    const double *a = list + 3 * (size_t)corner[0], *b = list + 3 * (size_t)corner[1];
+    const double *c = list + 3 * (size_t)corner[2];
+    for (int i = 0; i < 3; ++i) {
+        term[LINEAR_1][i] = a[i];
+        term[LINEAR_U][i] = b[i] - a[i];
+        term[LINEAR_UV][i] = c[i] - b[i];
+    }
 }
 
 static linear triangle_of(const void *self)
 {
     const piece *p = self;
-    linear f;
-    for (int i = 0; i < 3; ++i) {
-        set_corners(f.still[i], p->of->triangles.point, p->corner, i);
-        if (p->of->velocity != NULL)
-            set_corners(f.motion[i], p->of->velocity, p->corner, i);
-        else
-            memset(f.motion[i], 0, sizeof f.motion[i]);
-    }
+    linear f = {.depends = {0, 0, 0, 0}};
+    set_corners(f.still, p->of->triangles.point, p->corner);
+    if (p->of->velocity != NULL) set_corners(f.motion, p->of->velocity, p->corner);
     linear_finish(&f);
     return f;
 }

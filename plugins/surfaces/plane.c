@@ -90,9 +90,9 @@ static imp_status plane_create(const imp_value *values, void **self, imp_create_
     if (s == NULL) return IMP_INTERNAL;
     linear *f = &s->surface;
     for (int i = 0; i < 3; ++i) {
-        f->still[i][LINEAR_1] = values[ORIGIN].number[i];
-        f->still[i][LINEAR_U] = values[EDGE_U].number[i];
-        f->still[i][LINEAR_V] = values[EDGE_V].number[i];
+        f->still[LINEAR_1][i] = values[ORIGIN].number[i];
+        f->still[LINEAR_U][i] = values[EDGE_U].number[i];
+        f->still[LINEAR_V][i] = values[EDGE_V].number[i];
     }
     linear_finish(f);
     set_normal(s, values[EDGE_U].number, values[EDGE_V].number);
@@ -107,10 +107,10 @@ static imp_status plane_create(const imp_value *values, void **self, imp_create_
 static imp_model plane_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     const plane_instance *s = self;
-    const double *const origin[3] = {s->surface.still[0], s->surface.still[1], s->surface.still[2]};
+    const double *origin = s->surface.still[LINEAR_1];
     const imp_model n[3] = {imp_num(s->normal[0]), imp_num(s->normal[1]), imp_num(s->normal[2])};
-    const imp_model m[3] = {imp_shift(x, -origin[0][LINEAR_1]), imp_shift(y, -origin[1][LINEAR_1]),
-                            imp_shift(z, -origin[2][LINEAR_1])};
+    const imp_model m[3] = {imp_shift(x, -origin[0]), imp_shift(y, -origin[1]),
+                            imp_shift(z, -origin[2])};
     (void)t;
     return imp_add(imp_dot3(m, n), imp_between(-s->flatness, s->flatness));
 }

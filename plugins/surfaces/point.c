@@ -19,8 +19,8 @@ static imp_status point_create(const imp_value *values, void **self, imp_create_
     linear *f = calloc(1, sizeof *f);
     if (f == NULL) return IMP_INTERNAL;
     for (int i = 0; i < 3; ++i) {
-        f->still[i][LINEAR_1] = values[POSITION].number[i];
-        f->motion[i][LINEAR_1] = values[VELOCITY].number[i];
+        f->still[LINEAR_1][i] = values[POSITION].number[i];
+        f->motion[LINEAR_1][i] = values[VELOCITY].number[i];
     }
     linear_finish(f);
     *self = f;

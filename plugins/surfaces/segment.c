@@ -15,10 +15,12 @@ static const imp_parameter parameters[] = {
                                "velocity of each end; default: at rest"),
 };
 
-static void set_ends(double term[LINEAR_TERMS], const double *ends)
+static void set_ends(double term[LINEAR_TERMS][4], const double *ends)
 {
-    term[LINEAR_1] = ends[0];
-    term[LINEAR_U] = ends[3] - ends[0];
+    for (int i = 0; i < 3; ++i) {
+        term[LINEAR_1][i] = ends[i];
+        term[LINEAR_U][i] = ends[3 + i] - ends[i];
+    }
 }
 
 static imp_status segment_create(const imp_value *values, void **self, imp_create_error *why)
@@ -26,11 +28,8 @@ static imp_status segment_create(const imp_value *values, void **self, imp_creat
     (void)why;
     linear *f = calloc(1, sizeof *f);
     if (f == NULL) return IMP_INTERNAL;
-    for (int i = 0; i < 3; ++i) {
-        set_ends(f->still[i], values[POINTS].number + i);
-        if (imp_is_given(&values[VELOCITIES]))
-            set_ends(f->motion[i], values[VELOCITIES].number + i);
-    }
+    set_ends(f->still, values[POINTS].number);
+    if (imp_is_given(&values[VELOCITIES])) set_ends(f->motion, values[VELOCITIES].number);
     linear_finish(f);
     *self = f;
     return IMP_OK;

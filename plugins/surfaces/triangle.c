@@ -15,11 +15,13 @@ static const imp_parameter parameters[] = {
                                "velocity of each corner; default: at rest"),
 };
 
-static void set_corners(double term[LINEAR_TERMS], const double *corners)
+static void set_corners(double term[LINEAR_TERMS][4], const double *corners)
 {
-    term[LINEAR_1] = corners[0];
-    term[LINEAR_U] = corners[3] - corners[0];
-    term[LINEAR_UV] = corners[6] - corners[3];
+    for (int i = 0; i < 3; ++i) {
+        term[LINEAR_1][i] = corners[i];
+        term[LINEAR_U][i] = corners[3 + i] - corners[i];
+        term[LINEAR_UV][i] = corners[6 + i] - corners[3 + i];
+    }
 }
 
 static imp_status triangle_create(const imp_value *values, void **self, imp_create_error *why)
@@ -27,11 +29,8 @@ static imp_status triangle_create(const imp_value *values, void **self, imp_crea
     (void)why;
     linear *f = calloc(1, sizeof *f);
     if (f == NULL) return IMP_INTERNAL;
-    for (int i = 0; i < 3; ++i) {
-        set_corners(f->still[i], values[POINTS].number + i);
-        if (imp_is_given(&values[VELOCITIES]))
-            set_corners(f->motion[i], values[VELOCITIES].number + i);
-    }
+    set_corners(f->still, values[POINTS].number);
+    if (imp_is_given(&values[VELOCITIES])) set_corners(f->motion, values[VELOCITIES].number);
     linear_finish(f);
     *self = f;
     return IMP_OK;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "plugins/common/linear.c"
 #include "plugins/patch/patch_include.c"
 #include "tests/support/suite.h"
 
@@ -89,7 +90,7 @@ static double draw(uint64_t *state, double size)
 
 static void draw_model(uint64_t *state, double size, imp_model *m)
 {
-    const double bend = size * random_power(state, -10, 0);
+    const double bend = random_bits(state) % 4 ? size * random_power(state, -10, 0) : 0;
     memset(m, 0, sizeof *m);
     m->a = draw(state, 2);
     for (int j = 0; j < 3; ++j) m->b[j] = draw(state, size);
@@ -248,6 +249,44 @@ static patch *draw_moving_patch(uint64_t *state)
     return f;
 }
 
+static linear draw_linear(uint64_t *state)
+{
+    linear f = {.depends = {0, 0, 0, 0}};
+    const uint64_t kinds = random_bits(state);
+    for (int k = 0; k < LINEAR_TERMS; ++k)
+        for (int i = 0; i < 3; ++i) {
+            f.still[k][i] = kinds >> k & 1 ? random_between(state, -1, 1) : 0;
+            f.motion[k][i] = kinds >> (8 + k) & 1 ? random_between(state, -1, 1) : 0;
+        }
+    return f;
+}
+
+START_TEST(linear_surfaces_are_the_same_in_wide_and_narrow_registers)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; imp_quad_is_wide() && k < suite_times(20000); ++k) {
+        linear f = draw_linear(&state), g = f;
+        double lo[3], hi[3], x[2][3], error[2][3];
+        finish_wide(&f);
+        finish(&g);
+        ck_assert(memcmp(&f, &g, sizeof f) == 0);
+        for (int j = 0; j < 3; ++j) {
+            lo[j] = random_between(&state, 0, 0.9);
+            hi[j] = lo[j] + (random_bits(&state) % 8 ? random_power(&state, -30, -3.5) : 0);
+        }
+        const imp_region region = region_make(lo, hi);
+        imp_model wide[3], narrow[3];
+        models_wide(&f, &region, wide);
+        linear_models(&f, &region, narrow);
+        for (int i = 0; i < 3; ++i)
+            ck_assert(same_bits(&wide[i], &narrow[i], offsetof(imp_model, depends) / 8));
+        points_wide(&f, 1, lo, x[0], error[0]);
+        linear_points(&f, 1, lo, x[1], error[1]);
+        ck_assert(same_bits(x[0], x[1], 3) && same_bits(error[0], error[1], 3));
+    }
+}
+END_TEST
+
 START_TEST(patches_are_the_same_in_wide_and_narrow_registers)
 {
     uint64_t state = suite_seed();
@@ -283,4 +322,5 @@ END_TEST
 SUITE_MAIN("lanes", nodes_and_cuts_are_the_same_in_wide_and_narrow_registers,
            nets_and_their_axes_are_the_same_in_wide_and_narrow_registers,
            axes_of_a_net_and_a_model_are_the_same_in_wide_and_narrow_registers,
+           linear_surfaces_are_the_same_in_wide_and_narrow_registers,
            patches_are_the_same_in_wide_and_narrow_registers)
