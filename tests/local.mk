@@ -37,6 +37,7 @@ check_suites = \
     tests/unit/test_loosened \
     tests/unit/test_mechanism \
     tests/unit/test_mesh \
+    tests/unit/test_mesh_text \
     tests/unit/test_metamorphic \
     tests/unit/test_misuse \
     tests/unit/test_map_answers \
@@ -371,6 +372,7 @@ tests_unit_test_expression_SOURCES = tests/unit/test_expression.c tests/support/
     tests/support/alloc_failure.c
 tests_unit_test_expression_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_lanes_LDADD = plugins/libpatch.la $(LDADD)
+tests_unit_test_mesh_text_LDADD = plugins/libmesh.la $(LDADD)
 tests_unit_test_expression_LDADD = plugins/libexpression.la $(LDADD)
 tests_unit_test_expression_faults_LDADD = plugins/libexpression.la $(LDADD)
 
