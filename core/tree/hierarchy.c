@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <impinge/quad.h>
+
 #include "core/base/rounding.h"
 #include "core/base/status.h"
 #include "core/surface/region.h"
@@ -103,41 +105,45 @@ static void bound_both(cluster_bound *to, const cluster_bound *x, const cluster_
 
 /* --- Halving ------------------------------------------------------------------------------------ */
 
-/* Where pieces are, for choosing only. */
+/* Where a piece is, for choosing only: x, y, z and its number. Those of a cluster stand together. */
+typedef struct spot {
+    double at[4];
+} spot;
+enum { PIECE = 3 };
+
 typedef struct building {
     hierarchy *h;
     const cluster_bound *pieces;
-    int axis;
 } building;
 
-static bool is_before(const building *b, uint32_t x, uint32_t y)
+static bool is_before(const spot *x, const spot *y, int axis)
 {
-    const double at_x = b->pieces[x].a[b->axis], at_y = b->pieces[y].a[b->axis];
-    return at_x != at_y ? at_x < at_y : x < y;
+    return x->at[axis] < y->at[axis] ||
+           (x->at[axis] == y->at[axis] && x->at[PIECE] < y->at[PIECE]);
 }
 
-static uint32_t middle_of(const building *b, uint32_t x, uint32_t y, uint32_t z)
+static spot middle_of(const spot *x, const spot *y, const spot *z, int axis)
 {
-    if (is_before(b, y, x)) return is_before(b, z, y) ? y : is_before(b, z, x) ? z : x;
-    return is_before(b, z, x) ? x : is_before(b, z, y) ? z : y;
+    if (is_before(y, x, axis)) return is_before(z, y, axis) ? *y : is_before(z, x, axis) ? *z : *x;
+    return is_before(z, x, axis) ? *x : is_before(z, y, axis) ? *z : *y;
 }
 
 /* Puts the `count` pieces in such an order that none of the first `half` comes after any other, in a
  * total order, so that the answer is the same everywhere (Hoare's selection). */
-static void select_half(const building *b, uint32_t *order, size_t count, size_t half)
+static void select_half(spot *spots, size_t count, size_t half, int axis)
 {
     size_t first = 0, last = count - 1;
     while (first < last) {
-        const uint32_t pivot =
-            middle_of(b, order[first], order[first + (last - first) / 2], order[last]);
+        const spot pivot =
+            middle_of(&spots[first], &spots[first + (last - first) / 2], &spots[last], axis);
         size_t i = first, j = last;
         for (;; ++i, --j) {
-            while (is_before(b, order[i], pivot)) ++i;
-            while (is_before(b, pivot, order[j])) --j;
+            while (is_before(&spots[i], &pivot, axis)) ++i;
+            while (is_before(&pivot, &spots[j], axis)) --j;
             if (i >= j) break;
-            const uint32_t swapped = order[i];
-            order[i] = order[j];
-            order[j] = swapped;
+            const spot swapped = spots[i];
+            spots[i] = spots[j];
+            spots[j] = swapped;
         }
         if (half <= j)
             last = j;
@@ -146,38 +152,36 @@ static void select_half(const building *b, uint32_t *order, size_t count, size_t
     }
 }
 
-static int longest_axis(const building *b, const uint32_t *order, size_t count)
+static int longest_axis(const spot *spots, size_t count)
 {
-    int longest = 0;
-    double most = -1;
-    for (int i = 0; i < 3; ++i) {
-        double lo = INFINITY, hi = -INFINITY;
-        for (size_t k = 0; k < count; ++k) {
-            const double at = b->pieces[order[k]].a[i];
-            if (at < lo) lo = at;
-            if (at > hi) hi = at;
-        }
-        if (hi - lo > most) most = hi - lo, longest = i;
+    imp_quad lo = imp_quad_all(INFINITY), hi = imp_quad_all(-INFINITY);
+    for (size_t k = 0; k < count; ++k) {
+        const imp_quad at = imp_quad_load(spots[k].at);
+        lo = imp_quad_min(at, lo);
+        hi = imp_quad_max(at, hi);
     }
+    const imp_quad length = hi - lo;
+    int longest = 0;
+    for (int i = 1; i < 3; ++i)
+        if (length[i] > length[longest]) longest = i;
     return longest;
 }
 
-/* The cluster of the pieces order[0] to order[count - 1], count >= 2. Halves are equal, so that the
- * depth is the logarithm of their number. */
-static cluster *build(const building *b, uint32_t *order, size_t count)
+/* The cluster of `count` pieces, count >= 2. Halves are equal, so that the depth is the logarithm of their
+ * number. */
+static cluster *build(const building *b, spot *spots, size_t count)
 {
-    building own = *b;
     cluster *made = &b->h->clusters[b->h->used++];
     const size_t half[2] = {count / 2, count - count / 2};
     const cluster_bound *bounds[2];
-    own.axis = longest_axis(b, order, count);
-    select_half(&own, order, count, half[0]);
+    select_half(spots, count, half[0], longest_axis(spots, count));
     made->of = b->h;
     for (int side = 0; side < 2; ++side) {
-        uint32_t *from = order + (side == 0 ? 0 : half[0]);
+        spot *from = spots + (side == 0 ? 0 : half[0]);
         made->child[side] = half[side] > 1 ? build(b, from, half[side]) : NULL;
-        made->piece[side] = *from;
-        bounds[side] = made->child[side] != NULL ? &made->child[side]->bound : &b->pieces[*from];
+        made->piece[side] = (uint32_t)from->at[PIECE];
+        bounds[side] = made->child[side] != NULL ? &made->child[side]->bound
+                                                 : &b->pieces[made->piece[side]];
     }
     bound_both(&made->bound, bounds[0], bounds[1]);
     return made;
@@ -185,14 +189,16 @@ static cluster *build(const building *b, uint32_t *order, size_t count)
 
 /* --- Hierarchies ------------------------------------------------------------------------------- */
 
-static imp_code fill(hierarchy *h, cluster_bound *pieces, imp_error *error)
+static imp_code fill(hierarchy *h, cluster_bound *pieces, spot *spots, imp_error *error)
 {
     for (size_t k = 0; k < h->count; ++k) {
         const imp_code code = take_piece(h, k, &pieces[k], error);
         if (code != IMP_SUCCESS) return code;
-        h->order[k] = (uint32_t)k;
+        memcpy(spots[k].at, pieces[k].a, sizeof pieces[k].a);
+        spots[k].at[PIECE] = (double)k;
     }
-    build(&(building){h, pieces, 0}, h->order, h->count);
+    build(&(building){h, pieces}, spots, h->count);
+    for (size_t k = 0; k < h->count; ++k) h->order[k] = (uint32_t)spots[k].at[PIECE];
     return IMP_SUCCESS;
 }
 
@@ -213,9 +219,11 @@ imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy
     h->order = malloc(h->count * sizeof *h->order);
     h->clusters = malloc((h->count - 1) * sizeof *h->clusters);
     cluster_bound *pieces = malloc(h->count * sizeof *pieces);
-    imp_code code = h->order == NULL || h->clusters == NULL || pieces == NULL
+    spot *spots = malloc(h->count * sizeof *spots);
+    imp_code code = h->order == NULL || h->clusters == NULL || pieces == NULL || spots == NULL
                         ? error_set_memory(error)
-                        : fill(h, pieces, error);
+                        : fill(h, pieces, spots, error);
+    free(spots);
     free(pieces);
     if (code == IMP_SUCCESS)
         *made = h;
