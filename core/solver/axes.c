@@ -34,17 +34,25 @@ IMP_QUAD_INLINE imp_quad weighted(const bundle *n, const double *v)
 /* The coefficients of a slice along each direction. */
 typedef struct forms {
     imp_quad bu, bv, uu, uv, vv, uw, vw;
+    bool bends; /* false: uu and vv are 0 */
 } forms;
 
-IMP_QUAD_INLINE forms project(const bundle *n, const slice *s)
+IMP_QUAD_INLINE forms project(const bundle *n, const slice *s, bool bends)
 {
-    return (forms){along(n, s->bu),  along(n, s->bv),  along(n, s->quu), along(n, s->quv),
-                   along(n, s->qvv), along(n, s->quw), along(n, s->qvw)};
+    const imp_quad none = imp_quad_all(0);
+    return (forms){along(n, s->bu),
+                   along(n, s->bv),
+                   bends ? along(n, s->quu) : none,
+                   along(n, s->quv),
+                   bends ? along(n, s->qvv) : none,
+                   along(n, s->quw),
+                   along(n, s->qvw),
+                   bends};
 }
 
 IMP_QUAD_INLINE forms negative(const forms *f)
 {
-    return (forms){-f->bu, -f->bv, -f->uu, -f->uv, -f->vv, -f->uw, -f->vw};
+    return (forms){-f->bu, -f->bv, -f->uu, -f->uv, -f->vv, -f->uw, -f->vw, f->bends};
 }
 
 IMP_QUAD_INLINE imp_quad turning(const forms *f)
@@ -62,7 +70,7 @@ IMP_QUAD_INLINE quadratics form_at(const forms *f, double w)
 IMP_QUAD_INLINE imp_quad lower(const forms *f, double w)
 {
     const quadratics p = form_at(f, w);
-    return quadratics_lower(&p);
+    return f->bends ? quadratics_lower(&p) : quadratics_bilinear_lower(&p);
 }
 
 /* At every w the form's least value is at most this. */
@@ -183,7 +191,8 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
                                 gap_lines *lines)
 {
     const imp_quad longest = bundle_orient(n, r, r->focus);
-    const forms a = project(n, &r->a), b = project(n, &r->b);
+    const bool bends = !(r->squares == 0);
+    const forms a = project(n, &r->a, bends), b = project(n, &r->b, bends);
     const forms minus_a = negative(&a), minus_b = negative(&b);
     const imp_quad offset = along(n, r->delta), drift = along(n, r->drift);
     const imp_quad bend = along(n, r->bend), none = imp_quad_all(0);

@@ -17,6 +17,7 @@ typedef struct shape {
     imp_quad centre, slack;
     imp_quad bu[2], bv[2], quu[2], quv[2], qvv[2];
     imp_quad slope[3], curvature[3], twist[3];
+    bool bends; /* false: curvature is 0, and not set */
 } shape;
 
 IMP_QUAD_INLINE void shape_take(shape *z, int k, const slice *f, double w, imp_quad sign)
@@ -37,9 +38,11 @@ IMP_QUAD_INLINE shape shape_at(const relative *r, double w)
     z.slack = imp_quad_load(r->slack);
     shape_take(&z, 0, &r->b, w, imp_quad_all(1));
     shape_take(&z, 1, &r->a, w, imp_quad_all(-1));
+    z.bends = !(r->squares == 0);
     for (int i = 0; i < 3; ++i) {
         z.slope[i] = (imp_quad){z.bu[0][i], z.bu[1][i], z.bv[0][i], z.bv[1][i]};
-        z.curvature[i] = (imp_quad){z.quu[0][i], z.quu[1][i], z.qvv[0][i], z.qvv[1][i]};
+        if (z.bends)
+            z.curvature[i] = (imp_quad){z.quu[0][i], z.quu[1][i], z.qvv[0][i], z.qvv[1][i]};
         z.twist[i] = (imp_quad){z.quv[0][i], z.quv[1][i], z.quv[0][i], z.quv[1][i]};
     }
     return z;
@@ -50,10 +53,16 @@ IMP_QUAD_INLINE imp_quad along(vec3 n, const imp_quad x[3])
     return x[0] * imp_quad_all(n.x[0]) + x[1] * imp_quad_all(n.x[1]) + x[2] * imp_quad_all(n.x[2]);
 }
 
+/* Where b s is least over [-1, 1]. */
+IMP_QUAD_INLINE imp_quad lower_end(imp_quad b)
+{
+    return imp_quad_pick(b > imp_quad_all(0), imp_quad_all(-1), imp_quad_all(1));
+}
+
 /* Where b s + q s^2 is least over [-1, 1]; `vertex` is -1 / 2q. */
 IMP_QUAD_INLINE imp_quad least_at(imp_quad b, imp_quad q, imp_quad vertex)
 {
-    const imp_quad one = imp_quad_all(1), end = imp_quad_pick(b > imp_quad_all(0), -one, one);
+    const imp_quad one = imp_quad_all(1), end = lower_end(b);
     const imp_quad inside = imp_quad_max(imp_quad_min(b * vertex, one), -one);
     return imp_quad_pick(q > imp_quad_all(0x1p-1000), inside, end);
 }
@@ -62,8 +71,14 @@ IMP_QUAD_INLINE imp_quad least_at(imp_quad b, imp_quad q, imp_quad vertex)
  * in turn. */
 IMP_QUAD_INLINE imp_quad shape_bottom(const shape *z, vec3 n)
 {
-    const imp_quad slope = along(n, z->slope), curvature = along(n, z->curvature),
-                   twist = along(n, z->twist);
+    const imp_quad slope = along(n, z->slope), twist = along(n, z->twist);
+    if (!z->bends) {
+        const imp_quad s = lower_end(slope);
+        const imp_quad v = lower_end(slope + twist * (imp_quad){s[2], s[3], s[0], s[1]});
+        const imp_quad u = lower_end(slope + twist * (imp_quad){v[2], v[3], v[2], v[3]});
+        return (imp_quad){u[0], u[1], v[2], v[3]};
+    }
+    const imp_quad curvature = along(n, z->curvature);
     const imp_quad vertex = imp_quad_all(-0.5) / curvature;
     const imp_quad s = least_at(slope, curvature, vertex);
     const imp_quad v =

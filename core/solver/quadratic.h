@@ -113,6 +113,17 @@ IMP_QUAD_INLINE imp_quad quadratics_inner_lower(const quadratics *p, imp_quad ed
     return imp_quad_pick(on_edge, edge, imp_quad_min(inner, edge));
 }
 
+/* The same as quadratics_lower, for less, where qss and qrr are 0: p is linear in s and in r, and least at a
+ * corner. */
+IMP_QUAD_INLINE imp_quad quadratics_bilinear_lower(const quadratics *p)
+{
+    const imp_quad ends = imp_quad_min(p->br - imp_quad_abs(p->bs + p->qsr),
+                                       -p->br - imp_quad_abs(p->bs - p->qsr));
+    const imp_quad sides = imp_quad_min(p->bs - imp_quad_abs(p->br + p->qsr),
+                                        -p->bs - imp_quad_abs(p->br - p->qsr));
+    return imp_quad_min(ends, sides);
+}
+
 /* A lower bound over the square, exact but for rounding. Lemma (when the edge is enough). Where 4
  * qss qrr is below qsr^2 by a part in 2^28, the form is indefinite beyond rounding. Where |bs|
  * reaches 2 qss + |qsr|, which is two roundings, the slope along s keeps its sign over the square,

@@ -16,6 +16,7 @@
 typedef struct moved {
     imp_quad shift, drift, bend;
     imp_quad magnitude; /* of the slice */
+    imp_quad squares;   /* of s_u and s_v: sum of their |coefficients| */
 } moved;
 
 IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
@@ -40,7 +41,8 @@ IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
     s->normal = vec3_cross(vec3_from(s->bu), vec3_from(s->bv));
     return (moved){(bt + qtt * s0) * s0, k * (bt + imp_quad_all(2) * qtt * s0), (k * k) * qtt,
                    imp_quad_abs(bu) + imp_quad_abs(bv) + imp_quad_abs(quu) + imp_quad_abs(quv) +
-                       imp_quad_abs(qvv) + (imp_quad_abs(quw) + imp_quad_abs(qvw))};
+                       imp_quad_abs(qvv) + (imp_quad_abs(quw) + imp_quad_abs(qvw)),
+                   imp_quad_abs(quu) + imp_quad_abs(qvv)};
 }
 
 /* Lemma (its rounding). With |s0| + k <= 1, s0 is off by 2 u and k by u. In units of u, off by at
@@ -81,6 +83,8 @@ IMP_QUAD_INLINE void recentre(const node *a, const node *b, const time_window *w
     const imp_quad slack =
         (imp_quad_load(a->e) + imp_quad_load(b->e)) +
         imp_quad_all(MOTION_ROUNDING * UNIT_ROUNDOFF) * (imp_quad_abs(apart) + motion);
+    const imp_quad squares = ma.squares + mb.squares;
+    r->squares = squares[0] + squares[1] + squares[2];
     imp_quad_store(r->delta, delta);
     imp_quad_store(r->drift, drift);
     imp_quad_store(r->bend, bend);

@@ -30,6 +30,7 @@ typedef struct relative {
     double delta[4], drift[4], bend[4];
     double slack[4];     /* both remainders, and the rounding of moving the centre */
     double magnitude[4]; /* >= sum of abs of the coefficients above */
+    double squares;      /* 0: neither slice has a square of s_u or s_v; else not 0, or NaN */
     double mid, half;    /* of the window; half is rounded up */
     double share;        /* of the widest gap along any axis, that a search for one must come to */
     double focus;        /* the w that axes are chosen for; -1: the start of the window */

@@ -175,9 +175,30 @@ START_TEST(sums_are_rounded_outward_to_the_next_double)
 }
 END_TEST
 
+START_TEST(forms_without_squares_are_least_at_a_corner)
+{
+    static const double odd[] = {0, -0.0, 1e300, 1e-310, INFINITY, NAN};
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(20000); ++k) {
+        quadratics p = {.qss = imp_quad_all(0), .qrr = imp_quad_all(-0.0)};
+        double slope[3 * IMP_QUAD];
+        for (int i = 0; i < 3 * IMP_QUAD; ++i) {
+            const uint64_t kind = random_bits(&state) % 64;
+            slope[i] = kind < 6 ? odd[kind] : random_between(&state, -1, 1);
+        }
+        p.bs = imp_quad_load(slope);
+        p.br = imp_quad_load(slope + IMP_QUAD);
+        p.qsr = imp_quad_load(slope + 2 * IMP_QUAD);
+        const imp_quad least = quadratics_lower(&p), bilinear = quadratics_bilinear_lower(&p);
+        for (int i = 0; i < IMP_QUAD; ++i)
+            ck_assert(least[i] == bilinear[i] || (isnan(least[i]) && isnan(bilinear[i])));
+    }
+}
+END_TEST
+
 SUITE_MAIN("quadratic", sums_are_rounded_outward_to_the_next_double,
            no_value_of_a_random_quadratic_is_outside_its_span,
            no_value_of_a_nearly_singular_quadratic_is_outside_its_span,
            no_value_of_a_valley_is_outside_its_span,
            the_span_of_a_quadratic_is_no_wider_than_its_values,
-           the_spans_of_textbook_quadratics_are_exact)
+           the_spans_of_textbook_quadratics_are_exact, forms_without_squares_are_least_at_a_corner)
