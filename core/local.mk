@@ -110,6 +110,7 @@ core_solver = \
     core/solver/net_axis.c core/solver/net_axis.h \
     core/solver/net_model_axis.c core/solver/net_model_axis.h \
     core/solver/separation.c core/solver/separation.h \
+    core/solver/sight.c core/solver/sight.h \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \
     core/solver/tuning.h \

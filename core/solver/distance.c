@@ -143,9 +143,10 @@ static span span_of(const time_window *window)
  *   their chord               6: sums of 2 S, and w_range_cut's
  *   q_tt k^2                  4: quotient twice, products
  *   low                       8: sums of at most 4 S
+ *   low - e - |drift|         8: differences of at most 4 S
  */
 enum { DISTANCE_ROUNDING = 128 };
-_Static_assert(8 + 4 + 2 + QUADRATIC_ROUNDING + 2 + 6 + 4 + 8 <= DISTANCE_ROUNDING,
+_Static_assert(8 + 4 + 2 + QUADRATIC_ROUNDING + 2 + 6 + 4 + 8 + 8 <= DISTANCE_ROUNDING,
                "rounding along a distance");
 PAD_COVERS(16, 10 + 3); /* S; e with it, and taken off low */
 
@@ -197,9 +198,14 @@ static bool promises(const imp_model *g, const sides *both, const node *n, doubl
 }
 
 /* Where the remainder is too large, the range may still do. */
-static bool is_range_apart(const imp_model *g, double clearance)
+static double range_lower(const imp_model *g) { return g->lo > -g->hi ? g->lo : -g->hi; }
+
+/* The least of both sides over the window. */
+static double sides_lower(const sides *both, double slack)
 {
-    return g->lo > clearance || -g->hi > clearance;
+    double lower[2];
+    for (int k = 0; k < 2; ++k) lower[k] = both->low[k] - slack - fabs(both->drift[k]);
+    return lower[0] > lower[1] ? lower[0] : lower[1];
 }
 
 imp_code distance_cut(const node *a, const node *b, double clearance, time_window *window,
@@ -207,17 +213,21 @@ imp_code distance_cut(const node *a, const node *b, double clearance, time_windo
 {
     imp_model g;
     bool known;
-    *view = (distance_view){false, false, {0, 0, 0}};
+    *view = (distance_view){false, false, 0, {0, 0, 0}};
     memcpy(view->bend, a->nonlinear_extent, sizeof view->bend);
     const imp_code code = ask(a, b, &g, view->bend, &known, error);
     if (code != IMP_SUCCESS || !known) return code;
-    view->is_apart = is_range_apart(&g, clearance);
+    const double range = range_lower(&g);
+    if (range > 0) view->lower = range;
+    view->is_apart = range > clearance;
     const double size = size_upper(&g);
     if (view->is_apart || !(size < 0x1p400)) return IMP_SUCCESS;
     const span whole = span_of(window);
     const sides both = sides_of(&g, &a->region, &whole);
     const double slack = padded_upper(g.e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) +
                          QUADRATIC_UNDERFLOW;
+    const double lower = sides_lower(&both, slack);
+    if (lower > view->lower) view->lower = lower;
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], clearance);

@@ -18,6 +18,7 @@
 typedef struct distance_view {
     bool is_apart;     /* farther than the clearance all the time */
     bool is_promising; /* no: but halves of the node, which have smaller remainders, may be */
+    double lower;      /* bound of the distance over the window as handed over; length */
     double bend[3];    /* how far u, v and t bend points beside the other surface, about; length */
 } distance_view;
 

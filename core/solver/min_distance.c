@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "core/base/status.h"
+#include "core/solver/sight.h"
 #include "core/solver/tuning.h"
 
 /* --- How near is near enough --------------------------------------------------------------- */
@@ -168,23 +169,41 @@ static imp_code split(min_distance *m, const pair *p, cut c, imp_error *error)
     return IMP_SUCCESS;
 }
 
-static cut choose_cut(const min_distance *m, const pair *p)
+static cut choose_cut(const min_distance *m, const pair *p, const sight *seen)
 {
     if (pair_has_cluster(p)) return cut_by_spread(p, scale(m));
-    if (pair_precision_ends(p, &m->candidates[p->candidate_pair], room(m), 1))
-        return (cut){-1, PARAMETER_U, 0};
-    return TUNING_TINY * pair_extent(p) <= room(m) ? cut_in_time(p) : cut_by_spread(p, scale(m));
+    if (pair_precision_ends(p, &m->candidates[p->candidate_pair], room(m), 1)) return CUT_NONE;
+    if (TUNING_TINY * pair_extent(p) <= room(m)) return cut_in_time(p);
+    const cut alone = seen->side >= 0 ? cut_alone(p, seen->side, seen->bend, scale(m)) : CUT_NONE;
+    return alone.side >= 0 ? alone : cut_by_spread(p, scale(m));
+}
+
+/* Of a pair that no axis parts, or whose parents slid along each other: what its nodes' distances from each other's
+ * whole surfaces show. Lemma. The times that are cut off p->window are farther apart than what is enough, and over
+ * those that are left nothing is nearer than seen->lower, so that p->key[0] stays a bound. */
+static imp_code look(min_distance *m, pair *p, sight *seen, imp_error *error)
+{
+    *seen = sight_none(p);
+    if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return IMP_SUCCESS;
+    if (!p->slides && vec3_norm1(p->axis) > 0) return IMP_SUCCESS;
+    const imp_code code = sight_take(p, &m->candidates[p->candidate_pair], enough(m), seen, error);
+    p->window = seen->left;
+    p->slides = p->slides || seen->side >= 0;
+    if (seen->lower > p->key[0]) p->key[0] = seen->lower;
+    return code;
 }
 
 static imp_code follow(min_distance *m, pair p, imp_error *error)
 {
+    sight seen;
     if (p.wait == 0) {
         const imp_code code = find_witness(m, &p, error);
         if (code != IMP_SUCCESS) return code;
     }
     p.wait = p.wait == 0 ? TUNING_WITNESS_WAIT : p.wait - 1;
-    if (p.key[0] > enough(m)) return IMP_SUCCESS;
-    const cut c = choose_cut(m, &p);
+    const imp_code code = look(m, &p, &seen, error);
+    if (code != IMP_SUCCESS || seen.is_apart || p.key[0] > enough(m)) return code;
+    const cut c = choose_cut(m, &p, &seen);
     if (c.side >= 0) return split(m, &p, c, error);
     if (p.key[0] < m->stuck) m->stuck = p.key[0];
     return IMP_SUCCESS;

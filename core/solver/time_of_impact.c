@@ -6,10 +6,9 @@
 
 #include <assert.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "core/solver/distance.h"
 #include "core/solver/pair_test.h"
+#include "core/solver/sight.h"
 #include "core/solver/tuning.h"
 
 static const candidate_pair *candidate_pair_of(const impact *im, const pair *p)
@@ -171,14 +170,6 @@ static bool precision_ends(const impact *im, const pair *p, double flat)
     return pair_precision_ends(p, candidate_pair_of(im, p), room(im), flat);
 }
 
-/* What one node's distance from the other's surface shows of a pair. */
-typedef struct sight {
-    time_window left; /* of its window */
-    bool is_apart;
-    int side; /* whose node alone is worth halving; -1: neither */
-    double bend[3]; /* how far u, v and t bend its points beside the other surface, about; length */
-} sight;
-
 /* Whether a search may pay: the polynomials are good enough for gamma, or all that there will ever
  * be. At one instant also where one side alone would be halved: surfaces that touch all over then would be
  * halved down to gamma everywhere. */
@@ -204,36 +195,18 @@ static cut choose_cut(const impact *im, const pair *p, const sight *seen)
 }
 
 /* Whether no fixed axis parts the nodes from the start of their times on, as where surfaces slide along each
- * other. Of surfaces that come to each other axes cut the start of the window first. */
+ * other, or their parents slid. Of surfaces that come to each other axes cut the start of the window first. */
 static bool may_slide(const pair *p)
 {
-    return !(vec3_norm1(p->axis) > 0) && !(p->window.lo > pair_times(p->a, p->b).lo);
-}
-
-/* Of each of the two nodes while the answer is not known. */
-static imp_code look_from_each_side(const impact *im, const pair *p, sight *seen, imp_error *error)
-{
-    for (int side = 0; side < 2 && !seen->is_apart && seen->side < 0; ++side) {
-        const node *own = side == 0 ? p->a : p->b, *other = side == 0 ? p->b : p->a;
-        const candidate *asked = candidate_pair_of(im, p)->side[!side];
-        distance_view view;
-        if (!distance_is_known(own, other, asked->still_maps)) continue;
-        const imp_code code = distance_cut(own, other, im->clearance, &seen->left, &view, error);
-        if (code != IMP_SUCCESS) return code;
-        seen->is_apart = view.is_apart;
-        if (!view.is_promising) continue;
-        seen->side = side;
-        memcpy(seen->bend, view.bend, sizeof seen->bend);
-    }
-    return IMP_SUCCESS;
+    return p->slides || (!(vec3_norm1(p->axis) > 0) && !(p->window.lo > pair_times(p->a, p->b).lo));
 }
 
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
     if (pair_has_cluster(p)) return split(im, p, cut_by_spread(p, im->gamma), state, error);
-    sight from_each = {p->window, false, -1, {0, 0, 0}};
+    sight from_each = sight_none(p);
     if (may_slide(p)) {
-        const imp_code code = look_from_each_side(im, p, &from_each, error);
+        const imp_code code = sight_take(p, candidate_pair_of(im, p), im->clearance, &from_each, error);
         if (code != IMP_SUCCESS || from_each.is_apart) return code;
     }
     if (witness_is_likely(im, p, &from_each)) {
@@ -249,6 +222,7 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
     } else if (p->wait > 0) {
         p->wait -= 1;
     }
+    p->slides = p->slides || from_each.side >= 0;
     p->window = from_each.left; /* not before: other pairs may start sooner */
     const bool tiny = TUNING_TINY * pair_extent(p) <= room(im);
     const cut c = tiny ? cut_in_time(p) : choose_cut(im, p, &from_each);

@@ -79,7 +79,7 @@ measured() {
     measured 'row("conformal"; "shaft, c = 0.001") | .verdicts.clear == 1 and .pairs.max <= 80000'
     measured 'row("conformal"; "piston, c = 1e-06") | .verdicts.clear == 1 and .pairs.max <= 20000'
     measured 'row("conformal"; "race, c = 0.001") | .verdicts.clear == 1'
-    measured 'row("conformal"; "thread, c = 0.01") | .verdicts.clear == 1 and .pairs.max <= 60000'
+    measured 'row("conformal"; "thread, c = 0.01") | .verdicts.clear == 1 and .pairs.max <= 20000'
     measured '[.sets[] | select(.set == "conformal").cases[] | select(.case | test("(placed|carried), ")) |
         select(.case | test("formula") | not).methods[0]] |
         length == 10 and all(.verdicts.clear == 1 and .pairs.max <= 40000)'

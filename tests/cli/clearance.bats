@@ -47,6 +47,20 @@ END
     [[ $output == 'tightest 1.0000'*' between "a" and "b"'* && $output == *"never nearer than 0.999"* ]]
 }
 
+@test "parts that slide in each other are bracketed by a few thousand pairs" {
+    shaft='cylinder radius=0.99 ! rotate rate=3'
+    run -0 "$IMPINGE" clearance "$shaft" cylinder --json
+    json '.lower >= 0.00999 and .lower <= 0.01 and .stats.pairs < 20000'
+    run -0 "$IMPINGE" clearance "$shaft" cylinder --require 0.009 --tolerance 0.1 --json
+    json '.verdict == "holds" and .stats.pairs < 2000'
+    run -0 "$IMPINGE" clearance 'cylinder radius=0.99 height=1 ! translate velocity=0,0,0.5' \
+        'cylinder height=4' --json
+    json '.lower >= 0.00999 and .stats.pairs < 200'
+    run -0 "$IMPINGE" clearance 'thread radius=0.99' 'thread height=0.5 ! screw pitch=0.5 rate=1' \
+        --require 0.005 --tolerance 0.1 --json
+    json '.verdict == "holds" and .stats.pairs < 50000'
+}
+
 @test "what is required holds, is violated from a time on, or is undecided" {
     run -0 "$IMPINGE" clearance "${passing[@]}" --require 0.9999999 --json
     valid clearance

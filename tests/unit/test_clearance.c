@@ -114,6 +114,13 @@ static const closed_form closed_forms[] = {
     {"segment points=[[-1,0,0],[1,0,0]]", "segment points=[[0,-1,0.125],[0,1,0.125]]", 0.125, -1,
      1e-9},
     {"point position=0,0,2", "cylinder radius=0.5 height=6", 0.5, -1, 1e-6},
+    /* along areas: a shaft in its bore, one off its axis, a piston, a ball in its socket and one in a race */
+    {"cylinder radius=0.99 ! rotate rate=3", "cylinder", 0.01, -1, 1e-2},
+    {"cylinder radius=0.98 center=0.01,0,0 ! rotate rate=3", "cylinder", 0.01, -1, 1e-4},
+    {"cylinder radius=0.99 height=1 ! translate velocity=0,0,0.5",
+     "cylinder height=4 center=3,0,0 ! translate offset=[[-3,0,0]]", 0.01, -1, 1e-6},
+    {"sphere radius=0.75 center=0.03125,0,0 ! rotate axis=1,2,3 rate=2", "sphere", 0.21875, -1, 1e-2},
+    {"sphere radius=0.125 center=1,0,0 ! rotate rate=1", "torus", 0.125, -1, 1e-2},
     {"point position=3,0,0 ! rotate axis=0,0,1 rate=1.5707963267948966", "point position=0,4,0", 1,
      1, 1e-9},
 };

@@ -9,7 +9,8 @@
 #include "tests/support/suite.h"
 
 /* Windows that random distances cut: at the times that are cut off, and at all where nodes are said to be apart,
- * the polynomial less its remainder is beyond the clearance everywhere. */
+ * the polynomial less its remainder is beyond the clearance everywhere; and nowhere in the window is it below the bound
+ * of the distance. */
 
 enum { CASES = 20000, PLACES = 128, MOMENTS = 8 };
 
@@ -140,20 +141,20 @@ static void draw_trial(const surface *s, uint64_t *random, trial *y)
     y->clearance = least > 0 ? (double)least * (1 + near) : 0;
 }
 
-/* Whether anything is within the clearance at a time, surely; `more` is added to the remainder, in parts of
+/* Whether anything is nearer than `distance` at a time, surely; `more` is added to the remainder, in parts of
  * the size. */
-static bool is_near_at(const trial *y, double t, double more)
+static bool is_near_at(const trial *y, double distance, double t, double more)
 {
     const long double s = normalized(&y->own.region, t), slack = 2048 * LDBL_EPSILON * y->size;
     for (int k = 0; k < y->count; ++k) {
         const long double least = fabsl(value_at(&y->places[k], s)) - claimed.e - more * y->size;
-        if (least < y->clearance - slack) return true;
+        if (least < distance - slack) return true;
     }
     return false;
 }
 
 typedef struct tally {
-    int apart, cut, refuted;
+    int apart, cut, bounded, refuted, too_far; /* too_far: bounds of the distance that were refuted */
 } tally;
 
 static void try_cut(const trial *y, double more, uint64_t *random, tally *of)
@@ -164,6 +165,7 @@ static void try_cut(const trial *y, double more, uint64_t *random, tally *of)
     ck_assert_int_eq(distance_cut(&y->own, &y->other, y->clearance, &left, &view, &error), IMP_SUCCESS);
     ck_assert(y->window.lo <= left.lo && left.lo <= left.hi && left.hi <= y->window.hi);
     if (view.is_apart) left = (time_window){y->window.hi, y->window.hi};
+    of->bounded += view.lower > 0;
     of->apart += view.is_apart;
     of->cut += !view.is_apart && (left.lo > y->window.lo || left.hi < y->window.hi);
     for (int k = 0; k < MOMENTS; ++k) {
@@ -172,14 +174,15 @@ static void try_cut(const trial *y, double more, uint64_t *random, tally *of)
         const double t = late ? y->window.hi - f * (y->window.hi - left.hi)
                               : y->window.lo + f * (left.lo - y->window.lo);
         const bool is_cut_off = view.is_apart || (late ? t > left.hi : t < left.lo);
-        if (is_cut_off && is_near_at(y, t, more)) of->refuted += 1;
+        if (is_cut_off && is_near_at(y, y->clearance, t, more)) of->refuted += 1;
+        if (view.lower > 0 && is_near_at(y, view.lower, t, more)) of->too_far += 1;
     }
 }
 
 static tally try_all(double more)
 {
     uint64_t random = suite_seed();
-    tally of = {0, 0, 0};
+    tally of = {0, 0, 0, 0, 0};
     static int nothing;
     surface *s = surface_new(&claiming, &nothing);
     ck_assert_ptr_nonnull(s);
@@ -195,14 +198,19 @@ static tally try_all(double more)
 START_TEST(nothing_is_near_at_the_times_that_a_distance_cuts_off)
 {
     const tally of = try_all(0);
-    ck_assert_msg(of.apart > 0 && of.cut > 0 && of.refuted == 0, "%d apart, %d cut, %d refuted",
-                  of.apart, of.cut, of.refuted);
+    ck_assert_msg(of.apart > 0 && of.cut > 0 && of.bounded > 0 && of.refuted == 0 && of.too_far == 0,
+                  "%d apart, %d cut, %d refuted; %d bounded, %d refuted", of.apart, of.cut, of.refuted,
+                  of.bounded, of.too_far);
 }
 END_TEST
 
 /* The test above must be able to fail: of remainders that are a little larger it does. */
-START_TEST(times_that_are_cut_off_too_early_are_found) { ck_assert_int_gt(try_all(0x1p-20).refuted, 0); }
+START_TEST(times_that_are_cut_off_too_early_and_bounds_that_are_too_high_are_found)
+{
+    const tally of = try_all(0x1p-20);
+    ck_assert(of.refuted > 0 && of.too_far > 0);
+}
 END_TEST
 
 SUITE_MAIN("distance windows", nothing_is_near_at_the_times_that_a_distance_cuts_off,
-           times_that_are_cut_off_too_early_are_found)
+           times_that_are_cut_off_too_early_and_bounds_that_are_too_high_are_found)
