@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "plugins/common/course.h"
+#include "plugins/common/near.h"
 #include "plugins/common/publish.h"
 
 #include <impinge/formula.h>
@@ -58,18 +59,78 @@ static void moved(const void *self, imp_model x, imp_model y, imp_model z, imp_m
 }
 IMP_MAP_FORMULA(moved)
 
+/* --- At constant velocity ------------------------------------------------------------------------ */
+
+/* What most translations are: c0 + c1 t, or c0 alone. */
+static bool is_steady(const course *way)
+{
+    return way->polynomial.count == 1 || way->polynomial.count == 2;
+}
+
+static double speed_of(const course *way, size_t i)
+{
+    return way->polynomial.count > 1 ? way->polynomial.coefficient[2 * i + 1] : 0;
+}
+
+/* x k and x + k as imp_scale and imp_shift have them at points: rounded once, by u of the result, unless
+ * exact. */
+static near_constant point_scaled(double x, double k)
+{
+    const double a = x * k;
+    if (k == 0 || k == 1 || k == -1) return near_exact(a);
+    return (near_constant){a, (IMP_U * fabs(a) + IMP_TINY) * IMP_SLACK};
+}
+
+static near_constant point_shifted(near_constant x, double k)
+{
+    const double a = x.value + k;
+    if (k == 0 || (x.value == 0 && x.error == 0)) return (near_constant){a, x.error};
+    return (near_constant){a, (x.error + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK};
+}
+
+/* One coordinate x at time t. What is exact is added last. */
+static near_constant steady_at(const course *way, size_t i, double x, double t)
+{
+    const double from = way->polynomial.coefficient[way->polynomial.count * i];
+    const near_constant moved = point_shifted(point_scaled(t, speed_of(way, i)), from);
+    return moved.error == 0 ? point_shifted(near_exact(x), moved.value) : point_shifted(moved, x);
+}
+
+static imp_status steady_eval(const course *way, size_t n, const double *p, double *x, double *error)
+{
+    for (size_t k = 0; k < n; ++k)
+        for (size_t i = 0; i < 3; ++i) {
+            const near_constant at = steady_at(way, i, p[4 * k + i], p[4 * k + 3]);
+            if (!(at.error < INFINITY && fabs(at.value) < INFINITY)) return IMP_DOMAIN;
+            x[3 * k + i] = at.value;
+            if (error != NULL) error[3 * k + i] = at.error;
+        }
+    return IMP_OK;
+}
+
+static imp_status steady_rate(const course *way, imp_map_rates *rates)
+{
+    for (size_t i = 0; i < 3; ++i) {
+        for (size_t j = 0; j < 3; ++j) rates->m[i][j] = i == j;
+        rates->m[i][3] = fabs(speed_of(way, i));
+    }
+    return IMP_OK;
+}
+
+/* --- Any course ---------------------------------------------------------------------------------- */
+
 static imp_status translate_eval(const void *self, size_t n, const double *p, double *x,
                                  double *error)
 {
     for (size_t k = 0; k < n; ++k)
         if (!course_is_defined(self, p[4 * k + 3], p[4 * k + 3])) return IMP_DOMAIN;
-    return moved_eval(self, n, p, x, error);
+    return is_steady(self) ? steady_eval(self, n, p, x, error) : moved_eval(self, n, p, x, error);
 }
 
 static imp_status translate_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
 {
     if (!course_is_defined(self, box->lo[3], box->hi[3])) return IMP_DOMAIN;
-    return moved_rate(self, box, rates);
+    return is_steady(self) ? steady_rate(self, rates) : moved_rate(self, box, rates);
 }
 
 static imp_status translate_apply(const void *self, const imp_model in[4], imp_model out[3])

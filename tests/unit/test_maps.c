@@ -238,6 +238,57 @@ END_TEST
 
 /* --- Tables --------------------------------------------------------------------------------- */
 
+/* Points within their errors, beside long doubles, and as the formula of any polynomial has them. */
+START_TEST(translations_at_constant_velocity_are_exact_but_for_rounding)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(500); ++k) {
+        static const double special[] = {0, 1, -1, 0x1p-1030};
+        double c[2][3], p[4], x[3], error[3], y[3];
+        char text[300], longer[320];
+        for (int i = 0; i < 6; ++i) {
+            const uint64_t kind = random_bits(&state) % 8;
+            c[i / 3][i % 3] = kind < 4 ? special[kind] : random_between(&state, -3, 3);
+        }
+        for (int i = 0; i < 4; ++i)
+            p[i] = random_bits(&state) % 4 ? random_between(&state, -2, 2) : 0;
+        const int length =
+            snprintf(text, sizeof text, "{\"offset\": [[%.17g,%.17g,%.17g],[%.17g,%.17g,%.17g]",
+                     c[0][0], c[0][1], c[0][2], c[1][0], c[1][1], c[1][2]);
+        snprintf(longer, sizeof longer, "%s,[0,0,0]]}", text);
+        snprintf(text + length, sizeof text - (size_t)length, "]}");
+        instance made = map("translate", text), general = map("translate", longer);
+        imp_map_rates rates;
+        const imp_box4 box = {{-1, -1, -1, -1}, {1, 1, 1, 1}};
+        ck_assert_int_eq(made.map->eval(made.self, 1, p, x, error), IMP_OK);
+        ck_assert_int_eq(general.map->eval(general.self, 1, p, y, NULL), IMP_OK);
+        ck_assert_int_eq(made.map->rate(made.self, &box, &rates), IMP_OK);
+        for (int i = 0; i < 3; ++i) {
+            const double size = fabs(c[0][i]) + fabs(c[1][i] * p[3]) + fabs(p[i]);
+            const long double sum = (long double)c[0][i] + (long double)c[1][i] * p[3] + p[i];
+            ck_assert(fabsl(sum - x[i]) <= error[i] + 0x1p-62L * size);
+            ck_assert_double_le(error[i], 0x1p-51 * size + 4 * IMP_TINY);
+            ck_assert_double_eq_tol(x[i], y[i], 1e-14);
+            for (int j = 0; j < 4; ++j)
+                ck_assert(rates.m[i][j] == (j < 3 ? i == j : fabs(c[1][i])));
+        }
+        instance_free(&made);
+        instance_free(&general);
+    }
+}
+END_TEST
+
+START_TEST(translations_too_far_for_a_double_are_undefined)
+{
+    double x[3];
+    instance made = map("translate", "{\"velocity\": [1e200,0,0]}");
+    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, 0, 1e200}, x, NULL), IMP_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, 0, NAN}, x, NULL), IMP_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, INFINITY, 0, 0}, x, NULL), IMP_DOMAIN);
+    instance_free(&made);
+}
+END_TEST
+
 static const char zigzag[] = "{\"times\": [0,1,1.5,2,4], \"positions\": [[0,0,0],[1,2,0],[0,2,1],"
                              "[1,1,1],[5,1,-1]]";
 
@@ -332,6 +383,8 @@ START_TEST(a_trajectory_follows_parabolas_and_turns_at_constant_spin)
 END_TEST
 
 SUITE_MAIN("maps", a_trajectory_follows_parabolas_and_turns_at_constant_spin,
+           translations_at_constant_velocity_are_exact_but_for_rounding,
+           translations_too_far_for_a_double_are_undefined,
            tables_pass_through_their_rows_and_go_straight_between_them,
            tables_hold_or_are_undefined_beyond_their_ends,
            models_of_linear_tables_are_exact_between_kinks_and_tight_across,
