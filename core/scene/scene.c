@@ -19,8 +19,7 @@
 
 typedef struct member {
     surface *surface;
-    tree **trees;
-    size_t tree_count, tree_capacity;
+    tree *trees; /* the first of a list */
 } member;
 
 typedef struct scene_body {
@@ -54,8 +53,11 @@ imp_scene *scene_new(void)
 
 static void member_free(member *m)
 {
-    for (size_t k = 0; k < m->tree_count; ++k) tree_free(m->trees[k]);
-    free(m->trees);
+    while (m->trees != NULL) {
+        tree *next = tree_next(m->trees);
+        tree_free(m->trees);
+        m->trees = next;
+    }
     surface_free(m->surface);
 }
 
@@ -364,26 +366,22 @@ imp_code imp_options_read(const imp_scene *scene, imp_options *options, imp_erro
 /* NULL: there is none yet. */
 static tree *find_tree(const member *m, const tree_plan *plan)
 {
-    for (size_t k = 0; k < m->tree_count; ++k)
-        if (tree_is_of(m->trees[k], plan)) return m->trees[k];
-    return NULL;
+    tree *t = m->trees;
+    while (t != NULL && !tree_is_of(t, plan)) t = tree_next(t);
+    return t;
 }
 
-/* Keeps the tree, unless another thread's is there already: then that one is found, and `made` freed.
- * False: no memory. */
-static bool keep_tree(member *m, const tree_plan *plan, tree *made, tree **found)
+/* Keeps the tree, unless another thread's is there already: then that one is answered, and `made` freed. */
+static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
 {
-    *found = find_tree(m, plan);
-    tree **trees = *found == NULL
-                       ? array_reserve(m->trees, m->tree_count, &m->tree_capacity, sizeof *trees)
-                       : NULL;
-    if (trees == NULL) {
+    tree *found = find_tree(m, plan);
+    if (found != NULL) {
         tree_free(made);
-        return *found != NULL;
+        return found;
     }
-    m->trees = trees;
-    trees[m->tree_count++] = *found = made;
-    return true;
+    tree_set_next(made, m->trees);
+    m->trees = made;
+    return made;
 }
 
 /* Trees are made outside the lock, so that threads make those of different surfaces at once. */
@@ -400,9 +398,8 @@ imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan
     const imp_code code = tree_new(m->surface, plan, &made, &own, error);
     if (code != IMP_SUCCESS) return code;
     pthread_mutex_lock(&scene->lock);
-    const bool kept = keep_tree(m, plan, made, found);
+    *found = keep_tree(m, plan, made);
     pthread_mutex_unlock(&scene->lock);
-    if (!kept) return error_set_memory(error);
     if (*found == made) growth->nodes += own.nodes, growth->bytes += own.bytes;
     return IMP_SUCCESS;
 }

@@ -15,7 +15,7 @@
 #include "core/tree/node_model.h"
 #include "core/tree/posing.h"
 
-/* Chunks of 1, 4, 16, 64, 64, ... nodes: most surfaces of a large scene are never split. */
+/* Chunks of 4, 16, 64, 64, ... nodes beside the root. */
 enum { CHUNK_GROWTH = 4, CHUNK_NODES_MAX = 64 };
 
 typedef struct chunk {
@@ -34,12 +34,14 @@ typedef struct arena {
 struct tree {
     const surface *surface;
     tree_plan plan;
-    node *root;
+    tree *next;
+    node *root; /* first */
     pthread_mutex_t lock; /* of chunks, and of every node's children while one is published */
     chunk *chunks;
     hierarchy *pieces; /* NULL: it is one surface */
     arena *nets;
     posing posing;
+    node first; /* with the tree, as most are never split */
 };
 
 /* --- Memory ------------------------------------------------------------------- */
@@ -47,7 +49,7 @@ struct tree {
 static node *node_alloc(tree *t, tree_growth *growth)
 {
     if (t->chunks == NULL || t->chunks->used == t->chunks->capacity) {
-        const size_t wanted = t->chunks == NULL ? 1 : CHUNK_GROWTH * t->chunks->capacity;
+        const size_t wanted = t->chunks == NULL ? CHUNK_GROWTH : CHUNK_GROWTH * t->chunks->capacity;
         const size_t capacity = wanted < CHUNK_NODES_MAX ? wanted : CHUNK_NODES_MAX;
         const size_t bytes = sizeof(chunk) + capacity * sizeof(node);
         chunk *fresh = malloc(bytes);
@@ -399,21 +401,32 @@ static imp_code make_root(tree *t, tree_growth *growth, imp_error *error)
         growth->bytes += hierarchy_bytes(t->pieces);
         place = place_of_cluster(hierarchy_root(t->pieces), plan->t_start, plan->t_end);
     }
-    _Atomic(node *) root = NULL;
-    return node_make(t, &place, &root, &t->root, growth, error);
+    const imp_code code = node_fill(t, &place, t->root, growth, error);
+    if (code == IMP_SUCCESS) growth->nodes += 1;
+    return code;
+}
+
+/* Without a root. NULL: no memory. */
+static tree *tree_begin(const surface *s, const tree_plan *plan)
+{
+    tree *t = calloc(1, sizeof *t);
+    if (t == NULL) return NULL;
+    t->surface = s;
+    t->plan = *plan;
+    pthread_mutex_init(&t->lock, NULL);
+    t->posing.lock = &t->lock;
+    t->root = &t->first;
+    t->posing.root = t->root;
+    return t;
 }
 
 imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
                   imp_error *error)
 {
-    tree *t = calloc(1, sizeof *t);
+    tree *t = tree_begin(s, plan);
     if (t == NULL) return error_set_memory(error);
-    *t = (tree){.surface = s, .plan = *plan};
-    pthread_mutex_init(&t->lock, NULL);
-    t->posing.lock = &t->lock;
     const imp_code code = make_root(t, growth, error);
     if (code == IMP_SUCCESS) {
-        t->posing.root = t->root;
         growth->bytes += sizeof *t;
         *made = t;
     } else {
@@ -424,21 +437,10 @@ imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_gro
 
 imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error)
 {
-    tree_growth of_root = {0};
-    tree *copy = calloc(1, sizeof *copy);
+    tree *copy = tree_begin(t->surface, &t->plan);
     if (copy == NULL) return error_set_memory(error);
-    *copy = (tree){.surface = t->surface, .plan = t->plan};
-    pthread_mutex_init(&copy->lock, NULL);
-    copy->posing.lock = &copy->lock;
-    copy->root = node_alloc(copy, &of_root);
-    if (copy->root == NULL) {
-        tree_free(copy);
-        return error_set_memory(error);
-    }
-    memset(copy->root, 0, sizeof *copy->root);
     memcpy(copy->root, t->root, offsetof(node, net)); /* what is before, which no thread changes */
-    copy->posing.root = copy->root;
-    growth->bytes += sizeof *copy + of_root.bytes;
+    growth->bytes += sizeof *copy;
     *made = copy;
     return IMP_SUCCESS;
 }
@@ -461,6 +463,10 @@ void tree_free(tree *t)
     pthread_mutex_destroy(&t->lock);
     free(t);
 }
+
+tree *tree_next(const tree *t) { return t->next; }
+
+void tree_set_next(tree *t, tree *next) { t->next = next; }
 
 node *tree_root(const tree *t) { return t->root; }
 

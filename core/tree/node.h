@@ -94,6 +94,10 @@ imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_gro
 imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error);
 void tree_free(tree *t);
 
+/* Lists of trees: what comes after t, or NULL. */
+tree *tree_next(const tree *t);
+void tree_set_next(tree *t, tree *next);
+
 node *tree_root(const tree *t);
 const surface *tree_surface(const tree *t);
 bool tree_is_of(const tree *t, const tree_plan *plan);
