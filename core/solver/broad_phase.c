@@ -89,9 +89,25 @@ bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_
     return true;
 }
 
+enum { FEW = 6 }; /* boxes that are not worth sorting */
+
+static bool visit_few(const swept_box *boxes, size_t count, double clearance,
+                      const broad_phase_visitor *visitor)
+{
+    for (size_t k = 0; k < count; ++k) {
+        if (!visitor->next_box(visitor->context)) return false;
+        for (size_t l = k + 1; l < count; ++l)
+            if (!boxes_apart(&boxes[k], &boxes[l], clearance) &&
+                !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
+                return false;
+    }
+    return true;
+}
+
 bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
                        const broad_phase_visitor *visitor)
 {
+    if (count <= FEW) return visit_few(boxes, count, clearance, visitor);
     const int axis = broad_phase_sort(boxes, count);
     for (size_t k = 0; k < count; ++k) {
         if (!visitor->next_box(visitor->context)) return false;

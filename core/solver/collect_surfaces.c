@@ -26,7 +26,7 @@ static bool plan_of(const collection *all, size_t body, size_t index, tree_plan 
 {
     const imp_options *options = all->options;
     double lo[3], hi[3];
-    imp_scene_domain(all->scene, body, index, lo, hi);
+    surface_domain(scene_surface(all->scene, body, index), lo, hi);
     *plan = (tree_plan){.kind = kind_of(options),
                         .t_start = lo[2] > options->t_start ? lo[2] : options->t_start,
                         .t_end = hi[2] < options->t_end ? hi[2] : options->t_end,
@@ -104,12 +104,15 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
 imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error)
 {
     *done = false;
-    for (size_t b = 0; b < imp_scene_body_count(all->scene); ++b)
-        for (size_t k = 0; k < imp_scene_surface_count(all->scene, b); ++k) {
+    const size_t bodies = imp_scene_body_count(all->scene);
+    for (size_t b = 0; b < bodies; ++b) {
+        const size_t count = imp_scene_surface_count(all->scene, b);
+        for (size_t k = 0; k < count; ++k) {
             if (collection_must_end(all)) return IMP_SUCCESS;
             const imp_code code = collect_surface(all, b, k, error);
             if (code != IMP_SUCCESS) return code;
         }
+    }
     *done = true;
     return IMP_SUCCESS;
 }

@@ -60,9 +60,11 @@ static bool is_complete(const examination *x)
 
 static imp_code examine_bodies(examination *x, size_t a, size_t b)
 {
+    const size_t of_a = imp_scene_surface_count(x->scene, a);
+    const size_t of_b = imp_scene_surface_count(x->scene, b);
     imp_code code = IMP_SUCCESS;
-    for (size_t k = 0; k < imp_scene_surface_count(x->scene, a); ++k)
-        for (size_t l = 0; l < imp_scene_surface_count(x->scene, b); ++l) {
+    for (size_t k = 0; k < of_a; ++k)
+        for (size_t l = 0; l < of_b; ++l) {
             if (code != IMP_SUCCESS || is_complete(x)) return code;
             code =
                 examine_surfaces(x, scene_surface(x->scene, a, k), scene_surface(x->scene, b, l));
@@ -73,10 +75,13 @@ static imp_code examine_bodies(examination *x, size_t a, size_t b)
 static bool are_all_defined(const imp_scene *scene, span asked)
 {
     surface_part part;
-    for (size_t b = 0; b < imp_scene_body_count(scene); ++b)
-        for (size_t k = 0; k < imp_scene_surface_count(scene, b); ++k)
+    const size_t bodies = imp_scene_body_count(scene);
+    for (size_t b = 0; b < bodies; ++b) {
+        const size_t count = imp_scene_surface_count(scene, b);
+        for (size_t k = 0; k < count; ++k)
             if (surface_undefined_part(scene_surface(scene, b, k), asked.lo, asked.hi, &part))
                 return false;
+    }
     return true;
 }
 

@@ -52,8 +52,8 @@ PAD_COVERS(8, 2);            /* of e: two sums */
 
 /* The coordinate whose bound x -+ eval_error breaks beyond rounding, or -1. A NaN breaks none: it is
  * caught where points and bounds are made. */
-static int coordinate_outside(const node *n, const double p[3], const double x[3],
-                              const double eval_error[3])
+IMP_QUAD_INLINE int outside(const node *n, const double p[3], const double x[3],
+                            const double eval_error[3])
 {
     imp_quad rounding;
     const imp_quad middle = polynomial(n, p, &rounding);
@@ -64,6 +64,18 @@ static int coordinate_outside(const node *n, const double p[3], const double x[3
         if (x[i] + slack < n->lo[i] || x[i] - slack > n->hi[i]) return i;
     }
     return -1;
+}
+
+IMP_QUAD_WIDE static int outside_wide(const node *n, const double p[3], const double x[3],
+                                      const double eval_error[3])
+{
+    return outside(n, p, x, eval_error);
+}
+
+static int coordinate_outside(const node *n, const double p[3], const double x[3],
+                              const double eval_error[3])
+{
+    return imp_quad_is_wide() ? outside_wide(n, p, x, eval_error) : outside(n, p, x, eval_error);
 }
 
 /* Of the box of a net at time t, moved outward for rounding: t - time and its products 2, sums 3 of the

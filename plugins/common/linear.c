@@ -141,16 +141,17 @@ IMP_QUAD_INLINE imp_quad linear_noise(const linear *f, const linear_terms *c, co
 IMP_QUAD_INLINE imp_quad linear_most(imp_quad a, imp_quad b, imp_quad c, imp_quad d,
                                      const imp_region *region, int j, int k)
 {
-    const double x[2] = {region->lo[j], region->hi[j]}, y[2] = {region->lo[k], region->hi[k]};
+    const imp_quad q[2] = {imp_quad_all(region->lo[k]), imp_quad_all(region->hi[k])};
+    const imp_quad along_y[2] = {c * q[0], c * q[1]};
     imp_quad most = imp_quad_all(0), size = imp_quad_all(0);
-    for (int corner = 0; corner < 4; ++corner) {
-        const imp_quad p = imp_quad_all(x[corner & 1]), q = imp_quad_all(y[corner >> 1]);
-        const imp_quad along_x = b * p, along_y = c * q, twist = d * p * q;
-        const imp_quad value = imp_quad_abs(a + along_x + along_y + twist);
-        const imp_quad sum =
-            imp_quad_abs(a) + imp_quad_abs(along_x) + imp_quad_abs(along_y) + imp_quad_abs(twist);
-        most = imp_quad_max(most, value);
-        size = imp_quad_max(size, sum);
+    for (int end = 0; end < 2; ++end) {
+        const imp_quad p = imp_quad_all(end ? region->hi[j] : region->lo[j]), along_x = b * p;
+        const imp_quad at = a + along_x, far = imp_quad_abs(a) + imp_quad_abs(along_x);
+        for (int l = 0; l < 2; ++l) {
+            const imp_quad twist = d * p * q[l];
+            most = imp_quad_max(most, imp_quad_abs(at + along_y[l] + twist));
+            size = imp_quad_max(size, far + imp_quad_abs(along_y[l]) + imp_quad_abs(twist));
+        }
     }
     return most + imp_quad_all(16 * 0x1p-53) * size + imp_quad_all(IMP_TINY);
 }
@@ -196,16 +197,18 @@ IMP_QUAD_INLINE void linear_range(const linear_terms *c, const imp_region *regio
 {
     const double *l = region->lo, *h = region->hi;
     imp_quad lo = imp_quad_all(INFINITY), hi = imp_quad_all(-INFINITY);
-    for (int corner = 0; corner < 8; ++corner) {
-        const double p[3] = {corner & 1 ? h[0] : l[0], corner & 2 ? h[1] : l[1],
-                             corner & 4 ? h[2] : l[2]};
-        const imp_quad u = imp_quad_all(p[0]), w = imp_quad_all(p[1]), t = imp_quad_all(p[2]);
+    for (int end = 0; end < 2; ++end) {
+        const imp_quad t = imp_quad_all(end ? h[2] : l[2]);
         const imp_quad along_u = c->k[LINEAR_U] + t * c->v[LINEAR_U];
         const imp_quad along_v = c->k[LINEAR_V] + t * c->v[LINEAR_V];
         const imp_quad twist = c->k[LINEAR_UV] + t * c->v[LINEAR_UV];
-        const imp_quad x = (t * c->v[LINEAR_1] + u * along_u) + w * (along_v + u * twist);
-        lo = imp_quad_min(lo, x);
-        hi = imp_quad_max(hi, x);
+        for (int side = 0; side < 2; ++side) {
+            const imp_quad u = imp_quad_all(side ? h[0] : l[0]);
+            const imp_quad at = t * c->v[LINEAR_1] + u * along_u, slope = along_v + u * twist;
+            const imp_quad x = at + imp_quad_all(l[1]) * slope, y = at + imp_quad_all(h[1]) * slope;
+            lo = imp_quad_min(imp_quad_min(lo, x), y);
+            hi = imp_quad_max(imp_quad_max(hi, x), y);
+        }
     }
     g->lo = c->k[LINEAR_1] + (lo - noise);
     g->hi = c->k[LINEAR_1] + (hi + noise);
