@@ -119,6 +119,7 @@ tests_unit_test_loop_SOURCES = tests/unit/test_loop.c $(type_oracle)
 tests_unit_test_subdivision_SOURCES = tests/unit/test_subdivision.c $(type_oracle)
 tests_unit_test_tightness_SOURCES = tests/unit/test_tightness.c $(type_oracle)
 tests_unit_test_distances_SOURCES = tests/unit/test_distances.c $(type_oracle) \
+    tests/support/nearest.c tests/support/nearest.h \
     tests/support/judge.c tests/support/judge.h \
     tests/support/sampling.c tests/support/sampling.h
 tests_unit_test_plugins_SOURCES = tests/unit/test_plugins.c $(type_oracle) \

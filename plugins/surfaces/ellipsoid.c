@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "plugins/common/publish.h"
+#include "plugins/common/squares.h"
 
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
@@ -49,8 +50,56 @@ static void ellipsoid_formula(const void *self, imp_model u, imp_model v, imp_mo
 }
 IMP_SURFACE_FORMULA(ellipsoid_formula)
 
+/* At least ||q| - 1|, where the range of |q|^2 is known. */
+static double off_upper(const imp_model *square)
+{
+    const double above = imp_sum_up(greatest_root_upper(square) - 1);
+    const double below =
+        imp_sum_up(1 - imp_larger(imp_round_down(sqrt(imp_larger(square->lo, 0))), 0));
+    return imp_larger(above, below);
+}
+
+/* A factor that makes |q| - 1 a distance, q = D^-1 x, D = diag(radii), x from the centre. Lemma. |q| - 1 is 0 on
+ * the surface, and |grad |q|| = |D^-1 q| / |q|, which is at most 1 / b, b the least radius: the factor may be b. Let
+ * d be how far x is from the surface, y the nearest point of it, and a the greatest radius. x / |q| lies on the
+ * surface, so that d <= a ||q| - 1|. From x to y, q changes by d / b at most, and D^-1 q by d / b^2. With
+ * |q| >= least, |D^-1 q| <= steep and ||q| - 1| <= off for all points, the gradient is at most
+ *
+ *   S = (steep + a off / b^2) / (least - a off / b)
+ *
+ * all the way where that is positive, and the factor may be 1 / S. */
+static double factor_lower(const ellipsoid_instance *s, const imp_model q[3],
+                           const imp_model *square)
+{
+    const double a = imp_larger(imp_larger(s->radii[0], s->radii[1]), s->radii[2]);
+    const double b = imp_smaller(imp_smaller(s->radii[0], s->radii[1]), s->radii[2]);
+    const double change = imp_round_up(imp_round_up(a * off_upper(square)) / b);
+    const double root = imp_larger(imp_round_down(sqrt(imp_larger(square->lo, 0))), 0);
+    const double least = imp_sum_down(root - change);
+    imp_model slope[3];
+    for (int i = 0; i < 3; ++i) slope[i] = imp_div(q[i], imp_num(s->radii[i]));
+    const imp_model slopes = sum_of_squares(slope, 3);
+    const double steep = imp_sum_up(greatest_root_upper(&slopes) + imp_round_up(change / b));
+    const double found = least > 0 ? imp_round_down(least / steep) : 0;
+    return imp_larger(found, b);
+}
+
+static imp_model ellipsoid_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const ellipsoid_instance *s = self;
+    const imp_model at[3] = {x, y, z};
+    imp_model q[3];
+    (void)t;
+    for (int i = 0; i < 3; ++i)
+        q[i] = imp_div(imp_shift(at[i], -s->center[i]), imp_num(s->radii[i]));
+    const imp_model square = sum_of_squares(q, 3);
+    return imp_scale(beyond_radius(square, 1), factor_lower(s, q, &square));
+}
+IMP_DISTANCE_FORMULA(ellipsoid_gap)
+
 static const imp_surface_type ellipsoid = {
     IMP_SURFACE_FIELDS(ellipsoid, ellipsoid_formula),
+    .distance = ellipsoid_gap_distance,
     .summary = "ellipsoid with its axes along x, y and z",
     .equation = "center + (a cos v cos u, b cos v sin u, c sin v), radii = [a,b,c], u in [0,2pi], "
                 "v in [-pi/2,pi/2]",

@@ -7,6 +7,7 @@
 
 #include "tests/support/built_plugins.h"
 #include "tests/support/instance.h"
+#include "tests/support/nearest.h"
 #include "tests/support/sampling.h"
 #include "tests/support/suite.h"
 
@@ -69,78 +70,6 @@ static number plane(const type_arguments *a, const number x[3])
     return num_div(num_abs(sum), num_sqrt(square));
 }
 
-/* --- Threads: the distance from the nearest point that a search finds, which is no nearer than the nearest --- */
-
-typedef struct search {
-    const type_arguments *arguments;
-    double pitch, starts, to[3]; /* from the centre */
-} search;
-
-static search search_of(const type_arguments *a)
-{
-    return (search){.arguments = a,
-                    .pitch = argument(a, "pitch")->number[0],
-                    .starts = argument(a, "starts")->number[0]};
-}
-
-static void point_of_thread(const search *s, double u, double z, double x[3])
-{
-    const imp_value *profile = argument(s->arguments, "profile");
-    const double phase = s->starts * u - 6.283185307179586 * z / s->pitch;
-    double radius = argument(s->arguments, "radius")->number[0];
-    for (size_t k = 0; k < profile->count; ++k)
-        radius += profile->number[k] * cos((double)(k + 1) * phase);
-    x[0] = radius * cos(u), x[1] = radius * sin(u), x[2] = z;
-}
-
-static double square_from(const search *s, double u, double z)
-{
-    double x[3], sum = 0;
-    point_of_thread(s, u, z, x);
-    for (int i = 0; i < 3; ++i) sum += (x[i] - s->to[i]) * (x[i] - s->to[i]);
-    return sum;
-}
-
-/* Of a grid about (u, z) with `steps` steps of these sizes to each side, the nearest takes its place. */
-static void step_nearer(const search *s, int steps, double du, double dz, double *u, double *z)
-{
-    const double from_u = *u, from_z = *z;
-    double best = square_from(s, *u, *z);
-    for (int j = -steps; j <= steps; ++j) {
-        for (int k = -steps; k <= steps; ++k) {
-            const double at_u = from_u + j * du, at_z = from_z + k * dz,
-                         square = square_from(s, at_u, at_z);
-            if (square < best) best = square, *u = at_u, *z = at_z;
-        }
-    }
-}
-
-static number distance_between(const search *s, const number x[3], double u, double z)
-{
-    const imp_value *profile = argument(s->arguments, "profile");
-    number turns = num_div(num(z), argument_at(s->arguments, "pitch", 0));
-    number phase = num_sub(num_mul(argument_at(s->arguments, "starts", 0), num(u)),
-                           num_mul(num_mul(num(2), num_pi()), turns));
-    number radius = argument_at(s->arguments, "radius", 0);
-    for (size_t k = 0; k < profile->count; ++k)
-        radius = num_add(radius, num_mul(num(profile->number[k]),
-                                         num_cos(num_mul(num((double)(k + 1)), phase))));
-    const number dx = num_sub(from(s->arguments, "center", x, 0), num_mul(radius, num_cos(num(u))));
-    const number dy = num_sub(from(s->arguments, "center", x, 1), num_mul(radius, num_sin(num(u))));
-    return num_hypot(num_hypot(dx, dy), num_sub(from(s->arguments, "center", x, 2), num(z)));
-}
-
-static number thread(const type_arguments *a, const number x[3])
-{
-    search s = search_of(a);
-    for (size_t i = 0; i < 3; ++i) s.to[i] = num_near(from(a, "center", x, i));
-    double u = atan2(s.to[1], s.to[0]), z = s.to[2], du = 0.7 / s.starts, dz = 0.2 * fabs(s.pitch);
-    step_nearer(&s, 6, du, dz, &u, &z);
-    for (int k = 0; k < 36; ++k, du *= 0.6, dz *= 0.6)
-        step_nearer(&s, 2, 0.6 * du, 0.6 * dz, &u, &z);
-    return distance_between(&s, x, u, z);
-}
-
 static const row rows[] = {
     {"sphere", "{\"radius\": +, \"center\": [?, ?, ?]}", sphere},
     {"sphere", "{\"radius\": 1}", sphere},
@@ -152,11 +81,15 @@ static const row rows[] = {
     {"cone", "{\"radius\": +, \"height\": -2}", cone},
     {"cone", "{\"radius\": 1, \"height\": 1e-3}", cone},
     {"cone", "{\"radius\": +, \"height\": 0, \"center\": [?, ?, ?]}", cone},
-    {"thread", "{}", thread},
-    {"thread", "{\"radius\": +, \"pitch\": +, \"center\": [?, ?, ?]}", thread},
+    {"thread", "{}", nearest_of_thread},
+    {"thread", "{\"radius\": +, \"pitch\": +, \"center\": [?, ?, ?]}", nearest_of_thread},
     {"thread", "{\"radius\": 1.5, \"profile\": [0.2, 0.1, -0.05], \"pitch\": -6, \"starts\": 3}",
-     thread},
-    {"thread", "{\"radius\": 0.5, \"profile\": 0.49, \"pitch\": 6, \"height\": 8}", thread},
+     nearest_of_thread},
+    {"thread", "{\"radius\": 0.5, \"profile\": 0.49, \"pitch\": 6, \"height\": 8}",
+     nearest_of_thread},
+    {"ellipsoid", "{}", nearest_of_ellipsoid},
+    {"ellipsoid", "{\"radii\": [+, +, +], \"center\": [?, ?, ?]}", nearest_of_ellipsoid},
+    {"ellipsoid", "{\"radii\": [1, 1, 3]}", nearest_of_ellipsoid},
     {"plane", "{\"origin\": [?, ?, ?], \"edge_u\": [?, ?, ?], \"edge_v\": [?, ?, ?]}", plane},
     {"plane", "{\"edge_u\": [1e60, 0, 3e60], \"edge_v\": [0, 1e-60, ?]}", plane},
 };
@@ -259,57 +192,77 @@ START_TEST(distances_that_are_too_large_are_found)
 }
 END_TEST
 
-/* --- Points beside threads ----------------------------------------------------------------------------- */
+/* --- Points beside surfaces whose distance has no closed form --------------------------------------- */
 
 enum { BESIDE = 4000 };
 
-static const char *const threads[] = {
-    "{}", "{\"profile\": 0.9, \"pitch\": 100}",
-    "{\"profile\": [0.3, 0.2, 0.1], \"pitch\": -3, \"starts\": 2}",
-    "{\"profile\": 0.05, \"pitch\": 2, \"starts\": 12}",
-    "{\"radius\": 4, \"profile\": [0, 0, 0.4], \"pitch\": 0.8}"};
-enum { THREADS = sizeof threads / sizeof *threads };
+typedef struct shape {
+    row about;
+    void (*point)(const type_arguments *arguments, double u, double v, double x[3]);
+} shape;
 
-/* At any distance from the axis, or near the thread. */
-static void draw_beside(uint64_t *random, const search *s, double x[3])
+#define THREAD(PARAMETERS)                                                                         \
+    {                                                                                              \
+        {"thread", PARAMETERS, nearest_of_thread}, nearest_thread_point                            \
+    }
+#define ELLIPSOID(PARAMETERS)                                                                      \
+    {                                                                                              \
+        {"ellipsoid", PARAMETERS, nearest_of_ellipsoid}, nearest_ellipsoid_point                   \
+    }
+
+static const shape shapes[] = {
+    THREAD("{}"),
+    THREAD("{\"profile\": 0.9, \"pitch\": 100}"),
+    THREAD("{\"profile\": [0.3, 0.2, 0.1], \"pitch\": -3, \"starts\": 2}"),
+    THREAD("{\"profile\": 0.05, \"pitch\": 2, \"starts\": 12}"),
+    THREAD("{\"radius\": 4, \"profile\": [0, 0, 0.4], \"pitch\": 0.8}"),
+    ELLIPSOID("{}"),
+    ELLIPSOID("{\"radii\": [5, 0.25, 1]}"),
+    ELLIPSOID("{\"radii\": [2, 2, 2]}"),
+};
+enum { SHAPES = sizeof shapes / sizeof *shapes };
+
+/* At any distance from the axis or centre, or near the surface. */
+static void draw_beside(uint64_t *random, const shape *s, const type_arguments *a, double x[3])
 {
-    const double z = random_between(random, -2, 2) * s->pitch, near = random_power(random, -12, 0);
+    const double near = random_power(random, -12, 0), v = random_between(random, -1.5, 1.5);
     const double part = random_between(random, 0, 1) < 0.5
                             ? random_between(random, 0, 1.5)
                             : 1 + near * random_between(random, -0.1, 0.1);
-    point_of_thread(s, random_between(random, 0, 6.28), z, x);
+    s->point(a, random_between(random, 0, 6.28), v, x);
     x[0] *= part, x[1] *= part;
+    if (s->point == nearest_ellipsoid_point) x[2] *= part;
 }
 
 /* How many of the points are claimed to be farther away than they are, g times `factor`. */
-static int refuted_beside(const imp_registry *registry, const char *parameters, double factor)
+static int refuted_beside(const imp_registry *registry, const shape *s, double factor)
 {
     uint64_t random = suite_seed();
-    instance made = instance_make(registry, "thread", parameters, &random);
-    const type_arguments *a = &made.arguments;
-    const search s = search_of(a);
+    instance made = instance_make(registry, s->about.type, s->about.parameters, &random);
     int refuted = 0;
     for (int k = 0; k < suite_times(BESIDE); ++k) {
         double x[3];
         imp_model in[4] = {{.a = 0}}, g;
         num_forget();
-        draw_beside(&random, &s, x);
+        draw_beside(&random, s, &made.arguments, x);
         for (int i = 0; i < 3; ++i) in[i] = (imp_model){.a = x[i], .lo = x[i], .hi = x[i]};
         ck_assert_int_eq(made.surface->distance(made.self, in, &g), IMP_OK);
         const number at[3] = {num(x[0]), num(x[1]), num(x[2])};
         const double claimed = factor * (g.lo > 0 ? g.lo : g.hi < 0 ? -g.hi : 0);
-        refuted += num_is_less(thread(a, at), num(claimed));
+        refuted += num_is_less(s->about.exact(&made.arguments, at), num(claimed));
     }
     instance_free(&made);
     return refuted;
 }
 
-START_TEST(points_beside_threads_and_near_their_axes_are_no_nearer_than_is_claimed)
+START_TEST(points_beside_threads_and_ellipsoids_are_no_nearer_than_is_claimed)
 {
     imp_registry *registry = built_registry();
-    for (int k = 0; k < THREADS; ++k) {
-        ck_assert_msg(refuted_beside(registry, threads[k], 1) == 0, "%s", threads[k]);
-        ck_assert_msg(refuted_beside(registry, threads[k], 1.1) > 0, "%s", threads[k]);
+    for (int k = 0; k < SHAPES; ++k) {
+        const int found = refuted_beside(registry, &shapes[k], 1);
+        const int raised = refuted_beside(registry, &shapes[k], 1.1);
+        ck_assert_msg(found == 0 && raised > 0, "%s %s: %d, and raised %d", shapes[k].about.type,
+                      shapes[k].about.parameters, found, raised);
     }
     imp_registry_free(registry);
 }
@@ -326,5 +279,5 @@ END_TEST
 
 SUITE_MAIN("distances", no_distance_is_claimed_that_is_greater_than_the_exact_one,
            distances_that_are_too_large_are_found,
-           points_beside_threads_and_near_their_axes_are_no_nearer_than_is_claimed,
+           points_beside_threads_and_ellipsoids_are_no_nearer_than_is_claimed,
            a_torus_that_intersects_itself_has_no_distance)

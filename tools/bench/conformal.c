@@ -5,37 +5,37 @@
 #include "tools/bench/bench.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-/* Machine parts that slide in each other, c apart along a whole area: the inner one, up to the radius that is
- * c less than where they would touch and from there on; the outer one; and the maps that move one of both. */
+/* Machine parts that slide in each other, c apart along a whole area: the inner one, where # stands before what is
+ * less by c; the outer one; and the maps that move one of both. */
 typedef struct parts {
-    const char *name, *before, *after, *outer, *inner_maps, *outer_maps;
-    double radius;
+    const char *name, *inner, *outer, *inner_maps, *outer_maps;
 } parts;
 
 /* Thread of pitch 0.5, which a screw motion of this pitch takes into itself. */
-#define THREAD_BOLT "\"type\":\"thread\",\"radius\":"
-#define THREAD_NUT "\"type\":\"thread\",\"height\":0.5"
 #define FORMULA                                                                                    \
     "\"type\":\"formula\",\"x\":\"(r+0.1*cos(2*pi*(v-u)))*cos(2*pi*u)\","                          \
     "\"y\":\"(r+0.1*cos(2*pi*(v-u)))*sin(2*pi*u)\",\"z\":\"0.5*v\",\"domain\":[[0,1],"
-#define FORMULA_BOLT FORMULA "[-2,2]],\"constants\":{\"r\":"
-#define FORMULA_NUT FORMULA "[-0.5,0.5]],\"constants\":{\"r\":1}"
 #define SCREW "{\"type\":\"screw\",\"pitch\":0.5,\"rate\":1}"
-#define ALONG_A_RACE "\"type\":\"sphere\",\"center\":[1,0,0],\"radius\":"
 
 enum { PISTON = 2 };
-static const parts all[] = {
-    {"shaft", "\"type\":\"cylinder\",\"radius\":", "", "\"type\":\"cylinder\"",
-     "{\"type\":\"rotate\",\"rate\":3}", "", 1},
-    {"socket", "\"type\":\"sphere\",\"radius\":", "", "\"type\":\"sphere\"",
-     "{\"type\":\"rotate\",\"axis\":[1,2,3],\"rate\":2}", "", 1},
-    {"piston", "\"type\":\"cylinder\",\"height\":1,\"radius\":", "",
-     "\"type\":\"cylinder\",\"height\":4", "{\"type\":\"translate\",\"velocity\":[0,0,0.5]}", "",
-     1},
-    {"race", ALONG_A_RACE, "", "\"type\":\"torus\"", "{\"type\":\"rotate\",\"rate\":1}", "", 0.25},
-    {"thread", THREAD_BOLT, "", THREAD_NUT, "", SCREW, 1},
-    {"thread by formula", FORMULA_BOLT, "}", FORMULA_NUT, "", SCREW, 1}};
+static const parts all[] = {{"shaft", "\"type\":\"cylinder\",\"radius\":#1",
+                             "\"type\":\"cylinder\"", "{\"type\":\"rotate\",\"rate\":3}", ""},
+                            {"socket", "\"type\":\"sphere\",\"radius\":#1", "\"type\":\"sphere\"",
+                             "{\"type\":\"rotate\",\"axis\":[1,2,3],\"rate\":2}", ""},
+                            {"piston", "\"type\":\"cylinder\",\"height\":1,\"radius\":#1",
+                             "\"type\":\"cylinder\",\"height\":4",
+                             "{\"type\":\"translate\",\"velocity\":[0,0,0.5]}", ""},
+                            {"race", "\"type\":\"sphere\",\"center\":[1,0,0],\"radius\":#0.25",
+                             "\"type\":\"torus\"", "{\"type\":\"rotate\",\"rate\":1}", ""},
+                            {"ellipsoid", "\"type\":\"ellipsoid\",\"radii\":[#1.5,#1,#1]",
+                             "\"type\":\"ellipsoid\",\"radii\":[1.5,1,1]",
+                             "{\"type\":\"rotate\",\"axis\":[1,0,0],\"rate\":2}", ""},
+                            {"thread", "\"type\":\"thread\",\"radius\":#1",
+                             "\"type\":\"thread\",\"height\":0.5", "", SCREW},
+                            {"thread by formula", FORMULA "[-2,2]],\"constants\":{\"r\":#1}",
+                             FORMULA "[-0.5,0.5]],\"constants\":{\"r\":1}", "", SCREW}};
 
 /* Where the parts are: as they are; each placed elsewhere; or the one that rests in a fast tumble, and the
  * other one moving with it. */
@@ -57,19 +57,33 @@ static char *moves(const char *own, const char *other, int placing)
     return bench_text("\"maps\":[%s%s%s]", own, comma, maps);
 }
 
+/* The text with what stands behind each # less by c; NULL: no memory. */
+static char *less_by(const char *text, double c)
+{
+    char *made = bench_text("%.*s", (int)strcspn(text, "#"), text), *end;
+    for (const char *at = strchr(text, '#'); made != NULL && at != NULL; at = strchr(end, '#')) {
+        const double number = strtod(at + 1, &end) - c;
+        char *const before = made;
+        made = bench_text("%s%.17g%.*s", before, number, (int)strcspn(end, "#"), end);
+        free(before);
+    }
+    return made;
+}
+
 static void add_parts(bench_cases *list, const parts *p, double c, int placing)
 {
-    char *inner = moves(p->inner_maps, "outer", placing),
-         *outer = moves(p->outer_maps, "inner", placing);
-    char *text = NULL;
-    if (inner != NULL && outer != NULL)
-        text = bench_text("{\"bodies\":[{\"name\":\"inner\",\"surfaces\":[{%s%.17g%s}],%s},"
+    char *inner = less_by(p->inner, c), *text = NULL;
+    char *inner_moves = moves(p->inner_maps, "outer", placing);
+    char *outer_moves = moves(p->outer_maps, "inner", placing);
+    if (inner != NULL && inner_moves != NULL && outer_moves != NULL)
+        text = bench_text("{\"bodies\":[{\"name\":\"inner\",\"surfaces\":[{%s}],%s},"
                           "{\"name\":\"outer\",\"surfaces\":[{%s}],%s}]}",
-                          p->before, p->radius - c, p->after, inner, p->outer, outer);
+                          inner, inner_moves, p->outer, outer_moves);
     bench_begin(list, c / 10, -1, "%s, %sc = %g", p->name, placing_names[placing], c);
     bench_add_text(list, text);
     free(inner);
-    free(outer);
+    free(inner_moves);
+    free(outer_moves);
 }
 
 static exit_status build(bench_cases *list, const bench_request *request)
@@ -88,9 +102,9 @@ static exit_status build(bench_cases *list, const bench_request *request)
 static const bench_method models = {.name = "models", .method = IMP_METHOD_MODELS, .capped = true};
 static const bench_method *const methods[] = {&models, NULL};
 
-const bench_set bench_conformal = {"conformal",
-                                   "A shaft turning in a bore, a ball in a socket and along a "
-                                   "race, a piston in a sleeve, a nut on\n"
-                                   "its bolt, c apart everywhere; both placed by maps, and carried "
-                                   "away. gamma c / 10. Ends at --max-pairs.",
-                                   methods, build, NULL};
+const bench_set bench_conformal = {
+    "conformal",
+    "A shaft turning in a bore, a ball in a socket and along a race, a piston in a sleeve, an\n"
+    "ellipsoid in its hollow and a nut on its bolt, c apart everywhere; at c = 0.01 also both placed\n"
+    "by maps, and carried away. gamma c / 10. Ends at --max-pairs.",
+    methods, build, NULL};
