@@ -108,6 +108,7 @@ core_solver = \
     core/solver/relative.c core/solver/relative.h \
     core/solver/net_hull.h \
     core/solver/net_axis.c core/solver/net_axis.h \
+    core/solver/newton.c core/solver/newton.h \
     core/solver/net_model_axis.c core/solver/net_model_axis.h \
     core/solver/separation.c core/solver/separation.h \
     core/solver/sight.c core/solver/sight.h \

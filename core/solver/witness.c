@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/base/rounding.h"
+#include "core/solver/newton.h"
 #include "core/solver/tuning.h"
 #include "core/tree/bound_audit.h"
 
@@ -14,17 +15,15 @@
  * D = x_b - x_a, by Newton steps with J'J + D.D'' + damping; J and D'' come from the nodes'
  * polynomials (differences where there are none), points from the surfaces themselves. */
 
-enum { UNKNOWNS = 4 };
-
 typedef struct search {
     const node *const *nodes;
     double t;
-    double lo[UNKNOWNS], hi[UNKNOWNS];     /* of y */
+    newton_bounds y;                       /* of y */
     double whole_lo[2][3], whole_hi[2][3]; /* domains of the two surfaces */
 } search;
 
 typedef struct state {
-    double y[UNKNOWNS];
+    double y[NEWTON_UNKNOWNS];
     double p[2][3]; /* parameters (u, v, t) on each surface */
     vec3 x[2];
     vec3 apart; /* D */
@@ -41,13 +40,13 @@ static void search_begin(search *g)
 {
     for (int side = 0; side < 2; ++side)
         surface_domain(g->nodes[side]->surface, g->whole_lo[side], g->whole_hi[side]);
-    for (int k = 0; k < UNKNOWNS; ++k) {
+    for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
         const imp_region *r = &g->nodes[k / 2]->region;
         const int j = k % 2;
-        g->lo[k] = g->hi[k] = 0;
+        g->y.lo[k] = g->y.hi[k] = 0;
         if (!(r->d[j] > 0)) continue;
-        g->lo[k] = fmax(-2, (g->whole_lo[k / 2][j] - r->c[j]) / r->d[j]);
-        g->hi[k] = fmin(2, (g->whole_hi[k / 2][j] - r->c[j]) / r->d[j]);
+        g->y.lo[k] = fmax(-2, (g->whole_lo[k / 2][j] - r->c[j]) / r->d[j]);
+        g->y.hi[k] = fmin(2, (g->whole_hi[k / 2][j] - r->c[j]) / r->d[j]);
     }
 }
 
@@ -134,10 +133,10 @@ static imp_code derive_from_points(const search *g, int side, const state *s, de
     memset(out, 0, sizeof *out);
     for (int j = 0; j < 2; ++j) {
         const int k = 2 * side + j;
-        double y[UNKNOWNS], p[3];
+        double y[NEWTON_UNKNOWNS], p[3];
         memcpy(y, s->y, sizeof y);
-        y[k] += y[k] + DIFFERENCE_STEP <= g->hi[k] ? DIFFERENCE_STEP : -DIFFERENCE_STEP;
-        if (y[k] < g->lo[k]) continue;
+        y[k] += y[k] + DIFFERENCE_STEP <= g->y.hi[k] ? DIFFERENCE_STEP : -DIFFERENCE_STEP;
+        if (y[k] < g->y.lo[k]) continue;
         side_parameters(g, side, y, p);
         if (p[j] == s->p[side][j]) continue;
         vec3 x;
@@ -149,11 +148,12 @@ static imp_code derive_from_points(const search *g, int side, const state *s, de
 }
 
 /* Gradient and Hessian of |D|^2 / 2. */
-static imp_code derive(const search *g, const state *s, double gradient[UNKNOWNS],
-                       double hessian[UNKNOWNS][UNKNOWNS], imp_error *error)
+static imp_code derive(const search *g, const state *s, double gradient[NEWTON_UNKNOWNS],
+                       double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], imp_error *error)
 {
     derivatives d[2];
-    vec3 column[UNKNOWNS];
+    vec3 column[NEWTON_UNKNOWNS];
+    double second[2][2][2];
     for (int side = 0; side < 2; ++side) {
         imp_code code = IMP_SUCCESS;
         if (node_is_flat(g->nodes[side]))
@@ -163,110 +163,34 @@ static imp_code derive(const search *g, const state *s, double gradient[UNKNOWNS
         if (code != IMP_SUCCESS) return code;
         for (int j = 0; j < 2; ++j)
             column[2 * side + j] = vec3_scale(d[side].by[j], side == 0 ? -1 : 1);
+        memcpy(second[side], d[side].second, sizeof second[side]);
     }
-    for (int k = 0; k < UNKNOWNS; ++k) {
-        gradient[k] = vec3_dot(column[k], s->apart);
-        for (int l = 0; l < UNKNOWNS; ++l) {
-            hessian[k][l] = vec3_dot(column[k], column[l]);
-            if (k / 2 == l / 2) {
-                const double second = d[k / 2].second[k % 2][l % 2];
-                hessian[k][l] += k / 2 == 0 ? -second : second;
-            }
-        }
-    }
+    newton_of_gap(s->apart, column, second, gradient, hessian);
     return IMP_SUCCESS;
 }
 
 /* --- Steps -------------------------------------------------------------------------------- */
 
-/* Solves h x = -g by Cholesky, where `held` unknowns stay put; false: h is not positive definite.
- */
-static bool solve(double h[UNKNOWNS][UNKNOWNS], const double *g, const bool *held, double *x)
-{
-    double l[UNKNOWNS][UNKNOWNS] = {{0}};
-    for (int k = 0; k < UNKNOWNS; ++k)
-        for (int m = 0; m <= k; ++m) {
-            double sum = held[k] || held[m] ? (k == m) : h[k][m];
-            for (int i = 0; i < m; ++i) sum -= l[k][i] * l[m][i];
-            if (k != m)
-                l[k][m] = sum / l[m][m];
-            else if (sum > 0)
-                l[k][k] = sqrt(sum);
-            else
-                return false;
-        }
-    for (int k = 0; k < UNKNOWNS; ++k) {
-        double sum = held[k] ? 0 : -g[k];
-        for (int i = 0; i < k; ++i) sum -= l[k][i] * x[i];
-        x[k] = sum / l[k][k];
-    }
-    for (int k = UNKNOWNS - 1; k >= 0; --k) {
-        for (int i = k + 1; i < UNKNOWNS; ++i) x[k] -= l[i][k] * x[i];
-        x[k] /= l[k][k];
-    }
-    return true;
-}
-
-/* A damped step from y that stays within the bounds: unknowns that would leave are held there and
- * the rest solved again. False: there is none, or it overflows. */
-static bool step(const search *g, const double *y, const double *gradient,
-                 double hessian[UNKNOWNS][UNKNOWNS], double damping, double *next)
-{
-    bool held[UNKNOWNS];
-    double h[UNKNOWNS][UNKNOWNS], move[UNKNOWNS];
-    memcpy(h, hessian, sizeof h);
-    for (int k = 0; k < UNKNOWNS; ++k) {
-        h[k][k] += damping;
-        held[k] = !(g->lo[k] < g->hi[k]);
-    }
-    for (int pass = 0; pass <= UNKNOWNS; ++pass) {
-        if (!solve(h, gradient, held, move)) return false;
-        bool more = false;
-        for (int k = 0; k < UNKNOWNS; ++k) {
-            const bool out = (y[k] <= g->lo[k] && move[k] < 0) || (y[k] >= g->hi[k] && move[k] > 0);
-            if (out && !held[k]) held[k] = more = true;
-        }
-        if (!more) break;
-    }
-    for (int k = 0; k < UNKNOWNS; ++k) {
-        const double to = y[k] + (held[k] ? 0 : move[k]);
-        if (!(to - to == 0)) return false;
-        next[k] = to < g->lo[k] ? g->lo[k] : to > g->hi[k] ? g->hi[k] : to;
-    }
-    return true;
-}
-
-static double largest_diagonal(double h[UNKNOWNS][UNKNOWNS])
-{
-    double top = 0;
-    for (int k = 0; k < UNKNOWNS; ++k) top = h[k][k] > top ? h[k][k] : top;
-    return top;
-}
-
-/* Of the largest diagonal element of the Hessian. */
-static const double DAMPING_START = 0x1p-20, DAMPING_MAX = 0x1p10;
-static const double DAMPING_LESS = 0x1p-6, DAMPING_MORE = 0x1p5;
-
 /* Goes downhill from *s until it no longer pays: the gap shrinks by less than TUNING_NEWTON_GAIN of
  * it, or it is far from gamma and shrinks by less than half. */
 static imp_code descend(const search *g, double gamma, state *s, imp_error *error)
 {
-    double damping = DAMPING_START;
+    double damping = NEWTON_DAMPING;
     for (int k = 0; k < TUNING_NEWTON_STEPS && s->gap > 0;) {
-        double gradient[UNKNOWNS], hessian[UNKNOWNS][UNKNOWNS], next[UNKNOWNS];
+        double gradient[NEWTON_UNKNOWNS], hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], next[NEWTON_UNKNOWNS];
         imp_code code = derive(g, s, gradient, hessian, error);
         if (code != IMP_SUCCESS) return code;
-        const double scale = largest_diagonal(hessian);
+        const double scale = newton_scale(hessian);
         if (!(scale > 0)) return IMP_SUCCESS;
         state trial;
         bool better = false;
-        for (; k < TUNING_NEWTON_STEPS && damping < DAMPING_MAX && !better; ++k) {
-            if (step(g, s->y, gradient, hessian, damping * scale, next)) {
+        for (; k < TUNING_NEWTON_STEPS && damping < NEWTON_DAMPING_MAX && !better; ++k) {
+            if (newton_step(&g->y, s->y, gradient, hessian, damping * scale, next)) {
                 code = state_at(g, next, &trial, error);
                 if (code != IMP_SUCCESS) return code;
                 better = trial.gap < s->gap;
             }
-            damping *= better ? DAMPING_LESS : DAMPING_MORE;
+            damping *= better ? NEWTON_DAMPING_LESS : NEWTON_DAMPING_MORE;
         }
         if (!better) return IMP_SUCCESS;
         const double gain = s->gap - trial.gap;
@@ -315,7 +239,7 @@ static imp_code search_run(const node *const nodes[2], double t,
     search g = {.nodes = nodes, .t = t};
     state s;
     search_begin(&g);
-    imp_code code = state_at(&g, (double[UNKNOWNS]){0, 0, 0, 0}, &s, error);
+    imp_code code = state_at(&g, (double[NEWTON_UNKNOWNS]){0, 0, 0, 0}, &s, error);
     if (code == IMP_SUCCESS && moving) code = descend(&g, gamma, &s, error);
     return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
 }
@@ -324,6 +248,16 @@ imp_code witness_seek(const node *const nodes[2], double t,
                       double gamma, witness *found, imp_error *error)
 {
     return search_run(nodes, t, gamma, true, found, error);
+}
+
+/* y may be anywhere on the surfaces. */
+imp_code witness_at(const node *const nodes[2], double t, const double y[4], witness *found, imp_error *error)
+{
+    search g = {.nodes = nodes, .t = t};
+    state s;
+    search_begin(&g);
+    const imp_code code = state_at(&g, y, &s, error);
+    return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
 }
 
 imp_code witness_eval_error(const surface *s, const double p[3], double *eval_error, vec3 *x,

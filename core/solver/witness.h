@@ -28,6 +28,10 @@ imp_code witness_seek(const node *const nodes[2], double t,
 imp_code witness_eval_error(const surface *s, const double p[3], double *eval_error, vec3 *x,
                             imp_error *error);
 
+/* The points at parameters (s_u, s_v) of a and of b relative to the nodes, which may be left, not the surfaces. */
+imp_code witness_at(const node *const nodes[2], double t, const double y[4], witness *found,
+                    imp_error *error);
+
 /* The points at the middles themselves, without a search: the paper's termination. */
 imp_code witness_at_centres(const node *const nodes[2], double t,
                             witness *found, imp_error *error);
