@@ -107,8 +107,9 @@ core_solver = \
     core/solver/query_divide.c \
     core/solver/relative.c core/solver/relative.h \
     core/solver/net_hull.h \
-    core/solver/net_axis.c core/solver/net_axis.h \
-    core/solver/newton.c core/solver/newton.h \
+    core/solver/net_axis.c core/solver/net_axis.h core/solver/net_halves.c core/solver/net_halves.h \
+    core/solver/net_march.c core/solver/net_march.h core/solver/newton.c core/solver/newton.h \
+    core/solver/upper_time.c core/solver/upper_time.h \
     core/solver/net_model_axis.c core/solver/net_model_axis.h \
     core/solver/separation.c core/solver/separation.h \
     core/solver/sight.c core/solver/sight.h \

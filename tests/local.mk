@@ -57,6 +57,7 @@ check_suites = \
     tests/unit/test_scene_judge \
     tests/unit/test_separation \
     tests/unit/test_series \
+    tests/unit/test_upper_times \
     tests/unit/test_sliding \
     tests/unit/test_spheres \
     tests/unit/test_steps \

@@ -9,16 +9,6 @@
 #include "core/solver/simplex.h"
 #include "core/solver/tuning.h"
 
-/* How far B's place is from A's at time t. */
-IMP_QUAD_INLINE vec3 places_apart(const net *a, const net *b, double t)
-{
-    vec3 apart;
-    for (int i = 0; i < 3; ++i)
-        apart.x[i] = (b->place[i] - a->place[i]) +
-                     ((t - b->time) * b->drift[i] - (t - a->time) * a->drift[i]);
-    return apart;
-}
-
 /* --- The search --------------------------------------------------------------------------------- */
 
 typedef struct hulls {
@@ -68,32 +58,6 @@ bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis)
 }
 
 /* --- The proof ------------------------------------------------------------------------------------ */
-
-/* Lemma (rounding of a gap). n.(y - x) of two control points at time t, in units of u R with R = sum_i |n_i|
- * (most of both + |places apart| + |their motions|):
- *
- *   t - time, its product with a velocity or drift        2
- *   a point plus that                                      1
- *   places and drifts: two differences and their sum       3
- *   dots                                                   3
- *   sums of the three parts                                2
- *   R itself                                               6 */
-enum { GAP_ROUNDING = 32 };
-_Static_assert(2 + 1 + 3 + 3 + 2 + 6 <= GAP_ROUNDING, "rounding of a gap");
-
-/* R and the nets' errors along n, for times no farther from the nets' than `late`. */
-IMP_QUAD_INLINE double slack_upper(const net *a, const net *b, vec3 n, double late)
-{
-    double size = 0, error = 0;
-    for (int i = 0; i < 3; ++i) {
-        const double along = fabs(n.x[i]), motion = late * (fabs(a->drift[i]) + fabs(b->drift[i]));
-        size += along * (a->most[i] + b->most[i] + fabs(b->place[i] - a->place[i]) + motion);
-        error += along * (a->error[i] + b->error[i]);
-    }
-    return padded_upper(error, 8) + size * (GAP_ROUNDING * UNIT_ROUNDOFF) + 0x1p-490;
-}
-
-PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
 
 /* Lemma (one axis). But for the error each surface lies in the hull of its net at every moment, so n.(y -
  * x) is at least the least over pairs of control points. Their motion is linear, so that least is concave

@@ -19,12 +19,12 @@ bool pair_test_fully(const impact *im, pair *p)
 
 /* --- The first test --------------------------------------------------------------------------- */
 
-/* Hulls part two nodes where one of them bends and has a net: nets are made of those that may have one.
- * Every later test of the pair finds what is found here. */
-static imp_code ask_for_nets(const impact *im, pair_test *t, imp_error *error)
+/* Hulls part two nodes where one of them bends and has a net. Every later test of the pair finds what is found
+ * here. */
+imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error)
 {
-    const candidate_pair *both = &im->candidate_pairs[t->p.candidate_pair];
-    node *const nodes[2] = {t->p.a, t->p.b};
+    const candidate_pair *both = &im->candidate_pairs[p->candidate_pair];
+    node *const nodes[2] = {p->a, p->b};
     bool offers[2], useful = false;
     tree_growth growth = {0};
     imp_code code = IMP_SUCCESS;
@@ -38,13 +38,13 @@ static imp_code ask_for_nets(const impact *im, pair_test *t, imp_error *error)
         if (offers[side])
             code = node_net(both->side[side]->tree, nodes[side], &found, &growth, error);
     }
-    t->bytes += growth.bytes;
+    *bytes += growth.bytes;
     return code;
 }
 
 imp_code pair_test_first(const impact *im, pair_test *t, imp_error *error)
 {
-    const imp_code code = ask_for_nets(im, t, error);
+    const imp_code code = pair_test_ask_for_nets(im, &t->p, &t->bytes, error);
     if (code != IMP_SUCCESS) return code;
     t->near = im->method == IMP_METHOD_PAPER
                   ? pair_test_fully(im, &t->p)

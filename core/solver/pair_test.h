@@ -14,6 +14,9 @@
 /* Completely; p->window becomes what is left. Of a pair that had its first test, or whose nodes had. */
 bool pair_test_fully(const impact *im, pair *p);
 
+/* Makes the nets of the nodes that may have one, if they are of use; what that takes is added to *bytes. */
+imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error);
+
 /* The first test of t->p, to the rest of *t. Makes the nodes' nets. */
 imp_code pair_test_first(const impact *im, pair_test *t, imp_error *error);
 

@@ -99,19 +99,21 @@ static bool have_nets(const node *a, const node *b)
     return a->bounded && b->bounded && (has_useful_net(a) || has_useful_net(b));
 }
 
+static bool have_both_nets(const node *a, const node *b)
+{
+    return node_net_made(a) != NULL && node_net_made(b) != NULL;
+}
+
 static bool seek_by_nets(const node *a, const node *b, double t, vec3 *axis)
 {
-    return node_net_made(a) != NULL && node_net_made(b) != NULL
-               ? net_axis_seek(a, b, t, axis)
-               : net_model_axis_seek(a, b, t, axis);
+    return have_both_nets(a, b) ? net_axis_seek(a, b, t, axis) : net_model_axis_seek(a, b, t, axis);
 }
 
 static bool cut_by_nets(const node *a, const node *b, vec3 axis, double clearance,
                         time_window *window)
 {
-    return node_net_made(a) != NULL && node_net_made(b) != NULL
-               ? net_axis_cut(a, b, axis, clearance, window)
-               : net_model_axis_cut(a, b, axis, clearance, window);
+    return have_both_nets(a, b) ? net_axis_cut(a, b, axis, clearance, window)
+                                : net_model_axis_cut(a, b, axis, clearance, window);
 }
 
 /* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls show,
@@ -136,7 +138,7 @@ static bool are_models_closer(const node *a, const node *b)
 {
     double remainder = 0, bend = 0;
     const node *both[2] = {a, b};
-    if (node_net_made(a) == NULL || node_net_made(b) == NULL) return true;
+    if (!have_both_nets(a, b)) return true;
     for (int k = 0; k < 2; ++k) {
         const quadratic3 *f = &both[k]->f;
         for (int i = 0; i < 3; ++i) {
@@ -147,8 +149,8 @@ static bool are_models_closer(const node *a, const node *b)
     return TUNING_NET_BEND * remainder < bend;
 }
 
-/* Hulls at the start of the window again and again, as long as that pays; then the quadratics, of flat nodes
- * as ever, of others once, and where they may show more. */
+/* Hulls at the start of the window again and again, as long as that pays; then the quadratics: of flat nodes of which one
+ * has no net as ever, of others once, and where they may show more. */
 static bool shrink_by_nets(const node *a, const node *b, double clearance, time_window *window,
                            vec3 *axis)
 {
@@ -160,7 +162,8 @@ static bool shrink_by_nets(const node *a, const node *b, double clearance, time_
         if (found && !cut_by_nets(a, b, *axis, clearance, window)) return false;
         pays = window->hi - window->lo < TUNING_NET_SHRINKS * length;
     }
-    if (are_flat(a, b)) return shrink(a, b, clearance, window, axis, NULL);
+    if (!have_both_nets(a, b) && are_flat(a, b))
+        return shrink(a, b, clearance, window, axis, NULL);
     return (found && !are_models_closer(a, b)) ||
            cut_by_models(a, b, clearance, window, axis, found);
 }

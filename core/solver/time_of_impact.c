@@ -7,6 +7,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "core/solver/net_halves.h"
 #include "core/solver/pair_test.h"
 #include "core/solver/sight.h"
 #include "core/solver/tuning.h"
@@ -69,7 +70,33 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
     return IMP_SUCCESS;
 }
 
+/* Goes on with halves alone, one after the other, as long as the pair's axis excludes the other half. *some: false where
+ * both halves are. */
+static imp_code leave_out_halves(impact *im, pair *p, bool *some, imp_error *error)
+{
+    net_half left;
+    *some = true;
+    while (net_halves_find(p->a, p->b, p->axis, im->clearance, &p->window, &left)) {
+        const cut c = {left.side, left.along, 0};
+        *some = left.half >= 0;
+        if (!*some) return IMP_SUCCESS;
+        imp_code code =
+            cut_take(&c, left.half, candidate_pair_of(im, p), p, some, im->stats, error);
+        if (code == IMP_SUCCESS && *some) code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
+        if (code != IMP_SUCCESS || !*some) return code;
+        if (p->wait > 0) p->wait -= 1;
+    }
+    return IMP_SUCCESS;
+}
+
 /* --- Following one pair ------------------------------------------------------------------ */
+
+static void note_gap(impact *im, const witness *seen)
+{
+    if (im->any_gap && !(seen->gap < im->least_gap)) return;
+    im->any_gap = true;
+    im->least_gap = seen->gap;
+}
 
 static imp_code find_witness(impact *im, const pair *p, bool moving, witness *seen,
                              imp_error *error)
@@ -78,10 +105,7 @@ static imp_code find_witness(impact *im, const pair *p, bool moving, witness *se
     im->stats->witness_searches += 1;
     const imp_code code = moving ? witness_seek(nodes, p->window.lo, im->gamma, seen, error)
                                  : witness_at_centres(nodes, p->window.lo, seen, error);
-    if (code == IMP_SUCCESS && (!im->any_gap || seen->gap < im->least_gap)) {
-        im->any_gap = true;
-        im->least_gap = seen->gap;
-    }
+    if (code == IMP_SUCCESS) note_gap(im, seen);
     return code;
 }
 
@@ -224,6 +248,10 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
     }
     p->slides = p->slides || from_each.side >= 0;
     p->window = from_each.left; /* not before: other pairs may start sooner */
+    bool some;
+    const imp_code code = leave_out_halves(im, p, &some, error);
+    if (code == IMP_ERROR_PLUGIN || (code == IMP_SUCCESS && !some)) return code;
+    if (code != IMP_SUCCESS) return *state = IMPACT_NO_MEMORY, IMP_SUCCESS;
     const bool tiny = TUNING_TINY * pair_extent(p) <= room(im);
     const cut c = tiny ? cut_in_time(p) : choose_cut(im, p, &from_each);
     if (c.side >= 0) return split(im, p, c, state, error);
@@ -266,6 +294,7 @@ bool impact_refine(impact *im, double gamma, double clearance, size_t count)
     pair_test_drop_ahead(im);
     im->gamma = gamma;
     im->clearance = clearance;
+    upper_time_refine(&im->upper, gamma);
     im->refined = im->serial;
     return true;
 }
@@ -308,7 +337,8 @@ static bool is_first_when_tested(impact *im, pair *p)
 {
     if (!p->is_seen_only) return true;
     if (!pair_test_fully(im, p)) return false;
-    if (im->heap.count == 0 || !(p->window.lo > pair_heap_top(&im->heap)->key[0])) {
+    const bool first = im->heap.count == 0 || !(p->window.lo > pair_heap_top(&im->heap)->key[0]);
+    if (first && !(im->upper.is_known && p->window.lo >= im->upper.t)) {
         if (p->window.lo > im->t_lower) im->t_lower = p->window.lo;
         p->key[0] = p->window.lo;
         return true;
@@ -330,29 +360,73 @@ bool impact_pass(impact *im, size_t count)
             both->side[1]->body == found->side[1]->body)
             im->passed[k] = true;
     }
+    if (im->passed[im->upper.candidate_pair]) im->upper.is_known = im->upper.has_horizon = false;
     return true;
+}
+
+/* --- An upper time ----------------------------------------------------------------------------- */
+
+/* Whether nothing that waits starts before a contact that is known. */
+static bool is_settled(const impact *im)
+{
+    return im->upper.is_known &&
+           (im->heap.count == 0 || !(pair_heap_top(&im->heap)->key[0] < im->upper.t));
+}
+
+static impact_state settle(impact *im)
+{
+    im->t_lower = im->upper.t;
+    im->found_candidate = im->upper.candidate_pair;
+    return contact(im, &im->upper.seen);
+}
+
+/* Ends the pair's window at the horizon. What lies behind waits on the heap, which has room. */
+static void postpone(impact *im, pair *p)
+{
+    pair later = *p;
+    if (!upper_time_divide(&im->upper, &p->window, &later.window)) return;
+    later.serial = im->serial++;
+    later.key[0] = later.window.lo;
+    pair_heap_push(&im->heap, &later);
+}
+
+static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
+{
+    bool sought;
+    if (im->method != IMP_METHOD_MODELS) return IMP_SUCCESS;
+    const imp_code code = upper_time_follow(&im->upper, p, im->gamma, &sought, error);
+    im->stats->witness_searches += sought;
+    if (im->upper.is_known) note_gap(im, &im->upper.seen);
+    postpone(im, p);
+    return code;
 }
 
 /* --- One step --------------------------------------------------------------------------------- */
 
+/* Of the heap: for the pair popped, twice for what is postponed of it, and one more half. */
+enum { ROOM_OF_STEP = 3 };
+
 /* Lemma. The popped pair's window starts first of all, and outside the windows on the heap no two
  * points are within the clearance: so nothing is before that start. Children's windows lie in their
  * parent's, so the bound never falls. A pair that ends the search goes back: finer gamma can go on
- * from it. */
+ * from it. A contact that is known, no later than the first window, is the answer; it is no earlier than
+ * t_lower, since it was followed from a window's start, and no later one is popped since. */
 imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
 {
-    *state = IMPACT_CLEAR;
-    if (im->heap.count == 0) return IMP_SUCCESS;
+    *state = is_settled(im) ? settle(im) : IMPACT_CLEAR;
+    if (*state == IMPACT_CONTACT || im->heap.count == 0) return IMP_SUCCESS;
     *state = IMPACT_NO_MEMORY;
-    if (!pair_heap_reserve(&im->heap, 1)) return IMP_SUCCESS; /* and the place of the one popped */
+    if (!pair_heap_reserve(&im->heap, ROOM_OF_STEP)) return IMP_SUCCESS; /* and the place of the one popped */
     *state = IMPACT_RUNNING;
     pair p = pair_heap_pop(&im->heap);
     if (im->passed != NULL && im->passed[p.candidate_pair]) return IMP_SUCCESS;
     if (p.window.lo > im->t_lower) im->t_lower = p.window.lo;
     if (!is_still_first(im, &p)) return IMP_SUCCESS;
+    postpone(im, &p);
     if (!is_first_when_tested(im, &p)) return IMP_SUCCESS;
+    imp_code code = seek_upper_time(im, &p, error);
     pair followed = p;
-    const imp_code code = follow(im, &followed, state, error);
+    if (code == IMP_SUCCESS) code = follow(im, &followed, state, error);
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);
     im->found_candidate = p.candidate_pair;
     return code;

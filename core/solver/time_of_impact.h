@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 
 #include "core/solver/subdivision.h"
+#include "core/solver/upper_time.h"
 #include "core/solver/witness.h"
 
 /* The search for the earliest contact: pop, witness, prune, split, push
@@ -45,6 +46,7 @@ typedef struct impact {
     const candidate_pair *candidate_pairs; /* the caller's */
     imp_stats *stats;                      /* the caller's; bytes: of the trees, without the heap */
     pair_heap heap;
+    upper_time upper;      /* with method models */
     tests_ahead ahead; /* made by threads that look ahead (pair_test.h) */
     uint64_t serial, refined; /* of the next pair; of the first after impact_refine */
     double t_lower;

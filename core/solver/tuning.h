@@ -51,6 +51,28 @@
  * 2: -0.4, 10: +0.6; searches 2: +62, 10: -28 */
 #define TUNING_WITNESS_WAIT 5
 
+/* --- When to look for an upper time (upper_time.c), and how (net_march.c): pairs of the 100 bicubic scenes at
+ * gamma 1e-6, of 81.5, and per cent of their instructions --- */
+
+/* Pairs followed before the first search.
+ * 4: -3.5, +3 %; 16: +6, -3 % */
+#define TUNING_UPPER_FIRST 8
+/* And before the next: 1 / this as many more.
+ * 1: +7, -1 %; 4: -3, +7 % */
+#define TUNING_UPPER_SHARE 2
+/* Steps in time at most.
+ * 20: 0 */
+#define TUNING_MARCH_STEPS 12
+/* Gaps sought from which on nearest points are only sought roughly.
+ * 16: -0.1, +0.5 %; 1024: -0.2, 0 % */
+#define TUNING_MARCH_NEAR 64
+/* Then the last Newton step gains less than this of the gap.
+ * 2^-5: +3.6, -1 %; 2^-4: +5, -1 % */
+#define TUNING_MARCH_GAIN 0x1p-6
+/* And the next time is this part of the way to where the gap would be gone.
+ * 0.8: -0.6, +0.5 %; 0.95: +0.8, 0 % */
+#define TUNING_MARCH_STRIDE 0.9
+
 /* --- When precision ends (subdivision.c): in units of the evaluation error ---
  *
  * No scene of the sets comes to that. */
@@ -83,12 +105,12 @@
  * 3, 8: 0.0 */
 #define TUNING_FLAT_ROUNDS 4
 /* Part of the window that hulls of nets have to leave at most, to be sought again at its new start. Pairs
- * of bicubic patches at gamma 1e-6: 0.25: +1, 0.75: -1, 0.9: -3 of 164 */
+ * of bicubic patches at gamma 1e-6: 0.25: +0.4, 0.75: -0.2 of 81.5, and 1 % more instructions */
 #define TUNING_NET_SHRINKS 0.5
 /* Part of what bends, of two nodes with nets, from which on their remainders are too large for quadratics to
- * show more than hulls did. Pairs of bicubic patches: 1 to 4: the same, for 4 % (1) and 2 % (2) more
- * instructions than 4 */
-#define TUNING_NET_BEND 4
+ * show more than hulls did. Pairs of bicubic patches: 2 to 16: the same, for 1 % (4) and 1.5 % (2) more
+ * instructions than 8 */
+#define TUNING_NET_BEND 8
 /* At most; six are usual.
  * 6: +1.0, 10: +0.1, 40: 0.0 */
 #define TUNING_GJK_STEPS 20

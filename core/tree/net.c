@@ -250,12 +250,12 @@ static double halving_units(const net *p, int n)
 }
 
 /* Any patch: line after line, then the copies of the last point. */
-static void halve_lines(net *f, parameter j, int side)
+static void halve_lines(const net *f, parameter j, int side, double *x, int columns)
 {
     const int n = f->degree[j], other = f->degree[!j], inner = f->degree[1] + 1;
     const int step = j == PARAMETER_U ? inner : 1, next = j == PARAMETER_U ? 1 : inner;
-    const int columns = f->is_moving ? 6 : 3, points = (n + 1) * (other + 1);
-    double *x = f->numbers, *w = x + columns * f->stride;
+    const int points = (n + 1) * (other + 1);
+    double *w = x + columns * f->stride;
     for (int line = 0; line <= other; ++line)
         if (f->is_weighted)
             halve_weighted(x + line * next, w + line * next, columns, f->stride, n, step, side);
@@ -267,22 +267,29 @@ static void halve_lines(net *f, parameter j, int side)
             x[c * f->stride + k] = x[c * f->stride + points - 1];
 }
 
+void net_halve_columns(const net *p, parameter j, int side, double *x, int columns)
+{
+    if (p->degree[0] != 3 || p->degree[1] != 3)
+        halve_lines(p, j, side, x, columns);
+    else if (p->is_weighted && imp_quad_is_wide())
+        halve_bicubic_weighted_wide(x, columns, j, side);
+    else if (p->is_weighted)
+        halve_bicubic_weighted(x, columns, j, side);
+    else if (imp_quad_is_wide())
+        halve_bicubic_wide(x, columns, j, side);
+    else
+        halve_bicubic(x, columns, j, side);
+}
+
+double net_halving_upper(const net *p, parameter j, double most)
+{
+    return halving_units(p, p->degree[j]) * UNIT_ROUNDOFF * most + HALVING_UNDERFLOW;
+}
+
 void net_halve(const net *p, parameter j, int side, net *half)
 {
-    const int columns = p->is_moving ? 6 : 3, n = p->degree[j];
     memcpy(half, p, net_bytes(p));
-    if (n != 3 || p->degree[!j] != 3)
-        halve_lines(half, j, side);
-    else if (p->is_weighted && imp_quad_is_wide())
-        halve_bicubic_weighted_wide(half->numbers, columns, j, side);
-    else if (p->is_weighted)
-        halve_bicubic_weighted(half->numbers, columns, j, side);
-    else if (imp_quad_is_wide())
-        halve_bicubic_wide(half->numbers, columns, j, side);
-    else
-        halve_bicubic(half->numbers, columns, j, side);
+    net_halve_columns(p, j, side, half->numbers, p->is_moving ? 6 : 3);
     for (int i = 0; i < 3; ++i)
-        half->error[i] =
-            sum_upper(p->error[i],
-                      halving_units(p, n) * UNIT_ROUNDOFF * p->most[i] + HALVING_UNDERFLOW);
+        half->error[i] = sum_upper(p->error[i], net_halving_upper(p, j, p->most[i]));
 }

@@ -49,4 +49,9 @@ bool net_can_halve(const imp_region *region, parameter j);
 /* Fills `half`, which has room for as much, with the net of the lower (0) or upper half along u or v. */
 void net_halve(const net *n, parameter j, int side, net *half);
 
+/* The same of other numbers of its control points, in place: `columns` columns as the net's own, then its weights
+ * if it has any. Numbers no larger than `most` are then off by net_halving_upper at most. */
+void net_halve_columns(const net *n, parameter j, int side, double *x, int columns);
+double net_halving_upper(const net *n, parameter j, double most);
+
 #endif

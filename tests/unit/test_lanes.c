@@ -27,10 +27,16 @@
 #define net_take narrow_net_take
 #define net_can_halve narrow_net_can_halve
 #define net_halve narrow_net_halve
+#define net_halve_columns narrow_net_halve_columns
+#define net_halving_upper narrow_net_halving_upper
+#define net_halves_find narrow_net_halves_find
+#define net_march narrow_net_march
 #define net_axis_seek narrow_net_axis_seek
 #define net_axis_cut narrow_net_axis_cut
 #define net_model_axis_seek narrow_net_model_axis_seek
 #define net_model_axis_cut narrow_net_model_axis_cut
+#include "core/solver/net_halves.h"
+#include "core/solver/net_march.h"
 #include "core/solver/relative.c"
 #include "core/tree/node_model.c"
 #define along along_nearest
@@ -42,6 +48,8 @@
 #include "core/solver/net_axis.c"
 #include "core/solver/net_model_axis.c"
 #include "core/tree/net.c"
+#include "core/solver/net_halves.c"
+#include "core/solver/net_march.c"
 #undef along
 #include "core/solver/axes.c"
 #undef imp_quad_is_wide
@@ -51,6 +59,8 @@
 #undef axes_cut
 #undef axes_cut_along
 #undef net_halve
+#undef net_halves_find
+#undef net_march
 #undef net_axis_seek
 #undef net_axis_cut
 #undef net_model_axis_seek
@@ -62,6 +72,10 @@ bool gjk_axis(const relative *r, double w, vec3 *axis);
 bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines);
 bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis);
 void net_halve(const net *n, parameter j, int side, net *half);
+bool net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+                     const time_window *window, net_half *found);
+bool net_march(const node *a, const node *b, const time_window *window, double gap,
+               net_meeting *found);
 bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 bool net_axis_cut(const node *a, const node *b, vec3 axis, double clearance, time_window *window);
 bool net_model_axis_seek(const node *a, const node *b, double t, vec3 *axis);
@@ -189,6 +203,20 @@ static void check_net(uint64_t *state, node *n, net_buffer *room)
     }
 }
 
+/* What follows of an axis and of a window. */
+static void check_halves_and_march(const node *a, const node *b, vec3 n, const time_window *w)
+{
+    net_half half, narrow_half;
+    net_meeting met = {.t = 0}, narrow_met = met;
+    const bool some = net_halves_find(a, b, n, 1e-3, w, &half);
+    ck_assert(some == narrow_net_halves_find(a, b, n, 1e-3, w, &narrow_half));
+    if (some)
+        ck_assert(half.side == narrow_half.side && half.along == narrow_half.along &&
+                  half.half == narrow_half.half);
+    ck_assert(net_march(a, b, w, 1e-6, &met) == narrow_net_march(a, b, w, 1e-6, &narrow_met));
+    ck_assert(same_bits(&met, &narrow_met, sizeof met / sizeof(double)));
+}
+
 START_TEST(nets_and_their_axes_are_the_same_in_wide_and_narrow_registers)
 {
     uint64_t state = suite_seed();
@@ -201,6 +229,7 @@ START_TEST(nets_and_their_axes_are_the_same_in_wide_and_narrow_registers)
         time_window w = {random_between(&state, 0, 0.5), random_between(&state, 0.5, 1)}, v = w;
         ck_assert(net_axis_seek(&a, &b, w.lo, &n) == narrow_net_axis_seek(&a, &b, w.lo, &m));
         ck_assert(same_bits(&n, &m, 3));
+        check_halves_and_march(&a, &b, n, &w);
         ck_assert(net_axis_cut(&a, &b, n, 1e-3, &w) == narrow_net_axis_cut(&a, &b, n, 1e-3, &v));
         ck_assert(same_bits(&w, &v, 2));
     }

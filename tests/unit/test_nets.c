@@ -3,6 +3,8 @@
 #include <config.h>
 
 #include "core/solver/net_axis.h"
+#include "core/solver/net_halves.h"
+#include "core/solver/net_march.h"
 #include "tests/support/judge.h"
 #include "tests/support/netted.h"
 #include "tests/support/sphere_scenes.h"
@@ -130,20 +132,28 @@ END_TEST
 
 /* --- Windows ----------------------------------------------------------------------------------------- */
 
+/* The squared distance of points of two nets. */
+static number square_between(const netted *const both[2], const double p[2][3])
+{
+    number x[2][3], sum = num(0);
+    for (int side = 0; side < 2; ++side)
+        net_value(&both[side]->given, &both[side]->n.region, p[side], x[side]);
+    for (int i = 0; i < 3; ++i) sum = num_add(sum, num_sqr(num_sub(x[0][i], x[1][i])));
+    return sum;
+}
+
 /* A surely smaller distance than the clearance, at random parameters and time t. */
 static bool surely_near(uint64_t *state, const netted *a, const netted *b, double t,
                         double clearance)
 {
-    number x[2][3], sum;
-    const netted *both[2] = {a, b};
+    const netted *const both[2] = {a, b};
+    double p[2][3];
     num_forget();
     for (int side = 0; side < 2; ++side) {
-        const double p[3] = {random_fraction(state), random_fraction(state), t};
-        net_value(&both[side]->given, &both[side]->n.region, p, x[side]);
+        for (int j = 0; j < 2; ++j) p[side][j] = random_fraction(state);
+        p[side][2] = t;
     }
-    sum = num(0);
-    for (int i = 0; i < 3; ++i) sum = num_add(sum, num_sqr(num_sub(x[0][i], x[1][i])));
-    return num_is_less(sum, num_sqr(num(clearance)));
+    return num_is_less(square_between(both, p), num_sqr(num(clearance)));
 }
 
 START_TEST(nothing_is_near_outside_of_the_window_that_an_axis_leaves)
@@ -213,6 +223,115 @@ START_TEST(an_error_of_the_nets_counts_along_the_axis)
     time_window w = {0, 1};
     ck_assert(net_axis_cut(&a.n, &b.n, (vec3){{0, 0, 1}}, 0.2500001, &w));
     ck_assert(!net_axis_cut(&a.n, &b.n, (vec3){{0, 0, 1}}, 0.2499999, &w));
+}
+END_TEST
+
+/* --- Halves that an axis excludes ------------------------------------------------------------------- */
+
+/* A random point of the half that is not left, or of any where neither is. */
+static void draw_excluded(uint64_t *state, const net_half *left, double p[2])
+{
+    for (int j = 0; j < 2; ++j) p[j] = random_fraction(state);
+    if (left->half >= 0) p[left->along] = 0.5 * (p[left->along] + (left->half == 0));
+}
+
+START_TEST(nothing_of_a_half_that_an_axis_excludes_is_near)
+{
+    uint64_t state = suite_seed();
+    int found = 0, all = 0;
+    for (int k = 0; k < suite_times(3000); ++k) {
+        netted a, b;
+        const netted *const both[2] = {&a, &b};
+        const bool bicubic = random_bits(&state) % 2;
+        draw_net(&state, bicubic ? 3 : (uint32_t)(random_bits(&state) % 4),
+                 bicubic ? 3 : (uint32_t)(random_bits(&state) % 4), 1, &a);
+        draw_net(&state, 3, 3, 1, &b);
+        take(&a, zero, one);
+        take(&b, zero, one);
+        vec3 axis = {{random_between(&state, -1, 1), random_between(&state, -1, 1), 1}};
+        const double start = random_fraction(&state);
+        const time_window w = {start, start + (1 - start) * random_power(&state, -10, 0)};
+        const double clearance = random_power(&state, -6, 1);
+        net_half left;
+        net_axis_seek(&a.n, &b.n, w.lo, &axis);
+        if (!net_halves_find(&a.n, &b.n, axis, clearance, &w, &left)) continue;
+        found += left.half >= 0, all += left.half < 0;
+        for (int l = 0; l < 8; ++l) {
+            const double t = random_between(&state, w.lo, w.hi);
+            double p[2][3] = {{random_fraction(&state), random_fraction(&state), t},
+                              {random_fraction(&state), random_fraction(&state), t}};
+            draw_excluded(&state, &left, p[left.side]);
+            num_forget();
+            ck_assert(!num_is_less(square_between(both, p), num_sqr(num(clearance))));
+        }
+    }
+    ck_assert_int_gt(found, suite_times(3000) / 20);
+    ck_assert_int_gt(all, suite_times(3000) / 20);
+}
+END_TEST
+
+/* A point, and a line of which the upper half lies from 1 on at the start, from `end` at the end. */
+static bool upper_half_is_excluded(double clearance, double end, double error)
+{
+    netted a = {.given = {.degree = {0, 0}}}, b = {.given = {.degree = {1, 0}}};
+    const time_window w = {0, 1};
+    net_half left;
+    b.given.point[2][1] = 2;
+    b.given.place[2] = 0.5 * (end - 1); /* at t = 1/2 */
+    b.given.drift[2] = end - 1;
+    b.given.error[2] = error;
+    take(&a, zero, one);
+    take(&b, zero, one);
+    if (!net_halves_find(&a.n, &b.n, (vec3){{0, 0, 1}}, clearance, &w, &left)) return false;
+    ck_assert(left.side == 1 && left.along == PARAMETER_U && left.half == 0);
+    return true;
+}
+
+START_TEST(a_half_is_excluded_where_it_is_out_of_reach_all_the_time)
+{
+    ck_assert(upper_half_is_excluded(0.9999999, 1, 0));
+    ck_assert(!upper_half_is_excluded(1.0000001, 1, 0));
+    ck_assert(!upper_half_is_excluded(1, 1, 0)); /* rounding counts */
+    ck_assert(!upper_half_is_excluded(1.0000001, 1.5, 0));
+    ck_assert(!upper_half_is_excluded(0.9999999, 0.9, 0));
+    ck_assert(upper_half_is_excluded(0.8999999, 0.9, 0));
+    ck_assert(upper_half_is_excluded(0.7499999, 1, 0.25 / 2));
+    ck_assert(!upper_half_is_excluded(0.9, 1, 0.25));
+}
+END_TEST
+
+/* --- Upper times ----------------------------------------------------------------------------------------- */
+
+START_TEST(two_nets_followed_in_time_are_as_near_as_asked_for)
+{
+    uint64_t state = suite_seed();
+    int met = 0;
+    for (int k = 0; k < suite_times(1000); ++k) {
+        netted a, b;
+        const netted *const both[2] = {&a, &b};
+        const time_window w = {0.25, 1};
+        const double gap = random_power(&state, -30, -10);
+        net_meeting found;
+        draw_net(&state, (uint32_t)(random_bits(&state) % 4), 3, 1, &a);
+        draw_net(&state, 3, (uint32_t)(random_bits(&state) % 4), 1, &b);
+        take(&a, zero, one);
+        take(&b, zero, one);
+        if (!net_march(&a.n, &b.n, &w, gap, &found)) continue;
+        met += 1;
+        ck_assert(w.lo <= found.t && found.t <= w.hi);
+        double p[2][3];
+        for (int side = 0; side < 2; ++side) {
+            for (int j = 0; j < 2; ++j) {
+                const double s = found.y[2 * side + j];
+                ck_assert(-1 <= s && s <= 1);
+                p[side][j] = 0.5 + 0.5 * s;
+            }
+            p[side][2] = found.t;
+        }
+        num_forget();
+        ck_assert(num_is_less(square_between(both, p), num_sqr(num(1.25 * gap + 1e-12))));
+    }
+    ck_assert_int_gt(met, suite_times(1000) / 10);
 }
 END_TEST
 
@@ -319,4 +438,7 @@ SUITE_MAIN("nets", a_net_is_asked_for_where_a_node_of_a_pair_bends_and_may_have_
            nothing_is_near_outside_of_the_window_that_an_axis_leaves,
            the_window_of_two_points_starts_when_they_are_near,
            an_error_of_the_nets_counts_along_the_axis,
+           nothing_of_a_half_that_an_axis_excludes_is_near,
+           a_half_is_excluded_where_it_is_out_of_reach_all_the_time,
+           two_nets_followed_in_time_are_as_near_as_asked_for,
            the_axis_found_shows_most_of_what_any_axis_shows)

@@ -1,0 +1,24 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_NET_MARCH_H
+#define CORE_SOLVER_NET_MARCH_H
+
+#include "core/solver/relative.h"
+
+/* When two nets meet, about
+ * =========================
+ * The nearest points of two surfaces, followed in time: Newton steps on the distance at one time, then on to the
+ * time at which it would be gone at the speed at which it shrinks. Points are those of the nets' patches, so that no
+ * surface is evaluated; what is found is a guess, to be proved by a witness. */
+
+typedef struct net_meeting {
+    double t;
+    double y[4];  /* where: (s_u, s_v) of a and of b, relative to the nodes, which may be left */
+    double speed; /* at which the gap closes; length/time */
+} net_meeting;
+
+/* From the middles of the nodes, each of which has a net, and the start of the window on: the first time in it, about, at which the gap is
+ * `gap`. False: none was found. */
+bool net_march(const node *a, const node *b, const time_window *window, double gap, net_meeting *found);
+
+#endif

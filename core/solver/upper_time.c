@@ -1,0 +1,65 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/upper_time.h"
+
+#include "core/solver/net_march.h"
+#include "core/solver/tuning.h"
+
+/* Of gamma: what nearest points are followed to, so that rounding and the net's error have room, and nothing
+ * nearer has to be told apart from the clearance before it. */
+#define TOUCHING 0.875
+
+static bool is_wanted(upper_time *up, const pair *p)
+{
+    if (node_net_made(p->a) == NULL || node_net_made(p->b) == NULL) return false;
+    up->followed += 1;
+    if (up->next == 0) up->next = TUNING_UPPER_FIRST;
+    if (up->followed < up->next) return false;
+    up->next = up->followed + up->followed / TUNING_UPPER_SHARE + 1;
+    return true;
+}
+
+/* The horizon is where the gap would be gone: a smaller gamma is met before it, so that none of what was left out
+ * is needed again. */
+static void take(upper_time *up, const pair *p, const net_meeting *met, const witness *seen)
+{
+    const double rest = 2 * seen->gap / met->speed;
+    up->is_known = up->has_horizon = true;
+    up->t = met->t;
+    up->seen = *seen;
+    up->candidate_pair = p->candidate_pair;
+    up->horizon = met->t + (rest > 0 && rest < INFINITY ? rest : 0);
+}
+
+imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *sought, imp_error *error)
+{
+    const node *const nodes[2] = {p->a, p->b};
+    time_window window = p->window;
+    net_meeting met;
+    witness seen;
+    *sought = is_wanted(up, p);
+    if (!*sought) return IMP_SUCCESS;
+    if (up->is_known && up->t < window.hi) window.hi = up->t;
+    if (!net_march(p->a, p->b, &window, TOUCHING * gamma, &met)) return IMP_SUCCESS;
+    const imp_code code = witness_at(nodes, met.t, met.y, &seen, error);
+    if (code != IMP_SUCCESS) return code;
+    if (seen.gap_upper <= gamma && !(up->is_known && up->t <= met.t)) take(up, p, &met, &seen);
+    return IMP_SUCCESS;
+}
+
+void upper_time_refine(upper_time *up, double gamma)
+{
+    if (!up->is_known || up->seen.gap_upper <= gamma) return;
+    up->is_known = false;
+    up->next = up->followed;
+}
+
+bool upper_time_divide(const upper_time *up, time_window *window, time_window *later)
+{
+    if (!up->has_horizon || !(window->lo < up->horizon && up->horizon < window->hi)) return false;
+    *later = (time_window){up->horizon, window->hi};
+    window->hi = up->horizon;
+    return true;
+}
