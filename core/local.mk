@@ -44,7 +44,7 @@ core_tree = \
     core/tree/net.c core/tree/net.h \
     core/tree/node.c core/tree/node.h \
     core/tree/node_model.c core/tree/node_model.h \
-    core/tree/pose.c core/tree/pose.h \
+    core/tree/pose.c core/tree/pose.h core/tree/posed_terms.h \
     core/tree/posing.c core/tree/posing.h \
     core/tree/vec.h
 

@@ -49,6 +49,7 @@ check_suites = \
     tests/unit/test_pieces \
     tests/unit/test_pipeline \
     tests/unit/test_plugin_parameters \
+    tests/unit/test_posed_pairs \
     tests/unit/test_quadratic \
     tests/unit/test_query \
     tests/unit/test_query_memory \

@@ -34,37 +34,56 @@ IMP_QUAD_INLINE imp_quad weighted(const bundle *n, const double *v)
 /* The coefficients of a slice along each direction. */
 typedef struct forms {
     imp_quad bu, bv, uu, uv, vv, uw, vw;
-    bool bends; /* false: uu and vv are 0 */
+    bool bends;    /* false: uu and vv are 0 */
+    bool is_cubic; /* uu, uv and vv change with w, too: */
+    imp_quad uuw, uvw, vvw;
 } forms;
 
-IMP_QUAD_INLINE forms project(const bundle *n, const slice *s, bool bends)
+/* `is_cubic` is constant in each caller, so that what is not costs nothing. */
+IMP_QUAD_INLINE forms project(const bundle *n, const slice *s, bool bends, bool is_cubic)
 {
     const imp_quad none = imp_quad_all(0);
-    return (forms){along(n, s->bu),
-                   along(n, s->bv),
-                   bends ? along(n, s->quu) : none,
-                   along(n, s->quv),
-                   bends ? along(n, s->qvv) : none,
-                   along(n, s->quw),
-                   along(n, s->qvw),
-                   bends};
+    forms f = {.bu = along(n, s->bu),
+               .bv = along(n, s->bv),
+               .uu = bends ? along(n, s->quu) : none,
+               .uv = along(n, s->quv),
+               .vv = bends ? along(n, s->qvv) : none,
+               .uw = along(n, s->quw),
+               .vw = along(n, s->qvw),
+               .bends = bends,
+               .is_cubic = is_cubic};
+    if (is_cubic) {
+        f.uuw = along(n, s->uuw);
+        f.uvw = along(n, s->uvw);
+        f.vvw = along(n, s->vvw);
+    }
+    return f;
 }
 
 IMP_QUAD_INLINE forms negative(const forms *f)
 {
-    return (forms){-f->bu, -f->bv, -f->uu, -f->uv, -f->vv, -f->uw, -f->vw, f->bends};
+    return (forms){-f->bu, -f->bv,   -f->uu,      -f->uv,  -f->vv,  -f->uw,
+                   -f->vw, f->bends, f->is_cubic, -f->uuw, -f->uvw, -f->vvw};
 }
 
 IMP_QUAD_INLINE imp_quad turning(const forms *f)
 {
-    return imp_quad_abs(f->uw) + imp_quad_abs(f->vw);
+    const imp_quad slopes = imp_quad_abs(f->uw) + imp_quad_abs(f->vw);
+    if (!f->is_cubic) return slopes;
+    return slopes + (imp_quad_abs(f->uuw) + imp_quad_abs(f->uvw) + imp_quad_abs(f->vvw));
 }
 
-/* The form with the slopes that it has at w. */
+/* The form as it is at w. */
 IMP_QUAD_INLINE quadratics form_at(const forms *f, double w)
 {
     const imp_quad to = imp_quad_all(w);
-    return (quadratics){f->bu + to * f->uw, f->bv + to * f->vw, f->uu, f->uv, f->vv};
+    quadratics p = {f->bu + to * f->uw, f->bv + to * f->vw, f->uu, f->uv, f->vv};
+    if (f->is_cubic) {
+        p.qss += to * f->uuw;
+        p.qsr += to * f->uvw;
+        p.qrr += to * f->vvw;
+    }
+    return p;
 }
 
 IMP_QUAD_INLINE imp_quad lower(const forms *f, double w)
@@ -163,6 +182,28 @@ IMP_QUAD_INLINE chord chord_under(const forms *f, const forms *g)
     return (chord){half * (start + end), half * (end - start)};
 }
 
+/* Lemma (edges). At w, a remainder sum_k d_k (edge_k + swing_k w), |d_k| <= 1, is along n at most
+ * sum_k |n.edge_k + n.swing_k w|, which is convex in w and so at most the chord between its values at the ends.
+ * Rounding: EDGE_ROUNDING. */
+IMP_QUAD_INLINE imp_quad along_edge(const bundle *n, const double edge[3][4], int k)
+{
+    return n->x[0] * imp_quad_all(edge[0][k]) + n->x[1] * imp_quad_all(edge[1][k]) +
+           n->x[2] * imp_quad_all(edge[2][k]);
+}
+
+IMP_QUAD_INLINE chord chord_over_edges(const relative *r, const bundle *n)
+{
+    const imp_quad half = imp_quad_all(0.5);
+    imp_quad start = imp_quad_all(0), end = start;
+    for (int side = 0; side < r->posed; ++side)
+        for (int k = 0; k < 3; ++k) {
+            const imp_quad at = along_edge(n, r->edge[side], k), by = along_edge(n, r->swing[side], k);
+            start += imp_quad_abs(at - by);
+            end += imp_quad_abs(at + by);
+        }
+    return (chord){half * (start + end), half * (end - start)};
+}
+
 /* Lemma (one axis). Let x of A and y of B have fixed parameters s_a, s_b. But for the slack,
  * n.(y - x) is then linear in w, plus n.bend w^2, which lies between min(n.bend, 0) and
  * max(n.bend, 0). The least of what is linear over all s_a, s_b is concave in w, being a
@@ -171,28 +212,28 @@ IMP_QUAD_INLINE chord chord_under(const forms *f, const forms *g)
  *
  *   n.delta + n.drift w + [min Qb - max Qa, max Qb - min Qa],   the forms with their slopes at w,
  *
- * and |n.(y - x)| <= |n| |y - x|. So where the chords less or more sum_i |n_i| slack_i leave
- * [-g, g], g = |n| clearance, the nodes are farther apart than the clearance. 2^-490
+ * and |n.(y - x)| <= |n| |y - x|. So where the chords less or more sum_i |n_i| slack_i, and that over the
+ * edges, leave [-g, g], g = |n| clearance, the nodes are farther apart than the clearance. 2^-490
  * outweighs underflow, since every axis has a coordinate of 1. Lanes whose axis or size is out of
  * range are left out: they prove nothing. The far side is computed only where it may end below g.
  * Rounding, in units of u R, R = sum_i |n_i| magnitude_i:
  *
  *   relative_at                            RELATIVE_ROUNDING
  *   dots n.x                               6: of a form 3, of offset, drift and bend 3
- *   slopes at the ends                     2: product, sum
+ *   form at the ends                       2: product, sum
  *   least values of both forms             2 QUADRATIC_ROUNDING
  *   chord, low +- drift, limit - low      16: sums of at most 4 R
- *   slack and R themselves                 8: product 1, sums 2, two more of the slack */
+ *   slack and R themselves                12: product 1, sums 2, two more of the slack, four of posed nodes */
 enum { AXIS_ROUNDING = 256 };
-_Static_assert(RELATIVE_ROUNDING + 6 + 2 + 2 * QUADRATIC_ROUNDING + 16 + 8 <= AXIS_ROUNDING,
+_Static_assert(RELATIVE_ROUNDING + 6 + 2 + 2 * QUADRATIC_ROUNDING + 16 + 12 <= AXIS_ROUNDING,
                "rounding along one axis");
 
-IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, w_range *s,
-                                gap_lines *lines)
+IMP_QUAD_INLINE bool cut_along_bundle(const relative *r, bundle *n, double clearance, w_range *s,
+                                      gap_lines *lines, bool is_posed)
 {
     const imp_quad longest = bundle_orient(n, r, r->focus);
     const bool bends = !(r->squares == 0);
-    const forms a = project(n, &r->a, bends), b = project(n, &r->b, bends);
+    const forms a = project(n, &r->a, bends, is_posed), b = project(n, &r->b, bends, is_posed);
     const forms minus_a = negative(&a), minus_b = negative(&b);
     const imp_quad offset = along(n, r->delta), drift = along(n, r->drift);
     const imp_quad bend = along(n, r->bend), none = imp_quad_all(0);
@@ -203,7 +244,12 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
     const imp_quad_mask sane = (longest > imp_quad_all(0x1p-400)) &
                                (longest < imp_quad_all(0x1p400)) & (size < imp_quad_all(0x1p400));
     const imp_quad limit = imp_quad_pick(sane, limit_upper(n, clearance), imp_quad_all(INFINITY));
-    const chord near = chord_under(&b, &minus_a);
+    chord over = {none, none}, near = chord_under(&b, &minus_a);
+    if (is_posed) {
+        over = chord_over_edges(r, n);
+        near.middle -= over.middle;
+        near.tilt -= over.tilt;
+    }
     cuts c = {imp_quad_all(-1), imp_quad_all(1), (imp_quad_mask){0}};
     const imp_quad low = offset + imp_quad_min(bend, none) + near.middle - slack;
     cut(&c, low, drift + near.tilt, limit);
@@ -212,11 +258,22 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
     const imp_quad seen = imp_quad_abs(drift) - offset + min_upper_bound(&a) +
                           min_upper_bound(&minus_b) - imp_quad_min(bend, none);
     if (imp_quad_any(seen > none)) {
-        const chord far = chord_under(&a, &minus_b);
+        chord far = chord_under(&a, &minus_b);
+        if (is_posed) {
+            far.middle -= over.middle;
+            far.tilt -= over.tilt;
+        }
         cut(&c, far.middle - high - slack, far.tilt - drift, limit);
         if (lines != NULL) add_lines(lines, n, sane, far.middle - high - slack, far.tilt - drift);
     }
     return w_range_take(s, &c);
+}
+
+IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, w_range *s,
+                                gap_lines *lines)
+{
+    return r->posed > 0 ? cut_along_bundle(r, n, clearance, s, lines, true)
+                        : cut_along_bundle(r, n, clearance, s, lines, false);
 }
 
 /* Along the axis that is best at the focus, the window's start where that decides when the earliest

@@ -11,8 +11,9 @@
 
 /* --- The point that lies lowest along a direction ----------------------------------------- */
 
-/* B - A at a moment: centre, forms of B (0) and of -A (1), and the slack's box. x, y, z and 0 in
- * lanes; and once more coordinate by coordinate, as (u of B, u of -A, v of B, v of -A). */
+/* B - A at a moment: centre, forms of B (0) and of -A (1), and the slack's box; the edges of posed nodes are
+ * left out. x, y, z and 0 in lanes; and once more coordinate by coordinate, as (u of B, u of -A, v of B, v of
+ * -A). */
 typedef struct shape {
     imp_quad centre, slack;
     imp_quad bu[2], bv[2], quu[2], quv[2], qvv[2];

@@ -28,13 +28,21 @@ enum { UU, UV, VV, UW, VW, SECONDS };
 /* A slice in the frame: slopes along u and v, and terms of second order. */
 typedef struct local_slice {
     local l[2], q[SECONDS];
+    double qw[3]; /* how UU, UV and VV change with w, along the normal */
 } local_slice;
 
-static local_slice slice_to_local(const frame *f, const slice *s)
+static local_slice slice_to_local(const frame *f, const slice *s, bool is_posed)
 {
-    return (local_slice){{to_local(f, s->bu), to_local(f, s->bv)},
-                         {to_local(f, s->quu), to_local(f, s->quv), to_local(f, s->qvv),
-                          to_local(f, s->quw), to_local(f, s->qvw)}};
+    local_slice l = {{to_local(f, s->bu), to_local(f, s->bv)},
+                     {to_local(f, s->quu), to_local(f, s->quv), to_local(f, s->qvv),
+                      to_local(f, s->quw), to_local(f, s->qvw)},
+                     {0, 0, 0}};
+    if (is_posed) {
+        l.qw[UU] = vec3_dot(f->n, vec3_from(s->uuw));
+        l.qw[UV] = vec3_dot(f->n, vec3_from(s->uvw));
+        l.qw[VV] = vec3_dot(f->n, vec3_from(s->vvw));
+    }
+    return l;
 }
 
 /* The frame between the two normals; false where the surfaces have none or are not nearly tangent.
@@ -153,14 +161,14 @@ static void part(const local_slice *s, const turn *m, const double *mw, const pa
     p->bs[k] = slope[0];
     p->br[k] = slope[1];
     p->qss[k] = sign * (s->q[UU].n + dot2(m->l[0], &s->l[0]) +
-                        w * (dot2(mw, &s->q[UU]) + both_ways(s, m, UW, 0))) +
+                        w * (s->qw[UU] + dot2(mw, &s->q[UU]) + both_ways(s, m, UW, 0))) +
                 dot2(m->q[UU], &at);
     p->qsr[k] =
         sign * (s->q[UV].n + dot2(m->l[0], &s->l[1]) + dot2(m->l[1], &s->l[0]) +
-                w * (dot2(mw, &s->q[UV]) + both_ways(s, m, UW, 1) + both_ways(s, m, VW, 0))) +
+                w * (s->qw[UV] + dot2(mw, &s->q[UV]) + both_ways(s, m, UW, 1) + both_ways(s, m, VW, 0))) +
         dot2(m->q[UV], &at);
     p->qrr[k] = sign * (s->q[VV].n + dot2(m->l[1], &s->l[1]) +
-                        w * (dot2(mw, &s->q[VV]) + both_ways(s, m, VW, 1))) +
+                        w * (s->qw[VV] + dot2(mw, &s->q[VV]) + both_ways(s, m, VW, 1))) +
                 dot2(m->q[VV], &at);
 }
 
@@ -219,6 +227,31 @@ static double weighted(vec3 n, const double *x)
     return fabs(n.x[0]) * x[0] + fabs(n.x[1]) * x[1] + fabs(n.x[2]) * x[2];
 }
 
+IMP_QUAD_INLINE imp_quad along_edges(const double edge[3][4], vec3 n)
+{
+    return imp_quad_all(n.x[0]) * imp_quad_load(edge[0]) + imp_quad_all(n.x[1]) * imp_quad_load(edge[1]) +
+           imp_quad_all(n.x[2]) * imp_quad_load(edge[2]);
+}
+
+/* At most, along n: what edges add, and how the terms of second order of both change within the window. */
+static double edges_upper(const relative *r, vec3 n)
+{
+    imp_quad sum = imp_quad_all(0);
+    for (int k = 0; k < r->posed; ++k)
+        sum += imp_quad_abs(along_edges(r->edge[k], n)) + imp_quad_abs(along_edges(r->swing[k], n));
+    return sum[0] + sum[1] + sum[2];
+}
+
+static double bending_upper(const relative *r, vec3 n)
+{
+    double sum = 0;
+    const slice *both[2] = {&r->a, &r->b};
+    for (int k = 0; k < 2 && r->posed > 0; ++k)
+        sum += fabs(vec3_dot(n, vec3_from(both[k]->uuw))) + fabs(vec3_dot(n, vec3_from(both[k]->uvw))) +
+               fabs(vec3_dot(n, vec3_from(both[k]->vvw)));
+    return sum;
+}
+
 /* Lemma. Let D = delta + drift w + bend w^2 + (terms of B) - (those of A) + rest, |rest_i| <= slack_i,
  * where the terms of a surface are its slopes l_k s_k, its q_j z_j of second order, z_j being s_u^2,
  * s_u s_v, s_v^2, s_u w or s_v w; and
@@ -250,19 +283,23 @@ static double weighted(vec3 n, const double *x)
  * from every point of A. n0, t and m are what they are in double precision: they need not be unit,
  * tangent or accurate.
  *
+ * Of posed nodes the rest also has sum_k d_k (edge_k + swing_k w), |d_k| <= 1, which adds |n.edge_k| +
+ * |n.swing_k| to |n.rest|; and the terms w z_i qw_i, z_i being s_u^2, s_u s_v or s_v^2, of which w z_i n0.qw_i
+ * belongs to its surface's part, and the remainder is at most (mu1 |t1.qw_i| + mu2 |t2.qw_i|).
+ *
  * Rounding, in units of u size, size = |n0|.magnitude + 2 sum_i mu_i |t_i|.magnitude: each magnitude
  * is multiplied by n0 once, and by each m at most once.
  *
  *   relative_at                           RELATIVE_ROUNDING
  *   coordinates in the frame              3: product, two sums
- *   coefficients of the parts            14: product, times w, sums of at most twelve terms
+ *   coefficients of the parts            15: product, times w, sums of at most thirteen terms
  *   least values of both parts            2 QUADRATIC_ROUNDING
  *   coefficients of the other terms       8: product, sums of at most seven terms
  *   low, its chord                       12: product, sums of at most six terms, of 2 size
  *   mu, slack and size themselves        96: fewer than 32 operations, each on less than 3 size
  */
 enum { FIELD_ROUNDING = 512, SLACK_PAD = 64, MU_PAD = 32, DOT_ROUNDING = 8, LENGTH_PAD = 32 };
-_Static_assert(RELATIVE_ROUNDING + 3 + 14 + 2 * QUADRATIC_ROUNDING + 8 + 12 + 96 <= FIELD_ROUNDING,
+_Static_assert(RELATIVE_ROUNDING + 3 + 15 + 2 * QUADRATIC_ROUNDING + 8 + 12 + 96 <= FIELD_ROUNDING,
                "rounding along a field of normals");
 PAD_COVERS(SLACK_PAD, 4 + 20 + 14 + 16); /* cross; of second order, times nu; sums in all */
 PAD_COVERS(MU_PAD, 4 + 10);              /* slopes and w, terms of second order */
@@ -273,7 +310,7 @@ static bool slack_and_length(const relative *r, const frame *f, const local_slic
                              const local_slice *b, const turns *m, const path *x,
                              double *slack_upper, double *length_upper)
 {
-    double slack = QUADRATIC_UNDERFLOW + weighted(f->n, r->slack) +
+    double slack = QUADRATIC_UNDERFLOW + weighted(f->n, r->slack) + edges_upper(r, f->n) +
                    cross_upper(a, b, &m->a, &m->b) + cubic_upper(a, &m->a) + cubic_upper(b, &m->b) +
                    squared_time_upper(a, &m->a, m->w, x, -1) +
                    squared_time_upper(b, &m->b, m->w, x, 1) + fabs(dot2(m->w, &x->bend));
@@ -284,7 +321,7 @@ static bool slack_and_length(const relative *r, const frame *f, const local_slic
         const double mu =
             padded_upper(turned(&m->a, 0, i) + turned(&m->b, 0, i) + fabs(m->w[i]) + nu, MU_PAD);
         slack += nu * (tangential_rest(a, i) + tangential_rest(b, i) + fabs(x->bend.t[i])) +
-                 mu * weighted(f->t[i], r->slack);
+                 mu * (weighted(f->t[i], r->slack) + edges_upper(r, f->t[i]) + bending_upper(r, f->t[i]));
         size += 2 * mu * weighted(f->t[i], r->magnitude);
         tilt += mu * fabs(vec3_dot(f->n, f->t[i])) + mu * (DOT_ROUNDING * UNIT_ROUNDOFF);
         lean += mu * vec3_norm(f->t[i]);
@@ -344,7 +381,8 @@ bool normal_field_cut(const relative *r, double clearance, w_range *s, gap_lines
     frame f;
     turns m;
     if (!frame_between(r, &f)) return true;
-    const local_slice a = slice_to_local(&f, &r->a), b = slice_to_local(&f, &r->b);
+    const local_slice a = slice_to_local(&f, &r->a, r->posed > 0),
+                      b = slice_to_local(&f, &r->b, r->posed > 0);
     if (!turns_choose(&a, &b, &m)) return true;
     const path x = {to_local(&f, r->delta), to_local(&f, r->drift), to_local(&f, r->bend)};
     const height h = height_of(r, &a, &b, &m, &x);

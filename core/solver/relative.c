@@ -5,6 +5,7 @@
 #include "core/solver/relative.h"
 
 #include "core/solver/tuning.h"
+#include "core/tree/posed_terms.h"
 
 #include <impinge/quad.h>
 
@@ -45,6 +46,83 @@ IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
                    imp_quad_abs(quu) + imp_quad_abs(qvv)};
 }
 
+static void slice_be_square(slice *s)
+{
+    for (int i = 0; i < 4; ++i) s->uuw[i] = s->uvw[i] = s->vvw[i] = 0;
+}
+
+/* Lemma (terms of third order). With s = s0 + k w as above, and with w^2 = 1/2 +- 1/2,
+ *
+ *   uut s (su^2 - 1/2) = (s0 + k w) uut su^2 - (s0 + k w) uut / 2          (vvt alike)
+ *   uvt s su sv        = (s0 + k w) uvt su sv
+ *   utt (s^2 - 1/2) su = (s0^2 - 1/2 + k^2 / 2 + 2 s0 k w) utt su +- k^2 |utt| / 2   (vtt alike)
+ *
+ * Its rounding, in units of u of the vector's size, s0 being off by 2 u and k by u:
+ *
+ *              |uut|   |uvt|   |utt|                                    |bt|, 2 |qtt|   the result
+ *   quu, quv       3       3                  s0 2, product 1                                  1
+ *   uuw, uvw       2       2                  k 1, product 1
+ *   shift          3                          s0 2, sum 1, product 1, sum 1; by 1/2       1
+ *   drift          3                          k 1, sum 1, product 1, sum 1; by 1/2        1
+ *   bu                            12          s0^2 5, k^2 / 2 3, sums 2, product 1, sum 1      1
+ *   quw                            5          2 s0 k 4, product 1                              1
+ *   slack                          4          k^2 3, product 1; by 1/2
+ *   delta          2                          sums
+ *
+ * Columns add up to at most THIRD_ROUNDING, which is added to the slack, and to what MOTION_ROUNDING and
+ * RELATIVE_ROUNDING leave. */
+enum { THIRD_ROUNDING = 32 };
+_Static_assert(3 + 2 + 3 + 3 + 2 <= THIRD_ROUNDING && 12 + 5 + 4 <= THIRD_ROUNDING, "third order");
+
+/* Takes the terms of third order of a posed node into its slice, and its remainder's edges into r. Answers
+ * the rest of the remainder. */
+IMP_QUAD_INLINE imp_quad take_posed_terms(const node *n, relative *r, slice *s, moved *m)
+{
+    const double d = n->region.d[PARAMETER_T], c = n->region.c[PARAMETER_T];
+    const double s0 = d > 0 ? (r->mid - c) / d : 0, k = d > 0 ? r->half / d : 0;
+    const posed_terms x = posed_terms_at(n, s0, k);
+    const imp_quad at = imp_quad_all(s0), by = imp_quad_all(k), half = imp_quad_all(0.5);
+    const imp_quad part = half * (by * by), across = at * at - half + part;
+    const imp_quad turn = imp_quad_all(2) * at * by, bowls = half * (x.uut + x.vvt);
+    m->shift -= at * bowls;
+    m->drift -= by * bowls;
+    imp_quad_store(s->quu, imp_quad_load(s->quu) + at * x.uut);
+    imp_quad_store(s->quv, imp_quad_load(s->quv) + at * x.uvt);
+    imp_quad_store(s->qvv, imp_quad_load(s->qvv) + at * x.vvt);
+    imp_quad_store(s->uuw, by * x.uut);
+    imp_quad_store(s->uvw, by * x.uvt);
+    imp_quad_store(s->vvw, by * x.vvt);
+    imp_quad_store(s->bu, imp_quad_load(s->bu) + across * x.utt);
+    imp_quad_store(s->bv, imp_quad_load(s->bv) + across * x.vtt);
+    imp_quad_store(s->quw, imp_quad_load(s->quw) + turn * x.utt);
+    imp_quad_store(s->qvw, imp_quad_load(s->qvw) + turn * x.vtt);
+    s->normal = vec3_cross(vec3_from(s->bu), vec3_from(s->bv));
+    const imp_quad across_all = imp_quad_abs(x.utt) + imp_quad_abs(x.vtt);
+    const imp_quad third = imp_quad_abs(x.uut) + imp_quad_abs(x.uvt) + imp_quad_abs(x.vvt) + across_all;
+    m->magnitude += imp_quad_all(2) * third;
+    m->squares += imp_quad_abs(x.uut) + imp_quad_abs(x.vvt);
+    for (int i = 0; i < 3; ++i) {
+        imp_quad_store(r->edge[r->posed][i], x.edge[i]);
+        imp_quad_store(r->swing[r->posed][i], x.swing[i]);
+    }
+    ++r->posed;
+    return imp_quad_load(n->posed_e) + x.bow + part * across_all +
+           imp_quad_all(THIRD_ROUNDING * UNIT_ROUNDOFF) * third;
+}
+
+/* Remainders of both, as boxes. */
+IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, relative *r, moved *ma, moved *mb)
+{
+    imp_quad ea = imp_quad_load(a->e), eb = imp_quad_load(b->e);
+    r->posed = 0;
+    if (a->pose == NULL && b->pose == NULL) return ea + eb;
+    slice_be_square(&r->a);
+    slice_be_square(&r->b);
+    if (a->pose != NULL) ea = take_posed_terms(a, r, &r->a, ma);
+    if (b->pose != NULL) eb = take_posed_terms(b, r, &r->b, mb);
+    return ea + eb;
+}
+
 /* Lemma (its rounding). With |s0| + k <= 1, s0 is off by 2 u and k by u. In units of u, off by at
  * most, of each node's
  *
@@ -62,8 +140,8 @@ IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
  * the result is RELATIVE_ROUNDING, which users of it count. Large motions and far places thus cost u
  * of themselves, once, before they cancel. */
 enum { MOTION_ROUNDING = 16 };
-_Static_assert(4 + 3 + 1 <= MOTION_ROUNDING, "|bt|");
-_Static_assert(4 + 4 + 2 + 1 <= MOTION_ROUNDING, "2 |qtt|");
+_Static_assert(4 + 3 + 1 + 2 <= MOTION_ROUNDING, "|bt|");
+_Static_assert(4 + 4 + 2 + 1 + 2 <= MOTION_ROUNDING, "2 |qtt|");
 _Static_assert(3 + 2 <= MOTION_ROUNDING, "|qut|, |qvt|");
 PAD_COVERS(4, 1); /* half of the window: one difference */
 
@@ -75,14 +153,14 @@ IMP_QUAD_INLINE void recentre(const node *a, const node *b, const time_window *w
     r->half = padded_upper(reach, 4);
     r->focus = -1;
     r->share = TUNING_GJK_GAP;
-    const moved ma = slice_at(a, r->mid, r->half, &r->a), mb = slice_at(b, r->mid, r->half, &r->b);
+    moved ma = slice_at(a, r->mid, r->half, &r->a), mb = slice_at(b, r->mid, r->half, &r->b);
+    const imp_quad e = remainders(a, b, r, &ma, &mb);
     const imp_quad apart = imp_quad_load(b->f.a) - imp_quad_load(a->f.a);
     const imp_quad delta = apart + (mb.shift - ma.shift), drift = mb.drift - ma.drift,
                    bend = mb.bend - ma.bend;
     const imp_quad motion = imp_quad_load(a->motion) + imp_quad_load(b->motion);
     const imp_quad slack =
-        (imp_quad_load(a->e) + imp_quad_load(b->e)) +
-        imp_quad_all(MOTION_ROUNDING * UNIT_ROUNDOFF) * (imp_quad_abs(apart) + motion);
+        e + imp_quad_all(MOTION_ROUNDING * UNIT_ROUNDOFF) * (imp_quad_abs(apart) + motion);
     const imp_quad squares = ma.squares + mb.squares;
     r->squares = squares[0] + squares[1] + squares[2];
     imp_quad_store(r->delta, delta);

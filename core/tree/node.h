@@ -63,6 +63,9 @@ typedef struct node {
     _Atomic(const net *) net;           /* NULL: not asked for yet; &net_none: it has none */
     struct shape *shape;        /* what is moved rigidly, */
     struct span *span;          /* and when (posing.h); NULL: neither is known */
+    const struct shape_model *still; /* whose image under */
+    const struct pose_lanes *pose;   /* it is (posed_terms.h); NULL: use e, as one may always */
+    double posed_e[4];               /* what is left of e beside posed terms; length; then 0 */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
 } node;
 

@@ -5,6 +5,7 @@
 #include "core/tree/pose.h"
 
 #include "core/tree/model_lanes.h"
+#include "core/tree/posed_terms.h"
 
 /* --- Side by side ---------------------------------------------------------------------------- */
 
@@ -19,7 +20,7 @@ void pose_take(pose_lanes *p, const imp_pose *given, double norm)
         for (int j = 0; j < 3; ++j) {
             const imp_model *r = &given->turn[i][j];
             const double entry[3] = {r->a, r->b[2], r->q[IMP_TT]};
-            for (int k = 0; k < 3; ++k) p->turn[k][j][i] = entry[k];
+            for (int k = 0; k < 3; ++k) p->turn[k][j][i] = p->row[k][i][j] = entry[k];
             p->turn_error[j][i] = r->e;
             p->turn_most[j][i] = larger(fabs(r->lo), fabs(r->hi));
             p->turn_size[j][i] = fabs(entry[0]) + fabs(entry[1]) + fabs(entry[2]);
@@ -60,17 +61,9 @@ bool shape_model_take(shape_model *s, const imp_model model[3])
 
 /* --- The product ----------------------------------------------------------------------------- */
 
-/* Matrix times vector, column by column. */
-IMP_QUAD_INLINE imp_quad times(const double column[3][4], const double y[4])
-{
-    return imp_quad_load(column[0]) * imp_quad_all(y[0]) +
-           imp_quad_load(column[1]) * imp_quad_all(y[1]) +
-           imp_quad_load(column[2]) * imp_quad_all(y[2]);
-}
-
 IMP_QUAD_INLINE imp_quad size_times(const double column[3][4], const double y[4])
 {
-    return imp_quad_abs(times(column, y));
+    return imp_quad_abs(pose_times(column, y));
 }
 
 /* >= norm |x| for x >= 0; roundings: square 1, sums 2, halved by the root, root 1, product 1. */
@@ -128,27 +121,30 @@ IMP_QUAD_INLINE void take_coefficients(const shape_model *s, const relative_shap
     const imp_quad half = imp_quad_all(0.5);
     for (int j = 0; j < 3; ++j)
         imp_quad_store(near[j], imp_quad_load(p->turn[0][j]) + half * imp_quad_load(p->turn[2][j]));
-    m->a = times(p->turn[0], z->a) + imp_quad_load(p->shift[0]) - half * times(p->turn[2], z->middle);
-    m->b[0] = times(near, s->bu);
-    m->b[1] = times(near, s->bv);
-    m->b[2] = times(p->turn[1], z->both) + imp_quad_load(p->shift[1]);
-    m->q[IMP_UU] = times(near, s->quu);
-    m->q[IMP_UV] = times(near, s->quv);
-    m->q[IMP_VV] = times(near, s->qvv);
-    m->q[IMP_UT] = times(p->turn[1], s->bu);
-    m->q[IMP_VT] = times(p->turn[1], s->bv);
-    m->q[IMP_TT] = times(p->turn[2], z->both) + imp_quad_load(p->shift[2]);
+    m->a = pose_times(p->turn[0], z->a) + imp_quad_load(p->shift[0]) - half * pose_times(p->turn[2], z->middle);
+    m->b[0] = pose_times(near, s->bu);
+    m->b[1] = pose_times(near, s->bv);
+    m->b[2] = pose_times(p->turn[1], z->both) + imp_quad_load(p->shift[1]);
+    m->q[IMP_UU] = pose_times(near, s->quu);
+    m->q[IMP_UV] = pose_times(near, s->quv);
+    m->q[IMP_VV] = pose_times(near, s->qvv);
+    m->q[IMP_UT] = pose_times(p->turn[1], s->bu);
+    m->q[IMP_VT] = pose_times(p->turn[1], s->bv);
+    m->q[IMP_TT] = pose_times(p->turn[2], z->both) + imp_quad_load(p->shift[2]);
 }
 
-/* What the last lemma leaves out of third and fourth order. */
-IMP_QUAD_INLINE imp_quad folded(const shape_model *s, const pose_lanes *p)
+/* What the last lemma leaves out of third order, and of fourth. */
+IMP_QUAD_INLINE imp_quad folded_third(const shape_model *s, const pose_lanes *p)
 {
-    const imp_quad half = imp_quad_all(0.5), quarter = imp_quad_all(0.25);
     const imp_quad halves = size_times(p->turn[1], s->quu) + size_times(p->turn[1], s->qvv) +
-                            size_times(p->turn[2], s->bu) + size_times(p->turn[2], s->bv) +
-                            size_times(p->turn[2], s->quv);
+                            size_times(p->turn[2], s->bu) + size_times(p->turn[2], s->bv);
+    return size_times(p->turn[1], s->quv) + imp_quad_all(0.5) * halves;
+}
+
+IMP_QUAD_INLINE imp_quad folded_fourth(const shape_model *s, const pose_lanes *p)
+{
     const imp_quad quarters = size_times(p->turn[2], s->quu) + size_times(p->turn[2], s->qvv);
-    return size_times(p->turn[1], s->quv) + half * halves + quarter * quarters;
+    return imp_quad_all(0.5) * size_times(p->turn[2], s->quv) + imp_quad_all(0.25) * quarters;
 }
 
 /* Lemma (rounding). Roundings that a product passes through: of R_k A, in a, bt or qtt: A 1, G 1, the
@@ -171,23 +167,38 @@ IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
     imp_quad_store(size, imp_quad_all(TURNED) * imp_quad_abs(imp_quad_load(z->a)) +
                              imp_quad_all(OTHERS) * others);
     return imp_quad_all(UNIT_ROUNDOFF) *
-           (times(p->turn_size, size) + imp_quad_all(MOVED) * imp_quad_load(p->shift_size));
+           (pose_times(p->turn_size, size) + imp_quad_all(MOVED) * imp_quad_load(p->shift_size));
 }
 
 /* Lemma (remainder). |R delta| is at most |R| e, coordinate by coordinate, and norm |e| as a whole;
  * |rho P| <= E (|z| + e). Non-negative sums; the longest chain is the rounding's: size 2 + 5, factor 1, sums
  * 1 + 1, product 1, sums 2, T 1, factor 1, and then 4 sums. Underflows lose less than POSE_UNDERFLOW. */
 #define POSE_UNDERFLOW imp_quad_of(0x1p-1000, 0x1p-1000, 0x1p-1000, 0)
-PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 4);
+PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5);
 
-IMP_QUAD_INLINE imp_quad remainder_upper(const shape_model *s, const relative_shape *z, const pose_lanes *p)
+/* But for third order and R delta: what is left of the remainder of posed terms. */
+IMP_QUAD_INLINE imp_quad rest(const shape_model *s, const relative_shape *z, const pose_lanes *p)
 {
     double far[4];
-    const imp_quad as_one = imp_quad_all(turned_upper(p->norm, s->e));
-    const imp_quad e = imp_quad_min(times(p->turn_most, s->e), as_one);
     imp_quad_store(far, imp_quad_load(z->most) + imp_quad_load(s->e));
-    const imp_quad all = folded(s, p) + e + times(p->turn_error, far) +
-                         imp_quad_load(p->shift_error) + rounding(s, z, p);
+    return folded_fourth(s, p) + pose_times(p->turn_error, far) + imp_quad_load(p->shift_error) +
+           rounding(s, z, p);
+}
+
+IMP_QUAD_INLINE imp_quad remainder_upper(const shape_model *s, const pose_lanes *p, imp_quad rest)
+{
+    const imp_quad as_one = imp_quad_all(turned_upper(p->norm, s->e));
+    const imp_quad e = imp_quad_min(pose_times(p->turn_most, s->e), as_one);
+    return quad_padded_upper(rest + folded_third(s, p) + e, 32) + POSE_UNDERFLOW;
+}
+
+/* With what edges leave out, and may be off by. */
+PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5 + 2);
+
+IMP_QUAD_INLINE imp_quad posed_rest_upper(const shape_model *s, const pose_lanes *p, imp_quad rest)
+{
+    const imp_quad edges = pose_times(p->turn_size, s->e);
+    const imp_quad all = rest + imp_quad_all(EDGE_ROUNDING * UNIT_ROUNDOFF) * edges;
     return quad_padded_upper(all, 32) + POSE_UNDERFLOW;
 }
 
@@ -236,12 +247,12 @@ IMP_QUAD_INLINE range_lanes range_of_box(const shape_model *s, const pose_lanes 
     imp_quad_store(z, at);
     imp_quad_store(size, imp_quad_abs(at));
     imp_quad_store(w, imp_quad_max(imp_quad_abs(hi - m), imp_quad_abs(m - lo)));
-    const imp_quad c0 = times(p->turn[0], z) + imp_quad_load(p->shift[0]);
-    const range_lanes c = bow(times(p->turn[1], z) + imp_quad_load(p->shift[1]),
-                              times(p->turn[2], z) + imp_quad_load(p->shift[2]));
+    const imp_quad c0 = pose_times(p->turn[0], z) + imp_quad_load(p->shift[0]);
+    const range_lanes c = bow(pose_times(p->turn[1], z) + imp_quad_load(p->shift[1]),
+                              pose_times(p->turn[2], z) + imp_quad_load(p->shift[2]));
     const imp_quad slip = imp_quad_all(16 * UNIT_ROUNDOFF) *
-                          (times(p->turn_size, size) + imp_quad_load(p->shift_size));
-    const imp_quad reach = quad_padded_upper(times(p->turn_most, w) + times(p->turn_error, size) +
+                          (pose_times(p->turn_size, size) + imp_quad_load(p->shift_size));
+    const imp_quad reach = quad_padded_upper(pose_times(p->turn_most, w) + pose_times(p->turn_error, size) +
                                                  imp_quad_load(p->shift_error) + slip,
                                              16) +
                            POSE_UNDERFLOW;
@@ -273,13 +284,17 @@ IMP_QUAD_INLINE bool take(node *n, const shape_model *s, const pose_lanes *p)
     model_lanes m;
     const relative_shape z = shape_about(s, p->pivot);
     take_coefficients(s, &z, p, &m);
-    m.e = remainder_upper(s, &z, p);
+    const imp_quad left = rest(s, &z, p);
+    m.e = remainder_upper(s, p, left);
     take_range(s, &z, p, &m);
-    m.rate[0] = times(p->turn_most, s->rate_u);
-    m.rate[1] = times(p->turn_most, s->rate_v);
-    m.rate[2] = times(p->turn_rate, z.most) + imp_quad_load(p->shift_rate);
+    m.rate[0] = pose_times(p->turn_most, s->rate_u);
+    m.rate[1] = pose_times(p->turn_most, s->rate_v);
+    m.rate[2] = pose_times(p->turn_rate, z.most) + imp_quad_load(p->shift_rate);
     if (!lanes_are_bounded(&m) || !lanes_are_sound(&m)) return false;
     lanes_take(n, &m);
+    imp_quad_store(n->posed_e, posed_rest_upper(s, p, left));
+    n->still = s;
+    n->pose = p;
     return true;
 }
 

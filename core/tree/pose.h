@@ -20,6 +20,7 @@ typedef struct shape_model {
 
 typedef struct pose_lanes {
     double turn[3][3][4];    /* coefficients of 1, s, s^2; column; row */
+    double row[3][3][4];     /* the same; row; column */
     double shift[3][4];      /* coefficients of 1, s, s^2; length */
     double turn_error[3][4]; /* remainders, by column and row; */
     double turn_most[3][4];  /* >= |entry|; */
@@ -38,7 +39,7 @@ void pose_take(pose_lanes *p, const imp_pose *given, double norm);
 bool shape_model_take(shape_model *s, const imp_model model[3]);
 
 /* Fills everything of n but region, origin and children, as node_take_model does, with the image of the
- * shape. False: that is not bounded, or the models broke a promise, and n is not filled. */
+ * shape; n may refer to both. False: that is not bounded, or the models broke a promise, and n is not filled. */
 bool node_take_posed(node *n, const shape_model *s, const pose_lanes *p);
 
 #endif

@@ -131,11 +131,37 @@ static void check_node(uint64_t *state, node *n)
     ck_assert(n->bounded == narrow.bounded);
 }
 
+/* The numbers that say whose image under what a node is; not that the node is that. */
+typedef struct image {
+    shape_model still;
+    pose_lanes pose;
+} image;
+
+static void draw_numbers(uint64_t *state, double size, void *at, size_t bytes)
+{
+    for (size_t k = 0; k < bytes; k += sizeof size) {
+        const double x = draw(state, size);
+        memcpy((char *)at + k, &x, sizeof x);
+    }
+}
+
+static void make_posed(uint64_t *state, node *n, image *of)
+{
+    const double size = random_power(state, -20, 1);
+    draw_numbers(state, size, &of->still, sizeof of->still);
+    draw_numbers(state, 1, &of->pose, sizeof of->pose);
+    for (int i = 0; i < 3; ++i) n->posed_e[i] = fabs(draw(state, size));
+    n->still = &of->still;
+    n->pose = &of->pose;
+}
+
 static void check_pair(uint64_t *state, const node *a, const node *b)
 {
     const double start = random_between(state, 0, 0.9);
     const time_window window = {start, start + (1 - start) * random_power(state, -10, 0)};
     relative wide, narrow;
+    memset(&wide, 0, sizeof wide); /* of what is not filled, too */
+    memset(&narrow, 0, sizeof narrow);
     relative_at(a, b, &window, &wide);
     narrow_relative_at(a, b, &window, &narrow);
     ck_assert(same_bits(&wide, &narrow, sizeof wide / sizeof(double)));
@@ -164,8 +190,11 @@ START_TEST(nodes_and_cuts_are_the_same_in_wide_and_narrow_registers)
     uint64_t state = suite_seed();
     for (int k = 0; k < suite_times(20000); ++k) {
         node a, b;
+        image of_a, of_b;
         check_node(&state, &a);
         check_node(&state, &b);
+        if (k % 4 > 1) make_posed(&state, &a, &of_a);
+        if (k % 4 > 0) make_posed(&state, &b, &of_b);
         check_pair(&state, &a, &b);
     }
 }

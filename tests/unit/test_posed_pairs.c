@@ -1,0 +1,299 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <impinge/model.h>
+#include <string.h>
+
+#include "core/solver/axes.h"
+#include "core/solver/normal_field.h"
+#include "core/solver/separation.h"
+#include "core/tree/pose.h"
+#include "tests/support/suite.h"
+
+/* Pairs of images of shapes under poses, brought together exactly within the clearance at a chosen moment, at
+ * points where remainders reach farthest toward each other: no cut may lose that moment. In long double. */
+
+typedef struct image {
+    imp_model shape[3];
+    imp_pose pose;
+    shape_model still;
+    pose_lanes lanes;
+    node n;
+} image;
+
+/* Where a point is: s_u and s_v, and at which share of each remainder. */
+typedef struct place {
+    double s[2], off[3], turn_off[3][3], shift_off[3];
+} place;
+
+typedef struct meeting {
+    image a, b;
+    time_window window;
+    double t, clearance;
+    vec3 along; /* the direction in which they meet */
+} meeting;
+
+static double draw(uint64_t *state, double most) { return most * random_between(state, -1, 1); }
+
+static void range_whole(imp_model *m)
+{
+    m->lo = -INFINITY, m->hi = INFINITY;
+    const imp_interval range = imp_model_poly_range(m);
+    m->lo = range.lo, m->hi = range.hi;
+}
+
+static imp_model draw_shape(uint64_t *state, double bend, double e)
+{
+    imp_model m = imp_num(draw(state, 1));
+    for (int j = 0; j < 2; ++j) m.b[j] = draw(state, 1), m.rate[j] = 4;
+    m.q[IMP_UU] = draw(state, bend), m.q[IMP_UV] = draw(state, bend), m.q[IMP_VV] = draw(state, bend);
+    m.depends = 3;
+    m.e = e * random_power(state, -3, 0);
+    range_whole(&m);
+    return m;
+}
+
+static imp_model draw_in_time(uint64_t *state, double size, double rate, double e)
+{
+    imp_model m = imp_num(draw(state, size));
+    m.b[2] = draw(state, rate), m.q[IMP_TT] = draw(state, rate * rate), m.rate[2] = 4;
+    m.depends = 4;
+    m.e = e * random_power(state, -3, 0);
+    range_whole(&m);
+    return m;
+}
+
+static void fill(image *x, double start, double end)
+{
+    double norm = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) norm += imp_interval_mag(imp_model_range(&x->pose.turn[i][j]));
+    x->n = (node){.region = region_make((double[3]){0, 0, start}, (double[3]){1, 1, end})};
+    ck_assert(shape_model_take(&x->still, x->shape));
+    pose_take(&x->lanes, &x->pose, norm);
+    ck_assert(node_take_posed(&x->n, &x->still, &x->lanes));
+    ck_assert_ptr_nonnull(x->n.pose);
+    for (int i = 0; i < 3; ++i) x->n.lo[i] = -INFINITY, x->n.hi[i] = INFINITY;
+}
+
+static void draw_image(uint64_t *state, image *x)
+{
+    const double bend = random_power(state, -10, 0), rate = random_power(state, -10, 0);
+    const double e = random_bits(state) % 4 ? random_power(state, -12, 0) : 0;
+    const double error = random_bits(state) % 2 ? random_power(state, -12, 0) * e : 0;
+    memset(x, 0, sizeof *x);
+    for (int i = 0; i < 3; ++i) {
+        x->shape[i] = draw_shape(state, bend, e);
+        x->pose.shift[i] = draw_in_time(state, 1, rate, error);
+        x->pose.pivot[i] = random_bits(state) % 2 ? 0 : draw(state, 1);
+        for (int j = 0; j < 3; ++j) x->pose.turn[i][j] = draw_in_time(state, 1, rate, error);
+    }
+}
+
+/* The other image, but for a little of it, and perhaps turning otherwise: so that normals are nearly parallel
+ * for some time. */
+static void draw_alike(uint64_t *state, const image *of, image *x)
+{
+    const double little = random_power(state, -20, -4);
+    const double otherwise = random_bits(state) % 2 ? random_power(state, -4, 0) : little;
+    *x = *of;
+    for (int i = 0; i < 3; ++i) {
+        x->shape[i].q[IMP_UU] += draw(state, little);
+        x->shape[i].q[IMP_VV] += draw(state, little);
+        range_whole(&x->shape[i]);
+        for (int j = 0; j < 3; ++j) {
+            x->pose.turn[i][j].b[2] += draw(state, otherwise);
+            range_whole(&x->pose.turn[i][j]);
+        }
+    }
+}
+
+static long double in_time(const imp_model *m, long double s, double off)
+{
+    return m->a + m->b[2] * s + m->q[IMP_TT] * s * s + (long double)off * m->e;
+}
+
+static void point(const image *x, const place *at, double t, long double p[3])
+{
+    const long double s = ((long double)t - x->n.region.c[2]) / x->n.region.d[2];
+    const long double u = at->s[0], v = at->s[1];
+    long double z[3];
+    for (int j = 0; j < 3; ++j) {
+        const imp_model *m = &x->shape[j];
+        z[j] = m->a + m->b[0] * u + m->b[1] * v + m->q[IMP_UU] * u * u + m->q[IMP_UV] * u * v +
+               m->q[IMP_VV] * v * v + (long double)at->off[j] * m->e - x->pose.pivot[j];
+    }
+    for (int i = 0; i < 3; ++i) {
+        p[i] = in_time(&x->pose.shift[i], s, at->shift_off[i]);
+        for (int j = 0; j < 3; ++j)
+            p[i] += in_time(&x->pose.turn[i][j], s, at->turn_off[i][j]) * z[j];
+    }
+}
+
+static long double height(const image *x, const place *at, double t, vec3 n)
+{
+    long double p[3];
+    point(x, at, t, p);
+    return n.x[0] * p[0] + n.x[1] * p[1] + n.x[2] * p[2];
+}
+
+static double end_or_inside(uint64_t *state)
+{
+    return random_bits(state) % 2 ? random_bits(state) % 2 ? -1 : 1 : random_between(state, -1, 1);
+}
+
+/* The sign of each share that moves the point along n. */
+static void push(const image *x, double t, vec3 n, place *at)
+{
+    double *const share = at->off;
+    enum { SHARES = 3 + 9 + 3 };
+    _Static_assert(sizeof(place) == (2 + SHARES) * sizeof *share, "shares lie side by side");
+    for (int k = 0; k < SHARES; ++k) {
+        share[k] = 1;
+        const long double above = height(x, at, t, n);
+        share[k] = -1;
+        if (above > height(x, at, t, n)) share[k] = 1;
+    }
+}
+
+/* A point of those that lie farthest along n. */
+static place farthest(uint64_t *state, const image *x, double t, vec3 n)
+{
+    place best;
+    memset(&best, 0, sizeof best);
+    push(x, t, n, &best);
+    for (int k = 0; k < 24; ++k) {
+        place next = best;
+        for (int j = 0; j < 2; ++j)
+            if (random_bits(state) % 2) next.s[j] = end_or_inside(state);
+        push(x, t, n, &next);
+        if (height(x, &next, t, n) > height(x, &best, t, n)) best = next;
+    }
+    return best;
+}
+
+static void draw_meeting(uint64_t *state, meeting *m, bool alike)
+{
+    draw_image(state, &m->a);
+    if (alike)
+        draw_alike(state, &m->a, &m->b);
+    else
+        draw_image(state, &m->b);
+    fill(&m->a, 0, 1);
+    fill(&m->b, alike ? 0 : draw(state, 1) - 1, alike ? 1 : 2);
+    m->window.lo = random_between(state, 0, 0.9);
+    m->window.hi = m->window.lo + (1 - m->window.lo) * random_power(state, -6, 0);
+    const uint64_t where = random_bits(state) % 4;
+    m->t = where == 0   ? m->window.lo
+           : where == 1 ? m->window.hi
+                        : random_between(state, m->window.lo, m->window.hi);
+    m->clearance = random_power(state, -14, 0);
+    for (int i = 0; i < 3; ++i) m->along.x[i] = draw(state, 1);
+    if (alike && random_bits(state) % 4) m->along = m->a.n.normal;
+    m->along = vec3_scale(m->along, 1 / vec3_norm(m->along));
+}
+
+/* Moves B so that its lowest point is above A's highest by the clearance times `share`. What the mean of the
+ * places is rounded by is far less than what 1e-9 leaves. */
+static void bring_together(uint64_t *state, meeting *m, double share)
+{
+    long double pa[3], pb[3];
+    const vec3 back = vec3_scale(m->along, -1);
+    const place a = farthest(state, &m->a, m->t, m->along), b = farthest(state, &m->b, m->t, back);
+    point(&m->a, &a, m->t, pa);
+    point(&m->b, &b, m->t, pb);
+    for (int i = 0; i < 3; ++i)
+        m->b.n.f.a[i] += (double)(pa[i] - pb[i] + m->along.x[i] * m->clearance * share);
+}
+
+START_TEST(a_meeting_of_turning_nodes_is_never_cut_away)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(8000); ++k) {
+        meeting m;
+        draw_meeting(&state, &m, k % 2);
+        bring_together(&state, &m, 1 - 1e-9);
+        time_window left = m.window;
+        vec3 axis = m.along;
+        const bool some = separation_by_models(&m.a.n, &m.b.n, m.clearance, &left, &axis);
+        ck_assert_msg(some && left.lo <= m.t && m.t <= left.hi,
+                      "case %d: near at %.17g of [%.17g, %.17g], left [%.17g, %.17g]", k, m.t,
+                      m.window.lo, m.window.hi, left.lo, left.hi);
+    }
+}
+END_TEST
+
+static void check_left(const meeting *m, const relative *r, bool some, const w_range *s, int k)
+{
+    const long double w = r->half > 0 ? (m->t - (long double)r->mid) / r->half : 0;
+    ck_assert_msg(some && s->lo <= w && w <= s->hi, "case %d: near at w = %Lg, left [%g, %g]", k, w,
+                  s->lo, s->hi);
+}
+
+START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
+{
+    uint64_t state = suite_seed() + 1;
+    for (int k = 0; k < suite_times(16000); ++k) {
+        meeting m;
+        draw_meeting(&state, &m, k % 4 != 0);
+        bring_together(&state, &m, 1 - 1e-9);
+        relative r;
+        w_range axes = {-1, 1}, given = {-1, 1}, field = {-1, 1};
+        vec3 axis = m.along;
+        relative_at(&m.a.n, &m.b.n, &m.window, &r);
+        check_left(&m, &r, axes_cut_along(&r, m.clearance, &given, m.along), &given, k);
+        check_left(&m, &r, axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
+        check_left(&m, &r, normal_field_cut(&r, m.clearance, &field, NULL), &field, k);
+    }
+}
+END_TEST
+
+START_TEST(no_gap_of_turning_nodes_is_below_the_lower_bound_of_the_distance)
+{
+    uint64_t state = suite_seed() + 2;
+    for (int k = 0; k < suite_times(6000); ++k) {
+        meeting m;
+        draw_meeting(&state, &m, k % 2);
+        bring_together(&state, &m, 1);
+        time_window left = m.window;
+        vec3 axis = m.along;
+        approach near = {NAN, m.t};
+        const double above = m.clearance * (1 + 1e-9);
+        const bool some = separation_approach(&m.a.n, &m.b.n, above, &left, &axis, &near);
+        ck_assert_msg(some && near.lower <= above, "case %d: %g apart, lower bound %g", k, m.clearance,
+                      near.lower);
+    }
+}
+END_TEST
+
+static bool is_parted(const node *a, const node *b, const meeting *m)
+{
+    time_window left = m->window;
+    vec3 axis = m->along;
+    return !separation_by_models(a, b, m->clearance, &left, &axis);
+}
+
+/* Of those that a box hardly parts. */
+START_TEST(turning_remainders_part_more_than_boxes_do)
+{
+    uint64_t state = suite_seed() + 3;
+    int by_box = 0, by_terms = 0;
+    for (int k = 0; k < suite_times(4000); ++k) {
+        meeting m;
+        draw_meeting(&state, &m, false);
+        m.clearance = 1;
+        bring_together(&state, &m, 1 + random_power(&state, -4, 1));
+        node a = m.a.n, b = m.b.n;
+        by_terms += is_parted(&a, &b, &m);
+        a.pose = b.pose = NULL;
+        by_box += is_parted(&a, &b, &m);
+    }
+    ck_assert_msg(by_terms > 1.05 * by_box, "%d, and %d by boxes", by_terms, by_box);
+}
+END_TEST
+
+SUITE_MAIN("posed pairs", a_meeting_of_turning_nodes_is_never_cut_away,
+           neither_axes_nor_field_of_normals_lose_a_meeting_alone,
+           no_gap_of_turning_nodes_is_below_the_lower_bound_of_the_distance,
+           turning_remainders_part_more_than_boxes_do)
