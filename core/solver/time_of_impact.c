@@ -207,12 +207,22 @@ static bool witness_is_likely(const impact *im, const pair *p, const sight *seen
            precision_ends(im, p, TUNING_WITNESS_FLAT);
 }
 
+/* Of the side that is worth halving alone. Not where its remainder does not matter any more: where surfaces come to
+ * touch along a curve, it would be halved all along before the other side is small enough for a witness. */
+static cut choose_cut_alone(const impact *im, const pair *p, const sight *seen)
+{
+    if (seen->side < 0) return CUT_NONE;
+    const node *n = seen->side == 0 ? p->a : p->b;
+    const bool matters = n->e[0] + n->e[1] + n->e[2] > scale(im);
+    return matters ? cut_alone(p, seen->side, seen->bend, scale(im)) : CUT_NONE;
+}
+
 /* The pairs that hold the points of a contact are near each other for a long time where gamma is wide
  * and its room narrow: how motion bends in that time, not place, is what keeps their starts from being
  * found. What one side's distance shows comes first. */
 static cut choose_cut(const impact *im, const pair *p, const sight *seen)
 {
-    const cut alone = seen->side >= 0 ? cut_alone(p, seen->side, seen->bend, scale(im)) : CUT_NONE;
+    const cut alone = choose_cut_alone(im, p, seen);
     if (alone.side >= 0) return alone;
     const cut bend = scale(im) < im->gamma ? cut_by_bend(p, scale(im)) : CUT_NONE;
     return bend.side >= 0 ? bend : cut_by_spread(p, scale(im));

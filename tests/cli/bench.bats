@@ -87,6 +87,12 @@ measured() {
         length == 12 and all(.verdicts.clear == 1 and .pairs.max <= 40000)'
 }
 
+@test "threads that come to touch all along are found for a few ten thousand pairs" {
+    run -0 "$IMPINGE" pair 'thread radius=0.95' 'thread height=0.5 ! translate velocity=0,0,0.2' \
+        --gamma 1e-4 --json
+    json '.verdict == "contact" and (.t_lower - 0.2004 | fabs) < 1e-3 and .stats.pairs < 30000'
+}
+
 @test "no scene of any other set is left open, and none takes 64 megabytes" {
     measured '[.sets[] | select(.set != "conformal").cases[].methods[]] | length >= 50 and
         all(.verdicts.undecided == 0 and .bytes.max < 64 * 1024 * 1024)'
