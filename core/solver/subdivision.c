@@ -265,6 +265,32 @@ imp_code cut_take(const cut *c, int half, const candidate_pair *both, pair *p, b
     return IMP_SUCCESS;
 }
 
+imp_code pair_take_bare(pair *p, int side, parameter along, int half, const candidate_pair *both,
+                        imp_stats *stats, imp_error *error)
+{
+    node **slot = side == 0 ? &p->a : &p->b;
+    tree *t = both->side[side]->tree;
+    const net *made;
+    tree_growth growth = {0};
+    imp_code code = node_child_bare(t, *slot, along, half, slot, &growth, error);
+    if (code == IMP_SUCCESS) code = node_net(t, *slot, &made, &growth, error);
+    stats->bytes += growth.bytes;
+    return code;
+}
+
+imp_code pair_complete(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error)
+{
+    imp_code code = IMP_SUCCESS;
+    for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
+        node **slot = side == 0 ? &p->a : &p->b;
+        tree_growth growth = {0};
+        code = node_complete(both->side[side]->tree, *slot, slot, &growth, error);
+        stats->nodes += growth.nodes;
+        stats->bytes += growth.bytes;
+    }
+    return code;
+}
+
 imp_code pair_descend(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error)
 {
     while (pair_has_cluster(p)) {

@@ -71,22 +71,25 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
 }
 
 /* Goes on with halves alone, one after the other, as long as the pair's axis excludes the other half. *some: false where
- * both halves are. */
+ * both halves are. Models are made of the last alone. */
 static imp_code leave_out_halves(impact *im, pair *p, bool *some, imp_error *error)
 {
+    const candidate_pair *both = candidate_pair_of(im, p);
     net_half left;
+    bool any = false;
     *some = true;
     while (net_halves_find(p->a, p->b, p->axis, im->clearance, &p->window, &left)) {
-        const cut c = {left.side, left.along, 0};
         *some = left.half >= 0;
         if (!*some) return IMP_SUCCESS;
-        imp_code code =
-            cut_take(&c, left.half, candidate_pair_of(im, p), p, some, im->stats, error);
-        if (code == IMP_SUCCESS && *some) code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
-        if (code != IMP_SUCCESS || !*some) return code;
+        const imp_code code =
+            pair_take_bare(p, left.side, left.along, left.half, both, im->stats, error);
+        if (code != IMP_SUCCESS) return code;
+        any = true;
         if (p->wait > 0) p->wait -= 1;
     }
-    return IMP_SUCCESS;
+    if (!any) return IMP_SUCCESS;
+    const imp_code code = pair_complete(p, both, im->stats, error);
+    return code == IMP_SUCCESS ? pair_test_ask_for_nets(im, p, &im->stats->bytes, error) : code;
 }
 
 /* --- Following one pair ------------------------------------------------------------------ */

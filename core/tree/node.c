@@ -242,6 +242,8 @@ static imp_code fill_net(tree *t, const node *n, net_buffer *room, const net **m
     if (whole == NULL) return ask_net(n, room, made, error);
     *made = whole;
     if (n->along == PARAMETER_T) return IMP_SUCCESS;
+    const node *bare = atomic_load_explicit(&n->parent->bare[n->along][n->side], memory_order_acquire);
+    if (bare != NULL && node_net_made(bare) != NULL) return *made = node_net_made(bare), IMP_SUCCESS;
     net_halve(whole, n->along, n->side, net_in(room));
     *made = net_in(room);
     return IMP_SUCCESS;
@@ -505,6 +507,33 @@ imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, 
     }
     *child = made;
     return IMP_SUCCESS;
+}
+
+imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
+                         tree_growth *growth, imp_error *error)
+{
+    assert(parent->many == NULL && j != PARAMETER_T);
+    *child = atomic_load_explicit(&parent->child[j][side], memory_order_acquire);
+    if (*child == NULL) *child = atomic_load_explicit(&parent->bare[j][side], memory_order_acquire);
+    if (*child != NULL) return IMP_SUCCESS;
+    tree_growth own = {0};
+    const node half = {.region = region_half(&parent->region, j, side),
+                       .surface = parent->surface,
+                       .parent = parent,
+                       .along = j,
+                       .side = side,
+                       .bounded = true,
+                       .is_bare = true};
+    *child = node_publish(t, &half, &parent->bare[j][side], &own);
+    growth->bytes += own.bytes;
+    return *child != NULL ? IMP_SUCCESS : error_set_memory(error);
+}
+
+imp_code node_complete(tree *t, node *n, node **whole, tree_growth *growth, imp_error *error)
+{
+    *whole = n;
+    return n->is_bare ? node_child(t, n->parent, n->along, n->side, whole, growth, error)
+                      : IMP_SUCCESS;
 }
 
 imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error)

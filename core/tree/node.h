@@ -55,6 +55,7 @@ typedef struct node {
     double nonlinear_extent[3]; /* the same for what is not linear in the parameters; length */
     double time_remainder;      /* time's share in e where its rate is known, about; length */
     bool bounded;               /* f, e, lo, hi are all finite */
+    bool is_bare;               /* of what is above only the region and `bounded`, which is true, mean anything */
     const surface *surface;     /* whose points are bounded: a piece, or the whole */
     const cluster *many;        /* of these pieces of it; NULL: of one surface */
     struct node *parent;        /* NULL: it is the root */
@@ -67,6 +68,7 @@ typedef struct node {
     const struct pose_lanes *pose;   /* it is (posed_terms.h); NULL: use e, as one may always */
     double posed_e[4];               /* what is left of e beside posed terms; length; then 0 */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
+    _Atomic(struct node *) bare[2][2];  /* the same along u and v, without models */
 } node;
 
 typedef struct tree tree;
@@ -110,6 +112,14 @@ bool tree_is_of(const tree *t, const tree_plan *plan);
  * type, the region and what it answered. */
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error);
+
+/* The same half along u or v for its net alone: on the way to a smaller one no models are made. Unless the half is
+ * there already it is bare, and not counted as a node. Precondition: `parent` is no cluster. */
+imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
+                         tree_growth *growth, imp_error *error);
+
+/* The node itself, or, where it is bare, the node of its region with models. */
+imp_code node_complete(tree *t, node *n, node **whole, tree_growth *growth, imp_error *error);
 
 /* The control net of the node, made now if it is asked for first; NULL: it has none. What this call makes
  * is added to *growth. IMP_ERROR_PLUGIN as above. */

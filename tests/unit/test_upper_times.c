@@ -130,5 +130,30 @@ START_TEST(what_is_put_off_until_the_contact_waits)
 }
 END_TEST
 
-SUITE_MAIN("upper times", smaller_gammas_find_what_is_found_afresh,
+/* Nets of halves that were made without models are held against points with the nodes that they end in. */
+START_TEST(bounds_of_what_is_left_of_patches_hold_their_points)
+{
+    uint64_t state = suite_seed();
+    imp_registry *registry = query_registry();
+    for (int k = 0; k < suite_times(20); ++k) {
+        imp_scene *scene = draw_scene(&state, registry);
+        imp_options options = imp_options_default(scene);
+        imp_result r[2];
+        for (int audit = 0; audit < 2; ++audit) {
+            imp_error error = {IMP_SUCCESS, ""};
+            r[audit].struct_size = sizeof r[audit];
+            options.audit = audit;
+            ck_assert_msg(imp_scene_solve(scene, &options, &r[audit], &error) == IMP_SUCCESS, "%s",
+                          error.text);
+        }
+        ck_assert(r[0].verdict == IMP_CONTACT && r[0].t == r[1].t);
+        ck_assert(r[0].stats.pairs == r[1].stats.pairs && r[0].stats.nodes == r[1].stats.nodes);
+        imp_scene_free(scene);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+SUITE_MAIN("upper times", bounds_of_what_is_left_of_patches_hold_their_points,
+           smaller_gammas_find_what_is_found_afresh,
            what_is_put_off_until_the_contact_waits)
