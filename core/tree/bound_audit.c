@@ -9,12 +9,19 @@
 #include "core/base/rounding.h"
 #include "core/common/random.h"
 #include "core/tree/distance_audit.h"
+#include "core/tree/posed_terms.h"
 
 static bool region_holds(const imp_region *r, const double p[3])
 {
     for (int j = 0; j < 3; ++j)
         if (!(r->lo[j] <= p[j] && p[j] <= r->hi[j])) return false;
     return true;
+}
+
+/* In [-1, 1], but for 2 roundings. */
+static double parameter_within(const node *n, const double p[3], int j)
+{
+    return n->region.d[j] > 0 ? (p[j] - n->region.c[j]) / n->region.d[j] : 0;
 }
 
 /* The polynomial at p, x, y, z in lanes, and how far off rounding may be, in units of u times the sum
@@ -26,8 +33,7 @@ IMP_QUAD_INLINE imp_quad polynomial(const node *n, const double p[3], imp_quad *
 {
     const quadratic3 *f = &n->f;
     imp_quad s[3];
-    for (int j = 0; j < 3; ++j)
-        s[j] = imp_quad_all(n->region.d[j] > 0 ? (p[j] - n->region.c[j]) / n->region.d[j] : 0);
+    for (int j = 0; j < 3; ++j) s[j] = imp_quad_all(parameter_within(n, p, j));
     const imp_quad term[10] = {imp_quad_load(f->a),
                                imp_quad_load(f->bu) * s[0],
                                imp_quad_load(f->bv) * s[1],
@@ -76,6 +82,70 @@ static int coordinate_outside(const node *n, const double p[3], const double x[3
                               const double eval_error[3])
 {
     return imp_quad_is_wide() ? outside_wide(n, p, x, eval_error) : outside(n, p, x, eval_error);
+}
+
+/* Terms of third order at p; *size is the sum of their vectors' sizes. Rounding, in units of u of that: three
+ * factors s 2 each, a square less 1/2 1, products 3, sums 4. */
+enum { THIRD_ROUNDING = 16 };
+_Static_assert(3 * 2 + 1 + 3 + 4 <= THIRD_ROUNDING, "rounding of terms of third order");
+
+IMP_QUAD_INLINE imp_quad third_order(const posed_terms *x, const double s[3], imp_quad *size)
+{
+    const imp_quad u = imp_quad_all(s[0]), v = imp_quad_all(s[1]), t = imp_quad_all(s[2]);
+    const imp_quad half = imp_quad_all(0.5);
+    *size = imp_quad_abs(x->uut) + imp_quad_abs(x->uvt) + imp_quad_abs(x->vvt) +
+            imp_quad_abs(x->utt) + imp_quad_abs(x->vtt);
+    return x->uut * (t * (u * u - half)) + x->uvt * (t * u * v) + x->vvt * (t * (v * v - half)) +
+           (t * t - half) * (x->utt * u + x->vtt * v);
+}
+
+/* Of what edges and boxes reach along an axis: dots 3, sums 9; and of the dot with what is off, 3 and 1. */
+enum { OFF_ROUNDING = 8 };
+PAD_COVERS(32, 3 + 9);
+
+/* Whether x leaves what a posed node's remainder reaches along one of the body's axes, as they are then, beyond
+ * rounding. */
+IMP_QUAD_INLINE bool outside_edges(const node *n, const double p[3], const double x[3],
+                                   const double eval_error[3])
+{
+    imp_quad rounding, size;
+    const double s[3] = {parameter_within(n, p, 0), parameter_within(n, p, 1), parameter_within(n, p, 2)};
+    const posed_terms terms = posed_terms_at(n, s[2], 0);
+    const imp_quad at = {x[0], x[1], x[2], 0}, slack = {eval_error[0], eval_error[1], eval_error[2], 0};
+    const imp_quad third = third_order(&terms, s, &size), t = imp_quad_all(s[2]);
+    const imp_quad off = at - polynomial(n, p, &rounding) - third;
+    const imp_quad box = imp_quad_load(n->posed_e) + slack + rounding +
+                         imp_quad_all(THIRD_ROUNDING * UNIT_ROUNDOFF) * size +
+                         imp_quad_all(POINT_ROUNDING * UNIT_ROUNDOFF) * imp_quad_abs(at) +
+                         imp_quad_all(OFF_ROUNDING * UNIT_ROUNDOFF) * imp_quad_abs(off);
+    for (int j = 0; j < 3; ++j) {
+        const imp_quad axis = imp_quad_load(n->pose->turn[0][j]) +
+                              (imp_quad_load(n->pose->turn[1][j]) + imp_quad_load(n->pose->turn[2][j]) * t) * t;
+        imp_quad along = imp_quad_all(0);
+        double way = 0, reach = 0;
+        for (int i = 0; i < 3; ++i) {
+            along += imp_quad_all(axis[i]) * terms.edge[i];
+            way += axis[i] * off[i];
+            reach += fabs(axis[i]) * box[i];
+        }
+        reach += fabs(along[0]) + fabs(along[1]) + fabs(along[2]);
+        if (fabs(way) > padded_upper(reach, 32)) return true;
+    }
+    return false;
+}
+
+IMP_QUAD_WIDE static bool outside_edges_wide(const node *n, const double p[3], const double x[3],
+                                             const double eval_error[3])
+{
+    return outside_edges(n, p, x, eval_error);
+}
+
+static bool leaves_edges(const node *n, const double p[3], const double x[3],
+                         const double eval_error[3])
+{
+    if (n->pose == NULL) return false;
+    return imp_quad_is_wide() ? outside_edges_wide(n, p, x, eval_error)
+                              : outside_edges(n, p, x, eval_error);
 }
 
 /* Of the box of a net at time t, moved outward for rounding: t - time and its products 2, sums 3 of the
@@ -135,11 +205,22 @@ static imp_code lie(const surface *s, const node *n, const double p[3], const do
                          p[2], axis, x[i], middle, n->e[i], n->lo[i], n->hi[i]);
 }
 
+static imp_code lie_of_shape(const surface *s, const node *n, const double p[3], imp_error *error)
+{
+    const imp_region *r = &n->region;
+    return surface_fault(s, error,
+                         "breaks its own bounds over u [%.17g, %.17g], v [%.17g, %.17g], "
+                         "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g it leaves the remainder "
+                         "that it has before its maps, moved as they say",
+                         r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1], p[2]);
+}
+
 static imp_code judge(const surface *s, const node *n, const double p[3], const double x[3],
                       const double eval_error[3], imp_error *error)
 {
     int i = coordinate_outside(n, p, x, eval_error);
     if (i >= 0) return lie(s, n, p, x, i, error);
+    if (leaves_edges(n, p, x, eval_error)) return lie_of_shape(s, n, p, error);
     const net *hull = node_net_made(n);
     i = hull != NULL ? coordinate_off_net(hull, p[2], x, eval_error) : -1;
     return i >= 0 ? lie_of_net(s, n, p, x, i, error) : IMP_SUCCESS;
@@ -162,6 +243,7 @@ imp_code bound_audit_holds_at(const surface *s, const node *n, const double p[3]
     for (int i = 0; i < 3; ++i) eval_error[i] = 0;
     const net *hull = node_net_made(n);
     const bool fine = coordinate_outside(n, p, x, eval_error) < 0 &&
+                      !leaves_edges(n, p, x, eval_error) &&
                       (hull == NULL || coordinate_off_net(hull, p[2], x, eval_error) < 0);
     if (fine || !evaluate(s, p, again, eval_error)) return IMP_SUCCESS;
     return judge(s, n, p, again, eval_error, error);

@@ -8,7 +8,8 @@
 /* Claims of plugins, held against their own points
  * ================================================
  * Bounds are claims of the plugin's author. Every point that is evaluated anyway is held
- * against the inclusion of the node it lies in; an audit adds points at every node. What is
+ * against the inclusion of the node it lies in, and against what a posed node's remainder reaches along the
+ * body's axes; an audit adds points at every node. What is
  * found is a counterexample: the claim is wrong beyond rounding, at a point that is named. */
 
 /* IMP_ERROR_PLUGIN if the node lies: x = f(p), evaluated without error bounds, is not where the

@@ -310,6 +310,26 @@ START_TEST(nodes_under_chains_of_rigid_maps_hold_their_points)
 }
 END_TEST
 
+/* Points leave a turning remainder that is less than it has to be, though they lie in the node's box. */
+START_TEST(points_are_held_against_remainders_that_turn)
+{
+    uint64_t state = suite_seed();
+    imp_error error;
+    int refuted = 0;
+    for (int k = 0; k < suite_times(60); ++k) {
+        moved_egg *e = egg_make(&state, 0, false, 1);
+        node less = *descend(&state, e, 8);
+        ck_assert_ptr_nonnull(less.pose);
+        shape_model narrower = *less.still;
+        for (int i = 0; i < 3; ++i) narrower.e[i] *= 0.25;
+        less.still = &narrower;
+        refuted += bound_audit_run(e->s, &less, &error) == IMP_ERROR_PLUGIN;
+        egg_free(e);
+    }
+    ck_assert_int_gt(refuted, suite_times(60) / 4);
+}
+END_TEST
+
 START_TEST(what_deforms_or_moves_by_itself_is_bounded_as_before)
 {
     uint64_t state = suite_seed();
@@ -386,6 +406,7 @@ END_TEST
 SUITE_MAIN("poses", the_image_of_a_shape_lies_in_its_node, what_depends_on_time_is_no_shape,
            what_is_not_finite_has_to_be_filled_otherwise,
            nodes_under_chains_of_rigid_maps_hold_their_points,
+           points_are_held_against_remainders_that_turn,
            what_deforms_or_moves_by_itself_is_bounded_as_before,
            shapes_are_shared_by_all_times_and_spans_by_all_places,
            a_tree_from_the_root_of_another_has_shapes_and_spans_of_its_own,
