@@ -78,6 +78,7 @@ static imp_code leave_out_halves(impact *im, pair *p, bool *some, imp_error *err
     net_half left;
     bool any = false;
     *some = true;
+    if (!nodes_have_nets(p->a, p->b)) return IMP_SUCCESS;
     while (net_halves_find(p->a, p->b, p->axis, im->clearance, &p->window, &left)) {
         *some = left.half >= 0;
         if (!*some) return IMP_SUCCESS;

@@ -13,7 +13,7 @@
 
 static bool is_wanted(upper_time *up, const pair *p)
 {
-    if (node_net_made(p->a) == NULL || node_net_made(p->b) == NULL) return false;
+    if (!nodes_have_nets(p->a, p->b)) return false;
     up->followed += 1;
     if (up->next == 0) up->next = TUNING_UPPER_FIRST;
     if (up->followed < up->next) return false;

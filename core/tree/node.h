@@ -140,6 +140,13 @@ static inline bool node_bends(const node *n)
     return bends;
 }
 
+/* Whether both have a net that a pair of them asks for (pair_test.c). Where neither bends it asks for none, and those
+ * that other pairs asked for do not count: which there are depends on what else the scene was asked. */
+static inline bool nodes_have_nets(const node *a, const node *b)
+{
+    return (node_bends(a) || node_bends(b)) && node_net_made(a) != NULL && node_net_made(b) != NULL;
+}
+
 /* Why there is no going on at a node without bounds that cannot be halved: IMP_ERROR_PLUGIN names
  * the type, and the place where it is undefined or the region over which it has no bounds. */
 imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error);

@@ -154,6 +154,48 @@ START_TEST(bounds_of_what_is_left_of_patches_hold_their_points)
 }
 END_TEST
 
+/* Two triangles, of whose nets their own pair has no use, and a patch that asks for them. */
+#define FLAT(NAME, POINTS, OFFSET)                                                                         \
+    "{\"name\":\"" NAME "\",\"surfaces\":[{\"type\":\"triangle\",\"points\":[" POINTS                     \
+    "]}],\"maps\":[{\"type\":\"translate\",\"offset\":[" OFFSET "]}]},"
+static const char three_bodies[] =
+    "{\"bodies\":["
+    FLAT("a", "[-1.2,-1.2,0.2],[0.8,-0.9,-0.1],[-0.3,0.8,0.1]", "[0,0,0],[-0.1,0.1,0]")
+    FLAT("b", "[-1.3,-0.9,-0.2],[1.1,-1.1,-0.1],[-0.1,1.1,0]",
+         "[1.1,0.4,1.2],[-1.1,-0.6,-1.1]")
+    "{\"name\":\"c\",\"surfaces\":[{\"type\":\"bezier\",\"degree\":[3,3],\"points\":["
+    "[-0.9,-1,0.1],[-0.9,-0.3,0.3],[-1.1,0.3,-0.6],[-0.9,1,-0.5],"
+    "[-0.4,-1,-0.4],[-0.3,-0.4,-0.1],[-0.3,0.3,0.2],[-0.3,1.1,0.5],"
+    "[0.3,-1.1,0],[0.3,-0.3,0.1],[0.3,0.3,-0.5],[0.4,0.9,0.6],"
+    "[1,-1.1,0.5],[1.1,-0.4,-0.6],[1,0.3,0.5],[1,1.1,0.6]]}],"
+    "\"maps\":[{\"type\":\"translate\",\"offset\":[[-1.2,-0.4,1.5],[1.1,0.4,-1.4]]}]}]}";
+
+START_TEST(what_was_asked_before_changes_no_answer)
+{
+    imp_registry *registry = query_registry();
+    imp_scene *scenes[2];
+    for (int k = 0; k < 2; ++k)
+        scenes[k] = imp_scene_from_json(registry, three_bodies, sizeof three_bodies - 1, "three", NULL);
+    imp_query *every = begin(scenes[1], 1e-6);
+    contact_of(every, 1e-6);
+    while (imp_query_result(every).verdict == IMP_CONTACT) {
+        ck_assert_int_eq(imp_query_pass(every, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_query_step(every, 0, NULL), IMP_SUCCESS);
+    }
+    imp_query_free(every);
+    imp_result r[2];
+    for (int k = 0; k < 2; ++k) {
+        imp_query *query = begin(scenes[k], 1e-6);
+        r[k] = contact_of(query, 1e-6);
+        imp_query_free(query);
+    }
+    ck_assert_uint_eq(r[0].stats.pairs, r[1].stats.pairs);
+    ck_assert(r[0].t == r[1].t && r[0].gap == r[1].gap);
+    for (int k = 0; k < 2; ++k) imp_scene_free(scenes[k]);
+    imp_registry_free(registry);
+}
+END_TEST
+
 SUITE_MAIN("upper times", bounds_of_what_is_left_of_patches_hold_their_points,
-           smaller_gammas_find_what_is_found_afresh,
-           what_is_put_off_until_the_contact_waits)
+           smaller_gammas_find_what_is_found_afresh, what_is_put_off_until_the_contact_waits,
+           what_was_asked_before_changes_no_answer)
