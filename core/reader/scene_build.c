@@ -225,9 +225,8 @@ static bool write_list(char *text, size_t size, const json_t *list)
     return used > 0;
 }
 
-/* " radius=2", or the name alone where the value is long. Allocates nothing: what cannot be said
- * in a message must not cost the scene. */
-static void label_parameter(shared_part *p, const char *name, const json_t *value)
+/* " radius=2", or the name alone where the value is long. */
+static void label_parameter(char label[PART_LABEL_MAX], const char *name, const json_t *value)
 {
     char text[120];
     const size_t head = (size_t)snprintf(text, sizeof text, " %.40s=", name);
@@ -235,7 +234,21 @@ static void label_parameter(shared_part *p, const char *name, const json_t *valu
     if (!(json_is_array(value) ? write_list(text + head, room, value)
                                : write_value(text + head, room, value)))
         memcpy(text + head, "...", 4);
-    part_add_label(p, text);
+    part_label_add(label, text);
+}
+
+/* "sphere radius=2". False: no memory. */
+static bool label_part(shared_part *p, const json_t *object)
+{
+    char label[PART_LABEL_MAX] = "";
+    const char *key;
+    json_t *value;
+    part_label_add(label, part_label(p));
+    json_object_foreach((json_t *)unconst(object), key, value)
+    {
+        if (strcmp(key, "type") != 0 && strcmp(key, "maps") != 0) label_parameter(label, key, value);
+    }
+    return part_set_label(p, label);
 }
 
 /* Of the numbers and texts in it. */
@@ -259,19 +272,16 @@ imp_code scene_build_part(const scene_source *source, imp_type_kind kind, const 
         kind == IMP_KIND_SURFACE ? part_of_surface(i.surface, i.self) : part_of_map(i.map, i.self);
     if (p == NULL) return error_set_memory(error);
     p->given = bytes_given(object);
-    const char *key, *name = json_string_value(json_object_get(object, "type"));
-    json_t *value;
-    json_object_foreach((json_t *)unconst(object), key, value)
-    {
-        if (strcmp(key, "type") != 0 && strcmp(key, "maps") != 0) label_parameter(p, key, value);
-    }
-    if (p->breach == IMP_OK) {
+    if (p->breach == IMP_OK && label_part(p, object)) {
         *made = p;
         return IMP_SUCCESS;
     }
-    code = place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", name,
-                       registry_find_file(source->registry, kind, name),
-                       surface_status_of_last(p->breach).text);
+    const char *name = json_string_value(json_object_get(object, "type"));
+    code = error_set_memory(error);
+    if (p->breach != IMP_OK)
+        code = place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", name,
+                           registry_find_file(source->registry, kind, name),
+                           surface_status_of_last(p->breach).text);
     part_release(p);
     return code;
 }

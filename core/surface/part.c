@@ -98,7 +98,6 @@ shared_part *part_of_surface(const imp_surface_type *type, void *self)
         return NULL;
     }
     *p = (shared_part){.surface = type, .self = self, .holders = 1};
-    part_add_label(p, type->name);
     if (!part_offers_pieces(type)) {
         p->breach = part_domain(type, self, p->lo, p->hi);
     } else if (!take_pieces(p)) {
@@ -116,14 +115,13 @@ shared_part *part_of_map(const imp_map_type *type, void *self)
         return NULL;
     }
     *p = (shared_part){.map = type, .self = self, .holders = 1};
-    part_add_label(p, type->name);
     take_times(p);
     return p;
 }
 
 size_t part_bytes(const shared_part *p)
 {
-    return sizeof *p + p->given + 2 * PART_BLOCK + p->piece_count * sizeof *p->pieces;
+    return sizeof *p + p->given + p->label_size + 3 * PART_BLOCK + p->piece_count * sizeof *p->pieces;
 }
 
 shared_part *part_hold(shared_part *p)
@@ -142,6 +140,7 @@ void part_release(shared_part *p)
     else
         destroy(p->map->name, p->map->destroy, p->self);
     free(p->pieces);
+    free(p->label);
     free(p);
 }
 
@@ -157,7 +156,21 @@ void part_label_add(char label[PART_LABEL_MAX], const char *text)
         memcpy(label + used, dots, sizeof dots);
 }
 
-void part_add_label(shared_part *p, const char *text) { part_label_add(p->label, text); }
+bool part_set_label(shared_part *p, const char label[PART_LABEL_MAX])
+{
+    const size_t size = strlen(label) + 1;
+    p->label = malloc(size);
+    if (p->label == NULL) return false;
+    memcpy(p->label, label, size);
+    p->label_size = size;
+    return true;
+}
+
+const char *part_label(const shared_part *p)
+{
+    if (p->label != NULL) return p->label;
+    return p->surface != NULL ? p->surface->name : p->map->name;
+}
 
 /* --- Lists ------------------------------------------------------------------------------ */
 

@@ -24,7 +24,8 @@ typedef struct shared_part {
     imp_status breach;   /* IMP_OK, or for surface_status_text: how the domain breaks the ABI;
                                    then the part may only be released */
     size_t given;        /* bytes of the values it was made from: about what the instance keeps */
-    char label[PART_LABEL_MAX]; /* as on a command line, shortened: "sphere radius=2" */
+    char *label;         /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
+    size_t label_size;   /* bytes of it, its end included */
 } shared_part;
 
 /* Takes over the instance `self`, and asks for its domain, or those of its pieces, which have their
@@ -45,9 +46,12 @@ bool part_offers_distance(const imp_surface_type *type);
 /* The domain of an instance; IMP_OK, or how it breaks the ABI. */
 imp_status part_domain(const imp_surface_type *type, const void *self, double lo[3], double hi[3]);
 
-/* Appends to the label, or dots in its place: at the end of a label that is full. */
-void part_add_label(shared_part *p, const char *text);
+/* Appends to a label, or dots in its place: at the end of a label that is full. */
 void part_label_add(char label[PART_LABEL_MAX], const char *text);
+
+/* Copies the label, once. False: no memory. */
+bool part_set_label(shared_part *p, const char label[PART_LABEL_MAX]);
+const char *part_label(const shared_part *p);
 
 /* What the part and its instance hold, about: each block with what the allocator adds. */
 enum { PART_BLOCK = 16 }; /* bytes */

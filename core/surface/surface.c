@@ -21,16 +21,13 @@
 surface *surface_new_of(shared_part *type)
 {
     assert(type->surface != NULL);
-    surface *s = malloc(sizeof *s + PART_LABEL_MAX);
+    surface *s = malloc(sizeof *s);
     if (s == NULL) return NULL;
     *s = (surface){.type = type->surface,
                    .self = type->piece_count > 0 ? type->pieces[0] : type->self,
-                   .origin = part_hold(type),
-                   .label = (char *)(s + 1)};
-    s->label[0] = '\0';
+                   .origin = part_hold(type)};
     memcpy(s->lo, type->lo, sizeof s->lo);
     memcpy(s->hi, type->hi, sizeof s->hi);
-    part_label_add(s->label, type->label);
     return s;
 }
 
@@ -49,8 +46,6 @@ imp_code surface_add_part(surface *s, shared_part *map)
     if (maps == NULL) return IMP_ERROR_MEMORY;
     s->maps = maps;
     maps[s->map_count++] = (mapping){map->map, map->self, part_hold(map)};
-    part_label_add(s->label, " ! ");
-    part_label_add(s->label, map->label);
     if (map->lo[2] > s->lo[2]) s->lo[2] = map->lo[2];
     if (map->hi[2] < s->hi[2]) s->hi[2] = map->hi[2];
     return IMP_SUCCESS;
@@ -98,7 +93,7 @@ imp_code surface_divide(surface *s)
 
 size_t surface_bytes(const surface *s)
 {
-    size_t bytes = sizeof *s + PART_LABEL_MAX + PART_BLOCK + s->piece_count * sizeof *s->pieces +
+    size_t bytes = sizeof *s + PART_BLOCK + s->piece_count * sizeof *s->pieces +
                    s->map_capacity * sizeof *s->maps + part_bytes(s->origin) / s->origin->holders;
     for (size_t k = 0; k < s->map_count; ++k)
         bytes += part_bytes(s->maps[k].origin) / s->maps[k].origin->holders;
@@ -125,15 +120,26 @@ void surface_set_body(surface *s, const char *body, size_t index)
     for (size_t k = 0; k < s->piece_count; ++k) surface_set_body(&s->pieces[k], body, index);
 }
 
+/* Of the type and all maps. */
+static void label_of(const surface *s, char label[PART_LABEL_MAX])
+{
+    label[0] = '\0';
+    for (size_t k = 0; k <= s->map_count; ++k) {
+        if (k > 0) part_label_add(label, " ! ");
+        part_label_add(label, part_label(k == 0 ? s->origin : s->maps[k - 1].origin));
+    }
+}
+
 imp_code surface_fault(const surface *s, imp_error *error, const char *format, ...)
 {
     if (error == NULL) return IMP_ERROR_PLUGIN;
-    char what[sizeof error->text];
+    char what[sizeof error->text], label[PART_LABEL_MAX];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    error_set(error, IMP_ERROR_PLUGIN, "type '%s'%s%s", s->label, what[0] == ':' ? "" : " ", what);
+    label_of(s, label);
+    error_set(error, IMP_ERROR_PLUGIN, "type '%s'%s%s", label, what[0] == ':' ? "" : " ", what);
     if (s->whole != NULL) error_prefix(error, "piece %zu", surface_piece_index(s));
     if (s->body != NULL) error_prefix(error, "body '%.80s', surface %zu", s->body, s->index);
     text_clean(error->text);

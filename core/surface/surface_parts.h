@@ -26,10 +26,9 @@ struct surface {
     size_t map_count, map_capacity;
     mapping *maps;
     double lo[3], hi[3]; /* the domain */
-    char *label;         /* as on a command line, shortened; a piece's is the whole's */
     const char *body;    /* name of the body it belongs to, or NULL */
     size_t index;        /* its number there */
-    surface *pieces;     /* piece_count of them, which share origin, maps and label; or NULL */
+    surface *pieces;     /* piece_count of them, which share origin and maps; or NULL */
     size_t piece_count;
     const surface *whole; /* what it is a piece of, or NULL */
 };
