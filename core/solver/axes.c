@@ -39,7 +39,7 @@ typedef struct forms {
     imp_quad uuw, uvw, vvw;
 } forms;
 
-/* `is_cubic` is constant in each caller, so that what is not costs nothing. */
+/* `bends` and `is_cubic` are constant in each caller, so that what is not costs nothing. */
 IMP_QUAD_INLINE forms project(const bundle *n, const slice *s, bool bends, bool is_cubic)
 {
     const imp_quad none = imp_quad_all(0);
@@ -229,10 +229,9 @@ _Static_assert(RELATIVE_ROUNDING + 6 + 2 + 2 * QUADRATIC_ROUNDING + 16 + 12 <= A
                "rounding along one axis");
 
 IMP_QUAD_INLINE bool cut_along_bundle(const relative *r, bundle *n, double clearance, w_range *s,
-                                      gap_lines *lines, bool is_posed)
+                                      gap_lines *lines, bool is_posed, bool bends)
 {
     const imp_quad longest = bundle_orient(n, r, r->focus);
-    const bool bends = !(r->squares == 0);
     const forms a = project(n, &r->a, bends, is_posed), b = project(n, &r->b, bends, is_posed);
     const forms minus_a = negative(&a), minus_b = negative(&b);
     const imp_quad offset = along(n, r->delta), drift = along(n, r->drift);
@@ -272,8 +271,12 @@ IMP_QUAD_INLINE bool cut_along_bundle(const relative *r, bundle *n, double clear
 IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, w_range *s,
                                 gap_lines *lines)
 {
-    return r->posed > 0 ? cut_along_bundle(r, n, clearance, s, lines, true)
-                        : cut_along_bundle(r, n, clearance, s, lines, false);
+    const bool bends = !(r->squares == 0);
+    if (r->posed > 0)
+        return bends ? cut_along_bundle(r, n, clearance, s, lines, true, true)
+                     : cut_along_bundle(r, n, clearance, s, lines, true, false);
+    return bends ? cut_along_bundle(r, n, clearance, s, lines, false, true)
+                 : cut_along_bundle(r, n, clearance, s, lines, false, false);
 }
 
 /* Along the axis that is best at the focus, the window's start where that decides when the earliest

@@ -18,8 +18,9 @@ typedef struct shape {
     imp_quad centre, slack;
     imp_quad bu[2], bv[2], quu[2], quv[2], qvv[2];
     imp_quad slope[3], curvature[3], twist[3];
-    bool bends; /* false: curvature is 0, and not set */
 } shape;
+
+/* `bends`, here and below, is constant where it is compiled: false where curvature is 0, and not set. */
 
 IMP_QUAD_INLINE void shape_take(shape *z, int k, const slice *f, double w, imp_quad sign)
 {
@@ -31,7 +32,7 @@ IMP_QUAD_INLINE void shape_take(shape *z, int k, const slice *f, double w, imp_q
     z->qvv[k] = sign * imp_quad_load(f->qvv);
 }
 
-IMP_QUAD_INLINE shape shape_at(const relative *r, double w)
+IMP_QUAD_INLINE shape shape_at(const relative *r, double w, bool bends)
 {
     shape z;
     z.centre = imp_quad_load(r->delta) + imp_quad_all(w) * imp_quad_load(r->drift) +
@@ -39,10 +40,9 @@ IMP_QUAD_INLINE shape shape_at(const relative *r, double w)
     z.slack = imp_quad_load(r->slack);
     shape_take(&z, 0, &r->b, w, imp_quad_all(1));
     shape_take(&z, 1, &r->a, w, imp_quad_all(-1));
-    z.bends = !(r->squares == 0);
     for (int i = 0; i < 3; ++i) {
         z.slope[i] = (imp_quad){z.bu[0][i], z.bu[1][i], z.bv[0][i], z.bv[1][i]};
-        if (z.bends)
+        if (bends)
             z.curvature[i] = (imp_quad){z.quu[0][i], z.quu[1][i], z.qvv[0][i], z.qvv[1][i]};
         z.twist[i] = (imp_quad){z.quv[0][i], z.quv[1][i], z.quv[0][i], z.quv[1][i]};
     }
@@ -70,10 +70,10 @@ IMP_QUAD_INLINE imp_quad least_at(imp_quad b, imp_quad q, imp_quad vertex)
 
 /* Parameters (s_u of B, of -A, s_v of B, of -A) where both forms are least along n, about: u and v
  * in turn. */
-IMP_QUAD_INLINE imp_quad shape_bottom(const shape *z, vec3 n)
+IMP_QUAD_INLINE imp_quad shape_bottom(const shape *z, vec3 n, bool bends)
 {
     const imp_quad slope = along(n, z->slope), twist = along(n, z->twist);
-    if (!z->bends) {
+    if (!bends) {
         const imp_quad s = lower_end(slope);
         const imp_quad v = lower_end(slope + twist * (imp_quad){s[2], s[3], s[0], s[1]});
         const imp_quad u = lower_end(slope + twist * (imp_quad){v[2], v[3], v[2], v[3]});
@@ -89,9 +89,9 @@ IMP_QUAD_INLINE imp_quad shape_bottom(const shape *z, vec3 n)
     return (imp_quad){u[0], u[1], v[2], v[3]};
 }
 
-IMP_QUAD_INLINE vec3 shape_lowest(const shape *z, vec3 n)
+IMP_QUAD_INLINE vec3 shape_lowest(const shape *z, vec3 n, bool bends)
 {
-    const imp_quad s = shape_bottom(z, n), way = (imp_quad){n.x[0], n.x[1], n.x[2], n.x[2]};
+    const imp_quad s = shape_bottom(z, n, bends), way = (imp_quad){n.x[0], n.x[1], n.x[2], n.x[2]};
     imp_quad x = z->centre + imp_quad_pick(way > imp_quad_all(0), -z->slack, z->slack);
     for (int k = 0; k < 2; ++k) {
         const imp_quad u = imp_quad_all(s[k]), v = imp_quad_all(s[2 + k]);
@@ -104,12 +104,12 @@ IMP_QUAD_INLINE vec3 shape_lowest(const shape *z, vec3 n)
 
 /* The gap that the axis through the nearest point shows is the lowest point's height along it; it
  * is good enough when it is r->share of what it can be. A NaN ends the search. */
-IMP_QUAD_INLINE bool search(const relative *r, double w, vec3 *axis)
+IMP_QUAD_INLINE bool search(const relative *r, double w, vec3 *axis, bool bends)
 {
-    const shape z = shape_at(r, w);
-    simplex s = on_point(shape_lowest(&z, *axis));
+    const shape z = shape_at(r, w, bends);
+    simplex s = on_point(shape_lowest(&z, *axis, bends));
     for (int k = 0; k < TUNING_GJK_STEPS; ++k) {
-        const vec3 lowest = shape_lowest(&z, s.nearest);
+        const vec3 lowest = shape_lowest(&z, s.nearest, bends);
         if (!(vec3_dot(s.nearest, lowest) < r->share * s.square)) break;
         const simplex next = simplex_add(&s, lowest);
         if (next.count == 0) return false;
@@ -122,10 +122,17 @@ IMP_QUAD_INLINE bool search(const relative *r, double w, vec3 *axis)
 
 IMP_QUAD_WIDE static bool search_wide(const relative *r, double w, vec3 *axis)
 {
-    return search(r, w, axis);
+    return search(r, w, axis, true);
+}
+
+IMP_QUAD_WIDE static bool search_bilinear_wide(const relative *r, double w, vec3 *axis)
+{
+    return search(r, w, axis, false);
 }
 
 bool gjk_axis(const relative *r, double w, vec3 *axis)
 {
-    return imp_quad_is_wide() ? search_wide(r, w, axis) : search(r, w, axis);
+    if (r->squares == 0)
+        return imp_quad_is_wide() ? search_bilinear_wide(r, w, axis) : search(r, w, axis, false);
+    return imp_quad_is_wide() ? search_wide(r, w, axis) : search(r, w, axis, true);
 }
