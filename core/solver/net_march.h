@@ -17,8 +17,8 @@ typedef struct net_meeting {
     double speed; /* at which the gap closes; length/time */
 } net_meeting;
 
-/* From the middles of the nodes, each of which has a net, and the start of the window on: the first time in it, about, at which the gap is
- * `gap`. False: none was found. */
+/* From the middles of the nodes, each of which has a net, and the start of the window on: the first time in
+ * it, about, at which the gap is `gap`. False: none was found. */
 bool net_march(const node *a, const node *b, const time_window *window, double gap, net_meeting *found);
 
 #endif

@@ -21,8 +21,7 @@ void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double seco
     }
 }
 
-/* Solves h x = -g by Cholesky, where `held` unknowns stay put; false: h is not positive definite.
- */
+/* Solves h x = -g by Cholesky, where `held` unknowns stay put; false: h is not positive definite. */
 static bool solve(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double *g, const bool *held, double *x)
 {
     double l[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS] = {{0}};

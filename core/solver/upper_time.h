@@ -22,8 +22,8 @@ typedef struct upper_time {
     uint64_t followed, next; /* pairs followed; how many it takes until the next search */
 } upper_time;
 
-/* Counts a pair that is followed, and, when it is time, seeks a contact earlier than t from there; *sought tells whether it did.
- * IMP_ERROR_PLUGIN when an evaluation fails. */
+/* Counts a pair that is followed, and, when it is time, seeks a contact earlier than t from there; *sought
+ * tells whether it did. IMP_ERROR_PLUGIN when an evaluation fails. */
 imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *sought, imp_error *error);
 
 /* After gamma was made smaller: what still touches stays known, else it is sought at once. */
