@@ -498,8 +498,9 @@ static inline imp_result imp_query_result(const imp_query *query)
     return result;
 }
 
-/* Two regions, one of each side's surface, that the search has not parted for good: over u[0]..u[1]
- * and v[0]..v[1] of one piece, or, where `piece` is SIZE_MAX, over several whole pieces, they are proved to stay farther apart than gamma_clear before t_lower. */
+/* Two regions, one of each side's surface, that the search has not parted for good: over u[0]..u[1] and
+ * v[0]..v[1] of one piece, or, where `piece` is SIZE_MAX, over several whole pieces, they are proved to stay
+ * farther apart than gamma_clear before t_lower. */
 typedef struct imp_pending {
     double t_lower;
     struct imp_pending_side {

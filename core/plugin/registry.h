@@ -10,9 +10,9 @@
 
 /* Types by name
  * =============
- * A registry is filled when it is made, and by imp_registry_add; else it is only read. Surfaces and maps are two
- * name spaces; in each the first type of a name is the one that is found, later ones are
- * shadowed. Plugins stay loaded until imp_registry_free. */
+ * A registry is filled when it is made, and by imp_registry_add; else it is only read. Surfaces and maps are
+ * two name spaces; in each the first type of a name is the one that is found, later ones are shadowed.
+ * Plugins stay loaded until imp_registry_free. */
 
 /* As imp_registry_open, from these directories only. NULL: no memory. */
 imp_registry *registry_scan(const search_path *path, unsigned flags);

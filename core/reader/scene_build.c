@@ -35,10 +35,10 @@ static imp_code refuse_type(const imp_registry *registry, imp_type_kind kind, co
     const registry_text left_out = registry_left_out(registry, name);
     if (near != NULL)
         return place_error(at, error, IMP_ERROR_SCENE,
-                           "unknown %s '%.80s', did you mean '%s'? %s%s", kind_word(kind), name, near,
-                           verb, left_out.text);
-    return place_error(at, error, IMP_ERROR_SCENE, "unknown %s '%.80s'; %s%s", kind_word(kind), name,
-                       verb, left_out.text);
+                           "unknown %s '%.80s', did you mean '%s'? %s%s", kind_word(kind), name,
+                           near, verb, left_out.text);
+    return place_error(at, error, IMP_ERROR_SCENE, "unknown %s '%.80s'; %s%s", kind_word(kind),
+                       name, verb, left_out.text);
 }
 
 static imp_code read_type(const json_t *object, imp_type_kind kind, const place *at,
@@ -246,7 +246,8 @@ static bool label_part(shared_part *p, const json_t *object)
     part_label_add(label, part_label(p));
     json_object_foreach((json_t *)unconst(object), key, value)
     {
-        if (strcmp(key, "type") != 0 && strcmp(key, "maps") != 0) label_parameter(label, key, value);
+        if (strcmp(key, "type") != 0 && strcmp(key, "maps") != 0)
+            label_parameter(label, key, value);
     }
     return part_set_label(p, label);
 }

@@ -197,7 +197,8 @@ IMP_QUAD_INLINE chord chord_over_edges(const relative *r, const bundle *n)
     imp_quad start = imp_quad_all(0), end = start;
     for (int side = 0; side < r->posed; ++side)
         for (int k = 0; k < 3; ++k) {
-            const imp_quad at = along_edge(n, r->edge[side], k), by = along_edge(n, r->swing[side], k);
+            const imp_quad at = along_edge(n, r->edge[side], k),
+                           by = along_edge(n, r->swing[side], k);
             start += imp_quad_abs(at - by);
             end += imp_quad_abs(at + by);
         }

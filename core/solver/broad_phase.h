@@ -22,7 +22,8 @@ typedef struct broad_phase_visitor {
     void *context;
 } broad_phase_visitor;
 
-/* Visits in the order of the sweep, of a few boxes in any; false from a callback stops and is answered. Sorts `boxes`. */
+/* Visits in the order of the sweep, of a few boxes in any; false from a callback stops and is answered. Sorts
+ * `boxes`. */
 bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
                        const broad_phase_visitor *visitor);
 

@@ -73,8 +73,7 @@ static void count_growth(collection *all, const tree_growth *growth)
 
 void collection_count_rest(collection *all)
 {
-    for (; all->used < all->ahead; ++all->used)
-        count_growth(all, &all->surfaces[all->used].growth);
+    for (; all->used < all->ahead; ++all->used) count_growth(all, &all->surfaces[all->used].growth);
 }
 
 /* Adds one surface, if it exists at any of the query's times. */

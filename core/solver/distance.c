@@ -12,7 +12,10 @@
 /* --- Asking ------------------------------------------------------------------------------------ */
 
 /* About what remains of a node's remainder at one moment. */
-static double remainder_in_place(const node *n) { return n->e[0] + n->e[1] + n->e[2] - n->time_remainder; }
+static double remainder_in_place(const node *n)
+{
+    return n->e[0] + n->e[1] + n->e[2] - n->time_remainder;
+}
 
 /* So small that its remainder says something of the surface. */
 static bool is_small(const node *n)
@@ -24,7 +27,8 @@ static bool is_small(const node *n)
 static bool is_nearly_parallel(const node *a, const node *b)
 {
     const double cosine = vec3_dot(a->normal, b->normal), least = TUNING_FIELD_COSINE;
-    return cosine * cosine > least * least * vec3_dot(a->normal, a->normal) * vec3_dot(b->normal, b->normal);
+    return cosine * cosine >
+           least * least * vec3_dot(a->normal, a->normal) * vec3_dot(b->normal, b->normal);
 }
 
 bool distance_is_known(const node *a, const node *b, size_t still_maps)
@@ -40,27 +44,29 @@ static void point_models(const node *n, imp_model model[3])
 {
     const quadratic3 *f = &n->f;
     for (int i = 0; i < 3; ++i)
-        model[i] = (imp_model){.a = f->a[i],
-                               .b = {f->bu[i], f->bv[i], f->bt[i]},
-                               .q = {f->quu[i], f->quv[i], f->qut[i], f->qvv[i], f->qvt[i], f->qtt[i]},
-                               .e = n->e[i],
-                               .lo = n->lo[i],
-                               .hi = n->hi[i],
-                               .rate = {INFINITY, INFINITY, INFINITY},
-                               .depends = 7};
+        model[i] =
+            (imp_model){.a = f->a[i],
+                        .b = {f->bu[i], f->bv[i], f->bt[i]},
+                        .q = {f->quu[i], f->quv[i], f->qut[i], f->qvv[i], f->qvt[i], f->qtt[i]},
+                        .e = n->e[i],
+                        .lo = n->lo[i],
+                        .hi = n->hi[i],
+                        .rate = {INFINITY, INFINITY, INFINITY},
+                        .depends = 7};
 }
 
 /* Of the node's points before the maps that both surfaces end with. */
 static imp_status points_before(const node *a, size_t common, imp_model model[3])
 {
     const surface *s = a->surface;
-    if (common > 0) return surface_include_inner(s, &a->region, surface_map_count(s) - common, model);
+    if (common > 0)
+        return surface_include_inner(s, &a->region, surface_map_count(s) - common, model);
     point_models(a, model);
     return IMP_OK;
 }
 
-/* As node.nonlinear_extent: terms of second order, and a share of the remainder, by what the polynomial explains
- * least. */
+/* As node.nonlinear_extent: terms of second order, and a share of the remainder, by what the polynomial
+ * explains least. */
 static void bend_of(const imp_model model[3], const imp_region *r, double bend[3])
 {
     memset(bend, 0, 3 * sizeof *bend);
@@ -98,7 +104,8 @@ static imp_code ask(const node *a, const node *b, imp_model *g, double bend[3], 
     if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
     if (status != IMP_OK) return fault(a->surface, status, error);
     if (common > 0) bend_of(point, &a->region, bend);
-    status = surface_distance(b->surface, &a->region, surface_map_count(b->surface) - common, point, g);
+    status =
+        surface_distance(b->surface, &a->region, surface_map_count(b->surface) - common, point, g);
     *known = status == IMP_OK;
     if (status == IMP_OK || status == IMP_UNBOUNDED) return IMP_SUCCESS;
     return fault(b->surface, status, error);
@@ -180,10 +187,10 @@ static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
     return both;
 }
 
-/* Whether the remainder is what hides that the node is apart: the polynomial alone is, or hardly varies beside
- * the remainder, as where the surfaces are parallel. Then halves of the node, whose remainders are a small
- * part of it, are worth more than those of its neighbours. Not of remainders that are mere rounding, nor of nodes
- * so large that these say nothing of the surface. */
+/* Whether the remainder is what hides that the node is apart: the polynomial alone is, or hardly varies
+ * beside the remainder, as where the surfaces are parallel. Then halves of the node, whose remainders are a
+ * small part of it, are worth more than those of its neighbours. Not of remainders that are mere rounding,
+ * nor of nodes so large that these say nothing of the surface. */
 static bool promises(const imp_model *g, const sides *both, const node *n, double clearance,
                      double size)
 {
@@ -224,8 +231,8 @@ imp_code distance_cut(const node *a, const node *b, double clearance, time_windo
     if (view->is_apart || !(size < 0x1p400)) return IMP_SUCCESS;
     const span whole = span_of(window);
     const sides both = sides_of(&g, &a->region, &whole);
-    const double slack = padded_upper(g.e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) +
-                         QUADRATIC_UNDERFLOW;
+    const double slack =
+        padded_upper(g.e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) + QUADRATIC_UNDERFLOW;
     const double lower = sides_lower(&both, slack);
     if (lower > view->lower) view->lower = lower;
     w_range s = {-1, 1};

@@ -22,9 +22,9 @@ typedef struct distance_view {
     double bend[3];    /* how far u, v and t bend points beside the other surface, about; length */
 } distance_view;
 
-/* Whether distances of points of a from the surface of b are known, and worth asking for. `still_maps`: of that
- * surface (surface_still_maps): where more of its own turn it nothing is asked. Maps that both have in common do not
- * count, but then points are included anew: not for nodes that are small, and not parallel. */
+/* Whether distances of points of a from the surface of b are known, and worth asking for. `still_maps`: of
+ * that surface (surface_still_maps): where more of its own turn it nothing is asked. Maps that both have in
+ * common do not count, but then points are included anew: not for nodes that are small, and not parallel. */
 bool distance_is_known(const node *a, const node *b, size_t still_maps);
 
 /* Cuts the window, which lies in both nodes' times, to the times at which points of `a` may be within the

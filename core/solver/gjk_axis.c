@@ -42,8 +42,7 @@ IMP_QUAD_INLINE shape shape_at(const relative *r, double w, bool bends)
     shape_take(&z, 1, &r->a, w, imp_quad_all(-1));
     for (int i = 0; i < 3; ++i) {
         z.slope[i] = (imp_quad){z.bu[0][i], z.bu[1][i], z.bv[0][i], z.bv[1][i]};
-        if (bends)
-            z.curvature[i] = (imp_quad){z.quu[0][i], z.quu[1][i], z.qvv[0][i], z.qvv[1][i]};
+        if (bends) z.curvature[i] = (imp_quad){z.quu[0][i], z.quu[1][i], z.qvv[0][i], z.qvv[1][i]};
         z.twist[i] = (imp_quad){z.quv[0][i], z.quv[1][i], z.quv[0][i], z.quv[1][i]};
     }
     return z;

@@ -178,9 +178,9 @@ static cut choose_cut(const min_distance *m, const pair *p, const sight *seen)
     return alone.side >= 0 ? alone : cut_by_spread(p, scale(m));
 }
 
-/* Of a pair that no axis parts, or whose parents slid along each other: what its nodes' distances from each other's
- * whole surfaces show. Lemma. The times that are cut off p->window are farther apart than what is enough, and over
- * those that are left nothing is nearer than seen->lower, so that p->key[0] stays a bound. */
+/* Of a pair that no axis parts, or whose parents slid along each other: what its nodes' distances from each
+ * other's whole surfaces show. Lemma. The times that are cut off p->window are farther apart than what is
+ * enough, and over those that are left nothing is nearer than seen->lower, so that p->key[0] stays a bound. */
 static imp_code look(min_distance *m, pair *p, sight *seen, imp_error *error)
 {
     *seen = sight_none(p);

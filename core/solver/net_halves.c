@@ -9,8 +9,8 @@
 #include "core/base/rounding.h"
 #include "core/solver/net_hull.h"
 
-/* Heights of one net's control points along an axis, without its place: at the window's start, at its end, then the
- * weights. */
+/* Heights of one net's control points along an axis, without its place: at the window's start, at its end,
+ * then the weights. */
 typedef struct heights {
     const net *net;
     double x[3 * IMP_QUAD * QUADS_MAX];
@@ -28,7 +28,8 @@ IMP_QUAD_INLINE window_ends least_heights(const net *f, const double *x)
     return (window_ends){least_of(early), least_of(late)};
 }
 
-IMP_QUAD_INLINE void heights_take(const net *f, const time_window *w, vec3 axis, double sign, heights *h)
+IMP_QUAD_INLINE void heights_take(const net *f, const time_window *w, vec3 axis, double sign,
+                                  heights *h)
 {
     const imp_quad n[3] = {imp_quad_all(sign * axis.x[0]), imp_quad_all(sign * axis.x[1]),
                            imp_quad_all(sign * axis.x[2])};
@@ -83,10 +84,11 @@ IMP_QUAD_INLINE void rows_along(const double *x, parameter j, imp_quad r[4])
                                 : (imp_quad){x[k], x[4 + k], x[8 + k], x[12 + k]};
 }
 
-/* Lemma. Of a rational patch, heights times weights and weights are halved like any numbers; their quotients are the
- * heights. In units of u most: the products and their halving n + 1 in all, weights n, quotients 1, less than
- * halving_units (net.c). */
-IMP_QUAD_INLINE void halve_bicubic_heights(const heights *h, const double *x, parameter j, double low[2])
+/* Lemma. Of a rational patch, heights times weights and weights are halved like any numbers; their quotients
+ * are the heights. In units of u most: the products and their halving n + 1 in all, weights n, quotients 1,
+ * less than halving_units (net.c). */
+IMP_QUAD_INLINE void halve_bicubic_heights(const heights *h, const double *x, parameter j,
+                                           double low[2])
 {
     imp_quad r[4], w[4];
     halved z;
@@ -105,15 +107,16 @@ IMP_QUAD_INLINE void halve_bicubic_heights(const heights *h, const double *x, pa
     }
 }
 
-/* Lemma. Over the window n.(y - x) of points of a half and of the other node is no less than the least difference of
- * heights of their control points, and that is concave in time: heights are linear, and halving takes fixed means of
- * them. So where it is above the limit at both ends of the window, the half is out of reach. The least heights of the
- * half, computed, are off by net_halving_upper. In units of u R (net_hull.h): heights, their places and R itself are
- * GAP_ROUNDING; the limit less the rest rounds twice, and the half's height less the error of halving once: slack is
- * counted twice. A NaN excludes nothing. */
+/* Lemma. Over the window n.(y - x) of points of a half and of the other node is no less than the least
+ * difference of heights of their control points, and that is concave in time: heights are linear, and halving
+ * takes fixed means of them. So where it is above the limit at both ends of the window, the half is out of
+ * reach. The least heights of the half, computed, are off by net_halving_upper. In units of u R (net_hull.h):
+ * heights, their places and R itself are GAP_ROUNDING; the limit less the rest rounds twice, and the half's
+ * height less the error of halving once: slack is counted twice. A NaN excludes nothing. */
 _Static_assert(2 + 1 <= GAP_ROUNDING, "rounding of a half's limit");
 
-/* Bits of the halves along j that may be near; `most` are heights at the window's ends above which a half is not. */
+/* Bits of the halves along j that may be near; `most` are heights at the window's ends above which a half is
+ * not. */
 IMP_QUAD_INLINE int halves_left(const heights *h, parameter j, window_ends most)
 {
     int left = 0;
@@ -135,8 +138,8 @@ IMP_QUAD_INLINE int halves_left(const heights *h, parameter j, window_ends most)
 PAD_COVERS(8, 3 + 3); /* h->most: products and two sums; its own product, the sum */
 
 /* The first half that is found, of A along u, v, then of B. */
-IMP_QUAD_INLINE bool find_half(const node *const nodes[2], const heights of[2], vec3 n, double limit,
-                               const time_window *w, net_half *found)
+IMP_QUAD_INLINE bool find_half(const node *const nodes[2], const heights of[2], vec3 n,
+                               double limit, const time_window *w, net_half *found)
 {
     const double at0 = vec3_dot(n, places_apart(of[0].net, of[1].net, w->lo));
     const double at1 = vec3_dot(n, places_apart(of[0].net, of[1].net, w->hi));

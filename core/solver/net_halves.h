@@ -7,8 +7,9 @@
 
 /* Halves of nodes that an axis excludes
  * =====================================
- * Of each half of a node along u or v the hull is known before the half is made: de Casteljau on the heights of
- * the control points along an axis. Nothing is found unless both nodes have a net that was asked for (node_net). */
+ * Of each half of a node along u or v the hull is known before the half is made: de Casteljau on the heights
+ * of the control points along an axis. Nothing is found unless both nodes have a net that was asked for
+ * (node_net). */
 
 typedef struct net_half {
     int side; /* of the pair: whose half */
@@ -16,8 +17,8 @@ typedef struct net_half {
     int half; /* which is left, the other is excluded; -1: neither */
 } net_half;
 
-/* Finds a half of either node that the axis shows farther from the other node than the clearance, over the whole
- * window, which lies in both nodes' times. False: there is none. */
+/* Finds a half of either node that the axis shows farther from the other node than the clearance, over the
+ * whole window, which lies in both nodes' times. False: there is none. */
 bool net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
                      const time_window *window, net_half *found);
 

@@ -25,12 +25,12 @@ static void raise_degree(double *b, int n, double x)
     b[0] *= 1 - x;
 }
 
-/* Derivatives by s, of which x is half and something, from those of degree n - 1: n / 2 times their differences. */
+/* Derivatives by s, of which x is half and something, from those of degree n - 1: n / 2 times their
+ * differences. */
 static void differences(const double *b, int n, double *d)
 {
     const double f = 0.5 * n;
-    for (int i = 0; i <= n; ++i)
-        d[i] = f * ((i > 0 ? b[i - 1] : 0) - (i < n ? b[i] : 0));
+    for (int i = 0; i <= n; ++i) d[i] = f * ((i > 0 ? b[i - 1] : 0) - (i < n ? b[i] : 0));
 }
 
 static void bernstein_at(int degree, double s, bernstein *of)
@@ -78,7 +78,8 @@ IMP_QUAD_INLINE void shares_of_bicubic(const double s[2], shares *z)
     cubic_at(s[0], &u[0], &u[1], &u[2]);
     cubic_at(s[1], &v[0], &v[1], &v[2]);
     for (int i = 0; i < 4; ++i) {
-        const imp_quad a = imp_quad_all(u[0][i]), b = imp_quad_all(u[1][i]), c = imp_quad_all(u[2][i]);
+        const imp_quad a = imp_quad_all(u[0][i]), b = imp_quad_all(u[1][i]),
+                       c = imp_quad_all(u[2][i]);
         imp_quad_store(z->of[JET_VALUE] + 4 * i, a * v[0]);
         imp_quad_store(z->of[JET_U] + 4 * i, b * v[0]);
         imp_quad_store(z->of[JET_V] + 4 * i, a * v[1]);
@@ -154,7 +155,8 @@ IMP_QUAD_INLINE void jet_of(const net *f, const cloud *x, int quads, const doubl
     for (int i = 0; i < 3; ++i)
         for (int d = 0; d < JETS; ++d) {
             imp_quad sum = imp_quad_all(0);
-            for (int k = 0; k < quads; ++k) sum += x->x[i][k] * imp_quad_load(z.of[d] + IMP_QUAD * k);
+            for (int k = 0; k < quads; ++k)
+                sum += x->x[i][k] * imp_quad_load(z.of[d] + IMP_QUAD * k);
             out->by[d].x[i] = total(sum);
         }
     if (f->is_weighted) divide(out, w);
@@ -302,7 +304,8 @@ static double wait_of(const stand *s, double gap, double speed)
 /* Beside the gap that is sought, what is near enough. */
 static const double ENOUGH = 1.125;
 
-bool net_march(const node *a, const node *b, const time_window *window, double gap, net_meeting *found)
+bool net_march(const node *a, const node *b, const time_window *window, double gap,
+               net_meeting *found)
 {
     marcher m = {.nets = {node_net_made(a), node_net_made(b)}};
     stand s;

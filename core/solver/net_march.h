@@ -7,9 +7,9 @@
 
 /* When two nets meet, about
  * =========================
- * The nearest points of two surfaces, followed in time: Newton steps on the distance at one time, then on to the
- * time at which it would be gone at the speed at which it shrinks. Points are those of the nets' patches, so that no
- * surface is evaluated; what is found is a guess, to be proved by a witness. */
+ * The nearest points of two surfaces, followed in time: Newton steps on the distance at one time, then on to
+ * the time at which it would be gone at the speed at which it shrinks. Points are those of the nets' patches,
+ * so that no surface is evaluated; what is found is a guess, to be proved by a witness. */
 
 typedef struct net_meeting {
     double t;
@@ -19,6 +19,7 @@ typedef struct net_meeting {
 
 /* From the middles of the nodes, each of which has a net, and the start of the window on: the first time in
  * it, about, at which the gap is `gap`. False: none was found. */
-bool net_march(const node *a, const node *b, const time_window *window, double gap, net_meeting *found);
+bool net_march(const node *a, const node *b, const time_window *window, double gap,
+               net_meeting *found);
 
 #endif

@@ -8,7 +8,8 @@
 #include <string.h>
 
 void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double second[2][2][2],
-                   double gradient[NEWTON_UNKNOWNS], double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS])
+                   double gradient[NEWTON_UNKNOWNS],
+                   double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS])
 {
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
         gradient[k] = vec3_dot(by[k], apart);
@@ -22,7 +23,8 @@ void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double seco
 }
 
 /* Solves h x = -g by Cholesky, where `held` unknowns stay put; false: h is not positive definite. */
-static bool solve(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double *g, const bool *held, double *x)
+static bool solve(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double *g, const bool *held,
+                  double *x)
 {
     double l[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS] = {{0}};
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k)

@@ -17,8 +17,8 @@ typedef struct newton_bounds {
     double lo[NEWTON_UNKNOWNS], hi[NEWTON_UNKNOWNS];
 } newton_bounds;
 
-/* Of the largest diagonal element of the Hessian: to begin with, and where it is no use to go on; then what a step that
- * leads downhill, or does not, changes it by. */
+/* Of the largest diagonal element of the Hessian: to begin with, and where it is no use to go on; then what a
+ * step that leads downhill, or does not, changes it by. */
 #define NEWTON_DAMPING 0x1p-20
 #define NEWTON_DAMPING_MAX 0x1p10
 #define NEWTON_DAMPING_LESS 0x1p-6
@@ -27,7 +27,8 @@ typedef struct newton_bounds {
 /* Gradient and Hessian of |D|^2 / 2, D = x_b - x_a, from its derivatives and second[side], which are
  * D.x'' of a and of b. */
 void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double second[2][2][2],
-                   double gradient[NEWTON_UNKNOWNS], double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]);
+                   double gradient[NEWTON_UNKNOWNS],
+                   double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]);
 
 double newton_scale(double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]);
 

@@ -163,10 +163,10 @@ static void part(const local_slice *s, const turn *m, const double *mw, const pa
     p->qss[k] = sign * (s->q[UU].n + dot2(m->l[0], &s->l[0]) +
                         w * (s->qw[UU] + dot2(mw, &s->q[UU]) + both_ways(s, m, UW, 0))) +
                 dot2(m->q[UU], &at);
-    p->qsr[k] =
-        sign * (s->q[UV].n + dot2(m->l[0], &s->l[1]) + dot2(m->l[1], &s->l[0]) +
-                w * (s->qw[UV] + dot2(mw, &s->q[UV]) + both_ways(s, m, UW, 1) + both_ways(s, m, VW, 0))) +
-        dot2(m->q[UV], &at);
+    p->qsr[k] = sign * (s->q[UV].n + dot2(m->l[0], &s->l[1]) + dot2(m->l[1], &s->l[0]) +
+                        w * (s->qw[UV] + dot2(mw, &s->q[UV]) + both_ways(s, m, UW, 1) +
+                             both_ways(s, m, VW, 0))) +
+                dot2(m->q[UV], &at);
     p->qrr[k] = sign * (s->q[VV].n + dot2(m->l[1], &s->l[1]) +
                         w * (s->qw[VV] + dot2(mw, &s->q[VV]) + both_ways(s, m, VW, 1))) +
                 dot2(m->q[VV], &at);
@@ -229,7 +229,8 @@ static double weighted(vec3 n, const double *x)
 
 IMP_QUAD_INLINE imp_quad along_edges(const double edge[3][4], vec3 n)
 {
-    return imp_quad_all(n.x[0]) * imp_quad_load(edge[0]) + imp_quad_all(n.x[1]) * imp_quad_load(edge[1]) +
+    return imp_quad_all(n.x[0]) * imp_quad_load(edge[0]) +
+           imp_quad_all(n.x[1]) * imp_quad_load(edge[1]) +
            imp_quad_all(n.x[2]) * imp_quad_load(edge[2]);
 }
 
@@ -247,7 +248,8 @@ static double bending_upper(const relative *r, vec3 n)
     double sum = 0;
     const slice *both[2] = {&r->a, &r->b};
     for (int k = 0; k < 2 && r->posed > 0; ++k)
-        sum += fabs(vec3_dot(n, vec3_from(both[k]->uuw))) + fabs(vec3_dot(n, vec3_from(both[k]->uvw))) +
+        sum += fabs(vec3_dot(n, vec3_from(both[k]->uuw))) +
+               fabs(vec3_dot(n, vec3_from(both[k]->uvw))) +
                fabs(vec3_dot(n, vec3_from(both[k]->vvw)));
     return sum;
 }
@@ -321,7 +323,8 @@ static bool slack_and_length(const relative *r, const frame *f, const local_slic
         const double mu =
             padded_upper(turned(&m->a, 0, i) + turned(&m->b, 0, i) + fabs(m->w[i]) + nu, MU_PAD);
         slack += nu * (tangential_rest(a, i) + tangential_rest(b, i) + fabs(x->bend.t[i])) +
-                 mu * (weighted(f->t[i], r->slack) + edges_upper(r, f->t[i]) + bending_upper(r, f->t[i]));
+                 mu * (weighted(f->t[i], r->slack) + edges_upper(r, f->t[i]) +
+                       bending_upper(r, f->t[i]));
         size += 2 * mu * weighted(f->t[i], r->magnitude);
         tilt += mu * fabs(vec3_dot(f->n, f->t[i])) + mu * (DOT_ROUNDING * UNIT_ROUNDOFF);
         lean += mu * vec3_norm(f->t[i]);

@@ -117,10 +117,10 @@ IMP_QUAD_INLINE imp_quad quadratics_inner_lower(const quadratics *p, imp_quad ed
  * corner. */
 IMP_QUAD_INLINE imp_quad quadratics_bilinear_lower(const quadratics *p)
 {
-    const imp_quad ends = imp_quad_min(p->br - imp_quad_abs(p->bs + p->qsr),
-                                       -p->br - imp_quad_abs(p->bs - p->qsr));
-    const imp_quad sides = imp_quad_min(p->bs - imp_quad_abs(p->br + p->qsr),
-                                        -p->bs - imp_quad_abs(p->br - p->qsr));
+    const imp_quad ends =
+        imp_quad_min(p->br - imp_quad_abs(p->bs + p->qsr), -p->br - imp_quad_abs(p->bs - p->qsr));
+    const imp_quad sides =
+        imp_quad_min(p->bs - imp_quad_abs(p->br + p->qsr), -p->bs - imp_quad_abs(p->br - p->qsr));
     return imp_quad_min(ends, sides);
 }
 

@@ -98,7 +98,8 @@ IMP_QUAD_INLINE imp_quad take_posed_terms(const node *n, relative *r, slice *s, 
     imp_quad_store(s->qvw, imp_quad_load(s->qvw) + turn * x.vtt);
     s->normal = vec3_cross(vec3_from(s->bu), vec3_from(s->bv));
     const imp_quad across_all = imp_quad_abs(x.utt) + imp_quad_abs(x.vtt);
-    const imp_quad third = imp_quad_abs(x.uut) + imp_quad_abs(x.uvt) + imp_quad_abs(x.vvt) + across_all;
+    const imp_quad third =
+        imp_quad_abs(x.uut) + imp_quad_abs(x.uvt) + imp_quad_abs(x.vvt) + across_all;
     m->magnitude += imp_quad_all(2) * third;
     m->squares += imp_quad_abs(x.uut) + imp_quad_abs(x.vvt);
     for (int i = 0; i < 3; ++i) {

@@ -20,8 +20,9 @@ typedef struct time_window {
 typedef struct slice {
     double bu[4], bv[4], quu[4], quv[4], qvv[4];
     double quw[4], qvw[4]; /* the slopes at w are bu + quw * w, bv + qvw * w */
-    double uuw[4], uvw[4], vvw[4]; /* the same of quu, quv, qvv; where r.posed > 0, else not filled */
-    vec3 normal;           /* bu x bv: at the window's middle, which may be far from the node's */
+    double uuw[4], uvw[4],
+        vvw[4];  /* the same of quu, quv, qvv; where r.posed > 0, else not filled */
+    vec3 normal; /* bu x bv: at the window's middle, which may be far from the node's */
 } slice;
 
 /* B - A over the window: offset delta + drift * w + bend * w^2, plus slice b, minus slice a, give or
@@ -30,14 +31,14 @@ typedef struct slice {
 typedef struct relative {
     slice a, b;
     double delta[4], drift[4], bend[4];
-    double slack[4];     /* both remainders, and the rounding of moving the centre */
-    int posed;           /* nodes that are posed: the edges of their remainders turn (posed_terms.h), */
+    double slack[4]; /* both remainders, and the rounding of moving the centre */
+    int posed;       /* nodes that are posed: the edges of their remainders turn (posed_terms.h), */
     double edge[2][3][4], swing[2][3][4]; /* and only the rest of these is in the slack */
-    double magnitude[4]; /* >= sum of abs of the coefficients above */
-    double squares;      /* 0: neither slice has a square of s_u or s_v; else not 0, or NaN */
-    double mid, half;    /* of the window; half is rounded up */
-    double share;        /* of the widest gap along any axis, that a search for one must come to */
-    double focus;        /* the w that axes are chosen for; -1: the start of the window */
+    double magnitude[4];                  /* >= sum of abs of the coefficients above */
+    double squares;   /* 0: neither slice has a square of s_u or s_v; else not 0, or NaN */
+    double mid, half; /* of the window; half is rounded up */
+    double share;     /* of the widest gap along any axis, that a search for one must come to */
+    double focus;     /* the w that axes are chosen for; -1: the start of the window */
 } relative;
 
 /* What the coefficients in `relative` may be off by beside what slack counts: units of u times

@@ -149,8 +149,8 @@ static bool are_models_closer(const node *a, const node *b)
     return TUNING_NET_BEND * remainder < bend;
 }
 
-/* Hulls at the start of the window again and again, as long as that pays; then the quadratics: of flat nodes of which one
- * has no net as ever, of others once, and where they may show more. */
+/* Hulls at the start of the window again and again, as long as that pays; then the quadratics: of flat nodes
+ * of which one has no net as ever, of others once, and where they may show more. */
 static bool shrink_by_nets(const node *a, const node *b, double clearance, time_window *window,
                            vec3 *axis)
 {
@@ -162,8 +162,7 @@ static bool shrink_by_nets(const node *a, const node *b, double clearance, time_
         if (found && !cut_by_nets(a, b, *axis, clearance, window)) return false;
         pays = window->hi - window->lo < TUNING_NET_SHRINKS * length;
     }
-    if (!have_both_nets(a, b) && are_flat(a, b))
-        return shrink(a, b, clearance, window, axis, NULL);
+    if (!have_both_nets(a, b) && are_flat(a, b)) return shrink(a, b, clearance, window, axis, NULL);
     return (found && !are_models_closer(a, b)) ||
            cut_by_models(a, b, clearance, window, axis, found);
 }

@@ -8,8 +8,8 @@
 
 sight sight_none(const pair *p) { return (sight){p->window, false, 0, -1, {0, 0, 0}}; }
 
-/* Lemma. The nodes' points are points of their whole surfaces: the distance of one node's points from all of the
- * other surface is no greater than that of the two nodes. Each side cuts what the other has left. */
+/* Lemma. The nodes' points are points of their whole surfaces: the distance of one node's points from all of
+ * the other surface is no greater than that of the two nodes. Each side cuts what the other has left. */
 imp_code sight_take(const pair *p, const candidate_pair *both, double clearance, sight *seen,
                     imp_error *error)
 {

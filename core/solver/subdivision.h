@@ -16,7 +16,7 @@ typedef struct candidate {
     size_t body, surface;
     double eval_error; /* of points evaluated, about, of 16 of its pieces if it has more; < 0: not
                           measured yet; length */
-    size_t still_maps;    /* then: of a surface with distances, surface_still_maps */
+    size_t still_maps; /* then: of a surface with distances, surface_still_maps */
 } candidate;
 
 /* Two of different bodies that may come near each other. */
@@ -24,8 +24,8 @@ typedef struct candidate_pair {
     candidate *side[2];
 } candidate_pair;
 
-/* Measures eval_error and still_maps of both, unless they are known: once for each surface of a query, and only of those whose
- * pairs are followed. */
+/* Measures eval_error and still_maps of both, unless they are known: once for each surface of a query, and
+ * only of those whose pairs are followed. */
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
 
 /* What lies in both; lo > hi: nothing. */
@@ -68,8 +68,8 @@ cut cut_by_contribution(const pair *p);
  * does not matter. */
 cut cut_by_spread(const pair *p, double scale);
 
-/* The same of one side alone, whose points u, v and t bend by `bend`, lengths; CUT_NONE: nothing is left to split
- * of it. */
+/* The same of one side alone, whose points u, v and t bend by `bend`, lengths; CUT_NONE: nothing is left to
+ * split of it. */
 cut cut_alone(const pair *p, int side, const double bend[3], double scale);
 
 /* Time of the node whose points leave linear motion most within the window, where that of both hides
@@ -79,8 +79,9 @@ cut cut_by_bend(const pair *p, double scale);
 /* Nothing more to learn from u and v: the later of the two nodes' times is halved. */
 cut cut_in_time(const pair *p);
 
-/* Puts a half of a node along u or v, which has a net, in its place, for its net alone (node_child_bare), which is made too;
- * at last pair_complete puts nodes with models in their places. What is made is added to `stats`. */
+/* Puts a half of a node along u or v, which has a net, in its place, for its net alone (node_child_bare),
+ * which is made too; at last pair_complete puts nodes with models in their places. What is made is added to
+ * `stats`. */
 imp_code pair_take_bare(pair *p, int side, parameter along, int half, const candidate_pair *both,
                         imp_stats *stats, imp_error *error);
 imp_code pair_complete(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error);

@@ -70,8 +70,8 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
     return IMP_SUCCESS;
 }
 
-/* Goes on with halves alone, one after the other, as long as the pair's axis excludes the other half. *some: false where
- * both halves are. Models are made of the last alone. */
+/* Goes on with halves alone, one after the other, as long as the pair's axis excludes the other half. *some:
+ * false where both halves are. Models are made of the last alone. */
 static imp_code leave_out_halves(impact *im, pair *p, bool *some, imp_error *error)
 {
     const candidate_pair *both = candidate_pair_of(im, p);
@@ -211,8 +211,9 @@ static bool witness_is_likely(const impact *im, const pair *p, const sight *seen
            precision_ends(im, p, TUNING_WITNESS_FLAT);
 }
 
-/* Of the side that is worth halving alone. Not where its remainder does not matter any more: where surfaces come to
- * touch along a curve, it would be halved all along before the other side is small enough for a witness. */
+/* Of the side that is worth halving alone. Not where its remainder does not matter any more: where surfaces
+ * come to touch along a curve, it would be halved all along before the other side is small enough for a
+ * witness. */
 static cut choose_cut_alone(const impact *im, const pair *p, const sight *seen)
 {
     if (seen->side < 0) return CUT_NONE;
@@ -244,7 +245,8 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
     if (pair_has_cluster(p)) return split(im, p, cut_by_spread(p, im->gamma), state, error);
     sight from_each = sight_none(p);
     if (may_slide(p)) {
-        const imp_code code = sight_take(p, candidate_pair_of(im, p), im->clearance, &from_each, error);
+        const imp_code code =
+            sight_take(p, candidate_pair_of(im, p), im->clearance, &from_each, error);
         if (code != IMP_SUCCESS || from_each.is_apart) return code;
     }
     if (witness_is_likely(im, p, &from_each)) {
@@ -430,7 +432,8 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     *state = is_settled(im) ? settle(im) : IMPACT_CLEAR;
     if (*state == IMPACT_CONTACT || im->heap.count == 0) return IMP_SUCCESS;
     *state = IMPACT_NO_MEMORY;
-    if (!pair_heap_reserve(&im->heap, ROOM_OF_STEP)) return IMP_SUCCESS; /* and the place of the one popped */
+    if (!pair_heap_reserve(&im->heap, ROOM_OF_STEP))
+        return IMP_SUCCESS; /* and the place of the one popped */
     *state = IMPACT_RUNNING;
     pair p = pair_heap_pop(&im->heap);
     if (im->passed != NULL && im->passed[p.candidate_pair]) return IMP_SUCCESS;

@@ -25,9 +25,10 @@ typedef enum impact_state {
 
 /* The first test of a pair. */
 typedef struct pair_test {
-    pair p;         /* the window that is left, and the axis */
-    bool near;      /* whether its nodes may be within the clearance */
-    bool any_time;  /* of a candidate pair: whether both surfaces exist at one time; else nothing else counts */
+    pair p;    /* the window that is left, and the axis */
+    bool near; /* whether its nodes may be within the clearance */
+    bool
+        any_time; /* of a candidate pair: whether both surfaces exist at one time; else nothing else counts */
     bool done;      /* ahead of its turn */
     uint64_t bytes; /* of nets made for it */
 } pair_test;
@@ -46,8 +47,8 @@ typedef struct impact {
     const candidate_pair *candidate_pairs; /* the caller's */
     imp_stats *stats;                      /* the caller's; bytes: of the trees, without the heap */
     pair_heap heap;
-    upper_time upper;      /* with method models */
-    tests_ahead ahead; /* made by threads that look ahead (pair_test.h) */
+    upper_time upper;         /* with method models */
+    tests_ahead ahead;        /* made by threads that look ahead (pair_test.h) */
     uint64_t serial, refined; /* of the next pair; of the first after impact_refine */
     double t_lower;
     time_window

@@ -4,8 +4,9 @@
 #define CORE_SOLVER_TUNING_H
 
 /* Numbers that decide how much work a search takes, never what it proves
- * =============================================================== * Below each is what other values do to the pairs of `impinge bench bicubic spikes tori`, in per
- * cent of the 104593 that are tested now; witness searches, of which there are 381, where they are
+ * ===============================================================
+ * Below each is what other values do to the pairs of `impinge bench bicubic spikes tori`, in per cent of the
+ * 104593 that were tested when they were measured; witness searches, of which there were 381, where they are
  * what the number is about. */
 
 /* --- What to split (subdivision.c) --- */

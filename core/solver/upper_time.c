@@ -21,8 +21,8 @@ static bool is_wanted(upper_time *up, const pair *p)
     return true;
 }
 
-/* The horizon is where the gap would be gone: a smaller gamma is met before it, so that none of what was left out
- * is needed again. */
+/* The horizon is where the gap would be gone: a smaller gamma is met before it, so that none of what was left
+ * out is needed again. */
 static void take(upper_time *up, const pair *p, const net_meeting *met, const witness *seen)
 {
     const double rest = 2 * seen->gap / met->speed;
@@ -33,7 +33,8 @@ static void take(upper_time *up, const pair *p, const net_meeting *met, const wi
     up->horizon = met->t + (rest > 0 && rest < INFINITY ? rest : 0);
 }
 
-imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *sought, imp_error *error)
+imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *sought,
+                           imp_error *error)
 {
     const node *const nodes[2] = {p->a, p->b};
     time_window window = p->window;

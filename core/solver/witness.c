@@ -63,8 +63,8 @@ static void side_parameters(const search *g, int side, const double *y, double p
 
 static imp_code point_fault(const surface *s, const double p[3], const char *what, imp_error *error)
 {
-    return surface_fault(s, error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0],
-                         p[1], p[2], what);
+    return surface_fault(s, error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0], p[1], p[2],
+                         what);
 }
 
 /* The point at p and, unless eval_error is NULL, the bounds of its errors. */
@@ -177,7 +177,8 @@ static imp_code descend(const search *g, double gamma, state *s, imp_error *erro
 {
     double damping = NEWTON_DAMPING;
     for (int k = 0; k < TUNING_NEWTON_STEPS && s->gap > 0;) {
-        double gradient[NEWTON_UNKNOWNS], hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], next[NEWTON_UNKNOWNS];
+        double gradient[NEWTON_UNKNOWNS], hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS],
+            next[NEWTON_UNKNOWNS];
         imp_code code = derive(g, s, gradient, hessian, error);
         if (code != IMP_SUCCESS) return code;
         const double scale = newton_scale(hessian);
@@ -233,8 +234,8 @@ static imp_code evaluate_gap(const search *g, const state *s, witness *found, im
     return IMP_SUCCESS;
 }
 
-static imp_code search_run(const node *const nodes[2], double t,
-                           double gamma, bool moving, witness *found, imp_error *error)
+static imp_code search_run(const node *const nodes[2], double t, double gamma, bool moving,
+                           witness *found, imp_error *error)
 {
     search g = {.nodes = nodes, .t = t};
     state s;
@@ -244,14 +245,15 @@ static imp_code search_run(const node *const nodes[2], double t,
     return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
 }
 
-imp_code witness_seek(const node *const nodes[2], double t,
-                      double gamma, witness *found, imp_error *error)
+imp_code witness_seek(const node *const nodes[2], double t, double gamma, witness *found,
+                      imp_error *error)
 {
     return search_run(nodes, t, gamma, true, found, error);
 }
 
 /* y may be anywhere on the surfaces. */
-imp_code witness_at(const node *const nodes[2], double t, const double y[4], witness *found, imp_error *error)
+imp_code witness_at(const node *const nodes[2], double t, const double y[4], witness *found,
+                    imp_error *error)
 {
     search g = {.nodes = nodes, .t = t};
     state s;
@@ -269,8 +271,7 @@ imp_code witness_eval_error(const surface *s, const double p[3], double *eval_er
     return code;
 }
 
-imp_code witness_at_centres(const node *const nodes[2], double t,
-                            witness *found, imp_error *error)
+imp_code witness_at_centres(const node *const nodes[2], double t, witness *found, imp_error *error)
 {
     return search_run(nodes, t, 0, false, found, error);
 }

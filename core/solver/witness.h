@@ -19,21 +19,22 @@ typedef struct witness {
     vec3 normal; /* unit, a to b */
 } witness;
 
-/* Seeks the nearest points of the two surfaces at time t, from the middles of the two nodes, neither of which is a cluster; gives
- * up early where the gap stays far above gamma. IMP_ERROR_PLUGIN when an evaluation fails. */
-imp_code witness_seek(const node *const nodes[2], double t,
-                      double gamma, witness *found, imp_error *error);
+/* Seeks the nearest points of the two surfaces at time t, from the middles of the two nodes, neither of which
+ * is a cluster; gives up early where the gap stays far above gamma. IMP_ERROR_PLUGIN when an evaluation
+ * fails. */
+imp_code witness_seek(const node *const nodes[2], double t, double gamma, witness *found,
+                      imp_error *error);
 
 /* The point *x that is evaluated at p = (u, v, t), and a bound of its distance to the exact one. */
 imp_code witness_eval_error(const surface *s, const double p[3], double *eval_error, vec3 *x,
                             imp_error *error);
 
-/* The points at parameters (s_u, s_v) of a and of b relative to the nodes, which may be left, not the surfaces. */
+/* The points at parameters (s_u, s_v) of a and of b relative to the nodes, which may be left, not the
+ * surfaces. */
 imp_code witness_at(const node *const nodes[2], double t, const double y[4], witness *found,
                     imp_error *error);
 
 /* The points at the middles themselves, without a search: the paper's termination. */
-imp_code witness_at_centres(const node *const nodes[2], double t,
-                            witness *found, imp_error *error);
+imp_code witness_at_centres(const node *const nodes[2], double t, witness *found, imp_error *error);
 
 #endif

@@ -121,7 +121,8 @@ shared_part *part_of_map(const imp_map_type *type, void *self)
 
 size_t part_bytes(const shared_part *p)
 {
-    return sizeof *p + p->given + p->label_size + 3 * PART_BLOCK + p->piece_count * sizeof *p->pieces;
+    return sizeof *p + p->given + p->label_size + 3 * PART_BLOCK +
+           p->piece_count * sizeof *p->pieces;
 }
 
 shared_part *part_hold(shared_part *p)

@@ -24,8 +24,8 @@ typedef struct shared_part {
     imp_status breach;   /* IMP_OK, or for surface_status_text: how the domain breaks the ABI;
                                    then the part may only be released */
     size_t given;        /* bytes of the values it was made from: about what the instance keeps */
-    char *label;         /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
-    size_t label_size;   /* bytes of it, its end included */
+    char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
+    size_t label_size; /* bytes of it, its end included */
 } shared_part;
 
 /* Takes over the instance `self`, and asks for its domain, or those of its pieces, which have their

@@ -84,7 +84,8 @@ imp_code surface_divide(surface *s)
         piece->pieces = NULL;
         piece->piece_count = 0;
         piece->self = origin->pieces[k];
-        if (part_domain(s->type, piece->self, lo, hi) != IMP_OK) continue; /* good when it was made */
+        if (part_domain(s->type, piece->self, lo, hi) != IMP_OK)
+            continue; /* good when it was made */
         memcpy(piece->lo, lo, 2 * sizeof *lo);
         memcpy(piece->hi, hi, 2 * sizeof *hi);
     }
@@ -216,7 +217,8 @@ const char *surface_status_text(imp_status status)
         return "a control net has too many points, a number that is infinite or NaN, a negative "
                "error, or a weight that is not positive";
     case SURFACE_BAD_POSE:
-        return "a pose depends on more than time, or has a number that is infinite or NaN, a negative "
+        return "a pose depends on more than time, or has a number that is infinite or NaN, a "
+               "negative "
                "remainder or rate, or an inverted range";
     case SURFACE_BAD_DISTANCE:
         return "a distance from it has a remainder that is negative or NaN, or a range that is "

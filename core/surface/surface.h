@@ -105,7 +105,8 @@ imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, 
 /* Rate matrix of the composition (paper, section 5). */
 imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates);
 
-/* The inclusion function of the composition, Taylor models of order 2; boxes from eval and rate where a part has no better. */
+/* The inclusion function of the composition, Taylor models of order 2; boxes from eval and rate where a part
+ * has no better. */
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3]);
 
 /* The control net of the composition over a region (imp_net). IMP_UNBOUNDED: it has none there, as where
@@ -129,9 +130,10 @@ double surface_pose_norm_upper(const surface *s);
 /* Whether distances from the surface may be known: its type knows them, and all of its maps are rigid. */
 bool surface_has_distance(const surface *s);
 
-/* Precondition: that. The distance, as in imp_surface_type, of a point with these models over the region, whose
- * rates are not used, from the whole surface under its first `maps` maps; or less, where the maps after these bring
- * both nearer to each other. IMP_UNBOUNDED: nothing is known, as at times at which the surface does not exist. */
+/* Precondition: that. The distance, as in imp_surface_type, of a point with these models over the region,
+ * whose rates are not used, from the whole surface under its first `maps` maps; or less, where the maps after
+ * these bring both nearer to each other. IMP_UNBOUNDED: nothing is known, as at times at which the surface
+ * does not exist. */
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance);
 
@@ -140,8 +142,8 @@ size_t surface_common_maps(const surface *a, const surface *b);
 
 size_t surface_map_count(const surface *s);
 
-/* Precondition: surface_has_distance. How many of its maps, counted from the first, do not turn it further during
- * the region's times. */
+/* Precondition: surface_has_distance. How many of its maps, counted from the first, do not turn it further
+ * during the region's times. */
 imp_status surface_still_maps(const surface *s, const imp_region *region, size_t *count);
 
 /* The inclusion under the first `maps` maps alone. */

@@ -50,10 +50,10 @@ typedef struct deviation {
     double norm;       /* >= |D x| / |x|, in the greatest and in the Euclidean norm, as D is symmetric */
 } deviation;
 
-/* Lemma. D_ij is the product of the columns i and j of R less that of the identity: in the range of the same of
- * the models, which contain R. And with e = IMP_RIGID_SLACK, each of the K maps alone changes squares of
- * lengths by a factor from 1 - 3 e to 1 + 3 e (surface_pose_norm_upper), all of them together from (1 - 3 e)^K to
- * (1 + 3 e)^K, so that
+/* Lemma. D_ij is the product of the columns i and j of R less that of the identity: in the range of the same
+ * of the models, which contain R. And with e = IMP_RIGID_SLACK, each of the K maps alone changes squares of
+ * lengths by a factor from 1 - 3 e to 1 + 3 e (surface_pose_norm_upper), all of them together from (1 - 3
+ * e)^K to (1 + 3 e)^K, so that
  *
  *   |D_ij| <= |D| = max ||R x|^2 / |x|^2 - 1| <= (1 + 3 e)^K - 1 <= n^2 - 1,   n = (1 + 2 e)^K,
  *
@@ -80,9 +80,9 @@ static deviation deviation_of(const imp_pose *pose, double norm)
     return d;
 }
 
-/* At most |R x| / |x|, and 1. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root of what is below 1 is above it. Also each
- * map leaves sqrt(1 - 3 e) at least, and (1 + 2 e)^2 (1 - 3 e) > 1 + e / 2, so that 1 / n is less than that of
- * all. */
+/* At most |R x| / |x|, and 1. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root of what is below 1 is above it.
+ * Also each map leaves sqrt(1 - 3 e) at least, and (1 + 2 e)^2 (1 - 3 e) > 1 + e / 2, so that 1 / n is less
+ * than that of all. */
 static double least_stretch(const deviation *d, double norm)
 {
     const double found = difference_lower(1, d->norm);
@@ -147,8 +147,8 @@ static imp_status distance_before_maps(const surface *s, const imp_region *regio
     return judge(surface_call_end(mode, status), distance);
 }
 
-/* *stretch: times that of the maps from `first` on, if they are all rigid then. Of maps that turn with time no more
- * is asked than what each may do: the remainders of their models say less. */
+/* *stretch: times that of the maps from `first` on, if they are all rigid then. Of maps that turn with time
+ * no more is asked than what each may do: the remainders of their models say less. */
 static imp_status stretch_by(const surface *s, size_t first, const imp_region *region, double *stretch)
 {
     const double norm = 1 + 2 * IMP_RIGID_SLACK; /* of one; exact */
@@ -179,9 +179,9 @@ static imp_status take_back_before(const surface *s, size_t maps, const imp_regi
     return take_back(&pose, &d, point, at) ? IMP_OK : IMP_UNBOUNDED;
 }
 
-/* Lemma. Maps that follow on both, and are rigid, stretch what is between any two points at the same time by their
- * least stretch at least: |g| times that of all maps is no more than the distance after them. imp_scale bounds
- * what it rounds of g, which may depend on anything. */
+/* Lemma. Maps that follow on both, and are rigid, stretch what is between any two points at the same time by
+ * their least stretch at least: |g| times that of all maps is no more than the distance after them. imp_scale
+ * bounds what it rounds of g, which may depend on anything. */
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance)
 {

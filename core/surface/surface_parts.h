@@ -9,9 +9,10 @@
 
 /* The inside of a surface
  * =======================
- * For part.c and its files: surface.c (life, names), surface_rate.c (points and rates) and
- * surface_include.c (inclusions), surface_net.c, surface_pose.c and surface_distance.c. Everything that a callback gives is checked where it comes
- * from, before anything is computed with it: behind a product or a sum a breach might not show. */
+ * For part.c and its files: surface.c (life, names), surface_rate.c (points and rates) and surface_include.c
+ * (inclusions), surface_net.c, surface_pose.c and surface_distance.c. Everything that a callback gives is
+ * checked where it comes from, before anything is computed with it: behind a product or a sum a breach might
+ * not show. */
 
 typedef struct mapping {
     const imp_map_type *type;
@@ -75,8 +76,8 @@ bool pose_turns(const imp_pose *pose);
 
 /* The pose that the maps from `first` to the one before `end` have together, as surface_pose. Preconditions:
  * first < end <= map_count; all of them are rigid. */
-imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end, const imp_region *region,
-                                imp_pose *pose);
+imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end,
+                                const imp_region *region, imp_pose *pose);
 
 /* One step of the chain rule (paper, section 5): M_g[:,j] = P M_f[:,j], + p_t for j = t.
  * IMP_UNBOUNDED: a product of finite rates is too large for a double. */

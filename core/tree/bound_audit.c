@@ -109,9 +109,11 @@ IMP_QUAD_INLINE bool outside_edges(const node *n, const double p[3], const doubl
                                    const double eval_error[3])
 {
     imp_quad rounding, size;
-    const double s[3] = {parameter_within(n, p, 0), parameter_within(n, p, 1), parameter_within(n, p, 2)};
+    const double s[3] = {parameter_within(n, p, 0), parameter_within(n, p, 1),
+                         parameter_within(n, p, 2)};
     const posed_terms terms = posed_terms_at(n, s[2], 0);
-    const imp_quad at = {x[0], x[1], x[2], 0}, slack = {eval_error[0], eval_error[1], eval_error[2], 0};
+    const imp_quad at = {x[0], x[1], x[2], 0},
+                   slack = {eval_error[0], eval_error[1], eval_error[2], 0};
     const imp_quad third = third_order(&terms, s, &size), t = imp_quad_all(s[2]);
     const imp_quad off = at - polynomial(n, p, &rounding) - third;
     const imp_quad box = imp_quad_load(n->posed_e) + slack + rounding +
@@ -119,8 +121,9 @@ IMP_QUAD_INLINE bool outside_edges(const node *n, const double p[3], const doubl
                          imp_quad_all(POINT_ROUNDING * UNIT_ROUNDOFF) * imp_quad_abs(at) +
                          imp_quad_all(OFF_ROUNDING * UNIT_ROUNDOFF) * imp_quad_abs(off);
     for (int j = 0; j < 3; ++j) {
-        const imp_quad axis = imp_quad_load(n->pose->turn[0][j]) +
-                              (imp_quad_load(n->pose->turn[1][j]) + imp_quad_load(n->pose->turn[2][j]) * t) * t;
+        const imp_quad axis =
+            imp_quad_load(n->pose->turn[0][j]) +
+            (imp_quad_load(n->pose->turn[1][j]) + imp_quad_load(n->pose->turn[2][j]) * t) * t;
         imp_quad along = imp_quad_all(0);
         double way = 0, reach = 0;
         for (int i = 0; i < 3; ++i) {
@@ -187,7 +190,7 @@ static imp_code lie_of_net(const surface *s, const node *n, const double p[3], c
                          "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g its %c is %.17g, "
                          "which is outside the hull of the control points by more than %.3g",
                          r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1],
-                         p[2], "xyz"[i], x[i], node_net_made(n)->error[i]);
+                         p[2], "xyz"[i], x[i], node_net_made(n) -> error[i]);
 }
 
 static imp_code lie(const surface *s, const node *n, const double p[3], const double x[3], int i,
@@ -208,11 +211,12 @@ static imp_code lie(const surface *s, const node *n, const double p[3], const do
 static imp_code lie_of_shape(const surface *s, const node *n, const double p[3], imp_error *error)
 {
     const imp_region *r = &n->region;
-    return surface_fault(s, error,
-                         "breaks its own bounds over u [%.17g, %.17g], v [%.17g, %.17g], "
-                         "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g it leaves the remainder "
-                         "that it has before its maps, moved as they say",
-                         r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1], p[2]);
+    return surface_fault(
+        s, error,
+        "breaks its own bounds over u [%.17g, %.17g], v [%.17g, %.17g], "
+        "t [%.17g, %.17g]: at u = %.17g, v = %.17g, t = %.17g it leaves the remainder "
+        "that it has before its maps, moved as they say",
+        r->lo[0], r->hi[0], r->lo[1], r->hi[1], r->lo[2], r->hi[2], p[0], p[1], p[2]);
 }
 
 static imp_code judge(const surface *s, const node *n, const double p[3], const double x[3],

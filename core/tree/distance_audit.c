@@ -126,9 +126,10 @@ static imp_code lie_of_distance(const surface *s, const imp_region *r, double cl
 
 enum { PASSAGES = 8, STEPS = 4 };
 
-/* Lemma. A point that is moved by a vector is no farther from the surface than the vector is long, wherever the
- * surface is, and whatever brings both nearer to each other after that. s is from -1 + 2^-20 to 1 - 2^-20, or 0 where the region has no width, and so stands for a
- * point of it; the vector's length has fewer than 2^10 roundings. */
+/* Lemma. A point that is moved by a vector is no farther from the surface than the vector is long, wherever
+ * the surface is, and whatever brings both nearer to each other after that. s is from -1 + 2^-20 to 1 -
+ * 2^-20, or 0 where the region has no width, and so stands for a point of it; the vector's length has fewer
+ * than 2^10 roundings. */
 static imp_code judge_passage(const node *n, const passage *w, uint64_t *state, imp_error *error)
 {
     imp_model g;

@@ -18,9 +18,9 @@ struct hierarchy {
     const surface *surface;
     double lo, hi, c, d; /* the times, as in imp_region */
     uint32_t *order;     /* the pieces; those of a cluster stand together */
-    cluster *clusters;   /* count - 1 of them, a parent before its children; the root is the first */
-    size_t count;        /* of pieces */
-    size_t used;         /* clusters made */
+    cluster *clusters; /* count - 1 of them, a parent before its children; the root is the first */
+    size_t count;      /* of pieces */
+    size_t used;       /* clusters made */
 };
 
 /* --- The bounds of one piece -------------------------------------------------------------- */
@@ -118,8 +118,7 @@ typedef struct building {
 
 static bool is_before(const spot *x, const spot *y, int axis)
 {
-    return x->at[axis] < y->at[axis] ||
-           (x->at[axis] == y->at[axis] && x->at[PIECE] < y->at[PIECE]);
+    return x->at[axis] < y->at[axis] || (x->at[axis] == y->at[axis] && x->at[PIECE] < y->at[PIECE]);
 }
 
 static spot middle_of(const spot *x, const spot *y, const spot *z, int axis)
@@ -180,8 +179,8 @@ static cluster *build(const building *b, spot *spots, size_t count)
         spot *from = spots + (side == 0 ? 0 : half[0]);
         made->child[side] = half[side] > 1 ? build(b, from, half[side]) : NULL;
         made->piece[side] = (uint32_t)from->at[PIECE];
-        bounds[side] = made->child[side] != NULL ? &made->child[side]->bound
-                                                 : &b->pieces[made->piece[side]];
+        bounds[side] =
+            made->child[side] != NULL ? &made->child[side]->bound : &b->pieces[made->piece[side]];
     }
     bound_both(&made->bound, bounds[0], bounds[1]);
     return made;
@@ -206,8 +205,7 @@ imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy
                        imp_error *error)
 {
     assert(surface_piece_count(s) >= 2);
-    const imp_region times =
-        region_make((double[3]){0, 0, t_start}, (double[3]){0, 0, t_end});
+    const imp_region times = region_make((double[3]){0, 0, t_start}, (double[3]){0, 0, t_end});
     hierarchy *h = calloc(1, sizeof *h);
     if (h == NULL) return error_set_memory(error);
     *h = (hierarchy){.surface = s,
@@ -270,9 +268,10 @@ void cluster_models(const cluster *c, const imp_region *region, imp_model model[
         imp_model *m = &model[i];
         m->a = bound->a[i] + bound->b[i] * shift;
         m->b[2] = bound->b[i] * scale;
-        m->e = padded_upper(
-            bound->e[i] + TIMES_ROUNDING * UNIT_ROUNDOFF * (fabs(bound->a[i]) + fabs(bound->b[i])),
-            8) + PRODUCTS_UNDERFLOW;
+        m->e = padded_upper(bound->e[i] + TIMES_ROUNDING * UNIT_ROUNDOFF *
+                                              (fabs(bound->a[i]) + fabs(bound->b[i])),
+                            8) +
+               PRODUCTS_UNDERFLOW;
         const double reach = sum_upper(m->e, fabs(m->b[2]));
         m->lo = difference_lower(m->a, reach);
         m->hi = sum_upper(m->a, reach);

@@ -105,8 +105,8 @@ typedef struct rows {
 
 IMP_QUAD_INLINE rows rows_at(const double *x)
 {
-    return (rows){{imp_quad_load(x), imp_quad_load(x + 4), imp_quad_load(x + 8),
-                   imp_quad_load(x + 12)}};
+    return (rows){
+        {imp_quad_load(x), imp_quad_load(x + 4), imp_quad_load(x + 8), imp_quad_load(x + 12)}};
 }
 
 IMP_QUAD_INLINE void rows_store(double *x, const rows *r)
@@ -204,7 +204,8 @@ IMP_QUAD_INLINE rows rows_halved_weighted(const rows *x, const row_weights *w, i
     for (int k = 0; k < 2; ++k)
         three[k] = mean_of_rows(two[k], w->two[k], two[k + 1], w->two[k + 1]);
     const imp_quad all = mean_of_rows(three[0], w->three[0], three[1], w->three[1]);
-    return side == 0 ? (rows){{r[0], two[0], three[0], all}} : (rows){{all, three[1], two[2], r[3]}};
+    return side == 0 ? (rows){{r[0], two[0], three[0], all}}
+                     : (rows){{all, three[1], two[2], r[3]}};
 }
 
 IMP_QUAD_INLINE void halve_bicubic_weighted(double *x, int columns, parameter j, int side)

@@ -19,8 +19,8 @@ typedef struct net {
     bool is_moving, is_weighted;
     double time;               /* motion counts from here */
     double place[3], drift[3]; /* added to points, to velocities */
-    double error[3];           /* the surface is off the patch by this at most, over the region; length */
-    double most[3];            /* >= |point| + |t - time| |velocity| over the times it was made for; length */
+    double error[3]; /* the surface is off the patch by this at most, over the region; length */
+    double most[3];  /* >= |point| + |t - time| |velocity| over the times it was made for; length */
     double numbers[]; /* x, y, z of points, the same of velocities if moving, weights if weighted */
 } net;
 
@@ -49,8 +49,8 @@ bool net_can_halve(const imp_region *region, parameter j);
 /* Fills `half`, which has room for as much, with the net of the lower (0) or upper half along u or v. */
 void net_halve(const net *n, parameter j, int side, net *half);
 
-/* The same of other numbers of its control points, in place: `columns` columns as the net's own, then its weights
- * if it has any. Numbers no larger than `most` are then off by net_halving_upper at most. */
+/* The same of other numbers of its control points, in place: `columns` columns as the net's own, then its
+ * weights if it has any. Numbers no larger than `most` are then off by net_halving_upper at most. */
 void net_halve_columns(const net *n, parameter j, int side, double *x, int columns);
 double net_halving_upper(const net *n, parameter j, double most);
 

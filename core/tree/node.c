@@ -35,7 +35,7 @@ struct tree {
     const surface *surface;
     tree_plan plan;
     tree *next;
-    node *root; /* first */
+    node *root;           /* first */
     pthread_mutex_t lock; /* of chunks, and of every node's children while one is published */
     chunk *chunks;
     hierarchy *pieces; /* NULL: it is one surface */
@@ -103,11 +103,9 @@ static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
     imp_model model[3];
     if (posing_fill(n)) return IMP_SUCCESS;
     if (n->many != NULL) cluster_models(n->many, &n->region, model);
-    const imp_status status = n->many != NULL
-                                  ? surface_include_image(t->surface, &n->region, model)
-                                  : surface_include(n->surface, &n->region, model);
-    if (status != IMP_OK && status != IMP_UNBOUNDED)
-        return status_fault(n, status, error);
+    const imp_status status = n->many != NULL ? surface_include_image(t->surface, &n->region, model)
+                                              : surface_include(n->surface, &n->region, model);
+    if (status != IMP_OK && status != IMP_UNBOUNDED) return status_fault(n, status, error);
     const char *breach = node_take_model(n, model, status == IMP_UNBOUNDED);
     return breach != NULL ? fault(n, breach, error) : IMP_SUCCESS;
 }
@@ -242,8 +240,10 @@ static imp_code fill_net(tree *t, const node *n, net_buffer *room, const net **m
     if (whole == NULL) return ask_net(n, room, made, error);
     *made = whole;
     if (n->along == PARAMETER_T) return IMP_SUCCESS;
-    const node *bare = atomic_load_explicit(&n->parent->bare[n->along][n->side], memory_order_acquire);
-    if (bare != NULL && node_net_made(bare) != NULL) return *made = node_net_made(bare), IMP_SUCCESS;
+    const node *bare =
+        atomic_load_explicit(&n->parent->bare[n->along][n->side], memory_order_acquire);
+    if (bare != NULL && node_net_made(bare) != NULL)
+        return *made = node_net_made(bare), IMP_SUCCESS;
     net_halve(whole, n->along, n->side, net_in(room));
     *made = net_in(room);
     return IMP_SUCCESS;
@@ -485,9 +485,8 @@ static node_place place_of_half(const node *parent, parameter j, int side)
 {
     const imp_region *r = &parent->region;
     if (parent->many == NULL || j != PARAMETER_U)
-        return (node_place){.region = region_half(r, j, side),
-                            .surface = parent->surface,
-                            .many = parent->many};
+        return (node_place){
+            .region = region_half(r, j, side), .surface = parent->surface, .many = parent->many};
     const cluster *half = parent->many->child[side];
     if (half != NULL) return place_of_cluster(half, r->lo[2], r->hi[2]);
     return place_of_surface(surface_piece(parent->surface, parent->many->piece[side]), r->lo[2],

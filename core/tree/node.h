@@ -55,18 +55,18 @@ typedef struct node {
     double nonlinear_extent[3]; /* the same for what is not linear in the parameters; length */
     double time_remainder;      /* time's share in e where its rate is known, about; length */
     bool bounded;               /* f, e, lo, hi are all finite */
-    bool is_bare;               /* of what is above only the region and `bounded`, which is true, mean anything */
-    const surface *surface;     /* whose points are bounded: a piece, or the whole */
-    const cluster *many;        /* of these pieces of it; NULL: of one surface */
-    struct node *parent;        /* NULL: it is the root */
-    parameter along;            /* which half of the parent it is */
+    bool is_bare; /* of what is above only the region and `bounded`, which is true, mean anything */
+    const surface *surface; /* whose points are bounded: a piece, or the whole */
+    const cluster *many;    /* of these pieces of it; NULL: of one surface */
+    struct node *parent;    /* NULL: it is the root */
+    parameter along;        /* which half of the parent it is */
     int side;
     _Atomic(const net *) net;           /* NULL: not asked for yet; &net_none: it has none */
-    struct shape *shape;        /* what is moved rigidly, */
-    struct span *span;          /* and when (posing.h); NULL: neither is known */
-    const struct shape_model *still; /* whose image under */
-    const struct pose_lanes *pose;   /* it is (posed_terms.h); NULL: use e, as one may always */
-    double posed_e[4];               /* what is left of e beside posed terms; length; then 0 */
+    struct shape *shape;                /* what is moved rigidly, */
+    struct span *span;                  /* and when (posing.h); NULL: neither is known */
+    const struct shape_model *still;    /* whose image under */
+    const struct pose_lanes *pose;      /* it is (posed_terms.h); NULL: use e, as one may always */
+    double posed_e[4];                  /* what is left of e beside posed terms; length; then 0 */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
     _Atomic(struct node *) bare[2][2];  /* the same along u and v, without models */
 } node;
@@ -113,8 +113,8 @@ bool tree_is_of(const tree *t, const tree_plan *plan);
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error);
 
-/* The same half along u or v for its net alone: on the way to a smaller one no models are made. Unless the half is
- * there already it is bare, and not counted as a node. Precondition: `parent` is no cluster. */
+/* The same half along u or v for its net alone: on the way to a smaller one no models are made. Unless the
+ * half is there already it is bare, and not counted as a node. Precondition: `parent` is no cluster. */
 imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
                          tree_growth *growth, imp_error *error);
 
@@ -140,8 +140,9 @@ static inline bool node_bends(const node *n)
     return bends;
 }
 
-/* Whether both have a net that a pair of them asks for (pair_test.c). Where neither bends it asks for none, and those
- * that other pairs asked for do not count: which there are depends on what else the scene was asked. */
+/* Whether both have a net that a pair of them asks for (pair_test.c). Where neither bends it asks for none,
+ * and those that other pairs asked for do not count: which there are depends on what else the scene was
+ * asked. */
 static inline bool nodes_have_nets(const node *a, const node *b)
 {
     return (node_bends(a) || node_bends(b)) && node_net_made(a) != NULL && node_net_made(b) != NULL;

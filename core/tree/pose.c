@@ -114,14 +114,15 @@ IMP_QUAD_INLINE relative_shape shape_about(const shape_model *s, const double pi
  *
  *   a = R0 A + T0 - R2 H / 2,   bu = S bu,   bv = S bv,   bt = R1 G + T1,
  *   quu = S cuu, quv = S cuv, qvv = S cvv,   qut = R1 bu, qvt = R1 bv,   qtt = R2 G + T2. */
-IMP_QUAD_INLINE void take_coefficients(const shape_model *s, const relative_shape *z, const pose_lanes *p,
-                                       model_lanes *m)
+IMP_QUAD_INLINE void take_coefficients(const shape_model *s, const relative_shape *z,
+                                       const pose_lanes *p, model_lanes *m)
 {
     double near[3][4]; /* S */
     const imp_quad half = imp_quad_all(0.5);
     for (int j = 0; j < 3; ++j)
         imp_quad_store(near[j], imp_quad_load(p->turn[0][j]) + half * imp_quad_load(p->turn[2][j]));
-    m->a = pose_times(p->turn[0], z->a) + imp_quad_load(p->shift[0]) - half * pose_times(p->turn[2], z->middle);
+    m->a = pose_times(p->turn[0], z->a) + imp_quad_load(p->shift[0]) -
+           half * pose_times(p->turn[2], z->middle);
     m->b[0] = pose_times(near, s->bu);
     m->b[1] = pose_times(near, s->bv);
     m->b[2] = pose_times(p->turn[1], z->both) + imp_quad_load(p->shift[1]);
@@ -155,15 +156,17 @@ IMP_QUAD_INLINE imp_quad folded_fourth(const shape_model *s, const pose_lanes *p
  *
  *   |R| (TURNED |A| + OTHERS (|bu| + |bv| + |cuu| + |cuv| + |cvv|)) + MOVED (|T0| + |T1| + |T2|). */
 enum { TURNED = 6, OTHERS = 11, MOVED = 2 };
-_Static_assert(1 + 1 + 1 + 2 + 1 <= TURNED && 4 * 6 + 6 + 4 * 3 <= 4 * OTHERS, "rounding of a pose");
+_Static_assert(1 + 1 + 1 + 2 + 1 <= TURNED && 4 * 6 + 6 + 4 * 3 <= 4 * OTHERS,
+               "rounding of a pose");
 
-IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z, const pose_lanes *p)
+IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
+                                  const pose_lanes *p)
 {
     double size[4];
-    const imp_quad others = imp_quad_abs(imp_quad_load(s->bu)) + imp_quad_abs(imp_quad_load(s->bv)) +
-                            imp_quad_abs(imp_quad_load(s->quu)) +
-                            imp_quad_abs(imp_quad_load(s->quv)) +
-                            imp_quad_abs(imp_quad_load(s->qvv));
+    const imp_quad others =
+        imp_quad_abs(imp_quad_load(s->bu)) + imp_quad_abs(imp_quad_load(s->bv)) +
+        imp_quad_abs(imp_quad_load(s->quu)) + imp_quad_abs(imp_quad_load(s->quv)) +
+        imp_quad_abs(imp_quad_load(s->qvv));
     imp_quad_store(size, imp_quad_all(TURNED) * imp_quad_abs(imp_quad_load(z->a)) +
                              imp_quad_all(OTHERS) * others);
     return imp_quad_all(UNIT_ROUNDOFF) *
@@ -222,8 +225,8 @@ IMP_QUAD_INLINE range_lanes range_of_polynomial(const model_lanes *m)
 {
     const range_lanes u = bow(m->b[0], m->q[IMP_UU]), v = bow(m->b[1], m->q[IMP_VV]),
                       t = bow(m->b[2], m->q[IMP_TT]);
-    const imp_quad cross = imp_quad_abs(m->q[IMP_UV]) + imp_quad_abs(m->q[IMP_UT]) +
-                           imp_quad_abs(m->q[IMP_VT]) + m->e;
+    const imp_quad cross =
+        imp_quad_abs(m->q[IMP_UV]) + imp_quad_abs(m->q[IMP_UT]) + imp_quad_abs(m->q[IMP_VT]) + m->e;
     imp_quad size = imp_quad_abs(m->a) + m->e;
     for (int j = 0; j < 3; ++j) size += imp_quad_abs(m->b[j]);
     for (int k = 0; k < 6; ++k) size += imp_quad_abs(m->q[k]);
@@ -252,10 +255,11 @@ IMP_QUAD_INLINE range_lanes range_of_box(const shape_model *s, const pose_lanes 
                               pose_times(p->turn[2], z) + imp_quad_load(p->shift[2]));
     const imp_quad slip = imp_quad_all(16 * UNIT_ROUNDOFF) *
                           (pose_times(p->turn_size, size) + imp_quad_load(p->shift_size));
-    const imp_quad reach = quad_padded_upper(pose_times(p->turn_most, w) + pose_times(p->turn_error, size) +
-                                                 imp_quad_load(p->shift_error) + slip,
-                                             16) +
-                           POSE_UNDERFLOW;
+    const imp_quad reach =
+        quad_padded_upper(pose_times(p->turn_most, w) + pose_times(p->turn_error, size) +
+                              imp_quad_load(p->shift_error) + slip,
+                          16) +
+        POSE_UNDERFLOW;
     return (range_lanes){c0 + c.lo - reach, c0 + c.hi + reach};
 }
 
@@ -272,7 +276,8 @@ IMP_QUAD_INLINE range_lanes range_of_ball(const relative_shape *z, const pose_la
 IMP_QUAD_INLINE void take_range(const shape_model *s, const relative_shape *z, const pose_lanes *p,
                                 model_lanes *m)
 {
-    const range_lanes x = range_of_polynomial(m), y = range_of_box(s, p), ball = range_of_ball(z, p);
+    const range_lanes x = range_of_polynomial(m), y = range_of_box(s, p),
+                      ball = range_of_ball(z, p);
     m->lo = imp_quad_max(imp_quad_max(x.lo, y.lo), ball.lo);
     m->hi = imp_quad_min(imp_quad_min(x.hi, y.hi), ball.hi);
 }

@@ -42,8 +42,8 @@ IMP_QUAD_INLINE imp_quad pose_times(const double column[3][4], const double y[4]
            imp_quad_load(column[2]) * imp_quad_all(y[2]);
 }
 
-/* What edges and bow may be off by along an axis, in units of u (|R0| + |R1| + |R2|) e; in posed_e. s0 is off by 2 u
- * and k by u; |edge| + |swing| + bow are at most one such size.
+/* What edges and bow may be off by along an axis, in units of u (|R0| + |R1| + |R2|) e; in posed_e. s0 is off
+ * by 2 u and k by u; |edge| + |swing| + bow are at most one such size.
  *
  *   edge     R2 s0 2 + 1, sum 1, times s0 2 + 1, sum 1, times e 1         9
  *   swing    R2 s0 2 + 1, sums 2, times k 1 + 1, times e 1                8
@@ -52,7 +52,8 @@ IMP_QUAD_INLINE imp_quad pose_times(const double column[3][4], const double y[4]
  *            weights 2, their sums with the rest of the slack 16         34 */
 enum { EDGE_ROUNDING = 64 };
 _Static_assert((2 + 1 + 1 + 2 + 1 + 1 + 1) + (2 + 1 + 2 + 1 + 1 + 1) + (2 + 1 + 1 + 1 + 2) +
-                       (3 + 1 + 12 + 2 + 16) <= EDGE_ROUNDING,
+                       (3 + 1 + 12 + 2 + 16) <=
+                   EDGE_ROUNDING,
                "rounding of edges");
 
 /* Precondition: n->pose != NULL; |s0| + k <= 1, up to rounding. */

@@ -80,8 +80,8 @@ IMP_QUAD_INLINE imp_quad linear_at(const linear_terms *c, const double p[3])
 {
     const imp_quad u = imp_quad_all(p[0]), w = imp_quad_all(p[1]), t = imp_quad_all(p[2]);
     const imp_quad along_u = u * (c->k[LINEAR_U] + t * c->v[LINEAR_U]);
-    const imp_quad along_v = w * ((c->k[LINEAR_V] + t * c->v[LINEAR_V]) +
-                                  u * (c->k[LINEAR_UV] + t * c->v[LINEAR_UV]));
+    const imp_quad along_v =
+        w * ((c->k[LINEAR_V] + t * c->v[LINEAR_V]) + u * (c->k[LINEAR_UV] + t * c->v[LINEAR_UV]));
     return c->k[LINEAR_1] + ((t * c->v[LINEAR_1] + along_u) + along_v);
 }
 
@@ -128,12 +128,14 @@ imp_status linear_eval(const void *self, size_t n, const double *p, double *x, d
 
 /* Covers the rounding of everything below but the last sum with K_1: a number there is a sum of
  * terms as above, through at most 12 roundings; four more pay for `size` and second order. */
-IMP_QUAD_INLINE imp_quad linear_noise(const linear *f, const linear_terms *c, const imp_region *region)
+IMP_QUAD_INLINE imp_quad linear_noise(const linear *f, const linear_terms *c,
+                                      const imp_region *region)
 {
     const double u = fabs(region->c[0]) + region->d[0], w = fabs(region->c[1]) + region->d[1];
     const imp_quad size = linear_size(c, u, w, fabs(region->c[2]) + region->d[2]);
     return imp_quad_pick(that_depend(f, 7),
-                         imp_quad_all(16 * 0x1p-53) * size + imp_quad_all(IMP_TINY), imp_quad_all(0));
+                         imp_quad_all(16 * 0x1p-53) * size + imp_quad_all(IMP_TINY),
+                         imp_quad_all(0));
 }
 
 /* At least |a + b x + c y + d x y| for x in [x_lo, x_hi], y in [y_lo, y_hi], parameters j and k of the
@@ -231,16 +233,18 @@ IMP_QUAD_INLINE void round_outward(linear_lanes *g)
 }
 
 /* With p = c + d s substituted, K_k + t V_k = (K_k + c_t V_k) + d_t V_k s_t. */
-IMP_QUAD_INLINE void linear_polynomial(const linear *f, const linear_terms *c, const imp_region *region,
-                                       imp_quad noise, linear_lanes *g)
+IMP_QUAD_INLINE void linear_polynomial(const linear *f, const linear_terms *c,
+                                       const imp_region *region, imp_quad noise, linear_lanes *g)
 {
     const imp_quad *k = c->k, *v = c->v;
     const double du = region->d[0], dv = region->d[1], dt = region->d[2];
     const imp_quad cu = imp_quad_all(region->c[0]), cv = imp_quad_all(region->c[1]),
                    ct = imp_quad_all(region->c[2]);
-    const imp_quad along_u = k[LINEAR_U] + ct * v[LINEAR_U], along_v = k[LINEAR_V] + ct * v[LINEAR_V];
+    const imp_quad along_u = k[LINEAR_U] + ct * v[LINEAR_U],
+                   along_v = k[LINEAR_V] + ct * v[LINEAR_V];
     const imp_quad twist = k[LINEAR_UV] + ct * v[LINEAR_UV];
-    const imp_quad turn_u = v[LINEAR_U] + cv * v[LINEAR_UV], turn_v = v[LINEAR_V] + cu * v[LINEAR_UV];
+    const imp_quad turn_u = v[LINEAR_U] + cv * v[LINEAR_UV],
+                   turn_v = v[LINEAR_V] + cu * v[LINEAR_UV];
     g->a = k[LINEAR_1] + ((ct * v[LINEAR_1] + cu * along_u) + cv * (along_v + cu * twist));
     g->b[0] = imp_quad_all(du) * (along_u + cv * twist);
     g->b[1] = imp_quad_all(dv) * (along_v + cu * twist);

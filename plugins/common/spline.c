@@ -276,8 +276,8 @@ static double spline_middle(imp_interval x, double scale, double *e)
     return m;
 }
 
-/* The series of one lane around span->m, and at least its |g'|; g->r is set. `between`: the node of what lies between the
- * first piece and the last, NULL if there is nothing. Within one piece it is the cubic itself;
+/* The series of one lane around span->m, and at least its |g'|; g->r is set. `between`: the node of what lies
+ * between the first piece and the last, NULL if there is nothing. Within one piece it is the cubic itself;
  * across several, slopes change by at most twice g''/2 per unit of time. */
 static double spline_series(const spline *s, const spline_span *span, size_t lane,
                             const imp_interval *between, imp_series *g)

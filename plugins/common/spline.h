@@ -51,7 +51,8 @@ typedef struct spline {
 /* What a spline with that many further columns takes in memory. */
 size_t spline_bytes(size_t keys, size_t lanes, size_t further);
 
-/* A spline laid out in spline_bytes of memory, which stays the caller's; its keys, cubics and tree are still to be set. */
+/* A spline laid out in spline_bytes of memory, which stays the caller's; its keys, cubics and tree are still
+ * to be set. */
 spline spline_place(size_t keys, size_t lanes, size_t further, void *memory);
 
 static inline spline_cubic *spline_lane(const spline *s, size_t piece, size_t lane)

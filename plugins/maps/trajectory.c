@@ -282,9 +282,9 @@ static imp_status trajectory_apply(const void *self, const imp_model in[4], imp_
     return trajectory_formula_apply(self, in, out);
 }
 
-/* Over times of one piece. The matrix is Q + E, Q a rotation and no entry of E above SPIN_MISMATCH, of which (Q +
- * E)^T (Q + E) - 1 = Q^T E + E^T Q + E^T E; an entry of Q^T E is at most sqrt(3) SPIN_MISMATCH. So the whole is
- * below 4 SPIN_MISMATCH, and IMP_RIGID_SLACK is 15 SPIN_MISMATCH. */
+/* Over times of one piece. The matrix is Q + E, Q a rotation and no entry of E above SPIN_MISMATCH, of which
+ * (Q + E)^T (Q + E) - 1 = Q^T E + E^T Q + E^T E; an entry of Q^T E is at most sqrt(3) SPIN_MISMATCH. So the
+ * whole is below 4 SPIN_MISMATCH, and IMP_RIGID_SLACK is 15 SPIN_MISMATCH. */
 static imp_status trajectory_rigid(const void *self, const imp_model *t, imp_pose *pose)
 {
     const trajectory_instance *s = self;

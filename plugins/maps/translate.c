@@ -96,7 +96,8 @@ static near_constant steady_at(const course *way, size_t i, double x, double t)
     return moved.error == 0 ? point_shifted(near_exact(x), moved.value) : point_shifted(moved, x);
 }
 
-static imp_status steady_eval(const course *way, size_t n, const double *p, double *x, double *error)
+static imp_status steady_eval(const course *way, size_t n, const double *p, double *x,
+                              double *error)
 {
     for (size_t k = 0; k < n; ++k)
         for (size_t i = 0; i < 3; ++i) {

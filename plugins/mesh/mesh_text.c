@@ -42,7 +42,7 @@ static bool append_line(mesh_text *text, size_t *used)
         if (n + 3 > text->capacity && !grow(text, n)) return false;
         char *const words = text->words;
         const size_t most = text->capacity - 2;
-        while (at < end && n < most && *at > '#') words[n++] = *at++; /* none of them is special */
+        while (at < end && n<most && * at> '#') words[n++] = *at++; /* none of them is special */
         if (at == end || is_end(*at)) break;
         if (*at == '#')
             while (at < end && !is_end(*at)) ++at;

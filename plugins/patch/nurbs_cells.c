@@ -45,9 +45,9 @@ static void cell_gather(const nurbs_instance *f, size_t i, size_t j, cell_data *
         }
 }
 
-/* From the spline's control points to the patch's, by the matrices of the spans. Lemma (units): a number of the net has 2
- * roundings to begin with, 5 p and 5 q in the matrices' entries, and passes a product and at most p
- * + 1 or q + 1 sums twice; all relative to `most`, as each row of a matrix adds up to 1. */
+/* From the spline's control points to the patch's, by the matrices of the spans. Lemma (units): a number of
+ * the net has 2 roundings to begin with, 5 p and 5 q in the matrices' entries, and passes a product and at
+ * most p + 1 or q + 1 sums twice; all relative to `most`, as each row of a matrix adds up to 1. */
 static void cell_set_net(patch *f, const cell_data *from, const double *along_v)
 {
     const int p = f->degree[0], q = f->degree[1], row = (q + 1) * f->lanes;

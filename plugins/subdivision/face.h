@@ -8,11 +8,12 @@
 /* The surface over one face of a control mesh
  * ===========================================
  * Of a quad of Catmull and Clark's, u and v are in [0, 1]; (0,0) is the corner that may be extraordinary. A
- * regular quad is a bicubic patch. An extraordinary corner is surrounded by rings: what is left of the quad at level k, the square of side
- * h = 2^-k, is but for its last quarter three bicubic patches of side h / 2, whose control points k + 1
- * steps give (corner.h). A region inside one of them has its bounds; one that reaches into several, a
- * quadratic for all (plugins/patch/pieces.h); and after some levels more, the corner's square lies within
- * its control points, which approach the limit point like lambda^k, lambda from 0.41 to 0.66.
+ * regular quad is a bicubic patch. An extraordinary corner is surrounded by rings: what is left of the quad
+ * at level k, the square of side h = 2^-k, is but for its last quarter three bicubic patches of side h / 2,
+ * whose control points k + 1 steps give (corner.h). A region inside one of them has its bounds; one that
+ * reaches into several, a quadratic for all (plugins/patch/pieces.h); and after some levels more, the
+ * corner's square lies within its control points, which approach the limit point like lambda^k, lambda from
+ * 0.41 to 0.66.
  *
  * The rings end at a depth where the control points are within 2^-50 of the quad's size of the limit. In
  * that last square the surface is replaced by straight lines from its border to the limit point, which

@@ -141,8 +141,9 @@ static const imp_surface_type mesh_type = {
     .piece_count = mesh_piece_count,
     .piece = mesh_piece,
     .summary = "triangles and polygons from a file or a list, whose points may move linearly",
-    .equation = "each triangle: p_0(t) + u (p_1(t) - p_0(t) + v (p_2(t) - p_1(t))), p_k(t) = points_k "
-                "+ t velocities_k, u and v in [0,1]",
+    .equation =
+        "each triangle: p_0(t) + u (p_1(t) - p_0(t) + v (p_2(t) - p_1(t))), p_k(t) = points_k "
+        "+ t velocities_k, u and v in [0,1]",
     .source = NULL,
     .example = "mesh points=[[0,0,0],[1,0,0],[0,1,0],[0,0,1]] "
                "faces=[[0,2,1],[0,1,3],[0,3,2],[1,2,3]]",

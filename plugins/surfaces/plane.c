@@ -19,7 +19,7 @@ static const imp_parameter parameters[] = {
 };
 
 typedef struct plane_instance {
-    linear surface; /* first: what linear.h does with an instance */
+    linear surface;             /* first: what linear.h does with an instance */
     double normal[3], flatness; /* plane_gap */
 } plane_instance;
 

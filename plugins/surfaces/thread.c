@@ -118,15 +118,15 @@ IMP_SURFACE_FORMULA(thread_formula)
 
 /* --- Distance ---------------------------------------------------------------------------------------
  *
- * Let a point have cylindrical coordinates (q, theta, z) about the axis, phase phi = starts theta - 2 pi z / pitch,
- * and F = q - R(phi), which is 0 on the endless thread. At q > 0
+ * Let a point have cylindrical coordinates (q, theta, z) about the axis, phase phi = starts theta - 2 pi z /
+ * pitch, and F = q - R(phi), which is 0 on the endless thread. At q > 0
  *
  *   |grad F|^2 = 1 + R'(phi)^2 |grad phi|^2,   |grad phi|^2 = (2 pi / pitch)^2 + (starts / q)^2.
  *
- * Lemma (way). Let p be a point, y the nearest to it of the endless thread, d how far apart they are, and m > 0
- * at most the least radius. Since the point of the thread that lies radially from p is |F(p)| away,
- * d <= |F(p)|. The points between p and y are s from p and d - s from y, s in [0, d], so that their q is at
- * least q_p - s and m - (d - s): at least the mean of both,
+ * Lemma (way). Let p be a point, y the nearest to it of the endless thread, d how far apart they are, and m >
+ * 0 at most the least radius. Since the point of the thread that lies radially from p is |F(p)| away, d <=
+ * |F(p)|. The points between p and y are s from p and d - s from y, s in [0, d], so that their q is at least
+ * q_p - s and m - (d - s): at least the mean of both,
  *
  *   q >= (q_p + m - d) / 2,   and   q >= m - d.
  *

@@ -292,10 +292,10 @@ typedef struct imp_surface_type {
 
     /* Capability `distance`; NULL, or a struct_size that ends before it: there is none.
      *
-     * How far moving points stay from the whole surface. `point` holds models over one region of the
-     * x, y and z of a point that depends on the region's parameters, anywhere in space, and of t, at times
-     * of the domain; their rates are not known and may be infinite. *distance becomes a model (a, b, q, e, lo, hi, as in
-     * imp_model; rates are ignored) of any g with
+     * How far moving points stay from the whole surface. `point` holds models over one region of the x, y and
+     * z of a point that depends on the region's parameters, anywhere in space, and of t, at times of the
+     * domain; their rates are not known and may be infinite. *distance becomes a model (a, b, q, e, lo, hi,
+     * as in imp_model; rates are ignored) of any g with
      *
      *   |g(p)| <= |(x, y, z)(p) - f(u, v, t(p))|   for every p of the region, all u and v of the domain
      *

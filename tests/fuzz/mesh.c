@@ -9,10 +9,10 @@
 
 #include <string.h>
 
-/* Whatever bytes a file of triangles holds, it is read or refused with a reason. What was read has
- * triangles, corners that are there and coordinates within limits, and is the same to the last bit
- * when it is written out as OFF and read again. With faces kept whole, a control mesh is made of them or
- * refused; its half-edges are each other's twins, also after a step. The input's first byte says which format it is in. */
+/* Whatever bytes a file of triangles holds, it is read or refused with a reason. What was read has triangles,
+ * corners that are there and coordinates within limits, and is the same to the last bit when it is written
+ * out as OFF and read again. With faces kept whole, a control mesh is made of them or refused; its half-edges
+ * are each other's twins, also after a step. The input's first byte says which format it is in. */
 
 const char fuzz_target[] = "mesh";
 

@@ -175,7 +175,8 @@ void bezier_triangle_oracle(const type_arguments *arguments, const number p[3], 
             if (heavy->count) weight = num_mul(weight, num(heavy->number[from]));
             total = num_add(total, weight);
             for (size_t axis = 0; axis < 3; ++axis)
-                sum[axis] = num_add(sum[axis], num_mul(weight, corner(arguments, from, axis, p[2])));
+                sum[axis] =
+                    num_add(sum[axis], num_mul(weight, corner(arguments, from, axis, p[2])));
         }
     for (int axis = 0; axis < 3; ++axis) x[axis] = num_div(sum[axis], total);
 }

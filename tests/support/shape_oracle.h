@@ -18,10 +18,10 @@ surface_oracle plane_oracle;
 surface_oracle point_oracle;
 surface_oracle segment_oracle;
 surface_oracle triangle_oracle;
-surface_oracle mesh_oracle; /* the first three corners of the first face */
+surface_oracle mesh_oracle;            /* the first three corners of the first face */
 surface_oracle bezier_triangle_oracle; /* the first face, if there are faces */
-surface_oracle subdivision_oracle; /* its first piece */
-surface_oracle loop_oracle;        /* the same of Loop's scheme */
+surface_oracle subdivision_oracle;     /* its first piece */
+surface_oracle loop_oracle;            /* the same of Loop's scheme */
 surface_oracle ripple_oracle;
 surface_oracle superellipsoid_oracle;
 surface_oracle supertoroid_oracle;

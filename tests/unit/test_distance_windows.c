@@ -8,9 +8,9 @@
 #include "core/solver/distance.h"
 #include "tests/support/suite.h"
 
-/* Windows that random distances cut: at the times that are cut off, and at all where nodes are said to be apart,
- * the polynomial less its remainder is beyond the clearance everywhere; and nowhere in the window is it below the bound
- * of the distance. */
+/* Windows that random distances cut: at the times that are cut off, and at all where nodes are said to be
+ * apart, the polynomial less its remainder is beyond the clearance everywhere; and nowhere in the window is
+ * it below the bound of the distance. */
 
 enum { CASES = 20000, PLACES = 128, MOMENTS = 8 };
 
@@ -68,8 +68,7 @@ static void draw_claim(uint64_t *random, bool moves, double size)
     for (int k = 0; k < 6; ++k) claimed.q[k] = draw_coefficient(random, size);
     if (random_bits(random) % 2) /* often a bowl */
         claimed.q[IMP_UU] = fabs(claimed.q[IMP_UU]), claimed.q[IMP_VV] = fabs(claimed.q[IMP_VV]);
-    if (!moves)
-        claimed.b[2] = claimed.q[IMP_UT] = claimed.q[IMP_VT] = claimed.q[IMP_TT] = 0;
+    if (!moves) claimed.b[2] = claimed.q[IMP_UT] = claimed.q[IMP_VT] = claimed.q[IMP_TT] = 0;
     claimed.e = random_bits(random) % 3 ? 0.1 * fabs(draw_coefficient(random, size)) : 0;
     claimed.lo = -INFINITY, claimed.hi = INFINITY;
 }
@@ -125,7 +124,8 @@ static void draw_trial(const surface *s, uint64_t *random, trial *y)
         ends[k] = is_inside ? lo[2] + (hi[2] - lo[2]) * random_fraction(random) : k ? hi[2] : lo[2];
         if (ends[k] > hi[2]) ends[k] = hi[2];
     }
-    y->window = ends[0] < ends[1] ? (time_window){ends[0], ends[1]} : (time_window){ends[1], ends[0]};
+    y->window =
+        ends[0] < ends[1] ? (time_window){ends[0], ends[1]} : (time_window){ends[1], ends[0]};
     y->size = random_power(random, -20, 20);
     draw_claim(random, hi[2] > lo[2], y->size);
     const double part = random_fraction(random);
@@ -154,7 +154,8 @@ static bool is_near_at(const trial *y, double distance, double t, double more)
 }
 
 typedef struct tally {
-    int apart, cut, bounded, refuted, too_far; /* too_far: bounds of the distance that were refuted */
+    int apart, cut, bounded, refuted,
+        too_far; /* too_far: bounds of the distance that were refuted */
 } tally;
 
 static void try_cut(const trial *y, double more, uint64_t *random, tally *of)
@@ -162,7 +163,8 @@ static void try_cut(const trial *y, double more, uint64_t *random, tally *of)
     time_window left = y->window;
     distance_view view;
     imp_error error;
-    ck_assert_int_eq(distance_cut(&y->own, &y->other, y->clearance, &left, &view, &error), IMP_SUCCESS);
+    ck_assert_int_eq(distance_cut(&y->own, &y->other, y->clearance, &left, &view, &error),
+                     IMP_SUCCESS);
     ck_assert(y->window.lo <= left.lo && left.lo <= left.hi && left.hi <= y->window.hi);
     if (view.is_apart) left = (time_window){y->window.hi, y->window.hi};
     of->bounded += view.lower > 0;
@@ -198,9 +200,10 @@ static tally try_all(double more)
 START_TEST(nothing_is_near_at_the_times_that_a_distance_cuts_off)
 {
     const tally of = try_all(0);
-    ck_assert_msg(of.apart > 0 && of.cut > 0 && of.bounded > 0 && of.refuted == 0 && of.too_far == 0,
-                  "%d apart, %d cut, %d refuted; %d bounded, %d refuted", of.apart, of.cut, of.refuted,
-                  of.bounded, of.too_far);
+    ck_assert_msg(of.apart > 0 && of.cut > 0 && of.bounded > 0 && of.refuted == 0 &&
+                      of.too_far == 0,
+                  "%d apart, %d cut, %d refuted; %d bounded, %d refuted", of.apart, of.cut,
+                  of.refuted, of.bounded, of.too_far);
 }
 END_TEST
 

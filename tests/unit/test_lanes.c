@@ -46,10 +46,10 @@
 #undef search
 #define along along_net
 #include "core/solver/net_axis.c"
-#include "core/solver/net_model_axis.c"
-#include "core/tree/net.c"
 #include "core/solver/net_halves.c"
 #include "core/solver/net_march.c"
+#include "core/solver/net_model_axis.c"
+#include "core/tree/net.c"
 #undef along
 #include "core/solver/axes.c"
 #undef imp_quad_is_wide
@@ -278,7 +278,8 @@ START_TEST(axes_of_a_net_and_a_model_are_the_same_in_wide_and_narrow_registers)
         const node *f = turned ? &b : &a, *g = turned ? &a : &b;
         vec3 n = {{draw(&state, 1), draw(&state, 1), draw(&state, 1)}}, m = n;
         time_window w = {random_between(&state, 0, 0.5), random_between(&state, 0.5, 1)}, v = w;
-        ck_assert(net_model_axis_seek(f, g, w.lo, &n) == narrow_net_model_axis_seek(f, g, w.lo, &m));
+        ck_assert(net_model_axis_seek(f, g, w.lo, &n) ==
+                  narrow_net_model_axis_seek(f, g, w.lo, &m));
         ck_assert(same_bits(&n, &m, 3));
         ck_assert(net_model_axis_cut(f, g, n, 1e-3, &w) ==
                   narrow_net_model_axis_cut(f, g, n, 1e-3, &v));

@@ -282,9 +282,11 @@ START_TEST(translations_too_far_for_a_double_are_undefined)
 {
     double x[3];
     instance made = map("translate", "{\"velocity\": [1e200,0,0]}");
-    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, 0, 1e200}, x, NULL), IMP_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, 0, 1e200}, x, NULL),
+                     IMP_DOMAIN);
     ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, 0, NAN}, x, NULL), IMP_DOMAIN);
-    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, INFINITY, 0, 0}, x, NULL), IMP_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, INFINITY, 0, 0}, x, NULL),
+                     IMP_DOMAIN);
     instance_free(&made);
 }
 END_TEST

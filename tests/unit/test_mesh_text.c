@@ -23,7 +23,7 @@ static void check_number(const char *word)
 START_TEST(numbers_are_those_of_strtod)
 {
     static const char *const words[] = {
-        "0",   "-0",  "+0.0", ".5",  "5.",   "-.25", "000000000000001", "999999999999999",
+        "0",   "-0",  "+0.0", ".5",  "5.",   "-.25", "000000000000001",  "999999999999999",
         "0.1", "1e3", "1.e2", "1E9", "0.00", "-1.5", "9007199254740993", ".000000000000001"};
     for (size_t k = 0; k < sizeof words / sizeof *words; ++k) check_number(words[k]);
     uint64_t state = suite_seed();
@@ -40,8 +40,8 @@ END_TEST
 
 START_TEST(what_is_no_number_is_none)
 {
-    static const char *const words[] = {"", "-", "+", ".", "-.", "1.2.3", "1-2", "--1", "1e", "0x1",
-                                        "nan", "inf", "1e999", "1,5", "e5"};
+    static const char *const words[] = {"",   "-",   "+",   ".",   "-.",    "1.2.3", "1-2", "--1",
+                                        "1e", "0x1", "nan", "inf", "1e999", "1,5",   "e5"};
     for (size_t k = 0; k < sizeof words / sizeof *words; ++k) {
         double x;
         ck_assert_msg(!mesh_text_number(words[k], &x), "%s", words[k]);

@@ -42,7 +42,8 @@ static void make_tiny(uint64_t *state, imp_net *g)
     for (int k = 0; k < IMP_NET_POINTS; ++k) g->weight[k] = 0x1p-299 * random_between(state, 1, 2);
     for (int i = 0; i < 3; ++i) {
         g->place[i] = g->drift[i] = 0;
-        for (int k = 0; k < IMP_NET_POINTS; ++k) g->point[i][k] *= 0x1p-776, g->velocity[i][k] *= 0x1p-776;
+        for (int k = 0; k < IMP_NET_POINTS; ++k)
+            g->point[i][k] *= 0x1p-776, g->velocity[i][k] *= 0x1p-776;
     }
 }
 
@@ -407,8 +408,8 @@ static int times_asked(int offering, bool bends, bool minimum)
     imp_surface_type type = ball_type;
     type.net = counting_net;
     if (!bends) type.include = NULL;
-    imp_scene *scene = spheres_scene(offering > 0 ? &type : &ball_type, &a,
-                                     offering > 1 ? &type : &ball_type, &b);
+    imp_scene *scene =
+        spheres_scene(offering > 0 ? &type : &ball_type, &a, offering > 1 ? &type : &ball_type, &b);
     imp_options options = imp_options_default(scene);
     options.max_pairs = 1000;
     imp_query *query = minimum ? imp_clearance_new(scene, &options, NULL, NULL)

@@ -339,13 +339,14 @@ static const shares whole = {1, 1, 1, 1, 1};
 /* What of a type was to be refuted and was not yet; NULL: enough. */
 typedef const char *(*missing_kind)(const type_oracle *row, const size_t refuted[KINDS]);
 
-static void for_each_of(imp_registry *registry, const type_oracle *row, void (*try)(trial *t), trial plan,
-                        size_t refuted[KINDS])
+static void for_each_of(imp_registry *registry, const type_oracle *row, void (*try)(trial *t),
+                        trial plan, size_t refuted[KINDS])
 {
     for (size_t i = 0; row->instances[i] != NULL; ++i) {
         uint64_t random = plan.random + 1000 * i;
         instance made = instance_make(registry, row->type, row->instances[i], &random);
-        trial t = {.instance = &made, .regions = plan.regions, .share = plan.share, .random = random};
+        trial t = {
+            .instance = &made, .regions = plan.regions, .share = plan.share, .random = random};
         try(&t);
         for (int kind = 0; kind < KINDS; ++kind) refuted[kind] += t.refuted[kind];
         instance_free(&made);
@@ -353,7 +354,8 @@ static void for_each_of(imp_registry *registry, const type_oracle *row, void (*t
 }
 
 /* With `missing`, regions are drawn until it misses nothing, ten times as many as usual at most. */
-static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share, missing_kind missing)
+static void for_each_instance(bool surfaces, void (*try)(trial *t), shares share,
+                              missing_kind missing)
 {
     enum { ROUNDS = 100 };
     imp_registry *registry = built_registry();
@@ -389,7 +391,10 @@ END_TEST
 static const char *missing_bound(const type_oracle *row, const size_t refuted[KINDS])
 {
     (void)row;
-    return !refuted[ERROR] ? "error" : !refuted[REMAINDER] ? "remainder" : !refuted[RATE] ? "rate" : NULL;
+    return !refuted[ERROR]       ? "error"
+           : !refuted[REMAINDER] ? "remainder"
+           : !refuted[RATE]      ? "rate"
+                                 : NULL;
 }
 
 /* These tests must be able to fail: for every type they find what is too low. */
@@ -414,8 +419,9 @@ static size_t rows_listed(const char *const *names)
     return count;
 }
 
-static const char *const with_nets[] = {"bezier", "bezier-triangle", "nurbs", "point", "segment",
-                                        "subdivision", "triangle", "plane", "translate", NULL};
+static const char *const with_nets[] = {
+    "bezier",      "bezier-triangle", "nurbs", "point",     "segment",
+    "subdivision", "triangle",        "plane", "translate", NULL};
 
 static const char *missing_net(const type_oracle *row, const size_t refuted[KINDS])
 {
@@ -431,7 +437,8 @@ START_TEST(nets_without_their_errors_are_found)
 }
 END_TEST
 
-static const char *const rigid[] = {"rotate", "screw", "translate", "keyframes", "trajectory", NULL};
+static const char *const rigid[] = {"rotate",    "screw",      "translate",
+                                    "keyframes", "trajectory", NULL};
 
 static const char *missing_pose(const type_oracle *row, const size_t refuted[KINDS])
 {
@@ -529,4 +536,5 @@ SUITE_MAIN("plugins", every_built_type_has_an_oracle,
            every_point_model_and_rate_of_a_map_holds_against_its_formula,
            bounds_that_are_too_low_are_found, nets_without_their_errors_are_found,
            poses_without_their_remainders_are_found,
-           models_are_set_where_times_are_too_late_for_bounds, a_batch_of_points_is_the_points_one_by_one)
+           models_are_set_where_times_are_too_late_for_bounds,
+           a_batch_of_points_is_the_points_one_by_one)

@@ -47,7 +47,8 @@ static imp_model draw_shape(uint64_t *state, double bend, double e)
 {
     imp_model m = imp_num(draw(state, 1));
     for (int j = 0; j < 2; ++j) m.b[j] = draw(state, 1), m.rate[j] = 4;
-    m.q[IMP_UU] = draw(state, bend), m.q[IMP_UV] = draw(state, bend), m.q[IMP_VV] = draw(state, bend);
+    m.q[IMP_UU] = draw(state, bend), m.q[IMP_UV] = draw(state, bend),
+    m.q[IMP_VV] = draw(state, bend);
     m.depends = 3;
     m.e = e * random_power(state, -3, 0);
     range_whole(&m);
@@ -261,8 +262,8 @@ START_TEST(no_gap_of_turning_nodes_is_below_the_lower_bound_of_the_distance)
         approach near = {NAN, m.t};
         const double above = m.clearance * (1 + 1e-9);
         const bool some = separation_approach(&m.a.n, &m.b.n, above, &left, &axis, &near);
-        ck_assert_msg(some && near.lower <= above, "case %d: %g apart, lower bound %g", k, m.clearance,
-                      near.lower);
+        ck_assert_msg(some && near.lower <= above, "case %d: %g apart, lower bound %g", k,
+                      m.clearance, near.lower);
     }
 }
 END_TEST

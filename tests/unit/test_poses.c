@@ -44,8 +44,7 @@ static number truth_of(const imp_model *m, const number s[3], double off)
     number x = num_add(num(m->a), num_mul(num(off), num(m->e)));
     for (int j = 0, k = 0; j < 3; ++j) {
         x = num_add(x, num_mul(num(m->b[j]), s[j]));
-        for (int l = j; l < 3; ++l, ++k)
-            x = num_add(x, num_mul(num(m->q[k]), num_mul(s[j], s[l])));
+        for (int l = j; l < 3; ++l, ++k) x = num_add(x, num_mul(num(m->q[k]), num_mul(s[j], s[l])));
     }
     return x;
 }
@@ -63,7 +62,8 @@ static void draw_product(uint64_t *state, product *made)
     const double place = random_power(state, -3, 20);
     made->norm = 0;
     for (int i = 0; i < 3; ++i) {
-        made->shape[i] = draw_model(state, 3, random_power(state, -3, 3), blur * random_power(state, -3, 0));
+        made->shape[i] =
+            draw_model(state, 3, random_power(state, -3, 3), blur * random_power(state, -3, 0));
         made->pose.shift[i] = draw_model(state, 4, place, blur * random_power(state, -3, 0));
         made->pose.pivot[i] = random_bits(state) % 2 ? 0 : draw(state, random_power(state, -3, 20));
         for (int j = 0; j < 3; ++j) {
@@ -86,13 +86,14 @@ static void models_of(const node *n, double share, imp_model model[3])
 {
     const quadratic3 *f = &n->f;
     for (int i = 0; i < 3; ++i) {
-        model[i] = (imp_model){.a = f->a[i],
-                               .b = {f->bu[i], f->bv[i], f->bt[i]},
-                               .q = {f->quu[i], f->quv[i], f->qut[i], f->qvv[i], f->qvt[i], f->qtt[i]},
-                               .e = share * n->e[i],
-                               .lo = n->lo[i],
-                               .hi = n->hi[i],
-                               .depends = 7};
+        model[i] =
+            (imp_model){.a = f->a[i],
+                        .b = {f->bu[i], f->bv[i], f->bt[i]},
+                        .q = {f->quu[i], f->quv[i], f->qut[i], f->qvv[i], f->qvt[i], f->qtt[i]},
+                        .e = share * n->e[i],
+                        .lo = n->lo[i],
+                        .hi = n->hi[i],
+                        .depends = 7};
     }
 }
 
@@ -109,11 +110,13 @@ static bool holds_a_point(uint64_t *state, const product *made, double share, fa
     num_forget();
     for (int j = 0; j < 3; ++j) s[j] = num(end_or_inside(state));
     for (int j = 0; j < 3; ++j)
-        z[j] = num_sub(truth_of(&made->shape[j], s, end_or_inside(state)), num(made->pose.pivot[j]));
+        z[j] =
+            num_sub(truth_of(&made->shape[j], s, end_or_inside(state)), num(made->pose.pivot[j]));
     for (int i = 0; i < 3; ++i) {
         x[i] = truth_of(&made->pose.shift[i], s, end_or_inside(state));
         for (int j = 0; j < 3; ++j)
-            x[i] = num_add(x[i], num_mul(truth_of(&made->pose.turn[i][j], s, end_or_inside(state)), z[j]));
+            x[i] = num_add(
+                x[i], num_mul(truth_of(&made->pose.turn[i][j], s, end_or_inside(state)), z[j]));
     }
     models_of(&made->n, share, model);
     return judge_models(model, s, x, why);

@@ -9,8 +9,8 @@
 #include "tests/support/instance.h"
 #include "tests/support/query_helpers.h"
 
-/* Catmull-Clark surfaces whose points are known, and what holds of all pieces of any, of Loop's as well. That the first
- * piece's bounds hold against an oracle is tested with all other types in test_plugins.c. */
+/* Catmull-Clark surfaces whose points are known, and what holds of all pieces of any, of Loop's as well. That
+ * the first piece's bounds hold against an oracle is tested with all other types in test_plugins.c. */
 
 static imp_registry *registry;
 

@@ -5,12 +5,13 @@
 #include "core/common/random.h"
 #include "tests/support/query_helpers.h"
 
-/* Contacts of patches, which the search meets before it has proved them to be the first: what it puts off until then is
- * neither lost to smaller gammas nor to what waits. */
+/* Contacts of patches, which the search meets before it has proved them to be the first: what it puts off
+ * until then is neither lost to smaller gammas nor to what waits. */
 
 enum { TEXT = 4000 };
 
-/* A patch of degrees 2 and 2 that bends and deforms, over the unit square around (0, 0, z), at speed w along z. */
+/* A patch of degrees 2 and 2 that bends and deforms, over the unit square around (0, 0, z), at speed w along
+ * z. */
 static void draw_patch(uint64_t *state, double z, double w, char text[TEXT])
 {
     size_t used = (size_t)snprintf(text, TEXT, "bezier degree=2,2 points=[");
@@ -119,8 +120,8 @@ START_TEST(what_is_put_off_until_the_contact_waits)
                 near_later(scene, random_between(&state, first.t, 1), first.gamma_clear);
             if (r.verdict != IMP_CONTACT) continue;
             met += 1;
-            ck_assert_double_le(clear_until(query, (double[]){r.a.u, r.a.v}, (double[]){r.b.u, r.b.v}),
-                                r.t);
+            ck_assert_double_le(
+                clear_until(query, (double[]){r.a.u, r.a.v}, (double[]){r.b.u, r.b.v}), r.t);
         }
         imp_query_free(query);
         imp_scene_free(scene);
@@ -155,27 +156,32 @@ START_TEST(bounds_of_what_is_left_of_patches_hold_their_points)
 END_TEST
 
 /* Two triangles, of whose nets their own pair has no use, and a patch that asks for them. */
-#define FLAT(NAME, POINTS, OFFSET)                                                                         \
-    "{\"name\":\"" NAME "\",\"surfaces\":[{\"type\":\"triangle\",\"points\":[" POINTS                     \
+#define FLAT(NAME, POINTS, OFFSET)                                                                 \
+    "{\"name\":\"" NAME "\",\"surfaces\":[{\"type\":\"triangle\",\"points\":[" POINTS              \
     "]}],\"maps\":[{\"type\":\"translate\",\"offset\":[" OFFSET "]}]},"
-static const char three_bodies[] =
-    "{\"bodies\":["
-    FLAT("a", "[-1.2,-1.2,0.2],[0.8,-0.9,-0.1],[-0.3,0.8,0.1]", "[0,0,0],[-0.1,0.1,0]")
-    FLAT("b", "[-1.3,-0.9,-0.2],[1.1,-1.1,-0.1],[-0.1,1.1,0]",
-         "[1.1,0.4,1.2],[-1.1,-0.6,-1.1]")
-    "{\"name\":\"c\",\"surfaces\":[{\"type\":\"bezier\",\"degree\":[3,3],\"points\":["
-    "[-0.9,-1,0.1],[-0.9,-0.3,0.3],[-1.1,0.3,-0.6],[-0.9,1,-0.5],"
-    "[-0.4,-1,-0.4],[-0.3,-0.4,-0.1],[-0.3,0.3,0.2],[-0.3,1.1,0.5],"
-    "[0.3,-1.1,0],[0.3,-0.3,0.1],[0.3,0.3,-0.5],[0.4,0.9,0.6],"
-    "[1,-1.1,0.5],[1.1,-0.4,-0.6],[1,0.3,0.5],[1,1.1,0.6]]}],"
-    "\"maps\":[{\"type\":\"translate\",\"offset\":[[-1.2,-0.4,1.5],[1.1,0.4,-1.4]]}]}]}";
+static const char three_bodies[] = "{\"bodies\":[" FLAT(
+    "a", "[-1.2,-1.2,0.2],[0.8,-0.9,-0.1],[-0.3,0.8,0.1]", "[0,0,0],[-0.1,0.1,0]")
+    FLAT(
+        "b", "[-1.3,-0.9,-0.2],[1.1,-1.1,-0.1],[-0.1,1.1,0]",
+        "[1.1,0.4,1.2],[-1.1,-0.6,-1.1]") "{\"name\":\"c\",\"surfaces\":[{\"type\":\"bezier\","
+                                          "\"degree\":[3,3],\"points\":["
+                                          "[-0.9,-1,0.1],[-0.9,-0.3,0.3],[-1.1,0.3,-0.6],[-0.9,1,-"
+                                          "0.5],"
+                                          "[-0.4,-1,-0.4],[-0.3,-0.4,-0.1],[-0.3,0.3,0.2],[-0.3,1."
+                                          "1,0.5],"
+                                          "[0.3,-1.1,0],[0.3,-0.3,0.1],[0.3,0.3,-0.5],[0.4,0.9,0.6]"
+                                          ","
+                                          "[1,-1.1,0.5],[1.1,-0.4,-0.6],[1,0.3,0.5],[1,1.1,0.6]]}],"
+                                          "\"maps\":[{\"type\":\"translate\",\"offset\":[[-1.2,-0."
+                                          "4,1.5],[1.1,0.4,-1.4]]}]}]}";
 
 START_TEST(what_was_asked_before_changes_no_answer)
 {
     imp_registry *registry = query_registry();
     imp_scene *scenes[2];
     for (int k = 0; k < 2; ++k)
-        scenes[k] = imp_scene_from_json(registry, three_bodies, sizeof three_bodies - 1, "three", NULL);
+        scenes[k] =
+            imp_scene_from_json(registry, three_bodies, sizeof three_bodies - 1, "three", NULL);
     imp_query *every = begin(scenes[1], 1e-6);
     contact_of(every, 1e-6);
     while (imp_query_result(every).verdict == IMP_CONTACT) {

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Machine parts that slide in each other, c apart along a whole area: the inner one, where # stands before what is
- * less by c; the outer one; and the maps that move one of both. */
+/* Machine parts that slide in each other, c apart along a whole area: the inner one, where # stands before
+ * what is less by c; the outer one; and the maps that move one of both. */
 typedef struct parts {
     const char *name, *inner, *outer, *inner_maps, *outer_maps;
 } parts;
@@ -105,6 +105,7 @@ static const bench_method *const methods[] = {&models, NULL};
 const bench_set bench_conformal = {
     "conformal",
     "A shaft turning in a bore, a ball in a socket and along a race, a piston in a sleeve, an\n"
-    "ellipsoid in its hollow and a nut on its bolt, c apart everywhere; at c = 0.01 also both placed\n"
+    "ellipsoid in its hollow and a nut on its bolt, c apart everywhere; at c = 0.01 also both "
+    "placed\n"
     "by maps, and carried away. gamma c / 10. Ends at --max-pairs.",
     methods, build, NULL};

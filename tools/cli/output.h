@@ -9,8 +9,8 @@
 
 /* Standard output, with nothing lost in silence
  * =============================================
- * A full disk is an error of the command, told; a pipe whose reader has left ends it quietly. Print with stdio as usual; call
- * output_finish before exit, or output_flush after each line of a stream. */
+ * A full disk is an error of the command, told; a pipe whose reader has left ends it quietly. Print with
+ * stdio as usual; call output_finish before exit, or output_flush after each line of a stream. */
 
 /* To be called first of all: closed standard streams are opened so that no file of ours lands on
  * their numbers while writing to them still fails, and a closed pipe is an error, not a signal.

@@ -168,7 +168,8 @@ static jet fixed_power(const jet *x, ld_interval k)
     return composed(x, (ld_interval[3]){ld_interval_power(x->v, k), slope, bend});
 }
 
-/* An exponent known with an error, or one that varies, may be whole, and then negative numbers have a power too. */
+/* An exponent known with an error, or one that varies, may be whole, and then negative numbers have a power
+ * too. */
 static bool may_be_whole(ld_interval k) { return floorl(k.hi) >= k.lo; }
 
 /* x^k for fixed k, whole or not; else exp(y log x). */
