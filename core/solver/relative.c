@@ -46,7 +46,7 @@ IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
                    imp_quad_abs(quu) + imp_quad_abs(qvv)};
 }
 
-static void slice_be_square(slice *s)
+static void slice_clear_third_order(slice *s)
 {
     for (int i = 0; i < 4; ++i) s->uuw[i] = s->uvw[i] = s->vvw[i] = 0;
 }
@@ -117,8 +117,8 @@ IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, relative *r, m
     imp_quad ea = imp_quad_load(a->e), eb = imp_quad_load(b->e);
     r->posed = 0;
     if (a->pose == NULL && b->pose == NULL) return ea + eb;
-    slice_be_square(&r->a);
-    slice_be_square(&r->b);
+    slice_clear_third_order(&r->a);
+    slice_clear_third_order(&r->b);
     if (a->pose != NULL) ea = take_posed_terms(a, r, &r->a, ma);
     if (b->pose != NULL) eb = take_posed_terms(b, r, &r->b, mb);
     return ea + eb;
