@@ -34,6 +34,12 @@ static inline int suite_times_at_least(int usual)
     return times < usual ? usual : times;
 }
 
+/* An end of [-1, 1] as often as a number inside. */
+static inline double suite_end_or_inside(uint64_t *state)
+{
+    return random_bits(state) % 2 ? random_bits(state) % 2 ? -1 : 1 : random_between(state, -1, 1);
+}
+
 /* `open` runs before each test and `close` after it; NULL: nothing. */
 static inline int suite_main_with(const char *title, const TTest *const *tests, size_t count,
                                   void (*open)(void), void (*close)(void))

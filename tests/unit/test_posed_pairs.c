@@ -9,7 +9,7 @@
 #include "core/solver/normal_field.h"
 #include "core/solver/separation.h"
 #include "core/tree/pose.h"
-#include "tests/support/suite.h"
+#include "tests/support/meeting.h"
 
 /* Pairs of images of shapes under poses, brought together exactly within the clearance at a chosen moment, at
  * points where remainders reach farthest toward each other: no cut may lose that moment. In long double. */
@@ -139,11 +139,6 @@ static long double height(const image *x, const place *at, double t, vec3 n)
     return n.x[0] * p[0] + n.x[1] * p[1] + n.x[2] * p[2];
 }
 
-static double end_or_inside(uint64_t *state)
-{
-    return random_bits(state) % 2 ? random_bits(state) % 2 ? -1 : 1 : random_between(state, -1, 1);
-}
-
 /* The sign of each share that moves the point along n. */
 static void push(const image *x, double t, vec3 n, place *at)
 {
@@ -167,7 +162,7 @@ static place farthest(uint64_t *state, const image *x, double t, vec3 n)
     for (int k = 0; k < 24; ++k) {
         place next = best;
         for (int j = 0; j < 2; ++j)
-            if (random_bits(state) % 2) next.s[j] = end_or_inside(state);
+            if (random_bits(state) % 2) next.s[j] = suite_end_or_inside(state);
         push(x, t, n, &next);
         if (height(x, &next, t, n) > height(x, &best, t, n)) best = next;
     }
@@ -183,12 +178,7 @@ static void draw_meeting(uint64_t *state, meeting *m, bool alike)
         draw_image(state, &m->b);
     fill(&m->a, 0, 1);
     fill(&m->b, alike ? 0 : draw(state, 1) - 1, alike ? 1 : 2);
-    m->window.lo = random_between(state, 0, 0.9);
-    m->window.hi = m->window.lo + (1 - m->window.lo) * random_power(state, -6, 0);
-    const uint64_t where = random_bits(state) % 4;
-    m->t = where == 0   ? m->window.lo
-           : where == 1 ? m->window.hi
-                        : random_between(state, m->window.lo, m->window.hi);
+    m->t = draw_moment(state, -6, &m->window);
     m->clearance = random_power(state, -14, 0);
     for (int i = 0; i < 3; ++i) m->along.x[i] = draw(state, 1);
     if (alike && random_bits(state) % 4) m->along = m->a.n.normal;
@@ -218,19 +208,10 @@ START_TEST(a_meeting_of_turning_nodes_is_never_cut_away)
         time_window left = m.window;
         vec3 axis = m.along;
         const bool some = separation_by_models(&m.a.n, &m.b.n, m.clearance, &left, &axis);
-        ck_assert_msg(some && left.lo <= m.t && m.t <= left.hi,
-                      "case %d: near at %.17g of [%.17g, %.17g], left [%.17g, %.17g]", k, m.t,
-                      m.window.lo, m.window.hi, left.lo, left.hi);
+        check_window_left(&m.window, m.t, some, &left, k);
     }
 }
 END_TEST
-
-static void check_left(const meeting *m, const relative *r, bool some, const w_range *s, int k)
-{
-    const long double w = r->half > 0 ? (m->t - (long double)r->mid) / r->half : 0;
-    ck_assert_msg(some && s->lo <= w && w <= s->hi, "case %d: near at w = %Lg, left [%g, %g]", k, w,
-                  s->lo, s->hi);
-}
 
 START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
 {
@@ -243,9 +224,9 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
         w_range axes = {-1, 1}, given = {-1, 1}, field = {-1, 1};
         vec3 axis = m.along;
         relative_at(&m.a.n, &m.b.n, &m.window, &r);
-        check_left(&m, &r, axes_cut_along(&r, m.clearance, &given, m.along), &given, k);
-        check_left(&m, &r, axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
-        check_left(&m, &r, normal_field_cut(&r, m.clearance, &field, NULL), &field, k);
+        check_share_left(&r, m.t, axes_cut_along(&r, m.clearance, &given, m.along), &given, k);
+        check_share_left(&r, m.t, axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
+        check_share_left(&r, m.t, normal_field_cut(&r, m.clearance, &field, NULL), &field, k);
     }
 }
 END_TEST

@@ -97,26 +97,22 @@ static void models_of(const node *n, double share, imp_model model[3])
     }
 }
 
-static double end_or_inside(uint64_t *state)
-{
-    return random_bits(state) % 2 ? random_bits(state) % 2 ? -1 : 1 : random_between(state, -1, 1);
-}
-
 /* Whether the image of one point of the shape lies in the node. */
 static bool holds_a_point(uint64_t *state, const product *made, double share, fault *why)
 {
     imp_model model[3];
     number s[3], z[3], x[3];
     num_forget();
-    for (int j = 0; j < 3; ++j) s[j] = num(end_or_inside(state));
+    for (int j = 0; j < 3; ++j) s[j] = num(suite_end_or_inside(state));
     for (int j = 0; j < 3; ++j)
-        z[j] =
-            num_sub(truth_of(&made->shape[j], s, end_or_inside(state)), num(made->pose.pivot[j]));
+        z[j] = num_sub(truth_of(&made->shape[j], s, suite_end_or_inside(state)),
+                       num(made->pose.pivot[j]));
     for (int i = 0; i < 3; ++i) {
-        x[i] = truth_of(&made->pose.shift[i], s, end_or_inside(state));
+        x[i] = truth_of(&made->pose.shift[i], s, suite_end_or_inside(state));
         for (int j = 0; j < 3; ++j)
             x[i] = num_add(
-                x[i], num_mul(truth_of(&made->pose.turn[i][j], s, end_or_inside(state)), z[j]));
+                x[i],
+                num_mul(truth_of(&made->pose.turn[i][j], s, suite_end_or_inside(state)), z[j]));
     }
     models_of(&made->n, share, model);
     return judge_models(model, s, x, why);

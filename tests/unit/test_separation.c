@@ -9,7 +9,7 @@
 #include "core/solver/axes.h"
 #include "core/solver/gjk_axis.h"
 #include "core/solver/normal_field.h"
-#include "tests/support/suite.h"
+#include "tests/support/meeting.h"
 
 /* Pairs of made-up nodes that are brought together, exactly within the clearance, at a chosen
  * moment and chosen points: no cut may lose that moment. Where parts of the judgement need it, long
@@ -123,19 +123,13 @@ static long double point(const node *n, int i, const double *s, double t, long d
            f->qtt[i] * st * st + rest * n->e[i];
 }
 
-static double corner_or_inside(uint64_t *state)
-{
-    const uint64_t k = random_bits(state) % 4;
-    return k == 0 ? -1 : k == 1 ? 1 : random_between(state, -1, 1);
-}
-
 /* Places B so that at m->t the points at random parameters are within the clearance. */
 static void bring_together(uint64_t *state, meeting *m, posture how, double offset)
 {
     double sa[2], sb[2], toward[3], norm = 0;
     for (int k = 0; k < 2; ++k) {
-        sa[k] = corner_or_inside(state);
-        sb[k] = how == NESTED ? sa[k] : corner_or_inside(state);
+        sa[k] = suite_end_or_inside(state);
+        sb[k] = how == NESTED ? sa[k] : suite_end_or_inside(state);
     }
     for (int i = 0; i < 3; ++i) toward[i] = random_between(state, -1, 1);
     if (how == NESTED) across(state, &m->a, sa, m->t, toward);
@@ -146,7 +140,7 @@ static void bring_together(uint64_t *state, meeting *m, posture how, double offs
     /* within the clearance also after b.a is rounded to a double */
     const double reach = m->clearance * (random_bits(state) % 2 ? 1 - 1e-9 : 0.5);
     for (int i = 0; i < 3; ++i) {
-        const long double ra = corner_or_inside(state), rb = corner_or_inside(state);
+        const long double ra = suite_end_or_inside(state), rb = suite_end_or_inside(state);
         const long double x = point(&m->a, i, sa, m->t, ra) + reach * toward[i] / sqrt(norm);
         m->b.f.a[i] = 0;
         m->b.f.a[i] = (double)(x - point(&m->b, i, sb, m->t, rb));
@@ -173,8 +167,8 @@ static void tighten(uint64_t *state, meeting *m)
 {
     double s[4];
     long double gap[3];
-    s[0] = s[2] = corner_or_inside(state);
-    s[1] = s[3] = corner_or_inside(state);
+    s[0] = s[2] = suite_end_or_inside(state);
+    s[1] = s[3] = suite_end_or_inside(state);
     long double least = nearest_gap(m, s, m->gap);
     for (double step = 0.25; step > 1e-4; step *= 0.5)
         for (int k = 0; k < 8; ++k) {
@@ -209,12 +203,7 @@ static void random_meeting(uint64_t *state, meeting *m, posture how)
     if (how == NESTED) make_nested(state, m, size);
     if (how == TANGENT) make_tangent(state, m, random_power(state, -20, -1), 0.1);
     m->clearance = size * random_power(state, -20, 0);
-    m->window.lo = random_between(state, 0, 0.9);
-    m->window.hi = m->window.lo + (1 - m->window.lo) * random_power(state, -10, 0);
-    const uint64_t where = random_bits(state) % 4;
-    m->t = where == 0   ? m->window.lo
-           : where == 1 ? m->window.hi
-                        : random_between(state, m->window.lo, m->window.hi);
+    m->t = draw_moment(state, -10, &m->window);
     bring_together(state, m, how, random_bits(state) % 8 == 0 ? 100 * size : size);
     if (how == NESTED && random_bits(state) % 4 == 0) tighten(state, m);
 }
@@ -244,9 +233,7 @@ START_TEST(the_moment_of_a_meeting_is_never_cut_away)
         time_window left = m.window;
         vec3 axis = random_axis(&state);
         const bool some = separation_by_models(&m.a, &m.b, m.clearance, &left, &axis);
-        ck_assert_msg(some && left.lo <= m.t && m.t <= left.hi,
-                      "case %d: near at %.17g of [%.17g, %.17g], left [%.17g, %.17g]", k, m.t,
-                      m.window.lo, m.window.hi, left.lo, left.hi);
+        check_window_left(&m.window, m.t, some, &left, k);
     }
     ck_assert_int_gt(near, suite_times(150000) / 2);
 }
@@ -282,13 +269,6 @@ START_TEST(no_gap_is_below_the_lower_bound_of_the_distance)
 }
 END_TEST
 
-static void check_share(const meeting *m, const relative *r, bool some, const w_range *s, int k)
-{
-    const long double w = r->half > 0 ? (m->t - (long double)r->mid) / r->half : 0;
-    ck_assert_msg(some && s->lo <= w && w <= s->hi, "case %d: near at w = %Lg, left [%g, %g]", k, w,
-                  s->lo, s->hi);
-}
-
 START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
 {
     uint64_t state = suite_seed() + 1;
@@ -300,8 +280,8 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
         w_range axes = {-1, 1}, field = {-1, 1};
         vec3 axis = random_axis(&state);
         relative_at(&m.a, &m.b, &m.window, &r);
-        check_share(&m, &r, axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
-        check_share(&m, &r, normal_field_cut(&r, m.clearance, &field, NULL), &field, k);
+        check_share_left(&r, m.t, axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
+        check_share_left(&r, m.t, normal_field_cut(&r, m.clearance, &field, NULL), &field, k);
     }
 }
 END_TEST
@@ -310,7 +290,7 @@ START_TEST(a_share_keeps_every_moment_within_the_limit)
 {
     uint64_t state = suite_seed() + 3;
     for (int k = 0; k < suite_times(100000); ++k) {
-        const double low = random_between(&state, -1, 1), w = corner_or_inside(&state);
+        const double low = random_between(&state, -1, 1), w = suite_end_or_inside(&state);
         const double drift = random_between(&state, -1, 1) * random_power(&state, -10, 10);
         double limit = low + drift * w;
         while (limit < low + (long double)drift * w) limit = nextafter(limit, INFINITY);
@@ -475,8 +455,8 @@ static meeting warped(uint64_t *state, double s[4], double g)
             both[side]->motion[i] =
                 fabs(f->bt[i]) + 2 * fabs(f->qtt[i]) + fabs(f->qut[i]) + fabs(f->qvt[i]);
     }
-    for (int k = 0; k < 4; ++k) s[k] = corner_or_inside(state);
-    m.t = 0.5 + 0.5 * corner_or_inside(state);
+    for (int k = 0; k < 4; ++k) s[k] = suite_end_or_inside(state);
+    m.t = 0.5 + 0.5 * suite_end_or_inside(state);
     add_across(state, apart, g * random_power(state, -8, -3));
     for (int i = 0; i < 3; ++i) {
         m.gap[i] = apart[i];
