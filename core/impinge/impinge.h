@@ -366,7 +366,8 @@ typedef enum imp_reason {
     IMP_REASON_MEMORY,     /* undecided: max_bytes reached, or memory ran out */
     IMP_REASON_CANCELLED,  /* undecided: imp_query_cancel */
     IMP_REASON_RESOLUTION, /* undecided: gamma is below what double precision resolves here */
-    IMP_REASON_RUNNING     /* undecided: not finished yet */
+    IMP_REASON_RUNNING,    /* undecided: not finished yet */
+    IMP_REASON_DECIDED     /* of an imp_clearance alone */
 } imp_reason;
 
 typedef enum imp_method {
@@ -567,9 +568,11 @@ typedef struct imp_clearance_options {
     double tolerance;     /* R, from 1e-9 to below 1: done when upper - lower <= R upper */
     double required;      /* D > 0, length; 0: nothing is required */
     uint64_t slices;      /* from 1 to 1000000: an answer for each of so many equal parts of time */
+    bool decide;          /* done, too, when it is known whether what is required is kept */
 } imp_clearance_options;
 
-/* A tolerance of 1e-3, nothing required, one answer. *asked comes with its struct_size set. */
+/* A tolerance of 1e-3, nothing required, one answer, decide false. *asked comes with its struct_size
+ * set. */
 IMP_EXPORT imp_code imp_clearance_options_read(imp_clearance_options *asked, imp_error *error);
 
 static inline imp_clearance_options imp_clearance_options_default(void)
@@ -595,7 +598,8 @@ typedef enum imp_requirement {
  *       than `upper` apart, rounding included;
  *   (c) reason NONE: upper - lower <= R upper, or upper <= gamma, which is contact; NO_PAIRS, NO_TIME:
  *       nothing comes near anything, lower and upper are infinite; RESOLUTION: double precision
- *       resolves no more; RUNNING, or why the query was ended: the bracket as it is;
+ *       resolves no more; DECIDED: the verdict is known, and `decide` was asked; RUNNING, or why the query
+ *       was ended: the bracket as it is;
  *   (d) t_violated is not NaN: the points of a_violated and b_violated are no farther than D apart at
  *       that time, and before it no two are nearer than D (1 - 1e-6). */
 typedef struct imp_clearance {

@@ -7,8 +7,8 @@
 #include "core/base/status.h"
 #include "core/solver/query_parts.h"
 
-/* Bytes in the first release. */
-#define OPTIONS_FIRST sizeof(imp_clearance_options)
+/* Bytes of the first version. */
+#define OPTIONS_FIRST offsetof(imp_clearance_options, decide)
 #define ANSWER_FIRST sizeof(imp_clearance)
 
 static const imp_clearance_options usual = {

@@ -51,13 +51,13 @@ END
     shaft='cylinder radius=0.99 ! rotate rate=3'
     run -0 "$IMPINGE" clearance "$shaft" cylinder --json
     json '.lower >= 0.00999 and .lower <= 0.01 and .stats.pairs < 20000'
-    run -0 "$IMPINGE" clearance "$shaft" cylinder --require 0.009 --tolerance 0.1 --json
+    run -0 "$IMPINGE" clearance "$shaft" cylinder --require 0.009 --json
     json '.verdict == "holds" and .stats.pairs < 2000'
     run -0 "$IMPINGE" clearance 'cylinder radius=0.99 height=1 ! translate velocity=0,0,0.5' \
         'cylinder height=4' --json
     json '.lower >= 0.00999 and .stats.pairs < 200'
     run -0 "$IMPINGE" clearance 'thread radius=0.99' 'thread height=0.5 ! screw pitch=0.5 rate=1' \
-        --require 0.005 --tolerance 0.1 --json
+        --require 0.005 --json
     json '.verdict == "holds" and .stats.pairs < 50000'
 }
 
@@ -74,13 +74,40 @@ END
     valid clearance
     json '.verdict == "undecided" and .reason == "max-pairs" and .lower < 0.5 and .upper > 0.5'
     run -0 "$IMPINGE" clearance "${passing[@]}" --require 0.9
-    [[ $output == "holds, tightest 1.0000"* ]]
-    run -1 "$IMPINGE" clearance "${passing[@]}" --require 1.2
+    [[ $output == "holds"* && $output == *"never nearer than 0.9"* ]]
+    run -1 "$IMPINGE" clearance "${passing[@]}" --require 1.2 --tolerance 1e-3
     [[ $output == "violated at t = 0.3144"*", tightest 1.0000"* ]]
 }
 
+@test "a requirement ends the search as soon as it is decided, unless a tolerance is given too" {
+    local torus='torus ! rotate axis=1,2,3 rate=2' other='torus center=3.2,0,0 ! rotate rate=1'
+    run -0 "$IMPINGE" clearance "$torus" "$other" --json
+    json '.lower > 0.6'
+    local pairs
+    pairs=$(jq .stats.pairs <<<"$output")
+    for required in 0.05 0.2; do
+        run -0 "$IMPINGE" clearance "$torus" "$other" --require $required --json
+        valid clearance
+        json ".verdict == \"holds\" and .reason == \"decided\" and .lower >= $required * (1 - 1e-6)"
+        json ".upper > .lower and .stats.pairs < $pairs / 2"
+    done
+    run -0 "$IMPINGE" clearance "$torus" "$other" --require 0.05 --tolerance 1e-3 --json
+    json '.reason == null and .upper - .lower <= 1e-3 * .upper'
+    run -0 "$IMPINGE" clearance "$torus" "$other" --require 0.05
+    [[ ${lines[0]} == "holds" && ${lines[1]} == *"never nearer than 0.04999995" &&
+        ${lines[3]} == *"seen "*' apart at t = '*', "a" and "b"; --tolerance finds the tightest' ]]
+    run -1 "$IMPINGE" clearance "$torus" "$other" --require 0.8 --json
+    valid clearance
+    json '.verdict == "violated" and .upper <= 0.8 and .t_violated <= .t'
+    run -1 "$IMPINGE" clearance "$torus" "$other" --require 0.8
+    [[ ${lines[0]} == "violated at t = 0"* && $output == *'violated first by "a" and "b", 0.'* ]]
+    run -0 "$IMPINGE" clearance "$torus" "$other" --require 0.05 --profile 2 --json
+    jq -s -e 'all(.upper - .lower <= 1e-3 * .upper and .verdict == "holds")' <<<"$output"
+}
+
 @test "an arm of six joints, by a table of angles, keeps its distance from a fixture" {
-    run -0 "$IMPINGE" clearance "$top_srcdir/tools/data/arm.json" --require 2
+    run -0 "$IMPINGE" clearance "$top_srcdir/tools/data/arm.json" --require 2 \
+        --tolerance 1e-3
     [[ ${lines[0]} =~ ^'holds, tightest 2.'[0-9]+' at t = 0.5'[0-9]+' between "link5" and "fixture"'$ ]]
 }
 
@@ -101,12 +128,15 @@ END
 
 @test "each two bodies, the tightest first" {
     three >three.json
-    run -1 "$IMPINGE" clearance three.json --each --require 2 --json
+    run -1 "$IMPINGE" clearance three.json --each --require 2 --tolerance 1e-3 --json
     valid clearance
     json '[.pairs[].bodies | join("")] == ["bc", "ab", "ac"] and .scene == "three.json"'
     json '[.pairs[].verdict] == ["violated", "violated", "holds"] and .verdict == "violated"'
     json '.upper == .pairs[0].upper and (.pairs[0].lower - 0.5 | fabs) < 1e-3'
     json '.pairs[0].t_violated > 0.3 and .pairs[1].t_violated == 0'
+    run -1 "$IMPINGE" clearance three.json --each --require 2 --json
+    valid clearance
+    json '[.pairs[].verdict] == ["violated", "violated", "holds"] and .reason == "decided"'
     run -0 "$IMPINGE" clearance three.json --each
     [[ ${lines[-3]} == 0.5*"b, c" && ${lines[-2]} == 1*"a, b" && ${lines[-1]} == 3.5*"a, c" ]]
 }

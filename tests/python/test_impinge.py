@@ -53,6 +53,12 @@ def test_clearance_is_a_bracket_and_a_profile_is_arrays():
     scene = impinge.Scene.from_pair("sphere", "sphere center=4,0,0 ! translate velocity=-1,0,0")
     clearance = scene.clearance(required=0.9)
     assert clearance.verdict == "holds"
+    clearance = scene.clearance(required=0.25)
+    assert clearance.verdict == "holds" and clearance.reason == "decided"
+    assert clearance.lower >= 0.25 * (1 - 1e-6) and clearance.upper >= 1
+    assert [answer.reason for answer in scene.each(required=0.25)] == ["decided"]
+    clearance = scene.clearance(required=0.25, tolerance=1e-3)
+    assert clearance.reason is None and clearance.lower > 0.999
     clearance = scene.clearance()
     assert clearance.lower <= 1 <= clearance.upper * (1 + 1e-9)
     assert clearance.upper - clearance.lower <= 1e-3 * clearance.upper
@@ -119,7 +125,7 @@ def test_a_builder_that_is_done_is_refused():
 
 def test_parents_groups_and_files_make_an_arm():
     scene = impinge.Scene.from_file(ARM)
-    clearance = scene.clearance(required=2)
+    clearance = scene.clearance(required=2, tolerance=1e-3)
     assert clearance.verdict == "holds" and clearance.lower >= 2 * (1 - 1e-6)
     assert {clearance.a.body, clearance.b.body} == {"link5", "fixture"}
 

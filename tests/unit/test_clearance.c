@@ -31,6 +31,10 @@ static void check_answer_itself(const imp_scene *scene, const imp_clearance *a, 
     ck_assert(a->lower >= 0 && a->lower <= a->upper);
     if (a->reason == IMP_REASON_NONE)
         ck_assert(a->upper - a->lower <= tolerance * a->upper || a->upper <= gamma);
+    if (a->reason == IMP_REASON_DECIDED)
+        ck_assert(a->has_witness &&
+                  a->verdict == (a->lower >= a->required * (1 - 1e-6) ? IMP_REQUIREMENT_HOLDS
+                                                                      : IMP_REQUIREMENT_VIOLATED));
     if (!a->has_witness) return;
     ck_assert(a->t >= a->t_start && a->t <= a->t_end && a->a.body < a->b.body);
     check_point(scene, &a->a, a->t);
@@ -282,17 +286,35 @@ START_TEST(a_violation_is_the_earliest)
 }
 END_TEST
 
+/* The same question with and without a bracket as narrow as the tolerance. */
+static void decide(imp_scene *scene, const imp_options *options, double required,
+                   imp_clearance *narrow, imp_clearance *decided)
+{
+    imp_clearance_options asked = imp_clearance_options_default();
+    ck_assert(!asked.decide);
+    asked.required = required;
+    *narrow = measure(scene, options, &asked);
+    asked.decide = true;
+    *decided = measure(scene, options, &asked);
+}
+
 START_TEST(in_the_band_both_answers_are_right)
 {
     imp_registry *registry = query_registry();
+    imp_scene *scene = scene_of(registry, still, passing);
+    const imp_options options = imp_options_default(scene);
     for (int k = 0; k <= 10; ++k) {
         const double d = 0.5 * (1 + 1e-7 * k);
-        const imp_clearance r = measure_pair(registry, still, passing, 1e-3, d);
-        if (r.verdict == IMP_REQUIREMENT_VIOLATED)
-            ck_assert(r.upper <= d && r.t_violated <= r.t);
-        else
-            ck_assert(r.verdict == IMP_REQUIREMENT_HOLDS && r.lower >= d * (1 - 1e-6));
+        imp_clearance r[2];
+        decide(scene, &options, d, &r[0], &r[1]);
+        for (int n = 0; n < 2; ++n)
+            if (r[n].verdict == IMP_REQUIREMENT_VIOLATED)
+                ck_assert(r[n].upper <= d && r[n].t_violated <= r[n].t);
+            else
+                ck_assert(r[n].verdict == IMP_REQUIREMENT_HOLDS && r[n].lower >= d * (1 - 1e-6) &&
+                          r[n].lower <= 0.5);
     }
+    imp_scene_free(scene);
     imp_registry_free(registry);
 }
 END_TEST
@@ -304,6 +326,76 @@ START_TEST(contact_violates_what_is_smaller_than_gamma)
         registry, "sphere", "sphere center=3,0,0 ! translate velocity=-2,0,0", 1e-3, 1e-7);
     ck_assert(r.verdict == IMP_REQUIREMENT_VIOLATED && r.upper <= 1e-7);
     ck_assert_double_le(fabs(r.t_violated - 0.5), 1e-6);
+    imp_registry_free(registry);
+}
+END_TEST
+
+/* --- The search ends as soon as it is decided ------------------------------------------------ */
+
+START_TEST(what_is_decided_is_what_a_narrow_bracket_decides)
+{
+    imp_registry *registry = query_registry();
+    imp_scene *scene = scene_of(registry, still, passing);
+    const imp_options options = imp_options_default(scene);
+    const double required[] = {1e-9, 0.1, 0.25, 0.45, 0.4999, 0.5001, 0.6, 1, 1.5, 3};
+    for (int k = 0; k < 10; ++k) {
+        const double d = required[k];
+        imp_clearance narrow, decided;
+        decide(scene, &options, d, &narrow, &decided);
+        ck_assert_int_eq(decided.verdict,
+                         d < 0.5 ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_VIOLATED);
+        ck_assert_int_eq(narrow.verdict, decided.verdict);
+        ck_assert(decided.lower <= 0.5 && decided.upper >= 0.5 * (1 - 1e-15));
+        if (d < 0.5)
+            ck_assert(decided.lower >= d * (1 - 1e-6) && isnan(decided.t_violated));
+        else
+            ck_assert(decided.upper <= d && decided.t_violated == narrow.t_violated);
+    }
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+}
+END_TEST
+
+/* Close to what the scene keeps: decided the same way, by as many pairs, about. */
+static void decide_beside(imp_registry *registry, const ladder *l)
+{
+    imp_scene *scene = scene_told(registry, l->about);
+    const imp_options options = before_contact(scene, l);
+    const imp_clearance_options asked = imp_clearance_options_default();
+    const imp_clearance known = measure(scene, &options, &asked);
+    const double part[] = {0.5, 0.9, 0.99, 1.01, 1.1, 2};
+    for (int k = 0; k < 6; ++k) {
+        imp_clearance narrow, decided;
+        const double required = part[k] * (part[k] < 1 ? known.lower : known.upper);
+        decide(scene, &options, required, &narrow, &decided);
+        ck_assert_msg(decided.verdict == narrow.verdict &&
+                          narrow.verdict ==
+                              (part[k] < 1 ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_VIOLATED),
+                      "%s: %g", l->about->name, required);
+        ck_assert(decided.lower <= known.upper && decided.upper >= known.lower);
+        ck_assert_uint_le(decided.stats.pairs, 2 * narrow.stats.pairs + 64);
+    }
+    imp_scene_free(scene);
+}
+
+START_TEST(every_shape_is_decided_the_same_way) { for_each_setting(decide_beside); }
+END_TEST
+
+START_TEST(programs_that_know_nothing_of_deciding_get_a_narrow_bracket)
+{
+    imp_registry *registry = query_registry();
+    imp_scene *scene = scene_of(registry, still, passing);
+    const imp_options options = imp_options_default(scene);
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.struct_size = (uint32_t)offsetof(imp_clearance_options, decide);
+    asked.required = 0.1;
+    asked.decide = true; /* beyond its size */
+    const imp_clearance r = measure(scene, &options, &asked);
+    ck_assert(r.reason == IMP_REASON_NONE && r.verdict == IMP_REQUIREMENT_HOLDS);
+    asked.decide = false;
+    ck_assert_int_eq(imp_clearance_options_read(&asked, NULL), IMP_SUCCESS);
+    ck_assert(asked.required == 0 && !asked.decide);
+    imp_scene_free(scene);
     imp_registry_free(registry);
 }
 END_TEST
@@ -405,6 +497,7 @@ START_TEST(where_nobody_meets_anybody_the_distance_is_infinite)
         const imp_options options = imp_options_default(scene);
         imp_clearance_options asked = imp_clearance_options_default();
         asked.required = 2;
+        asked.decide = k == 1;
         const imp_clearance r = measure(scene, &options, &asked);
         ck_assert(r.lower == INFINITY && r.upper == INFINITY && !r.has_witness);
         ck_assert(r.reason == IMP_REASON_NO_PAIRS && r.verdict == IMP_REQUIREMENT_HOLDS);
@@ -571,8 +664,10 @@ SUITE_MAIN("clearance", closed_forms_lie_within_the_bracket,
            what_meets_is_no_farther_apart_than_gamma, no_sample_is_nearer_than_the_lower_bound,
            contact_at_other_distances_agrees, a_distance_that_is_kept_holds,
            a_violation_is_the_earliest, in_the_band_both_answers_are_right,
-           contact_violates_what_is_smaller_than_gamma, slices_have_brackets_of_their_own,
-           each_two_bodies_have_a_bracket_of_their_own,
+           contact_violates_what_is_smaller_than_gamma,
+           what_is_decided_is_what_a_narrow_bracket_decides, every_shape_is_decided_the_same_way,
+           programs_that_know_nothing_of_deciding_get_a_narrow_bracket,
+           slices_have_brackets_of_their_own, each_two_bodies_have_a_bracket_of_their_own,
            where_nobody_meets_anybody_the_distance_is_infinite,
            steps_of_any_size_lead_to_the_same_bits, a_budget_that_ends_leaves_a_true_bracket,
            cancelled_or_ended_by_progress_it_goes_on_when_asked,

@@ -50,11 +50,25 @@ static imp_code run(imp_query *query, imp_result *result, double *seconds, imp_e
     return code;
 }
 
-/* The least distance: its bracket, as the result of a search that is clear or not. */
-static imp_code run_clearance(imp_scene *scene, const imp_options *options, imp_clearance *least,
-                              imp_result *result, double *seconds, imp_error *error)
+/* Clear: the least distance is known, or what is required is kept. */
+static imp_verdict verdict_of(const imp_clearance *answer, double gamma)
 {
-    imp_query *query = imp_clearance_new(scene, options, NULL, error);
+    if (answer->verdict == IMP_REQUIREMENT_HOLDS) return IMP_CLEAR;
+    if (answer->verdict == IMP_REQUIREMENT_VIOLATED) return IMP_CONTACT;
+    if (answer->reason != IMP_REASON_NONE) return IMP_UNDECIDED;
+    return answer->upper > gamma ? IMP_CLEAR : IMP_CONTACT;
+}
+
+/* The least distance, or with something required a decision: its bracket, as the result of a search that is
+ * clear or not. */
+static imp_code run_clearance(imp_scene *scene, const imp_options *options, double required,
+                              imp_clearance *least, imp_result *result, double *seconds,
+                              imp_error *error)
+{
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.required = required;
+    asked.decide = true;
+    imp_query *query = imp_clearance_new(scene, options, &asked, error);
     if (query == NULL) return error->code;
     const double start = seconds_computed();
     imp_code code = imp_query_step(query, 0, error);
@@ -63,9 +77,7 @@ static imp_code run_clearance(imp_scene *scene, const imp_options *options, imp_
     if (code == IMP_SUCCESS) code = imp_clearance_read(query, 0, least, error);
     if (code == IMP_SUCCESS) {
         *result = imp_query_result(query);
-        result->verdict = least->reason != IMP_REASON_NONE ? IMP_UNDECIDED
-                          : least->upper > options->gamma  ? IMP_CLEAR
-                                                           : IMP_CONTACT;
+        result->verdict = verdict_of(least, options->gamma);
     }
     imp_query_free(query);
     return code;
@@ -87,19 +99,18 @@ static imp_code cut_interval(imp_registry *registry, const bench_scene *s, const
     return code;
 }
 
-/* gamma 0.995 and clearance 0.99 of the least distance, which is found first. */
-static imp_code ask_for_proof(imp_registry *registry, const bench_scene *s, imp_options *options,
-                              imp_error *error)
+/* The least distance, of a scene of its own; 0: nothing comes near anything. */
+static imp_code find_least(imp_registry *registry, const bench_scene *s, const imp_options *options,
+                           double *distance, imp_error *error)
 {
     imp_scene *scene = scene_of(registry, s, error);
     if (scene == NULL) return error->code;
     imp_clearance least;
     imp_result result;
     double seconds;
-    const imp_code code = run_clearance(scene, options, &least, &result, &seconds, error);
+    const imp_code code = run_clearance(scene, options, 0, &least, &result, &seconds, error);
     imp_scene_free(scene);
-    if (code == IMP_SUCCESS && least.upper < INFINITY)
-        options->gamma = 0.995 * least.upper, options->clearance = 0.99 * least.upper;
+    *distance = code == IMP_SUCCESS && least.upper < INFINITY ? least.upper : 0;
     return code;
 }
 
@@ -111,13 +122,16 @@ static imp_code solve_once(imp_registry *registry, const bench_scene *s, const b
     imp_scene *scene = scene_of(registry, s, error);
     if (scene == NULL) return error->code;
     imp_options options = options_of(scene, c, m, request);
-    imp_clearance least;
+    imp_clearance answer;
+    double least = 0;
     imp_code code = cut_interval(registry, s, c, &options, error);
-    if (code == IMP_SUCCESS && m->question == BENCH_PROOF)
-        code = ask_for_proof(registry, s, &options, error);
+    if (code == IMP_SUCCESS && (m->question == BENCH_DECISION || m->question == BENCH_PROOF))
+        code = find_least(registry, s, &options, &least, error);
+    if (m->question == BENCH_PROOF && least > 0)
+        options.gamma = 0.995 * least, options.clearance = 0.99 * least;
     if (code == IMP_SUCCESS)
-        code = m->question == BENCH_CLEARANCE
-                   ? run_clearance(scene, &options, &least, result, seconds, error)
+        code = m->question == BENCH_CLEARANCE || m->question == BENCH_DECISION
+                   ? run_clearance(scene, &options, 0.99 * least, &answer, result, seconds, error)
                    : run(imp_query_new(scene, &options, error), result, seconds, error);
     imp_scene_free(scene);
     return code;

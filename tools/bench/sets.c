@@ -26,6 +26,8 @@ METHOD(balls_constant, "paper, spheres, constant", PAPER, SPHERE, CONSTANT);
 
 static const bench_method clearance_method = {
     .name = "clearance", .method = IMP_METHOD_MODELS, .question = BENCH_CLEARANCE};
+static const bench_method decision_method = {
+    .name = "require 0.99 of it", .method = IMP_METHOD_MODELS, .question = BENCH_DECISION};
 static const bench_method proof_method = {
     .name = "solve, 0.99 of it", .method = IMP_METHOD_MODELS, .question = BENCH_PROOF};
 
@@ -316,7 +318,8 @@ static const bench_set rates = {"rates",
 
 /* --- clearance: least distances ----------------------------------------------------------------- */
 
-static const bench_method *const distances[] = {&clearance_method, &proof_method, NULL};
+static const bench_method *const distances[] = {&clearance_method, &decision_method, &proof_method,
+                                                NULL};
 
 /* A fixture and an arm of three links, each turning about the end of the one before. */
 static void add_arm(bench_cases *list, uint64_t *state)
@@ -366,8 +369,8 @@ static exit_status build_clearance(bench_cases *list, const bench_request *reque
 
 static const bench_set clearance_set = {
     "clearance",
-    "How near bodies come, to a thousandth; beside it a search that proves 0.99 of that distance,\n"
-    "which it is given, and which ratios are against. Intervals end before the first contact.",
+    "How near bodies come, to a thousandth; whether they keep 0.99 of that; and a search for contact\n"
+    "that proves as much, which ratios are against. Intervals end before the first contact.",
     distances, build_clearance, NULL};
 
 /* --- All ---------------------------------------------------------------------------------- */

@@ -241,7 +241,7 @@ const verb verb_bench = {
         "  tori     tori that turn and drift\n"
         "  rates    boxes and spheres from rates of three forms\n"
         "  moving   spheres in flight, at ever smaller gamma\n"
-        "  clearance  least distances, and proofs of 0.99 of them\n"
+        "  clearance  least distances, and whether 0.99 of them is kept\n"
         "  conformal  machine parts that slide in each other, ever tighter\n"
         "  bodies   100 to 100,000 bodies that drift\n"
         "  surfaces  two meshes of 100 to 20,000 triangles each\n"

@@ -21,6 +21,10 @@
  *     b        surface 0 of "fixture"  u 3.14159265  v 1.5    at (1.00009, 0, 0)
  *     normal   (1, 0, 0), from a to b
  *     cost     123 pairs, ...
+ *
+ * Where the search ended with the verdict the first line has nothing more, and the two points a line:
+ *
+ *     seen     32.4 apart at t = 0.5, "link1" and "fixture"; --tolerance finds the tightest
  */
 
 static const char *name_of(const imp_scene *scene, size_t body)
@@ -28,13 +32,17 @@ static const char *name_of(const imp_scene *scene, size_t body)
     return imp_scene_body_name(scene, body);
 }
 
+static bool is_decided_only(const imp_clearance *r) { return r->reason == IMP_REASON_DECIDED; }
+
 static void print_first_line(const imp_scene *scene, const imp_clearance *r)
 {
     const char *verdict = clearance_verdict_name(r->verdict);
     if (verdict != NULL) fputs(verdict, stdout);
     if (!isnan(r->t_violated)) printf(" at t = %s", output_number_lower(r->t_violated).text);
-    if (verdict != NULL) fputs(", ", stdout);
-    if (!r->has_witness && r->upper < INFINITY) {
+    if (verdict != NULL && !is_decided_only(r)) fputs(", ", stdout);
+    if (is_decided_only(r)) {
+        putchar('\n');
+    } else if (!r->has_witness && r->upper < INFINITY) {
         puts("nothing measured yet");
     } else if (!r->has_witness) {
         const char *why = result_reason_of_none(r->reason);
@@ -48,7 +56,8 @@ static void print_first_line(const imp_scene *scene, const imp_clearance *r)
 
 static bool is_ended(imp_reason reason)
 {
-    return reason != IMP_REASON_NONE && result_reason_of_none(reason) == NULL;
+    return reason != IMP_REASON_NONE && reason != IMP_REASON_DECIDED &&
+           result_reason_of_none(reason) == NULL;
 }
 
 static void print_violation(const imp_scene *scene, const imp_clearance *r)
@@ -58,6 +67,15 @@ static void print_violation(const imp_scene *scene, const imp_clearance *r)
     printf("first by \"%s\" and \"%s\", %s apart at t = %s\n", name_of(scene, r->a_violated.body),
            name_of(scene, r->b_violated.body), output_number_upper(r->gap_violated).text,
            output_number_lower(r->t_violated).text);
+}
+
+static void print_seen(const imp_scene *scene, const imp_clearance *r)
+{
+    if (!is_decided_only(r) || r->t == r->t_violated) return;
+    result_print_label("seen");
+    printf("%s apart at t = %.10g, \"%s\" and \"%s\"; --tolerance finds the tightest\n",
+           output_number_upper(r->upper).text, r->t, name_of(scene, r->a.body),
+           name_of(scene, r->b.body));
 }
 
 void clearance_print(const imp_scene *scene, const imp_clearance *r)
@@ -76,6 +94,7 @@ void clearance_print(const imp_scene *scene, const imp_clearance *r)
         printf("%.10g\n", r->required);
     }
     print_violation(scene, r);
+    print_seen(scene, r);
     if (r->has_witness) {
         result_print_sides(scene, &r->a, &r->b);
         result_print_normal(r->has_normal ? r->normal : NULL);
@@ -141,6 +160,15 @@ static imp_requirement worse(imp_requirement x, imp_requirement y)
     return x == IMP_REQUIREMENT_UNDECIDED ? x : y;
 }
 
+/* What ended a part early, else that the bracket of one is as wide as it was when its verdict was known, else
+ * that one was measured. */
+static int weight(imp_reason reason)
+{
+    if (is_ended(reason)) return 3;
+    if (reason == IMP_REASON_DECIDED) return 2;
+    return reason == IMP_REASON_NONE ? 1 : 0;
+}
+
 /* Lemma. What holds of each part holds of all: the least of the lower bounds, and any upper bound. */
 imp_clearance clearance_summary(const clearance_table *table)
 {
@@ -148,11 +176,11 @@ imp_clearance clearance_summary(const clearance_table *table)
     for (size_t k = 1; k < table->count; ++k) {
         const imp_clearance *r = &table->answers[k];
         const imp_requirement verdict = worse(all.verdict, r->verdict);
-        const imp_reason reason = is_ended(all.reason) ? all.reason : r->reason;
+        const imp_reason reason = weight(all.reason) < weight(r->reason) ? r->reason : all.reason;
         const double lower = r->lower < all.lower ? r->lower : all.lower;
         if (r->upper < all.upper) all = *r;
         all.verdict = verdict;
-        all.reason = is_ended(reason) || all.has_witness ? reason : all.reason;
+        all.reason = reason;
         all.lower = lower;
     }
     all.t_start = table->answers[0].t_start;

@@ -38,6 +38,8 @@ json_t *result_reason_json(imp_reason reason)
         return json_string("cancelled");
     case IMP_REASON_RESOLUTION:
         return json_string("resolution");
+    case IMP_REASON_DECIDED:
+        return json_string("decided");
     }
     return json_null();
 }

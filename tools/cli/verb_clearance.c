@@ -52,6 +52,7 @@ static imp_clearance_options asked_for(const arguments *args)
     const option_value *profile = arguments_option(args, "profile");
     if (tolerance != NULL) asked.tolerance = tolerance->number[0];
     asked.required = required_of(args);
+    asked.decide = tolerance == NULL && profile == NULL;
     if (profile != NULL) asked.slices = profile->count;
     return asked;
 }
@@ -256,8 +257,9 @@ const verb verb_clearance = {
         "nearer than its lower end bodies never come, which is proved; its upper end is the\n"
         "distance of two points of them at one time. What is no farther apart than gamma touches.\n"
         "\n"
-        "--require D answers holds, violated, with the earliest time, or undecided. Where the\n"
-        "minimum lies between D (1 - 1e-6) and D, either of the first two is right.\n",
+        "--require D answers holds, violated, with the earliest time, or undecided. It ends as soon\n"
+        "as that is known, with the bracket as it is then; with --tolerance or --profile it goes on.\n"
+        "Where the minimum lies between D (1 - 1e-6) and D, both holds and violated are right.\n",
     .example = "impinge clearance 'sphere' 'sphere center=-3,3,0 ! translate velocity=6,0,0' \\\n"
                "               --require 0.9",
     .operand_min = 1,

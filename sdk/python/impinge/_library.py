@@ -104,6 +104,7 @@ class ClearanceOptions(c.Structure):
         ("tolerance", c.c_double),
         ("required", c.c_double),
         ("slices", c.c_uint64),
+        ("decide", c.c_bool),
     ]
 
 

@@ -12,7 +12,7 @@ from . import _library as lib
 
 _VERDICTS = ("clear", "contact", "undecided")
 _REASONS = (None, "no-time", "no-pairs", "pairs", "seconds", "memory", "cancelled", "resolution",
-            "running")
+            "running", "decided")
 _REQUIREMENTS = (None, "holds", "violated", "undecided")
 
 
@@ -70,7 +70,7 @@ class Progress:
 class Clearance:
     """The least distance from `t_start` to `t_end`: proved to be at least `lower`, and evaluated to
     be at most `upper` at the witness `t`, `a`, `b`. With a required distance, `verdict` is "holds",
-    "violated" or "undecided"."""
+    "violated" or "undecided"; `reason` "decided" says that the bracket is as it was when that was known."""
 
     lower: float
     upper: float

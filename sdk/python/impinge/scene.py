@@ -143,15 +143,17 @@ class Scene:
     def clearance(self, *, required: Optional[float] = None, tolerance: Optional[float] = None,
                   time: Optional[Sequence[float]] = None, progress: Optional[ProgressSink] = None,
                   **budgets: float) -> Clearance:
-        """The least distance of all bodies over the interval; is the `required` one kept?"""
-        return self._clearances({"required": required, "tolerance": tolerance}, time, progress,
-                                budgets)[0]
+        """The least distance of all bodies over the interval; is the `required` one kept? With
+        `required` and no `tolerance` the search ends as soon as that is known."""
+        asked = {"required": required, "tolerance": tolerance, "decide": tolerance is None}
+        return self._clearances(asked, time, progress, budgets)[0]
 
     def each(self, *, required: Optional[float] = None, tolerance: Optional[float] = None,
              time: Optional[Sequence[float]] = None, progress: Optional[ProgressSink] = None,
              **budgets: float) -> List[Clearance]:
         """The clearance of every two bodies that do not ignore each other, the tightest first."""
-        asked = {"each": True, "required": required, "tolerance": tolerance}
+        asked = {"each": True, "required": required, "tolerance": tolerance,
+                 "decide": tolerance is None}
         answers = self._clearances(asked, time, progress, budgets)
         return sorted(answers, key=lambda answer: answer.upper)
 
