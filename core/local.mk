@@ -89,7 +89,8 @@ core_solver = \
     core/solver/candidates.c core/solver/candidates.h \
     core/solver/clearance.c core/solver/clearance.h \
     core/solver/clearance_parts.c core/solver/clearance_parts.h \
-    core/solver/collect_pairs.c core/solver/collect_surfaces.c core/solver/collection.h \
+    core/solver/collect_pairs.c core/solver/collect_roots.c core/solver/collect_surfaces.c \
+    core/solver/collection.h \
     core/solver/distance.c core/solver/distance.h \
     core/solver/examined_times.c core/solver/examined_times.h \
     core/solver/gap_lines.c core/solver/gap_lines.h \

@@ -195,6 +195,14 @@ uint64_t scene_bytes(const imp_scene *scene)
 
 scene_settings *scene_settings_of(imp_scene *scene) { return &scene->settings; }
 
+size_t scene_body_count(const imp_scene *scene) { return scene->count; }
+
+size_t scene_surface_count(const imp_scene *scene, size_t body)
+{
+    assert(body < scene->count);
+    return scene->bodies[body].count;
+}
+
 size_t imp_scene_body_count(const imp_scene *scene) { return scene != NULL ? scene->count : 0; }
 
 bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b)
@@ -214,7 +222,7 @@ size_t imp_scene_surface_count(const imp_scene *scene, size_t body)
 
 const surface *scene_surface(const imp_scene *scene, size_t body, size_t index)
 {
-    if (index >= imp_scene_surface_count(scene, body)) return NULL;
+    if (scene == NULL || body >= scene->count || index >= scene->bodies[body].count) return NULL;
     return scene->bodies[body].members[index].surface;
 }
 
@@ -386,7 +394,7 @@ static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
 
 /* Trees are made outside the lock, so that threads make those of different surfaces at once. */
 imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
-                    tree **found, tree_growth *growth, imp_error *error)
+                    bool with_root, tree **found, tree_growth *growth, imp_error *error)
 {
     member *m = &scene->bodies[body].members[index];
     tree *made;
@@ -395,7 +403,8 @@ imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan
     *found = find_tree(m, plan);
     pthread_mutex_unlock(&scene->lock);
     if (*found != NULL) return IMP_SUCCESS;
-    const imp_code code = tree_new(m->surface, plan, &made, &own, error);
+    const imp_code code = with_root ? tree_new(m->surface, plan, &made, &own, error)
+                                    : tree_new_without_root(m->surface, plan, &made, &own, error);
     if (code != IMP_SUCCESS) return code;
     pthread_mutex_lock(&scene->lock);
     *found = keep_tree(m, plan, made);

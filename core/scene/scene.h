@@ -34,6 +34,10 @@ imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y
 imp_code scene_ignore(imp_scene *scene, size_t a, size_t b); /* two bodies */
 bool scene_ignores(const imp_scene *scene, size_t a, size_t b);
 
+/* As imp_scene_body_count and imp_scene_surface_count; body < scene_body_count. */
+size_t scene_body_count(const imp_scene *scene);
+size_t scene_surface_count(const imp_scene *scene, size_t body);
+
 /* NULL: there is none. */
 const surface *scene_surface(const imp_scene *scene, size_t body, size_t index);
 

@@ -72,19 +72,30 @@ int broad_phase_sort(swept_box *boxes, size_t count)
         if (!(boxes[k].lo[axis] <= boxes[k].hi[axis]))
             boxes[k].lo[axis] = -INFINITY, boxes[k].hi[axis] = INFINITY;
     qsort(boxes, count, sizeof *boxes, order[axis]);
+    for (size_t k = count; k-- > 0;) {
+        const bool alike = k + 1 < count && boxes[k].group == boxes[k + 1].group;
+        boxes[k].beyond = alike ? boxes[k + 1].beyond : k + 1;
+    }
     return axis;
 }
 
-/* Lemma. No two boxes within the clearance are left out. A box with a NaN along the axis starts before all
+/* Lemma. No two boxes of different groups within the clearance are left out. A box with a NaN along the axis starts before all
  * others and ends after them, so that the order is one of numbers. A box behind another in it starts no
  * earlier: once one is apart from it along the axis, so are all that follow. */
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
                            double clearance, const broad_phase_visitor *visitor)
 {
-    for (size_t l = k + 1; l < count; ++l) {
+    size_t l = k + 1;
+    while (l < count) {
+        if (boxes[l].group == boxes[k].group) {
+            l = boxes[l].beyond;
+            continue;
+        }
         if (apart(boxes[l].lo[axis], boxes[k].hi[axis], clearance)) break;
-        if (boxes_apart(&boxes[k], &boxes[l], clearance)) continue;
-        if (!visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner)) return false;
+        if (!boxes_apart(&boxes[k], &boxes[l], clearance) &&
+            !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
+            return false;
+        ++l;
     }
     return true;
 }
@@ -97,7 +108,7 @@ static bool visit_few(const swept_box *boxes, size_t count, double clearance,
     for (size_t k = 0; k < count; ++k) {
         if (!visitor->next_box(visitor->context)) return false;
         for (size_t l = k + 1; l < count; ++l)
-            if (!boxes_apart(&boxes[k], &boxes[l], clearance) &&
+            if (boxes[k].group != boxes[l].group && !boxes_apart(&boxes[k], &boxes[l], clearance) &&
                 !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
                 return false;
     }

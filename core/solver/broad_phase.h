@@ -7,13 +7,15 @@
 #include <stddef.h>
 
 /* Which boxes are near each other? Sweep and prune along the axis on which the
- * boxes crowd least: every pair of the boxes whose gap along
- * every axis is at most the clearance is visited, and (lo, hi) that are infinite or NaN count as
+ * boxes crowd least: every pair of the boxes of different groups whose gap
+ * along every axis is at most the clearance is visited, and (lo, hi) that are infinite or NaN count as
  * near all. */
 
 typedef struct swept_box {
     double lo[3], hi[3]; /* over the whole query's times; length, world space */
     size_t owner;        /* caller's number, handed to the visitor */
+    size_t group;        /* boxes of the same are not visited */
+    size_t beyond;       /* once sorted: the next box of another group; the caller leaves it 0 */
 } swept_box;
 
 typedef struct broad_phase_visitor {

@@ -4,6 +4,7 @@
 
 #include "core/solver/candidates.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,16 +21,19 @@ static size_t key_of(const candidate *candidates, const candidate_pair *p, sort_
     return key >= KEY_BODY_B ? c->body : (size_t)(c - candidates);
 }
 
-/* A stable counting sort; `start` has room for all keys and one more. */
-static void sort_pass(const candidate_list *list, sort_key key, size_t *start, size_t keys,
+/* A stable counting sort; `start` has room for all keys and one more. False: all keys are the same, and
+ * nothing is moved. */
+static bool sort_pass(const candidate_list *list, sort_key key, size_t *start, size_t keys,
                       candidate_pair *to)
 {
     memset(start, 0, (keys + 1) * sizeof *start);
     for (size_t k = 0; k < list->pair_count; ++k)
         start[key_of(list->candidates, &list->pairs[k], key) + 1] += 1;
+    if (start[key_of(list->candidates, &list->pairs[0], key) + 1] == list->pair_count) return false;
     for (size_t k = 0; k < keys; ++k) start[k + 1] += start[k];
     for (size_t k = 0; k < list->pair_count; ++k)
         to[start[key_of(list->candidates, &list->pairs[k], key)]++] = list->pairs[k];
+    return true;
 }
 
 /* Sorts by body of a, body of b, surface of a, surface of b, least significant key first: the order
@@ -38,14 +42,14 @@ static void sort_pass(const candidate_list *list, sort_key key, size_t *start, s
 static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
 {
     candidate_list *list = all->list;
-    const size_t bodies = imp_scene_body_count(all->scene);
+    const size_t bodies = scene_body_count(all->scene);
     const size_t keys = list->count > bodies ? list->count : bodies;
     size_t *start = malloc((keys + 1) * sizeof *start);
     candidate_pair *to = malloc((list->pair_count + 1) * sizeof *to);
     *done = start != NULL && to != NULL;
     const imp_code code = *done ? IMP_SUCCESS : error_set_memory(error);
     for (int key = 0; *done && key < SORT_KEYS; ++key) {
-        sort_pass(list, (sort_key)key, start, keys, to);
+        if (!sort_pass(list, (sort_key)key, start, keys, to)) continue;
         candidate_pair *sorted = to;
         to = list->pairs;
         list->pairs = sorted;
@@ -69,11 +73,13 @@ static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
 static bool prepare(collection *all)
 {
     size_t most = 1; /* an array of none may be NULL */
-    for (size_t b = 0; b < imp_scene_body_count(all->scene); ++b)
-        most += imp_scene_surface_count(all->scene, b);
+    for (size_t b = 0; b < scene_body_count(all->scene); ++b)
+        most += scene_surface_count(all->scene, b);
     all->boxes = malloc(most * sizeof *all->boxes);
     all->list->candidates = malloc(most * sizeof *all->list->candidates);
     if (all->boxes == NULL || all->list->candidates == NULL) return false;
+    all->with_roots =
+        most <= ROOTS_AT_ONCE || !(all->clearance < INFINITY); /* else all are in pairs */
     if (!parallel_is_on(all->options)) return true;
     all->surfaces = malloc(SURFACES_A_ROUND * sizeof *all->surfaces);
     all->sweep = calloc(TASKS_A_ROUND, sizeof *all->sweep);
@@ -95,6 +101,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
         prepare(&all) ? collection_add_surfaces(&all, &done, error) : error_set_memory(error);
     collection_count_rest(&all);
     if (done) code = collect_pairs(&all, &done, error);
+    if (done) code = collection_make_roots(&all, &done, error);
     free(all.boxes);
     free(all.surfaces);
     free(all.sweep);

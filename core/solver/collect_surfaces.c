@@ -2,8 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <string.h>
-
 #include "core/scene/scene_trees.h"
 #include "core/solver/collection.h"
 #include "core/tree/bound_audit.h"
@@ -45,7 +43,8 @@ static void make_trees(void *of, size_t task)
         tree *t;
         if (collection_may_end(all, 0)) return;
         if (!plan_of(all, s->body, s->surface, &plan)) continue;
-        if (scene_tree(all->scene, s->body, s->surface, &plan, &t, &s->growth, NULL) == IMP_SUCCESS)
+        if (scene_tree(all->scene, s->body, s->surface, &plan, all->with_roots, &t, &s->growth,
+                       NULL) == IMP_SUCCESS)
             atomic_fetch_add(&all->bytes_ahead, s->growth.bytes);
     }
 }
@@ -53,10 +52,10 @@ static void make_trees(void *of, size_t task)
 /* From this surface on. */
 static void look_ahead(collection *all, size_t body, size_t index)
 {
-    const size_t bodies = imp_scene_body_count(all->scene);
+    const size_t bodies = scene_body_count(all->scene);
     all->used = all->ahead = 0;
     for (size_t b = body, k = index; b < bodies && all->ahead < SURFACES_A_ROUND;)
-        if (k < imp_scene_surface_count(all->scene, b))
+        if (k < scene_surface_count(all->scene, b))
             all->surfaces[all->ahead++] = (surface_ahead){b, k++, {0}};
         else
             b += 1, k = 0;
@@ -65,15 +64,10 @@ static void look_ahead(collection *all, size_t body, size_t index)
                  (all->ahead + SURFACES_A_TASK - 1) / SURFACES_A_TASK);
 }
 
-static void count_growth(collection *all, const tree_growth *growth)
-{
-    all->stats->nodes += growth->nodes;
-    all->stats->bytes += growth->bytes;
-}
-
 void collection_count_rest(collection *all)
 {
-    for (; all->used < all->ahead; ++all->used) count_growth(all, &all->surfaces[all->used].growth);
+    for (; all->used < all->ahead; ++all->used)
+        collection_count(all, &all->surfaces[all->used].growth);
 }
 
 /* Adds one surface, if it exists at any of the query's times. */
@@ -84,17 +78,18 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
     tree_growth growth = {0};
     if (all->surfaces != NULL) {
         if (all->used == all->ahead) look_ahead(all, body, index);
-        count_growth(all, &all->surfaces[all->used++].growth);
+        collection_count(all, &all->surfaces[all->used++].growth);
     }
     if (!plan_of(all, body, index, &plan)) return IMP_SUCCESS;
-    const imp_code code = scene_tree(all->scene, body, index, &plan, &t, &growth, error);
+    const imp_code code =
+        scene_tree(all->scene, body, index, &plan, all->with_roots, &t, &growth, error);
     if (code != IMP_SUCCESS) return code;
-    count_growth(all, &growth);
-    const node *root = tree_root(t);
+    collection_count(all, &growth);
     const size_t k = all->list->count++;
-    all->boxes[k].owner = k;
-    memcpy(all->boxes[k].lo, root->lo, sizeof root->lo);
-    memcpy(all->boxes[k].hi, root->hi, sizeof root->hi);
+    swept_box *box = &all->boxes[k];
+    box->owner = k;
+    box->group = body;
+    tree_box(t, box->lo, box->hi);
     all->list->candidates[k] =
         (candidate){.tree = t, .body = body, .surface = index, .eval_error = -1};
     return IMP_SUCCESS;
@@ -103,9 +98,9 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
 imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error)
 {
     *done = false;
-    const size_t bodies = imp_scene_body_count(all->scene);
+    const size_t bodies = scene_body_count(all->scene);
     for (size_t b = 0; b < bodies; ++b) {
-        const size_t count = imp_scene_surface_count(all->scene, b);
+        const size_t count = scene_surface_count(all->scene, b);
         for (size_t k = 0; k < count; ++k) {
             if (collection_must_end(all)) return IMP_SUCCESS;
             const imp_code code = collect_surface(all, b, k, error);

@@ -9,8 +9,8 @@
 #include "core/solver/candidates.h"
 #include "core/solver/parallel.h"
 
-/* What the files of the list of candidates share: candidates.c begins and sorts it, collect_surfaces.c
- * and collect_pairs.c fill it, each also with threads that look ahead. */
+/* What the files of the list of candidates share: candidates.c begins and sorts it, collect_surfaces.c,
+ * collect_pairs.c and collect_roots.c fill it, each also with threads that look ahead. */
 
 /* A surface whose tree is made ahead of its turn, and what that has made. */
 typedef struct surface_ahead {
@@ -25,12 +25,22 @@ typedef struct sweep_ahead {
     bool complete;
 } sweep_ahead;
 
+/* A surface of a pair that has no root yet, which is made ahead of its turn. */
+typedef struct root_ahead {
+    tree *tree;
+    tree_growth growth;
+} root_ahead;
+
 enum {
     SURFACES_A_TASK = 16,
     BOXES_A_TASK = 128,
     TASKS_A_ROUND = 64,
     SURFACES_A_ROUND = SURFACES_A_TASK * TASKS_A_ROUND
 };
+
+/* Roots of more surfaces are made only once they are in a pair, though what they are made from is then computed
+ * again: most surfaces of large scenes are in none. */
+enum { ROOTS_AT_ONCE = 512 };
 
 typedef struct collection {
     imp_scene *scene;
@@ -41,6 +51,9 @@ typedef struct collection {
     swept_box *boxes;
     candidate_list *list;
     bool out_of_memory;
+    bool with_roots;   /* all trees are made with them */
+    root_ahead *roots; /* those that are missing */
+    size_t first_root, root_count;
     /* by threads that look ahead: */
     surface_ahead *surfaces; /* the first `used` of `ahead` have had their turn; NULL: no threads */
     size_t used, ahead;
@@ -64,6 +77,12 @@ static inline bool collection_may_end(collection *all, size_t pair_size)
     return all->limit->is_near(all->limit->context, bytes, pair_size > 0 ? bytes / pair_size : 0);
 }
 
+static inline void collection_count(collection *all, const tree_growth *growth)
+{
+    all->stats->nodes += growth->nodes;
+    all->stats->bytes += growth->bytes;
+}
+
 /* *done: all surfaces are there; otherwise a limit came first. */
 imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error);
 
@@ -72,5 +91,8 @@ void collection_count_rest(collection *all);
 
 /* False: a limit, or no memory, which all->out_of_memory tells. */
 bool collection_add_pairs(collection *all);
+
+/* Makes the roots that surfaces of pairs lack; *done as above. */
+imp_code collection_make_roots(collection *all, bool *done, imp_error *error);
 
 #endif

@@ -60,8 +60,8 @@ static bool is_complete(const examination *x)
 
 static imp_code examine_bodies(examination *x, size_t a, size_t b)
 {
-    const size_t of_a = imp_scene_surface_count(x->scene, a);
-    const size_t of_b = imp_scene_surface_count(x->scene, b);
+    const size_t of_a = scene_surface_count(x->scene, a);
+    const size_t of_b = scene_surface_count(x->scene, b);
     imp_code code = IMP_SUCCESS;
     for (size_t k = 0; k < of_a; ++k)
         for (size_t l = 0; l < of_b; ++l) {
@@ -75,9 +75,9 @@ static imp_code examine_bodies(examination *x, size_t a, size_t b)
 static bool are_all_defined(const imp_scene *scene, span asked)
 {
     surface_part part;
-    const size_t bodies = imp_scene_body_count(scene);
+    const size_t bodies = scene_body_count(scene);
     for (size_t b = 0; b < bodies; ++b) {
-        const size_t count = imp_scene_surface_count(scene, b);
+        const size_t count = scene_surface_count(scene, b);
         for (size_t k = 0; k < count; ++k)
             if (surface_undefined_part(scene_surface(scene, b, k), asked.lo, asked.hi, &part))
                 return false;
@@ -90,7 +90,7 @@ imp_code examined_times_find(const imp_scene *scene, double t_start, double t_en
 {
     const span asked = {t_start, t_end};
     examination x = {scene, asked, found, error, are_all_defined(scene, asked)};
-    const size_t bodies = imp_scene_body_count(scene);
+    const size_t bodies = scene_body_count(scene);
     imp_code code = IMP_SUCCESS;
     *found = (examined_times){false, INFINITY, -INFINITY};
     for (size_t a = 0; a < bodies; ++a)

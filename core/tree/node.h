@@ -94,6 +94,13 @@ typedef struct tree_growth {
 imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
                   imp_error *error);
 
+/* The same, of which only the root's box is kept until it is made: most surfaces of a large scene meet no
+ * other. */
+imp_code tree_new_without_root(const surface *s, const tree_plan *plan, tree **made,
+                               tree_growth *growth, imp_error *error);
+bool tree_has_root(const tree *t);
+imp_code tree_make_root(tree *t, tree_growth *growth, imp_error *error); /* unless it has one */
+
 /* Another tree of the same surface and plan, whose root is a copy, and not counted: for searches whose
  * counts are to be the same whatever other threads do. */
 imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error);
@@ -103,7 +110,8 @@ void tree_free(tree *t);
 tree *tree_next(const tree *t);
 void tree_set_next(tree *t, tree *next);
 
-node *tree_root(const tree *t);
+node *tree_root(const tree *t);                           /* precondition: it has one */
+void tree_box(const tree *t, double lo[3], double hi[3]); /* the root's */
 const surface *tree_surface(const tree *t);
 bool tree_is_of(const tree *t, const tree_plan *plan);
 

@@ -8,7 +8,8 @@
 #include "core/solver/broad_phase.h"
 #include "tests/support/suite.h"
 
-/* The sweep visits each two boxes that are near each other, whichever axis it runs along, once. */
+/* The sweep visits each two boxes of different groups that are near each other, whichever axis it runs along,
+ * once. */
 
 enum { BOXES = 60 };
 
@@ -36,11 +37,12 @@ static bool apart(const swept_box *a, const swept_box *b, double clearance)
 }
 
 /* Boxes of sides up to 0.2 in a room of that width along `crowded`, and of 5 else; some without bounds. */
-static void draw(swept_box *boxes, int crowded, uint64_t *state)
+static void draw(swept_box *boxes, int crowded, uint64_t groups, uint64_t *state)
 {
     const double odd[] = {NAN, INFINITY, -INFINITY, 0};
     for (size_t k = 0; k < BOXES; ++k) {
         boxes[k].owner = k;
+        boxes[k].group = random_bits(state) % groups;
         for (int i = 0; i < 3; ++i) {
             const double room = i == crowded ? 0.2 : 5;
             boxes[k].lo[i] = random_between(state, 0, room);
@@ -57,17 +59,19 @@ START_TEST(each_two_near_boxes_are_visited_once_along_any_axis)
 {
     uint64_t state = suite_seed();
     const broad_phase_visitor visitor = {go_on, note, NULL};
+    const uint64_t groups[4] = {1, 2, 7, 1 << 30};
     for (int round = 0; round < suite_times(300); ++round) {
         swept_box boxes[BOXES], given[BOXES];
         const double clearance = round % 2 == 0 ? 1e-6 : 0.1;
-        draw(boxes, round % 3, &state);
+        draw(boxes, round % 3, groups[round % 4], &state);
         memcpy(given, boxes, sizeof boxes);
         memset(visits, 0, sizeof visits);
         ck_assert(broad_phase_visit(boxes, BOXES, clearance, &visitor));
         for (size_t a = 0; a < BOXES; ++a)
             for (size_t b = a + 1; b < BOXES; ++b) {
-                ck_assert_uint_le(visits[a][b], 1);
-                ck_assert(visits[a][b] == 1 || apart(&given[a], &given[b], clearance));
+                const bool alike = given[a].group == given[b].group;
+                ck_assert_uint_le(visits[a][b], alike ? 0 : 1);
+                ck_assert(alike || visits[a][b] == 1 || apart(&given[a], &given[b], clearance));
             }
     }
 }
@@ -81,7 +85,7 @@ START_TEST(the_sweep_runs_along_the_axis_that_is_not_crowded)
         swept_box boxes[BOXES];
         for (size_t k = 0; k < BOXES; ++k) {
             const size_t place = (7 * k) % BOXES; /* 7 and BOXES have no common factor */
-            boxes[k] = (swept_box){{0, 0, 0}, {1, 1, 1}, k};
+            boxes[k] = (swept_box){{0, 0, 0}, {1, 1, 1}, k, k, 0};
             boxes[k].lo[axis] = 2.0 * (double)place;
             boxes[k].hi[axis] = boxes[k].lo[axis] + 1;
         }

@@ -341,6 +341,28 @@ START_TEST(who_touches_later_costs_little)
 }
 END_TEST
 
+enum { FAR_AWAY = 600 };
+
+/* Of those far away neither nodes nor a kilobyte each. */
+START_TEST(bodies_that_meet_none_cost_little_and_change_nothing)
+{
+    static ball others[FAR_AWAY];
+    imp_scene *scene = two(&at_rest, &flying), *alone = two(&at_rest, &flying);
+    const imp_result expected = solve(alone, 1e-6);
+    for (int k = 0; k < FAR_AWAY; ++k) {
+        others[k] = (ball){.radius = 1, .centre = {5 * k, 100, 0}};
+        ck_assert_int_eq(spheres_add(scene, &ball_type, &others[k]), IMP_SUCCESS);
+    }
+    const imp_result r = solve(scene, 1e-6), again = solve(scene, 1e-6);
+    ck_assert(r.verdict == IMP_CONTACT && r.t == expected.t && r.b.u == expected.b.u);
+    ck_assert_uint_eq(r.stats.nodes, expected.stats.nodes);
+    ck_assert_uint_lt(r.stats.bytes - expected.stats.bytes, FAR_AWAY * 1000);
+    ck_assert(again.t == expected.t && again.stats.nodes == 0);
+    imp_scene_free(scene);
+    imp_scene_free(alone);
+}
+END_TEST
+
 START_TEST(surfaces_of_one_body_are_not_tested_with_each_other)
 {
     imp_scene *scene = two(&at_rest, &elsewhere);
@@ -591,7 +613,8 @@ SUITE_MAIN("query", structs_of_no_size_are_refused,
            a_second_query_makes_no_node_that_the_first_has_made,
            queries_take_turns_on_the_same_trees, other_times_and_methods_have_trees_of_their_own,
            of_many_bodies_the_first_that_touch_are_told_as_each_is_ignored_in_turn,
-           who_touches_later_costs_little, surfaces_of_one_body_are_not_tested_with_each_other,
+           who_touches_later_costs_little, bodies_that_meet_none_cost_little_and_change_nothing,
+           surfaces_of_one_body_are_not_tested_with_each_other,
            a_body_that_is_alone_is_clear_for_that_reason,
            bodies_that_never_exist_together_are_clear_for_that_reason,
            contact_is_no_earlier_than_both_exist,
