@@ -19,18 +19,16 @@ static imp_code measure_surface(const surface *s, const node *root, double *larg
     surface_domain(s, lo, hi);
     lo[2] = r->lo[2], hi[2] = r->hi[2];
     const imp_region whole = region_make(lo, hi);
-    const double times[3] = {r->lo[2], r->c[2], r->hi[2]};
-    for (int k = 0; k < 3; ++k) {
-        double eval_error;
-        vec3 x;
-        const double p[3] = {whole.c[0], whole.c[1], times[k]};
-        imp_code code = witness_eval_error(s, p, &eval_error, &x, error);
-        if (code == IMP_SUCCESS && root->many == NULL)
-            code = bound_audit_holds_at(s, root, p, x.x, error);
-        if (code != IMP_SUCCESS) return code;
-        if (eval_error > *largest) *largest = eval_error;
+    const double u = whole.c[0], v = whole.c[1];
+    const double p[3][3] = {{u, v, r->lo[2]}, {u, v, r->c[2]}, {u, v, r->hi[2]}};
+    double eval_error[3];
+    vec3 x[3];
+    imp_code code = witness_eval_errors(s, 3, p, eval_error, x, error);
+    for (int k = 0; k < 3 && code == IMP_SUCCESS; ++k) {
+        if (root->many == NULL) code = bound_audit_holds_at(s, root, p[k], x[k].x, error);
+        if (eval_error[k] > *largest) *largest = eval_error[k];
     }
-    return IMP_SUCCESS;
+    return code;
 }
 
 enum { PIECES_MEASURED = 16 };

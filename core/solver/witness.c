@@ -4,6 +4,7 @@
 
 #include "core/solver/witness.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "core/base/rounding.h"
@@ -67,6 +68,17 @@ static imp_code point_fault(const surface *s, const double p[3], const char *wha
                          what);
 }
 
+static imp_code point_check(const surface *s, const double p[3], vec3 x, const double eval_error[3],
+                            imp_error *error)
+{
+    if (!isfinite(vec3_norm1(x)))
+        return point_fault(s, p, "eval gives a point that is infinite or NaN", error);
+    for (int i = 0; eval_error != NULL && i < 3; ++i)
+        if (!(eval_error[i] >= 0))
+            return point_fault(s, p, "eval's error bound is negative or NaN", error);
+    return IMP_SUCCESS;
+}
+
 /* The point at p and, unless eval_error is NULL, the bounds of its errors. */
 static imp_code point_at(const surface *s, const double *p, vec3 *x, double eval_error[3],
                          imp_error *error)
@@ -76,12 +88,19 @@ static imp_code point_at(const surface *s, const double *p, vec3 *x, double eval
         point_fault(s, p, surface_status_told(s, status).text, error);
         return surface_set_code(status, error);
     }
-    if (!isfinite(vec3_norm1(*x)))
-        return point_fault(s, p, "eval gives a point that is infinite or NaN", error);
-    for (int i = 0; eval_error != NULL && i < 3; ++i)
-        if (!(eval_error[i] >= 0))
-            return point_fault(s, p, "eval's error bound is negative or NaN", error);
-    return IMP_SUCCESS;
+    return point_check(s, p, *x, eval_error, error);
+}
+
+/* The same of n points. Where they cannot be evaluated, each by itself, to tell which is at fault. */
+static imp_code points_at(const surface *s, size_t n, const double (*p)[3], vec3 *x,
+                          double (*eval_error)[3], imp_error *error)
+{
+    imp_code code = IMP_SUCCESS;
+    const bool good = surface_eval(s, n, p[0], x->x, eval_error[0]) == IMP_OK;
+    for (size_t k = 0; k < n && code == IMP_SUCCESS; ++k)
+        code = good ? point_check(s, p[k], x[k], eval_error[k], error)
+                    : point_at(s, p[k], &x[k], eval_error[k], error);
+    return code;
 }
 
 static imp_code state_at(const search *g, const double *y, state *s, imp_error *error)
@@ -262,12 +281,14 @@ imp_code witness_at(const node *const nodes[2], double t, const double y[4], wit
     return code == IMP_SUCCESS ? evaluate_gap(&g, &s, found, error) : code;
 }
 
-imp_code witness_eval_error(const surface *s, const double p[3], double *eval_error, vec3 *x,
-                            imp_error *error)
+imp_code witness_eval_errors(const surface *s, size_t n, const double (*p)[3], double *eval_error,
+                             vec3 *x, imp_error *error)
 {
-    double e[3];
-    const imp_code code = point_at(s, p, x, e, error);
-    if (code == IMP_SUCCESS) *eval_error = padded_upper(e[0] + e[1] + e[2], 8);
+    double e[WITNESS_POINTS][3];
+    assert(n <= WITNESS_POINTS);
+    const imp_code code = points_at(s, n, p, x, e, error);
+    for (size_t k = 0; k < n && code == IMP_SUCCESS; ++k)
+        eval_error[k] = padded_upper(e[k][0] + e[k][1] + e[k][2], 8);
     return code;
 }
 

@@ -25,9 +25,10 @@ typedef struct witness {
 imp_code witness_seek(const node *const nodes[2], double t, double gamma, witness *found,
                       imp_error *error);
 
-/* The point *x that is evaluated at p = (u, v, t), and a bound of its distance to the exact one. */
-imp_code witness_eval_error(const surface *s, const double p[3], double *eval_error, vec3 *x,
-                            imp_error *error);
+/* The points that are evaluated at n parameters (u, v, t), and bounds of their distances to the exact ones. */
+enum { WITNESS_POINTS = 3 }; /* at most */
+imp_code witness_eval_errors(const surface *s, size_t n, const double (*p)[3], double *eval_error,
+                             vec3 *x, imp_error *error);
 
 /* The points at parameters (s_u, s_v) of a and of b relative to the nodes, which may be left, not the
  * surfaces. */
