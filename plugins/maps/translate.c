@@ -49,16 +49,6 @@ static void translate_time_domain(const void *self, double *lo, double *hi)
     course_times(self, lo, hi);
 }
 
-static void moved(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
-                  imp_model out[3])
-{
-    const imp_model at[3] = {x, y, z};
-    imp_model way[3];
-    course_at(self, 3, t, way);
-    for (int i = 0; i < 3; ++i) out[i] = imp_add(at[i], way[i]);
-}
-IMP_MAP_FORMULA(moved)
-
 /* --- At constant velocity ------------------------------------------------------------------------ */
 
 /* What most translations are: c0 + c1 t, or c0 alone. */
@@ -86,6 +76,31 @@ static near_constant point_shifted(near_constant x, double k)
     const double a = x.value + k;
     if (k == 0 || (x.value == 0 && x.error == 0)) return (near_constant){a, x.error};
     return (near_constant){a, (x.error + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK};
+}
+
+/* Lemma. Of x + c0 + c1 t, where t = c + d s exactly, the numbers c1 c, c0 + c1 c, c1 d and both sums with
+ * what x has in their place are each rounded once, by u of the result. */
+static imp_model steadily_moved(imp_model x, double from, double speed, const imp_model *t)
+{
+    const double far = speed * t->a, way = from + far, slope = speed * t->b[2];
+    const imp_interval gone = imp_interval_scale(imp_model_range(t), speed);
+    x.a += way;
+    x.b[2] += slope;
+    const double rounded = fabs(far) + fabs(way) + fabs(slope) + fabs(x.a) + fabs(x.b[2]);
+    x.e = (x.e + (IMP_U * rounded + IMP_TINY)) * IMP_SLACK;
+    x.lo = imp_sum_down(x.lo + imp_sum_down(from + gone.lo));
+    x.hi = imp_sum_up(x.hi + imp_sum_up(from + gone.hi));
+    x.rate[2] = imp_sum_up(x.rate[2] + imp_round_up(fabs(speed) * t->rate[2]));
+    x.depends |= t->depends;
+    return imp_model_finish(x);
+}
+
+/* Time as inclusions have it. */
+static bool is_linear(const imp_model *t)
+{
+    bool bends = false;
+    for (int k = 0; k < 6; ++k) bends = bends || t->q[k] != 0;
+    return t->e == 0 && t->b[0] == 0 && t->b[1] == 0 && !bends;
 }
 
 /* One coordinate x at time t. What is exact is added last. */
@@ -119,6 +134,26 @@ static imp_status steady_rate(const course *way, imp_map_rates *rates)
 }
 
 /* --- Any course ---------------------------------------------------------------------------------- */
+
+static void moved(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
+                  imp_model out[3])
+{
+    const course *way = self;
+    const imp_model at[3] = {x, y, z};
+    imp_model by[3];
+    const bool steady = is_steady(way) && is_linear(&t);
+    if (!steady) course_at(way, 3, t, by);
+    for (size_t i = 0; i < 3; ++i) {
+        const double from = steady ? way->polynomial.coefficient[way->polynomial.count * i] : 0;
+        if (!steady)
+            out[i] = imp_add(at[i], by[i]);
+        else if (speed_of(way, i) == 0)
+            out[i] = imp_shift(at[i], from);
+        else
+            out[i] = steadily_moved(at[i], from, speed_of(way, i), &t);
+    }
+}
+IMP_MAP_FORMULA(moved)
 
 static imp_status translate_eval(const void *self, size_t n, const double *p, double *x,
                                  double *error)
