@@ -280,6 +280,17 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
                  : cut_along_bundle(r, n, clearance, s, lines, false, false);
 }
 
+/* The way across both, about, at w: of curves, which have no normals. */
+IMP_QUAD_INLINE vec3 across(const relative *r, double w)
+{
+    vec3 a, b;
+    for (int i = 0; i < 3; ++i) {
+        a.x[i] = r->a.bu[i] + r->a.bv[i] + w * (r->a.quw[i] + r->a.qvw[i]);
+        b.x[i] = r->b.bu[i] + r->b.bv[i] + w * (r->b.quw[i] + r->b.qvw[i]);
+    }
+    return vec3_cross(a, b);
+}
+
 /* Along the axis that is best at the focus, the window's start where that decides when the earliest
  * contact can be; both normals; and the line of centres at the end of the window that is farther from
  * the focus. Where no axis is any good at the focus, along the line of centres there. */
@@ -291,7 +302,9 @@ IMP_QUAD_INLINE bool cut_along_axes(const relative *r, double clearance, w_range
     vec3 best = vec3_norm1(*axis) > 0 ? *axis : here;
     const bool apart = gjk_axis(r, r->focus, &best);
     *axis = apart ? best : (vec3){{0, 0, 0}};
-    bundle n = bundle_of(apart ? best : here, r->a.normal, r->b.normal, end);
+    const bool curves = !(vec3_norm1(r->a.normal) + vec3_norm1(r->b.normal) > 0);
+    bundle n = bundle_of(apart ? best : here, curves ? across(r, -1) : r->a.normal,
+                         curves ? across(r, 1) : r->b.normal, end);
     return bundle_cut(r, &n, clearance, s, lines);
 }
 
