@@ -63,7 +63,11 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
                            .candidate_pair = index}};
     t->p.window = window_common(im->window, pair_times(t->p.a, t->p.b));
     t->any_time = t->p.window.lo <= t->p.window.hi;
-    return t->any_time ? pair_test_first(im, t, error) : IMP_SUCCESS;
+    if (!t->any_time) return IMP_SUCCESS;
+    if (!im->glances || im->method != IMP_METHOD_MODELS) return pair_test_first(im, t, error);
+    t->near = separation_at_a_glance(t->p.a, t->p.b, im->clearance, &t->p.window);
+    t->p.is_seen_only = true;
+    return IMP_SUCCESS;
 }
 
 imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error *error)

@@ -12,6 +12,7 @@
 #include "core/base/status.h"
 #include "core/common/clock.h"
 #include "core/solver/pair_test.h"
+#include "core/solver/tuning.h"
 
 /* --- Creation and destruction ------------------------------------------------------------ */
 
@@ -289,6 +290,12 @@ static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
             c->seconds_before + (clock_seconds() - c->start) >= options->max_seconds);
 }
 
+void query_take_candidates(imp_query *query)
+{
+    query->impact.candidate_pairs = query->candidates.pairs;
+    query->impact.glances = query->candidates.pair_count >= TUNING_GLANCES_FROM;
+}
+
 /* What a limit ends begins anew with the next step. Where the minimum distance is asked for, all
  * surfaces count, however far apart. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
@@ -298,7 +305,7 @@ imp_code query_collect(imp_query *query, double start, imp_error *error)
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options, near,
                                           &limit, &query->stats, error);
-    query->impact.candidate_pairs = query->candidates.pairs;
+    query_take_candidates(query);
     if (code == IMP_SUCCESS && !query->candidates.complete)
         query_finish(query, IMP_UNDECIDED, c.reason);
     return code;

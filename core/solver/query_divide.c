@@ -134,7 +134,7 @@ FP_APART static imp_query *part_of(const imp_query *whole, size_t index, imp_err
     const size_t first = whole->parts[index];
     imp_code code = candidates_part(&query->candidates, &whole->candidates, first,
                                     whole->parts[index + 1] - first, &query->stats, error);
-    query->impact.candidate_pairs = query->candidates.pairs;
+    query_take_candidates(query);
     if (code == IMP_SUCCESS && whole->clearance != NULL)
         code = clearance_part(whole->clearance, body, &query->clearance, error);
     if (code == IMP_SUCCESS) {

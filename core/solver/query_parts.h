@@ -15,7 +15,7 @@ struct imp_query {
     imp_scene *scene;
     imp_options options;
     examined_times examined;
-    imp_stats stats; /* bytes: of the trees, without the heap */
+    imp_stats stats;      /* bytes: of the trees, without the heap */
     uint64_t scene_bytes; /* 0 in a part of a divided query, which counts them */
     uint64_t peak_bytes;
     double next_report; /* seconds spent when options.progress is called next */
@@ -42,5 +42,8 @@ imp_reason query_reason_of_clear(const imp_query *query);
 /* Fills the list of candidates, unless a limit comes first, which ends the query. `start` is when the
  * step began. */
 imp_code query_collect(imp_query *query, double start, imp_error *error);
+
+/* Tells the search of them. */
+void query_take_candidates(imp_query *query);
 
 #endif

@@ -348,6 +348,15 @@ static bool is_still_first(impact *im, pair *p)
     return false;
 }
 
+/* Asks for the nets of a pair that was only looked at. On failure it goes back. */
+static imp_code ask_before_test(impact *im, const pair *p, imp_error *error)
+{
+    if (!p->is_seen_only) return IMP_SUCCESS;
+    const imp_code code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
+    if (code != IMP_SUCCESS) pair_heap_push(&im->heap, p);
+    return code;
+}
+
 /* Completes the test of a pair that was only looked at; false: it is pruned, or waits for its later start. */
 static bool is_first_when_tested(impact *im, pair *p)
 {
@@ -438,10 +447,12 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     pair p = pair_heap_pop(&im->heap);
     if (im->passed != NULL && im->passed[p.candidate_pair]) return IMP_SUCCESS;
     if (p.window.lo > im->t_lower) im->t_lower = p.window.lo;
+    imp_code code = ask_before_test(im, &p, error);
+    if (code != IMP_SUCCESS) return code;
     if (!is_still_first(im, &p)) return IMP_SUCCESS;
     postpone(im, &p);
     if (!is_first_when_tested(im, &p)) return IMP_SUCCESS;
-    imp_code code = seek_upper_time(im, &p, error);
+    code = seek_upper_time(im, &p, error);
     pair followed = p;
     if (code == IMP_SUCCESS) code = follow(im, &followed, state, error);
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);

@@ -37,6 +37,11 @@
  * 32, 128: no change */
 #define TUNING_TINY 64
 
+/* --- Which roots are only looked at before they are popped (query.c) --- */
+
+/* Of queries with this many candidate pairs, or more. */
+#define TUNING_GLANCES_FROM 8
+
 /* --- When to search for a witness (time_of_impact.c) --- */
 
 /* The remainders of the pair are below gamma / this.

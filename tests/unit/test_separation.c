@@ -239,6 +239,56 @@ START_TEST(the_moment_of_a_meeting_is_never_cut_away)
 }
 END_TEST
 
+/* Lets all terms lead up, or down for sign -1, at parameters 1 and at the end `w` of the window. */
+static void lead(node *n, double sign, double w)
+{
+    quadratic3 *f = &n->f;
+    for (int i = 0; i < 3; ++i) {
+        double *still[6] = {&f->bu[i], &f->bv[i], &f->quu[i], &f->quv[i], &f->qvv[i], &f->qtt[i]};
+        for (int k = 0; k < 6; ++k) *still[k] = sign * fabs(*still[k]);
+        f->qut[i] = sign * w * fabs(f->qut[i]);
+        f->qvt[i] = sign * w * fabs(f->qvt[i]);
+    }
+}
+
+/* Two corners as far out as their boxes, at an end of the window, and a gap along one coordinate alone. */
+static void meet_with_corners(uint64_t *state, meeting *m)
+{
+    const double corner[2] = {1, 1}, w = random_bits(state) % 2 ? 1 : -1;
+    const int along = (int)(random_bits(state) % 3);
+    lead(&m->a, 1, w);
+    lead(&m->b, -1, w);
+    m->t = w > 0 ? m->window.hi : m->window.lo;
+    for (int i = 0; i < 3; ++i) {
+        const long double x = point(&m->a, i, corner, m->t, 1);
+        m->b.f.a[i] = 0;
+        m->b.f.a[i] =
+            (double)(x - point(&m->b, i, corner, m->t, -1)) + (i == along ? m->clearance : 0);
+        m->gap[i] = point(&m->b, i, corner, m->t, -1) - point(&m->a, i, corner, m->t, 1);
+    }
+    m->clearance = nextafter((double)m->gap[along], INFINITY);
+}
+
+START_TEST(no_glance_cuts_the_moment_of_a_meeting_away)
+{
+    uint64_t state = suite_seed() + 5;
+    int near = 0;
+    for (int k = 0; k < suite_times(100000); ++k) {
+        meeting m;
+        random_meeting(&state, &m, (posture)(k % POSTURES));
+        if (k % 2 == 0) meet_with_corners(&state, &m);
+        if (!is_near(&m)) continue;
+        ++near;
+        time_window left = m.window;
+        const bool some = separation_at_a_glance(&m.a, &m.b, m.clearance, &left);
+        ck_assert_msg(some && left.lo <= m.t && m.t <= left.hi,
+                      "case %d: near at %.17g of [%.17g, %.17g], left [%.17g, %.17g]", k, m.t,
+                      m.window.lo, m.window.hi, left.lo, left.hi);
+    }
+    ck_assert_int_gt(near, suite_times(100000) / 2);
+}
+END_TEST
+
 static long double gap_of(const meeting *m)
 {
     return sqrtl(m->gap[0] * m->gap[0] + m->gap[1] * m->gap[1] + m->gap[2] * m->gap[2]);
@@ -381,6 +431,19 @@ static meeting two_caps(double h, double radius_b, double gap)
     m.window = (time_window){0, 1};
     return m;
 }
+
+START_TEST(a_glance_leaves_when_boxes_pass_each_other)
+{
+    meeting m = two_caps(0.1, 1.1, 0);
+    m.b.f.bt[0] = -10;
+    m.b.motion[0] = 10;
+    ck_assert(separation_at_a_glance(&m.a, &m.b, 1e-6, &m.window));
+    ck_assert(m.window.lo > 0.48 && m.window.lo < 0.5 && m.window.hi > 0.5 && m.window.hi < 0.52);
+    m.window = (time_window){0, 1};
+    m.b.f.a[1] += 1;
+    ck_assert(!separation_at_a_glance(&m.a, &m.b, 1e-6, &m.window));
+}
+END_TEST
 
 START_TEST(the_field_of_normals_parts_caps_that_no_axis_does)
 {
@@ -630,6 +693,7 @@ START_TEST(nodes_without_bounds_keep_their_window)
 END_TEST
 
 SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
+           no_glance_cuts_the_moment_of_a_meeting_away, a_glance_leaves_when_boxes_pass_each_other,
            no_gap_is_below_the_lower_bound_of_the_distance,
            neither_axes_nor_field_of_normals_lose_a_meeting_alone,
            a_share_keeps_every_moment_within_the_limit,
