@@ -312,7 +312,9 @@ IMP_QUAD_INLINE bool cut_along_axes(const relative *r, double clearance, w_range
 IMP_QUAD_INLINE bool cut_along_given(const relative *r, double clearance, w_range *s, vec3 axis)
 {
     const vec3 end = vec3_sub(vec3_from(r->delta), vec3_scale(vec3_from(r->drift), -1));
-    bundle n = bundle_of(axis, r->a.normal, r->b.normal, end);
+    const bool curves = !(vec3_norm1(r->a.normal) + vec3_norm1(r->b.normal) > 0);
+    bundle n = bundle_of(axis, curves ? across(r, -1) : r->a.normal,
+                         curves ? across(r, 1) : r->b.normal, end);
     return bundle_cut(r, &n, clearance, s, NULL);
 }
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "core/solver/parallel.h"
+#include "core/solver/tuning.h"
 
 bool pair_test_fully(const impact *im, pair *p)
 {
@@ -19,7 +20,7 @@ bool pair_test_fully(const impact *im, pair *p)
 
 /* --- The first test --------------------------------------------------------------------------- */
 
-/* Hulls part two nodes where one of them bends and has a net. Every later test of the pair finds what is found
+/* Hulls part two nodes where one of them gains by its net. Every later test of the pair finds what is found
  * here. */
 imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error)
 {
@@ -31,7 +32,7 @@ imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes
     if (im->method == IMP_METHOD_PAPER) return IMP_SUCCESS;
     for (int side = 0; side < 2; ++side) {
         offers[side] = surface_offers_net(nodes[side]->surface);
-        useful = useful || (offers[side] && node_bends(nodes[side]));
+        useful = useful || (offers[side] && node_gains_by_net(nodes[side]));
     }
     for (int side = 0; side < 2 && useful && code == IMP_SUCCESS; ++side) {
         const net *found;
@@ -42,8 +43,30 @@ imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes
     return code;
 }
 
+/* Whether both nodes are straight but for a remainder, of which nets would show nothing, but which hides little:
+ * quadratics part most such pairs, and cost less than to ask for nets. */
+static bool waits_for_nets(const impact *im, const pair *p)
+{
+    if (im->method == IMP_METHOD_PAPER || vec3_norm1(p->axis) > 0) return false;
+    const node *const nodes[2] = {p->a, p->b};
+    bool blurs = false;
+    for (int side = 0; side < 2; ++side) {
+        const node *n = nodes[side];
+        if (node_bends(n) || node_blurs(n, TUNING_STRAIGHT_BLUR)) return false;
+        if (!surface_offers_net(n->surface)) return false;
+        blurs = blurs || node_blurs(n, NODE_ROUNDING);
+    }
+    return blurs;
+}
+
 imp_code pair_test_first(const impact *im, pair_test *t, imp_error *error)
 {
+    pair *p = &t->p;
+    if (waits_for_nets(im, p)) {
+        p->is_seen_only = true;
+        t->near = separation_without_nets(p->a, p->b, im->clearance, &p->window, &p->axis);
+        return IMP_SUCCESS;
+    }
     const imp_code code = pair_test_ask_for_nets(im, &t->p, &t->bytes, error);
     if (code != IMP_SUCCESS) return code;
     t->near = im->method == IMP_METHOD_PAPER

@@ -118,14 +118,14 @@ bool separation_at_a_glance(const node *a, const node *b, double clearance, time
 
 /* --- Nets -------------------------------------------------------------------------------------- */
 
-/* Asked for by each pair of it (pair_test.c), so that a test depends on its two nodes alone. */
+/* Asked for by each pair of it (pair_test.c), so that a test depends on its two nodes alone. Of a bilinear patch
+ * without remainder the quadratic says all that the hull does. */
 static bool has_useful_net(const node *n)
 {
-    const net *made = node_net_made(n);
-    return made != NULL && net_is_curved(made) && node_bends(n);
+    return node_net_made(n) != NULL && node_gains_by_net(n);
 }
 
-/* Of bilinear patches quadratics say all that hulls do; one net is enough. */
+/* One net is enough. */
 static bool have_nets(const node *a, const node *b)
 {
     return a->bounded && b->bounded && (has_useful_net(a) || has_useful_net(b));
@@ -187,25 +187,33 @@ static bool shrink_by_nets(const node *a, const node *b, double clearance, time_
                            vec3 *axis)
 {
     bool found = true, pays = true;
+    const bool flat = nodes_have_flat_nets(a, b);
+    const int rounds = flat ? TUNING_FLAT_NET_ROUNDS : TUNING_WINDOW_ROUNDS;
+    const double shrinks = flat ? TUNING_FLAT_NET_SHRINKS : TUNING_NET_SHRINKS;
     if (!(vec3_norm1(*axis) > 0)) *axis = vec3_sub(vec3_from(b->f.a), vec3_from(a->f.a));
-    for (int round = 0; round < TUNING_WINDOW_ROUNDS && found && pays; ++round) {
+    for (int round = 0; round < rounds && found && pays; ++round) {
         const double length = window->hi - window->lo;
         found = seek_by_nets(a, b, window->lo, axis);
         if (found && !cut_by_nets(a, b, *axis, clearance, window)) return false;
-        pays = window->hi - window->lo < TUNING_NET_SHRINKS * length;
+        pays = window->hi - window->lo < shrinks * length;
     }
     if (!have_both_nets(a, b) && are_flat(a, b)) return shrink(a, b, clearance, window, axis, NULL);
     return (found && !are_models_closer(a, b)) ||
            cut_by_models(a, b, clearance, window, axis, found);
 }
 
+bool separation_without_nets(const node *a, const node *b, double clearance, time_window *window,
+                             vec3 *axis)
+{
+    if (!a->bounded || !b->bounded) return true;
+    return !separation_of_boxes(a, b, clearance) && shrink(a, b, clearance, window, axis, NULL);
+}
+
 bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
                           vec3 *axis)
 {
-    if (!a->bounded || !b->bounded) return true;
-    if (separation_of_boxes(a, b, clearance)) return false;
-    if (have_nets(a, b)) return shrink_by_nets(a, b, clearance, window, axis);
-    return shrink(a, b, clearance, window, axis, NULL);
+    if (!have_nets(a, b)) return separation_without_nets(a, b, clearance, window, axis);
+    return !separation_of_boxes(a, b, clearance) && shrink_by_nets(a, b, clearance, window, axis);
 }
 
 bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,

@@ -16,7 +16,11 @@
 bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
                           vec3 *axis);
 
-/* The same, but where both nodes have control nets and the axis is not 0, only along that axis, and only by
+/* The same by the quadratics alone. */
+bool separation_without_nets(const node *a, const node *b, double clearance, time_window *window,
+                             vec3 *axis);
+
+/* The same as the first, but where both nodes have control nets and the axis is not 0, only along that axis, and only by
  * the nets: `more` says that separation_by_models may leave less. */
 bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,
                            vec3 *axis, bool *more);

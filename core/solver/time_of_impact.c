@@ -199,7 +199,7 @@ static bool precision_ends(const impact *im, const pair *p, double flat)
 }
 
 /* Whether a search may pay: the polynomials are good enough for gamma, or all that there will ever
- * be. At one instant also where one side alone would be halved: surfaces that touch all over then would be
+ * be, or hulls show all there is. At one instant also where one side alone would be halved: surfaces that touch all over then would be
  * halved down to gamma everywhere. */
 static bool witness_is_likely(const impact *im, const pair *p, const sight *seen)
 {
@@ -208,7 +208,7 @@ static bool witness_is_likely(const impact *im, const pair *p, const sight *seen
     const double remainder = pair_remainder(p);
     return TUNING_WITNESS_GAMMA * remainder <= scale(im) ||
            TUNING_WITNESS_EXTENT * pair_extent(p) <= remainder ||
-           precision_ends(im, p, TUNING_WITNESS_FLAT);
+           nodes_have_flat_nets(p->a, p->b) || precision_ends(im, p, TUNING_WITNESS_FLAT);
 }
 
 /* Of the side that is worth halving alone. Not where its remainder does not matter any more: where surfaces

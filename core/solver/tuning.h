@@ -113,6 +113,11 @@
 /* Part of the window that hulls of nets have to leave at most, to be sought again at its new start. Pairs
  * of bicubic patches at gamma 1e-6: 0.25: +0.4, 0.75: -0.2 of 81.5, and 1 % more instructions */
 #define TUNING_NET_SHRINKS 0.5
+/* The same of flat nets, which come to the first contact itself. */
+#define TUNING_FLAT_NET_ROUNDS 6
+#define TUNING_FLAT_NET_SHRINKS (1 - 0x1p-20)
+/* Straight nodes are tried without nets first, unless remainders are more than this part of them. */
+#define TUNING_STRAIGHT_BLUR 0x1p-3
 /* Part of what bends, of two nodes with nets, from which on their remainders are too large for quadratics to
  * show more than hulls did. Pairs of bicubic patches: 2 to 16: the same, for 1 % (4) and 1.5 % (2) more
  * instructions than 8 */
