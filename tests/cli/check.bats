@@ -86,6 +86,7 @@ blamed() {
 
 @test "a control net that is a tenth too small is exposed, and the same net in full is not" {
     exposes nets liar_net 'off the control net, whose error is'
+    [[ $output == *$'\n  refuted\n'* ]]
     run -0 "$IMPINGE" check "$liars/liar_truthful_net.so" --only nets
     [[ $output == *'pass  nets '*comparisons* ]]
 }
@@ -93,6 +94,7 @@ blamed() {
 @test "distances that are too large or too sure are exposed, and true ones are not" {
     exposes distances liar_distance 'a distance of at least '
     exposes distances liar_distance_remainder 'a distance of at least '
+    [[ $output == *$'\n  refuted\n'* ]]
     run -0 "$IMPINGE" check "$liars/liar_truthful_distance.so" --only distances
     [[ $output == *'pass  distances '*comparisons* ]]
 }

@@ -112,6 +112,9 @@ def test_errors_name_body_and_parameter():
         impinge.Scene.from_file("nowhere.json")
     with pytest.raises(impinge.UsageError, match="required"):
         flying().build().clearance(required=0)
+    with pytest.raises(impinge.UsageError, match="required: got 'x', must be a number > 0"):
+        flying().build().clearance(required="x")
+    assert flying().build().clearance(required=numpy.float32(0.5)).verdict is not None
     with pytest.raises(impinge.UsageError, match="gamma"):
         flying().build().solve(gamma=-1)
 

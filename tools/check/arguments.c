@@ -206,8 +206,9 @@ static void check_guarded(arguments_list *list, const subject *host, const char 
     }
     list_hide(list);
     if (answers_alike(host, &made, "though create's arguments are gone: it keeps a pointer to one"))
-        answer_pass(answer, "create reads its %zu arguments only, and keeps no pointer to them",
-                    list->count);
+        answer_pass(answer,
+                    "create reads no more than its %zu argument%s, and keeps no pointer to them",
+                    list->count, list->count == 1 ? "" : "s");
     subject_destroy(&made, stage, answer);
 }
 

@@ -164,8 +164,9 @@ void parameters_check(imp_registry *registry, const imp_type_info *type, const c
     if (!is_refused(&t, "no_such_parameter", "1")) return;
     for (size_t k = 0; k < type->parameter_count; ++k)
         if (!try_row(&t, catalogue_parameter(type, k))) return;
-    answer_pass(answer, "%llu values of %zu parameters are accepted or rejected as they should be",
-                (unsigned long long)answer->tests, type->parameter_count);
+    answer_pass(answer, "%llu values of %zu parameter%s are accepted or rejected as they should be",
+                (unsigned long long)answer->tests, type->parameter_count,
+                type->parameter_count == 1 ? "" : "s");
 }
 
 /* --- Memory ------------------------------------------------------------------------- */

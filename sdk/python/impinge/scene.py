@@ -9,6 +9,7 @@ import threading
 import weakref
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
+from numbers import Real
 from typing import Any, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy
@@ -134,8 +135,8 @@ class Scene:
     def _clearances(self, asked: dict, time: Optional[Sequence[float]],
                     progress: Optional[ProgressSink], budgets: dict) -> List[Clearance]:
         required = asked.get("required")
-        if required is not None and not required > 0:
-            raise UsageError(f"required: got {required!r}, must be > 0")
+        if required is not None and not (isinstance(required, Real) and required > 0):
+            raise UsageError(f"required: got {required!r}, must be a number > 0")
         with Query(self, time, progress, asked=asked, **budgets) as query:
             query.step()
             return [clearance_of(self.bodies, answer) for answer in query.clearances()]
