@@ -41,7 +41,7 @@ core_tree = \
     core/tree/distance_audit.c core/tree/distance_audit.h \
     core/tree/hierarchy.c core/tree/hierarchy.h \
     core/tree/model_lanes.h \
-    core/tree/net.c core/tree/net.h \
+    core/tree/net.c core/tree/net.h core/tree/net_rows.h \
     core/tree/node.c core/tree/node.h \
     core/tree/node_model.c core/tree/node_model.h \
     core/tree/pose.c core/tree/pose.h core/tree/posed_terms.h \
@@ -109,6 +109,7 @@ core_solver = \
     core/solver/relative.c core/solver/relative.h \
     core/solver/net_hull.h \
     core/solver/net_axis.c core/solver/net_axis.h core/solver/net_halves.c core/solver/net_halves.h \
+    core/solver/net_jet.c core/solver/net_jet.h \
     core/solver/net_march.c core/solver/net_march.h core/solver/newton.c core/solver/newton.h \
     core/solver/upper_time.c core/solver/upper_time.h \
     core/solver/net_model_axis.c core/solver/net_model_axis.h \

@@ -64,30 +64,20 @@ bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis)
  * in time, and lies above the line between its values at the window's ends. Where the line, less errors and
  * rounding, is above |n| clearance, the nodes are farther apart than the clearance. With a coordinate of
  * n equal to 1 nothing that counts underflows; a NaN or infinity cuts nothing. */
-PAD_COVERS(16, 4); /* |n| clearance: square 1, sums 2, root (1 + 2) / 2 + 1, product 1 */
-
 IMP_QUAD_INLINE bool cut_along(const node *a, const node *b, vec3 axis, double clearance,
                                time_window *window)
 {
-    double longest = fabs(axis.x[0]);
-    for (int i = 1; i < 3; ++i)
-        if (fabs(axis.x[i]) > longest) longest = fabs(axis.x[i]);
-    if (!(longest > 0x1p-400 && longest < 0x1p400)) return true;
     const net *p = node_net_made(a), *q = node_net_made(b);
-    const vec3 n = vec3_scale(axis, 1 / longest);
-    const double early = fabs(window->lo - p->time) + fabs(window->lo - q->time);
-    const double late = fabs(window->hi - p->time) + fabs(window->hi - q->time);
-    const double limit = padded_upper(vec3_norm(n) * clearance, 16) +
-                         slack_upper(p, q, n, early > late ? early : late);
+    vec3 n;
+    if (!axis_scaled(axis, &n)) return true;
+    const double limit = net_limit_upper(n, clearance, slack_upper(p, q, n, window));
     const window_ends low = lowest_heights_of(q, window, n, 1);
     const window_ends high = lowest_heights_of(p, window, n, -1);
-    const double g0 = low.lo + high.lo + vec3_dot(n, places_apart(p, q, window->lo));
-    const double g1 = low.hi + high.hi + vec3_dot(n, places_apart(p, q, window->hi));
+    const window_ends at = places_along(p, q, n, window);
+    const double g0 = low.lo + high.lo + at.lo, g1 = low.hi + high.hi + at.hi;
     if (!(g0 < INFINITY && g1 < INFINITY && limit < INFINITY)) return true;
-    return line_cut(g0, g1, padded_upper(limit, 4), window);
+    return line_cut(g0, g1, limit, window);
 }
-
-PAD_COVERS(4, 1); /* the sum of the two limits */
 
 IMP_QUAD_WIDE static bool cut_along_wide(const node *a, const node *b, vec3 axis, double clearance,
                                          time_window *window)

@@ -8,14 +8,17 @@
 
 #include "core/base/rounding.h"
 #include "core/solver/net_hull.h"
+#include "core/tree/net_rows.h"
 
 /* Heights of one net's control points along an axis, without its place: at the window's start, at its end,
- * then the weights. */
+ * then the weights. Those of a half take their place. */
 typedef struct heights {
     const net *net;
+    imp_region region; /* what is left of the node's */
     double x[3 * IMP_QUAD * QUADS_MAX];
-    window_ends low; /* the least */
+    window_ends low; /* heights of the patch are not below, but for what a gap's rounding counts */
     double most;     /* >= |height|, but for rounding */
+    double off;      /* what halving may have moved them by, summed up */
 } heights;
 
 IMP_QUAD_INLINE window_ends least_heights(const net *f, const double *x)
@@ -28,18 +31,20 @@ IMP_QUAD_INLINE window_ends least_heights(const net *f, const double *x)
     return (window_ends){least_of(early), least_of(late)};
 }
 
-IMP_QUAD_INLINE void heights_take(const net *f, const time_window *w, vec3 axis, double sign,
+IMP_QUAD_INLINE void heights_take(const node *of, const time_window *w, vec3 axis, double sign,
                                   heights *h)
 {
+    const net *f = node_net_made(of);
     const imp_quad n[3] = {imp_quad_all(sign * axis.x[0]), imp_quad_all(sign * axis.x[1]),
                            imp_quad_all(sign * axis.x[2])};
     const imp_quad t0 = imp_quad_all(w->lo - f->time), t1 = imp_quad_all(w->hi - f->time);
     h->net = f;
+    h->region = of->region;
     int k = 0;
     do {
-        const imp_quad p = along(f->numbers + k, f->stride, n);
+        const imp_quad p = heights_along(f->numbers + k, f->stride, n);
         imp_quad v = imp_quad_all(0);
-        if (f->is_moving) v = along(f->numbers + 3 * f->stride + k, f->stride, n);
+        if (f->is_moving) v = heights_along(f->numbers + 3 * f->stride + k, f->stride, n);
         imp_quad_store(h->x + k, p + t0 * v);
         imp_quad_store(h->x + f->stride + k, p + t1 * v);
     } while ((k += IMP_QUAD) < f->stride);
@@ -47,150 +52,186 @@ IMP_QUAD_INLINE void heights_take(const net *f, const time_window *w, vec3 axis,
         memcpy(h->x + 2 * f->stride, f->numbers + (f->is_moving ? 6 : 3) * f->stride,
                (size_t)f->stride * sizeof(double));
     h->low = least_heights(f, h->x);
-    h->most = 0;
-    for (int i = 0; i < 3; ++i) h->most += fabs(axis.x[i]) * f->most[i];
+    const imp_quad size = imp_quad_abs((imp_quad){axis.x[0], axis.x[1], axis.x[2], 0});
+    h->most = sum_of(size * imp_quad_load(f->most));
+    h->off = 0;
 }
 
-/* The least heights of both halves along j. */
-IMP_QUAD_INLINE void halve_any(const heights *h, parameter j, window_ends low[2])
-{
-    const size_t columns = h->net->is_weighted ? 3 : 2;
-    for (int half = 0; half < 2; ++half) {
-        double x[3 * IMP_QUAD * QUADS_MAX];
-        memcpy(x, h->x, columns * (size_t)h->net->stride * sizeof *x);
-        net_halve_columns(h->net, j, half, x, 2);
-        low[half] = least_heights(h->net, x);
-    }
-}
-
-/* Control points of the halves of four cubics: the lower has the first four, the upper the last four. */
-typedef struct halved {
-    imp_quad x[7];
-} halved;
-
-IMP_QUAD_INLINE halved halve_cubics(const imp_quad r[4])
-{
-    const imp_quad half = imp_quad_all(0.5);
-    const imp_quad p = half * (r[0] + r[1]), q = half * (r[1] + r[2]), s = half * (r[2] + r[3]);
-    const imp_quad pq = half * (p + q), qs = half * (q + s), mid = half * (pq + qs);
-    return (halved){{r[0], p, pq, mid, qs, s, r[3]}};
-}
-
-/* Rows along j of a bicubic patch's numbers. */
-IMP_QUAD_INLINE void rows_along(const double *x, parameter j, imp_quad r[4])
-{
-    for (int k = 0; k < 4; ++k)
-        r[k] = j == PARAMETER_U ? imp_quad_load(x + 4 * k)
-                                : (imp_quad){x[k], x[4 + k], x[8 + k], x[12 + k]};
-}
-
-/* Lemma. Of a rational patch, heights times weights and weights are halved like any numbers; their quotients
- * are the heights. In units of u most: the products and their halving n + 1 in all, weights n, quotients 1,
- * less than halving_units (net.c). */
-IMP_QUAD_INLINE void halve_bicubic_heights(const heights *h, const double *x, parameter j,
-                                           double low[2])
-{
-    imp_quad r[4], w[4];
-    halved z;
-    rows_along(x, j, r);
-    if (h->net->is_weighted) {
-        rows_along(h->x + 2 * 16, j, w);
-        for (int k = 0; k < 4; ++k) r[k] = r[k] * w[k];
-        const halved of = halve_cubics(r), by = halve_cubics(w);
-        for (int k = 0; k < 7; ++k) z.x[k] = of.x[k] / by.x[k];
-    } else {
-        z = halve_cubics(r);
-    }
-    for (int half = 0; half < 2; ++half) {
-        const imp_quad *y = z.x + 3 * half;
-        low[half] = least_of(imp_quad_min(imp_quad_min(y[0], y[1]), imp_quad_min(y[2], y[3])));
-    }
-}
+/* --- Halves -------------------------------------------------------------------------------------- */
 
 /* Lemma. Over the window n.(y - x) of points of a half and of the other node is no less than the least
  * difference of heights of their control points, and that is concave in time: heights are linear, and halving
  * takes fixed means of them. So where it is above the limit at both ends of the window, the half is out of
- * reach. The least heights of the half, computed, are off by net_halving_upper. In units of u R (net_hull.h):
- * heights, their places and R itself are GAP_ROUNDING; the limit less the rest rounds twice, and the half's
- * height less the error of halving once: slack is counted twice. A NaN excludes nothing. */
-_Static_assert(2 + 1 <= GAP_ROUNDING, "rounding of a half's limit");
+ * reach. Heights halved k times are those of a patch that is off by the sum of k net_halving_upper: each counts
+ * from the numbers that were halved, as rounded. In units of u R (net_hull.h): heights, their places and R
+ * itself are GAP_ROUNDING; the limit less the rest rounds twice, both nodes' heights less what halving moved
+ * them by once each: slack is counted twice. A NaN excludes nothing. */
+_Static_assert(2 + 2 <= GAP_ROUNDING, "rounding of a half's limit");
+PAD_COVERS(64,
+           3 + 3 + NET_HALVES_MOST); /* h->most: products and two sums; its own product, the sums */
 
-/* Bits of the halves along j that may be near; `most` are heights at the window's ends above which a half is
- * not. */
-IMP_QUAD_INLINE int halves_left(const heights *h, parameter j, window_ends most)
+/* Bits of halves along j whose least heights are not all above `most`, `off` counted. */
+IMP_QUAD_INLINE int near_bits(double lower, double upper, double most, double off)
 {
-    int left = 0;
+    return (int)!(lower - off > most) | (int)!(upper - off > most) << 1;
+}
+
+/* What halving once more may have moved heights by; the sum is rounded up where it is used. */
+static double halved_off(const heights *h, parameter j)
+{
+    return h->off + net_halving_upper(h->net, j, h->most);
+}
+
+enum { NONE_LEFT = 0, BOTH_LEFT = 3 };
+
+/* Notes that a half is kept, whose least heights these are. */
+static void keep(heights *h, parameter j, int half, double off, double early, double late)
+{
+    const double by = padded_upper(off, 64);
+    h->off = off;
+    h->low = (window_ends){early - by, late - by};
+    h->region = region_half(&h->region, j, half);
+}
+
+/* Any patch. Bits of the halves along j that may be near, whose heights are `most` at most somewhere; of one
+ * alone the heights are kept. */
+static int halve_any_heights(heights *h, parameter j, window_ends most)
+{
+    const size_t columns = h->net->is_weighted ? 3 : 2;
+    const size_t bytes = columns * (size_t)h->net->stride * sizeof(double);
+    const double off = halved_off(h, j), by = padded_upper(off, 64);
+    double x[2][3 * IMP_QUAD * QUADS_MAX];
     window_ends low[2];
-    if (h->net->degree[0] == 3 && h->net->degree[1] == 3) {
-        double early[2], late[2];
-        halve_bicubic_heights(h, h->x, j, early);
-        halve_bicubic_heights(h, h->x + 16, j, late);
-        for (int half = 0; half < 2; ++half) low[half] = (window_ends){early[half], late[half]};
-    } else {
-        halve_any(h, j, low);
+    for (int half = 0; half < 2; ++half) {
+        memcpy(x[half], h->x, bytes);
+        net_halve_columns(h->net, j, half, x[half], 2);
+        low[half] = least_heights(h->net, x[half]);
     }
-    const double off = padded_upper(net_halving_upper(h->net, j, h->most), 8);
-    for (int half = 0; half < 2; ++half)
-        if (!(low[half].lo - off > most.lo && low[half].hi - off > most.hi)) left |= 1 << half;
+    const int left =
+        near_bits(low[0].lo, low[1].lo, most.lo, by) | near_bits(low[0].hi, low[1].hi, most.hi, by);
+    if (left == NONE_LEFT || left == BOTH_LEFT) return left;
+    memcpy(h->x, x[left - 1], bytes);
+    keep(h, j, left - 1, off, low[left - 1].lo, low[left - 1].hi);
     return left;
 }
 
-PAD_COVERS(8, 3 + 3); /* h->most: products and two sums; its own product, the sum */
-
-/* The first half that is found, of A along u, v, then of B. */
-IMP_QUAD_INLINE bool find_half(const node *const nodes[2], const heights of[2], vec3 n,
-                               double limit, const time_window *w, net_half *found)
+/* Heights of both halves of a bicubic patch. Lemma. Of a rational one, heights times weights and weights are
+ * halved like any numbers; their quotients are the heights. In units of u most: the products and their halving
+ * n + 1 in all, weights n, quotients 1, less than halving_units (net.c). */
+IMP_QUAD_INLINE halved_rows halve_heights(const double *x, parameter j, const rows *weights,
+                                          const halved_rows *by)
 {
-    const double at0 = vec3_dot(n, places_apart(of[0].net, of[1].net, w->lo));
-    const double at1 = vec3_dot(n, places_apart(of[0].net, of[1].net, w->hi));
-    if (!(limit < INFINITY && fabs(at0) < INFINITY && fabs(at1) < INFINITY)) return false;
-    for (int side = 0; side < 2; ++side) {
-        const window_ends other = of[!side].low;
-        const window_ends most = {limit - (other.lo + at0), limit - (other.hi + at1)};
-        for (parameter j = PARAMETER_U; j <= PARAMETER_V; ++j) {
-            const imp_region *r = &nodes[side]->region;
-            if (!region_can_split(r, j) || !net_can_halve(r, j)) continue;
-            const int left = halves_left(&of[side], j, most);
-            if (left == 3) continue;
-            *found = (net_half){side, j, left == 1 ? 0 : left == 2 ? 1 : -1};
-            return true;
-        }
+    rows r = rows_along(rows_at(x), j);
+    for (int k = 0; k < 4 && weights != NULL; ++k) r.row[k] = r.row[k] * weights->row[k];
+    halved_rows both = rows_halved(r);
+    for (int k = 0; k < 7 && weights != NULL; ++k) both.row[k] = both.row[k] / by->row[k];
+    return both;
+}
+
+IMP_QUAD_INLINE void least_of_halves(const halved_rows *x, double least[2])
+{
+    const imp_quad *y = x->row;
+    const imp_quad lower = imp_quad_min(imp_quad_min(y[0], y[1]), imp_quad_min(y[2], y[3]));
+    const imp_quad upper = imp_quad_min(imp_quad_min(y[3], y[4]), imp_quad_min(y[5], y[6]));
+    least[0] = least_of(lower);
+    least[1] = least_of(upper);
+}
+
+/* As halve_any_heights. At the window's end more is near as a rule: where both halves are, its start is not needed. */
+IMP_QUAD_INLINE int halve_bicubic_heights(heights *h, parameter j, window_ends most,
+                                          bool is_weighted)
+{
+    const double off = halved_off(h, j), by = padded_upper(off, 64);
+    rows w;
+    halved_rows x[3];
+    double early[2], late[2];
+    if (is_weighted) {
+        w = rows_along(rows_at(h->x + 2 * 16), j);
+        x[2] = rows_halved(w);
+    }
+    x[1] = halve_heights(h->x + 16, j, is_weighted ? &w : NULL, &x[2]);
+    least_of_halves(&x[1], late);
+    int left = near_bits(late[0], late[1], most.hi, by);
+    if (left == BOTH_LEFT) return left;
+    x[0] = halve_heights(h->x, j, is_weighted ? &w : NULL, &x[2]);
+    least_of_halves(&x[0], early);
+    left |= near_bits(early[0], early[1], most.lo, by);
+    if (left == NONE_LEFT || left == BOTH_LEFT) return left;
+    for (int c = 0; c < 2 + is_weighted; ++c)
+        rows_store(h->x + 16 * c, rows_along(rows_of_half(&x[c], left - 1), j));
+    keep(h, j, left - 1, off, early[left - 1], late[left - 1]);
+    return left;
+}
+
+/* --- The search ---------------------------------------------------------------------------------- */
+
+/* Bits of the parameters along which a half may be excluded: of which both corners are above `most`, as far as
+ * the window's end tells. */
+static int promising(const heights *h, double most)
+{
+    const int end = h->net->degree[1], last = h->net->degree[0] * (end + 1);
+    const double *x = h->x + h->net->stride;
+    const int first = (x[0] > most) | (x[end] > most) << 1;
+    const int second = (x[last] > most) | (x[last + end] > most) << 1;
+    return (first == 3 || second == 3) | ((first & second) != 0) << 1;
+}
+
+/* Along u, then v. */
+IMP_QUAD_INLINE bool find_of_side(heights *h, window_ends most, net_half *found)
+{
+    const net *f = h->net;
+    const int may = promising(h, most.hi);
+    for (parameter j = PARAMETER_U; j <= PARAMETER_V; ++j) {
+        if (!(may >> j & 1) || !region_can_split(&h->region, j) || !net_can_halve(&h->region, j))
+            continue;
+        const int left = f->degree[0] != 3 || f->degree[1] != 3 ? halve_any_heights(h, j, most)
+                         : f->is_weighted ? halve_bicubic_heights(h, j, most, true)
+                                          : halve_bicubic_heights(h, j, most, false);
+        if (left == BOTH_LEFT) continue;
+        found->along = j;
+        found->half = left == NONE_LEFT ? -1 : left - 1;
+        return true;
     }
     return false;
 }
 
-PAD_COVERS(16, 4); /* |n| clearance: square 1, sums 2, root (1 + 2) / 2 + 1, product 1 */
-PAD_COVERS(4, 1);  /* its sum with the slack */
-
-IMP_QUAD_INLINE bool find(const node *a, const node *b, vec3 axis, double clearance,
-                          const time_window *w, net_half *found)
+/* Of A, then of B. At the window's ends places are `at` apart along the axis. */
+IMP_QUAD_INLINE bool find_half(heights of[2], double limit, window_ends at, net_half *found)
 {
-    const net *p = node_net_made(a), *q = node_net_made(b);
-    if (p == NULL || q == NULL) return false;
-    double longest = fabs(axis.x[0]);
-    for (int i = 1; i < 3; ++i)
-        if (fabs(axis.x[i]) > longest) longest = fabs(axis.x[i]);
-    if (!(longest > 0x1p-400 && longest < 0x1p400)) return false;
-    const vec3 n = vec3_scale(axis, 1 / longest);
-    const double early = fabs(w->lo - p->time) + fabs(w->lo - q->time);
-    const double late = fabs(w->hi - p->time) + fabs(w->hi - q->time);
-    const double slack = slack_upper(p, q, n, early > late ? early : late);
-    const double limit = padded_upper(padded_upper(vec3_norm(n) * clearance, 16) + 2 * slack, 4);
-    const node *const nodes[2] = {a, b};
-    heights of[2];
-    heights_take(p, w, n, -1, &of[0]);
-    heights_take(q, w, n, 1, &of[1]);
-    return find_half(nodes, of, n, limit, w, found);
+    for (found->side = 0; found->side < 2; ++found->side) {
+        const window_ends other = of[!found->side].low;
+        const window_ends most = {limit - (other.lo + at.lo), limit - (other.hi + at.hi)};
+        if (find_of_side(&of[found->side], most, found)) return true;
+    }
+    return false;
 }
 
-IMP_QUAD_WIDE static bool find_wide(const node *a, const node *b, vec3 axis, double clearance,
-                                    const time_window *w, net_half *found)
+IMP_QUAD_INLINE int find(const node *a, const node *b, vec3 axis, double clearance,
+                         const time_window *w, net_half found[NET_HALVES_MOST])
+{
+    const net *p = node_net_made(a), *q = node_net_made(b);
+    vec3 n;
+    if (p == NULL || q == NULL || !axis_scaled(axis, &n)) return 0;
+    const double limit = net_limit_upper(n, clearance, 2 * slack_upper(p, q, n, w));
+    const window_ends at = places_along(p, q, n, w);
+    if (!(limit < INFINITY && fabs(at.lo) < INFINITY && fabs(at.hi) < INFINITY)) return 0;
+    heights of[2];
+    heights_take(a, w, n, -1, &of[0]);
+    heights_take(b, w, n, 1, &of[1]);
+    int count = 0;
+    while (count < NET_HALVES_MOST && find_half(of, limit, at, &found[count]))
+        if (found[count++].half < 0) break;
+    return count;
+}
+
+IMP_QUAD_WIDE static int find_wide(const node *a, const node *b, vec3 axis, double clearance,
+                                   const time_window *w, net_half found[NET_HALVES_MOST])
 {
     return find(a, b, axis, clearance, w, found);
 }
 
-bool net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
-                     const time_window *window, net_half *found)
+int net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+                    const time_window *window, net_half found[NET_HALVES_MOST])
 {
     return imp_quad_is_wide() ? find_wide(a, b, axis, clearance, window, found)
                               : find(a, b, axis, clearance, window, found);

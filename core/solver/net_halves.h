@@ -17,9 +17,12 @@ typedef struct net_half {
     int half; /* which is left, the other is excluded; -1: neither */
 } net_half;
 
-/* Finds a half of either node that the axis shows farther from the other node than the clearance, over the
- * whole window, which lies in both nodes' times. False: there is none. */
-bool net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
-                     const time_window *window, net_half *found);
+enum { NET_HALVES_MOST = 32 };
+
+/* Finds halves of either node that the axis shows farther from the other node than the clearance, over the
+ * whole window, which lies in both nodes' times: one, then one of what is left, and so on until neither half
+ * of a node is left or none is excluded. How many. */
+int net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+                    const time_window *window, net_half found[NET_HALVES_MOST]);
 
 #endif

@@ -87,7 +87,7 @@ IMP_QUAD_INLINE double least_of(imp_quad x)
     return p < q ? p : q;
 }
 
-IMP_QUAD_INLINE imp_quad along(const double *x, int stride, const imp_quad n[3])
+IMP_QUAD_INLINE imp_quad heights_along(const double *x, int stride, const imp_quad n[3])
 {
     return n[0] * imp_quad_load(x) + n[1] * imp_quad_load(x + stride) +
            n[2] * imp_quad_load(x + 2 * stride);
@@ -99,9 +99,9 @@ IMP_QUAD_INLINE window_ends lowest_heights(const net *f, const time_window *w, c
     const imp_quad t0 = imp_quad_all(w->lo - f->time), t1 = imp_quad_all(w->hi - f->time);
     imp_quad early = imp_quad_all(INFINITY), late = early;
     for (int k = 0; k < stride; k += IMP_QUAD) {
-        const imp_quad p = along(f->numbers + k, stride, n);
+        const imp_quad p = heights_along(f->numbers + k, stride, n);
         if (f->is_moving) {
-            const imp_quad v = along(f->numbers + 3 * stride + k, stride, n);
+            const imp_quad v = heights_along(f->numbers + 3 * stride + k, stride, n);
             early = imp_quad_min(p + t0 * v, early);
             late = imp_quad_min(p + t1 * v, late);
         } else {
@@ -139,16 +139,41 @@ static inline bool line_cut(double g0, double g1, double limit, time_window *w)
     return true;
 }
 
+/* --- Along an axis ------------------------------------------------------------------------------- */
+
+/* With a longest coordinate of 1, about. False: of such a length it proves nothing. */
+static inline bool axis_scaled(vec3 axis, vec3 *n)
+{
+    double longest = fabs(axis.x[0]);
+    for (int i = 1; i < 3; ++i)
+        if (fabs(axis.x[i]) > longest) longest = fabs(axis.x[i]);
+    *n = vec3_scale(axis, 1 / longest);
+    return longest > 0x1p-400 && longest < 0x1p400;
+}
+
+PAD_COVERS(16, 4); /* |n| clearance: square 1, sums 2, root (1 + 2) / 2 + 1, product 1 */
+PAD_COVERS(4, 1);  /* its sum with the slack */
+
+/* |n| clearance and the slack. */
+static inline double net_limit_upper(vec3 n, double clearance, double slack)
+{
+    return padded_upper(padded_upper(vec3_norm(n) * clearance, 16) + slack, 4);
+}
+
 /* --- Between two nets --------------------------------------------------------------------------- */
 
 /* How far B's place is from A's at time t. */
+IMP_QUAD_INLINE imp_quad places_between(const net *a, const net *b, double t)
+{
+    const imp_quad apart = imp_quad_load(b->place) - imp_quad_load(a->place);
+    return apart + (imp_quad_all(t - b->time) * imp_quad_load(b->drift) -
+                    imp_quad_all(t - a->time) * imp_quad_load(a->drift));
+}
+
 IMP_QUAD_INLINE vec3 places_apart(const net *a, const net *b, double t)
 {
-    vec3 apart;
-    for (int i = 0; i < 3; ++i)
-        apart.x[i] = (b->place[i] - a->place[i]) +
-                     ((t - b->time) * b->drift[i] - (t - a->time) * a->drift[i]);
-    return apart;
+    const imp_quad x = places_between(a, b, t);
+    return (vec3){{x[0], x[1], x[2]}};
 }
 
 /* Lemma (rounding of a gap). n.(y - x) of two control points at time t, in units of u R with R = sum_i |n_i|
@@ -163,18 +188,33 @@ IMP_QUAD_INLINE vec3 places_apart(const net *a, const net *b, double t)
 enum { GAP_ROUNDING = 32 };
 _Static_assert(2 + 1 + 3 + 3 + 2 + 6 <= GAP_ROUNDING, "rounding of a gap");
 
-/* R and the nets' errors along n, for times no farther from the nets' than `late`. */
-IMP_QUAD_INLINE double slack_upper(const net *a, const net *b, vec3 n, double late)
+/* The sum of x, y and z. */
+IMP_QUAD_INLINE double sum_of(imp_quad x) { return x[0] + x[1] + x[2]; }
+
+/* R and the nets' errors along n, at any time of the window. */
+IMP_QUAD_INLINE double slack_upper(const net *a, const net *b, vec3 n, const time_window *w)
 {
-    double size = 0, error = 0;
-    for (int i = 0; i < 3; ++i) {
-        const double along = fabs(n.x[i]), motion = late * (fabs(a->drift[i]) + fabs(b->drift[i]));
-        size += along * (a->most[i] + b->most[i] + fabs(b->place[i] - a->place[i]) + motion);
-        error += along * (a->error[i] + b->error[i]);
-    }
+    const double early = fabs(w->lo - a->time) + fabs(w->lo - b->time);
+    const double after = fabs(w->hi - a->time) + fabs(w->hi - b->time);
+    const imp_quad late = imp_quad_all(early > after ? early : after);
+    const imp_quad along = imp_quad_abs((imp_quad){n.x[0], n.x[1], n.x[2], 0});
+    const imp_quad drift =
+        imp_quad_abs(imp_quad_load(a->drift)) + imp_quad_abs(imp_quad_load(b->drift));
+    const imp_quad apart = imp_quad_abs(imp_quad_load(b->place) - imp_quad_load(a->place));
+    const imp_quad most = imp_quad_load(a->most) + imp_quad_load(b->most) + apart + late * drift;
+    const double size = sum_of(along * most);
+    const double error = sum_of(along * (imp_quad_load(a->error) + imp_quad_load(b->error)));
     return padded_upper(error, 8) + size * (GAP_ROUNDING * UNIT_ROUNDOFF) + 0x1p-490;
 }
 
 PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
+
+/* How far places are apart along n, at the window's ends. */
+IMP_QUAD_INLINE window_ends places_along(const net *a, const net *b, vec3 n, const time_window *w)
+{
+    const imp_quad along = {n.x[0], n.x[1], n.x[2], 0};
+    return (window_ends){sum_of(along * places_between(a, b, w->lo)),
+                         sum_of(along * places_between(a, b, w->hi))};
+}
 
 #endif

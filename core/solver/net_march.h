@@ -17,9 +17,9 @@ typedef struct net_meeting {
     double speed; /* at which the gap closes; length/time */
 } net_meeting;
 
-/* From the middles of the nodes, each of which has a net, and the start of the window on: the first time in
- * it, about, at which the gap is `gap`. False: none was found. */
-bool net_march(const node *a, const node *b, const time_window *window, double gap,
+/* From where both nodes, of which each has a net, reach farthest along the axis, from A to B or 0, and the start
+ * of the window on: the first time in it, about, at which the gap is `gap`. False: none was found. */
+bool net_march(const node *a, const node *b, vec3 axis, const time_window *window, double gap,
                net_meeting *found);
 
 #endif

@@ -28,8 +28,7 @@ IMP_QUAD_INLINE vec3 centre_apart(const net_model *p, double t)
 {
     vec3 apart;
     for (int i = 0; i < 3; ++i)
-        apart.x[i] =
-            (p->model->f.a[i] - p->net->place[i]) - (t - p->net->time) * p->net->drift[i];
+        apart.x[i] = (p->model->f.a[i] - p->net->place[i]) - (t - p->net->time) * p->net->drift[i];
     return apart;
 }
 
@@ -80,7 +79,8 @@ IMP_QUAD_INLINE vec3 lowest_of_bowl(const bowl *z, vec3 n)
     const double twist = n.x[0] * z->quv[0] + n.x[1] * z->quv[1] + n.x[2] * z->quv[2];
     const double v = vertex_of(f[1] + twist * vertex_of(f[0], f[2]), f[3]);
     const double u = vertex_of(f[0] + twist * v, f[2]);
-    const imp_quad up = {n.x[0], n.x[1], n.x[2], n.x[2]}, at_u = imp_quad_all(u), at_v = imp_quad_all(v);
+    const imp_quad up = {n.x[0], n.x[1], n.x[2], n.x[2]}, at_u = imp_quad_all(u),
+                   at_v = imp_quad_all(v);
     const imp_quad x = z->middle + (z->bu + z->quu * at_u + z->quv * at_v) * at_u +
                        (z->bv + z->qvv * at_v) * at_v +
                        imp_quad_pick(up > imp_quad_all(0), -z->e, z->e);
@@ -166,7 +166,8 @@ IMP_QUAD_INLINE double net_model_slack_upper(const net_model *p, vec3 n, double 
         *size += along * (form[i] + p->net->most[i] + places + late * fabs(p->net->drift[i]));
         error += along * (p->net->error[i] + p->model->e[i]);
     }
-    return padded_upper(error, 8) + *size * (NET_MODEL_ROUNDING * UNIT_ROUNDOFF) + QUADRATIC_UNDERFLOW;
+    return padded_upper(error, 8) + *size * (NET_MODEL_ROUNDING * UNIT_ROUNDOFF) +
+           QUADRATIC_UNDERFLOW;
 }
 
 PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
@@ -206,30 +207,25 @@ IMP_QUAD_INLINE window_ends lowest_values(const node *f, const time_window *w, v
  * that of the model (bow). Where the sum of both lines, less errors and rounding, is above |n| clearance, the
  * nodes are farther apart than the clearance. With a coordinate of n equal to 1 nothing that counts
  * underflows; a NaN or a number out of range cuts nothing. */
-PAD_COVERS(16, 4); /* |n| clearance: square 1, sums 2, root (1 + 2) / 2 + 1, product 1 */
-
-IMP_QUAD_INLINE bool net_model_cut(const net_model *p, vec3 axis, double clearance, time_window *window)
+IMP_QUAD_INLINE bool net_model_cut(const net_model *p, vec3 axis, double clearance,
+                                   time_window *window)
 {
-    double longest = fabs(axis.x[0]), size;
-    for (int i = 1; i < 3; ++i)
-        if (fabs(axis.x[i]) > longest) longest = fabs(axis.x[i]);
-    if (!(longest > 0x1p-400 && longest < 0x1p400)) return true;
-    const vec3 n = vec3_scale(axis, p->way / longest);
+    double size;
+    vec3 n;
+    if (!axis_scaled(vec3_scale(axis, p->way), &n)) return true;
     const double early = fabs(window->lo - p->net->time), after = fabs(window->hi - p->net->time);
     const double slack = net_model_slack_upper(p, n, early > after ? early : after, &size);
-    const double limit = padded_upper(vec3_norm(n) * clearance, 16) + slack;
+    const double limit = net_limit_upper(n, clearance, slack);
     const window_ends low = lowest_values(p->model, window, n);
     const window_ends high = lowest_heights_of(p->net, window, n, -1);
     const double g0 = low.lo + high.lo + vec3_dot(n, centre_apart(p, window->lo));
     const double g1 = low.hi + high.hi + vec3_dot(n, centre_apart(p, window->hi));
     if (!(size < 0x1p400 && g0 < INFINITY && g1 < INFINITY && limit < INFINITY)) return true;
-    return line_cut(g0, g1, padded_upper(limit, 4), window);
+    return line_cut(g0, g1, limit, window);
 }
 
-PAD_COVERS(4, 1); /* the sum of the two limits */
-
 IMP_QUAD_WIDE static bool net_model_cut_wide(const net_model *p, vec3 axis, double clearance,
-                                         time_window *window)
+                                             time_window *window)
 {
     return net_model_cut(p, axis, clearance, window);
 }

@@ -7,6 +7,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/solver/tuning.h"
+
+#define NEWTON_UNROLL _Pragma("GCC unroll 4")
+
 void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double second[2][2][2],
                    double gradient[NEWTON_UNKNOWNS],
                    double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS])
@@ -22,14 +26,16 @@ void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double seco
     }
 }
 
-/* Solves h x = -g by Cholesky, where `held` unknowns stay put; false: h is not positive definite. */
-static bool solve(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double *g, const bool *held,
-                  double *x)
+/* Solves h x = -g by Cholesky; false: h is not positive definite. */
+static bool solve(const double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double *g, double *x)
 {
-    double l[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS] = {{0}};
-    for (int k = 0; k < NEWTON_UNKNOWNS; ++k)
+    double l[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS];
+    NEWTON_UNROLL
+    for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
+        NEWTON_UNROLL
         for (int m = 0; m <= k; ++m) {
-            double sum = held[k] || held[m] ? (k == m) : h[k][m];
+            double sum = h[k][m];
+            NEWTON_UNROLL
             for (int i = 0; i < m; ++i) sum -= l[k][i] * l[m][i];
             if (k != m)
                 l[k][m] = sum / l[m][m];
@@ -38,48 +44,89 @@ static bool solve(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double *g, c
             else
                 return false;
         }
+    }
+    NEWTON_UNROLL
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
-        double sum = held[k] ? 0 : -g[k];
+        double sum = -g[k];
+        NEWTON_UNROLL
         for (int i = 0; i < k; ++i) sum -= l[k][i] * x[i];
         x[k] = sum / l[k][k];
     }
+    NEWTON_UNROLL
     for (int k = NEWTON_UNKNOWNS - 1; k >= 0; --k) {
+        NEWTON_UNROLL
         for (int i = k + 1; i < NEWTON_UNKNOWNS; ++i) x[k] -= l[i][k] * x[i];
         x[k] /= l[k][k];
     }
     return true;
 }
 
-bool newton_step(const newton_bounds *g, const double *y, const double *gradient,
-                 double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double damping, double *next)
+/* Keeps unknown k where it is. */
+static void hold(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double *g, int k)
 {
+    for (int m = 0; m < NEWTON_UNKNOWNS; ++m) h[k][m] = h[m][k] = k == m;
+    g[k] = 0;
+}
+
+/* With `damping` added to the diagonal. False: there is none, or it overflows. */
+static bool step(const newton_way *way, const double *y, double damping, double *next)
+{
+    const newton_bounds *b = way->bounds;
+    double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], g[NEWTON_UNKNOWNS], move[NEWTON_UNKNOWNS];
     bool held[NEWTON_UNKNOWNS];
-    double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], move[NEWTON_UNKNOWNS];
-    memcpy(h, hessian, sizeof h);
+    memcpy(h, way->hessian, sizeof h);
+    memcpy(g, way->gradient, sizeof g);
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
         h[k][k] += damping;
-        held[k] = !(g->lo[k] < g->hi[k]);
+        held[k] = !(b->lo[k] < b->hi[k]);
+        if (held[k]) hold(h, g, k);
     }
     for (int pass = 0; pass <= NEWTON_UNKNOWNS; ++pass) {
-        if (!solve(h, gradient, held, move)) return false;
+        if (!solve((const double(*)[NEWTON_UNKNOWNS])h, g, move)) return false;
         bool more = false;
         for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
-            const bool out = (y[k] <= g->lo[k] && move[k] < 0) || (y[k] >= g->hi[k] && move[k] > 0);
-            if (out && !held[k]) held[k] = more = true;
+            if (held[k] ||
+                !((y[k] <= b->lo[k] && move[k] < 0) || (y[k] >= b->hi[k] && move[k] > 0)))
+                continue;
+            held[k] = more = true;
+            hold(h, g, k);
         }
         if (!more) break;
     }
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
         const double to = y[k] + (held[k] ? 0 : move[k]);
         if (!(to - to == 0)) return false;
-        next[k] = to < g->lo[k] ? g->lo[k] : to > g->hi[k] ? g->hi[k] : to;
+        next[k] = to < b->lo[k] ? b->lo[k] : to > b->hi[k] ? b->hi[k] : to;
     }
     return true;
 }
 
-double newton_scale(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS])
+/* --- The way --------------------------------------------------------------------------------------- */
+
+/* Damping to begin with, and where it is no use to go on; then what a step that leads downhill, or does not,
+ * changes it by. */
+static const double DAMPING = 0x1p-20, DAMPING_MAX = 0x1p10, DAMPING_LESS = 0x1p-6,
+                    DAMPING_MORE = 0x1p5;
+
+newton_way newton_begin(const newton_bounds *bounds)
 {
-    double top = 0;
-    for (int k = 0; k < NEWTON_UNKNOWNS; ++k) top = h[k][k] > top ? h[k][k] : top;
-    return top;
+    return (newton_way){.bounds = bounds, .damping = DAMPING};
+}
+
+bool newton_try(newton_way *way, const double *y, double *next)
+{
+    double scale = 0;
+    for (int k = 0; k < NEWTON_UNKNOWNS; ++k)
+        if (way->hessian[k][k] > scale) scale = way->hessian[k][k];
+    while (scale > 0 && way->steps < TUNING_NEWTON_STEPS && way->damping < DAMPING_MAX) {
+        way->steps += 1;
+        if (step(way, y, way->damping * scale, next)) return true;
+        way->damping *= DAMPING_MORE;
+    }
+    return false;
+}
+
+void newton_judge(newton_way *way, bool is_better)
+{
+    way->damping *= is_better ? DAMPING_LESS : DAMPING_MORE;
 }

@@ -17,24 +17,29 @@ typedef struct newton_bounds {
     double lo[NEWTON_UNKNOWNS], hi[NEWTON_UNKNOWNS];
 } newton_bounds;
 
-/* Of the largest diagonal element of the Hessian: to begin with, and where it is no use to go on; then what a
- * step that leads downhill, or does not, changes it by. */
-#define NEWTON_DAMPING 0x1p-20
-#define NEWTON_DAMPING_MAX 0x1p10
-#define NEWTON_DAMPING_LESS 0x1p-6
-#define NEWTON_DAMPING_MORE 0x1p5
-
 /* Gradient and Hessian of |D|^2 / 2, D = x_b - x_a, from its derivatives and second[side], which are
  * D.x'' of a and of b. */
 void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double second[2][2][2],
                    double gradient[NEWTON_UNKNOWNS],
                    double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]);
 
-double newton_scale(double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]);
+/* A way downhill: from each place that is better than the last, with its derivatives, steps are tried until
+ * one leads to a better place. */
+typedef struct newton_way {
+    const newton_bounds *bounds;
+    double gradient[NEWTON_UNKNOWNS],
+        hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]; /* of the last place */
+    double damping;                                /* of the Hessian's largest diagonal element */
+    int steps;                                     /* tried */
+} newton_way;
 
-/* A damped step from y that stays within the bounds: unknowns that would leave are held there and
- * the rest solved again. False: there is none, or it overflows. */
-bool newton_step(const newton_bounds *bounds, const double *y, const double *gradient,
-                 double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double damping, double *next);
+newton_way newton_begin(const newton_bounds *bounds);
+
+/* A step from y that stays within the bounds: unknowns that would leave are held there and the rest solved
+ * again. False: there is none that is worth it, or too many were tried. */
+bool newton_try(newton_way *way, const double *y, double *next);
+
+/* Tells what came of it: then comes another try, or, from a better place, new derivatives. */
+void newton_judge(newton_way *way, bool is_better);
 
 #endif

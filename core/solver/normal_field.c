@@ -361,22 +361,22 @@ static height height_of(const relative *r, const local_slice *a, const local_sli
     return (height){-h.offset, -h.drift, -h.bend, {-p->bs, -p->br, -p->qss, -p->qsr, -p->qrr}};
 }
 
-IMP_QUAD_INLINE void least_of(const quadratics *p, double least[IMP_QUAD])
+IMP_QUAD_INLINE void quadratics_least(const quadratics *p, double least[IMP_QUAD])
 {
     imp_quad_store(least, quadratics_lower(p));
 }
 
-IMP_QUAD_WIDE static void least_of_wide(const quadratics *p, double least[IMP_QUAD])
+IMP_QUAD_WIDE static void quadratics_least_wide(const quadratics *p, double least[IMP_QUAD])
 {
-    least_of(p, least);
+    quadratics_least(p, least);
 }
 
 static void least_values(const quadratics *p, double least[IMP_QUAD])
 {
     if (imp_quad_is_wide())
-        least_of_wide(p, least);
+        quadratics_least_wide(p, least);
     else
-        least_of(p, least);
+        quadratics_least(p, least);
 }
 
 bool normal_field_cut(const relative *r, double clearance, w_range *s, gap_lines *lines)

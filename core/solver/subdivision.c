@@ -262,29 +262,26 @@ imp_code cut_take(const cut *c, int half, const candidate_pair *both, pair *p, b
     return IMP_SUCCESS;
 }
 
-imp_code pair_take_bare(pair *p, int side, parameter along, int half, const candidate_pair *both,
-                        imp_stats *stats, imp_error *error)
+static imp_code take_half(pair *p, const net_half *h, bool is_last, const candidate_pair *both,
+                          tree_growth *growth, imp_error *error)
 {
-    node **slot = side == 0 ? &p->a : &p->b;
-    tree *t = both->side[side]->tree;
-    const net *made;
-    tree_growth growth = {0};
-    imp_code code = node_child_bare(t, *slot, along, half, slot, &growth, error);
-    if (code == IMP_SUCCESS) code = node_net(t, *slot, &made, &growth, error);
-    stats->bytes += growth.bytes;
-    return code;
+    node **slot = h->side == 0 ? &p->a : &p->b;
+    tree *t = both->side[h->side]->tree;
+    return is_last ? node_child(t, *slot, h->along, h->half, slot, growth, error)
+                   : node_child_bare(t, *slot, h->along, h->half, slot, growth, error);
 }
 
-imp_code pair_complete(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error)
+imp_code pair_take_halves(pair *p, const net_half *halves, int count, const candidate_pair *both,
+                          imp_stats *stats, imp_error *error)
 {
+    int last[2] = {-1, -1};
+    tree_growth growth = {0};
     imp_code code = IMP_SUCCESS;
-    for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
-        node **slot = side == 0 ? &p->a : &p->b;
-        tree_growth growth = {0};
-        code = node_complete(both->side[side]->tree, *slot, slot, &growth, error);
-        stats->nodes += growth.nodes;
-        stats->bytes += growth.bytes;
-    }
+    for (int k = 0; k < count; ++k) last[halves[k].side] = k;
+    for (int k = 0; k < count && code == IMP_SUCCESS; ++k)
+        code = take_half(p, &halves[k], k == last[halves[k].side], both, &growth, error);
+    stats->nodes += growth.nodes;
+    stats->bytes += growth.bytes;
     return code;
 }
 

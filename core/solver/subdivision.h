@@ -3,6 +3,7 @@
 #ifndef CORE_SOLVER_SUBDIVISION_H
 #define CORE_SOLVER_SUBDIVISION_H
 
+#include "core/solver/net_halves.h"
 #include "core/solver/pair_heap.h"
 
 /* How a pair is divided
@@ -79,12 +80,10 @@ cut cut_by_bend(const pair *p, double scale);
 /* Nothing more to learn from u and v: the later of the two nodes' times is halved. */
 cut cut_in_time(const pair *p);
 
-/* Puts a half of a node along u or v, which has a net, in its place, for its net alone (node_child_bare),
- * which is made too; at last pair_complete puts nodes with models in their places. What is made is added to
- * `stats`. */
-imp_code pair_take_bare(pair *p, int side, parameter along, int half, const candidate_pair *both,
-                        imp_stats *stats, imp_error *error);
-imp_code pair_complete(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error);
+/* Puts halves of halves in the places of the nodes, one after the other; those on the way to the last of
+ * either side are bare (node_child_bare). What is made is added to `stats`. */
+imp_code pair_take_halves(pair *p, const net_half *halves, int count, const candidate_pair *both,
+                          imp_stats *stats, imp_error *error);
 
 /* Puts the half of the node that is cut in its place: below the cut (0) or above (1), with the part of
  * the window that lies in its times. *some false: no moment of the window is in that half, or none

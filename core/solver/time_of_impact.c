@@ -7,7 +7,6 @@
 #include <assert.h>
 #include <stdlib.h>
 
-#include "core/solver/net_halves.h"
 #include "core/solver/pair_test.h"
 #include "core/solver/sight.h"
 #include "core/solver/tuning.h"
@@ -75,21 +74,14 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
 static imp_code leave_out_halves(impact *im, pair *p, bool *some, imp_error *error)
 {
     const candidate_pair *both = candidate_pair_of(im, p);
-    net_half left;
-    bool any = false;
+    net_half left[NET_HALVES_MOST];
     *some = true;
     if (!nodes_have_nets(p->a, p->b)) return IMP_SUCCESS;
-    while (net_halves_find(p->a, p->b, p->axis, im->clearance, &p->window, &left)) {
-        *some = left.half >= 0;
-        if (!*some) return IMP_SUCCESS;
-        const imp_code code =
-            pair_take_bare(p, left.side, left.along, left.half, both, im->stats, error);
-        if (code != IMP_SUCCESS) return code;
-        any = true;
-        if (p->wait > 0) p->wait -= 1;
-    }
-    if (!any) return IMP_SUCCESS;
-    const imp_code code = pair_complete(p, both, im->stats, error);
+    const int count = net_halves_find(p->a, p->b, p->axis, im->clearance, &p->window, left);
+    *some = count == 0 || left[count - 1].half >= 0;
+    if (count == 0 || !*some) return IMP_SUCCESS;
+    p->wait -= p->wait < (uint32_t)count ? p->wait : (uint32_t)count;
+    const imp_code code = pair_take_halves(p, left, count, both, im->stats, error);
     return code == IMP_SUCCESS ? pair_test_ask_for_nets(im, p, &im->stats->bytes, error) : code;
 }
 

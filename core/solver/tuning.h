@@ -58,25 +58,25 @@
 #define TUNING_WITNESS_WAIT 5
 
 /* --- When to look for an upper time (upper_time.c), and how (net_march.c): pairs of the 100 bicubic scenes at
- * gamma 1e-6, of 81.5, and per cent of their instructions --- */
+ * gamma 1e-6, of 79, and per cent of their instructions --- */
 
 /* Pairs followed before the first search.
- * 4: -3.5, +3 %; 16: +6, -3 % */
+ * 4: -2.3, +3 %; 16: +8, 0 % */
 #define TUNING_UPPER_FIRST 8
 /* And before the next: 1 / this as many more.
- * 1: +7, -1 %; 4: -3, +7 % */
-#define TUNING_UPPER_SHARE 2
+ * 2: +3.2, 0 %; 4: -0.2, +1.5 % */
+#define TUNING_UPPER_SHARE 3
 /* Steps in time at most.
  * 20: 0 */
 #define TUNING_MARCH_STEPS 12
 /* Gaps sought from which on nearest points are only sought roughly.
- * 16: -0.1, +0.5 %; 1024: -0.2, 0 % */
+ * 16: 0, 0 %; 1024: -0.1, -0.3 % */
 #define TUNING_MARCH_NEAR 64
-/* Then the last Newton step gains less than this of the gap.
- * 2^-5: +3.6, -1 %; 2^-4: +5, -1 % */
+/* Then a Newton step is left out that promises less than this of the gap.
+ * 2^-4: +0.8, +0.3 %; 2^-9: -0.5, +0.1 % */
 #define TUNING_MARCH_GAIN 0x1p-6
 /* And the next time is this part of the way to where the gap would be gone.
- * 0.8: -0.6, +0.5 %; 0.95: +0.8, 0 % */
+ * 0.8: -0.7, +0.3 %; 0.95: +0.4, +0.8 % */
 #define TUNING_MARCH_STRIDE 0.9
 
 /* --- When precision ends (subdivision.c): in units of the evaluation error ---

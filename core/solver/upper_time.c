@@ -11,12 +11,26 @@
  * nearer has to be told apart from the clearance before it. */
 #define TOUCHING 0.875
 
+/* Whether the pair has the points of the contact that is known: it would be found again. */
+static bool holds_contact(const upper_time *up, const pair *p)
+{
+    const node *const nodes[2] = {p->a, p->b};
+    if (!up->is_known || up->candidate_pair != p->candidate_pair) return false;
+    for (int side = 0; side < 2; ++side) {
+        const imp_region *r = &nodes[side]->region;
+        if (surface_piece_index(nodes[side]->surface) != up->seen.piece[side]) return false;
+        if (!(r->lo[0] <= up->seen.u[side] && up->seen.u[side] <= r->hi[0])) return false;
+        if (!(r->lo[1] <= up->seen.v[side] && up->seen.v[side] <= r->hi[1])) return false;
+    }
+    return true;
+}
+
 static bool is_wanted(upper_time *up, const pair *p)
 {
     if (!nodes_have_nets(p->a, p->b)) return false;
     up->followed += 1;
     if (up->next == 0) up->next = TUNING_UPPER_FIRST;
-    if (up->followed < up->next) return false;
+    if (up->followed < up->next || holds_contact(up, p)) return false;
     up->next = up->followed + up->followed / TUNING_UPPER_SHARE + 1;
     return true;
 }
@@ -43,7 +57,7 @@ imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *so
     *sought = is_wanted(up, p);
     if (!*sought) return IMP_SUCCESS;
     if (up->is_known && up->t < window.hi) window.hi = up->t;
-    if (!net_march(p->a, p->b, &window, TOUCHING * gamma, &met)) return IMP_SUCCESS;
+    if (!net_march(p->a, p->b, p->axis, &window, TOUCHING * gamma, &met)) return IMP_SUCCESS;
     const imp_code code = witness_at(nodes, met.t, met.y, &seen, error);
     if (code != IMP_SUCCESS) return code;
     if (seen.gap_upper <= gamma && !(up->is_known && up->t <= met.t)) take(up, p, &met, &seen);

@@ -194,25 +194,18 @@ static imp_code derive(const search *g, const state *s, double gradient[NEWTON_U
  * it, or it is far from gamma and shrinks by less than half. */
 static imp_code descend(const search *g, double gamma, state *s, imp_error *error)
 {
-    double damping = NEWTON_DAMPING;
-    for (int k = 0; k < TUNING_NEWTON_STEPS && s->gap > 0;) {
-        double gradient[NEWTON_UNKNOWNS], hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS],
-            next[NEWTON_UNKNOWNS];
-        imp_code code = derive(g, s, gradient, hessian, error);
+    newton_way way = newton_begin(&g->y);
+    while (way.steps < TUNING_NEWTON_STEPS && s->gap > 0) {
+        imp_code code = derive(g, s, way.gradient, way.hessian, error);
         if (code != IMP_SUCCESS) return code;
-        const double scale = newton_scale(hessian);
-        if (!(scale > 0)) return IMP_SUCCESS;
         state trial;
-        bool better = false;
-        for (; k < TUNING_NEWTON_STEPS && damping < NEWTON_DAMPING_MAX && !better; ++k) {
-            if (newton_step(&g->y, s->y, gradient, hessian, damping * scale, next)) {
-                code = state_at(g, next, &trial, error);
-                if (code != IMP_SUCCESS) return code;
-                better = trial.gap < s->gap;
-            }
-            damping *= better ? NEWTON_DAMPING_LESS : NEWTON_DAMPING_MORE;
+        bool is_better = false;
+        for (double next[NEWTON_UNKNOWNS]; !is_better; newton_judge(&way, is_better)) {
+            if (!newton_try(&way, s->y, next)) return IMP_SUCCESS;
+            code = state_at(g, next, &trial, error);
+            if (code != IMP_SUCCESS) return code;
+            is_better = trial.gap < s->gap;
         }
-        if (!better) return IMP_SUCCESS;
         const double gain = s->gap - trial.gap;
         const bool stale = gain < TUNING_NEWTON_GAIN * s->gap ||
                            (trial.gap > TUNING_NEWTON_FAR * gamma && gain < 0.5 * s->gap);

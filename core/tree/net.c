@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/base/rounding.h"
+#include "core/tree/net_rows.h"
 
 /* --- As a type gives it ------------------------------------------------------------------- */
 
@@ -98,55 +99,12 @@ static void halve_plain(double *x, int n, int step, int side)
                 x[i * step] = 0.5 * (x[i * step] + x[(i + 1) * step]);
 }
 
-/* Four rows of four numbers; and the same turned, so that rows are columns. */
-typedef struct rows {
-    imp_quad row[4];
-} rows;
-
-IMP_QUAD_INLINE rows rows_at(const double *x)
-{
-    return (rows){
-        {imp_quad_load(x), imp_quad_load(x + 4), imp_quad_load(x + 8), imp_quad_load(x + 12)}};
-}
-
-IMP_QUAD_INLINE void rows_store(double *x, const rows *r)
-{
-    for (int k = 0; k < 4; ++k) imp_quad_store(x + 4 * k, r->row[k]);
-}
-
-IMP_QUAD_INLINE rows rows_turned(const rows *r)
-{
-    const imp_quad a = r->row[0], b = r->row[1], c = r->row[2], d = r->row[3];
-    const imp_quad even[2] = {{a[0], b[0], a[2], b[2]}, {c[0], d[0], c[2], d[2]}};
-    const imp_quad odd[2] = {{a[1], b[1], a[3], b[3]}, {c[1], d[1], c[3], d[3]}};
-    return (rows){{{even[0][0], even[0][1], even[1][0], even[1][1]},
-                   {odd[0][0], odd[0][1], odd[1][0], odd[1][1]},
-                   {even[0][2], even[0][3], even[1][2], even[1][3]},
-                   {odd[0][2], odd[0][3], odd[1][2], odd[1][3]}}};
-}
-
-/* The same of a cubic in every number of a row. */
-IMP_QUAD_INLINE rows rows_halved(const rows *x, int side)
-{
-    const imp_quad half = imp_quad_all(0.5), *const r = x->row;
-    const imp_quad p = half * (r[0] + r[1]), q = half * (r[1] + r[2]), s = half * (r[2] + r[3]);
-    const imp_quad pq = half * (p + q), qs = half * (q + s), mid = half * (pq + qs);
-    return side == 0 ? (rows){{r[0], p, pq, mid}} : (rows){{mid, qs, s, r[3]}};
-}
-
-/* A bicubic patch: in turned columns where it is halved along v. */
+/* The same of a bicubic patch, column after column. */
 IMP_QUAD_INLINE void halve_bicubic(double *x, int columns, parameter j, int side)
 {
     for (int c = 0; c < columns; ++c, x += 16) {
-        const rows whole = rows_at(x);
-        if (j == PARAMETER_U) {
-            const rows half = rows_halved(&whole, side);
-            rows_store(x, &half);
-        } else {
-            const rows turned = rows_turned(&whole), half = rows_halved(&turned, side);
-            const rows back = rows_turned(&half);
-            rows_store(x, &back);
-        }
+        const halved_rows both = rows_halved(rows_along(rows_at(x), j));
+        rows_store(x, rows_along(rows_of_half(&both, side), j));
     }
 }
 
@@ -210,20 +168,16 @@ IMP_QUAD_INLINE rows rows_halved_weighted(const rows *x, const row_weights *w, i
 
 IMP_QUAD_INLINE void halve_bicubic_weighted(double *x, int columns, parameter j, int side)
 {
-    const bool is_turned = j == PARAMETER_V;
     double *w = x + 16 * columns;
-    const rows weights = rows_at(w), lines = is_turned ? rows_turned(&weights) : weights;
+    const rows lines = rows_along(rows_at(w), j);
     const row_weights of = weights_of_rows(&lines);
     for (int c = 0; c < columns; ++c, x += 16) {
-        const rows whole = rows_at(x), turned = is_turned ? rows_turned(&whole) : whole;
-        const rows half = rows_halved_weighted(&turned, &of, side);
-        const rows back = is_turned ? rows_turned(&half) : half;
-        rows_store(x, &back);
+        const rows whole = rows_along(rows_at(x), j);
+        rows_store(x, rows_along(rows_halved_weighted(&whole, &of, side), j));
     }
     const rows half = side == 0 ? (rows){{of.point[0], of.two[0], of.three[0], of.all}}
                                 : (rows){{of.all, of.three[1], of.two[2], of.point[3]}};
-    const rows back = is_turned ? rows_turned(&half) : half;
-    rows_store(w, &back);
+    rows_store(w, rows_along(half, j));
 }
 
 IMP_QUAD_WIDE static void halve_bicubic_weighted_wide(double *x, int columns, parameter j, int side)
@@ -289,7 +243,7 @@ double net_halving_upper(const net *p, parameter j, double most)
 
 void net_halve(const net *p, parameter j, int side, net *half)
 {
-    memcpy(half, p, net_bytes(p));
+    if (half != p) memcpy(half, p, net_bytes(p));
     net_halve_columns(p, j, side, half->numbers, p->is_moving ? 6 : 3);
     for (int i = 0; i < 3; ++i)
         half->error[i] = sum_upper(p->error[i], net_halving_upper(p, j, p->most[i]));

@@ -18,9 +18,9 @@ typedef struct net {
     int stride; /* points, rounded up to whole quads */
     bool is_moving, is_weighted;
     double time;               /* motion counts from here */
-    double place[3], drift[3]; /* added to points, to velocities */
-    double error[3]; /* the surface is off the patch by this at most, over the region; length */
-    double most[3];  /* >= |point| + |t - time| |velocity| over the times it was made for; length */
+    double place[4], drift[4]; /* added to points, to velocities; x, y, z and a 0, here and below */
+    double error[4]; /* the surface is off the patch by this at most, over the region; length */
+    double most[4];  /* >= |point| + |t - time| |velocity| over the times it was made for; length */
     double numbers[]; /* x, y, z of points, the same of velocities if moving, weights if weighted */
 } net;
 
@@ -46,7 +46,8 @@ bool net_take(net *n, const imp_net *given, const imp_region *region);
 /* Whether the halves of a region along j have nets by halving: j is time, or the cut exactly in the middle. */
 bool net_can_halve(const imp_region *region, parameter j);
 
-/* Fills `half`, which has room for as much, with the net of the lower (0) or upper half along u or v. */
+/* Fills `half`, which has room for as much and may be n, with the net of the lower (0) or upper half along u
+ * or v. */
 void net_halve(const net *n, parameter j, int side, net *half);
 
 /* The same of other numbers of its control points, in place: `columns` columns as the net's own, then its

@@ -235,26 +235,17 @@ static bool may_have_net(const tree *t, const node *n)
            surface_offers_net(n->surface);
 }
 
-/* The net in the room, or the parent's itself; NULL: it has none. From the parent's where that can be
- * halved. */
-static imp_code fill_net(tree *t, const node *n, net_buffer *room, const net **made,
-                         tree_growth *growth, imp_error *error)
+/* The net in the room, or that of the parent itself, which is `whole`; NULL: it has none. From the parent's
+ * where that can be halved; it may lie in the room. */
+static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buffer *room,
+                         const net **made, imp_error *error)
 {
     *made = NULL;
     if (!may_have_net(t, n)) return IMP_SUCCESS;
-    const net *whole = NULL;
-    if (n->parent != NULL && n->parent->surface == n->surface &&
-        net_can_halve(&n->parent->region, n->along)) {
-        const imp_code code = node_net(t, n->parent, &whole, growth, error);
-        if (code != IMP_SUCCESS) return code;
-    }
-    if (whole == NULL) return ask_net(n, room, made, error);
+    if (whole == NULL || !net_can_halve(&n->parent->region, n->along))
+        return ask_net(n, room, made, error);
     *made = whole;
     if (n->along == PARAMETER_T) return IMP_SUCCESS;
-    const node *bare =
-        atomic_load_explicit(&n->parent->bare[n->along][n->side], memory_order_acquire);
-    if (bare != NULL && node_net_made(bare) != NULL)
-        return *made = node_net_made(bare), IMP_SUCCESS;
     net_halve(whole, n->along, n->side, net_in(room));
     *made = net_in(room);
     return IMP_SUCCESS;
@@ -268,42 +259,60 @@ static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
     return kept != NULL ? memcpy(kept, filled, bytes) : NULL;
 }
 
-/* `filled` unless another thread's is there already. NULL: no memory. */
-static const net *net_publish(tree *t, node *n, const net *filled, bool is_in_tree,
-                              tree_growth *growth)
+/* Publishes *made, NULL if there is none, unless another thread's is there already, which it becomes. False: no
+ * memory. */
+static bool net_keep(tree *t, node *n, const net **made, const net_buffer *room,
+                     tree_growth *growth)
 {
     pthread_mutex_lock(&t->lock);
-    const net *made = atomic_load_explicit(&n->net, memory_order_relaxed);
-    if (made == NULL) {
-        made = is_in_tree ? filled : net_copy(t, filled, growth);
-        if (made != NULL) atomic_store_explicit(&n->net, made, memory_order_release);
+    const net *kept = atomic_load_explicit(&n->net, memory_order_relaxed);
+    if (kept == NULL) {
+        const bool is_in_room = *made == (const void *)room->memory;
+        kept = *made == NULL ? &net_none : is_in_room ? net_copy(t, *made, growth) : *made;
+        if (kept != NULL) atomic_store_explicit(&n->net, kept, memory_order_release);
     }
     pthread_mutex_unlock(&t->lock);
-    return made;
+    *made = kept != &net_none ? kept : NULL;
+    return kept != NULL;
 }
 
-static imp_code make_net(tree *t, node *n, tree_growth *growth, imp_error *error)
+static bool was_asked(const node *n)
 {
-    net_buffer room;
-    const net *filled;
-    const imp_code code = fill_net(t, n, &room, &filled, growth, error);
-    if (code != IMP_SUCCESS) return code;
-    if (filled == NULL) filled = &net_none;
-    return net_publish(t, n, filled, filled != net_in(&room), growth) != NULL
-               ? IMP_SUCCESS
-               : error_set_memory(error);
+    return atomic_load_explicit(&n->net, memory_order_acquire) != NULL;
+}
+
+static bool has_parent(const node *n)
+{
+    return n->parent != NULL && n->parent->surface == n->surface;
+}
+
+/* The net of n, which was not asked for it: in the room, or in the tree; NULL: it has none. Its ancestors come
+ * first, from the top. Those of bare ones are not kept. */
+static imp_code find_net(tree *t, const node *n, net_buffer *room, const net **made,
+                         tree_growth *growth, imp_error *error)
+{
+    const node *at = n;
+    while (has_parent(at) && !was_asked(at->parent)) at = at->parent;
+    const net *whole = has_parent(at) ? node_net_made(at->parent) : NULL;
+    for (;;) {
+        const imp_code code = fill_net(t, at, whole, room, &whole, error);
+        if (code != IMP_SUCCESS || at == n) return *made = whole, code;
+        const node *below = n;
+        while (below->parent != at) below = below->parent;
+        if (!at->is_bare && !net_keep(t, below->parent, &whole, room, growth))
+            return error_set_memory(error);
+        at = below;
+    }
 }
 
 imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error)
 {
-    /* ancestors first, from the top, so that none asks for its parent's in turn */
-    while (atomic_load_explicit(&n->net, memory_order_acquire) == NULL) {
-        node *first = n;
-        while (first->parent != NULL && first->parent->surface == n->surface &&
-               atomic_load_explicit(&first->parent->net, memory_order_acquire) == NULL)
-            first = first->parent;
-        const imp_code code = make_net(t, first, growth, error);
+    if (!was_asked(n)) {
+        net_buffer room;
+        const net *made;
+        const imp_code code = find_net(t, n, &room, &made, growth, error);
         if (code != IMP_SUCCESS) return code;
+        if (!net_keep(t, n, &made, &room, growth)) return error_set_memory(error);
     }
     *found = node_net_made(n);
     return IMP_SUCCESS;
@@ -326,7 +335,7 @@ static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
 {
     net_buffer room;
     const net *made;
-    imp_code code = fill_net(t, n, &room, &made, growth, error);
+    imp_code code = find_net(t, n, &room, &made, growth, error);
     if (code != IMP_SUCCESS) return code;
     atomic_store_explicit(&n->net, made, memory_order_relaxed);
     code = t->plan.audit(n->surface, n, error);
@@ -617,13 +626,6 @@ imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **ch
     *child = node_publish(t, &half, &parent->bare[j][side], &own);
     growth->bytes += own.bytes;
     return *child != NULL ? IMP_SUCCESS : error_set_memory(error);
-}
-
-imp_code node_complete(tree *t, node *n, node **whole, tree_growth *growth, imp_error *error)
-{
-    *whole = n;
-    return n->is_bare ? node_child(t, n->parent, n->along, n->side, whole, growth, error)
-                      : IMP_SUCCESS;
 }
 
 imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error)

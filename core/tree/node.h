@@ -121,13 +121,10 @@ bool tree_is_of(const tree *t, const tree_plan *plan);
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error);
 
-/* The same half along u or v for its net alone: on the way to a smaller one no models are made. Unless the
- * half is there already it is bare, and not counted as a node. Precondition: `parent` is no cluster. */
+/* The same half along u or v, on the way to a smaller one: unless it is there already it is bare, without
+ * models, and not counted as a node. Precondition: `parent` is no cluster. */
 imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
                          tree_growth *growth, imp_error *error);
-
-/* The node itself, or, where it is bare, the node of its region with models. */
-imp_code node_complete(tree *t, node *n, node **whole, tree_growth *growth, imp_error *error);
 
 /* The control net of the node, made now if it is asked for first; NULL: it has none. What this call makes
  * is added to *growth. IMP_ERROR_PLUGIN as above. */

@@ -30,6 +30,9 @@
 #define net_halve_columns narrow_net_halve_columns
 #define net_halving_upper narrow_net_halving_upper
 #define net_halves_find narrow_net_halves_find
+#define net_points_take narrow_net_points_take
+#define net_jets_at narrow_net_jets_at
+#define net_velocity_at narrow_net_velocity_at
 #define net_march narrow_net_march
 #define net_axis_seek narrow_net_axis_seek
 #define net_axis_cut narrow_net_axis_cut
@@ -44,14 +47,13 @@
 #include "core/solver/gjk_axis.c"
 #undef along
 #undef search
-#define along along_net
+#include "core/solver/axes.c"
 #include "core/solver/net_axis.c"
 #include "core/solver/net_halves.c"
+#include "core/solver/net_jet.c"
 #include "core/solver/net_march.c"
 #include "core/solver/net_model_axis.c"
 #include "core/tree/net.c"
-#undef along
-#include "core/solver/axes.c"
 #undef imp_quad_is_wide
 #undef node_take_model
 #undef relative_at
@@ -72,9 +74,9 @@ bool gjk_axis(const relative *r, double w, vec3 *axis);
 bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines);
 bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis);
 void net_halve(const net *n, parameter j, int side, net *half);
-bool net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
-                     const time_window *window, net_half *found);
-bool net_march(const node *a, const node *b, const time_window *window, double gap,
+int net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+                    const time_window *window, net_half found[NET_HALVES_MOST]);
+bool net_march(const node *a, const node *b, vec3 axis, const time_window *window, double gap,
                net_meeting *found);
 bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 bool net_axis_cut(const node *a, const node *b, vec3 axis, double clearance, time_window *window);
@@ -235,14 +237,14 @@ static void check_net(uint64_t *state, node *n, net_buffer *room)
 /* What follows of an axis and of a window. */
 static void check_halves_and_march(const node *a, const node *b, vec3 n, const time_window *w)
 {
-    net_half half, narrow_half;
+    net_half halves[NET_HALVES_MOST], narrow[NET_HALVES_MOST];
     net_meeting met = {.t = 0}, narrow_met = met;
-    const bool some = net_halves_find(a, b, n, 1e-3, w, &half);
-    ck_assert(some == narrow_net_halves_find(a, b, n, 1e-3, w, &narrow_half));
-    if (some)
-        ck_assert(half.side == narrow_half.side && half.along == narrow_half.along &&
-                  half.half == narrow_half.half);
-    ck_assert(net_march(a, b, w, 1e-6, &met) == narrow_net_march(a, b, w, 1e-6, &narrow_met));
+    const int count = net_halves_find(a, b, n, 1e-3, w, halves);
+    ck_assert_int_eq(count, narrow_net_halves_find(a, b, n, 1e-3, w, narrow));
+    for (int k = 0; k < count; ++k)
+        ck_assert(halves[k].side == narrow[k].side && halves[k].along == narrow[k].along &&
+                  halves[k].half == narrow[k].half);
+    ck_assert(net_march(a, b, n, w, 1e-6, &met) == narrow_net_march(a, b, n, w, 1e-6, &narrow_met));
     ck_assert(same_bits(&met, &narrow_met, sizeof met / sizeof(double)));
 }
 

@@ -229,17 +229,25 @@ END_TEST
 
 /* --- Halves that an axis excludes ------------------------------------------------------------------- */
 
-/* A random point of the half that is not left, or of any where neither is. */
-static void draw_excluded(uint64_t *state, const net_half *left, double p[2])
+/* A random point of what was excluded last, of what the halves before it had left; of any where nothing is
+ * left. */
+static void draw_excluded(uint64_t *state, const net_half *halves, int count, double p[2][3])
 {
-    for (int j = 0; j < 2; ++j) p[j] = random_fraction(state);
-    if (left->half >= 0) p[left->along] = 0.5 * (p[left->along] + (left->half == 0));
+    double lo[2][2] = {{0, 0}, {0, 0}}, hi[2][2] = {{1, 1}, {1, 1}};
+    for (int k = 0; k < count; ++k) {
+        const net_half *h = &halves[k];
+        const double middle = 0.5 * (lo[h->side][h->along] + hi[h->side][h->along]);
+        const int taken = k < count - 1 ? h->half : !h->half;
+        if (h->half >= 0) (*(taken == 0 ? &hi : &lo))[h->side][h->along] = middle;
+    }
+    for (int side = 0; side < 2; ++side)
+        for (int j = 0; j < 2; ++j) p[side][j] = random_between(state, lo[side][j], hi[side][j]);
 }
 
 START_TEST(nothing_of_a_half_that_an_axis_excludes_is_near)
 {
     uint64_t state = suite_seed();
-    int found = 0, all = 0;
+    int found = 0, deep = 0, all = 0;
     for (int k = 0; k < suite_times(3000); ++k) {
         netted a, b;
         const netted *const both[2] = {&a, &b};
@@ -253,20 +261,21 @@ START_TEST(nothing_of_a_half_that_an_axis_excludes_is_near)
         const double start = random_fraction(&state);
         const time_window w = {start, start + (1 - start) * random_power(&state, -10, 0)};
         const double clearance = random_power(&state, -6, 1);
-        net_half left;
+        net_half halves[NET_HALVES_MOST];
         net_axis_seek(&a.n, &b.n, w.lo, &axis);
-        if (!net_halves_find(&a.n, &b.n, axis, clearance, &w, &left)) continue;
-        found += left.half >= 0, all += left.half < 0;
-        for (int l = 0; l < 8; ++l) {
+        const int count = net_halves_find(&a.n, &b.n, axis, clearance, &w, halves);
+        if (count == 0) continue;
+        found += 1, deep += count > 3, all += halves[count - 1].half < 0;
+        for (int l = 0; l < 4 * count; ++l) {
             const double t = random_between(&state, w.lo, w.hi);
-            double p[2][3] = {{random_fraction(&state), random_fraction(&state), t},
-                              {random_fraction(&state), random_fraction(&state), t}};
-            draw_excluded(&state, &left, p[left.side]);
+            double p[2][3] = {{0, 0, t}, {0, 0, t}};
+            draw_excluded(&state, halves, 1 + l % count, p);
             num_forget();
             ck_assert(!num_is_less(square_between(both, p), num_sqr(num(clearance))));
         }
     }
     ck_assert_int_gt(found, suite_times(3000) / 20);
+    ck_assert_int_gt(deep, suite_times(3000) / 40);
     ck_assert_int_gt(all, suite_times(3000) / 20);
 }
 END_TEST
@@ -276,15 +285,15 @@ static bool upper_half_is_excluded(double clearance, double end, double error)
 {
     netted a = {.given = {.degree = {0, 0}}}, b = {.given = {.degree = {1, 0}}};
     const time_window w = {0, 1};
-    net_half left;
+    net_half left[NET_HALVES_MOST];
     b.given.point[2][1] = 2;
     b.given.place[2] = 0.5 * (end - 1); /* at t = 1/2 */
     b.given.drift[2] = end - 1;
     b.given.error[2] = error;
     take(&a, zero, one);
     take(&b, zero, one);
-    if (!net_halves_find(&a.n, &b.n, (vec3){{0, 0, 1}}, clearance, &w, &left)) return false;
-    ck_assert(left.side == 1 && left.along == PARAMETER_U && left.half == 0);
+    if (net_halves_find(&a.n, &b.n, (vec3){{0, 0, 1}}, clearance, &w, left) == 0) return false;
+    ck_assert(left[0].side == 1 && left[0].along == PARAMETER_U && left[0].half == 0);
     return true;
 }
 
@@ -317,7 +326,9 @@ START_TEST(two_nets_followed_in_time_are_as_near_as_asked_for)
         draw_net(&state, 3, (uint32_t)(random_bits(&state) % 4), 1, &b);
         take(&a, zero, one);
         take(&b, zero, one);
-        if (!net_march(&a.n, &b.n, &w, gap, &found)) continue;
+        vec3 axis = {{0, 0, 1}};
+        net_axis_seek(&a.n, &b.n, w.lo, &axis);
+        if (!net_march(&a.n, &b.n, axis, &w, gap, &found)) continue;
         met += 1;
         ck_assert(w.lo <= found.t && found.t <= w.hi);
         double p[2][3];

@@ -1,0 +1,66 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_TREE_NET_ROWS_H
+#define CORE_TREE_NET_ROWS_H
+
+#include "core/surface/region.h"
+
+#include <impinge/quad.h>
+
+/* Four rows of four numbers of a bicubic patch
+ * ============================================
+ * De Casteljau at the middle, of four cubics side by side. */
+
+typedef struct rows {
+    imp_quad row[4];
+} rows;
+
+IMP_QUAD_INLINE rows rows_at(const double *x)
+{
+    return (rows){
+        {imp_quad_load(x), imp_quad_load(x + 4), imp_quad_load(x + 8), imp_quad_load(x + 12)}};
+}
+
+IMP_QUAD_INLINE void rows_store(double *x, rows r)
+{
+    for (int k = 0; k < 4; ++k) imp_quad_store(x + 4 * k, r.row[k]);
+}
+
+/* So that rows are columns. */
+IMP_QUAD_INLINE rows rows_turned(rows r)
+{
+    const imp_quad a = r.row[0], b = r.row[1], c = r.row[2], d = r.row[3];
+    const imp_quad even[2] = {{a[0], b[0], a[2], b[2]}, {c[0], d[0], c[2], d[2]}};
+    const imp_quad odd[2] = {{a[1], b[1], a[3], b[3]}, {c[1], d[1], c[3], d[3]}};
+    return (rows){{{even[0][0], even[0][1], even[1][0], even[1][1]},
+                   {odd[0][0], odd[0][1], odd[1][0], odd[1][1]},
+                   {even[0][2], even[0][3], even[1][2], even[1][3]},
+                   {odd[0][2], odd[0][3], odd[1][2], odd[1][3]}}};
+}
+
+/* With the lines along j as columns: turning once more takes it back. */
+IMP_QUAD_INLINE rows rows_along(rows r, parameter j)
+{
+    return j == PARAMETER_U ? r : rows_turned(r);
+}
+
+/* Both halves of four cubics: the lower has the first four control points, the upper the last four. */
+typedef struct halved_rows {
+    imp_quad row[7];
+} halved_rows;
+
+IMP_QUAD_INLINE halved_rows rows_halved(rows x)
+{
+    const imp_quad half = imp_quad_all(0.5), *const r = x.row;
+    const imp_quad p = half * (r[0] + r[1]), q = half * (r[1] + r[2]), s = half * (r[2] + r[3]);
+    const imp_quad pq = half * (p + q), qs = half * (q + s), mid = half * (pq + qs);
+    return (halved_rows){{r[0], p, pq, mid, qs, s, r[3]}};
+}
+
+IMP_QUAD_INLINE rows rows_of_half(const halved_rows *x, int half)
+{
+    const imp_quad *r = x->row + 3 * half;
+    return (rows){{r[0], r[1], r[2], r[3]}};
+}
+
+#endif
