@@ -154,6 +154,12 @@ END
         .upper == ([.slices[].upper] | min) and .slices[3].t1 == 1'
 }
 
+@test "slices in which a surface does not exist leave the answer of the others as it is" {
+    run -0 "$IMPINGE" clearance 'formula time=0,0.4' 'sphere center=0,0,3' --profile 3 --json
+    valid clearance
+    tail -1 <<<"$output" | jq -e '.reason == null and .upper >= 2 and .slices[2].upper == null'
+}
+
 @test "a budget ends it with the bracket so far" {
     run -3 "$IMPINGE" clearance "${endless[@]:0:2}" --gamma 1e-12 --tolerance 1e-9 --max-pairs 200 --json
     valid clearance
