@@ -20,6 +20,7 @@ static imp_code begin_part(clearance_search *c, imp_error *error)
     const double required = c->asked.required;
     c->before = *c->stats;
     c->before.seconds = clock_seconds();
+    c->unresolved = false;
     c->distance = (min_distance){
         .window = {p->answer.t_start, p->answer.t_end},
         .tolerance = c->asked.tolerance,
@@ -127,8 +128,16 @@ static void begin_violation(clearance_search *c)
     c->stage = STAGE_VIOLATION;
 }
 
-/* Where two points are known and no more than a verdict is asked for, a search for contact within what is
- * required gives it, at a fraction of what a narrow bracket costs. */
+/* Whether the bracket says all that is asked for, or leaves it to a search for contact: where two points are
+ * known and no more than a verdict is asked for, that gives it at a fraction of what a narrow bracket costs. */
+static bool ends_early(const clearance_search *c)
+{
+    const min_distance *m = &c->distance;
+    if (!decides(c) || !(m->upper < INFINITY)) return false;
+    return !c->unresolved ||
+           requirement_of(c, min_distance_lower(m), m->upper) != IMP_REQUIREMENT_UNDECIDED;
+}
+
 static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_error *error)
 {
     part *p = &c->parts[c->current];
@@ -136,7 +145,7 @@ static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_err
     const imp_code code = min_distance_advance(&c->distance, &state, error);
     if (code != IMP_SUCCESS) return code;
     const bool running = state == MIN_DISTANCE_RUNNING;
-    if (running && !(decides(c) && c->distance.upper < INFINITY)) return IMP_SUCCESS;
+    if (running && !ends_early(c)) return IMP_SUCCESS;
     if (state == MIN_DISTANCE_NO_MEMORY) {
         *reason = IMP_REASON_MEMORY;
         return IMP_SUCCESS;
@@ -145,8 +154,10 @@ static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_err
     p->answer.reason = state == MIN_DISTANCE_RESOLUTION ? IMP_REASON_RESOLUTION
                        : p->answer.has_witness          ? IMP_REASON_NONE
                                                         : reason_of_none(c);
-    if ((running && p->answer.verdict == IMP_REQUIREMENT_UNDECIDED) ||
-        (p->answer.verdict == IMP_REQUIREMENT_VIOLATED && c->asked.slices == 1))
+    const bool violated = p->answer.verdict == IMP_REQUIREMENT_VIOLATED && c->asked.slices == 1;
+    if (c->unresolved)
+        finish_part(c, violated ? IMP_REASON_RESOLUTION : p->answer.reason);
+    else if (violated || (running && p->answer.verdict == IMP_REQUIREMENT_UNDECIDED))
         begin_violation(c);
     else
         finish_part(c, p->answer.reason);
@@ -168,6 +179,15 @@ static void take_violation(const clearance_search *c, imp_clearance *answer)
     answer->b_violated = side_of(c, im->found_candidate, &im->found, 1);
 }
 
+/* Double precision ends the search for contact where a millionth of what is required is too little to be told
+ * apart; a witness, or the bracket, may still decide. */
+static void go_on_with_distance(clearance_search *c)
+{
+    impact_clear(&c->violation);
+    c->unresolved = true;
+    c->stage = STAGE_DISTANCE;
+}
+
 static void conclude_violation(clearance_search *c, impact_state state, imp_reason *reason)
 {
     imp_clearance *answer = &c->parts[c->current].answer;
@@ -185,6 +205,10 @@ static void conclude_violation(clearance_search *c, impact_state state, imp_reas
         if (answer->lower < relaxed(c)) answer->lower = relaxed(c);
         break;
     case IMPACT_RESOLUTION:
+        if (answer->verdict == IMP_REQUIREMENT_UNDECIDED) {
+            go_on_with_distance(c);
+            return;
+        }
         answer->reason = IMP_REASON_RESOLUTION;
         break;
     }

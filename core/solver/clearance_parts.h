@@ -31,6 +31,7 @@ struct clearance_search {
     min_distance distance;
     impact violation;
     size_t tested; /* of the current part's candidates, while the violation is searched for */
+    bool unresolved; /* double precision ended that search: the distance is to decide */
 };
 
 #endif

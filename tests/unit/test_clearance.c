@@ -381,6 +381,26 @@ static void decide_beside(imp_registry *registry, const ladder *l)
 START_TEST(every_shape_is_decided_the_same_way) { for_each_setting(decide_beside); }
 END_TEST
 
+/* A millionth of it is less than double precision tells apart: no earliest time, but the same verdict. */
+START_TEST(contact_decides_what_is_too_small_to_be_timed)
+{
+    static const char through[] = "sphere center=3,0,0 ! translate velocity=-4,0,0";
+    imp_registry *registry = query_registry();
+    imp_scene *scene = scene_of(registry, "sphere", through);
+    const imp_options options = imp_options_default(scene);
+    const double required[] = {1e-8, 1e-9, 1e-12};
+    for (int k = 0; k < 3; ++k) {
+        imp_clearance narrow, decided;
+        decide(scene, &options, required[k], &narrow, &decided);
+        ck_assert(narrow.verdict == IMP_REQUIREMENT_VIOLATED && isnan(narrow.t_violated));
+        ck_assert(decided.verdict == IMP_REQUIREMENT_VIOLATED && isnan(decided.t_violated));
+        ck_assert(decided.reason == IMP_REASON_RESOLUTION && decided.upper <= required[k]);
+    }
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+}
+END_TEST
+
 START_TEST(programs_that_know_nothing_of_deciding_get_a_narrow_bracket)
 {
     imp_registry *registry = query_registry();
@@ -666,6 +686,7 @@ SUITE_MAIN("clearance", closed_forms_lie_within_the_bracket,
            a_violation_is_the_earliest, in_the_band_both_answers_are_right,
            contact_violates_what_is_smaller_than_gamma,
            what_is_decided_is_what_a_narrow_bracket_decides, every_shape_is_decided_the_same_way,
+           contact_decides_what_is_too_small_to_be_timed,
            programs_that_know_nothing_of_deciding_get_a_narrow_bracket,
            slices_have_brackets_of_their_own, each_two_bodies_have_a_bracket_of_their_own,
            where_nobody_meets_anybody_the_distance_is_infinite,
