@@ -32,6 +32,12 @@ static const char *name_of(const imp_scene *scene, size_t body)
     return imp_scene_body_name(scene, body);
 }
 
+static bool is_ended(imp_reason reason)
+{
+    return reason != IMP_REASON_NONE && reason != IMP_REASON_DECIDED &&
+           result_reason_of_none(reason) == NULL;
+}
+
 static bool is_decided_only(const imp_clearance *r) { return r->reason == IMP_REASON_DECIDED; }
 
 static void print_first_line(const imp_scene *scene, const imp_clearance *r)
@@ -48,16 +54,10 @@ static void print_first_line(const imp_scene *scene, const imp_clearance *r)
         const char *why = result_reason_of_none(r->reason);
         puts(why != NULL ? why : result_excuse(r->reason).why);
     } else {
-        printf("tightest %s at t = %.10g between \"%s\" and \"%s\"\n",
-               output_number_upper(r->upper).text, r->t, name_of(scene, r->a.body),
-               name_of(scene, r->b.body));
+        printf("tightest %s%s at t = %.10g between \"%s\" and \"%s\"\n",
+               is_ended(r->reason) ? "so far " : "", output_number_upper(r->upper).text, r->t,
+               name_of(scene, r->a.body), name_of(scene, r->b.body));
     }
-}
-
-static bool is_ended(imp_reason reason)
-{
-    return reason != IMP_REASON_NONE && reason != IMP_REASON_DECIDED &&
-           result_reason_of_none(reason) == NULL;
 }
 
 static void print_violation(const imp_scene *scene, const imp_clearance *r)
@@ -78,6 +78,23 @@ static void print_seen(const imp_scene *scene, const imp_clearance *r)
            name_of(scene, r->b.body));
 }
 
+/* A larger gamma would not help. */
+static excuse excuse_of(const imp_clearance *r)
+{
+    excuse e = result_excuse(r->reason);
+    const bool bracket = r->verdict == IMP_REQUIREMENT_NONE;
+    if (r->reason == IMP_REASON_PAIRS)
+        e.cure = bracket ? "raise --max-pairs, or --tolerance" : "raise --max-pairs";
+    if (r->reason == IMP_REASON_SECONDS)
+        e.cure = bracket ? "raise --max-seconds, or --tolerance" : "raise --max-seconds";
+    if (r->reason == IMP_REASON_MEMORY)
+        e.cure = bracket ? "raise --max-bytes, or --tolerance" : "raise --max-bytes";
+    if (r->reason == IMP_REASON_RESOLUTION)
+        e = (excuse){"double precision resolves no more here",
+                     bracket ? "raise --tolerance" : "require a little more or less"};
+    return e;
+}
+
 void clearance_print(const imp_scene *scene, const imp_clearance *r)
 {
     print_first_line(scene, r);
@@ -87,7 +104,8 @@ void clearance_print(const imp_scene *scene, const imp_clearance *r)
     }
     if (is_ended(r->reason)) {
         result_print_label("ended");
-        printf("%s: %s\n", result_excuse(r->reason).why, result_excuse(r->reason).cure);
+        const excuse e = excuse_of(r);
+        printf("%s: %s\n", e.why, e.cure);
     }
     if (r->verdict != IMP_REQUIREMENT_NONE) {
         result_print_label("required");
