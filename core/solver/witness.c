@@ -68,6 +68,13 @@ static imp_code point_fault(const surface *s, const double p[3], const char *wha
                          what);
 }
 
+static imp_code status_fault(const surface *s, imp_status status, const double p[3],
+                             imp_error *error)
+{
+    point_fault(s, p, surface_status_told(s, status).text, error);
+    return surface_set_code(status, error);
+}
+
 static imp_code point_check(const surface *s, const double p[3], vec3 x, const double eval_error[3],
                             imp_error *error)
 {
@@ -84,23 +91,22 @@ static imp_code point_at(const surface *s, const double *p, vec3 *x, double eval
                          imp_error *error)
 {
     const imp_status status = surface_eval(s, 1, p, x->x, eval_error);
-    if (status != IMP_OK) {
-        point_fault(s, p, surface_status_told(s, status).text, error);
-        return surface_set_code(status, error);
-    }
+    if (status != IMP_OK) return status_fault(s, status, p, error);
     return point_check(s, p, *x, eval_error, error);
 }
 
-/* The same of n points. Where they cannot be evaluated, each by itself, to tell which is at fault. */
+/* The same of n points. Where they cannot be evaluated together, the first is named that cannot be by itself, or
+ * the first of all. */
 static imp_code points_at(const surface *s, size_t n, const double (*p)[3], vec3 *x,
                           double (*eval_error)[3], imp_error *error)
 {
-    imp_code code = IMP_SUCCESS;
-    const bool good = surface_eval(s, n, p[0], x->x, eval_error[0]) == IMP_OK;
-    for (size_t k = 0; k < n && code == IMP_SUCCESS; ++k)
-        code = good ? point_check(s, p[k], x[k], eval_error[k], error)
-                    : point_at(s, p[k], &x[k], eval_error[k], error);
-    return code;
+    const imp_status status = surface_eval(s, n, p[0], x->x, eval_error[0]);
+    const imp_code together = status == IMP_OK ? IMP_SUCCESS : status_fault(s, status, p[0], error);
+    imp_code each = IMP_SUCCESS;
+    for (size_t k = 0; k < n && each == IMP_SUCCESS; ++k)
+        each = status == IMP_OK ? point_check(s, p[k], x[k], eval_error[k], error)
+                                : point_at(s, p[k], &x[k], eval_error[k], error);
+    return each == IMP_SUCCESS ? together : each;
 }
 
 static imp_code state_at(const search *g, const double *y, state *s, imp_error *error)
