@@ -78,6 +78,18 @@ imp_code pair_test_first(const impact *im, pair_test *t, imp_error *error)
 
 /* --- Of candidate pairs ----------------------------------------------------------------------- */
 
+/* Whether its two bodies have many candidate pairs, which stand together in the list: only a few will be popped.
+ * Other bodies do not matter, so that a query of the two alone finds the same contact. */
+static bool is_of_many(const impact *im, size_t index)
+{
+    const size_t apart = TUNING_GLANCES_APART;
+    const candidate_pair *both = &im->candidate_pairs[index];
+    if (im->method != IMP_METHOD_MODELS) return false;
+    return (index >= apart && candidate_pairs_same_bodies(both - apart, both)) ||
+           (index + apart < im->candidate_pair_count &&
+            candidate_pairs_same_bodies(both + apart, both));
+}
+
 static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[index];
@@ -87,7 +99,7 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
     t->p.window = window_common(im->window, pair_times(t->p.a, t->p.b));
     t->any_time = t->p.window.lo <= t->p.window.hi;
     if (!t->any_time) return IMP_SUCCESS;
-    if (!im->glances || im->method != IMP_METHOD_MODELS) return pair_test_first(im, t, error);
+    if (!is_of_many(im, index)) return pair_test_first(im, t, error);
     t->near = separation_at_a_glance(t->p.a, t->p.b, im->clearance, &t->p.window);
     t->p.is_seen_only = true;
     return IMP_SUCCESS;
@@ -95,15 +107,21 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
 
 imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error *error)
 {
-    pair_test none = {.done = false}, *ahead = &none;
-    if (index - im->ahead.first < im->ahead.count)
-        ahead = &im->ahead.tests[index - im->ahead.first];
-    const uint64_t bytes = ahead->bytes;
-    ahead->bytes = 0; /* counted from here on with *t */
-    *t = *ahead;
-    const imp_code code = t->done ? IMP_SUCCESS : test_roots(im, index, t, error);
-    t->bytes += bytes;
-    return code;
+    const bool is_ahead = index - im->ahead.first < im->ahead.count;
+    *t = is_ahead ? im->ahead.tests[index - im->ahead.first] : (pair_test){.done = false};
+    return t->done ? IMP_SUCCESS : test_roots(im, index, t, error);
+}
+
+/* Whether its test makes no net: which thread made one would tell when a limit of memory ends the search. */
+static bool makes_no_net(const impact *im, size_t index)
+{
+    const candidate_pair *both = &im->candidate_pairs[index];
+    if (im->method == IMP_METHOD_PAPER || is_of_many(im, index)) return true;
+    for (int side = 0; side < 2; ++side) {
+        const node *root = tree_root(both->side[side]->tree);
+        if (surface_offers_net(root->surface) && !node_net_is_asked(root)) return false;
+    }
+    return true;
 }
 
 enum { TESTS_A_TASK = 64, TASKS_A_ROUND = 64, TESTS_A_ROUND = TESTS_A_TASK * TASKS_A_ROUND };
@@ -114,7 +132,8 @@ static void test_some(void *of, size_t task)
     const tests_ahead *ahead = &im->ahead;
     for (size_t k = task * TESTS_A_TASK; k < ahead->count && k < (task + 1) * TESTS_A_TASK; ++k) {
         pair_test *t = &ahead->tests[k];
-        t->done = test_roots(im, ahead->first + (uint32_t)k, t, NULL) == IMP_SUCCESS;
+        const uint32_t index = ahead->first + (uint32_t)k;
+        t->done = makes_no_net(im, index) && test_roots(im, index, t, NULL) == IMP_SUCCESS;
     }
 }
 
@@ -128,10 +147,4 @@ void pair_test_look_ahead(impact *im, uint32_t first, size_t count, const imp_op
     ahead->count = count - first < TESTS_A_ROUND ? (uint32_t)(count - first) : TESTS_A_ROUND;
     for (uint32_t k = 0; k < ahead->count; ++k) ahead->tests[k] = (pair_test){.done = false};
     parallel_run(options, test_some, im, (ahead->count + TESTS_A_TASK - 1) / TESTS_A_TASK);
-}
-
-void pair_test_drop_ahead(impact *im)
-{
-    for (uint32_t k = 0; k < im->ahead.count; ++k) im->stats->bytes += im->ahead.tests[k].bytes;
-    im->ahead.count = 0;
 }

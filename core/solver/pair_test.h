@@ -27,7 +27,4 @@ imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error
  * that was done. */
 void pair_test_look_ahead(impact *im, uint32_t first, size_t count, const imp_options *options);
 
-/* Forgets the tests made ahead: they are not for the clearance in force. */
-void pair_test_drop_ahead(impact *im);
-
 #endif

@@ -12,7 +12,6 @@
 #include "core/base/status.h"
 #include "core/common/clock.h"
 #include "core/solver/pair_test.h"
-#include "core/solver/tuning.h"
 
 /* --- Creation and destruction ------------------------------------------------------------ */
 
@@ -290,12 +289,6 @@ static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
             c->seconds_before + (clock_seconds() - c->start) >= options->max_seconds);
 }
 
-void query_take_candidates(imp_query *query)
-{
-    query->impact.candidate_pairs = query->candidates.pairs;
-    query->impact.glances = query->candidates.pair_count >= TUNING_GLANCES_FROM;
-}
-
 /* What a limit ends begins anew with the next step. Where the minimum distance is asked for, all
  * surfaces count, however far apart. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
@@ -305,7 +298,8 @@ imp_code query_collect(imp_query *query, double start, imp_error *error)
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options, near,
                                           &limit, &query->stats, error);
-    query_take_candidates(query);
+    query->impact.candidate_pairs = query->candidates.pairs;
+    query->impact.candidate_pair_count = query->candidates.pair_count;
     if (code == IMP_SUCCESS && !query->candidates.complete)
         query_finish(query, IMP_UNDECIDED, c.reason);
     return code;

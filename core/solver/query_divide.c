@@ -11,23 +11,18 @@
 
 /* --- Dividing ------------------------------------------------------------------------------- */
 
-static bool same_bodies(const candidate_pair *p, const candidate_pair *q)
-{
-    return p->side[0]->body == q->side[0]->body && p->side[1]->body == q->side[1]->body;
-}
-
 /* The list is in the order of the scene, so that the candidates of two bodies stand together. */
 static imp_code find_parts(imp_query *query, imp_error *error)
 {
     const candidate_list *list = &query->candidates;
     size_t count = 0;
     for (size_t k = 0; k < list->pair_count; ++k)
-        count += k == 0 || !same_bodies(&list->pairs[k - 1], &list->pairs[k]);
+        count += k == 0 || !candidate_pairs_same_bodies(&list->pairs[k - 1], &list->pairs[k]);
     query->parts = malloc((count + 1) * sizeof *query->parts);
     if (query->parts == NULL) return error_set_memory(error);
     query->part_count = 0;
     for (size_t k = 0; k < list->pair_count; ++k)
-        if (k == 0 || !same_bodies(&list->pairs[k - 1], &list->pairs[k]))
+        if (k == 0 || !candidate_pairs_same_bodies(&list->pairs[k - 1], &list->pairs[k]))
             query->parts[query->part_count++] = k;
     query->parts[count] = list->pair_count;
     return IMP_SUCCESS;
@@ -134,7 +129,8 @@ FP_APART static imp_query *part_of(const imp_query *whole, size_t index, imp_err
     const size_t first = whole->parts[index];
     imp_code code = candidates_part(&query->candidates, &whole->candidates, first,
                                     whole->parts[index + 1] - first, &query->stats, error);
-    query_take_candidates(query);
+    query->impact.candidate_pairs = query->candidates.pairs;
+    query->impact.candidate_pair_count = query->candidates.pair_count;
     if (code == IMP_SUCCESS && whole->clearance != NULL)
         code = clearance_part(whole->clearance, body, &query->clearance, error);
     if (code == IMP_SUCCESS) {

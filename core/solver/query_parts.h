@@ -43,7 +43,4 @@ imp_reason query_reason_of_clear(const imp_query *query);
  * step began. */
 imp_code query_collect(imp_query *query, double start, imp_error *error);
 
-/* Tells the search of them. */
-void query_take_candidates(imp_query *query);
-
 #endif

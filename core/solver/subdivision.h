@@ -25,6 +25,11 @@ typedef struct candidate_pair {
     candidate *side[2];
 } candidate_pair;
 
+static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const candidate_pair *q)
+{
+    return p->side[0]->body == q->side[0]->body && p->side[1]->body == q->side[1]->body;
+}
+
 /* Measures eval_error and still_maps of both, unless they are known: once for each surface of a query, and
  * only of those whose pairs are followed. */
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);

@@ -299,7 +299,7 @@ bool impact_refine(impact *im, double gamma, double clearance, size_t count)
     }
     for (size_t k = 0; k < count; ++k)
         if (im->roots[k].lo > -INFINITY) im->roots[k] = (time_window){NAN, NAN};
-    pair_test_drop_ahead(im);
+    im->ahead.count = 0; /* they are not for this clearance */
     im->gamma = gamma;
     im->clearance = clearance;
     upper_time_refine(&im->upper, gamma);
@@ -373,9 +373,7 @@ bool impact_pass(impact *im, size_t count)
     const candidate_pair *found = &im->candidate_pairs[im->found_candidate];
     for (size_t k = 0; k < count; ++k) {
         const candidate_pair *both = &im->candidate_pairs[k];
-        if (both->side[0]->body == found->side[0]->body &&
-            both->side[1]->body == found->side[1]->body)
-            im->passed[k] = true;
+        if (candidate_pairs_same_bodies(both, found)) im->passed[k] = true;
     }
     if (im->passed[im->upper.candidate_pair]) im->upper.is_known = im->upper.has_horizon = false;
     return true;

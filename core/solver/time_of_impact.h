@@ -45,8 +45,8 @@ typedef struct impact {
     imp_method method;
     imp_bounds bounds;
     const candidate_pair *candidate_pairs; /* the caller's */
-    bool glances;     /* their roots are only looked at before they are popped */
-    imp_stats *stats; /* the caller's; bytes: of the trees, without the heap */
+    size_t candidate_pair_count;           /* 0: their roots are tested at once, each */
+    imp_stats *stats;                      /* the caller's; bytes: of the trees, without the heap */
     pair_heap heap;
     upper_time upper;         /* with method models */
     tests_ahead ahead;        /* made by threads that look ahead (pair_test.h) */

@@ -37,10 +37,10 @@
  * 32, 128: no change */
 #define TUNING_TINY 64
 
-/* --- Which roots are only looked at before they are popped (query.c) --- */
+/* --- Which roots are only looked at before they are popped (pair_test.c) --- */
 
-/* Of queries with this many candidate pairs, or more. */
-#define TUNING_GLANCES_FROM 8
+/* Of candidate pairs where the one so many places before or behind is of the same bodies. */
+#define TUNING_GLANCES_APART 4
 
 /* --- When to search for a witness (time_of_impact.c) --- */
 

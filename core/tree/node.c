@@ -276,11 +276,6 @@ static bool net_keep(tree *t, node *n, const net **made, const net_buffer *room,
     return kept != NULL;
 }
 
-static bool was_asked(const node *n)
-{
-    return atomic_load_explicit(&n->net, memory_order_acquire) != NULL;
-}
-
 static bool has_parent(const node *n)
 {
     return n->parent != NULL && n->parent->surface == n->surface;
@@ -292,7 +287,7 @@ static imp_code find_net(tree *t, const node *n, net_buffer *room, const net **m
                          tree_growth *growth, imp_error *error)
 {
     const node *at = n;
-    while (has_parent(at) && !was_asked(at->parent)) at = at->parent;
+    while (has_parent(at) && !node_net_is_asked(at->parent)) at = at->parent;
     const net *whole = has_parent(at) ? node_net_made(at->parent) : NULL;
     for (;;) {
         const imp_code code = fill_net(t, at, whole, room, &whole, error);
@@ -307,7 +302,7 @@ static imp_code find_net(tree *t, const node *n, net_buffer *room, const net **m
 
 imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error)
 {
-    if (!was_asked(n)) {
+    if (!node_net_is_asked(n)) {
         net_buffer room;
         const net *made;
         const imp_code code = find_net(t, n, &room, &made, growth, error);

@@ -130,6 +130,12 @@ imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **ch
  * is added to *growth. IMP_ERROR_PLUGIN as above. */
 imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error);
 
+/* Whether it was. */
+static inline bool node_net_is_asked(const node *n)
+{
+    return atomic_load_explicit(&n->net, memory_order_acquire) != NULL;
+}
+
 /* The same of a node that was asked for it; NULL of any other. */
 static inline const net *node_net_made(const node *n)
 {
