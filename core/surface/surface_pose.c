@@ -127,6 +127,7 @@ imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end, cons
         else
             add_pose(&next, norm, pose);
     }
+    if (end - first == 1) return IMP_OK;
     return judge(IMP_OK, pose) == IMP_OK ? IMP_OK : IMP_UNBOUNDED;
 }
 

@@ -110,6 +110,41 @@ void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], i
     axis_transform(frame, cosine, sine, w, out);
 }
 
+/* Lemma (a point). Let w = at - center, off by u |w|, and let `trig` bound how far sine and cosine of the exact
+ * angle are from those computed: the angle's error, and (L). With E = |along| + |across| + |turned| an entry is
+ * off by the errors of its three constants, trig (|across| + |turned|), since |cos|, |sin| <= 1, and rounding;
+ * W = sum_j E_ij |w_j| counts that, in units of u:
+ *
+ *   w                      1
+ *   entry                  3: product, two sums
+ *   product, sums          3
+ *
+ * and the sum with the center rounds once. Underflow: fewer than 32 products, each multiplied by 1 or |w_j|. */
+bool axis_turn_point(const axis_frame *frame, const double center[3], const imp_model *angle,
+                     const double at[3], double x[3], double error[3])
+{
+    enum { POINT_ROUNDING = 8 };
+    _Static_assert(1 + 3 + 3 <= POINT_ROUNDING, "rounding of a turned point");
+    const double s = sin(angle->a), c = cos(angle->a), trig = angle->e + IMP_LIBM + IMP_TINY;
+    bool finite = true;
+    for (int i = 0; i < 3; ++i) {
+        double sum = 0, off = IMP_TINY;
+        for (int j = 0; j < 3; ++j) {
+            const near_constant along = frame->along[i][j], across = frame->across[i][j],
+                                turned = frame->turned[i][j];
+            const double w = at[j] - center[j], moving = fabs(across.value) + fabs(turned.value);
+            sum += (c * across.value + s * turned.value + along.value) * w;
+            off += (along.error + across.error + turned.error + trig * moving +
+                    POINT_ROUNDING * IMP_U * (fabs(along.value) + moving) + IMP_TINY) *
+                   fabs(w);
+        }
+        x[i] = sum + center[i];
+        error[i] = (off + IMP_U * fabs(x[i])) * IMP_SLACK;
+        finite = finite && error[i] < INFINITY;
+    }
+    return finite;
+}
+
 /* Adds k x, number by number, to what is collected of one entry.
  *
  * Lemma. With |K - k| <= kappa, x = P + delta and |x| <= m, K x - k P = K delta + (K - k) P, at most

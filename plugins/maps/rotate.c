@@ -76,12 +76,24 @@ static void turned(const void *self, imp_model x, imp_model y, imp_model z, imp_
 }
 IMP_MAP_FORMULA(turned)
 
+/* p holds x, y, z and t. */
+static imp_status point_eval(const rotate_instance *s, const double *p, double *x, double *error)
+{
+    imp_model angle;
+    if (!course_is_defined(&s->angle, p[3], p[3])) return IMP_DOMAIN;
+    course_at(&s->angle, 1, imp_num(p[3]), &angle);
+    if (imp_is_point(&angle) && axis_turn_point(&s->axis, s->center, &angle, p, x, error))
+        return IMP_OK;
+    return turned_eval(s, 1, p, x, error);
+}
+
 static imp_status rotate_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
-    const rotate_instance *s = self;
-    for (size_t k = 0; k < n; ++k)
-        if (!course_is_defined(&s->angle, p[4 * k + 3], p[4 * k + 3])) return IMP_DOMAIN;
-    return turned_eval(self, n, p, x, error);
+    double own[3];
+    imp_status status = IMP_OK;
+    for (size_t k = 0; k < n && status == IMP_OK; ++k)
+        status = point_eval(self, p + 4 * k, x + 3 * k, error != NULL ? error + 3 * k : own);
+    return status;
 }
 
 static imp_status rotate_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)

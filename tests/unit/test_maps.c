@@ -52,6 +52,71 @@ START_TEST(a_wave_travels_at_its_speed)
 }
 END_TEST
 
+/* x turned about the unit vector along `axis`, through the center. */
+static void turn(const double axis[3], const double center[3], long double angle, const double x[3],
+                 long double out[3])
+{
+    const long double length =
+        sqrtl((long double)axis[0] * axis[0] + (long double)axis[1] * axis[1] +
+              (long double)axis[2] * axis[2]);
+    long double k[3], w[3], kw = 0;
+    for (int i = 0; i < 3; ++i) {
+        k[i] = axis[i] / length;
+        w[i] = (long double)x[i] - center[i];
+        kw += k[i] * w[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, l = (i + 2) % 3;
+        out[i] = center[i] + k[i] * kw + cosl(angle) * (w[i] - k[i] * kw) +
+                 sinl(angle) * (k[j] * w[l] - k[l] * w[j]);
+    }
+}
+
+START_TEST(turned_points_are_within_their_errors_beside_long_doubles)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(2000); ++k) {
+        double axis[3], center[3], p[4], x[3], error[3], size = 0;
+        long double exact[3];
+        char text[300];
+        for (int i = 0; i < 3; ++i) {
+            axis[i] = random_bits(&state) % 4 ? random_between(&state, -1, 1) : i == 0;
+            center[i] = random_bits(&state) % 2 ? 0 : random_between(&state, -9, 9);
+            p[i] = random_between(&state, -1, 1) * random_power(&state, -20, 4);
+            size += fabs(p[i]) + fabs(center[i]);
+        }
+        p[3] = random_between(&state, 0, 1);
+        const double rate = random_between(&state, -1, 1) * random_power(&state, -3, 10);
+        snprintf(
+            text, sizeof text,
+            "{\"axis\": [%.17g,%.17g,%.17g], \"center\": [%.17g,%.17g,%.17g], \"rate\": %.17g}",
+            axis[0], axis[1], axis[2], center[0], center[1], center[2], rate);
+        instance made = map("rotate", text);
+        const long double angle = (long double)rate * p[3];
+        turn(axis, center, angle, p, exact);
+        ck_assert_int_eq(made.map->eval(made.self, 1, p, x, error), IMP_OK);
+        const double bound = (0x1p-46 + 0x1p-50 * fabs((double)angle)) * size;
+        const long double off = (0x1p-60L + 0x1p-63L * fabsl(angle)) * size;
+        for (int i = 0; i < 3; ++i) {
+            ck_assert(fabsl(exact[i] - x[i]) <= error[i] + off);
+            ck_assert_double_le(error[i], bound + 4 * IMP_TINY);
+        }
+        instance_free(&made);
+    }
+}
+END_TEST
+
+START_TEST(points_turned_out_of_range_are_undefined)
+{
+    double x[3];
+    instance made = map("rotate", "{\"axis\": [1,1,0], \"rate\": 1}");
+    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, INFINITY, 0, 0}, x, NULL),
+                     IMP_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, NAN, 0}, x, NULL), IMP_DOMAIN);
+    instance_free(&made);
+}
+END_TEST
+
 /* --- Deformations ------------------------------------------------------------------- */
 
 START_TEST(a_taper_is_linear_within_its_range_and_constant_beyond)
@@ -391,6 +456,8 @@ SUITE_MAIN("maps", a_trajectory_follows_parabolas_and_turns_at_constant_spin,
            tables_hold_or_are_undefined_beyond_their_ends,
            models_of_linear_tables_are_exact_between_kinks_and_tight_across,
            a_turn_of_the_screw_advances_by_its_pitch,
+           turned_points_are_within_their_errors_beside_long_doubles,
+           points_turned_out_of_range_are_undefined,
            scaling_grows_collapses_and_mirrors_about_its_centre, a_wave_travels_at_its_speed,
            a_taper_is_linear_within_its_range_and_constant_beyond,
            a_twist_turns_each_height_by_its_own_angle,
