@@ -126,9 +126,9 @@ bool pair_precision_ends(const pair *p, const candidate_pair *both, double room,
 /* A node without bounds is cut before one that has them, which would gain nothing. */
 static void cut_consider(cut *best, const pair *p, int side, parameter j, double gain)
 {
+    if (best->side >= 0 && !(gain > best->gain)) return;
     if (side_of(p, side)->bounded && !side_of(p, !side)->bounded) return;
-    if (!region_can_split(&side_of(p, side)->region, j)) return;
-    if (best->side < 0 || gain > best->gain) *best = (cut){side, j, gain};
+    if (region_can_split(&side_of(p, side)->region, j)) *best = (cut){side, j, gain};
 }
 
 cut cut_by_contribution(const pair *p)

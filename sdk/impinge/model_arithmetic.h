@@ -69,17 +69,25 @@ static inline imp_model imp_known(double a, double e)
     return r;
 }
 
+static inline void imp_collapse_(imp_model *x)
+{
+    imp_interval range = imp_interval_make(x->lo, x->hi);
+    if (!(x->lo <= x->hi)) {
+        *x = imp_unbounded(x->depends);
+        return;
+    }
+    int finite = imp_interval_is_finite(range);
+    x->a = finite ? imp_interval_mid(range) : 0;
+    x->e = finite ? imp_interval_radius_upper(range, x->a) : INFINITY;
+    for (int j = 0; j < 3; j++) x->b[j] = 0;
+    for (int j = 0; j < 6; j++) x->q[j] = 0;
+}
+
 /* The quadratic becomes the middle of the range: the last resort, and often a good one.
  * An empty range means that the formula was undefined. */
 static inline imp_model imp_model_collapse(imp_model x)
 {
-    imp_interval range = imp_interval_make(x.lo, x.hi);
-    if (!(x.lo <= x.hi)) return imp_unbounded(x.depends);
-    int finite = imp_interval_is_finite(range);
-    x.a = finite ? imp_interval_mid(range) : 0;
-    x.e = finite ? imp_interval_radius_upper(range, x.a) : INFINITY;
-    for (int j = 0; j < 3; j++) x.b[j] = 0;
-    for (int j = 0; j < 6; j++) x.q[j] = 0;
+    imp_collapse_(&x);
     return x;
 }
 
@@ -192,14 +200,19 @@ static inline void imp_tidy_rates_(imp_model *x)
  * are set, each part sound by itself (a NaN says nothing). Range and quadratic clip each other;
  * when e exceeds half the range the quadratic tells nothing that the range does not, and goes, as
  * it does when a coefficient overflowed. */
+static inline void imp_finish_(imp_model *x)
+{
+    imp_interval poly = imp_model_poly_range(x);
+    x->lo = imp_larger(x->lo, poly.lo);
+    x->hi = imp_smaller(x->hi, poly.hi);
+    imp_tidy_rates_(x);
+    if (!(x->e <= 0.5 * (x->hi - x->lo) && poly.hi - poly.lo < INFINITY)) imp_collapse_(x);
+}
+
 static inline imp_model imp_model_finish(imp_model x)
 {
-    imp_interval poly = imp_model_poly_range(&x);
-    x.lo = imp_larger(x.lo, poly.lo);
-    x.hi = imp_smaller(x.hi, poly.hi);
-    imp_tidy_rates_(&x);
-    if (x.e <= 0.5 * (x.hi - x.lo) && poly.hi - poly.lo < INFINITY) return x;
-    return imp_model_collapse(x);
+    imp_finish_(&x);
+    return x;
 }
 
 /* The same, knowing also that g lies in the range. */
@@ -207,7 +220,8 @@ static inline imp_model imp_model_within(imp_model g, imp_interval range)
 {
     g.lo = imp_larger(g.lo, range.lo);
     g.hi = imp_smaller(g.hi, range.hi);
-    return imp_model_finish(g);
+    imp_finish_(&g);
+    return g;
 }
 
 /* The model that a value and rates alone give: g = a within a_error at the centre of the region
@@ -224,7 +238,8 @@ static inline imp_model imp_model_box(double a, double a_error, const double rat
         r.rate[j] = rate[j];
         r.depends |= rate[j] != 0 ? 1u << j : 0;
     }
-    return r.e < INFINITY ? r : imp_model_finish(r);
+    if (!(r.e < INFINITY)) imp_finish_(&r);
+    return r;
 }
 
 /* --- Sums ---------------------------------------------------------------------------------- */
@@ -255,7 +270,8 @@ static inline imp_model imp_add_(const imp_model *x, const imp_model *y)
     r.hi = imp_sum_up(x->hi + y->hi);
     r.depends = x->depends | y->depends;
     r.reserved = 0;
-    return imp_model_finish(r);
+    imp_finish_(&r);
+    return r;
 }
 
 static inline imp_model imp_add_point_(double a, double x_error, double y_error)
@@ -274,7 +290,8 @@ static inline imp_model imp_shift(imp_model x, double k)
     x.a = a;
     x.lo = imp_sum_down(x.lo + k);
     x.hi = imp_sum_up(x.hi + k);
-    return imp_model_finish(x);
+    imp_finish_(&x);
+    return x;
 }
 
 static inline imp_model imp_add(imp_model x, imp_model y)
@@ -312,7 +329,8 @@ static inline imp_model imp_scale(imp_model x, double k)
     }
     for (int j = 0; j < 6; j++) x.q[j] *= k;
     x.e = (x.e * fabs(k) + (IMP_U * imp_model_size(&x) + IMP_TINY)) * IMP_SLACK;
-    return imp_model_finish(x);
+    imp_finish_(&x);
+    return x;
 }
 
 /* Adds the ten coefficients of L W to c; w: coefficients of the quadratic form W. */
@@ -447,7 +465,8 @@ static inline imp_model imp_mul_(const imp_model *x, const imp_model *y)
     r.hi = range.hi;
     r.depends = x->depends | y->depends;
     r.reserved = 0;
-    return imp_model_finish(r);
+    imp_finish_(&r);
+    return r;
 }
 
 /* (a + delta)(a' + delta') - a a' = delta a' + delta' (a + delta). */
@@ -485,7 +504,8 @@ static inline imp_model imp_dot_(const imp_model *x, const imp_model *y, int n)
         r.hi = imp_sum_up(r.hi + range.hi);
         r.depends |= x[i].depends | y[i].depends;
     }
-    return imp_model_finish(r);
+    imp_finish_(&r);
+    return r;
 }
 
 /* Does imp_mul have a fast path? */

@@ -224,7 +224,8 @@ static inline imp_model imp_div_exact_(imp_model x, double k)
     }
     for (int j = 0; j < 6; j++) x.q[j] /= k;
     x.e = (x.e / fabs(k) + (IMP_U * imp_model_size(&x) + IMP_TINY)) * IMP_SLACK;
-    return imp_model_finish(x);
+    imp_finish_(&x);
+    return x;
 }
 
 /* The rate of a quotient: (|x'| + |x / y| |y'|) / |y|, underflow as at a point. */
@@ -245,7 +246,8 @@ static inline imp_model imp_div(imp_model x, imp_model y)
     r.hi = range.hi;
     r.depends = x.depends | y.depends;
     r.reserved = 0;
-    return imp_model_finish(r);
+    imp_finish_(&r);
+    return r;
 }
 
 /* x^n for any whole n > -2^31; x != 0 if n < 0. */
@@ -400,7 +402,8 @@ static inline imp_model imp_either_(imp_model r, const imp_model *x, const imp_m
     r.hi = range.hi;
     for (int j = 0; j < 3; j++) r.rate[j] = imp_larger(x->rate[j], y->rate[j]);
     r.depends = x->depends | y->depends;
-    return imp_model_finish(r);
+    imp_finish_(&r);
+    return r;
 }
 
 /* If one is the larger over the whole region, that one; otherwise (x + y + |x - y|) / 2. */

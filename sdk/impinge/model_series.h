@@ -119,8 +119,8 @@ typedef struct imp_terms_ {
 static inline imp_terms_ imp_terms_flat_(const imp_model *x, const imp_series *s, double size)
 {
     imp_terms_ t = {s->c[0], imp_series_slant_(s), s->c[2], {0, 0, 0}, imp_series_bend_(s)};
-    double cubic[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     if (size == 0 || s->c[2] == 0) return t;
+    double cubic[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     imp_cubic_add_(x->b, x->q, cubic);
     t.rest += 2 * fabs(s->c[2]) * imp_cubic_fold_(cubic, t.linear);
     for (int j = 0; j < 3; j++) t.linear[j] *= 2 * s->c[2];
@@ -149,14 +149,18 @@ static inline imp_terms_ imp_terms_deep_(const imp_model *x, const imp_series *s
  * what n or r + e bounds: IMP_TINY (1 + d1 + d2 + d3)(1 + n + r + e)^2. */
 static inline void imp_substitute_(const imp_model *x, const imp_series *s, imp_model *r)
 {
-    double bb[6], a = x->a - s->m, c2 = s->c[2];
+    double bb[6], a = x->a - s->m, c2 = s->c[2], h = 0, half = 0;
     double size = imp_sum_abs6_(x->q), n = fabs(a) + imp_sum_abs3_(x->b) + size;
-    double h = imp_middle_(x->q), swing = imp_swing_upper_(x->q, size), half = 0.5 * swing * swing;
     imp_square_terms_(x->b, x->b, bb);
     imp_terms_ t = imp_terms_flat_(x, s, size);
-    if (size != 0 && s->c[3] != 0) {
-        imp_terms_ deep = imp_terms_deep_(x, s, a + h, bb, swing);
-        if (deep.rest < t.rest) t = deep;
+    if (size != 0) {
+        double swing = imp_swing_upper_(x->q, size);
+        h = imp_middle_(x->q);
+        half = 0.5 * swing * swing;
+        if (s->c[3] != 0) {
+            imp_terms_ deep = imp_terms_deep_(x, s, a + h, bb, swing);
+            if (deep.rest < t.rest) t = deep;
+        }
     }
     double slope = t.c1 + 2 * c2 * a, slope_q = t.c1 + 2 * c2 * (a + h);
     r->a = t.c0 + (t.c1 * a + c2 * (a * a - h * h + half));
@@ -182,7 +186,8 @@ static inline imp_model imp_compose(const imp_model *x, const imp_series *s, imp
     r.depends = x->depends;
     r.reserved = 0;
     for (int j = 0; j < 3; j++) r.rate[j] = (x->rate[j] * slope + IMP_TINY) * IMP_SLACK;
-    return imp_model_finish(r);
+    imp_finish_(&r);
+    return r;
 }
 
 /* g at a point: y = g(x.a) as libm gives it, slope >= |g'| between x.a and the exact x, but for
