@@ -145,26 +145,28 @@ bool axis_turn_point(const axis_frame *frame, const double center[3], const imp_
     return finite;
 }
 
-/* Adds k x, number by number, to what is collected of one entry.
+/* Adds k x, number by number, to what is collected of one entry; x depends on parameter p alone.
  *
  * Lemma. With |K - k| <= kappa, x = P + delta and |x| <= m, K x - k P = K delta + (K - k) P, at most
  * (|k| + kappa) e + kappa (m + e). Each coefficient is a sum of two products, and one constant of a: at most 3
- * roundings of what their sizes add up to. */
-static void add_share(near_constant k, const imp_model *x, imp_model *sum, double *size)
+ * roundings of what their sizes add up to. K x lies in k [lo, hi], widened by kappa m. */
+static void add_share(near_constant k, const imp_model *x, int p, imp_model *sum, double *size)
 {
+    static const int square[3] = {IMP_UU, IMP_VV, IMP_TT};
     const double most = imp_interval_mag(imp_model_range(x)), share = fabs(k.value) + k.error;
-    const imp_interval part = imp_interval_mul(interval_of(k), imp_model_range(x));
-    sum->a += k.value * x->a;
-    for (int j = 0; j < 3; ++j) {
-        sum->b[j] += k.value * x->b[j];
-        sum->rate[j] = (sum->rate[j] + share * x->rate[j]) * IMP_SLACK;
-    }
-    for (int j = 0; j < 6; ++j) sum->q[j] += k.value * x->q[j];
+    const double slip = (k.error * most + IMP_TINY) * IMP_SLACK;
+    const double below = k.value * (k.value > 0 ? x->lo : x->hi);
+    const double above = k.value * (k.value > 0 ? x->hi : x->lo);
+    const double a = k.value * x->a, b = k.value * x->b[p], q = k.value * x->q[square[p]];
+    sum->a += a;
+    sum->b[p] += b;
+    sum->q[square[p]] += q;
+    sum->rate[p] = (sum->rate[p] + share * x->rate[p]) * IMP_SLACK;
     sum->e += share * x->e + k.error * (most + x->e);
-    sum->lo = imp_sum_down(sum->lo + part.lo);
-    sum->hi = imp_sum_up(sum->hi + part.hi);
+    sum->lo = imp_sum_down(sum->lo + imp_sum_down(imp_round_down(below) - slip));
+    sum->hi = imp_sum_up(sum->hi + imp_sum_up(imp_round_up(above) + slip));
     sum->depends |= x->depends;
-    *size += fabs(k.value) * imp_model_size(x);
+    *size += fabs(a) + fabs(b) + fabs(q);
 }
 
 /* along + cos across + sin turned at once. A column of the matrix is a unit vector, which an angle moves by
@@ -172,13 +174,14 @@ static void add_share(near_constant k, const imp_model *x, imp_model *sum, doubl
 static imp_model matrix_entry(const axis_frame *frame, int i, int j, const imp_model *cosine,
                               const imp_model *sine, const imp_model *angle)
 {
+    const int p = angle->depends & 1u ? 0 : angle->depends & 2u ? 1 : 2;
     const near_constant along = frame->along[i][j];
     double size = fabs(along.value);
     imp_model sum = imp_known(along.value, along.error);
-    if (!near_is_zero(frame->across[i][j])) add_share(frame->across[i][j], cosine, &sum, &size);
-    if (!near_is_zero(frame->turned[i][j])) add_share(frame->turned[i][j], sine, &sum, &size);
+    if (!near_is_zero(frame->across[i][j])) add_share(frame->across[i][j], cosine, p, &sum, &size);
+    if (!near_is_zero(frame->turned[i][j])) add_share(frame->turned[i][j], sine, p, &sum, &size);
     sum.e = (sum.e + (3 * IMP_U * size + IMP_TINY)) * IMP_SLACK;
-    for (int p = 0; p < 3; ++p) sum.rate[p] = imp_smaller(sum.rate[p], angle->rate[p]);
+    sum.rate[p] = imp_smaller(sum.rate[p], angle->rate[p]);
     return imp_model_within(sum, imp_interval_make(-1, 1));
 }
 
