@@ -279,6 +279,13 @@ static inline imp_model imp_add_point_(double a, double x_error, double y_error)
     return imp_known(a, (x_error + y_error + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
 }
 
+/* The last step but for rates, where x was finished before, and quadratic and range moved alike: they need not clip
+ * each other anew. */
+static inline void imp_finish_again_(imp_model *x)
+{
+    if (!(x->e <= 0.5 * (x->hi - x->lo) && x->hi - x->lo < INFINITY)) imp_finish_(x);
+}
+
 /* x + k where k is exact: rounds the middle only. */
 static inline imp_model imp_shift(imp_model x, double k)
 {
@@ -290,7 +297,7 @@ static inline imp_model imp_shift(imp_model x, double k)
     x.a = a;
     x.lo = imp_sum_down(x.lo + k);
     x.hi = imp_sum_up(x.hi + k);
-    imp_finish_(&x);
+    imp_finish_again_(&x);
     return x;
 }
 
@@ -329,7 +336,8 @@ static inline imp_model imp_scale(imp_model x, double k)
     }
     for (int j = 0; j < 6; j++) x.q[j] *= k;
     x.e = (x.e * fabs(k) + (IMP_U * imp_model_size(&x) + IMP_TINY)) * IMP_SLACK;
-    imp_finish_(&x);
+    imp_tidy_rates_(&x);
+    imp_finish_again_(&x);
     return x;
 }
 
