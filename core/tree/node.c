@@ -409,15 +409,14 @@ static imp_code place_of_root(tree *t, node_place *place, tree_growth *growth, i
 {
     const double from = t->plan.t_start, to = t->plan.t_end;
     const size_t pieces = surface_piece_count(t->surface);
-    *place = place_of_surface(t->surface, from, to);
-    if (pieces == 1) place->surface = surface_piece(t->surface, 0);
-    if (pieces <= 1) return IMP_SUCCESS;
-    if (t->pieces == NULL) {
+    if (pieces > 1 && t->pieces == NULL) {
         const imp_code code = hierarchy_new(t->surface, from, to, &t->pieces, error);
         if (code != IMP_SUCCESS) return code;
         growth->bytes += hierarchy_bytes(t->pieces);
     }
-    *place = place_of_cluster(hierarchy_root(t->pieces), from, to);
+    *place = pieces > 1 ? place_of_cluster(hierarchy_root(t->pieces), from, to)
+                        : place_of_surface(t->surface, from, to);
+    if (pieces == 1) place->surface = surface_piece(t->surface, 0);
     return IMP_SUCCESS;
 }
 
@@ -440,8 +439,9 @@ static size_t tree_bytes(bool with_root)
 /* The root is not filled yet. NULL: no memory. */
 static tree *tree_begin(const surface *s, const tree_plan *plan, bool with_root)
 {
-    tree *t = calloc(1, tree_bytes(with_root));
+    tree *t = malloc(tree_bytes(with_root));
     if (t == NULL) return NULL;
+    memset(t, 0, sizeof *t);
     t->surface = s;
     t->plan = *plan;
     t->begins_with_root = with_root;
@@ -518,6 +518,7 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
     const node *root = tree_root(t);
     tree *copy = tree_begin(t->surface, &t->plan, true);
     if (copy == NULL) return error_set_memory(error);
+    memset(own_root(copy), 0, sizeof(node));
     memcpy(own_root(copy), root, offsetof(node, net)); /* what is before, which no thread changes */
     set_root(copy, own_root(copy));
     growth->bytes += tree_bytes(true);
