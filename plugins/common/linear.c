@@ -164,9 +164,13 @@ IMP_QUAD_INLINE void linear_rates(const linear *f, const linear_terms *c, const 
 {
     const imp_quad none = imp_quad_all(0);
     const imp_quad *k = c->k, *v = c->v;
-    rate[0] = linear_most(k[LINEAR_U], k[LINEAR_UV], v[LINEAR_U], v[LINEAR_UV], region, 1, 2);
-    rate[1] = linear_most(k[LINEAR_V], k[LINEAR_UV], v[LINEAR_V], v[LINEAR_UV], region, 0, 2);
-    rate[2] = linear_most(v[LINEAR_1], v[LINEAR_U], v[LINEAR_V], v[LINEAR_UV], region, 0, 1);
+    for (int j = 0; j < 3; ++j) rate[j] = none;
+    if (imp_quad_any(that_depend(f, 1)))
+        rate[0] = linear_most(k[LINEAR_U], k[LINEAR_UV], v[LINEAR_U], v[LINEAR_UV], region, 1, 2);
+    if (imp_quad_any(that_depend(f, 2)))
+        rate[1] = linear_most(k[LINEAR_V], k[LINEAR_UV], v[LINEAR_V], v[LINEAR_UV], region, 0, 2);
+    if (imp_quad_any(that_depend(f, 4)))
+        rate[2] = linear_most(v[LINEAR_1], v[LINEAR_U], v[LINEAR_V], v[LINEAR_UV], region, 0, 1);
     for (int j = 0; j < 3; ++j) rate[j] = imp_quad_pick(that_depend(f, 1 << j), rate[j], none);
 }
 
