@@ -105,13 +105,12 @@ enum { FEW = 6 }; /* boxes that are not worth sorting */
 static bool visit_few(const swept_box *boxes, size_t count, double clearance,
                       const broad_phase_visitor *visitor)
 {
-    for (size_t k = 0; k < count; ++k) {
-        if (!visitor->next_box(visitor->context)) return false;
+    if (!visitor->next_box(visitor->context)) return false;
+    for (size_t k = 0; k < count; ++k)
         for (size_t l = k + 1; l < count; ++l)
             if (boxes[k].group != boxes[l].group && !boxes_apart(&boxes[k], &boxes[l], clearance) &&
                 !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
                 return false;
-    }
     return true;
 }
 

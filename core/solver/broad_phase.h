@@ -19,7 +19,8 @@ typedef struct swept_box {
 } swept_box;
 
 typedef struct broad_phase_visitor {
-    bool (*next_box)(void *context); /* before the pairs of each box: whether to go on */
+    bool (*next_box)(
+        void *context); /* before the pairs of each box, or of a few: whether to go on */
     bool (*visit)(void *context, size_t first, size_t second); /* whether to go on */
     void *context;
 } broad_phase_visitor;
