@@ -22,6 +22,7 @@ typedef struct pair {
     uint32_t candidate_pair; /* which two surfaces of the scene: index of the query's list */
     uint32_t wait;           /* generations until a witness is sought again */
     bool is_seen_only;       /* separation_first_look may have left too much */
+    bool lacks_nets;         /* its nodes were not asked for nets yet */
     bool slides;             /* of it or an ancestor one node alone was worth halving (sight.h) */
 } pair;
 

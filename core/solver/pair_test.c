@@ -63,7 +63,7 @@ imp_code pair_test_first(const impact *im, pair_test *t, imp_error *error)
 {
     pair *p = &t->p;
     if (waits_for_nets(im, p)) {
-        p->is_seen_only = true;
+        p->is_seen_only = p->lacks_nets = true;
         t->near = separation_without_nets(p->a, p->b, im->clearance, &p->window, &p->axis);
         return IMP_SUCCESS;
     }
@@ -101,7 +101,7 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
     if (!t->any_time) return IMP_SUCCESS;
     if (!is_of_many(im, index)) return pair_test_first(im, t, error);
     t->near = separation_at_a_glance(t->p.a, t->p.b, im->clearance, &t->p.window);
-    t->p.is_seen_only = true;
+    t->p.is_seen_only = t->p.lacks_nets = true;
     return IMP_SUCCESS;
 }
 

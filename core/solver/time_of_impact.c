@@ -341,10 +341,11 @@ static bool is_still_first(impact *im, pair *p)
 }
 
 /* Asks for the nets of a pair that was only looked at. On failure it goes back. */
-static imp_code ask_before_test(impact *im, const pair *p, imp_error *error)
+static imp_code ask_before_test(impact *im, pair *p, imp_error *error)
 {
-    if (!p->is_seen_only) return IMP_SUCCESS;
+    if (!p->lacks_nets) return IMP_SUCCESS;
     const imp_code code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
+    p->lacks_nets = code != IMP_SUCCESS;
     if (code != IMP_SUCCESS) pair_heap_push(&im->heap, p);
     return code;
 }
