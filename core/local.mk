@@ -94,7 +94,7 @@ core_solver = \
     core/solver/distance.c core/solver/distance.h \
     core/solver/examined_times.c core/solver/examined_times.h \
     core/solver/gap_lines.c core/solver/gap_lines.h \
-    core/solver/gjk_axis.c core/solver/gjk_axis.h \
+    core/solver/gjk_axis.c core/solver/gjk_axis.h core/solver/glance.c core/solver/glance.h \
     core/solver/simplex.h \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/normal_field.c core/solver/normal_field.h \

@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 
+#include "core/solver/glance.h"
 #include "core/solver/parallel.h"
 #include "core/solver/tuning.h"
 

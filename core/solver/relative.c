@@ -144,14 +144,10 @@ enum { MOTION_ROUNDING = 16 };
 _Static_assert(4 + 3 + 1 + 2 <= MOTION_ROUNDING, "|bt|");
 _Static_assert(4 + 4 + 2 + 1 + 2 <= MOTION_ROUNDING, "2 |qtt|");
 _Static_assert(3 + 2 <= MOTION_ROUNDING, "|qut|, |qvt|");
-PAD_COVERS(4, 1); /* half of the window: one difference */
-
 IMP_QUAD_INLINE void recentre(const node *a, const node *b, const time_window *window, relative *r)
 {
     r->mid = 0.5 * window->lo + 0.5 * window->hi;
-    const double above = window->hi - r->mid, below = r->mid - window->lo;
-    const double reach = above > below ? above : below;
-    r->half = padded_upper(reach, 4);
+    r->half = window_half_upper(window, r->mid);
     r->focus = -1;
     r->share = TUNING_GJK_GAP;
     moved ma = slice_at(a, r->mid, r->half, &r->a), mb = slice_at(b, r->mid, r->half, &r->b);

@@ -15,6 +15,14 @@ typedef struct time_window {
 /* More than what two products that underflow are off by: windows are cut with that much to spare. */
 #define WINDOW_TINY 0x1p-1070
 
+/* From its middle to either end, rounded up. */
+PAD_COVERS(4, 1); /* one difference */
+static inline double window_half_upper(const time_window *window, double mid)
+{
+    const double above = window->hi - mid, below = mid - window->lo;
+    return padded_upper(above > below ? above : below, 4);
+}
+
 /* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v that
  * holds at its middle, and how its slopes turn with w. x, y, z and a 0, here and below. */
 typedef struct slice {

@@ -9,7 +9,6 @@
 #include "core/solver/net_axis.h"
 #include "core/solver/net_model_axis.h"
 #include "core/solver/normal_field.h"
-#include "core/solver/quadratic.h"
 #include "core/solver/tuning.h"
 
 /* The w of `moment`, kept within the window. */
@@ -83,37 +82,6 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
         if (round == (flat ? TUNING_FLAT_ROUNDS : TUNING_WINDOW_ROUNDS)) return true;
         if (!flat && !(s.hi - s.lo < TUNING_WINDOW_SHRINKS)) return true;
     }
-}
-
-/* --- At a glance ------------------------------------------------------------------------------- */
-
-/* Lemma. Along a coordinate, and without edges, B - A is delta + drift w and terms whose sizes add up to
- * magnitude - |delta| - |drift| at most. Rounding, in units of u of the magnitude: relative_at; the magnitude
- * itself, sums of ten; two differences here; low, of 2, and low -+ drift, of 3 magnitudes. */
-enum { GLANCE_ROUNDING = 32 };
-_Static_assert(RELATIVE_ROUNDING + 10 + 2 + 2 + 3 <= GLANCE_ROUNDING,
-               "rounding along a coordinate");
-
-static bool cut_along_coordinate(const relative *r, int i, double clearance, w_range *s)
-{
-    const double delta = r->delta[i], drift = r->drift[i], magnitude = r->magnitude[i];
-    const double reach = magnitude - fabs(delta) - fabs(drift) +
-                         GLANCE_ROUNDING * UNIT_ROUNDOFF * magnitude + QUADRATIC_UNDERFLOW;
-    return w_range_cut(s, delta - reach, drift, clearance) &&
-           w_range_cut(s, -delta - reach, -drift, clearance);
-}
-
-bool separation_at_a_glance(const node *a, const node *b, double clearance, time_window *window)
-{
-    relative r;
-    w_range s = {-1, 1};
-    if (!a->bounded || !b->bounded) return true;
-    relative_at(a, b, window, &r);
-    if (r.posed > 0) return true;
-    for (int i = 0; i < 3; ++i)
-        if (!cut_along_coordinate(&r, i, clearance, &s)) return false;
-    window_cut(window, r.mid, r.half, &s);
-    return true;
 }
 
 /* --- Nets -------------------------------------------------------------------------------------- */

@@ -25,9 +25,6 @@ bool separation_without_nets(const node *a, const node *b, double clearance, tim
 bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,
                            vec3 *axis, bool *more);
 
-/* The same by the boxes around the nodes, as they move linearly, alone: a tenth of the work. */
-bool separation_at_a_glance(const node *a, const node *b, double clearance, time_window *window);
-
 /* How near two nodes come. */
 typedef struct approach {
     double lower;  /* bound of the distance; length */

@@ -8,6 +8,7 @@
 
 #include "core/solver/axes.h"
 #include "core/solver/gjk_axis.h"
+#include "core/solver/glance.h"
 #include "core/solver/normal_field.h"
 #include "tests/support/meeting.h"
 
