@@ -291,6 +291,14 @@ IMP_QUAD_INLINE vec3 across(const relative *r, double w)
     return vec3_cross(a, b);
 }
 
+/* These two, and both normals; of two curves, which have none, the ways across at either end. */
+IMP_QUAD_INLINE bundle bundle_with(const relative *r, vec3 x, vec3 y)
+{
+    const bool curves = !(vec3_norm1(r->a.normal) + vec3_norm1(r->b.normal) > 0);
+    return bundle_of(x, curves ? across(r, -1) : r->a.normal, curves ? across(r, 1) : r->b.normal,
+                     y);
+}
+
 /* Along the axis that is best at the focus, the window's start where that decides when the earliest
  * contact can be; both normals; and the line of centres at the end of the window that is farther from
  * the focus. Where no axis is any good at the focus, along the line of centres there. */
@@ -302,9 +310,7 @@ IMP_QUAD_INLINE bool cut_along_axes(const relative *r, double clearance, w_range
     vec3 best = vec3_norm1(*axis) > 0 ? *axis : here;
     const bool apart = gjk_axis(r, r->focus, &best);
     *axis = apart ? best : (vec3){{0, 0, 0}};
-    const bool curves = !(vec3_norm1(r->a.normal) + vec3_norm1(r->b.normal) > 0);
-    bundle n = bundle_of(apart ? best : here, curves ? across(r, -1) : r->a.normal,
-                         curves ? across(r, 1) : r->b.normal, end);
+    bundle n = bundle_with(r, apart ? best : here, end);
     return bundle_cut(r, &n, clearance, s, lines);
 }
 
@@ -312,9 +318,7 @@ IMP_QUAD_INLINE bool cut_along_axes(const relative *r, double clearance, w_range
 IMP_QUAD_INLINE bool cut_along_given(const relative *r, double clearance, w_range *s, vec3 axis)
 {
     const vec3 end = vec3_sub(vec3_from(r->delta), vec3_scale(vec3_from(r->drift), -1));
-    const bool curves = !(vec3_norm1(r->a.normal) + vec3_norm1(r->b.normal) > 0);
-    bundle n = bundle_of(axis, curves ? across(r, -1) : r->a.normal,
-                         curves ? across(r, 1) : r->b.normal, end);
+    bundle n = bundle_with(r, axis, end);
     return bundle_cut(r, &n, clearance, s, NULL);
 }
 

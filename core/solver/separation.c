@@ -57,10 +57,27 @@ static bool cut_at_end(const node *a, const node *b, double clearance, time_wind
     return true;
 }
 
+/* Of two curves, along axes that need no search: the ways across both, and the lines of centres, at either end
+ * of the window; again if that pays. */
+static bool cut_between_curves(const node *a, const node *b, double clearance, time_window *window)
+{
+    bool pays = !(vec3_norm1(a->normal) + vec3_norm1(b->normal) > 0);
+    for (int round = 0; round < TUNING_CURVE_ROUNDS && pays; ++round) {
+        relative r;
+        w_range s = {-1, 1};
+        relative_at(a, b, window, &r);
+        if (!axes_cut_along(&r, clearance, &s, relative_offset(&r, -1))) return false;
+        window_cut(window, r.mid, r.half, &s);
+        pays = s.hi - s.lo < TUNING_CURVE_SHRINKS;
+    }
+    return true;
+}
+
 /* `near` is NULL where only the window matters. */
 static bool shrink(const node *a, const node *b, double clearance, time_window *window, vec3 *axis,
                    approach *near)
 {
+    if (near == NULL && !cut_between_curves(a, b, clearance, window)) return false;
     for (int round = 1;; ++round) {
         relative r;
         gap_lines lines;
