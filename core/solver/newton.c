@@ -126,6 +126,18 @@ bool newton_try(newton_way *way, const double *y, double *next)
     return false;
 }
 
+double newton_promise(const newton_way *way, const double *y, const double *next)
+{
+    double less = 0;
+    for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
+        double slope = way->gradient[k];
+        for (int l = 0; l < NEWTON_UNKNOWNS; ++l)
+            slope += 0.5 * way->hessian[k][l] * (next[l] - y[l]);
+        less -= slope * (next[k] - y[k]);
+    }
+    return less;
+}
+
 void newton_judge(newton_way *way, bool is_better)
 {
     way->damping *= is_better ? DAMPING_LESS : DAMPING_MORE;

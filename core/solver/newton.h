@@ -39,6 +39,9 @@ newton_way newton_begin(const newton_bounds *bounds);
  * again. False: there is none that is worth it, or too many were tried. */
 bool newton_try(newton_way *way, const double *y, double *next);
 
+/* By how much less |D|^2 / 2 the step leads, were it quadratic. */
+double newton_promise(const newton_way *way, const double *y, const double *next);
+
 /* Tells what came of it: then comes another try, or, from a better place, new derivatives. */
 void newton_judge(newton_way *way, bool is_better);
 

@@ -162,5 +162,8 @@
 /* The last step gains less than this of the gap.
  * 1e-3, 1e-5: no change */
 #define TUNING_NEWTON_GAIN 1e-4
+/* A step that promises to change the gap's square by less than twice this is not tried.
+ * 1e-10: edges take 0.03 % more instructions, faces 1 % */
+#define TUNING_NEWTON_PROMISE 1e-8
 
 #endif

@@ -31,9 +31,11 @@ typedef struct state {
     double gap;
 } state;
 
-static bool node_is_flat(const node *n)
+/* Whether its polynomial tells too little of where u and v lead: it has no normal, and is no curve that is
+ * nearly straight. */
+static bool node_is_vague(const node *n)
 {
-    return n->normal.x[0] == 0 && n->normal.x[1] == 0 && n->normal.x[2] == 0;
+    return !(vec3_norm1(n->normal) > 0) && node_blurs(n, TUNING_STRAIGHT_BLUR);
 }
 
 /* y may leave the node by one half-width, not the surface. */
@@ -181,7 +183,7 @@ static imp_code derive(const search *g, const state *s, double gradient[NEWTON_U
     double second[2][2][2];
     for (int side = 0; side < 2; ++side) {
         imp_code code = IMP_SUCCESS;
-        if (node_is_flat(g->nodes[side]))
+        if (node_is_vague(g->nodes[side]))
             code = derive_from_points(g, side, s, &d[side], error);
         else
             derive_from_polynomial(g, side, s, &d[side]);
@@ -196,8 +198,8 @@ static imp_code derive(const search *g, const state *s, double gradient[NEWTON_U
 
 /* --- Steps -------------------------------------------------------------------------------- */
 
-/* Goes downhill from *s until it no longer pays: the gap shrinks by less than TUNING_NEWTON_GAIN of
- * it, or it is far from gamma and shrinks by less than half. */
+/* Goes downhill from *s until it no longer pays: a step promises nothing that rounding would not hide, the gap
+ * shrinks by less than TUNING_NEWTON_GAIN of it, or it is far from gamma and shrinks by less than half. */
 static imp_code descend(const search *g, double gamma, state *s, imp_error *error)
 {
     newton_way way = newton_begin(&g->y);
@@ -208,6 +210,8 @@ static imp_code descend(const search *g, double gamma, state *s, imp_error *erro
         bool is_better = false;
         for (double next[NEWTON_UNKNOWNS]; !is_better; newton_judge(&way, is_better)) {
             if (!newton_try(&way, s->y, next)) return IMP_SUCCESS;
+            if (fabs(newton_promise(&way, s->y, next)) < TUNING_NEWTON_PROMISE * s->gap * s->gap)
+                return IMP_SUCCESS;
             code = state_at(g, next, &trial, error);
             if (code != IMP_SUCCESS) return code;
             is_better = trial.gap < s->gap;
