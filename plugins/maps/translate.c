@@ -7,6 +7,7 @@
 
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
+#include <impinge/quad.h>
 
 static const imp_parameter parameters[] = {
     [COURSE_RATE] =
@@ -57,6 +58,8 @@ static bool is_steady(const course *way)
     return way->polynomial.count == 1 || way->polynomial.count == 2;
 }
 
+static bool moves_steadily(const course *way) { return way->polynomial.count == 2; }
+
 static double speed_of(const course *way, size_t i)
 {
     return way->polynomial.count > 1 ? way->polynomial.coefficient[2 * i + 1] : 0;
@@ -76,23 +79,6 @@ static near_constant point_shifted(near_constant x, double k)
     const double a = x.value + k;
     if (k == 0 || (x.value == 0 && x.error == 0)) return (near_constant){a, x.error};
     return (near_constant){a, (x.error + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK};
-}
-
-/* Lemma. Of x + c0 + c1 t, where t = c + d s exactly, the numbers c1 c, c0 + c1 c, c1 d and both sums with
- * what x has in their place are each rounded once, by u of the result. */
-static imp_model steadily_moved(imp_model x, double from, double speed, const imp_model *t)
-{
-    const double far = speed * t->a, way = from + far, slope = speed * t->b[2];
-    const imp_interval gone = imp_interval_scale(imp_model_range(t), speed);
-    x.a += way;
-    x.b[2] += slope;
-    const double rounded = fabs(far) + fabs(way) + fabs(slope) + fabs(x.a) + fabs(x.b[2]);
-    x.e = (x.e + (IMP_U * rounded + IMP_TINY)) * IMP_SLACK;
-    x.lo = imp_sum_down(x.lo + imp_sum_down(from + gone.lo));
-    x.hi = imp_sum_up(x.hi + imp_sum_up(from + gone.hi));
-    x.rate[2] = imp_sum_up(x.rate[2] + imp_round_up(fabs(speed) * t->rate[2]));
-    x.depends |= t->depends;
-    return imp_model_finish(x);
 }
 
 /* Time as inclusions have it. */
@@ -133,25 +119,123 @@ static imp_status steady_rate(const course *way, imp_map_rates *rates)
     return IMP_OK;
 }
 
+/* --- Three models at constant velocity, side by side --------------------------------------------- */
+
+typedef struct moved_lanes {
+    imp_quad a, slope, e, lo, hi, rate;
+    imp_quad_mask is_told; /* by the quadratic, not by the range alone */
+} moved_lanes;
+
+#define LANES(m, what) imp_quad_of((m)[0].what, (m)[1].what, (m)[2].what, 0)
+
+IMP_QUAD_INLINE imp_quad round_down(imp_quad x)
+{
+    return x - (imp_quad_abs(x) * imp_quad_all(0x1p-52) + imp_quad_all(IMP_TINY));
+}
+
+IMP_QUAD_INLINE imp_quad round_up(imp_quad x)
+{
+    return x + (imp_quad_abs(x) * imp_quad_all(0x1p-52) + imp_quad_all(IMP_TINY));
+}
+
+IMP_QUAD_INLINE imp_quad sum_down(imp_quad x)
+{
+    return x - imp_quad_abs(x) * imp_quad_all(0x1p-52);
+}
+
+IMP_QUAD_INLINE imp_quad sum_up(imp_quad x) { return x + imp_quad_abs(x) * imp_quad_all(0x1p-52); }
+
+/* Clips the ranges to those of quadratic and remainder, as imp_model_finish does. */
+IMP_QUAD_INLINE void clip(moved_lanes *m, const imp_model x[3])
+{
+    const imp_quad half = imp_quad_all(0.5), infinite = imp_quad_all(INFINITY);
+    const imp_quad b[3] = {imp_quad_abs(LANES(x, b[0])), imp_quad_abs(LANES(x, b[1])),
+                           imp_quad_abs(m->slope)};
+    const imp_quad q[3] = {LANES(x, q[IMP_UU]), LANES(x, q[IMP_VV]), LANES(x, q[IMP_TT])};
+    const imp_quad twist = imp_quad_abs(LANES(x, q[IMP_UV])) + imp_quad_abs(LANES(x, q[IMP_UT])) +
+                           imp_quad_abs(LANES(x, q[IMP_VT]));
+    imp_quad lo = -(twist + m->e), hi = -lo, size = imp_quad_abs(m->a) + hi;
+    for (int j = 0; j < 3; ++j) {
+        lo += imp_quad_min(q[j] - b[j], -half * b[j]);
+        hi += imp_quad_max(q[j] + b[j], half * b[j]);
+        size += b[j] + imp_quad_abs(q[j]);
+    }
+    const imp_quad pad = imp_quad_all(0x1p-48) * size;
+    lo = m->a + lo - pad;
+    hi = m->a + hi + pad;
+    lo = imp_quad_pick(lo > -infinite, lo, -infinite);
+    hi = imp_quad_pick(hi < infinite, hi, infinite);
+    m->lo = imp_quad_max(m->lo, lo);
+    m->hi = imp_quad_min(m->hi, hi);
+    m->is_told = (m->e <= half * (m->hi - m->lo)) & (hi - lo < infinite);
+}
+
+/* Lemma. Of x + c0 + c1 t, where t = c + d s exactly, the numbers c1 c, c0 + c1 c, c1 d and both sums with
+ * what x has in their place are each rounded once, by u of the result. */
+IMP_QUAD_INLINE moved_lanes lanes_moved(const imp_model x[3], const imp_model *t, imp_quad from,
+                                        imp_quad speed)
+{
+    const imp_quad far = speed * imp_quad_all(t->a), way = from + far;
+    const imp_quad slope = speed * imp_quad_all(t->b[2]);
+    const imp_quad first = speed * imp_quad_all(t->lo), last = speed * imp_quad_all(t->hi);
+    moved_lanes m = {.a = LANES(x, a) + way, .slope = LANES(x, b[2]) + slope};
+    const imp_quad rounded = imp_quad_abs(far) + imp_quad_abs(way) + imp_quad_abs(slope) +
+                             imp_quad_abs(m.a) + imp_quad_abs(m.slope);
+    m.e = (LANES(x, e) + (imp_quad_all(IMP_U) * rounded + imp_quad_all(IMP_TINY))) *
+          imp_quad_all(IMP_SLACK);
+    m.lo = sum_down(LANES(x, lo) + sum_down(from + round_down(imp_quad_min(first, last))));
+    m.hi = sum_up(LANES(x, hi) + sum_up(from + round_up(imp_quad_max(first, last))));
+    m.rate = sum_up(LANES(x, rate[2]) + round_up(imp_quad_abs(speed) * imp_quad_all(t->rate[2])));
+    clip(&m, x);
+    return m;
+}
+
+IMP_QUAD_INLINE void move_steadily(const course *way, const imp_model in[4], imp_model out[3])
+{
+    const double *c = way->polynomial.coefficient;
+    const moved_lanes m =
+        lanes_moved(in, &in[3], imp_quad_of(c[0], c[2], c[4], 0), imp_quad_of(c[1], c[3], c[5], 0));
+    for (int i = 0; i < 3; ++i) {
+        if (c[2 * i + 1] == 0) {
+            out[i] = imp_shift(in[i], c[2 * i]);
+            continue;
+        }
+        out[i] = in[i];
+        out[i].a = m.a[i];
+        out[i].b[2] = m.slope[i];
+        out[i].e = m.e[i];
+        out[i].lo = m.lo[i];
+        out[i].hi = m.hi[i];
+        out[i].depends |= in[3].depends;
+        out[i].rate[2] = out[i].depends >> 2 & 1 ? m.rate[i] : 0;
+        if (!m.is_told[i]) out[i] = imp_model_collapse(out[i]);
+    }
+}
+
+IMP_QUAD_WIDE static void move_steadily_wide(const course *way, const imp_model in[4],
+                                             imp_model out[3])
+{
+    move_steadily(way, in, out);
+}
+
+/* IMP_UNBOUNDED where anything is infinite. */
+static imp_status status_of(const imp_model x[3])
+{
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+        sum += x[i].e + (x[i].hi - x[i].lo) + (x[i].rate[0] + x[i].rate[1] + x[i].rate[2]);
+    return sum < INFINITY ? IMP_OK : IMP_UNBOUNDED;
+}
+
 /* --- Any course ---------------------------------------------------------------------------------- */
 
 static void moved(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
                   imp_model out[3])
 {
-    const course *way = self;
     const imp_model at[3] = {x, y, z};
     imp_model by[3];
-    const bool steady = is_steady(way) && is_linear(&t);
-    if (!steady) course_at(way, 3, t, by);
-    for (size_t i = 0; i < 3; ++i) {
-        const double from = steady ? way->polynomial.coefficient[way->polynomial.count * i] : 0;
-        if (!steady)
-            out[i] = imp_add(at[i], by[i]);
-        else if (speed_of(way, i) == 0)
-            out[i] = imp_shift(at[i], from);
-        else
-            out[i] = steadily_moved(at[i], from, speed_of(way, i), &t);
-    }
+    course_at(self, 3, t, by);
+    for (size_t i = 0; i < 3; ++i) out[i] = imp_add(at[i], by[i]);
 }
 IMP_MAP_FORMULA(moved)
 
@@ -172,7 +256,12 @@ static imp_status translate_rate(const void *self, const imp_box4 *box, imp_map_
 static imp_status translate_apply(const void *self, const imp_model in[4], imp_model out[3])
 {
     if (!course_is_defined(self, in[3].lo, in[3].hi)) return IMP_DOMAIN;
-    return moved_apply(self, in, out);
+    if (!moves_steadily(self) || !is_linear(&in[3])) return moved_apply(self, in, out);
+    if (imp_quad_is_wide())
+        move_steadily_wide(self, in, out);
+    else
+        move_steadily(self, in, out);
+    return status_of(out);
 }
 
 /* Lemma (error). The displacement at the middle time, c0 + c1 c, and its sum with the place: 3 roundings
