@@ -150,6 +150,7 @@ static void lowest_at(const net_points *f, vec3 axis, double *y)
     const int n = f->net->degree[0], m = f->net->degree[1];
     double least = INFINITY;
     y[0] = y[1] = 0;
+    if (!(vec3_norm1(axis) > 0)) return;
     for (int k = 0, i = 0; i <= n; ++i)
         for (int j = 0; j <= m; ++j, ++k) {
             double height = 0;
@@ -163,9 +164,12 @@ static void lowest_at(const net_points *f, vec3 axis, double *y)
 }
 
 /* The first stand. */
-static void begin(marcher *m, const net *const nets[2], vec3 axis, double t, stand *s)
+static void begin(marcher *m, const node *const nodes[2], const net *const nets[2], vec3 axis,
+                  double t, stand *s)
 {
     double y[NEWTON_UNKNOWNS];
+    for (int side = 0; side < 2; ++side)
+        bounds_of(nodes[side], m->bounds.lo + 2 * side, m->bounds.hi + 2 * side);
     marcher_go(m, nets, t);
     lowest_at(&m->points[0], vec3_scale(axis, -1), y);
     lowest_at(&m->points[1], axis, y + 2);
@@ -178,9 +182,7 @@ bool net_march(const node *a, const node *b, vec3 axis, const time_window *windo
     const net *const nets[2] = {node_net_made(a), node_net_made(b)};
     marcher m;
     stand s;
-    bounds_of(a, m.bounds.lo, m.bounds.hi);
-    bounds_of(b, m.bounds.lo + 2, m.bounds.hi + 2);
-    begin(&m, nets, axis, window->lo, &s);
+    begin(&m, (const node *const[2]){a, b}, nets, axis, window->lo, &s);
     for (int k = 0; k < TUNING_MARCH_STEPS; ++k) {
         const bool is_far = s.gap > TUNING_MARCH_NEAR * gap;
         newton_way way;
@@ -200,4 +202,16 @@ bool net_march(const node *a, const node *b, vec3 axis, const time_window *windo
         stand_at(&m, y, &s);
     }
     return false;
+}
+
+void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
+                 double y[4])
+{
+    const net *const nets[2] = {node_net_made(nodes[0]), node_net_made(nodes[1])};
+    marcher m;
+    stand s;
+    newton_way way;
+    begin(&m, nodes, nets, axis, t, &s);
+    descend(&m, enough, gain, &s, &way);
+    memcpy(y, s.y, sizeof s.y);
 }

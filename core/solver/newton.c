@@ -78,7 +78,8 @@ static bool step(const newton_way *way, const double *y, double damping, double 
     memcpy(g, way->gradient, sizeof g);
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k) {
         h[k][k] += damping;
-        held[k] = !(b->lo[k] < b->hi[k]);
+        held[k] = !(b->lo[k] < b->hi[k]) || (y[k] <= b->lo[k] && g[k] > 0) ||
+                  (y[k] >= b->hi[k] && g[k] < 0);
         if (held[k]) hold(h, g, k);
     }
     for (int pass = 0; pass <= NEWTON_UNKNOWNS; ++pass) {

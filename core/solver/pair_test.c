@@ -31,6 +31,7 @@ imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes
     tree_growth growth = {0};
     imp_code code = IMP_SUCCESS;
     if (im->method == IMP_METHOD_PAPER) return IMP_SUCCESS;
+    if (node_net_is_asked(p->a) && node_net_is_asked(p->b)) return IMP_SUCCESS;
     for (int side = 0; side < 2; ++side) {
         offers[side] = surface_offers_net(nodes[side]->surface);
         useful = useful || (offers[side] && node_gains_by_net(nodes[side]));

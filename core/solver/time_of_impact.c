@@ -7,6 +7,8 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "core/solver/net_march.h"
+#include "core/solver/newton.h"
 #include "core/solver/pair_test.h"
 #include "core/solver/sight.h"
 #include "core/solver/tuning.h"
@@ -94,12 +96,35 @@ static void note_gap(impact *im, const witness *seen)
     im->least_gap = seen->gap;
 }
 
+/* What is to be told apart; by default half of gamma. */
+static double room(const impact *im) { return im->gamma - im->clearance; }
+
+/* Whether both have nets that surfaces leave by so little that what is nearest on these is within gamma where
+ * the surfaces come within the clearance. */
+static bool have_close_nets(const impact *im, const pair *p)
+{
+    return nodes_have_nets(p->a, p->b) &&
+           4 * (net_off(node_net_made(p->a)) + net_off(node_net_made(p->b))) <= room(im);
+}
+
+/* Of nodes with such nets, nearest points are sought on these, and only what is found is evaluated. */
+static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp_error *error)
+{
+    const node *const nodes[2] = {p->a, p->b};
+    const double t = p->window.lo, part = 0.25 * room(im) / im->gamma;
+    double y[NEWTON_UNKNOWNS];
+    if (!have_close_nets(im, p)) return witness_seek(nodes, t, im->gamma, seen, error);
+    net_nearest(nodes, p->axis, t, TUNING_WITNESS_NEAR * im->gamma,
+                part < TUNING_NEWTON_GAIN ? part : TUNING_NEWTON_GAIN, y);
+    return witness_at(nodes, t, y, seen, error);
+}
+
 static imp_code find_witness(impact *im, const pair *p, bool moving, witness *seen,
                              imp_error *error)
 {
     const node *const nodes[2] = {p->a, p->b};
     im->stats->witness_searches += 1;
-    const imp_code code = moving ? witness_seek(nodes, p->window.lo, im->gamma, seen, error)
+    const imp_code code = moving ? seek_witness(im, p, seen, error)
                                  : witness_at_centres(nodes, p->window.lo, seen, error);
     if (code == IMP_SUCCESS) note_gap(im, seen);
     return code;
@@ -175,9 +200,6 @@ static imp_code follow_paper(impact *im, const pair *p, impact_state *state, imp
     *state = IMPACT_RESOLUTION;
     return IMP_SUCCESS;
 }
-
-/* What is to be told apart; by default half of gamma. */
-static double room(const impact *im) { return im->gamma - im->clearance; }
 
 /* What is smaller does not matter: gamma, or less where the room is less than half of it. */
 static double scale(const impact *im)
@@ -399,8 +421,10 @@ static impact_state settle(impact *im)
 /* Ends the pair's window at the horizon. What lies behind waits on the heap, which has room. */
 static void postpone(impact *im, pair *p)
 {
+    time_window behind;
+    if (!upper_time_divide(&im->upper, &p->window, &behind)) return;
     pair later = *p;
-    if (!upper_time_divide(&im->upper, &p->window, &later.window)) return;
+    later.window = behind;
     later.serial = im->serial++;
     later.key[0] = later.window.lo;
     pair_heap_push(&im->heap, &later);

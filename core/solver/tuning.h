@@ -57,6 +57,10 @@
  * 2: -0.4, 10: +0.6; searches 2: +62, 10: -28 */
 #define TUNING_WITNESS_WAIT 5
 
+/* Points of two nets this part of gamma apart are near enough to be evaluated.
+ * Bicubic patches at gamma 1e-6, 0, 0.875: no change */
+#define TUNING_WITNESS_NEAR 0.5
+
 /* --- When to look for an upper time (upper_time.c), and how (net_march.c): pairs of the 100 bicubic scenes at
  * gamma 1e-6, of 79, and per cent of their instructions --- */
 

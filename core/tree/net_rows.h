@@ -59,8 +59,9 @@ IMP_QUAD_INLINE halved_rows rows_halved(rows x)
 
 IMP_QUAD_INLINE rows rows_of_half(const halved_rows *x, int half)
 {
-    const imp_quad *r = x->row + 3 * half;
-    return (rows){{r[0], r[1], r[2], r[3]}};
+    const imp_quad *r = x->row;
+    if (half == 0) return (rows){{r[0], r[1], r[2], r[3]}};
+    return (rows){{r[3], r[4], r[5], r[6]}};
 }
 
 #endif

@@ -34,6 +34,7 @@
 #define net_jets_at narrow_net_jets_at
 #define net_velocity_at narrow_net_velocity_at
 #define net_march narrow_net_march
+#define net_nearest narrow_net_nearest
 #define net_axis_seek narrow_net_axis_seek
 #define net_axis_cut narrow_net_axis_cut
 #define net_model_axis_seek narrow_net_model_axis_seek
@@ -63,6 +64,7 @@
 #undef net_halve
 #undef net_halves_find
 #undef net_march
+#undef net_nearest
 #undef net_axis_seek
 #undef net_axis_cut
 #undef net_model_axis_seek
@@ -78,6 +80,8 @@ int net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
                     const time_window *window, net_half found[NET_HALVES_MOST]);
 bool net_march(const node *a, const node *b, vec3 axis, const time_window *window, double gap,
                net_meeting *found);
+void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
+                 double y[4]);
 bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 bool net_axis_cut(const node *a, const node *b, vec3 axis, double clearance, time_window *window);
 bool net_model_axis_seek(const node *a, const node *b, double t, vec3 *axis);
@@ -246,6 +250,10 @@ static void check_halves_and_march(const node *a, const node *b, vec3 n, const t
                   halves[k].half == narrow[k].half);
     ck_assert(net_march(a, b, n, w, 1e-6, &met) == narrow_net_march(a, b, n, w, 1e-6, &narrow_met));
     ck_assert(same_bits(&met, &narrow_met, sizeof met / sizeof(double)));
+    const node *const nodes[2] = {a, b};
+    net_nearest(nodes, n, w->lo, 1e-6, 1e-4, met.y);
+    narrow_net_nearest(nodes, n, w->lo, 1e-6, 1e-4, narrow_met.y);
+    ck_assert(same_bits(met.y, narrow_met.y, 4));
 }
 
 START_TEST(nets_and_their_axes_are_the_same_in_wide_and_narrow_registers)

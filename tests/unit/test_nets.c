@@ -465,6 +465,56 @@ START_TEST(a_net_is_asked_for_where_it_may_say_more_than_a_model_of_the_pair)
 }
 END_TEST
 
+/* --- Nets that are rough --------------------------------------------------------------------------- */
+
+/* The quadratic of a region of the ball's that is not too large, with its remainder; halves of it have the same. */
+static imp_status rough_net(const void *self, const imp_region *region, imp_net *to)
+{
+    static const double s[3] = {-1, 0, 1},
+                        ss[3] = {1, -1, 1}; /* Bernstein coefficients of s and s^2 */
+    const ball *b = self;
+    imp_model f[3];
+    if (ball_formula_include(self, region, f) != IMP_OK) return IMP_UNBOUNDED;
+    to->degree[0] = to->degree[1] = 2;
+    for (int i = 0; i < 3; ++i) {
+        if (!(f[i].e < 0.02)) return IMP_UNBOUNDED;
+        for (int k = 0; k < 9; ++k) {
+            const int u = k / 3, v = k % 3;
+            to->point[i][k] = f[i].a + f[i].b[0] * s[u] + f[i].b[1] * s[v] +
+                              f[i].q[IMP_UU] * ss[u] + f[i].q[IMP_UV] * s[u] * s[v] +
+                              f[i].q[IMP_VV] * ss[v];
+        }
+        to->drift[i] = b->velocity[i];
+        to->error[i] = f[i].e + 1e-12;
+    }
+    return IMP_OK;
+}
+
+static double contact_of_balls(const imp_surface_type *type)
+{
+    static const ball a = {.radius = 1},
+                      b = {.radius = 1, .centre = {3, 0.3, 0.2}, .velocity = {-2, 0, 0}};
+    imp_scene *scene = spheres_scene(type, &a, type, &b);
+    imp_options options = imp_options_default(scene);
+    options.gamma = 1e-6;
+    options.max_pairs = 100000;
+    imp_query *query = imp_query_new(scene, &options, NULL);
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    const imp_result r = imp_query_result(query);
+    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    imp_query_free(query);
+    imp_scene_free(scene);
+    return r.t;
+}
+
+START_TEST(a_contact_is_found_where_nets_leave_their_surfaces_by_more_than_gamma)
+{
+    imp_surface_type rough = ball_type;
+    rough.net = rough_net;
+    ck_assert_double_eq_tol(contact_of_balls(&rough), contact_of_balls(&ball_type), 1e-6);
+}
+END_TEST
+
 SUITE_MAIN("nets", a_net_is_asked_for_where_it_may_say_more_than_a_model_of_the_pair,
            halves_of_nets_follow_the_patch_within_their_errors,
            only_a_cut_in_the_exact_middle_halves_a_net, numbers_too_large_or_small_make_no_net,
@@ -474,4 +524,5 @@ SUITE_MAIN("nets", a_net_is_asked_for_where_it_may_say_more_than_a_model_of_the_
            nothing_of_a_half_that_an_axis_excludes_is_near,
            a_half_is_excluded_where_it_is_out_of_reach_all_the_time,
            two_nets_followed_in_time_are_as_near_as_asked_for,
-           the_axis_found_shows_most_of_what_any_axis_shows)
+           the_axis_found_shows_most_of_what_any_axis_shows,
+           a_contact_is_found_where_nets_leave_their_surfaces_by_more_than_gamma)
