@@ -156,6 +156,14 @@ static bool is_one_half_enough(const time_window *window, double at)
     return !half_is_needed(window, at, 0) || !half_is_needed(window, at, 1);
 }
 
+bool cut_is_free(const cut *c, const pair *p, int *half)
+{
+    if (c->side < 0 || c->along != PARAMETER_T) return false;
+    const double at = side_of(p, c->side)->region.c[PARAMETER_T];
+    *half = half_is_needed(&p->window, at, 1);
+    return is_one_half_enough(&p->window, at);
+}
+
 /* Whether time blurs the node enough to count beside the scale, and beside what u and v blur of
  * both. */
 static bool time_blurs(const pair *p, const node *n, double scale)

@@ -90,6 +90,9 @@ cut cut_in_time(const pair *p);
 imp_code pair_take_halves(pair *p, const net_half *halves, int count, const candidate_pair *both,
                           imp_stats *stats, imp_error *error);
 
+/* Whether the cut is one in time of which one half holds the whole window; *half tells which. */
+bool cut_is_free(const cut *c, const pair *p, int *half);
+
 /* Puts the half of the node that is cut in its place: below the cut (0) or above (1), with the part of
  * the window that lies in its times. *some false: no moment of the window is in that half, or none
  * that the other has not. What is made is added to `stats`. */

@@ -247,6 +247,23 @@ static cut choose_cut(const impact *im, const pair *p, const sight *seen)
     return bend.side >= 0 ? bend : cut_by_spread(p, scale(im));
 }
 
+/* Chooses, and takes at once, without another test, each cut in time of which one half holds the whole window:
+ * tests wait for a cut that parts something. */
+static imp_code choose_cut_after_free(impact *im, pair *p, const sight *seen, cut *c,
+                                      imp_error *error)
+{
+    imp_code code = IMP_SUCCESS;
+    int half;
+    *c = choose_cut(im, p, seen);
+    while (code == IMP_SUCCESS && cut_is_free(c, p, &half)) {
+        bool some;
+        code = cut_take(c, half, candidate_pair_of(im, p), p, &some, im->stats, error);
+        if (code == IMP_SUCCESS) code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
+        if (code == IMP_SUCCESS) *c = choose_cut(im, p, seen);
+    }
+    return code;
+}
+
 /* Whether no fixed axis parts the nodes from the start of their times on, as where surfaces slide along each
  * other, or their parents slid. Of surfaces that come to each other axes cut the start of the window first. */
 static bool may_slide(const pair *p)
@@ -279,11 +296,15 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
     p->slides = p->slides || from_each.side >= 0;
     p->window = from_each.left; /* not before: other pairs may start sooner */
     bool some;
-    const imp_code code = leave_out_halves(im, p, &some, error);
-    if (code == IMP_ERROR_PLUGIN || (code == IMP_SUCCESS && !some)) return code;
+    cut c;
+    imp_code code = leave_out_halves(im, p, &some, error);
+    if (code == IMP_SUCCESS && !some) return IMP_SUCCESS;
+    if (code == IMP_SUCCESS && TUNING_TINY * pair_extent(p) <= room(im))
+        c = cut_in_time(p);
+    else if (code == IMP_SUCCESS)
+        code = choose_cut_after_free(im, p, &from_each, &c, error);
+    if (code == IMP_ERROR_PLUGIN) return code;
     if (code != IMP_SUCCESS) return *state = IMPACT_NO_MEMORY, IMP_SUCCESS;
-    const bool tiny = TUNING_TINY * pair_extent(p) <= room(im);
-    const cut c = tiny ? cut_in_time(p) : choose_cut(im, p, &from_each);
     if (c.side >= 0) return split(im, p, c, state, error);
     *state = IMPACT_RESOLUTION;
     return IMP_SUCCESS;
