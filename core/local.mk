@@ -87,6 +87,7 @@ core_solver = \
     core/solver/axes.c core/solver/axes.h \
     core/solver/broad_phase.c core/solver/broad_phase.h \
     core/solver/candidates.c core/solver/candidates.h \
+    core/solver/chances.h \
     core/solver/clearance.c core/solver/clearance.h \
     core/solver/clearance_parts.c core/solver/clearance_parts.h \
     core/solver/collect_pairs.c core/solver/collect_roots.c core/solver/collect_surfaces.c \

@@ -10,13 +10,18 @@
 #include "core/solver/parallel.h"
 #include "core/solver/tuning.h"
 
+static bool test_by_paper(const impact *im, const pair *p)
+{
+    return im->bounds == IMP_BOUNDS_BOX ? !separation_of_boxes(p->a, p->b, im->clearance)
+                                        : !separation_of_balls(p->a, p->b, im->clearance);
+}
+
 bool pair_test_fully(const impact *im, pair *p)
 {
-    if (im->method == IMP_METHOD_PAPER)
-        return im->bounds == IMP_BOUNDS_BOX ? !separation_of_boxes(p->a, p->b, im->clearance)
-                                            : !separation_of_balls(p->a, p->b, im->clearance);
+    if (im->method == IMP_METHOD_PAPER) return test_by_paper(im, p);
     p->is_seen_only = false;
-    return separation_by_models(p->a, p->b, im->clearance, &p->window, &p->axis);
+    return separation_by_models(p->a, p->b, im->clearance, &p->window, &p->axis,
+                                impact_turning(im, p));
 }
 
 /* --- The first test --------------------------------------------------------------------------- */
@@ -61,20 +66,20 @@ static bool waits_for_nets(const impact *im, const pair *p)
     return blurs;
 }
 
-imp_code pair_test_first(const impact *im, pair_test *t, imp_error *error)
+imp_code pair_test_first(const impact *im, pair_test *t, chances *turning, imp_error *error)
 {
     pair *p = &t->p;
     if (waits_for_nets(im, p)) {
         p->is_seen_only = p->lacks_nets = true;
-        t->near = separation_without_nets(p->a, p->b, im->clearance, &p->window, &p->axis);
+        t->near = separation_without_nets(p->a, p->b, im->clearance, &p->window, &p->axis, turning);
         return IMP_SUCCESS;
     }
     const imp_code code = pair_test_ask_for_nets(im, &t->p, &t->bytes, error);
     if (code != IMP_SUCCESS) return code;
     t->near = im->method == IMP_METHOD_PAPER
-                  ? pair_test_fully(im, &t->p)
+                  ? test_by_paper(im, &t->p)
                   : separation_first_look(t->p.a, t->p.b, im->clearance, &t->p.window, &t->p.axis,
-                                          &t->p.is_seen_only);
+                                          turning, &t->p.is_seen_only);
     return IMP_SUCCESS;
 }
 
@@ -101,7 +106,7 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
     t->p.window = window_common(im->window, pair_times(t->p.a, t->p.b));
     t->any_time = t->p.window.lo <= t->p.window.hi;
     if (!t->any_time) return IMP_SUCCESS;
-    if (!is_of_many(im, index)) return pair_test_first(im, t, error);
+    if (!is_of_many(im, index)) return pair_test_first(im, t, NULL, error);
     t->near = separation_at_a_glance(t->p.a, t->p.b, im->clearance, &t->p.window);
     t->p.is_seen_only = t->p.lacks_nets = true;
     return IMP_SUCCESS;

@@ -73,9 +73,23 @@ static bool cut_between_curves(const node *a, const node *b, double clearance, t
     return true;
 }
 
+/* Cuts by an axis that turns. It shows more only where one surface lies in the other's concave side, or nearly;
+ * there fixed axes seldom cut the start of a window. */
+static bool cut_by_turning(const relative *r, double clearance, w_range *s, chances *turning,
+                           gap_lines *lines)
+{
+    const w_range before = *s;
+    const bool is_chance = s->lo > -1;
+    if (is_chance && !chances_take(turning, TUNING_FIELD_SHARE, TUNING_FIELD_WAIT)) return true;
+    const bool some = normal_field_cut(r, clearance, s, lines);
+    const bool pays = !some || s->lo > before.lo || s->hi < before.hi;
+    if (is_chance) chances_note(turning, pays);
+    return some;
+}
+
 /* `near` is NULL where only the window matters. */
 static bool shrink(const node *a, const node *b, double clearance, time_window *window, vec3 *axis,
-                   approach *near)
+                   chances *turning, approach *near)
 {
     if (near == NULL && !cut_between_curves(a, b, clearance, window)) return false;
     for (int round = 1;; ++round) {
@@ -90,7 +104,7 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
         }
         gap_lines *const kept = near != NULL ? &lines : NULL;
         if (!axes_cut(&r, clearance, &s, axis, kept)) return false;
-        if (!normal_field_cut(&r, clearance, &s, kept)) return false;
+        if (!cut_by_turning(&r, clearance, &s, turning, kept)) return false;
         window_cut(window, r.mid, r.half, &s);
         if (near != NULL) approach_take(near, &r, &lines, s);
         if (!(s.hi - s.lo < 2)) return true;
@@ -136,7 +150,7 @@ static bool cut_by_nets(const node *a, const node *b, vec3 axis, double clearanc
 /* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls show,
  * or any that can be found where the hulls meet. */
 static bool cut_by_models(const node *a, const node *b, double clearance, time_window *window,
-                          vec3 *axis, bool found)
+                          vec3 *axis, chances *turning, bool found)
 {
     relative r;
     w_range s = {-1, 1};
@@ -144,7 +158,7 @@ static bool cut_by_models(const node *a, const node *b, double clearance, time_w
     if (found ? !axes_cut_along(&r, clearance, &s, *axis)
               : !axes_cut(&r, clearance, &s, axis, NULL))
         return false;
-    if (!normal_field_cut(&r, clearance, &s, NULL)) return false;
+    if (!cut_by_turning(&r, clearance, &s, turning, NULL)) return false;
     window_cut(window, r.mid, r.half, &s);
     return true;
 }
@@ -169,7 +183,7 @@ static bool are_models_closer(const node *a, const node *b)
 /* Hulls at the start of the window again and again, as long as that pays; then the quadratics: of flat nodes
  * of which one has no net as ever, of others once, and where they may show more. */
 static bool shrink_by_nets(const node *a, const node *b, double clearance, time_window *window,
-                           vec3 *axis)
+                           vec3 *axis, chances *turning)
 {
     bool found = true, pays = true;
     const bool flat = nodes_have_flat_nets(a, b);
@@ -182,31 +196,34 @@ static bool shrink_by_nets(const node *a, const node *b, double clearance, time_
         if (found && !cut_by_nets(a, b, *axis, clearance, window)) return false;
         pays = window->hi - window->lo < shrinks * length;
     }
-    if (!have_both_nets(a, b) && are_flat(a, b)) return shrink(a, b, clearance, window, axis, NULL);
+    if (!have_both_nets(a, b) && are_flat(a, b))
+        return shrink(a, b, clearance, window, axis, turning, NULL);
     return (found && !are_models_closer(a, b)) ||
-           cut_by_models(a, b, clearance, window, axis, found);
+           cut_by_models(a, b, clearance, window, axis, turning, found);
 }
 
 bool separation_without_nets(const node *a, const node *b, double clearance, time_window *window,
-                             vec3 *axis)
+                             vec3 *axis, chances *turning)
 {
     if (!a->bounded || !b->bounded) return true;
-    return !separation_of_boxes(a, b, clearance) && shrink(a, b, clearance, window, axis, NULL);
+    return !separation_of_boxes(a, b, clearance) &&
+           shrink(a, b, clearance, window, axis, turning, NULL);
 }
 
 bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
-                          vec3 *axis)
+                          vec3 *axis, chances *turning)
 {
-    if (!have_nets(a, b)) return separation_without_nets(a, b, clearance, window, axis);
-    return !separation_of_boxes(a, b, clearance) && shrink_by_nets(a, b, clearance, window, axis);
+    if (!have_nets(a, b)) return separation_without_nets(a, b, clearance, window, axis, turning);
+    return !separation_of_boxes(a, b, clearance) &&
+           shrink_by_nets(a, b, clearance, window, axis, turning);
 }
 
 bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,
-                           vec3 *axis, bool *more)
+                           vec3 *axis, chances *turning, bool *more)
 {
     *more = have_nets(a, b) && vec3_norm1(*axis) > 0;
     return *more ? cut_by_nets(a, b, *axis, clearance, window)
-                 : separation_by_models(a, b, clearance, window, axis);
+                 : separation_by_models(a, b, clearance, window, axis, turning);
 }
 
 bool separation_approach(const node *a, const node *b, double clearance, time_window *window,
@@ -216,7 +233,7 @@ bool separation_approach(const node *a, const node *b, double clearance, time_wi
     if (!a->bounded || !b->bounded) return true;
     near->lower = separation_boxes_lower(a, b);
     if (near->lower > clearance) return false;
-    return shrink(a, b, clearance, window, axis, near) && !(near->lower > clearance);
+    return shrink(a, b, clearance, window, axis, NULL, near) && !(near->lower > clearance);
 }
 
 /* Boxes and balls. Roundings: difference 1, square 1, sums 2, root, which halves them and counts 1:

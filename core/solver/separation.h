@@ -3,6 +3,7 @@
 #ifndef CORE_SOLVER_SEPARATION_H
 #define CORE_SOLVER_SEPARATION_H
 
+#include "core/solver/chances.h"
 #include "core/solver/relative.h"
 
 /* When can two nodes be near?
@@ -12,18 +13,19 @@
  * included. A NaN or an infinity anywhere leaves the window as it is. */
 
 /* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. `axis` is as for
- * axes_cut. */
+ * axes_cut. `turning`: of an axis that turns (normal_field.h) where fixed ones cut the start of the
+ * window; of its candidate pair, or NULL: each is taken. */
 bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
-                          vec3 *axis);
+                          vec3 *axis, chances *turning);
 
 /* The same by the quadratics alone. */
 bool separation_without_nets(const node *a, const node *b, double clearance, time_window *window,
-                             vec3 *axis);
+                             vec3 *axis, chances *turning);
 
 /* The same as the first, but where both nodes have control nets and the axis is not 0, only along that axis, and only by
  * the nets: `more` says that separation_by_models may leave less. */
 bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,
-                           vec3 *axis, bool *more);
+                           vec3 *axis, chances *turning, bool *more);
 
 /* How near two nodes come. */
 typedef struct approach {

@@ -38,7 +38,7 @@ static void push_tested(impact *im, const pair_test *t)
 static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
 {
     pair_test t = {.p = *p};
-    const imp_code code = pair_test_first(im, &t, error);
+    const imp_code code = pair_test_first(im, &t, impact_turning(im, p), error);
     if (code == IMP_SUCCESS) push_tested(im, &t);
     return code;
 }
@@ -265,24 +265,35 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const sight *seen, cu
 }
 
 /* Whether no fixed axis parts the nodes from the start of their times on, as where surfaces slide along each
- * other, or their parents slid. Of surfaces that come to each other axes cut the start of the window first. */
-static bool may_slide(const pair *p)
+ * other, or their parents slid; where an axis does part them, as often as it pays. Of surfaces that come to
+ * each other axes cut the start of the window first. */
+static bool may_slide(const pair *p, bool is_parted, chances *sliding)
 {
-    return p->slides || (!(vec3_norm1(p->axis) > 0) && !(p->window.lo > pair_times(p->a, p->b).lo));
+    if (!is_parted) return p->slides || !(p->window.lo > pair_times(p->a, p->b).lo);
+    return p->slides && chances_take(sliding, TUNING_DISTANCE_SHARE, TUNING_DISTANCE_WAIT);
+}
+
+/* What the nodes' distances from each other's whole surfaces show, where that has a chance. */
+static imp_code look(const impact *im, const pair *p, sight *seen, imp_error *error)
+{
+    const bool is_parted = vec3_norm1(p->axis) > 0;
+    chances *sliding = im->chances != NULL ? &im->chances[p->candidate_pair].sliding : NULL;
+    *seen = sight_none(p);
+    if (!may_slide(p, is_parted, sliding)) return IMP_SUCCESS;
+    const imp_code code = sight_take(p, candidate_pair_of(im, p), im->clearance, seen, error);
+    if (is_parted) chances_note(sliding, seen->is_apart || seen->side >= 0);
+    return code;
 }
 
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
     if (pair_has_cluster(p)) return split(im, p, cut_by_spread(p, im->gamma), state, error);
-    sight from_each = sight_none(p);
-    if (may_slide(p)) {
-        const imp_code code =
-            sight_take(p, candidate_pair_of(im, p), im->clearance, &from_each, error);
-        if (code != IMP_SUCCESS || from_each.is_apart) return code;
-    }
+    sight from_each;
+    imp_code code = look(im, p, &from_each, error);
+    if (code != IMP_SUCCESS || from_each.is_apart) return code;
     if (witness_is_likely(im, p, &from_each)) {
         witness seen;
-        const imp_code code = find_witness(im, p, true, &seen, error);
+        code = find_witness(im, p, true, &seen, error);
         if (code != IMP_SUCCESS) return code;
         if (seen.gap_upper <= im->gamma)
             *state = contact(im, &seen);
@@ -297,7 +308,7 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
     p->window = from_each.left; /* not before: other pairs may start sooner */
     bool some;
     cut c;
-    imp_code code = leave_out_halves(im, p, &some, error);
+    code = leave_out_halves(im, p, &some, error);
     if (code == IMP_SUCCESS && !some) return IMP_SUCCESS;
     if (code == IMP_SUCCESS && TUNING_TINY * pair_extent(p) <= room(im))
         c = cut_in_time(p);
@@ -464,6 +475,16 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 
 /* --- One step --------------------------------------------------------------------------------- */
 
+/* False: no memory. */
+static bool reserve_chances(impact *im)
+{
+    const size_t count = im->method == IMP_METHOD_MODELS ? im->candidate_pair_count : 0;
+    if (im->chances != NULL || count == 0) return true;
+    im->chances = calloc(count, sizeof *im->chances);
+    if (im->chances != NULL) im->stats->bytes += count * sizeof *im->chances;
+    return im->chances != NULL;
+}
+
 /* Of the heap: for the pair popped, twice for what is postponed of it, and one more half. */
 enum { ROOM_OF_STEP = 3 };
 
@@ -477,7 +498,7 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     *state = is_settled(im) ? settle(im) : IMPACT_CLEAR;
     if (*state == IMPACT_CONTACT || im->heap.count == 0) return IMP_SUCCESS;
     *state = IMPACT_NO_MEMORY;
-    if (!pair_heap_reserve(&im->heap, ROOM_OF_STEP))
+    if (!pair_heap_reserve(&im->heap, ROOM_OF_STEP) || !reserve_chances(im))
         return IMP_SUCCESS; /* and the place of the one popped */
     *state = IMPACT_RUNNING;
     pair p = pair_heap_pop(&im->heap);
@@ -501,8 +522,10 @@ void impact_clear(impact *im)
     pair_heap_clear(&im->heap);
     free(im->roots);
     free(im->passed);
+    free(im->chances);
     free(im->ahead.tests);
     im->roots = NULL;
     im->passed = NULL;
+    im->chances = NULL;
     im->ahead = (tests_ahead){.tests = NULL};
 }

@@ -39,6 +39,12 @@ typedef struct tests_ahead {
     uint32_t first, count;
 } tests_ahead;
 
+/* Of one candidate pair: */
+typedef struct pair_chances {
+    chances turning; /* of an axis that turns, in tests but the roots' (separation.h) */
+    chances sliding; /* of distances where an axis parts nodes whose parents slid (sight.h) */
+} pair_chances;
+
 typedef struct impact {
     double gamma, clearance;
     time_window window; /* what is before or after does not count */
@@ -49,6 +55,7 @@ typedef struct impact {
     imp_stats *stats;                      /* the caller's; bytes: of the trees, without the heap */
     pair_heap heap;
     upper_time upper;         /* with method models */
+    pair_chances *chances;    /* of each candidate pair, from the first step on; NULL: each is taken */
     tests_ahead ahead;        /* made by threads that look ahead (pair_test.h) */
     uint64_t serial, refined; /* of the next pair; of the first after impact_refine */
     double t_lower;
@@ -60,6 +67,12 @@ typedef struct impact {
     witness found;    /* IMPACT_CONTACT: the witness, */
     uint32_t found_candidate; /* whose pair was followed last: with IMPACT_CONTACT, the witness's */
 } impact; /* the caller sets gamma ... stats and t_lower, the rest is 0; impact_clear frees */
+
+/* NULL: each is taken. */
+static inline chances *impact_turning(const impact *im, const pair *p)
+{
+    return im->chances != NULL ? &im->chances[p->candidate_pair].turning : NULL;
+}
 
 /* Tests the roots of candidate pair `index` and keeps the pair if they may be near. */
 imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, imp_error *error);

@@ -207,7 +207,7 @@ START_TEST(a_meeting_of_turning_nodes_is_never_cut_away)
         bring_together(&state, &m, 1 - 1e-9);
         time_window left = m.window;
         vec3 axis = m.along;
-        const bool some = separation_by_models(&m.a.n, &m.b.n, m.clearance, &left, &axis);
+        const bool some = separation_by_models(&m.a.n, &m.b.n, m.clearance, &left, &axis, NULL);
         check_window_left(&m.window, m.t, some, &left, k);
     }
 }
@@ -253,7 +253,7 @@ static bool is_parted(const node *a, const node *b, const meeting *m)
 {
     time_window left = m->window;
     vec3 axis = m->along;
-    return !separation_by_models(a, b, m->clearance, &left, &axis);
+    return !separation_by_models(a, b, m->clearance, &left, &axis, NULL);
 }
 
 /* Of those that a box hardly parts. */

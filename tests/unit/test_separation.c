@@ -233,7 +233,7 @@ START_TEST(the_moment_of_a_meeting_is_never_cut_away)
         ++near;
         time_window left = m.window;
         vec3 axis = random_axis(&state);
-        const bool some = separation_by_models(&m.a, &m.b, m.clearance, &left, &axis);
+        const bool some = separation_by_models(&m.a, &m.b, m.clearance, &left, &axis, NULL);
         check_window_left(&m.window, m.t, some, &left, k);
     }
     ck_assert_int_gt(near, suite_times(150000) / 2);
@@ -577,7 +577,7 @@ START_TEST(edges_that_slide_past_each_other_are_parted_at_once)
     for (int k = 5; k < 26; ++k) {
         meeting m = two_edges(ldexp(1, -k));
         vec3 axis = {{0, 0, 0}};
-        ck_assert_msg(!separation_by_models(&m.a, &m.b, ldexp(0.25, -k), &m.window, &axis),
+        ck_assert_msg(!separation_by_models(&m.a, &m.b, ldexp(0.25, -k), &m.window, &axis, NULL),
                       "2^-%d apart: [%g, %g] is left", k, m.window.lo, m.window.hi);
     }
 }
@@ -614,7 +614,7 @@ START_TEST(caps_that_touch_with_their_tops_are_not_parted_at_any_size)
         enlarge(&m.a, k);
         enlarge(&m.b, k);
         vec3 axis = {{0, 0, 0}};
-        const bool some = separation_by_models(&m.a, &m.b, ldexp(1e-6, k), &m.window, &axis);
+        const bool some = separation_by_models(&m.a, &m.b, ldexp(1e-6, k), &m.window, &axis, NULL);
         ck_assert_msg(some && m.window.lo == 0 && m.window.hi == 1, "enlarged by 2^%d", k);
     }
 }
@@ -625,7 +625,7 @@ START_TEST(a_window_shrinks_to_the_moment_of_contact)
     meeting m = two_caps(1e-9, -1, 1);
     for (int i = 0; i < 3; ++i) m.b.f.bt[i] = -2 * m.b.f.a[i], m.b.motion[i] = 4;
     vec3 axis = {{0, 0, 0}};
-    ck_assert(separation_by_models(&m.a, &m.b, 1e-3, &m.window, &axis));
+    ck_assert(separation_by_models(&m.a, &m.b, 1e-3, &m.window, &axis, NULL));
     /* the gap is 1 - 2 (2 t - 1) = 3 - 4 t: 1e-3 at t = 0.74975 and at 0.75025 */
     ck_assert_double_le(fabs(m.window.lo - 0.74975), 1e-8);
     ck_assert_double_le(fabs(m.window.hi - 0.75025), 1e-8);
@@ -683,12 +683,27 @@ START_TEST(boxes_and_balls_are_apart_only_beyond_the_clearance)
 }
 END_TEST
 
+START_TEST(chances_are_taken_while_they_pay_and_now_and_then_else)
+{
+    enum { WAIT = 7, TRIES = 8000 };
+    chances c = {0};
+    int taken = 0;
+    for (int k = 0; k < TRIES; ++k) taken += chances_take(&c, 4, WAIT);
+    ck_assert_int_eq(taken, TRIES / (WAIT + 1));
+    for (int k = 0; k < CHANCES_KEPT * WAIT; ++k) chances_note(&c, chances_take(&c, 4, WAIT));
+    for (int k = 0; k < TRIES; ++k) {
+        ck_assert(chances_take(&c, 4, WAIT));
+        chances_note(&c, k % 3 == 0);
+    }
+}
+END_TEST
+
 START_TEST(nodes_without_bounds_keep_their_window)
 {
     meeting m = two_caps(0.1, 1.1, 50);
     m.b.bounded = false;
     vec3 axis = {{0, 0, 0}};
-    ck_assert(separation_by_models(&m.a, &m.b, 1e-6, &m.window, &axis));
+    ck_assert(separation_by_models(&m.a, &m.b, 1e-6, &m.window, &axis, NULL));
     ck_assert(m.window.lo == 0 && m.window.hi == 1);
 }
 END_TEST
@@ -707,4 +722,5 @@ SUITE_MAIN("separation", the_moment_of_a_meeting_is_never_cut_away,
            caps_that_touch_with_their_tops_are_not_parted_at_any_size,
            a_window_shrinks_to_the_moment_of_contact, infinities_and_nans_never_part_anything,
            boxes_and_balls_are_apart_only_beyond_the_clearance,
+           chances_are_taken_while_they_pay_and_now_and_then_else,
            nodes_without_bounds_keep_their_window)
