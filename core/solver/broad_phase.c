@@ -105,7 +105,6 @@ enum { FEW = 6 }; /* boxes that are not worth sorting */
 static bool visit_few(const swept_box *boxes, size_t count, double clearance,
                       const broad_phase_visitor *visitor)
 {
-    if (!visitor->next_box(visitor->context)) return false;
     for (size_t k = 0; k < count; ++k)
         for (size_t l = k + 1; l < count; ++l)
             if (boxes[k].group != boxes[l].group && !boxes_apart(&boxes[k], &boxes[l], clearance) &&

@@ -20,7 +20,7 @@ typedef struct swept_box {
 
 typedef struct broad_phase_visitor {
     bool (*next_box)(
-        void *context); /* before the pairs of each box, or of a few: whether to go on */
+        void *context); /* before the pairs of each box, unless they are few: whether to go on */
     bool (*visit)(void *context, size_t first, size_t second); /* whether to go on */
     void *context;
 } broad_phase_visitor;

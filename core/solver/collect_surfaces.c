@@ -95,6 +95,17 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
     return IMP_SUCCESS;
 }
 
+/* Whether a limit ends it before this surface: asked for before the first, where one is near, and once a few
+ * surfaces, or a large one, were made. */
+static bool must_end_here(collection *all)
+{
+    const uint64_t made = all->stats->bytes - all->bytes_asked;
+    const bool many = all->list->count % SURFACES_AN_ASK == 0 || made >= BYTES_AN_ASK;
+    if (!many && !collection_may_end(all, 0)) return false;
+    all->bytes_asked = all->stats->bytes;
+    return collection_must_end(all);
+}
+
 imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error)
 {
     *done = false;
@@ -102,7 +113,7 @@ imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error)
     for (size_t b = 0; b < bodies; ++b) {
         const size_t count = scene_surface_count(all->scene, b);
         for (size_t k = 0; k < count; ++k) {
-            if (collection_must_end(all)) return IMP_SUCCESS;
+            if (must_end_here(all)) return IMP_SUCCESS;
             const imp_code code = collect_surface(all, b, k, error);
             if (code != IMP_SUCCESS) return code;
         }

@@ -38,6 +38,9 @@ enum {
     SURFACES_A_ROUND = SURFACES_A_TASK * TASKS_A_ROUND
 };
 
+/* Limits that are not near are asked for whenever so many surfaces, or so much memory, were made. */
+enum { SURFACES_AN_ASK = 8, BYTES_AN_ASK = 1 << 15 };
+
 /* Roots of more surfaces are made only once they are in a pair, though what they are made from is then computed
  * again: most surfaces of large scenes are in none. */
 enum { ROOTS_AT_ONCE = 512 };
@@ -50,6 +53,7 @@ typedef struct collection {
     double clearance;
     swept_box *boxes;
     candidate_list *list;
+    uint64_t bytes_asked; /* of stats->bytes, when limits were last asked for */
     bool out_of_memory;
     bool with_roots;   /* all trees are made with them */
     root_ahead *roots; /* those that are missing */
