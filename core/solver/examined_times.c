@@ -48,6 +48,7 @@ static imp_code examine_surfaces(examination *x, const surface *a, const surface
     if (both.lo > both.hi) return IMP_SUCCESS;
     if (both.lo < x->found->lo) x->found->lo = both.lo;
     if (both.hi > x->found->hi) x->found->hi = both.hi;
+    if (x->all_defined) return IMP_SUCCESS;
     const imp_code code = check_defined(a, both, x->error);
     return code == IMP_SUCCESS ? check_defined(b, both, x->error) : code;
 }

@@ -115,7 +115,8 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
 imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error *error)
 {
     const bool is_ahead = index - im->ahead.first < im->ahead.count;
-    *t = is_ahead ? im->ahead.tests[index - im->ahead.first] : (pair_test){.done = false};
+    if (!is_ahead) return test_roots(im, index, t, error);
+    *t = im->ahead.tests[index - im->ahead.first];
     return t->done ? IMP_SUCCESS : test_roots(im, index, t, error);
 }
 
