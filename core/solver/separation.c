@@ -57,12 +57,21 @@ static bool cut_at_end(const node *a, const node *b, double clearance, time_wind
     return true;
 }
 
-/* Of two curves, along axes that need no search: the ways across both, and the lines of centres, at either end
- * of the window; again if that pays. */
-static bool cut_between_curves(const node *a, const node *b, double clearance, time_window *window)
+static bool has_normal(const node *n) { return vec3_norm1(n->normal) > 0; }
+
+/* A point, or a curve that is nearly straight. */
+static bool is_thin(const node *n)
 {
-    bool pays = !(vec3_norm1(a->normal) + vec3_norm1(b->normal) > 0);
-    for (int round = 0; round < TUNING_CURVE_ROUNDS && pays; ++round) {
+    return !has_normal(n) && n->many == NULL && !node_blurs(n, TUNING_STRAIGHT_BLUR);
+}
+
+/* Of two nodes without normals, along axes that need no search: the ways across both, and the lines of centres,
+ * at either end of the window; again if that pays. */
+static bool cut_across(const node *a, const node *b, double clearance, time_window *window,
+                       int rounds)
+{
+    bool pays = true;
+    for (int round = 0; round < rounds && pays; ++round) {
         relative r;
         w_range s = {-1, 1};
         relative_at(a, b, window, &r);
@@ -91,7 +100,10 @@ static bool cut_by_turning(const relative *r, double clearance, w_range *s, chan
 static bool shrink(const node *a, const node *b, double clearance, time_window *window, vec3 *axis,
                    chances *turning, approach *near)
 {
-    if (near == NULL && !cut_between_curves(a, b, clearance, window)) return false;
+    const bool across = near == NULL && !has_normal(a) && !has_normal(b);
+    const bool thin = across && is_thin(a) && is_thin(b);
+    const int rounds = thin ? TUNING_THIN_ROUNDS : TUNING_CURVE_ROUNDS;
+    if (across && !cut_across(a, b, clearance, window, rounds)) return false;
     for (int round = 1;; ++round) {
         relative r;
         gap_lines lines;
@@ -107,7 +119,7 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
         if (!cut_by_turning(&r, clearance, &s, turning, kept)) return false;
         window_cut(window, r.mid, r.half, &s);
         if (near != NULL) approach_take(near, &r, &lines, s);
-        if (!(s.hi - s.lo < 2)) return true;
+        if (!(s.hi - s.lo < 2) || thin) return true;
         const bool flat = are_flat(a, b);
         if (flat && near == NULL && s.lo > -1 && !cut_at_end(a, b, clearance, window)) return false;
         if (round == (flat ? TUNING_FLAT_ROUNDS : TUNING_WINDOW_ROUNDS)) return true;

@@ -114,9 +114,11 @@
 /* Centres at most, of flat nodes.
  * 3, 8: 0.0 */
 #define TUNING_FLAT_ROUNDS 4
-/* Of curves, along axes that need no search, before; again if the range of w shrank below this.
- * Edges, instructions of a query: rounds 0: +4 %, 1: +1.5, 3: +1.5 */
+/* Of nodes without normals, along axes that need no search, before one with a search; again if the range of w
+ * shrank below this. Points and straight curves: then one search. Edges, instructions of a query: rounds 4: +2.5 %,
+ * 5: +2, 8: 0.0; 2, and then as many searches as of other flat nodes: +4.5 */
 #define TUNING_CURVE_ROUNDS 2
+#define TUNING_THIN_ROUNDS 6
 #define TUNING_CURVE_SHRINKS 1.6
 /* Part of the window that hulls of nets have to leave at most, to be sought again at its new start. Pairs
  * of bicubic patches at gamma 1e-6: 0.25: +0.4, 0.75: -0.2 of 81.5, and 1 % more instructions */
