@@ -199,10 +199,13 @@ static imp_code derive(const search *g, const state *s, double gradient[NEWTON_U
 /* --- Steps -------------------------------------------------------------------------------- */
 
 /* Goes downhill from *s until it no longer pays: a step promises nothing that rounding would not hide, the gap
- * shrinks by less than TUNING_NEWTON_GAIN of it, or it is far from gamma and shrinks by less than half. */
+ * shrinks by less than TUNING_NEWTON_GAIN of it, or it is far from gamma and shrinks by less than half. Not the
+ * last where hulls are the surfaces: windows then start with a contact, however far the way to it. */
 static imp_code descend(const search *g, double gamma, state *s, imp_error *error)
 {
     newton_way way = newton_begin(&g->y);
+    const double far =
+        nodes_have_flat_nets(g->nodes[0], g->nodes[1]) ? INFINITY : TUNING_NEWTON_FAR * gamma;
     while (way.steps < TUNING_NEWTON_STEPS && s->gap > 0) {
         imp_code code = derive(g, s, way.gradient, way.hessian, error);
         if (code != IMP_SUCCESS) return code;
@@ -217,8 +220,8 @@ static imp_code descend(const search *g, double gamma, state *s, imp_error *erro
             is_better = trial.gap < s->gap;
         }
         const double gain = s->gap - trial.gap;
-        const bool stale = gain < TUNING_NEWTON_GAIN * s->gap ||
-                           (trial.gap > TUNING_NEWTON_FAR * gamma && gain < 0.5 * s->gap);
+        const bool stale =
+            gain < TUNING_NEWTON_GAIN * s->gap || (trial.gap > far && gain < 0.5 * s->gap);
         *s = trial;
         if (stale) return IMP_SUCCESS;
     }
