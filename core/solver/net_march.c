@@ -4,6 +4,7 @@
 
 #include "core/solver/net_march.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "core/solver/net_jet.h"
@@ -115,15 +116,15 @@ static void foresee(const stand *s, newton_way *way, vec3 velocity, double wait,
 
 /* --- In time -------------------------------------------------------------------------------------------- */
 
-/* How far the surface goes on around a node, in units of its half-widths. */
-static void bounds_of(const node *n, double *lo, double *hi)
+/* How far the surface goes on around a node, in units of its half-widths; `most` at most. */
+static void bounds_of(const node *n, double most, double *lo, double *hi)
 {
     const node *whole = n;
     while (whole->parent != NULL && whole->parent->many == NULL) whole = whole->parent;
     for (int j = 0; j < 2; ++j) {
         const double d = n->region.d[j], c = n->region.c[j];
-        lo[j] = d > 0 ? (whole->region.lo[j] - c) / d : 0;
-        hi[j] = d > 0 ? (whole->region.hi[j] - c) / d : 0;
+        lo[j] = d > 0 ? fmax((whole->region.lo[j] - c) / d, -most) : 0;
+        hi[j] = d > 0 ? fmin((whole->region.hi[j] - c) / d, most) : 0;
     }
 }
 
@@ -163,13 +164,13 @@ static void lowest_at(const net_points *f, vec3 axis, double *y)
         }
 }
 
-/* The first stand. */
-static void begin(marcher *m, const node *const nodes[2], const net *const nets[2], vec3 axis,
-                  double t, stand *s)
+/* The first stand; points stay within `most` half-widths of the middles of the nodes. */
+static void begin(marcher *m, const node *const nodes[2], const net *const nets[2], double most,
+                  vec3 axis, double t, stand *s)
 {
     double y[NEWTON_UNKNOWNS];
     for (int side = 0; side < 2; ++side)
-        bounds_of(nodes[side], m->bounds.lo + 2 * side, m->bounds.hi + 2 * side);
+        bounds_of(nodes[side], most, m->bounds.lo + 2 * side, m->bounds.hi + 2 * side);
     marcher_go(m, nets, t);
     lowest_at(&m->points[0], vec3_scale(axis, -1), y);
     lowest_at(&m->points[1], axis, y + 2);
@@ -182,7 +183,7 @@ bool net_march(const node *a, const node *b, vec3 axis, const time_window *windo
     const net *const nets[2] = {node_net_made(a), node_net_made(b)};
     marcher m;
     stand s;
-    begin(&m, (const node *const[2]){a, b}, nets, axis, window->lo, &s);
+    begin(&m, (const node *const[2]){a, b}, nets, INFINITY, axis, window->lo, &s);
     for (int k = 0; k < TUNING_MARCH_STEPS; ++k) {
         const bool is_far = s.gap > TUNING_MARCH_NEAR * gap;
         newton_way way;
@@ -204,6 +205,10 @@ bool net_march(const node *a, const node *b, vec3 axis, const time_window *windo
     return false;
 }
 
+/* The surface may leave the net beside the node, as behind a knot: points may leave it by one half-width, so
+ * that those of small nodes are near them. */
+static const double NEAREST_REACH = 2;
+
 void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
                  double y[4])
 {
@@ -211,7 +216,7 @@ void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough,
     marcher m;
     stand s;
     newton_way way;
-    begin(&m, nodes, nets, axis, t, &s);
+    begin(&m, nodes, nets, NEAREST_REACH, axis, t, &s);
     descend(&m, enough, gain, &s, &way);
     memcpy(y, s.y, sizeof s.y);
 }

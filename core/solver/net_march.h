@@ -23,7 +23,8 @@ bool net_march(const node *a, const node *b, vec3 axis, const time_window *windo
                net_meeting *found);
 
 /* Where they are nearest to each other at one time, found from there too, until a step promises less than `gain`
- * of the gap; or a place where they are no farther apart than `enough`. */
+ * of the gap; or a place where they are no farther apart than `enough`. Either node may be left by a
+ * half-width. */
 void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
                  double y[4]);
 

@@ -202,6 +202,40 @@ START_TEST(what_was_asked_before_changes_no_answer)
 }
 END_TEST
 
-SUITE_MAIN("upper times", bounds_of_what_is_left_of_patches_hold_their_points,
+/* Roofs whose creases lie on knots, behind which the net of a node goes on as the surface does not. Points that
+ * are sought on nets are points of the surface even where next to nothing is left between clearance and gamma. */
+START_TEST(a_crease_is_met_that_nets_do_not_follow)
+{
+    uint64_t state = suite_seed();
+    imp_registry *registry = query_registry();
+    for (int k = 0; k < suite_times(100); ++k) {
+        char a[TEXT], b[TEXT];
+        size_t used = (size_t)snprintf(
+            a, TEXT, "nurbs degree=1,1 knots_u=[0,0,1,2,2] knots_v=[0,0,1,2,2] points=[");
+        for (int i = 0; i < 9; ++i)
+            used += (size_t)snprintf(a + used, TEXT - used, "%s[%d,%d,%.3f]", i > 0 ? "," : "",
+                                     i / 3 - 1, i % 3 - 1,
+                                     random_between(&state, 0, 0.3) + (i / 3 == 1 ? 1 : 0) +
+                                         (i % 3 == 1 ? 0.5 : 0));
+        snprintf(a + used, TEXT - used, "]");
+        used = (size_t)snprintf(b, TEXT, "bezier degree=1,1 points=[");
+        for (int i = 0; i < 4; ++i)
+            used += (size_t)snprintf(b + used, TEXT - used, "%s[%d,%d,%.3f]", i > 0 ? "," : "",
+                                     i / 2 * 4 - 2, i % 2 * 4 - 2, random_between(&state, 2, 2.5));
+        snprintf(b + used, TEXT - used, "] ! translate velocity=0,0,-2");
+        imp_scene *scene = imp_scene_from_pair(registry, a, b, NULL);
+        imp_options options = imp_options_default(scene);
+        imp_result r = {.struct_size = sizeof r};
+        options.clearance = 0.99 * options.gamma;
+        ck_assert_int_eq(imp_scene_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+        ck_assert_msg(r.verdict == IMP_CONTACT, "%s\n%s", a, b);
+        imp_scene_free(scene);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
+SUITE_MAIN("upper times", a_crease_is_met_that_nets_do_not_follow,
+           bounds_of_what_is_left_of_patches_hold_their_points,
            smaller_gammas_find_what_is_found_afresh, what_is_put_off_until_the_contact_waits,
            what_was_asked_before_changes_no_answer)
