@@ -141,16 +141,50 @@ static inline imp_terms_ imp_terms_deep_(const imp_model *x, const imp_series *s
     return t;
 }
 
-/* Rounding, in units of u and with d_k = |c_k|: c0 passes at most 3 roundings; c1 p at most 5
+/* The remainder, of which `rest` is what rounding and delta add nothing to. n >= |A| + |L| + |Q|.
+ *
+ * Rounding, in units of u and with d_k = |c_k|: c0 passes at most 3 roundings; c1 p at most 5
  * (A, sum in c1, product, two sums); c2 p^2 at most 8, the terms in h and swing adding less
  * than Q^2 / 2: hence 10; c3 p^3 and c3 r^2 p at most 12, and C,
  * itself off by 2 u n, adds 6 to the bound of D: 18.
  * Underflow: each product may lose 2^-1075, then is multiplied by at most one c_k and two of
  * what n or r + e bounds: IMP_TINY (1 + d1 + d2 + d3)(1 + n + r + e)^2. */
-static inline void imp_substitute_(const imp_model *x, const imp_series *s, imp_model *r)
+static inline double imp_substitute_error_(const imp_model *x, const imp_series *s, double n,
+                                           double rest)
+{
+    double d1 = fabs(s->c[1]), d2 = fabs(s->c[2]), d3 = fabs(s->c[3]), far = s->r + x->e;
+    double inherited = x->e * (d1 + d2 * (s->r + far) + 3 * d3 * far * far);
+    double rounding =
+        3 * fabs(s->c[0]) + n * (5 * (d1 + d3 * s->r * s->r) + n * (10 * d2 + 18 * d3 * n));
+    double w = 1 + n + far, underflow = (1 + d1 + d2 + d3) * w * w;
+    return (rest + inherited + (IMP_U * rounding + IMP_TINY * underflow)) * IMP_SLACK;
+}
+
+/* Where Q is 0 and L has but one parameter p, most of what follows is 0. */
+static inline void imp_substitute_line_(const imp_model *x, const imp_series *s, int p, imp_model *r)
+{
+    static const int square[3] = {IMP_UU, IMP_VV, IMP_TT};
+    double a = x->a - s->m, b = x->b[p], slant = imp_series_slant_(s), c2 = s->c[2];
+    for (int j = 0; j < 3; j++) r->b[j] = 0;
+    for (int k = 0; k < 6; k++) r->q[k] = 0;
+    r->a = s->c[0] + (slant * a + c2 * (a * a));
+    r->b[p] = (slant + 2 * c2 * a) * b;
+    r->q[square[p]] = c2 * (b * b);
+    r->e = imp_substitute_error_(x, s, fabs(a) + fabs(b), s->e + imp_series_bend_(s));
+}
+
+/* The only parameter that L may have; -1: there are several. */
+static inline int imp_only_parameter_(const double b[3])
+{
+    if (b[1] == 0 && b[2] == 0) return 0;
+    if (b[0] == 0) return b[2] == 0 ? 1 : b[1] == 0 ? 2 : -1;
+    return -1;
+}
+
+static inline void imp_substitute_full_(const imp_model *x, const imp_series *s, double size,
+                                        imp_model *r)
 {
     double bb[6], a = x->a - s->m, c2 = s->c[2], h = 0, half = 0;
-    double size = imp_sum_abs6_(x->q), n = fabs(a) + imp_sum_abs3_(x->b) + size;
     imp_square_terms_(x->b, x->b, bb);
     imp_terms_ t = imp_terms_flat_(x, s, size);
     if (size != 0) {
@@ -166,13 +200,18 @@ static inline void imp_substitute_(const imp_model *x, const imp_series *s, imp_
     r->a = t.c0 + (t.c1 * a + c2 * (a * a - h * h + half));
     for (int j = 0; j < 3; j++) r->b[j] = slope * x->b[j] + t.linear[j];
     for (int k = 0; k < 6; k++) r->q[k] = slope_q * x->q[k] + t.c2 * bb[k];
-    double d1 = fabs(s->c[1]), d2 = fabs(c2), d3 = fabs(s->c[3]), far = s->r + x->e;
-    double inherited = x->e * (d1 + d2 * (s->r + far) + 3 * d3 * far * far);
-    double rounding =
-        3 * fabs(s->c[0]) + n * (5 * (d1 + d3 * s->r * s->r) + n * (10 * d2 + 18 * d3 * n));
-    double w = 1 + n + far, underflow = (1 + d1 + d2 + d3) * w * w;
-    r->e = (s->e + t.rest + d2 * half + inherited + (IMP_U * rounding + IMP_TINY * underflow)) *
-           IMP_SLACK;
+    r->e = imp_substitute_error_(x, s, fabs(a) + imp_sum_abs3_(x->b) + size,
+                                 s->e + t.rest + fabs(c2) * half);
+}
+
+static inline void imp_substitute_(const imp_model *x, const imp_series *s, imp_model *r)
+{
+    double size = imp_sum_abs6_(x->q);
+    int p = size == 0 ? imp_only_parameter_(x->b) : -1;
+    if (p >= 0)
+        imp_substitute_line_(x, s, p, r);
+    else
+        imp_substitute_full_(x, s, size, r);
 }
 
 /* The model of g(x), from its series, its range, and slope >= max |g'| over x. */
