@@ -39,7 +39,7 @@ imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes
     if (node_net_is_asked(p->a) && node_net_is_asked(p->b)) return IMP_SUCCESS;
     for (int side = 0; side < 2; ++side) {
         offers[side] = surface_offers_net(nodes[side]->surface);
-        useful = useful || (offers[side] && node_gains_by_net(nodes[side]));
+        if (offers[side] && !useful) useful = node_gains_by_net(nodes[side]);
     }
     for (int side = 0; side < 2 && useful && code == IMP_SUCCESS; ++side) {
         const net *found;

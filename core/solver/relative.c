@@ -117,10 +117,14 @@ IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, relative *r, m
     imp_quad ea = imp_quad_load(a->e), eb = imp_quad_load(b->e);
     r->posed = 0;
     if (a->pose == NULL && b->pose == NULL) return ea + eb;
-    slice_clear_third_order(&r->a);
-    slice_clear_third_order(&r->b);
-    if (a->pose != NULL) ea = take_posed_terms(a, r, &r->a, ma);
-    if (b->pose != NULL) eb = take_posed_terms(b, r, &r->b, mb);
+    if (a->pose != NULL)
+        ea = take_posed_terms(a, r, &r->a, ma);
+    else
+        slice_clear_third_order(&r->a);
+    if (b->pose != NULL)
+        eb = take_posed_terms(b, r, &r->b, mb);
+    else
+        slice_clear_third_order(&r->b);
     return ea + eb;
 }
 

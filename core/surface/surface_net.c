@@ -35,9 +35,10 @@ static imp_status judge(imp_status status, const imp_net *net)
 
 bool surface_offers_net(const surface *s)
 {
-    bool offers = s->type->net != NULL;
-    for (size_t k = 0; k < s->map_count; ++k) offers = offers && s->maps[k].type->net != NULL;
-    return offers;
+    if (s->type->net == NULL) return false;
+    for (size_t k = 0; k < s->map_count; ++k)
+        if (s->maps[k].type->net == NULL) return false;
+    return true;
 }
 
 imp_status surface_net(const surface *s, const imp_region *region, imp_net *net)

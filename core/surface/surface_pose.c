@@ -24,26 +24,30 @@ double surface_pose_norm_upper(const surface *s)
     return norm;
 }
 
+/* 0; NaN of what is not finite. */
+static double nought(double x) { return x - x; }
+
 /* Of a function of time alone. */
 static bool is_sane(const imp_model *m)
 {
-    bool sane = m->e >= 0 && m->lo <= m->hi && m->rate[2] >= 0 && (m->depends & 3u) == 0;
-    sane = sane && isfinite(m->a) && isfinite(m->b[2]) && isfinite(m->q[IMP_TT]);
-    sane = sane && m->e < INFINITY && m->lo > -INFINITY && m->hi < INFINITY;
-    sane = sane && m->rate[2] < INFINITY && m->b[0] == 0 && m->b[1] == 0;
-    for (int k = 0; k < IMP_TT; ++k) sane = sane && m->q[k] == 0;
-    return sane;
+    const double *b = m->b, *q = m->q;
+    const double still = fabs(b[0]) + fabs(b[1]) + fabs(q[IMP_UU]) + fabs(q[IMP_UV]) +
+                         fabs(q[IMP_UT]) + fabs(q[IMP_VV]) + fabs(q[IMP_VT]);
+    const double all = nought(m->a) + nought(b[2]) + nought(q[IMP_TT]) + nought(m->e) +
+                       nought(m->lo) + nought(m->hi) + nought(m->rate[2]);
+    return still + all == 0 && m->e >= 0 && m->lo <= m->hi && m->rate[2] >= 0 &&
+           (m->depends & 3u) == 0;
 }
 
 static imp_status judge(imp_status status, const imp_pose *pose)
 {
     if (status != IMP_OK) return status;
-    bool sane = true;
     for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) sane = sane && is_sane(&pose->turn[i][j]);
-        sane = sane && is_sane(&pose->shift[i]) && isfinite(pose->pivot[i]);
+        for (int j = 0; j < 3; ++j)
+            if (!is_sane(&pose->turn[i][j])) return SURFACE_BAD_POSE;
+        if (!is_sane(&pose->shift[i]) || !isfinite(pose->pivot[i])) return SURFACE_BAD_POSE;
     }
-    return sane ? IMP_OK : SURFACE_BAD_POSE;
+    return IMP_OK;
 }
 
 bool pose_turns(const imp_pose *pose)
