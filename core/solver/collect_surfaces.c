@@ -96,12 +96,12 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
 }
 
 /* Whether a limit ends it before this surface: asked for before the first, where one is near, and once a few
- * surfaces, or a large one, were made. */
+ * surfaces, or a large one, were made. By what has had its turn: what threads made ahead changes no answer. */
 static bool must_end_here(collection *all)
 {
     const uint64_t made = all->stats->bytes - all->bytes_asked;
     const bool many = all->list->count % SURFACES_AN_ASK == 0 || made >= BYTES_AN_ASK;
-    if (!many && !collection_may_end(all, 0)) return false;
+    if (!many && !all->limit->is_near(all->limit->context, made, 0)) return false;
     all->bytes_asked = all->stats->bytes;
     return collection_must_end(all);
 }

@@ -192,7 +192,54 @@ START_TEST(each_cancellation_ends_one_step)
 }
 END_TEST
 
-SUITE_MAIN("limits", a_limit_of_seconds_ends_a_query_before_the_first_tree,
+static imp_status lost_include(const void *self, const imp_region *region, imp_model out[3])
+{
+    (void)self, (void)region, (void)out;
+    return IMP_DOMAIN;
+}
+
+static void by_itself(void *context, void (*call)(void *of, size_t index), void *of, size_t count)
+{
+    (void)context;
+    for (size_t k = 0; k < count; ++k) call(of, k);
+}
+
+/* What becomes of seven balls, of which the last cannot be bounded. */
+static int outcome(uint64_t bytes, bool ahead)
+{
+    imp_surface_type lost = ball_type;
+    ball some[7];
+    lost.include = lost_include;
+    imp_scene *scene = scene_new();
+    for (int k = 0; k < 7; ++k) {
+        some[k] = (ball){.radius = 1, .centre = {10 * k, 0, 0}};
+        spheres_add(scene, k < 6 ? &ball_type : &lost, &some[k]);
+    }
+    imp_options options = imp_options_default(scene);
+    options.max_bytes = bytes;
+    if (ahead) options.parallel = by_itself;
+    imp_query *query = begin(scene, options);
+    const imp_code code = imp_query_step(query, 0, NULL);
+    const imp_reason reason = imp_query_result(query).reason;
+    imp_query_free(query);
+    imp_scene_free(scene);
+    return code != IMP_SUCCESS ? -1 : (int)reason;
+}
+
+START_TEST(a_limit_of_bytes_comes_before_an_error_whatever_is_made_ahead)
+{
+    bool both[2] = {false, false};
+    for (uint64_t bytes = 1000; bytes < 40000; bytes += 500) {
+        const int alone = outcome(bytes, false);
+        ck_assert_int_eq(alone, outcome(bytes, true));
+        both[alone == -1] = true;
+    }
+    ck_assert(both[0] && both[1]);
+}
+END_TEST
+
+SUITE_MAIN("limits", a_limit_of_bytes_comes_before_an_error_whatever_is_made_ahead,
+           a_limit_of_seconds_ends_a_query_before_the_first_tree,
            a_limit_of_pairs_ends_the_broad_phase, a_limit_of_bytes_counts_trees_and_candidate_pairs,
            a_limit_of_bytes_counts_the_scene,
            a_query_is_cancelled_while_its_trees_are_made_and_may_go_on,
