@@ -75,7 +75,7 @@ static bool prepare(collection *all)
     size_t most = 1; /* an array of none may be NULL */
     for (size_t b = 0; b < scene_body_count(all->scene); ++b)
         most += scene_surface_count(all->scene, b);
-    all->boxes = malloc(most * sizeof *all->boxes);
+    all->boxes = most <= BOXES_AT_HAND ? all->at_hand : malloc(most * sizeof *all->boxes);
     all->list->candidates = malloc(most * sizeof *all->list->candidates);
     if (all->boxes == NULL || all->list->candidates == NULL) return false;
     all->with_roots =
@@ -102,7 +102,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
     collection_count_rest(&all);
     if (done) code = collect_pairs(&all, &done, error);
     if (done) code = collection_make_roots(&all, &done, error);
-    free(all.boxes);
+    if (all.boxes != all.at_hand) free(all.boxes);
     free(all.surfaces);
     free(all.sweep);
     list->complete = done && code == IMP_SUCCESS;

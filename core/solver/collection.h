@@ -41,6 +41,8 @@ enum {
 /* Limits that are not near are asked for whenever so many surfaces, or so much memory, were made. */
 enum { SURFACES_AN_ASK = 8, BYTES_AN_ASK = 1 << 15 };
 
+enum { BOXES_AT_HAND = 4 }; /* that need no memory of their own */
+
 /* Roots of more surfaces are made only once they are in a pair, though what they are made from is then computed
  * again: most surfaces of large scenes are in none. */
 enum { ROOTS_AT_ONCE = 512 };
@@ -51,7 +53,7 @@ typedef struct collection {
     const candidate_limit *limit;
     imp_stats *stats;
     double clearance;
-    swept_box *boxes;
+    swept_box *boxes, at_hand[BOXES_AT_HAND];
     candidate_list *list;
     uint64_t bytes_asked; /* of stats->bytes, when limits were last asked for */
     bool out_of_memory;
