@@ -99,18 +99,28 @@ static void halve_plain(double *x, int n, int step, int side)
                 x[i * step] = 0.5 * (x[i * step] + x[(i + 1) * step]);
 }
 
-/* The same of a bicubic patch, column after column. */
-IMP_QUAD_INLINE void halve_bicubic(double *x, int columns, parameter j, int side)
+/* The same of a bicubic patch, column after column, of x to `half`, which may be x. */
+IMP_QUAD_INLINE void halve_bicubic(const double *x, int columns, parameter j, int side,
+                                   double *half)
 {
-    for (int c = 0; c < columns; ++c, x += 16) {
+    for (int c = 0; c < columns; ++c, x += 16, half += 16) {
         const halved_rows both = rows_halved(rows_along(rows_at(x), j));
-        rows_store(x, rows_along(rows_of_half(&both, side), j));
+        rows_store(half, rows_along(rows_of_half(&both, side), j));
     }
 }
 
-IMP_QUAD_WIDE static void halve_bicubic_wide(double *x, int columns, parameter j, int side)
+IMP_QUAD_WIDE static void halve_bicubic_wide(const double *x, int columns, parameter j, int side,
+                                             double *half)
 {
-    halve_bicubic(x, columns, j, side);
+    halve_bicubic(x, columns, j, side, half);
+}
+
+static void halve_plain_bicubic(const double *x, int columns, parameter j, int side, double *half)
+{
+    if (imp_quad_is_wide())
+        halve_bicubic_wide(x, columns, j, side, half);
+    else
+        halve_bicubic(x, columns, j, side, half);
 }
 
 /* The mean of two numbers by their weights. */
@@ -230,10 +240,8 @@ void net_halve_columns(const net *p, parameter j, int side, double *x, int colum
         halve_bicubic_weighted_wide(x, columns, j, side);
     else if (p->is_weighted)
         halve_bicubic_weighted(x, columns, j, side);
-    else if (imp_quad_is_wide())
-        halve_bicubic_wide(x, columns, j, side);
     else
-        halve_bicubic(x, columns, j, side);
+        halve_plain_bicubic(x, columns, j, side, x);
 }
 
 double net_halving_upper(const net *p, parameter j, double most)
@@ -243,8 +251,13 @@ double net_halving_upper(const net *p, parameter j, double most)
 
 void net_halve(const net *p, parameter j, int side, net *half)
 {
-    if (half != p) memcpy(half, p, net_bytes(p));
-    net_halve_columns(p, j, side, half->numbers, p->is_moving ? 6 : 3);
+    const int columns = p->is_moving ? 6 : 3;
+    const bool is_plain_bicubic = p->degree[0] == 3 && p->degree[1] == 3 && !p->is_weighted;
+    if (half != p) memcpy(half, p, is_plain_bicubic ? sizeof *p : net_bytes(p));
+    if (is_plain_bicubic)
+        halve_plain_bicubic(p->numbers, columns, j, side, half->numbers);
+    else
+        net_halve_columns(p, j, side, half->numbers, columns);
     for (int i = 0; i < 3; ++i)
         half->error[i] = sum_upper(p->error[i], net_halving_upper(p, j, p->most[i]));
 }
