@@ -252,11 +252,17 @@ static void lead(node *n, double sign, double w)
     }
 }
 
-/* Two corners as far out as their boxes, at an end of the window, and a gap along one coordinate alone. */
+/* Two corners as far out as their boxes, at an end of the window, and a gap along one coordinate alone. Both may
+ * be carried along so fast that the rounding of that motion counts. */
 static void meet_with_corners(uint64_t *state, meeting *m)
 {
     const double corner[2] = {1, 1}, w = random_bits(state) % 2 ? 1 : -1;
+    const double fast = random_bits(state) % 2 ? random_power(state, 0, 30) : 0;
     const int along = (int)(random_bits(state) % 3);
+    for (int i = 0; i < 3; ++i) {
+        m->a.f.bt[i] += fast * m->a.region.d[2];
+        m->b.f.bt[i] += fast * m->b.region.d[2];
+    }
     lead(&m->a, 1, w);
     lead(&m->b, -1, w);
     m->t = w > 0 ? m->window.hi : m->window.lo;
