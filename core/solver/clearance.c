@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/common/clock.h"
+#include "core/solver/tuning.h"
 
 /* --- The minimum distance of a part --------------------------------------------------------- */
 
@@ -20,7 +21,7 @@ static imp_code begin_part(clearance_search *c, imp_error *error)
     const double required = c->asked.required;
     c->before = *c->stats;
     c->before.seconds = clock_seconds();
-    c->unresolved = false;
+    c->unresolved = c->takes_turns = false;
     c->distance = (min_distance){
         .window = {p->answer.t_start, p->answer.t_end},
         .tolerance = c->asked.tolerance,
@@ -125,6 +126,8 @@ static void begin_violation(clearance_search *c)
                             .stats = c->stats,
                             .t_lower = answer->t_start};
     c->tested = 0;
+    c->turn_from = c->stats->pairs;
+    c->turn = TUNING_DECIDE_PAIRS + 2 * (uint64_t)c->parts[c->current].count;
     c->stage = STAGE_VIOLATION;
 }
 
@@ -134,8 +137,18 @@ static bool ends_early(const clearance_search *c)
 {
     const min_distance *m = &c->distance;
     if (!decides(c) || !(m->upper < INFINITY)) return false;
-    return !c->unresolved ||
+    return !(c->unresolved || c->takes_turns) ||
            requirement_of(c, min_distance_lower(m), m->upper) != IMP_REQUIREMENT_UNDECIDED;
+}
+
+/* Where the search for contact takes long, a narrow bracket may be known before: then both go on in turn, twice as
+ * far each time, so that the verdict takes no more than four times what one of them takes, about. */
+static bool turn_ends(clearance_search *c)
+{
+    if (c->stats->pairs - c->turn_from <= c->turn) return false;
+    c->turn_from = c->stats->pairs;
+    if (c->takes_turns && c->stage == STAGE_DISTANCE) c->turn *= 2;
+    return true;
 }
 
 static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_error *error)
@@ -145,7 +158,12 @@ static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_err
     const imp_code code = min_distance_advance(&c->distance, &state, error);
     if (code != IMP_SUCCESS) return code;
     const bool running = state == MIN_DISTANCE_RUNNING;
-    if (running && !ends_early(c)) return IMP_SUCCESS;
+    if (running && !ends_early(c)) {
+        if (!c->takes_turns || c->unresolved || !turn_ends(c)) return IMP_SUCCESS;
+        take_bracket(c, &p->answer);
+        c->stage = STAGE_VIOLATION;
+        return IMP_SUCCESS;
+    }
     if (state == MIN_DISTANCE_NO_MEMORY) {
         *reason = IMP_REASON_MEMORY;
         return IMP_SUCCESS;
@@ -157,6 +175,8 @@ static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_err
     const bool violated = p->answer.verdict == IMP_REQUIREMENT_VIOLATED && c->asked.slices == 1;
     if (c->unresolved)
         finish_part(c, violated ? IMP_REASON_RESOLUTION : p->answer.reason);
+    else if (violated && c->takes_turns)
+        c->stage = STAGE_VIOLATION;
     else if (violated || (running && p->answer.verdict == IMP_REQUIREMENT_UNDECIDED))
         begin_violation(c);
     else
@@ -184,7 +204,6 @@ static void take_violation(const clearance_search *c, imp_clearance *answer)
 static void go_on_with_distance(clearance_search *c)
 {
     impact_clear(&c->violation);
-    c->unresolved = true;
     c->stage = STAGE_DISTANCE;
 }
 
@@ -193,6 +212,9 @@ static void conclude_violation(clearance_search *c, impact_state state, imp_reas
     imp_clearance *answer = &c->parts[c->current].answer;
     switch (state) {
     case IMPACT_RUNNING:
+        if (answer->verdict != IMP_REQUIREMENT_UNDECIDED || !turn_ends(c)) return;
+        c->takes_turns = true;
+        c->stage = STAGE_DISTANCE;
         return;
     case IMPACT_NO_MEMORY:
         *reason = IMP_REASON_MEMORY;
@@ -206,6 +228,7 @@ static void conclude_violation(clearance_search *c, impact_state state, imp_reas
         break;
     case IMPACT_RESOLUTION:
         if (answer->verdict == IMP_REQUIREMENT_UNDECIDED) {
+            c->unresolved = true;
             go_on_with_distance(c);
             return;
         }

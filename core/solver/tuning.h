@@ -168,6 +168,11 @@
 #define TUNING_DISTANCE_SHARE 2
 #define TUNING_DISTANCE_WAIT 15
 
+/* --- When contact within what is required is sought in turn with the distance (clearance.c) --- */
+
+/* After so many pairs, and two for each candidate pair, without a verdict. */
+#define TUNING_DECIDE_PAIRS 2000
+
 /* --- The search for a witness (witness.c) --- */
 
 /* At most.

@@ -381,6 +381,28 @@ static void decide_beside(imp_registry *registry, const ladder *l)
 START_TEST(every_shape_is_decided_the_same_way) { for_each_setting(decide_beside); }
 END_TEST
 
+/* Where surfaces slide close to what is required the earliest time takes long, the verdict does not. */
+START_TEST(a_budget_that_a_narrow_bracket_fits_in_is_enough_to_decide)
+{
+    imp_registry *registry = query_registry();
+    imp_scene *scene = scene_of(registry,
+                                "cylinder radius=1 height=2 ! translate velocity=0,0,0.5",
+                                "cylinder radius=1.01 height=2 ! taper start=1 end=[1,-0.0003]");
+    imp_options options = imp_options_default(scene);
+    imp_clearance_options asked = imp_clearance_options_default();
+    const imp_clearance known = measure(scene, &options, &asked);
+    options.max_pairs = 20000;
+    ck_assert_uint_lt(known.stats.pairs, options.max_pairs / 4);
+    asked.decide = true;
+    asked.required = 1.0001 * known.upper;
+    const imp_clearance decided = measure(scene, &options, &asked);
+    ck_assert_int_eq(decided.verdict, IMP_REQUIREMENT_VIOLATED);
+    ck_assert_double_le(decided.upper, asked.required);
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+}
+END_TEST
+
 /* A millionth of it is less than double precision tells apart: no earliest time, but the same verdict. */
 START_TEST(contact_decides_what_is_too_small_to_be_timed)
 {
@@ -686,6 +708,7 @@ SUITE_MAIN("clearance", closed_forms_lie_within_the_bracket,
            a_violation_is_the_earliest, in_the_band_both_answers_are_right,
            contact_violates_what_is_smaller_than_gamma,
            what_is_decided_is_what_a_narrow_bracket_decides, every_shape_is_decided_the_same_way,
+           a_budget_that_a_narrow_bracket_fits_in_is_enough_to_decide,
            contact_decides_what_is_too_small_to_be_timed,
            programs_that_know_nothing_of_deciding_get_a_narrow_bracket,
            slices_have_brackets_of_their_own, each_two_bodies_have_a_bracket_of_their_own,
