@@ -280,7 +280,7 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
                  : cut_along_bundle(r, n, clearance, s, lines, false, false);
 }
 
-/* The way across both, about, at w: of curves, which have no normals. */
+/* A vector perpendicular to both curves at w, about; curves have no normals. */
 IMP_QUAD_INLINE vec3 across(const relative *r, double w)
 {
     vec3 a, b;
@@ -291,7 +291,7 @@ IMP_QUAD_INLINE vec3 across(const relative *r, double w)
     return vec3_cross(a, b);
 }
 
-/* These two, and both normals; of two curves, which have none, the ways across at either end. */
+/* These two, and both normals; for two curves vectors perpendicular to both, at either end. */
 IMP_QUAD_INLINE bundle bundle_with(const relative *r, vec3 x, vec3 y)
 {
     const bool curves = !(vec3_norm1(r->a.normal) + vec3_norm1(r->b.normal) > 0);

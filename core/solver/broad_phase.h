@@ -6,27 +6,26 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Which boxes are near each other? Sweep and prune along the axis on which the
- * boxes crowd least: every pair of the boxes of different groups whose gap
- * along every axis is at most the clearance is visited, and (lo, hi) that are infinite or NaN count as
- * near all. */
+/* Which boxes are near each other? Sweep and prune along the axis on which the boxes crowd least:
+ * every pair of the boxes of different groups whose gap along every axis is at most the clearance
+ * is visited. A box with an infinity or a NaN is near all. */
 
 typedef struct swept_box {
     double lo[3], hi[3]; /* over the whole query's times; length, world space */
     size_t owner;        /* caller's number, handed to the visitor */
-    size_t group;        /* boxes of the same are not visited */
+    size_t group;        /* pairs within one group are not visited */
     size_t beyond;       /* once sorted: the next box of another group; the caller leaves it 0 */
 } swept_box;
 
 typedef struct broad_phase_visitor {
-    bool (*next_box)(
-        void *context); /* before the pairs of each box, unless they are few: whether to go on */
+    /* Called before the pairs of each box, unless there are few boxes: whether to go on. */
+    bool (*next_box)(void *context);
     bool (*visit)(void *context, size_t first, size_t second); /* whether to go on */
     void *context;
 } broad_phase_visitor;
 
-/* Visits in the order of the sweep, of a few boxes in any; false from a callback stops and is answered. Sorts
- * `boxes`. */
+/* Visits in the order of the sweep; a few boxes in any order. False from a callback stops the
+ * visit and is returned. Sorts `boxes`. */
 bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
                        const broad_phase_visitor *visitor);
 

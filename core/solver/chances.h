@@ -9,18 +9,20 @@
 
 /* How often something paid
  * ========================
- * What costs much and helps in few scenes is tried at each chance as long as it pays, else now and then. Counted
- * by each search for each candidate pair, in the order of its steps: the search is the same in every run, and other
- * bodies do not matter. Decides how long a search takes, never what it proves. */
+ * A step that costs much and helps in few scenes is tried at each chance as long as it pays, else
+ * now and then. Each search counts for each candidate pair, in the order of its steps: the search
+ * is the same in every run, and other bodies do not matter. This decides how long a search takes,
+ * never what it proves. */
 
 typedef struct chances {
-    uint16_t left;        /* out, since one was taken */
-    uint16_t taken, paid; /* of the last CHANCES_KEPT taken, about */
+    uint16_t left;        /* chances left out since the last one taken */
+    uint16_t taken, paid; /* among the last CHANCES_KEPT taken, about */
 } chances;                /* begins as {0} */
 
 enum { CHANCES_KEPT = 1024 };
 
-/* Whether to take this chance: one in `share` of those taken paid, or `wait` were left out, or c is NULL. */
+/* Whether to take this chance: one in `share` of those taken paid, or `wait` were left out, or c is
+ * NULL. */
 static inline bool chances_take(chances *c, unsigned share, unsigned wait)
 {
     if (c == NULL) return true;
@@ -37,7 +39,7 @@ static inline bool chances_take(chances *c, unsigned share, unsigned wait)
     return true;
 }
 
-/* Of one that was taken. */
+/* Notes whether the chance taken last paid. */
 static inline void chances_note(chances *c, bool pays)
 {
     if (c != NULL) c->paid += pays;

@@ -87,7 +87,7 @@ static imp_stats cost(const clearance_search *c)
     return s;
 }
 
-/* Whether no more than a verdict is asked for. */
+/* Whether only a verdict is asked for. */
 static bool decides(const clearance_search *c) { return c->asked.decide && c->asked.required > 0; }
 
 static bool is_narrow(const clearance_search *c, const imp_clearance *answer)
@@ -131,8 +131,9 @@ static void begin_violation(clearance_search *c)
     c->stage = STAGE_VIOLATION;
 }
 
-/* Whether the bracket says all that is asked for, or leaves it to a search for contact: where two points are
- * known and no more than a verdict is asked for, that gives it at a fraction of what a narrow bracket costs. */
+/* Whether the bracket says all that is asked for, or leaves it to a search for contact. Where two
+ * points are known and only a verdict is asked for, that search costs a fraction of a narrow
+ * bracket. */
 static bool ends_early(const clearance_search *c)
 {
     const min_distance *m = &c->distance;
@@ -141,8 +142,9 @@ static bool ends_early(const clearance_search *c)
            requirement_of(c, min_distance_lower(m), m->upper) != IMP_REQUIREMENT_UNDECIDED;
 }
 
-/* Where the search for contact takes long, a narrow bracket may be known before: then both go on in turn, twice as
- * far each time, so that the verdict takes no more than four times what one of them takes, about. */
+/* Where the search for contact takes long, a narrow bracket may be known before. Then both go on
+ * in turn, twice as far each time: the verdict takes at most about four times the faster one's
+ * work. */
 static bool turn_ends(clearance_search *c)
 {
     if (c->stats->pairs - c->turn_from <= c->turn) return false;
@@ -222,7 +224,7 @@ static void conclude_violation(clearance_search *c, impact_state state, imp_reas
     case IMPACT_CONTACT:
         take_violation(c, answer);
         break;
-    case IMPACT_CLEAR: /* where a witness violates it, too: in the band both are right */
+    case IMPACT_CLEAR: /* also where a witness violates it: within the room both are right */
         answer->verdict = IMP_REQUIREMENT_HOLDS;
         if (answer->lower < relaxed(c)) answer->lower = relaxed(c);
         break;
@@ -238,7 +240,8 @@ static void conclude_violation(clearance_search *c, impact_state state, imp_reas
     finish_part(c, answer->reason);
 }
 
-/* Candidates of a clearance are as far apart as they like. */
+/* Whether a candidate pair is too far apart to matter; a clearance's list has pairs at any
+ * distance. */
 static bool is_far(const clearance_search *c, size_t k)
 {
     const candidate_pair *both = &c->list->pairs[k];

@@ -32,8 +32,8 @@ struct clearance_search {
     impact violation;
     size_t tested; /* of the current part's candidates, while the violation is searched for */
     uint64_t turn_from, turn; /* of stats->pairs: when its turn began, and how many a turn has */
-    bool takes_turns; /* that search took long: it goes on in turn with that for the distance */
-    bool unresolved; /* double precision ended that search: the distance is to decide */
+    bool takes_turns; /* that search took long: it and the search for the distance go on in turn */
+    bool unresolved;  /* double precision ended that search: the distance is to decide */
 };
 
 #endif

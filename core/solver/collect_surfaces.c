@@ -95,8 +95,9 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
     return IMP_SUCCESS;
 }
 
-/* Whether a limit ends it before this surface: asked for before the first, where one is near, and once a few
- * surfaces, or a large one, were made. By what has had its turn: what threads made ahead changes no answer. */
+/* Whether a limit ends it before this surface. Checked before the first, where a limit is near,
+ * and after a few surfaces or a large one; only what has had its turn counts, so that threads
+ * change no answer. */
 static bool must_end_here(collection *all)
 {
     const uint64_t made = all->stats->bytes - all->bytes_asked;

@@ -38,13 +38,13 @@ enum {
     SURFACES_A_ROUND = SURFACES_A_TASK * TASKS_A_ROUND
 };
 
-/* Limits that are not near are asked for whenever so many surfaces, or so much memory, were made. */
+/* A limit that is not near is checked after so many surfaces, or so much memory. */
 enum { SURFACES_AN_ASK = 8, BYTES_AN_ASK = 1 << 15 };
 
-enum { BOXES_AT_HAND = 4 }; /* that need no memory of their own */
+enum { BOXES_AT_HAND = 4 }; /* so few boxes need no memory of their own */
 
-/* Roots of more surfaces are made only once they are in a pair, though what they are made from is then computed
- * again: most surfaces of large scenes are in none. */
+/* With more surfaces a root is made only once its surface is in a pair, though what it is made
+ * from is then computed again: most surfaces of large scenes are in none. */
 enum { ROOTS_AT_ONCE = 512 };
 
 typedef struct collection {
@@ -55,7 +55,7 @@ typedef struct collection {
     double clearance;
     swept_box *boxes, at_hand[BOXES_AT_HAND];
     candidate_list *list;
-    uint64_t bytes_asked; /* of stats->bytes, when limits were last asked for */
+    uint64_t bytes_asked; /* stats->bytes when limits were last checked */
     bool out_of_memory;
     bool with_roots;   /* all trees are made with them */
     root_ahead *roots; /* those that are missing */

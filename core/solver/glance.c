@@ -6,7 +6,7 @@
 
 #include "core/solver/quadratic.h"
 
-/* How far a node's points leave a + bt s at most, but for rounding. */
+/* The largest distance of a node's points from a + bt s, but for rounding. */
 IMP_QUAD_INLINE imp_quad reach_of(const node *n)
 {
     const quadratic3 *f = &n->f;

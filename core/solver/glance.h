@@ -5,9 +5,9 @@
 
 #include "core/solver/relative.h"
 
-/* Shrinks `window`, which lies in both nodes' times, to when the boxes around the nodes, which move linearly,
- * may be within the clearance; false: nothing of it is left. As separation_by_models, for a tenth of the work.
- * A NaN leaves it as it is. */
+/* As separation_by_models, by boxes around the nodes that move linearly, for a tenth of the work.
+ * Shrinks `window`, which lies in both nodes' times, to the times in which these may be within the
+ * clearance; false: nothing of it is left. A NaN leaves it as it is. */
 bool separation_at_a_glance(const node *a, const node *b, double clearance, time_window *window);
 
 #endif

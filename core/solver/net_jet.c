@@ -8,7 +8,7 @@
 
 /* --- Bernstein polynomials ------------------------------------------------------------------------ */
 
-/* All of one degree, and their derivatives. */
+/* All polynomials of one degree, and their derivatives. */
 typedef struct bernstein {
     double value[IMP_NET_POINTS], first[IMP_NET_POINTS], second[IMP_NET_POINTS];
 } bernstein;
@@ -21,7 +21,7 @@ static void raise_degree(double *b, int n, double x)
     b[0] *= 1 - x;
 }
 
-/* Derivatives by s, of which x is half and something, from those of degree n - 1: n / 2 times their
+/* Derivatives by s, where x = (1 + s) / 2, from the polynomials of degree n - 1: n / 2 times their
  * differences. */
 static void differences(const double *b, int n, double *d)
 {
@@ -105,7 +105,7 @@ IMP_QUAD_INLINE imp_quad rows_by(const imp_quad x[4], const double f[4])
            (imp_quad_all(f[2]) * x[2] + imp_quad_all(f[3]) * x[3]);
 }
 
-/* Of a bicubic patch's rows, by four numbers along v. */
+/* Each row of a bicubic patch times four numbers along v. */
 IMP_QUAD_INLINE imp_quad columns_by(const imp_quad x[4], imp_quad f, bool is_weighted)
 {
     imp_quad last = imp_quad_all(0);
@@ -113,7 +113,7 @@ IMP_QUAD_INLINE imp_quad columns_by(const imp_quad x[4], imp_quad f, bool is_wei
     return totals(f * x[0], f * x[1], f * x[2], last);
 }
 
-/* Of a bicubic patch: along u row by row, then along v. */
+/* For a bicubic patch: along u row by row, then along v. */
 IMP_QUAD_INLINE void bicubic_sums(const net_points *f, bool is_weighted, const double s[2],
                                   imp_quad sum[JETS])
 {
@@ -135,7 +135,7 @@ IMP_QUAD_INLINE void bicubic_sums(const net_points *f, bool is_weighted, const d
     sum[JET_VV] = columns_by(x, imp_quad_load(v.second), is_weighted);
 }
 
-/* Of any patch, point by point. */
+/* For any patch, point by point. */
 static void any_sums(const net_points *f, const double s[2], imp_quad sum[JETS])
 {
     const int n = f->net->degree[0], m = f->net->degree[1];
@@ -214,7 +214,7 @@ void net_jets_at(const net_points of[2], const double y[4], jet out[2])
 
 /* --- Velocities ----------------------------------------------------------------------------------------- */
 
-/* The sum of velocities, and of what they were multiplied with. */
+/* The weighted sum of velocities, and the sum of the weights. */
 static imp_quad bicubic_velocity(const net *f, const double s[2])
 {
     const double *weights = weights_of(f);

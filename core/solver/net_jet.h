@@ -9,8 +9,8 @@
  * ==============================================
  * By Bernstein polynomials, at s in [-1, 1] or beyond. Rounded like any sum: nothing is proved by them. */
 
-/* The control points of a net at one time, without its place; if weighted, times their weights, which are the
- * fourth coordinate. */
+/* The control points of a net at one time, without its place. If weighted they are multiplied with
+ * their weights, which are the fourth coordinate. */
 typedef struct net_points {
     const net *net;
     imp_quad x[4][QUADS_MAX];
@@ -25,7 +25,7 @@ typedef struct jet {
     imp_quad by[JETS]; /* x, y, z; the fourth number means nothing */
 } jet;
 
-/* Of two patches, at s = (y[0], y[1]) and (y[2], y[3]). */
+/* The jets of two patches, at s = (y[0], y[1]) and (y[2], y[3]). */
 void net_jets_at(const net_points of[2], const double y[4], jet out[2]);
 
 /* How fast the point at s moves. */

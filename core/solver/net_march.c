@@ -48,7 +48,7 @@ static vec3 jet_part(const jet *x, int part)
     return (vec3){{x->by[part][0], x->by[part][1], x->by[part][2]}};
 }
 
-/* How the apart changes with the unknowns. */
+/* How the vector between the points changes with the unknowns. */
 static void columns_of(const stand *s, vec3 by[NEWTON_UNKNOWNS])
 {
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k)
@@ -69,7 +69,8 @@ static void derive(const stand *s, newton_way *way)
     newton_of_gap(s->apart, by, second, way->gradient, way->hessian);
 }
 
-/* What the step to `next` would gain of half the squared gap, about: half of what its slope promises. */
+/* By how much the step to `next` would reduce half the squared gap, about: half of what its slope
+ * promises. */
 static double promise(const newton_way *way, const stand *s, const double *next)
 {
     double slope = 0;
@@ -77,10 +78,10 @@ static double promise(const newton_way *way, const stand *s, const double *next)
     return 0.5 * slope;
 }
 
-/* Promises of steps that are damped more are no measure. */
+/* What a step promises means nothing where it is damped more. */
 static const double DAMPED = 0x1p-10;
 
-/* To the nearest points at one time, unless the gap is `enough` before, as far as a step promises to gain
+/* Steps to the nearest points at one time, until the gap is `enough` or a step promises less than
  * `gain` of it; *way is left with the derivatives there. */
 static void descend(const marcher *m, double enough, double gain, stand *s, newton_way *way)
 {
@@ -104,8 +105,8 @@ static vec3 velocity_of(const net *const nets[2], const stand *s)
     return vec3_sub(net_velocity_at(nets[1], s->y + 2), net_velocity_at(nets[0], s->y));
 }
 
-/* Where the nearest points will be after a while, as they move now: the gradient's change by the velocity is
- * to be undone. */
+/* Where the nearest points will be after a while, as they move now: a Newton step undoes what the
+ * velocity changes of the gradient. */
 static void foresee(const stand *s, newton_way *way, vec3 velocity, double wait, double *y)
 {
     vec3 by[NEWTON_UNKNOWNS];
@@ -116,7 +117,7 @@ static void foresee(const stand *s, newton_way *way, vec3 velocity, double wait,
 
 /* --- In time -------------------------------------------------------------------------------------------- */
 
-/* How far the surface goes on around a node, in units of its half-widths; `most` at most. */
+/* How far the surface extends around a node, in units of the node's half-widths; `most` at most. */
 static void bounds_of(const node *n, double most, double *lo, double *hi)
 {
     const node *whole = n;
@@ -128,9 +129,9 @@ static void bounds_of(const node *n, double most, double *lo, double *hi)
     }
 }
 
-/* The next time, or a NaN where none is worth it: the gap does not shrink, or will not be gone within the window.
- * It may shrink faster than it does at first, and behind the contact no nearest points tell how far, so that
- * only a part of the way is gone. */
+/* The next time; a NaN if the gap does not shrink, or will not be closed within the window. Only a
+ * part of the way is taken: the gap may shrink faster later, and after the contact no nearest
+ * points tell how far it was. */
 static double time_after(const marcher *m, const stand *s, double gap, double speed, double end)
 {
     const double wait = (s->gap - gap) / speed;
@@ -139,7 +140,7 @@ static double time_after(const marcher *m, const stand *s, double gap, double sp
     return speed > 0 && next > m->t && m->t + wait <= end ? next : NAN;
 }
 
-/* What is near enough, beside the gap that is sought. */
+/* Near enough, as a part of the gap that is sought. */
 static const double ENOUGH = 1.125;
 
 /* From the middle of the node, beside the control point that lies lowest. */
@@ -164,7 +165,7 @@ static void lowest_at(const net_points *f, vec3 axis, double *y)
         }
 }
 
-/* The first stand; points stay within `most` half-widths of the middles of the nodes. */
+/* The start; points stay within `most` half-widths of the middles of the nodes. */
 static void begin(marcher *m, const node *const nodes[2], const net *const nets[2], double most,
                   vec3 axis, double t, stand *s)
 {

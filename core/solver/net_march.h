@@ -7,9 +7,10 @@
 
 /* When two nets meet, about
  * =========================
- * The nearest points of two surfaces, followed in time: Newton steps on the distance at one time, then on to
- * the time at which it would be gone at the speed at which it shrinks. Points are those of the nets' patches,
- * so that no surface is evaluated; what is found is a guess, to be proved by a witness. */
+ * Follows the nearest points of two surfaces in time: Newton steps on the distance at one time,
+ * then a step to the time at which the gap would be closed at its present speed. Points are those
+ * of the nets' patches, so that no surface is evaluated. The result is a guess, to be proved by a
+ * witness. */
 
 typedef struct net_meeting {
     double t;
@@ -17,14 +18,15 @@ typedef struct net_meeting {
     double speed; /* at which the gap closes; length/time */
 } net_meeting;
 
-/* From where both nodes, of which each has a net, reach farthest along the axis, from A to B or 0, and the start
- * of the window on: the first time in it, about, at which the gap is `gap`. False: none was found. */
+/* The first time in the window, about, at which the gap is `gap`; false: none was found. Both nodes
+ * have nets. The march begins at the window's start, where the nodes reach farthest along the axis,
+ * which points from A to B or is 0. */
 bool net_march(const node *a, const node *b, vec3 axis, const time_window *window, double gap,
                net_meeting *found);
 
-/* Where they are nearest to each other at one time, found from there too, until a step promises less than `gain`
- * of the gap; or a place where they are no farther apart than `enough`. Either node may be left by a
- * half-width. */
+/* Where they are nearest to each other at time t, from the same start. Ends once a step promises
+ * less than `gain` of the gap, or points are no farther apart than `enough`. Points may leave
+ * either node by a half-width. */
 void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
                  double y[4]);
 

@@ -61,7 +61,7 @@ static bool solve(const double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double
     return true;
 }
 
-/* Keeps unknown k where it is. */
+/* Holds unknown k where it is. */
 static void hold(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double *g, int k)
 {
     for (int m = 0; m < NEWTON_UNKNOWNS; ++m) h[k][m] = h[m][k] = k == m;
@@ -104,8 +104,8 @@ static bool step(const newton_way *way, const double *y, double damping, double 
 
 /* --- The way --------------------------------------------------------------------------------------- */
 
-/* Damping to begin with, and where it is no use to go on; then what a step that leads downhill, or does not,
- * changes it by. */
+/* Damping at first, and where the search gives up; then the factors by which a step that leads
+ * downhill, or does not, changes it. */
 static const double DAMPING = 0x1p-20, DAMPING_MAX = 0x1p10, DAMPING_LESS = 0x1p-6,
                     DAMPING_MORE = 0x1p5;
 

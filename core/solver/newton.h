@@ -23,8 +23,8 @@ void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double seco
                    double gradient[NEWTON_UNKNOWNS],
                    double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]);
 
-/* A way downhill: from each place that is better than the last, with its derivatives, steps are tried until
- * one leads to a better place. */
+/* The state of a descent: from each place that is better than the last, steps are tried with its
+ * derivatives until one leads to a better place. */
 typedef struct newton_way {
     const newton_bounds *bounds;
     double gradient[NEWTON_UNKNOWNS],
@@ -35,14 +35,15 @@ typedef struct newton_way {
 
 newton_way newton_begin(const newton_bounds *bounds);
 
-/* A step from y that stays within the bounds: unknowns that would leave are held there and the rest solved
- * again. False: there is none that is worth it, or too many were tried. */
+/* A step from y that stays within the bounds: unknowns that would leave them are held there, and
+ * the rest is solved again. False: no step is worth it, or too many were tried. */
 bool newton_try(newton_way *way, const double *y, double *next);
 
-/* By how much less |D|^2 / 2 the step leads, were it quadratic. */
+/* By how much the step would reduce |D|^2 / 2 if that were quadratic. */
 double newton_promise(const newton_way *way, const double *y, const double *next);
 
-/* Tells what came of it: then comes another try, or, from a better place, new derivatives. */
+/* Notes whether the step led to a better place, whose derivatives the caller sets before the next
+ * try. */
 void newton_judge(newton_way *way, bool is_better);
 
 #endif

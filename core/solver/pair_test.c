@@ -50,8 +50,8 @@ imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes
     return code;
 }
 
-/* Whether both nodes are straight but for a remainder, of which nets would show nothing, but which hides little:
- * quadratics part most such pairs, and cost less than to ask for nets. */
+/* Whether both nodes are straight but for a small remainder. Quadratics part most such pairs, and
+ * cost less than asking for nets. */
 static bool waits_for_nets(const impact *im, const pair *p)
 {
     if (im->method == IMP_METHOD_PAPER || vec3_norm1(p->axis) > 0) return false;
@@ -83,10 +83,11 @@ imp_code pair_test_first(const impact *im, pair_test *t, chances *turning, imp_e
     return IMP_SUCCESS;
 }
 
-/* --- Of candidate pairs ----------------------------------------------------------------------- */
+/* --- Candidate pairs -------------------------------------------------------------------------- */
 
-/* Whether its two bodies have many candidate pairs, which stand together in the list: only a few will be popped.
- * Other bodies do not matter, so that a query of the two alone finds the same contact. */
+/* Whether its two bodies have many candidate pairs, which stand together in the list: only a few
+ * of them will be popped. Other bodies do not matter: a query of the two alone finds the same
+ * contact. */
 static bool is_of_many(const impact *im, size_t index)
 {
     const size_t apart = TUNING_GLANCES_APART;
@@ -120,7 +121,8 @@ imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error
     return t->done ? IMP_SUCCESS : test_roots(im, index, t, error);
 }
 
-/* Whether its test makes no net: which thread made one would tell when a limit of memory ends the search. */
+/* Whether its test makes no net. If threads made nets ahead, a limit of memory might end the
+ * search at another step. */
 static bool makes_no_net(const impact *im, size_t index)
 {
     const candidate_pair *both = &im->candidate_pairs[index];

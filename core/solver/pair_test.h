@@ -7,17 +7,19 @@
 
 /* Whether a pair's nodes may be within the clearance
  * ==================================================
- * The first test of a pair may leave more of its window than there is; it is completed when the pair is
- * popped, as a third of what is pushed never is. Pairs of roots are tested first of all, perhaps ahead of
- * their turn by several threads: such a test depends on nothing but its two nodes. */
+ * The first test of a pair may leave too much of its window. It is completed when the pair is
+ * popped, since a third of the pairs pushed never is. Pairs of roots are tested first of all,
+ * perhaps ahead of their turn by several threads: such a test depends only on its two nodes. */
 
-/* Completely; p->window becomes what is left. Of a pair that had its first test, or whose nodes had. */
+/* Completes the test of a pair that had its first test, or whose nodes had; p->window becomes what
+ * is left. */
 bool pair_test_fully(const impact *im, pair *p);
 
-/* Makes the nets of the nodes that may have one, if they are of use; what that takes is added to *bytes. */
+/* Makes the nodes' nets where they are of use; their memory is added to *bytes. */
 imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error);
 
-/* The first test of t->p, to the rest of *t. Makes the nodes' nets. `turning` as for separation_by_models. */
+/* The first test of t->p; the rest of *t is its result. Makes the nodes' nets. `turning` is as for
+ * separation_by_models. */
 imp_code pair_test_first(const impact *im, pair_test *t, chances *turning, imp_error *error);
 
 /* The first test of the roots of candidate pair `index`: that made ahead, or one made now. */

@@ -65,8 +65,8 @@ static bool is_thin(const node *n)
     return !has_normal(n) && n->many == NULL && !node_blurs(n, TUNING_STRAIGHT_BLUR);
 }
 
-/* Of two nodes without normals, along axes that need no search: the ways across both, and the lines of centres,
- * at either end of the window; again if that pays. */
+/* Cuts the window of two nodes without normals along axes that need no search: perpendicular to
+ * both, and the lines of centres, at either end of the window; again if that pays. */
 static bool cut_across(const node *a, const node *b, double clearance, time_window *window,
                        int rounds)
 {
@@ -82,8 +82,8 @@ static bool cut_across(const node *a, const node *b, double clearance, time_wind
     return true;
 }
 
-/* Cuts by an axis that turns. It shows more only where one surface lies in the other's concave side, or nearly;
- * there fixed axes seldom cut the start of a window. */
+/* Cuts by an axis that turns. It shows more only where one surface lies in the other's concave
+ * side, or nearly; there fixed axes seldom cut the start of a window. */
 static bool cut_by_turning(const relative *r, double clearance, w_range *s, chances *turning,
                            gap_lines *lines)
 {
@@ -129,14 +129,15 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
 
 /* --- Nets -------------------------------------------------------------------------------------- */
 
-/* Asked for by each pair of it (pair_test.c), so that a test depends on its two nodes alone. Of a bilinear patch
- * without remainder the quadratic says all that the hull does. */
+/* Whether a net tells more than the quadratic, as it does not for a bilinear patch without
+ * remainder. Each pair asks for the net (pair_test.c), so that a test depends on its two nodes
+ * alone. */
 static bool has_useful_net(const node *n)
 {
     return node_net_made(n) != NULL && node_gains_by_net(n);
 }
 
-/* One net is enough. */
+/* Whether one of them has a useful net, which is enough. */
 static bool have_nets(const node *a, const node *b)
 {
     return a->bounded && b->bounded && (has_useful_net(a) || has_useful_net(b));
@@ -192,8 +193,8 @@ static bool are_models_closer(const node *a, const node *b)
     return TUNING_NET_BEND * remainder < bend;
 }
 
-/* Hulls at the start of the window again and again, as long as that pays; then the quadratics: of flat nodes
- * of which one has no net as ever, of others once, and where they may show more. */
+/* Cuts by hulls at the start of the window as long as that pays, then by quadratics. Flat nodes of
+ * which one has no net get the full search, others one cut where quadratics may show more. */
 static bool shrink_by_nets(const node *a, const node *b, double clearance, time_window *window,
                            vec3 *axis, chances *turning)
 {

@@ -13,8 +13,8 @@
  * included. A NaN or an infinity anywhere leaves the window as it is. */
 
 /* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. `axis` is as for
- * axes_cut. `turning`: of an axis that turns (normal_field.h) where fixed ones cut the start of the
- * window; of its candidate pair, or NULL: each is taken. */
+ * axes_cut. `turning`: the candidate pair's chances of axes that turn (normal_field.h) where fixed
+ * axes cut the start of the window; NULL: each is taken. */
 bool separation_by_models(const node *a, const node *b, double clearance, time_window *window,
                           vec3 *axis, chances *turning);
 
@@ -22,8 +22,8 @@ bool separation_by_models(const node *a, const node *b, double clearance, time_w
 bool separation_without_nets(const node *a, const node *b, double clearance, time_window *window,
                              vec3 *axis, chances *turning);
 
-/* The same as the first, but where both nodes have control nets and the axis is not 0, only along that axis, and only by
- * the nets: `more` says that separation_by_models may leave less. */
+/* As the first; but where both nodes have control nets and the axis is not 0, only the nets are
+ * tried, along that axis. `more`: whether separation_by_models may leave less. */
 bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,
                            vec3 *axis, chances *turning, bool *more);
 

@@ -71,8 +71,8 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
     return IMP_SUCCESS;
 }
 
-/* Goes on with halves alone, one after the other, as long as the pair's axis excludes the other half. *some:
- * false where both halves are. Models are made of the last alone. */
+/* Takes halves one after the other as long as the pair's axis excludes the other half; only the
+ * last gets models. *some is false where both halves are excluded. */
 static imp_code leave_out_halves(impact *im, pair *p, bool *some, imp_error *error)
 {
     const candidate_pair *both = candidate_pair_of(im, p);
@@ -99,15 +99,15 @@ static void note_gap(impact *im, const witness *seen)
 /* What is to be told apart; by default half of gamma. */
 static double room(const impact *im) { return im->gamma - im->clearance; }
 
-/* Whether both have nets that surfaces leave by so little that what is nearest on these is within gamma where
- * the surfaces come within the clearance. */
+/* Whether both have nets so close to the surfaces that the nets' nearest points are within gamma
+ * where the surfaces come within the clearance. */
 static bool have_close_nets(const impact *im, const pair *p)
 {
     return nodes_have_nets(p->a, p->b) &&
            4 * (net_off(node_net_made(p->a)) + net_off(node_net_made(p->b))) <= room(im);
 }
 
-/* Of nodes with such nets, nearest points are sought on these, and only what is found is evaluated. */
+/* With such nets the nearest points are sought on them, and only those found are evaluated. */
 static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp_error *error)
 {
     const node *const nodes[2] = {p->a, p->b};
@@ -212,9 +212,9 @@ static bool precision_ends(const impact *im, const pair *p, double flat)
     return pair_precision_ends(p, candidate_pair_of(im, p), room(im), flat);
 }
 
-/* Whether a search may pay: the polynomials are good enough for gamma, or all that there will ever
- * be, or hulls show all there is. At one instant also where one side alone would be halved: surfaces that touch all over then would be
- * halved down to gamma everywhere. */
+/* Whether a search may pay: the polynomials are good enough for gamma, or will never be better, or
+ * hulls show all there is. At one instant also where one side alone would be halved: surfaces that
+ * touch all over would be halved down to gamma everywhere. */
 static bool witness_is_likely(const impact *im, const pair *p, const sight *seen)
 {
     if (p->wait > 0) return false;
@@ -247,8 +247,8 @@ static cut choose_cut(const impact *im, const pair *p, const sight *seen)
     return bend.side >= 0 ? bend : cut_by_spread(p, scale(im));
 }
 
-/* Chooses, and takes at once, without another test, each cut in time of which one half holds the whole window:
- * tests wait for a cut that parts something. */
+/* Chooses a cut. A cut in time of which one half holds the whole window is made at once, without
+ * another test, and the next is chosen. */
 static imp_code choose_cut_after_free(impact *im, pair *p, const sight *seen, cut *c,
                                       imp_error *error)
 {
@@ -264,9 +264,9 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const sight *seen, cu
     return code;
 }
 
-/* Whether no fixed axis parts the nodes from the start of their times on, as where surfaces slide along each
- * other, or their parents slid; where an axis does part them, as often as it pays. Of surfaces that come to
- * each other axes cut the start of the window first. */
+/* Whether the nodes may slide along each other: no fixed axis parts them from the start of their
+ * times on, or their parents slid. Where an axis parts them, this is tried as often as it pays. If
+ * surfaces approach each other, axes cut the start of the window first. */
 static bool may_slide(const pair *p, bool is_parted, chances *sliding)
 {
     if (!is_parted) return p->slides || !(p->window.lo > pair_times(p->a, p->b).lo);
@@ -394,7 +394,8 @@ static bool is_still_first(impact *im, pair *p)
     return false;
 }
 
-/* Asks for the nets of a pair that was only looked at. On failure it goes back. */
+/* Asks for the nets of a pair that was only looked at; if that fails the pair goes back on the
+ * heap. */
 static imp_code ask_before_test(impact *im, pair *p, imp_error *error)
 {
     if (!p->lacks_nets) return IMP_SUCCESS;
@@ -475,7 +476,7 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 
 /* --- One step --------------------------------------------------------------------------------- */
 
-/* False: no memory. */
+/* Returns false if there is no memory. */
 static bool reserve_chances(impact *im)
 {
     const size_t count = im->method == IMP_METHOD_MODELS ? im->candidate_pair_count : 0;

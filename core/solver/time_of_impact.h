@@ -25,24 +25,23 @@ typedef enum impact_state {
 
 /* The first test of a pair. */
 typedef struct pair_test {
-    pair p;    /* the window that is left, and the axis */
-    bool near; /* whether its nodes may be within the clearance */
-    bool
-        any_time; /* of a candidate pair: whether both surfaces exist at one time; else nothing else counts */
+    pair p;         /* the window that is left, and the axis */
+    bool near;      /* whether its nodes may be within the clearance */
+    bool any_time;  /* for a candidate pair: both exist at one time; else nothing else counts */
     bool done;      /* ahead of its turn */
     uint64_t bytes; /* of nets made for it */
 } pair_test;
 
-/* Of candidate pairs from `first` on, whose turn has not come. */
+/* Tests of candidate pairs from `first` on, whose turn has not come. */
 typedef struct tests_ahead {
     pair_test *tests;
     uint32_t first, count;
 } tests_ahead;
 
-/* Of one candidate pair: */
+/* What pays in one candidate pair. */
 typedef struct pair_chances {
-    chances turning; /* of an axis that turns, in tests but the roots' (separation.h) */
-    chances sliding; /* of distances where an axis parts nodes whose parents slid (sight.h) */
+    chances turning; /* axes that turn, in all tests but the roots' (separation.h) */
+    chances sliding; /* distances where an axis parts nodes whose parents slid (sight.h) */
 } pair_chances;
 
 typedef struct impact {
@@ -55,7 +54,7 @@ typedef struct impact {
     imp_stats *stats;                      /* the caller's; bytes: of the trees, without the heap */
     pair_heap heap;
     upper_time upper;         /* with method models */
-    pair_chances *chances;    /* of each candidate pair, from the first step on; NULL: each is taken */
+    pair_chances *chances;    /* for each candidate pair, from the first step on, or NULL */
     tests_ahead ahead;        /* made by threads that look ahead (pair_test.h) */
     uint64_t serial, refined; /* of the next pair; of the first after impact_refine */
     double t_lower;
@@ -68,7 +67,7 @@ typedef struct impact {
     uint32_t found_candidate; /* whose pair was followed last: with IMPACT_CONTACT, the witness's */
 } impact; /* the caller sets gamma ... stats and t_lower, the rest is 0; impact_clear frees */
 
-/* NULL: each is taken. */
+/* NULL before the first step: each chance is taken. */
 static inline chances *impact_turning(const impact *im, const pair *p)
 {
     return im->chances != NULL ? &im->chances[p->candidate_pair].turning : NULL;
@@ -81,9 +80,8 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
  * its results so far still stand. */
 imp_code impact_advance(impact *im, impact_state *state, imp_error *error);
 
-/* Goes on with a smaller gamma and clearance; `count` candidate pairs, or 0 while these
- * are not known. False: no memory, nothing has
- * changed. */
+/* Goes on with a smaller gamma and clearance; `count` candidate pairs, or 0 while these are not
+ * known. False: no memory, nothing has changed. */
 bool impact_refine(impact *im, double gamma, double clearance, size_t count);
 
 /* After IMPACT_CONTACT or IMPACT_RESOLUTION: goes on without the two bodies of that pair. False: no

@@ -39,7 +39,8 @@
 
 /* --- Which roots are only looked at before they are popped (pair_test.c) --- */
 
-/* Of candidate pairs where the one so many places before or behind is of the same bodies. */
+/* A candidate pair's bodies have many if the one so many places before or behind has the same
+ * bodies. */
 #define TUNING_GLANCES_APART 4
 
 /* --- When to search for a witness (time_of_impact.c) --- */
@@ -61,8 +62,10 @@
  * Bicubic patches at gamma 1e-6, 0, 0.875: no change */
 #define TUNING_WITNESS_NEAR 0.5
 
-/* --- When to look for an upper time (upper_time.c), and how (net_march.c): pairs of the 100 bicubic scenes at
- * gamma 1e-6, of 79, and per cent of their instructions --- */
+/* --- When to look for an upper time (upper_time.c), and how (net_march.c) ---
+ *
+ * Changes of the pairs of the 100 bicubic scenes at gamma 1e-6, which are 79, and of their
+ * instructions in per cent. */
 
 /* Pairs followed before the first search.
  * 4: -2.3, +3 %; 16: +8, 0 % */
@@ -73,13 +76,13 @@
 /* Steps in time at most.
  * 20: 0 */
 #define TUNING_MARCH_STEPS 12
-/* Gaps sought from which on nearest points are only sought roughly.
+/* From this many times the gap sought on, nearest points are only sought roughly.
  * 16: 0, 0 %; 1024: -0.1, -0.3 % */
 #define TUNING_MARCH_NEAR 64
-/* Then a Newton step is left out that promises less than this of the gap.
+/* From there on a Newton step that promises less than this part of the gap is left out.
  * 2^-4: +0.8, +0.3 %; 2^-9: -0.5, +0.1 % */
 #define TUNING_MARCH_GAIN 0x1p-6
-/* And the next time is this part of the way to where the gap would be gone.
+/* And the time goes on by this part of what would close the gap.
  * 0.8: -0.7, +0.3 %; 0.95: +0.4, +0.8 % */
 #define TUNING_MARCH_STRIDE 0.9
 
@@ -114,9 +117,10 @@
 /* Centres at most, of flat nodes.
  * 3, 8: 0.0 */
 #define TUNING_FLAT_ROUNDS 4
-/* Of nodes without normals, along axes that need no search, before one with a search; again if the range of w
- * shrank below this. Points and straight curves: then one search. Edges, instructions of a query: rounds 4: +2.5 %,
- * 5: +2, 8: 0.0; 2, and then as many searches as of other flat nodes: +4.5 */
+/* Nodes without normals: rounds along axes that need no search, before one with a search, as long
+ * as the range of w, of 2, shrinks below this. Points and straight curves (thin) get one search
+ * after them. Instructions of edges, thin rounds 4: +2.5 %, 5: +2 %, 8: 0.0 %; 2, and then as many
+ * searches as for other flat nodes: +4.5 % */
 #define TUNING_CURVE_ROUNDS 2
 #define TUNING_THIN_ROUNDS 6
 #define TUNING_CURVE_SHRINKS 1.6
@@ -128,9 +132,9 @@
 #define TUNING_FLAT_NET_SHRINKS (1 - 0x1p-20)
 /* Straight nodes are tried without nets first, unless remainders are more than this part of them. */
 #define TUNING_STRAIGHT_BLUR 0x1p-3
-/* Part of what bends, of two nodes with nets, from which on their remainders are too large for quadratics to
- * show more than hulls did. Pairs of bicubic patches, of 68, and per cent of their instructions: 4: -0.1, +0.7 %;
- * 16: 0, -0.8 %, but proofs of 0.99 of a distance, half-way to contact, 43, of 34 */
+/* Two nodes with nets: remainders above 1 / this of what bends are too large for quadratics to
+ * show more than hulls. Pairs of bicubic patches, of 68, and instructions: 4: -0.1, +0.7 %; 16: 0,
+ * -0.8 %, but proofs of 0.99 of a distance, half-way to contact, take 43 instead of 34 pairs */
 #define TUNING_NET_BEND 8
 /* At most; six are usual.
  * 6: +1.0, 10: +0.1, 40: 0.0 */
@@ -144,14 +148,16 @@
 /* Of normals within 25 degrees, which are nearly tangent.
  * 0.5: 0.0, 0.99: 0.0 */
 #define TUNING_FIELD_COSINE 0.9
-/* Where fixed axes cut the start of the window: one in so many axes that turn has to cut more, or so many are left
- * out before the next. Pairs of a thread by formula, and instructions of tori, instead of trying all: +0.8 %, -4.8 %;
- * of the last 64 instead of 1024: +3.1 %; never trying any +56 %, -5.7 % */
+/* Where fixed axes cut the start of the window: one in SHARE axes that turn has to cut more, or
+ * WAIT chances are left out before the next. Pairs of a thread by formula, and instructions of
+ * tori, beside trying all: +0.8 %, -4.8 %; the last 64 counted instead of 1024: +3.1 %; none
+ * tried: +56 %, -5.7 % */
 #define TUNING_FIELD_SHARE 8
 #define TUNING_FIELD_WAIT 7
 
-/* --- Distances from a surface (distance.c): per cent of the pairs of the conformal set without its threads ---
- */
+/* --- Distances from a surface (distance.c) ---
+ *
+ * Per cent of the pairs of the conformal set without its threads. */
 
 /* Remainder beside the distance's size from which on it is not only rounding.
  * 0x1p-30, 0x1p-48: no change */
@@ -162,15 +168,16 @@
 /* Level: the polynomial varies by less than this times the remainder.
  * 4: +8, 64: no change */
 #define TUNING_DISTANCE_LEVEL 16
-/* Where an axis parts nodes whose parents slid: one in so many distances has to show more, or so many are left out
- * before the next. Pairs, and instructions of tori, instead of asking for all: +0.1 %, -8.7 %; 4 and 7: 0.0 %,
- * -6.2 %; counted along the line of ancestors instead: threads +2 to +80 % */
+/* Where an axis parts nodes whose parents slid: one in SHARE distances has to show more, or WAIT
+ * chances are left out before the next. Pairs, and instructions of tori, beside asking for all:
+ * +0.1 %, -8.7 %; 4 and 7: 0.0 %, -6.2 %; counted along the line of ancestors instead: threads +2
+ * to +80 % */
 #define TUNING_DISTANCE_SHARE 2
 #define TUNING_DISTANCE_WAIT 15
 
-/* --- When contact within what is required is sought in turn with the distance (clearance.c) --- */
+/* --- When the searches for contact and for the distance go on in turn (clearance.c) --- */
 
-/* After so many pairs, and two for each candidate pair, without a verdict. */
+/* After so many pairs, and two more for each candidate pair, without a verdict. */
 #define TUNING_DECIDE_PAIRS 2000
 
 /* --- The search for a witness (witness.c) --- */

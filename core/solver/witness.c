@@ -31,8 +31,8 @@ typedef struct state {
     double gap;
 } state;
 
-/* Whether its polynomial tells too little of where u and v lead: it has no normal, and is no curve that is
- * nearly straight. */
+/* Whether its polynomial tells too little of how points depend on u and v: it has no normal, and
+ * is not a curve that is nearly straight. */
 static bool node_is_vague(const node *n)
 {
     return !(vec3_norm1(n->normal) > 0) && node_blurs(n, TUNING_STRAIGHT_BLUR);
@@ -97,8 +97,8 @@ static imp_code point_at(const surface *s, const double *p, vec3 *x, double eval
     return point_check(s, p, *x, eval_error, error);
 }
 
-/* The same of n points. Where they cannot be evaluated together, the first is named that cannot be by itself, or
- * the first of all. */
+/* The same for n points. If they cannot be evaluated together, the error names the first that
+ * cannot be evaluated by itself, or else the first of all. */
 static imp_code points_at(const surface *s, size_t n, const double (*p)[3], vec3 *x,
                           double (*eval_error)[3], imp_error *error)
 {
@@ -198,9 +198,9 @@ static imp_code derive(const search *g, const state *s, double gradient[NEWTON_U
 
 /* --- Steps -------------------------------------------------------------------------------- */
 
-/* Goes downhill from *s until it no longer pays: a step promises nothing that rounding would not hide, the gap
- * shrinks by less than TUNING_NEWTON_GAIN of it, or it is far from gamma and shrinks by less than half. Not the
- * last where hulls are the surfaces: windows then start with a contact, however far the way to it. */
+/* Descends from *s as long as that pays: until a step promises no more than rounding, or the gap
+ * shrinks by less than TUNING_NEWTON_GAIN of it, or by less than half while it is far above gamma.
+ * The last does not count where hulls are the surfaces: there windows start with a contact. */
 static imp_code descend(const search *g, double gamma, state *s, imp_error *error)
 {
     newton_way way = newton_begin(&g->y);

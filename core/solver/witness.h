@@ -25,13 +25,14 @@ typedef struct witness {
 imp_code witness_seek(const node *const nodes[2], double t, double gamma, witness *found,
                       imp_error *error);
 
-/* The points that are evaluated at n parameters (u, v, t), and bounds of their distances to the exact ones. */
-enum { WITNESS_POINTS = 3 }; /* at most */
+/* The points evaluated at n parameters (u, v, t), n <= WITNESS_POINTS, and bounds of their
+ * distances to the exact points. */
+enum { WITNESS_POINTS = 3 };
 imp_code witness_eval_errors(const surface *s, size_t n, const double (*p)[3], double *eval_error,
                              vec3 *x, imp_error *error);
 
-/* The points at parameters (s_u, s_v) of a and of b relative to the nodes, which may be left, not the
- * surfaces. */
+/* The points at parameters (s_u, s_v) of a and of b, relative to the nodes. They may lie outside
+ * of the nodes, not of the surfaces' domains. */
 imp_code witness_at(const node *const nodes[2], double t, const double y[4], witness *found,
                     imp_error *error);
 

@@ -279,8 +279,8 @@ static inline imp_model imp_add_point_(double a, double x_error, double y_error)
     return imp_known(a, (x_error + y_error + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK);
 }
 
-/* The last step but for rates, where x was finished before, and quadratic and range moved alike: they need not clip
- * each other anew. */
+/* The last step without the rates, where x was finished before and quadratic and range moved alike:
+ * they need not clip each other again. */
 static inline void imp_finish_again_(imp_model *x)
 {
     if (!(x->e <= 0.5 * (x->hi - x->lo) && x->hi - x->lo < INFINITY)) imp_finish_(x);

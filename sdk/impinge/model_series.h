@@ -141,7 +141,7 @@ static inline imp_terms_ imp_terms_deep_(const imp_model *x, const imp_series *s
     return t;
 }
 
-/* The remainder, of which `rest` is what rounding and delta add nothing to. n >= |A| + |L| + |Q|.
+/* The remainder; `rest` is its part without rounding and delta. n >= |A| + |L| + |Q|.
  *
  * Rounding, in units of u and with d_k = |c_k|: c0 passes at most 3 roundings; c1 p at most 5
  * (A, sum in c1, product, two sums); c2 p^2 at most 8, the terms in h and swing adding less

@@ -65,7 +65,7 @@ void bench_cases_free(bench_cases *list);
 typedef enum bench_question {
     BENCH_CONTACT,   /* when do they first touch? */
     BENCH_CLEARANCE, /* how near do they come? */
-    BENCH_DECISION,  /* is 0.99 of the least distance, which is required, kept? */
+    BENCH_DECISION,  /* is 0.99 of the minimum distance kept? */
     BENCH_PROOF,     /* do they stay 0.99 of the least distance apart? */
     BENCH_STREAM     /* contact, of all scenes one after the other, reading them included */
 } bench_question;

@@ -50,7 +50,7 @@ static imp_code run(imp_query *query, imp_result *result, double *seconds, imp_e
     return code;
 }
 
-/* Clear: the least distance is known, or what is required is kept. */
+/* Clear: the minimum distance is known, or what is required is kept. */
 static imp_verdict verdict_of(const imp_clearance *answer, double gamma)
 {
     if (answer->verdict == IMP_REQUIREMENT_HOLDS) return IMP_CLEAR;
@@ -59,8 +59,8 @@ static imp_verdict verdict_of(const imp_clearance *answer, double gamma)
     return answer->upper > gamma ? IMP_CLEAR : IMP_CONTACT;
 }
 
-/* The least distance, or with something required a decision: its bracket, as the result of a search that is
- * clear or not. */
+/* The minimum distance, or, if something is required, whether it is kept; as the result of a
+ * search that is clear or not. */
 static imp_code run_clearance(imp_scene *scene, const imp_options *options, double required,
                               imp_clearance *least, imp_result *result, double *seconds,
                               imp_error *error)
@@ -99,7 +99,7 @@ static imp_code cut_interval(imp_registry *registry, const bench_scene *s, const
     return code;
 }
 
-/* The least distance, of a scene of its own; 0: nothing comes near anything. */
+/* The minimum distance, sought in a copy of the scene; 0: nothing comes near anything. */
 static imp_code find_least(imp_registry *registry, const bench_scene *s, const imp_options *options,
                            double *distance, imp_error *error)
 {
