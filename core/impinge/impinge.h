@@ -367,7 +367,7 @@ typedef enum imp_reason {
     IMP_REASON_CANCELLED,  /* undecided: imp_query_cancel */
     IMP_REASON_RESOLUTION, /* undecided: gamma is below what double precision resolves here */
     IMP_REASON_RUNNING,    /* undecided: not finished yet */
-    IMP_REASON_DECIDED     /* of an imp_clearance alone */
+    IMP_REASON_DECIDED     /* imp_clearance only: the verdict is known, `decide` was set */
 } imp_reason;
 
 typedef enum imp_method {
@@ -560,19 +560,19 @@ static inline imp_code imp_solve(imp_scene *scene, const imp_options *options, i
 
 /* --- Clearance: how near do bodies come? --------------------------------------------- */
 
-/* The minimum distance over an interval of time, as a bracket: below `lower` it is proved not to be,
- * and `upper` is evaluated at a witness. Where a distance is required, whether it is kept. */
+/* The minimum distance over an interval of time, as a bracket: it is proved not to be below `lower`,
+ * and `upper` is evaluated at a witness. If a distance is required, also whether it is kept. */
 typedef struct imp_clearance_options {
     uint32_t struct_size; /* sizeof(imp_clearance_options); grows at the end */
     bool each;            /* an answer for each two bodies that do not ignore each other */
     double tolerance;     /* R, from 1e-9 to below 1: done when upper - lower <= R upper */
     double required;      /* D > 0, length; 0: nothing is required */
     uint64_t slices;      /* from 1 to 1000000: an answer for each of so many equal parts of time */
-    bool decide;          /* done, too, when it is known whether what is required is kept */
+    bool decide;          /* also done as soon as it is known whether `required` is kept */
 } imp_clearance_options;
 
-/* A tolerance of 1e-3, nothing required, one answer, decide false. *asked comes with its struct_size
- * set. */
+/* Sets the defaults: a tolerance of 1e-3, nothing required, one answer, decide false. The caller sets
+ * asked->struct_size before. */
 IMP_EXPORT imp_code imp_clearance_options_read(imp_clearance_options *asked, imp_error *error);
 
 static inline imp_clearance_options imp_clearance_options_default(void)
@@ -596,10 +596,11 @@ typedef enum imp_requirement {
  *   (a) no points of the bodies are nearer than `lower` at any time in [t_start, t_end];
  *   (b) has_witness: a.point and b.point lie on their surfaces at time t, evaluated, no farther
  *       than `upper` apart, rounding included;
- *   (c) reason NONE: upper - lower <= R upper, or upper <= gamma, which is contact; NO_PAIRS, NO_TIME:
- *       nothing comes near anything, lower and upper are infinite; RESOLUTION: double precision
- *       resolves no more; DECIDED: the verdict is known, and `decide` was asked; RUNNING, or why the query
- *       was ended: the bracket as it is;
+ *   (c) reason NONE: upper - lower <= R upper, or upper <= gamma, which is contact;
+ *       NO_PAIRS, NO_TIME: nothing comes near anything, lower and upper are infinite;
+ *       RESOLUTION: double precision resolves no more;
+ *       DECIDED: `decide` was set and the verdict is known, the bracket is as it was then;
+ *       RUNNING, or why the query was ended: the bracket as it is;
  *   (d) t_violated is not NaN: the points of a_violated and b_violated are no farther than D apart at
  *       that time, and before it no two are nearer than D (1 - 1e-6). */
 typedef struct imp_clearance {

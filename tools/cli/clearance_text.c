@@ -22,7 +22,7 @@
  *     normal   (1, 0, 0), from a to b
  *     cost     123 pairs, ...
  *
- * Where the search ended with the verdict the first line has nothing more, and the two points a line:
+ * If the search ended with the verdict, the first line has only that, and the two points one line:
  *
  *     seen     32.4 apart at t = 0.5, "link1" and "fixture"; --tolerance finds the tightest
  */
