@@ -79,7 +79,7 @@ static bool prepare(collection *all)
     all->list->candidates = malloc(most * sizeof *all->list->candidates);
     if (all->boxes == NULL || all->list->candidates == NULL) return false;
     all->with_roots =
-        most <= ROOTS_AT_ONCE || !(all->clearance < INFINITY); /* else all are in pairs */
+        most <= ROOTS_AT_ONCE || !(all->clearance < INFINITY); /* or all are in pairs */
     if (!parallel_is_on(all->options)) return true;
     all->surfaces = malloc(SURFACES_A_ROUND * sizeof *all->surfaces);
     all->sweep = calloc(TASKS_A_ROUND, sizeof *all->sweep);

@@ -53,7 +53,7 @@ static imp_requirement requirement_of(const clearance_search *c, double lower, d
     return lower >= relaxed(c) ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_UNDECIDED;
 }
 
-/* The witness that gives upper: at time t, of candidate k. */
+/* Takes the witness of candidate k at time t, which gives `upper`. */
 static void take_witness(const clearance_search *c, uint32_t k, const witness *w, double t,
                          imp_clearance *answer)
 {

@@ -33,7 +33,7 @@ static bool find_missing(collection *all)
     return ok;
 }
 
-/* What fails is made again in its turn. */
+/* A root that fails is made again in its turn. */
 static void make_some(void *of, size_t task)
 {
     collection *all = of;
@@ -54,7 +54,7 @@ static void look_ahead(collection *all)
     parallel_run(all->options, make_some, all, (some + SURFACES_A_TASK - 1) / SURFACES_A_TASK);
 }
 
-/* What was made ahead counts in its turn, or in the end. */
+/* A root made ahead counts in its turn, or at the end. */
 static imp_code take_roots(collection *all, bool *done, imp_error *error)
 {
     const bool ahead = parallel_is_on(all->options);

@@ -14,11 +14,11 @@
  * then the weights. Those of a half take their place. */
 typedef struct heights {
     const net *net;
-    imp_region region; /* what is left of the node's */
+    imp_region region; /* what is left of the node's region */
     double x[3 * IMP_QUAD * QUADS_MAX];
-    window_ends low; /* heights of the patch are not below, but for what a gap's rounding counts */
+    window_ends low; /* least height of the patch, but for what a gap's rounding counts */
     double most;     /* >= |height|, but for rounding */
-    double off;      /* what halving may have moved them by, summed up */
+    double off;      /* sum of what halving may have moved heights by */
 } heights;
 
 IMP_QUAD_INLINE window_ends least_heights(const net *f, const double *x)
@@ -84,7 +84,7 @@ static double halved_off(const heights *h, parameter j)
 
 enum { NONE_LEFT = 0, BOTH_LEFT = 3 };
 
-/* Notes that a half is kept, whose least heights these are. */
+/* Notes that a half is kept, and its least heights. */
 static void keep(heights *h, parameter j, int half, double off, double early, double late)
 {
     const double by = padded_upper(off, 64);
@@ -137,7 +137,8 @@ IMP_QUAD_INLINE void least_of_halves(const halved_rows *x, double least[2])
     least[1] = least_of(upper);
 }
 
-/* As halve_any_heights. At the window's end more is near as a rule: where both halves are, its start is not needed. */
+/* As halve_any_heights. More is near at the window's end than at its start, as a rule: where both
+ * halves are near at the end, the start is not needed. */
 IMP_QUAD_INLINE int halve_bicubic_heights(heights *h, parameter j, window_ends most,
                                           bool is_weighted)
 {
@@ -165,8 +166,8 @@ IMP_QUAD_INLINE int halve_bicubic_heights(heights *h, parameter j, window_ends m
 
 /* --- The search ---------------------------------------------------------------------------------- */
 
-/* Bits of the parameters along which a half may be excluded: of which both corners are above `most`, as far as
- * the window's end tells. */
+/* Bits of the parameters along which a half may be excluded: two corners of the half are above
+ * `most`, as far as the window's end tells. */
 static int promising(const heights *h, double most)
 {
     const int end = h->net->degree[1], last = h->net->degree[0] * (end + 1);
@@ -195,7 +196,7 @@ IMP_QUAD_INLINE bool find_of_side(heights *h, window_ends most, net_half *found)
     return false;
 }
 
-/* Of A, then of B. At the window's ends places are `at` apart along the axis. */
+/* A's halves, then B's. At the window's ends places are `at` apart along the axis. */
 IMP_QUAD_INLINE bool find_half(heights of[2], double limit, window_ends at, net_half *found)
 {
     for (found->side = 0; found->side < 2; ++found->side) {

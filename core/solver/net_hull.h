@@ -141,7 +141,8 @@ static inline bool line_cut(double g0, double g1, double limit, time_window *w)
 
 /* --- Along an axis ------------------------------------------------------------------------------- */
 
-/* With a longest coordinate of 1, about. False: of such a length it proves nothing. */
+/* Scales n to a longest coordinate of 1, about. False: its length is such that it proves
+ * nothing. */
 static inline bool axis_scaled(vec3 axis, vec3 *n)
 {
     double longest = fabs(axis.x[0]);
@@ -154,7 +155,7 @@ static inline bool axis_scaled(vec3 axis, vec3 *n)
 PAD_COVERS(16, 4); /* |n| clearance: square 1, sums 2, root (1 + 2) / 2 + 1, product 1 */
 PAD_COVERS(4, 1);  /* its sum with the slack */
 
-/* |n| clearance and the slack. */
+/* |n| clearance plus the slack. */
 static inline double net_limit_upper(vec3 n, double clearance, double slack)
 {
     return padded_upper(padded_upper(vec3_norm(n) * clearance, 16) + slack, 4);

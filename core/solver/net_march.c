@@ -117,7 +117,7 @@ static void foresee(const stand *s, newton_way *way, vec3 velocity, double wait,
 
 /* --- In time -------------------------------------------------------------------------------------------- */
 
-/* How far the surface extends around a node, in units of the node's half-widths; `most` at most. */
+/* How far the surface extends around a node, in the node's half-widths; `most` at most. */
 static void bounds_of(const node *n, double most, double *lo, double *hi)
 {
     const node *whole = n;
@@ -146,7 +146,7 @@ static const double ENOUGH = 1.125;
 /* From the middle of the node, beside the control point that lies lowest. */
 static const double START = 0.7;
 
-/* Where along u and v the control point stands that lies lowest along an axis. */
+/* Where along u and v the lowest control point along an axis is. */
 static void lowest_at(const net_points *f, vec3 axis, double *y)
 {
     const int n = f->net->degree[0], m = f->net->degree[1];

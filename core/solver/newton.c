@@ -68,7 +68,7 @@ static void hold(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double *g, int k)
     g[k] = 0;
 }
 
-/* With `damping` added to the diagonal. False: there is none, or it overflows. */
+/* The step with `damping` added to the diagonal. False: there is none, or it overflows. */
 static bool step(const newton_way *way, const double *y, double damping, double *next)
 {
     const newton_bounds *b = way->bounds;

@@ -28,9 +28,9 @@ void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double seco
 typedef struct newton_way {
     const newton_bounds *bounds;
     double gradient[NEWTON_UNKNOWNS],
-        hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]; /* of the last place */
+        hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]; /* at the last place */
     double damping;                                /* of the Hessian's largest diagonal element */
-    int steps;                                     /* tried */
+    int steps;                                     /* steps tried */
 } newton_way;
 
 newton_way newton_begin(const newton_bounds *bounds);

@@ -11,7 +11,7 @@
  * nearer has to be told apart from the clearance before it. */
 #define TOUCHING 0.875
 
-/* Whether the pair has the points of the contact that is known: it would be found again. */
+/* Whether the pair holds the points of the contact that is known, which would be found again. */
 static bool holds_contact(const upper_time *up, const pair *p)
 {
     const node *const nodes[2] = {p->a, p->b};

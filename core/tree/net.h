@@ -19,7 +19,7 @@ typedef struct net {
     bool is_moving, is_weighted;
     double time;               /* motion counts from here */
     double place[4], drift[4]; /* added to points, to velocities; x, y, z and a 0, here and below */
-    double error[4]; /* the surface is off the patch by this at most, over the region; length */
+    double error[4]; /* >= the surface's distance from the patch over the region; length */
     double most[4];  /* >= |point| + |t - time| |velocity| over the times it was made for; length */
     double numbers[]; /* x, y, z of points, the same of velocities if moving, weights if weighted */
 } net;
@@ -39,7 +39,7 @@ static inline bool net_is_curved(const net *n)
     return n->degree[0] > 1 || n->degree[1] > 1 || n->is_weighted;
 }
 
-/* How far, at most, about, the surface is off the patch. */
+/* The surface's largest distance from the patch, about. */
 static inline double net_off(const net *n) { return n->error[0] + n->error[1] + n->error[2]; }
 
 /* Fills n, which has room, from a sane net over a region. False: its numbers are too large or too small

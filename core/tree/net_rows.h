@@ -26,7 +26,7 @@ IMP_QUAD_INLINE void rows_store(double *x, rows r)
     for (int k = 0; k < 4; ++k) imp_quad_store(x + 4 * k, r.row[k]);
 }
 
-/* So that rows are columns. */
+/* Turns rows into columns. */
 IMP_QUAD_INLINE rows rows_turned(rows r)
 {
     const imp_quad a = r.row[0], b = r.row[1], c = r.row[2], d = r.row[3];
@@ -38,7 +38,7 @@ IMP_QUAD_INLINE rows rows_turned(rows r)
                    {odd[0][2], odd[0][3], odd[1][2], odd[1][3]}}};
 }
 
-/* With the lines along j as columns: turning once more takes it back. */
+/* Turned so that the lines along j are columns; its own inverse. */
 IMP_QUAD_INLINE rows rows_along(rows r, parameter j)
 {
     return j == PARAMETER_U ? r : rows_turned(r);

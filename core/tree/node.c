@@ -259,8 +259,8 @@ static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
     return kept != NULL ? memcpy(kept, filled, bytes) : NULL;
 }
 
-/* Publishes *made, NULL if there is none, unless another thread's is there already, which it becomes. False: no
- * memory. */
+/* Publishes *made, NULL if there is none. If another thread's is there already, *made becomes that
+ * one. False: no memory. */
 static bool net_keep(tree *t, node *n, const net **made, const net_buffer *room,
                      tree_growth *growth)
 {
@@ -519,7 +519,7 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
     tree *copy = tree_begin(t->surface, &t->plan, true);
     if (copy == NULL) return error_set_memory(error);
     memset(own_root(copy), 0, sizeof(node));
-    memcpy(own_root(copy), root, offsetof(node, net)); /* what is before, which no thread changes */
+    memcpy(own_root(copy), root, offsetof(node, net)); /* no thread changes it */
     set_root(copy, own_root(copy));
     growth->bytes += tree_bytes(true);
     *made = copy;

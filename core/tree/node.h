@@ -94,8 +94,8 @@ typedef struct tree_growth {
 imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
                   imp_error *error);
 
-/* The same, of which only the root's box is kept until it is made: most surfaces of a large scene meet no
- * other. */
+/* The same, but only the root's box is kept until the root is made: most surfaces of a large scene
+ * meet no other. */
 imp_code tree_new_without_root(const surface *s, const tree_plan *plan, tree **made,
                                tree_growth *growth, imp_error *error);
 bool tree_has_root(const tree *t);
@@ -151,7 +151,7 @@ static inline bool node_bends(const node *n)
     return bends;
 }
 
-/* Whether its remainder is more than this part of how far u and v move a point. */
+/* Whether its remainder is more than this part of the distance that u and v move a point. */
 static inline bool node_blurs(const node *n, double part)
 {
     const double least = part * (n->extent[PARAMETER_U] + n->extent[PARAMETER_V]);
@@ -175,7 +175,8 @@ static inline bool nodes_have_nets(const node *a, const node *b)
            node_net_made(b) != NULL;
 }
 
-/* The same, where the hulls are the surfaces, or nearly so: bilinear patches, triangles, edges, points. */
+/* The same for nodes whose hulls are the surfaces, or nearly so: bilinear patches, triangles,
+ * edges, points. */
 static inline bool nodes_have_flat_nets(const node *a, const node *b)
 {
     return nodes_have_nets(a, b) && !net_is_curved(node_net_made(a)) &&

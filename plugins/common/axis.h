@@ -60,8 +60,9 @@ axis_frame axis_frame_of(const double axis[3]);
 /* w turned by an angle. */
 void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], imp_model out[3]);
 
-/* A point turned about the axis through the center, by an angle that is a point too (imp_is_point), and bounds
- * of its errors: for a small part of what the models cost. False: it is not finite. */
+/* A point turned about the axis through the center, by an angle that is a point too
+ * (imp_is_point), and bounds of its errors, at a small part of what the models cost. False: it is
+ * not finite. */
 bool axis_turn_point(const axis_frame *frame, const double center[3], const imp_model *angle,
                      const double at[3], double x[3], double error[3]);
 

@@ -81,7 +81,7 @@ static near_constant point_shifted(near_constant x, double k)
     return (near_constant){a, (x.error + (IMP_U * fabs(a) + IMP_TINY)) * IMP_SLACK};
 }
 
-/* Time as inclusions have it. */
+/* Whether the model of time is exact and linear in s_t alone, as over a region. */
 static bool is_linear(const imp_model *t)
 {
     bool bends = false;
@@ -123,7 +123,7 @@ static imp_status steady_rate(const course *way, imp_map_rates *rates)
 
 typedef struct moved_lanes {
     imp_quad a, slope, e, lo, hi, rate;
-    imp_quad_mask is_told; /* by the quadratic, not by the range alone */
+    imp_quad_mask is_told; /* the quadratic says more than the range alone */
 } moved_lanes;
 
 #define LANES(m, what) imp_quad_of((m)[0].what, (m)[1].what, (m)[2].what, 0)
@@ -218,7 +218,7 @@ IMP_QUAD_WIDE static void move_steadily_wide(const course *way, const imp_model 
     move_steadily(way, in, out);
 }
 
-/* IMP_UNBOUNDED where anything is infinite. */
+/* Answers IMP_UNBOUNDED if anything is infinite. */
 static imp_status status_of(const imp_model x[3])
 {
     double sum = 0;

@@ -178,8 +178,7 @@ static imp_requirement worse(imp_requirement x, imp_requirement y)
     return x == IMP_REQUIREMENT_UNDECIDED ? x : y;
 }
 
-/* What ended a part early, else that the bracket of one is as wide as it was when its verdict was known, else
- * that one was measured. */
+/* The greatest weight counts for all parts: ended early, then a verdict alone, then a bracket. */
 static int weight(imp_reason reason)
 {
     if (is_ended(reason)) return 3;
