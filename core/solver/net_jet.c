@@ -71,7 +71,7 @@ static const double *weights_of(const net *f)
     return f->numbers + (f->is_moving ? 6 : 3) * f->stride;
 }
 
-void net_points_take(const net *f, double t, net_points *points)
+IMP_QUAD_INLINE void points_take(const net *f, double t, net_points *points)
 {
     const imp_quad tau = imp_quad_all(t - f->time);
     const double *weights = weights_of(f);
@@ -88,6 +88,43 @@ void net_points_take(const net *f, double t, net_points *points)
         }
         points->x[3][j] = w;
     }
+}
+
+IMP_QUAD_WIDE static void points_take_wide(const net *f, double t, net_points *points)
+{
+    points_take(f, t, points);
+}
+
+void net_points_take(const net *f, double t, net_points *points)
+{
+    if (imp_quad_is_wide())
+        points_take_wide(f, t, points);
+    else
+        points_take(f, t, points);
+}
+
+IMP_QUAD_INLINE void all_heights_along(const net_points *f, vec3 axis, double *height)
+{
+    const imp_quad n[3] = {imp_quad_all(axis.x[0]), imp_quad_all(axis.x[1]),
+                           imp_quad_all(axis.x[2])};
+    for (int k = 0; IMP_QUAD * k < f->net->stride; ++k) {
+        imp_quad h = n[0] * f->x[0][k] + n[1] * f->x[1][k] + n[2] * f->x[2][k];
+        if (f->net->is_weighted) h = h / f->x[3][k];
+        imp_quad_store(height + IMP_QUAD * k, h);
+    }
+}
+
+IMP_QUAD_WIDE static void all_heights_along_wide(const net_points *f, vec3 axis, double *height)
+{
+    all_heights_along(f, axis, height);
+}
+
+void net_heights_along(const net_points *f, vec3 axis, double height[IMP_QUAD * QUADS_MAX])
+{
+    if (imp_quad_is_wide())
+        all_heights_along_wide(f, axis, height);
+    else
+        all_heights_along(f, axis, height);
 }
 
 /* The sums of four quads' numbers. */

@@ -18,6 +18,9 @@ typedef struct net_points {
 
 void net_points_take(const net *f, double t, net_points *points);
 
+/* How high each control point lies along an axis. */
+void net_heights_along(const net_points *f, vec3 axis, double height[IMP_QUAD * QUADS_MAX]);
+
 /* Value and derivatives along u, v, uu, uv, vv. */
 enum { JET_VALUE, JET_U, JET_V, JET_UU, JET_UV, JET_VV, JETS };
 

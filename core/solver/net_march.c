@@ -81,23 +81,34 @@ static double promise(const newton_way *way, const stand *s, const double *next)
 /* What a step promises means nothing where it is damped more. */
 static const double DAMPED = 0x1p-10;
 
+/* One step from s to `to`; *way is left with the derivatives at s. False: no step reduces the gap, or
+ * it promises less than `gain` of it. */
+static bool step_down(const marcher *m, double gain, const stand *s, newton_way *way, stand *to)
+{
+    bool is_better = false;
+    derive(s, way);
+    for (double next[NEWTON_UNKNOWNS]; !is_better; newton_judge(way, is_better)) {
+        if (!newton_try(way, s->y, next)) return false;
+        if (way->damping < DAMPED && promise(way, s, next) < gain * s->gap * s->gap) return false;
+        stand_at(m, next, to);
+        is_better = to->gap < s->gap;
+    }
+    return true;
+}
+
 /* Steps to the nearest points at one time, until the gap is `enough` or a step promises less than
  * `gain` of it; *way is left with the derivatives there. */
 static void descend(const marcher *m, double enough, double gain, stand *s, newton_way *way)
 {
+    stand room, *at = s, *next = &room;
     *way = newton_begin(&m->bounds);
-    while (way->steps < TUNING_NEWTON_STEPS && s->gap > enough) {
-        stand trial;
-        bool is_better = false;
-        derive(s, way);
-        for (double next[NEWTON_UNKNOWNS]; !is_better; newton_judge(way, is_better)) {
-            if (!newton_try(way, s->y, next)) return;
-            if (way->damping < DAMPED && promise(way, s, next) < gain * s->gap * s->gap) return;
-            stand_at(m, next, &trial);
-            is_better = trial.gap < s->gap;
-        }
-        *s = trial;
+    while (way->steps < TUNING_NEWTON_STEPS && at->gap > enough &&
+           step_down(m, gain, at, way, next)) {
+        stand *last = at;
+        at = next;
+        next = last;
     }
+    if (at != s) *s = *at;
 }
 
 static vec3 velocity_of(const net *const nets[2], const stand *s)
@@ -150,19 +161,19 @@ static const double START = 0.7;
 static void lowest_at(const net_points *f, vec3 axis, double *y)
 {
     const int n = f->net->degree[0], m = f->net->degree[1];
-    double least = INFINITY;
+    double height[IMP_QUAD * QUADS_MAX], least = INFINITY;
+    int lowest = -1;
     y[0] = y[1] = 0;
     if (!(vec3_norm1(axis) > 0)) return;
-    for (int k = 0, i = 0; i <= n; ++i)
-        for (int j = 0; j <= m; ++j, ++k) {
-            double height = 0;
-            for (int c = 0; c < 3; ++c) height += axis.x[c] * f->x[c][k / IMP_QUAD][k % IMP_QUAD];
-            if (f->net->is_weighted) height /= f->x[3][k / IMP_QUAD][k % IMP_QUAD];
-            if (!(height < least)) continue;
-            least = height;
-            y[0] = n > 0 ? START * (2.0 * i / n - 1) : 0;
-            y[1] = m > 0 ? START * (2.0 * j / m - 1) : 0;
-        }
+    net_heights_along(f, axis, height);
+    for (int k = 0; k < (n + 1) * (m + 1); ++k) {
+        if (!(height[k] < least)) continue;
+        least = height[k];
+        lowest = k;
+    }
+    if (lowest < 0) return;
+    y[0] = n > 0 ? START * (2.0 * (lowest / (m + 1)) / n - 1) : 0;
+    y[1] = m > 0 ? START * (2.0 * (lowest % (m + 1)) / m - 1) : 0;
 }
 
 /* The start; points stay within `most` half-widths of the middles of the nodes. */

@@ -100,13 +100,22 @@ static void halve_plain(double *x, int n, int step, int side)
 }
 
 /* The same of a bicubic patch, column after column, of x to `half`, which may be x. */
-IMP_QUAD_INLINE void halve_bicubic(const double *x, int columns, parameter j, int side,
-                                   double *half)
+IMP_QUAD_INLINE void halve_bicubic_along(const double *x, int columns, parameter j, int side,
+                                         double *half)
 {
     for (int c = 0; c < columns; ++c, x += 16, half += 16) {
         const halved_rows both = rows_halved(rows_along(rows_at(x), j));
         rows_store(half, rows_along(rows_of_half(&both, side), j));
     }
+}
+
+IMP_QUAD_INLINE void halve_bicubic(const double *x, int columns, parameter j, int side,
+                                   double *half)
+{
+    if (j == PARAMETER_U)
+        halve_bicubic_along(x, columns, PARAMETER_U, side, half);
+    else
+        halve_bicubic_along(x, columns, PARAMETER_V, side, half);
 }
 
 IMP_QUAD_WIDE static void halve_bicubic_wide(const double *x, int columns, parameter j, int side,

@@ -26,16 +26,28 @@ IMP_QUAD_INLINE void rows_store(double *x, rows r)
     for (int k = 0; k < 4; ++k) imp_quad_store(x + 4 * k, r.row[k]);
 }
 
+/* Four numbers of two quads, x's counted 0 to 3, y's 4 to 7. Told number by number, gcc takes 20 instructions to
+ * turn rows, and 8 as it is told here. */
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+#define ROWS_PICK(x, y, i, j, k, l) __builtin_shufflevector(x, y, i, j, k, l)
+#endif
+#endif
+#if !defined(ROWS_PICK)
+#define ROWS_NUMBER(x, y, i) ((i) < IMP_QUAD ? (x)[(i) % IMP_QUAD] : (y)[(i) % IMP_QUAD])
+#define ROWS_PICK(x, y, i, j, k, l)                                                                \
+    ((imp_quad){ROWS_NUMBER(x, y, i), ROWS_NUMBER(x, y, j), ROWS_NUMBER(x, y, k),                  \
+                ROWS_NUMBER(x, y, l)})
+#endif
+
 /* Turns rows into columns. */
 IMP_QUAD_INLINE rows rows_turned(rows r)
 {
     const imp_quad a = r.row[0], b = r.row[1], c = r.row[2], d = r.row[3];
-    const imp_quad even[2] = {{a[0], b[0], a[2], b[2]}, {c[0], d[0], c[2], d[2]}};
-    const imp_quad odd[2] = {{a[1], b[1], a[3], b[3]}, {c[1], d[1], c[3], d[3]}};
-    return (rows){{{even[0][0], even[0][1], even[1][0], even[1][1]},
-                   {odd[0][0], odd[0][1], odd[1][0], odd[1][1]},
-                   {even[0][2], even[0][3], even[1][2], even[1][3]},
-                   {odd[0][2], odd[0][3], odd[1][2], odd[1][3]}}};
+    const imp_quad even[2] = {ROWS_PICK(a, b, 0, 4, 2, 6), ROWS_PICK(c, d, 0, 4, 2, 6)};
+    const imp_quad odd[2] = {ROWS_PICK(a, b, 1, 5, 3, 7), ROWS_PICK(c, d, 1, 5, 3, 7)};
+    return (rows){{ROWS_PICK(even[0], even[1], 0, 1, 4, 5), ROWS_PICK(odd[0], odd[1], 0, 1, 4, 5),
+                   ROWS_PICK(even[0], even[1], 2, 3, 6, 7), ROWS_PICK(odd[0], odd[1], 2, 3, 6, 7)}};
 }
 
 /* Turned so that the lines along j are columns; its own inverse. */

@@ -37,9 +37,9 @@ struct tree {
     tree *next;
     _Atomic(node *) root; /* NULL: not made yet */
     bool begins_with_root;
-    pthread_mutex_t
-        lock; /* of chunks, the root, and every node's children while one is published */
+    pthread_mutex_t lock; /* of chunks, spare nodes, the root, and nets while one is published */
     chunk *chunks;
+    node *spare;       /* reserved, but not published; each one's parent is the next */
     hierarchy *pieces; /* NULL: it is one surface */
     arena *nets;
     posing posing;
@@ -66,8 +66,28 @@ static node *node_alloc(tree *t, tree_growth *growth)
         t->chunks = fresh;
         growth->bytes += bytes;
     }
-    growth->nodes += 1;
     return &t->chunks->nodes[t->chunks->used++];
+}
+
+/* Room for a node, which is then published or given back; NULL: no memory. */
+static node *node_reserve(tree *t, tree_growth *growth)
+{
+    pthread_mutex_lock(&t->lock);
+    node *n = t->spare;
+    if (n != NULL)
+        t->spare = n->parent;
+    else
+        n = node_alloc(t, growth);
+    pthread_mutex_unlock(&t->lock);
+    return n;
+}
+
+static void node_give_back(tree *t, node *n)
+{
+    pthread_mutex_lock(&t->lock);
+    n->parent = t->spare;
+    t->spare = n;
+    pthread_mutex_unlock(&t->lock);
 }
 
 /* Room for a net; NULL: no memory. */
@@ -235,6 +255,13 @@ static bool may_have_net(const tree *t, const node *n)
            surface_offers_net(n->surface);
 }
 
+/* Whether the node's net is a half of its parent's, which is `whole`. */
+static bool is_half_of(const tree *t, const node *n, const net *whole)
+{
+    return whole != NULL && n->along != PARAMETER_T && may_have_net(t, n) &&
+           net_can_halve(&n->parent->region, n->along);
+}
+
 /* The net in the room, or that of the parent itself, which is `whole`; NULL: it has none. From the parent's
  * where that can be halved; it may lie in the room. */
 static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buffer *room,
@@ -242,12 +269,14 @@ static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buf
 {
     *made = NULL;
     if (!may_have_net(t, n)) return IMP_SUCCESS;
-    if (whole == NULL || !net_can_halve(&n->parent->region, n->along))
+    if (is_half_of(t, n, whole)) {
+        net_halve(whole, n->along, n->side, net_in(room));
+        *made = net_in(room);
+    } else if (whole != NULL && n->along == PARAMETER_T) {
+        *made = whole;
+    } else {
         return ask_net(n, room, made, error);
-    *made = whole;
-    if (n->along == PARAMETER_T) return IMP_SUCCESS;
-    net_halve(whole, n->along, n->side, net_in(room));
-    *made = net_in(room);
+    }
     return IMP_SUCCESS;
 }
 
@@ -276,26 +305,59 @@ static bool net_keep(tree *t, node *n, const net **made, const net_buffer *room,
     return kept != NULL;
 }
 
+/* The same of half a net, made where it is kept. False: no memory. */
+static bool net_keep_half(tree *t, node *n, const net *whole, const net **made, tree_growth *growth)
+{
+    pthread_mutex_lock(&t->lock);
+    const net *kept = atomic_load_explicit(&n->net, memory_order_relaxed);
+    if (kept == NULL) {
+        net *half = net_alloc(t, net_bytes(whole), growth);
+        if (half != NULL) {
+            net_halve(whole, n->along, n->side, half);
+            atomic_store_explicit(&n->net, half, memory_order_release);
+        }
+        kept = half;
+    }
+    pthread_mutex_unlock(&t->lock);
+    *made = kept != &net_none ? kept : NULL;
+    return kept != NULL;
+}
+
+/* Makes the net and publishes it. */
+static imp_code make_net(tree *t, node *n, const net *whole, net_buffer *room, const net **made,
+                         tree_growth *growth, imp_error *error)
+{
+    bool is_kept;
+    if (is_half_of(t, n, whole)) {
+        is_kept = net_keep_half(t, n, whole, made, growth);
+    } else {
+        const imp_code code = fill_net(t, n, whole, room, made, error);
+        if (code != IMP_SUCCESS) return code;
+        is_kept = net_keep(t, n, made, room, growth);
+    }
+    return is_kept ? IMP_SUCCESS : error_set_memory(error);
+}
+
 static bool has_parent(const node *n)
 {
     return n->parent != NULL && n->parent->surface == n->surface;
 }
 
-/* The net of n, which was not asked for it: in the room, or in the tree; NULL: it has none. Its ancestors come
- * first, from the top. Those of bare ones are not kept. */
-static imp_code find_net(tree *t, const node *n, net_buffer *room, const net **made,
+/* The net of n, which was not asked for it: published, if n is to keep it, or in the room, or in the tree; NULL:
+ * it has none. Its ancestors come first, from the top. Bare ones keep none. */
+static imp_code find_net(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
                          tree_growth *growth, imp_error *error)
 {
-    const node *at = n;
+    node *at = n;
     while (has_parent(at) && !node_net_is_asked(at->parent)) at = at->parent;
     const net *whole = has_parent(at) ? node_net_made(at->parent) : NULL;
     for (;;) {
-        const imp_code code = fill_net(t, at, whole, room, &whole, error);
+        const bool keeps = at == n ? is_to_keep : !at->is_bare;
+        const imp_code code = keeps ? make_net(t, at, whole, room, &whole, growth, error)
+                                    : fill_net(t, at, whole, room, &whole, error);
         if (code != IMP_SUCCESS || at == n) return *made = whole, code;
-        const node *below = n;
+        node *below = n;
         while (below->parent != at) below = below->parent;
-        if (!at->is_bare && !net_keep(t, below->parent, &whole, room, growth))
-            return error_set_memory(error);
         at = below;
     }
 }
@@ -305,9 +367,8 @@ imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_
     if (!node_net_is_asked(n)) {
         net_buffer room;
         const net *made;
-        const imp_code code = find_net(t, n, &room, &made, growth, error);
+        const imp_code code = find_net(t, n, true, &room, &made, growth, error);
         if (code != IMP_SUCCESS) return code;
-        if (!net_keep(t, n, &made, &room, growth)) return error_set_memory(error);
     }
     *found = node_net_made(n);
     return IMP_SUCCESS;
@@ -330,7 +391,7 @@ static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
 {
     net_buffer room;
     const net *made;
-    imp_code code = find_net(t, n, &room, &made, growth, error);
+    imp_code code = find_net(t, n, false, &room, &made, growth, error);
     if (code != IMP_SUCCESS) return code;
     atomic_store_explicit(&n->net, made, memory_order_relaxed);
     code = t->plan.audit(n->surface, n, error);
@@ -338,16 +399,26 @@ static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
     return code;
 }
 
+/* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds to the bounds
+ * of rates. */
+static void node_begin(const tree *t, const node_place *place, node *n)
+{
+    const size_t set = t->plan.kind == TREE_MODELS ? offsetof(node, bounded) : 0;
+    memset((char *)n + set, 0, sizeof *n - set);
+    n->region = place->region;
+    n->radius = 0;
+    n->surface = place->surface;
+    n->many = place->many;
+    n->parent = place->parent;
+    n->along = place->along;
+    n->side = place->side;
+}
+
 static imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growth,
                           imp_error *error)
 {
-    *n = (node){.region = place->region,
-                .surface = place->surface,
-                .many = place->many,
-                .parent = place->parent,
-                .along = place->along,
-                .side = place->side};
     imp_code code = IMP_SUCCESS;
+    node_begin(t, place, n);
     if (t->plan.kind == TREE_MODELS && n->parent != NULL)
         code = posing_begin(&t->posing, n, growth, error);
     if (code != IMP_SUCCESS) return code;
@@ -359,30 +430,31 @@ static imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth
     return code;
 }
 
-/* A copy of a filled node in the slot, unless another thread's is there already. NULL: no memory. */
-static node *node_publish(tree *t, const node *filled, _Atomic(node *) *slot, tree_growth *growth)
+/* Puts a reserved node, filled, into the slot. If another thread's is there already, it is given back. Returns
+ * the one in the slot. */
+static node *node_publish(tree *t, node *n, _Atomic(node *) *slot)
 {
-    pthread_mutex_lock(&t->lock);
-    node *n = atomic_load_explicit(slot, memory_order_relaxed);
-    if (n == NULL) {
-        n = node_alloc(t, growth);
-        if (n != NULL) {
-            *n = *filled;
-            atomic_store_explicit(slot, n, memory_order_release);
-        }
-    }
-    pthread_mutex_unlock(&t->lock);
-    return n;
+    node *there = NULL;
+    if (atomic_compare_exchange_strong_explicit(slot, &there, n, memory_order_acq_rel,
+                                                memory_order_acquire))
+        return n;
+    node_give_back(t, n);
+    return there;
 }
 
 static imp_code node_make(tree *t, const node_place *place, _Atomic(node *) *slot, node **made,
                           tree_growth *growth, imp_error *error)
 {
-    node filled;
-    const imp_code code = node_fill(t, place, &filled, growth, error);
-    if (code != IMP_SUCCESS) return code;
-    *made = node_publish(t, &filled, slot, growth);
-    return *made != NULL ? IMP_SUCCESS : error_set_memory(error);
+    node *n = node_reserve(t, growth);
+    if (n == NULL) return error_set_memory(error);
+    const imp_code code = node_fill(t, place, n, growth, error);
+    if (code != IMP_SUCCESS) {
+        node_give_back(t, n);
+        return code;
+    }
+    *made = node_publish(t, n, slot);
+    growth->nodes += *made == n;
+    return IMP_SUCCESS;
 }
 
 /* --- Trees ------------------------------------------------------------------------------ */
@@ -576,8 +648,8 @@ bool tree_is_of(const tree *t, const tree_plan *plan)
            t->plan.t_end == plan->t_end && t->plan.audit == plan->audit;
 }
 
-/* What a half of a node is to bound. */
-static node_place place_of_half(const node *parent, parameter j, int side)
+/* Which points a half of a node is to bound. */
+static node_place points_of_half(const node *parent, parameter j, int side)
 {
     const imp_region *r = &parent->region;
     if (parent->many == NULL || j != PARAMETER_U)
@@ -589,14 +661,20 @@ static node_place place_of_half(const node *parent, parameter j, int side)
                             r->hi[2]);
 }
 
+static node_place place_of_half(node *parent, parameter j, int side)
+{
+    node_place half = points_of_half(parent, j, side);
+    half.parent = parent, half.along = j, half.side = side;
+    return half;
+}
+
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error)
 {
     _Atomic(node *) *slot = &parent->child[j][side];
     node *made = atomic_load_explicit(slot, memory_order_acquire);
     if (made == NULL) {
-        node_place half = place_of_half(parent, j, side);
-        half.parent = parent, half.along = j, half.side = side;
+        const node_place half = place_of_half(parent, j, side);
         const imp_code code = node_make(t, &half, slot, &made, growth, error);
         if (code != IMP_SUCCESS) return code;
     }
@@ -611,17 +689,13 @@ imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **ch
     *child = atomic_load_explicit(&parent->child[j][side], memory_order_acquire);
     if (*child == NULL) *child = atomic_load_explicit(&parent->bare[j][side], memory_order_acquire);
     if (*child != NULL) return IMP_SUCCESS;
-    tree_growth own = {0};
-    const node half = {.region = region_half(&parent->region, j, side),
-                       .surface = parent->surface,
-                       .parent = parent,
-                       .along = j,
-                       .side = side,
-                       .bounded = true,
-                       .is_bare = true};
-    *child = node_publish(t, &half, &parent->bare[j][side], &own);
-    growth->bytes += own.bytes;
-    return *child != NULL ? IMP_SUCCESS : error_set_memory(error);
+    node *n = node_reserve(t, growth);
+    if (n == NULL) return error_set_memory(error);
+    const node_place half = place_of_half(parent, j, side);
+    node_begin(t, &half, n);
+    n->bounded = n->is_bare = true;
+    *child = node_publish(t, n, &parent->bare[j][side]);
+    return IMP_SUCCESS;
 }
 
 imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error)

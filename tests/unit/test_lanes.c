@@ -32,6 +32,7 @@
 #define net_halves_find narrow_net_halves_find
 #define net_points_take narrow_net_points_take
 #define net_jets_at narrow_net_jets_at
+#define net_heights_along narrow_net_heights_along
 #define net_velocity_at narrow_net_velocity_at
 #define net_march narrow_net_march
 #define net_nearest narrow_net_nearest
