@@ -40,21 +40,21 @@ IMP_QUAD_INLINE imp_quad gather(const imp_model m[3], size_t offset)
     return (imp_quad){x[0], x[step], x[2 * step], 0};
 }
 
-IMP_QUAD_INLINE model_lanes side_by_side(const imp_model m[3])
+IMP_QUAD_INLINE void side_by_side(const imp_model m[3], model_lanes *all)
 {
-    model_lanes all = {.a = gather(m, offsetof(imp_model, a)),
-                  .e = gather(m, offsetof(imp_model, e)),
-                  .lo = gather(m, offsetof(imp_model, lo)),
-                  .hi = gather(m, offsetof(imp_model, hi))};
-    for (size_t j = 0; j < 3; ++j) all.b[j] = gather(m, offsetof(imp_model, b) + 8 * j);
-    for (size_t j = 0; j < 3; ++j) all.rate[j] = gather(m, offsetof(imp_model, rate) + 8 * j);
-    for (size_t k = 0; k < 6; ++k) all.q[k] = gather(m, offsetof(imp_model, q) + 8 * k);
-    return all;
+    all->a = gather(m, offsetof(imp_model, a));
+    all->e = gather(m, offsetof(imp_model, e));
+    all->lo = gather(m, offsetof(imp_model, lo));
+    all->hi = gather(m, offsetof(imp_model, hi));
+    for (size_t j = 0; j < 3; ++j) all->b[j] = gather(m, offsetof(imp_model, b) + 8 * j);
+    for (size_t j = 0; j < 3; ++j) all->rate[j] = gather(m, offsetof(imp_model, rate) + 8 * j);
+    for (size_t k = 0; k < 6; ++k) all->q[k] = gather(m, offsetof(imp_model, q) + 8 * k);
 }
 
 IMP_QUAD_INLINE const char *take(node *n, const imp_model model[3], bool may_be_infinite)
 {
-    const model_lanes m = side_by_side(model);
+    model_lanes m;
+    side_by_side(model, &m);
     const bool bounded = lanes_are_bounded(&m);
     if (!bounded || !lanes_are_sound(&m)) {
         const char *breach = first_breach(model, may_be_infinite);
