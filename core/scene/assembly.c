@@ -141,5 +141,6 @@ imp_scene *assembly_finish(assembly *a)
     imp_scene *scene = a->scene;
     a->scene = NULL;
     assembly_clear(a);
+    scene_complete(scene);
     return scene;
 }

@@ -6,7 +6,7 @@
 
 #include <assert.h>
 #include <math.h>
-#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@
 
 typedef struct member {
     surface *surface;
-    tree *trees; /* the first of a list */
+    _Atomic(tree *) trees; /* the first of a list, to whose front threads add */
 } member;
 
 typedef struct scene_body {
@@ -37,7 +37,8 @@ struct imp_scene {
     size_t group_count, group_capacity;
     key_pairs ignored;
     scene_settings settings;
-    pthread_mutex_t lock; /* of the members' lists of trees; all else is only read once built */
+    uint64_t bytes; /* 0: not summed up yet */
+    /* once it is built all but the members' lists of trees is only read */
 };
 
 /* --- Building ------------------------------------------------------------------- */
@@ -47,16 +48,14 @@ imp_scene *scene_new(void)
     imp_scene *scene = calloc(1, sizeof *scene);
     if (scene == NULL) return NULL;
     scene->settings = (scene_settings){0, 1, 1e-6, -1};
-    pthread_mutex_init(&scene->lock, NULL);
     return scene;
 }
 
 static void member_free(member *m)
 {
-    while (m->trees != NULL) {
-        tree *next = tree_next(m->trees);
-        tree_free(m->trees);
-        m->trees = next;
+    for (tree *t = m->trees, *next; t != NULL; t = next) {
+        next = tree_next(t);
+        tree_free(t);
     }
     surface_free(m->surface);
 }
@@ -75,7 +74,6 @@ void imp_scene_free(imp_scene *scene)
     free(scene->groups);
     free(scene->bodies);
     key_pairs_clear(&scene->ignored);
-    pthread_mutex_destroy(&scene->lock);
     free(scene);
 }
 
@@ -177,7 +175,7 @@ bool scene_ignores(const imp_scene *scene, size_t a, size_t b)
 
 /* --- Memory --------------------------------------------------------------------- */
 
-uint64_t scene_bytes(const imp_scene *scene)
+static uint64_t sum_of_bytes(const imp_scene *scene)
 {
     uint64_t bytes = sizeof *scene + scene->capacity * sizeof *scene->bodies +
                      scene->group_count * sizeof *scene->groups +
@@ -190,6 +188,13 @@ uint64_t scene_bytes(const imp_scene *scene)
     }
     return bytes;
 }
+
+uint64_t scene_bytes(const imp_scene *scene)
+{
+    return scene->bytes > 0 ? scene->bytes : sum_of_bytes(scene);
+}
+
+void scene_complete(imp_scene *scene) { scene->bytes = sum_of_bytes(scene); }
 
 /* --- Asking ------------------------------------------------------------------------ */
 
@@ -371,10 +376,9 @@ imp_code imp_options_read(const imp_scene *scene, imp_options *options, imp_erro
 
 /* --- Trees ----------------------------------------------------------------------------- */
 
-/* NULL: there is none yet. */
-static tree *find_tree(const member *m, const tree_plan *plan)
+/* From this one on; NULL: there is none yet. */
+static tree *find_tree(tree *t, const tree_plan *plan)
 {
-    tree *t = m->trees;
     while (t != NULL && !tree_is_of(t, plan)) t = tree_next(t);
     return t;
 }
@@ -382,33 +386,32 @@ static tree *find_tree(const member *m, const tree_plan *plan)
 /* Keeps the tree, unless another thread's is there already: then that one is answered, and `made` freed. */
 static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
 {
-    tree *found = find_tree(m, plan);
-    if (found != NULL) {
-        tree_free(made);
-        return found;
-    }
-    tree_set_next(made, m->trees);
-    m->trees = made;
+    tree *first = atomic_load_explicit(&m->trees, memory_order_acquire);
+    do {
+        tree *found = find_tree(first, plan);
+        if (found != NULL) {
+            tree_free(made);
+            return found;
+        }
+        tree_set_next(made, first);
+    } while (!atomic_compare_exchange_weak_explicit(&m->trees, &first, made, memory_order_release,
+                                                    memory_order_acquire));
     return made;
 }
 
-/* Trees are made outside the lock, so that threads make those of different surfaces at once. */
+/* Threads may make trees of one surface at once; one of each plan is kept. */
 imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
                     bool with_root, tree **found, tree_growth *growth, imp_error *error)
 {
     member *m = &scene->bodies[body].members[index];
     tree *made;
     tree_growth own = {0};
-    pthread_mutex_lock(&scene->lock);
-    *found = find_tree(m, plan);
-    pthread_mutex_unlock(&scene->lock);
+    *found = find_tree(atomic_load_explicit(&m->trees, memory_order_acquire), plan);
     if (*found != NULL) return IMP_SUCCESS;
     const imp_code code = with_root ? tree_new(m->surface, plan, &made, &own, error)
                                     : tree_new_without_root(m->surface, plan, &made, &own, error);
     if (code != IMP_SUCCESS) return code;
-    pthread_mutex_lock(&scene->lock);
     *found = keep_tree(m, plan, made);
-    pthread_mutex_unlock(&scene->lock);
     if (*found == made) growth->nodes += own.nodes, growth->bytes += own.bytes;
     return IMP_SUCCESS;
 }

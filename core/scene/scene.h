@@ -44,6 +44,9 @@ const surface *scene_surface(const imp_scene *scene, size_t body, size_t index);
 /* What its bodies and surfaces hold, about, without their trees. */
 uint64_t scene_bytes(const imp_scene *scene);
 
+/* Once all is added: what it holds is summed up, since each query asks for it. */
+void scene_complete(imp_scene *scene);
+
 /* What the scene file asks for; the defaults of imp_options_default. Preset: 0, 1, 1e-6, -1. */
 typedef struct scene_settings {
     double t_start, t_end, gamma, clearance;

@@ -513,12 +513,11 @@ static tree *tree_begin(const surface *s, const tree_plan *plan, bool with_root)
 {
     tree *t = malloc(tree_bytes(with_root));
     if (t == NULL) return NULL;
-    memset(t, 0, sizeof *t);
-    t->surface = s;
-    t->plan = *plan;
-    t->begins_with_root = with_root;
-    pthread_mutex_init(&t->lock, NULL);
-    t->posing.lock = &t->lock;
+    *t = (tree){.surface = s,
+                .plan = *plan,
+                .begins_with_root = with_root,
+                .lock = PTHREAD_MUTEX_INITIALIZER,
+                .posing = {.lock = &t->lock}};
     return t;
 }
 
