@@ -46,9 +46,10 @@ static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
     const size_t keys = list->count > bodies ? list->count : bodies;
     size_t *start = malloc((keys + 1) * sizeof *start);
     candidate_pair *to = malloc((list->pair_count + 1) * sizeof *to);
+    const int last = bodies > 2 ? SORT_KEYS : KEY_BODY_B; /* two bodies need no order */
     *done = start != NULL && to != NULL;
     const imp_code code = *done ? IMP_SUCCESS : error_set_memory(error);
-    for (int key = 0; *done && key < SORT_KEYS; ++key) {
+    for (int key = 0; *done && key < last; ++key) {
         if (!sort_pass(list, (sort_key)key, start, keys, to)) continue;
         candidate_pair *sorted = to;
         to = list->pairs;
@@ -76,7 +77,9 @@ static bool prepare(collection *all)
     for (size_t b = 0; b < scene_body_count(all->scene); ++b)
         most += scene_surface_count(all->scene, b);
     all->boxes = most <= BOXES_AT_HAND ? all->at_hand : malloc(most * sizeof *all->boxes);
-    all->list->candidates = malloc(most * sizeof *all->list->candidates);
+    all->list->candidates = most <= CANDIDATES_AT_HAND
+                                ? all->list->at_hand
+                                : malloc(most * sizeof *all->list->candidates);
     if (all->boxes == NULL || all->list->candidates == NULL) return false;
     all->with_roots =
         most <= ROOTS_AT_ONCE || !(all->clearance < INFINITY); /* or all are in pairs */
@@ -175,7 +178,7 @@ void candidates_clear(candidate_list *list)
 {
     for (size_t k = 0; list->owns_trees && list->candidates != NULL && k < list->count; ++k)
         tree_free(list->candidates[k].tree);
-    free(list->candidates);
+    if (list->candidates != list->at_hand) free(list->candidates);
     free(list->pairs);
     *list = (candidate_list){0};
 }

@@ -12,14 +12,17 @@
  * all that the surface sweeps. Surfaces of different bodies whose boxes come within the clearance
  * of each other, unless their bodies ignore each other, are the candidate pairs. */
 
+enum { CANDIDATES_AT_HAND = 3 }; /* that need no memory of their own */
+
 typedef struct candidate_list {
     candidate *candidates; /* in the order of the scene */
+    candidate at_hand[CANDIDATES_AT_HAND];
     size_t count;
     candidate_pair *pairs; /* by body of a, body of b, surface of a, surface of b */
     size_t pair_count, pair_capacity;
     bool complete;
     bool owns_trees; /* else they are the scene's */
-} candidate_list;    /* begins as {0}; candidates_clear frees */
+} candidate_list;    /* begins as {0}, and stays where it is once filled; candidates_clear frees */
 
 /* Asked at least once for each surface: whether a limit of the query is reached, with the bytes
  * that the list and the new trees hold. By threads that look ahead: whether one is so near that they had

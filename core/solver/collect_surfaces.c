@@ -95,13 +95,13 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
     return IMP_SUCCESS;
 }
 
-/* Whether a limit ends it before this surface. Checked before the first, where a limit is near,
- * and after a few surfaces or a large one; only what has had its turn counts, so that threads
- * change no answer. */
+/* Whether a limit ends it before this surface. Checked where a limit is near, and after a few
+ * surfaces or a large one; only what has had its turn counts, so that threads change no answer. */
 static bool must_end_here(collection *all)
 {
     const uint64_t made = all->stats->bytes - all->bytes_asked;
-    const bool many = all->list->count % SURFACES_AN_ASK == 0 || made >= BYTES_AN_ASK;
+    const size_t count = all->list->count;
+    const bool many = (count > 0 && count % SURFACES_AN_ASK == 0) || made >= BYTES_AN_ASK;
     if (!many && !all->limit->is_near(all->limit->context, made, 0)) return false;
     all->bytes_asked = all->stats->bytes;
     return collection_must_end(all);

@@ -6,6 +6,7 @@
 
 #include <assert.h>
 #include <stdlib.h>
+#include <string.h>
 
 static bool place_before(const pair_place *p, const pair_place *q)
 {
@@ -15,18 +16,18 @@ static bool place_before(const pair_place *p, const pair_place *q)
 }
 
 /* Most searches have few pairs waiting: their first block is one that malloc has ready. */
-enum { CAPACITY_LEAST = 6 };
+enum { CAPACITY_LEAST = 5 };
 
 bool pair_heap_reserve(pair_heap *heap, size_t more)
 {
     if (more <= heap->capacity - heap->count) return true;
     const size_t capacity = 2 * (heap->count + more) + CAPACITY_LEAST;
-    pair_place *places = realloc(heap->places, capacity * sizeof *places);
-    if (places == NULL) return false;
-    heap->places = places;
-    pair *slots = realloc(heap->slots, capacity * sizeof *slots);
+    pair *slots = realloc(heap->slots, capacity * PAIR_HEAP_BYTES);
     if (slots == NULL) return false;
+    pair_place *places = (pair_place *)(void *)(slots + capacity);
+    memmove(places, slots + heap->capacity, heap->capacity * sizeof *places);
     heap->slots = slots;
+    heap->places = places;
     for (size_t k = heap->capacity; k < capacity; ++k) places[k].slot = k;
     heap->capacity = capacity;
     return true;
@@ -78,7 +79,6 @@ pair pair_heap_pop(pair_heap *heap)
 
 void pair_heap_clear(pair_heap *heap)
 {
-    free(heap->places);
     free(heap->slots);
     *heap = (pair_heap){0};
 }

@@ -34,8 +34,8 @@ typedef struct pair_place {
 } pair_place;
 
 typedef struct pair_heap {
+    pair *slots;        /* a block of memory, whose second part are */
     pair_place *places; /* in the order of a heap; from `count` on, the slots that are free */
-    pair *slots;
     size_t count, capacity;
 } pair_heap; /* begins as {0}; pair_heap_clear frees */
 

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/base/fp_mode.h"
 #include "core/base/sized.h"
@@ -15,18 +16,15 @@
 
 /* --- Creation and destruction ------------------------------------------------------------ */
 
-/* gamma > 0 and 0 <= clearance < gamma, clearance < 0 standing for gamma / 2. */
-static imp_code tolerances(double gamma, double clearance, impact *im, imp_error *error)
+/* gamma > 0 and 0 <= *clearance < gamma, *clearance < 0 standing for gamma / 2, which it becomes. */
+static imp_code check_tolerances(double gamma, double *clearance, imp_error *error)
 {
     if (!(gamma > 0 && gamma < INFINITY))
         return error_set(error, IMP_ERROR_USAGE, "gamma: got %g, must be > 0 and finite", gamma);
-    if (clearance < 0) clearance = 0.5 * gamma;
-    if (!(clearance < gamma))
-        return error_set(error, IMP_ERROR_USAGE,
-                         "clearance: got %g, must be from 0 to below gamma = %g", clearance, gamma);
-    im->gamma = gamma;
-    im->clearance = clearance;
-    return IMP_SUCCESS;
+    if (*clearance < 0) *clearance = 0.5 * gamma;
+    if (*clearance < gamma) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_USAGE,
+                     "clearance: got %g, must be from 0 to below gamma = %g", *clearance, gamma);
 }
 
 static imp_code check_choice(const char *name, int found, int last, imp_error *error)
@@ -60,26 +58,30 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
     scene_options(scene, &own);
     if (sized_read("imp_options", &own, given, SCENE_OPTIONS_FIRST, error) != IMP_SUCCESS)
         return NULL;
-    impact im = {.method = options->method,
-                 .bounds = options->bounds,
-                 .t_lower = options->t_start,
-                 .window = {options->t_start, options->t_end}};
-    if (tolerances(options->gamma, options->clearance, &im, error) != IMP_SUCCESS) return NULL;
+    double clearance = options->clearance;
+    if (check_tolerances(options->gamma, &clearance, error) != IMP_SUCCESS) return NULL;
     if (check_options(options, error) != IMP_SUCCESS) return NULL;
     examined_times examined;
     if (examined_times_find(scene, options->t_start, options->t_end, &examined, error) !=
         IMP_SUCCESS)
         return NULL;
-    imp_query *query = calloc(1, sizeof *query);
+    imp_query *query = malloc(sizeof *query);
     if (query == NULL) {
         error_set_memory(error);
         return NULL;
     }
+    memset(query, 0, sizeof *query);
     query->scene = scene;
     query->scene_bytes = scene_bytes(scene);
+    query->peak_bytes = query->scene_bytes + sizeof *query;
     query->options = *options;
     query->examined = examined;
-    query->impact = im;
+    query->impact.gamma = options->gamma;
+    query->impact.clearance = clearance;
+    query->impact.method = options->method;
+    query->impact.bounds = options->bounds;
+    query->impact.t_lower = options->t_start;
+    query->impact.window = (time_window){options->t_start, options->t_end};
     query->impact.stats = &query->stats;
     query->verdict = IMP_UNDECIDED;
     query->reason = IMP_REASON_RUNNING;
@@ -324,9 +326,10 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     imp_code code = IMP_SUCCESS;
     query->reason = IMP_REASON_RUNNING;
     if (!query->candidates.complete) code = begin(query, start, error);
+    const uint64_t of_candidates = candidates_bytes(&query->candidates);
     for (unsigned k = 0; code == IMP_SUCCESS && query->reason == IMP_REASON_RUNNING; ++k) {
         if (k % CLOCK_EVERY == 0) tick(query, before, start);
-        note_bytes(query, candidates_bytes(&query->candidates));
+        note_bytes(query, of_candidates);
         const imp_reason reason = exhausted(query, query->stats.seconds);
         if (reason != IMP_REASON_NONE)
             query_finish(query, IMP_UNDECIDED, reason);
@@ -336,7 +339,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
             code = work(query, error);
     }
     query->stats.seconds = before + (clock_seconds() - start);
-    note_bytes(query, candidates_bytes(&query->candidates));
+    note_bytes(query, of_candidates);
     if (code == IMP_ERROR_MEMORY) {
         query_finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
         return IMP_SUCCESS;
@@ -358,16 +361,15 @@ imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error)
 
 FP_APART static imp_code refine(imp_query *query, double gamma, double clearance, imp_error *error)
 {
-    impact finer = {0};
     if (query->clearance != NULL)
         return error_set(error, IMP_ERROR_USAGE, "refine: this query asks for a minimum distance");
-    if (tolerances(gamma, clearance, &finer, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
-    if (finer.gamma > query->impact.gamma || finer.clearance > query->impact.clearance)
+    if (check_tolerances(gamma, &clearance, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
+    if (gamma > query->impact.gamma || clearance > query->impact.clearance)
         return error_set(
             error, IMP_ERROR_USAGE,
-            "refine: gamma %g and clearance %g may not exceed those in force, %g and %g",
-            finer.gamma, finer.clearance, query->impact.gamma, query->impact.clearance);
-    if (!impact_refine(&query->impact, finer.gamma, finer.clearance, query->candidates.pair_count))
+            "refine: gamma %g and clearance %g may not exceed those in force, %g and %g", gamma,
+            clearance, query->impact.gamma, query->impact.clearance);
+    if (!impact_refine(&query->impact, gamma, clearance, query->candidates.pair_count))
         return error_set_memory(error);
     if (query->verdict == IMP_CONTACT) query_finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;

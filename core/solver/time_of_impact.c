@@ -21,16 +21,16 @@ static const candidate_pair *candidate_pair_of(const impact *im, const pair *p)
 /* --- Push ------------------------------------------------------------------------- */
 
 /* Counts a test, and puts the pair on the heap, which has room, unless its nodes stay apart. */
-static void push_tested(impact *im, const pair_test *t)
+static void push_tested(impact *im, pair_test *t)
 {
     im->stats->pairs += 1;
     im->stats->bytes += t->bytes;
     if (!t->near) return;
-    pair p = t->p;
-    p.serial = im->serial++;
-    p.key[0] = p.window.lo;
-    p.key[1] = pair_order(&p, p.window.lo);
-    pair_heap_push(&im->heap, &p);
+    pair *p = &t->p;
+    p->serial = im->serial++;
+    p->key[0] = p->window.lo;
+    p->key[1] = pair_order(p, p->window.lo);
+    pair_heap_push(&im->heap, p);
     if (im->heap.count > im->stats->peak_heap) im->stats->peak_heap = im->heap.count;
 }
 
