@@ -21,8 +21,7 @@ static const imp_parameter parameters[] = {
     [COURSE_FILE] = COURSE_ROW_FILE,
     [COURSE_COLUMNS] = COURSE_ROW_COLUMNS("columns", 3, 0,
                                           "of the file: those of x, y and z, by name or by number "
-                                          "from 1; default: the second to the "
-                                          "fourth"),
+                                          "from 1; default: the second to the fourth"),
     [COURSE_INTERPOLATION] = COURSE_ROW_INTERPOLATION,
     [COURSE_HOLD] = COURSE_ROW_HOLD,
 };
@@ -32,11 +31,9 @@ static imp_status translate_create(const imp_value *values, void **self, imp_cre
     course *way = malloc(sizeof *way);
     if (way == NULL) return IMP_INTERNAL;
     const imp_status status = course_read(way, values, 0, 3, why, parameters);
-    if (status == IMP_OK)
-        *self = way;
-    else
-        free(way);
-    return status;
+    if (status != IMP_OK) return free(way), status;
+    *self = way;
+    return IMP_OK;
 }
 
 static void translate_destroy(void *self)
@@ -201,11 +198,8 @@ IMP_QUAD_INLINE void move_steadily(const course *way, const imp_model in[4], imp
             continue;
         }
         out[i] = in[i];
-        out[i].a = m.a[i];
-        out[i].b[2] = m.slope[i];
-        out[i].e = m.e[i];
-        out[i].lo = m.lo[i];
-        out[i].hi = m.hi[i];
+        out[i].a = m.a[i], out[i].b[2] = m.slope[i], out[i].e = m.e[i];
+        out[i].lo = m.lo[i], out[i].hi = m.hi[i];
         out[i].depends |= in[3].depends;
         out[i].rate[2] = out[i].depends >> 2 & 1 ? m.rate[i] : 0;
         if (!m.is_told[i]) out[i] = imp_model_collapse(out[i]);
@@ -269,13 +263,13 @@ static imp_status translate_apply(const void *self, const imp_model in[4], imp_m
 static imp_status translate_net(const void *self, const imp_region *region, imp_net *net)
 {
     const course *way = self;
-    const size_t count = way->polynomial.count;
     const double middle = region->c[2];
-    if (count == 0 || count > 2) return IMP_UNBOUNDED;
+    if (!is_steady(way)) return IMP_UNBOUNDED;
     for (size_t i = 0; i < 3; ++i) {
-        const double *c = way->polynomial.coefficient + i * count, speed = count > 1 ? c[1] : 0;
-        const double size = fabs(net->place[i]) + fabs(c[0]) + fabs(speed * middle);
-        net->place[i] += c[0] + speed * middle;
+        const double from = way->polynomial.coefficient[way->polynomial.count * i];
+        const double speed = speed_of(way, i);
+        const double size = fabs(net->place[i]) + fabs(from) + fabs(speed * middle);
+        net->place[i] += from + speed * middle;
         net->drift[i] += speed;
         net->error[i] += (4 * size + 2 * fabs(net->drift[i]) * region->d[2]) * 0x1p-53 + IMP_TINY;
         net->error[i] *= 1 + 0x1p-50;
