@@ -20,7 +20,7 @@ static imp_code ask(imp_scene *scene, double required, imp_clearance *answer, im
 {
     const imp_options options = imp_options_default(scene);
     imp_clearance_options asked = imp_clearance_options_default();
-    asked.required = required; /* asked.decide = true: no more than the verdict */
+    asked.required = required; /* asked.decide = true would end it with the verdict */
     imp_query *query = imp_clearance_new(scene, &options, &asked, error);
     if (query == NULL) return error->code;
     answer->struct_size = sizeof *answer;

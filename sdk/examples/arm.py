@@ -9,7 +9,7 @@ import impinge
 
 scene = impinge.Scene.from_file(sys.argv[1])
 
-answer = scene.clearance(required=2, tolerance=1e-3)  # without tolerance: no more than the verdict
+answer = scene.clearance(required=2, tolerance=1e-3)  # without tolerance: only the verdict
 print(f"{answer.verdict}, tightest {answer.upper:.4g} mm at t = {answer.t:.3g} "
       f"between {answer.a.body} and {answer.b.body}")
 

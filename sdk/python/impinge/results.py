@@ -68,9 +68,10 @@ class Progress:
 
 @dataclass(frozen=True)
 class Clearance:
-    """The least distance from `t_start` to `t_end`: proved to be at least `lower`, and evaluated to
+    """The minimum distance from `t_start` to `t_end`: proved to be at least `lower`, and evaluated to
     be at most `upper` at the witness `t`, `a`, `b`. With a required distance, `verdict` is "holds",
-    "violated" or "undecided"; `reason` "decided" says that the bracket is as it was when that was known."""
+    "violated" or "undecided"; with `reason` "decided" the bracket is as it was when that was
+    known."""
 
     lower: float
     upper: float

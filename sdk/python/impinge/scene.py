@@ -144,7 +144,7 @@ class Scene:
     def clearance(self, *, required: Optional[float] = None, tolerance: Optional[float] = None,
                   time: Optional[Sequence[float]] = None, progress: Optional[ProgressSink] = None,
                   **budgets: float) -> Clearance:
-        """The least distance of all bodies over the interval; is the `required` one kept? With
+        """The minimum distance of all bodies over the interval; is the `required` one kept? With
         `required` and no `tolerance` the search ends as soon as that is known."""
         asked = {"required": required, "tolerance": tolerance, "decide": tolerance is None}
         return self._clearances(asked, time, progress, budgets)[0]
