@@ -35,7 +35,10 @@ int main(int argc, char **argv)
     imp_error error = {IMP_SUCCESS, ""};
     imp_clearance answer;
     imp_registry *registry = imp_registry_new(NULL);
-    if (argc != 2 || registry == NULL) return 2;
+    if (argc != 2 || registry == NULL) {
+        fprintf(stderr, argc != 2 ? "usage: arm SCENE\n" : "arm: out of memory\n");
+        return 2;
+    }
     imp_scene *scene = imp_scene_from_file(registry, argv[1], &error);
     if (scene == NULL) return fail(&error);
     if (ask(scene, 2, &answer, &error) != IMP_SUCCESS) return fail(&error);
