@@ -26,7 +26,7 @@
 static size_t use_stack(size_t depth)
 {
     volatile char room[4096];
-    room[depth % sizeof room] = 1;
+    room[0] = room[depth % sizeof room] = 1;
     return room[0] != 2 && depth > 0 ? use_stack(depth - 1) + (size_t)room[0] : depth;
 }
 
