@@ -10,21 +10,25 @@
 
 enum { TEXT = 4000 };
 
+/* Writes control point k of a list; returns the length of its text. */
+static size_t add_point(char *text, size_t room, int k, double x, double y, double z)
+{
+    return (size_t)snprintf(text, room, "%s[%.3f,%.3f,%.3f]", k > 0 ? "," : "", x, y, z);
+}
+
 /* A patch of degrees 2 and 2 that bends and deforms, over the unit square around (0, 0, z), at speed w along
  * z. */
 static void draw_patch(uint64_t *state, double z, double w, char text[TEXT])
 {
     size_t used = (size_t)snprintf(text, TEXT, "bezier degree=2,2 points=[");
     for (int k = 0; k < 9; ++k)
-        used += (size_t)snprintf(text + used, TEXT - used, "%s[%.3f,%.3f,%.3f]", k > 0 ? "," : "",
-                                 k / 3 - 1 + random_between(state, -0.3, 0.3),
-                                 k % 3 - 1 + random_between(state, -0.3, 0.3),
-                                 z + random_between(state, -1, 1));
+        used += add_point(text + used, TEXT - used, k, k / 3 - 1 + random_between(state, -0.3, 0.3),
+                          k % 3 - 1 + random_between(state, -0.3, 0.3),
+                          z + random_between(state, -1, 1));
     used += (size_t)snprintf(text + used, TEXT - used, "] velocities=[");
     for (int k = 0; k < 9; ++k)
-        used += (size_t)snprintf(text + used, TEXT - used, "%s[%.3f,%.3f,%.3f]", k > 0 ? "," : "",
-                                 random_between(state, -0.3, 0.3), random_between(state, -0.3, 0.3),
-                                 w + random_between(state, -0.3, 0.3));
+        used += add_point(text + used, TEXT - used, k, random_between(state, -0.3, 0.3),
+                          random_between(state, -0.3, 0.3), w + random_between(state, -0.3, 0.3));
     snprintf(text + used, TEXT - used, "]");
 }
 
@@ -213,15 +217,14 @@ START_TEST(a_crease_is_met_that_nets_do_not_follow)
         size_t used = (size_t)snprintf(
             a, TEXT, "nurbs degree=1,1 knots_u=[0,0,1,2,2] knots_v=[0,0,1,2,2] points=[");
         for (int i = 0; i < 9; ++i)
-            used += (size_t)snprintf(a + used, TEXT - used, "%s[%d,%d,%.3f]", i > 0 ? "," : "",
-                                     i / 3 - 1, i % 3 - 1,
-                                     random_between(&state, 0, 0.3) + (i / 3 == 1 ? 1 : 0) +
-                                         (i % 3 == 1 ? 0.5 : 0));
+            used += add_point(a + used, TEXT - used, i, i / 3 - 1, i % 3 - 1,
+                              random_between(&state, 0, 0.3) + (i / 3 == 1 ? 1 : 0) +
+                                  (i % 3 == 1 ? 0.5 : 0));
         snprintf(a + used, TEXT - used, "]");
         used = (size_t)snprintf(b, TEXT, "bezier degree=1,1 points=[");
         for (int i = 0; i < 4; ++i)
-            used += (size_t)snprintf(b + used, TEXT - used, "%s[%d,%d,%.3f]", i > 0 ? "," : "",
-                                     i / 2 * 4 - 2, i % 2 * 4 - 2, random_between(&state, 2, 2.5));
+            used += add_point(b + used, TEXT - used, i, i / 2 * 4 - 2, i % 2 * 4 - 2,
+                              random_between(&state, 2, 2.5));
         snprintf(b + used, TEXT - used, "] ! translate velocity=0,0,-2");
         imp_scene *scene = imp_scene_from_pair(registry, a, b, NULL);
         imp_options options = imp_options_default(scene);
