@@ -212,15 +212,6 @@ IMP_QUAD_WIDE static void move_steadily_wide(const course *way, const imp_model 
     move_steadily(way, in, out);
 }
 
-/* Answers IMP_UNBOUNDED if anything is infinite. */
-static imp_status status_of(const imp_model x[3])
-{
-    double sum = 0;
-    for (int i = 0; i < 3; ++i)
-        sum += x[i].e + (x[i].hi - x[i].lo) + (x[i].rate[0] + x[i].rate[1] + x[i].rate[2]);
-    return sum < INFINITY ? IMP_OK : IMP_UNBOUNDED;
-}
-
 /* --- Any course ---------------------------------------------------------------------------------- */
 
 static void moved(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
@@ -255,7 +246,7 @@ static imp_status translate_apply(const void *self, const imp_model in[4], imp_m
         move_steadily_wide(self, in, out);
     else
         move_steadily(self, in, out);
-    return status_of(out);
+    return imp_models_status(out);
 }
 
 /* Lemma (error). The displacement at the middle time, c0 + c1 c, and its sum with the place: 3 roundings

@@ -59,8 +59,8 @@ static inline imp_status imp_formula_point_(const imp_model out[3], double *x, d
     return IMP_OK;
 }
 
-/* IMP_UNBOUNDED where anything is infinite. */
-static inline imp_status imp_formula_status_(const imp_model out[3])
+/* What include and apply return for these models: IMP_UNBOUNDED where anything is infinite, else IMP_OK. */
+static inline imp_status imp_models_status(const imp_model out[3])
 {
     imp_status status = IMP_OK;
     for (int i = 0; i < 3; i++) {
@@ -88,7 +88,7 @@ static inline imp_status imp_surface_formula_include_(imp_surface_formula f, con
                                                       const imp_region *region, imp_model model[3])
 {
     f(self, imp_param(region, 0), imp_param(region, 1), imp_param(region, 2), model);
-    return imp_formula_status_(model);
+    return imp_models_status(model);
 }
 
 static inline imp_status imp_surface_formula_rate_(imp_surface_formula f, const void *self,
@@ -123,7 +123,7 @@ static inline imp_status imp_map_formula_apply_(imp_map_formula f, const void *s
                                                 const imp_model in[4], imp_model out[3])
 {
     f(self, in[0], in[1], in[2], in[3], out);
-    return imp_formula_status_(out);
+    return imp_models_status(out);
 }
 
 static inline imp_status imp_distance_formula_(imp_distance_formula f, const void *self,
@@ -233,9 +233,9 @@ static inline void imp_pose_at_rest(imp_pose *pose)
 /* IMP_UNBOUNDED where anything is infinite. */
 static inline imp_status imp_pose_status(const imp_pose *pose)
 {
-    imp_status status = imp_formula_status_(pose->shift);
+    imp_status status = imp_models_status(pose->shift);
     for (int i = 0; i < 3; i++)
-        if (imp_formula_status_(pose->turn[i]) != IMP_OK) status = IMP_UNBOUNDED;
+        if (imp_models_status(pose->turn[i]) != IMP_OK) status = IMP_UNBOUNDED;
     return status;
 }
 
