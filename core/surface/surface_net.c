@@ -7,7 +7,7 @@
 
 #include "core/surface/surface_parts.h"
 
-/* False where a number is not finite or an error negative. x - x is 0 of what is finite, else a NaN. */
+/* False where a number is not finite or an error negative. */
 static bool is_sane(const imp_net *net)
 {
     const size_t points = (size_t)(net->degree[0] + 1) * (net->degree[1] + 1);
@@ -15,9 +15,9 @@ static bool is_sane(const imp_net *net)
     double off = 0;
     for (int i = 0; i < 3; ++i) {
         const double *x = net->point[i], *v = net->velocity[i];
-        off += (net->place[i] - net->place[i]) + (net->drift[i] - net->drift[i]);
+        off += zero_if_finite(net->place[i]) + zero_if_finite(net->drift[i]);
         sane = sane && net->error[i] >= 0 && net->error[i] < INFINITY;
-        for (size_t k = 0; k < points; ++k) off += (x[k] - x[k]) + (v[k] - v[k]);
+        for (size_t k = 0; k < points; ++k) off += zero_if_finite(x[k]) + zero_if_finite(v[k]);
     }
     for (size_t k = 0; k < points && net->is_weighted; ++k)
         sane = sane && net->weight[k] > 0 && net->weight[k] < INFINITY;

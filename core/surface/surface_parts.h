@@ -34,6 +34,9 @@ struct surface {
     const surface *whole; /* what it is a piece of, or NULL */
 };
 
+/* 0 for a finite x, else NaN: a sum of these is 0 only if all are finite, and costs no branches. */
+static inline double zero_if_finite(double x) { return x - x; }
+
 /* A callback is called between these two. What it computed is thrown away if it changed the mode,
  * which is put back before anything else is computed: an exception that it lets trap would else be
  * raised in the callback after it, or by the host. */

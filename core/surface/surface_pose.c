@@ -24,17 +24,14 @@ double surface_pose_norm_upper(const surface *s)
     return norm;
 }
 
-/* 0; NaN of what is not finite. */
-static double nought(double x) { return x - x; }
-
 /* Of a function of time alone. */
 static bool is_sane(const imp_model *m)
 {
     const double *b = m->b, *q = m->q;
     const double still = fabs(b[0]) + fabs(b[1]) + fabs(q[IMP_UU]) + fabs(q[IMP_UV]) +
                          fabs(q[IMP_UT]) + fabs(q[IMP_VV]) + fabs(q[IMP_VT]);
-    const double all = nought(m->a) + nought(b[2]) + nought(q[IMP_TT]) + nought(m->e) +
-                       nought(m->lo) + nought(m->hi) + nought(m->rate[2]);
+    const double all = zero_if_finite(m->a) + zero_if_finite(b[2]) + zero_if_finite(q[IMP_TT]) + zero_if_finite(m->e) +
+                       zero_if_finite(m->lo) + zero_if_finite(m->hi) + zero_if_finite(m->rate[2]);
     return still + all == 0 && m->e >= 0 && m->lo <= m->hi && m->rate[2] >= 0 &&
            (m->depends & 3u) == 0;
 }

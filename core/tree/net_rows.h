@@ -26,8 +26,8 @@ IMP_QUAD_INLINE void rows_store(double *x, rows r)
     for (int k = 0; k < 4; ++k) imp_quad_store(x + 4 * k, r.row[k]);
 }
 
-/* Four numbers of two quads, x's counted 0 to 3, y's 4 to 7. Told number by number, gcc takes 20 instructions to
- * turn rows, and 8 as it is told here. */
+/* A shuffle of two quads: lanes 0 to 3 are those of x, 4 to 7 those of y. With the builtin, gcc transposes four
+ * rows in 8 instructions; with an initialiser of single lanes it takes 20. */
 #if defined(__has_builtin)
 #if __has_builtin(__builtin_shufflevector)
 #define ROWS_PICK(x, y, i, j, k, l) __builtin_shufflevector(x, y, i, j, k, l)
@@ -40,7 +40,7 @@ IMP_QUAD_INLINE void rows_store(double *x, rows r)
                 ROWS_NUMBER(x, y, l)})
 #endif
 
-/* Turns rows into columns. */
+/* The transposed matrix. */
 IMP_QUAD_INLINE rows rows_turned(rows r)
 {
     const imp_quad a = r.row[0], b = r.row[1], c = r.row[2], d = r.row[3];
