@@ -43,9 +43,12 @@ core_tree = \
     core/tree/model_lanes.h \
     core/tree/net.c core/tree/net.h core/tree/net_rows.h \
     core/tree/node.c core/tree/node.h \
+    core/tree/node_bounds.c \
     core/tree/node_model.c core/tree/node_model.h \
+    core/tree/node_net.c \
     core/tree/pose.c core/tree/pose.h core/tree/posed_terms.h \
     core/tree/posing.c core/tree/posing.h \
+    core/tree/tree.c core/tree/tree_parts.h \
     core/tree/vec.h
 
 core_plugin = \
@@ -94,6 +97,7 @@ core_solver = \
     core/solver/collection.h \
     core/solver/distance.c core/solver/distance.h \
     core/solver/examined_times.c core/solver/examined_times.h \
+    core/solver/follow.c core/solver/follow.h \
     core/solver/gap_lines.c core/solver/gap_lines.h \
     core/solver/gjk_axis.c core/solver/gjk_axis.h core/solver/glance.c core/solver/glance.h \
     core/solver/simplex.h \

@@ -1,0 +1,164 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+#include "core/tree/tree_parts.h"
+
+const net net_none;
+
+/* Room for a net; NULL: no memory. */
+static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
+{
+    if (t->nets == NULL || t->nets->capacity - t->nets->used < bytes) {
+        const size_t wanted = t->nets == NULL ? bytes : CHUNK_GROWTH * t->nets->capacity;
+        const size_t most = CHUNK_NODES_MAX * bytes;
+        const size_t capacity = wanted < bytes ? bytes : wanted < most ? wanted : most;
+        arena *fresh = malloc(sizeof *fresh + capacity);
+        if (fresh == NULL) return NULL;
+        *fresh = (arena){.next = t->nets, .capacity = capacity};
+        t->nets = fresh;
+        growth->bytes += sizeof *fresh + capacity;
+    }
+    net *n = (net *)(void *)((char *)t->nets->memory + t->nets->used);
+    t->nets->used += bytes;
+    return n;
+}
+
+/* The net as the type gives it, in the room; NULL where it has none that can be computed with. */
+static imp_code ask_net(const node *n, net_buffer *room, const net **made, imp_error *error)
+{
+    imp_net given;
+    const imp_status status = surface_net(n->surface, &n->region, &given);
+    *made = NULL;
+    if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
+    if (status != IMP_OK) return node_status_fault(n, status, error);
+    if (net_take(net_in(room), &given, &n->region)) *made = net_in(room);
+    return IMP_SUCCESS;
+}
+
+static bool may_have_net(const tree *t, const node *n)
+{
+    return t->plan.kind == TREE_MODELS && n->bounded && n->many == NULL &&
+           surface_offers_net(n->surface);
+}
+
+/* Whether the node's net is a half of its parent's, which is `whole`. */
+static bool is_half_of(const tree *t, const node *n, const net *whole)
+{
+    return whole != NULL && n->along != PARAMETER_T && may_have_net(t, n) &&
+           net_can_halve(&n->parent->region, n->along);
+}
+
+/* The net in the room, or that of the parent itself, which is `whole`; NULL: it has none. From the parent's
+ * where that can be halved; it may lie in the room. */
+static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buffer *room,
+                         const net **made, imp_error *error)
+{
+    *made = NULL;
+    if (!may_have_net(t, n)) return IMP_SUCCESS;
+    if (is_half_of(t, n, whole)) {
+        net_halve(whole, n->along, n->side, net_in(room));
+        *made = net_in(room);
+    } else if (whole != NULL && n->along == PARAMETER_T) {
+        *made = whole;
+    } else {
+        return ask_net(n, room, made, error);
+    }
+    return IMP_SUCCESS;
+}
+
+/* A copy in the tree of a net in the room. NULL: no memory. */
+static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
+{
+    const size_t bytes = net_bytes(filled);
+    net *kept = net_alloc(t, bytes, growth);
+    return kept != NULL ? memcpy(kept, filled, bytes) : NULL;
+}
+
+/* Publishes *made, NULL if there is none. If another thread's is there already, *made becomes that
+ * one. False: no memory. */
+static bool net_keep(tree *t, node *n, const net **made, const net_buffer *room,
+                     tree_growth *growth)
+{
+    pthread_mutex_lock(&t->lock);
+    const net *kept = atomic_load_explicit(&n->net, memory_order_relaxed);
+    if (kept == NULL) {
+        const bool is_in_room = *made == (const void *)room->memory;
+        kept = *made == NULL ? &net_none : is_in_room ? net_copy(t, *made, growth) : *made;
+        if (kept != NULL) atomic_store_explicit(&n->net, kept, memory_order_release);
+    }
+    pthread_mutex_unlock(&t->lock);
+    *made = kept != &net_none ? kept : NULL;
+    return kept != NULL;
+}
+
+/* The same of half a net, made where it is kept. False: no memory. */
+static bool net_keep_half(tree *t, node *n, const net *whole, const net **made, tree_growth *growth)
+{
+    pthread_mutex_lock(&t->lock);
+    const net *kept = atomic_load_explicit(&n->net, memory_order_relaxed);
+    if (kept == NULL) {
+        net *half = net_alloc(t, net_bytes(whole), growth);
+        if (half != NULL) {
+            net_halve(whole, n->along, n->side, half);
+            atomic_store_explicit(&n->net, half, memory_order_release);
+        }
+        kept = half;
+    }
+    pthread_mutex_unlock(&t->lock);
+    *made = kept != &net_none ? kept : NULL;
+    return kept != NULL;
+}
+
+/* Makes the net and publishes it. */
+static imp_code make_net(tree *t, node *n, const net *whole, net_buffer *room, const net **made,
+                         tree_growth *growth, imp_error *error)
+{
+    bool is_kept;
+    if (is_half_of(t, n, whole)) {
+        is_kept = net_keep_half(t, n, whole, made, growth);
+    } else {
+        const imp_code code = fill_net(t, n, whole, room, made, error);
+        if (code != IMP_SUCCESS) return code;
+        is_kept = net_keep(t, n, made, room, growth);
+    }
+    return is_kept ? IMP_SUCCESS : error_set_memory(error);
+}
+
+static bool has_parent(const node *n)
+{
+    return n->parent != NULL && n->parent->surface == n->surface;
+}
+
+imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
+                       tree_growth *growth, imp_error *error)
+{
+    node *at = n;
+    while (has_parent(at) && !node_net_is_asked(at->parent)) at = at->parent;
+    const net *whole = has_parent(at) ? node_net_made(at->parent) : NULL;
+    for (;;) {
+        const bool keeps = at == n ? is_to_keep : !at->is_bare;
+        const imp_code code = keeps ? make_net(t, at, whole, room, &whole, growth, error)
+                                    : fill_net(t, at, whole, room, &whole, error);
+        if (code != IMP_SUCCESS || at == n) return *made = whole, code;
+        node *below = n;
+        while (below->parent != at) below = below->parent;
+        at = below;
+    }
+}
+
+imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error)
+{
+    if (!node_net_is_asked(n)) {
+        net_buffer room;
+        const net *made;
+        const imp_code code = node_net_find(t, n, true, &room, &made, growth, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    *found = node_net_made(n);
+    return IMP_SUCCESS;
+}

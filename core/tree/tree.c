@@ -1,0 +1,190 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <assert.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+#include "core/tree/tree_parts.h"
+
+/* A box, as a tree keeps it. */
+_Static_assert(offsetof(node, hi) == offsetof(node, lo) + 3 * sizeof(double), "lo, then hi");
+
+static node *own_root(tree *t)
+{
+    assert(t->begins_with_root);
+    return (node *)(void *)t->rest;
+}
+
+static imp_code place_of_root(tree *t, node_place *place, tree_growth *growth, imp_error *error)
+{
+    const double from = t->plan.t_start, to = t->plan.t_end;
+    const size_t pieces = surface_piece_count(t->surface);
+    if (pieces > 1 && t->pieces == NULL) {
+        const imp_code code = hierarchy_new(t->surface, from, to, &t->pieces, error);
+        if (code != IMP_SUCCESS) return code;
+        growth->bytes += hierarchy_bytes(t->pieces);
+    }
+    *place = pieces > 1 ? node_place_of_cluster(hierarchy_root(t->pieces), from, to)
+                        : node_place_of_surface(t->surface, from, to);
+    if (pieces == 1) place->surface = surface_piece(t->surface, 0);
+    return IMP_SUCCESS;
+}
+
+static imp_code root_fill(tree *t, node *root, tree_growth *growth, imp_error *error)
+{
+    node_place place;
+    const imp_code code = place_of_root(t, &place, growth, error);
+    return code == IMP_SUCCESS ? node_fill(t, &place, root, growth, error) : code;
+}
+
+typedef struct root_box {
+    double lo[3], hi[3];
+} root_box;
+
+static size_t tree_bytes(bool with_root)
+{
+    return sizeof(tree) + (with_root ? sizeof(node) : sizeof(root_box));
+}
+
+/* The root is not filled yet. NULL: no memory. */
+static tree *tree_begin(const surface *s, const tree_plan *plan, bool with_root)
+{
+    tree *t = malloc(tree_bytes(with_root));
+    if (t == NULL) return NULL;
+    *t = (tree){.surface = s,
+                .plan = *plan,
+                .begins_with_root = with_root,
+                .lock = PTHREAD_MUTEX_INITIALIZER,
+                .posing = {.lock = &t->lock}};
+    return t;
+}
+
+static void set_root(tree *t, node *root)
+{
+    t->posing.root = root;
+    atomic_store_explicit(&t->root, root, memory_order_release);
+}
+
+static imp_code begin_root(tree *t, tree_growth *growth, imp_error *error)
+{
+    node passing, *root = t->begins_with_root ? own_root(t) : &passing;
+    const imp_code code = root_fill(t, root, growth, error);
+    if (code != IMP_SUCCESS) return code;
+    if (t->begins_with_root)
+        set_root(t, root);
+    else
+        memcpy(t->rest, root->lo, sizeof(root_box));
+    growth->nodes += t->begins_with_root;
+    growth->bytes += tree_bytes(t->begins_with_root);
+    return IMP_SUCCESS;
+}
+
+static imp_code make_tree(const surface *s, const tree_plan *plan, bool with_root, tree **made,
+                          tree_growth *growth, imp_error *error)
+{
+    tree *t = tree_begin(s, plan, with_root);
+    if (t == NULL) return error_set_memory(error);
+    const imp_code code = begin_root(t, growth, error);
+    if (code == IMP_SUCCESS)
+        *made = t;
+    else
+        tree_free(t);
+    return code;
+}
+
+imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
+                  imp_error *error)
+{
+    return make_tree(s, plan, true, made, growth, error);
+}
+
+imp_code tree_new_without_root(const surface *s, const tree_plan *plan, tree **made,
+                               tree_growth *growth, imp_error *error)
+{
+    return make_tree(s, plan, false, made, growth, error);
+}
+
+imp_code tree_make_root(tree *t, tree_growth *growth, imp_error *error)
+{
+    if (tree_has_root(t)) return IMP_SUCCESS;
+    node *filled = malloc(sizeof *filled);
+    if (filled == NULL) return error_set_memory(error);
+    const imp_code code = root_fill(t, filled, growth, error);
+    pthread_mutex_lock(&t->lock);
+    if (code == IMP_SUCCESS && !tree_has_root(t)) {
+        set_root(t, filled);
+        growth->nodes += 1;
+        growth->bytes += sizeof *filled;
+        filled = NULL;
+    }
+    pthread_mutex_unlock(&t->lock);
+    free(filled);
+    return code;
+}
+
+imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error)
+{
+    const node *root = tree_root(t);
+    tree *copy = tree_begin(t->surface, &t->plan, true);
+    if (copy == NULL) return error_set_memory(error);
+    memset(own_root(copy), 0, sizeof(node));
+    memcpy(own_root(copy), root, offsetof(node, net)); /* no thread changes it */
+    set_root(copy, own_root(copy));
+    growth->bytes += tree_bytes(true);
+    *made = copy;
+    return IMP_SUCCESS;
+}
+
+void tree_free(tree *t)
+{
+    if (t == NULL) return;
+    while (t->chunks != NULL) {
+        chunk *next = t->chunks->next;
+        free(t->chunks);
+        t->chunks = next;
+    }
+    hierarchy_free(t->pieces);
+    while (t->nets != NULL) {
+        arena *next = t->nets->next;
+        free(t->nets);
+        t->nets = next;
+    }
+    posing_clear(&t->posing);
+    pthread_mutex_destroy(&t->lock);
+    if (!t->begins_with_root) free(atomic_load_explicit(&t->root, memory_order_relaxed));
+    free(t);
+}
+
+tree *tree_next(const tree *t) { return t->next; }
+
+void tree_set_next(tree *t, tree *next) { t->next = next; }
+
+bool tree_has_root(const tree *t)
+{
+    return atomic_load_explicit(&t->root, memory_order_acquire) != NULL;
+}
+
+node *tree_root(const tree *t)
+{
+    assert(tree_has_root(t));
+    return atomic_load_explicit(&t->root, memory_order_acquire);
+}
+
+void tree_box(const tree *t, double lo[3], double hi[3])
+{
+    const double *box = t->begins_with_root ? tree_root(t)->lo : t->rest;
+    memcpy(lo, box, 3 * sizeof *lo);
+    memcpy(hi, box + 3, 3 * sizeof *hi);
+}
+
+const surface *tree_surface(const tree *t) { return t->surface; }
+
+bool tree_is_of(const tree *t, const tree_plan *plan)
+{
+    return t->plan.kind == plan->kind && t->plan.t_start == plan->t_start &&
+           t->plan.t_end == plan->t_end && t->plan.audit == plan->audit;
+}

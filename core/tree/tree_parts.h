@@ -1,0 +1,78 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_TREE_TREE_PARTS_H
+#define CORE_TREE_TREE_PARTS_H
+
+#include <pthread.h>
+
+#include "core/tree/node.h"
+#include "core/tree/posing.h"
+
+/* What the files of a tree share: tree.c, node.c, node_bounds.c, node_net.c. */
+
+/* Chunks of 4, 16, 64, 64, ... nodes beside the root. */
+enum { CHUNK_GROWTH = 4, CHUNK_NODES_MAX = 64 };
+
+typedef struct chunk {
+    struct chunk *next;
+    size_t used, capacity;
+    node nodes[];
+} chunk;
+
+/* Blocks of nets: room for 1, 4, 16, 64, 64, ... as the chunks. */
+typedef struct arena {
+    struct arena *next;
+    size_t used, capacity; /* bytes */
+    double memory[];
+} arena;
+
+struct tree {
+    const surface *surface;
+    tree_plan plan;
+    tree *next;
+    _Atomic(node *) root; /* NULL: not made yet */
+    bool begins_with_root;
+    pthread_mutex_t lock; /* of chunks, spare nodes, the root, and nets while one is published */
+    chunk *chunks;
+    node *spare;       /* reserved, but not published; each one's parent is the next */
+    hierarchy *pieces; /* NULL: it is one surface */
+    arena *nets;
+    posing posing;
+    double rest[]; /* the root, if the tree begins with it; else the root's box */
+};
+
+/* Which points a node is to bound, and when; which half of which node it is. */
+typedef struct node_place {
+    imp_region region;
+    const surface *surface;
+    const cluster *many;
+    node *parent; /* NULL: it is the root */
+    parameter along;
+    int side;
+} node_place;
+
+/* The whole of one surface, or of a cluster, during these times. */
+node_place node_place_of_surface(const surface *s, double t_start, double t_end);
+node_place node_place_of_cluster(const cluster *many, double t_start, double t_end);
+
+/* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds to the bounds
+ * of rates. */
+void node_begin(const tree *t, const node_place *place, node *n);
+
+/* That, and its bounds. */
+imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growth,
+                   imp_error *error);
+
+/* The bounds of a node that has begun: models, a cluster's box, or rates, as the tree's plan asks for. */
+imp_code node_bounds_find(const tree *t, node *n, imp_error *error);
+
+/* Names the type, the region and what is wrong. */
+imp_code node_fault(const node *n, const char *what, imp_error *error);
+imp_code node_status_fault(const node *n, imp_status status, imp_error *error);
+
+/* The net of n, which was not asked for it: published, if n is to keep it, or in the room, or in the tree; NULL:
+ * it has none. Its ancestors come first, from the top. Bare ones keep none. */
+imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
+                       tree_growth *growth, imp_error *error);
+
+#endif
