@@ -70,22 +70,20 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
         error_set_memory(error);
         return NULL;
     }
-    memset(query, 0, sizeof *query);
-    query->scene = scene;
-    query->scene_bytes = scene_bytes(scene);
+    *query = (imp_query){.scene = scene,
+                         .scene_bytes = scene_bytes(scene),
+                         .options = *options,
+                         .examined = examined,
+                         .impact = {.gamma = options->gamma,
+                                    .clearance = clearance,
+                                    .method = options->method,
+                                    .bounds = options->bounds,
+                                    .t_lower = options->t_start,
+                                    .window = {options->t_start, options->t_end},
+                                    .stats = &query->stats},
+                         .verdict = IMP_UNDECIDED,
+                         .reason = IMP_REASON_RUNNING};
     query->peak_bytes = query->scene_bytes + sizeof *query;
-    query->options = *options;
-    query->examined = examined;
-    query->impact.gamma = options->gamma;
-    query->impact.clearance = clearance;
-    query->impact.method = options->method;
-    query->impact.bounds = options->bounds;
-    query->impact.t_lower = options->t_start;
-    query->impact.window = (time_window){options->t_start, options->t_end};
-    query->impact.stats = &query->stats;
-    query->verdict = IMP_UNDECIDED;
-    query->reason = IMP_REASON_RUNNING;
-    atomic_init(&query->cancelled, false);
     return query;
 }
 

@@ -13,9 +13,10 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
 {
     pair_test t;
     *state = IMPACT_NO_MEMORY;
-    if (!pair_heap_reserve(&im->heap, 1)) return IMP_SUCCESS;
     const imp_code code = pair_test_candidate(im, index, &t, error);
     if (code == IMP_ERROR_MEMORY) return IMP_SUCCESS;
+    if (code == IMP_SUCCESS && t.any_time && t.near && !pair_heap_reserve(&im->heap, 1))
+        return IMP_SUCCESS;
     *state = IMPACT_RUNNING;
     if (code == IMP_SUCCESS && t.any_time) follow_push(im, &t);
     return code;
