@@ -69,7 +69,7 @@ void node_begin(const tree *t, const node_place *place, node *n)
 {
     const size_t set = t->plan.kind == TREE_MODELS ? offsetof(node, bounded) : 0;
     memset((char *)n + set, 0, sizeof *n - set);
-    n->region = place->region;
+    region_set(&n->region, place->lo, place->hi);
     n->radius = 0;
     n->surface = place->surface;
     n->many = place->many;
@@ -122,32 +122,36 @@ static imp_code node_make(tree *t, const node_place *place, _Atomic(node *) *slo
 
 node_place node_place_of_surface(const surface *s, double t_start, double t_end)
 {
-    double lo[3], hi[3];
-    surface_domain(s, lo, hi);
-    assert(lo[2] <= t_start && t_start <= t_end && t_end <= hi[2]);
-    lo[2] = t_start;
-    hi[2] = t_end;
-    return (node_place){.region = region_make(lo, hi), .surface = s};
+    node_place place = {.surface = s};
+    surface_domain(s, place.lo, place.hi);
+    assert(place.lo[2] <= t_start && t_start <= t_end && t_end <= place.hi[2]);
+    place.lo[2] = t_start;
+    place.hi[2] = t_end;
+    return place;
 }
 
 node_place node_place_of_cluster(const cluster *many, double t_start, double t_end)
 {
-    const double lo[3] = {-1, 0, t_start}, hi[3] = {1, 0, t_end};
-    return (node_place){
-        .region = region_make(lo, hi), .surface = hierarchy_surface(many->of), .many = many};
+    return (node_place){.lo = {-1, 0, t_start},
+                        .hi = {1, 0, t_end},
+                        .surface = hierarchy_surface(many->of),
+                        .many = many};
 }
 
 /* Which points a half of a node is to bound. */
 static node_place points_of_half(const node *parent, parameter j, int side)
 {
     const imp_region *r = &parent->region;
-    if (parent->many == NULL || j != PARAMETER_U)
-        return (node_place){
-            .region = region_half(r, j, side), .surface = parent->surface, .many = parent->many};
-    const cluster *half = parent->many->child[side];
-    if (half != NULL) return node_place_of_cluster(half, r->lo[2], r->hi[2]);
-    return node_place_of_surface(surface_piece(parent->surface, parent->many->piece[side]),
-                                 r->lo[2], r->hi[2]);
+    const cluster *many = parent->many;
+    if (many != NULL && j == PARAMETER_U) {
+        const cluster *half = many->child[side];
+        if (half != NULL) return node_place_of_cluster(half, r->lo[2], r->hi[2]);
+        return node_place_of_surface(surface_piece(parent->surface, many->piece[side]), r->lo[2],
+                                     r->hi[2]);
+    }
+    node_place half = {.surface = parent->surface, .many = many};
+    region_half_box(r, j, side, half.lo, half.hi);
+    return half;
 }
 
 static node_place place_of_half(node *parent, parameter j, int side)

@@ -43,7 +43,7 @@ struct tree {
 
 /* Which points a node is to bound, and when; which half of which node it is. */
 typedef struct node_place {
-    imp_region region;
+    double lo[3], hi[3]; /* of its region */
     const surface *surface;
     const cluster *many;
     node *parent; /* NULL: it is the root */
