@@ -87,6 +87,7 @@ core_scene = \
     core/scene/scene_trees.h
 
 core_solver = \
+    core/solver/cuts.h \
     core/solver/axes.c core/solver/axes.h \
     core/solver/broad_phase.c core/solver/broad_phase.h \
     core/solver/candidates.c core/solver/candidates.h \
