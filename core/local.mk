@@ -87,7 +87,6 @@ core_scene = \
     core/scene/scene_trees.h
 
 core_solver = \
-    core/solver/cuts.h \
     core/solver/axes.c core/solver/axes.h \
     core/solver/broad_phase.c core/solver/broad_phase.h \
     core/solver/candidates.c core/solver/candidates.h \
@@ -96,6 +95,7 @@ core_solver = \
     core/solver/clearance_parts.c core/solver/clearance_parts.h \
     core/solver/collect_pairs.c core/solver/collect_roots.c core/solver/collect_surfaces.c \
     core/solver/collection.h \
+    core/solver/cuts.h \
     core/solver/distance.c core/solver/distance.h \
     core/solver/examined_times.c core/solver/examined_times.h \
     core/solver/follow.c core/solver/follow.h \
