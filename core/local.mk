@@ -42,6 +42,7 @@ core_tree = \
     core/tree/hierarchy.c core/tree/hierarchy.h \
     core/tree/model_lanes.h \
     core/tree/net.c core/tree/net.h core/tree/net_rows.h \
+    core/tree/net_series.c core/tree/net_series.h \
     core/tree/node.c core/tree/node.h \
     core/tree/node_bounds.c \
     core/tree/node_model.c core/tree/node_model.h \

@@ -52,17 +52,32 @@ static void node_give_back(tree *t, node *n)
 
 /* --- Making --------------------------------------------------------------------------- */
 
-/* With the net, which is made again when it is needed. */
+/* With the net; unless it has it already, it is made again when it is needed. */
 static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
 {
     net_buffer room;
     const net *made;
+    if (node_net_is_asked(n)) return t->plan.audit(n->surface, n, error);
     imp_code code = node_net_find(t, n, false, &room, &made, growth, error);
     if (code != IMP_SUCCESS) return code;
     atomic_store_explicit(&n->net, made, memory_order_relaxed);
     code = t->plan.audit(n->surface, n, error);
     atomic_store_explicit(&n->net, NULL, memory_order_relaxed);
     return code;
+}
+
+static bool is_whole(const node *n)
+{
+    return n->parent == NULL || n->parent->surface != n->surface;
+}
+
+/* Models of nets are worth the nets only where patches bend. Every node of a surface asks the same of the whole
+ * of it, so that its models depend on its region alone. */
+static bool follows_net(const node *n)
+{
+    if (is_whole(n)) return false;
+    if (!is_whole(n->parent)) return n->parent->follows_net;
+    return node_bends(n->parent) && surface_offers_net(n->surface);
 }
 
 void node_begin(const tree *t, const node_place *place, node *n)
@@ -76,6 +91,7 @@ void node_begin(const tree *t, const node_place *place, node *n)
     n->parent = place->parent;
     n->along = place->along;
     n->side = place->side;
+    n->follows_net = t->plan.kind == TREE_MODELS && follows_net(n);
 }
 
 imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growth, imp_error *error)
@@ -84,8 +100,10 @@ imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growt
     node_begin(t, place, n);
     if (t->plan.kind == TREE_MODELS && n->parent != NULL)
         code = posing_begin(&t->posing, n, growth, error);
-    if (code != IMP_SUCCESS) return code;
-    code = node_bounds_find(t, n, error);
+    bool done = false;
+    if (code == IMP_SUCCESS && n->follows_net && n->shape == NULL)
+        code = node_fill_from_net(t, n, &done, growth, error);
+    if (code == IMP_SUCCESS && !done) code = node_bounds_find(t, n, error);
     if (code == IMP_SUCCESS && t->plan.audit != NULL && n->many == NULL)
         code = audit(t, n, growth, error);
     return code;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/base/status.h"
+#include "core/tree/net_series.h"
 #include "core/tree/tree_parts.h"
 
 const net net_none;
@@ -129,17 +130,12 @@ static imp_code make_net(tree *t, node *n, const net *whole, net_buffer *room, c
     return is_kept ? IMP_SUCCESS : error_set_memory(error);
 }
 
-static bool has_parent(const node *n)
-{
-    return n->parent != NULL && n->parent->surface == n->surface;
-}
-
 imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
                        tree_growth *growth, imp_error *error)
 {
     node *at = n;
-    while (has_parent(at) && !node_net_is_asked(at->parent)) at = at->parent;
-    const net *whole = has_parent(at) ? node_net_made(at->parent) : NULL;
+    while (node_is_part(at) && !node_net_is_asked(at->parent)) at = at->parent;
+    const net *whole = node_is_part(at) ? node_net_made(at->parent) : NULL;
     for (;;) {
         const bool keeps = at == n ? is_to_keep : !at->is_bare;
         const imp_code code = keeps ? make_net(t, at, whole, room, &whole, growth, error)
@@ -160,5 +156,16 @@ imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_
         if (code != IMP_SUCCESS) return code;
     }
     *found = node_net_made(n);
+    return IMP_SUCCESS;
+}
+
+imp_code node_fill_from_net(tree *t, node *n, bool *done, tree_growth *growth, imp_error *error)
+{
+    const net *made;
+    n->bounded = true;
+    const imp_code code = node_net(t, n, &made, growth, error);
+    if (code != IMP_SUCCESS) return code;
+    *done = made != NULL && net_series_take(made, n);
+    if (made != NULL && !*done) n->follows_net = false;
     return IMP_SUCCESS;
 }

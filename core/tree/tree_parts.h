@@ -55,6 +55,12 @@ typedef struct node_place {
 node_place node_place_of_surface(const surface *s, double t_start, double t_end);
 node_place node_place_of_cluster(const cluster *many, double t_start, double t_end);
 
+/* Whether it is a part of its parent's surface, not the whole of one. */
+static inline bool node_is_part(const node *n)
+{
+    return n->parent != NULL && n->parent->surface == n->surface;
+}
+
 /* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds to the bounds
  * of rates. */
 void node_begin(const tree *t, const node_place *place, node *n);
@@ -74,5 +80,8 @@ imp_code node_status_fault(const node *n, imp_status status, imp_error *error);
  * it has none. Its ancestors come first, from the top. Bare ones keep none. */
 imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
                        tree_growth *growth, imp_error *error);
+
+/* Fills n, which follows its net, from that. *done: false where it has none, or one that is no bicubic patch. */
+imp_code node_fill_from_net(tree *t, node *n, bool *done, tree_growth *growth, imp_error *error);
 
 #endif
