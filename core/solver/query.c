@@ -129,7 +129,8 @@ imp_reason query_reason_of_clear(const imp_query *query)
     return query->examined.lo <= query->examined.hi ? IMP_REASON_NONE : IMP_REASON_NO_TIME;
 }
 
-/* Whether one surface of the contact found stays as it is for all of the query's times. */
+/* Whether one surface of the contact found stays as it is for all of the query's times. Rates are asked for only
+ * where no point of it was seen to move. */
 static bool is_at_rest(const imp_query *query, int side)
 {
     const candidate *c = query->candidates.pairs[query->impact.found_candidate].side[side];
@@ -137,6 +138,7 @@ static bool is_at_rest(const imp_query *query, int side)
     const imp_region *times = &tree_root(c->tree)->region;
     double lo[3], hi[3];
     imp_rate_matrix rates;
+    if (c->moves) return false;
     if (surface_piece_count(s) > 0) s = surface_piece(s, query->impact.found.piece[side]);
     surface_domain(s, lo, hi);
     lo[2] = times->lo[2], hi[2] = times->hi[2];

@@ -14,30 +14,45 @@
 
 /* --- Memory ------------------------------------------------------------------- */
 
-static node *node_alloc(tree *t, tree_growth *growth)
+/* The next place of the newest chunk; NULL: it has none. */
+static node *next_place(tree *t)
 {
-    if (t->chunks == NULL || t->chunks->used == t->chunks->capacity) {
-        const size_t wanted = t->chunks == NULL ? CHUNK_GROWTH : CHUNK_GROWTH * t->chunks->capacity;
-        const size_t capacity = wanted < CHUNK_NODES_MAX ? wanted : CHUNK_NODES_MAX;
-        const size_t bytes = sizeof(chunk) + capacity * sizeof(node);
-        chunk *fresh = malloc(bytes);
-        if (fresh == NULL) return NULL;
-        *fresh = (chunk){.next = t->chunks, .capacity = capacity};
-        t->chunks = fresh;
-        growth->bytes += bytes;
-    }
-    return &t->chunks->nodes[t->chunks->used++];
+    chunk *c = atomic_load_explicit(&t->chunks, memory_order_acquire);
+    if (c == NULL) return NULL;
+    const size_t at = atomic_fetch_add_explicit(&c->used, 1, memory_order_relaxed);
+    return at < c->capacity ? &c->nodes[at] : NULL;
+}
+
+/* The first place of another chunk. NULL: no memory. */
+static node *place_of_new_chunk(tree *t, tree_growth *growth)
+{
+    chunk *const last = atomic_load_explicit(&t->chunks, memory_order_relaxed);
+    const size_t wanted = last == NULL ? CHUNK_GROWTH : CHUNK_GROWTH * last->capacity;
+    const size_t capacity = wanted < CHUNK_NODES_MAX ? wanted : CHUNK_NODES_MAX;
+    const size_t bytes = sizeof(chunk) + capacity * sizeof(node);
+    chunk *fresh = malloc(bytes);
+    if (fresh == NULL) return NULL;
+    fresh->next = last;
+    fresh->capacity = capacity;
+    atomic_init(&fresh->used, 1);
+    atomic_store_explicit(&t->chunks, fresh, memory_order_release);
+    growth->bytes += bytes;
+    return &fresh->nodes[0];
 }
 
 /* Room for a node, which is then published or given back; NULL: no memory. */
 static node *node_reserve(tree *t, tree_growth *growth)
 {
+    node *n = NULL;
+    if (atomic_load_explicit(&t->spare, memory_order_relaxed) == NULL) n = next_place(t);
+    if (n != NULL) return n;
     pthread_mutex_lock(&t->lock);
-    node *n = t->spare;
+    n = atomic_load_explicit(&t->spare, memory_order_relaxed);
     if (n != NULL)
-        t->spare = n->parent;
+        atomic_store_explicit(&t->spare, n->parent, memory_order_relaxed);
     else
-        n = node_alloc(t, growth);
+        n = next_place(t);
+    if (n == NULL) n = place_of_new_chunk(t, growth);
     pthread_mutex_unlock(&t->lock);
     return n;
 }
@@ -45,8 +60,8 @@ static node *node_reserve(tree *t, tree_growth *growth)
 static void node_give_back(tree *t, node *n)
 {
     pthread_mutex_lock(&t->lock);
-    n->parent = t->spare;
-    t->spare = n;
+    n->parent = atomic_load_explicit(&t->spare, memory_order_relaxed);
+    atomic_store_explicit(&t->spare, n, memory_order_relaxed);
     pthread_mutex_unlock(&t->lock);
 }
 

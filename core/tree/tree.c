@@ -147,16 +147,18 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
 void tree_free(tree *t)
 {
     if (t == NULL) return;
-    while (t->chunks != NULL) {
-        chunk *next = t->chunks->next;
-        free(t->chunks);
-        t->chunks = next;
+    chunk *nodes = atomic_load_explicit(&t->chunks, memory_order_relaxed);
+    while (nodes != NULL) {
+        chunk *next = nodes->next;
+        free(nodes);
+        nodes = next;
     }
     hierarchy_free(t->pieces);
-    while (t->nets != NULL) {
-        arena *next = t->nets->next;
-        free(t->nets);
-        t->nets = next;
+    arena *nets = atomic_load_explicit(&t->nets, memory_order_relaxed);
+    while (nets != NULL) {
+        arena *next = nets->next;
+        free(nets);
+        nets = next;
     }
     posing_clear(&t->posing);
     pthread_mutex_destroy(&t->lock);

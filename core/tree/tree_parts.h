@@ -13,16 +13,19 @@
 /* Chunks of 4, 16, 64, 64, ... nodes beside the root. */
 enum { CHUNK_GROWTH = 4, CHUNK_NODES_MAX = 64 };
 
+/* Places are taken by counting, without the lock: what goes beyond the capacity is no place. */
 typedef struct chunk {
     struct chunk *next;
-    size_t used, capacity;
+    _Atomic(size_t) used;
+    size_t capacity;
     node nodes[];
 } chunk;
 
 /* Blocks of nets: room for 1, 4, 16, 64, 64, ... as the chunks. */
 typedef struct arena {
     struct arena *next;
-    size_t used, capacity; /* bytes */
+    _Atomic(size_t) used; /* bytes */
+    size_t capacity;      /* the same */
     double memory[];
 } arena;
 
@@ -32,11 +35,12 @@ struct tree {
     tree *next;
     _Atomic(node *) root; /* NULL: not made yet */
     bool begins_with_root;
-    pthread_mutex_t lock; /* of chunks, spare nodes, the root, and nets while one is published */
-    chunk *chunks;
-    node *spare;       /* reserved, but not published; each one's parent is the next */
-    hierarchy *pieces; /* NULL: it is one surface */
-    arena *nets;
+    pthread_mutex_t
+        lock; /* of lists of chunks, arenas and spare nodes while they change, and of the root */
+    _Atomic(chunk *) chunks;
+    _Atomic(node *) spare; /* reserved, but not published; each one's parent is the next */
+    hierarchy *pieces;     /* NULL: it is one surface */
+    _Atomic(arena *) nets;
     posing posing;
     double rest[]; /* the root, if the tree begins with it; else the root's box */
 };

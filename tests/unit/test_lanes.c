@@ -26,7 +26,6 @@
 #define net_bytes narrow_net_bytes
 #define net_series_take narrow_net_series_take
 #define net_take narrow_net_take
-#define net_can_halve narrow_net_can_halve
 #define net_halve narrow_net_halve
 #define net_halve_columns narrow_net_halve_columns
 #define net_halving_upper narrow_net_halving_upper
