@@ -123,11 +123,12 @@ IMP_QUAD_INLINE imp_quad bow_upper(imp_quad b, imp_quad q)
  *              |s|; a cubic within M has a slope of 3 M: both directions 2 * 21
  *
  * Numbers of a net that was halved are within 2 `most` (net.c). Of |place| + |t - time| |drift|: products and
- * sums 8, twice for the range. Nothing underflows by more than SERIES_UNDERFLOW in all. */
+ * sums 8, twice for the range. Each of 16 coefficients passes at most 8 products, which underflow by 2^-1075
+ * each, those of velocities times less than 2^301 (NET_LARGE): 2^-767 in all. */
 enum { SERIES_ROUNDING = 512, PLACE_ROUNDING = 16 };
 _Static_assert(2 * ((8 + 3 + 1) * 16 + 7 + 4 + 2 * 21) <= SERIES_ROUNDING, "rounding of a series");
 _Static_assert(2 * 8 <= PLACE_ROUNDING, "rounding of its place");
-#define SERIES_UNDERFLOW 0x1p-1000
+#define SERIES_UNDERFLOW 0x1p-700
 
 IMP_QUAD_INLINE imp_quad rounding_upper(const net *p, imp_quad far)
 {

@@ -161,6 +161,27 @@ START_TEST(models_of_nets_halved_hold)
 }
 END_TEST
 
+/* Velocities that underflow when they are divided, during times that make their losses count. */
+START_TEST(models_hold_where_velocities_underflow)
+{
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(200); ++k) {
+        netted a = {.given = {.degree = {3, 3}, .is_moving = 1}};
+        place at = draw_place(&state);
+        at.of_net.lo[2] = -0x1p298, at.of_net.hi[2] = 0x1p298;
+        for (int i = 0; i < 3; ++i)
+            for (int m = 0; m < 16; ++m)
+                a.given.velocity[i][m] = ((double)(random_bits(&state) % 16) - 8) * 0x1p-1074;
+        at.of_node = at.of_net = region_make(at.of_net.lo, at.of_net.hi);
+        if (k % 2) at.of_node = region_half(&at.of_net, PARAMETER_T, 1);
+        take(&a, at.of_net.lo, at.of_net.hi);
+        a.n.region = at.of_node;
+        ck_assert(net_series_take(a.n.net, &a.n));
+        check_points(&state, &a, &at, &a.given);
+    }
+}
+END_TEST
+
 START_TEST(remainders_are_no_larger_than_what_is_left_out)
 {
     netted a = {.given = {.degree = {3, 3}}};
@@ -192,4 +213,5 @@ START_TEST(other_nets_give_no_models)
 END_TEST
 
 SUITE_MAIN("net series", models_of_bicubic_nets_hold, models_of_nets_halved_hold,
+           models_hold_where_velocities_underflow,
            remainders_are_no_larger_than_what_is_left_out, other_nets_give_no_models)
