@@ -34,7 +34,8 @@ core_surface = \
     core/surface/surface_distance.c \
     core/surface/surface_include.c core/surface/surface_net.c \
     core/surface/surface_parts.h core/surface/surface_pose.c \
-    core/surface/surface_rate.c
+    core/surface/surface_rate.c \
+    core/surface/surface_symmetry.c
 
 core_tree = \
     core/tree/bound_audit.c core/tree/bound_audit.h \
@@ -42,7 +43,6 @@ core_tree = \
     core/tree/hierarchy.c core/tree/hierarchy.h \
     core/tree/model_lanes.h \
     core/tree/net.c core/tree/net.h core/tree/net_rows.h \
-    core/tree/net_series.c core/tree/net_series.h \
     core/tree/node.c core/tree/node.h \
     core/tree/node_bounds.c \
     core/tree/node_model.c core/tree/node_model.h \
@@ -96,7 +96,6 @@ core_solver = \
     core/solver/clearance_parts.c core/solver/clearance_parts.h \
     core/solver/collect_pairs.c core/solver/collect_roots.c core/solver/collect_surfaces.c \
     core/solver/collection.h \
-    core/solver/cuts.h \
     core/solver/distance.c core/solver/distance.h \
     core/solver/examined_times.c core/solver/examined_times.h \
     core/solver/follow.c core/solver/follow.h \

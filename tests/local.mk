@@ -20,6 +20,7 @@ check_suites = \
     tests/unit/test_contacts \
     tests/unit/test_distance_maps \
     tests/unit/test_distance_windows \
+    tests/unit/test_slips \
     tests/unit/test_elf_probe \
     tests/unit/test_elf_tables \
     tests/unit/test_isolate \
@@ -80,7 +81,6 @@ mpfi_suites = \
     tests/unit/test_nested \
     tests/unit/test_net_models \
     tests/unit/test_nets \
-    tests/unit/test_net_series \
     tests/unit/test_poses \
     tests/unit/test_shapes \
     tests/unit/test_loop \
@@ -113,8 +113,6 @@ tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
 tests_unit_test_nets_SOURCES = tests/unit/test_nets.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_net_models_SOURCES = tests/unit/test_net_models.c tests/support/netted.h \
-    tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
-tests_unit_test_net_series_SOURCES = tests/unit/test_net_series.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_poses_SOURCES = tests/unit/test_poses.c \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
@@ -189,6 +187,7 @@ check_LTLIBRARIES = \
     tests/plugins/create_rounds.la \
     tests/plugins/distance_infinite.la \
     tests/plugins/distance_nan.la \
+    tests/plugins/symmetry_nan.la \
     tests/plugins/domain_crashes.la \
     tests/plugins/domain_nan.la \
     tests/plugins/domain_rounds.la \
@@ -215,6 +214,7 @@ check_LTLIBRARIES = \
     tests/plugins/liar_crash.la \
     tests/plugins/liar_distance.la \
     tests/plugins/liar_distance_remainder.la \
+    tests/plugins/liar_symmetry.la \
     tests/plugins/liar_errno.la \
     tests/plugins/liar_error.la \
     tests/plugins/liar_exports.la \
@@ -237,6 +237,7 @@ check_LTLIBRARIES = \
     tests/plugins/liar_time.la \
     tests/plugins/liar_truthful.la \
     tests/plugins/liar_truthful_distance.la \
+    tests/plugins/liar_truthful_symmetry.la \
     tests/plugins/liar_truthful_net.la \
     tests/plugins/map_rate_negative.la \
     tests/plugins/mistakes_bounds.la \
@@ -284,6 +285,7 @@ tests_plugins_create_overflows_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_rounds_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_distance_infinite_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_distance_nan_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_symmetry_nan_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_crashes_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_nan_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_rounds_la_LDFLAGS = $(test_plugin_ldflags)
@@ -309,6 +311,7 @@ tests_plugins_liar_counter_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_crash_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_distance_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_distance_remainder_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_symmetry_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_errno_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_error_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_exports_la_LDFLAGS = $(test_plugin_ldflags)
@@ -331,6 +334,7 @@ tests_plugins_liar_spot_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_time_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_distance_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_liar_truthful_symmetry_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_net_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_map_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_bounds_la_LDFLAGS = $(test_plugin_ldflags)

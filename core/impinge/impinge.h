@@ -141,7 +141,8 @@ typedef struct imp_type_info {
     const imp_parameter *parameters; /* step by parameter_size bytes */
     size_t parameter_count, parameter_size;
     const char *capabilities; /* what this host uses of it, names with blanks between: "core", always;
-                                 "order-2": include or apply; "net"; "pieces"; "rigid"; "distance" */
+                                 "order-2": include or apply; "net"; "pieces"; "rigid"; "distance";
+                                 "symmetry" */
 } imp_type_info;
 
 /* Types in the order found, shadowed ones included. Returns false past the last. */

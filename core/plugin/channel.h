@@ -30,6 +30,7 @@ typedef enum channel_request {
     REQUEST_NET,
     REQUEST_POSE, /* of a map over the times of in[3] */
     REQUEST_DISTANCE,
+    REQUEST_SYMMETRY,
     REQUEST_DESTROY
 } channel_request;
 
@@ -62,6 +63,7 @@ typedef struct channel_work {
     imp_model in[4], out[3];
     imp_net net; /* a map: also what it is given */
     imp_pose pose;
+    imp_symmetry symmetry;
 } channel_work;
 
 typedef struct channel {

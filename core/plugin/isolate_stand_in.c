@@ -108,6 +108,18 @@ static imp_status distance_of(const void *self, const imp_model point[4], imp_mo
     return status;
 }
 
+static imp_status symmetry_of(const void *self, imp_symmetry *symmetry)
+{
+    isolated *i = stand_in_of(self);
+    imp_status status = enter(i);
+    if (status != IMP_OK) return status;
+    i->worker->channel->work.symmetry = *symmetry;
+    status = worker_request(i->worker, i->user, REQUEST_SYMMETRY);
+    *symmetry = i->worker->channel->work.symmetry;
+    worker_leave(i->worker);
+    return status;
+}
+
 static size_t piece_count_of(const void *self) { return stand_in_of(self)->piece_count; }
 
 static const void *piece_of(const void *self, size_t k)
@@ -184,7 +196,8 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
                            .net = type->net != NULL ? net_of : NULL,
                            .piece_count = pieces ? piece_count_of : NULL,
                            .piece = pieces ? piece_of : NULL,
-                           .distance = part_offers_distance(type) ? distance_of : NULL};
+                           .distance = part_offers_distance(type) ? distance_of : NULL,
+                           .symmetry = part_offers_symmetry(type) ? symmetry_of : NULL};
     return i;
 }
 

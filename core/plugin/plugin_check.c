@@ -165,19 +165,20 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
                            "summary, equation, example or source is not a line of text");
     if (null_callback != NULL)
         return place_error(&type, error, IMP_ERROR_PLUGIN,
-                           "%s is NULL; only include, apply, net, rigid and distance may be",
+                           "%s is NULL; only include, apply, net, rigid, distance and symmetry may be",
                            null_callback);
     return check_table(&view->table, &type, error);
 }
 
-static imp_code check_size(uint32_t size, size_t least, uint32_t flags, imp_error *error)
+/* `allowed`: all flags that it may have. */
+static imp_code check_size(uint32_t size, size_t least, uint32_t flags, uint32_t allowed, imp_error *error)
 {
-    if (size >= least && (flags & ~(uint32_t)IMP_ABSENT_OUTSIDE_TIMES) == 0) return IMP_SUCCESS;
+    if (size >= least && (flags & ~allowed) == 0) return IMP_SUCCESS;
     return error_set(
         error, IMP_ERROR_PLUGIN,
-        "a type's struct_size is %u, must be >= %zu, and its flags %u, must be 0 or %u; "
+        "a type's struct_size is %u, must be >= %zu, and its flags %u, must be 0 or of %u; "
         "rebuild the plugin",
-        size, least, flags, (unsigned)IMP_ABSENT_OUTSIDE_TIMES);
+        size, least, flags, allowed);
 }
 
 /* Callbacks appended since may be missing. */
@@ -186,7 +187,7 @@ static imp_code check_size(uint32_t size, size_t least, uint32_t flags, imp_erro
 
 static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 {
-    imp_code code = check_size(type->struct_size, SURFACE_TYPE_FIRST, type->flags, error);
+    imp_code code = check_size(type->struct_size, SURFACE_TYPE_FIRST, type->flags, IMP_ABSENT_OUTSIDE_TIMES, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_surface(type);
     const char *null_callback = type->create == NULL    ? "create"
@@ -205,7 +206,8 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 
 static imp_code check_map(const imp_map_type *type, imp_error *error)
 {
-    imp_code code = check_size(type->struct_size, MAP_TYPE_FIRST, type->flags, error);
+    const uint32_t flags = IMP_ABSENT_OUTSIDE_TIMES | IMP_TURNS_EXACTLY;
+    imp_code code = check_size(type->struct_size, MAP_TYPE_FIRST, type->flags, flags, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_map(type);
     const char *null_callback = type->create == NULL        ? "create"

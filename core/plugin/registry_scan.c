@@ -44,9 +44,10 @@ static void list_capabilities(found_type *found)
     const bool pieces = surface != NULL && part_offers_pieces(surface);
     const bool rigid = map != NULL && part_offers_pose(map);
     const bool distance = surface != NULL && part_offers_distance(surface);
-    snprintf(found->capabilities, sizeof found->capabilities, "core%s%s%s%s%s",
+    const bool symmetry = surface != NULL && part_offers_symmetry(surface);
+    snprintf(found->capabilities, sizeof found->capabilities, "core%s%s%s%s%s%s",
              second ? " order-2" : "", net ? " net" : "", pieces ? " pieces" : "",
-             rigid ? " rigid" : "", distance ? " distance" : "");
+             rigid ? " rigid" : "", distance ? " distance" : "", symmetry ? " symmetry" : "");
 }
 
 static bool add_type(imp_registry *r, const loaded_plugin *from, imp_type_kind kind,

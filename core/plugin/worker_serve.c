@@ -119,6 +119,7 @@ static imp_status obey_surface(channel_work *w, const imp_surface_type *type)
     if (w->request == REQUEST_RATE) return type->rate(w->self, &w->region, &w->rates);
     if (w->request == REQUEST_NET) return type->net(w->self, &w->region, &w->net);
     if (w->request == REQUEST_DISTANCE) return type->distance(w->self, w->in, w->out);
+    if (w->request == REQUEST_SYMMETRY) return type->symmetry(w->self, &w->symmetry);
     return type->include(w->self, &w->region, w->out);
 }
 

@@ -156,7 +156,8 @@ imp_code candidates_part(candidate_list *list, const candidate_list *whole, size
     list->candidates = calloc(list->count, sizeof *list->candidates);
     list->pairs = malloc(count * sizeof *list->pairs);
     bool ok = list->candidates != NULL && list->pairs != NULL;
-    for (size_t k = 0; ok && k < count; ++k)
+    for (size_t k = 0; ok && k < count; ++k) {
+        list->pairs[k] = (candidate_pair){.side = {NULL, NULL}};
         for (int side = 0; side < 2; ++side) {
             const candidate *from = pairs[k].side[side];
             const size_t before = side == 0 ? 0 : span[0].count;
@@ -164,6 +165,7 @@ imp_code candidates_part(candidate_list *list, const candidate_list *whole, size
             list->pairs[k].side[side] = own_candidate(place, from, stats);
             ok = ok && list->pairs[k].side[side] != NULL;
         }
+    }
     if (ok) return IMP_SUCCESS;
     candidates_clear(list);
     return error_set_memory(error);

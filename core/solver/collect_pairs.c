@@ -14,7 +14,7 @@ static bool make_pair(const collection *all, size_t first, size_t second, candid
 {
     candidate *candidates = all->list->candidates;
     const size_t a = first < second ? first : second, b = first < second ? second : first;
-    *p = (candidate_pair){{&candidates[a], &candidates[b]}};
+    *p = (candidate_pair){.side = {&candidates[a], &candidates[b]}};
     return candidates[a].body != candidates[b].body &&
            !scene_ignores(all->scene, candidates[a].body, candidates[b].body);
 }
@@ -117,14 +117,7 @@ static bool sweep_by_threads(collection *all)
     return go_on;
 }
 
-static bool go_on(void *context)
-{
-    collection *all = context;
-    const bool many = all->boxes_swept++ % BOXES_AN_ASK == 0;
-    if (!many && !all->limit->is_near(all->limit->context, candidates_bytes(all->list), 0))
-        return true;
-    return !collection_must_end(all);
-}
+static bool go_on(void *context) { return !collection_must_end(context); }
 
 bool collection_add_pairs(collection *all)
 {

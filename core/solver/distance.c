@@ -93,22 +93,53 @@ static imp_code fault(const surface *s, imp_status status, imp_error *error)
     return surface_set_code(status, error);
 }
 
+/* The region's u and v, at one moment. */
+static imp_region at_moment(const imp_region *r, double moment)
+{
+    return region_make((double[3]){r->lo[0], r->lo[1], moment}, (double[3]){r->hi[0], r->hi[1], moment});
+}
+
+/* Whether the slip is small beside what is to be told. */
+static bool slides_within_itself(const distance_question *q)
+{
+    return q->slip < INFINITY && TUNING_DISTANCE_SLIP * q->slip <= q->clearance;
+}
+
+/* Of the node's points before the maps that both surfaces end with; at the moment, if that will do. */
+static imp_status points_of(const distance_question *q, size_t common, imp_model point[3])
+{
+    const node *a = q->a;
+    if (!slides_within_itself(q)) return points_before(a, common, point);
+    const imp_region then = at_moment(&a->region, q->moment);
+    return surface_include_inner(a->surface, &then, surface_map_count(a->surface) - common, point);
+}
+
+static imp_status distance_of(const distance_question *q, size_t common, const imp_model point[3], imp_model *g)
+{
+    const surface *b = q->b->surface;
+    const imp_region *r = &q->a->region;
+    const size_t maps = surface_map_count(b) - common;
+    return slides_within_itself(q) ? surface_distance_within(b, r, maps, point, q->moment, q->slip, g)
+                                   : surface_distance(b, r, maps, point, g);
+}
+
 /* *known false: nothing is known. */
-static imp_code ask(const node *a, const node *b, imp_model *g, double bend[3], bool *known,
+static imp_code ask(const distance_question *q, imp_model *g, double bend[3], bool *known,
                     imp_error *error)
 {
     imp_model point[3];
-    const size_t common = surface_common_maps(a->surface, b->surface);
-    imp_status status = points_before(a, common, point);
+    const size_t common = surface_common_maps(q->a->surface, q->b->surface);
+    imp_status status = points_of(q, common, point);
     *known = false;
     if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
-    if (status != IMP_OK) return fault(a->surface, status, error);
-    if (common > 0) bend_of(point, &a->region, bend);
-    status =
-        surface_distance(b->surface, &a->region, surface_map_count(b->surface) - common, point, g);
+    if (status != IMP_OK) return fault(q->a->surface, status, error);
+    const imp_region then = at_moment(&q->a->region, q->moment);
+    const bool still = slides_within_itself(q);
+    if (still || common > 0) bend_of(point, still ? &then : &q->a->region, bend);
+    status = distance_of(q, common, point, g);
     *known = status == IMP_OK;
     if (status == IMP_OK || status == IMP_UNBOUNDED) return IMP_SUCCESS;
-    return fault(b->surface, status, error);
+    return fault(q->b->surface, status, error);
 }
 
 /* --- Judging ----------------------------------------------------------------------------------- */
@@ -188,11 +219,12 @@ static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
 }
 
 /* Whether the remainder is what hides that the node is apart: the polynomial alone is, or hardly varies
- * beside the remainder, as where the surfaces are parallel. Then halves of the node, whose remainders are a
- * small part of it, are worth more than those of its neighbours. Not of remainders that are mere rounding,
- * nor of nodes so large that these say nothing of the surface. */
+ * beside the remainder, as where the surfaces are parallel; or the node slides within itself, so that at all
+ * times some neighbours are as near. Then halves of the node, whose remainders are a small part of it, are
+ * worth more than those of its neighbours. Not of remainders that are mere rounding, nor of nodes so large
+ * that these say nothing of the surface. */
 static bool promises(const imp_model *g, const sides *both, const node *n, double clearance,
-                     double size)
+                     double size, bool within_itself)
 {
     const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
     double least[2];
@@ -201,7 +233,7 @@ static bool promises(const imp_model *g, const sides *both, const node *n, doubl
     for (int k = 0; k < 2; ++k) least[k] = both->low[k] - fabs(both->drift[k]);
     const double farther = least[0] > least[1] ? least[0] : least[1];
     const bool is_level = -(least[0] + least[1]) < TUNING_DISTANCE_LEVEL * g->e;
-    return farther > clearance || (is_level && farther + g->e > clearance);
+    return farther + (within_itself || is_level ? g->e : 0) > clearance;
 }
 
 /* Where the remainder is too large, the range may still do. */
@@ -215,14 +247,16 @@ static double sides_lower(const sides *both, double slack)
     return lower[0] > lower[1] ? lower[0] : lower[1];
 }
 
-imp_code distance_cut(const node *a, const node *b, double clearance, time_window *window,
-                      distance_view *view, imp_error *error)
+imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
+                      imp_error *error)
 {
+    const node *a = q->a;
+    const double clearance = q->clearance;
     imp_model g;
     bool known;
     *view = (distance_view){false, false, 0, {0, 0, 0}};
     memcpy(view->bend, a->nonlinear_extent, sizeof view->bend);
-    const imp_code code = ask(a, b, &g, view->bend, &known, error);
+    const imp_code code = ask(q, &g, view->bend, &known, error);
     if (code != IMP_SUCCESS || !known) return code;
     const double range = range_lower(&g);
     if (range > 0) view->lower = range;
@@ -238,7 +272,7 @@ imp_code distance_cut(const node *a, const node *b, double clearance, time_windo
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], clearance);
-    view->is_promising = !view->is_apart && promises(&g, &both, a, clearance, size);
+    view->is_promising = !view->is_apart && promises(&g, &both, a, clearance, size, slides_within_itself(q));
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
     return IMP_SUCCESS;
 }

@@ -27,10 +27,19 @@ typedef struct distance_view {
  * common do not count, but then points are included anew: not for nodes that are small, and not parallel. */
 bool distance_is_known(const node *a, const node *b, size_t still_maps);
 
-/* Cuts the window, which lies in both nodes' times, to the times at which points of `a` may be within the
- * clearance of the whole surface of `b`; empty: *view says so, and the window stays. Preconditions:
+/* What is asked. Where a slides along b within itself, but for `slip`, its points are taken where they are at
+ * one moment (surface_slip): then time costs nothing. */
+typedef struct distance_question {
+    const node *a, *b;
+    double clearance; /* length */
+    double moment;
+    double slip; /* of a node that is posed; INFINITY: it does not slide so; length */
+} distance_question;
+
+/* Cuts the window, which lies in both nodes' times, to the times at which points of a may be within the
+ * clearance of the whole surface of b; empty: *view says so, and the window stays. Preconditions:
  * distance_is_known; both bounded. IMP_ERROR_PLUGIN: the callback breaks the ABI. */
-imp_code distance_cut(const node *a, const node *b, double clearance, time_window *window,
-                      distance_view *view, imp_error *error);
+imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
+                      imp_error *error);
 
 #endif

@@ -9,7 +9,7 @@
 #include "core/solver/sight.h"
 #include "core/solver/tuning.h"
 
-static const candidate_pair *candidate_pair_of(const impact *im, const pair *p)
+static candidate_pair *candidate_pair_of(const impact *im, const pair *p)
 {
     return &im->candidate_pairs[p->candidate_pair];
 }

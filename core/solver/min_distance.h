@@ -21,7 +21,7 @@ typedef struct min_distance {
     double gamma;     /* or when upper is no more than this; length */
     double required;  /* or, if > 0, not before upper <= required or lower >= relaxed; length */
     double relaxed;   /* a little below what is required */
-    const candidate_pair *candidates; /* the caller's */
+    candidate_pair *candidates; /* the caller's */
     imp_stats *stats;                 /* the caller's; bytes: of the trees, without the heap */
     /* kept */
     pair *starts; /* candidates not tested yet, farthest first */

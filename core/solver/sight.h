@@ -23,7 +23,7 @@ typedef struct sight {
 sight sight_none(const pair *p);
 
 /* Adds to *seen what both nodes show, both bounded. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
-imp_code sight_take(const pair *p, const candidate_pair *both, double clearance, sight *seen,
+imp_code sight_take(const pair *p, candidate_pair *both, double clearance, sight *seen,
                     imp_error *error);
 
 #endif

@@ -49,7 +49,7 @@ typedef struct impact {
     time_window window; /* what is before or after does not count */
     imp_method method;
     imp_bounds bounds;
-    const candidate_pair *candidate_pairs; /* the caller's */
+    candidate_pair *candidate_pairs; /* the caller's */
     size_t candidate_pair_count;           /* 0: their roots are tested at once, each */
     imp_stats *stats;                      /* the caller's; bytes: of the trees, without the heap */
     pair_heap heap;

@@ -168,6 +168,8 @@
 /* Level: the polynomial varies by less than this times the remainder.
  * 4: +8, 64: no change */
 #define TUNING_DISTANCE_LEVEL 16
+/* A surface slides along the other within itself, if it leaves that by less than 1 / this of the clearance. */
+#define TUNING_DISTANCE_SLIP 0x1p12
 /* Where an axis parts nodes whose parents slid: one in SHARE distances has to show more, or WAIT
  * chances are left out before the next. Pairs, and instructions of tori, beside asking for all:
  * +0.1 %, -8.7 %; 4 and 7: 0.0 %, -6.2 %; counted along the line of ancestors instead: threads +2

@@ -43,6 +43,9 @@ bool part_offers_pose(const imp_map_type *type);
 /* Whether the type knows distances from its instances. */
 bool part_offers_distance(const imp_surface_type *type);
 
+/* Whether the type may know how its instances can be moved within themselves. */
+bool part_offers_symmetry(const imp_surface_type *type);
+
 /* The domain of an instance; IMP_OK, or how it breaks the ABI. */
 imp_status part_domain(const imp_surface_type *type, const void *self, double lo[3], double hi[3]);
 

@@ -223,6 +223,9 @@ const char *surface_status_text(imp_status status)
     case SURFACE_BAD_DISTANCE:
         return "a distance from it has a remainder that is negative or NaN, or a range that is "
                "inverted, NaN or at infinity";
+    case SURFACE_BAD_SYMMETRY:
+        return "its symmetry has an unknown kind, a center or an axis that is not finite, or an axis "
+               "without length";
     case SURFACE_CRASHED:
         return "crashes or ends its process, in which it runs isolated";
     case SURFACE_HUNG:

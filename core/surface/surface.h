@@ -80,6 +80,7 @@ bool surface_undefined_part(const surface *s, double lo, double hi, surface_part
 #define SURFACE_PIECE_TIMES 1013
 #define SURFACE_BAD_POSE 1014
 #define SURFACE_BAD_DISTANCE 1015
+#define SURFACE_BAD_SYMMETRY 1016
 
 /* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
@@ -130,12 +131,29 @@ double surface_pose_norm_upper(const surface *s);
 /* Whether distances from the surface may be known: its type knows them, and all of its maps are rigid. */
 bool surface_has_distance(const surface *s);
 
-/* Precondition: that. The distance, as in imp_surface_type, of a point with these models over the region,
+/* Whether it may be possible, too, to move it within itself. */
+bool surface_has_symmetry(const surface *s);
+
+/* Precondition: surface_has_distance. The distance, as in imp_surface_type, of a point with these models over the region,
  * whose rates are not used, from the whole surface under its first `maps` maps; or less, where the maps after
  * these bring both nearer to each other. IMP_UNBOUNDED: nothing is known, as at times at which the surface
  * does not exist. */
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance);
+
+/* The same of a point that is within `slip` of one with these models, which are of one moment and do not
+ * depend on time; the moment is as in surface_slip. */
+imp_status surface_distance_within(const surface *s, const imp_region *region, size_t maps,
+                                   const imp_model point[3], double moment, double slip,
+                                   imp_model *distance);
+
+/* How far a slides along b, other than within itself. *slip: where b is moved by its first maps alone, but for
+ * those that both end with, what its type claims of the distance (surface_distance_within) of all points
+ * within *slip of where a point of a is at the moment holds for that point of a at all times of the region,
+ * too. INFINITY: nothing is known. The moment is one of these times; `bare`
+ * are models of a before its maps, of which the ranges are used; it does not move by itself. */
+imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
+                        const imp_region *times, double moment, double *slip);
 
 /* How many maps, counted from the last, are the same instances on both. */
 size_t surface_common_maps(const surface *a, const surface *b);

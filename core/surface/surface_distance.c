@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "core/base/rounding.h"
+#include "core/surface/region.h"
 #include "core/surface/surface_parts.h"
 
 bool part_offers_distance(const imp_surface_type *type)
@@ -80,6 +81,11 @@ static deviation deviation_of(const imp_pose *pose, double norm)
     return d;
 }
 
+double surface_pose_deviation_upper(const imp_pose *pose)
+{
+    return deviation_of(pose, 1 + 2 * IMP_RIGID_SLACK).norm;
+}
+
 /* At most |R x| / |x|, and 1. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root of what is below 1 is above it.
  * Also each map leaves sqrt(1 - 3 e) at least, and (1 + 2 e)^2 (1 - 3 e) > 1 + e / 2, so that 1 / n is less
  * than that of all. */
@@ -142,9 +148,9 @@ static imp_status distance_before_maps(const surface *s, const imp_region *regio
                                        const imp_model point[3], imp_model *distance)
 {
     const imp_model at[4] = {point[0], point[1], point[2], surface_time(region)};
-    const surface_call call = surface_call_begin(s->type->name, "distance");
+    const fp_mode mode = surface_call_begin(s->type->name, "distance");
     const imp_status status = s->type->distance(s->self, at, distance);
-    return judge(surface_call_end(call, status), distance);
+    return judge(surface_call_end(mode, status), distance);
 }
 
 /* *stretch: times that of the maps from `first` on, if they are all rigid then. Of maps that turn with time
@@ -156,8 +162,8 @@ static imp_status stretch_by(const surface *s, size_t first, const imp_region *r
         imp_pose pose;
         const imp_status status = surface_pose_of_maps(s, k, k + 1, region, &pose);
         if (status != IMP_OK) return status;
-        double least = 1 / norm;
-        if (!pose_turns(&pose)) {
+        double least = map_turns_exactly(&s->maps[k]) ? 1 : 1 / norm;
+        if (least < 1 && !pose_turns(&pose)) {
             const deviation d = deviation_of(&pose, norm);
             least = least_stretch(&d, norm);
         }
@@ -182,20 +188,51 @@ static imp_status take_back_before(const surface *s, size_t maps, const imp_regi
 /* Lemma. Maps that follow on both, and are rigid, stretch what is between any two points at the same time by
  * their least stretch at least: |g| times that of all maps is no more than the distance after them. imp_scale
  * bounds what it rounds of g, which may depend on anything. */
+static imp_status stretched(const surface *s, const imp_region *region, const imp_model at[3],
+                            double stretch, imp_model *distance)
+{
+    const imp_status status = distance_before_maps(s, region, at, distance);
+    if (status != IMP_OK) return status;
+    distance->depends = 7;
+    for (int j = 0; j < 3; ++j) distance->rate[j] = INFINITY;
+    *distance = imp_scale(*distance, stretch);
+    return IMP_OK;
+}
+
+static bool exists_during(const surface *s, const imp_region *region)
+{
+    return s->lo[2] <= region->lo[2] && region->hi[2] <= s->hi[2];
+}
+
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance)
 {
     imp_model at[3] = {point[0], point[1], point[2]};
     double stretch = 1;
     imp_status status = IMP_OK;
-    if (!(s->lo[2] <= region->lo[2] && region->hi[2] <= s->hi[2])) return IMP_UNBOUNDED;
+    if (!exists_during(s, region)) return IMP_UNBOUNDED;
     if (s->map_count == 0) return distance_before_maps(s, region, point, distance);
     if (maps > 0) status = take_back_before(s, maps, region, point, at, &stretch);
     if (status == IMP_OK) status = stretch_by(s, maps, region, &stretch);
-    if (status == IMP_OK) status = distance_before_maps(s, region, at, distance);
+    return status == IMP_OK ? stretched(s, region, at, stretch, distance) : status;
+}
+
+/* Lemma. The point is taken back by the maps of the moment. At every time of the region the claim that is made
+ * of it holds for the point of surface_slip as the maps of that time take it back, and each of these leaves of
+ * the distance what it stretches by at that time at least. */
+imp_status surface_distance_within(const surface *s, const imp_region *region, size_t maps,
+                                   const imp_model point[3], double moment, double slip,
+                                   imp_model *distance)
+{
+    imp_model at[3] = {point[0], point[1], point[2]};
+    double stretch = 1, unused;
+    imp_status status = IMP_OK;
+    if (!exists_during(s, region)) return IMP_UNBOUNDED;
+    const imp_region then = region_make((double[3]){region->lo[0], region->lo[1], moment},
+                                        (double[3]){region->hi[0], region->hi[1], moment});
+    if (maps > 0) status = take_back_before(s, maps, &then, point, at, &unused);
+    if (status == IMP_OK) status = stretch_by(s, 0, region, &stretch);
     if (status != IMP_OK) return status;
-    distance->depends = 7;
-    for (int j = 0; j < 3; ++j) distance->rate[j] = INFINITY;
-    *distance = imp_scale(*distance, stretch);
-    return IMP_OK;
+    for (int i = 0; i < 3; ++i) at[i] = imp_add(at[i], imp_between(-slip, slip));
+    return stretched(s, region, at, stretch, distance);
 }

@@ -40,20 +40,16 @@ static inline double zero_if_finite(double x) { return x - x; }
 /* A callback is called between these two. What it computed is thrown away if it changed the mode,
  * which is put back before anything else is computed: an exception that it lets trap would else be
  * raised in the callback after it, or by the host. */
-typedef struct surface_call {
-    imp_call *of_thread;
-    fp_mode before;
-} surface_call;
-
-static inline surface_call surface_call_begin(const char *type, const char *callback)
+static inline fp_mode surface_call_begin(const char *type, const char *callback)
 {
-    return (surface_call){active_callback_begin(type, callback), fp_mode_read()};
+    active_callback_begin(type, callback);
+    return fp_mode_read();
 }
 
-static inline imp_status surface_call_end(surface_call call, imp_status status)
+static inline imp_status surface_call_end(fp_mode before, imp_status status)
 {
-    const bool kept = fp_mode_kept(call.before);
-    active_callback_end(call.of_thread);
+    const bool kept = fp_mode_kept(before);
+    active_callback_end();
     return kept ? status : SURFACE_CHANGED_MODE;
 }
 
@@ -78,8 +74,17 @@ imp_status surface_box_around(const surface *s, const imp_region *region,
 bool surface_box4_from(const double lo[3], const double hi[3], const imp_region *region,
                        imp_box4 *box);
 
+/* Whether its pose holds a rotation in exact arithmetic. */
+static inline bool map_turns_exactly(const mapping *map)
+{
+    return (map->type->flags & IMP_TURNS_EXACTLY) != 0;
+}
+
 /* Whether its rotation depends on time. */
 bool pose_turns(const imp_pose *pose);
+
+/* At least |(R^T R - 1) x| / |x| for the turn R of one map, at all times of the pose. */
+double surface_pose_deviation_upper(const imp_pose *pose);
 
 /* The pose that the maps from `first` to the one before `end` have together, as surface_pose. Preconditions:
  * first < end <= map_count; all of them are rigid. */

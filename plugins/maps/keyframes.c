@@ -320,6 +320,7 @@ static imp_status keyframes_rigid(const void *self, const imp_model *time, imp_p
 
 static const imp_map_type keyframes = {
     IMP_MAP_FIELDS(keyframes, keyframes),
+    .flags = IMP_TURNS_EXACTLY,
     .rigid = keyframes_rigid,
     .summary = "moves and turns smoothly through positions and orientations at given times",
     .equation =

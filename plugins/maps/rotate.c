@@ -129,6 +129,7 @@ static imp_status rotate_rigid(const void *self, const imp_model *t, imp_pose *p
 
 static const imp_map_type rotate = {
     IMP_MAP_FIELDS_OF("rotate", rotate, rotate, rotate_destroy, rotate_rate),
+    .flags = IMP_TURNS_EXACTLY,
     .rigid = rotate_rigid,
     .summary = "turns about an axis, at a constant rate, by a polynomial angle or by a table",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t, sum_k angle_k t^k, or the "

@@ -86,6 +86,7 @@ static imp_status screw_rigid(const void *self, const imp_model *t, imp_pose *po
 
 static const imp_map_type screw = {
     IMP_MAP_FIELDS_OF("screw", screw, screw_formula, free, screw_rate),
+    .flags = IMP_TURNS_EXACTLY,
     .rigid = screw_rigid,
     .summary = "turns about an axis and moves along it in proportion to the angle",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t or sum_k angle_k t^k: center + "

@@ -88,9 +88,19 @@ static imp_model cone_gap(const void *self, imp_model x, imp_model y, imp_model 
 }
 IMP_DISTANCE_FORMULA(cone_gap)
 
+static imp_status cone_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    const cone_instance *s = self;
+    symmetry->kind = IMP_SYMMETRIC_ABOUT_LINE;
+    symmetry->axis[2] = 1;
+    memcpy(symmetry->center, s->center, sizeof s->center);
+    return IMP_OK;
+}
+
 static const imp_surface_type cone = {
     IMP_SURFACE_FIELDS(cone, cone_formula),
     .distance = cone_gap_distance,
+    .symmetry = cone_symmetry,
     .summary = "lateral surface of a cone about the z axis, open at its base, up to the apex",
     .equation = "center + ((1-v) radius cos u, (1-v) radius sin u, height v), u in [0,2pi], "
                 "v in [0,1]",

@@ -62,9 +62,19 @@ static imp_model cylinder_gap(const void *self, imp_model x, imp_model y, imp_mo
 }
 IMP_DISTANCE_FORMULA(cylinder_gap)
 
+static imp_status cylinder_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    const cylinder_instance *s = self;
+    symmetry->kind = IMP_SYMMETRIC_ALONG_LINE;
+    symmetry->axis[2] = 1;
+    memcpy(symmetry->center, s->center, sizeof s->center);
+    return IMP_OK;
+}
+
 static const imp_surface_type cylinder = {
     IMP_SURFACE_FIELDS(cylinder, cylinder_formula),
     .distance = cylinder_gap_distance,
+    .symmetry = cylinder_symmetry,
     .summary = "lateral surface of a cylinder about the z axis, open at both ends",
     .equation = "center + (radius cos u, radius sin u, height v), u in [0,2pi], v in [-1/2,1/2]",
     .source = NULL,

@@ -97,9 +97,25 @@ static imp_model ellipsoid_gap(const void *self, imp_model x, imp_model y, imp_m
 }
 IMP_DISTANCE_FORMULA(ellipsoid_gap)
 
+/* Of a ball, or of revolution, where radii are equal. */
+static imp_status ellipsoid_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    const ellipsoid_instance *s = self;
+    const double *r = s->radii;
+    memcpy(symmetry->center, s->center, sizeof s->center);
+    symmetry->kind = r[0] == r[1] && r[1] == r[2] ? IMP_SYMMETRIC_ABOUT_POINT : IMP_SYMMETRIC_ABOUT_LINE;
+    for (int i = 0; i < 3; ++i)
+        if (r[(i + 1) % 3] == r[(i + 2) % 3]) {
+            symmetry->axis[i] = 1;
+            return IMP_OK;
+        }
+    return IMP_UNBOUNDED;
+}
+
 static const imp_surface_type ellipsoid = {
     IMP_SURFACE_FIELDS(ellipsoid, ellipsoid_formula),
     .distance = ellipsoid_gap_distance,
+    .symmetry = ellipsoid_symmetry,
     .summary = "ellipsoid with its axes along x, y and z",
     .equation = "center + (a cos v cos u, b cos v sin u, c sin v), radii = [a,b,c], u in [0,2pi], "
                 "v in [-pi/2,pi/2]",

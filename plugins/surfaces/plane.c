@@ -116,6 +116,16 @@ static imp_model plane_gap(const void *self, imp_model x, imp_model y, imp_model
 }
 IMP_DISTANCE_FORMULA(plane_gap)
 
+/* n.(x - origin) does not change where x turns about the line through origin along n, or moves across it. */
+static imp_status plane_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    const plane_instance *s = self;
+    symmetry->kind = IMP_SYMMETRIC_ACROSS_LINE;
+    memcpy(symmetry->center, s->surface.still[LINEAR_1], sizeof symmetry->center);
+    memcpy(symmetry->axis, s->normal, sizeof symmetry->axis);
+    return greatest(s->normal) > 0 ? IMP_OK : IMP_UNBOUNDED;
+}
+
 static void plane_domain(const void *self, double lo[3], double hi[3])
 {
     (void)self;
@@ -126,6 +136,7 @@ static const imp_surface_type plane = {
     IMP_SURFACE_FIELDS(plane, linear),
     .net = linear_net,
     .distance = plane_gap_distance,
+    .symmetry = plane_symmetry,
     .summary = "parallelogram, the piece of a plane between two edges",
     .equation = "origin + u edge_u + v edge_v, u and v in [0,1]",
     .source = NULL,

@@ -63,9 +63,18 @@ static imp_model sphere_gap(const void *self, imp_model x, imp_model y, imp_mode
 }
 IMP_DISTANCE_FORMULA(sphere_gap)
 
+static imp_status sphere_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    const sphere_instance *s = self;
+    symmetry->kind = IMP_SYMMETRIC_ABOUT_POINT;
+    memcpy(symmetry->center, s->center, sizeof s->center);
+    return IMP_OK;
+}
+
 static const imp_surface_type sphere = {
     IMP_SURFACE_FIELDS(sphere, sphere_formula),
     .distance = sphere_gap_distance,
+    .symmetry = sphere_symmetry,
     .summary = "sphere by longitude u and latitude v",
     .equation =
         "center + radius (cos v cos u, cos v sin u, sin v), u in [0,2pi], v in [-pi/2,pi/2]",

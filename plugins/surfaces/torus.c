@@ -70,9 +70,19 @@ static imp_model torus_gap(const void *self, imp_model x, imp_model y, imp_model
 }
 IMP_DISTANCE_FORMULA(torus_gap)
 
+static imp_status torus_symmetry(const void *self, imp_symmetry *symmetry)
+{
+    const torus_instance *s = self;
+    symmetry->kind = IMP_SYMMETRIC_ABOUT_LINE;
+    symmetry->axis[2] = 1;
+    memcpy(symmetry->center, s->center, sizeof s->center);
+    return IMP_OK;
+}
+
 static const imp_surface_type torus = {
     IMP_SURFACE_FIELDS(torus, torus_formula),
     .distance = torus_gap_distance,
+    .symmetry = torus_symmetry,
     .summary = "torus around the z axis; u runs around the ring, v around the tube",
     .equation = "center + ((R + r cos v) cos u, (R + r cos v) sin u, r sin v), R = major_radius, "
                 "r = minor_radius, u and v in [0,2pi]",

@@ -46,7 +46,7 @@ extern "C" {
  *     host reads no further than that size.
  *   - The caller owns every output buffer. Nothing is freed across the boundary.
  *   - Tables, names and texts live as long as the shared object is loaded.
- *   - After create, an instance never changes. eval, rate, include, apply, net, rigid and distance
+ *   - After create, an instance never changes. eval, rate, include, apply, net, rigid, distance and symmetry
  *     are pure: no allocation, no errno, no change of rounding mode or of any other
  *     floating-point setting, same answer every time, safe from many threads at
  *     once [thread-safe]. create and destroy are called by one thread at a time
@@ -227,12 +227,35 @@ typedef struct imp_pose {
     double pivot[3];      /* length */
 } imp_pose;
 
+/* --- How a surface can be moved within itself ------------------------------------- */
+
+/* Rigid motions that change nothing of what `distance` knows of a surface, at any time: those of a ball, of a
+ * body of revolution, of an endless cylinder, of an endless plane. The line is that through the center
+ * along the axis, whose length does not matter. Both are exact. */
+enum {
+    IMP_SYMMETRIC_ABOUT_POINT = 1, /* every rotation about the center; the axis is not read */
+    IMP_SYMMETRIC_ABOUT_LINE = 2,  /* every rotation about the line */
+    IMP_SYMMETRIC_ALONG_LINE = 3,  /* these, and every translation along it */
+    IMP_SYMMETRIC_ACROSS_LINE = 4  /* these rotations, and every translation perpendicular to the line */
+};
+
+typedef struct imp_symmetry {
+    uint32_t kind;     /* one of these */
+    uint32_t reserved; /* 0 */
+    double center[3];  /* length */
+    double axis[3];    /* some component from 1e-100 to 1e100 */
+} imp_symmetry;
+
 /* --- Types ------------------------------------------------------------------------ */
 
 /* Flag of a type or map that is defined for some times only, and whose surface does not exist at
  * other times and touches nothing then. Without the flag the host knows nothing about other times,
  * and rejects a query that needs them. */
 enum { IMP_ABSENT_OUTSIDE_TIMES = 1u << 0 };
+
+/* Flag of a map with the capability `rigid`: turn(t) of its pose is a rotation in exact arithmetic, without
+ * IMP_RIGID_SLACK. */
+enum { IMP_TURNS_EXACTLY = 1u << 1 };
 
 /* --- Surface types ----------------------------------------------------------- */
 
@@ -304,6 +327,18 @@ typedef struct imp_surface_type {
      * host parts them by it. The distance from a larger surface, such as an endless cylinder, will
      * do. IMP_UNBOUNDED: nothing is known there. [thread-safe] */
     imp_status (*distance)(const void *self, const imp_model point[4], imp_model *distance);
+
+    /* Capability `symmetry`; NULL, or a struct_size that ends before it: there is none. Not without `distance`.
+     *
+     * How the surface, as its distance knows it, can be moved within itself: with the g that distance gives
+     * for models of a point, and every such motion S,
+     *
+     *   |g(p)| <= |S((x, y, z)(p)) - f(u, v, t(p))|
+     *
+     * too, also where another S is taken for each p. Where another surface turns about an axis of this one,
+     * its distance then does not vary with time, and the host need not halve time. The host has set all to 0.
+     * IMP_UNBOUNDED: there is no symmetry with these parameters. [thread-safe] */
+    imp_status (*symmetry)(const void *self, imp_symmetry *symmetry);
 } imp_surface_type;
 
 #define IMP_PIECES_MAX ((size_t)1 << 24)
@@ -316,7 +351,7 @@ typedef struct imp_map_type {
     uint32_t struct_size;
     uint32_t parameter_count;
     uint32_t parameter_size;
-    uint32_t flags;
+    uint32_t flags; /* 0, IMP_ABSENT_OUTSIDE_TIMES, IMP_TURNS_EXACTLY, or both */
     const char *name;
     const char *summary;
     const char *equation;
@@ -475,13 +510,15 @@ IMP_LAYOUT(offsetof(imp_model, depends) == 128);
 IMP_LAYOUT(sizeof(imp_net) == 2104 && offsetof(imp_net, place) == 16);
 IMP_LAYOUT(offsetof(imp_net, error) == 64 && offsetof(imp_net, point) == 88);
 IMP_LAYOUT(offsetof(imp_net, velocity) == 952 && offsetof(imp_net, weight) == 1816);
-IMP_LAYOUT(sizeof(imp_surface_type) == 144 && offsetof(imp_surface_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_surface_type) == 152 && offsetof(imp_surface_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_surface_type, create) == 64 && offsetof(imp_surface_type, include) == 104);
 IMP_LAYOUT(offsetof(imp_surface_type, net) == 112);
 IMP_LAYOUT(offsetof(imp_surface_type, piece_count) == 120);
 IMP_LAYOUT(offsetof(imp_surface_type, distance) == 136);
+IMP_LAYOUT(offsetof(imp_surface_type, symmetry) == 144);
 IMP_LAYOUT(sizeof(imp_pose) == 1656 && offsetof(imp_pose, shift) == 1224);
 IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632);
+IMP_LAYOUT(sizeof(imp_symmetry) == 56 && offsetof(imp_symmetry, center) == 8);
 IMP_LAYOUT(sizeof(imp_map_type) == 128 && offsetof(imp_map_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);
 IMP_LAYOUT(offsetof(imp_map_type, net) == 112 && offsetof(imp_map_type, rigid) == 120);

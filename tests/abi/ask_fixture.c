@@ -90,7 +90,8 @@ static void ask_surface(const imp_surface_type *type, const imp_model in[4], con
         printf("  net answers %d\n", type->net(self, region, &net));
         print_net(&net);
     }
-    if (type->struct_size >= sizeof *type && type->distance != NULL) {
+    const size_t least = offsetof(imp_surface_type, distance) + sizeof type->distance;
+    if (type->struct_size >= least && type->distance != NULL) {
         imp_model gap[3];
         const imp_model above[4] = {in[0], in[1], imp_shift(in[2], 4), in[3]};
         memset(gap, 0, sizeof gap);

@@ -30,7 +30,7 @@ static void numbers(void)
     NUMBER(IMP_NUMBER), NUMBER(IMP_INTEGER), NUMBER(IMP_BOOLEAN);
     NUMBER(IMP_STRING), NUMBER(IMP_TABLE);
     NUMBER(IMP_MIN_OPEN), NUMBER(IMP_MAX_OPEN), NUMBER(IMP_SCALAR_OK), NUMBER(IMP_OPTIONAL);
-    NUMBER(IMP_ABSENT_OUTSIDE_TIMES);
+    NUMBER(IMP_ABSENT_OUTSIDE_TIMES), NUMBER(IMP_TURNS_EXACTLY);
     NUMBER(IMP_RANK_MAX);
     NUMBER(IMP_UU), NUMBER(IMP_UV), NUMBER(IMP_UT), NUMBER(IMP_VV), NUMBER(IMP_VT), NUMBER(IMP_TT);
     FIXED(imp_status), FIXED(imp_kind);
@@ -72,6 +72,11 @@ static void regions(void)
     FIELD(imp_net, point), FIELD(imp_net, velocity), FIELD(imp_net, weight);
     FIXED(imp_pose);
     FIELD(imp_pose, turn), FIELD(imp_pose, shift), FIELD(imp_pose, pivot);
+    NUMBER(IMP_SYMMETRIC_ABOUT_POINT), NUMBER(IMP_SYMMETRIC_ABOUT_LINE);
+    NUMBER(IMP_SYMMETRIC_ALONG_LINE), NUMBER(IMP_SYMMETRIC_ACROSS_LINE);
+    FIXED(imp_symmetry);
+    FIELD(imp_symmetry, kind), FIELD(imp_symmetry, reserved);
+    FIELD(imp_symmetry, center), FIELD(imp_symmetry, axis);
 }
 
 /* Callbacks: the compiler says whether the field still has that type. */
@@ -104,6 +109,8 @@ static void types(void)
     FIELD(imp_surface_type, distance);
     CALL(imp_surface_type, distance,
          imp_status(*)(const void *, const imp_model *, imp_model *));
+    FIELD(imp_surface_type, symmetry);
+    CALL(imp_surface_type, symmetry, imp_status(*)(const void *, imp_symmetry *));
     CALL(imp_surface_type, domain, void (*)(const void *, double *, double *));
     CALL(imp_surface_type, rate,
          imp_status(*)(const void *, const imp_region *, imp_rate_matrix *));

@@ -99,6 +99,13 @@ blamed() {
     [[ $output == *'pass  distances '*comparisons* ]]
 }
 
+@test "symmetries that are none are exposed, and true ones are not" {
+    exposes distances liar_symmetry 'a distance of at least '
+    exposes distances symmetry_nan 'the symmetry has an unknown kind'
+    run -0 "$IMPINGE" check "$liars/liar_truthful_symmetry.so" --only distances
+    [[ $output == *'pass  distances '*comparisons* ]]
+}
+
 @test "a map's missing rates and wrong models are exposed" {
     exposes rates liar_map_rate 'the rates are too small'
     exposes inclusions liar_map_rate 'off the quadratic'

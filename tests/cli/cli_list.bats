@@ -113,7 +113,7 @@ load ../support/cli_helper
 
 @test "info lists what the host uses of a type" {
     uses() { "$IMPINGE" info "$1" --json | jq -r '.types[0].capabilities | join(" ")'; }
-    [ "$(uses sphere)" = 'core order-2 distance' ]
+    [ "$(uses sphere)" = 'core order-2 distance symmetry' ]
     [ "$(uses superellipsoid)" = 'core order-2' ]
     [ "$(uses bezier)" = 'core order-2 net' ]
     [ "$(uses translate)" = 'core order-2 net rigid' ]

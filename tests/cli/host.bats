@@ -44,13 +44,13 @@ constructor_aborts: trial: loading it crashes: signal 6
 constructor_crashes: trial: loading it crashes: signal 11
 constructor_exits: trial: loading it ends the process with status 0; a plugin must not exit
 fp_mode: load: loading it changes the mode of arithmetic
-half_bad: types: half_bad: create is NULL; only include, apply, net, rigid and distance may be
+half_bad: types: half_bad: create is NULL; only include, apply, net, rigid, distance and symmetry may be
 newer_minor: abi: abi_minor is 77, the host'"'"'s is 0 and may not be less; use a newer host, or
 no_entry: entry: does not export the symbol impinge_plugin; define it by the macro IMPINGE_PLUGIN
 no_factory: types: get_factory knows neither impinge.surface/1 nor impinge.map/1
 no_note: note: has no Impinge note: it is not a plugin, or was built without the macro
 note_disagrees: entry: impinge_plugin says note_disagrees 2.0, ABI 1.0, but the note
-null_callback: types: null_callback: eval is NULL; only include, apply, net, rigid and distance may be
+null_callback: types: null_callback: eval is NULL; only include, apply, net, rigid, distance and symmetry may be
 null_string: entry: impinge_plugin: version, license or author is not a line of text; give all three
 undefined_symbol: nobody_defines_this; link it with every library it uses
 wrong_abi_major: abi: abi_major is 9, the host'"'"'s is 1; rebuild the plugin'
@@ -613,6 +613,15 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
     done
     run -0 pair liar_truthful_distance "$within" --gamma 1e-3 --audit --json
     json '.verdict == "clear"'
+}
+
+@test "a symmetry that breaks the ABI ends the query" {
+    takes symmetry_nan liar_truthful_symmetry
+    local within='cylinder radius=.99 height=1 center=0,0,1 ! rotate rate=3'
+    fails 5 "type 'symmetry_nan': its symmetry has an unknown kind, a center or an axis that is not finite" \
+        pair symmetry_nan "$within" --gamma 1e-3
+    run -0 pair liar_truthful_symmetry "$within" --gamma 1e-3 --json
+    json '.verdict == "clear" and .stats.pairs < 40'
 }
 
 @test "distances under rigid maps are held against points too" {

@@ -80,6 +80,63 @@ static bool draw_direction(const subject *s, uint64_t *random, const double p[3]
     return true;
 }
 
+/* --- Motions of its symmetry --------------------------------------------------------------------- */
+
+static bool judge_symmetry(const subject *s, const imp_symmetry *found)
+{
+    bool sane = found->kind >= IMP_SYMMETRIC_ABOUT_POINT && found->kind <= IMP_SYMMETRIC_ACROSS_LINE;
+    double most = 0;
+    for (int i = 0; i < 3; ++i) {
+        sane = sane && isfinite(found->center[i]) && isfinite(found->axis[i]);
+        most = fmax(most, fabs(found->axis[i]));
+    }
+    sane = sane && (found->kind == IMP_SYMMETRIC_ABOUT_POINT || (most >= 1e-100 && most <= 1e100));
+    return sane || answer_fail(s->answer, "the symmetry has an unknown kind, a center or an axis that is "
+                                          "not finite, or an axis without length");
+}
+
+/* x turned about the unit vector n (Rodrigues). */
+static void turn(const long double n[3], long double angle, long double x[3])
+{
+    const long double c = cosl(angle), s = sinl(angle), along = n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+    const long double w[3] = {x[0], x[1], x[2]};
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        x[i] = c * w[i] + s * (n[j] * w[k] - n[k] * w[j]) + (1 - c) * along * n[i];
+    }
+}
+
+static void draw_unit(uint64_t *random, const double axis[3], long double n[3])
+{
+    long double square = 0, most = 0;
+    for (int i = 0; i < 3; ++i) {
+        n[i] = axis != NULL ? axis[i] : random_between(random, 0.1, 1);
+        most = fmaxl(most, fabsl(n[i]));
+    }
+    for (int i = 0; i < 3; ++i) square += (n[i] / most) * (n[i] / most);
+    for (int i = 0; i < 3; ++i) n[i] /= most * sqrtl(square);
+}
+
+/* Moves x by some motion of it; by 0x1p-55 of the size more, at most. */
+static void draw_moved(uint64_t *random, const imp_symmetry *of, double x[3])
+{
+    long double n[3], w[3], shift[3] = {0, 0, 0};
+    const bool is_ball = of->kind == IMP_SYMMETRIC_ABOUT_POINT;
+    const double size = random_power(random, -8, 4);
+    draw_unit(random, is_ball ? NULL : of->axis, n);
+    for (int i = 0; i < 3; ++i) w[i] = (long double)x[i] - of->center[i];
+    turn(n, random_between(random, -4, 4), w);
+    if (of->kind == IMP_SYMMETRIC_ALONG_LINE)
+        for (int i = 0; i < 3; ++i) shift[i] = size * n[i];
+    if (of->kind == IMP_SYMMETRIC_ACROSS_LINE) {
+        const long double way[3] = {random_between(random, -1, 1), random_between(random, -1, 1),
+                                    random_between(random, -1, 1)};
+        const long double along = n[0] * way[0] + n[1] * way[1] + n[2] * way[2];
+        for (int i = 0; i < 3; ++i) shift[i] = size * (way[i] - along * n[i]);
+    }
+    for (int i = 0; i < 3; ++i) x[i] = (double)(of->center[i] + w[i] + shift[i]);
+}
+
 /* --- Judging ----------------------------------------------------------------------------------- */
 
 static bool judge_form(const subject *s, const imp_model *g)
@@ -154,22 +211,22 @@ static imp_region draw_region(const subject *s, uint64_t *random)
                      : imp_region_between((double[3]){-1, -1, t}, (double[3]){1, 1, t});
 }
 
-static bool judge_passage(const subject *s, uint64_t *random)
+/* Also of a point moved by the symmetry, if there is one: as far away as it was before. */
+static bool judge_passage(const subject *s, uint64_t *random, const imp_symmetry *symmetry)
 {
     passage way = {.region = draw_region(s, random)};
     const double step = (double)draw_index(random, 5) / 2 - 1;
     const double at[3] = {draw_normalized(random), draw_normalized(random),
                           way.region.d[2] > 0 ? step : 0};
-    double p[3], n[3], x[3];
+    double p[3], n[3], x[3], moved[3];
     spot on;
     draw_point(random, &s->domain, 2, p);
     p[2] = way.region.c[2] + way.region.d[2] * at[2];
     if (!spot_at(s, p, &on) || !draw_direction(s, random, p, n)) return false;
     const double off = draw_index(random, 3) > 0 ? random_power(random, -30, 2) : 0;
-    for (int i = 0; i < 3; ++i) {
-        x[i] = on.x[i] + off * n[i];
-        way.in[i] = draw_model(random, x[i], at);
-    }
+    for (int i = 0; i < 3; ++i) moved[i] = x[i] = on.x[i] + off * n[i];
+    if (symmetry != NULL && draw_index(random, 2) > 0) draw_moved(random, symmetry, moved);
+    for (int i = 0; i < 3; ++i) way.in[i] = draw_model(random, moved[i], at);
     way.in[3] = imp_param(&way.region, 2);
     const imp_status status = subject_distance(s, way.in, &way.g);
     if (status == IMP_UNBOUNDED) return true;
@@ -186,8 +243,15 @@ void distances_check(const subject *s, uint64_t *random, double effort)
         return;
     }
     const double count = PASSAGES * effort;
+    imp_symmetry found;
+    const imp_status status = subject_symmetry(s, &found);
+    if (status != IMP_OK && status != IMP_UNBOUNDED) {
+        answer_fail(s->answer, "symmetry returned '%s'", subject_status_name(status));
+        return;
+    }
+    if (status == IMP_OK && !judge_symmetry(s, &found)) return;
     for (int k = 0; (k < count || k == 0) && s->answer->verdict != CHECK_FAIL; ++k)
-        judge_passage(s, random);
+        judge_passage(s, random, status == IMP_OK ? &found : NULL);
     if (s->answer->verdict == CHECK_PASS && s->answer->tests == 0)
         answer_skip(s->answer, "it has no distance with these parameters");
 }

@@ -85,12 +85,14 @@ static bool judge_rotation(const subject *s, const imp_region *span, const imp_p
             size = fmaxl(size, fabsl(r[i][j]));
         }
     const long double off = 3 * (2 * size * worst + worst * worst) + 0x1p-40L * (1 + size * size);
+    const bool is_exact = (s->instance->map->flags & IMP_TURNS_EXACTLY) != 0;
+    const long double slack = is_exact ? 0 : (long double)IMP_RIGID_SLACK;
     ++s->answer->tests;
     for (int j = 0; j < 3; ++j)
         for (int k = 0; k < 3; ++k) {
             const long double product =
                 r[0][j] * r[0][k] + r[1][j] * r[1][k] + r[2][j] * r[2][k] - (j == k);
-            if (fabsl(product) > (long double)IMP_RIGID_SLACK + off)
+            if (fabsl(product) > slack + off)
                 return answer_fail_for(s->answer, FAULT_VALUE,
                                        "columns %d and %d of the pose's turn have the product %.9Lg "
                                        "within %s, which is no rotation's",

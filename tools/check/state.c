@@ -184,6 +184,8 @@ static void ask_distance(const subject *s, uint64_t *random)
         subject_operands(&where, in);
         subject_distance(s, in, &g);
     }
+    imp_symmetry symmetry;
+    subject_symmetry(s, &symmetry);
 }
 
 static void ask_pose(const subject *s, uint64_t *random)

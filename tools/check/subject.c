@@ -221,6 +221,17 @@ imp_status subject_distance(const subject *s, const imp_model point[4], imp_mode
     return noted(s, s->instance->surface->distance(s->instance->self, point, distance));
 }
 
+imp_status subject_symmetry(const subject *s, imp_symmetry *symmetry)
+{
+    const imp_surface_type *type = s->instance->surface;
+    memset(symmetry, 0, sizeof *symmetry);
+    if (!subject_has_distance(s) || type->struct_size < offsetof(imp_surface_type, symmetry) + sizeof type->symmetry ||
+        type->symmetry == NULL)
+        return IMP_UNBOUNDED;
+    note(s, "symmetry", 0, NULL, NULL);
+    return noted(s, type->symmetry(s->instance->self, symmetry));
+}
+
 void subject_operands(const box *where, imp_model in[4])
 {
     const imp_region region = imp_region_between(where->lo, where->hi);

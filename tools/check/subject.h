@@ -71,6 +71,9 @@ imp_region subject_span(const box *where);
 bool subject_has_distance(const subject *s);
 imp_status subject_distance(const subject *s, const imp_model point[4], imp_model *distance);
 
+/* Also how it can be moved within itself. IMP_UNBOUNDED: it cannot. */
+imp_status subject_symmetry(const subject *s, imp_symmetry *symmetry);
+
 /* include or apply, whichever it has, over a box; a map's operands are x, y, z themselves, as if
  * they were u, v, t. IMP_OK with zeros: it has neither. */
 imp_status subject_model(const subject *s, box where, imp_model model[3]);

@@ -1,0 +1,13 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include "pipe.h"
+
+/* Its center is not a number. */
+static imp_status symmetry(const void *self, imp_symmetry *found)
+{
+    (void)self;
+    found->kind = IMP_SYMMETRIC_ABOUT_POINT;
+    found->center[1] = NAN;
+    return IMP_OK;
+}
+LIAR_SYMMETRY("symmetry_nan", symmetry);

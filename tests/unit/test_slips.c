@@ -1,0 +1,429 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <impinge/formula.h>
+#include <string.h>
+
+#include "core/surface/region.h"
+#include "core/surface/surface.h"
+#include "tests/support/suite.h"
+
+/* Surfaces that turn and move along another, nearly as its symmetry permits, under random chains of rigid maps,
+ * some as far from rigid as they may be: a point is no farther than the slip from where it was, but for a
+ * motion of the symmetry, and no nearer to the other than is claimed; found in long double. */
+
+enum { CASES = 3000, POINTS = 6, MAPS = 3 };
+
+/* --- Maps ------------------------------------------------------------------------------------------- */
+
+/* x -> shift + way t + stretch(t) place spin(t) (x - pivot), spin by rate t about z, stretch(t) = 1 + swell t^2. */
+typedef struct motion {
+    double place[3][3]; /* a rotation, nearly */
+    double rate, swell; /* rate: rad / time */
+    double shift[3], way[3], pivot[3];
+    bool is_placed; /* else place is 1, exactly */
+} motion;
+
+static imp_status pose_of(const void *self, const imp_model *t, imp_pose *pose)
+{
+    const motion *m = self;
+    imp_model sine, cosine;
+    imp_sincos(imp_scale(*t, m->rate), &sine, &cosine);
+    const imp_model spin[3][3] = {{cosine, imp_neg(sine), imp_num(0)},
+                                  {sine, cosine, imp_num(0)},
+                                  {imp_num(0), imp_num(0), imp_num(1)}};
+    const imp_model stretch = imp_shift(imp_scale(imp_sqr(*t), m->swell), 1);
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            imp_model entry = spin[i][j];
+            if (m->is_placed) {
+                const imp_model row[3] = {imp_num(m->place[i][0]), imp_num(m->place[i][1]),
+                                          imp_num(m->place[i][2])};
+                const imp_model column[3] = {spin[0][j], spin[1][j], spin[2][j]};
+                entry = imp_dot3(row, column);
+            }
+            pose->turn[i][j] = m->swell != 0 ? imp_mul(entry, stretch) : entry;
+        }
+        pose->shift[i] = imp_shift(imp_scale(*t, m->way[i]), m->shift[i]);
+        pose->pivot[i] = m->pivot[i];
+    }
+    return IMP_OK;
+}
+
+/* (x - pivot) turned and stretched. */
+static void turned(const motion *m, long double t, const long double w[3], long double out[3])
+{
+    const long double c = cosl(m->rate * t), s = sinl(m->rate * t), stretch = 1 + m->swell * t * t;
+    const long double spun[3] = {c * w[0] - s * w[1], s * w[0] + c * w[1], w[2]};
+    for (int i = 0; i < 3; ++i) {
+        out[i] = spun[i];
+        if (m->is_placed)
+            out[i] = m->place[i][0] * spun[0] + m->place[i][1] * spun[1] + m->place[i][2] * spun[2];
+        out[i] *= stretch;
+    }
+}
+
+static void apply(const motion *m, long double t, long double x[3])
+{
+    long double w[3], y[3];
+    for (int i = 0; i < 3; ++i) w[i] = x[i] - m->pivot[i];
+    turned(m, t, w, y);
+    for (int i = 0; i < 3; ++i) x[i] = m->shift[i] + m->way[i] * t + y[i];
+}
+
+/* The inverse: as the turn is nearly a rotation, its transpose leaves a rest that shrinks in each step. */
+static void undo(const motion *m, long double t, long double x[3])
+{
+    const long double c = cosl(m->rate * t), s = sinl(m->rate * t);
+    long double aim[3], found[3] = {0, 0, 0};
+    for (int i = 0; i < 3; ++i) aim[i] = x[i] - m->shift[i] - m->way[i] * t;
+    for (int step = 0; step < 8; ++step) {
+        long double now[3], rest[3], back[3];
+        turned(m, t, found, now);
+        for (int i = 0; i < 3; ++i) rest[i] = aim[i] - now[i];
+        for (int j = 0; j < 3; ++j) {
+            back[j] = rest[j];
+            if (m->is_placed)
+                back[j] = m->place[0][j] * rest[0] + m->place[1][j] * rest[1] + m->place[2][j] * rest[2];
+        }
+        found[0] += c * back[0] + s * back[1];
+        found[1] += c * back[1] - s * back[0];
+        found[2] += back[2];
+    }
+    for (int j = 0; j < 3; ++j) x[j] = m->pivot[j] + found[j];
+}
+
+/* --- Types ------------------------------------------------------------------------------------------- */
+
+/* A ball, a torus, a cylinder and a plane, of radius 1 where they have one; the line is along z. */
+static imp_model gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
+{
+    const imp_symmetry *s = self;
+    const imp_model w[3] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]), imp_shift(z, -s->center[2])};
+    const imp_model across = imp_sqrt(imp_add(imp_sqr(w[0]), imp_sqr(w[1]))), ring = imp_shift(across, -2);
+    (void)t;
+    switch (s->kind) {
+    case IMP_SYMMETRIC_ABOUT_POINT:
+        return imp_shift(imp_sqrt(imp_dot3(w, w)), -1);
+    case IMP_SYMMETRIC_ABOUT_LINE:
+        return imp_shift(imp_sqrt(imp_add(imp_sqr(ring), imp_sqr(w[2]))), -1);
+    case IMP_SYMMETRIC_ALONG_LINE:
+        return imp_shift(across, -1);
+    default:
+        return w[2];
+    }
+}
+IMP_DISTANCE_FORMULA(gap)
+
+static imp_status symmetry_of(const void *self, imp_symmetry *symmetry)
+{
+    *symmetry = *(const imp_symmetry *)self;
+    return IMP_OK;
+}
+
+static void whole(const void *self, double lo[3], double hi[3])
+{
+    (void)self;
+    for (int j = 0; j < 3; ++j) lo[j] = j < 2 ? 0 : -INFINITY, hi[j] = j < 2 ? 1 : INFINITY;
+}
+
+static void always(const void *self, double *lo, double *hi)
+{
+    (void)self;
+    *lo = -INFINITY, *hi = INFINITY;
+}
+
+static void keep(void *self) { (void)self; }
+
+static const imp_surface_type target = {.struct_size = sizeof(imp_surface_type),
+                                        .name = "target",
+                                        .domain = whole,
+                                        .destroy = keep,
+                                        .distance = gap_distance,
+                                        .symmetry = symmetry_of};
+static const imp_map_type nearly = {.struct_size = sizeof(imp_map_type),
+                                    .name = "nearly",
+                                    .time_domain = always,
+                                    .destroy = keep,
+                                    .rigid = pose_of};
+static const imp_map_type exactly = {.struct_size = sizeof(imp_map_type),
+                                     .flags = IMP_TURNS_EXACTLY,
+                                     .name = "exactly",
+                                     .time_domain = always,
+                                     .destroy = keep,
+                                     .rigid = pose_of};
+
+/* --- Trials ------------------------------------------------------------------------------------------ */
+
+typedef struct trial {
+    imp_symmetry symmetry;
+    motion own[2], placing, other;
+    bool is_placed, moves_along; /* both are placed alike; or one moves as the symmetry permits, too */
+    imp_region times;
+    double stretch;       /* of the placing */
+    double moment, reach; /* half the box around the points before the maps */
+} trial;
+
+static void draw_vector(uint64_t *random, double size, double x[3])
+{
+    for (int i = 0; i < 3; ++i) x[i] = size * random_between(random, -1, 1);
+}
+
+/* A rotation, times `stretch`. */
+static void draw_place(uint64_t *random, double stretch, motion *m)
+{
+    double q[4], square = 0;
+    for (int k = 0; k < 4; ++k) {
+        q[k] = random_between(random, -1, 1);
+        square += q[k] * q[k];
+    }
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        m->place[i][i] = 1 - 2 * (q[j + 1] * q[j + 1] + q[k + 1] * q[k + 1]) / square;
+        m->place[i][j] = 2 * (q[i + 1] * q[j + 1] - q[0] * q[k + 1]) / square;
+        m->place[j][i] = 2 * (q[i + 1] * q[j + 1] + q[0] * q[k + 1]) / square;
+    }
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) m->place[i][k] *= stretch;
+    m->is_placed = true;
+}
+
+/* By a small angle about a line along x through the center, after the spin. */
+static void tilt(const trial *y, double angle, motion *m)
+{
+    memset(m->place, 0, sizeof m->place);
+    m->place[0][0] = 1;
+    m->place[1][1] = m->place[2][2] = cos(angle);
+    m->place[2][1] = sin(angle);
+    m->place[1][2] = -sin(angle);
+    m->is_placed = true;
+    for (int i = 0; i < 3; ++i) m->pivot[i] = m->shift[i] = y->symmetry.center[i];
+}
+
+/* The own maps: a spin about a line along z that is off the symmetry's by as much as comes out, and tilted by
+ * as much. */
+static trial draw_trial(uint64_t *random)
+{
+    const double lo[3] = {0, 0, random_between(random, -1, 0)};
+    const double hi[3] = {1, 1, lo[2] + random_power(random, -8, 0)};
+    const double far = random_bits(random) % 2 ? random_power(random, 0, 8) : 1;
+    trial y = {.times = region_make(lo, hi), .reach = random_power(random, -3, 3)};
+    y.moment = lo[2] + (hi[2] - lo[2]) * random_between(random, 0, 1);
+    y.symmetry.kind = 1 + (uint32_t)(random_bits(random) % 4);
+    y.symmetry.axis[2] = random_power(random, -8, 8);
+    draw_vector(random, far, y.symmetry.center);
+    const double off = random_bits(random) % 3 ? y.reach * random_power(random, -40, -8) : 0;
+    motion *spin = &y.own[0];
+    spin->rate = random_between(random, -4, 4);
+    spin->swell = random_bits(random) % 4 ? 0 : random_between(random, -3e-6, 3e-6);
+    for (int i = 0; i < 3; ++i) {
+        spin->pivot[i] = y.symmetry.center[i] + off * random_between(random, -1, 1);
+        spin->shift[i] = spin->pivot[i];
+        if (y.symmetry.kind != IMP_SYMMETRIC_ABOUT_POINT && i == 2) spin->pivot[i] += far;
+        spin->way[i] = off * random_between(random, -1, 1);
+    }
+    y.moves_along = random_bits(random) % 2;
+    if (y.moves_along && y.symmetry.kind == IMP_SYMMETRIC_ALONG_LINE) spin->way[2] = y.reach;
+    if (y.moves_along && y.symmetry.kind == IMP_SYMMETRIC_ACROSS_LINE) spin->way[0] = spin->way[1] = y.reach;
+    if (off > 0 && random_bits(random) % 2) tilt(&y, off / y.reach, &y.own[1]);
+    y.is_placed = random_bits(random) % 2;
+    y.stretch = random_bits(random) % 2 ? 1 : 1 + random_between(random, -7e-6, 7e-6);
+    draw_place(random, y.stretch, &y.placing);
+    draw_vector(random, far, y.placing.shift);
+    draw_vector(random, far, y.placing.pivot);
+    if (random_bits(random) % 2) draw_vector(random, 1, y.placing.way);
+    return y;
+}
+
+static surface *compose(imp_symmetry *self, motion *const maps[], size_t count)
+{
+    surface *s = surface_new(&target, self);
+    ck_assert_ptr_nonnull(s);
+    for (size_t k = 0; k < count; ++k) {
+        const imp_map_type *type = maps[k]->swell != 0 || maps[k]->is_placed ? &nearly : &exactly;
+        ck_assert_int_eq(surface_add_map(s, type, maps[k]), IMP_SUCCESS);
+    }
+    return s;
+}
+
+/* Where a point of a is at a time, seen from b. */
+static void seen(const trial *y, long double t, const long double from[3], long double x[3])
+{
+    for (int i = 0; i < 3; ++i) x[i] = from[i];
+    apply(&y->own[0], t, x);
+    apply(&y->own[1], t, x);
+    if (y->is_placed) apply(&y->placing, t, x);
+    if (y->is_placed) undo(&y->other, t, x);
+}
+
+/* Where a point is beside the center, but for motions of the symmetry. */
+typedef struct orbit {
+    long double along, across;
+} orbit;
+
+static orbit orbit_of(const imp_symmetry *of, const long double x[3])
+{
+    const long double along = x[2] - of->center[2];
+    const long double across = hypotl(x[0] - of->center[0], x[1] - of->center[1]);
+    switch (of->kind) {
+    case IMP_SYMMETRIC_ABOUT_POINT:
+        return (orbit){0, hypotl(across, along)};
+    case IMP_SYMMETRIC_ABOUT_LINE:
+        return (orbit){along, across};
+    case IMP_SYMMETRIC_ALONG_LINE:
+        return (orbit){0, across};
+    default:
+        return (orbit){along, 0};
+    }
+}
+
+static long double apart(const orbit *x, const orbit *y)
+{
+    return hypotl(x->along - y->along, x->across - y->across);
+}
+
+/* From the surface whose distance is the gap. */
+static long double off(const imp_symmetry *of, const orbit *x)
+{
+    if (of->kind == IMP_SYMMETRIC_ACROSS_LINE) return fabsl(x->along);
+    if (of->kind == IMP_SYMMETRIC_ABOUT_LINE) return fabsl(hypotl(x->across - 2, x->along) - 1);
+    return fabsl(x->across - 1);
+}
+
+/* --- Judging ----------------------------------------------------------------------------------------- */
+
+typedef struct tally {
+    int judged, refuted, known, exact;
+    int too_far;     /* distances that are refuted */
+    double sharpest; /* the greatest part of a slip that a point shows */
+} tally;
+
+/* What is claimed at all times of a point that is at x at the moment, after all maps. */
+static long double claimed(const trial *y, const surface *b, double slip, const long double x[3])
+{
+    imp_model point[3], g;
+    for (int i = 0; i < 3; ++i) point[i] = imp_known((double)x[i], 0x1p-52 * fabs((double)x[i]));
+    const imp_status status =
+        surface_distance_within(b, &y->times, y->is_placed ? 1 : 0, point, y->moment, slip, &g);
+    if (status != IMP_OK) return 0;
+    ck_assert(g.b[0] == 0 && g.b[1] == 0 && g.b[2] == 0);
+    const double by_polynomial = fabs(g.a) - g.e, by_range = g.lo > -g.hi ? g.lo : -g.hi;
+    return by_polynomial > by_range ? by_polynomial : by_range;
+}
+
+static void judge(const trial *y, const surface *b, double slip, uint64_t *random, tally *of)
+{
+    const long double size = 64 * (1 + y->reach) * 256, stretch = y->is_placed ? y->stretch : 1;
+    for (int k = 0; k < POINTS; ++k) {
+        const long double t = y->times.lo[2] + (y->times.hi[2] - y->times.lo[2]) * (long double)random_fraction(random);
+        long double from[3], now[3], then[3], world[3];
+        for (int i = 0; i < 3; ++i) {
+            const uint64_t end = random_bits(random) % 3;
+            from[i] = end == 0 ? y->reach : end == 1 ? -y->reach : y->reach * random_between(random, -1, 1);
+            from[i] += y->symmetry.center[i];
+        }
+        seen(y, t, from, now);
+        seen(y, y->moment, from, then);
+        const orbit at = orbit_of(&y->symmetry, now), was = orbit_of(&y->symmetry, then);
+        const long double shown = apart(&at, &was);
+        for (int i = 0; i < 3; ++i) world[i] = then[i];
+        if (y->is_placed) apply(&y->other, y->moment, world);
+        of->judged += 1;
+        of->refuted += shown > slip + 0x1p-58L * size;
+        of->too_far += claimed(y, b, slip, world) > stretch * off(&y->symmetry, &at) + 0x1p-58L * size;
+        if (slip > 0x1p-30 * y->reach && shown / slip > of->sharpest) of->sharpest = (double)(shown / slip);
+    }
+}
+
+/* Slips times `factor`. */
+static tally try_all(double factor)
+{
+    uint64_t random = suite_seed();
+    tally of = {.judged = 0};
+    for (int k = 0; k < suite_times(CASES); ++k) {
+        trial y = draw_trial(&random);
+        y.other = y.placing;
+        motion *const of_a[] = {&y.own[0], &y.own[1], &y.placing}, *const of_b[] = {&y.other};
+        surface *a = compose(&y.symmetry, of_a, y.is_placed ? 3 : 2);
+        surface *b = compose(&y.symmetry, of_b, y.is_placed ? 1 : 0);
+        imp_model bare[3];
+        double slip;
+        for (int i = 0; i < 3; ++i)
+            bare[i] = imp_between(y.symmetry.center[i] - y.reach, y.symmetry.center[i] + y.reach);
+        ck_assert_int_eq(surface_slip(a, b, bare, &y.times, y.moment, &slip), IMP_OK);
+        if (slip < INFINITY) judge(&y, b, factor * slip, &random, &of);
+        of.known += slip < INFINITY;
+        of.exact += slip < 0x1p-36 * (y.reach + 256);
+        surface_free(a);
+        surface_free(b);
+    }
+    return of;
+}
+
+START_TEST(no_point_slips_farther_than_is_claimed)
+{
+    const tally of = try_all(1);
+    ck_assert_msg(of.refuted == 0 && of.too_far == 0, "of %d %d are refuted, and %d distances", of.judged,
+                  of.refuted, of.too_far);
+    ck_assert_msg(of.sharpest > 0.8, "%g of the slip is shown at most", of.sharpest);
+    ck_assert_msg(4 * of.known > suite_times(CASES), "%d are known", of.known);
+    ck_assert_msg(10 * of.exact > suite_times(CASES), "%d are exact", of.exact);
+}
+END_TEST
+
+/* The test above must be able to fail. */
+START_TEST(slips_that_are_too_small_are_found)
+{
+    const tally of = try_all(0.75);
+    ck_assert(of.refuted > 0 && of.too_far > 0);
+}
+END_TEST
+
+static imp_symmetry ball(void) { return (imp_symmetry){.kind = IMP_SYMMETRIC_ABOUT_POINT}; }
+
+/* The slip of a surface with one map along one without, over t in [0, 1]. */
+static imp_status slip_of(motion *m, imp_symmetry *symmetry, double *slip)
+{
+    motion *const maps[] = {m};
+    surface *a = compose(symmetry, maps, 1), *b = compose(symmetry, maps, 0);
+    imp_model bare[3];
+    for (int i = 0; i < 3; ++i) bare[i] = imp_between(-1, 1);
+    const imp_region times = region_make((double[3]){0, 0, 0}, (double[3]){1, 1, 1});
+    const imp_status status = surface_slip(a, b, bare, &times, 0.5, slip);
+    surface_free(a);
+    surface_free(b);
+    return status;
+}
+
+START_TEST(motions_within_the_symmetry_do_not_slip)
+{
+    double slip;
+    motion m = {.rate = 3};
+    imp_symmetry s = ball();
+    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_OK);
+    ck_assert(slip < 0x1p-48);
+    m.way[2] = 1;
+    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_OK);
+    ck_assert(slip == INFINITY);
+    s = (imp_symmetry){.kind = IMP_SYMMETRIC_ALONG_LINE, .axis = {0, 0, 2}};
+    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_OK);
+    ck_assert(slip < 0x1p-48);
+    s.kind = IMP_SYMMETRIC_ACROSS_LINE;
+    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_OK);
+    ck_assert(slip == INFINITY);
+}
+END_TEST
+
+START_TEST(symmetries_that_are_none_are_refused)
+{
+    motion m = {.rate = 3};
+    double slip;
+    imp_symmetry bad[4] = {{.kind = 0}, {.kind = 5}, {.kind = IMP_SYMMETRIC_ABOUT_LINE}, ball()};
+    bad[3].center[1] = NAN;
+    for (int k = 0; k < 4; ++k) ck_assert_int_eq(slip_of(&m, &bad[k], &slip), SURFACE_BAD_SYMMETRY);
+}
+END_TEST
+
+SUITE_MAIN("slips", no_point_slips_farther_than_is_claimed, slips_that_are_too_small_are_found,
+           motions_within_the_symmetry_do_not_slip, symmetries_that_are_none_are_refused)
