@@ -43,6 +43,7 @@ core_tree = \
     core/tree/hierarchy.c core/tree/hierarchy.h \
     core/tree/model_lanes.h \
     core/tree/net.c core/tree/net.h core/tree/net_rows.h \
+    core/tree/net_series.c core/tree/net_series.h \
     core/tree/node.c core/tree/node.h \
     core/tree/node_bounds.c \
     core/tree/node_model.c core/tree/node_model.h \
@@ -96,6 +97,7 @@ core_solver = \
     core/solver/clearance_parts.c core/solver/clearance_parts.h \
     core/solver/collect_pairs.c core/solver/collect_roots.c core/solver/collect_surfaces.c \
     core/solver/collection.h \
+    core/solver/cuts.h \
     core/solver/distance.c core/solver/distance.h \
     core/solver/examined_times.c core/solver/examined_times.h \
     core/solver/follow.c core/solver/follow.h \

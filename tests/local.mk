@@ -81,6 +81,7 @@ mpfi_suites = \
     tests/unit/test_nested \
     tests/unit/test_net_models \
     tests/unit/test_nets \
+    tests/unit/test_net_series \
     tests/unit/test_poses \
     tests/unit/test_shapes \
     tests/unit/test_loop \
@@ -113,6 +114,8 @@ tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
 tests_unit_test_nets_SOURCES = tests/unit/test_nets.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_net_models_SOURCES = tests/unit/test_net_models.c tests/support/netted.h \
+    tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
+tests_unit_test_net_series_SOURCES = tests/unit/test_net_series.c tests/support/netted.h \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h
 tests_unit_test_poses_SOURCES = tests/unit/test_poses.c \
     tests/support/oracle_number.c tests/support/judge.c tests/support/judge.h

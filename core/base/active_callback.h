@@ -3,12 +3,38 @@
 #ifndef CORE_BASE_ACTIVE_CALLBACK_H
 #define CORE_BASE_ACTIVE_CALLBACK_H
 
+#include <impinge/impinge.h>
+#include <stdatomic.h>
+#include <stddef.h>
+
 /* Which plugin this thread is in, so that a crash can be laid at the right door: a signal handler
  * of the program asks imp_call_in_progress. Set before a callback, cleared after the last of a
  * group; a few stores. */
 
-void active_callback_begin(const char *type, const char *callback);
-void active_callback_end(void);
+/* Others may read it while its thread is in a callback, or comes and goes. */
+struct imp_call {
+    const char *_Atomic type; /* NULL: it is in none */
+    const char *_Atomic callback;
+    const char *last; /* `type` of the callback begun last, also after its end */
+};
+
+/* This thread's. */
+imp_call *active_callback_own(void);
+
+static inline imp_call *active_callback_begin(const char *type, const char *callback)
+{
+    imp_call *call = active_callback_own();
+    atomic_store_explicit(&call->callback, callback, memory_order_relaxed);
+    atomic_store_explicit(&call->type, type, memory_order_release);
+    call->last = type;
+    return call;
+}
+
+/* `call` is what active_callback_begin answered in this thread. */
+static inline void active_callback_end(imp_call *call)
+{
+    atomic_store_explicit(&call->type, NULL, memory_order_release);
+}
 
 /* The type and callback begun last in this thread, for messages about what it answered. */
 const char *active_callback_last(const char **callback);

@@ -37,7 +37,7 @@ static inline fp_environment fp_environment_enter(void)
 {
     fp_environment environment;
     fegetenv(&environment.callers);
-    fesetenv(FE_DFL_ENV);
+    if (!fp_mode_is_default()) fesetenv(FE_DFL_ENV);
     environment.locale = c_locale_enter();
     return environment;
 }

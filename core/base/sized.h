@@ -64,7 +64,7 @@ static inline void sized_write(void *to, const void *own)
     assert(both >= sizeof size);
     memcpy((unsigned char *)to + sizeof size, (const unsigned char *)own + sizeof size,
            both - sizeof size);
-    memset((unsigned char *)to + both, 0, size - both);
+    if (size > both) memset((unsigned char *)to + both, 0, size - both);
 }
 
 #endif

@@ -21,6 +21,9 @@ typedef uint64_t fp_mode;
 #define FP_MODE_X87 0x0F3Fu  /* x87 control word: masks of traps (0 to 5), precision, rounding */
 #define FP_MODE_X87_SHIFT 32 /* its place in an fp_mode, above MXCSR */
 
+/* What FE_DFL_ENV sets: all exceptions masked; x87: 64 bits. */
+#define FP_MODE_DEFAULT ((fp_mode)0x033Fu << FP_MODE_X87_SHIFT | 0x1F80u)
+
 static inline fp_mode fp_mode_read(void)
 {
     uint16_t x87;
@@ -38,6 +41,8 @@ static inline void fp_mode_restore(fp_mode mode)
 }
 
 #elif defined(__aarch64__)
+
+#define FP_MODE_DEFAULT ((fp_mode)0)
 
 static inline fp_mode fp_mode_read(void)
 {
@@ -71,6 +76,16 @@ static inline void fp_mode_restore(fp_mode mode) { fesetround((int)mode); }
 #endif
 
 #endif
+
+/* Whether FE_DFL_ENV is known to change nothing but flags. */
+static inline bool fp_mode_is_default(void)
+{
+#ifdef FP_MODE_DEFAULT
+    return fp_mode_read() == FP_MODE_DEFAULT;
+#else
+    return false;
+#endif
+}
 
 /* True if the mode still is `before`; otherwise puts it back and answers false. */
 static inline bool fp_mode_kept(fp_mode before)

@@ -81,9 +81,9 @@ static void name_callback(const isolated *i)
     static const char *const names[CALLBACK_COUNT] = {"create", "domain", "time_domain",
                                                       "piece_count", "piece"};
     const unsigned last = i->worker != NULL ? atomic_load(&i->worker->channel->callback) : 0;
-    active_callback_begin(i->type.surface != NULL ? i->type.surface->name : i->type.map->name,
-                          names[last < CALLBACK_COUNT ? last : CALLBACK_CREATE]);
-    active_callback_end();
+    const char *type = i->type.surface != NULL ? i->type.surface->name : i->type.map->name;
+    active_callback_end(
+        active_callback_begin(type, names[last < CALLBACK_COUNT ? last : CALLBACK_CREATE]));
 }
 
 static imp_status create(isolated *i, const imp_value *values, imp_create_error *why)

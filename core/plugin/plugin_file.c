@@ -95,11 +95,11 @@ static void run(plugin_file *plugin, const char *path, load_outcome *out)
     static const step steps[] = {
         {"constructor", step_open}, {"impinge_plugin", step_enter}, {"get_factory", step_tables}};
     for (size_t k = 0; k < sizeof steps / sizeof *steps && out->code == IMP_SUCCESS; ++k) {
-        active_callback_begin(path, steps[k].callback);
+        imp_call *call = active_callback_begin(path, steps[k].callback);
         errno = 0;
         steps[k].run(plugin, path, out);
         if (errno == ENOMEM) out->step = LOAD_OPEN;
-        active_callback_end();
+        active_callback_end(call);
     }
 }
 
@@ -171,9 +171,9 @@ imp_code plugin_file_link(plugin_file *plugin, const imp_plugin *entry, imp_erro
     if (plugin_check_entry(entry, NULL, &out.error) != IMP_SUCCESS) {
         refuse_checked(&out, LOAD_ENTRY, "entry");
     } else {
-        active_callback_begin(entry->name, "get_factory");
+        imp_call *call = active_callback_begin(entry->name, "get_factory");
         step_tables(plugin, IMP_LINKED_IN, &out);
-        active_callback_end();
+        active_callback_end(call);
     }
     return outcome_error(&out, error);
 }
@@ -217,9 +217,9 @@ bool imp_plugin_examine(const char *path, imp_finding_sink tell, void *context)
 void plugin_file_close(plugin_file *plugin, const char *path)
 {
     fp_mode before = fp_mode_read();
-    active_callback_begin(path, "destructor");
+    imp_call *call = active_callback_begin(path, "destructor");
     if (plugin->handle != NULL) dlclose(plugin->handle);
-    active_callback_end();
+    active_callback_end(call);
     fp_mode_restore(before);
     *plugin = (plugin_file){.facts = plugin->facts};
 }

@@ -130,9 +130,9 @@ static imp_code run_create(const type_view *view, isolated *stand_in, const char
     guard(&g);
     *self = NULL;
     fp_mode before = fp_mode_read();
-    if (stand_in == NULL) active_callback_begin(view->name, "create");
+    imp_call *call = stand_in == NULL ? active_callback_begin(view->name, "create") : NULL;
     imp_status status = call_create(view, stand_in, values->value, self, &g.why);
-    active_callback_end();
+    if (call != NULL) active_callback_end(call);
     bool kept = fp_mode_kept(before);
     if (!is_whole(&g))
         return blame(file, view, "create wrote beyond the imp_create_error it was given", at,

@@ -37,7 +37,8 @@ struct imp_scene {
     size_t group_count, group_capacity;
     key_pairs ignored;
     scene_settings settings;
-    uint64_t bytes; /* 0: not summed up yet */
+    uint64_t bytes;      /* 0: not summed up yet */
+    double t_from, t_to; /* when all surfaces are defined; not known yet: never */
     /* once it is built all but the members' lists of trees is only read */
 };
 
@@ -48,6 +49,7 @@ imp_scene *scene_new(void)
     imp_scene *scene = calloc(1, sizeof *scene);
     if (scene == NULL) return NULL;
     scene->settings = (scene_settings){0, 1, 1e-6, -1};
+    scene->t_from = INFINITY, scene->t_to = -INFINITY;
     return scene;
 }
 
@@ -194,7 +196,30 @@ uint64_t scene_bytes(const imp_scene *scene)
     return scene->bytes > 0 ? scene->bytes : sum_of_bytes(scene);
 }
 
-void scene_complete(imp_scene *scene) { scene->bytes = sum_of_bytes(scene); }
+/* --- Once it is built ----------------------------------------------------------- */
+
+static void note_times(imp_scene *scene)
+{
+    scene->t_from = -INFINITY, scene->t_to = INFINITY;
+    for (size_t b = 0; b < scene->count; ++b)
+        for (size_t k = 0; k < scene->bodies[b].count; ++k) {
+            double lo[3], hi[3];
+            surface_domain(scene->bodies[b].members[k].surface, lo, hi);
+            if (!(lo[2] <= scene->t_from)) scene->t_from = lo[2];
+            if (!(hi[2] >= scene->t_to)) scene->t_to = hi[2];
+        }
+}
+
+void scene_complete(imp_scene *scene)
+{
+    scene->bytes = sum_of_bytes(scene);
+    note_times(scene);
+}
+
+bool scene_is_defined(const imp_scene *scene, double t_start, double t_end)
+{
+    return scene->t_from <= t_start && t_end <= scene->t_to;
+}
 
 /* --- Asking ------------------------------------------------------------------------ */
 

@@ -4,6 +4,7 @@
 
 #include "core/solver/axes.h"
 
+#include "core/solver/cuts.h"
 #include "core/solver/gjk_axis.h"
 #include "core/solver/quadratic.h"
 
@@ -100,36 +101,6 @@ IMP_QUAD_INLINE imp_quad min_upper_bound(const forms *f)
 }
 
 /* --- What four axes show --------------------------------------------------------------- */
-
-/* The least upper and greatest lower bound of w that low + drift w <= limit leaves in each lane;
- * `gone` where it leaves nothing. */
-typedef struct cuts {
-    imp_quad lo, hi;
-    imp_quad_mask gone;
-} cuts;
-
-/* w_range_cut, in lanes. */
-IMP_QUAD_INLINE void cut(cuts *c, imp_quad low, imp_quad drift, imp_quad limit)
-{
-    const imp_quad reach = imp_quad_abs(drift);
-    c->gone |= low - reach > limit;
-    const imp_quad_mask some = low + reach > limit;
-    if (!imp_quad_any(some)) return;
-    const imp_quad w = (limit - low) / drift;
-    const imp_quad slack = imp_quad_all(W_RANGE_ROUNDING * UNIT_ROUNDOFF);
-    c->hi = imp_quad_pick(some & (drift > imp_quad_all(0)), imp_quad_min(w + slack, c->hi), c->hi);
-    c->lo = imp_quad_pick(some & (drift < imp_quad_all(0)), imp_quad_max(w - slack, c->lo), c->lo);
-}
-
-IMP_QUAD_INLINE bool w_range_take(w_range *s, const cuts *c)
-{
-    if (imp_quad_any(c->gone)) return false;
-    for (int k = 0; k < IMP_QUAD; ++k) {
-        if (c->hi[k] < s->hi) s->hi = c->hi[k];
-        if (c->lo[k] > s->lo) s->lo = c->lo[k];
-    }
-    return !(s->lo > s->hi);
-}
 
 /* Of length 1 to 2, pointing from A to B at w. */
 IMP_QUAD_INLINE imp_quad bundle_orient(bundle *n, const relative *r, double w)
@@ -250,9 +221,9 @@ IMP_QUAD_INLINE bool cut_along_bundle(const relative *r, bundle *n, double clear
         near.middle -= over.middle;
         near.tilt -= over.tilt;
     }
-    cuts c = {imp_quad_all(-1), imp_quad_all(1), (imp_quad_mask){0}};
+    cuts c = cuts_none();
     const imp_quad low = offset + imp_quad_min(bend, none) + near.middle - slack;
-    cut(&c, low, drift + near.tilt, limit);
+    cuts_add(&c, low, drift + near.tilt, limit);
     if (lines != NULL) add_lines(lines, n, sane, low, drift + near.tilt);
     const imp_quad high = offset + imp_quad_max(bend, none);
     const imp_quad seen = imp_quad_abs(drift) - offset + min_upper_bound(&a) +
@@ -263,10 +234,10 @@ IMP_QUAD_INLINE bool cut_along_bundle(const relative *r, bundle *n, double clear
             far.middle -= over.middle;
             far.tilt -= over.tilt;
         }
-        cut(&c, far.middle - high - slack, far.tilt - drift, limit);
+        cuts_add(&c, far.middle - high - slack, far.tilt - drift, limit);
         if (lines != NULL) add_lines(lines, n, sane, far.middle - high - slack, far.tilt - drift);
     }
-    return w_range_take(s, &c);
+    return cuts_take(s, &c);
 }
 
 IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, w_range *s,
@@ -322,6 +293,12 @@ IMP_QUAD_INLINE bool cut_along_given(const relative *r, double clearance, w_rang
     return bundle_cut(r, &n, clearance, s, NULL);
 }
 
+IMP_QUAD_NARROW static bool cut_along_given_narrow(const relative *r, double clearance, w_range *s,
+                                                   vec3 axis)
+{
+    return cut_along_given(r, clearance, s, axis);
+}
+
 IMP_QUAD_WIDE static bool cut_along_given_wide(const relative *r, double clearance, w_range *s,
                                                vec3 axis)
 {
@@ -331,7 +308,13 @@ IMP_QUAD_WIDE static bool cut_along_given_wide(const relative *r, double clearan
 bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis)
 {
     return imp_quad_is_wide() ? cut_along_given_wide(r, clearance, s, axis)
-                              : cut_along_given(r, clearance, s, axis);
+                              : cut_along_given_narrow(r, clearance, s, axis);
+}
+
+IMP_QUAD_NARROW static bool cut_along_axes_narrow(const relative *r, double clearance, w_range *s,
+                                                  vec3 *axis, gap_lines *lines)
+{
+    return cut_along_axes(r, clearance, s, axis, lines);
 }
 
 IMP_QUAD_WIDE static bool cut_along_axes_wide(const relative *r, double clearance, w_range *s,
@@ -343,5 +326,5 @@ IMP_QUAD_WIDE static bool cut_along_axes_wide(const relative *r, double clearanc
 bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines)
 {
     return imp_quad_is_wide() ? cut_along_axes_wide(r, clearance, s, axis, lines)
-                              : cut_along_axes(r, clearance, s, axis, lines);
+                              : cut_along_axes_narrow(r, clearance, s, axis, lines);
 }

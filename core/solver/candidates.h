@@ -24,9 +24,9 @@ typedef struct candidate_list {
     bool owns_trees; /* else they are the scene's */
 } candidate_list;    /* begins as {0}, and stays where it is once filled; candidates_clear frees */
 
-/* Asked at least once for each surface: whether a limit of the query is reached, with the bytes
- * that the list and the new trees hold. By threads that look ahead: whether one is so near that they had
- * better stop, with the bytes and pairs that they have made. [is_near: any thread] */
+/* Asked for every few surfaces and boxes: whether a limit of the query is reached, with the bytes that the list
+ * and the new trees hold. In between, and by threads that look ahead: whether one is so near that it is to be
+ * asked, or that they had better stop, with the bytes and pairs made since. [is_near: any thread] */
 typedef struct candidate_limit {
     bool (*is_reached)(void *context, uint64_t bytes, uint64_t pairs);
     bool (*is_near)(void *context, uint64_t bytes, uint64_t pairs);

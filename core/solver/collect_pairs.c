@@ -117,7 +117,14 @@ static bool sweep_by_threads(collection *all)
     return go_on;
 }
 
-static bool go_on(void *context) { return !collection_must_end(context); }
+static bool go_on(void *context)
+{
+    collection *all = context;
+    const bool many = all->boxes_swept++ % BOXES_AN_ASK == 0;
+    if (!many && !all->limit->is_near(all->limit->context, candidates_bytes(all->list), 0))
+        return true;
+    return !collection_must_end(all);
+}
 
 bool collection_add_pairs(collection *all)
 {

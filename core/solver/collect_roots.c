@@ -74,7 +74,7 @@ static imp_code take_roots(collection *all, bool *done, imp_error *error)
 
 imp_code collection_make_roots(collection *all, bool *done, imp_error *error)
 {
-    if (!any_is_missing(all->list)) return IMP_SUCCESS;
+    if (!all->any_lacks_root || !any_is_missing(all->list)) return IMP_SUCCESS;
     imp_code code = find_missing(all) ? IMP_SUCCESS : error_set_memory(error);
     if (code == IMP_SUCCESS) code = take_roots(all, done, error);
     free(all->roots);

@@ -89,6 +89,7 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
     swept_box *box = &all->boxes[k];
     box->owner = k;
     box->group = body;
+    all->any_lacks_root = all->any_lacks_root || !tree_has_root(t);
     tree_box(t, box->lo, box->hi);
     all->list->candidates[k] =
         (candidate){.tree = t, .body = body, .surface = index, .eval_error = -1};

@@ -38,8 +38,8 @@ enum {
     SURFACES_A_ROUND = SURFACES_A_TASK * TASKS_A_ROUND
 };
 
-/* A limit that is not near is checked after so many surfaces, or so much memory. */
-enum { SURFACES_AN_ASK = 8, BYTES_AN_ASK = 1 << 15 };
+/* A limit that is not near is checked after so many surfaces, or so much memory, and so many boxes. */
+enum { SURFACES_AN_ASK = 8, BYTES_AN_ASK = 1 << 15, BOXES_AN_ASK = 32 };
 
 enum { BOXES_AT_HAND = 4 }; /* so few boxes need no memory of their own */
 
@@ -56,8 +56,10 @@ typedef struct collection {
     swept_box *boxes, at_hand[BOXES_AT_HAND];
     candidate_list *list;
     uint64_t bytes_asked; /* stats->bytes when limits were last checked */
+    size_t boxes_swept;
     bool out_of_memory;
-    bool with_roots;   /* all trees are made with them */
+    bool with_roots; /* all trees are made with them */
+    bool any_lacks_root;
     root_ahead *roots; /* those that are missing */
     size_t first_root, root_count;
     /* by threads that look ahead: */

@@ -13,6 +13,7 @@ typedef struct examination {
     span asked;
     examined_times *found;
     imp_error *error;
+    bool all_exist;   /* at all times asked about, and defined */
     bool all_defined; /* whatever is asked about, no surface leaves its place open */
 } examination;
 
@@ -64,6 +65,8 @@ static imp_code examine_bodies(examination *x, size_t a, size_t b)
     const size_t of_a = scene_surface_count(x->scene, a);
     const size_t of_b = scene_surface_count(x->scene, b);
     imp_code code = IMP_SUCCESS;
+    if (x->all_exist && of_a > 0 && of_b > 0)
+        *x->found = (examined_times){true, x->asked.lo, x->asked.hi};
     for (size_t k = 0; k < of_a; ++k)
         for (size_t l = 0; l < of_b; ++l) {
             if (code != IMP_SUCCESS || is_complete(x)) return code;
@@ -90,7 +93,9 @@ imp_code examined_times_find(const imp_scene *scene, double t_start, double t_en
                              examined_times *found, imp_error *error)
 {
     const span asked = {t_start, t_end};
-    examination x = {scene, asked, found, error, are_all_defined(scene, asked)};
+    const bool all_exist = scene_is_defined(scene, t_start, t_end);
+    const bool all_defined = all_exist || are_all_defined(scene, asked);
+    examination x = {scene, asked, found, error, all_exist, all_defined};
     const size_t bodies = scene_body_count(scene);
     imp_code code = IMP_SUCCESS;
     *found = (examined_times){false, INFINITY, -INFINITY};

@@ -4,6 +4,7 @@
 
 #include "core/solver/glance.h"
 
+#include "core/solver/cuts.h"
 #include "core/solver/quadratic.h"
 
 /* The largest distance of a node's points from a + bt s, but for rounding. */
@@ -56,11 +57,17 @@ IMP_QUAD_INLINE bool cut_by_boxes(const node *a, const node *b, double clearance
     const imp_quad most = imp_quad_abs(p.delta) + imp_quad_abs(p.drift) - p.reach;
     const imp_quad_mask some = most > imp_quad_all(clearance);
     if (!imp_quad_any(some)) return true;
-    for (int i = 0; i < 3; ++i)
-        if (some[i] && (!w_range_cut(s, p.delta[i] - p.reach[i], p.drift[i], clearance) ||
-                        !w_range_cut(s, -p.delta[i] - p.reach[i], -p.drift[i], clearance)))
-            return false;
-    return true;
+    const imp_quad limit = imp_quad_pick(some, imp_quad_all(clearance), imp_quad_all(INFINITY));
+    cuts c = cuts_none();
+    cuts_add(&c, p.delta - p.reach, p.drift, limit);
+    cuts_add(&c, -p.delta - p.reach, -p.drift, limit);
+    return cuts_take(s, &c);
+}
+
+IMP_QUAD_NARROW static bool cut_by_boxes_narrow(const node *a, const node *b, double clearance,
+                                                double mid, double half, w_range *s)
+{
+    return cut_by_boxes(a, b, clearance, mid, half, s);
 }
 
 IMP_QUAD_WIDE static bool cut_by_boxes_wide(const node *a, const node *b, double clearance,
@@ -75,7 +82,7 @@ bool separation_at_a_glance(const node *a, const node *b, double clearance, time
     if (!a->bounded || !b->bounded) return true;
     const double mid = 0.5 * window->lo + 0.5 * window->hi, half = window_half_upper(window, mid);
     const bool some = imp_quad_is_wide() ? cut_by_boxes_wide(a, b, clearance, mid, half, &s)
-                                         : cut_by_boxes(a, b, clearance, mid, half, &s);
+                                         : cut_by_boxes_narrow(a, b, clearance, mid, half, &s);
     if (some) window_cut(window, mid, half, &s);
     return some;
 }

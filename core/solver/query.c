@@ -70,22 +70,20 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
         error_set_memory(error);
         return NULL;
     }
-    memset(query, 0, sizeof *query);
-    query->scene = scene;
-    query->scene_bytes = scene_bytes(scene);
+    *query = (imp_query){.scene = scene,
+                         .scene_bytes = scene_bytes(scene),
+                         .options = *options,
+                         .examined = examined,
+                         .impact = {.gamma = options->gamma,
+                                    .clearance = clearance,
+                                    .method = options->method,
+                                    .bounds = options->bounds,
+                                    .t_lower = options->t_start,
+                                    .window = {options->t_start, options->t_end},
+                                    .stats = &query->stats},
+                         .verdict = IMP_UNDECIDED,
+                         .reason = IMP_REASON_RUNNING};
     query->peak_bytes = query->scene_bytes + sizeof *query;
-    query->options = *options;
-    query->examined = examined;
-    query->impact.gamma = options->gamma;
-    query->impact.clearance = clearance;
-    query->impact.method = options->method;
-    query->impact.bounds = options->bounds;
-    query->impact.t_lower = options->t_start;
-    query->impact.window = (time_window){options->t_start, options->t_end};
-    query->impact.stats = &query->stats;
-    query->verdict = IMP_UNDECIDED;
-    query->reason = IMP_REASON_RUNNING;
-    atomic_init(&query->cancelled, false);
     return query;
 }
 
@@ -131,7 +129,8 @@ imp_reason query_reason_of_clear(const imp_query *query)
     return query->examined.lo <= query->examined.hi ? IMP_REASON_NONE : IMP_REASON_NO_TIME;
 }
 
-/* Whether one surface of the contact found stays as it is for all of the query's times. */
+/* Whether one surface of the contact found stays as it is for all of the query's times. Rates are asked for only
+ * where no point of it was seen to move. */
 static bool is_at_rest(const imp_query *query, int side)
 {
     const candidate *c = query->candidates.pairs[query->impact.found_candidate].side[side];
@@ -139,6 +138,7 @@ static bool is_at_rest(const imp_query *query, int side)
     const imp_region *times = &tree_root(c->tree)->region;
     double lo[3], hi[3];
     imp_rate_matrix rates;
+    if (c->moves) return false;
     if (surface_piece_count(s) > 0) s = surface_piece(s, query->impact.found.piece[side]);
     surface_domain(s, lo, hi);
     lo[2] = times->lo[2], hi[2] = times->hi[2];

@@ -10,8 +10,9 @@
 
 /* --- What a pair is like ---------------------------------------------------------------- */
 
-/* Evaluates the middle of a surface at both ends and in the middle of the root's times. */
-static imp_code measure_surface(const surface *s, const node *root, double *largest,
+/* Evaluates the middle of a surface at both ends and in the middle of the root's times. *moves: its ends are
+ * surely apart. */
+static imp_code measure_surface(const surface *s, const node *root, double *largest, bool *moves,
                                 imp_error *error)
 {
     double lo[3], hi[3];
@@ -28,6 +29,8 @@ static imp_code measure_surface(const surface *s, const node *root, double *larg
         if (root->many == NULL) code = bound_audit_holds_at(s, root, p[k], x[k].x, error);
         if (eval_error[k] > *largest) *largest = eval_error[k];
     }
+    if (code == IMP_SUCCESS)
+        *moves = vec3_norm1(vec3_sub(x[2], x[0])) > 2 * (eval_error[0] + eval_error[2]);
     return code;
 }
 
@@ -53,8 +56,10 @@ static imp_code measure(candidate *c, imp_error *error)
     for (size_t k = 0; k < samples; ++k) {
         const surface *s = root->many != NULL ? hierarchy_sample(root->many->of, k, PIECES_MEASURED)
                                               : root->surface;
-        const imp_code code = measure_surface(s, root, &largest, error);
+        bool moves;
+        const imp_code code = measure_surface(s, root, &largest, &moves, error);
         if (code != IMP_SUCCESS) return code;
+        c->moves = moves && root->many == NULL;
     }
     const imp_code code = count_still_maps(c, root, error);
     if (code == IMP_SUCCESS) c->eval_error = largest;

@@ -18,6 +18,7 @@ typedef struct candidate {
     double eval_error; /* of points evaluated, about, of 16 of its pieces if it has more; < 0: not
                           measured yet; length */
     size_t still_maps; /* then: of a surface with distances, surface_still_maps */
+    bool moves;        /* then: a point of it was seen to; never of one that has pieces */
 } candidate;
 
 /* How far one surface slides along the other but within itself (surface_slip), over all times of both. */
@@ -37,7 +38,7 @@ static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const ca
     return p->side[0]->body == q->side[0]->body && p->side[1]->body == q->side[1]->body;
 }
 
-/* Measures eval_error and still_maps of both, unless they are known: once for each surface of a query, and
+/* Measures eval_error, still_maps and moves of both, unless they are known: once for each surface of a query, and
  * only of those whose pairs are followed. */
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
 

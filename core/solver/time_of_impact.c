@@ -9,13 +9,24 @@
 
 #include "core/solver/follow.h"
 
+/* Of many candidate pairs most are pushed: room for half of those to come is made at once. */
+enum { ROOM_MOST = 512 };
+
+static bool reserve_for_candidate(impact *im, uint32_t index)
+{
+    const size_t count = im->candidate_pair_count, half = count > index ? (count - index) / 2 : 0;
+    if (im->heap.count < im->heap.capacity) return true;
+    return pair_heap_reserve(&im->heap, 1 + (half < ROOM_MOST ? half : ROOM_MOST));
+}
+
 imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, imp_error *error)
 {
     pair_test t;
     *state = IMPACT_NO_MEMORY;
-    if (!pair_heap_reserve(&im->heap, 1)) return IMP_SUCCESS;
     const imp_code code = pair_test_candidate(im, index, &t, error);
     if (code == IMP_ERROR_MEMORY) return IMP_SUCCESS;
+    if (code == IMP_SUCCESS && t.any_time && t.near && !reserve_for_candidate(im, index))
+        return IMP_SUCCESS;
     *state = IMPACT_RUNNING;
     if (code == IMP_SUCCESS && t.any_time) follow_push(im, &t);
     return code;

@@ -17,17 +17,17 @@
 /* What destroy does to the floating-point mode is undone. */
 static void destroy(const char *type, void (*destroy_it)(void *), void *self)
 {
-    const fp_mode mode = surface_call_begin(type, "destroy");
+    const surface_call call = surface_call_begin(type, "destroy");
     destroy_it(self);
-    surface_call_end(mode, IMP_OK);
+    surface_call_end(call, IMP_OK);
 }
 
 /* Domains are asked for once; one that is not finite in u and v, inverted or NaN is a breach. */
 imp_status part_domain(const imp_surface_type *type, const void *self, double lo[3], double hi[3])
 {
-    const fp_mode mode = surface_call_begin(type->name, "domain");
+    const surface_call call = surface_call_begin(type->name, "domain");
     type->domain(self, lo, hi);
-    const imp_status status = surface_call_end(mode, IMP_OK);
+    const imp_status status = surface_call_end(call, IMP_OK);
     bool good = lo[0] > -INFINITY && lo[1] > -INFINITY;
     good = good && hi[0] < INFINITY && hi[1] < INFINITY;
     for (int j = 0; j < 3; ++j) good = good && lo[j] <= hi[j];
@@ -50,9 +50,9 @@ bool part_offers_pose(const imp_map_type *type)
 static imp_status take_piece(shared_part *p, size_t k)
 {
     double lo[3], hi[3];
-    const fp_mode mode = surface_call_begin(p->surface->name, "piece");
+    const surface_call call = surface_call_begin(p->surface->name, "piece");
     p->pieces[k] = p->surface->piece(p->self, k);
-    imp_status status = surface_call_end(mode, IMP_OK);
+    imp_status status = surface_call_end(call, IMP_OK);
     if (status != IMP_OK) return status;
     if (p->pieces[k] == NULL) return SURFACE_NULL_PIECE;
     status = part_domain(p->surface, p->pieces[k], lo, hi);
@@ -67,9 +67,9 @@ static imp_status take_piece(shared_part *p, size_t k)
 /* False: no memory. */
 static bool take_pieces(shared_part *p)
 {
-    const fp_mode mode = surface_call_begin(p->surface->name, "piece_count");
+    const surface_call call = surface_call_begin(p->surface->name, "piece_count");
     const size_t count = p->surface->piece_count(p->self);
-    p->breach = surface_call_end(mode, IMP_OK);
+    p->breach = surface_call_end(call, IMP_OK);
     if (p->breach == IMP_OK && (count == 0 || count > IMP_PIECES_MAX))
         p->breach = SURFACE_PIECE_COUNT;
     if (p->breach == IMP_OK) {
@@ -84,9 +84,9 @@ static bool take_pieces(shared_part *p)
 static void take_times(shared_part *p)
 {
     p->lo[2] = -INFINITY, p->hi[2] = INFINITY;
-    const fp_mode mode = surface_call_begin(p->map->name, "time_domain");
+    const surface_call call = surface_call_begin(p->map->name, "time_domain");
     p->map->time_domain(p->self, &p->lo[2], &p->hi[2]);
-    p->breach = surface_call_end(mode, IMP_OK);
+    p->breach = surface_call_end(call, IMP_OK);
     if (p->breach == IMP_OK && !(p->lo[2] <= p->hi[2])) p->breach = SURFACE_BAD_DOMAIN;
 }
 

@@ -5,6 +5,7 @@
 #include "core/surface/region.h"
 
 #include <assert.h>
+#include <string.h>
 
 #include "core/base/rounding.h"
 
@@ -22,15 +23,20 @@ static void interval_centre(double lo, double hi, double *c, double *d)
     *d = padded_upper(reach, 4);
 }
 
+void region_set(imp_region *region, const double lo[3], const double hi[3])
+{
+    for (int j = 0; j < 3; ++j) {
+        assert(lo[j] <= hi[j]);
+        region->lo[j] = lo[j];
+        region->hi[j] = hi[j];
+        interval_centre(lo[j], hi[j], &region->c[j], &region->d[j]);
+    }
+}
+
 imp_region region_make(const double lo[3], const double hi[3])
 {
     imp_region r;
-    for (int j = 0; j < 3; ++j) {
-        assert(lo[j] <= hi[j]);
-        r.lo[j] = lo[j];
-        r.hi[j] = hi[j];
-        interval_centre(lo[j], hi[j], &r.c[j], &r.d[j]);
-    }
+    region_set(&r, lo, hi);
     return r;
 }
 
@@ -46,6 +52,14 @@ imp_region region_half(const imp_region *region, parameter j, int side)
     *(side ? &half.lo[j] : &half.hi[j]) = region->c[j];
     interval_centre(half.lo[j], half.hi[j], &half.c[j], &half.d[j]);
     return half;
+}
+
+void region_half_box(const imp_region *region, parameter j, int side, double lo[3], double hi[3])
+{
+    assert(region_can_split(region, j));
+    memcpy(lo, region->lo, sizeof region->lo);
+    memcpy(hi, region->hi, sizeof region->hi);
+    *(side ? &lo[j] : &hi[j]) = region->c[j];
 }
 
 /* Each term is a product and goes through at most three sums of non-negative terms. */

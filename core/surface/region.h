@@ -12,6 +12,7 @@
 typedef enum parameter { PARAMETER_U, PARAMETER_V, PARAMETER_T } parameter;
 
 /* The region lo..hi; lo <= hi, finite. */
+void region_set(imp_region *region, const double lo[3], const double hi[3]);
 imp_region region_make(const double lo[3], const double hi[3]);
 
 /* Whether a double lies strictly inside the interval of parameter j. */
@@ -20,6 +21,9 @@ bool region_can_split(const imp_region *region, parameter j);
 /* The half of the region below (side 0) or above (side 1) its centre along j. The two
  * share the identical split value. Precondition: region_can_split. */
 imp_region region_half(const imp_region *region, parameter j, int side);
+
+/* Its box alone. */
+void region_half_box(const imp_region *region, parameter j, int side, double lo[3], double hi[3]);
 
 /* sum_j rate_j d_j, rounded up: how far one coordinate can be from its value at the centre. */
 double region_reach_upper(const imp_region *region, const double rate[3]);

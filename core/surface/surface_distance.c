@@ -148,9 +148,9 @@ static imp_status distance_before_maps(const surface *s, const imp_region *regio
                                        const imp_model point[3], imp_model *distance)
 {
     const imp_model at[4] = {point[0], point[1], point[2], surface_time(region)};
-    const fp_mode mode = surface_call_begin(s->type->name, "distance");
+    const surface_call call = surface_call_begin(s->type->name, "distance");
     const imp_status status = s->type->distance(s->self, at, distance);
-    return judge(surface_call_end(mode, status), distance);
+    return judge(surface_call_end(call, status), distance);
 }
 
 /* *stretch: times that of the maps from `first` on, if they are all rigid then. Of maps that turn with time

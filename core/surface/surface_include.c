@@ -42,8 +42,8 @@ static imp_status model_from_rates(const surface *s, const imp_region *region,
 static imp_status include_type(const surface *s, const imp_region *region, imp_model model[3])
 {
     if (s->type->include != NULL) {
-        const fp_mode mode = surface_call_begin(s->type->name, "include");
-        return surface_call_end(mode, s->type->include(s->self, region, model));
+        const surface_call call = surface_call_begin(s->type->name, "include");
+        return surface_call_end(call, s->type->include(s->self, region, model));
     }
     imp_rate_matrix rates;
     const imp_status status = surface_type_rate(s, region, &rates);
@@ -132,8 +132,8 @@ static imp_status include_box(const surface *s, size_t k, const imp_region *regi
         const double above = sum_upper(box.hi[j], -c[j]);
         half[j] = below > above ? below : above;
     }
-    const fp_mode mode = surface_call_begin(s->maps[k].type->name, "eval");
-    status = surface_call_end(mode, s->maps[k].type->eval(s->maps[k].self, 1, c, x, error));
+    const surface_call call = surface_call_begin(s->maps[k].type->name, "eval");
+    status = surface_call_end(call, s->maps[k].type->eval(s->maps[k].self, 1, c, x, error));
     if (status != IMP_OK) return status;
     memset(model, 0, 3 * sizeof *model);
     for (int i = 0; i < 3; ++i) {
@@ -159,9 +159,9 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
     if (!models_are_sane(model, !*unbounded)) return SURFACE_BAD_MODEL;
     if (models_are_finite(model) && map->type->apply != NULL) {
         const imp_model in[4] = {model[0], model[1], model[2], surface_time(region)};
-        const fp_mode mode = surface_call_begin(map->type->name, "apply");
+        const surface_call call = surface_call_begin(map->type->name, "apply");
         status = map->type->apply(map->self, in, model);
-        status = surface_call_end(mode, status);
+        status = surface_call_end(call, status);
     } else if (!*unbounded) {
         status = step(s, k, region, model);
         if (status == IMP_UNBOUNDED) model_unbounded(model);

@@ -55,14 +55,14 @@ imp_status surface_net(const surface *s, const imp_region *region, imp_net *net)
 {
     if (!surface_offers_net(s)) return IMP_UNBOUNDED;
     clear(net);
-    const fp_mode mode = surface_call_begin(s->type->name, "net");
+    const surface_call call = surface_call_begin(s->type->name, "net");
     imp_status status = s->type->net(s->self, region, net);
-    status = judge(surface_call_end(mode, status), net);
+    status = judge(surface_call_end(call, status), net);
     for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
         const mapping *map = &s->maps[k];
-        const fp_mode before = surface_call_begin(map->type->name, "net");
+        const surface_call of_map = surface_call_begin(map->type->name, "net");
         status = map->type->net(map->self, region, net);
-        status = judge(surface_call_end(before, status), net);
+        status = judge(surface_call_end(of_map, status), net);
     }
     return status;
 }

@@ -40,16 +40,20 @@ static inline double zero_if_finite(double x) { return x - x; }
 /* A callback is called between these two. What it computed is thrown away if it changed the mode,
  * which is put back before anything else is computed: an exception that it lets trap would else be
  * raised in the callback after it, or by the host. */
-static inline fp_mode surface_call_begin(const char *type, const char *callback)
+typedef struct surface_call {
+    imp_call *of_thread;
+    fp_mode before;
+} surface_call;
+
+static inline surface_call surface_call_begin(const char *type, const char *callback)
 {
-    active_callback_begin(type, callback);
-    return fp_mode_read();
+    return (surface_call){active_callback_begin(type, callback), fp_mode_read()};
 }
 
-static inline imp_status surface_call_end(fp_mode before, imp_status status)
+static inline imp_status surface_call_end(surface_call call, imp_status status)
 {
-    const bool kept = fp_mode_kept(before);
-    active_callback_end();
+    const bool kept = fp_mode_kept(call.before);
+    active_callback_end(call.of_thread);
     return kept ? status : SURFACE_CHANGED_MODE;
 }
 

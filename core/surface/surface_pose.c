@@ -119,9 +119,9 @@ imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end, cons
         const mapping *map = &s->maps[k];
         imp_pose next;
         memset(&next, 0, sizeof next);
-        const fp_mode mode = surface_call_begin(map->type->name, "rigid");
+        const surface_call call = surface_call_begin(map->type->name, "rigid");
         status = map->type->rigid(map->self, &t, &next);
-        status = judge(surface_call_end(mode, status), &next);
+        status = judge(surface_call_end(call, status), &next);
         if (status != IMP_OK) return status;
         if (k == first)
             *pose = next;

@@ -18,17 +18,17 @@ static imp_status checked_rates(imp_status status, const double *rates, int coun
 
 imp_status surface_type_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates)
 {
-    const fp_mode mode = surface_call_begin(s->type->name, "rate");
+    const surface_call call = surface_call_begin(s->type->name, "rate");
     imp_status status = s->type->rate(s->self, region, rates);
-    status = surface_call_end(mode, status);
+    status = surface_call_end(call, status);
     return checked_rates(status, rates->m[0], 9);
 }
 
 imp_status surface_map_rate(const mapping *map, const imp_box4 *box, imp_map_rates *rates)
 {
-    const fp_mode mode = surface_call_begin(map->type->name, "rate");
+    const surface_call call = surface_call_begin(map->type->name, "rate");
     imp_status status = map->type->rate(map->self, box, rates);
-    status = surface_call_end(mode, status);
+    status = surface_call_end(call, status);
     return checked_rates(status, rates->m[0], 12);
 }
 
@@ -70,9 +70,9 @@ static imp_status batch_through_map(const mapping *map, size_t n, const double *
         memcpy(in + 4 * k, x + 3 * k, 3 * sizeof *x);
         in[4 * k + 3] = p[3 * k + 2];
     }
-    const fp_mode mode = surface_call_begin(map->type->name, "eval");
+    const surface_call call = surface_call_begin(map->type->name, "eval");
     imp_status status = map->type->eval(map->self, n, in, x, error == NULL ? NULL : own);
-    status = surface_call_end(mode, status);
+    status = surface_call_end(call, status);
     if (status != IMP_OK || error == NULL) return status;
     for (size_t k = 0; k < n; ++k) {
         status = error_through_map(map, in + 4 * k, error + 3 * k, own + 3 * k);
@@ -89,9 +89,9 @@ static imp_status batch_through_map(const mapping *map, size_t n, const double *
 static imp_status eval_under(const surface *s, size_t maps, size_t n, const double *p, double *x,
                              double *error)
 {
-    const fp_mode mode = surface_call_begin(s->type->name, "eval");
+    const surface_call call = surface_call_begin(s->type->name, "eval");
     imp_status status = s->type->eval(s->self, n, p, x, error);
-    status = surface_call_end(mode, status);
+    status = surface_call_end(call, status);
     for (size_t k = 0; k < maps && status == IMP_OK; ++k)
         for (size_t from = 0; from < n && status == IMP_OK; from += BATCH) {
             const size_t count = n - from < BATCH ? n - from : BATCH;

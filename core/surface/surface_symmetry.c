@@ -41,9 +41,9 @@ static imp_status symmetry_of(const surface *s, imp_symmetry *found)
 {
     memset(found, 0, sizeof *found);
     if (!surface_has_symmetry(s)) return IMP_UNBOUNDED;
-    const fp_mode mode = surface_call_begin(s->type->name, "symmetry");
+    const surface_call call = surface_call_begin(s->type->name, "symmetry");
     imp_status status = s->type->symmetry(s->self, found);
-    status = surface_call_end(mode, status);
+    status = surface_call_end(call, status);
     if (status != IMP_OK) return status;
     return is_sane(found) ? IMP_OK : SURFACE_BAD_SYMMETRY;
 }

@@ -157,7 +157,7 @@ enum { NET_ROUNDING = 16 };
 _Static_assert(2 * (2 + 3) <= NET_ROUNDING, "rounding of a net's box");
 
 /* The coordinate that leaves the box of the node's net, which holds its hull, beyond rounding, or -1. */
-static int coordinate_off_net(const net *f, double t, const double x[3], const double eval_error[3])
+IMP_QUAD_INLINE int off_net(const net *f, double t, const double x[3], const double eval_error[3])
 {
     const double tau = t - f->time;
     for (int i = 0; i < 3; ++i) {
@@ -179,6 +179,17 @@ static int coordinate_off_net(const net *f, double t, const double x[3], const d
         if (x[i] - base + slack < lo || x[i] - base - slack > hi) return i;
     }
     return -1;
+}
+
+IMP_QUAD_WIDE static int off_net_wide(const net *f, double t, const double x[3],
+                                      const double eval_error[3])
+{
+    return off_net(f, t, x, eval_error);
+}
+
+static int coordinate_off_net(const net *f, double t, const double x[3], const double eval_error[3])
+{
+    return imp_quad_is_wide() ? off_net_wide(f, t, x, eval_error) : off_net(f, t, x, eval_error);
 }
 
 static imp_code lie_of_net(const surface *s, const node *n, const double p[3], const double x[3],

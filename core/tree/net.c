@@ -79,15 +79,6 @@ bool net_take(net *n, const imp_net *given, const imp_region *region)
 
 /* --- Halves ----------------------------------------------------------------------------------- */
 
-/* Lemma. lo + hi is s + e exactly (D. Knuth), so with e = 0 and s = 2 c the cut is in the middle. */
-bool net_can_halve(const imp_region *region, parameter j)
-{
-    if (j == PARAMETER_T) return true;
-    const double lo = region->lo[j], hi = region->hi[j], s = lo + hi, part = s - lo;
-    const double e = (lo - (s - part)) + (hi - part);
-    return e == 0 && s == 2 * region->c[j];
-}
-
 /* De Casteljau at the middle, in place: x[0], x[step], ... of degree n become those of a half. */
 static void halve_plain(double *x, int n, int step, int side)
 {
@@ -223,6 +214,11 @@ static double halving_units(const net *p, int n)
     return 2 * (p->is_weighted ? n * (5 + 2 * n) + 2 * n : n);
 }
 
+static double halving_upper(double units, double most)
+{
+    return units * UNIT_ROUNDOFF * most + HALVING_UNDERFLOW;
+}
+
 /* Any patch: line after line, then the copies of the last point. */
 static void halve_lines(const net *f, parameter j, int side, double *x, int columns)
 {
@@ -255,18 +251,21 @@ void net_halve_columns(const net *p, parameter j, int side, double *x, int colum
 
 double net_halving_upper(const net *p, parameter j, double most)
 {
-    return halving_units(p, p->degree[j]) * UNIT_ROUNDOFF * most + HALVING_UNDERFLOW;
+    return halving_upper(halving_units(p, p->degree[j]), most);
 }
 
 void net_halve(const net *p, parameter j, int side, net *half)
 {
     const int columns = p->is_moving ? 6 : 3;
     const bool is_plain_bicubic = p->degree[0] == 3 && p->degree[1] == 3 && !p->is_weighted;
-    if (half != p) memcpy(half, p, is_plain_bicubic ? sizeof *p : net_bytes(p));
-    if (is_plain_bicubic)
+    if (is_plain_bicubic) {
+        if (half != p) *half = *p; /* but for its numbers */
         halve_plain_bicubic(p->numbers, columns, j, side, half->numbers);
-    else
+    } else {
+        if (half != p) memcpy(half, p, net_bytes(p));
         net_halve_columns(p, j, side, half->numbers, columns);
+    }
+    const double units = halving_units(p, p->degree[j]);
     for (int i = 0; i < 3; ++i)
-        half->error[i] = sum_upper(p->error[i], net_halving_upper(p, j, p->most[i]));
+        half->error[i] = sum_upper(p->error[i], halving_upper(units, p->most[i]));
 }

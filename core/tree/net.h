@@ -46,8 +46,15 @@ static inline double net_off(const net *n) { return n->error[0] + n->error[1] + 
  * to be computed with; n is not filled. */
 bool net_take(net *n, const imp_net *given, const imp_region *region);
 
-/* Whether the halves of a region along j have nets by halving: j is time, or the cut exactly in the middle. */
-bool net_can_halve(const imp_region *region, parameter j);
+/* Whether the halves of a region along j have nets by halving: j is time, or the cut exactly in the middle.
+ * Lemma. lo + hi is s + e exactly (D. Knuth), so with e = 0 and s = 2 c the cut is in the middle. */
+static inline bool net_can_halve(const imp_region *region, parameter j)
+{
+    if (j == PARAMETER_T) return true;
+    const double lo = region->lo[j], hi = region->hi[j], s = lo + hi, part = s - lo;
+    const double e = (lo - (s - part)) + (hi - part);
+    return e == 0 && s == 2 * region->c[j];
+}
 
 /* Fills `half`, which has room for as much and may be n, with the net of the lower (0) or upper half along u
  * or v. */

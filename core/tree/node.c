@@ -14,30 +14,45 @@
 
 /* --- Memory ------------------------------------------------------------------- */
 
-static node *node_alloc(tree *t, tree_growth *growth)
+/* The next place of the newest chunk; NULL: it has none. */
+static node *next_place(tree *t)
 {
-    if (t->chunks == NULL || t->chunks->used == t->chunks->capacity) {
-        const size_t wanted = t->chunks == NULL ? CHUNK_GROWTH : CHUNK_GROWTH * t->chunks->capacity;
-        const size_t capacity = wanted < CHUNK_NODES_MAX ? wanted : CHUNK_NODES_MAX;
-        const size_t bytes = sizeof(chunk) + capacity * sizeof(node);
-        chunk *fresh = malloc(bytes);
-        if (fresh == NULL) return NULL;
-        *fresh = (chunk){.next = t->chunks, .capacity = capacity};
-        t->chunks = fresh;
-        growth->bytes += bytes;
-    }
-    return &t->chunks->nodes[t->chunks->used++];
+    chunk *c = atomic_load_explicit(&t->chunks, memory_order_acquire);
+    if (c == NULL) return NULL;
+    const size_t at = atomic_fetch_add_explicit(&c->used, 1, memory_order_relaxed);
+    return at < c->capacity ? &c->nodes[at] : NULL;
+}
+
+/* The first place of another chunk. NULL: no memory. */
+static node *place_of_new_chunk(tree *t, tree_growth *growth)
+{
+    chunk *const last = atomic_load_explicit(&t->chunks, memory_order_relaxed);
+    const size_t wanted = last == NULL ? CHUNK_GROWTH : CHUNK_GROWTH * last->capacity;
+    const size_t capacity = wanted < CHUNK_NODES_MAX ? wanted : CHUNK_NODES_MAX;
+    const size_t bytes = sizeof(chunk) + capacity * sizeof(node);
+    chunk *fresh = malloc(bytes);
+    if (fresh == NULL) return NULL;
+    fresh->next = last;
+    fresh->capacity = capacity;
+    atomic_init(&fresh->used, 1);
+    atomic_store_explicit(&t->chunks, fresh, memory_order_release);
+    growth->bytes += bytes;
+    return &fresh->nodes[0];
 }
 
 /* Room for a node, which is then published or given back; NULL: no memory. */
 static node *node_reserve(tree *t, tree_growth *growth)
 {
+    node *n = NULL;
+    if (atomic_load_explicit(&t->spare, memory_order_relaxed) == NULL) n = next_place(t);
+    if (n != NULL) return n;
     pthread_mutex_lock(&t->lock);
-    node *n = t->spare;
+    n = atomic_load_explicit(&t->spare, memory_order_relaxed);
     if (n != NULL)
-        t->spare = n->parent;
+        atomic_store_explicit(&t->spare, n->parent, memory_order_relaxed);
     else
-        n = node_alloc(t, growth);
+        n = next_place(t);
+    if (n == NULL) n = place_of_new_chunk(t, growth);
     pthread_mutex_unlock(&t->lock);
     return n;
 }
@@ -45,18 +60,19 @@ static node *node_reserve(tree *t, tree_growth *growth)
 static void node_give_back(tree *t, node *n)
 {
     pthread_mutex_lock(&t->lock);
-    n->parent = t->spare;
-    t->spare = n;
+    n->parent = atomic_load_explicit(&t->spare, memory_order_relaxed);
+    atomic_store_explicit(&t->spare, n, memory_order_relaxed);
     pthread_mutex_unlock(&t->lock);
 }
 
 /* --- Making --------------------------------------------------------------------------- */
 
-/* With the net, which is made again when it is needed. */
+/* With the net; unless it has it already, it is made again when it is needed. */
 static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
 {
     net_buffer room;
     const net *made;
+    if (node_net_is_asked(n)) return t->plan.audit(n->surface, n, error);
     imp_code code = node_net_find(t, n, false, &room, &made, growth, error);
     if (code != IMP_SUCCESS) return code;
     atomic_store_explicit(&n->net, made, memory_order_relaxed);
@@ -65,17 +81,32 @@ static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
     return code;
 }
 
+static bool is_whole(const node *n)
+{
+    return n->parent == NULL || n->parent->surface != n->surface;
+}
+
+/* Models of nets are worth the nets only where patches bend. Every node of a surface asks the same of the whole
+ * of it, so that its models depend on its region alone. */
+static bool follows_net(const node *n)
+{
+    if (is_whole(n)) return false;
+    if (!is_whole(n->parent)) return n->parent->follows_net;
+    return node_bends(n->parent) && surface_offers_net(n->surface);
+}
+
 void node_begin(const tree *t, const node_place *place, node *n)
 {
     const size_t set = t->plan.kind == TREE_MODELS ? offsetof(node, bounded) : 0;
     memset((char *)n + set, 0, sizeof *n - set);
-    n->region = place->region;
+    region_set(&n->region, place->lo, place->hi);
     n->radius = 0;
     n->surface = place->surface;
     n->many = place->many;
     n->parent = place->parent;
     n->along = place->along;
     n->side = place->side;
+    n->follows_net = t->plan.kind == TREE_MODELS && follows_net(n);
 }
 
 imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growth, imp_error *error)
@@ -84,8 +115,10 @@ imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growt
     node_begin(t, place, n);
     if (t->plan.kind == TREE_MODELS && n->parent != NULL)
         code = posing_begin(&t->posing, n, growth, error);
-    if (code != IMP_SUCCESS) return code;
-    code = node_bounds_find(t, n, error);
+    bool done = false;
+    if (code == IMP_SUCCESS && n->follows_net && n->shape == NULL)
+        code = node_fill_from_net(t, n, &done, growth, error);
+    if (code == IMP_SUCCESS && !done) code = node_bounds_find(t, n, error);
     if (code == IMP_SUCCESS && t->plan.audit != NULL && n->many == NULL)
         code = audit(t, n, growth, error);
     return code;
@@ -122,32 +155,36 @@ static imp_code node_make(tree *t, const node_place *place, _Atomic(node *) *slo
 
 node_place node_place_of_surface(const surface *s, double t_start, double t_end)
 {
-    double lo[3], hi[3];
-    surface_domain(s, lo, hi);
-    assert(lo[2] <= t_start && t_start <= t_end && t_end <= hi[2]);
-    lo[2] = t_start;
-    hi[2] = t_end;
-    return (node_place){.region = region_make(lo, hi), .surface = s};
+    node_place place = {.surface = s};
+    surface_domain(s, place.lo, place.hi);
+    assert(place.lo[2] <= t_start && t_start <= t_end && t_end <= place.hi[2]);
+    place.lo[2] = t_start;
+    place.hi[2] = t_end;
+    return place;
 }
 
 node_place node_place_of_cluster(const cluster *many, double t_start, double t_end)
 {
-    const double lo[3] = {-1, 0, t_start}, hi[3] = {1, 0, t_end};
-    return (node_place){
-        .region = region_make(lo, hi), .surface = hierarchy_surface(many->of), .many = many};
+    return (node_place){.lo = {-1, 0, t_start},
+                        .hi = {1, 0, t_end},
+                        .surface = hierarchy_surface(many->of),
+                        .many = many};
 }
 
 /* Which points a half of a node is to bound. */
 static node_place points_of_half(const node *parent, parameter j, int side)
 {
     const imp_region *r = &parent->region;
-    if (parent->many == NULL || j != PARAMETER_U)
-        return (node_place){
-            .region = region_half(r, j, side), .surface = parent->surface, .many = parent->many};
-    const cluster *half = parent->many->child[side];
-    if (half != NULL) return node_place_of_cluster(half, r->lo[2], r->hi[2]);
-    return node_place_of_surface(surface_piece(parent->surface, parent->many->piece[side]),
-                                 r->lo[2], r->hi[2]);
+    const cluster *many = parent->many;
+    if (many != NULL && j == PARAMETER_U) {
+        const cluster *half = many->child[side];
+        if (half != NULL) return node_place_of_cluster(half, r->lo[2], r->hi[2]);
+        return node_place_of_surface(surface_piece(parent->surface, many->piece[side]), r->lo[2],
+                                     r->hi[2]);
+    }
+    node_place half = {.surface = parent->surface, .many = many};
+    region_half_box(r, j, side, half.lo, half.hi);
+    return half;
 }
 
 static node_place place_of_half(node *parent, parameter j, int side)

@@ -22,7 +22,8 @@
  * Trees may be used from several threads at once. A node is filled by whoever asks for it first,
  * published once, and never changes. Two threads that ask at the same moment fill one each: as both
  * are the same to the last bit, the first that is published serves both, the other is dropped. A node's
- * net comes later, when node_net first asks for it, and is published in the same way. */
+ * net comes later, when node_net first asks for it, and is published in the same way; a node that follows its
+ * net is filled with it. */
 
 /* What a node's inclusion is made from. */
 typedef enum tree_kind {
@@ -56,6 +57,7 @@ typedef struct node {
     double time_remainder;      /* time's share in e where its rate is known, about; length */
     bool bounded;               /* f, e, lo, hi are all finite */
     bool is_bare; /* of what is above only the region and `bounded`, which is true, mean anything */
+    bool follows_net; /* where it has a bicubic net its models are made of that (net_series.h) */
     const surface *surface; /* whose points are bounded: a piece, or the whole */
     const cluster *many;    /* of these pieces of it; NULL: of one surface */
     struct node *parent;    /* NULL: it is the root */

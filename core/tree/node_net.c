@@ -6,25 +6,46 @@
 #include <string.h>
 
 #include "core/base/status.h"
+#include "core/tree/net_series.h"
 #include "core/tree/tree_parts.h"
 
 const net net_none;
 
+/* The next room of the newest arena; NULL: it has none. */
+static net *next_room(tree *t, size_t bytes)
+{
+    arena *a = atomic_load_explicit(&t->nets, memory_order_acquire);
+    if (a == NULL) return NULL;
+    const size_t at = atomic_fetch_add_explicit(&a->used, bytes, memory_order_relaxed);
+    return at + bytes <= a->capacity ? (net *)(void *)((char *)a->memory + at) : NULL;
+}
+
+/* The first room of another arena. NULL: no memory. */
+static net *room_of_new_arena(tree *t, size_t bytes, tree_growth *growth)
+{
+    arena *const last = atomic_load_explicit(&t->nets, memory_order_relaxed);
+    const size_t wanted = last == NULL ? bytes : CHUNK_GROWTH * last->capacity;
+    const size_t most = CHUNK_NODES_MAX * bytes;
+    const size_t capacity = wanted < bytes ? bytes : wanted < most ? wanted : most;
+    arena *fresh = malloc(sizeof *fresh + capacity);
+    if (fresh == NULL) return NULL;
+    fresh->next = last;
+    fresh->capacity = capacity;
+    atomic_init(&fresh->used, bytes);
+    atomic_store_explicit(&t->nets, fresh, memory_order_release);
+    growth->bytes += sizeof *fresh + capacity;
+    return (net *)(void *)fresh->memory;
+}
+
 /* Room for a net; NULL: no memory. */
 static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
 {
-    if (t->nets == NULL || t->nets->capacity - t->nets->used < bytes) {
-        const size_t wanted = t->nets == NULL ? bytes : CHUNK_GROWTH * t->nets->capacity;
-        const size_t most = CHUNK_NODES_MAX * bytes;
-        const size_t capacity = wanted < bytes ? bytes : wanted < most ? wanted : most;
-        arena *fresh = malloc(sizeof *fresh + capacity);
-        if (fresh == NULL) return NULL;
-        *fresh = (arena){.next = t->nets, .capacity = capacity};
-        t->nets = fresh;
-        growth->bytes += sizeof *fresh + capacity;
-    }
-    net *n = (net *)(void *)((char *)t->nets->memory + t->nets->used);
-    t->nets->used += bytes;
+    net *n = next_room(t, bytes);
+    if (n != NULL) return n;
+    pthread_mutex_lock(&t->lock);
+    n = next_room(t, bytes);
+    if (n == NULL) n = room_of_new_arena(t, bytes, growth);
+    pthread_mutex_unlock(&t->lock);
     return n;
 }
 
@@ -46,10 +67,11 @@ static bool may_have_net(const tree *t, const node *n)
            surface_offers_net(n->surface);
 }
 
-/* Whether the node's net is a half of its parent's, which is `whole`. */
-static bool is_half_of(const tree *t, const node *n, const net *whole)
+/* Whether the node's net is a half of its parent's, which is `whole`: what has one is of a tree and a surface
+ * that may. */
+static bool is_half_of(const node *n, const net *whole)
 {
-    return whole != NULL && n->along != PARAMETER_T && may_have_net(t, n) &&
+    return whole != NULL && n->along != PARAMETER_T && n->bounded &&
            net_can_halve(&n->parent->region, n->along);
 }
 
@@ -60,7 +82,7 @@ static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buf
 {
     *made = NULL;
     if (!may_have_net(t, n)) return IMP_SUCCESS;
-    if (is_half_of(t, n, whole)) {
+    if (is_half_of(n, whole)) {
         net_halve(whole, n->along, n->side, net_in(room));
         *made = net_in(room);
     } else if (whole != NULL && n->along == PARAMETER_T) {
@@ -79,39 +101,37 @@ static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
     return kept != NULL ? memcpy(kept, filled, bytes) : NULL;
 }
 
-/* Publishes *made, NULL if there is none. If another thread's is there already, *made becomes that
- * one. False: no memory. */
+/* The net of n: this one, or another thread's that is there already. The room of this one is lost then. NULL:
+ * it has none. */
+static const net *net_publish(node *n, const net *made)
+{
+    const net *there = NULL;
+    if (made == NULL) made = &net_none;
+    if (!atomic_compare_exchange_strong_explicit(&n->net, &there, made, memory_order_acq_rel,
+                                                 memory_order_acquire))
+        made = there;
+    return made != &net_none ? made : NULL;
+}
+
+/* Publishes *made, NULL if there is none; what lies in the room, as a copy. False: no memory. */
 static bool net_keep(tree *t, node *n, const net **made, const net_buffer *room,
                      tree_growth *growth)
 {
-    pthread_mutex_lock(&t->lock);
-    const net *kept = atomic_load_explicit(&n->net, memory_order_relaxed);
-    if (kept == NULL) {
-        const bool is_in_room = *made == (const void *)room->memory;
-        kept = *made == NULL ? &net_none : is_in_room ? net_copy(t, *made, growth) : *made;
-        if (kept != NULL) atomic_store_explicit(&n->net, kept, memory_order_release);
-    }
-    pthread_mutex_unlock(&t->lock);
-    *made = kept != &net_none ? kept : NULL;
-    return kept != NULL;
+    const bool is_in_room = *made == (const void *)room->memory;
+    const net *kept = is_in_room ? net_copy(t, *made, growth) : *made;
+    if (is_in_room && kept == NULL) return false;
+    *made = net_publish(n, kept);
+    return true;
 }
 
 /* The same of half a net, made where it is kept. False: no memory. */
 static bool net_keep_half(tree *t, node *n, const net *whole, const net **made, tree_growth *growth)
 {
-    pthread_mutex_lock(&t->lock);
-    const net *kept = atomic_load_explicit(&n->net, memory_order_relaxed);
-    if (kept == NULL) {
-        net *half = net_alloc(t, net_bytes(whole), growth);
-        if (half != NULL) {
-            net_halve(whole, n->along, n->side, half);
-            atomic_store_explicit(&n->net, half, memory_order_release);
-        }
-        kept = half;
-    }
-    pthread_mutex_unlock(&t->lock);
-    *made = kept != &net_none ? kept : NULL;
-    return kept != NULL;
+    net *half = net_alloc(t, net_bytes(whole), growth);
+    if (half == NULL) return false;
+    net_halve(whole, n->along, n->side, half);
+    *made = net_publish(n, half);
+    return true;
 }
 
 /* Makes the net and publishes it. */
@@ -119,7 +139,7 @@ static imp_code make_net(tree *t, node *n, const net *whole, net_buffer *room, c
                          tree_growth *growth, imp_error *error)
 {
     bool is_kept;
-    if (is_half_of(t, n, whole)) {
+    if (is_half_of(n, whole)) {
         is_kept = net_keep_half(t, n, whole, made, growth);
     } else {
         const imp_code code = fill_net(t, n, whole, room, made, error);
@@ -129,17 +149,12 @@ static imp_code make_net(tree *t, node *n, const net *whole, net_buffer *room, c
     return is_kept ? IMP_SUCCESS : error_set_memory(error);
 }
 
-static bool has_parent(const node *n)
-{
-    return n->parent != NULL && n->parent->surface == n->surface;
-}
-
 imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
                        tree_growth *growth, imp_error *error)
 {
     node *at = n;
-    while (has_parent(at) && !node_net_is_asked(at->parent)) at = at->parent;
-    const net *whole = has_parent(at) ? node_net_made(at->parent) : NULL;
+    while (node_is_part(at) && !node_net_is_asked(at->parent)) at = at->parent;
+    const net *whole = node_is_part(at) ? node_net_made(at->parent) : NULL;
     for (;;) {
         const bool keeps = at == n ? is_to_keep : !at->is_bare;
         const imp_code code = keeps ? make_net(t, at, whole, room, &whole, growth, error)
@@ -160,5 +175,16 @@ imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_
         if (code != IMP_SUCCESS) return code;
     }
     *found = node_net_made(n);
+    return IMP_SUCCESS;
+}
+
+imp_code node_fill_from_net(tree *t, node *n, bool *done, tree_growth *growth, imp_error *error)
+{
+    const net *made;
+    n->bounded = true;
+    const imp_code code = node_net(t, n, &made, growth, error);
+    if (code != IMP_SUCCESS) return code;
+    *done = made != NULL && net_series_take(made, n);
+    if (made != NULL && !*done) n->follows_net = false;
     return IMP_SUCCESS;
 }

@@ -19,26 +19,31 @@ static node *own_root(tree *t)
     return (node *)(void *)t->rest;
 }
 
-static imp_code place_of_root(tree *t, node_place *place, tree_growth *growth, imp_error *error)
+/* Of the pieces, if there are several. */
+static imp_code make_hierarchy(tree *t, tree_growth *growth, imp_error *error)
+{
+    if (surface_piece_count(t->surface) <= 1 || t->pieces != NULL) return IMP_SUCCESS;
+    const imp_code code =
+        hierarchy_new(t->surface, t->plan.t_start, t->plan.t_end, &t->pieces, error);
+    if (code == IMP_SUCCESS) growth->bytes += hierarchy_bytes(t->pieces);
+    return code;
+}
+
+static node_place place_of_root(const tree *t)
 {
     const double from = t->plan.t_start, to = t->plan.t_end;
-    const size_t pieces = surface_piece_count(t->surface);
-    if (pieces > 1 && t->pieces == NULL) {
-        const imp_code code = hierarchy_new(t->surface, from, to, &t->pieces, error);
-        if (code != IMP_SUCCESS) return code;
-        growth->bytes += hierarchy_bytes(t->pieces);
-    }
-    *place = pieces > 1 ? node_place_of_cluster(hierarchy_root(t->pieces), from, to)
-                        : node_place_of_surface(t->surface, from, to);
-    if (pieces == 1) place->surface = surface_piece(t->surface, 0);
-    return IMP_SUCCESS;
+    if (t->pieces != NULL) return node_place_of_cluster(hierarchy_root(t->pieces), from, to);
+    node_place place = node_place_of_surface(t->surface, from, to);
+    if (surface_piece_count(t->surface) == 1) place.surface = surface_piece(t->surface, 0);
+    return place;
 }
 
 static imp_code root_fill(tree *t, node *root, tree_growth *growth, imp_error *error)
 {
-    node_place place;
-    const imp_code code = place_of_root(t, &place, growth, error);
-    return code == IMP_SUCCESS ? node_fill(t, &place, root, growth, error) : code;
+    const imp_code code = make_hierarchy(t, growth, error);
+    if (code != IMP_SUCCESS) return code;
+    const node_place place = place_of_root(t);
+    return node_fill(t, &place, root, growth, error);
 }
 
 typedef struct root_box {
@@ -142,16 +147,18 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
 void tree_free(tree *t)
 {
     if (t == NULL) return;
-    while (t->chunks != NULL) {
-        chunk *next = t->chunks->next;
-        free(t->chunks);
-        t->chunks = next;
+    chunk *nodes = atomic_load_explicit(&t->chunks, memory_order_relaxed);
+    while (nodes != NULL) {
+        chunk *next = nodes->next;
+        free(nodes);
+        nodes = next;
     }
     hierarchy_free(t->pieces);
-    while (t->nets != NULL) {
-        arena *next = t->nets->next;
-        free(t->nets);
-        t->nets = next;
+    arena *nets = atomic_load_explicit(&t->nets, memory_order_relaxed);
+    while (nets != NULL) {
+        arena *next = nets->next;
+        free(nets);
+        nets = next;
     }
     posing_clear(&t->posing);
     pthread_mutex_destroy(&t->lock);

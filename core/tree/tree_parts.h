@@ -13,16 +13,19 @@
 /* Chunks of 4, 16, 64, 64, ... nodes beside the root. */
 enum { CHUNK_GROWTH = 4, CHUNK_NODES_MAX = 64 };
 
+/* Places are taken by counting, without the lock: what goes beyond the capacity is no place. */
 typedef struct chunk {
     struct chunk *next;
-    size_t used, capacity;
+    _Atomic(size_t) used;
+    size_t capacity;
     node nodes[];
 } chunk;
 
 /* Blocks of nets: room for 1, 4, 16, 64, 64, ... as the chunks. */
 typedef struct arena {
     struct arena *next;
-    size_t used, capacity; /* bytes */
+    _Atomic(size_t) used; /* bytes */
+    size_t capacity;      /* the same */
     double memory[];
 } arena;
 
@@ -32,18 +35,19 @@ struct tree {
     tree *next;
     _Atomic(node *) root; /* NULL: not made yet */
     bool begins_with_root;
-    pthread_mutex_t lock; /* of chunks, spare nodes, the root, and nets while one is published */
-    chunk *chunks;
-    node *spare;       /* reserved, but not published; each one's parent is the next */
-    hierarchy *pieces; /* NULL: it is one surface */
-    arena *nets;
+    pthread_mutex_t
+        lock; /* of lists of chunks, arenas and spare nodes while they change, and of the root */
+    _Atomic(chunk *) chunks;
+    _Atomic(node *) spare; /* reserved, but not published; each one's parent is the next */
+    hierarchy *pieces;     /* NULL: it is one surface */
+    _Atomic(arena *) nets;
     posing posing;
     double rest[]; /* the root, if the tree begins with it; else the root's box */
 };
 
 /* Which points a node is to bound, and when; which half of which node it is. */
 typedef struct node_place {
-    imp_region region;
+    double lo[3], hi[3]; /* of its region */
     const surface *surface;
     const cluster *many;
     node *parent; /* NULL: it is the root */
@@ -54,6 +58,12 @@ typedef struct node_place {
 /* The whole of one surface, or of a cluster, during these times. */
 node_place node_place_of_surface(const surface *s, double t_start, double t_end);
 node_place node_place_of_cluster(const cluster *many, double t_start, double t_end);
+
+/* Whether it is a part of its parent's surface, not the whole of one. */
+static inline bool node_is_part(const node *n)
+{
+    return n->parent != NULL && n->parent->surface == n->surface;
+}
 
 /* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds to the bounds
  * of rates. */
@@ -74,5 +84,8 @@ imp_code node_status_fault(const node *n, imp_status status, imp_error *error);
  * it has none. Its ancestors come first, from the top. Bare ones keep none. */
 imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
                        tree_growth *growth, imp_error *error);
+
+/* Fills n, which follows its net, from that. *done: false where it has none, or one that is no bicubic patch. */
+imp_code node_fill_from_net(tree *t, node *n, bool *done, tree_growth *growth, imp_error *error);
 
 #endif

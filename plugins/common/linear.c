@@ -112,6 +112,12 @@ IMP_QUAD_INLINE imp_status linear_points(const linear *f, size_t n, const double
     return IMP_OK;
 }
 
+IMP_QUAD_NARROW static imp_status points_narrow(const linear *f, size_t n, const double *p,
+                                                double *x, double *error)
+{
+    return linear_points(f, n, p, x, error);
+}
+
 IMP_QUAD_WIDE static imp_status points_wide(const linear *f, size_t n, const double *p, double *x,
                                             double *error)
 {
@@ -121,7 +127,7 @@ IMP_QUAD_WIDE static imp_status points_wide(const linear *f, size_t n, const dou
 imp_status linear_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
     return imp_quad_is_wide() ? points_wide(self, n, p, x, error)
-                              : linear_points(self, n, p, x, error);
+                              : points_narrow(self, n, p, x, error);
 }
 
 /* --- Bounds over a region --- */
@@ -294,6 +300,12 @@ IMP_QUAD_INLINE void linear_models(const linear *f, const imp_region *region, im
     for (int i = 0; i < 3; ++i) take_model(&g, (uint32_t)f->depends[i], i, &model[i]);
 }
 
+IMP_QUAD_NARROW static void models_narrow(const linear *f, const imp_region *region,
+                                          imp_model model[3])
+{
+    linear_models(f, region, model);
+}
+
 IMP_QUAD_WIDE static void models_wide(const linear *f, const imp_region *region, imp_model model[3])
 {
     linear_models(f, region, model);
@@ -310,7 +322,7 @@ imp_status linear_include(const void *self, const imp_region *region, imp_model 
     if (imp_quad_is_wide())
         models_wide(f, region, model);
     else
-        linear_models(f, region, model);
+        models_narrow(f, region, model);
     return IMP_OK;
 }
 

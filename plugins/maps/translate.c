@@ -206,6 +206,12 @@ IMP_QUAD_INLINE void move_steadily(const course *way, const imp_model in[4], imp
     }
 }
 
+IMP_QUAD_NARROW static void move_steadily_narrow(const course *way, const imp_model in[4],
+                                                 imp_model out[3])
+{
+    move_steadily(way, in, out);
+}
+
 IMP_QUAD_WIDE static void move_steadily_wide(const course *way, const imp_model in[4],
                                              imp_model out[3])
 {
@@ -245,7 +251,7 @@ static imp_status translate_apply(const void *self, const imp_model in[4], imp_m
     if (imp_quad_is_wide())
         move_steadily_wide(self, in, out);
     else
-        move_steadily(self, in, out);
+        move_steadily_narrow(self, in, out);
     return imp_models_status(out);
 }
 

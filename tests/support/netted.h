@@ -42,4 +42,22 @@ static inline void take(netted *made, const double lo[3], const double hi[3])
     made->n.net = net_in(&made->room);
 }
 
+/* What the host keeps, as a type would give it. */
+static inline imp_net given_by(const net *f)
+{
+    imp_net g = {.degree = {(uint32_t)f->degree[0], (uint32_t)f->degree[1]},
+                 .is_moving = f->is_moving,
+                 .is_weighted = f->is_weighted};
+    const int points = (f->degree[0] + 1) * (f->degree[1] + 1), columns = f->is_moving ? 6 : 3;
+    for (int i = 0; i < 3; ++i) {
+        g.place[i] = f->place[i], g.drift[i] = f->drift[i], g.error[i] = f->error[i];
+        for (int k = 0; k < points; ++k) {
+            g.point[i][k] = f->numbers[i * f->stride + k];
+            if (f->is_moving) g.velocity[i][k] = f->numbers[(3 + i) * f->stride + k];
+            g.weight[k] = f->is_weighted ? f->numbers[columns * f->stride + k] : 1;
+        }
+    }
+    return g;
+}
+
 #endif

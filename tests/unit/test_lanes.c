@@ -24,8 +24,8 @@
 #define axes_cut narrow_axes_cut
 #define axes_cut_along narrow_axes_cut_along
 #define net_bytes narrow_net_bytes
+#define net_series_take narrow_net_series_take
 #define net_take narrow_net_take
-#define net_can_halve narrow_net_can_halve
 #define net_halve narrow_net_halve
 #define net_halve_columns narrow_net_halve_columns
 #define net_halving_upper narrow_net_halving_upper
@@ -56,6 +56,12 @@
 #include "core/solver/net_march.c"
 #include "core/solver/net_model_axis.c"
 #include "core/tree/net.c"
+#define take take_series
+#define take_wide take_series_wide
+#include "core/tree/net_series.c"
+#undef take
+#undef take_wide
+#undef net_series_take
 #undef imp_quad_is_wide
 #undef node_take_model
 #undef relative_at
@@ -79,6 +85,7 @@ bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis);
 void net_halve(const net *n, parameter j, int side, net *half);
 int net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
                     const time_window *window, net_half found[NET_HALVES_MOST]);
+bool net_series_take(const net *p, node *n);
 bool net_march(const node *a, const node *b, vec3 axis, const time_window *window, double gap,
                net_meeting *found);
 void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
@@ -237,6 +244,9 @@ static void check_net(uint64_t *state, node *n, net_buffer *room)
         narrow_net_halve(from, j, side, net_in(&narrow));
         ck_assert(memcmp(room, &narrow, narrow_net_bytes(from)) == 0);
     }
+    node wide = *n, slim = *n;
+    ck_assert(net_series_take(n->net, &wide) == narrow_net_series_take(n->net, &slim));
+    ck_assert(same_bits(&wide, &slim, offsetof(node, bounded) / sizeof(double)));
 }
 
 /* What follows of an axis and of a window. */
