@@ -5,7 +5,6 @@
 #include "core/surface/region.h"
 
 #include <assert.h>
-#include <string.h>
 
 #include "core/base/rounding.h"
 
@@ -45,21 +44,19 @@ bool region_can_split(const imp_region *region, parameter j)
     return region->lo[j] < region->c[j] && region->c[j] < region->hi[j];
 }
 
-imp_region region_half(const imp_region *region, parameter j, int side)
+void region_set_half(imp_region *half, const imp_region *region, parameter j, int side)
 {
     assert(region_can_split(region, j));
-    imp_region half = *region;
-    *(side ? &half.lo[j] : &half.hi[j]) = region->c[j];
-    interval_centre(half.lo[j], half.hi[j], &half.c[j], &half.d[j]);
-    return half;
+    *half = *region;
+    *(side ? &half->lo[j] : &half->hi[j]) = region->c[j];
+    interval_centre(half->lo[j], half->hi[j], &half->c[j], &half->d[j]);
 }
 
-void region_half_box(const imp_region *region, parameter j, int side, double lo[3], double hi[3])
+imp_region region_half(const imp_region *region, parameter j, int side)
 {
-    assert(region_can_split(region, j));
-    memcpy(lo, region->lo, sizeof region->lo);
-    memcpy(hi, region->hi, sizeof region->hi);
-    *(side ? &lo[j] : &hi[j]) = region->c[j];
+    imp_region half;
+    region_set_half(&half, region, j, side);
+    return half;
 }
 
 /* Each term is a product and goes through at most three sums of non-negative terms. */

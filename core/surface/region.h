@@ -21,9 +21,7 @@ bool region_can_split(const imp_region *region, parameter j);
 /* The half of the region below (side 0) or above (side 1) its centre along j. The two
  * share the identical split value. Precondition: region_can_split. */
 imp_region region_half(const imp_region *region, parameter j, int side);
-
-/* Its box alone. */
-void region_half_box(const imp_region *region, parameter j, int side, double lo[3], double hi[3]);
+void region_set_half(imp_region *half, const imp_region *region, parameter j, int side);
 
 /* sum_j rate_j d_j, rounded up: how far one coordinate can be from its value at the centre. */
 double region_reach_upper(const imp_region *region, const double rate[3]);

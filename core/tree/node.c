@@ -95,11 +95,16 @@ static bool follows_net(const node *n)
     return node_bends(n->parent) && surface_offers_net(n->surface);
 }
 
-void node_begin(const tree *t, const node_place *place, node *n)
+/* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds to the bounds
+ * of rates. */
+static void node_begin(const tree *t, const node_place *place, node *n)
 {
     const size_t set = t->plan.kind == TREE_MODELS ? offsetof(node, bounded) : 0;
     memset((char *)n + set, 0, sizeof *n - set);
-    region_set(&n->region, place->lo, place->hi);
+    if (place->is_half)
+        region_set_half(&n->region, &place->parent->region, place->along, place->side);
+    else
+        region_set(&n->region, place->lo, place->hi);
     n->radius = 0;
     n->surface = place->surface;
     n->many = place->many;
@@ -182,9 +187,7 @@ static node_place points_of_half(const node *parent, parameter j, int side)
         return node_place_of_surface(surface_piece(parent->surface, many->piece[side]), r->lo[2],
                                      r->hi[2]);
     }
-    node_place half = {.surface = parent->surface, .many = many};
-    region_half_box(r, j, side, half.lo, half.hi);
-    return half;
+    return (node_place){.is_half = true, .surface = parent->surface, .many = many};
 }
 
 static node_place place_of_half(node *parent, parameter j, int side)

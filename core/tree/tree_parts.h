@@ -47,7 +47,8 @@ struct tree {
 
 /* Which points a node is to bound, and when; which half of which node it is. */
 typedef struct node_place {
-    double lo[3], hi[3]; /* of its region */
+    bool is_half;        /* its region is that half of the parent's; else the box */
+    double lo[3], hi[3]; /* is its region */
     const surface *surface;
     const cluster *many;
     node *parent; /* NULL: it is the root */
@@ -65,11 +66,7 @@ static inline bool node_is_part(const node *n)
     return n->parent != NULL && n->parent->surface == n->surface;
 }
 
-/* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds to the bounds
- * of rates. */
-void node_begin(const tree *t, const node_place *place, node *n);
-
-/* That, and its bounds. */
+/* Makes a node there, in memory that may hold anything. */
 imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growth,
                    imp_error *error);
 
