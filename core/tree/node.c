@@ -81,18 +81,13 @@ static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
     return code;
 }
 
-static bool is_whole(const node *n)
-{
-    return n->parent == NULL || n->parent->surface != n->surface;
-}
-
-/* Models of nets are worth the nets only where patches bend. Every node of a surface asks the same of the whole
- * of it, so that its models depend on its region alone. */
+/* The whole of a surface says it for all parts, so that models depend on the region alone, not on what was asked
+ * before. Models of nets are worth the nets only where patches bend. */
 static bool follows_net(const node *n)
 {
-    if (is_whole(n)) return false;
-    if (!is_whole(n->parent)) return n->parent->follows_net;
-    return node_bends(n->parent) && surface_offers_net(n->surface);
+    if (!node_is_part(n)) return false;
+    if (node_is_part(n->parent)) return n->parent->follows_net;
+    return n->many == NULL && node_bends(n->parent) && surface_offers_net(n->surface);
 }
 
 /* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds to the bounds

@@ -180,9 +180,10 @@ imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_
 
 imp_code node_fill_from_net(tree *t, node *n, bool *done, tree_growth *growth, imp_error *error)
 {
+    net_buffer room;
     const net *made;
     n->bounded = true;
-    const imp_code code = node_net(t, n, &made, growth, error);
+    const imp_code code = node_net_find(t, n, true, &room, &made, growth, error);
     if (code != IMP_SUCCESS) return code;
     *done = made != NULL && net_series_take(made, n);
     if (made != NULL && !*done) n->follows_net = false;

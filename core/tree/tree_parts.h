@@ -35,8 +35,7 @@ struct tree {
     tree *next;
     _Atomic(node *) root; /* NULL: not made yet */
     bool begins_with_root;
-    pthread_mutex_t
-        lock; /* of lists of chunks, arenas and spare nodes while they change, and of the root */
+    pthread_mutex_t lock; /* of changes to the lists of blocks and spare nodes, and of the root */
     _Atomic(chunk *) chunks;
     _Atomic(node *) spare; /* reserved, but not published; each one's parent is the next */
     hierarchy *pieces;     /* NULL: it is one surface */
