@@ -40,14 +40,33 @@ static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
 
 /* --- Splitting ---------------------------------------------------------------------------- */
 
-static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp_error *error)
+/* The same of a pair whose window the hulls have cut already: it is tested when it is popped. */
+static imp_code push_cut(impact *im, const pair *p, imp_error *error)
 {
+    pair_test t = {.p = *p, .near = true};
+    t.p.is_seen_only = true;
+    const imp_code code = pair_test_ask_for_nets(im, &t.p, &t.bytes, error);
+    if (code == IMP_SUCCESS) follow_push(im, &t);
+    return code;
+}
+
+/* `halves`: those of its nodes along its axis; NULL: not known. */
+static imp_code split(impact *im, const pair *p, cut c, const net_halves *halves,
+                      impact_state *state, imp_error *error)
+{
+    time_window left[2] = {p->window, p->window};
+    bool near[2] = {true, true};
+    const bool is_cut =
+        halves != NULL && net_halves_cut(halves, c.side, c.along, &p->window, left, near);
     for (int half = 0; half < 2; ++half) {
         pair child = *p;
-        bool some;
-        imp_code code =
-            cut_take(&c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
-        if (code == IMP_SUCCESS && some) code = test_and_push(im, &child, error);
+        child.window = left[half];
+        bool some = false;
+        imp_code code = IMP_SUCCESS;
+        if (near[half])
+            code = cut_take(&c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
+        if (code == IMP_SUCCESS && some)
+            code = is_cut ? push_cut(im, &child, error) : test_and_push(im, &child, error);
         if (code == IMP_ERROR_PLUGIN) return code;
         if (code != IMP_SUCCESS) *state = IMPACT_NO_MEMORY;
     }
@@ -56,17 +75,19 @@ static imp_code split(impact *im, const pair *p, cut c, impact_state *state, imp
 
 /* Takes halves one after the other as long as the pair's axis excludes the other half; only the
  * last gets models. *some is false where both halves are excluded. */
-static imp_code leave_out_halves(impact *im, pair *p, bool *some, imp_error *error)
+static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *some,
+                                 imp_error *error)
 {
     const candidate_pair *both = candidate_pair_of(im, p);
-    net_half left[NET_HALVES_MOST];
+    halves->has_heights = false;
     *some = true;
     if (!nodes_have_nets(p->a, p->b)) return IMP_SUCCESS;
-    const int count = net_halves_find(p->a, p->b, p->axis, im->clearance, &p->window, left);
-    *some = count == 0 || left[count - 1].half >= 0;
+    net_halves_find(p->a, p->b, p->axis, im->clearance, &p->window, halves);
+    const int count = halves->count;
+    *some = count == 0 || halves->found[count - 1].half >= 0;
     if (count == 0 || !*some) return IMP_SUCCESS;
     p->wait -= p->wait < (uint32_t)count ? p->wait : (uint32_t)count;
-    const imp_code code = pair_take_halves(p, left, count, both, im->stats, error);
+    const imp_code code = pair_take_halves(p, halves->found, count, both, im->stats, error);
     return code == IMP_SUCCESS ? pair_test_ask_for_nets(im, p, &im->stats->bytes, error) : code;
 }
 
@@ -160,7 +181,7 @@ static imp_code follow_unbounded(impact *im, const pair *p, impact_state *state,
     cut c;
     const imp_code code = cut_unbounded(im, p, side, &c, error);
     if (code != IMP_SUCCESS) return code;
-    if (c.side >= 0) return split(im, p, c, state, error);
+    if (c.side >= 0) return split(im, p, c, NULL, state, error);
     return node_unbounded_fault(candidate_pair_of(im, p)->side[side]->tree, side == 0 ? p->a : p->b,
                                 error);
 }
@@ -179,7 +200,7 @@ static imp_code follow_paper(impact *im, const pair *p, impact_state *state, imp
         return IMP_SUCCESS;
     }
     const cut c = cut_by_contribution(p);
-    if (c.side >= 0) return split(im, p, c, state, error);
+    if (c.side >= 0) return split(im, p, c, NULL, state, error);
     *state = IMPACT_RESOLUTION;
     return IMP_SUCCESS;
 }
@@ -270,7 +291,7 @@ static imp_code look(const impact *im, const pair *p, sight *seen, imp_error *er
 
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
-    if (pair_has_cluster(p)) return split(im, p, cut_by_spread(p, im->gamma), state, error);
+    if (pair_has_cluster(p)) return split(im, p, cut_by_spread(p, im->gamma), NULL, state, error);
     sight from_each;
     imp_code code = look(im, p, &from_each, error);
     if (code != IMP_SUCCESS || from_each.is_apart) return code;
@@ -291,7 +312,8 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
     p->window = from_each.left; /* not before: other pairs may start sooner */
     bool some;
     cut c;
-    code = leave_out_halves(im, p, &some, error);
+    net_halves halves;
+    code = leave_out_halves(im, p, &halves, &some, error);
     if (code == IMP_SUCCESS && !some) return IMP_SUCCESS;
     if (code == IMP_SUCCESS && TUNING_TINY * pair_extent(p) <= room(im))
         c = cut_in_time(p);
@@ -299,7 +321,7 @@ static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_erro
         code = choose_cut_after_free(im, p, &from_each, &c, error);
     if (code == IMP_ERROR_PLUGIN) return code;
     if (code != IMP_SUCCESS) return *state = IMPACT_NO_MEMORY, IMP_SUCCESS;
-    if (c.side >= 0) return split(im, p, c, state, error);
+    if (c.side >= 0) return split(im, p, c, &halves, state, error);
     *state = IMPACT_RESOLUTION;
     return IMP_SUCCESS;
 }

@@ -10,17 +10,6 @@
 #include "core/solver/net_hull.h"
 #include "core/tree/net_rows.h"
 
-/* Heights of one net's control points along an axis, without its place: at the window's start, at its end,
- * then the weights. Those of a half take their place. */
-typedef struct heights {
-    const net *net;
-    imp_region region; /* what is left of the node's region */
-    double x[3 * IMP_QUAD * QUADS_MAX];
-    window_ends low; /* least height of the patch, but for what a gap's rounding counts */
-    double most;     /* >= |height|, but for rounding */
-    double off;      /* sum of what halving may have moved heights by */
-} heights;
-
 IMP_QUAD_INLINE window_ends least_heights(const net *f, const double *x)
 {
     imp_quad early = imp_quad_load(x), late = imp_quad_load(x + f->stride);
@@ -32,7 +21,7 @@ IMP_QUAD_INLINE window_ends least_heights(const net *f, const double *x)
 }
 
 IMP_QUAD_INLINE void heights_take(const node *of, const time_window *w, vec3 axis, double sign,
-                                  heights *h)
+                                  net_heights *h)
 {
     const net *f = node_net_made(of);
     const imp_quad n[3] = {imp_quad_all(sign * axis.x[0]), imp_quad_all(sign * axis.x[1]),
@@ -77,7 +66,7 @@ IMP_QUAD_INLINE int near_bits(double lower, double upper, double most, double of
 }
 
 /* What halving once more may have moved heights by; the sum is rounded up where it is used. */
-static double halved_off(const heights *h, parameter j)
+static double halved_off(const net_heights *h, parameter j)
 {
     return h->off + net_halving_upper(h->net, j, h->most);
 }
@@ -85,32 +74,42 @@ static double halved_off(const heights *h, parameter j)
 enum { NONE_LEFT = 0, BOTH_LEFT = 3 };
 
 /* Notes that a half is kept, and its least heights. */
-static void keep(heights *h, parameter j, int half, double off, double early, double late)
+static void keep(net_heights *h, parameter j, int half, double off, double early, double late)
 {
     const double by = padded_upper(off, 64);
     h->off = off;
     h->low = (window_ends){early - by, late - by};
-    h->region = region_half(&h->region, j, half);
+    region_set_half(&h->region, &h->region, j, half);
 }
 
-/* Any patch. Bits of the halves along j that may be near, whose heights are `most` at most somewhere; of one
- * alone the heights are kept. */
-static int halve_any_heights(heights *h, parameter j, window_ends most)
-{
-    const size_t columns = h->net->is_weighted ? 3 : 2;
-    const size_t bytes = columns * (size_t)h->net->stride * sizeof(double);
-    const double off = halved_off(h, j), by = padded_upper(off, 64);
+/* Any patch: heights of both halves, and the least of them. */
+typedef struct any_halves {
     double x[2][3 * IMP_QUAD * QUADS_MAX];
     window_ends low[2];
+} any_halves;
+
+static void halve_any(const net_heights *h, parameter j, any_halves *both)
+{
+    const size_t columns = h->net->is_weighted ? 3 : 2;
     for (int half = 0; half < 2; ++half) {
-        memcpy(x[half], h->x, bytes);
-        net_halve_columns(h->net, j, half, x[half], 2);
-        low[half] = least_heights(h->net, x[half]);
+        memcpy(both->x[half], h->x, columns * (size_t)h->net->stride * sizeof(double));
+        net_halve_columns(h->net, j, half, both->x[half], 2);
+        both->low[half] = least_heights(h->net, both->x[half]);
     }
+}
+
+/* Bits of the halves along j that may be near, whose heights are `most` at most somewhere; of one
+ * alone the heights are kept. */
+static int halve_any_heights(net_heights *h, parameter j, window_ends most)
+{
+    const double off = halved_off(h, j), by = padded_upper(off, 64);
+    any_halves both;
+    halve_any(h, j, &both);
+    const window_ends *low = both.low;
     const int left =
         near_bits(low[0].lo, low[1].lo, most.lo, by) | near_bits(low[0].hi, low[1].hi, most.hi, by);
     if (left == NONE_LEFT || left == BOTH_LEFT) return left;
-    memcpy(h->x, x[left - 1], bytes);
+    memcpy(h->x, both.x[left - 1], sizeof h->x);
     keep(h, j, left - 1, off, low[left - 1].lo, low[left - 1].hi);
     return left;
 }
@@ -139,7 +138,7 @@ IMP_QUAD_INLINE void least_of_halves(const halved_rows *x, double least[2])
 
 /* As halve_any_heights. More is near at the window's end than at its start, as a rule: where both
  * halves are near at the end, the start is not needed. */
-IMP_QUAD_INLINE int halve_bicubic_heights(heights *h, parameter j, window_ends most,
+IMP_QUAD_INLINE int halve_bicubic_heights(net_heights *h, parameter j, window_ends most,
                                           bool is_weighted)
 {
     const double off = halved_off(h, j), by = padded_upper(off, 64);
@@ -168,7 +167,7 @@ IMP_QUAD_INLINE int halve_bicubic_heights(heights *h, parameter j, window_ends m
 
 /* Bits of the parameters along which a half may be excluded: two corners of the half are above
  * `most`, as far as the window's end tells. */
-static int promising(const heights *h, double most)
+static int promising(const net_heights *h, double most)
 {
     const int end = h->net->degree[1], last = h->net->degree[0] * (end + 1);
     const double *x = h->x + h->net->stride;
@@ -178,7 +177,7 @@ static int promising(const heights *h, double most)
 }
 
 /* Along u, then v. */
-IMP_QUAD_INLINE bool find_of_side(heights *h, window_ends most, net_half *found)
+IMP_QUAD_INLINE bool find_of_side(net_heights *h, window_ends most, net_half *found)
 {
     const net *f = h->net;
     const int may = promising(h, most.hi);
@@ -197,7 +196,7 @@ IMP_QUAD_INLINE bool find_of_side(heights *h, window_ends most, net_half *found)
 }
 
 /* A's halves, then B's. At the window's ends places are `at` apart along the axis. */
-IMP_QUAD_INLINE bool find_half(heights of[2], double limit, window_ends at, net_half *found)
+IMP_QUAD_INLINE bool find_half(net_heights of[2], double limit, window_ends at, net_half *found)
 {
     for (found->side = 0; found->side < 2; ++found->side) {
         const window_ends other = of[!found->side].low;
@@ -207,33 +206,111 @@ IMP_QUAD_INLINE bool find_half(heights of[2], double limit, window_ends at, net_
     return false;
 }
 
-IMP_QUAD_INLINE int find(const node *a, const node *b, vec3 axis, double clearance,
-                         const time_window *w, net_half found[NET_HALVES_MOST])
+IMP_QUAD_INLINE void find(const node *a, const node *b, vec3 axis, double clearance,
+                          const time_window *w, net_halves *halves)
 {
     const net *p = node_net_made(a), *q = node_net_made(b);
     vec3 n;
-    if (p == NULL || q == NULL || !axis_scaled(axis, &n)) return 0;
-    const double limit = net_limit_upper(n, clearance, 2 * slack_upper(p, q, n, w));
-    const window_ends at = places_along(p, q, n, w);
-    if (!(limit < INFINITY && fabs(at.lo) < INFINITY && fabs(at.hi) < INFINITY)) return 0;
-    heights of[2];
-    heights_take(a, w, n, -1, &of[0]);
-    heights_take(b, w, n, 1, &of[1]);
-    int count = 0;
-    while (count < NET_HALVES_MOST && find_half(of, limit, at, &found[count]))
-        if (found[count++].half < 0) break;
-    return count;
+    if (p == NULL || q == NULL || !axis_scaled(axis, &n)) return;
+    halves->limit = net_limit_upper(n, clearance, 2 * slack_upper(p, q, n, w));
+    halves->at = places_along(p, q, n, w);
+    if (!(halves->limit < INFINITY && fabs(halves->at.lo) < INFINITY &&
+          fabs(halves->at.hi) < INFINITY))
+        return;
+    heights_take(a, w, n, -1, &halves->of[0]);
+    heights_take(b, w, n, 1, &halves->of[1]);
+    halves->has_heights = true;
+    halves->window = *w;
+    net_half *found = halves->found;
+    while (halves->count < NET_HALVES_MOST &&
+           find_half(halves->of, halves->limit, halves->at, &found[halves->count]))
+        if (found[halves->count++].half < 0) break;
 }
 
-IMP_QUAD_WIDE static int find_wide(const node *a, const node *b, vec3 axis, double clearance,
-                                   const time_window *w, net_half found[NET_HALVES_MOST])
+IMP_QUAD_WIDE static void find_wide(const node *a, const node *b, vec3 axis, double clearance,
+                                    const time_window *w, net_halves *halves)
 {
-    return find(a, b, axis, clearance, w, found);
+    find(a, b, axis, clearance, w, halves);
 }
 
-int net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
-                    const time_window *window, net_half found[NET_HALVES_MOST])
+void net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+                     const time_window *window, net_halves *halves)
 {
-    return imp_quad_is_wide() ? find_wide(a, b, axis, clearance, window, found)
-                              : find(a, b, axis, clearance, window, found);
+    halves->count = 0;
+    halves->has_heights = false;
+    if (imp_quad_is_wide())
+        find_wide(a, b, axis, clearance, window, halves);
+    else
+        find(a, b, axis, clearance, window, halves);
+}
+
+/* --- Windows of halves --------------------------------------------------------------------------- */
+
+IMP_QUAD_INLINE void bicubic_lows(const net_heights *h, parameter j, bool is_weighted,
+                                  window_ends low[2])
+{
+    rows w;
+    halved_rows by;
+    double early[2], late[2];
+    if (is_weighted) {
+        w = rows_along(rows_at(h->x + 2 * 16), j);
+        by = rows_halved(w);
+    }
+    const halved_rows start = halve_heights(h->x, j, is_weighted ? &w : NULL, &by);
+    const halved_rows end = halve_heights(h->x + 16, j, is_weighted ? &w : NULL, &by);
+    least_of_halves(&start, early);
+    least_of_halves(&end, late);
+    for (int k = 0; k < 2; ++k) low[k] = (window_ends){early[k], late[k]};
+}
+
+static void any_lows(const net_heights *h, parameter j, window_ends low[2])
+{
+    any_halves both;
+    halve_any(h, j, &both);
+    memcpy(low, both.low, sizeof both.low);
+}
+
+/* Lemma. As above, the least difference of heights lies above the line between its values at the window's ends;
+ * where that is above the limit the half is out of reach. A value sums three times what the limit rounds. */
+_Static_assert(3 + 2 <= GAP_ROUNDING, "rounding of a half's line");
+
+IMP_QUAD_INLINE void cut_halves(const net_halves *halves, int side, parameter j,
+                                time_window left[2], bool near[2])
+{
+    const net_heights *h = &halves->of[side];
+    const net *f = h->net;
+    const window_ends other = halves->of[!side].low, at = halves->at;
+    const double by = padded_upper(halved_off(h, j), 64);
+    window_ends low[2];
+    if (f->degree[0] != 3 || f->degree[1] != 3)
+        any_lows(h, j, low);
+    else if (f->is_weighted)
+        bicubic_lows(h, j, true, low);
+    else
+        bicubic_lows(h, j, false, low);
+    for (int k = 0; k < 2; ++k) {
+        const double g0 = low[k].lo - by + (other.lo + at.lo);
+        const double g1 = low[k].hi - by + (other.hi + at.hi);
+        if (g0 < INFINITY && g1 < INFINITY) near[k] = line_cut(g0, g1, halves->limit, &left[k]);
+    }
+}
+
+IMP_QUAD_WIDE static void cut_halves_wide(const net_halves *halves, int side, parameter j,
+                                          time_window left[2], bool near[2])
+{
+    cut_halves(halves, side, j, left, near);
+}
+
+bool net_halves_cut(const net_halves *halves, int side, parameter j, const time_window *window,
+                    time_window left[2], bool near[2])
+{
+    if (!halves->has_heights || j == PARAMETER_T) return false;
+    if (window->lo != halves->window.lo || window->hi != halves->window.hi) return false;
+    if (!net_can_halve(&halves->of[side].region, j)) return false;
+    for (int k = 0; k < 2; ++k) left[k] = *window, near[k] = true;
+    if (imp_quad_is_wide())
+        cut_halves_wide(halves, side, j, left, near);
+    else
+        cut_halves(halves, side, j, left, near);
+    return true;
 }

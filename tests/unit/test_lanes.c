@@ -30,6 +30,7 @@
 #define net_halve_columns narrow_net_halve_columns
 #define net_halving_upper narrow_net_halving_upper
 #define net_halves_find narrow_net_halves_find
+#define net_halves_cut narrow_net_halves_cut
 #define net_points_take narrow_net_points_take
 #define net_jets_at narrow_net_jets_at
 #define net_heights_along narrow_net_heights_along
@@ -70,6 +71,7 @@
 #undef axes_cut_along
 #undef net_halve
 #undef net_halves_find
+#undef net_halves_cut
 #undef net_march
 #undef net_nearest
 #undef net_axis_seek
@@ -83,8 +85,10 @@ bool gjk_axis(const relative *r, double w, vec3 *axis);
 bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines);
 bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis);
 void net_halve(const net *n, parameter j, int side, net *half);
-int net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
-                    const time_window *window, net_half found[NET_HALVES_MOST]);
+void net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+                     const time_window *window, net_halves *halves);
+bool net_halves_cut(const net_halves *halves, int side, parameter j, const time_window *window,
+                    time_window left[2], bool near[2]);
 bool net_series_take(const net *p, node *n);
 bool net_march(const node *a, const node *b, vec3 axis, const time_window *window, double gap,
                net_meeting *found);
@@ -252,13 +256,23 @@ static void check_net(uint64_t *state, node *n, net_buffer *room)
 /* What follows of an axis and of a window. */
 static void check_halves_and_march(const node *a, const node *b, vec3 n, const time_window *w)
 {
-    net_half halves[NET_HALVES_MOST], narrow[NET_HALVES_MOST];
+    net_halves halves, narrow;
+    time_window left[2][2] = {{*w, *w}, {*w, *w}};
+    bool near[2][2] = {{true, true}, {true, true}};
     net_meeting met = {.t = 0}, narrow_met = met;
-    const int count = net_halves_find(a, b, n, 1e-3, w, halves);
-    ck_assert_int_eq(count, narrow_net_halves_find(a, b, n, 1e-3, w, narrow));
-    for (int k = 0; k < count; ++k)
-        ck_assert(halves[k].side == narrow[k].side && halves[k].along == narrow[k].along &&
-                  halves[k].half == narrow[k].half);
+    net_halves_find(a, b, n, 1e-3, w, &halves);
+    narrow_net_halves_find(a, b, n, 1e-3, w, &narrow);
+    ck_assert(halves.count == narrow.count && halves.has_heights == narrow.has_heights);
+    for (int k = 0; k < halves.count; ++k)
+        ck_assert(halves.found[k].side == narrow.found[k].side &&
+                  halves.found[k].along == narrow.found[k].along &&
+                  halves.found[k].half == narrow.found[k].half);
+    for (int side = 0; side < 2; ++side) {
+        ck_assert(net_halves_cut(&halves, side, PARAMETER_U, w, left[0], near[0]) ==
+                  narrow_net_halves_cut(&narrow, side, PARAMETER_U, w, left[1], near[1]));
+        ck_assert(same_bits(left[0], left[1], 4) && near[0][0] == near[1][0] &&
+                  near[0][1] == near[1][1]);
+    }
     ck_assert(net_march(a, b, n, w, 1e-6, &met) == narrow_net_march(a, b, n, w, 1e-6, &narrow_met));
     ck_assert(same_bits(&met, &narrow_met, sizeof met / sizeof(double)));
     const node *const nodes[2] = {a, b};
