@@ -169,21 +169,29 @@ bool cut_is_free(const cut *c, const pair *p, int *half)
     return is_one_half_enough(&p->window, at);
 }
 
+/* What the worth of cuts depends on beside the node. */
+typedef struct view {
+    double scale;
+    bool is_tangent;
+    bool has_nets;
+} view;
+
 /* Whether time blurs the node enough to count beside the scale, and beside what u and v blur of
  * both. */
-static bool time_blurs(const pair *p, const node *n, double scale)
+static bool time_blurs(const pair *p, const node *n, const view *of)
 {
     const double place = pair_remainder(p) - (p->a->time_remainder + p->b->time_remainder);
-    return TUNING_BLUR_OF_GAMMA * n->time_remainder > scale &&
-           TUNING_BLUR_OF_PLACE * n->time_remainder > place;
+    const double part = of->has_nets ? TUNING_BLUR_BESIDE_NETS : TUNING_BLUR_OF_PLACE;
+    return TUNING_BLUR_OF_GAMMA * n->time_remainder > of->scale && part * n->time_remainder > place;
 }
 
 /* What a cut in time is worth, on the scale of the spread. Linear motion costs nothing, so only
  * what bends counts; more where the cut is free, and most where it is and time blurs the node. */
-static double gain_in_time(const pair *p, const node *n, double bend, double scale)
+static double gain_in_time(const pair *p, const node *n, double bend, const view *of)
 {
     if (!is_one_half_enough(&p->window, n->region.c[PARAMETER_T])) return TUNING_TIME_CUT * bend;
-    return time_blurs(p, n, scale) ? INFINITY : TUNING_FREE_TIME_CUT * bend;
+    if (time_blurs(p, n, of)) return INFINITY;
+    return (of->has_nets ? TUNING_TIME_CUT : TUNING_FREE_TIME_CUT) * bend;
 }
 
 /* Whether no fixed axis parts the nodes, whose surfaces are nearly parallel: only a field of normals
@@ -203,28 +211,28 @@ static double gain_in_place(const node *n, parameter j, double bend, bool tangen
     return tangent ? TUNING_TANGENT_CUT * bend + TUNING_TANGENT_SLOPE * n->extent[j] : n->extent[j];
 }
 
-static void consider_side(cut *best, const pair *p, int side, bool tangent, const double bend[3],
-                          double scale)
+static void consider_side(cut *best, const pair *p, int side, const double bend[3], const view *of)
 {
     const node *n = side_of(p, side);
     for (parameter j = PARAMETER_U; j <= PARAMETER_V; ++j)
-        cut_consider(best, p, side, j, gain_in_place(n, j, bend[j], tangent));
-    cut_consider(best, p, side, PARAMETER_T, gain_in_time(p, n, bend[PARAMETER_T], scale));
+        cut_consider(best, p, side, j, gain_in_place(n, j, bend[j], of->is_tangent));
+    cut_consider(best, p, side, PARAMETER_T, gain_in_time(p, n, bend[PARAMETER_T], of));
 }
 
 cut cut_by_spread(const pair *p, double scale)
 {
-    const bool tangent = is_tangent(p);
+    const view of = {scale, is_tangent(p), nodes_have_nets(p->a, p->b)};
     cut best = CUT_NONE;
     for (int side = 0; side < 2; ++side)
-        consider_side(&best, p, side, tangent, side_of(p, side)->nonlinear_extent, scale);
+        consider_side(&best, p, side, side_of(p, side)->nonlinear_extent, &of);
     return best;
 }
 
 cut cut_alone(const pair *p, int side, const double bend[3], double scale)
 {
+    const view of = {scale, .is_tangent = true};
     cut best = CUT_NONE;
-    consider_side(&best, p, side, true, bend, scale);
+    consider_side(&best, p, side, bend, &of);
     return best;
 }
 
