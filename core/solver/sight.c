@@ -33,13 +33,16 @@ static imp_code question_of(const pair *p, candidate_pair *both, int side, doubl
     if (own->still == NULL || !surface_has_symmetry(other->surface)) return IMP_SUCCESS;
     const node *root = tree_root(both->side[side]->tree), *others = tree_root(both->side[!side]->tree);
     const time_window times = pair_times(root, others);
-    slide *of = &both->of[side];
-    imp_code code = IMP_SUCCESS;
+    float *slip = &both->slip[side];
     q->moment = 0.5 * times.lo + 0.5 * times.hi;
-    if (!of->is_known) code = find_slip(root, others, &times, q->moment, &of->slip, error);
-    of->is_known = code == IMP_SUCCESS;
-    q->slip = of->is_known ? of->slip : INFINITY;
-    return code;
+    if (*slip == 0) {
+        double found;
+        const imp_code code = find_slip(root, others, &times, q->moment, &found, error);
+        if (code != IMP_SUCCESS) return code;
+        *slip = nextafterf((float)found, INFINITY);
+    }
+    q->slip = *slip;
+    return IMP_SUCCESS;
 }
 
 /* Lemma. The nodes' points are points of their whole surfaces: the distance of one node's points from all of

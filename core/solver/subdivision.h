@@ -21,16 +21,10 @@ typedef struct candidate {
     bool moves;        /* then: a point of it was seen to; never of one that has pieces */
 } candidate;
 
-/* How far one surface slides along the other but within itself (surface_slip), over all times of both. */
-typedef struct slide {
-    double slip;
-    bool is_known;
-} slide;
-
 /* Two of different bodies that may come near each other. */
 typedef struct candidate_pair {
     candidate *side[2];
-    slide of[2]; /* either along the other: as is found when it is asked for first */
+    float slip[2]; /* >= surface_slip of either along the other, over all times of both; 0: not asked yet */
 } candidate_pair;
 
 static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const candidate_pair *q)
