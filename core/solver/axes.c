@@ -7,18 +7,12 @@
 #include "core/solver/cuts.h"
 #include "core/solver/gjk_axis.h"
 #include "core/solver/quadratic.h"
+#include "core/tree/net_rows.h"
 
 /* Four directions, coordinate by coordinate; and their absolute values. */
 typedef struct bundle {
     imp_quad x[3], size[3];
 } bundle;
-
-IMP_QUAD_INLINE bundle bundle_of(vec3 a, vec3 b, vec3 c, vec3 d)
-{
-    bundle n;
-    for (int i = 0; i < 3; ++i) n.x[i] = (imp_quad){a.x[i], b.x[i], c.x[i], d.x[i]};
-    return n;
-}
 
 IMP_QUAD_INLINE imp_quad along(const bundle *n, const double *v)
 {
@@ -123,9 +117,9 @@ PAD_COVERS(16, 3 + 1);
 IMP_QUAD_INLINE imp_quad limit_upper(const bundle *n, double clearance)
 {
     const imp_quad square = n->x[0] * n->x[0] + n->x[1] * n->x[1] + n->x[2] * n->x[2];
-    imp_quad limit;
-    for (int k = 0; k < IMP_QUAD; ++k) limit[k] = padded_upper(sqrt(square[k]) * clearance, 16);
-    return limit;
+    imp_quad root;
+    for (int k = 0; k < IMP_QUAD; ++k) root[k] = sqrt(square[k]);
+    return quad_padded_upper(root * imp_quad_all(clearance), 16);
 }
 
 /* Adds the line low + drift w of each lane. The length is rounded up:
@@ -251,23 +245,35 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
                  : cut_along_bundle(r, n, clearance, s, lines, false, false);
 }
 
-/* A vector perpendicular to both curves at w, about; curves have no normals. */
-IMP_QUAD_INLINE vec3 across(const relative *r, double w)
+/* vec3_cross, in lanes. */
+IMP_QUAD_INLINE imp_quad cross(imp_quad a, imp_quad b)
 {
-    vec3 a, b;
-    for (int i = 0; i < 3; ++i) {
-        a.x[i] = r->a.bu[i] + r->a.bv[i] + w * (r->a.quw[i] + r->a.qvw[i]);
-        b.x[i] = r->b.bu[i] + r->b.bv[i] + w * (r->b.quw[i] + r->b.qvw[i]);
-    }
-    return vec3_cross(a, b);
+    return ROWS_PICK(a, a, 1, 2, 0, 3) * ROWS_PICK(b, b, 2, 0, 1, 3) -
+           ROWS_PICK(a, a, 2, 0, 1, 3) * ROWS_PICK(b, b, 1, 2, 0, 3);
 }
+
+IMP_QUAD_INLINE imp_quad direction(const slice *s, double w)
+{
+    return imp_quad_load(s->bu) + imp_quad_load(s->bv) +
+           imp_quad_all(w) * (imp_quad_load(s->quw) + imp_quad_load(s->qvw));
+}
+
+/* A vector perpendicular to both curves at w, about; curves have no normals. */
+IMP_QUAD_INLINE imp_quad across(const relative *r, double w)
+{
+    return cross(direction(&r->a, w), direction(&r->b, w));
+}
+
+IMP_QUAD_INLINE imp_quad quad_from(vec3 v) { return imp_quad_of(v.x[0], v.x[1], v.x[2], 0); }
 
 /* These two, and both normals; for two curves vectors perpendicular to both, at either end. */
 IMP_QUAD_INLINE bundle bundle_with(const relative *r, vec3 x, vec3 y)
 {
     const bool curves = !(vec3_norm1(r->a.normal) + vec3_norm1(r->b.normal) > 0);
-    return bundle_of(x, curves ? across(r, -1) : r->a.normal, curves ? across(r, 1) : r->b.normal,
-                     y);
+    const rows all = rows_turned(
+        (rows){{quad_from(x), curves ? across(r, -1) : quad_from(r->a.normal),
+                curves ? across(r, 1) : quad_from(r->b.normal), quad_from(y)}});
+    return (bundle){.x = {all.row[0], all.row[1], all.row[2]}};
 }
 
 /* Along the axis that is best at the focus, the window's start where that decides when the earliest
