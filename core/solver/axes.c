@@ -7,7 +7,6 @@
 #include "core/solver/cuts.h"
 #include "core/solver/gjk_axis.h"
 #include "core/solver/quadratic.h"
-#include "core/tree/net_rows.h"
 
 /* Four directions, coordinate by coordinate; and their absolute values. */
 typedef struct bundle {
@@ -245,13 +244,6 @@ IMP_QUAD_INLINE bool bundle_cut(const relative *r, bundle *n, double clearance, 
                  : cut_along_bundle(r, n, clearance, s, lines, false, false);
 }
 
-/* vec3_cross, in lanes. */
-IMP_QUAD_INLINE imp_quad cross(imp_quad a, imp_quad b)
-{
-    return ROWS_PICK(a, a, 1, 2, 0, 3) * ROWS_PICK(b, b, 2, 0, 1, 3) -
-           ROWS_PICK(a, a, 2, 0, 1, 3) * ROWS_PICK(b, b, 1, 2, 0, 3);
-}
-
 IMP_QUAD_INLINE imp_quad direction(const slice *s, double w)
 {
     return imp_quad_load(s->bu) + imp_quad_load(s->bv) +
@@ -261,7 +253,7 @@ IMP_QUAD_INLINE imp_quad direction(const slice *s, double w)
 /* A vector perpendicular to both curves at w, about; curves have no normals. */
 IMP_QUAD_INLINE imp_quad across(const relative *r, double w)
 {
-    return cross(direction(&r->a, w), direction(&r->b, w));
+    return imp_quad_cross(direction(&r->a, w), direction(&r->b, w));
 }
 
 IMP_QUAD_INLINE imp_quad quad_from(vec3 v) { return imp_quad_of(v.x[0], v.x[1], v.x[2], 0); }
@@ -270,10 +262,10 @@ IMP_QUAD_INLINE imp_quad quad_from(vec3 v) { return imp_quad_of(v.x[0], v.x[1], 
 IMP_QUAD_INLINE bundle bundle_with(const relative *r, vec3 x, vec3 y)
 {
     const bool curves = !(vec3_norm1(r->a.normal) + vec3_norm1(r->b.normal) > 0);
-    const rows all = rows_turned(
-        (rows){{quad_from(x), curves ? across(r, -1) : quad_from(r->a.normal),
-                curves ? across(r, 1) : quad_from(r->b.normal), quad_from(y)}});
-    return (bundle){.x = {all.row[0], all.row[1], all.row[2]}};
+    imp_quad n[4] = {quad_from(x), curves ? across(r, -1) : quad_from(r->a.normal),
+                     curves ? across(r, 1) : quad_from(r->b.normal), quad_from(y)};
+    imp_quad_transpose(n);
+    return (bundle){.x = {n[0], n[1], n[2]}};
 }
 
 /* Along the axis that is best at the focus, the window's start where that decides when the earliest

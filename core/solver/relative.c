@@ -39,7 +39,8 @@ IMP_QUAD_INLINE moved slice_at(const node *n, double mid, double half, slice *s)
     imp_quad_store(s->qvv, qvv);
     imp_quad_store(s->quw, quw);
     imp_quad_store(s->qvw, qvw);
-    s->normal = vec3_cross(vec3_from(s->bu), vec3_from(s->bv));
+    const imp_quad normal = imp_quad_cross(bu, bv);
+    memcpy(s->normal.x, &normal, sizeof s->normal.x);
     return (moved){(bt + qtt * s0) * s0, k * (bt + imp_quad_all(2) * qtt * s0), (k * k) * qtt,
                    imp_quad_abs(bu) + imp_quad_abs(bv) + imp_quad_abs(quu) + imp_quad_abs(quv) +
                        imp_quad_abs(qvv) + (imp_quad_abs(quw) + imp_quad_abs(qvw)),

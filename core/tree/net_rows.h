@@ -26,28 +26,11 @@ IMP_QUAD_INLINE void rows_store(double *x, rows r)
     for (int k = 0; k < 4; ++k) imp_quad_store(x + 4 * k, r.row[k]);
 }
 
-/* A shuffle of two quads: lanes 0 to 3 are those of x, 4 to 7 those of y. With the builtin, gcc transposes four
- * rows in 8 instructions; with an initialiser of single lanes it takes 20. */
-#if defined(__has_builtin)
-#if __has_builtin(__builtin_shufflevector)
-#define ROWS_PICK(x, y, i, j, k, l) __builtin_shufflevector(x, y, i, j, k, l)
-#endif
-#endif
-#if !defined(ROWS_PICK)
-#define ROWS_NUMBER(x, y, i) ((i) < IMP_QUAD ? (x)[(i) % IMP_QUAD] : (y)[(i) % IMP_QUAD])
-#define ROWS_PICK(x, y, i, j, k, l)                                                                \
-    ((imp_quad){ROWS_NUMBER(x, y, i), ROWS_NUMBER(x, y, j), ROWS_NUMBER(x, y, k),                  \
-                ROWS_NUMBER(x, y, l)})
-#endif
-
 /* The transposed matrix. */
 IMP_QUAD_INLINE rows rows_turned(rows r)
 {
-    const imp_quad a = r.row[0], b = r.row[1], c = r.row[2], d = r.row[3];
-    const imp_quad even[2] = {ROWS_PICK(a, b, 0, 4, 2, 6), ROWS_PICK(c, d, 0, 4, 2, 6)};
-    const imp_quad odd[2] = {ROWS_PICK(a, b, 1, 5, 3, 7), ROWS_PICK(c, d, 1, 5, 3, 7)};
-    return (rows){{ROWS_PICK(even[0], even[1], 0, 1, 4, 5), ROWS_PICK(odd[0], odd[1], 0, 1, 4, 5),
-                   ROWS_PICK(even[0], even[1], 2, 3, 6, 7), ROWS_PICK(odd[0], odd[1], 2, 3, 6, 7)}};
+    imp_quad_transpose(r.row);
+    return r;
 }
 
 /* Turned so that the lines along j are columns; its own inverse. */

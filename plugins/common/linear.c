@@ -267,21 +267,27 @@ IMP_QUAD_INLINE void linear_polynomial(const linear *f, const linear_terms *c,
                           imp_quad_all(0));
 }
 
-/* Each field by itself, which is cheaper than all of them as one. */
-IMP_QUAD_INLINE void take_model(const linear_lanes *g, uint32_t depends, int i, imp_model *m)
+_Static_assert(offsetof(imp_model, q) == 32 && offsetof(imp_model, e) == 80 &&
+                   offsetof(imp_model, hi) == 96 && offsetof(imp_model, depends) == 128,
+               "sixteen numbers in a row");
+
+/* Four numbers of each model from `first` on: w, x, y and z. */
+IMP_QUAD_INLINE void take_four(imp_model m[3], size_t first, imp_quad w, imp_quad x, imp_quad y,
+                               imp_quad z)
 {
-    m->a = g->a[i];
-    for (int j = 0; j < 3; ++j) m->b[j] = g->b[j][i];
-    m->q[IMP_UU] = m->q[IMP_VV] = m->q[IMP_TT] = 0;
-    m->q[IMP_UV] = g->uv[i];
-    m->q[IMP_UT] = g->ut[i];
-    m->q[IMP_VT] = g->vt[i];
-    m->e = g->e[i];
-    m->lo = g->lo[i];
-    m->hi = g->hi[i];
-    for (int j = 0; j < 3; ++j) m->rate[j] = g->rate[j][i];
-    m->depends = depends;
-    m->reserved = 0;
+    imp_quad row[4] = {w, x, y, z};
+    imp_quad_transpose(row);
+    for (int i = 0; i < 3; ++i) imp_quad_store((double *)(void *)&m[i] + first, row[i]);
+}
+
+IMP_QUAD_INLINE void take_models(const linear *f, const linear_lanes *g, imp_model m[3])
+{
+    const imp_quad none = imp_quad_all(0);
+    take_four(m, 0, g->a, g->b[0], g->b[1], g->b[2]);
+    take_four(m, 4, none, g->uv, g->ut, none);
+    take_four(m, 8, g->vt, none, g->e, g->lo);
+    take_four(m, 12, g->hi, g->rate[0], g->rate[1], g->rate[2]);
+    for (int i = 0; i < 3; ++i) m[i].depends = (uint32_t)f->depends[i], m[i].reserved = 0;
 }
 
 IMP_QUAD_INLINE void linear_models(const linear *f, const imp_region *region, imp_model model[3])
@@ -297,7 +303,7 @@ IMP_QUAD_INLINE void linear_models(const linear *f, const imp_region *region, im
     linear_affine_range(noise, affine, &g);
     round_outward(&g);
     linear_rates(f, &c, region, g.rate);
-    for (int i = 0; i < 3; ++i) take_model(&g, (uint32_t)f->depends[i], i, &model[i]);
+    take_models(f, &g, model);
 }
 
 IMP_QUAD_NARROW static void models_narrow(const linear *f, const imp_region *region,
