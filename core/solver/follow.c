@@ -248,7 +248,8 @@ static cut choose_cut(const impact *im, const pair *p, const sight *seen)
     const cut alone = choose_cut_alone(im, p, seen);
     if (alone.side >= 0) return alone;
     const cut bend = scale(im) < im->gamma ? cut_by_bend(p, scale(im)) : CUT_NONE;
-    return bend.side >= 0 ? bend : cut_by_spread(p, scale(im));
+    if (bend.side >= 0) return bend;
+    return cut_by_spread(p, scale(im), nodes_have_nets(p->a, p->b));
 }
 
 /* Chooses a cut. A cut in time of which one half holds the whole window is made at once, without
@@ -291,7 +292,8 @@ static imp_code look(const impact *im, const pair *p, sight *seen, imp_error *er
 
 static imp_code follow_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
-    if (pair_has_cluster(p)) return split(im, p, cut_by_spread(p, im->gamma), NULL, state, error);
+    if (pair_has_cluster(p))
+        return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
     sight from_each;
     imp_code code = look(im, p, &from_each, error);
     if (code != IMP_SUCCESS || from_each.is_apart) return code;

@@ -171,11 +171,11 @@ static imp_code split(min_distance *m, const pair *p, cut c, imp_error *error)
 
 static cut choose_cut(const min_distance *m, const pair *p, const sight *seen)
 {
-    if (pair_has_cluster(p)) return cut_by_spread(p, scale(m));
+    if (pair_has_cluster(p)) return cut_by_spread(p, scale(m), false);
     if (pair_precision_ends(p, &m->candidates[p->candidate_pair], room(m), 1)) return CUT_NONE;
     if (TUNING_TINY * pair_extent(p) <= room(m)) return cut_in_time(p);
     const cut alone = seen->side >= 0 ? cut_alone(p, seen->side, seen->bend, scale(m)) : CUT_NONE;
-    return alone.side >= 0 ? alone : cut_by_spread(p, scale(m));
+    return alone.side >= 0 ? alone : cut_by_spread(p, scale(m), false);
 }
 
 /* Of a pair that no axis parts, or whose parents slid along each other: what its nodes' distances from each

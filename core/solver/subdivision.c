@@ -219,9 +219,9 @@ static void consider_side(cut *best, const pair *p, int side, const double bend[
     cut_consider(best, p, side, PARAMETER_T, gain_in_time(p, n, bend[PARAMETER_T], of));
 }
 
-cut cut_by_spread(const pair *p, double scale)
+cut cut_by_spread(const pair *p, double scale, bool has_nets)
 {
-    const view of = {scale, is_tangent(p), nodes_have_nets(p->a, p->b)};
+    const view of = {scale, is_tangent(p), has_nets};
     cut best = CUT_NONE;
     for (int side = 0; side < 2; ++side)
         consider_side(&best, p, side, side_of(p, side)->nonlinear_extent, &of);

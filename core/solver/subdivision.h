@@ -73,8 +73,9 @@ typedef struct cut {
 cut cut_by_contribution(const pair *p);
 
 /* Models: what moves a point most along u or v, or bends it in time; what is below `scale`, a length,
- * does not matter. */
-cut cut_by_spread(const pair *p, double scale);
+ * does not matter. `has_nets`: the search asked for nets of both nodes, and they have some; of a search that asks
+ * for none false, whatever others have made. */
+cut cut_by_spread(const pair *p, double scale, bool has_nets);
 
 /* The same of one side alone, whose points u, v and t bend by `bend`, lengths; CUT_NONE: nothing is left to
  * split of it. */
