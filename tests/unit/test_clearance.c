@@ -444,6 +444,58 @@ END_TEST
 
 /* --- Slices, and each two bodies ---------------------------------------------------------------- */
 
+/* --- What was asked before ------------------------------------------------------------------- */
+
+enum { TEXT = 4000 };
+
+/* Nine vectors near (x, y, z), x and y 0, `spread` or twice that. */
+static size_t add_vectors(uint64_t *state, char *text, double spread, double z, double by)
+{
+    size_t used = 0;
+    for (int k = 0; k < 9; ++k)
+        used += (size_t)snprintf(text + used, TEXT / 2 - used, "%s[%.3f,%.3f,%.3f]",
+                                 k > 0 ? "," : "",
+                                 spread * (k / 3) + random_between(state, -by, by),
+                                 spread * (k % 3) + random_between(state, -by, by),
+                                 z + random_between(state, -by, by));
+    return used;
+}
+
+/* A patch of degrees 2 and 2 that bends and deforms. */
+static void draw_deforming(uint64_t *state, double z, char text[TEXT])
+{
+    size_t used = (size_t)snprintf(text, TEXT, "bezier degree=2,2 points=[");
+    used += add_vectors(state, text + used, 0.75, z, 0.3);
+    used += (size_t)snprintf(text + used, TEXT - used, "] velocities=[");
+    used += add_vectors(state, text + used, 0, 0, 2);
+    snprintf(text + used, TEXT - used, "]");
+}
+
+/* A search for contact makes nets, which a minimum distance does not ask for. */
+START_TEST(nets_that_others_made_change_no_minimum_distance)
+{
+    imp_registry *registry = query_registry();
+    uint64_t state = suite_seed();
+    for (int k = 0; k < suite_times(100); ++k) {
+        char a[TEXT], b[TEXT];
+        imp_result met;
+        draw_deforming(&state, 0, a);
+        draw_deforming(&state, 2.5, b);
+        imp_scene *scene = scene_of(registry, a, b);
+        const imp_options options = imp_options_default(scene);
+        ck_assert_int_eq(imp_solve(scene, &options, &met, NULL), IMP_SUCCESS);
+        const imp_clearance_options asked = imp_clearance_options_default();
+        const imp_clearance after = measure(scene, &options, &asked);
+        const imp_clearance alone = measure_pair(registry, a, b, asked.tolerance, 0);
+        ck_assert_uint_eq(after.stats.pairs, alone.stats.pairs);
+        ck_assert_double_eq(after.lower, alone.lower);
+        ck_assert_double_eq(after.upper, alone.upper);
+        imp_scene_free(scene);
+    }
+    imp_registry_free(registry);
+}
+END_TEST
+
 START_TEST(slices_have_brackets_of_their_own)
 {
     enum { SLICES = 12 };
@@ -711,6 +763,7 @@ SUITE_MAIN("clearance", closed_forms_lie_within_the_bracket,
            a_budget_that_a_narrow_bracket_fits_in_is_enough_to_decide,
            contact_decides_what_is_too_small_to_be_timed,
            programs_that_know_nothing_of_deciding_get_a_narrow_bracket,
+           nets_that_others_made_change_no_minimum_distance,
            slices_have_brackets_of_their_own, each_two_bodies_have_a_bracket_of_their_own,
            where_nobody_meets_anybody_the_distance_is_infinite,
            steps_of_any_size_lead_to_the_same_bits, a_budget_that_ends_leaves_a_true_bracket,
