@@ -31,11 +31,10 @@ static bool is_nearly_parallel(const node *a, const node *b)
            least * least * vec3_dot(a->normal, a->normal) * vec3_dot(b->normal, b->normal);
 }
 
-bool distance_is_known(const node *a, const node *b, size_t still_maps)
+bool distance_is_known(const node *a, const node *b)
 {
     if (b->many != NULL || !surface_has_distance(b->surface)) return false;
     const size_t common = surface_common_maps(a->surface, b->surface);
-    if (surface_map_count(b->surface) - common > still_maps) return false;
     return common == 0 || !is_small(a) || !is_small(b) || is_nearly_parallel(a, b);
 }
 
@@ -99,8 +98,7 @@ static imp_region at_moment(const imp_region *r, double moment)
     return region_make((double[3]){r->lo[0], r->lo[1], moment}, (double[3]){r->hi[0], r->hi[1], moment});
 }
 
-/* Whether the slip is small beside what is to be told. */
-static bool slides_within_itself(const distance_question *q)
+bool distance_slides(const distance_question *q)
 {
     return q->slip < INFINITY && TUNING_DISTANCE_SLIP * q->slip <= q->clearance;
 }
@@ -109,7 +107,7 @@ static bool slides_within_itself(const distance_question *q)
 static imp_status points_of(const distance_question *q, size_t common, imp_model point[3])
 {
     const node *a = q->a;
-    if (!slides_within_itself(q)) return points_before(a, common, point);
+    if (!distance_slides(q)) return points_before(a, common, point);
     const imp_region then = at_moment(&a->region, q->moment);
     return surface_include_inner(a->surface, &then, surface_map_count(a->surface) - common, point);
 }
@@ -119,7 +117,7 @@ static imp_status distance_of(const distance_question *q, size_t common, const i
     const surface *b = q->b->surface;
     const imp_region *r = &q->a->region;
     const size_t maps = surface_map_count(b) - common;
-    return slides_within_itself(q) ? surface_distance_within(b, r, maps, point, q->moment, q->slip, g)
+    return distance_slides(q) ? surface_distance_within(b, r, maps, point, q->moment, q->slip, g)
                                    : surface_distance(b, r, maps, point, g);
 }
 
@@ -134,7 +132,7 @@ static imp_code ask(const distance_question *q, imp_model *g, double bend[3], bo
     if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
     if (status != IMP_OK) return fault(q->a->surface, status, error);
     const imp_region then = at_moment(&q->a->region, q->moment);
-    const bool still = slides_within_itself(q);
+    const bool still = distance_slides(q);
     if (still || common > 0) bend_of(point, still ? &then : &q->a->region, bend);
     status = distance_of(q, common, point, g);
     *known = status == IMP_OK;
@@ -272,7 +270,7 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], clearance);
-    view->is_promising = !view->is_apart && promises(&g, &both, a, clearance, size, slides_within_itself(q));
+    view->is_promising = !view->is_apart && promises(&g, &both, a, clearance, size, distance_slides(q));
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
     return IMP_SUCCESS;
 }

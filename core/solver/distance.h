@@ -22,10 +22,9 @@ typedef struct distance_view {
     double bend[3];    /* how far u, v and t bend points beside the other surface, about; length */
 } distance_view;
 
-/* Whether distances of points of a from the surface of b are known, and worth asking for. `still_maps`: of
- * that surface (surface_still_maps): where more of its own turn it nothing is asked. Maps that both have in
- * common do not count, but then points are included anew: not for nodes that are small, and not parallel. */
-bool distance_is_known(const node *a, const node *b, size_t still_maps);
+/* Whether distances of points of a from the surface of b are known, and worth asking for. Where both have maps
+ * in common points are included anew: not for nodes that are small, and not parallel. */
+bool distance_is_known(const node *a, const node *b);
 
 /* What is asked. Where a slides along b within itself, but for `slip`, its points are taken where they are at
  * one moment (surface_slip): then time costs nothing. */
@@ -36,9 +35,13 @@ typedef struct distance_question {
     double slip; /* of a node that is posed; INFINITY: it does not slide so; length */
 } distance_question;
 
+/* Whether a slides along b within itself, but for what is little beside the clearance. */
+bool distance_slides(const distance_question *q);
+
 /* Cuts the window, which lies in both nodes' times, to the times at which points of a may be within the
  * clearance of the whole surface of b; empty: *view says so, and the window stays. Preconditions:
- * distance_is_known; both bounded. IMP_ERROR_PLUGIN: the callback breaks the ABI. */
+ * distance_is_known; both bounded; no map of b alone turns it further (surface_still_maps), or distance_slides.
+ * IMP_ERROR_PLUGIN: the callback breaks the ABI. */
 imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
                       imp_error *error);
 

@@ -134,19 +134,18 @@ static imp_status pose_of(const surface *s, size_t k, const imp_region *times, i
     return status == IMP_OK && !(*d <= 0.5) ? IMP_UNBOUNDED : status;
 }
 
-static imp_status see(const question *q, const imp_region *times, seen *x)
+/* But for what points are off by. */
+static imp_status see_features(const question *q, const imp_region *times, seen *x)
 {
-    carried y = {.off = 0};
+    imp_model from[3];
     imp_pose pose;
     double d;
     imp_status status = IMP_OK;
     for (int i = 0; i < 3; ++i) {
-        y.at[i] = imp_between(q->bare[i].lo, q->bare[i].hi);
         x->feature[0].at[i] = imp_num(q->found.center[i]);
         x->feature[1].at[i] = imp_add(imp_num(q->found.center[i]), imp_num(q->found.axis[i]));
     }
-    const imp_model box[3] = {y.at[0], y.at[1], y.at[2]};
-    x->feature[0].off = x->feature[1].off = 0;
+    x->feature[0].off = x->feature[1].off = x->off = 0;
     for (size_t k = 0; k < q->b_maps && status == IMP_OK; ++k) {
         status = pose_of(q->b, k, times, &pose, &d);
         for (int f = 0; f < 2 && status == IMP_OK; ++f) push(&pose, d, &x->feature[f]);
@@ -155,6 +154,20 @@ static imp_status see(const question *q, const imp_region *times, seen *x)
         status = pose_of(q->a, k, times, &pose, &d);
         for (int f = 0; f < 2 && status == IMP_OK; ++f) pull(&pose, d, &x->feature[f]);
     }
+    if (status != IMP_OK) return status;
+    for (int i = 0; i < 3; ++i)
+        from[i] = imp_sub(imp_between(q->bare[i].lo, q->bare[i].hi), x->feature[0].at[i]);
+    x->far = sum_upper(size_upper(from), x->feature[0].off);
+    return IMP_OK;
+}
+
+static imp_status see(const question *q, const imp_region *times, seen *x)
+{
+    carried y = {.off = 0};
+    imp_pose pose;
+    double d;
+    imp_status status = see_features(q, times, x);
+    for (int i = 0; i < 3; ++i) y.at[i] = imp_between(q->bare[i].lo, q->bare[i].hi);
     for (size_t k = 0; k < q->a_maps && status == IMP_OK; ++k) {
         status = pose_of(q->a, k, times, &pose, &d);
         if (status == IMP_OK) push(&pose, d, &y);
@@ -163,12 +176,8 @@ static imp_status see(const question *q, const imp_region *times, seen *x)
         status = pose_of(q->b, k, times, &pose, &d);
         if (status == IMP_OK) pull_truly(&pose, d, &y);
     }
-    if (status != IMP_OK) return status;
-    imp_model from[3];
-    for (int i = 0; i < 3; ++i) from[i] = imp_sub(box[i], x->feature[0].at[i]);
     x->off = y.off;
-    x->far = sum_upper(size_upper(from), x->feature[0].off);
-    return IMP_OK;
+    return status;
 }
 
 /* --- How far it slides ----------------------------------------------------------------------------- */
@@ -260,16 +269,17 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
     const imp_region still = at_times(times, moment, moment);
     seen then;
     *slip = INFINITY;
-    if (!surface_is_rigid(a) || q.a_maps == 0) return IMP_OK;
+    if ((!surface_is_rigid(a) && a->map_count > 0) || q.a_maps + q.b_maps == 0) return IMP_OK;
     imp_status status = symmetry_of(b, &q.found);
-    if (status == IMP_OK) status = see(&q, &still, &then);
+    if (status == IMP_OK) status = see_features(&q, &still, &then);
     const double ends[2] = {times->lo[2], times->hi[2]};
     for (int k = 0; k < 2 && status == IMP_OK; ++k) {
         const imp_region end = at_times(times, ends[k], ends[k]);
         seen now;
-        status = see(&q, &end, &now);
+        status = see_features(&q, &end, &now);
         if (status == IMP_OK && !(slip_upper(&q.found, &now, &then) <= GIVEN_UP * then.far)) return IMP_OK;
     }
+    if (status == IMP_OK) status = see(&q, &still, &then);
     if (status == IMP_OK) {
         *slip = 0;
         status = slip_over(&q, &then, times, HALVINGS, slip);

@@ -285,6 +285,7 @@ static imp_status translate_rigid(const void *self, const imp_model *t, imp_pose
 static const imp_map_type translate = {
     IMP_MAP_FIELDS_OF("translate", translate, translate, translate_destroy, translate_rate),
     .net = translate_net,
+    .flags = IMP_TURNS_EXACTLY,
     .rigid = translate_rigid,
     .summary = "moves along a straight line, along a polynomial in time, or by a table",
     .equation = "(x,y,z) + velocity t, or (x,y,z) + sum_k offset_k t^k, or (x,y,z) + the "

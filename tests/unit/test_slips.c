@@ -159,6 +159,8 @@ static const imp_map_type exactly = {.struct_size = sizeof(imp_map_type),
 typedef struct trial {
     imp_symmetry symmetry;
     motion own[2], placing, other;
+    motion turn; /* of the other, before it is placed */
+    size_t own_count, turns;
     bool is_placed, moves_along; /* both are placed alike; or one moves as the symmetry permits, too */
     imp_region times;
     double stretch;       /* of the placing */
@@ -223,6 +225,10 @@ static trial draw_trial(uint64_t *random)
         if (y.symmetry.kind != IMP_SYMMETRIC_ABOUT_POINT && i == 2) spin->pivot[i] += far;
         spin->way[i] = off * random_between(random, -1, 1);
     }
+    y.turns = random_bits(random) % 2;
+    y.own_count = y.turns > 0 && random_bits(random) % 2 ? 0 : 2;
+    y.turn = *spin;
+    y.turn.rate = random_between(random, -4, 4);
     y.moves_along = random_bits(random) % 2;
     if (y.moves_along && y.symmetry.kind == IMP_SYMMETRIC_ALONG_LINE) spin->way[2] = y.reach;
     if (y.moves_along && y.symmetry.kind == IMP_SYMMETRIC_ACROSS_LINE) spin->way[0] = spin->way[1] = y.reach;
@@ -251,10 +257,10 @@ static surface *compose(imp_symmetry *self, motion *const maps[], size_t count)
 static void seen(const trial *y, long double t, const long double from[3], long double x[3])
 {
     for (int i = 0; i < 3; ++i) x[i] = from[i];
-    apply(&y->own[0], t, x);
-    apply(&y->own[1], t, x);
+    for (size_t k = 0; k < y->own_count; ++k) apply(&y->own[k], t, x);
     if (y->is_placed) apply(&y->placing, t, x);
     if (y->is_placed) undo(&y->other, t, x);
+    if (y->turns > 0) undo(&y->turn, t, x);
 }
 
 /* Where a point is beside the center, but for motions of the symmetry. */
@@ -305,7 +311,7 @@ static long double claimed(const trial *y, const surface *b, double slip, const 
     imp_model point[3], g;
     for (int i = 0; i < 3; ++i) point[i] = imp_known((double)x[i], 0x1p-52 * fabs((double)x[i]));
     const imp_status status =
-        surface_distance_within(b, &y->times, y->is_placed ? 1 : 0, point, y->moment, slip, &g);
+        surface_distance_within(b, &y->times, y->turns + y->is_placed, point, y->moment, slip, &g);
     if (status != IMP_OK) return 0;
     ck_assert(g.b[0] == 0 && g.b[1] == 0 && g.b[2] == 0);
     const double by_polynomial = fabs(g.a) - g.e, by_range = g.lo > -g.hi ? g.lo : -g.hi;
@@ -328,6 +334,7 @@ static void judge(const trial *y, const surface *b, double slip, uint64_t *rando
         const orbit at = orbit_of(&y->symmetry, now), was = orbit_of(&y->symmetry, then);
         const long double shown = apart(&at, &was);
         for (int i = 0; i < 3; ++i) world[i] = then[i];
+        if (y->turns > 0) apply(&y->turn, y->moment, world);
         if (y->is_placed) apply(&y->other, y->moment, world);
         of->judged += 1;
         of->refuted += shown > slip + 0x1p-58L * size;
@@ -344,9 +351,9 @@ static tally try_all(double factor)
     for (int k = 0; k < suite_times(CASES); ++k) {
         trial y = draw_trial(&random);
         y.other = y.placing;
-        motion *const of_a[] = {&y.own[0], &y.own[1], &y.placing}, *const of_b[] = {&y.other};
-        surface *a = compose(&y.symmetry, of_a, y.is_placed ? 3 : 2);
-        surface *b = compose(&y.symmetry, of_b, y.is_placed ? 1 : 0);
+        motion *const of_a[] = {&y.own[0], &y.own[1], &y.placing}, *const of_b[] = {&y.turn, &y.other};
+        surface *a = compose(&y.symmetry, of_a + 2 - y.own_count, y.own_count + y.is_placed);
+        surface *b = compose(&y.symmetry, of_b + 1 - y.turns, y.turns + y.is_placed);
         imp_model bare[3];
         double slip;
         for (int i = 0; i < 3; ++i)
