@@ -95,7 +95,8 @@ static imp_code fault(const surface *s, imp_status status, imp_error *error)
 /* The region's u and v, at one moment. */
 static imp_region at_moment(const imp_region *r, double moment)
 {
-    return region_make((double[3]){r->lo[0], r->lo[1], moment}, (double[3]){r->hi[0], r->hi[1], moment});
+    return region_make((double[3]){r->lo[0], r->lo[1], moment},
+                       (double[3]){r->hi[0], r->hi[1], moment});
 }
 
 bool distance_slides(const distance_question *q)
@@ -112,13 +113,14 @@ static imp_status points_of(const distance_question *q, size_t common, imp_model
     return surface_include_inner(a->surface, &then, surface_map_count(a->surface) - common, point);
 }
 
-static imp_status distance_of(const distance_question *q, size_t common, const imp_model point[3], imp_model *g)
+static imp_status distance_of(const distance_question *q, size_t common, const imp_model point[3],
+                              imp_model *g)
 {
     const surface *b = q->b->surface;
     const imp_region *r = &q->a->region;
     const size_t maps = surface_map_count(b) - common;
     return distance_slides(q) ? surface_distance_within(b, r, maps, point, q->moment, q->slip, g)
-                                   : surface_distance(b, r, maps, point, g);
+                              : surface_distance(b, r, maps, point, g);
 }
 
 /* *known false: nothing is known. */
@@ -270,7 +272,8 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], clearance);
-    view->is_promising = !view->is_apart && promises(&g, &both, a, clearance, size, distance_slides(q));
+    view->is_promising =
+        !view->is_apart && promises(&g, &both, a, clearance, size, distance_slides(q));
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
     return IMP_SUCCESS;
 }

@@ -22,7 +22,7 @@ typedef struct min_distance {
     double required;  /* or, if > 0, not before upper <= required or lower >= relaxed; length */
     double relaxed;   /* a little below what is required */
     candidate_pair *candidates; /* the caller's */
-    imp_stats *stats;                 /* the caller's; bytes: of the trees, without the heap */
+    imp_stats *stats;           /* the caller's; bytes: of the trees, without the heap */
     /* kept */
     pair *starts; /* candidates not tested yet, farthest first */
     size_t start_count, start_capacity;

@@ -10,8 +10,8 @@ sight sight_none(const pair *p) { return (sight){p->window, false, 0, -1, {0, 0,
 
 /* Of the one along the other, over all times of both; INFINITY: nothing is known, as of surfaces of many
  * pieces, of which each has its own. */
-static imp_code find_slip(const node *own, const node *other, const time_window *times, double moment,
-                          double *slip, imp_error *error)
+static imp_code find_slip(const node *own, const node *other, const time_window *times,
+                          double moment, double *slip, imp_error *error)
 {
     imp_model bare[3];
     *slip = INFINITY;
@@ -41,7 +41,8 @@ static imp_code question_of(const pair *p, candidate_pair *both, int side, doubl
     *q = (distance_question){own, other, clearance, 0, INFINITY};
     if (!surface_has_symmetry(other->surface)) return IMP_SUCCESS;
     if (own->still == NULL && !is_turned(own, other, both->side[!side])) return IMP_SUCCESS;
-    const node *root = tree_root(both->side[side]->tree), *others = tree_root(both->side[!side]->tree);
+    const node *root = tree_root(both->side[side]->tree),
+               *others = tree_root(both->side[!side]->tree);
     const time_window times = pair_times(root, others);
     float *slip = &both->slip[side];
     q->moment = 0.5 * times.lo + 0.5 * times.hi;

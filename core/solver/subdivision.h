@@ -24,7 +24,8 @@ typedef struct candidate {
 /* Two of different bodies that may come near each other. */
 typedef struct candidate_pair {
     candidate *side[2];
-    float slip[2]; /* >= surface_slip of either along the other, over all times of both; 0: not asked yet */
+    /* >= surface_slip of either along the other, over all times of both; 0: not asked yet */
+    float slip[2];
 } candidate_pair;
 
 static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const candidate_pair *q)

@@ -50,8 +50,8 @@ typedef struct impact {
     imp_method method;
     imp_bounds bounds;
     candidate_pair *candidate_pairs; /* the caller's */
-    size_t candidate_pair_count;           /* 0: their roots are tested at once, each */
-    imp_stats *stats;                      /* the caller's; bytes: of the trees, without the heap */
+    size_t candidate_pair_count;     /* 0: their roots are tested at once, each */
+    imp_stats *stats;                /* the caller's; bytes: of the trees, without the heap */
     pair_heap heap;
     upper_time upper;         /* with method models */
     pair_chances *chances;    /* for each candidate pair, from the first step on, or NULL */

@@ -18,13 +18,15 @@ bool part_offers_symmetry(const imp_surface_type *type)
 
 /* --- Asking ---------------------------------------------------------------------------------------- */
 
-#define AXIS_LEAST 0x1p-340 /* squares neither underflow nor overflow; 1e-100 and 1e100 are inside */
+/* Squares neither underflow nor overflow; 1e-100 and 1e100 are inside. */
+#define AXIS_LEAST 0x1p-340
 #define AXIS_MOST 0x1p340
 
 static bool is_sane(const imp_symmetry *found)
 {
     double most = 0;
-    if (found->kind < IMP_SYMMETRIC_ABOUT_POINT || found->kind > IMP_SYMMETRIC_ACROSS_LINE) return false;
+    if (found->kind < IMP_SYMMETRIC_ABOUT_POINT || found->kind > IMP_SYMMETRIC_ACROSS_LINE)
+        return false;
     for (int i = 0; i < 3; ++i) {
         if (!isfinite(found->center[i]) || !isfinite(found->axis[i])) return false;
         if (fabs(found->axis[i]) > most) most = fabs(found->axis[i]);
@@ -112,7 +114,8 @@ static void pull_truly(const imp_pose *pose, double d, carried *x)
 
 /* --- What is seen at some times -------------------------------------------------------------------- */
 
-/* The center, and where the axis from it ends, as they are seen from a before its maps; and points of a. */
+/* The center, and where the axis from it ends, if it counts, as they are seen from a before its maps; and points
+ * of a. */
 typedef struct seen {
     carried feature[2];
     double off; /* points of a are off by so much, seen from b before its maps; length */
@@ -127,16 +130,19 @@ typedef struct question {
 } question;
 
 /* The pose of one map; *d >= |D|. */
-static imp_status pose_of(const surface *s, size_t k, const imp_region *times, imp_pose *pose, double *d)
+static imp_status pose_of(const surface *s, size_t k, const imp_region *times, imp_pose *pose,
+                          double *d)
 {
     const imp_status status = surface_pose_of_maps(s, k, k + 1, times, pose);
-    if (status == IMP_OK) *d = map_turns_exactly(&s->maps[k]) ? 0 : surface_pose_deviation_upper(pose);
+    if (status == IMP_OK)
+        *d = map_turns_exactly(&s->maps[k]) ? 0 : surface_pose_deviation_upper(pose);
     return status == IMP_OK && !(*d <= 0.5) ? IMP_UNBOUNDED : status;
 }
 
 /* But for what points are off by. */
 static imp_status see_features(const question *q, const imp_region *times, seen *x)
 {
+    const int features = q->found.kind == IMP_SYMMETRIC_ABOUT_POINT ? 1 : 2;
     imp_model from[3];
     imp_pose pose;
     double d;
@@ -148,11 +154,11 @@ static imp_status see_features(const question *q, const imp_region *times, seen 
     x->feature[0].off = x->feature[1].off = x->off = 0;
     for (size_t k = 0; k < q->b_maps && status == IMP_OK; ++k) {
         status = pose_of(q->b, k, times, &pose, &d);
-        for (int f = 0; f < 2 && status == IMP_OK; ++f) push(&pose, d, &x->feature[f]);
+        for (int f = 0; f < features && status == IMP_OK; ++f) push(&pose, d, &x->feature[f]);
     }
     for (size_t k = q->a_maps; k-- > 0 && status == IMP_OK;) {
         status = pose_of(q->a, k, times, &pose, &d);
-        for (int f = 0; f < 2 && status == IMP_OK; ++f) pull(&pose, d, &x->feature[f]);
+        for (int f = 0; f < features && status == IMP_OK; ++f) pull(&pose, d, &x->feature[f]);
     }
     if (status != IMP_OK) return status;
     for (int i = 0; i < 3; ++i)
@@ -200,15 +206,14 @@ PAD_COVERS(16, 4 + 6);
 static double slip_upper(const imp_symmetry *of, const seen *now, const seen *then)
 {
     imp_model v[3], w[3], axis[3];
-    for (int i = 0; i < 3; ++i) {
-        const imp_model tip = imp_sub(now->feature[1].at[i], then->feature[1].at[i]);
-        v[i] = imp_sub(now->feature[0].at[i], then->feature[0].at[i]);
-        w[i] = imp_sub(tip, v[i]);
-        axis[i] = imp_sub(then->feature[1].at[i], then->feature[0].at[i]);
-    }
+    for (int i = 0; i < 3; ++i) v[i] = imp_sub(now->feature[0].at[i], then->feature[0].at[i]);
     const double off = now->feature[0].off + then->feature[0].off, all = size_upper(v) + off;
     const double points = now->off + then->off;
     if (of->kind == IMP_SYMMETRIC_ABOUT_POINT) return padded_upper(all + points, 16);
+    for (int i = 0; i < 3; ++i) {
+        w[i] = imp_sub(imp_sub(now->feature[1].at[i], then->feature[1].at[i]), v[i]);
+        axis[i] = imp_sub(then->feature[1].at[i], then->feature[0].at[i]);
+    }
     const double length = length_lower(of->axis);
     const double tips = off + now->feature[1].off + then->feature[1].off;
     const double turn = (size_upper(w) + tips) / length;
@@ -241,8 +246,8 @@ static imp_region at_times(const imp_region *r, double from, double to)
     return region_make(lo, hi);
 }
 
-static imp_status slip_over(const question *q, const seen *then, const imp_region *times, int halvings,
-                            double *slip)
+static imp_status slip_over(const question *q, const seen *then, const imp_region *times,
+                            int halvings, double *slip)
 {
     seen now;
     const imp_status status = see(q, times, &now);
@@ -261,6 +266,23 @@ static imp_status slip_over(const question *q, const seen *then, const imp_regio
     return before == IMP_OK ? slip_over(q, then, &second, halvings - 1, slip) : before;
 }
 
+/* Whether the motion is surely none within b, as seen at both ends of the times. */
+static imp_status give_up(const question *q, const imp_region *still, const imp_region *times,
+                          bool *given_up)
+{
+    seen then;
+    imp_status status = see_features(q, still, &then);
+    const double ends[2] = {times->lo[2], times->hi[2]};
+    for (int k = 0; k < 2 && status == IMP_OK && !*given_up; ++k) {
+        const imp_region end = at_times(times, ends[k], ends[k]);
+        seen now;
+        status = see_features(q, &end, &now);
+        *given_up =
+            status == IMP_OK && !(slip_upper(&q->found, &now, &then) <= GIVEN_UP * then.far);
+    }
+    return status;
+}
+
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double *slip)
 {
@@ -271,14 +293,14 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
     *slip = INFINITY;
     if ((!surface_is_rigid(a) && a->map_count > 0) || q.a_maps + q.b_maps == 0) return IMP_OK;
     imp_status status = symmetry_of(b, &q.found);
-    if (status == IMP_OK) status = see_features(&q, &still, &then);
-    const double ends[2] = {times->lo[2], times->hi[2]};
-    for (int k = 0; k < 2 && status == IMP_OK; ++k) {
-        const imp_region end = at_times(times, ends[k], ends[k]);
-        seen now;
-        status = see_features(&q, &end, &now);
-        if (status == IMP_OK && !(slip_upper(&q.found, &now, &then) <= GIVEN_UP * then.far)) return IMP_OK;
-    }
+    question center = q;
+    center.found.kind = IMP_SYMMETRIC_ABOUT_POINT;
+    bool given_up = false;
+    /* Rotations about a line keep its center, which alone costs less to see. */
+    if (status == IMP_OK && q.found.kind == IMP_SYMMETRIC_ABOUT_LINE)
+        status = give_up(&center, &still, times, &given_up);
+    if (status == IMP_OK && !given_up) status = give_up(&q, &still, times, &given_up);
+    if (given_up) return IMP_OK;
     if (status == IMP_OK) status = see(&q, &still, &then);
     if (status == IMP_OK) {
         *slip = 0;

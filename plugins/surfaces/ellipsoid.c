@@ -103,7 +103,8 @@ static imp_status ellipsoid_symmetry(const void *self, imp_symmetry *symmetry)
     const ellipsoid_instance *s = self;
     const double *r = s->radii;
     memcpy(symmetry->center, s->center, sizeof s->center);
-    symmetry->kind = r[0] == r[1] && r[1] == r[2] ? IMP_SYMMETRIC_ABOUT_POINT : IMP_SYMMETRIC_ABOUT_LINE;
+    symmetry->kind =
+        r[0] == r[1] && r[1] == r[2] ? IMP_SYMMETRIC_ABOUT_POINT : IMP_SYMMETRIC_ABOUT_LINE;
     for (int i = 0; i < 3; ++i)
         if (r[(i + 1) % 3] == r[(i + 2) % 3]) {
             symmetry->axis[i] = 1;

@@ -236,7 +236,7 @@ enum {
     IMP_SYMMETRIC_ABOUT_POINT = 1, /* every rotation about the center; the axis is not read */
     IMP_SYMMETRIC_ABOUT_LINE = 2,  /* every rotation about the line */
     IMP_SYMMETRIC_ALONG_LINE = 3,  /* these, and every translation along it */
-    IMP_SYMMETRIC_ACROSS_LINE = 4  /* these rotations, and every translation perpendicular to the line */
+    IMP_SYMMETRIC_ACROSS_LINE = 4  /* these rotations, and translations perpendicular to the line */
 };
 
 typedef struct imp_symmetry {

@@ -213,5 +213,5 @@ START_TEST(other_nets_give_no_models)
 END_TEST
 
 SUITE_MAIN("net series", models_of_bicubic_nets_hold, models_of_nets_halved_hold,
-           models_hold_where_velocities_underflow,
-           remainders_are_no_larger_than_what_is_left_out, other_nets_give_no_models)
+           models_hold_where_velocities_underflow, remainders_are_no_larger_than_what_is_left_out,
+           other_nets_give_no_models)

@@ -85,7 +85,8 @@ static void undo(const motion *m, long double t, long double x[3])
         for (int j = 0; j < 3; ++j) {
             back[j] = rest[j];
             if (m->is_placed)
-                back[j] = m->place[0][j] * rest[0] + m->place[1][j] * rest[1] + m->place[2][j] * rest[2];
+                back[j] =
+                    m->place[0][j] * rest[0] + m->place[1][j] * rest[1] + m->place[2][j] * rest[2];
         }
         found[0] += c * back[0] + s * back[1];
         found[1] += c * back[1] - s * back[0];
@@ -100,8 +101,10 @@ static void undo(const motion *m, long double t, long double x[3])
 static imp_model gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     const imp_symmetry *s = self;
-    const imp_model w[3] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]), imp_shift(z, -s->center[2])};
-    const imp_model across = imp_sqrt(imp_add(imp_sqr(w[0]), imp_sqr(w[1]))), ring = imp_shift(across, -2);
+    const imp_model w[3] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]),
+                            imp_shift(z, -s->center[2])};
+    const imp_model across = imp_sqrt(imp_add(imp_sqr(w[0]), imp_sqr(w[1]))),
+                    ring = imp_shift(across, -2);
     (void)t;
     switch (s->kind) {
     case IMP_SYMMETRIC_ABOUT_POINT:
@@ -161,7 +164,8 @@ typedef struct trial {
     motion own[2], placing, other;
     motion turn; /* of the other, before it is placed */
     size_t own_count, turns;
-    bool is_placed, moves_along; /* both are placed alike; or one moves as the symmetry permits, too */
+    bool is_placed;   /* both are, alike */
+    bool moves_along; /* one moves as the symmetry permits, too */
     imp_region times;
     double stretch;       /* of the placing */
     double moment, reach; /* half the box around the points before the maps */
@@ -231,7 +235,8 @@ static trial draw_trial(uint64_t *random)
     y.turn.rate = random_between(random, -4, 4);
     y.moves_along = random_bits(random) % 2;
     if (y.moves_along && y.symmetry.kind == IMP_SYMMETRIC_ALONG_LINE) spin->way[2] = y.reach;
-    if (y.moves_along && y.symmetry.kind == IMP_SYMMETRIC_ACROSS_LINE) spin->way[0] = spin->way[1] = y.reach;
+    if (y.moves_along && y.symmetry.kind == IMP_SYMMETRIC_ACROSS_LINE)
+        spin->way[0] = spin->way[1] = y.reach;
     if (off > 0 && random_bits(random) % 2) tilt(&y, off / y.reach, &y.own[1]);
     y.is_placed = random_bits(random) % 2;
     y.stretch = random_bits(random) % 2 ? 1 : 1 + random_between(random, -7e-6, 7e-6);
@@ -322,11 +327,14 @@ static void judge(const trial *y, const surface *b, double slip, uint64_t *rando
 {
     const long double size = 64 * (1 + y->reach) * 256, stretch = y->is_placed ? y->stretch : 1;
     for (int k = 0; k < POINTS; ++k) {
-        const long double t = y->times.lo[2] + (y->times.hi[2] - y->times.lo[2]) * (long double)random_fraction(random);
+        const long double t = y->times.lo[2] + (y->times.hi[2] - y->times.lo[2]) *
+                                                   (long double)random_fraction(random);
         long double from[3], now[3], then[3], world[3];
         for (int i = 0; i < 3; ++i) {
             const uint64_t end = random_bits(random) % 3;
-            from[i] = end == 0 ? y->reach : end == 1 ? -y->reach : y->reach * random_between(random, -1, 1);
+            from[i] = end == 0   ? y->reach
+                      : end == 1 ? -y->reach
+                                 : y->reach * random_between(random, -1, 1);
             from[i] += y->symmetry.center[i];
         }
         seen(y, t, from, now);
@@ -338,8 +346,10 @@ static void judge(const trial *y, const surface *b, double slip, uint64_t *rando
         if (y->is_placed) apply(&y->other, y->moment, world);
         of->judged += 1;
         of->refuted += shown > slip + 0x1p-58L * size;
-        of->too_far += claimed(y, b, slip, world) > stretch * off(&y->symmetry, &at) + 0x1p-58L * size;
-        if (slip > 0x1p-30 * y->reach && shown / slip > of->sharpest) of->sharpest = (double)(shown / slip);
+        of->too_far +=
+            claimed(y, b, slip, world) > stretch * off(&y->symmetry, &at) + 0x1p-58L * size;
+        if (slip > 0x1p-30 * y->reach && shown / slip > of->sharpest)
+            of->sharpest = (double)(shown / slip);
     }
 }
 
@@ -351,7 +361,8 @@ static tally try_all(double factor)
     for (int k = 0; k < suite_times(CASES); ++k) {
         trial y = draw_trial(&random);
         y.other = y.placing;
-        motion *const of_a[] = {&y.own[0], &y.own[1], &y.placing}, *const of_b[] = {&y.turn, &y.other};
+        motion *const of_a[] = {&y.own[0], &y.own[1], &y.placing}, *const of_b[] = {&y.turn,
+                                                                                    &y.other};
         surface *a = compose(&y.symmetry, of_a + 2 - y.own_count, y.own_count + y.is_placed);
         surface *b = compose(&y.symmetry, of_b + 1 - y.turns, y.turns + y.is_placed);
         imp_model bare[3];
@@ -371,8 +382,8 @@ static tally try_all(double factor)
 START_TEST(no_point_slips_farther_than_is_claimed)
 {
     const tally of = try_all(1);
-    ck_assert_msg(of.refuted == 0 && of.too_far == 0, "of %d %d are refuted, and %d distances", of.judged,
-                  of.refuted, of.too_far);
+    ck_assert_msg(of.refuted == 0 && of.too_far == 0, "of %d %d are refuted, and %d distances",
+                  of.judged, of.refuted, of.too_far);
     ck_assert_msg(of.sharpest > 0.8, "%g of the slip is shown at most", of.sharpest);
     ck_assert_msg(4 * of.known > suite_times(CASES), "%d are known", of.known);
     ck_assert_msg(10 * of.exact > suite_times(CASES), "%d are exact", of.exact);

@@ -225,7 +225,8 @@ imp_status subject_symmetry(const subject *s, imp_symmetry *symmetry)
 {
     const imp_surface_type *type = s->instance->surface;
     memset(symmetry, 0, sizeof *symmetry);
-    if (!subject_has_distance(s) || type->struct_size < offsetof(imp_surface_type, symmetry) + sizeof type->symmetry ||
+    if (!subject_has_distance(s) ||
+        type->struct_size < offsetof(imp_surface_type, symmetry) + sizeof type->symmetry ||
         type->symmetry == NULL)
         return IMP_UNBOUNDED;
     note(s, "symmetry", 0, NULL, NULL);
