@@ -97,7 +97,7 @@ static void note(const subject *s, const char *name, int n, const double *lo, co
     call->name = name;
     call->stage[0] = '\0';
     call->count = hi != NULL ? 2 * n : n;
-    memcpy(call->number, lo, (size_t)n * sizeof *lo);
+    if (lo != NULL) memcpy(call->number, lo, (size_t)n * sizeof *lo);
     if (hi != NULL) memcpy(call->number + n, hi, (size_t)n * sizeof *hi);
 }
 
