@@ -75,6 +75,7 @@ tools_cli = \
     tools/cli/clearance.h \
     tools/cli/clearance_each.c \
     tools/cli/clearance_json.c \
+    tools/cli/clearance_table.c \
     tools/cli/clearance_text.c \
     tools/cli/compile.c tools/cli/compile.h \
     tools/cli/crash.c tools/cli/crash.h \

@@ -27,7 +27,7 @@ END
             sed -E 's/"seconds":[^,]*,//g' >"answers.$threads"
         cmp answers.1 "answers.$threads"
     done
-    jq -e '.pairs | length == 36 and ([.[].upper] | . == sort) and all(.lower <= .upper)' answers.1
+    jq -e '.pairs | length == 36 and ([.[].lower] | . == sort) and all(.lower <= .upper)' answers.1
 }
 
 @test "what a budget keeps from being begun is undecided too" {
@@ -44,7 +44,7 @@ END
     run -0 "$IMPINGE" clearance "${passing[@]}" --json --tolerance 1e-7
     json '.lower <= 1 and .upper >= 1 - 1e-15 and .upper - .lower <= 1e-7'
     run -0 "$IMPINGE" clearance "${passing[@]}"
-    [[ $output == 'tightest 1.0000'*' between "a" and "b"'* && $output == *"never nearer than 0.999"* ]]
+    [[ $output == 'nearest distance 1.0000'*' between "a" and "b"'* && $output == *"never nearer than 0.999"* ]]
 }
 
 @test "parts that slide in each other are bracketed by a few thousand pairs" {
@@ -74,9 +74,10 @@ END
     valid clearance
     json '.verdict == "undecided" and .reason == "max-pairs" and .lower < 0.5 and .upper > 0.5'
     run -0 "$IMPINGE" clearance "${passing[@]}" --require 0.9
-    [[ $output == "holds"* && $output == *"never nearer than 0.9"* ]]
+    [[ $output == "holds: at least 0.9"* ]]
     run -1 "$IMPINGE" clearance "${passing[@]}" --require 1.2 --tolerance 1e-3
-    [[ $output == "violated at t = 0.3144"*", tightest 1.0000"* ]]
+    [[ ${lines[0]} == 'violated at t = 0.3144'*': "a" and "b" 1.'*' apart' ]]
+    [[ $output == *'nearest  distance 1.000'*' at t = 0.5'*' between "a" and "b"'* ]]
 }
 
 @test "a requirement ends the search as soon as it is decided, unless a tolerance is given too" {
@@ -94,13 +95,13 @@ END
     run -0 "$IMPINGE" clearance "$torus" "$other" --require 0.05 --tolerance 1e-3 --json
     json '.reason == null and .upper - .lower <= 1e-3 * .upper'
     run -0 "$IMPINGE" clearance "$torus" "$other" --require 0.05
-    [[ ${lines[0]} == "holds" && ${lines[1]} == *"never nearer than 0.04999995" &&
-        ${lines[3]} == *"seen "*' apart at t = '*', "a" and "b"; --tolerance finds the tightest' ]]
+    [[ ${lines[0]} == "holds: at least 0.05 (to within 1e-6 of it)" ]]
+    [[ $output == *"nearest  distance not searched for; add --tolerance 1e-3 to get it"* ]]
     run -1 "$IMPINGE" clearance "$torus" "$other" --require 0.8 --json
     valid clearance
     json '.verdict == "violated" and .upper <= 0.8 and .t_violated <= .t'
     run -1 "$IMPINGE" clearance "$torus" "$other" --require 0.8
-    [[ ${lines[0]} == "violated at t = 0"* && $output == *'violated first by "a" and "b", 0.'* ]]
+    [[ ${lines[0]} == 'violated at t = 0'*': "a" and "b" 0.'*' apart' ]]
     run -0 "$IMPINGE" clearance "$torus" "$other" --require 0.05 --profile 2 --json
     jq -s -e 'all(.upper - .lower <= 1e-3 * .upper and .verdict == "holds")' <<<"$output"
 }
@@ -108,7 +109,7 @@ END
 @test "an arm of six joints, by a table of angles, keeps its distance from a fixture" {
     run -0 "$IMPINGE" clearance "$top_srcdir/tools/data/arm.json" --require 2 \
         --tolerance 1e-3
-    [[ ${lines[0]} =~ ^'holds, tightest 2.'[0-9]+' at t = 0.5'[0-9]+' between "link5" and "fixture"'$ ]]
+    [[ ${lines[0]} =~ ^'holds: at least 2, nearest distance 2.'[0-9]+' at t = 0.5'[0-9]+' between "link5" and "fixture"'$ ]]
 }
 
 @test "the first moment of a long violation is found in thousands of pairs, not millions" {
@@ -124,9 +125,12 @@ END
     run -0 "$IMPINGE" clearance "$left" "$right" --json
     valid clearance
     json '.lower <= .upper and .upper <= 1e-6 and .reason == null'
+    run -0 "$IMPINGE" clearance "$left" "$right"
+    [[ ${lines[0]} == 'they touch or overlap at t = '*': "a" and "b"' && $output != *"never nearer"* ]]
+    [[ $output == *"gap "*", at most gamma = 1e-06"* ]]
 }
 
-@test "each two bodies, the tightest first" {
+@test "each two bodies, what is proved to be nearest first" {
     three >three.json
     run -1 "$IMPINGE" clearance three.json --each --require 2 --tolerance 1e-3 --json
     valid clearance
@@ -137,8 +141,63 @@ END
     run -1 "$IMPINGE" clearance three.json --each --require 2 --json
     valid clearance
     json '[.pairs[].verdict] == ["violated", "violated", "holds"] and .reason == "decided"'
+    json '.t_violated == 0 and .a_violated.body == "a" and .b_violated.body == "b"'
     run -0 "$IMPINGE" clearance three.json --each
-    [[ ${lines[-3]} == 0.5*"b, c" && ${lines[-2]} == 1*"a, b" && ${lines[-1]} == 3.5*"a, c" ]]
+    [[ ${lines[-3]} == 0.49*"b, c" && ${lines[-2]} == 0.99*"a, b" && ${lines[-1]} == 3.49*"a, c" ]]
+}
+
+# b and c come towards a, b first and less far: 3 - 1.8 t and 6 - 5.5 t apart from it.
+late() {
+    cat <<END | tr -d '\n'
+{"bodies": [
+{"name": "a", "surfaces": [{"type": "sphere"}]},
+{"name": "b", "surfaces": [{"type": "sphere", "center": [5,0,0]}],
+"maps": [{"type": "translate", "velocity": [-1.8,0,0]}]},
+{"name": "c", "surfaces": [{"type": "sphere", "center": [0,8,0]}],
+"maps": [{"type": "translate", "velocity": [0,-5.5,0]}]}]}
+END
+    echo
+}
+
+@test "the first violation of many pairs is that of the earliest pair, not of the nearest" {
+    late >late.json
+    run -1 "$IMPINGE" clearance late.json --require 2 --json
+    json '(.t_violated - 5 / 9 | fabs) < 1e-5'
+    for tolerance in "" "--tolerance 1e-3"; do
+        # shellcheck disable=SC2086 # no word when empty
+        run -1 "$IMPINGE" clearance late.json --require 2 $tolerance --each --json
+        valid clearance
+        json '(.t_violated - 5 / 9 | fabs) < 1e-5'
+        json '.t_violated == ([.pairs[].t_violated // 9] | min)'
+        json '.a_violated.body == "a" and .b_violated.body == "b"'
+        # shellcheck disable=SC2086
+        run -1 "$IMPINGE" clearance late.json --require 2 $tolerance --each
+        [[ ${lines[0]} == 'violated at t = 0.5555'*': "a" and "b" '*' apart'* ]]
+    done
+}
+
+@test "while an earlier violation is possible none is called the first" {
+    late >late.json
+    run -1 "$IMPINGE" clearance late.json --require 2 --each --max-pairs 100 --json
+    valid clearance
+    json '.verdict == "violated" and .t_violated == null and .a_violated == null'
+    json '[.pairs[] | select(.t_violated != null) | .bodies | join("")] | sort == ["ab", "ac"]'
+    json 'any(.pairs[]; .verdict == "undecided")'
+    run -1 "$IMPINGE" clearance late.json --require 2 --each --max-pairs 100
+    [[ ${lines[0]} == "violated; when first is not known" && $output == *"violated from t = 0.5555"*" a, b"* ]]
+}
+
+@test "pairs of bodies are in the order of what is proved of them" {
+    local arm=$top_srcdir/tools/data/arm.json
+    run -0 "$IMPINGE" clearance "$arm" --require 2 --each --json
+    valid clearance
+    json '[.pairs[].lower] | . == sort'
+    run -0 "$IMPINGE" clearance "$arm" --require 2 --each
+    grep -qE '^never nearer than +nearest found so far +at t +verdict +bodies$' <<<"$output"
+    [[ $output == *"holds"*" link3, fixture"*" link4, fixture"*" link5, fixture"*" link6, fixture"* ]]
+    run -0 "$IMPINGE" clearance "$arm" --each
+    grep -qE '^never nearer than +nearest +at t +bodies$' <<<"$output"
+    [[ $output == *" link5, fixture"*" link4, fixture"*" link6, fixture"* ]]
 }
 
 @test "slices of time as CSV and as JSON lines, and all of them in the last line" {
@@ -165,7 +224,7 @@ END
     valid clearance
     json '.reason == "max-pairs" and .lower == 0 and .upper < 1e-3'
     run -3 "$IMPINGE" clearance "${endless[@]:0:2}" --gamma 1e-12 --tolerance 1e-9 --max-pairs 200
-    [[ $output == "tightest so far "*"the limit of pairs is reached: raise --max-pairs, or --tolerance"* ]]
+    [[ $output == "nearest distance so far "*"the limit of pairs is reached: raise --max-pairs, or --tolerance"* ]]
 }
 
 @test "an interrupt ends it with the bracket so far" {

@@ -25,7 +25,7 @@ needs_python() {
 
 @test "the arm's clearance from the command line" {
     run -0 "$IMPINGE" clearance "$arm" --require 2 --tolerance 1e-3
-    [[ $output == *'holds, tightest 2.88'*' at t = 0.5'*'between "link5" and "fixture"'* ]]
+    [[ $output == 'holds: at least 2, nearest distance 2.88'*' at t = 0.5'*' between "link5" and "fixture"'* ]]
     run -1 "$IMPINGE" clearance "$arm" --require 3
 }
 

@@ -31,14 +31,19 @@ imp_code clearance_each_run(const clearance_each *of, imp_clearance **answers, s
 const char *clearance_verdict_name(imp_requirement verdict);
 
 /* The answer that stands for all: of least lower and of least upper bound, violated where one is
- * violated, and so on. count > 0. */
+ * violated, with the first violation of all if none before it is possible. count > 0. */
 imp_clearance clearance_summary(const clearance_table *table);
 
-/* Puts the tightest first. */
+/* Whether something other than the answer ended a search. */
+bool clearance_is_ended(imp_reason reason);
+
+/* By what is proved: the least lower bound first, then in the order of the scene. */
 void clearance_sort(imp_clearance *answers, size_t count);
 
-/* Lines to standard output, verdict first. Bounds are rounded to the side that claims less. */
-void clearance_print(const imp_scene *scene, const imp_clearance *answer);
+/* Lines to standard output, verdict first. Bounds are rounded to the side that claims less. Without a
+ * requirement, what comes within gamma is said to touch. */
+void clearance_print(const imp_scene *scene, const imp_clearance *answer, double gamma);
+/* One line a pair of bodies, under a line of heads. count > 0. */
 void clearance_print_pairs(const clearance_table *table);
 
 /* CSV: the head, and one line a slice. */

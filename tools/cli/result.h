@@ -24,6 +24,7 @@ const char *result_verdict_name(imp_verdict verdict);
 void result_print_label(const char *label);
 void result_print_sides(const imp_scene *scene, const imp_side *a, const imp_side *b);
 void result_print_normal(const double *normal); /* NULL: undefined */
+void result_print_gap(double gap, double gamma);
 void result_print_cost(const imp_stats *stats);
 
 /* Why a search was ended, and the cure. */

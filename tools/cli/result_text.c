@@ -84,11 +84,16 @@ void result_print_normal(const double *normal)
     }
 }
 
+void result_print_gap(double gap, double gamma)
+{
+    result_print_label("gap");
+    printf("%s, at most gamma = %.10g\n", output_number_upper(gap).text, gamma);
+}
+
 static void print_contact(const imp_scene *scene, const imp_result *r)
 {
     result_print_sides(scene, &r->a, &r->b);
-    result_print_label("gap");
-    printf("%s, at most gamma = %.10g\n", output_number_upper(r->gap).text, r->gamma);
+    result_print_gap(r->gap, r->gamma);
     result_print_normal(r->has_normal ? r->normal : NULL);
 }
 

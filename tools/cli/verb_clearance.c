@@ -18,6 +18,7 @@ typedef struct measuring {
     const arguments *args;
     const imp_scene *scene;
     imp_query *query;
+    double gamma;
     bool json, each, profile;
     imp_clearance *answers;
     imp_stats stats;
@@ -152,7 +153,7 @@ static exit_status conclude(measuring *m)
     if (m->json) {
         status = output_json(whole_json(m, &table, &all), speaker);
     } else if (!m->profile) {
-        clearance_print(m->scene, &all);
+        clearance_print(m->scene, &all, m->gamma);
         if (m->each && m->count > 0) clearance_print_pairs(&table);
         status = output_flush(speaker);
     }
@@ -191,6 +192,7 @@ static exit_status measure_scene(imp_scene *scene, const arguments *args)
     const imp_clearance_options asked = asked_for(args);
     measuring m = {.args = args,
                    .scene = scene,
+                   .gamma = options.gamma,
                    .json = arguments_option(args, "json") != NULL,
                    .each = arguments_option(args, "each") != NULL,
                    .profile = arguments_option(args, "profile") != NULL};

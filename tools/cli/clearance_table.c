@@ -1,0 +1,171 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/cli/clearance.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tools/cli/output.h"
+
+/* --- Pairs of bodies ------------------------------------------------------------------------ */
+
+static int by_proof(const void *x, const void *y)
+{
+    const imp_clearance *a = x, *b = y;
+    if (a->lower != b->lower) return a->lower < b->lower ? -1 : 1;
+    if (a->body[0] != b->body[0]) return a->body[0] < b->body[0] ? -1 : 1;
+    return a->body[1] < b->body[1] ? -1 : a->body[1] > b->body[1];
+}
+
+void clearance_sort(imp_clearance *answers, size_t count)
+{
+    if (count > 0) qsort(answers, count, sizeof *answers, by_proof);
+}
+
+/* Whether the search for the nearest distance of some two bodies ended before it was found. */
+static bool is_any_open(const clearance_table *table)
+{
+    for (size_t k = 0; k < table->count; ++k)
+        if (table->answers[k].reason == IMP_REASON_DECIDED ||
+            clearance_is_ended(table->answers[k].reason))
+            return true;
+    return false;
+}
+
+enum { VERDICT_WIDTH = 64 };
+
+static void format_verdict(const imp_clearance *r, char text[VERDICT_WIDTH])
+{
+    if (isnan(r->t_violated))
+        snprintf(text, VERDICT_WIDTH, "%s", clearance_verdict_name(r->verdict));
+    else
+        snprintf(text, VERDICT_WIDTH, "violated from t = %s",
+                 output_number_lower(r->t_violated).text);
+}
+
+static int verdict_width(const clearance_table *table)
+{
+    char text[VERDICT_WIDTH];
+    int width = 8;
+    for (size_t k = 0; k < table->count; ++k) {
+        format_verdict(&table->answers[k], text);
+        if ((int)strlen(text) > width) width = (int)strlen(text);
+    }
+    return width;
+}
+
+/* Columns are padded to the widest text in them; without a requirement there is no verdict. */
+void clearance_print_pairs(const clearance_table *table)
+{
+    const char *nearest = is_any_open(table) ? "nearest found so far" : "nearest";
+    const bool is_required = table->answers[0].verdict != IMP_REQUIREMENT_NONE;
+    const int width = is_required ? verdict_width(table) : 0;
+    const int gap = (int)strlen(nearest) > 17 ? (int)strlen(nearest) : 17;
+    printf("%-17s  %-*s  %-12s  ", "never nearer than", gap, nearest, "at t");
+    if (is_required) printf("%-*s  ", width, "verdict");
+    puts("bodies");
+    for (size_t k = 0; k < table->count; ++k) {
+        const imp_clearance *r = &table->answers[k];
+        char text[VERDICT_WIDTH] = "-";
+        if (r->has_witness) snprintf(text, sizeof text, "%.6g", r->t);
+        printf("%-17s  %-*s  %-12s  ", output_number_lower(r->lower).text, gap,
+               output_number_upper(r->upper).text, text);
+        if (is_required) format_verdict(r, text);
+        if (is_required) printf("%-*s  ", width, text);
+        printf("%s, %s\n", imp_scene_body_name(table->scene, r->body[0]),
+               imp_scene_body_name(table->scene, r->body[1]));
+    }
+}
+
+void clearance_print_csv_head(void) { puts("t0,t1,lower,upper,t,verdict"); }
+
+/* An empty field for what is not there. */
+static void print_field(double number)
+{
+    if (isfinite(number)) printf("%.17g", number);
+    putchar(',');
+}
+
+void clearance_print_csv(const imp_clearance *r)
+{
+    const double field[] = {r->t_start, r->t_end, r->lower, r->upper, r->t};
+    for (int k = 0; k < 5; ++k) print_field(field[k]);
+    const char *verdict = clearance_verdict_name(r->verdict);
+    puts(verdict != NULL ? verdict : "");
+}
+
+/* --- All in one ------------------------------------------------------------------------------- */
+
+static imp_requirement worse(imp_requirement x, imp_requirement y)
+{
+    if (x == IMP_REQUIREMENT_VIOLATED || y == IMP_REQUIREMENT_VIOLATED)
+        return IMP_REQUIREMENT_VIOLATED;
+    return x == IMP_REQUIREMENT_UNDECIDED ? x : y;
+}
+
+/* The greatest weight counts for all parts: ended early, then a verdict alone, then a bracket. */
+static int weight(imp_reason reason)
+{
+    if (clearance_is_ended(reason)) return 3;
+    if (reason == IMP_REASON_DECIDED) return 2;
+    return reason == IMP_REASON_NONE ? 1 : 0;
+}
+
+/* Lemma. What holds of each part holds of all: the least of the lower bounds, and any upper bound. */
+static imp_clearance join_brackets(const clearance_table *table)
+{
+    imp_clearance all = table->answers[0];
+    for (size_t k = 1; k < table->count; ++k) {
+        const imp_clearance *r = &table->answers[k];
+        const imp_requirement verdict = worse(all.verdict, r->verdict);
+        const imp_reason reason = weight(all.reason) < weight(r->reason) ? r->reason : all.reason;
+        const double lower = r->lower < all.lower ? r->lower : all.lower;
+        if (r->upper < all.upper) all = *r;
+        all.verdict = verdict;
+        all.reason = reason;
+        all.lower = lower;
+    }
+    return all;
+}
+
+/* Whether a violation before time t is possible: of an answer whose first one is not known. */
+static bool may_be_violated_before(const imp_clearance *r, double t)
+{
+    const bool holds = r->verdict == IMP_REQUIREMENT_HOLDS;
+    return !holds && isnan(r->t_violated) && r->t_start < t;
+}
+
+/* Lemma. The least time of the violations known is the first of all unless an answer that has none,
+ * and does not hold, begins before it. */
+static const imp_clearance *first_violation(const clearance_table *table)
+{
+    const imp_clearance *first = NULL;
+    for (size_t k = 0; k < table->count; ++k) {
+        const imp_clearance *r = &table->answers[k];
+        if (isnan(r->t_violated)) continue;
+        if (first == NULL || r->t_violated < first->t_violated) first = r;
+    }
+    for (size_t k = 0; first != NULL && k < table->count; ++k)
+        if (may_be_violated_before(&table->answers[k], first->t_violated)) first = NULL;
+    return first;
+}
+
+imp_clearance clearance_summary(const clearance_table *table)
+{
+    imp_clearance all = join_brackets(table);
+    const imp_clearance *first = first_violation(table);
+    all.t_start = table->answers[0].t_start;
+    all.t_end = table->answers[table->count - 1].t_end;
+    all.body[0] = all.body[1] = SIZE_MAX;
+    all.t_violated = NAN;
+    if (first == NULL) return all;
+    all.t_violated = first->t_violated;
+    all.gap_violated = first->gap_violated;
+    all.a_violated = first->a_violated;
+    all.b_violated = first->b_violated;
+    return all;
+}
