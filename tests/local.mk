@@ -190,6 +190,7 @@ check_LTLIBRARIES = \
     tests/plugins/create_rounds.la \
     tests/plugins/distance_infinite.la \
     tests/plugins/distance_nan.la \
+    tests/plugins/symmetry_alone.la \
     tests/plugins/symmetry_nan.la \
     tests/plugins/domain_crashes.la \
     tests/plugins/domain_nan.la \
@@ -244,8 +245,10 @@ check_LTLIBRARIES = \
     tests/plugins/liar_truthful_net.la \
     tests/plugins/map_rate_negative.la \
     tests/plugins/mistakes_bounds.la \
+    tests/plugins/mistakes_distance.la \
     tests/plugins/mistakes_manners.la \
     tests/plugins/mistakes_map.la \
+    tests/plugins/mistakes_pieces.la \
     tests/plugins/mistakes_pose.la \
     tests/plugins/mistakes_stated.la \
     tests/plugins/net_nan.la \
@@ -288,6 +291,7 @@ tests_plugins_create_overflows_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_create_rounds_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_distance_infinite_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_distance_nan_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_symmetry_alone_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_symmetry_nan_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_crashes_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_domain_nan_la_LDFLAGS = $(test_plugin_ldflags)
@@ -341,8 +345,10 @@ tests_plugins_liar_truthful_symmetry_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_liar_truthful_net_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_map_rate_negative_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_bounds_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_mistakes_distance_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_manners_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_map_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_mistakes_pieces_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_pose_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_stated_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_net_nan_la_LDFLAGS = $(test_plugin_ldflags)

@@ -19,9 +19,11 @@ tools_libproof_la_SOURCES = \
     tools/proof/view.c tools/proof/view.h
 
 tools_check = \
+    tools/check/allocations.c tools/check/allocations.h \
     tools/check/answer.c tools/check/answer.h \
     tools/check/arguments.c tools/check/arguments.h \
     tools/check/buffers.c tools/check/buffers.h \
+    tools/check/calls.c tools/check/calls.h \
     tools/check/clearance_cost.c tools/check/clearance_cost.h \
     tools/check/cost.c tools/check/cost.h \
     tools/check/fate.c tools/check/fate.h \
@@ -32,8 +34,12 @@ tools_check = \
     tools/check/guard.c tools/check/guard.h \
     tools/check/inclusions.c tools/check/inclusions.h \
     tools/check/list.c tools/check/list.h \
+    tools/check/motions.c tools/check/motions.h \
+    tools/check/moving_point.c tools/check/moving_point.h \
+    tools/check/nearest.c tools/check/nearest.h \
     tools/check/nets.c tools/check/nets.h \
     tools/check/operand.c tools/check/operand.h \
+    tools/check/malloc_watch.c tools/check/malloc_watch.h \
     tools/check/map_operand.c tools/check/map_operand.h \
     tools/check/pair.c tools/check/pair.h \
     tools/check/pieces.c tools/check/pieces.h \

@@ -12,20 +12,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_letter_or_digit(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-}
+static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+static bool is_letter_or_digit(char c) { return is_letter(c) || (c >= '0' && c <= '9'); }
 
 bool text_is_name(const char *s, const char *extra)
 {
-    if (s == NULL) return false;
+    if (s == NULL || !is_letter(s[0])) return false;
     size_t n = 0;
     for (; s[n] != '\0'; ++n) {
         if (n == TEXT_NAME_MAX) return false;
         if (!is_letter_or_digit(s[n]) && strchr(extra, s[n]) == NULL) return false;
     }
-    return n > 0;
+    return true;
 }
 
 /* Length in bytes of the character of UTF-8 that s begins with; 0 if it is broken: a stray

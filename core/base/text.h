@@ -13,7 +13,7 @@
 
 #define TEXT_NAME_MAX 63 /* bytes of a type's, parameter's or plugin's name */
 
-/* 1 to 63 letters of ASCII, digits, or characters of `extra`. NULL is not a name. */
+/* 1 to 63 letters of ASCII, digits, or characters of `extra`, a letter first. NULL is not a name. */
 bool text_is_name(const char *s, const char *extra);
 
 bool text_is_utf8(const char *s);

@@ -6,7 +6,9 @@
 #include "core/plugin/parameters.h"
 #include "core/plugin/plugin_check.h"
 #include "core/plugin/type_view.h"
+#include "core/surface/part.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* A count beyond these is not a big plugin but a broken one, and would be read past its end. */
@@ -36,14 +38,44 @@ static imp_code check_head(const imp_plugin *entry, imp_error *error)
     return IMP_SUCCESS;
 }
 
+/* A text that a plugin gives, in a form that can be shown. */
+typedef struct shown_text {
+    char at[90];
+} shown_text;
+
+static shown_text shown(const char *text)
+{
+    shown_text s = {"NULL"};
+    if (text == NULL) return s;
+    snprintf(s.at, sizeof s.at, "'%.80s'", text);
+    text_clean(s.at);
+    return s;
+}
+
+typedef struct text_field {
+    const char *name, *text;
+} text_field;
+
+/* The first that is not a line of text, or NULL. */
+static const text_field *field_without_line(const text_field *fields, size_t count)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (!text_is_line(fields[k].text)) return &fields[k];
+    return NULL;
+}
+
 static imp_code check_strings(const imp_plugin *entry, imp_error *error)
 {
+    const text_field fields[] = {
+        {"version", entry->version}, {"license", entry->license}, {"author", entry->author}};
     if (!text_is_line(entry->name) || entry->name[0] == '\0' || strlen(entry->name) > TEXT_NAME_MAX)
-        return fault(error, "name is not legal", "must be a line of 1 to 63 bytes");
-    if (!text_is_line(entry->version) || !text_is_line(entry->license) ||
-        !text_is_line(entry->author))
-        return fault(error, "version, license or author is not a line of text", "give all three");
-    return IMP_SUCCESS;
+        return error_set(error, IMP_ERROR_PLUGIN,
+                         "impinge_plugin: name is %s; must be a line of 1 to 63 bytes",
+                         shown(entry->name).at);
+    const text_field *wrong = field_without_line(fields, sizeof fields / sizeof *fields);
+    if (wrong == NULL) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_PLUGIN, "impinge_plugin: %s is %s; must be a line of text",
+                     wrong->name, shown(wrong->text).at);
 }
 
 static imp_code check_agreement(const imp_plugin *entry, const elf_probe *note, imp_error *error)
@@ -72,7 +104,7 @@ imp_code plugin_check_entry(const imp_plugin *entry, const elf_probe *note, imp_
 
 static const char *row_texts_fault(const imp_parameter *row)
 {
-    if (!text_is_name(row->name, "_")) return "name: must be letters, digits and '_'";
+    if (!text_is_name(row->name, "_")) return "name: must be letters, digits and '_', a letter first";
     if (parameters_is_reserved(row->name)) return "name: is taken by the scene format";
     if (!text_is_line(row->unit)) return "unit: is not a line of text; give \"1\" if it has none";
     if (!text_is_line(row->doc)) return "doc: is not a line of text";
@@ -155,14 +187,20 @@ static imp_code check_table(const parameter_table *table, const place *type, imp
 /* The name first: other faults are reported with it. */
 static imp_code check_view(const type_view *view, const char *null_callback, imp_error *error)
 {
+    const text_field fields[] = {{"summary", view->summary},
+                                 {"equation", view->equation},
+                                 {"example", view->example},
+                                 {"source", view->source != NULL ? view->source : ""}};
     if (!text_is_name(view->name, "_-"))
         return error_set(error, IMP_ERROR_PLUGIN,
-                         "a type's name is not legal; must be 1 to 63 letters, digits, '_', '-'");
+                         "a type's name is %s; must be 1 to 63 letters, digits, '_' and '-', a letter "
+                         "first",
+                         shown(view->name).at);
     place type = place_argument(NULL, view->name);
-    if (!text_is_line(view->summary) || !text_is_line(view->equation) ||
-        !text_is_line(view->example) || (view->source != NULL && !text_is_line(view->source)))
-        return place_error(&type, error, IMP_ERROR_PLUGIN,
-                           "summary, equation, example or source is not a line of text");
+    const text_field *wrong = field_without_line(fields, sizeof fields / sizeof *fields);
+    if (wrong != NULL)
+        return place_error(&type, error, IMP_ERROR_PLUGIN, "%s is %s; must be a line of text",
+                           wrong->name, shown(wrong->text).at);
     if (null_callback != NULL)
         return place_error(&type, error, IMP_ERROR_PLUGIN,
                            "%s is NULL; only include, apply, net, rigid, distance and symmetry may be",
@@ -170,15 +208,17 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
     return check_table(&view->table, &type, error);
 }
 
-/* `allowed`: all flags that it may have. */
-static imp_code check_size(uint32_t size, size_t least, uint32_t flags, uint32_t allowed, imp_error *error)
+/* `allowed`: all flags that it may have. The name follows the size, and is told where the size holds it. */
+static imp_code check_size(uint32_t size, size_t least, const char *const *name, uint32_t flags,
+                           uint32_t allowed, imp_error *error)
 {
-    if (size >= least && (flags & ~allowed) == 0) return IMP_SUCCESS;
-    return error_set(
-        error, IMP_ERROR_PLUGIN,
-        "a type's struct_size is %u, must be >= %zu, and its flags %u, must be 0 or of %u; "
-        "rebuild the plugin",
-        size, least, flags, allowed);
+    if (size < least)
+        return error_set(error, IMP_ERROR_PLUGIN,
+                         "a type's struct_size is %u, must be >= %zu; rebuild the plugin", size, least);
+    if ((flags & ~allowed) == 0) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_PLUGIN,
+                     "%s: flags has unknown bits: %#x, allowed are those of %#x", shown(*name).at,
+                     flags & ~allowed, allowed);
 }
 
 /* Callbacks appended since may be missing. */
@@ -187,7 +227,8 @@ static imp_code check_size(uint32_t size, size_t least, uint32_t flags, uint32_t
 
 static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 {
-    imp_code code = check_size(type->struct_size, SURFACE_TYPE_FIRST, type->flags, IMP_ABSENT_OUTSIDE_TIMES, error);
+    imp_code code = check_size(type->struct_size, SURFACE_TYPE_FIRST, &type->name,
+                               type->flags, IMP_ABSENT_OUTSIDE_TIMES, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_surface(type);
     const char *null_callback = type->create == NULL    ? "create"
@@ -198,8 +239,11 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
                                                         : NULL;
     code = check_view(&view, null_callback, error);
     if (code != IMP_SUCCESS || type->struct_size < offsetof(imp_surface_type, distance)) return code;
+    const place at = place_argument(NULL, view.name);
+    if (part_offers_symmetry(type) && !part_offers_distance(type))
+        return place_error(&at, error, IMP_ERROR_PLUGIN,
+                           "distance is NULL, but symmetry is given; it says what changes no distance");
     if ((type->piece_count == NULL) == (type->piece == NULL)) return IMP_SUCCESS;
-    place at = place_argument(NULL, view.name);
     return place_error(&at, error, IMP_ERROR_PLUGIN, "%s is NULL; give piece_count and piece, or neither",
                        type->piece == NULL ? "piece" : "piece_count");
 }
@@ -207,7 +251,7 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 static imp_code check_map(const imp_map_type *type, imp_error *error)
 {
     const uint32_t flags = IMP_ABSENT_OUTSIDE_TIMES | IMP_TURNS_EXACTLY;
-    imp_code code = check_size(type->struct_size, MAP_TYPE_FIRST, type->flags, flags, error);
+    imp_code code = check_size(type->struct_size, MAP_TYPE_FIRST, &type->name, type->flags, flags, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_map(type);
     const char *null_callback = type->create == NULL        ? "create"

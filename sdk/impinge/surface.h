@@ -105,7 +105,7 @@ enum {
 /* One row of a type's parameter table. A vector is an IMP_NUMBER of rank 1 and
  * extent {3}; a list of points is rank 2 and extents {0, 3}. */
 typedef struct imp_parameter {
-    const char *name;          /* letters, digits, '_'; as written in scene files */
+    const char *name;          /* letters, digits, '_', a letter first; as in scene files */
     const char *unit;          /* "length", "rad", "rad/time", "1", ... */
     const char *doc;           /* one line */
     const char *default_value; /* default as JSON text; NULL: required, or IMP_OPTIONAL */
@@ -265,7 +265,7 @@ typedef struct imp_surface_type {
     uint32_t parameter_count;
     uint32_t parameter_size; /* sizeof(imp_parameter): the stride of the table */
     uint32_t flags;          /* 0 or IMP_ABSENT_OUTSIDE_TIMES */
-    const char *name;        /* letters, digits, '_', '-'; at most 63 bytes */
+    const char *name;        /* letters, digits, '_', '-', a letter first; at most 63 bytes */
     const char *summary;     /* one line */
     const char *equation;    /* how (x, y, z) follows from u, v, t and the parameters */
     const char *source;      /* paper or book the equation comes from; may be NULL */

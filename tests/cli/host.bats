@@ -38,7 +38,7 @@ still_works() {
 
 # --- Loading ------------------------------------------------------------------------------------
 
-sins_of_loading='bad_name: types: a type'"'"'s name is not legal; must be
+sins_of_loading='bad_name: types: a type'"'"'s name is '"'"'bad name!'"'"'; must be
 bad_parameter_table: types: bad_parameter_table: radius: default_value: got -1, must be > 0
 constructor_aborts: trial: loading it crashes: signal 6
 constructor_crashes: trial: loading it crashes: signal 11
@@ -51,7 +51,8 @@ no_factory: types: get_factory knows neither impinge.surface/1 nor impinge.map/1
 no_note: note: has no Impinge note: it is not a plugin, or was built without the macro
 note_disagrees: entry: impinge_plugin says note_disagrees 2.0, ABI 1.0, but the note
 null_callback: types: null_callback: eval is NULL; only include, apply, net, rigid, distance and symmetry may be
-null_string: entry: impinge_plugin: version, license or author is not a line of text; give all three
+null_string: entry: impinge_plugin: author is NULL; must be a line of text
+symmetry_alone: types: symmetry_alone: distance is NULL, but symmetry is given
 undefined_symbol: nobody_defines_this; link it with every library it uses
 wrong_abi_major: abi: abi_major is 9, the host'"'"'s is 1; rebuild the plugin'
 
@@ -59,10 +60,10 @@ wrong_abi_major: abi: abi_major is 9, the host'"'"'s is 1; rebuild the plugin'
     local name reason check
     while IFS=: read -r name reason; do takes "$name"; done <<<"$sins_of_loading"
     run -0 list
-    [[ $output == *'16 files or directories were rejected; `impinge list --refused` shows why.'* ]]
+    [[ $output == *'17 files or directories were rejected; `impinge list --refused` shows why.'* ]]
     run -0 list --json
     valid types
-    json '.refused | length == 16'
+    json '.refused | length == 17'
     while IFS=: read -r name reason; do
         left_out "$name.so" "${reason# }"
     done <<<"$sins_of_loading"

@@ -182,6 +182,26 @@ static imp_status free_model(const void *self, const imp_region *r, imp_model mo
 }
 MISTAKE_INCLUDE(model_forgets_dependence, free_model);
 
+/* --- Late and early times ------------------------------------------------------------------------- */
+
+/* A tenth too small from t = 50 on. */
+static imp_status late_rate(const void *self, const imp_region *r, imp_rate_matrix *rates)
+{
+    const imp_status status = tube_formula_rate(self, r, rates);
+    for (int k = 0; k < 9 && r->lo[2] > 50; ++k) rates->m[k / 3][k % 3] *= 0.9;
+    return status;
+}
+MISTAKE_RATE(rate_low_late, late_rate);
+
+/* Half of the remainder before t = -50. */
+static imp_status early_model(const void *self, const imp_region *r, imp_model model[3])
+{
+    const imp_status status = tube_formula_include(self, r, model);
+    for (int i = 0; i < 3 && r->hi[2] < -50; ++i) model[i].e *= 0.25;
+    return status;
+}
+MISTAKE_INCLUDE(model_sure_early, early_model);
+
 /* --- Errors of points ---------------------------------------------------------------------------- */
 
 static imp_status exact_eval(const void *self, size_t n, const double *p, double *x, double *error)
@@ -215,4 +235,5 @@ MISTAKES("mistakes_bounds", &rate_unbounded_type, &rate_not_padded_type, &rate_l
          &model_without_cross_term_type, &model_without_third_order_type, &range_not_padded_type,
          &range_of_corners_type, &model_of_slopes_by_u_type, &model_rate_without_time_type,
          &model_of_one_moment_type, &model_forgets_dependence_type, &error_zero_type,
-         &error_of_last_rounding_type, &error_of_double_for_float_type);
+         &error_of_last_rounding_type, &error_of_double_for_float_type, &rate_low_late_type,
+         &model_sure_early_type);

@@ -1,5 +1,6 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
+#define _POSIX_C_SOURCE 200809L /* strdup */
 #include "mistakes.h"
 
 /* --- Create and destroy ------------------------------------------------------------------------- */
@@ -225,10 +226,34 @@ static imp_status drifting(const void *self, size_t n, const double *p, double *
 }
 MISTAKE_EVAL(answer_drifts, drifting);
 
+/* --- Memory ------------------------------------------------------------------------------------------ */
+
+static imp_status on_the_heap(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    double *room = malloc((3 * n + 1) * sizeof *room);
+    if (room == NULL) return IMP_INTERNAL;
+    const imp_status status = tube_formula_eval(self, n, p, room, error);
+    memcpy(x, room, 3 * n * sizeof *room);
+    free(room);
+    return status;
+}
+MISTAKE_EVAL(eval_allocates, on_the_heap);
+
+/* strdup allocates, too. */
+static imp_status copied(const void *self, const imp_region *region, imp_model model[3])
+{
+    char *copy = strdup("u, v, t");
+    if (copy == NULL) return IMP_INTERNAL;
+    const imp_status status = tube_formula_include(self, region, model);
+    free(copy);
+    return status;
+}
+MISTAKE_INCLUDE(include_copies_text, copied);
+
 MISTAKES("mistakes_manners", &list_read_too_far_type, &list_kept_type, &refusal_leaks_type,
          &create_crashes_on_odd_value_type, &odd_value_is_taken_type, &destroy_frees_twice_type,
          &destroy_does_nothing_type, &first_point_only_type, &error_of_z_not_written_type,
          &point_written_too_far_type, &point_read_too_far_type, &error_written_when_null_type,
          &end_of_domain_refused_type, &nan_inside_type, &nan_at_odd_place_type, &jump_inside_type,
          &domain_swapped_type, &static_cache_type, &static_scratch_type, &instance_cache_type,
-         &answer_drifts_type);
+         &answer_drifts_type, &eval_allocates_type, &include_copies_text_type);

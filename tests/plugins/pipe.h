@@ -32,21 +32,16 @@ static inline imp_model pipe_gap(const void *self, imp_model x, imp_model y, imp
 IMP_DISTANCE_FORMULA(pipe_gap)
 
 /* Truthful but for its distances or its symmetry, perhaps. */
+#define PIPE_TYPE(NAME, DISTANCE, SYMMETRY)                                                        \
+    {                                                                                              \
+        .struct_size = sizeof(imp_surface_type), .parameter_size = sizeof(imp_parameter),          \
+        .name = NAME, .summary = "a liar", .equation = "(cos u, sin u, v)", .example = NAME,       \
+        .create = tiny_create, .destroy = tiny_destroy, .domain = pipe_domain,                     \
+        .eval = pipe_formula_eval, .rate = pipe_formula_rate, .include = pipe_formula_include,     \
+        .distance = DISTANCE, .symmetry = SYMMETRY,                                                \
+    }
 #define LIAR_PIPE(NAME, DISTANCE, SYMMETRY)                                                        \
-    static const imp_surface_type liar_type = {.struct_size = sizeof(imp_surface_type),            \
-                                               .parameter_size = sizeof(imp_parameter),            \
-                                               .name = NAME,                                       \
-                                               .summary = "a liar",                                \
-                                               .equation = "(cos u, sin u, v)",                    \
-                                               .example = NAME,                                    \
-                                               .create = tiny_create,                              \
-                                               .destroy = tiny_destroy,                            \
-                                               .domain = pipe_domain,                              \
-                                               .eval = pipe_formula_eval,                          \
-                                               .rate = pipe_formula_rate,                          \
-                                               .include = pipe_formula_include,                    \
-                                               .distance = DISTANCE,                               \
-                                               .symmetry = SYMMETRY};                              \
+    static const imp_surface_type liar_type = PIPE_TYPE(NAME, DISTANCE, SYMMETRY);                 \
     TINY_PLUGIN(NAME, liar_type)
 #define LIAR_DISTANCE(NAME, DISTANCE) LIAR_PIPE(NAME, DISTANCE, NULL)
 #define LIAR_SYMMETRY(NAME, SYMMETRY) LIAR_PIPE(NAME, pipe_gap_distance, SYMMETRY)

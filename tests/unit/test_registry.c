@@ -216,10 +216,10 @@ START_TEST(each_sin_of_a_plugin_is_refused_by_its_name)
     assert_alone_refused("wrong_abi_major", "abi: abi_major is 9, the host's is 1");
     assert_alone_refused("newer_minor", "abi: abi_minor is 77, the host's is 0");
     assert_alone_refused("note_disagrees", "says note_disagrees 2.0, ABI 1.0, but the note");
-    assert_alone_refused("null_string", "author is not a line of text");
+    assert_alone_refused("null_string", "author is NULL; must be a line of text");
     assert_alone_refused("no_factory", "offers no types");
     assert_alone_refused("null_callback", "null_callback: eval is NULL");
-    assert_alone_refused("bad_name", "a type's name is not legal");
+    assert_alone_refused("bad_name", "a type's name is 'bad name!'");
     assert_alone_refused("bad_parameter_table",
                          "bad_parameter_table: radius: default_value: got -1, must be > 0");
     assert_alone_refused("half_bad", "half_bad: create is NULL");

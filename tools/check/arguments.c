@@ -168,13 +168,17 @@ static imp_status create_from(const arguments_list *list, const imp_instance *li
                                  : like->map->create(values, &made->self, &why);
 }
 
-/* The instance from guarded arguments gives the same results as the host's. */
+/* The instance from guarded arguments gives the same results as the host's; where they consist of pieces,
+ * their first. */
 static bool answers_alike(const subject *host, const imp_instance *made, const char *hint)
 {
-    subject s = *host;
+    subject s;
     uint64_t random = 1;
     double p[BOX_DIMS], x[2][3], error[2][3];
-    s.instance = made;
+    host->answer->call.hint = hint;
+    const bool is_made = subject_make(&s, made, made, 0, host->answer);
+    host->answer->call.hint = NULL;
+    if (!is_made) return false;
     for (int k = 0; k < POINTS; ++k) {
         draw_point(&random, &host->domain, host->n, p);
         const imp_status one = subject_eval(host, 1, p, x[0], error[0]);

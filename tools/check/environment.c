@@ -20,7 +20,7 @@
 
 #include "core/common/clock.h"
 #include "core/common/fp_control.h"
-#include "tools/check/subject.h"
+#include "tools/check/calls.h"
 
 /* --- What is compared ---------------------------------------------------------------------- */
 
@@ -139,32 +139,17 @@ static bool is_kept(const watch *w, const char *call)
 
 /* --- Calls ------------------------------------------------------------------------------------ */
 
-enum { POINTS = 96, BOXES = 32 };
+enum { ROUNDS = 96 };
 
 static bool calls_keep(const watch *w, const subject *s)
 {
     uint64_t random = draw_stream(1, "environment", "");
-    double p[BOX_DIMS], x[3], error[3], rate[3][BOX_DIMS];
-    imp_model model[3];
-    for (int k = 0; k < POINTS; ++k) {
-        draw_point(&random, &s->domain, s->n, p);
-        errno = w->before.error;
-        subject_eval(s, 1, p, x, error);
-        if (!is_kept(w, "eval")) return false;
-    }
-    for (int k = 0; k < BOXES; ++k) {
-        const box where = draw_box(&random, &s->domain, s->n);
-        errno = w->before.error;
-        subject_rate(s, &where, rate);
-        if (!is_kept(w, "rate")) return false;
-        subject_model(s, where, model);
-        if (!is_kept(w, s->n == 3 ? "include" : "apply")) return false;
-        if (!subject_is_rigid(s)) continue;
-        const imp_region span = subject_span(&where);
-        imp_pose pose;
-        subject_pose(s, &span, &pose);
-        if (!is_kept(w, "rigid")) return false;
-    }
+    for (int k = 0; k < ROUNDS; ++k)
+        for (size_t which = 0; which < PURE_CALLS; ++which) {
+            errno = w->before.error;
+            pure_call(s, which, &random);
+            if (!is_kept(w, pure_call_name(s, which))) return false;
+        }
     return true;
 }
 

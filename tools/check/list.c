@@ -4,9 +4,11 @@
 
 #include "tools/check/list.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "tools/check/allocations.h"
 #include "tools/check/arguments.h"
 #include "tools/check/buffers.h"
 #include "tools/check/cost.h"
@@ -34,6 +36,7 @@ typedef struct check {
                      check_answer *answer);
     void (*of_subject)(const subject *s, uint64_t *random, double effort);
     bool of_bounds;
+    bool is_repeated_late; /* run again over late and early times, where a type has no end */
 } check;
 
 /* To add a check, add a row here and its name below. */
@@ -47,24 +50,25 @@ static const check all[] = {
     {.name = "domain", .of_subject = domain_check},
     {.name = "determinism", .of_subject = determinism_check},
     {.name = "state", .of_stage = state_check},
+    {.name = "allocations", .of_subject = allocations_check},
     {.name = "environment", .of_stage = environment_check},
     {.name = "buffers", .of_subject = buffers_check},
     {.name = "pieces", .of_stage = pieces_check},
-    {.name = "rates", .of_subject = rates_check, .of_bounds = true},
-    {.name = "errors", .of_subject = errors_check, .of_bounds = true},
-    {.name = "inclusions", .of_subject = inclusions_check, .of_bounds = true},
-    {.name = "nets", .of_subject = nets_check, .of_bounds = true},
-    {.name = "poses", .of_subject = poses_check, .of_bounds = true},
+    {.name = "rates", .of_subject = rates_check, .of_bounds = true, .is_repeated_late = true},
+    {.name = "errors", .of_subject = errors_check, .of_bounds = true, .is_repeated_late = true},
+    {.name = "inclusions", .of_subject = inclusions_check, .of_bounds = true, .is_repeated_late = true},
+    {.name = "nets", .of_subject = nets_check, .of_bounds = true, .is_repeated_late = true},
+    {.name = "poses", .of_subject = poses_check, .of_bounds = true, .is_repeated_late = true},
     {.name = "distances", .of_subject = distances_check, .of_bounds = true},
     {.name = "proof", .of_subject = proof_check, .of_bounds = true},
     {.name = "tightness", .of_subject = tightness_check},
     {.name = "cost", .of_subject = cost_check},
 };
 const char *const check_names[] = {
-    "exports", "factories",   "parameters", "arguments",   "memory",  "finite",
-    "domain",  "determinism", "state",      "environment", "buffers", "pieces",
-    "rates",   "errors",      "inclusions", "nets",        "poses",   "distances",
-    "proof",    "tightness", "cost",      NULL};
+    "exports",   "factories",   "parameters", "arguments",   "memory",      "finite", "domain",
+    "determinism", "state",     "allocations", "environment", "buffers",    "pieces", "rates",
+    "errors",    "inclusions",  "nets",       "poses",       "distances",   "proof",  "tightness",
+    "cost",      NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");
@@ -73,6 +77,8 @@ bool check_is_of_file(size_t index) { return all[index].of_file != NULL; }
 
 bool check_is_of_bounds(size_t index) { return all[index].of_bounds; }
 
+#define LATE_EFFORT 0.125
+
 /* --- In the child ------------------------------------------------------------------------- */
 
 static bool find_type(const imp_registry *registry, const check_task *task, imp_type_info *info)
@@ -80,6 +86,22 @@ static bool find_type(const imp_registry *registry, const check_task *task, imp_
     for (size_t i = 0; imp_registry_type(registry, i, info); ++i)
         if (info->kind == task->kind && strcmp(info->name, task->type) == 0) return true;
     return false;
+}
+
+/* Over four units of time, 64 to 1024 after the time 0, or before it. A type whose numbers overflow there is not
+ * blamed for that. */
+static void check_late(const check *c, const subject *as_usual, uint64_t *random, double effort,
+                       bool is_before)
+{
+    subject s = *as_usual;
+    const double time = floor(random_power(random, 6, 10));
+    if (s.ends[is_before ? 0 : 1] != (is_before ? -INFINITY : INFINITY)) return;
+    s.domain.lo[s.n - 1] = is_before ? -time - 4 : time;
+    s.domain.hi[s.n - 1] = is_before ? -time : time + 4;
+    const check_answer before = *s.answer;
+    c->of_subject(&s, random, LATE_EFFORT * effort);
+    if (s.answer->verdict == CHECK_FAIL && (s.answer->faults & (FAULT_VALUE | FAULT_UNBOUNDED)) != 0)
+        *s.answer = before;
 }
 
 static void check_piece(const check *c, const check_task *task, const imp_registry *registry,
@@ -95,6 +117,9 @@ static void check_piece(const check *c, const check_task *task, const imp_regist
     s.formula = task->formula;
     s.said_domain = task->domain;
     c->of_subject(&s, &random, task->effort);
+    for (int is_before = 0; is_before < 2; ++is_before)
+        if (c->is_repeated_late && answer->verdict == CHECK_PASS)
+            check_late(c, &s, &random, task->effort, is_before);
 }
 
 /* Of many pieces the first, that in the middle, and the last. */

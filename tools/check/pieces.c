@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/check/calls.h"
+
 typedef struct visit {
     const imp_instance *whole;
     size_t count;
@@ -38,17 +40,43 @@ static bool is_kept(const visit *v, size_t k)
     v->answer->call = (check_call){.name = "piece"};
     const bool kept = v->whole->surface->piece(v->whole->self, k) == v->pieces[k];
     v->answer->call.name = NULL;
-    return kept || answer_fail(v->answer, "piece %zu is another instance when asked for again", k);
+    return kept || answer_fail(v->answer,
+                               "piece(self, %zu) gave another pointer than before: each piece is "
+                               "one instance, the same each time",
+                               k);
 }
 
+static bool is_count_kept(const visit *v)
+{
+    const size_t now = subject_piece_count(v->whole, v->answer);
+    v->answer->tests += 1;
+    return now == v->count ||
+           answer_fail(v->answer, "piece_count was %zu, and then %zu", v->count, now);
+}
+
+/* Calls of every callback of one piece; they may not change which pieces there are. */
+static bool use(const visit *v, uint64_t *random)
+{
+    subject s;
+    if (!subject_make(&s, v->whole, v->whole, draw_index(random, v->count), v->answer)) return false;
+    for (size_t which = 0; which < PURE_CALLS; ++which) pure_call(&s, which, random);
+    return true;
+}
+
+enum { ASKED_AGAIN = 2000 };
+
+/* First all, in order, then some, in any order and between other calls. */
 static bool visit_all(visit *v)
 {
+    uint64_t random = draw_stream(1, "pieces", "");
     for (size_t k = 0; k < v->count; ++k)
         if (!take(v, k)) return false;
     for (size_t k = 0; k < v->count; ++k)
         if (!is_kept(v, k)) return false;
-    const size_t now = subject_piece_count(v->whole, v->answer);
-    return now == v->count || answer_fail(v->answer, "piece_count was %zu, and then %zu", v->count, now);
+    for (int k = 0; k < ASKED_AGAIN; ++k)
+        if (!is_kept(v, draw_index(&random, v->count)) || !is_count_kept(v) || !use(v, &random))
+            return false;
+    return true;
 }
 
 void pieces_check(imp_registry *registry, const imp_type_info *type, const char *stage,
@@ -68,6 +96,8 @@ void pieces_check(imp_registry *registry, const imp_type_info *type, const char 
         v.pieces = malloc(v.count * sizeof *v.pieces);
         if (v.pieces != NULL) visit_all(&v);
     }
+    else
+        answer_skip(answer, "the type has no pieces");
     free(v.pieces);
     subject_destroy(&made, stage, answer);
 }

@@ -72,6 +72,20 @@ static long double value_at(const imp_model *m, long double at)
     return m->a + at * (m->b[2] + at * m->q[IMP_TT]);
 }
 
+/* `off` is how far the product is from that of a rotation's columns, which is 1 or 0. */
+static bool refute_rotation(const subject *s, const imp_region *span, int j, int k, long double off,
+                            long double slack)
+{
+    const char *what = j == k ? "the square of a column's length" : "the product of two columns";
+    return answer_fail_for(s->answer, FAULT_VALUE,
+                           "turn is no rotation over %s: %s (%d, %d) is off %d by %.9Lg, and allowed is "
+                           "%s",
+                           times_text(span).text, what, j, k, j == k, off,
+                           slack > 0 ? "IMP_RIGID_SLACK, 2^-16"
+                                     : "nothing but rounding, for the flag IMP_TURNS_EXACTLY claims an "
+                                       "exact one");
+}
+
 /* With entries r, each within e of the truth, the rows' products are within sum_k (|r| e' + |r'| e + e e')
  * of the true ones; likewise the determinant, whose terms are products of three. */
 static bool judge_rotation(const subject *s, const imp_region *span, const imp_pose *pose,
@@ -93,10 +107,7 @@ static bool judge_rotation(const subject *s, const imp_region *span, const imp_p
             const long double product =
                 r[0][j] * r[0][k] + r[1][j] * r[1][k] + r[2][j] * r[2][k] - (j == k);
             if (fabsl(product) > slack + off)
-                return answer_fail_for(s->answer, FAULT_VALUE,
-                                       "columns %d and %d of the pose's turn have the product %.9Lg "
-                                       "within %s, which is no rotation's",
-                                       j, k, product + (j == k), times_text(span).text);
+                return refute_rotation(s, span, j, k, product, slack);
         }
     const long double det = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
                             r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +

@@ -4,8 +4,6 @@
 
 #include "tools/check/state.h"
 
-#include <impinge/formula.h>
-
 #include <link.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -14,6 +12,8 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+
+#include "tools/check/calls.h"
 
 /* --- Ranges of memory, and copies of them -------------------------------------------------------- */
 
@@ -93,7 +93,7 @@ static void add_heap(watch *w)
     FILE *maps = fopen("/proc/self/maps", "r");
     while (maps != NULL && fgets(line, sizeof line, maps) != NULL)
         if (strstr(line, "[heap]") != NULL && sscanf(line, "%lx-%lx", &from, &to) == 2)
-            add_range(w, from, to, "memory on the heap, such as the instance,");
+            add_range(w, from, to, "memory on the heap (such as the instance)");
     if (maps != NULL) fclose(maps);
 }
 
@@ -148,85 +148,32 @@ static void forget(watch *w)
 
 /* --- Calls --------------------------------------------------------------------------------------- */
 
-enum { POINTS = 64, BOXES = 16, WARM_UPS = 4, ROUNDS = 3 };
+enum { CALLS = 24, WARM_UPS = 4, ROUNDS = 3 };
 
-typedef void ask(const subject *s, uint64_t *random);
-
-static void ask_eval(const subject *s, uint64_t *random)
+static void call_often(const subject *s, uint64_t *random, size_t which)
 {
-    double p[POINTS * BOX_DIMS], x[POINTS * 3], error[POINTS * 3];
-    for (int k = 0; k < POINTS; ++k) draw_point(random, &s->domain, s->n, p + k * s->n);
-    subject_eval(s, POINTS, p, x, error);
-    for (int k = 0; k < POINTS; ++k) subject_eval(s, 1, p + k * s->n, x, error);
+    for (int k = 0; k < CALLS; ++k) pure_call(s, which, random);
 }
-
-static void ask_rate(const subject *s, uint64_t *random)
-{
-    double rate[3][BOX_DIMS];
-    for (int k = 0; k < BOXES; ++k) {
-        const box where = draw_box(random, &s->domain, s->n);
-        subject_rate(s, &where, rate);
-    }
-}
-
-static void ask_model(const subject *s, uint64_t *random)
-{
-    imp_model model[3];
-    for (int k = 0; k < BOXES; ++k) subject_model(s, draw_box(random, &s->domain, s->n), model);
-}
-
-static void ask_distance(const subject *s, uint64_t *random)
-{
-    const box space = {{-2, -2, -2, s->domain.lo[2]}, {2, 2, 2, s->domain.lo[2]}};
-    for (int k = 0; k < BOXES && subject_has_distance(s); ++k) {
-        imp_model in[4], g;
-        const box where = draw_box(random, &space, 4);
-        subject_operands(&where, in);
-        subject_distance(s, in, &g);
-    }
-    imp_symmetry symmetry;
-    subject_symmetry(s, &symmetry);
-}
-
-static void ask_pose(const subject *s, uint64_t *random)
-{
-    imp_pose pose;
-    for (int k = 0; k < BOXES; ++k) {
-        const box where = draw_box(random, &s->domain, s->n);
-        const imp_region span = subject_span(&where);
-        if (subject_is_rigid(s)) subject_pose(s, &span, &pose);
-    }
-}
-
-static const struct {
-    const char *name;
-    ask *calls;
-} all[] = {{"eval", ask_eval},
-           {"rate", ask_rate},
-           {"include or apply", ask_model},
-           {"rigid", ask_pose},
-           {"distance", ask_distance}};
-enum { CALLS = sizeof all / sizeof *all };
 
 static bool leaves_alone(const subject *s, watch *w, uint64_t *random, size_t which)
 {
     remember(w);
-    all[which].calls(s, random);
+    call_often(s, random, which);
     const range *r = changed(w);
     ++s->answer->tests;
     return r == NULL ||
            answer_fail(s->answer,
                        "%s changes %s: called from several threads at once, it may answer wrongly",
-                       all[which].name, r->what);
+                       pure_call_name(s, which), r->what);
 }
 
 static void check_calls(const subject *s, watch *w)
 {
     uint64_t random = draw_stream(1, "state", "");
     for (int k = 0; k < WARM_UPS; ++k)
-        for (size_t which = 0; which < CALLS; ++which) all[which].calls(s, &random);
+        for (size_t which = 0; which < PURE_CALLS; ++which) call_often(s, &random, which);
     for (int k = 0; k < ROUNDS; ++k)
-        for (size_t which = 0; which < CALLS; ++which)
+        for (size_t which = 0; which < PURE_CALLS; ++which)
             if (!leaves_alone(s, w, &random, which)) return;
     answer_pass(s->answer, "calls change no static data, nor memory on the heap");
 }

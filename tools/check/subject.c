@@ -295,6 +295,12 @@ bool subject_rate_sane(const subject *s, const box *where, double rate[3][BOX_DI
     return true;
 }
 
+/* Names a call without numbers, and keeps what is special about it. */
+static void name_call(check_answer *answer, const char *name)
+{
+    answer->call = (check_call){.name = name, .hint = answer->call.hint};
+}
+
 /* --- Domains ------------------------------------------------------------------------- */
 
 static void cut_times(double *lo, double *hi)
@@ -328,7 +334,7 @@ static bool offers_pieces(const imp_surface_type *type)
 size_t subject_piece_count(const imp_instance *instance, check_answer *answer)
 {
     if (!offers_pieces(instance->surface)) return 0;
-    answer->call = (check_call){.name = "piece_count"};
+    name_call(answer, "piece_count");
     const size_t count = instance->surface->piece_count(instance->self);
     answer->call.name = NULL;
     return count;
@@ -339,7 +345,7 @@ static const imp_instance *piece_of(const imp_instance *instance, size_t k, imp_
                                     check_answer *answer)
 {
     if (k >= subject_piece_count(instance, answer)) return instance;
-    answer->call = (check_call){.name = "piece"};
+    name_call(answer, "piece");
     const void *self = instance->surface->piece(instance->self, k);
     answer->call.name = NULL;
     *piece = (imp_instance){instance->surface, NULL, (void *)(uintptr_t)self};
@@ -358,12 +364,14 @@ bool subject_make(subject *s, const imp_instance *instance, const imp_instance *
     s->n = instance->surface != NULL ? 3 : 4;
     const int t = s->n - 1;
     for (int j = 0; j < 3; ++j) s->domain.lo[j] = -2, s->domain.hi[j] = 2;
-    answer->call = (check_call){.name = "domain"};
+    name_call(answer, "domain");
     if (instance->surface != NULL)
         instance->surface->domain(instance->self, s->domain.lo, s->domain.hi);
     else
         instance->map->time_domain(instance->self, &s->domain.lo[t], &s->domain.hi[t]);
     answer->call.name = NULL;
+    s->ends[0] = s->domain.lo[t];
+    s->ends[1] = s->domain.hi[t];
     cut_times(&s->domain.lo[t], &s->domain.hi[t]);
     return judge_domain(s);
 }

@@ -27,6 +27,7 @@ typedef struct subject {
     int n;      /* 3: u, v, t. 4: x, y, z, t */
     box domain; /* where it is examined: infinite times are cut to a few units, and space to [-2,2]
                  */
+    double ends[2]; /* of its times, as it states them: may be infinite */
 } subject;
 
 /* False, and the check fails, if the domain is invalid. Where instances consist of pieces, their k-th;
