@@ -11,7 +11,7 @@ core_common = \
     core/common/child_process.c core/common/child_process.h \
     core/common/clock.h \
     core/common/fp_control.h \
-    core/common/nearest.c core/common/nearest.h \
+    core/common/spelling.c core/common/spelling.h \
     core/common/random.h \
     core/common/system_error.h
 
@@ -28,12 +28,12 @@ core_base = \
     core/base/unconst.h
 
 core_surface = \
-    core/surface/part.c core/surface/part.h \
+    core/surface/instance.c core/surface/instance.h \
     core/surface/region.c core/surface/region.h \
     core/surface/surface.c core/surface/surface.h \
     core/surface/surface_distance.c \
     core/surface/surface_include.c core/surface/surface_net.c \
-    core/surface/surface_parts.h core/surface/surface_pose.c \
+    core/surface/surface_internal.h core/surface/surface_pose.c \
     core/surface/surface_rate.c \
     core/surface/surface_symmetry.c
 
@@ -50,7 +50,7 @@ core_tree = \
     core/tree/node_net.c \
     core/tree/pose.c core/tree/pose.h core/tree/posed_terms.h \
     core/tree/posing.c core/tree/posing.h \
-    core/tree/tree.c core/tree/tree_parts.h \
+    core/tree/tree.c core/tree/tree_internal.h \
     core/tree/vec.h
 
 core_plugin = \
@@ -61,9 +61,9 @@ core_plugin = \
     core/plugin/elf_relocations.c \
     core/plugin/elf_segments.c core/plugin/elf_segments.h \
     core/plugin/elf_symbols.c \
-    core/plugin/elf_tables.c core/plugin/elf_tables.h core/plugin/elf_tables_parts.h \
+    core/plugin/elf_tables.c core/plugin/elf_tables.h core/plugin/elf_tables_internal.h \
     core/plugin/file_trust.c core/plugin/file_trust.h \
-    core/plugin/isolate.c core/plugin/isolate.h core/plugin/isolate_parts.h \
+    core/plugin/isolate.c core/plugin/isolate.h core/plugin/isolate_internal.h \
     core/plugin/isolate_stand_in.c \
     core/plugin/json_describe.c core/plugin/json_describe.h \
     core/plugin/load_cache.c \
@@ -73,7 +73,7 @@ core_plugin = \
     core/plugin/plugin_check.c core/plugin/plugin_check.h \
     core/plugin/plugin_file.c core/plugin/plugin_file.h \
     core/plugin/registry.c core/plugin/registry.h \
-    core/plugin/registry_parts.h \
+    core/plugin/registry_internal.h \
     core/plugin/registry_scan.c \
     core/plugin/search_path.c core/plugin/search_path.h \
     core/plugin/type_view.h \
@@ -88,50 +88,66 @@ core_scene = \
     core/scene/scene.c core/scene/scene.h \
     core/scene/scene_trees.h
 
+core_bounds = \
+    core/bounds/difference.c core/bounds/difference.h \
+    core/bounds/distance.c core/bounds/distance.h \
+    core/bounds/distance_sides.c \
+    core/bounds/fixed_axes.c core/bounds/fixed_axes.h \
+    core/bounds/gap_lines.c core/bounds/gap_lines.h \
+    core/bounds/gjk_axis.c core/bounds/gjk_axis.h \
+    core/bounds/moving_boxes.c core/bounds/moving_boxes.h \
+    core/bounds/net_axis.c core/bounds/net_axis.h \
+    core/bounds/net_halves.c core/bounds/net_halves.h \
+    core/bounds/net_hull.h \
+    core/bounds/net_model_axis.c core/bounds/net_model_axis.h \
+    core/bounds/normal_field.c core/bounds/normal_field.h \
+    core/bounds/quadratic.h \
+    core/bounds/separation.c core/bounds/separation.h \
+    core/bounds/simplex.h \
+    core/bounds/time_window.c core/bounds/time_window.h \
+    core/bounds/trial_rate.h \
+    core/bounds/tuning.h \
+    core/bounds/window_lanes.h
+
+core_witness = \
+    core/witness/contact_estimate.c core/witness/contact_estimate.h \
+    core/witness/net_eval.c core/witness/net_eval.h \
+    core/witness/newton.c core/witness/newton.h \
+    core/witness/witness.c core/witness/witness.h
+
+core_broad_phase = \
+    core/broad_phase/broad_phase.c core/broad_phase/broad_phase.h \
+    core/broad_phase/candidate.c core/broad_phase/candidate.h \
+    core/broad_phase/candidates.c core/broad_phase/candidates.h \
+    core/broad_phase/collect_pairs.c \
+    core/broad_phase/collect_roots.c \
+    core/broad_phase/collect_surfaces.c \
+    core/broad_phase/collection.h \
+    core/broad_phase/examined_times.c core/broad_phase/examined_times.h \
+    core/broad_phase/parallel.c core/broad_phase/parallel.h
+
 core_solver = \
-    core/solver/axes.c core/solver/axes.h \
-    core/solver/broad_phase.c core/solver/broad_phase.h \
-    core/solver/candidates.c core/solver/candidates.h \
-    core/solver/chances.h \
     core/solver/clearance.c core/solver/clearance.h \
-    core/solver/clearance_parts.c core/solver/clearance_parts.h \
-    core/solver/collect_pairs.c core/solver/collect_roots.c core/solver/collect_surfaces.c \
-    core/solver/collection.h \
-    core/solver/cuts.h \
-    core/solver/distance.c core/solver/distance.h \
-    core/solver/examined_times.c core/solver/examined_times.h \
-    core/solver/follow.c core/solver/follow.h \
-    core/solver/gap_lines.c core/solver/gap_lines.h \
-    core/solver/gjk_axis.c core/solver/gjk_axis.h core/solver/glance.c core/solver/glance.h \
-    core/solver/simplex.h \
+    core/solver/clearance_divide.c \
+    core/solver/clearance_internal.h \
+    core/solver/expand_pair.c core/solver/expand_pair.h \
+    core/solver/impact.c core/solver/impact.h \
     core/solver/min_distance.c core/solver/min_distance.h \
-    core/solver/normal_field.c core/solver/normal_field.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
     core/solver/pair_test.c core/solver/pair_test.h \
-    core/solver/parallel.c core/solver/parallel.h \
-    core/solver/quadratic.h \
-    core/solver/query.c core/solver/query_parts.h \
+    core/solver/query.c \
     core/solver/query_answer.c \
     core/solver/query_clearance.c \
     core/solver/query_divide.c \
-    core/solver/relative.c core/solver/relative.h \
-    core/solver/net_hull.h \
-    core/solver/net_axis.c core/solver/net_axis.h core/solver/net_halves.c core/solver/net_halves.h \
-    core/solver/net_jet.c core/solver/net_jet.h \
-    core/solver/net_march.c core/solver/net_march.h core/solver/newton.c core/solver/newton.h \
-    core/solver/upper_time.c core/solver/upper_time.h \
-    core/solver/net_model_axis.c core/solver/net_model_axis.h \
-    core/solver/separation.c core/solver/separation.h \
-    core/solver/sight.c core/solver/sight.h \
+    core/solver/query_internal.h \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \
-    core/solver/tuning.h \
-    core/solver/witness.c core/solver/witness.h
+    core/solver/upper_time.c core/solver/upper_time.h
 
 core_reader = \
     core/reader/arguments.c core/reader/arguments.h \
     core/reader/builder.c \
-    core/reader/instance.c \
+    core/reader/examine.c \
     core/reader/json_keys.c core/reader/json_keys.h \
     core/reader/pipeline.c core/reader/pipeline.h \
     core/reader/pipeline_value.c core/reader/pipeline_value.h \
@@ -139,7 +155,7 @@ core_reader = \
     core/reader/scene_build.c core/reader/scene_build.h \
     core/reader/scene_file.c core/reader/scene_file.h \
     core/reader/scene_json.c core/reader/scene_json.h \
-    core/reader/scene_parts.c core/reader/scene_parts.h
+    core/reader/scene_instances.c core/reader/scene_instances.h
 
 # What the library and the command share; each links its own copy.
 noinst_LTLIBRARIES += core/libcommon.la
@@ -148,7 +164,7 @@ core_libcommon_la_SOURCES = $(core_common)
 # Everything, internal symbols included: what the Check suites link.
 noinst_LTLIBRARIES += core/libcore.la
 core_libcore_la_SOURCES = $(core_base) $(core_surface) $(core_tree) $(core_plugin) $(core_scene) \
-    $(core_solver) $(core_reader)
+    $(core_bounds) $(core_witness) $(core_broad_phase) $(core_solver) $(core_reader)
 core_libcore_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 core_libcore_la_LIBADD = core/libcommon.la $(JANSSON_LIBS) -lm
 

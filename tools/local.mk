@@ -150,7 +150,7 @@ tools_view = \
     tools/view/verb_view.c
 
 tools_simulate = \
-    tools/simulate/course.c tools/simulate/course.h \
+    tools/simulate/timeline.c tools/simulate/timeline.h \
     tools/simulate/event.c tools/simulate/event.h \
     tools/simulate/mass.c tools/simulate/mass.h \
     tools/simulate/meeting.c tools/simulate/meeting.h \

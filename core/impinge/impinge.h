@@ -28,7 +28,7 @@ extern "C" {
  * share its trees, which are locked where they grow, and answer as if each were alone, bit for bit;
  * only what depends on who came first differs, stats.nodes and stats.bytes, and so does where
  * max_seconds or max_bytes end a query. One query of a large scene uses several threads where the program
- * lends it some (imp_options.parallel): for the trees, the broad phase and the first test of each two
+ * lends it some (imp_options.parallel): for the trees, the broad phase and the first test of each pair of
  * surfaces that come near each other. Its answer and stats but for seconds are the same without, but that
  * stats.bytes depend on who came first until it is decided. A query and a builder belong to one thread
  * at a time. Before something is freed all other threads must be done with it; imp_registry_isolate and
@@ -527,11 +527,11 @@ IMP_EXPORT imp_code imp_query_refine(imp_query *query, double gamma, double clea
  * time. CLEAR is then said of all bodies that are left. */
 IMP_EXPORT imp_code imp_query_pass(imp_query *query, imp_error *error);
 
-/* Each two bodies by themselves, perhaps by several threads: divides a query that has not been stepped
- * into *count parts, one for each two bodies that come near each other, in the order of the scene. The
+/* Each pair of bodies by themselves, perhaps by several threads: divides a query that has not been stepped
+ * into *count parts, one for each pair of bodies that come near each other, in the order of the scene. The
  * query itself is then about the bodies that no part is about, and clear. Where a limit comes first
  * there are no parts, and its result says so. Of a clearance (imp_clearance_new, without `each`) there
- * is a part for each two bodies that are ever both there, however far apart. */
+ * is a part for each pair of bodies that are ever both there, however far apart. */
 IMP_EXPORT imp_code imp_query_divide(imp_query *query, size_t *count, imp_error *error);
 
 /* The two bodies of a part, the smaller index first; false past the last. */
@@ -565,7 +565,7 @@ static inline imp_code imp_solve(imp_scene *scene, const imp_options *options, i
  * and `upper` is evaluated at a witness. If a distance is required, also whether it is kept. */
 typedef struct imp_clearance_options {
     uint32_t struct_size; /* sizeof(imp_clearance_options); grows at the end */
-    bool each;            /* an answer for each two bodies that do not ignore each other */
+    bool each;            /* an answer for each pair of bodies that do not ignore each other */
     double tolerance;     /* R, from 1e-9 to below 1: done when upper - lower <= R upper */
     double required;      /* D > 0, length; 0: nothing is required */
     uint64_t slices;      /* from 1 to 1000000: an answer for each of so many equal parts of time */

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/plugin/elf_tables_parts.h"
+#include "core/plugin/elf_tables_internal.h"
 
 /* Numbers of kinds of relocations, by machine; on others kinds are not told apart. */
 typedef struct machine_kinds {

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/plugin/elf_tables_parts.h"
+#include "core/plugin/elf_tables_internal.h"
 
 /* --- Hashes ------------------------------------------------------------------------------------ */
 

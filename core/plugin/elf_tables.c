@@ -4,7 +4,7 @@
 
 #include "core/plugin/elf_tables.h"
 
-#include "core/plugin/elf_tables_parts.h"
+#include "core/plugin/elf_tables_internal.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include "core/base/active_callback.h"
 #include "core/base/unconst.h"
 #include "core/common/system_error.h"
-#include "core/plugin/isolate_parts.h"
+#include "core/plugin/isolate_internal.h"
 #include "core/plugin/value_bytes.h"
 
 #include <errno.h>

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/plugin/isolate_parts.h"
+#include "core/plugin/isolate_internal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -183,7 +183,7 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
     i->pool = pool;
     i->user = i;
     i->type.surface = type;
-    const bool pieces = part_offers_pieces(type);
+    const bool pieces = instance_offers_pieces(type);
     i->surface_stand_in =
         (imp_surface_type){.struct_size = sizeof i->surface_stand_in,
                            .flags = type->flags,
@@ -196,8 +196,8 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
                            .net = type->net != NULL ? net_of : NULL,
                            .piece_count = pieces ? piece_count_of : NULL,
                            .piece = pieces ? piece_of : NULL,
-                           .distance = part_offers_distance(type) ? distance_of : NULL,
-                           .symmetry = part_offers_symmetry(type) ? symmetry_of : NULL};
+                           .distance = instance_offers_distance(type) ? distance_of : NULL,
+                           .symmetry = instance_offers_symmetry(type) ? symmetry_of : NULL};
     return i;
 }
 
@@ -217,7 +217,7 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
                                      .rate = map_rate_of,
                                      .apply = type->apply != NULL ? map_apply_of : NULL,
                                      .net = type->net != NULL ? net_of : NULL,
-                                     .rigid = part_offers_pose(type) ? map_rigid_of : NULL};
+                                     .rigid = instance_offers_pose(type) ? map_rigid_of : NULL};
     return i;
 }
 

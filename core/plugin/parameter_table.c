@@ -3,7 +3,7 @@
 #include <config.h>
 
 #include "core/base/text.h"
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 #include "core/plugin/parameter_table.h"
 
 #include <impinge/impinge.h>
@@ -27,9 +27,9 @@ ptrdiff_t parameter_table_find(const parameter_table *table, const char *name)
 
 const char *parameter_table_nearest(const parameter_table *table, const char *name)
 {
-    nearest search = {.wanted = name};
+    spelling_search search = {.wanted = name};
     for (size_t i = 0; i < table->count; ++i)
-        nearest_offer(&search, parameter_table_row(table, i)->name);
+        spelling_offer(&search, parameter_table_row(table, i)->name);
     return search.best;
 }
 

@@ -6,7 +6,7 @@
 #include "core/plugin/parameters.h"
 #include "core/plugin/plugin_check.h"
 #include "core/plugin/type_view.h"
-#include "core/surface/part.h"
+#include "core/surface/instance.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -240,7 +240,7 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
     code = check_view(&view, null_callback, error);
     if (code != IMP_SUCCESS || type->struct_size < offsetof(imp_surface_type, distance)) return code;
     const place at = place_argument(NULL, view.name);
-    if (part_offers_symmetry(type) && !part_offers_distance(type))
+    if (instance_offers_symmetry(type) && !instance_offers_distance(type))
         return place_error(&at, error, IMP_ERROR_PLUGIN,
                            "distance is NULL, but symmetry is given; it says what changes no distance");
     if ((type->piece_count == NULL) == (type->piece == NULL)) return IMP_SUCCESS;

@@ -4,8 +4,8 @@
 
 #include "core/base/status.h"
 #include "core/base/text.h"
-#include "core/common/nearest.h"
-#include "core/plugin/registry_parts.h"
+#include "core/common/spelling.h"
+#include "core/plugin/registry_internal.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,9 +40,9 @@ const char *registry_find_file(const imp_registry *registry, imp_type_kind kind,
 
 const char *registry_nearest(const imp_registry *registry, imp_type_kind kind, const char *name)
 {
-    nearest search = {.wanted = name};
+    spelling_search search = {.wanted = name};
     for (size_t i = 0; i < registry->type_count; ++i)
-        if (registry->type[i].kind == kind) nearest_offer(&search, registry->type[i].view.name);
+        if (registry->type[i].kind == kind) spelling_offer(&search, registry->type[i].view.name);
     return search.best;
 }
 
@@ -100,8 +100,8 @@ static bool unknown_name(const imp_registry *r, const char *list, char name[TEXT
 
 static imp_code refuse_isolation(const imp_registry *r, const char *name, imp_error *error)
 {
-    nearest search = {.wanted = name};
-    for (size_t i = 0; i < r->type_count; ++i) nearest_offer(&search, r->type[i].view.name);
+    spelling_search search = {.wanted = name};
+    for (size_t i = 0; i < r->type_count; ++i) spelling_offer(&search, r->type[i].view.name);
     const char *near = search.best;
     return error_set(error, IMP_ERROR_USAGE,
                      "unknown type '%s' to isolate%s%s%s `impinge list` shows what there is", name,

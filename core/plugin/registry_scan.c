@@ -7,8 +7,8 @@
 #include "core/common/array.h"
 #include "core/common/system_error.h"
 #include "core/plugin/file_trust.h"
-#include "core/plugin/registry_parts.h"
-#include "core/surface/part.h"
+#include "core/plugin/registry_internal.h"
+#include "core/surface/instance.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -41,10 +41,10 @@ static void list_capabilities(found_type *found)
     const imp_map_type *map = found->kind == IMP_KIND_MAP ? found->type : NULL;
     const bool second = surface != NULL ? surface->include != NULL : map->apply != NULL;
     const bool net = surface != NULL ? surface->net != NULL : map->net != NULL;
-    const bool pieces = surface != NULL && part_offers_pieces(surface);
-    const bool rigid = map != NULL && part_offers_pose(map);
-    const bool distance = surface != NULL && part_offers_distance(surface);
-    const bool symmetry = surface != NULL && part_offers_symmetry(surface);
+    const bool pieces = surface != NULL && instance_offers_pieces(surface);
+    const bool rigid = map != NULL && instance_offers_pose(map);
+    const bool distance = surface != NULL && instance_offers_distance(surface);
+    const bool symmetry = surface != NULL && instance_offers_symmetry(surface);
     snprintf(found->capabilities, sizeof found->capabilities, "core%s%s%s%s%s%s",
              second ? " order-2" : "", net ? " net" : "", pieces ? " pieces" : "",
              rigid ? " rigid" : "", distance ? " distance" : "", symmetry ? " symmetry" : "");

@@ -67,7 +67,7 @@ static imp_status create_with(server *s, const imp_value *values)
     if (type.surface == NULL) {
         begin(s, CALLBACK_TIME_DOMAIN);
         type.map->time_domain(w->self, &w->lo[0], &w->hi[0]);
-    } else if (part_offers_pieces(type.surface)) {
+    } else if (instance_offers_pieces(type.surface)) {
         begin(s, CALLBACK_PIECE_COUNT);
         w->pieces = type.surface->piece_count(w->self);
     } else {

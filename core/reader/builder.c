@@ -49,7 +49,7 @@ static imp_code enter(imp_builder *b, imp_error *error)
     if (b == NULL) return error_set(error, IMP_ERROR_USAGE, "the builder is NULL");
     if (b->finished)
         return error_set(error, IMP_ERROR_USAGE, "this builder has made its scene already");
-    b->bodies.error = b->bodies.parts.error = error;
+    b->bodies.error = b->bodies.instances.error = error;
     return IMP_SUCCESS;
 }
 
@@ -118,15 +118,15 @@ imp_code imp_builder_body(imp_builder *b, const char *name, size_t *body, imp_er
     return code;
 }
 
-/* The part that a type's name and arguments make. */
+/* The instance that a type's name and arguments make. */
 static imp_code make(imp_builder *b, imp_type_kind kind, const char *type,
                      const imp_argument *arguments, size_t count, const place *at,
-                     shared_part **made, imp_error *error)
+                     shared_instance **made, imp_error *error)
 {
     json_t *object;
     imp_code code = arguments_to_json(type, arguments, count, at, &object, error);
     if (code != IMP_SUCCESS) return code;
-    code = scene_build_part(&b->bodies.parts.source, kind, object, at, made, error);
+    code = scene_build_shared(&b->bodies.instances.source, kind, object, at, made, error);
     json_decref(object);
     return code;
 }
@@ -139,12 +139,12 @@ static FP_APART imp_code add_surface(imp_builder *b, size_t body, const char *ty
     char surface_words[40];
     snprintf(surface_words, sizeof surface_words, "surface %zu", shapes->count);
     const place whole = place_argument(NULL, words.at), at = place_argument(&whole, surface_words);
-    const part_list no_maps = {.count = 0};
-    shared_part *made = NULL;
+    const instance_list no_maps = {.count = 0};
+    shared_instance *made = NULL;
     imp_code code = make(b, IMP_KIND_SURFACE, type, arguments, count, &at, &made, error);
     if (code == IMP_SUCCESS && !shape_list_add(shapes, made, &no_maps))
         code = error_set_memory(error);
-    part_release(made);
+    instance_release(made);
     return code;
 }
 
@@ -161,7 +161,7 @@ imp_code imp_builder_surface(imp_builder *b, size_t body, const char *type,
 }
 
 /* On top of the maps in the list, which are of what `whose` says. */
-static FP_APART imp_code add_map(imp_builder *b, size_t body, const char *whose, part_list *maps,
+static FP_APART imp_code add_map(imp_builder *b, size_t body, const char *whose, instance_list *maps,
                                  const char *type, const imp_argument *arguments, size_t count,
                                  imp_error *error)
 {
@@ -169,10 +169,10 @@ static FP_APART imp_code add_map(imp_builder *b, size_t body, const char *whose,
     char map_words[80];
     snprintf(map_words, sizeof map_words, "%smap %zu", whose, maps->count);
     const place whole = place_argument(NULL, words.at), at = place_argument(&whole, map_words);
-    shared_part *made = NULL;
+    shared_instance *made = NULL;
     imp_code code = make(b, IMP_KIND_MAP, type, arguments, count, &at, &made, error);
-    if (code == IMP_SUCCESS && !part_list_add(maps, made)) code = error_set_memory(error);
-    part_release(made);
+    if (code == IMP_SUCCESS && !instance_list_add(maps, made)) code = error_set_memory(error);
+    instance_release(made);
     return code;
 }
 

@@ -3,7 +3,7 @@
 #include <config.h>
 
 #include "core/base/text.h"
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 #include "core/plugin/json_describe.h"
 #include "core/reader/json_keys.h"
 
@@ -19,9 +19,9 @@ static imp_code refuse_key(const char *const *keys, const place *at, const char 
                            imp_error *error)
 {
     char all[120] = "";
-    nearest search = {.wanted = key};
+    spelling_search search = {.wanted = key};
     for (; *keys != NULL; ++keys) {
-        nearest_offer(&search, *keys);
+        spelling_offer(&search, *keys);
         text_append(all, sizeof all, "%s%s", all[0] ? ", " : "", *keys);
     }
     place member = place_key(at, key);

@@ -8,14 +8,14 @@
 #include <string.h>
 
 #include "core/base/text.h"
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 
 /* --- Creation and destruction ------------------------------------------------------------ */
 
 imp_code scene_bodies_start(scene_bodies *b, const scene_source *source, imp_error *error)
 {
     *b = (scene_bodies){
-        .parts = {.source = *source, .error = error}, .names = json_object(), .error = error};
+        .instances = {.source = *source, .error = error}, .names = json_object(), .error = error};
     return assembly_begin(&b->assembly) && b->names != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
@@ -23,7 +23,7 @@ void scene_bodies_clear(scene_bodies *b)
 {
     json_decref(b->names);
     b->names = NULL;
-    scene_parts_clear(&b->parts);
+    scene_instances_clear(&b->instances);
     assembly_clear(&b->assembly);
 }
 
@@ -85,11 +85,11 @@ imp_code scene_bodies_begin(scene_bodies *b, const char *name, const place *at)
 static imp_code refuse_name(const scene_bodies *b, const char *name, bool groups, const place *at)
 {
     const imp_scene *scene = b->assembly.scene;
-    nearest search = {.wanted = name};
+    spelling_search search = {.wanted = name};
     for (size_t i = 0; i < b->assembly.count; ++i)
-        nearest_offer(&search, imp_scene_body_name(scene, i));
+        spelling_offer(&search, imp_scene_body_name(scene, i));
     for (size_t g = 0; groups && g < scene_group_count(scene); ++g)
-        nearest_offer(&search, scene_group_name(scene, g));
+        spelling_offer(&search, scene_group_name(scene, g));
     const char *or_group = groups ? " or group" : "";
     if (search.best != NULL)
         return place_error(at, b->error, IMP_ERROR_SCENE,

@@ -3,7 +3,7 @@
 #ifndef CORE_READER_SCENE_BODIES_H
 #define CORE_READER_SCENE_BODIES_H
 
-#include "core/reader/scene_parts.h"
+#include "core/reader/scene_instances.h"
 
 /* Bodies by name: how they are related
  * ====================================
@@ -11,7 +11,7 @@
  * space, so that "ignore" is never in doubt. */
 
 typedef struct scene_bodies {
-    scene_parts parts;
+    scene_instances instances;
     assembly assembly;
     json_t *names; /* of bodies, to their index; of groups, to -1 - index */
     imp_error *error;

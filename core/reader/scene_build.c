@@ -226,7 +226,7 @@ static bool write_list(char *text, size_t size, const json_t *list)
 }
 
 /* " radius=2", or the name alone where the value is long. */
-static void label_parameter(char label[PART_LABEL_MAX], const char *name, const json_t *value)
+static void label_parameter(char label[INSTANCE_LABEL_MAX], const char *name, const json_t *value)
 {
     char text[120];
     const size_t head = (size_t)snprintf(text, sizeof text, " %.40s=", name);
@@ -234,22 +234,22 @@ static void label_parameter(char label[PART_LABEL_MAX], const char *name, const 
     if (!(json_is_array(value) ? write_list(text + head, room, value)
                                : write_value(text + head, room, value)))
         memcpy(text + head, "...", 4);
-    part_label_add(label, text);
+    instance_label_add(label, text);
 }
 
 /* "sphere radius=2". False: no memory. */
-static bool label_part(shared_part *p, const json_t *object)
+static bool label_part(shared_instance *p, const json_t *object)
 {
-    char label[PART_LABEL_MAX] = "";
+    char label[INSTANCE_LABEL_MAX] = "";
     const char *key;
     json_t *value;
-    part_label_add(label, part_label(p));
+    instance_label_add(label, instance_label(p));
     json_object_foreach((json_t *)unconst(object), key, value)
     {
         if (strcmp(key, "type") != 0 && strcmp(key, "maps") != 0)
             label_parameter(label, key, value);
     }
-    return part_set_label(p, label);
+    return instance_set_label(p, label);
 }
 
 /* Of the numbers and texts in it. */
@@ -263,14 +263,14 @@ static size_t bytes_given(const json_t *value)
     return bytes + (json_is_number(value) ? sizeof(double) : 0);
 }
 
-imp_code scene_build_part(const scene_source *source, imp_type_kind kind, const json_t *object,
-                          const place *at, shared_part **made, imp_error *error)
+imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
+                            const place *at, shared_instance **made, imp_error *error)
 {
     imp_instance i;
     imp_code code = scene_build_instance(source, kind, object, at, &i, error);
     if (code != IMP_SUCCESS) return code;
-    shared_part *p =
-        kind == IMP_KIND_SURFACE ? part_of_surface(i.surface, i.self) : part_of_map(i.map, i.self);
+    shared_instance *p = kind == IMP_KIND_SURFACE ? instance_of_surface(i.surface, i.self)
+                                                  : instance_of_map(i.map, i.self);
     if (p == NULL) return error_set_memory(error);
     p->given = bytes_given(object);
     if (p->breach == IMP_OK && label_part(p, object)) {
@@ -283,6 +283,6 @@ imp_code scene_build_part(const scene_source *source, imp_type_kind kind, const 
         code = place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", name,
                            registry_find_file(source->registry, kind, name),
                            surface_status_of_last(p->breach).text);
-    part_release(p);
+    instance_release(p);
     return code;
 }

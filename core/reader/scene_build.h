@@ -22,8 +22,8 @@ typedef struct scene_source {
 } scene_source;
 
 /* The surface, without maps, or the map that `object` at `at` asks for. The caller holds *made. */
-imp_code scene_build_part(const scene_source *source, imp_type_kind kind, const json_t *object,
-                          const place *at, shared_part **made, imp_error *error);
+imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
+                            const place *at, shared_instance **made, imp_error *error);
 
 /* What it begins with: the type and what its create made. The caller owns *instance. */
 imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,

@@ -182,13 +182,13 @@ imp_scene *imp_scene_from_file(imp_registry *registry, const char *path, imp_err
 
 static imp_code add_pipeline(scene_bodies *b, const char *name, const char *line)
 {
-    json_t *object = pipeline_read(b->parts.source.registry, name, line, b->error);
+    json_t *object = pipeline_read(b->instances.source.registry, name, line, b->error);
     if (object == NULL) return b->error != NULL ? b->error->code : IMP_ERROR_SCENE;
     const place at = place_argument(NULL, name);
     imp_code code = scene_bodies_begin(b, name, &at);
     if (code == IMP_SUCCESS)
-        code = scene_parts_surface(&b->parts, object, &at,
-                                   &b->assembly.bodies[b->assembly.count - 1].shapes);
+        code = scene_instances_surface(&b->instances, object, &at,
+                                       &b->assembly.bodies[b->assembly.count - 1].shapes);
     json_decref(object);
     return code;
 }

@@ -75,8 +75,9 @@ static imp_code add_body(scene_bodies *b, json_t *body, const place *at)
     if (code == IMP_SUCCESS) code = json_keys_array(body, "maps", false, at, &maps, b->error);
     if (code != IMP_SUCCESS) return code;
     assembly_body *made = &b->assembly.bodies[index];
-    code = scene_parts_surfaces(&b->parts, surfaces, &at_surfaces, &made->shapes);
-    if (code == IMP_SUCCESS) code = scene_parts_maps(&b->parts, maps, &at_maps, &made->maps);
+    code = scene_instances_surfaces(&b->instances, surfaces, &at_surfaces, &made->shapes);
+    if (code == IMP_SUCCESS)
+        code = scene_instances_maps(&b->instances, maps, &at_maps, &made->maps);
     return code;
 }
 
@@ -157,9 +158,9 @@ static imp_code ignore_pairs(scene_bodies *b, const json_t *root, const place *a
 
 imp_code scene_json_read(scene_bodies *b, const json_t *root, const place *at)
 {
-    imp_code code = scene_parts_begin(&b->parts, root, at);
+    imp_code code = scene_instances_begin(&b->instances, root, at);
     if (code == IMP_SUCCESS) code = add_bodies(b, root, at);
-    if (code == IMP_SUCCESS) code = scene_parts_finish(&b->parts);
+    if (code == IMP_SUCCESS) code = scene_instances_finish(&b->instances);
     if (code == IMP_SUCCESS) code = ignore_pairs(b, root, at);
     return code;
 }

@@ -13,17 +13,17 @@
 
 static void shape_clear(shape *s)
 {
-    part_release(s->type);
-    part_list_clear(&s->maps);
+    instance_release(s->type);
+    instance_list_clear(&s->maps);
 }
 
-bool shape_list_add(shape_list *list, shared_part *type, const part_list *maps)
+bool shape_list_add(shape_list *list, shared_instance *type, const instance_list *maps)
 {
     shape *grown = array_reserve(list->at, list->count, &list->capacity, sizeof *grown);
     if (grown == NULL) return false;
     list->at = grown;
-    shape made = {.type = part_hold(type)};
-    if (!part_list_add_all(&made.maps, maps)) {
+    shape made = {.type = instance_hold(type)};
+    if (!instance_list_add_all(&made.maps, maps)) {
         shape_clear(&made);
         return false;
     }
@@ -57,7 +57,7 @@ void assembly_clear(assembly *a)
 {
     for (size_t k = 0; k < a->count; ++k) {
         shape_list_clear(&a->bodies[k].shapes);
-        part_list_clear(&a->bodies[k].maps);
+        instance_list_clear(&a->bodies[k].maps);
     }
     free(a->bodies);
     imp_scene_free(a->scene);
@@ -110,10 +110,10 @@ bool assembly_is_too_large(const assembly *a)
 
 /* --- Composing ------------------------------------------------------------------------- */
 
-static bool add_parts(surface *s, const part_list *maps)
+static bool add_parts(surface *s, const instance_list *maps)
 {
     for (size_t k = 0; k < maps->count; ++k)
-        if (surface_add_part(s, maps->at[k]) != IMP_SUCCESS) return false;
+        if (surface_add_instance(s, maps->at[k]) != IMP_SUCCESS) return false;
     return true;
 }
 

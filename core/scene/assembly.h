@@ -4,18 +4,18 @@
 #define CORE_SCENE_ASSEMBLY_H
 
 #include "core/scene/scene.h"
-#include "core/surface/part.h"
+#include "core/surface/instance.h"
 
-/* From parts to a scene
- * =====================
+/* From instances to a scene
+ * =========================
  * Bodies are described one by one: what they consist of, their maps, their parents. When all of
  * that is known, each surface is composed: first its own maps, then those of its body, then those
- * of its body's parent, of the parent's parent, and so on. The parts stay shared. */
+ * of its body's parent, of the parent's parent, and so on. The instances stay shared. */
 
 /* A surface type's instance under maps of its own. */
 typedef struct shape {
-    shared_part *type; /* held */
-    part_list maps;
+    shared_instance *type; /* held */
+    instance_list maps;
 } shape;
 
 typedef struct shape_list {
@@ -23,8 +23,8 @@ typedef struct shape_list {
     size_t count, capacity;
 } shape_list;
 
-bool shape_list_add(shape_list *list, shared_part *type,
-                    const part_list *maps); /* false: no memory */
+bool shape_list_add(shape_list *list, shared_instance *type,
+                    const instance_list *maps); /* false: no memory */
 bool shape_list_add_all(shape_list *list, const shape_list *more);
 void shape_list_clear(shape_list *list);
 
@@ -33,7 +33,7 @@ void shape_list_clear(shape_list *list);
 /* One body's description; shapes and maps may be added to until the scene is composed. */
 typedef struct assembly_body {
     shape_list shapes;
-    part_list maps;
+    instance_list maps;
     size_t parent;
 } assembly_body;
 

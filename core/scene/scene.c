@@ -185,7 +185,7 @@ static uint64_t sum_of_bytes(const imp_scene *scene)
     for (size_t b = 0; b < scene->count; ++b) {
         const scene_body *body = &scene->bodies[b];
         bytes += strlen(body->name) + 1 + body->capacity * sizeof *body->members +
-                 body->group_capacity * sizeof *body->groups + 2 * PART_BLOCK;
+                 body->group_capacity * sizeof *body->groups + 2 * INSTANCE_BLOCK;
         for (size_t k = 0; k < body->count; ++k) bytes += surface_bytes(body->members[k].surface);
     }
     return bytes;

@@ -2,22 +2,23 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/solver/clearance_parts.h"
+#include "core/solver/clearance_internal.h"
 
 #include <string.h>
 
+#include "core/bounds/separation.h"
+#include "core/bounds/tuning.h"
 #include "core/common/clock.h"
-#include "core/solver/tuning.h"
 
-/* --- The minimum distance of a part --------------------------------------------------------- */
+/* --- The minimum distance of a task --------------------------------------------------------- */
 
 /* Part of what is required that counts as kept: between this and what is required, either answer
  * is right. */
 static double relaxed(const clearance_search *c) { return c->asked.required * (1 - 1e-6); }
 
-static imp_code begin_part(clearance_search *c, imp_error *error)
+static imp_code begin_task(clearance_search *c, imp_error *error)
 {
-    const part *p = &c->parts[c->current];
+    const clearance_task *p = &c->tasks[c->current];
     const double required = c->asked.required;
     c->before = *c->stats;
     c->before.seconds = clock_seconds();
@@ -76,7 +77,7 @@ static void take_bracket(const clearance_search *c, imp_clearance *answer)
     if (m->upper < INFINITY) take_witness(c, m->candidate, &m->found, m->t, answer);
 }
 
-/* What the current part has cost. */
+/* What the current task has cost. */
 static imp_stats cost(const clearance_search *c)
 {
     imp_stats s = *c->stats;
@@ -96,9 +97,9 @@ static bool is_narrow(const clearance_search *c, const imp_clearance *answer)
     return width <= c->asked.tolerance * answer->upper || answer->upper <= c->options.gamma;
 }
 
-static void finish_part(clearance_search *c, imp_reason reason)
+static void finish_task(clearance_search *c, imp_reason reason)
 {
-    part *p = &c->parts[c->current++];
+    clearance_task *p = &c->tasks[c->current++];
     if (reason == IMP_REASON_NONE && decides(c) && !is_narrow(c, &p->answer))
         reason = IMP_REASON_DECIDED;
     p->answer.reason = reason;
@@ -109,7 +110,7 @@ static void finish_part(clearance_search *c, imp_reason reason)
     c->stage = STAGE_NEXT;
 }
 
-/* A part without a witness has no candidates. */
+/* A task without a witness has no candidates. */
 static imp_reason reason_of_none(const clearance_search *c)
 {
     return c->any_pair ? IMP_REASON_NO_TIME : IMP_REASON_NO_PAIRS;
@@ -117,7 +118,7 @@ static imp_reason reason_of_none(const clearance_search *c)
 
 static void begin_violation(clearance_search *c)
 {
-    const imp_clearance *answer = &c->parts[c->current].answer;
+    const imp_clearance *answer = &c->tasks[c->current].answer;
     c->violation = (impact){.gamma = c->asked.required,
                             .clearance = relaxed(c),
                             .window = {answer->t_start, answer->t_end},
@@ -127,7 +128,7 @@ static void begin_violation(clearance_search *c)
                             .t_lower = answer->t_start};
     c->tested = 0;
     c->turn_from = c->stats->pairs;
-    c->turn = TUNING_DECIDE_PAIRS + 2 * (uint64_t)c->parts[c->current].count;
+    c->turn = TUNING_DECIDE_PAIRS + 2 * (uint64_t)c->tasks[c->current].count;
     c->stage = STAGE_VIOLATION;
 }
 
@@ -155,7 +156,7 @@ static bool turn_ends(clearance_search *c)
 
 static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_error *error)
 {
-    part *p = &c->parts[c->current];
+    clearance_task *p = &c->tasks[c->current];
     min_distance_state state;
     const imp_code code = min_distance_advance(&c->distance, &state, error);
     if (code != IMP_SUCCESS) return code;
@@ -176,13 +177,13 @@ static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_err
                                                         : reason_of_none(c);
     const bool violated = p->answer.verdict == IMP_REQUIREMENT_VIOLATED && c->asked.slices == 1;
     if (c->unresolved)
-        finish_part(c, violated ? IMP_REASON_RESOLUTION : p->answer.reason);
+        finish_task(c, violated ? IMP_REASON_RESOLUTION : p->answer.reason);
     else if (violated && c->takes_turns)
         c->stage = STAGE_VIOLATION;
     else if (violated || (running && p->answer.verdict == IMP_REQUIREMENT_UNDECIDED))
         begin_violation(c);
     else
-        finish_part(c, p->answer.reason);
+        finish_task(c, p->answer.reason);
     return IMP_SUCCESS;
 }
 
@@ -211,7 +212,7 @@ static void go_on_with_distance(clearance_search *c)
 
 static void conclude_violation(clearance_search *c, impact_state state, imp_reason *reason)
 {
-    imp_clearance *answer = &c->parts[c->current].answer;
+    imp_clearance *answer = &c->tasks[c->current].answer;
     switch (state) {
     case IMPACT_RUNNING:
         if (answer->verdict != IMP_REQUIREMENT_UNDECIDED || !turn_ends(c)) return;
@@ -237,7 +238,7 @@ static void conclude_violation(clearance_search *c, impact_state state, imp_reas
         answer->reason = IMP_REASON_RESOLUTION;
         break;
     }
-    finish_part(c, answer->reason);
+    finish_task(c, answer->reason);
 }
 
 /* Whether a candidate pair is too far apart to matter; a clearance's list has pairs at any
@@ -251,7 +252,7 @@ static bool is_far(const clearance_search *c, size_t k)
 
 static imp_code search_violation(clearance_search *c, imp_reason *reason, imp_error *error)
 {
-    const part *p = &c->parts[c->current];
+    const clearance_task *p = &c->tasks[c->current];
     impact_state state = IMPACT_RUNNING;
     imp_code code;
     if (c->tested < p->count && is_far(c, p->first + c->tested)) {
@@ -268,7 +269,7 @@ static imp_code search_violation(clearance_search *c, imp_reason *reason, imp_er
     return code;
 }
 
-/* --- All parts ------------------------------------------------------------------------------- */
+/* --- All tasks ------------------------------------------------------------------------------- */
 
 imp_code clearance_work(clearance_search *c, imp_reason *reason, imp_error *error)
 {
@@ -281,7 +282,7 @@ imp_code clearance_work(clearance_search *c, imp_reason *reason, imp_error *erro
     case STAGE_NEXT:
         break;
     }
-    if (c->current < c->count) return begin_part(c, error);
+    if (c->current < c->count) return begin_task(c, error);
     *reason = IMP_REASON_NONE;
     return IMP_SUCCESS;
 }
@@ -295,7 +296,7 @@ clearance_state clearance_look(const clearance_search *c)
         .upper = searched ? m->upper : NAN,
         .t_lower = c->stage == STAGE_VIOLATION ? c->violation.t_lower : NAN,
         .heap = searched ? m->heap.count + m->start_count : c->violation.heap.count,
-        .bytes = sizeof *c + c->count * sizeof *c->parts + m->start_capacity * sizeof(pair) +
+        .bytes = sizeof *c + c->count * sizeof *c->tasks + m->start_capacity * sizeof(pair) +
                  (m->heap.capacity + c->violation.heap.capacity) * PAIR_HEAP_BYTES};
 }
 
@@ -303,8 +304,8 @@ size_t clearance_count(const clearance_search *c) { return c->count; }
 
 imp_clearance clearance_answer(const clearance_search *c, size_t index, imp_reason reason)
 {
-    imp_clearance answer = c->parts[index].answer;
-    if (c->parts[index].done) return answer;
+    imp_clearance answer = c->tasks[index].answer;
+    if (c->tasks[index].done) return answer;
     if (index == c->current && c->stage == STAGE_DISTANCE) take_bracket(c, &answer);
     if (index == c->current && c->stage != STAGE_NEXT) answer.stats = cost(c);
     if (c->asked.required > 0 && answer.verdict == IMP_REQUIREMENT_NONE)

@@ -3,12 +3,12 @@
 #ifndef CORE_SOLVER_CLEARANCE_H
 #define CORE_SOLVER_CLEARANCE_H
 
-#include "core/solver/candidates.h"
+#include "core/broad_phase/candidates.h"
 #include "core/solver/min_distance.h"
 
 /* The questions of imp_clearance_new
  * ==================================
- * A clearance is a list of parts, pairs of bodies by slices of time, each with a minimum distance
+ * A clearance is a list of tasks, pairs of bodies by slices of time, each with a minimum distance
  * that is searched for by itself; the trees are shared. Where something is required and violated, or only
  * the verdict is asked for, a search for the earliest violation follows. */
 
@@ -24,13 +24,13 @@ imp_code clearance_part(const clearance_search *whole, const size_t body[2],
 bool clearance_is_each(const clearance_search *c);
 void clearance_free(clearance_search *c);
 
-/* Divides the candidates, which must outlive it like `stats`, into parts. */
+/* Divides the candidates, which must outlive it like `stats`, into tasks. */
 void clearance_begin(clearance_search *c, const candidate_list *list, imp_stats *stats);
 
-/* One unit of work. *reason: RUNNING, NONE when all parts are done, or why it cannot go on. */
+/* One unit of work. *reason: RUNNING, NONE when all tasks are done, or why it cannot go on. */
 imp_code clearance_work(clearance_search *c, imp_reason *reason, imp_error *error);
 
-/* Of the part that is searched now, for progress and budgets. */
+/* Of the task that is searched now, for progress and budgets. */
 typedef struct clearance_state {
     double lower, upper; /* length */
     double t_lower;      /* no violation before; NAN while it is not searched for */
@@ -40,7 +40,7 @@ clearance_state clearance_look(const clearance_search *c);
 
 size_t clearance_count(const clearance_search *c);
 
-/* `reason` is given to parts that are not done. */
+/* `reason` is given to tasks that are not done. */
 imp_clearance clearance_answer(const clearance_search *c, size_t index, imp_reason reason);
 
 #endif

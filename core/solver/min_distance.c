@@ -7,8 +7,9 @@
 #include <stdlib.h>
 
 #include "core/base/status.h"
-#include "core/solver/sight.h"
-#include "core/solver/tuning.h"
+#include "core/bounds/distance.h"
+#include "core/bounds/separation.h"
+#include "core/bounds/tuning.h"
 
 /* --- How near is near enough --------------------------------------------------------------- */
 
@@ -169,7 +170,7 @@ static imp_code split(min_distance *m, const pair *p, cut c, imp_error *error)
     return IMP_SUCCESS;
 }
 
-static cut choose_cut(const min_distance *m, const pair *p, const sight *seen)
+static cut choose_cut(const min_distance *m, const pair *p, const distance_outcome *seen)
 {
     if (pair_has_cluster(p)) return cut_by_spread(p, scale(m), false);
     if (pair_precision_ends(p, &m->candidates[p->candidate_pair], room(m), 1)) return CUT_NONE;
@@ -181,12 +182,13 @@ static cut choose_cut(const min_distance *m, const pair *p, const sight *seen)
 /* Of a pair that no axis parts, or whose parents slid along each other: what its nodes' distances from each
  * other's whole surfaces show. Lemma. The times that are cut off p->window are farther apart than what is
  * enough, and over those that are left nothing is nearer than seen->lower, so that p->key[0] stays a bound. */
-static imp_code look(min_distance *m, pair *p, sight *seen, imp_error *error)
+static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error *error)
 {
-    *seen = sight_none(p);
+    *seen = distance_outcome_none(&p->window);
     if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return IMP_SUCCESS;
     if (!p->slides && vec3_norm1(p->axis) > 0) return IMP_SUCCESS;
-    const imp_code code = sight_take(p, &m->candidates[p->candidate_pair], enough(m), seen, error);
+    const distance_sides both = pair_sides(p, &m->candidates[p->candidate_pair]);
+    const imp_code code = distance_cut_sides(&both, enough(m), seen, error);
     p->window = seen->left;
     p->slides = p->slides || seen->side >= 0;
     if (seen->lower > p->key[0]) p->key[0] = seen->lower;
@@ -195,7 +197,7 @@ static imp_code look(min_distance *m, pair *p, sight *seen, imp_error *error)
 
 static imp_code follow(min_distance *m, pair p, imp_error *error)
 {
-    sight seen;
+    distance_outcome seen;
     if (p.wait == 0) {
         const imp_code code = find_witness(m, &p, error);
         if (code != IMP_SUCCESS) return code;

@@ -4,7 +4,7 @@
 #define CORE_SOLVER_MIN_DISTANCE_H
 
 #include "core/solver/subdivision.h"
-#include "core/solver/witness.h"
+#include "core/witness/witness.h"
 
 /* The search for the minimum distance over a window of time
  * =========================================================

@@ -3,8 +3,7 @@
 #ifndef CORE_SOLVER_PAIR_HEAP_H
 #define CORE_SOLVER_PAIR_HEAP_H
 
-#include "core/solver/separation.h"
-#include "core/tree/node.h"
+#include "core/bounds/time_window.h"
 
 /* Pairs of nodes that may still touch, the most urgent first
  * ==========================================================
@@ -23,7 +22,7 @@ typedef struct pair {
     uint32_t wait;           /* generations until a witness is sought again */
     bool is_seen_only;       /* separation_first_look may have left too much */
     bool lacks_nets;         /* its nodes were not asked for nets yet */
-    bool slides;             /* of it or an ancestor one node alone was worth halving (sight.h) */
+    bool slides; /* of it or an ancestor one node alone was worth halving (distance.h) */
 } pair;
 
 /* What decides a pair's place on the heap, and where the pair itself is, which never moves. */

@@ -6,9 +6,10 @@
 
 #include <stdlib.h>
 
-#include "core/solver/glance.h"
-#include "core/solver/parallel.h"
-#include "core/solver/tuning.h"
+#include "core/bounds/moving_boxes.h"
+#include "core/bounds/separation.h"
+#include "core/bounds/tuning.h"
+#include "core/broad_phase/parallel.h"
 
 static bool test_by_paper(const impact *im, const pair *p)
 {
@@ -20,8 +21,8 @@ bool pair_test_fully(const impact *im, pair *p)
 {
     if (im->method == IMP_METHOD_PAPER) return test_by_paper(im, p);
     p->is_seen_only = false;
-    return separation_by_models(p->a, p->b, im->clearance, &p->window, &p->axis,
-                                impact_turning(im, p));
+    return separation_window(p->a, p->b, im->clearance, &p->window, &p->axis,
+                             impact_turning(im, p));
 }
 
 /* --- The first test --------------------------------------------------------------------------- */
@@ -66,7 +67,7 @@ static bool waits_for_nets(const impact *im, const pair *p)
     return blurs;
 }
 
-imp_code pair_test_first(const impact *im, pair_test *t, chances *turning, imp_error *error)
+imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, imp_error *error)
 {
     pair *p = &t->p;
     if (waits_for_nets(im, p)) {
@@ -108,7 +109,7 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
     t->any_time = t->p.window.lo <= t->p.window.hi;
     if (!t->any_time) return IMP_SUCCESS;
     if (!is_of_many(im, index)) return pair_test_first(im, t, NULL, error);
-    t->near = separation_at_a_glance(t->p.a, t->p.b, im->clearance, &t->p.window);
+    t->near = moving_boxes_cut(t->p.a, t->p.b, im->clearance, &t->p.window);
     t->p.is_seen_only = t->p.lacks_nets = true;
     return IMP_SUCCESS;
 }

@@ -3,7 +3,7 @@
 #ifndef CORE_SOLVER_PAIR_TEST_H
 #define CORE_SOLVER_PAIR_TEST_H
 
-#include "core/solver/time_of_impact.h"
+#include "core/solver/impact.h"
 
 /* Whether a pair's nodes may be within the clearance
  * ==================================================
@@ -19,8 +19,8 @@ bool pair_test_fully(const impact *im, pair *p);
 imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error);
 
 /* The first test of t->p; the rest of *t is its result. Makes the nodes' nets. `turning` is as for
- * separation_by_models. */
-imp_code pair_test_first(const impact *im, pair_test *t, chances *turning, imp_error *error);
+ * separation_window. */
+imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, imp_error *error);
 
 /* The first test of the roots of candidate pair `index`: that made ahead, or one made now. */
 imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error *error);

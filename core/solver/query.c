@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/solver/query_parts.h"
+#include "core/solver/query_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

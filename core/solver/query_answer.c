@@ -7,7 +7,7 @@
 
 #include "core/base/sized.h"
 #include "core/base/status.h"
-#include "core/solver/query_parts.h"
+#include "core/solver/query_internal.h"
 
 static imp_side side_of(const imp_query *query, int side)
 {

@@ -5,7 +5,7 @@
 #include "core/base/fp_mode.h"
 #include "core/base/sized.h"
 #include "core/base/status.h"
-#include "core/solver/query_parts.h"
+#include "core/solver/query_internal.h"
 
 /* Bytes of the first version. */
 #define OPTIONS_FIRST offsetof(imp_clearance_options, decide)

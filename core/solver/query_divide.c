@@ -7,7 +7,7 @@
 #include "core/base/fp_mode.h"
 #include "core/base/status.h"
 #include "core/common/clock.h"
-#include "core/solver/query_parts.h"
+#include "core/solver/query_internal.h"
 
 /* --- Dividing ------------------------------------------------------------------------------- */
 

@@ -3,45 +3,15 @@
 #ifndef CORE_SOLVER_SUBDIVISION_H
 #define CORE_SOLVER_SUBDIVISION_H
 
-#include "core/solver/net_halves.h"
+#include "core/bounds/distance.h"
+#include "core/bounds/net_halves.h"
+#include "core/broad_phase/candidate.h"
 #include "core/solver/pair_heap.h"
 
 /* How a pair is divided
  * =====================
  * Branch and bound halves one node of a pair along one parameter: that which blurs the pair most.
  * Shared by all searches. Choices cost pairs, never soundness. */
-
-/* A surface that exists at some of the query's times. */
-typedef struct candidate {
-    tree *tree;
-    size_t body, surface;
-    double eval_error; /* of points evaluated, about, of 16 of its pieces if it has more; < 0: not
-                          measured yet; length */
-    size_t still_maps; /* then: of a surface with distances, surface_still_maps */
-    bool moves;        /* then: a point of it was seen to; never of one that has pieces */
-} candidate;
-
-/* Two of different bodies that may come near each other. */
-typedef struct candidate_pair {
-    candidate *side[2];
-    /* >= surface_slip of either along the other, over all times of both; 0: not asked yet */
-    float slip[2];
-} candidate_pair;
-
-static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const candidate_pair *q)
-{
-    return p->side[0]->body == q->side[0]->body && p->side[1]->body == q->side[1]->body;
-}
-
-/* Measures eval_error, still_maps and moves of both, unless they are known: once for each surface of a query, and
- * only of those whose pairs are followed. */
-imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
-
-/* What lies in both; lo > hi: nothing. */
-time_window window_common(time_window x, time_window y);
-
-/* The times of both nodes. */
-time_window pair_times(const node *a, const node *b);
 
 /* Of both nodes: remainders, and how much u and v move points across them; length, about. */
 double pair_remainder(const pair *p);
@@ -50,6 +20,9 @@ double pair_extent(const pair *p);
 /* Whether a node of it is a cluster of pieces: it has no points of its own to evaluate, and is halved
  * further whatever its size. */
 bool pair_has_cluster(const pair *p);
+
+/* The pair's nodes for distance_cut_sides; the slips are those of the candidate pair. */
+distance_sides pair_sides(const pair *p, candidate_pair *both);
 
 /* Goes down to one piece each, always to the half whose box is nearer. */
 imp_code pair_descend(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error);

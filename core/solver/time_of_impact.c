@@ -7,7 +7,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
-#include "core/solver/follow.h"
+#include "core/solver/expand_pair.h"
 
 /* Of many candidate pairs most are pushed: room for half of those to come is made at once. */
 enum { ROOM_MOST = 512 };
@@ -28,7 +28,7 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
     if (code == IMP_SUCCESS && t.any_time && t.near && !reserve_for_candidate(im, index))
         return IMP_SUCCESS;
     *state = IMPACT_RUNNING;
-    if (code == IMP_SUCCESS && t.any_time) follow_push(im, &t);
+    if (code == IMP_SUCCESS && t.any_time) impact_push(im, &t);
     return code;
 }
 
@@ -150,7 +150,7 @@ static impact_state settle(impact *im)
 {
     im->t_lower = im->upper.t;
     im->found_candidate = im->upper.candidate_pair;
-    return follow_contact(im, &im->upper.seen);
+    return impact_contact(im, &im->upper.seen);
 }
 
 /* Ends the pair's window at the horizon. What lies behind waits on the heap, which has room. */
@@ -171,7 +171,7 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
     if (im->method != IMP_METHOD_MODELS) return IMP_SUCCESS;
     const imp_code code = upper_time_follow(&im->upper, p, im->gamma, &sought, error);
     im->stats->witness_searches += sought;
-    if (im->upper.is_known) follow_note_gap(im, &im->upper.seen);
+    if (im->upper.is_known) impact_note_gap(im, &im->upper.seen);
     postpone(im, p);
     return code;
 }
@@ -182,10 +182,10 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 static bool reserve_chances(impact *im)
 {
     const size_t count = im->method == IMP_METHOD_MODELS ? im->candidate_pair_count : 0;
-    if (im->chances != NULL || count == 0) return true;
-    im->chances = calloc(count, sizeof *im->chances);
-    if (im->chances != NULL) im->stats->bytes += count * sizeof *im->chances;
-    return im->chances != NULL;
+    if (im->trials != NULL || count == 0) return true;
+    im->trials = calloc(count, sizeof *im->trials);
+    if (im->trials != NULL) im->stats->bytes += count * sizeof *im->trials;
+    return im->trials != NULL;
 }
 
 /* Of the heap: for the pair popped, twice for what is postponed of it, and one more half. */
@@ -214,7 +214,7 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     if (!is_first_when_tested(im, &p)) return IMP_SUCCESS;
     code = seek_upper_time(im, &p, error);
     pair followed = p;
-    if (code == IMP_SUCCESS) code = follow_pair(im, &followed, state, error);
+    if (code == IMP_SUCCESS) code = expand_pair(im, &followed, state, error);
     if (code != IMP_SUCCESS || *state != IMPACT_RUNNING) pair_heap_push(&im->heap, &p);
     im->found_candidate = p.candidate_pair;
     return code;
@@ -225,10 +225,10 @@ void impact_clear(impact *im)
     pair_heap_clear(&im->heap);
     free(im->roots);
     free(im->passed);
-    free(im->chances);
+    free(im->trials);
     free(im->ahead.tests);
     im->roots = NULL;
     im->passed = NULL;
-    im->chances = NULL;
+    im->trials = NULL;
     im->ahead = (tests_ahead){.tests = NULL};
 }

@@ -4,8 +4,8 @@
 
 #include "core/solver/upper_time.h"
 
-#include "core/solver/net_march.h"
-#include "core/solver/tuning.h"
+#include "core/bounds/tuning.h"
+#include "core/witness/contact_estimate.h"
 
 /* Of gamma: what nearest points are followed to, so that rounding and the net's error have room, and nothing
  * nearer has to be told apart from the clearance before it. */
@@ -37,7 +37,7 @@ static bool is_wanted(upper_time *up, const pair *p)
 
 /* The horizon is where the gap would be gone: a smaller gamma is met before it, so that none of what was left
  * out is needed again. */
-static void take(upper_time *up, const pair *p, const net_meeting *met, const witness *seen)
+static void take(upper_time *up, const pair *p, const contact_estimate *met, const witness *seen)
 {
     const double rest = 2 * seen->gap / met->speed;
     up->is_known = up->has_horizon = true;
@@ -52,12 +52,13 @@ imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *so
 {
     const node *const nodes[2] = {p->a, p->b};
     time_window window = p->window;
-    net_meeting met;
+    contact_estimate met;
     witness seen;
     *sought = is_wanted(up, p);
     if (!*sought) return IMP_SUCCESS;
     if (up->is_known && up->t < window.hi) window.hi = up->t;
-    if (!net_march(p->a, p->b, p->axis, &window, TOUCHING * gamma, &met)) return IMP_SUCCESS;
+    if (!contact_estimate_find(p->a, p->b, p->axis, &window, TOUCHING * gamma, &met))
+        return IMP_SUCCESS;
     const imp_code code = witness_at(nodes, met.t, met.y, &seen, error);
     if (code != IMP_SUCCESS) return code;
     if (seen.gap_upper <= gamma && !(up->is_known && up->t <= met.t)) take(up, p, &met, &seen);

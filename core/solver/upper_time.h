@@ -4,7 +4,7 @@
 #define CORE_SOLVER_UPPER_TIME_H
 
 #include "core/solver/pair_heap.h"
-#include "core/solver/witness.h"
+#include "core/witness/witness.h"
 
 /* A contact that is met before it is proved to be the first
  * =========================================================

@@ -14,18 +14,18 @@
 #include "core/base/status.h"
 #include "core/base/text.h"
 #include "core/common/array.h"
-#include "core/surface/surface_parts.h"
+#include "core/surface/surface_internal.h"
 
 /* --- Composing -------------------------------------------------------------------- */
 
-surface *surface_new_of(shared_part *type)
+surface *surface_new_of(shared_instance *type)
 {
     assert(type->surface != NULL);
     surface *s = malloc(sizeof *s);
     if (s == NULL) return NULL;
     *s = (surface){.type = type->surface,
                    .self = type->piece_count > 0 ? type->pieces[0] : type->self,
-                   .origin = part_hold(type)};
+                   .origin = instance_hold(type)};
     memcpy(s->lo, type->lo, sizeof s->lo);
     memcpy(s->hi, type->hi, sizeof s->hi);
     return s;
@@ -33,19 +33,19 @@ surface *surface_new_of(shared_part *type)
 
 surface *surface_new(const imp_surface_type *type, void *self)
 {
-    shared_part *p = part_of_surface(type, self);
+    shared_instance *p = instance_of_surface(type, self);
     surface *s = p != NULL ? surface_new_of(p) : NULL;
-    part_release(p);
+    instance_release(p);
     return s;
 }
 
-imp_code surface_add_part(surface *s, shared_part *map)
+imp_code surface_add_instance(surface *s, shared_instance *map)
 {
     assert(map->map != NULL);
     mapping *maps = array_reserve(s->maps, s->map_count, &s->map_capacity, sizeof *maps);
     if (maps == NULL) return IMP_ERROR_MEMORY;
     s->maps = maps;
-    maps[s->map_count++] = (mapping){map->map, map->self, part_hold(map)};
+    maps[s->map_count++] = (mapping){map->map, map->self, instance_hold(map)};
     if (map->lo[2] > s->lo[2]) s->lo[2] = map->lo[2];
     if (map->hi[2] < s->hi[2]) s->hi[2] = map->hi[2];
     return IMP_SUCCESS;
@@ -53,25 +53,25 @@ imp_code surface_add_part(surface *s, shared_part *map)
 
 imp_code surface_add_map(surface *s, const imp_map_type *type, void *self)
 {
-    shared_part *p = part_of_map(type, self);
-    const imp_code code = p != NULL ? surface_add_part(s, p) : IMP_ERROR_MEMORY;
-    part_release(p);
+    shared_instance *p = instance_of_map(type, self);
+    const imp_code code = p != NULL ? surface_add_instance(s, p) : IMP_ERROR_MEMORY;
+    instance_release(p);
     return code;
 }
 
 void surface_free(surface *s)
 {
     if (s == NULL) return;
-    for (size_t k = 0; k < s->map_count; ++k) part_release(s->maps[k].origin);
+    for (size_t k = 0; k < s->map_count; ++k) instance_release(s->maps[k].origin);
     free(s->maps);
     free(s->pieces);
-    part_release(s->origin);
+    instance_release(s->origin);
     free(s);
 }
 
 imp_code surface_divide(surface *s)
 {
-    const shared_part *origin = s->origin;
+    const shared_instance *origin = s->origin;
     if (origin->piece_count == 0) return IMP_SUCCESS;
     s->pieces = malloc(origin->piece_count * sizeof *s->pieces);
     if (s->pieces == NULL) return IMP_ERROR_MEMORY;
@@ -84,7 +84,7 @@ imp_code surface_divide(surface *s)
         piece->pieces = NULL;
         piece->piece_count = 0;
         piece->self = origin->pieces[k];
-        if (part_domain(s->type, piece->self, lo, hi) != IMP_OK)
+        if (instance_domain(s->type, piece->self, lo, hi) != IMP_OK)
             continue; /* good when it was made */
         memcpy(piece->lo, lo, 2 * sizeof *lo);
         memcpy(piece->hi, hi, 2 * sizeof *hi);
@@ -94,10 +94,10 @@ imp_code surface_divide(surface *s)
 
 size_t surface_bytes(const surface *s)
 {
-    size_t bytes = sizeof *s + PART_BLOCK + s->piece_count * sizeof *s->pieces +
-                   s->map_capacity * sizeof *s->maps + part_bytes(s->origin) / s->origin->holders;
+    size_t bytes = sizeof *s + INSTANCE_BLOCK + s->piece_count * sizeof *s->pieces +
+                   s->map_capacity * sizeof *s->maps + instance_bytes(s->origin) / s->origin->holders;
     for (size_t k = 0; k < s->map_count; ++k)
-        bytes += part_bytes(s->maps[k].origin) / s->maps[k].origin->holders;
+        bytes += instance_bytes(s->maps[k].origin) / s->maps[k].origin->holders;
     return bytes;
 }
 
@@ -122,19 +122,19 @@ void surface_set_body(surface *s, const char *body, size_t index)
 }
 
 /* Of the type and all maps. */
-static void label_of(const surface *s, char label[PART_LABEL_MAX])
+static void label_of(const surface *s, char label[INSTANCE_LABEL_MAX])
 {
     label[0] = '\0';
     for (size_t k = 0; k <= s->map_count; ++k) {
-        if (k > 0) part_label_add(label, " ! ");
-        part_label_add(label, part_label(k == 0 ? s->origin : s->maps[k - 1].origin));
+        if (k > 0) instance_label_add(label, " ! ");
+        instance_label_add(label, instance_label(k == 0 ? s->origin : s->maps[k - 1].origin));
     }
 }
 
 imp_code surface_fault(const surface *s, imp_error *error, const char *format, ...)
 {
     if (error == NULL) return IMP_ERROR_PLUGIN;
-    char what[sizeof error->text], label[PART_LABEL_MAX];
+    char what[sizeof error->text], label[INSTANCE_LABEL_MAX];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
@@ -155,16 +155,16 @@ void surface_domain(const surface *s, double lo[3], double hi[3])
 
 /* --- Times --------------------------------------------------------------------- */
 
-/* Part 0 is the type, part k the map k - 1. */
-static surface_part part_of(const surface *s, size_t k, bool *absent)
+/* Instance 0 is the type, instance k the map k - 1. */
+static surface_instance instance_at(const surface *s, size_t k, bool *absent)
 {
     if (k == 0) {
         *absent = s->type->flags & IMP_ABSENT_OUTSIDE_TIMES;
-        return (surface_part){s->type->name, s->origin->lo[2], s->origin->hi[2]};
+        return (surface_instance){s->type->name, s->origin->lo[2], s->origin->hi[2]};
     }
     const mapping *map = &s->maps[k - 1];
     *absent = map->type->flags & IMP_ABSENT_OUTSIDE_TIMES;
-    return (surface_part){map->type->name, map->origin->lo[2], map->origin->hi[2]};
+    return (surface_instance){map->type->name, map->origin->lo[2], map->origin->hi[2]};
 }
 
 void surface_existence(const surface *s, double *lo, double *hi)
@@ -172,17 +172,17 @@ void surface_existence(const surface *s, double *lo, double *hi)
     *lo = -INFINITY, *hi = INFINITY;
     for (size_t k = 0; k <= s->map_count; ++k) {
         bool absent;
-        const surface_part part = part_of(s, k, &absent);
-        if (absent && part.lo > *lo) *lo = part.lo;
-        if (absent && part.hi < *hi) *hi = part.hi;
+        const surface_instance x = instance_at(s, k, &absent);
+        if (absent && x.lo > *lo) *lo = x.lo;
+        if (absent && x.hi < *hi) *hi = x.hi;
     }
 }
 
-bool surface_undefined_part(const surface *s, double lo, double hi, surface_part *found)
+bool surface_undefined_instance(const surface *s, double lo, double hi, surface_instance *found)
 {
     for (size_t k = 0; k <= s->map_count; ++k) {
         bool absent;
-        *found = part_of(s, k, &absent);
+        *found = instance_at(s, k, &absent);
         if (!absent && (found->lo > lo || found->hi < hi)) return true;
     }
     return false;

@@ -3,7 +3,7 @@
 #ifndef CORE_SURFACE_SURFACE_H
 #define CORE_SURFACE_SURFACE_H
 
-#include "core/surface/part.h"
+#include "core/surface/instance.h"
 
 /* A surface under its maps, composed once
  * =======================================
@@ -12,13 +12,13 @@
 
 typedef struct surface surface;
 
-/* Of one part, which it holds. NULL: no memory. */
-surface *surface_new_of(shared_part *type);
+/* A surface of one instance, which it holds. NULL: no memory. */
+surface *surface_new_of(shared_instance *type);
 
 /* Puts a map on top of those already there, and holds it. */
-imp_code surface_add_part(surface *s, shared_part *map);
+imp_code surface_add_instance(surface *s, shared_instance *map);
 
-/* The same with parts of its own: takes over `self`, also when it fails. */
+/* The same with instances of its own: takes over `self`, also when it fails. */
 surface *surface_new(const imp_surface_type *type, void *self);
 imp_code surface_add_map(surface *s, const imp_map_type *type, void *self);
 
@@ -49,17 +49,17 @@ imp_code surface_fault(const surface *s, imp_error *error, const char *format, .
 void surface_domain(const surface *s, double lo[3], double hi[3]);
 
 /* The type or one of the maps, and the times it is defined for. */
-typedef struct surface_part {
+typedef struct surface_instance {
     const char *name;
     double lo, hi;
-} surface_part;
+} surface_instance;
 
-/* The times at which the surface exists: all that no part excludes (IMP_ABSENT_OUTSIDE_TIMES).
+/* The times at which the surface exists: all that no instance excludes (IMP_ABSENT_OUTSIDE_TIMES).
  * lo > hi: none. */
 void surface_existence(const surface *s, double *lo, double *hi);
 
-/* The first part that leaves open what happens at some time from lo to hi; false: there is none. */
-bool surface_undefined_part(const surface *s, double lo, double hi, surface_part *found);
+/* The first instance that leaves open what happens at some time from lo to hi; false: there is none. */
+bool surface_undefined_instance(const surface *s, double lo, double hi, surface_instance *found);
 
 /* Beside the statuses of the ABI. A callback left another floating-point mode behind; it is put
  * back. Or the process of an isolated instance ended, or was ended because it did not answer. Or
@@ -106,7 +106,7 @@ imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, 
 /* Rate matrix of the composition (paper, section 5). */
 imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates);
 
-/* The inclusion function of the composition, Taylor models of order 2; boxes from eval and rate where a part
+/* The inclusion function of the composition, Taylor models of order 2; boxes from eval and rate where an instance
  * has no better. */
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3]);
 

@@ -7,9 +7,9 @@
 
 #include "core/base/rounding.h"
 #include "core/surface/region.h"
-#include "core/surface/surface_parts.h"
+#include "core/surface/surface_internal.h"
 
-bool part_offers_distance(const imp_surface_type *type)
+bool instance_offers_distance(const imp_surface_type *type)
 {
     return type->struct_size >= offsetof(imp_surface_type, distance) + sizeof type->distance &&
            type->distance != NULL;
@@ -17,7 +17,7 @@ bool part_offers_distance(const imp_surface_type *type)
 
 bool surface_has_distance(const surface *s)
 {
-    return part_offers_distance(s->type) && (s->map_count == 0 || surface_is_rigid(s));
+    return instance_offers_distance(s->type) && (s->map_count == 0 || surface_is_rigid(s));
 }
 
 size_t surface_map_count(const surface *s) { return s->map_count; }

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "core/surface/surface_parts.h"
+#include "core/surface/surface_internal.h"
 
 /* False where a number is not finite or an error negative. */
 static bool is_sane(const imp_net *net)

@@ -5,12 +5,12 @@
 #include <impinge/model.h>
 #include <string.h>
 
-#include "core/surface/surface_parts.h"
+#include "core/surface/surface_internal.h"
 
 bool surface_is_rigid(const surface *s)
 {
     for (size_t k = 0; k < s->map_count; ++k)
-        if (!part_offers_pose(s->maps[k].type)) return false;
+        if (!instance_offers_pose(s->maps[k].type)) return false;
     return s->map_count > 0;
 }
 

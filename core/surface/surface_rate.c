@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/surface/surface_parts.h"
+#include "core/surface/surface_internal.h"
 
 #include <string.h>
 

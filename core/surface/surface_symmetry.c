@@ -8,9 +8,9 @@
 
 #include "core/base/rounding.h"
 #include "core/surface/region.h"
-#include "core/surface/surface_parts.h"
+#include "core/surface/surface_internal.h"
 
-bool part_offers_symmetry(const imp_surface_type *type)
+bool instance_offers_symmetry(const imp_surface_type *type)
 {
     return type->struct_size >= offsetof(imp_surface_type, symmetry) + sizeof type->symmetry &&
            type->symmetry != NULL;
@@ -36,7 +36,7 @@ static bool is_sane(const imp_symmetry *found)
 
 bool surface_has_symmetry(const surface *s)
 {
-    return part_offers_symmetry(s->type) && surface_has_distance(s);
+    return instance_offers_symmetry(s->type) && surface_has_distance(s);
 }
 
 static imp_status symmetry_of(const surface *s, imp_symmetry *found)

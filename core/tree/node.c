@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core/base/status.h"
-#include "core/tree/tree_parts.h"
+#include "core/tree/tree_internal.h"
 
 /* --- Memory ------------------------------------------------------------------- */
 

@@ -6,7 +6,7 @@
 
 #include "core/base/rounding.h"
 #include "core/tree/node_model.h"
-#include "core/tree/tree_parts.h"
+#include "core/tree/tree_internal.h"
 
 /* --- Faults of plugins ---------------------------------------------------------- */
 

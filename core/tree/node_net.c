@@ -7,7 +7,7 @@
 
 #include "core/base/status.h"
 #include "core/tree/net_series.h"
-#include "core/tree/tree_parts.h"
+#include "core/tree/tree_internal.h"
 
 const net net_none;
 

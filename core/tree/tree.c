@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/base/status.h"
-#include "core/tree/tree_parts.h"
+#include "core/tree/tree_internal.h"
 
 /* A box, as a tree keeps it. */
 _Static_assert(offsetof(node, hi) == offsetof(node, lo) + 3 * sizeof(double), "lo, then hi");

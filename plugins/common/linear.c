@@ -8,7 +8,7 @@
 
 /* x, y and z are computed side by side, in the lanes of quads. */
 
-#define LAST_ROUNDING (0x1p-53 * (1 + 0x1p-50)) /* of a computed sum, relative */
+#define LAST_ROUNDING (0x1p-53 * (1 + 0x1p-50)) /* of a computed sum, difference */
 
 /* The coefficients in registers. */
 typedef struct linear_terms {

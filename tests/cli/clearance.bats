@@ -20,7 +20,7 @@ END
     echo
 }
 
-@test "each two of many bodies: the same bytes for any number of threads" {
+@test "each pair of many bodies: the same bytes for any number of threads" {
     "$top_builddir"/tests/support/crowd_scene 9 3 >crowd.json
     for threads in 1 2; do
         "$IMPINGE" clearance crowd.json --each --json --tolerance 0.1 --threads "$threads" |
@@ -130,7 +130,7 @@ END
     [[ $output == *"gap "*", at most gamma = 1e-06"* ]]
 }
 
-@test "each two bodies, what is proved to be nearest first" {
+@test "each pair of bodies, what is proved to be nearest first" {
     three >three.json
     run -1 "$IMPINGE" clearance three.json --each --require 2 --tolerance 1e-3 --json
     valid clearance

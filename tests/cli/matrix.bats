@@ -81,7 +81,7 @@ failing() {
     json 'any(.cells[]; .a == "eval_crashes" and has("error"))'
 }
 
-@test "unasked, each two are given so many pairs and no more" {
+@test "unasked, each pair of bodies is given so many pairs and no more" {
     run -0 timeout 60 "$IMPINGE" matrix --json
     valid matrix
     json 'all(.cells[]; .pairs <= 10010)'

@@ -19,7 +19,7 @@ four() {
 END
 }
 
-@test "each two bodies in order of time, those that stay clear last" {
+@test "each pair of bodies in order of time, those that stay clear last" {
     four >four.json
     run -0 "$IMPINGE" solve four.json --each --json
     valid result

@@ -87,6 +87,21 @@ broken_copy_is_refused() { # FILE LINE COMPLAINT
         'core/solver/query.c includes "core/plugin/registry.h"'
 }
 
+@test "an include of the search in what bounds pairs is found" {
+    broken_copy_is_refused core/bounds/distance.h '#include "core/solver/pair_heap.h"' \
+        'core/bounds/distance.h includes "core/solver/pair_heap.h"'
+}
+
+@test "an include of witnesses in what bounds pairs is found" {
+    broken_copy_is_refused core/bounds/distance.h '#include "core/witness/witness.h"' \
+        'core/bounds/distance.h includes "core/witness/witness.h"'
+}
+
+@test "an include of the search in the broad phase is found" {
+    broken_copy_is_refused core/broad_phase/candidates.h '#include "core/solver/impact.h"' \
+        'core/broad_phase/candidates.h includes "core/solver/impact.h"'
+}
+
 @test "an include of core in the SDK is found" {
     broken_copy_is_refused sdk/impinge/surface.h '#include <impinge/impinge.h>' \
         'sdk/impinge/surface.h includes <impinge/impinge.h>'

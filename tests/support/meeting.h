@@ -3,7 +3,7 @@
 #ifndef TESTS_SUPPORT_MEETING_H
 #define TESTS_SUPPORT_MEETING_H
 
-#include "core/solver/relative.h"
+#include "core/bounds/difference.h"
 #include "tests/support/suite.h"
 
 /* What tests of pairs of made-up nodes share that meet at a chosen moment of a window: no cut may lose it. */
@@ -30,7 +30,7 @@ static inline void check_window_left(const time_window *window, double t, bool s
 }
 
 /* The same in w. */
-static inline void check_share_left(const relative *r, double t, bool some, const w_range *left,
+static inline void check_share_left(const difference *r, double t, bool some, const w_range *left,
                                     int number)
 {
     const long double w = r->half > 0 ? (t - (long double)r->mid) / r->half : 0;

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/solver/broad_phase.h"
+#include "core/broad_phase/broad_phase.h"
 #include "tests/support/suite.h"
 
-/* The sweep visits each two boxes of different groups that are near each other, whichever axis it runs along,
+/* The sweep visits each pair of boxes of different groups that are near each other, whichever axis it runs along,
  * once. */
 
 enum { BOXES = 60 };

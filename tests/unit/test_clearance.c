@@ -442,7 +442,7 @@ START_TEST(programs_that_know_nothing_of_deciding_get_a_narrow_bracket)
 }
 END_TEST
 
-/* --- Slices, and each two bodies ---------------------------------------------------------------- */
+/* --- Slices, and each pair of bodies ---------------------------------------------------------------- */
 
 /* --- What was asked before ------------------------------------------------------------------- */
 

@@ -307,19 +307,19 @@ END_TEST
 START_TEST(maps_are_common_that_are_the_same_instances_at_the_end)
 {
     motion m = {.error = 0};
-    shared_part *parts[3];
+    shared_instance *parts[3];
     surface *s[3];
-    for (int k = 0; k < 3; ++k) parts[k] = part_of_map(&moves, &m);
+    for (int k = 0; k < 3; ++k) parts[k] = instance_of_map(&moves, &m);
     for (int k = 0; k < 3; ++k) s[k] = surface_new(&ball, &m);
     for (int k = 0; k < 2; ++k) {
-        ck_assert_int_eq(surface_add_part(s[k], parts[k]), IMP_SUCCESS);
-        ck_assert_int_eq(surface_add_part(s[k], parts[2]), IMP_SUCCESS);
+        ck_assert_int_eq(surface_add_instance(s[k], parts[k]), IMP_SUCCESS);
+        ck_assert_int_eq(surface_add_instance(s[k], parts[2]), IMP_SUCCESS);
     }
     ck_assert_uint_eq(surface_common_maps(s[0], s[1]), 1);
     ck_assert_uint_eq(surface_common_maps(s[0], s[0]), 2);
     ck_assert_uint_eq(surface_common_maps(s[0], s[2]), 0);
     for (int k = 0; k < 3; ++k) surface_free(s[k]);
-    for (int k = 0; k < 3; ++k) part_release(parts[k]);
+    for (int k = 0; k < 3; ++k) instance_release(parts[k]);
 }
 END_TEST
 

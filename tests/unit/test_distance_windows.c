@@ -5,7 +5,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "core/solver/distance.h"
+#include "core/bounds/distance.h"
 #include "tests/support/suite.h"
 
 /* Windows that random distances cut: at the times that are cut off, and at all where nodes are said to be

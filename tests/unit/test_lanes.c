@@ -18,11 +18,10 @@
 
 #define imp_quad_is_wide() false
 #define node_take_model narrow_node_take_model
-#define relative_at narrow_relative_at
-#define w_range_cut narrow_w_range_cut
+#define difference_at narrow_difference_at
 #define gjk_axis narrow_gjk_axis
-#define axes_cut narrow_axes_cut
-#define axes_cut_along narrow_axes_cut_along
+#define fixed_axes_cut narrow_fixed_axes_cut
+#define fixed_axes_cut_along narrow_fixed_axes_cut_along
 #define net_bytes narrow_net_bytes
 #define net_series_take narrow_net_series_take
 #define net_take narrow_net_take
@@ -32,31 +31,31 @@
 #define net_halves_find narrow_net_halves_find
 #define net_halves_cut narrow_net_halves_cut
 #define net_points_take narrow_net_points_take
-#define net_jets_at narrow_net_jets_at
+#define net_eval_at narrow_net_eval_at
 #define net_heights_along narrow_net_heights_along
 #define net_velocity_at narrow_net_velocity_at
-#define net_march narrow_net_march
+#define contact_estimate_find narrow_contact_estimate_find
 #define net_nearest narrow_net_nearest
 #define net_axis_seek narrow_net_axis_seek
 #define net_axis_cut narrow_net_axis_cut
 #define net_model_axis_seek narrow_net_model_axis_seek
 #define net_model_axis_cut narrow_net_model_axis_cut
-#include "core/solver/net_halves.h"
-#include "core/solver/net_march.h"
-#include "core/solver/relative.c"
+#include "core/bounds/difference.c"
+#include "core/bounds/net_halves.h"
 #include "core/tree/node_model.c"
+#include "core/witness/contact_estimate.h"
 #define along along_nearest
 #define search search_nearest
-#include "core/solver/gjk_axis.c"
+#include "core/bounds/gjk_axis.c"
 #undef along
 #undef search
-#include "core/solver/axes.c"
-#include "core/solver/net_axis.c"
-#include "core/solver/net_halves.c"
-#include "core/solver/net_jet.c"
-#include "core/solver/net_march.c"
-#include "core/solver/net_model_axis.c"
+#include "core/bounds/fixed_axes.c"
+#include "core/bounds/net_axis.c"
+#include "core/bounds/net_halves.c"
+#include "core/bounds/net_model_axis.c"
 #include "core/tree/net.c"
+#include "core/witness/contact_estimate.c"
+#include "core/witness/net_eval.c"
 #define take take_series
 #define take_wide take_series_wide
 #include "core/tree/net_series.c"
@@ -65,14 +64,14 @@
 #undef net_series_take
 #undef imp_quad_is_wide
 #undef node_take_model
-#undef relative_at
+#undef difference_at
 #undef gjk_axis
-#undef axes_cut
-#undef axes_cut_along
+#undef fixed_axes_cut
+#undef fixed_axes_cut_along
 #undef net_halve
 #undef net_halves_find
 #undef net_halves_cut
-#undef net_march
+#undef contact_estimate_find
 #undef net_nearest
 #undef net_axis_seek
 #undef net_axis_cut
@@ -80,18 +79,19 @@
 #undef net_model_axis_cut
 
 const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite);
-void relative_at(const node *a, const node *b, const time_window *window, relative *r);
-bool gjk_axis(const relative *r, double w, vec3 *axis);
-bool axes_cut(const relative *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines);
-bool axes_cut_along(const relative *r, double clearance, w_range *s, vec3 axis);
+void difference_at(const node *a, const node *b, const time_window *window, difference *r);
+bool gjk_axis(const difference *r, double w, vec3 *axis);
+bool fixed_axes_cut(const difference *r, double clearance, w_range *s, vec3 *axis,
+                    gap_lines *lines);
+bool fixed_axes_cut_along(const difference *r, double clearance, w_range *s, vec3 axis);
 void net_halve(const net *n, parameter j, int side, net *half);
 void net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
                      const time_window *window, net_halves *halves);
 bool net_halves_cut(const net_halves *halves, int side, parameter j, const time_window *window,
                     time_window left[2], bool near[2]);
 bool net_series_take(const net *p, node *n);
-bool net_march(const node *a, const node *b, vec3 axis, const time_window *window, double gap,
-               net_meeting *found);
+bool contact_estimate_find(const node *a, const node *b, vec3 axis, const time_window *window,
+                           double gap, contact_estimate *found);
 void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
                  double y[4]);
 bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
@@ -177,11 +177,11 @@ static void check_pair(uint64_t *state, const node *a, const node *b)
 {
     const double start = random_between(state, 0, 0.9);
     const time_window window = {start, start + (1 - start) * random_power(state, -10, 0)};
-    relative wide, narrow;
+    difference wide, narrow;
     memset(&wide, 0, sizeof wide); /* of what is not filled, too */
     memset(&narrow, 0, sizeof narrow);
-    relative_at(a, b, &window, &wide);
-    narrow_relative_at(a, b, &window, &narrow);
+    difference_at(a, b, &window, &wide);
+    narrow_difference_at(a, b, &window, &narrow);
     ck_assert(same_bits(&wide, &narrow, sizeof wide / sizeof(double)));
     w_range s = {-1, 1}, t = s;
     vec3 n = {{draw(state, 1), draw(state, 1), draw(state, 1)}}, m = n;
@@ -192,14 +192,14 @@ static void check_pair(uint64_t *state, const node *a, const node *b)
     gap_lines_begin(&seen);
     gap_lines_begin(&narrow_seen);
     wide.focus = narrow.focus = random_between(state, -1, 1);
-    const bool some = axes_cut(&wide, clearance, &s, &n, &seen);
-    ck_assert(some == narrow_axes_cut(&wide, clearance, &t, &m, &narrow_seen));
+    const bool some = fixed_axes_cut(&wide, clearance, &s, &n, &seen);
+    ck_assert(some == narrow_fixed_axes_cut(&wide, clearance, &t, &m, &narrow_seen));
     ck_assert(same_bits(&n, &m, 3) && same_bits(&s, &t, 2));
     ck_assert_int_eq(seen.count, narrow_seen.count);
     ck_assert(same_bits(seen.line, narrow_seen.line, 2 * (size_t)seen.count));
     s = t = (w_range){-1, 1};
-    ck_assert(axes_cut_along(&wide, clearance, &s, n) ==
-              narrow_axes_cut_along(&wide, clearance, &t, n));
+    ck_assert(fixed_axes_cut_along(&wide, clearance, &s, n) ==
+              narrow_fixed_axes_cut_along(&wide, clearance, &t, n));
     ck_assert(same_bits(&s, &t, 2));
 }
 
@@ -259,7 +259,7 @@ static void check_halves_and_march(const node *a, const node *b, vec3 n, const t
     net_halves halves, narrow;
     time_window left[2][2] = {{*w, *w}, {*w, *w}};
     bool near[2][2] = {{true, true}, {true, true}};
-    net_meeting met = {.t = 0}, narrow_met = met;
+    contact_estimate met = {.t = 0}, narrow_met = met;
     net_halves_find(a, b, n, 1e-3, w, &halves);
     narrow_net_halves_find(a, b, n, 1e-3, w, &narrow);
     ck_assert(halves.count == narrow.count && halves.has_heights == narrow.has_heights);
@@ -273,7 +273,8 @@ static void check_halves_and_march(const node *a, const node *b, vec3 n, const t
         ck_assert(same_bits(left[0], left[1], 4) && near[0][0] == near[1][0] &&
                   near[0][1] == near[1][1]);
     }
-    ck_assert(net_march(a, b, n, w, 1e-6, &met) == narrow_net_march(a, b, n, w, 1e-6, &narrow_met));
+    ck_assert(contact_estimate_find(a, b, n, w, 1e-6, &met) ==
+              narrow_contact_estimate_find(a, b, n, w, 1e-6, &narrow_met));
     ck_assert(same_bits(&met, &narrow_met, sizeof met / sizeof(double)));
     const node *const nodes[2] = {a, b};
     net_nearest(nodes, n, w->lo, 1e-6, 1e-4, met.y);

@@ -175,7 +175,7 @@ START_TEST(what_is_defined_is_created_once)
     ck_assert_int_eq(scene_bodies_start(&b, &source, &error), IMP_SUCCESS);
     ck_assert_int_eq(scene_json_read(&b, root, &at), IMP_SUCCESS);
     const assembly_body *body = b.assembly.bodies;
-    shared_part *s = body[0].shapes.at[0].type, *m = body[0].maps.at[0];
+    shared_instance *s = body[0].shapes.at[0].type, *m = body[0].maps.at[0];
     ck_assert(body[0].shapes.at[1].type == s && body[1].shapes.at[0].type == s);
     ck_assert(body[1].maps.at[0] == m && body[1].maps.at[1] == m);
     imp_scene *scene = scene_bodies_finish(&b, &at);

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "core/solver/net_model_axis.h"
+#include "core/bounds/net_model_axis.h"
 #include "tests/support/judge.h"
 #include "tests/support/netted.h"
 

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/solver/net_axis.h"
-#include "core/solver/net_halves.h"
-#include "core/solver/net_march.h"
+#include "core/bounds/net_axis.h"
+#include "core/bounds/net_halves.h"
+#include "core/witness/contact_estimate.h"
 #include "tests/support/judge.h"
 #include "tests/support/netted.h"
 #include "tests/support/sphere_scenes.h"
@@ -395,14 +395,14 @@ START_TEST(two_nets_followed_in_time_are_as_near_as_asked_for)
         const netted *const both[2] = {&a, &b};
         const time_window w = {0.25, 1};
         const double gap = random_power(&state, -30, -10);
-        net_meeting found;
+        contact_estimate found;
         draw_net(&state, (uint32_t)(random_bits(&state) % 4), 3, 1, &a);
         draw_net(&state, 3, (uint32_t)(random_bits(&state) % 4), 1, &b);
         take(&a, zero, one);
         take(&b, zero, one);
         vec3 axis = {{0, 0, 1}};
         net_axis_seek(&a.n, &b.n, w.lo, &axis);
-        if (!net_march(&a.n, &b.n, axis, &w, gap, &found)) continue;
+        if (!contact_estimate_find(&a.n, &b.n, axis, &w, gap, &found)) continue;
         met += 1;
         ck_assert(w.lo <= found.t && found.t <= w.hi);
         double p[2][3];

@@ -3,7 +3,7 @@
 #include <config.h>
 
 #include "core/base/text.h"
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 #include "core/plugin/parameters.h"
 #include "tests/support/suite.h"
 
@@ -275,14 +275,14 @@ END_TEST
 
 START_TEST(distances_count_changes_and_swaps)
 {
-    ck_assert_uint_eq(nearest_distance("", ""), 0);
-    ck_assert_uint_eq(nearest_distance("abc", "abc"), 0);
-    ck_assert_uint_eq(nearest_distance("abc", ""), 3);
-    ck_assert_uint_eq(nearest_distance("abc", "acb"), 1);
-    ck_assert_uint_eq(nearest_distance("kitten", "sitting"), 3);
+    ck_assert_uint_eq(spelling_distance("", ""), 0);
+    ck_assert_uint_eq(spelling_distance("abc", "abc"), 0);
+    ck_assert_uint_eq(spelling_distance("abc", ""), 3);
+    ck_assert_uint_eq(spelling_distance("abc", "acb"), 1);
+    ck_assert_uint_eq(spelling_distance("kitten", "sitting"), 3);
     static char huge[200];
     memset(huge, 'h', sizeof huge - 1);
-    ck_assert_uint_eq(nearest_distance(huge, "h"), SIZE_MAX);
+    ck_assert_uint_eq(spelling_distance(huge, "h"), SIZE_MAX);
 }
 END_TEST
 

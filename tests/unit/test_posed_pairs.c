@@ -5,9 +5,9 @@
 #include <impinge/model.h>
 #include <string.h>
 
-#include "core/solver/axes.h"
-#include "core/solver/normal_field.h"
-#include "core/solver/separation.h"
+#include "core/bounds/fixed_axes.h"
+#include "core/bounds/normal_field.h"
+#include "core/bounds/separation.h"
 #include "core/tree/pose.h"
 #include "tests/support/meeting.h"
 
@@ -207,7 +207,7 @@ START_TEST(a_meeting_of_turning_nodes_is_never_cut_away)
         bring_together(&state, &m, 1 - 1e-9);
         time_window left = m.window;
         vec3 axis = m.along;
-        const bool some = separation_by_models(&m.a.n, &m.b.n, m.clearance, &left, &axis, NULL);
+        const bool some = separation_window(&m.a.n, &m.b.n, m.clearance, &left, &axis, NULL);
         check_window_left(&m.window, m.t, some, &left, k);
     }
 }
@@ -220,12 +220,13 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
         meeting m;
         draw_meeting(&state, &m, k % 4 != 0);
         bring_together(&state, &m, 1 - 1e-9);
-        relative r;
+        difference r;
         w_range axes = {-1, 1}, given = {-1, 1}, field = {-1, 1};
         vec3 axis = m.along;
-        relative_at(&m.a.n, &m.b.n, &m.window, &r);
-        check_share_left(&r, m.t, axes_cut_along(&r, m.clearance, &given, m.along), &given, k);
-        check_share_left(&r, m.t, axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
+        difference_at(&m.a.n, &m.b.n, &m.window, &r);
+        check_share_left(&r, m.t, fixed_axes_cut_along(&r, m.clearance, &given, m.along), &given,
+                         k);
+        check_share_left(&r, m.t, fixed_axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
         check_share_left(&r, m.t, normal_field_cut(&r, m.clearance, &field, NULL), &field, k);
     }
 }
@@ -253,7 +254,7 @@ static bool is_parted(const node *a, const node *b, const meeting *m)
 {
     time_window left = m->window;
     vec3 axis = m->along;
-    return !separation_by_models(a, b, m->clearance, &left, &axis, NULL);
+    return !separation_window(a, b, m->clearance, &left, &axis, NULL);
 }
 
 /* Of those that a box hardly parts. */

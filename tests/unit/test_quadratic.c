@@ -7,8 +7,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "core/bounds/quadratic.h"
 #include "core/common/random.h"
-#include "core/solver/quadratic.h"
 #include "tests/support/suite.h"
 
 typedef struct quadratic {

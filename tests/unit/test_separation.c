@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/solver/separation.h"
+#include "core/bounds/separation.h"
 
 #include <string.h>
 
-#include "core/solver/axes.h"
-#include "core/solver/gjk_axis.h"
-#include "core/solver/glance.h"
-#include "core/solver/normal_field.h"
+#include "core/bounds/fixed_axes.h"
+#include "core/bounds/gjk_axis.h"
+#include "core/bounds/moving_boxes.h"
+#include "core/bounds/normal_field.h"
 #include "tests/support/meeting.h"
 
 /* Pairs of made-up nodes that are brought together, exactly within the clearance, at a chosen
@@ -233,7 +233,7 @@ START_TEST(the_moment_of_a_meeting_is_never_cut_away)
         ++near;
         time_window left = m.window;
         vec3 axis = random_axis(&state);
-        const bool some = separation_by_models(&m.a, &m.b, m.clearance, &left, &axis, NULL);
+        const bool some = separation_window(&m.a, &m.b, m.clearance, &left, &axis, NULL);
         check_window_left(&m.window, m.t, some, &left, k);
     }
     ck_assert_int_gt(near, suite_times(150000) / 2);
@@ -287,7 +287,7 @@ START_TEST(no_glance_cuts_the_moment_of_a_meeting_away)
         if (!is_near(&m)) continue;
         ++near;
         time_window left = m.window;
-        const bool some = separation_at_a_glance(&m.a, &m.b, m.clearance, &left);
+        const bool some = moving_boxes_cut(&m.a, &m.b, m.clearance, &left);
         check_window_left(&m.window, m.t, some, &left, k);
     }
     ck_assert_int_gt(near, suite_times(100000) / 2);
@@ -331,11 +331,11 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
         meeting m;
         random_meeting(&state, &m, k % 8 == 0 ? ANYHOW : k % 2 == 0 ? NESTED : TANGENT);
         if (!is_near(&m)) continue;
-        relative r;
+        difference r;
         w_range axes = {-1, 1}, field = {-1, 1};
         vec3 axis = random_axis(&state);
-        relative_at(&m.a, &m.b, &m.window, &r);
-        check_share_left(&r, m.t, axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
+        difference_at(&m.a, &m.b, &m.window, &r);
+        check_share_left(&r, m.t, fixed_axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
         check_share_left(&r, m.t, normal_field_cut(&r, m.clearance, &field, NULL), &field, k);
     }
 }
@@ -374,12 +374,12 @@ static void slice_extent(const slice *f, vec3 n, double *lo, double *hi)
 }
 
 /* The gap that an axis shows at the window's start. */
-static double gap_along(const relative *r, vec3 n)
+static double gap_along(const difference *r, vec3 n)
 {
     double a[2], b[2], gap = 0;
     slice_extent(&r->a, n, &a[0], &a[1]);
     slice_extent(&r->b, n, &b[0], &b[1]);
-    const vec3 offset = relative_offset(r, -1);
+    const vec3 offset = difference_offset(r, -1);
     for (int i = 0; i < 3; ++i) gap += n.x[i] * offset.x[i] - fabs(n.x[i]) * r->slack[i];
     return (gap + b[0] - a[1]) / vec3_norm(n);
 }
@@ -393,15 +393,15 @@ START_TEST(no_axis_shows_much_more_than_twice_the_gap_of_the_nearest)
         random_node(&state, &m.a, 1, 0.1, 1);
         random_node(&state, &m.b, random_power(&state, -6, 0), 0.1, 1);
         for (int i = 0; i < 3; ++i) m.b.f.a[i] = random_between(&state, -3, 3);
-        relative r;
+        difference r;
         double best = 0;
-        relative_at(&m.a, &m.b, &(time_window){0, 1}, &r);
+        difference_at(&m.a, &m.b, &(time_window){0, 1}, &r);
         for (int n = 0; n < 100; ++n) {
             vec3 axis;
             for (int i = 0; i < 3; ++i) axis.x[i] = random_between(&state, -1, 1);
             best = fmax(best, gap_along(&r, axis));
         }
-        vec3 axis = relative_offset(&r, -1);
+        vec3 axis = difference_offset(&r, -1);
         const bool found = gjk_axis(&r, -1, &axis);
         if (best == 0) continue;
         ++apart;
@@ -442,22 +442,22 @@ START_TEST(a_glance_leaves_when_boxes_pass_each_other)
     meeting m = two_caps(0.1, 1.1, 0);
     m.b.f.bt[0] = -10;
     m.b.motion[0] = 10;
-    ck_assert(separation_at_a_glance(&m.a, &m.b, 1e-6, &m.window));
+    ck_assert(moving_boxes_cut(&m.a, &m.b, 1e-6, &m.window));
     ck_assert(m.window.lo > 0.48 && m.window.lo < 0.5 && m.window.hi > 0.5 && m.window.hi < 0.52);
     m.window = (time_window){0, 1};
     m.b.f.a[1] += 1;
-    ck_assert(!separation_at_a_glance(&m.a, &m.b, 1e-6, &m.window));
+    ck_assert(!moving_boxes_cut(&m.a, &m.b, 1e-6, &m.window));
 }
 END_TEST
 
 /* Axes cut nothing off the window, the field of normals all of it. */
 static void check_only_field_parts(const meeting *m, int number)
 {
-    relative r;
+    difference r;
     w_range axes = {-1, 1}, field = {-1, 1};
     vec3 axis = {{0, 0, 0}};
-    relative_at(&m->a, &m->b, &m->window, &r);
-    ck_assert(axes_cut(&r, 1e-6, &axes, &axis, NULL));
+    difference_at(&m->a, &m->b, &m->window, &r);
+    ck_assert(fixed_axes_cut(&r, 1e-6, &axes, &axis, NULL));
     ck_assert(axes.lo == -1 && axes.hi == 1);
     ck_assert_msg(!normal_field_cut(&r, 1e-6, &field, NULL), "case %d: [%g, %g]", number, field.lo,
                   field.hi);
@@ -542,11 +542,11 @@ START_TEST(the_field_of_normals_proves_no_more_than_the_distance)
         const meeting m = warped(&state, s, random_power(&state, -12, 1));
         const double gap =
             (double)sqrtl(m.gap[0] * m.gap[0] + m.gap[1] * m.gap[1] + m.gap[2] * m.gap[2]);
-        relative r;
+        difference r;
         w_range all = {-1, 1};
         gap_lines lines;
         gap_lines_begin(&lines);
-        relative_at(&m.a, &m.b, &m.window, &r);
+        difference_at(&m.a, &m.b, &m.window, &r);
         normal_field_cut(&r, 0, &all, &lines);
         if (lines.count == 1) continue;
         const double w = (m.t - r.mid) / r.half;
@@ -581,7 +581,7 @@ START_TEST(edges_that_slide_past_each_other_are_parted_at_once)
     for (int k = 5; k < 26; ++k) {
         meeting m = two_edges(ldexp(1, -k));
         vec3 axis = {{0, 0, 0}};
-        ck_assert_msg(!separation_by_models(&m.a, &m.b, ldexp(0.25, -k), &m.window, &axis, NULL),
+        ck_assert_msg(!separation_window(&m.a, &m.b, ldexp(0.25, -k), &m.window, &axis, NULL),
                       "2^-%d apart: [%g, %g] is left", k, m.window.lo, m.window.hi);
     }
 }
@@ -590,9 +590,9 @@ END_TEST
 START_TEST(where_hulls_meet_there_is_no_gjk_axis)
 {
     meeting m = two_caps(0.1, -1, -0.001);
-    relative r;
+    difference r;
     vec3 axis = {{1, 2, 3}};
-    relative_at(&m.a, &m.b, &m.window, &r);
+    difference_at(&m.a, &m.b, &m.window, &r);
     ck_assert(!gjk_axis(&r, -1, &axis));
     ck_assert(axis.x[0] == 1 && axis.x[1] == 2 && axis.x[2] == 3);
 }
@@ -618,7 +618,7 @@ START_TEST(caps_that_touch_with_their_tops_are_not_parted_at_any_size)
         enlarge(&m.a, k);
         enlarge(&m.b, k);
         vec3 axis = {{0, 0, 0}};
-        const bool some = separation_by_models(&m.a, &m.b, ldexp(1e-6, k), &m.window, &axis, NULL);
+        const bool some = separation_window(&m.a, &m.b, ldexp(1e-6, k), &m.window, &axis, NULL);
         ck_assert_msg(some && m.window.lo == 0 && m.window.hi == 1, "enlarged by 2^%d", k);
     }
 }
@@ -629,7 +629,7 @@ START_TEST(a_window_shrinks_to_the_moment_of_contact)
     meeting m = two_caps(1e-9, -1, 1);
     for (int i = 0; i < 3; ++i) m.b.f.bt[i] = -2 * m.b.f.a[i], m.b.motion[i] = 4;
     vec3 axis = {{0, 0, 0}};
-    ck_assert(separation_by_models(&m.a, &m.b, 1e-3, &m.window, &axis, NULL));
+    ck_assert(separation_window(&m.a, &m.b, 1e-3, &m.window, &axis, NULL));
     /* the gap is 1 - 2 (2 t - 1) = 3 - 4 t: 1e-3 at t = 0.74975 and at 0.75025 */
     ck_assert_double_le(fabs(m.window.lo - 0.74975), 1e-8);
     ck_assert_double_le(fabs(m.window.hi - 0.75025), 1e-8);
@@ -654,12 +654,12 @@ START_TEST(infinities_and_nans_never_part_anything)
         for (int o = 0; o < 3; ++o) {
             meeting m = two_caps(0.1, 1.1, 50);
             spoil(&m.b, k, k < 10 ? odd[o] : fabs(odd[o]));
-            relative r;
+            difference r;
             w_range axes = {-1, 1}, field = {-1, 1};
             vec3 axis = {{0, 0, 0}};
-            relative_at(&m.a, &m.b, &m.window, &r);
-            ck_assert_msg(axes_cut(&r, 1e-6, &axes, &axis, NULL), "axes: coefficient %d, %g", k,
-                          odd[o]);
+            difference_at(&m.a, &m.b, &m.window, &r);
+            ck_assert_msg(fixed_axes_cut(&r, 1e-6, &axes, &axis, NULL), "axes: coefficient %d, %g",
+                          k, odd[o]);
             ck_assert_msg(normal_field_cut(&r, 1e-6, &field, NULL), "field: coefficient %d, %g", k,
                           odd[o]);
             ck_assert(axes.lo == -1 && axes.hi == 1 && field.lo == -1 && field.hi == 1);
@@ -690,14 +690,14 @@ END_TEST
 START_TEST(chances_are_taken_while_they_pay_and_now_and_then_else)
 {
     enum { WAIT = 7, TRIES = 8000 };
-    chances c = {0};
+    trial_rate c = {0};
     int taken = 0;
-    for (int k = 0; k < TRIES; ++k) taken += chances_take(&c, 4, WAIT);
+    for (int k = 0; k < TRIES; ++k) taken += trial_rate_take(&c, 4, WAIT);
     ck_assert_int_eq(taken, TRIES / (WAIT + 1));
-    for (int k = 0; k < CHANCES_KEPT * WAIT; ++k) chances_note(&c, chances_take(&c, 4, WAIT));
+    for (int k = 0; k < TRIALS_KEPT * WAIT; ++k) trial_rate_note(&c, trial_rate_take(&c, 4, WAIT));
     for (int k = 0; k < TRIES; ++k) {
-        ck_assert(chances_take(&c, 4, WAIT));
-        chances_note(&c, k % 3 == 0);
+        ck_assert(trial_rate_take(&c, 4, WAIT));
+        trial_rate_note(&c, k % 3 == 0);
     }
 }
 END_TEST
@@ -707,7 +707,7 @@ START_TEST(nodes_without_bounds_keep_their_window)
     meeting m = two_caps(0.1, 1.1, 50);
     m.b.bounded = false;
     vec3 axis = {{0, 0, 0}};
-    ck_assert(separation_by_models(&m.a, &m.b, 1e-6, &m.window, &axis, NULL));
+    ck_assert(separation_window(&m.a, &m.b, 1e-6, &m.window, &axis, NULL));
     ck_assert(m.window.lo == 0 && m.window.hi == 1);
 }
 END_TEST

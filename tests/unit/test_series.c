@@ -4,7 +4,7 @@
 
 #include "tests/support/query_helpers.h"
 
-/* More than one answer from one search: each two bodies in turn, and finer and finer. */
+/* More than one answer from one search: each pair of bodies in turn, and finer and finer. */
 
 static imp_result step(imp_query *query)
 {

@@ -4,7 +4,7 @@
 
 #include "core/common/random.h"
 #include "core/scene/scene.h"
-#include "core/surface/surface_parts.h"
+#include "core/surface/surface_internal.h"
 #include "tests/support/query_helpers.h"
 
 /* Round surfaces that turn and drift inside and outside of each other, hardly apart along whole areas; at rest
@@ -233,7 +233,7 @@ static void carry(imp_scene *scene, const char *carrier)
     for (size_t body = 0; body < 2; ++body) {
         surface *to = (surface *)(uintptr_t)scene_surface(scene, body, 0);
         for (size_t k = 0; k < from->map_count; ++k)
-            ck_assert_int_eq(surface_add_part(to, from->maps[k].origin), IMP_SUCCESS);
+            ck_assert_int_eq(surface_add_instance(to, from->maps[k].origin), IMP_SUCCESS);
     }
     imp_scene_free(donor);
 }

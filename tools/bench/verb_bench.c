@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 #include "tools/bench/bench.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
@@ -51,10 +51,10 @@ static exit_status read_request(const arguments *args, bench_request *request)
 
 static exit_status unknown_set(const char *speaker, const char *name)
 {
-    nearest near = {.wanted = name};
+    spelling_search near = {.wanted = name};
     char all[256] = "";
     for (const bench_set *const *set = bench_sets_all(); *set != NULL; ++set) {
-        nearest_offer(&near, (*set)->name);
+        spelling_offer(&near, (*set)->name);
         snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", all[0] != '\0' ? ", " : "",
                  (*set)->name);
     }

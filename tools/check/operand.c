@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 #include "tools/check/fate.h"
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
@@ -28,10 +28,10 @@ static void lookup_work(void *result, const void *data)
     operand_file *l = result;
     const operand_type *w = data;
     imp_type_info info;
-    nearest near = {.wanted = w->name};
+    spelling_search near = {.wanted = w->name};
     imp_registry *registry = query_registry(w->args);
     for (size_t i = 0; registry != NULL && imp_registry_type(registry, i, &info); ++i) {
-        nearest_offer(&near, info.name);
+        spelling_offer(&near, info.name);
         if (l->found || strcmp(info.name, w->name) != 0) continue;
         snprintf(l->file, sizeof l->file, "%s", info.file);
         l->found = true;

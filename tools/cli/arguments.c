@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 #include "tools/cli/verbs.h"
 
 /* One option as written: `--name`, `--name=value`, or the letter of one that has a letter. */
@@ -74,10 +74,10 @@ static const option *find_for(const verb *v, spelling s)
     return v != NULL ? option_find(v->options, s.name, s.length) : find_anywhere(s);
 }
 
-static void offer_options(nearest *near, const verb *v)
+static void offer_options(spelling_search *near, const verb *v)
 {
     for (const option *const *t = v->options; *t != NULL; ++t)
-        for (const option *row = *t; row->name != NULL; ++row) nearest_offer(near, row->name);
+        for (const option *row = *t; row->name != NULL; ++row) spelling_offer(near, row->name);
 }
 
 static exit_status unknown_option(const verb *v, const char *word, spelling s)
@@ -93,7 +93,7 @@ static exit_status unknown_option(const verb *v, const char *word, spelling s)
                         "this verb takes no --%s (`impinge help %s` shows what "
                         "it takes)",
                         name, help);
-    nearest near = {.wanted = name};
+    spelling_search near = {.wanted = name};
     if (v != NULL) offer_options(&near, v);
     for (const verb *const *all = verbs_all(); v == NULL && *all != NULL; ++all)
         offer_options(&near, *all);

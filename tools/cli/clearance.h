@@ -14,7 +14,7 @@ typedef struct clearance_table {
     size_t count;
 } clearance_table;
 
-/* --each: an answer for each two bodies that do not ignore each other, by several threads. */
+/* --each: an answer for each pair of bodies that do not ignore each other, by several threads. */
 typedef struct clearance_each {
     const imp_scene *scene;
     imp_query *query; /* of the whole scene; is divided */

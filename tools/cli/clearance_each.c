@@ -41,7 +41,7 @@ static imp_clearance answer_of_none(const clearance_each *of, const imp_result *
                            .t_violated = NAN};
 }
 
-/* One answer for each two bodies that do not ignore each other, as if none had a part. */
+/* One answer for each pair of bodies that do not ignore each other, as if none had a part. */
 static void prepare(const clearance_each *of, filling *f)
 {
     const imp_result whole = imp_query_result(of->query);

@@ -7,7 +7,7 @@
 #include "tools/cli/crew.h"
 #include "tools/cli/parts.h"
 
-/* solve --each: the first contact of each two bodies
+/* solve --each: the first contact of each pair of bodies
  * ==================================================
  * What is not clear comes in order of time, then by the bodies' places in the scene; what is clear
  * follows in the order of the scene. Bodies that the broad phase parts have the answer of the divided

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 #include "tools/cli/options.h"
 
 #include <errno.h>
@@ -144,12 +144,12 @@ static bool read_count(const char *text, uint64_t unit, uint64_t *count)
 static exit_status read_choice(const option *row, const char *text, const char *verb,
                                size_t *choice)
 {
-    nearest near = {.wanted = text};
+    spelling_search near = {.wanted = text};
     char allowed[256] = "";
     for (size_t i = 0; row->choices[i] != NULL; ++i) {
         *choice = i;
         if (strcmp(row->choices[i], text) == 0) return EXIT_ANSWERED;
-        nearest_offer(&near, row->choices[i]);
+        spelling_offer(&near, row->choices[i]);
         if (i > 0) strncat(allowed, ", ", sizeof allowed - strlen(allowed) - 1);
         strncat(allowed, row->choices[i], sizeof allowed - strlen(allowed) - 1);
     }

@@ -7,7 +7,7 @@
 
 #include "tools/cli/ordered_pool.h"
 
-/* A query about each two bodies of a scene, by several threads
+/* A query about each pair of bodies of a scene, by several threads
  * ============================================================
  * The query is divided (imp_query_divide); each part is solved to its end by one thread. What is
  * taken from a part does not depend on the others, so that neither does what is made of all of them

@@ -13,7 +13,7 @@
 #include "tools/cli/verbs.h"
 
 const option options_series[] = {
-    {.name = "each", .help = "print the first contact of each two bodies, in order of time"},
+    {.name = "each", .help = "print the first contact of each pair of bodies, in order of time"},
     {.name = "threads",
      .kind = OPTION_COUNT,
      .argument = "N",

@@ -234,7 +234,7 @@ static const option clearance_options[] = {
      .argument = "DISTANCE",
      .min_open = true,
      .help = "say whether bodies always stay so far apart; exit 0, 1 or 3"},
-    {.name = "each", .help = "measure each two bodies that do not ignore each other"},
+    {.name = "each", .help = "measure each pair of bodies that do not ignore each other"},
     {.name = "threads",
      .kind = OPTION_COUNT,
      .argument = "N",

@@ -184,7 +184,7 @@ const verb verb_matrix = {
     .details =
         "The examples of `impinge info` meet: each ordered pair of surface types, then, for each\n"
         "map, each surface under it against itself at rest. A failure names the two and ends\n"
-        "with status 5; `undecided` is none: each two have 10000 pairs of regions, unless\n"
+        "with status 5; `undecided` is none: each pair has 10000 pairs of regions, unless\n"
         "--max-pairs says otherwise (0: no limit).\n",
     .example = "impinge matrix --gamma 1e-2 --max-pairs 2000",
     .operand_min = 0,

@@ -55,7 +55,7 @@ const verb verb_solve = {
         "'ignore'\n"
         "names together. Options given here override what the scene asks for.\n"
         "\n"
-        "--each prints the first contact of each two bodies, in order of time, with --json one "
+        "--each prints the first contact of each pair of bodies, in order of time, with --json one "
         "object a\n"
         "line; bodies that never touch come last. --max-pairs and --max-bytes then hold for each "
         "two\n"

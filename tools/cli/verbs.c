@@ -3,7 +3,7 @@
 #include <config.h>
 
 #include "tools/cli/verbs.h"
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 
 #include <string.h>
 
@@ -46,8 +46,8 @@ const verb *verb_find(const char *name)
 
 exit_status verb_unknown(const char *speaker, const char *name)
 {
-    nearest near = {.wanted = name};
-    for (const verb *const *v = all; *v != NULL; ++v) nearest_offer(&near, (*v)->name);
+    spelling_search near = {.wanted = name};
+    for (const verb *const *v = all; *v != NULL; ++v) spelling_offer(&near, (*v)->name);
     if (near.best != NULL)
         return complain(EXIT_USAGE, speaker,
                         "unknown verb '%s', did you mean '%s'? `impinge help` shows all", name,

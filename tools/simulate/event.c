@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tools/simulate/course.h"
+#include "tools/simulate/timeline.h"
 
 static const char speaker[] = "simulate";
 
@@ -36,7 +36,7 @@ static exit_status add_contact(simulation *s, event *e, size_t index, const meet
 {
     const meeting *m = &s->meetings[index];
     contact c = {.body = {m->body[0], m->body[1]}};
-    if (touching_find(&s->search, m, at, &c.at) != IMP_SUCCESS) return course_complain(s);
+    if (touching_find(&s->search, m, at, &c.at) != IMP_SUCCESS) return timeline_complain(s);
     const actor *a = &s->setup->actors[m->body[0]], *b = &s->setup->actors[m->body[1]];
     c.restitution = fmin(a->restitution, b->restitution);
     c.friction = fmax(a->friction, b->friction);
@@ -54,7 +54,7 @@ static exit_status add_touching(simulation *s, event *e, size_t index, double t)
     int level;
     imp_code code = meeting_make_scene(&s->search, m);
     if (code == IMP_SUCCESS) code = meeting_level(&s->search, m, t, 0, &level, &now);
-    if (code != IMP_SUCCESS) return course_complain(s);
+    if (code != IMP_SUCCESS) return timeline_complain(s);
     if (now.kind == MEETING_UNDECIDED) e->cut = now.reason;
     return now.kind == MEETING_CONTACT ? add_contact(s, e, index, &now, level - 1) : EXIT_ANSWERED;
 }
@@ -124,28 +124,28 @@ static exit_status predict_again(simulation *s, const event *e, double t)
         meeting *m = &s->meetings[i];
         const bool due = is_gathered(e, i) && m->kind == MEETING_CONTACT && m->t <= same_time(s, t);
         if (due)
-            status = course_predict(s, m, t, m->t <= t ? m->level + 1 : 0);
+            status = timeline_predict(s, m, t, m->t <= t ? m->level + 1 : 0);
         else if (m->stale)
-            status = course_predict(s, m, t, 0);
+            status = timeline_predict(s, m, t, 0);
     }
     return status;
 }
 
 static exit_status respond(simulation *s, event *e, double t)
 {
-    course_states(s, t, e->now.state);
+    timeline_states(s, t, e->now.state);
     exit_status status = gather(s, e, t);
     if (status != EXIT_ANSWERED) return status;
     if (e->cut != IMP_REASON_NONE) {
-        course_cut(s, t, e->cut);
+        timeline_cut(s, t, e->cut);
         return status;
     }
-    const double before = course_sums(s, e->now.state).energy;
+    const double before = timeline_sums(s, e->now.state).energy;
     memcpy(e->now.rests, s->rests, s->setup->count * sizeof *s->rests);
     response_resolve(&e->now, e->contacts, e->count);
-    s->energy_lost += before - course_sums(s, e->now.state).energy;
+    s->energy_lost += before - timeline_sums(s, e->now.state).energy;
     s->from_fixed = vec_sub(s->from_fixed, e->now.to_fixed);
-    course_advance(s, t);
+    timeline_advance(s, t);
     for (size_t i = 0; i < s->setup->count; ++i) {
         s->held_now[i] = e->now.rests[i] && !s->rests[i];
         s->held += s->held_now[i];

@@ -29,7 +29,7 @@ typedef struct mass_properties {
     double volume; /* length^3, > 0 */
     vec center;    /* of mass, in the scene's coordinates at that time */
     mat3 inertia;  /* about the center, for the mass 1: length^2 */
-    double error;  /* estimated, relative */
+    double error;  /* estimated, difference */
 } mass_properties;
 
 typedef enum mass_verdict {

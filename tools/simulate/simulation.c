@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "tools/cli/progress.h"
-#include "tools/simulate/course.h"
 #include "tools/simulate/event.h"
+#include "tools/simulate/timeline.h"
 
 static const char speaker[] = "simulate";
 
@@ -54,18 +54,18 @@ static bool begin(simulation *s, const setup *what, const arguments *args)
 
 static exit_status run(simulation *s)
 {
-    exit_status status = course_predict_all(s);
+    exit_status status = timeline_predict_all(s);
     bool done = false;
     while (status == EXIT_ANSWERED && s->reason == NULL && !done) {
-        const meeting *first = course_earliest(s);
+        const meeting *first = timeline_earliest(s);
         if (first == NULL) {
-            course_advance(s, s->search.end);
+            timeline_advance(s, s->search.end);
             done = true;
         } else if (first->kind == MEETING_UNDECIDED) {
-            course_cut(s, first->t, first->reason);
+            timeline_cut(s, first->t, first->reason);
         } else if (s->events >= s->max_events) {
             s->reason = "max-events";
-            course_advance(s, first->t);
+            timeline_advance(s, first->t);
         } else {
             progress_show("t = %.6g, %zu events", first->t, s->events);
             status = event_handle(s, first->t);
@@ -80,11 +80,11 @@ exit_status simulation_run(simulation *s, const setup *what, const arguments *ar
     if (!begin(s, what, args)) return complain_of_memory(speaker);
     mover_state *state = calloc(what->count, sizeof *state);
     if (state == NULL) return complain_of_memory(speaker);
-    course_states(s, s->t, state);
-    s->start = course_sums(s, state);
+    timeline_states(s, s->t, state);
+    s->start = timeline_sums(s, state);
     const exit_status status = run(s);
-    course_states(s, s->t, state);
-    s->end = course_sums(s, state);
+    timeline_states(s, s->t, state);
+    s->end = timeline_sums(s, state);
     free(state);
     return status;
 }

@@ -7,7 +7,7 @@
 
 /* From event to event
  * ===================
- * Each two bodies of which one moves have a meeting: the next contact, found once and kept until one
+ * Each pair of bodies of which one moves have a meeting: the next contact, found once and kept until one
  * of the two changes its path. The earliest of all is the next event. Its time, and all before it, is
  * covered by the proofs of all meetings. */
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/common/nearest.h"
+#include "core/common/spelling.h"
 #include "tools/cli/catalogue.h"
 #include "tools/cli/output.h"
 #include "tools/cli/query.h"
@@ -116,8 +116,8 @@ static exit_status print_all(const imp_registry *registry, const arguments *args
 static exit_status unknown(const imp_registry *registry, const arguments *args)
 {
     imp_type_info info;
-    nearest near = {.wanted = args->operands[0]};
-    for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) nearest_offer(&near, info.name);
+    spelling_search near = {.wanted = args->operands[0]};
+    for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) spelling_offer(&near, info.name);
     if (near.best != NULL)
         return complain(EXIT_DATA, args->verb->name,
                         "unknown type '%s', did you mean '%s'? `impinge list` shows all",

@@ -93,8 +93,8 @@ class Scene:
     def solve_each(self, *, time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
                    clearance: Optional[float] = None, progress: Optional[ProgressSink] = None,
                    **budgets: float) -> Iterator[Result]:
-        """The first contact of each two bodies, in order of time, each as soon as it is proved; then
-        a clear result for each two that never touch. Where a budget ends the search the last result is
+        """The first contact of each pair of bodies, in order of time, each as soon as it is proved; then
+        a clear result for each pair that never touches. Where a budget ends the search the last result is
         "undecided", and has no `bodies`."""
         with Query(self, time, progress, gamma=gamma, clearance=clearance, **budgets) as query:
             answer = query.step()

@@ -1,0 +1,279 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/bounds/distance.h"
+
+#include <string.h>
+
+#include "core/bounds/quadratic.h"
+#include "core/bounds/tuning.h"
+
+/* --- Asking ------------------------------------------------------------------------------------ */
+
+/* About what remains of a node's remainder at one moment. */
+static double remainder_in_place(const node *n)
+{
+    return n->e[0] + n->e[1] + n->e[2] - n->time_remainder;
+}
+
+/* So small that its remainder says something of the surface. */
+static bool is_small(const node *n)
+{
+    const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
+    return remainder_in_place(n) < TUNING_DISTANCE_EXTENT * extent;
+}
+
+static bool is_nearly_parallel(const node *a, const node *b)
+{
+    const double cosine = vec3_dot(a->normal, b->normal), least = TUNING_FIELD_COSINE;
+    return cosine * cosine >
+           least * least * vec3_dot(a->normal, a->normal) * vec3_dot(b->normal, b->normal);
+}
+
+bool distance_is_known(const node *a, const node *b)
+{
+    if (b->many != NULL || !surface_has_distance(b->surface)) return false;
+    const size_t common = surface_common_maps(a->surface, b->surface);
+    return common == 0 || !is_small(a) || !is_small(b) || is_nearly_parallel(a, b);
+}
+
+/* The models of a node's points. A node keeps no rates. */
+static void point_models(const node *n, imp_model model[3])
+{
+    const quadratic3 *f = &n->f;
+    for (int i = 0; i < 3; ++i)
+        model[i] =
+            (imp_model){.a = f->a[i],
+                        .b = {f->bu[i], f->bv[i], f->bt[i]},
+                        .q = {f->quu[i], f->quv[i], f->qut[i], f->qvv[i], f->qvt[i], f->qtt[i]},
+                        .e = n->e[i],
+                        .lo = n->lo[i],
+                        .hi = n->hi[i],
+                        .rate = {INFINITY, INFINITY, INFINITY},
+                        .depends = 7};
+}
+
+/* Of the node's points before the maps that both surfaces end with. */
+static imp_status points_before(const node *a, size_t common, imp_model model[3])
+{
+    const surface *s = a->surface;
+    if (common > 0)
+        return surface_include_inner(s, &a->region, surface_map_count(s) - common, model);
+    point_models(a, model);
+    return IMP_OK;
+}
+
+/* As node.nonlinear_extent: terms of second order, and a share of the remainder, by what the polynomial
+ * explains least. */
+static void bend_of(const imp_model model[3], const imp_region *r, double bend[3])
+{
+    memset(bend, 0, 3 * sizeof *bend);
+    for (int i = 0; i < 3; ++i) {
+        const imp_model *m = &model[i];
+        const double uv = 0.5 * fabs(m->q[IMP_UV]), ut = 0.5 * fabs(m->q[IMP_UT]);
+        const double vt = 0.5 * fabs(m->q[IMP_VT]);
+        const double curved[3] = {fabs(m->q[IMP_UU]) + uv + ut, fabs(m->q[IMP_VV]) + uv + vt,
+                                  2 * fabs(m->q[IMP_TT]) + ut + vt};
+        double unexplained[3], sum = 0;
+        for (int j = 0; j < 3; ++j) {
+            const double beyond = m->rate[j] * r->d[j] - fabs(m->b[j]);
+            sum += unexplained[j] = curved[j] + (beyond > 0 ? beyond : 0);
+        }
+        const bool is_blamed = sum > 0 && sum < INFINITY;
+        for (int j = 0; j < 3; ++j)
+            bend[j] += curved[j] + (is_blamed ? m->e * (unexplained[j] / sum) : 0);
+    }
+}
+
+static imp_code fault(const surface *s, imp_status status, imp_error *error)
+{
+    surface_fault(s, error, ": %s", surface_status_told(s, status).text);
+    return surface_set_code(status, error);
+}
+
+/* The region's u and v, at one moment. */
+static imp_region at_moment(const imp_region *r, double moment)
+{
+    return region_make((double[3]){r->lo[0], r->lo[1], moment},
+                       (double[3]){r->hi[0], r->hi[1], moment});
+}
+
+bool distance_slides(const distance_question *q)
+{
+    return q->slip < INFINITY && TUNING_DISTANCE_SLIP * q->slip <= q->clearance;
+}
+
+/* Of the node's points before the maps that both surfaces end with; at the moment, if that will do. */
+static imp_status points_of(const distance_question *q, size_t common, imp_model point[3])
+{
+    const node *a = q->a;
+    if (!distance_slides(q)) return points_before(a, common, point);
+    const imp_region then = at_moment(&a->region, q->moment);
+    return surface_include_inner(a->surface, &then, surface_map_count(a->surface) - common, point);
+}
+
+static imp_status distance_of(const distance_question *q, size_t common, const imp_model point[3],
+                              imp_model *g)
+{
+    const surface *b = q->b->surface;
+    const imp_region *r = &q->a->region;
+    const size_t maps = surface_map_count(b) - common;
+    return distance_slides(q) ? surface_distance_within(b, r, maps, point, q->moment, q->slip, g)
+                              : surface_distance(b, r, maps, point, g);
+}
+
+/* *known false: nothing is known. */
+static imp_code ask(const distance_question *q, imp_model *g, double bend[3], bool *known,
+                    imp_error *error)
+{
+    imp_model point[3];
+    const size_t common = surface_common_maps(q->a->surface, q->b->surface);
+    imp_status status = points_of(q, common, point);
+    *known = false;
+    if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
+    if (status != IMP_OK) return fault(q->a->surface, status, error);
+    const imp_region then = at_moment(&q->a->region, q->moment);
+    const bool still = distance_slides(q);
+    if (still || common > 0) bend_of(point, still ? &then : &q->a->region, bend);
+    status = distance_of(q, common, point, g);
+    *known = status == IMP_OK;
+    if (status == IMP_OK || status == IMP_UNBOUNDED) return IMP_SUCCESS;
+    return fault(q->b->surface, status, error);
+}
+
+/* --- Judging ----------------------------------------------------------------------------------- */
+
+/* Both sides of g over a window: g >= low[0] + drift[0] w - e, and -g >= low[1] + drift[1] w - e. */
+typedef struct sides {
+    double low[2], drift[2];
+} sides;
+
+/* The window is t = mid + half w, w in [-1, 1]; half is rounded up. */
+typedef struct span {
+    double mid, half;
+} span;
+
+PAD_COVERS(4, 1); /* half: one difference */
+static span span_of(const time_window *window)
+{
+    const double mid = 0.5 * window->lo + 0.5 * window->hi;
+    const double above = window->hi - mid, below = mid - window->lo;
+    return (span){mid, padded_upper(above > below ? above : below, 4)};
+}
+
+/* Lemma. For fixed s_u, s_v the polynomial of g is q_tt s_t^2 and what is linear in s_t. So between two
+ * times, s - k and s + k, it lies above its chord, less q_tt k^2 where q_tt > 0. The least value of the
+ * chords over s_u, s_v lies above the chord between the least values G0 and G1 at either end. The same
+ * holds for -g. So
+ *
+ *   g >= (G0 + G1) / 2 + w (G1 - G0) / 2 - max(q_tt, 0) k^2 - e,
+ *
+ * |g| <= |x - y| for each point x of the node and each y of the surface: where that exceeds the
+ * clearance on either side, the node is farther away than it.
+ * Rounding, in units of u S, S = |a| + sum |b| + sum |q|, |s_t| <= 1 but for rounding:
+ *
+ *   s_t = s +- k at the ends  8: differences, quotients, sum: 4 of |b_t| + 2 |q_tt| + |q_ut| + |q_vt|
+ *   value in the middle       4: product, sum, product, sum
+ *   slopes at the ends        2: product, sum
+ *   least values              QUADRATIC_ROUNDING
+ *   G                         2: sum, of 2 S
+ *   their chord               6: sums of 2 S, and w_range_cut's
+ *   q_tt k^2                  4: quotient twice, products
+ *   low                       8: sums of at most 4 S
+ *   low - e - |drift|         8: differences of at most 4 S
+ */
+enum { DISTANCE_ROUNDING = 128 };
+_Static_assert(8 + 4 + 2 + QUADRATIC_ROUNDING + 2 + 6 + 4 + 8 + 8 <= DISTANCE_ROUNDING,
+               "rounding along a distance");
+PAD_COVERS(16, 10 + 3); /* S; e with it, and taken off low */
+
+static double size_upper(const imp_model *g)
+{
+    double size = fabs(g->a);
+    for (int j = 0; j < 3; ++j) size += fabs(g->b[j]);
+    for (int k = 0; k < 6; ++k) size += fabs(g->q[k]);
+    return padded_upper(size, 16);
+}
+
+static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
+{
+    const double d = r->d[PARAMETER_T], s = d > 0 ? (w->mid - r->c[PARAMETER_T]) / d : 0;
+    const double reach = d > 0 ? w->half / d : 0;
+    const imp_quad t = {s - reach, s + reach, s - reach, s + reach}, sign = {1, 1, -1, -1};
+    const quadratics p = {sign * (imp_quad_all(g->b[0]) + imp_quad_all(g->q[IMP_UT]) * t),
+                          sign * (imp_quad_all(g->b[1]) + imp_quad_all(g->q[IMP_VT]) * t),
+                          sign * imp_quad_all(g->q[IMP_UU]), sign * imp_quad_all(g->q[IMP_UV]),
+                          sign * imp_quad_all(g->q[IMP_VV])};
+    const imp_quad middle =
+        imp_quad_all(g->a) + (imp_quad_all(g->b[2]) + imp_quad_all(g->q[IMP_TT]) * t) * t;
+    const imp_quad least = sign * middle + quadratics_lower(&p);
+    sides both;
+    for (int k = 0; k < 2; ++k) {
+        const double start = least[2 * k], end = least[2 * k + 1];
+        const double bend = k == 0 ? g->q[IMP_TT] : -g->q[IMP_TT];
+        both.low[k] = 0.5 * (start + end) - (bend > 0 ? bend * (reach * reach) : 0);
+        both.drift[k] = 0.5 * (end - start);
+    }
+    return both;
+}
+
+/* Whether the remainder is what hides that the node is apart: the polynomial alone is, or hardly varies
+ * beside the remainder, as where the surfaces are parallel; or the node slides within itself, so that at all
+ * times some neighbours are as near. Then halves of the node, whose remainders are a small part of it, are
+ * worth more than those of its neighbours. Not of remainders that are mere rounding, nor of nodes so large
+ * that these say nothing of the surface. */
+static bool promises(const imp_model *g, const sides *both, const node *n, double clearance,
+                     double size, bool within_itself)
+{
+    const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
+    double least[2];
+    if (!(g->e > TUNING_DISTANCE_ROUNDING * size && g->e < TUNING_DISTANCE_EXTENT * extent))
+        return false;
+    for (int k = 0; k < 2; ++k) least[k] = both->low[k] - fabs(both->drift[k]);
+    const double farther = least[0] > least[1] ? least[0] : least[1];
+    const bool is_level = -(least[0] + least[1]) < TUNING_DISTANCE_LEVEL * g->e;
+    return farther + (within_itself || is_level ? g->e : 0) > clearance;
+}
+
+/* Where the remainder is too large, the range may still do. */
+static double range_lower(const imp_model *g) { return g->lo > -g->hi ? g->lo : -g->hi; }
+
+/* The least of both sides over the window. */
+static double sides_lower(const sides *both, double slack)
+{
+    double lower[2];
+    for (int k = 0; k < 2; ++k) lower[k] = both->low[k] - slack - fabs(both->drift[k]);
+    return lower[0] > lower[1] ? lower[0] : lower[1];
+}
+
+imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
+                      imp_error *error)
+{
+    const node *a = q->a;
+    const double clearance = q->clearance;
+    imp_model g;
+    bool known;
+    *view = (distance_view){false, false, 0, {0, 0, 0}};
+    memcpy(view->bend, a->nonlinear_extent, sizeof view->bend);
+    const imp_code code = ask(q, &g, view->bend, &known, error);
+    if (code != IMP_SUCCESS || !known) return code;
+    const double range = range_lower(&g);
+    if (range > 0) view->lower = range;
+    view->is_apart = range > clearance;
+    const double size = size_upper(&g);
+    if (view->is_apart || !(size < 0x1p400)) return IMP_SUCCESS;
+    const span whole = span_of(window);
+    const sides both = sides_of(&g, &a->region, &whole);
+    const double slack =
+        padded_upper(g.e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) + QUADRATIC_UNDERFLOW;
+    const double lower = sides_lower(&both, slack);
+    if (lower > view->lower) view->lower = lower;
+    w_range s = {-1, 1};
+    for (int k = 0; k < 2 && !view->is_apart; ++k)
+        view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], clearance);
+    view->is_promising =
+        !view->is_apart && promises(&g, &both, a, clearance, size, distance_slides(q));
+    if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
+    return IMP_SUCCESS;
+}

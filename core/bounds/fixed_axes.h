@@ -1,0 +1,23 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BOUNDS_FIXED_AXES_H
+#define CORE_BOUNDS_FIXED_AXES_H
+
+#include "core/bounds/gap_lines.h"
+
+/* Separating axes that stay fixed over the window
+ * ===============================================
+ * Four axes at a time in vector lanes: the one that gjk_axis.h finds, and three that the nodes
+ * suggest. What an axis proves does not depend on how it was found. */
+
+/* Cuts the range of w to the w at which no axis shows the nodes apart; false: none is left. `axis` holds
+ * the axis that was best for the parents, or 0, and is given the best at the focus, or 0 where none
+ * parts the nodes there; no length is meant. What the
+ * axes prove of the distance is added to `lines`, unless NULL. */
+bool fixed_axes_cut(const difference *r, double clearance, w_range *s, vec3 *axis,
+                    gap_lines *lines);
+
+/* The same along an axis that was found elsewhere, both normals and the line of centres. */
+bool fixed_axes_cut_along(const difference *r, double clearance, w_range *s, vec3 axis);
+
+#endif

@@ -1,0 +1,13 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BOUNDS_MOVING_BOXES_H
+#define CORE_BOUNDS_MOVING_BOXES_H
+
+#include "core/bounds/difference.h"
+
+/* As separation_window, by boxes around the nodes that move linearly, for a tenth of the work.
+ * Shrinks `window`, which lies in both nodes' times, to the times in which these may be within the
+ * clearance; false: nothing of it is left. A NaN leaves it as it is. */
+bool moving_boxes_cut(const node *a, const node *b, double clearance, time_window *window);
+
+#endif

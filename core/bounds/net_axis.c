@@ -1,0 +1,92 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/bounds/net_axis.h"
+
+#include "core/base/rounding.h"
+#include "core/bounds/net_hull.h"
+#include "core/bounds/simplex.h"
+#include "core/bounds/tuning.h"
+
+/* --- The search --------------------------------------------------------------------------------- */
+
+typedef struct hulls {
+    cloud a, b;
+    int quads_a, quads_b;
+    vec3 apart;
+} hulls;
+
+IMP_QUAD_INLINE vec3 lowest_of(const hulls *h, vec3 n)
+{
+    const vec3 p = lowest_of_cloud(&h->b, h->quads_b, n);
+    const vec3 q = lowest_of_cloud(&h->a, h->quads_a, vec3_scale(n, -1));
+    return vec3_sub(vec3_sub(p, q), vec3_scale(h->apart, -1));
+}
+
+/* As gjk_axis.c does it, on points. */
+IMP_QUAD_INLINE bool seek(const node *a, const node *b, double t, vec3 *axis)
+{
+    const net *f = node_net_made(a), *g = node_net_made(b);
+    hulls h;
+    h.quads_a = f->stride / IMP_QUAD;
+    h.quads_b = g->stride / IMP_QUAD;
+    h.apart = places_apart(f, g, t);
+    cloud_at(f, t, &h.a);
+    cloud_at(g, t, &h.b);
+    simplex s = on_point(lowest_of(&h, *axis));
+    for (int k = 0; k < TUNING_GJK_STEPS; ++k) {
+        const vec3 lowest = lowest_of(&h, s.nearest);
+        if (!(vec3_dot(s.nearest, lowest) < TUNING_GJK_GAP * s.square)) break;
+        const simplex next = simplex_add(&s, lowest);
+        if (next.count == 0) return false;
+        if (!(next.square < s.square)) break;
+        s = next;
+    }
+    *axis = s.nearest;
+    return true;
+}
+
+IMP_QUAD_WIDE static bool seek_wide(const node *a, const node *b, double t, vec3 *axis)
+{
+    return seek(a, b, t, axis);
+}
+
+bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis)
+{
+    return imp_quad_is_wide() ? seek_wide(a, b, t, axis) : seek(a, b, t, axis);
+}
+
+/* --- The proof ------------------------------------------------------------------------------------ */
+
+/* Lemma (one axis). But for the error each surface lies in the hull of its net at every moment, so n.(y -
+ * x) is at least the least over pairs of control points. Their motion is linear, so that least is concave
+ * in time, and lies above the line between its values at the window's ends. Where the line, less errors and
+ * rounding, is above |n| clearance, the nodes are farther apart than the clearance. With a coordinate of
+ * n equal to 1 nothing that counts underflows; a NaN or infinity cuts nothing. */
+IMP_QUAD_INLINE bool cut_along(const node *a, const node *b, vec3 axis, double clearance,
+                               time_window *window)
+{
+    const net *p = node_net_made(a), *q = node_net_made(b);
+    vec3 n;
+    if (!axis_scaled(axis, &n)) return true;
+    const double limit = net_limit_upper(n, clearance, slack_upper(p, q, n, window));
+    const window_ends low = lowest_heights_of(q, window, n, 1);
+    const window_ends high = lowest_heights_of(p, window, n, -1);
+    const window_ends at = places_along(p, q, n, window);
+    const double g0 = low.lo + high.lo + at.lo, g1 = low.hi + high.hi + at.hi;
+    if (!(g0 < INFINITY && g1 < INFINITY && limit < INFINITY)) return true;
+    return line_cut(g0, g1, limit, window);
+}
+
+IMP_QUAD_WIDE static bool cut_along_wide(const node *a, const node *b, vec3 axis, double clearance,
+                                         time_window *window)
+{
+    return cut_along(a, b, axis, clearance, window);
+}
+
+bool net_axis_cut(const node *a, const node *b, vec3 axis, double clearance, time_window *window)
+{
+    return imp_quad_is_wide() ? cut_along_wide(a, b, axis, clearance, window)
+                              : cut_along(a, b, axis, clearance, window);
+}

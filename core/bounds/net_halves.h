@@ -1,0 +1,55 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BOUNDS_NET_HALVES_H
+#define CORE_BOUNDS_NET_HALVES_H
+
+#include "core/bounds/net_hull.h"
+
+/* Halves of nodes that an axis excludes
+ * =====================================
+ * The heights of a half's control points along an axis are known before the half is made: de
+ * Casteljau on the heights of the node's. Nothing is found unless both nodes have a net that was
+ * asked for (node_net). */
+
+typedef struct net_half {
+    int side; /* of the pair: whose half */
+    parameter along;
+    int half; /* the half that is left, the other is excluded; -1: both are */
+} net_half;
+
+enum { NET_HALVES_MOST = 32 };
+
+/* Heights of one net's control points along an axis, without its place: at the window's start, at its end,
+ * then the weights. Those of a half take their place. */
+typedef struct net_heights {
+    const net *net;
+    imp_region region; /* what is left of the node's region */
+    double x[3 * IMP_QUAD * QUADS_MAX];
+    window_ends low; /* least height of the patch, but for what a gap's rounding counts */
+    double most;     /* >= |height|, but for rounding */
+    double off;      /* sum of what halving may have moved heights by */
+} net_heights;
+
+/* What was found, and the heights of what is left of both nodes. */
+typedef struct net_halves {
+    int count;
+    net_half found[NET_HALVES_MOST];
+    bool has_heights; /* else what follows means nothing */
+    time_window window;
+    double limit;
+    window_ends at; /* how far the places are apart along the axis */
+    net_heights of[2];
+} net_halves;
+
+/* Finds halves of either node that the axis shows farther from the other node than the clearance
+ * over the whole window, which lies in both nodes' times. It finds one half, then one of what is
+ * left, until neither half of a node is left or no half is excluded. */
+void net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+                     const time_window *window, net_halves *halves);
+
+/* Cuts the window for both halves, along u or v, of what is left of one side; near[k]: something is left for
+ * half k. False: no heights are known for this window, or these halves; nothing is cut. */
+bool net_halves_cut(const net_halves *halves, int side, parameter j, const time_window *window,
+                    time_window left[2], bool near[2]);
+
+#endif

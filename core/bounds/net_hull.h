@@ -1,0 +1,221 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BOUNDS_NET_HULL_H
+#define CORE_BOUNDS_NET_HULL_H
+
+#include "core/base/rounding.h"
+#include "core/bounds/difference.h"
+
+#include <impinge/quad.h>
+
+/* The hull of a control net along an axis
+ * =======================================
+ * What the searches and proofs of net_axis.c and net_model_axis.c have in common. */
+
+enum { QUADS_MAX = (IMP_NET_POINTS + IMP_QUAD - 1) / IMP_QUAD };
+
+/* --- At one time --------------------------------------------------------------------------- */
+
+/* The control points of a net, without its place. */
+typedef struct cloud {
+    imp_quad x[3][QUADS_MAX];
+} cloud;
+
+IMP_QUAD_INLINE void cloud_take(const net *f, double t, int quads, cloud *z)
+{
+    const imp_quad tau = imp_quad_all(t - f->time);
+    const int stride = IMP_QUAD * quads;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < quads; ++k) {
+            const double *x = f->numbers + i * stride + IMP_QUAD * k;
+            z->x[i][k] = imp_quad_load(x);
+            if (f->is_moving) z->x[i][k] += tau * imp_quad_load(x + 3 * stride);
+        }
+}
+
+/* Unrolled for bicubic patches. */
+IMP_QUAD_INLINE void cloud_at(const net *f, double t, cloud *z)
+{
+    if (f->stride == 16)
+        cloud_take(f, t, 4, z);
+    else
+        cloud_take(f, t, f->stride / IMP_QUAD, z);
+}
+
+IMP_QUAD_INLINE imp_quad height(const cloud *z, int k, const imp_quad n[3])
+{
+    return n[0] * z->x[0][k] + n[1] * z->x[1][k] + n[2] * z->x[2][k];
+}
+
+/* The point that lies lowest along the axis; of several, the first of the lowest lane. */
+IMP_QUAD_INLINE vec3 lowest_point(const cloud *z, int quads, vec3 axis)
+{
+    const imp_quad n[3] = {imp_quad_all(axis.x[0]), imp_quad_all(axis.x[1]),
+                           imp_quad_all(axis.x[2])};
+    imp_quad low = height(z, 0, n);
+    imp_quad_mask at = {0, 1, 2, 3};
+    for (int k = 1; k < quads; ++k) {
+        const imp_quad here = height(z, k, n);
+        const imp_quad_mask lower = here < low;
+        const int64_t first = IMP_QUAD * k;
+        at = (lower & (imp_quad_mask){first, first + 1, first + 2, first + 3}) | (~lower & at);
+        low = imp_quad_min(here, low);
+    }
+    const int64_t left = low[1] < low[0] ? at[1] : at[0], right = low[3] < low[2] ? at[3] : at[2];
+    const double least[2] = {low[1] < low[0] ? low[1] : low[0], low[3] < low[2] ? low[3] : low[2]};
+    const int64_t best = least[1] < least[0] ? right : left;
+    const double *x = (const double *)z->x + best;
+    return (vec3){{x[0], x[IMP_QUAD * QUADS_MAX], x[2 * IMP_QUAD * QUADS_MAX]}};
+}
+
+/* Unrolled for bicubic patches. */
+IMP_QUAD_INLINE vec3 lowest_of_cloud(const cloud *z, int quads, vec3 n)
+{
+    return quads == 4 ? lowest_point(z, 4, n) : lowest_point(z, quads, n);
+}
+
+/* --- Over a window ------------------------------------------------------------------------- */
+
+/* The least of n.x over the control points of a net, without its place, at both ends of a window. */
+typedef struct window_ends {
+    double lo, hi;
+} window_ends;
+
+IMP_QUAD_INLINE double least_of(imp_quad x)
+{
+    const double p = x[0] < x[1] ? x[0] : x[1], q = x[2] < x[3] ? x[2] : x[3];
+    return p < q ? p : q;
+}
+
+IMP_QUAD_INLINE imp_quad heights_along(const double *x, int stride, const imp_quad n[3])
+{
+    return n[0] * imp_quad_load(x) + n[1] * imp_quad_load(x + stride) +
+           n[2] * imp_quad_load(x + 2 * stride);
+}
+
+IMP_QUAD_INLINE window_ends lowest_heights(const net *f, const time_window *w, const imp_quad n[3],
+                                           int stride)
+{
+    const imp_quad t0 = imp_quad_all(w->lo - f->time), t1 = imp_quad_all(w->hi - f->time);
+    imp_quad early = imp_quad_all(INFINITY), late = early;
+    for (int k = 0; k < stride; k += IMP_QUAD) {
+        const imp_quad p = heights_along(f->numbers + k, stride, n);
+        if (f->is_moving) {
+            const imp_quad v = heights_along(f->numbers + 3 * stride + k, stride, n);
+            early = imp_quad_min(p + t0 * v, early);
+            late = imp_quad_min(p + t1 * v, late);
+        } else {
+            early = late = imp_quad_min(p, early);
+        }
+    }
+    return (window_ends){least_of(early), least_of(late)};
+}
+
+/* Unrolled for bicubic patches. */
+IMP_QUAD_INLINE window_ends lowest_heights_of(const net *f, const time_window *w, vec3 axis,
+                                              double sign)
+{
+    const imp_quad n[3] = {imp_quad_all(sign * axis.x[0]), imp_quad_all(sign * axis.x[1]),
+                           imp_quad_all(sign * axis.x[2])};
+    return f->stride == 16 ? lowest_heights(f, w, n, 16) : lowest_heights(f, w, n, f->stride);
+}
+
+/* Cuts the window to where the line from g0 at its start to g1 at its end is not above `limit`. In units
+ * of u: the two differences and the quotient 3 of what is cut; its product with the length, itself
+ * rounded, 2; the sum 1 of |t|. WINDOW_TINY covers what underflows. */
+enum { CUT_ROUNDING = 8 };
+_Static_assert(3 + 2 + 1 <= CUT_ROUNDING, "rounding of a cut");
+
+static inline bool line_cut(double g0, double g1, double limit, time_window *w)
+{
+    const double length = w->hi - w->lo;
+    const double slack =
+        CUT_ROUNDING * UNIT_ROUNDOFF * (fabs(w->lo) + fabs(w->hi) + length) + WINDOW_TINY;
+    const bool early = g0 > limit, late = g1 > limit;
+    if (early && late) return false;
+    const double share = (g0 - limit) / (g0 - g1), at = w->lo + length * share;
+    if (early && at - slack > w->lo) w->lo = at - slack < w->hi ? at - slack : w->hi;
+    if (late && at + slack < w->hi) w->hi = at + slack > w->lo ? at + slack : w->lo;
+    return true;
+}
+
+/* --- Along an axis ------------------------------------------------------------------------------- */
+
+/* Scales n to a longest coordinate of 1, about. False: its length is such that it proves
+ * nothing. */
+static inline bool axis_scaled(vec3 axis, vec3 *n)
+{
+    double longest = fabs(axis.x[0]);
+    for (int i = 1; i < 3; ++i)
+        if (fabs(axis.x[i]) > longest) longest = fabs(axis.x[i]);
+    *n = vec3_scale(axis, 1 / longest);
+    return longest > 0x1p-400 && longest < 0x1p400;
+}
+
+PAD_COVERS(16, 4); /* |n| clearance: square 1, sums 2, root (1 + 2) / 2 + 1, product 1 */
+PAD_COVERS(4, 1);  /* its sum with the slack */
+
+/* |n| clearance plus the slack. */
+static inline double net_limit_upper(vec3 n, double clearance, double slack)
+{
+    return padded_upper(padded_upper(vec3_norm(n) * clearance, 16) + slack, 4);
+}
+
+/* --- Between two nets --------------------------------------------------------------------------- */
+
+/* How far B's place is from A's at time t. */
+IMP_QUAD_INLINE imp_quad places_between(const net *a, const net *b, double t)
+{
+    const imp_quad apart = imp_quad_load(b->place) - imp_quad_load(a->place);
+    return apart + (imp_quad_all(t - b->time) * imp_quad_load(b->drift) -
+                    imp_quad_all(t - a->time) * imp_quad_load(a->drift));
+}
+
+IMP_QUAD_INLINE vec3 places_apart(const net *a, const net *b, double t)
+{
+    const imp_quad x = places_between(a, b, t);
+    return (vec3){{x[0], x[1], x[2]}};
+}
+
+/* Lemma (rounding of a gap). n.(y - x) of two control points at time t, in units of u R with R = sum_i |n_i|
+ * (most of both + |places apart| + |their motions|):
+ *
+ *   t - time, its product with a velocity or drift        2
+ *   a point plus that                                      1
+ *   places and drifts: two differences and their sum       3
+ *   dots                                                   3
+ *   sums of the three parts                                2
+ *   R itself                                               6 */
+enum { GAP_ROUNDING = 32 };
+_Static_assert(2 + 1 + 3 + 3 + 2 + 6 <= GAP_ROUNDING, "rounding of a gap");
+
+/* The sum of x, y and z. */
+IMP_QUAD_INLINE double sum_of(imp_quad x) { return x[0] + x[1] + x[2]; }
+
+/* R and the nets' errors along n, at any time of the window. */
+IMP_QUAD_INLINE double slack_upper(const net *a, const net *b, vec3 n, const time_window *w)
+{
+    const double early = fabs(w->lo - a->time) + fabs(w->lo - b->time);
+    const double after = fabs(w->hi - a->time) + fabs(w->hi - b->time);
+    const imp_quad late = imp_quad_all(early > after ? early : after);
+    const imp_quad along = imp_quad_abs((imp_quad){n.x[0], n.x[1], n.x[2], 0});
+    const imp_quad drift =
+        imp_quad_abs(imp_quad_load(a->drift)) + imp_quad_abs(imp_quad_load(b->drift));
+    const imp_quad apart = imp_quad_abs(imp_quad_load(b->place) - imp_quad_load(a->place));
+    const imp_quad most = imp_quad_load(a->most) + imp_quad_load(b->most) + apart + late * drift;
+    const double size = sum_of(along * most);
+    const double error = sum_of(along * (imp_quad_load(a->error) + imp_quad_load(b->error)));
+    return padded_upper(error, 8) + size * (GAP_ROUNDING * UNIT_ROUNDOFF) + 0x1p-490;
+}
+
+PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
+
+/* How far places are apart along n, at the window's ends. */
+IMP_QUAD_INLINE window_ends places_along(const net *a, const net *b, vec3 n, const time_window *w)
+{
+    const imp_quad along = {n.x[0], n.x[1], n.x[2], 0};
+    return (window_ends){sum_of(along * places_between(a, b, w->lo)),
+                         sum_of(along * places_between(a, b, w->hi))};
+}
+
+#endif

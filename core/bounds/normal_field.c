@@ -1,0 +1,408 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/bounds/normal_field.h"
+
+#include "core/bounds/quadratic.h"
+#include "core/bounds/tuning.h"
+
+/* A vector in the field's frame: along the tangents t1, t2 and the normal. */
+typedef struct local {
+    double t[2], n;
+} local;
+
+typedef struct frame {
+    vec3 t[2], n;
+} frame;
+
+static local to_local(const frame *f, const double *x)
+{
+    const vec3 v = vec3_from(x);
+    return (local){{vec3_dot(f->t[0], v), vec3_dot(f->t[1], v)}, vec3_dot(f->n, v)};
+}
+
+/* Terms of second order: s_u^2, s_u s_v, s_v^2, s_u w, s_v w. */
+enum { UU, UV, VV, UW, VW, SECONDS };
+
+/* A slice in the frame: slopes along u and v, and terms of second order. */
+typedef struct local_slice {
+    local l[2], q[SECONDS];
+    double qw[3]; /* how UU, UV and VV change with w, along the normal */
+} local_slice;
+
+static local_slice slice_to_local(const frame *f, const slice *s, bool is_posed)
+{
+    local_slice l = {{to_local(f, s->bu), to_local(f, s->bv)},
+                     {to_local(f, s->quu), to_local(f, s->quv), to_local(f, s->qvv),
+                      to_local(f, s->quw), to_local(f, s->qvw)},
+                     {0, 0, 0}};
+    if (is_posed) {
+        l.qw[UU] = vec3_dot(f->n, vec3_from(s->uuw));
+        l.qw[UV] = vec3_dot(f->n, vec3_from(s->uvw));
+        l.qw[VV] = vec3_dot(f->n, vec3_from(s->vvw));
+    }
+    return l;
+}
+
+/* The frame between the two normals; false where the surfaces have none or are not nearly tangent.
+ * Unit length up to rounding. */
+static bool frame_between(const difference *r, frame *f)
+{
+    const double la = vec3_norm(r->a.normal), lb = vec3_norm(r->b.normal);
+    if (!(la > 0x1p-300 && lb > 0x1p-300 && la < 0x1p300 && lb < 0x1p300)) return false;
+    const vec3 na = vec3_scale(r->a.normal, 1 / la), nb = vec3_scale(r->b.normal, 1 / lb);
+    const double cosine = vec3_dot(na, nb);
+    if (!(fabs(cosine) > TUNING_FIELD_COSINE)) return false;
+    vec3 n = cosine > 0 ? vec3_sub(na, vec3_scale(nb, -1)) : vec3_sub(na, nb);
+    n = vec3_scale(n, 1 / vec3_norm(n));
+    const int least = fabs(n.x[0]) < fabs(n.x[1]) ? (fabs(n.x[0]) < fabs(n.x[2]) ? 0 : 2)
+                                                  : (fabs(n.x[1]) < fabs(n.x[2]) ? 1 : 2);
+    vec3 e = {{0, 0, 0}};
+    e.x[least] = 1;
+    const vec3 t = vec3_cross(n, e);
+    f->n = n;
+    f->t[0] = vec3_scale(t, 1 / vec3_norm(t));
+    f->t[1] = vec3_cross(n, f->t[0]);
+    return true;
+}
+
+/* Symmetric 2 x 2. */
+typedef struct form {
+    double xx, xy, yy;
+} form;
+
+/* K with y' K y / 2 = n.(quadratic part), y = (tangential slopes) s; false where the slopes are too
+ * nearly parallel to say. Only a choice: nothing is proved by it. */
+static bool curvature(const local_slice *s, form *k)
+{
+    const double ux = s->l[0].t[0], uy = s->l[0].t[1], vx = s->l[1].t[0], vy = s->l[1].t[1];
+    const double det = ux * vy - uy * vx;
+    if (!(fabs(det) > 0x1p-20 * (fabs(ux * vy) + fabs(uy * vx)))) return false;
+    /* s = J y with J the inverse of [u v]; K = J' H J, H = [[2 uu, uv], [uv, 2 vv]] */
+    const double a = vy / det, b = -vx / det, c = -uy / det, d = ux / det;
+    const double hxx = 2 * s->q[UU].n, hxy = s->q[UV].n, hyy = 2 * s->q[VV].n;
+    k->xx = a * a * hxx + 2 * a * c * hxy + c * c * hyy;
+    k->xy = a * b * hxx + (a * d + b * c) * hxy + c * d * hyy;
+    k->yy = b * b * hxx + 2 * b * d * hxy + d * d * hyy;
+    return true;
+}
+
+static double dot2(const double *m, const local *x) { return m[0] * x->t[0] + m[1] * x->t[1]; }
+
+/* How the field turns with one surface's parameters: m = -K x / 2 for each of its terms x, in the
+ * tangents. */
+typedef struct turn {
+    double l[2][2], q[SECONDS][2];
+} turn;
+
+static void turn_by(const form *k, const local *x, double m[2])
+{
+    m[0] = -0.5 * (k->xx * x->t[0] + k->xy * x->t[1]);
+    m[1] = -0.5 * (k->xy * x->t[0] + k->yy * x->t[1]);
+}
+
+static void turn_choose(const form *k, const local_slice *s, turn *m)
+{
+    for (int j = 0; j < 2; ++j) turn_by(k, &s->l[j], m->l[j]);
+    for (int j = 0; j < SECONDS; ++j) turn_by(k, &s->q[j], m->q[j]);
+}
+
+/* How fast a surface's own normal turns, in the tangents: m.l + n0.lw = 0 for both slopes. */
+static void turn_in_time(const local_slice *s, double m[2])
+{
+    const local *u = &s->l[0], *v = &s->l[1];
+    const double det = u->t[0] * v->t[1] - u->t[1] * v->t[0];
+    m[0] = (v->t[1] * -s->q[UW].n - u->t[1] * -s->q[VW].n) / det;
+    m[1] = (u->t[0] * -s->q[VW].n - v->t[0] * -s->q[UW].n) / det;
+}
+
+/* The numbers m of the lemma. */
+typedef struct turns {
+    turn a, b;
+    double w[2];
+} turns;
+
+/* False where the slopes are too nearly parallel to say. */
+static bool turns_choose(const local_slice *a, const local_slice *b, turns *m)
+{
+    form ka, kb;
+    if (!curvature(a, &ka) || !curvature(b, &kb)) return false;
+    const form mean = {0.5 * (ka.xx + kb.xx), 0.5 * (ka.xy + kb.xy), 0.5 * (ka.yy + kb.yy)};
+    double wa[2], wb[2];
+    turn_choose(&mean, a, &m->a);
+    turn_choose(&mean, b, &m->b);
+    turn_in_time(a, wa);
+    turn_in_time(b, wb);
+    for (int i = 0; i < 2; ++i) m->w[i] = 0.5 * (wa[i] + wb[i]);
+    return true;
+}
+
+/* Offset, drift and bend in the frame. */
+typedef struct path {
+    local delta, drift, bend;
+} path;
+
+/* What the field's turn by one term makes of the other, and the other way round. */
+static double both_ways(const local_slice *s, const turn *m, int q, int l)
+{
+    return dot2(m->l[l], &s->q[q]) + dot2(m->q[q], &s->l[l]);
+}
+
+/* One surface's part of n.(B - A) at w, into lane k of p: sign +1 for B, -1 for A. */
+static void take_part(const local_slice *s, const turn *m, const double *mw, const path *x,
+                      double w, double sign, int k, quadratics *p)
+{
+    const local at = {{x->delta.t[0] + w * x->drift.t[0], x->delta.t[1] + w * x->drift.t[1]}, 0};
+    double slope[2];
+    for (int j = 0; j < 2; ++j)
+        slope[j] = sign * (s->l[j].n + w * (s->q[UW + j].n + dot2(mw, &s->l[j]))) +
+                   (dot2(m->l[j], &at) + w * dot2(m->q[UW + j], &x->delta));
+    p->bs[k] = slope[0];
+    p->br[k] = slope[1];
+    p->qss[k] = sign * (s->q[UU].n + dot2(m->l[0], &s->l[0]) +
+                        w * (s->qw[UU] + dot2(mw, &s->q[UU]) + both_ways(s, m, UW, 0))) +
+                dot2(m->q[UU], &at);
+    p->qsr[k] = sign * (s->q[UV].n + dot2(m->l[0], &s->l[1]) + dot2(m->l[1], &s->l[0]) +
+                        w * (s->qw[UV] + dot2(mw, &s->q[UV]) + both_ways(s, m, UW, 1) +
+                             both_ways(s, m, VW, 0))) +
+                dot2(m->q[UV], &at);
+    p->qrr[k] = sign * (s->q[VV].n + dot2(m->l[1], &s->l[1]) +
+                        w * (s->qw[VV] + dot2(mw, &s->q[VV]) + both_ways(s, m, VW, 1))) +
+                dot2(m->q[VV], &at);
+}
+
+/* At most, of the terms of third order in s_u and s_v of one surface's part; and of those in
+ * w^2. */
+static double cubic_upper(const local_slice *s, const turn *m)
+{
+    return fabs(both_ways(s, m, UU, 0)) + fabs(both_ways(s, m, UU, 1) + both_ways(s, m, UV, 0)) +
+           fabs(both_ways(s, m, UV, 1) + both_ways(s, m, VV, 0)) + fabs(both_ways(s, m, VV, 1));
+}
+
+static double squared_time_upper(const local_slice *s, const turn *m, const double *mw,
+                                 const path *x, double sign)
+{
+    double sum = 0;
+    for (int j = 0; j < 2; ++j)
+        sum += fabs(dot2(m->l[j], &x->bend) + dot2(m->q[UW + j], &x->drift) +
+                    sign * dot2(mw, &s->q[UW + j]));
+    return sum;
+}
+
+/* At most, of terms that have parameters of both surfaces: slopes of one, anything of the other. */
+static double cross_upper(const local_slice *a, const local_slice *b, const turn *ma,
+                          const turn *mb)
+{
+    double sum = 0;
+    for (int k = 0; k < 2; ++k) {
+        for (int l = 0; l < 2; ++l)
+            sum += fabs(dot2(ma->l[k], &b->l[l]) - dot2(mb->l[l], &a->l[k]));
+        for (int q = 0; q < SECONDS; ++q)
+            sum += fabs(dot2(ma->l[k], &b->q[q]) - dot2(mb->q[q], &a->l[k])) +
+                   fabs(dot2(mb->l[k], &a->q[q]) - dot2(ma->q[q], &b->l[k]));
+    }
+    return sum;
+}
+
+/* How far the slopes (0) and terms of second order (1) turn the field along tangent i, at most. */
+static double turned(const turn *m, int order, int i)
+{
+    double sum = 0;
+    for (int j = 0; j < 2 && order == 0; ++j) sum += fabs(m->l[j][i]);
+    for (int j = 0; j < SECONDS && order == 1; ++j) sum += fabs(m->q[j][i]);
+    return sum;
+}
+
+/* At most, of the terms of second order along tangent i. */
+static double tangential_rest(const local_slice *s, int i)
+{
+    double sum = 0;
+    for (int j = 0; j < SECONDS; ++j) sum += fabs(s->q[j].t[i]);
+    return sum;
+}
+
+static double weighted(vec3 n, const double *x)
+{
+    return fabs(n.x[0]) * x[0] + fabs(n.x[1]) * x[1] + fabs(n.x[2]) * x[2];
+}
+
+IMP_QUAD_INLINE imp_quad along_edges(const double edge[3][4], vec3 n)
+{
+    return imp_quad_all(n.x[0]) * imp_quad_load(edge[0]) +
+           imp_quad_all(n.x[1]) * imp_quad_load(edge[1]) +
+           imp_quad_all(n.x[2]) * imp_quad_load(edge[2]);
+}
+
+/* At most, along n: what edges add, and how the terms of second order of both change within the window. */
+static double edges_upper(const difference *r, vec3 n)
+{
+    imp_quad sum = imp_quad_all(0);
+    for (int k = 0; k < r->posed; ++k)
+        sum += imp_quad_abs(along_edges(r->edge[k], n)) + imp_quad_abs(along_edges(r->swing[k], n));
+    return sum[0] + sum[1] + sum[2];
+}
+
+static double bending_upper(const difference *r, vec3 n)
+{
+    double sum = 0;
+    const slice *both[2] = {&r->a, &r->b};
+    for (int k = 0; k < 2 && r->posed > 0; ++k)
+        sum += fabs(vec3_dot(n, vec3_from(both[k]->uuw))) +
+               fabs(vec3_dot(n, vec3_from(both[k]->uvw))) +
+               fabs(vec3_dot(n, vec3_from(both[k]->vvw)));
+    return sum;
+}
+
+/* Lemma. Let D = delta + drift w + bend w^2 + (terms of B) - (those of A) + rest, |rest_i| <= slack_i,
+ * where the terms of a surface are its slopes l_k s_k, its q_j z_j of second order, z_j being s_u^2,
+ * s_u s_v, s_v^2, s_u w or s_v w; and
+ *
+ *   n = n0 + w m_w + sum_k s_k m_k + sum_j z_j m_j   over the terms of both surfaces, m_k being
+ *                                                   m_k1 t1 + m_k2 t2, for any numbers m.
+ *
+ * Then n.D is the sum of
+ *
+ *   n0.delta + (n0.drift + m_w.delta) w
+ *   (n0.bend + m_w.drift) w^2      at least its coefficient or 0
+ *   part B (s_b) + part A (s_a)    what has one surface's parameters alone, is of second order in
+ *                                    them and linear in w: take_part()
+ *   their terms of third order     cubic_upper
+ *   their terms in w^2             squared_time_upper: s_k (m_k.bend + m_kw.drift +- m_w.l_kw)
+ *   s_k z_j (m_k.q_j - m_j.l_k)    k of one, j of the other, and s_k s_l likewise: cross_upper;
+ *                                    vanishes for m = -K x / 2
+ *   w^3 m_w.bend
+ *   z_j m_j.(z_i q_i, w^2 bend)    at most nu.(sum of |q| of both + |bend|), along t1 and t2
+ *   n.rest                         at most (|n0| + mu1 |t1| + mu2 |t2|).slack
+ *
+ * where nu_i = sum_j |m_ji| and mu_i = |m_wi| + sum_k |m_ki| + nu_i bound how far the field turns.
+ * For fixed s the parts are linear in w. So the least value over s of each is concave in w, and lies
+ * above the chord between the ends of the window. And |n.D| <= |n| |D|, where
+ *
+ *   |n|^2 <= |n0|^2 + 2 sum_i mu_i |n0.t_i| + (sum_i mu_i |t_i|)^2.
+ *
+ * So where the lower bound of n.D exceeds |n| clearance, every point of B is farther than that
+ * from every point of A. n0, t and m are what they are in double precision: they need not be unit,
+ * tangent or accurate.
+ *
+ * Of posed nodes the rest also has sum_k d_k (edge_k + swing_k w), |d_k| <= 1, which adds |n.edge_k| +
+ * |n.swing_k| to |n.rest|; and the terms w z_i qw_i, z_i being s_u^2, s_u s_v or s_v^2, of which w z_i n0.qw_i
+ * belongs to its surface's part, and the remainder is at most (mu1 |t1.qw_i| + mu2 |t2.qw_i|).
+ *
+ * Rounding, in units of u size, size = |n0|.magnitude + 2 sum_i mu_i |t_i|.magnitude: each magnitude
+ * is multiplied by n0 once, and by each m at most once.
+ *
+ *   difference_at                           DIFFERENCE_ROUNDING
+ *   coordinates in the frame              3: product, two sums
+ *   coefficients of the parts            15: product, times w, sums of at most thirteen terms
+ *   least values of both parts            2 QUADRATIC_ROUNDING
+ *   coefficients of the other terms       8: product, sums of at most seven terms
+ *   low, its chord                       12: product, sums of at most six terms, of 2 size
+ *   mu, slack and size themselves        96: fewer than 32 operations, each on less than 3 size
+ */
+enum { FIELD_ROUNDING = 512, SLACK_PAD = 64, MU_PAD = 32, DOT_ROUNDING = 8, LENGTH_PAD = 32 };
+_Static_assert(DIFFERENCE_ROUNDING + 3 + 15 + 2 * QUADRATIC_ROUNDING + 8 + 12 + 96 <=
+                   FIELD_ROUNDING,
+               "rounding along a field of normals");
+PAD_COVERS(SLACK_PAD, 4 + 20 + 14 + 16); /* cross; of second order, times nu; sums in all */
+PAD_COVERS(MU_PAD, 4 + 10);              /* slopes and w, terms of second order */
+PAD_COVERS(LENGTH_PAD, (2 * (14 + 1) + 1 + 2 + 1) / 2 + 1 + 1); /* lean^2; sums; root; product */
+
+/* What the lemma takes off, and the length of n. False: too large to tell. */
+static bool slack_and_length(const difference *r, const frame *f, const local_slice *a,
+                             const local_slice *b, const turns *m, const path *x,
+                             double *slack_upper, double *length_upper)
+{
+    double slack = QUADRATIC_UNDERFLOW + weighted(f->n, r->slack) + edges_upper(r, f->n) +
+                   cross_upper(a, b, &m->a, &m->b) + cubic_upper(a, &m->a) + cubic_upper(b, &m->b) +
+                   squared_time_upper(a, &m->a, m->w, x, -1) +
+                   squared_time_upper(b, &m->b, m->w, x, 1) + fabs(dot2(m->w, &x->bend));
+    double size = weighted(f->n, r->magnitude);
+    double tilt = 0, lean = 0;
+    for (int i = 0; i < 2; ++i) {
+        const double nu = turned(&m->a, 1, i) + turned(&m->b, 1, i);
+        const double mu =
+            padded_upper(turned(&m->a, 0, i) + turned(&m->b, 0, i) + fabs(m->w[i]) + nu, MU_PAD);
+        slack += nu * (tangential_rest(a, i) + tangential_rest(b, i) + fabs(x->bend.t[i])) +
+                 mu * (weighted(f->t[i], r->slack) + edges_upper(r, f->t[i]) +
+                       bending_upper(r, f->t[i]));
+        size += 2 * mu * weighted(f->t[i], r->magnitude);
+        tilt += mu * fabs(vec3_dot(f->n, f->t[i])) + mu * (DOT_ROUNDING * UNIT_ROUNDOFF);
+        lean += mu * vec3_norm(f->t[i]);
+    }
+    if (!(size < 0x1p400)) return false;
+    *slack_upper =
+        slack + (slack * (SLACK_PAD * UNIT_ROUNDOFF) + size * (FIELD_ROUNDING * UNIT_ROUNDOFF));
+    *length_upper = padded_upper(sqrt(vec3_dot(f->n, f->n) + 2 * tilt + lean * lean), LENGTH_PAD);
+    return true;
+}
+
+/* n.D but for the slack: offset + drift w + bend w^2, and the parts of A and B at the start of the
+ * window and at its end. */
+typedef struct height {
+    double offset, drift, bend;
+    quadratics parts;
+} height;
+
+/* Along the field, or against it if B lies on that side at the focus. */
+static height height_of(const difference *r, const local_slice *a, const local_slice *b,
+                        const turns *m, const path *x)
+{
+    const imp_quad none = imp_quad_all(0);
+    height h = {x->delta.n,
+                x->drift.n + dot2(m->w, &x->delta),
+                x->bend.n + dot2(m->w, &x->drift),
+                {none, none, none, none, none}};
+    for (int end = 0; end < 2; ++end) {
+        take_part(a, &m->a, m->w, x, 2 * end - 1, -1, 2 * end, &h.parts);
+        take_part(b, &m->b, m->w, x, 2 * end - 1, 1, 2 * end + 1, &h.parts);
+    }
+    if (!(h.offset + (h.drift + h.bend * r->focus) * r->focus < 0)) return h;
+    const quadratics *p = &h.parts;
+    return (height){-h.offset, -h.drift, -h.bend, {-p->bs, -p->br, -p->qss, -p->qsr, -p->qrr}};
+}
+
+IMP_QUAD_INLINE void quadratics_least(const quadratics *p, double least[IMP_QUAD])
+{
+    imp_quad_store(least, quadratics_lower(p));
+}
+
+IMP_QUAD_WIDE static void quadratics_least_wide(const quadratics *p, double least[IMP_QUAD])
+{
+    quadratics_least(p, least);
+}
+
+static void least_values(const quadratics *p, double least[IMP_QUAD])
+{
+    if (imp_quad_is_wide())
+        quadratics_least_wide(p, least);
+    else
+        quadratics_least(p, least);
+}
+
+bool normal_field_cut(const difference *r, double clearance, w_range *s, gap_lines *lines)
+{
+    frame f;
+    turns m;
+    if (!frame_between(r, &f)) return true;
+    const local_slice a = slice_to_local(&f, &r->a, r->posed > 0),
+                      b = slice_to_local(&f, &r->b, r->posed > 0);
+    if (!turns_choose(&a, &b, &m)) return true;
+    const path x = {to_local(&f, r->delta), to_local(&f, r->drift), to_local(&f, r->bend)};
+    const height h = height_of(r, &a, &b, &m, &x);
+    const imp_quad seen = imp_quad_min(quadratics_corner(&h.parts), imp_quad_all(0));
+    if (h.offset - h.drift + (seen[0] + seen[1]) <= 0 &&
+        h.offset + h.drift + (seen[2] + seen[3]) <= 0)
+        return true; /* nothing to cut, whatever the rest may be */
+    double least[IMP_QUAD];
+    least_values(&h.parts, least);
+    const double start = least[0] + least[1], end = least[2] + least[3];
+    const double middle = h.offset + 0.5 * (start + end) + (h.bend < 0 ? h.bend : 0);
+    const double drift = h.drift + 0.5 * (end - start);
+    if (lines == NULL && middle + fabs(drift) <= 0) return true; /* the same */
+    double slack, length;
+    if (!slack_and_length(r, &f, &a, &b, &m, &x, &slack, &length)) return true;
+    const double low = middle - slack;
+    if (lines != NULL) gap_lines_add(lines, low, drift, length);
+    return w_range_cut(s, low, drift, length * clearance);
+}

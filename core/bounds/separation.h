@@ -1,0 +1,57 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BOUNDS_SEPARATION_H
+#define CORE_BOUNDS_SEPARATION_H
+
+#include "core/bounds/difference.h"
+#include "core/bounds/trial_rate.h"
+
+/* When can two nodes be near?
+ * ===========================
+ * Times in a window at which no axis shows the two inclusions apart. Outside the window that
+ * is left, the nodes' points are farther than `clearance` from each other: proved, rounding
+ * included. A NaN or an infinity anywhere leaves the window as it is. */
+
+/* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. `axis` is as for
+ * fixed_axes_cut. `turning`: the candidate pair's chances of axes that turn (normal_field.h) where fixed
+ * axes cut the start of the window; NULL: each is taken. */
+bool separation_window(const node *a, const node *b, double clearance, time_window *window,
+                       vec3 *axis, trial_rate *turning);
+
+/* The same by the quadratics alone. */
+bool separation_without_nets(const node *a, const node *b, double clearance, time_window *window,
+                             vec3 *axis, trial_rate *turning);
+
+/* As the first; but where both nodes have control nets and the axis is not 0, only the nets are
+ * tried, along that axis. `more`: whether separation_window may leave less. */
+bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,
+                           vec3 *axis, trial_rate *turning, bool *more);
+
+/* How near two nodes come. */
+typedef struct approach {
+    double lower;  /* bound of the distance; length */
+    double moment; /* where in the window it is lowest, about; axes are chosen for it */
+} approach;
+
+/* The same, and how near the nodes come: at no time of the window as it was handed over is their
+ * distance below `near->lower` and below `clearance`. `near->moment` holds a guess to begin with. */
+bool separation_approach(const node *a, const node *b, double clearance, time_window *window,
+                         vec3 *axis, approach *near);
+
+/* Lower bound of the distance of the bounding boxes over the whole of the nodes' times. */
+double separation_boxes_lower(const node *a, const node *b);
+
+/* The paper's test: bounding boxes over the whole of the nodes' times (eqs. 20-22), or balls
+ * (section 3.2), farther apart than `clearance`. */
+bool separation_of_boxes(const node *a, const node *b, double clearance);
+bool separation_of_balls(const node *a, const node *b, double clearance);
+
+/* Length of the longest way from a point of one to a point of the other, about; the paper's
+ * termination (eq. 6) compares it with gamma. */
+double separation_farthest_of_boxes(const node *a, const node *b);
+double separation_farthest_of_balls(const node *a, const node *b);
+
+/* Squared distance of the polynomials' centres at time t; for the order of the heap only. */
+double separation_centres(const node *a, const node *b, double t);
+
+#endif

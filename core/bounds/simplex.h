@@ -1,0 +1,74 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BOUNDS_SIMPLEX_H
+#define CORE_BOUNDS_SIMPLEX_H
+
+#include "core/tree/vec.h"
+
+#include <impinge/quad.h>
+
+/* The point of a simplex that is nearest to the origin
+ * ====================================================
+ * For the searches for axes, whose results decide only how much an axis shows. */
+
+/* A point, segment or triangle, and its point that is nearest, which lies inside it. */
+typedef struct simplex {
+    int count;
+    vec3 p[3];
+    vec3 nearest;
+    double square; /* of its distance */
+} simplex;
+
+IMP_QUAD_INLINE simplex on_point(vec3 a) { return (simplex){1, {a}, a, vec3_dot(a, a)}; }
+
+IMP_QUAD_INLINE simplex on_segment(vec3 a, vec3 b)
+{
+    const vec3 ab = vec3_sub(b, a);
+    const double t = -vec3_dot(a, ab), length2 = vec3_dot(ab, ab);
+    if (!(t > 0)) return on_point(a);
+    if (!(t < length2)) return on_point(b);
+    const vec3 x = vec3_sub(a, vec3_scale(ab, -t / length2));
+    return (simplex){2, {a, b}, x, vec3_dot(x, x)};
+}
+
+IMP_QUAD_INLINE simplex nearer(simplex s, simplex t) { return t.square < s.square ? t : s; }
+
+/* The newest point is a: of the edge bc the search has come from elsewhere. With x = a + y ab + z
+ * ac, the normal equations have the determinant `all`. */
+IMP_QUAD_INLINE simplex on_triangle(vec3 a, vec3 b, vec3 c)
+{
+    const vec3 ab = vec3_sub(b, a), ac = vec3_sub(c, a);
+    const double p = -vec3_dot(ab, a), q = -vec3_dot(ac, a);
+    const double bb = vec3_dot(ab, ab), bc = vec3_dot(ab, ac), cc = vec3_dot(ac, ac);
+    const double y = cc * p - bc * q, z = bb * q - bc * p, all = bb * cc - bc * bc;
+    if (!(y > 0 && z > 0 && y + z < all)) return nearer(on_segment(a, b), on_segment(a, c));
+    const vec3 n = vec3_cross(ab, ac);
+    const vec3 x = vec3_scale(n, vec3_dot(n, a) / vec3_dot(n, n));
+    return (simplex){3, {a, b, c}, x, vec3_dot(x, x)};
+}
+
+/* Whether the origin and d lie on different sides of the plane through a, b and c. */
+IMP_QUAD_INLINE bool is_beyond(vec3 a, vec3 b, vec3 c, vec3 d)
+{
+    const vec3 n = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
+    return !(vec3_dot(n, vec3_sub(d, a)) * vec3_dot(n, a) < 0);
+}
+
+/* On the faces at a that the origin is beyond; count 0: it is inside. */
+IMP_QUAD_INLINE simplex on_tetrahedron(vec3 a, vec3 b, vec3 c, vec3 d)
+{
+    simplex s = {.count = 0, .square = INFINITY};
+    if (is_beyond(a, b, c, d)) s = nearer(s, on_triangle(a, b, c));
+    if (is_beyond(a, c, d, b)) s = nearer(s, on_triangle(a, c, d));
+    if (is_beyond(a, d, b, c)) s = nearer(s, on_triangle(a, d, b));
+    return s;
+}
+
+IMP_QUAD_INLINE simplex simplex_add(const simplex *s, vec3 a)
+{
+    if (s->count == 1) return on_segment(a, s->p[0]);
+    if (s->count == 2) return on_triangle(a, s->p[0], s->p[1]);
+    return on_tetrahedron(a, s->p[0], s->p[1], s->p[2]);
+}
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BOUNDS_TIME_WINDOW_H
+#define CORE_BOUNDS_TIME_WINDOW_H
+
+#include "core/base/rounding.h"
+#include "core/tree/node.h"
+
+/* Windows of time in which two nodes may be near, and how bounds cut them
+ * =======================================================================
+ * Bounds are linear in w, which runs from -1 to 1 over a window: t = mid + half * w. */
+
+typedef struct time_window {
+    double lo, hi; /* lo <= hi */
+} time_window;
+
+/* More than what two products that underflow are off by: windows are cut with that much to spare. */
+#define WINDOW_TINY 0x1p-1070
+
+/* From its middle to either end, rounded up. */
+PAD_COVERS(4, 1); /* one difference */
+static inline double window_half_upper(const time_window *window, double mid)
+{
+    const double above = window->hi - mid, below = mid - window->lo;
+    return padded_upper(above > below ? above : below, 4);
+}
+
+/* What lies in both; lo > hi: nothing. */
+time_window window_common(time_window x, time_window y);
+
+/* The times of both nodes. */
+time_window pair_times(const node *a, const node *b);
+
+/* Where w may be: [lo, hi] within [-1, 1]. */
+typedef struct w_range {
+    double lo, hi;
+} w_range;
+
+/* Cuts a window, whose middle and half these are, to the part that `s` leaves, rounded outward. In units
+ * of u (|mid| + half): half w is off by 1, its sum with mid by 1, that with the slack by 1. WINDOW_TINY
+ * covers what underflows. */
+enum { WINDOW_ROUNDING = 4 };
+_Static_assert(1 + 1 + 1 <= WINDOW_ROUNDING, "rounding of a window");
+
+static inline void window_cut(time_window *window, double mid, double half, const w_range *s)
+{
+    const double slack = (fabs(mid) + half) * (WINDOW_ROUNDING * UNIT_ROUNDOFF) + WINDOW_TINY;
+    const double lo = mid + half * s->lo - slack, hi = mid + half * s->hi + slack;
+    if (s->lo > -1 && lo > window->lo) window->lo = lo < window->hi ? lo : window->hi;
+    if (s->hi < 1 && hi < window->hi) window->hi = hi > window->lo ? hi : window->lo;
+}
+
+enum { W_RANGE_ROUNDING = 8 }; /* units of u by which a bound of w is moved outward */
+
+/* Keeps the w with low + drift w <= limit; false: there is none. NaN keeps everything. */
+bool w_range_cut(w_range *s, double low, double drift, double limit);
+
+#endif

@@ -1,0 +1,126 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/broad_phase/broad_phase.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/base/rounding.h"
+
+/* Written so that a NaN is never apart. */
+PAD_COVERS(2, 1); /* one difference */
+static bool apart(double above, double below, double clearance)
+{
+    return padded_lower(above - below, 2) > clearance;
+}
+
+static bool boxes_apart(const swept_box *a, const swept_box *b, double clearance)
+{
+    for (int i = 0; i < 3; ++i)
+        if (apart(a->lo[i], b->hi[i], clearance) || apart(b->lo[i], a->hi[i], clearance))
+            return true;
+    return false;
+}
+
+/* --- The order of the sweep ------------------------------------------------------------------- */
+
+static int by_start(const swept_box *a, const swept_box *b, int axis)
+{
+    if (a->lo[axis] != b->lo[axis]) return a->lo[axis] < b->lo[axis] ? -1 : 1;
+    return a->owner < b->owner ? -1 : a->owner > b->owner;
+}
+
+static int by_x(const void *p, const void *q) { return by_start(p, q, 0); }
+static int by_y(const void *p, const void *q) { return by_start(p, q, 1); }
+static int by_z(const void *p, const void *q) { return by_start(p, q, 2); }
+
+/* Of how many others a box's span along an axis crosses the start, about, as a part of all: the mean
+ * length of the spans that are finite, over the distance from the first to the last. */
+static double crowding(const swept_box *boxes, size_t count, int axis)
+{
+    double first = INFINITY, last = -INFINITY, length = 0;
+    size_t finite = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const double lo = boxes[k].lo[axis], hi = boxes[k].hi[axis];
+        if (!(hi - lo < INFINITY)) continue;
+        first = lo < first ? lo : first;
+        last = hi > last ? hi : last;
+        length += hi - lo;
+        finite += 1;
+    }
+    return last > first ? length / ((double)finite * (last - first)) : 1;
+}
+
+static int least_crowded(const swept_box *boxes, size_t count)
+{
+    int best = 0;
+    double least = crowding(boxes, count, 0);
+    for (int axis = 1; axis < 3; ++axis) {
+        const double here = crowding(boxes, count, axis);
+        if (here < least) best = axis, least = here;
+    }
+    return best;
+}
+
+int broad_phase_sort(swept_box *boxes, size_t count)
+{
+    static int (*const order[])(const void *, const void *) = {by_x, by_y, by_z};
+    const int axis = least_crowded(boxes, count);
+    for (size_t k = 0; k < count; ++k)
+        if (!(boxes[k].lo[axis] <= boxes[k].hi[axis]))
+            boxes[k].lo[axis] = -INFINITY, boxes[k].hi[axis] = INFINITY;
+    qsort(boxes, count, sizeof *boxes, order[axis]);
+    for (size_t k = count; k-- > 0;) {
+        const bool alike = k + 1 < count && boxes[k].group == boxes[k + 1].group;
+        boxes[k].beyond = alike ? boxes[k + 1].beyond : k + 1;
+    }
+    return axis;
+}
+
+/* Lemma. No two boxes of different groups within the clearance are left out. A box with a NaN along the axis starts before all
+ * others and ends after them, so that the order is one of numbers. A box behind another in it starts no
+ * earlier: once one is apart from it along the axis, so are all that follow. */
+bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
+                           double clearance, const broad_phase_visitor *visitor)
+{
+    size_t l = k + 1;
+    while (l < count) {
+        if (boxes[l].group == boxes[k].group) {
+            l = boxes[l].beyond;
+            continue;
+        }
+        if (apart(boxes[l].lo[axis], boxes[k].hi[axis], clearance)) break;
+        if (!boxes_apart(&boxes[k], &boxes[l], clearance) &&
+            !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
+            return false;
+        ++l;
+    }
+    return true;
+}
+
+enum { FEW = 6 }; /* boxes that are not worth sorting */
+
+static bool visit_few(const swept_box *boxes, size_t count, double clearance,
+                      const broad_phase_visitor *visitor)
+{
+    for (size_t k = 0; k < count; ++k)
+        for (size_t l = k + 1; l < count; ++l)
+            if (boxes[k].group != boxes[l].group && !boxes_apart(&boxes[k], &boxes[l], clearance) &&
+                !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
+                return false;
+    return true;
+}
+
+bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
+                       const broad_phase_visitor *visitor)
+{
+    if (count <= FEW) return visit_few(boxes, count, clearance, visitor);
+    const int axis = broad_phase_sort(boxes, count);
+    for (size_t k = 0; k < count; ++k) {
+        if (!visitor->next_box(visitor->context)) return false;
+        if (!broad_phase_visit_box(boxes, count, axis, k, clearance, visitor)) return false;
+    }
+    return true;
+}

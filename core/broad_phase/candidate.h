@@ -1,0 +1,38 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BROAD_PHASE_CANDIDATE_H
+#define CORE_BROAD_PHASE_CANDIDATE_H
+
+#include "core/scene/scene.h"
+#include "core/tree/node.h"
+
+/* Surfaces that a query examines, and pairs of them
+ * ================================================= */
+
+/* A surface that exists at some of the query's times. */
+typedef struct candidate {
+    tree *tree;
+    size_t body, surface;
+    double eval_error; /* of points evaluated, about, of 16 of its pieces if it has more; < 0: not
+                          measured yet; length */
+    size_t still_maps; /* then: of a surface with distances, surface_still_maps */
+    bool moves;        /* then: a point of it was seen to; never of one that has pieces */
+} candidate;
+
+/* Two of different bodies that may come near each other. */
+typedef struct candidate_pair {
+    candidate *side[2];
+    /* >= surface_slip of either along the other, over all times of both; 0: not asked yet */
+    float slip[2];
+} candidate_pair;
+
+static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const candidate_pair *q)
+{
+    return p->side[0]->body == q->side[0]->body && p->side[1]->body == q->side[1]->body;
+}
+
+/* Measures eval_error, still_maps and moves of both, unless they are known: once for each surface of a query, and
+ * only of those whose pairs are followed. */
+imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
+
+#endif

@@ -1,0 +1,186 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/broad_phase/candidates.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+#include "core/broad_phase/collection.h"
+
+/* --- The order of pairs ------------------------------------------------------------------- */
+
+typedef enum sort_key { KEY_SURFACE_B, KEY_SURFACE_A, KEY_BODY_B, KEY_BODY_A, SORT_KEYS } sort_key;
+
+static size_t key_of(const candidate *candidates, const candidate_pair *p, sort_key key)
+{
+    const candidate *c = p->side[key == KEY_SURFACE_A || key == KEY_BODY_A ? 0 : 1];
+    return key >= KEY_BODY_B ? c->body : (size_t)(c - candidates);
+}
+
+/* A stable counting sort; `start` has room for all keys and one more. False: all keys are the same, and
+ * nothing is moved. */
+static bool sort_pass(const candidate_list *list, sort_key key, size_t *start, size_t keys,
+                      candidate_pair *to)
+{
+    memset(start, 0, (keys + 1) * sizeof *start);
+    for (size_t k = 0; k < list->pair_count; ++k)
+        start[key_of(list->candidates, &list->pairs[k], key) + 1] += 1;
+    if (start[key_of(list->candidates, &list->pairs[0], key) + 1] == list->pair_count) return false;
+    for (size_t k = 0; k < keys; ++k) start[k + 1] += start[k];
+    for (size_t k = 0; k < list->pair_count; ++k)
+        to[start[key_of(list->candidates, &list->pairs[k], key)]++] = list->pairs[k];
+    return true;
+}
+
+/* Sorts by body of a, body of b, surface of a, surface of b, least significant key first: the order
+ * of the scene, so that ties on the heap do not depend on the order of the sweep, which depends on
+ * the query's times. A radix sort, because limits can be asked between its passes. */
+static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
+{
+    candidate_list *list = all->list;
+    const size_t bodies = scene_body_count(all->scene);
+    const size_t keys = list->count > bodies ? list->count : bodies;
+    size_t *start = malloc((keys + 1) * sizeof *start);
+    candidate_pair *to = malloc((list->pair_count + 1) * sizeof *to);
+    const int last = bodies > 2 ? SORT_KEYS : KEY_BODY_B; /* two bodies need no order */
+    *done = start != NULL && to != NULL;
+    const imp_code code = *done ? IMP_SUCCESS : error_set_memory(error);
+    for (int key = 0; *done && key < last; ++key) {
+        if (!sort_pass(list, (sort_key)key, start, keys, to)) continue;
+        candidate_pair *sorted = to;
+        to = list->pairs;
+        list->pairs = sorted;
+        list->pair_capacity = list->pair_count + 1;
+        *done = !collection_must_end(all);
+    }
+    free(start);
+    free(to);
+    return code;
+}
+
+static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
+{
+    *done = collection_add_pairs(all);
+    if (all->out_of_memory) return error_set_memory(error);
+    if (!*done || all->list->pair_count < 2) return IMP_SUCCESS;
+    return sort_pairs(all, done, error);
+}
+
+/* Room to work in; false: no memory. */
+static bool prepare(collection *all)
+{
+    size_t most = 1; /* an array of none may be NULL */
+    for (size_t b = 0; b < scene_body_count(all->scene); ++b)
+        most += scene_surface_count(all->scene, b);
+    all->boxes = most <= BOXES_AT_HAND ? all->at_hand : malloc(most * sizeof *all->boxes);
+    all->list->candidates = most <= CANDIDATES_AT_HAND
+                                ? all->list->at_hand
+                                : malloc(most * sizeof *all->list->candidates);
+    if (all->boxes == NULL || all->list->candidates == NULL) return false;
+    all->with_roots =
+        most <= ROOTS_AT_ONCE || !(all->clearance < INFINITY); /* or all are in pairs */
+    if (!parallel_is_on(all->options)) return true;
+    all->surfaces = malloc(SURFACES_A_ROUND * sizeof *all->surfaces);
+    all->sweep = calloc(TASKS_A_ROUND, sizeof *all->sweep);
+    return all->surfaces != NULL && all->sweep != NULL;
+}
+
+imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
+                         double clearance, const candidate_limit *limit, imp_stats *stats,
+                         imp_error *error)
+{
+    collection all = {.scene = scene,
+                      .options = options,
+                      .limit = limit,
+                      .stats = stats,
+                      .clearance = clearance,
+                      .list = list};
+    bool done = false;
+    imp_code code =
+        prepare(&all) ? collection_add_surfaces(&all, &done, error) : error_set_memory(error);
+    collection_count_rest(&all);
+    if (done) code = collect_pairs(&all, &done, error);
+    if (done) code = collection_make_roots(&all, &done, error);
+    if (all.boxes != all.at_hand) free(all.boxes);
+    free(all.surfaces);
+    free(all.sweep);
+    list->complete = done && code == IMP_SUCCESS;
+    if (!list->complete) candidates_clear(list);
+    return code;
+}
+
+/* --- Parts ---------------------------------------------------------------------------------- */
+
+/* The candidates of one side of some pairs of the same two bodies: neighbours in the list. */
+typedef struct candidate_span {
+    const candidate *first;
+    size_t count;
+} candidate_span;
+
+static candidate_span span_of(const candidate_pair *pairs, size_t count, int side)
+{
+    const candidate *lo = pairs[0].side[side], *hi = lo;
+    for (size_t k = 1; k < count; ++k) {
+        const candidate *c = pairs[k].side[side];
+        lo = c < lo ? c : lo;
+        hi = c > hi ? c : hi;
+    }
+    return (candidate_span){lo, (size_t)(hi - lo) + 1};
+}
+
+/* The part's own candidate in place of the whole list's, with a tree; NULL: no memory. */
+static candidate *own_candidate(candidate *place, const candidate *from, imp_stats *stats)
+{
+    if (place->tree != NULL) return place;
+    *place = (candidate){.body = from->body, .surface = from->surface, .eval_error = -1};
+    tree_growth growth = {0};
+    if (tree_new_from_root(from->tree, &place->tree, &growth, NULL) != IMP_SUCCESS) return NULL;
+    stats->bytes += growth.bytes;
+    return place;
+}
+
+imp_code candidates_part(candidate_list *list, const candidate_list *whole, size_t first,
+                         size_t count, imp_stats *stats, imp_error *error)
+{
+    const candidate_pair *pairs = whole->pairs + first;
+    const candidate_span span[2] = {span_of(pairs, count, 0), span_of(pairs, count, 1)};
+    *list = (candidate_list){.count = span[0].count + span[1].count,
+                             .pair_count = count,
+                             .pair_capacity = count,
+                             .complete = true,
+                             .owns_trees = true};
+    list->candidates = calloc(list->count, sizeof *list->candidates);
+    list->pairs = malloc(count * sizeof *list->pairs);
+    bool ok = list->candidates != NULL && list->pairs != NULL;
+    for (size_t k = 0; ok && k < count; ++k) {
+        list->pairs[k] = (candidate_pair){.side = {NULL, NULL}};
+        for (int side = 0; side < 2; ++side) {
+            const candidate *from = pairs[k].side[side];
+            const size_t before = side == 0 ? 0 : span[0].count;
+            candidate *place = list->candidates + before + (size_t)(from - span[side].first);
+            list->pairs[k].side[side] = own_candidate(place, from, stats);
+            ok = ok && list->pairs[k].side[side] != NULL;
+        }
+    }
+    if (ok) return IMP_SUCCESS;
+    candidates_clear(list);
+    return error_set_memory(error);
+}
+
+uint64_t candidates_bytes(const candidate_list *list)
+{
+    return list->count * sizeof *list->candidates + list->pair_capacity * sizeof *list->pairs;
+}
+
+void candidates_clear(candidate_list *list)
+{
+    for (size_t k = 0; list->owns_trees && list->candidates != NULL && k < list->count; ++k)
+        tree_free(list->candidates[k].tree);
+    if (list->candidates != list->at_hand) free(list->candidates);
+    free(list->pairs);
+    *list = (candidate_list){0};
+}

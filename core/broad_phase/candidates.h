@@ -1,0 +1,51 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BROAD_PHASE_CANDIDATES_H
+#define CORE_BROAD_PHASE_CANDIDATES_H
+
+#include "core/broad_phase/candidate.h"
+
+/* How a query begins: the broad phase
+ * ===================================
+ * Every surface that exists at any of the query's times gets its tree, whose root is a box around
+ * all that the surface sweeps. Surfaces of different bodies whose boxes come within the clearance
+ * of each other, unless their bodies ignore each other, are the candidate pairs. */
+
+enum { CANDIDATES_AT_HAND = 3 }; /* that need no memory of their own */
+
+typedef struct candidate_list {
+    candidate *candidates; /* in the order of the scene */
+    candidate at_hand[CANDIDATES_AT_HAND];
+    size_t count;
+    candidate_pair *pairs; /* by body of a, body of b, surface of a, surface of b */
+    size_t pair_count, pair_capacity;
+    bool complete;
+    bool owns_trees; /* else they are the scene's */
+} candidate_list;    /* begins as {0}, and stays where it is once filled; candidates_clear frees */
+
+/* Asked for every few surfaces and boxes: whether a limit of the query is reached, with the bytes that the list
+ * and the new trees hold. In between, and by threads that look ahead: whether one is so near that it is to be
+ * asked, or that they had better stop, with the bytes and pairs made since. [is_near: any thread] */
+typedef struct candidate_limit {
+    bool (*is_reached)(void *context, uint64_t bytes, uint64_t pairs);
+    bool (*is_near)(void *context, uint64_t bytes, uint64_t pairs);
+    void *context;
+} candidate_limit;
+
+/* Fills an empty list; the nodes made for it are added to `stats`. The trees are the scene's. Where
+ * a limit ends it, the list is empty again and not complete; after that, or a failure, it may be
+ * filled again. */
+imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
+                         double clearance, const candidate_limit *limit, imp_stats *stats,
+                         imp_error *error);
+
+/* Fills an empty list with `count` pairs of another from `first` on, all of the same two bodies, and
+ * trees of its own. `whole` is only read, also by other threads. Bytes are added to `stats`. */
+imp_code candidates_part(candidate_list *list, const candidate_list *whole, size_t first,
+                         size_t count, imp_stats *stats, imp_error *error);
+
+uint64_t candidates_bytes(const candidate_list *list);
+
+void candidates_clear(candidate_list *list);
+
+#endif

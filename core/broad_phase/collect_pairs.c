@@ -1,0 +1,137 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <stdlib.h>
+
+#include "core/common/array.h"
+#include "core/broad_phase/collection.h"
+
+/* --- Pairs ---------------------------------------------------------------------------------- */
+
+/* Of two surfaces that come near each other, smaller body first; false: they are not to be tested. */
+static bool make_pair(const collection *all, size_t first, size_t second, candidate_pair *p)
+{
+    candidate *candidates = all->list->candidates;
+    const size_t a = first < second ? first : second, b = first < second ? second : first;
+    *p = (candidate_pair){.side = {&candidates[a], &candidates[b]}};
+    return candidates[a].body != candidates[b].body &&
+           !scene_ignores(all->scene, candidates[a].body, candidates[b].body);
+}
+
+/* False: no memory. */
+static bool keep_pair(collection *all, const candidate_pair *p)
+{
+    candidate_list *list = all->list;
+    candidate_pair *grown = NULL;
+    if (list->pair_count < UINT32_MAX)
+        grown = array_reserve(list->pairs, list->pair_count, &list->pair_capacity, sizeof *grown);
+    all->out_of_memory = grown == NULL;
+    if (grown == NULL) return false;
+    list->pairs = grown;
+    list->pairs[list->pair_count++] = *p;
+    return true;
+}
+
+static bool add_pair(void *context, size_t first, size_t second)
+{
+    collection *all = context;
+    candidate_pair p;
+    return !make_pair(all, first, second, &p) || keep_pair(all, &p);
+}
+
+/* --- Pairs found ahead ------------------------------------------------------------------------ */
+
+typedef struct sweep_task {
+    collection *all;
+    sweep_ahead *to;
+} sweep_task;
+
+static bool add_pair_ahead(void *context, size_t first, size_t second)
+{
+    const sweep_task *task = context;
+    sweep_ahead *to = task->to;
+    candidate_pair p;
+    if (!make_pair(task->all, first, second, &p)) return true;
+    candidate_pair *grown = array_reserve(to->pairs, to->count, &to->capacity, sizeof *grown);
+    if (grown == NULL) return false;
+    to->pairs = grown;
+    to->pairs[to->count++] = p;
+    return true;
+}
+
+static void sweep_boxes(void *of, size_t index)
+{
+    collection *all = of;
+    sweep_task task = {all, &all->sweep[index]};
+    const broad_phase_visitor visitor = {NULL, add_pair_ahead, &task};
+    const size_t first = all->first_box + index * BOXES_A_TASK, count = all->list->count;
+    for (size_t k = first; k < count && k < first + BOXES_A_TASK; ++k) {
+        const size_t before = task.to->count;
+        if (collection_may_end(all, sizeof(candidate_pair))) return;
+        if (!broad_phase_visit_box(all->boxes, count, all->axis, k, all->clearance, &visitor))
+            return;
+        atomic_fetch_add(&all->bytes_ahead, (task.to->count - before) * sizeof(candidate_pair));
+    }
+    task.to->complete = true;
+}
+
+/* The pairs of one task's boxes: those found ahead, if all of them were. False: a limit, or no memory. */
+static bool take_boxes(collection *all, const sweep_ahead *found, size_t first)
+{
+    const broad_phase_visitor visitor = {NULL, add_pair, all};
+    const size_t count = all->list->count;
+    bool go_on = !collection_must_end(all);
+    for (size_t k = 0; go_on && found->complete && k < found->count; ++k)
+        go_on = keep_pair(all, &found->pairs[k]);
+    for (size_t k = first; go_on && !found->complete && k < count && k < first + BOXES_A_TASK; ++k)
+        go_on = !collection_must_end(all) && broad_phase_visit_box(all->boxes, count, all->axis, k,
+                                                                all->clearance, &visitor);
+    return go_on;
+}
+
+/* Frees what was found. */
+static bool take_round(collection *all)
+{
+    bool go_on = true;
+    for (size_t k = 0; k < TASKS_A_ROUND; ++k) {
+        const size_t first = all->first_box + k * BOXES_A_TASK;
+        go_on = go_on && (first >= all->list->count || take_boxes(all, &all->sweep[k], first));
+        free(all->sweep[k].pairs);
+        all->sweep[k] = (sweep_ahead){0};
+    }
+    return go_on;
+}
+
+static bool sweep_by_threads(collection *all)
+{
+    const size_t count = all->list->count, round = TASKS_A_ROUND * BOXES_A_TASK;
+    bool go_on = true;
+    all->axis = broad_phase_sort(all->boxes, count);
+    for (all->first_box = 0; go_on && all->first_box < count; all->first_box += round) {
+        const size_t rest = count - all->first_box, boxes = rest < round ? rest : round;
+        atomic_store(&all->bytes_ahead, 0);
+        parallel_run(all->options, sweep_boxes, all, (boxes + BOXES_A_TASK - 1) / BOXES_A_TASK);
+        go_on = take_round(all);
+    }
+    return go_on;
+}
+
+static bool go_on(void *context)
+{
+    collection *all = context;
+    const bool many = all->boxes_swept++ % BOXES_AN_ASK == 0;
+    if (!many && !all->limit->is_near(all->limit->context, candidates_bytes(all->list), 0))
+        return true;
+    return !collection_must_end(all);
+}
+
+bool collection_add_pairs(collection *all)
+{
+    const broad_phase_visitor visitor = {go_on, add_pair, all};
+    const bool done =
+        all->sweep != NULL
+            ? sweep_by_threads(all)
+            : broad_phase_visit(all->boxes, all->list->count, all->clearance, &visitor);
+    return done && !collection_must_end(all); /* notes what the last pairs take */
+}

@@ -1,0 +1,125 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/broad_phase/collection.h"
+#include "core/scene/scene_trees.h"
+#include "core/tree/bound_audit.h"
+
+static tree_kind kind_of(const imp_options *options)
+{
+    if (options->method == IMP_METHOD_MODELS) return TREE_MODELS;
+    switch (options->rates) {
+    case IMP_RATES_COLUMN:
+        return TREE_RATES_COLUMN;
+    case IMP_RATES_CONSTANT:
+        return TREE_RATES_CONSTANT;
+    default:
+        return TREE_RATES_FULL;
+    }
+}
+
+/* False: the surface exists at none of the query's times. */
+static bool plan_of(const collection *all, size_t body, size_t index, tree_plan *plan)
+{
+    const imp_options *options = all->options;
+    double lo[3], hi[3];
+    surface_domain(scene_surface(all->scene, body, index), lo, hi);
+    *plan = (tree_plan){.kind = kind_of(options),
+                        .t_start = lo[2] > options->t_start ? lo[2] : options->t_start,
+                        .t_end = hi[2] < options->t_end ? hi[2] : options->t_end,
+                        .audit = options->audit ? bound_audit_run : NULL};
+    return plan->t_start <= plan->t_end;
+}
+
+/* Makes the trees of some surfaces. What fails is made again in its turn. */
+static void make_trees(void *of, size_t task)
+{
+    collection *all = of;
+    surface_ahead *s = all->surfaces + task * SURFACES_A_TASK;
+    for (size_t k = task * SURFACES_A_TASK; k < all->ahead && k < (task + 1) * SURFACES_A_TASK;
+         ++k, ++s) {
+        tree_plan plan;
+        tree *t;
+        if (collection_may_end(all, 0)) return;
+        if (!plan_of(all, s->body, s->surface, &plan)) continue;
+        if (scene_tree(all->scene, s->body, s->surface, &plan, all->with_roots, &t, &s->growth,
+                       NULL) == IMP_SUCCESS)
+            atomic_fetch_add(&all->bytes_ahead, s->growth.bytes);
+    }
+}
+
+/* From this surface on. */
+static void look_ahead(collection *all, size_t body, size_t index)
+{
+    const size_t bodies = scene_body_count(all->scene);
+    all->used = all->ahead = 0;
+    for (size_t b = body, k = index; b < bodies && all->ahead < SURFACES_A_ROUND;)
+        if (k < scene_surface_count(all->scene, b))
+            all->surfaces[all->ahead++] = (surface_ahead){b, k++, {0}};
+        else
+            b += 1, k = 0;
+    atomic_store(&all->bytes_ahead, 0);
+    parallel_run(all->options, make_trees, all,
+                 (all->ahead + SURFACES_A_TASK - 1) / SURFACES_A_TASK);
+}
+
+void collection_count_rest(collection *all)
+{
+    for (; all->used < all->ahead; ++all->used)
+        collection_count(all, &all->surfaces[all->used].growth);
+}
+
+/* Adds one surface, if it exists at any of the query's times. */
+static imp_code collect_surface(collection *all, size_t body, size_t index, imp_error *error)
+{
+    tree_plan plan;
+    tree *t;
+    tree_growth growth = {0};
+    if (all->surfaces != NULL) {
+        if (all->used == all->ahead) look_ahead(all, body, index);
+        collection_count(all, &all->surfaces[all->used++].growth);
+    }
+    if (!plan_of(all, body, index, &plan)) return IMP_SUCCESS;
+    const imp_code code =
+        scene_tree(all->scene, body, index, &plan, all->with_roots, &t, &growth, error);
+    if (code != IMP_SUCCESS) return code;
+    collection_count(all, &growth);
+    const size_t k = all->list->count++;
+    swept_box *box = &all->boxes[k];
+    box->owner = k;
+    box->group = body;
+    all->any_lacks_root = all->any_lacks_root || !tree_has_root(t);
+    tree_box(t, box->lo, box->hi);
+    all->list->candidates[k] =
+        (candidate){.tree = t, .body = body, .surface = index, .eval_error = -1};
+    return IMP_SUCCESS;
+}
+
+/* Whether a limit ends it before this surface. Checked where a limit is near, and after a few
+ * surfaces or a large one; only what has had its turn counts, so that threads change no answer. */
+static bool must_end_here(collection *all)
+{
+    const uint64_t made = all->stats->bytes - all->bytes_asked;
+    const size_t count = all->list->count;
+    const bool many = (count > 0 && count % SURFACES_AN_ASK == 0) || made >= BYTES_AN_ASK;
+    if (!many && !all->limit->is_near(all->limit->context, made, 0)) return false;
+    all->bytes_asked = all->stats->bytes;
+    return collection_must_end(all);
+}
+
+imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error)
+{
+    *done = false;
+    const size_t bodies = scene_body_count(all->scene);
+    for (size_t b = 0; b < bodies; ++b) {
+        const size_t count = scene_surface_count(all->scene, b);
+        for (size_t k = 0; k < count; ++k) {
+            if (must_end_here(all)) return IMP_SUCCESS;
+            const imp_code code = collect_surface(all, b, k, error);
+            if (code != IMP_SUCCESS) return code;
+        }
+    }
+    *done = true;
+    return IMP_SUCCESS;
+}

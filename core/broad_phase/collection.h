@@ -1,0 +1,106 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BROAD_PHASE_COLLECTION_H
+#define CORE_BROAD_PHASE_COLLECTION_H
+
+#include <stdatomic.h>
+
+#include "core/broad_phase/broad_phase.h"
+#include "core/broad_phase/candidates.h"
+#include "core/broad_phase/parallel.h"
+
+/* What the files of the list of candidates share: candidates.c begins and sorts it, collect_surfaces.c,
+ * collect_pairs.c and collect_roots.c fill it, each also with threads that look ahead. */
+
+/* A surface whose tree is made ahead of its turn, and what that has made. */
+typedef struct surface_ahead {
+    size_t body, surface;
+    tree_growth growth;
+} surface_ahead;
+
+/* Boxes whose pairs are found ahead of their turn, and the pairs. */
+typedef struct sweep_ahead {
+    candidate_pair *pairs;
+    size_t count, capacity;
+    bool complete;
+} sweep_ahead;
+
+/* A surface of a pair that has no root yet, which is made ahead of its turn. */
+typedef struct root_ahead {
+    tree *tree;
+    tree_growth growth;
+} root_ahead;
+
+enum {
+    SURFACES_A_TASK = 16,
+    BOXES_A_TASK = 128,
+    TASKS_A_ROUND = 64,
+    SURFACES_A_ROUND = SURFACES_A_TASK * TASKS_A_ROUND
+};
+
+/* A limit that is not near is checked after so many surfaces, or so much memory, and so many boxes. */
+enum { SURFACES_AN_ASK = 8, BYTES_AN_ASK = 1 << 15, BOXES_AN_ASK = 32 };
+
+enum { BOXES_AT_HAND = 4 }; /* so few boxes need no memory of their own */
+
+/* With more surfaces a root is made only once its surface is in a pair, though what it is made
+ * from is then computed again: most surfaces of large scenes are in none. */
+enum { ROOTS_AT_ONCE = 512 };
+
+typedef struct collection {
+    imp_scene *scene;
+    const imp_options *options;
+    const candidate_limit *limit;
+    imp_stats *stats;
+    double clearance;
+    swept_box *boxes, at_hand[BOXES_AT_HAND];
+    candidate_list *list;
+    uint64_t bytes_asked; /* stats->bytes when limits were last checked */
+    size_t boxes_swept;
+    bool out_of_memory;
+    bool with_roots; /* all trees are made with them */
+    bool any_lacks_root;
+    root_ahead *roots; /* those that are missing */
+    size_t first_root, root_count;
+    /* by threads that look ahead: */
+    surface_ahead *surfaces; /* the first `used` of `ahead` have had their turn; NULL: no threads */
+    size_t used, ahead;
+    sweep_ahead *sweep; /* TASKS_A_ROUND of them; NULL: no threads */
+    size_t first_box;
+    int axis;
+    atomic_uint_least64_t bytes_ahead;
+} collection;
+
+/* Whether a limit ends it now; whether one is so near that threads that look ahead stop, with bytes_ahead of
+ * trees (pair_size 0) or of pairs of this size. [collection_may_end: any thread] */
+static inline bool collection_must_end(const collection *all)
+{
+    return all->limit->is_reached(all->limit->context, candidates_bytes(all->list),
+                                  all->list->pair_count);
+}
+
+static inline bool collection_may_end(collection *all, size_t pair_size)
+{
+    const uint64_t bytes = atomic_load(&all->bytes_ahead);
+    return all->limit->is_near(all->limit->context, bytes, pair_size > 0 ? bytes / pair_size : 0);
+}
+
+static inline void collection_count(collection *all, const tree_growth *growth)
+{
+    all->stats->nodes += growth->nodes;
+    all->stats->bytes += growth->bytes;
+}
+
+/* *done: all surfaces are there; otherwise a limit came first. */
+imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error);
+
+/* Counts the trees that were made, but whose turn does not come: they are the scene's all the same. */
+void collection_count_rest(collection *all);
+
+/* False: a limit, or no memory, which all->out_of_memory tells. */
+bool collection_add_pairs(collection *all);
+
+/* Makes the roots that surfaces of pairs lack; *done as above. */
+imp_code collection_make_roots(collection *all, bool *done, imp_error *error);
+
+#endif

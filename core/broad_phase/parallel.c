@@ -1,0 +1,28 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/broad_phase/parallel.h"
+
+#include "core/base/fp_mode.h"
+
+typedef struct parallel_call {
+    void (*work)(void *of, size_t index);
+    void *of;
+} parallel_call;
+
+FP_APART static void call(const parallel_call *c, size_t index) { c->work(c->of, index); }
+
+static void call_in_environment(void *of, size_t index)
+{
+    const fp_environment environment = fp_environment_enter();
+    call(of, index);
+    fp_environment_leave(&environment);
+}
+
+void parallel_run(const imp_options *options, void (*work)(void *of, size_t index), void *of,
+                  size_t count)
+{
+    parallel_call c = {work, of};
+    options->parallel(options->parallel_context, call_in_environment, &c, count);
+}

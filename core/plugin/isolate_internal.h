@@ -1,0 +1,26 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_PLUGIN_ISOLATE_INTERNAL_H
+#define CORE_PLUGIN_ISOLATE_INTERNAL_H
+
+#include "core/plugin/isolate.h"
+
+/* The inside of an isolated instance
+ * ==================================
+ * For its two files: isolate.c creates and destroys it; isolate_stand_in.c is what the rest of core takes for
+ * its type. */
+
+struct isolated {
+    worker_type type;
+    imp_surface_type surface_stand_in; /* one of the two is in use */
+    imp_map_type map_stand_in;
+    worker_pool *pool;
+    worker *worker;      /* NULL: none was to be had */
+    void *self;          /* the instance, as the worker knows it; NULL: not created */
+    const void *user;    /* whose requests they are: itself, or what it is a piece of */
+    double lo[3], hi[3]; /* domain; a map: times in [0] */
+    isolated *pieces;    /* piece_count of them, unless that breaks the ABI; or NULL */
+    size_t piece_count;
+};
+
+#endif

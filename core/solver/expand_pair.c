@@ -1,0 +1,314 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/expand_pair.h"
+
+#include "core/bounds/distance.h"
+#include "core/bounds/separation.h"
+#include "core/bounds/tuning.h"
+#include "core/witness/contact_estimate.h"
+#include "core/witness/newton.h"
+
+static candidate_pair *candidate_pair_of(const impact *im, const pair *p)
+{
+    return &im->candidate_pairs[p->candidate_pair];
+}
+
+/* --- Push ------------------------------------------------------------------------- */
+
+/* p->window holds the parent's window, cut to both nodes' times. */
+static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
+{
+    pair_test t = {.p = *p};
+    const imp_code code = pair_test_first(im, &t, impact_turning(im, p), error);
+    if (code == IMP_SUCCESS) impact_push(im, &t);
+    return code;
+}
+
+/* --- Splitting ---------------------------------------------------------------------------- */
+
+/* The same of a pair whose window the hulls have cut already: it is tested when it is popped. */
+static imp_code push_cut(impact *im, const pair *p, imp_error *error)
+{
+    pair_test t = {.p = *p, .near = true};
+    t.p.is_seen_only = true;
+    const imp_code code = pair_test_ask_for_nets(im, &t.p, &t.bytes, error);
+    if (code == IMP_SUCCESS) impact_push(im, &t);
+    return code;
+}
+
+/* `halves`: those of its nodes along its axis; NULL: not known. */
+static imp_code split(impact *im, const pair *p, cut c, const net_halves *halves,
+                      impact_state *state, imp_error *error)
+{
+    time_window left[2] = {p->window, p->window};
+    bool near[2] = {true, true};
+    const bool is_cut =
+        halves != NULL && net_halves_cut(halves, c.side, c.along, &p->window, left, near);
+    for (int half = 0; half < 2; ++half) {
+        pair child = *p;
+        child.window = left[half];
+        bool some = false;
+        imp_code code = IMP_SUCCESS;
+        if (near[half])
+            code = cut_take(&c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
+        if (code == IMP_SUCCESS && some)
+            code = is_cut ? push_cut(im, &child, error) : test_and_push(im, &child, error);
+        if (code == IMP_ERROR_PLUGIN) return code;
+        if (code != IMP_SUCCESS) *state = IMPACT_NO_MEMORY;
+    }
+    return IMP_SUCCESS;
+}
+
+/* Takes halves one after the other as long as the pair's axis excludes the other half; only the
+ * last gets models. *some is false where both halves are excluded. */
+static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *some,
+                                 imp_error *error)
+{
+    const candidate_pair *both = candidate_pair_of(im, p);
+    halves->has_heights = false;
+    *some = true;
+    if (!nodes_have_nets(p->a, p->b)) return IMP_SUCCESS;
+    net_halves_find(p->a, p->b, p->axis, im->clearance, &p->window, halves);
+    const int count = halves->count;
+    *some = count == 0 || halves->found[count - 1].half >= 0;
+    if (count == 0 || !*some) return IMP_SUCCESS;
+    p->wait -= p->wait < (uint32_t)count ? p->wait : (uint32_t)count;
+    const imp_code code = pair_take_halves(p, halves->found, count, both, im->stats, error);
+    return code == IMP_SUCCESS ? pair_test_ask_for_nets(im, p, &im->stats->bytes, error) : code;
+}
+
+/* --- Following one pair ------------------------------------------------------------------ */
+
+/* What is to be told apart; by default half of gamma. */
+static double room(const impact *im) { return im->gamma - im->clearance; }
+
+/* Whether both have nets so close to the surfaces that the nets' nearest points are within gamma
+ * where the surfaces come within the clearance. */
+static bool have_close_nets(const impact *im, const pair *p)
+{
+    return nodes_have_nets(p->a, p->b) &&
+           4 * (net_off(node_net_made(p->a)) + net_off(node_net_made(p->b))) <= room(im);
+}
+
+/* With such nets the nearest points are sought on them, and only those found are evaluated. */
+static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp_error *error)
+{
+    const node *const nodes[2] = {p->a, p->b};
+    const double t = p->window.lo, part = 0.25 * room(im) / im->gamma;
+    double y[NEWTON_UNKNOWNS];
+    if (!have_close_nets(im, p)) return witness_seek(nodes, t, im->gamma, seen, error);
+    net_nearest(nodes, p->axis, t, TUNING_WITNESS_NEAR * im->gamma,
+                part < TUNING_NEWTON_GAIN ? part : TUNING_NEWTON_GAIN, y);
+    return witness_at(nodes, t, y, seen, error);
+}
+
+static imp_code find_witness(impact *im, const pair *p, bool moving, witness *seen,
+                             imp_error *error)
+{
+    const node *const nodes[2] = {p->a, p->b};
+    im->stats->witness_searches += 1;
+    const imp_code code = moving ? seek_witness(im, p, seen, error)
+                                 : witness_at_centres(nodes, p->window.lo, seen, error);
+    if (code == IMP_SUCCESS) impact_note_gap(im, seen);
+    return code;
+}
+
+/* Whether either half of a node without bounds has some. */
+static imp_code has_bounded_half(impact *im, const pair *p, const cut *c, bool *found,
+                                 imp_error *error)
+{
+    *found = false;
+    for (int half = 0; half < 2; ++half) {
+        pair child = *p;
+        bool some;
+        const imp_code code =
+            cut_take(c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
+        if (code != IMP_SUCCESS) return code;
+        *found = *found || (c->side == 0 ? child.a : child.b)->bounded;
+    }
+    return IMP_SUCCESS;
+}
+
+/* Of a node without bounds: time, if that leaves one half with bounds, so that a moment without
+ * bounds is closed in on before u and v are cut: pairs of different starts are not followed one
+ * after the other. Also where so little time is left that there must have been such a moment. Else
+ * the largest. */
+static imp_code cut_unbounded(impact *im, const pair *p, int side, cut *best, imp_error *error)
+{
+    const imp_region *region = side == 0 ? &p->a->region : &p->b->region;
+    const cut in_time = {side, PARAMETER_T, 0};
+    const double moment = TUNING_MOMENT * (im->window.hi - im->window.lo);
+    bool bounded;
+    *best = cut_by_contribution(p);
+    if (!region_can_split(region, PARAMETER_T)) return IMP_SUCCESS;
+    const imp_code code = has_bounded_half(im, p, &in_time, &bounded, error);
+    if (bounded || region->d[PARAMETER_T] < moment) *best = in_time;
+    return code;
+}
+
+/* A node without bounds tells nothing of where a surface is: it is halved, and again, until what is
+ * left is a place where the type has no bounds at any size, or none. */
+static imp_code expand_unbounded(impact *im, const pair *p, impact_state *state, imp_error *error)
+{
+    const int side = p->a->bounded ? 1 : 0;
+    cut c;
+    const imp_code code = cut_unbounded(im, p, side, &c, error);
+    if (code != IMP_SUCCESS) return code;
+    if (c.side >= 0) return split(im, p, c, NULL, state, error);
+    return node_unbounded_fault(candidate_pair_of(im, p)->side[side]->tree, side == 0 ? p->a : p->b,
+                                error);
+}
+
+/* The paper's Figure 6: a pair whose volumes are within gamma of each other altogether (eq. 6) is a
+ * collision; any other is subdivided. */
+static imp_code expand_by_paper(impact *im, const pair *p, impact_state *state, imp_error *error)
+{
+    const double farthest = im->bounds == IMP_BOUNDS_BOX ? separation_farthest_of_boxes(p->a, p->b)
+                                                         : separation_farthest_of_balls(p->a, p->b);
+    if (farthest <= im->gamma && !pair_has_cluster(p)) {
+        witness seen;
+        const imp_code code = find_witness(im, p, false, &seen, error);
+        if (code != IMP_SUCCESS) return code;
+        *state = seen.gap_upper <= im->gamma ? impact_contact(im, &seen) : IMPACT_RESOLUTION;
+        return IMP_SUCCESS;
+    }
+    const cut c = cut_by_contribution(p);
+    if (c.side >= 0) return split(im, p, c, NULL, state, error);
+    *state = IMPACT_RESOLUTION;
+    return IMP_SUCCESS;
+}
+
+/* What is smaller does not matter: gamma, or less where the room is less than half of it. */
+static double scale(const impact *im)
+{
+    return 2 * room(im) < im->gamma ? 2 * room(im) : im->gamma;
+}
+
+static bool precision_ends(const impact *im, const pair *p, double flat)
+{
+    return pair_precision_ends(p, candidate_pair_of(im, p), room(im), flat);
+}
+
+/* Whether a search may pay: the polynomials are good enough for gamma, or will never be better, or
+ * hulls show all there is. At one instant also where one side alone would be halved: surfaces that
+ * touch all over would be halved down to gamma everywhere. */
+static bool witness_is_likely(const impact *im, const pair *p, const distance_outcome *seen)
+{
+    if (p->wait > 0) return false;
+    if (seen->side >= 0 && !(p->window.lo < p->window.hi)) return true;
+    const double remainder = pair_remainder(p);
+    return TUNING_WITNESS_GAMMA * remainder <= scale(im) ||
+           TUNING_WITNESS_EXTENT * pair_extent(p) <= remainder ||
+           nodes_have_flat_nets(p->a, p->b) || precision_ends(im, p, TUNING_WITNESS_FLAT);
+}
+
+/* Of the side that is worth halving alone. Not where its remainder does not matter any more: where surfaces
+ * come to touch along a curve, it would be halved all along before the other side is small enough for a
+ * witness. */
+static cut choose_cut_alone(const impact *im, const pair *p, const distance_outcome *seen)
+{
+    if (seen->side < 0) return CUT_NONE;
+    const node *n = seen->side == 0 ? p->a : p->b;
+    const bool matters = n->e[0] + n->e[1] + n->e[2] > scale(im);
+    return matters ? cut_alone(p, seen->side, seen->bend, scale(im)) : CUT_NONE;
+}
+
+/* The pairs that hold the points of a contact are near each other for a long time where gamma is wide
+ * and its room narrow: how motion bends in that time, not place, is what keeps their starts from being
+ * found. What one side's distance shows comes first. */
+static cut choose_cut(const impact *im, const pair *p, const distance_outcome *seen)
+{
+    const cut alone = choose_cut_alone(im, p, seen);
+    if (alone.side >= 0) return alone;
+    const cut bend = scale(im) < im->gamma ? cut_by_bend(p, scale(im)) : CUT_NONE;
+    if (bend.side >= 0) return bend;
+    return cut_by_spread(p, scale(im), nodes_have_nets(p->a, p->b));
+}
+
+/* Chooses a cut. A cut in time of which one half holds the whole window is made at once, without
+ * another test, and the next is chosen. */
+static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcome *seen, cut *c,
+                                      imp_error *error)
+{
+    imp_code code = IMP_SUCCESS;
+    int half;
+    *c = choose_cut(im, p, seen);
+    while (code == IMP_SUCCESS && cut_is_free(c, p, &half)) {
+        bool some;
+        code = cut_take(c, half, candidate_pair_of(im, p), p, &some, im->stats, error);
+        if (code == IMP_SUCCESS) code = pair_test_ask_for_nets(im, p, &im->stats->bytes, error);
+        if (code == IMP_SUCCESS) *c = choose_cut(im, p, seen);
+    }
+    return code;
+}
+
+/* Whether the nodes may slide along each other: no fixed axis parts them from the start of their
+ * times on, or their parents slid. Where an axis parts them, this is tried as often as it pays. If
+ * surfaces approach each other, axes cut the start of the window first. */
+static bool may_slide(const pair *p, bool is_parted, trial_rate *sliding)
+{
+    if (!is_parted) return p->slides || !(p->window.lo > pair_times(p->a, p->b).lo);
+    return p->slides && trial_rate_take(sliding, TUNING_DISTANCE_SHARE, TUNING_DISTANCE_WAIT);
+}
+
+/* What the nodes' distances from each other's whole surfaces show, where that has a chance. */
+static imp_code look(const impact *im, const pair *p, distance_outcome *seen, imp_error *error)
+{
+    const bool is_parted = vec3_norm1(p->axis) > 0;
+    trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
+    *seen = distance_outcome_none(&p->window);
+    if (!may_slide(p, is_parted, sliding)) return IMP_SUCCESS;
+    const distance_sides both = pair_sides(p, candidate_pair_of(im, p));
+    const imp_code code = distance_cut_sides(&both, im->clearance, seen, error);
+    if (is_parted) trial_rate_note(sliding, seen->is_apart || seen->side >= 0);
+    return code;
+}
+
+static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_error *error)
+{
+    if (pair_has_cluster(p))
+        return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
+    distance_outcome from_each;
+    imp_code code = look(im, p, &from_each, error);
+    if (code != IMP_SUCCESS || from_each.is_apart) return code;
+    if (witness_is_likely(im, p, &from_each)) {
+        witness seen;
+        code = find_witness(im, p, true, &seen, error);
+        if (code != IMP_SUCCESS) return code;
+        if (seen.gap_upper <= im->gamma)
+            *state = impact_contact(im, &seen);
+        else if (precision_ends(im, p, 1))
+            *state = IMPACT_RESOLUTION;
+        if (*state != IMPACT_RUNNING) return IMP_SUCCESS;
+        p->wait = TUNING_WITNESS_WAIT;
+    } else if (p->wait > 0) {
+        p->wait -= 1;
+    }
+    p->slides = p->slides || from_each.side >= 0;
+    p->window = from_each.left; /* not before: other pairs may start sooner */
+    bool some;
+    cut c;
+    net_halves halves;
+    code = leave_out_halves(im, p, &halves, &some, error);
+    if (code == IMP_SUCCESS && !some) return IMP_SUCCESS;
+    if (code == IMP_SUCCESS && TUNING_TINY * pair_extent(p) <= room(im))
+        c = cut_in_time(p);
+    else if (code == IMP_SUCCESS)
+        code = choose_cut_after_free(im, p, &from_each, &c, error);
+    if (code == IMP_ERROR_PLUGIN) return code;
+    if (code != IMP_SUCCESS) return *state = IMPACT_NO_MEMORY, IMP_SUCCESS;
+    if (c.side >= 0) return split(im, p, c, &halves, state, error);
+    *state = IMPACT_RESOLUTION;
+    return IMP_SUCCESS;
+}
+
+imp_code expand_pair(impact *im, pair *p, impact_state *state, imp_error *error)
+{
+    const imp_code code = candidate_pair_measure(candidate_pair_of(im, p), error);
+    if (code != IMP_SUCCESS) return code;
+    if (!p->a->bounded || !p->b->bounded) return expand_unbounded(im, p, state, error);
+    return im->method == IMP_METHOD_PAPER ? expand_by_paper(im, p, state, error)
+                                          : expand_by_models(im, p, state, error);
+}

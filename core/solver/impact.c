@@ -1,0 +1,31 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/impact.h"
+
+void impact_push(impact *im, pair_test *t)
+{
+    im->stats->pairs += 1;
+    im->stats->bytes += t->bytes;
+    if (!t->near) return;
+    pair *p = &t->p;
+    p->serial = im->serial++;
+    p->key[0] = p->window.lo;
+    p->key[1] = pair_order(p, p->window.lo);
+    pair_heap_push(&im->heap, p);
+    if (im->heap.count > im->stats->peak_heap) im->stats->peak_heap = im->heap.count;
+}
+
+void impact_note_gap(impact *im, const witness *seen)
+{
+    if (im->any_gap && !(seen->gap < im->least_gap)) return;
+    im->any_gap = true;
+    im->least_gap = seen->gap;
+}
+
+impact_state impact_contact(impact *im, const witness *seen)
+{
+    im->found = *seen;
+    return IMPACT_CONTACT;
+}

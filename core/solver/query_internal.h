@@ -1,0 +1,47 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLVER_QUERY_INTERNAL_H
+#define CORE_SOLVER_QUERY_INTERNAL_H
+
+#include <stdatomic.h>
+
+#include "core/broad_phase/examined_times.h"
+#include "core/solver/clearance.h"
+#include "core/solver/time_of_impact.h"
+
+/* What the files of the query share: query.c runs it, query_divide.c divides it, query_answer.c
+ * and query_clearance.c tell how far it has come. */
+
+struct imp_query {
+    imp_scene *scene;
+    imp_options options;
+    examined_times examined;
+    imp_stats stats;      /* bytes: of the trees, without the heap */
+    uint64_t scene_bytes; /* 0 in a part of a divided query, which counts them */
+    uint64_t peak_bytes;
+    double next_report; /* seconds spent when options.progress is called next */
+    bool failed;
+    imp_verdict verdict;
+    bool at_rest; /* CONTACT: of two surfaces that do not move */
+    imp_reason reason;
+    atomic_bool cancelled;
+    candidate_list candidates;
+    clearance_search *clearance; /* NULL: the earliest contact is asked for, by the following */
+    impact impact;
+    size_t candidates_tested; /* how many candidate pairs have been tested */
+    size_t *parts;     /* NULL: not divided; where the candidates of each pair of bodies begin, */
+    size_t part_count; /* and, at this index, where the last ones end */
+    double divided;    /* seconds of the clock when it was */
+};
+
+/* Ends the query, or the step, with an answer. */
+void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason);
+
+/* What the query answers where nothing comes near anything. */
+imp_reason query_reason_of_clear(const imp_query *query);
+
+/* Fills the list of candidates, unless a limit comes first, which ends the query. `start` is when the
+ * step began. */
+imp_code query_collect(imp_query *query, double start, imp_error *error);
+
+#endif

@@ -1,0 +1,201 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/surface/instance.h"
+
+#include <assert.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/common/array.h"
+#include "core/surface/surface_internal.h"
+
+/* --- Creation and destruction ------------------------------------------------------------ */
+
+/* What destroy does to the floating-point mode is undone. */
+static void destroy(const char *type, void (*destroy_it)(void *), void *self)
+{
+    const surface_call call = surface_call_begin(type, "destroy");
+    destroy_it(self);
+    surface_call_end(call, IMP_OK);
+}
+
+/* Domains are asked for once; one that is not finite in u and v, inverted or NaN is a breach. */
+imp_status instance_domain(const imp_surface_type *type, const void *self, double lo[3],
+                           double hi[3])
+{
+    const surface_call call = surface_call_begin(type->name, "domain");
+    type->domain(self, lo, hi);
+    const imp_status status = surface_call_end(call, IMP_OK);
+    bool good = lo[0] > -INFINITY && lo[1] > -INFINITY;
+    good = good && hi[0] < INFINITY && hi[1] < INFINITY;
+    for (int j = 0; j < 3; ++j) good = good && lo[j] <= hi[j];
+    return status == IMP_OK && !good ? SURFACE_BAD_DOMAIN : status;
+}
+
+bool instance_offers_pieces(const imp_surface_type *type)
+{
+    return type->struct_size >= offsetof(imp_surface_type, piece) + sizeof type->piece &&
+           type->piece_count != NULL && type->piece != NULL;
+}
+
+bool instance_offers_pose(const imp_map_type *type)
+{
+    return type->struct_size >= offsetof(imp_map_type, rigid) + sizeof type->rigid &&
+           type->rigid != NULL;
+}
+
+/* One piece, and whether it keeps the rules; p->lo and p->hi are those of the first. */
+static imp_status take_piece(shared_instance *p, size_t k)
+{
+    double lo[3], hi[3];
+    const surface_call call = surface_call_begin(p->surface->name, "piece");
+    p->pieces[k] = p->surface->piece(p->self, k);
+    imp_status status = surface_call_end(call, IMP_OK);
+    if (status != IMP_OK) return status;
+    if (p->pieces[k] == NULL) return SURFACE_NULL_PIECE;
+    status = instance_domain(p->surface, p->pieces[k], lo, hi);
+    if (k == 0) {
+        memcpy(p->lo, lo, sizeof lo);
+        memcpy(p->hi, hi, sizeof hi);
+    }
+    return status == IMP_OK && (lo[2] != p->lo[2] || hi[2] != p->hi[2]) ? SURFACE_PIECE_TIMES
+                                                                        : status;
+}
+
+/* False: no memory. */
+static bool take_pieces(shared_instance *p)
+{
+    const surface_call call = surface_call_begin(p->surface->name, "piece_count");
+    const size_t count = p->surface->piece_count(p->self);
+    p->breach = surface_call_end(call, IMP_OK);
+    if (p->breach == IMP_OK && (count == 0 || count > IMP_PIECES_MAX))
+        p->breach = SURFACE_PIECE_COUNT;
+    if (p->breach == IMP_OK) {
+        p->pieces = malloc(count * sizeof *p->pieces);
+        if (p->pieces == NULL) return false;
+        p->piece_count = count;
+    }
+    for (size_t k = 0; k < p->piece_count && p->breach == IMP_OK; ++k) p->breach = take_piece(p, k);
+    return true;
+}
+
+static void take_times(shared_instance *p)
+{
+    p->lo[2] = -INFINITY, p->hi[2] = INFINITY;
+    const surface_call call = surface_call_begin(p->map->name, "time_domain");
+    p->map->time_domain(p->self, &p->lo[2], &p->hi[2]);
+    p->breach = surface_call_end(call, IMP_OK);
+    if (p->breach == IMP_OK && !(p->lo[2] <= p->hi[2])) p->breach = SURFACE_BAD_DOMAIN;
+}
+
+shared_instance *instance_of_surface(const imp_surface_type *type, void *self)
+{
+    shared_instance *p = malloc(sizeof *p);
+    if (p == NULL) {
+        destroy(type->name, type->destroy, self);
+        return NULL;
+    }
+    *p = (shared_instance){.surface = type, .self = self, .holders = 1};
+    if (!instance_offers_pieces(type)) {
+        p->breach = instance_domain(type, self, p->lo, p->hi);
+    } else if (!take_pieces(p)) {
+        instance_release(p);
+        return NULL;
+    }
+    return p;
+}
+
+shared_instance *instance_of_map(const imp_map_type *type, void *self)
+{
+    shared_instance *p = malloc(sizeof *p);
+    if (p == NULL) {
+        destroy(type->name, type->destroy, self);
+        return NULL;
+    }
+    *p = (shared_instance){.map = type, .self = self, .holders = 1};
+    take_times(p);
+    return p;
+}
+
+size_t instance_bytes(const shared_instance *p)
+{
+    return sizeof *p + p->given + p->label_size + 3 * INSTANCE_BLOCK +
+           p->piece_count * sizeof *p->pieces;
+}
+
+shared_instance *instance_hold(shared_instance *p)
+{
+    p->holders += 1;
+    return p;
+}
+
+void instance_release(shared_instance *p)
+{
+    if (p == NULL) return;
+    assert(p->holders > 0);
+    if (--p->holders > 0) return;
+    if (p->surface != NULL)
+        destroy(p->surface->name, p->surface->destroy, p->self);
+    else
+        destroy(p->map->name, p->map->destroy, p->self);
+    free(p->pieces);
+    free(p->label);
+    free(p);
+}
+
+/* --- Labels ------------------------------------------------------------------------- */
+
+void instance_label_add(char label[INSTANCE_LABEL_MAX], const char *text)
+{
+    static const char dots[] = " ...";
+    const size_t used = strlen(label), more = strlen(text);
+    if (used + more + sizeof dots <= INSTANCE_LABEL_MAX)
+        memcpy(label + used, text, more + 1);
+    else if (used < sizeof dots || strcmp(label + used - (sizeof dots - 1), dots) != 0)
+        memcpy(label + used, dots, sizeof dots);
+}
+
+bool instance_set_label(shared_instance *p, const char label[INSTANCE_LABEL_MAX])
+{
+    const size_t size = strlen(label) + 1;
+    p->label = malloc(size);
+    if (p->label == NULL) return false;
+    memcpy(p->label, label, size);
+    p->label_size = size;
+    return true;
+}
+
+const char *instance_label(const shared_instance *p)
+{
+    if (p->label != NULL) return p->label;
+    return p->surface != NULL ? p->surface->name : p->map->name;
+}
+
+/* --- Lists ------------------------------------------------------------------------------ */
+
+bool instance_list_add(instance_list *list, shared_instance *p)
+{
+    shared_instance **grown =
+        array_reserve(list->at, list->count, &list->capacity, sizeof(shared_instance *));
+    if (grown == NULL) return false;
+    list->at = grown;
+    list->at[list->count++] = instance_hold(p);
+    return true;
+}
+
+bool instance_list_add_all(instance_list *list, const instance_list *more)
+{
+    for (size_t k = 0; k < more->count; ++k)
+        if (!instance_list_add(list, more->at[k])) return false;
+    return true;
+}
+
+void instance_list_clear(instance_list *list)
+{
+    for (size_t k = 0; k < list->count; ++k) instance_release(list->at[k]);
+    free(list->at);
+    *list = (instance_list){.count = 0};
+}

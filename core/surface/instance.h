@@ -1,0 +1,77 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SURFACE_INSTANCE_H
+#define CORE_SURFACE_INSTANCE_H
+
+#include <impinge/impinge.h>
+
+/* Instances of types, shared
+ * ==========================
+ * An instance is what one call of a type's create made: a surface without maps, or a map. Surfaces are
+ * composed of instances; one may be in many of them, and is destroyed with its last holder.
+ * Immutable once it is in use, but for the count of holders, which belongs to one thread. */
+
+enum { INSTANCE_LABEL_MAX = 240 };
+
+typedef struct shared_instance {
+    const imp_surface_type *surface; /* NULL: it is a map */
+    const imp_map_type *map;         /* NULL: it is a surface */
+    void *self;
+    size_t holders;
+    double lo[3], hi[3]; /* a surface's domain; of a map, the times alone: [2] */
+    const void **pieces; /* instances that `self` owns, in place of it; NULL: it is one surface */
+    size_t piece_count;  /* 0: it is one surface */
+    imp_status breach;   /* IMP_OK, or for surface_status_text: how the domain breaks the ABI;
+                                   then the instance may only be released */
+    size_t given;        /* bytes of the values it was made from: about what the instance keeps */
+    char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
+    size_t label_size; /* bytes of it, its end included */
+} shared_instance;
+
+/* Takes over the instance `self`, and asks for its domain, or those of its pieces, which have their
+ * times in common, and of which `lo` and `hi` are the first's; the caller holds the result. NULL: no
+ * memory; the instance is destroyed then too. */
+shared_instance *instance_of_surface(const imp_surface_type *type, void *self);
+shared_instance *instance_of_map(const imp_map_type *type, void *self);
+
+/* Whether instances of the type may consist of pieces. */
+bool instance_offers_pieces(const imp_surface_type *type);
+
+/* Whether the map says that it is rigid (imp_pose). */
+bool instance_offers_pose(const imp_map_type *type);
+
+/* Whether the type knows distances from its instances. */
+bool instance_offers_distance(const imp_surface_type *type);
+
+/* Whether the type may know how its instances can be moved within themselves. */
+bool instance_offers_symmetry(const imp_surface_type *type);
+
+/* The domain of an instance; IMP_OK, or how it breaks the ABI. */
+imp_status instance_domain(const imp_surface_type *type, const void *self, double lo[3],
+                           double hi[3]);
+
+/* Appends to a label, or dots in its place: at the end of a label that is full. */
+void instance_label_add(char label[INSTANCE_LABEL_MAX], const char *text);
+
+/* Copies the label, once. False: no memory. */
+bool instance_set_label(shared_instance *p, const char label[INSTANCE_LABEL_MAX]);
+const char *instance_label(const shared_instance *p);
+
+/* Bytes that it and what create made hold, about: each block with what the allocator adds. */
+enum { INSTANCE_BLOCK = 16 }; /* bytes */
+size_t instance_bytes(const shared_instance *p);
+
+shared_instance *instance_hold(shared_instance *p);
+void instance_release(shared_instance *p); /* NULL is no shared_instance */
+
+/* Instances in order, each held once for every time it stands there. */
+typedef struct instance_list {
+    shared_instance **at;
+    size_t count, capacity;
+} instance_list;
+
+bool instance_list_add(instance_list *list, shared_instance *p); /* holds p; false: no memory */
+bool instance_list_add_all(instance_list *list, const instance_list *more);
+void instance_list_clear(instance_list *list);
+
+#endif

@@ -1,0 +1,33 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_WITNESS_CONTACT_ESTIMATE_H
+#define CORE_WITNESS_CONTACT_ESTIMATE_H
+
+#include "core/bounds/difference.h"
+
+/* When two nets meet, about
+ * =========================
+ * Follows the nearest points of two surfaces in time: Newton steps on the distance at one time,
+ * then a step to the time at which the gap would be closed at its present speed. Points are those
+ * of the nets' patches, so that no surface is evaluated. The result is a guess, to be proved by a
+ * witness. */
+
+typedef struct contact_estimate {
+    double t;
+    double y[4];  /* where: (s_u, s_v) of a and of b, relative to the nodes, which may be left */
+    double speed; /* at which the gap closes; length/time */
+} contact_estimate;
+
+/* The first time in the window, about, at which the gap is `gap`; false: none was found. Both nodes
+ * have nets. The march begins at the window's start, where the nodes reach farthest along the axis,
+ * which points from A to B or is 0. */
+bool contact_estimate_find(const node *a, const node *b, vec3 axis, const time_window *window,
+                           double gap, contact_estimate *found);
+
+/* Where they are nearest to each other at time t, from the same start. Ends once a step promises
+ * less than `gain` of the gap, or points are no farther apart than `enough`. Points may leave
+ * either node by a half-width. */
+void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
+                 double y[4]);
+
+#endif

@@ -1,0 +1,37 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_WITNESS_NET_EVAL_H
+#define CORE_WITNESS_NET_EVAL_H
+
+#include "core/bounds/net_hull.h"
+
+/* Points of a net's patch, and their derivatives
+ * ==============================================
+ * By Bernstein polynomials, at s in [-1, 1] or beyond. Rounded like any sum: nothing is proved by them. */
+
+/* The control points of a net at one time, without its place. If weighted they are multiplied with
+ * their weights, which are the fourth coordinate. */
+typedef struct net_points {
+    const net *net;
+    imp_quad x[4][QUADS_MAX];
+} net_points;
+
+void net_points_take(const net *f, double t, net_points *points);
+
+/* How high each control point lies along an axis. */
+void net_heights_along(const net_points *f, vec3 axis, double height[IMP_QUAD * QUADS_MAX]);
+
+/* Value and derivatives along u, v, uu, uv, vv. */
+enum { NET_VALUE, NET_U, NET_V, NET_UU, NET_UV, NET_VV, NET_DERIVATIVES };
+
+typedef struct net_derivatives {
+    imp_quad by[NET_DERIVATIVES]; /* x, y, z; the fourth number means nothing */
+} net_derivatives;
+
+/* The jets of two patches, at s = (y[0], y[1]) and (y[2], y[3]). */
+void net_eval_at(const net_points of[2], const double y[4], net_derivatives out[2]);
+
+/* How fast the point at s moves. */
+vec3 net_velocity_at(const net *f, const double s[2]);
+
+#endif

@@ -1,0 +1,42 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_WITNESS_WITNESS_H
+#define CORE_WITNESS_WITNESS_H
+
+#include "core/tree/node.h"
+
+/* A witness: points of two surfaces, evaluated, that are near at a time
+ * =====================================================================
+ * Found by damped Gauss-Newton steps on the gap. Finding none proves nothing. */
+
+typedef struct witness {
+    size_t piece[2];   /* of surface a and b, 0 where it is one, */
+    double u[2], v[2]; /* and where on it */
+    vec3 point[2];
+    double gap;       /* distance of the points as computed; length */
+    double gap_upper; /* proved bound of the distance of the exact points */
+    bool has_normal;
+    vec3 normal; /* unit, a to b */
+} witness;
+
+/* Seeks the nearest points of the two surfaces at time t, from the middles of the two nodes, neither of which
+ * is a cluster; gives up early where the gap stays far above gamma. IMP_ERROR_PLUGIN when an evaluation
+ * fails. */
+imp_code witness_seek(const node *const nodes[2], double t, double gamma, witness *found,
+                      imp_error *error);
+
+/* The points evaluated at n parameters (u, v, t), n <= WITNESS_POINTS, and bounds of their
+ * distances to the exact points. */
+enum { WITNESS_POINTS = 3 };
+imp_code witness_eval_errors(const surface *s, size_t n, const double (*p)[3], double *eval_error,
+                             vec3 *x, imp_error *error);
+
+/* The points at parameters (s_u, s_v) of a and of b, relative to the nodes. They may lie outside
+ * of the nodes, not of the surfaces' domains. */
+imp_code witness_at(const node *const nodes[2], double t, const double y[4], witness *found,
+                    imp_error *error);
+
+/* The points at the middles themselves, without a search: the paper's termination. */
+imp_code witness_at_centres(const node *const nodes[2], double t, witness *found, imp_error *error);
+
+#endif

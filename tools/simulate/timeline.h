@@ -1,0 +1,32 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_SIMULATE_TIMELINE_H
+#define TOOLS_SIMULATE_TIMELINE_H
+
+#include "tools/simulate/simulation.h"
+
+/* The course of a simulation: where its bodies are, what they have in sum, and when two meet next. */
+
+/* Of all bodies that move. */
+void timeline_states(const simulation *s, double t, mover_state *state);
+sums timeline_sums(const simulation *s, const mover_state *state);
+
+/* Goes on to t, with what the bodies get from gravity up to then. */
+void timeline_advance(simulation *s, double t);
+
+/* Finds the next meeting of two bodies from t on, at level `least` or above. Complains of errors. */
+exit_status timeline_predict(simulation *s, meeting *m, double t, int least);
+
+/* The same of all, from the start. Complains of bodies that are too near to each other there. */
+exit_status timeline_predict_all(simulation *s);
+
+/* The earliest of those found; NULL: there is none up to the end. */
+meeting *timeline_earliest(const simulation *s);
+
+/* The simulation ends here, because of that. */
+void timeline_cut(simulation *s, double t, imp_reason reason);
+
+/* Complains of the error of the last search. */
+exit_status timeline_complain(const simulation *s);
+
+#endif
