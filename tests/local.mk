@@ -161,6 +161,7 @@ bats_suites = \
     tests/cli/page.bats \
     tests/cli/series.bats \
     tests/cli/simulate.bats \
+    tests/cli/simulate_scenes.bats \
     tests/cli/subdivision.bats \
     tests/cli/plot.bats \
     tests/cli/progress.bats \
@@ -632,6 +633,7 @@ AM_TESTS_ENVIRONMENT = \
 EXTRA_DIST += tests/python/test_impinge.py
 EXTRA_DIST += $(bats_suites) $(script_suites) tests/support/include_order tests/support/cli_helper.bash \
     tests/support/comma_locale \
+    tests/support/simulate_helper.bash \
     tests/support/page.js \
     tests/support/schema.jq
 

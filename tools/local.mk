@@ -150,17 +150,25 @@ tools_view = \
     tools/view/verb_view.c
 
 tools_simulate = \
-    tools/simulate/timeline.c tools/simulate/timeline.h \
+    tools/simulate/actor.c tools/simulate/actor.h \
+    tools/simulate/edges.c tools/simulate/edges.h \
     tools/simulate/event.c tools/simulate/event.h \
+    tools/simulate/integrals.c tools/simulate/integrals.h \
+    tools/simulate/limits.c tools/simulate/limits.h \
     tools/simulate/mass.c tools/simulate/mass.h \
     tools/simulate/meeting.c tools/simulate/meeting.h \
     tools/simulate/mover.c tools/simulate/mover.h \
+    tools/simulate/nesting.c tools/simulate/nesting.h \
+    tools/simulate/patches.c tools/simulate/patches.h \
     tools/simulate/record.c tools/simulate/record.h \
     tools/simulate/response.c tools/simulate/response.h \
     tools/simulate/rigid.h \
     tools/simulate/setup.c tools/simulate/setup.h \
+    tools/simulate/shells.c tools/simulate/shells.h \
     tools/simulate/simulation.c tools/simulate/simulation.h \
+    tools/simulate/timeline.c tools/simulate/timeline.h \
     tools/simulate/touch.c tools/simulate/touch.h \
+    tools/simulate/values.c tools/simulate/values.h \
     tools/simulate/verb_simulate.c
 
 # All but main, for both commands.

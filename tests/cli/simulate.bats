@@ -2,42 +2,9 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: Apache-2.0
 
-# impinge simulate: impacts against closed forms, what is promised of the motion written, wrong scenes.
+# impinge simulate: impacts against closed forms and what is promised of the motion written.
 
-load ../support/cli_helper
-
-floor='{"name": "floor", "surfaces": [{"type": "plane", "origin": [-9,-9,0], "edge_u": [18,0,0], "edge_v": [0,18,0]}]'
-
-# ball NAME MASS "X,Y,Z" [KEYS]: a body, a sphere of radius 1/2.
-ball() {
-    echo "{\"name\": \"$1\", \"mass\": $2, ${4-} \"surfaces\": [{\"type\": \"sphere\", \"radius\": 0.5, \"center\": [$3]}]}"
-}
-
-# simulated SCENE [OPTION...]: runs it to the end into out.json; sets output to its JSON.
-simulated() {
-    run -0 "$IMPINGE" simulate "$@" -o out.json --json
-    valid simulate
-}
-
-# out.json has gamma, and twice gamma, as its clearance and gamma; the clearance was gamma / 2.
-# never_nearer [WHOLE]: solve proves of out.json that no two bodies are nearer than 0.98 times the
-# clearance: from event to event, or of all its time at once.
-never_nearer() {
-    local gamma clearance window
-    gamma=$(jq '.clearance / 2' out.json)
-    clearance=$(jq '.clearance * 0.49' out.json)
-    jq -r --arg whole "${1-}" '([.time[0]] + (if $whole == "" then [.events[].t] | unique else [] end)
-        + [.time[1]]) as $t | range(0; ($t | length) - 1) | "\($t[.]),\($t[. + 1])"' out.json >windows
-    while read -r window; do
-        run -0 "$IMPINGE" solve out.json --time "$window" --gamma "$gamma" --clearance "$clearance" \
-            --max-pairs 1M
-        echo "$window: $output"
-        [ "${lines[0]}" = clear ]
-    done <windows
-}
-
-# near A B: two jq expressions differ by at most 1e-5.
-near() { json "[($1) - ($2)] | all(.[]; fabs <= 1e-5)"; }
+load ../support/simulate_helper
 
 @test "a ball bounces to e^2n of its height" {
     echo "{\"time\": [0,3], \"gravity\": [0,0,-10], \"bodies\": [$floor},
@@ -168,32 +135,6 @@ oblique() {
     [[ $output == *"orientations within"* ]]
 }
 
-@test "mass properties of closed surfaces, and of several together" {
-    cat >mass.json <<'END'
-{"bodies": [{"name": "ring", "mass": 2, "surfaces": [{"type": "torus", "major_radius": 3, "minor_radius": 1}]},
- {"name": "box", "mass": 6, "surfaces": [
-  {"type": "plane", "origin": [0,0,9], "edge_u": [0,3,0], "edge_v": [2,0,0]},
-  {"type": "plane", "origin": [0,0,10], "edge_u": [2,0,0], "edge_v": [0,3,0]},
-  {"type": "plane", "origin": [0,0,9], "edge_u": [2,0,0], "edge_v": [0,0,1]},
-  {"type": "plane", "origin": [0,3,9], "edge_u": [0,0,1], "edge_v": [2,0,0]},
-  {"type": "plane", "origin": [0,0,9], "edge_u": [0,0,1], "edge_v": [0,3,0]},
-  {"type": "plane", "origin": [2,0,9], "edge_u": [0,3,0], "edge_v": [0,0,1]}]}]}
-END
-    simulated mass.json
-    near '.bodies[0].volume' '2 * 9.869604401089358 * 3'
-    near '.bodies[0].inertia[2][2]' '2 * (9 + 0.75)'
-    near '.bodies[0].inertia[0][0]' '2 * (9 / 2 + 5 / 8)'
-    near '.bodies[1].volume' 6
-    near '.bodies[1].center[2]' 9.5
-    near '.bodies[1].inertia[0][0]' '0.5 * (9 + 1)'
-    near '.bodies[1].inertia[2][2]' '0.5 * (9 + 4)'
-    jq '.bodies[1].surfaces[0] |= (.edge_u as $u | .edge_u = .edge_v | .edge_v = $u)' mass.json >flipped.json
-    fails 4 'neither all outward nor all inward' "$IMPINGE" simulate flipped.json -o out.json
-    jq 'del(.bodies[1].surfaces[0])' mass.json >open.json
-    fails 4 '/bodies/1/surfaces: found an open surface' "$IMPINGE" simulate open.json -o out.json
-    [[ $stderr == *'give "inertia" and "center"'* ]]
-}
-
 @test "spiked balls collide and recoil" {
     simulated "$top_srcdir/tools/data/recoil.json"
     json '.impacts >= 1 and .reason == null and .momentum.drift < 1e-12 and .energy.lost > 0'
@@ -279,53 +220,4 @@ END
         echo "$pairs: $status"
         [ "$(jq -c .events out.json)" = '[]' ] || [ "$(jq -c .events out.json)" = "$(jq -c .events whole.json)" ]
     done
-}
-
-# wrong TEXT FILTER: the scene changed so is refused with that text, and nothing is written.
-wrong() {
-    jq "$2" good.json >wrong.json
-    rm -f out.json
-    fails 4 "$1" "$IMPINGE" simulate wrong.json -o out.json
-    [ ! -e out.json ]
-}
-
-@test "wrong scenes are refused, with the place and the cure" {
-    echo "{\"gravity\": [0,0,-10], \"bodies\": [$floor}, $(ball ball 2 0,0,1.5)]}" >good.json
-    simulated good.json
-    wrong '/bodies/1/mass: got -1.0, must be a number greater than 0' '.bodies[1].mass = -1'
-    wrong '/bodies/1/mass: got "heavy", must be a number' '.bodies[1].mass = "heavy"'
-    wrong '/bodies/1/restitution: got 1.5, must be a number from 0 to 1' '.bodies[1].restitution = 1.5'
-    wrong '/bodies/0/friction: got -1.0, must be a number of at least 0' '.bodies[0].friction = -1'
-    wrong '/bodies/1/velocity: got [1.0,2.0], must be three numbers' '.bodies[1].velocity = [1,2]'
-    wrong '/gravity: got [], must be three numbers' '.gravity = []'
-    wrong '/bodies/1/inertia: got 7.0, must be three rows' '.bodies[1].inertia = 7'
-    wrong 'must be symmetric' '.bodies[1].inertia = [[1,0.5,0],[0,1,0],[0,0,1]]'
-    wrong 'must be positive definite' '.bodies[1].inertia = [[1,2,0],[2,1,0],[0,0,1]]'
-    wrong "did you mean 'restitution'" '.bodies[1].restitutoin = 0.5'
-    wrong "did you mean 'gravity'" '.gravty = [0,0,1] | del(.gravity)'
-    wrong "the bodies 'floor' and 'ball' are nearer than the clearance" '.bodies[1].surfaces[0].center[2] = 0.4'
-    wrong '/bodies/0/spin: found on a body without "mass"' '.bodies[0].spin = [0,0,1]'
-    wrong 'no body has a "mass"' 'del(.bodies[1].mass)'
-    wrong '/bodies/1/parent: found on a body with a mass' '.bodies[1].parent = "floor"'
-    wrong 'which has a mass; must be a body without' '.bodies[0].parent = "ball"'
-    fails 4 'No such file' "$IMPINGE" simulate missing.json -o out.json
-    fails 4 'No such file' "$IMPINGE" simulate good.json -o missing/out.json
-    fails 2 '--output FILE is missing' "$IMPINGE" simulate good.json
-    fails 2 'would be overwritten' "$IMPINGE" simulate good.json -o ./good.json
-    fails 2 'must be less than gamma' "$IMPINGE" simulate good.json -o out.json --clearance 1
-    echo '{"bodies": [' >broken.json
-    fails 4 'broken.json:' "$IMPINGE" simulate broken.json -o out.json
-}
-
-@test "other verbs refuse a motion that is not computed, and ignore masses" {
-    echo "{\"bodies\": [$floor}, $(ball ball 2 0,0,1.5)]}" >still.json
-    run -0 "$IMPINGE" solve still.json
-    jq '.bodies[1].velocity = [0,0,-1]' still.json >moving.json
-    fails 4 '/bodies/1/velocity: found a motion that is not computed yet' "$IMPINGE" solve moving.json
-    run -0 "$IMPINGE" simulate moving.json -o out.json
-    run -0 "$IMPINGE" solve out.json --gamma 5e-7 --clearance 4e-7
-    [ "${lines[0]}" = clear ]
-    run -0 "$IMPINGE" view out.json --tolerance 0.02 -o out.svg
-    run -0 "$IMPINGE" view out.json --tolerance 0.02 --frames 3 -o out.html
-    [ -s out.svg ] && [ -s out.html ]
 }

@@ -104,17 +104,20 @@ static bool log_contact(simulation *s, const contact *c, double t)
 }
 
 /* New paths for all that changed. */
-static bool turn_movers(simulation *s, const event *e, double t)
+static exit_status turn_movers(simulation *s, const event *e, double t)
 {
     for (size_t i = 0; i < s->setup->count; ++i) {
         if (!e->now.changed[i]) continue;
         const vec pull = s->rests[i] ? (vec){{0, 0, 0}} : s->setup->gravity;
-        if (!mover_turn(&s->movers[i], t, &e->now.state[i], pull, s->search.end)) return false;
+        if (!mover_turn(&s->movers[i], t, &e->now.state[i], pull, s->search.end))
+            return complain_of_memory(speaker);
+        const exit_status status = timeline_check(s, i);
+        if (status != EXIT_ANSWERED) return status;
         for (size_t k = 0; k < s->meeting_count; ++k)
             if (s->meetings[k].body[0] == i || s->meetings[k].body[1] == i)
                 s->meetings[k].stale = true;
     }
-    return true;
+    return EXIT_ANSWERED;
 }
 
 static exit_status predict_again(simulation *s, const event *e, double t)
@@ -153,8 +156,8 @@ static exit_status respond(simulation *s, event *e, double t)
     }
     for (size_t i = 0; i < e->count; ++i)
         if (!log_contact(s, &e->contacts[i], t)) return complain_of_memory(speaker);
-    if (!turn_movers(s, e, t)) return complain_of_memory(speaker);
-    return predict_again(s, e, t);
+    const exit_status turned = turn_movers(s, e, t);
+    return turned == EXIT_ANSWERED ? predict_again(s, e, t) : turned;
 }
 
 exit_status event_handle(simulation *s, double t)

@@ -6,22 +6,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-#include "tools/cli/interrupt.h"
-
-double searching_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-imp_reason searching_end(const searching *s)
-{
-    if (interrupt_came()) return IMP_REASON_CANCELLED;
-    return searching_clock() >= s->deadline ? IMP_REASON_SECONDS : IMP_REASON_NONE;
-}
 
 /* --- The scene of two bodies ----------------------------------------------------------------- */
 
@@ -97,12 +81,6 @@ imp_code meeting_make_scene(searching *s, meeting *m)
 
 /* --- Searches ---------------------------------------------------------------------------------- */
 
-static bool goes_on(void *context, const imp_progress *progress)
-{
-    (void)context, (void)progress;
-    return !interrupt_came();
-}
-
 /* What is left of the budgets goes to each search. */
 static imp_code solve(searching *s, const meeting *m, double from, double to, double gamma,
                       double clearance, imp_result *result)
@@ -110,13 +88,11 @@ static imp_code solve(searching *s, const meeting *m, double from, double to, do
     imp_options o = s->setup->options;
     o.t_start = from, o.t_end = to;
     o.gamma = gamma, o.clearance = clearance;
-    o.max_pairs = s->max_pairs == 0 ? 0 : s->pairs < s->max_pairs ? s->max_pairs - s->pairs : 1;
-    o.max_seconds = s->deadline < INFINITY ? fmax(s->deadline - searching_clock(), 1e-9) : 0;
-    o.progress = goes_on;
+    limits_apply(&s->limits, &o);
     result->struct_size = (uint32_t)sizeof *result;
     const imp_code code = imp_scene_solve(m->scene, &o, result, &s->error);
     if (code != IMP_SUCCESS) return code;
-    s->pairs += result->stats.pairs;
+    s->limits.pairs += result->stats.pairs;
     s->searches += 1;
     return code;
 }

@@ -53,16 +53,10 @@ typedef struct searching {
     const setup *setup;
     const mover *movers; /* by body; those that move */
     double end;
-    double deadline;    /* of the clock, in seconds; INFINITY: none */
-    uint64_t max_pairs; /* 0: no limit */
-    uint64_t pairs, searches;
+    limits limits;
+    uint64_t searches;
     imp_error error;
 } searching;
-
-double searching_clock(void);
-
-/* Whether a signal has come or the time is up: NONE, CANCELLED or SECONDS. */
-imp_reason searching_end(const searching *s);
 
 /* Makes the scene, unless it is made and not stale. Codes of the library; `error` says more. */
 imp_code meeting_make_scene(searching *s, meeting *m);

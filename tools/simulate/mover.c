@@ -123,7 +123,7 @@ static bool add_path(mover *m, mover_key at, double end)
     const double span = end - at.t;
     while (at.t < end) {
         const double h = substep(m, m->momentum, at.rotation, span);
-        const double to = at.t + h < end ? at.t + h : end;
+        const double to = at.t + h > at.t && at.t + h < end ? at.t + h : end;
         if (h < span) {
             if (!add_substep(m, &at, m->momentum, to)) return false;
         } else {
@@ -213,6 +213,26 @@ bool mover_begin(mover *m, const actor *a, vec gravity, double start, double end
                                .momentum = mat3_apply(&a->inertia, a->spin),
                                .spin = a->spin};
     return new_path(m, start, &state, gravity, end);
+}
+
+static bool is_moderate(vec x, double most)
+{
+    for (int i = 0; i < 3; ++i)
+        if (!(fabs(x.x[i]) <= most)) return false;
+    return true;
+}
+
+double mover_overflow(const mover *m)
+{
+    for (size_t i = 0; i < m->path.count; ++i) {
+        const mover_key *key = &m->path.key[i];
+        const double span = m->path.key[m->path.count - 1].t - key->t;
+        if (!is_moderate(key->position, VALUE_MAX) || !is_moderate(key->velocity, VALUE_MAX) ||
+            !is_moderate(m->momentum, VALUE_MAX * VALUE_MAX) ||
+            !is_moderate(key->spin, VALUE_MAX) || !(vec_length(key->spin) * span <= TURN_MAX))
+            return key->t;
+    }
+    return NAN;
 }
 
 void mover_free(mover *m)

@@ -52,15 +52,15 @@ static json_t *scene_json(const simulation *s)
 exit_status record_write(const simulation *s, const char *path)
 {
     output_file out;
-    json_t *root = scene_json(s);
-    if (root == NULL) return complain_of_memory("simulate");
-    const exit_status status = output_file_begin(&out, path, "simulate");
+    char *text = output_json_line(scene_json(s));
+    if (text == NULL) return complain_of_memory("simulate");
+    exit_status status = output_file_begin(&out, path, "simulate");
     if (status == EXIT_ANSWERED) {
-        json_dumpf(root, out.file, JSON_COMPACT | JSON_REAL_PRECISION(17));
-        fputc('\n', out.file);
+        fprintf(out.file, "%s\n", text);
+        status = output_file_end(&out, true);
     }
-    json_decref(root);
-    return status == EXIT_ANSWERED ? output_file_end(&out, true) : status;
+    free(text);
+    return status;
 }
 
 /* --- Energy and momentum ----------------------------------------------------------------------- */
@@ -108,7 +108,7 @@ void record_print(const simulation *s, const char *path)
         printf("orientations within %.3g rad of torque-free motion's\n", error);
     }
     print_label("cost");
-    printf("%ju searches, %ju pairs\n", (uintmax_t)s->search.searches, (uintmax_t)s->search.pairs);
+    printf("%ju searches, %ju pairs\n", (uintmax_t)s->search.searches, (uintmax_t)s->search.limits.pairs);
     print_label("written");
     printf("%s\n", path);
 }
@@ -125,8 +125,8 @@ static json_t *bodies_json(const simulation *s)
     for (size_t i = 0; i < s->setup->count; ++i) {
         const actor *a = &s->setup->actors[i];
         if (!a->moves) continue;
-        json_t *rows = json_array();
-        for (int k = 0; k < 3; ++k)
+        json_t *rows = a->inertia_known ? json_array() : json_null();
+        for (int k = 0; k < 3 && a->inertia_known; ++k)
             json_array_append_new(rows, vector_json(vec_of(a->inertia.m[k])));
         json_t *one =
             json_pack("{s:o, s:f, s:o, s:o, s:o, s:o, s:b}", "name", output_json_text(a->name),
@@ -150,7 +150,7 @@ json_t *record_json(const simulation *s, const char *path)
     json_t *angular = json_pack("{s:o, s:o}", "start", vector_json(s->start.angular), "end",
                                 vector_json(s->end.angular));
     json_t *stats = json_pack("{s:I, s:I}", "searches", (json_int_t)s->search.searches, "pairs",
-                              (json_int_t)s->search.pairs);
+                              (json_int_t)s->search.limits.pairs);
     return json_pack("{s:o, s:o, s:[f,f], s:s?, s:I, s:I, s:I, s:f, s:f, s:o, s:o, s:o, s:f, s:o, "
                      "s:O, s:o}",
                      "scene", output_json_text(s->setup->name), "out", output_json_text(path),

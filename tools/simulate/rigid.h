@@ -61,15 +61,26 @@ static inline double mat3_determinant(const mat3 *a)
     return vec_dot(x, vec_cross(y, z));
 }
 
-/* By cofactors; the determinant must not be 0. */
+/* The greatest magnitude of its numbers. */
+static inline double mat3_greatest(const mat3 *a)
+{
+    double most = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) most = fmax(most, fabs(a->m[i][j]));
+    return most;
+}
+
+/* By cofactors of a / size, so that nothing overflows; the determinant must not be 0. */
 static inline mat3 mat3_inverse(const mat3 *a)
 {
-    const double d = 1 / mat3_determinant(a);
+    const double size = mat3_greatest(a);
+    const mat3 zero = mat3_diagonal(0), b = mat3_add(&zero, 1 / size, a);
+    const double d = 1 / mat3_determinant(&b) / size;
     mat3 r;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-            r.m[j][i] = d * (a->m[i1][j1] * a->m[i2][j2] - a->m[i1][j2] * a->m[i2][j1]);
+            r.m[j][i] = d * (b.m[i1][j1] * b.m[i2][j2] - b.m[i1][j2] * b.m[i2][j1]);
         }
     return r;
 }

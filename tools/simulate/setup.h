@@ -6,6 +6,7 @@
 #include <jansson.h>
 
 #include "tools/cli/arguments.h"
+#include "tools/simulate/limits.h"
 #include "tools/simulate/rigid.h"
 
 /* The scene of a simulation
@@ -16,28 +17,31 @@
 
 typedef struct actor {
     const char *name;
-    json_t *json; /* the body without our keys; borrowed */
-    bool moves;   /* has a mass */
+    json_t *json; /* the body without the keys of a simulation; borrowed */
+    bool moves;   /* it has a mass */
     bool varies;  /* its surfaces depend on time: without a mass it is driven, else it deforms */
     double mass, restitution, friction;
     vec center;                /* of mass, at the start */
     mat3 inertia;              /* about the center, in the axes of the start */
-    double volume, mass_error; /* of what was integrated; NAN: given */
+    double volume, mass_error; /* integrated; NAN: given, or not known */
+    bool inertia_known;        /* false: a limit came before it was integrated */
     vec velocity, spin;
 } actor;
 
 typedef struct setup {
-    json_t *root, *stripped; /* the scene as it is, and without our keys */
+    json_t *root, *stripped; /* the scene as it is, and without the keys of a simulation */
     const char *name;        /* of the file, for messages and for relative names */
     imp_registry *registry;
     imp_scene *still; /* of `stripped` */
     imp_options options;
+    limits limits;
     vec gravity;
     actor *actors;
     size_t count;
 } setup;
 
-/* Reads the scene that the operand names. Complains. Call setup_free in any case. */
+/* Reads the scene that the operand names. Complains. Where a limit comes first, masses are not
+ * integrated, and the simulation must end at its start. Call setup_free in any case. */
 exit_status setup_read(setup *s, const arguments *args);
 void setup_free(setup *s);
 

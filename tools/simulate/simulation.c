@@ -18,7 +18,7 @@ static uint64_t count_or(const arguments *args, const char *name, uint64_t other
     return value != NULL ? value->count : otherwise;
 }
 
-static bool begin(simulation *s, const setup *what, const arguments *args)
+static exit_status begin(simulation *s, const setup *what, const arguments *args)
 {
     const size_t n = what->count;
     const imp_options *o = &what->options;
@@ -30,30 +30,34 @@ static bool begin(simulation *s, const setup *what, const arguments *args)
                       .max_events = count_or(args, "max-events", 10000),
                       .t = o->t_start,
                       .log = json_array()};
-    s->search =
-        (searching){.setup = what,
-                    .movers = s->movers,
-                    .end = o->t_end,
-                    .deadline = o->max_seconds > 0 ? searching_clock() + o->max_seconds : INFINITY,
-                    .max_pairs = o->max_pairs};
+    s->search = (searching){
+        .setup = what, .movers = s->movers, .end = o->t_end, .limits = what->limits};
     if (s->movers == NULL || s->meetings == NULL || s->rests == NULL || s->held_now == NULL ||
         s->log == NULL)
-        return false;
-    for (size_t i = 0; i < n; ++i)
-        if (what->actors[i].moves &&
-            !mover_begin(&s->movers[i], &what->actors[i], what->gravity, o->t_start, o->t_end))
-            return false;
+        return complain_of_memory(speaker);
+    for (size_t i = 0; i < n; ++i) {
+        if (!what->actors[i].moves) continue;
+        if (!mover_begin(&s->movers[i], &what->actors[i], what->gravity, o->t_start, o->t_end))
+            return complain_of_memory(speaker);
+        const exit_status status = timeline_check(s, i);
+        if (status != EXIT_ANSWERED) return status;
+    }
     for (size_t i = 0; i < n; ++i)
         for (size_t j = i + 1; j < n; ++j) {
             if (!what->actors[i].moves && !what->actors[j].moves) continue;
             if (imp_scene_ignores(what->still, i, j)) continue;
             s->meetings[s->meeting_count++] = (meeting){.body = {i, j}};
         }
-    return true;
+    return EXIT_ANSWERED;
 }
 
 static exit_status run(simulation *s)
 {
+    const imp_reason limit = limits_reached(&s->search.limits);
+    if (limit != IMP_REASON_NONE) {
+        timeline_cut(s, s->t, limit);
+        return EXIT_ANSWERED;
+    }
     exit_status status = timeline_predict_all(s);
     bool done = false;
     while (status == EXIT_ANSWERED && s->reason == NULL && !done) {
@@ -77,12 +81,13 @@ static exit_status run(simulation *s)
 
 exit_status simulation_run(simulation *s, const setup *what, const arguments *args)
 {
-    if (!begin(s, what, args)) return complain_of_memory(speaker);
+    exit_status status = begin(s, what, args);
+    if (status != EXIT_ANSWERED) return status;
     mover_state *state = calloc(what->count, sizeof *state);
     if (state == NULL) return complain_of_memory(speaker);
     timeline_states(s, s->t, state);
     s->start = timeline_sums(s, state);
-    const exit_status status = run(s);
+    status = run(s);
     timeline_states(s, s->t, state);
     s->end = timeline_sums(s, state);
     free(state);

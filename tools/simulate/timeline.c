@@ -61,6 +61,17 @@ void timeline_cut(simulation *s, double t, imp_reason reason)
     timeline_advance(s, t);
 }
 
+exit_status timeline_check(const simulation *s, size_t body)
+{
+    const double t = mover_overflow(&s->movers[body]);
+    if (isnan(t)) return EXIT_ANSWERED;
+    const value_place at = {s->setup->name, body, ""};
+    return value_refuse(at,
+                        "found that '%.80s' overflows at t = %g: places, velocities and spins must "
+                        "stay below %g, and turns below %g rad; choose other units, or less time",
+                        s->setup->actors[body].name, t, VALUE_MAX, TURN_MAX);
+}
+
 /* --- Meetings ---------------------------------------------------------------------------------- */
 
 /* Neither of the two moves before it is hit. */
@@ -92,7 +103,7 @@ exit_status timeline_predict(simulation *s, meeting *m, double t, int least)
     m->kind = MEETING_NEVER;
     m->t = s->search.end;
     if (is_asleep(s, m)) return EXIT_ANSWERED;
-    const imp_reason end = searching_end(&s->search);
+    const imp_reason end = limits_reached(&s->search.limits);
     if (end != IMP_REASON_NONE) {
         set_undecided(m, t, end);
         return EXIT_ANSWERED;

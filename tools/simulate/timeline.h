@@ -26,6 +26,9 @@ meeting *timeline_earliest(const simulation *s);
 /* The simulation ends here, because of that. */
 void timeline_cut(simulation *s, double t, imp_reason reason);
 
+/* Complains of a body whose path from now on leaves what can be computed with. */
+exit_status timeline_check(const simulation *s, size_t body);
+
 /* Complains of the error of the last search. */
 exit_status timeline_complain(const simulation *s);
 

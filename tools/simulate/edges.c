@@ -1,0 +1,242 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/simulate/edges.h"
+
+#include <stdlib.h>
+
+/* --- Reading ------------------------------------------------------------------------------------
+ */
+
+/* Bodies of many patches get fewer points for each edge. */
+static int steps_for(size_t count) { return count <= 256 ? 16 : count <= 65536 ? 4 : 2; }
+
+/* The corners of a domain, counter-clockwise: side k leads from corner k to corner k + 1. */
+static void corner_of(const patch *p, int k, double at[2])
+{
+    at[0] = k == 1 || k == 2 ? p->hi[0] : p->lo[0];
+    at[1] = k == 2 || k == 3 ? p->hi[1] : p->lo[1];
+}
+
+static vec *points_of(edges *e, size_t i) { return e->at + i * (size_t)(e->steps + 1); }
+
+shape_verdict edges_read(edges *e, const patches *p, imp_error *why)
+{
+    *e = (edges){.patches = p,
+                 .count = 4 * p->count,
+                 .steps = steps_for(p->count),
+                 .slack = SEAM_SLACK * p->size};
+    e->at = malloc((e->count + 1) * (size_t)(e->steps + 1) * sizeof *e->at);
+    if (e->at == NULL) return SHAPE_NO_MEMORY;
+    for (size_t i = 0; i < e->count; ++i) {
+        double from[2], to[2];
+        const int side = (int)(i % 4);
+        if (side == 0 && limits_reached(p->limits) != IMP_REASON_NONE) return SHAPE_STOPPED;
+        corner_of(&p->patch[i / 4], side, from);
+        corner_of(&p->patch[i / 4], (side + 1) % 4, to);
+        const shape_verdict verdict =
+            patch_line(p, i / 4, from, to, e->steps + 1, points_of(e, i), why);
+        if (verdict != SHAPE_FOUND) return verdict;
+    }
+    return SHAPE_FOUND;
+}
+
+void edges_free(edges *e)
+{
+    free(e->at);
+    *e = (edges){0};
+}
+
+/* --- Comparing two ------------------------------------------------------------------------------
+ */
+
+static double distance(vec a, vec b) { return vec_length(vec_sub(a, b)); }
+
+bool edge_is_point(const edges *e, size_t i)
+{
+    const vec *x = edge_points(e, i);
+    for (int k = 1; k <= e->steps; ++k)
+        if (!(distance(x[k], x[0]) <= e->slack)) return false;
+    return true;
+}
+
+int edge_compare(const edges *e, size_t i, size_t j)
+{
+    const vec *x = edge_points(e, i), *y = edge_points(e, j);
+    const int n = e->steps;
+    bool same = true, opposite = true;
+    for (int k = 0; k <= n && (same || opposite); ++k) {
+        same &= distance(x[k], y[k]) <= e->slack;
+        opposite &= distance(x[k], y[n - k]) <= e->slack;
+    }
+    return opposite ? -1 : same ? 1 : 0;
+}
+
+/* The nearest point of edge j to x between its points a and b (numbers, not whole), by golden
+ * section. Answers its distance, and its number in *where. */
+static double refine(const edges *e, size_t j, double a, double b, vec x, double *where)
+{
+    const double ratio = 0.6180339887498949;
+    const patch *p = &e->patches->patch[j / 4];
+    double from[2], to[2], least = INFINITY;
+    corner_of(p, (int)(j % 4), from);
+    corner_of(p, (int)(j % 4 + 1) % 4, to);
+    for (int n = 0; n < 60; ++n) {
+        const double number[2] = {b - ratio * (b - a), a + ratio * (b - a)};
+        double at[2][2], d[2];
+        vec y[2];
+        for (int i = 0; i < 2; ++i)
+            for (int k = 0; k < 2; ++k)
+                at[i][k] = from[k] + (to[k] - from[k]) * (number[i] / e->steps);
+        if (patch_line(e->patches, j / 4, at[0], at[1], 2, y, NULL) != SHAPE_FOUND) return INFINITY;
+        for (int i = 0; i < 2; ++i) {
+            d[i] = distance(y[i], x);
+            if (d[i] < least) least = d[i], *where = number[i];
+        }
+        if (d[0] < d[1])
+            b = number[1];
+        else
+            a = number[0];
+    }
+    return least;
+}
+
+/* The direction of an edge at its point number k, which need not be whole. */
+static vec direction_at(const edges *e, size_t i, double k)
+{
+    const vec *x = edge_points(e, i);
+    const int before = (int)fmin(fmax(floor(k - 0.5), 0), e->steps - 1);
+    const int after = (int)fmax(fmin(ceil(k + 0.5), e->steps), before + 1);
+    return vec_sub(x[after], x[before]);
+}
+
+/* The point number of edge j that is nearest to x, among those farther than one step from `but`;
+ * -1: there is none. */
+static int nearest_number(const edges *e, size_t j, vec x, int but)
+{
+    const vec *y = edge_points(e, j);
+    int best = -1;
+    for (int n = 0; n <= e->steps; ++n)
+        if ((but < 0 || abs(n - but) > 1) && (best < 0 || distance(y[n], x) < distance(y[best], x)))
+            best = n;
+    return best;
+}
+
+/* How far x is from edge j near its point number n; *where: the number of the nearest place.
+ * Distances of more than four steps are not refined. */
+static double distance_near(const edges *e, size_t j, int n, vec x, double *where)
+{
+    const vec *y = edge_points(e, j);
+    const int a = n > 0 ? n - 1 : 0, b = n < e->steps ? n + 1 : e->steps;
+    const double least = distance(y[n], x);
+    *where = n;
+    if (least <= e->slack) return least;
+    if (least > 4 * (distance(y[a], y[n]) + distance(y[n], y[b])) + e->slack) return least;
+    return refine(e, j, a, b, x, where);
+}
+
+int edge_passes(const edges *e, size_t i, int k, size_t j)
+{
+    const vec x = edge_points(e, i)[k];
+    double where;
+    /* A closed edge comes near a point at both of its ends. */
+    int n = nearest_number(e, j, x, -1);
+    if (!(distance_near(e, j, n, x, &where) <= e->slack)) {
+        n = nearest_number(e, j, x, n);
+        if (n < 0 || !(distance_near(e, j, n, x, &where) <= e->slack)) return 0;
+    }
+    return vec_dot(direction_at(e, i, k), direction_at(e, j, where)) >= 0 ? 1 : -1;
+}
+
+/* --- Matching all -------------------------------------------------------------------------------
+ */
+
+/* Edges by the cell of their middle point, in cells of the size 4 slack: points within slack of
+ * each other are in the same cell or in neighbours. */
+typedef struct cells {
+    const edges *edges;
+    size_t *first, *next; /* first of each bucket, next of each edge; SIZE_MAX: none */
+    size_t buckets;       /* a power of 2 */
+} cells;
+
+/* Counted from the first point of all, so that numbers stay small wherever the body is. */
+static int64_t cell_number(const edges *e, vec x, int i, double shift)
+{
+    return (int64_t)floor((x.x[i] - e->at[0].x[i] + shift) / (4 * e->slack));
+}
+
+static size_t bucket_of(const cells *c, const int64_t at[3])
+{
+    uint64_t hash = 0;
+    for (int i = 0; i < 3; ++i) {
+        hash = (hash ^ (uint64_t)at[i]) * 0x9E3779B97F4A7C15u;
+        hash ^= hash >> 29;
+    }
+    return (size_t)(hash & (c->buckets - 1));
+}
+
+static vec middle_of(const edges *e, size_t i) { return edge_points(e, i)[e->steps / 2]; }
+
+static bool cells_fill(cells *c, const edges *e)
+{
+    *c = (cells){.edges = e, .buckets = 16};
+    while (c->buckets < e->count) c->buckets *= 2;
+    c->first = malloc(c->buckets * sizeof *c->first);
+    c->next = malloc((e->count + 1) * sizeof *c->next);
+    if (c->first == NULL || c->next == NULL) return false;
+    for (size_t k = 0; k < c->buckets; ++k) c->first[k] = SIZE_MAX;
+    for (size_t i = 0; i < e->count; ++i) {
+        if (edge_is_point(e, i)) continue;
+        int64_t at[3];
+        for (int k = 0; k < 3; ++k) at[k] = cell_number(e, middle_of(e, i), k, 0);
+        const size_t bucket = bucket_of(c, at);
+        c->next[i] = c->first[bucket];
+        c->first[bucket] = i;
+    }
+    return true;
+}
+
+/* Looks for partners of edge i in one bucket. */
+static void match_bucket(const cells *c, size_t i, size_t bucket, size_t *partner)
+{
+    for (size_t j = c->first[bucket]; j != SIZE_MAX; j = c->next[j]) {
+        if (j == i || j == *partner || edge_compare(c->edges, i, j) == 0) continue;
+        *partner = *partner == SIZE_MAX ? j : SEAM_SHARED;
+    }
+}
+
+static void match_edge(const cells *c, size_t i, size_t *partner)
+{
+    const vec middle = middle_of(c->edges, i);
+    size_t seen[8];
+    int count = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        int64_t at[3];
+        for (int k = 0; k < 3; ++k) {
+            const double shift = corner >> k & 1 ? c->edges->slack : -c->edges->slack;
+            at[k] = cell_number(c->edges, middle, k, shift);
+        }
+        const size_t bucket = bucket_of(c, at);
+        bool again = false;
+        for (int k = 0; k < count; ++k) again |= seen[k] == bucket;
+        if (again) continue;
+        seen[count++] = bucket;
+        match_bucket(c, i, bucket, partner);
+    }
+}
+
+shape_verdict edges_match(const edges *e, size_t *partner)
+{
+    cells c;
+    shape_verdict verdict = cells_fill(&c, e) ? SHAPE_FOUND : SHAPE_NO_MEMORY;
+    for (size_t i = 0; i < e->count && verdict == SHAPE_FOUND; ++i) {
+        if (i % 1024 == 0 && limits_reached(e->patches->limits) != IMP_REASON_NONE)
+            verdict = SHAPE_STOPPED;
+        partner[i] = SIZE_MAX;
+        if (!edge_is_point(e, i)) match_edge(&c, i, &partner[i]);
+    }
+    free(c.first);
+    free(c.next);
+    return verdict;
+}

@@ -1,0 +1,51 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_SIMULATE_EDGES_H
+#define TOOLS_SIMULATE_EDGES_H
+
+#include <stdint.h>
+
+#include "tools/simulate/patches.h"
+
+/* The edges of the patches of a body, and which of them run along each other
+ * ========================================================================
+ * Each patch has four edges, one for each side of its domain, traversed counter-clockwise in the
+ * plane of u and v: v lowest, u highest, v highest, u lowest. Edges are compared by their points,
+ * never by names or numbers: two edges are one seam if they run through the same points, in the
+ * same or in the opposite direction. Points within `slack` of each other are the same. */
+
+#define SEAM_SLACK 1e-6 /* part of the body's size within which points are the same */
+
+typedef struct edges {
+    const patches *patches;
+    vec *at;      /* steps + 1 points of each edge, in its direction */
+    size_t count; /* 4 for each patch: number 4 p + k is side k of patch p */
+    int steps;    /* even */
+    double slack; /* length */
+} edges;
+
+shape_verdict edges_read(edges *e, const patches *p, imp_error *why);
+void edges_free(edges *e);
+
+static inline const vec *edge_points(const edges *e, size_t i)
+{
+    return e->at + i * (size_t)(e->steps + 1);
+}
+
+/* Whether the edge is a single point, as at the pole of a sphere. */
+bool edge_is_point(const edges *e, size_t i);
+
+/* 1: the two run through the same points in the same direction; -1: in opposite ones; 0: neither. A
+ * point has no direction. */
+int edge_compare(const edges *e, size_t i, size_t j);
+
+/* Whether the point k of edge i lies on edge j, and if so in which direction the two run there, 1
+ * or -1; 0: it does not. Evaluates the patch. */
+int edge_passes(const edges *e, size_t i, int k, size_t j);
+
+/* For each edge that is no point: the other edge that is the same seam, SIZE_MAX if there is none,
+ * or SEAM_SHARED if there are several. */
+#define SEAM_SHARED (SIZE_MAX - 1)
+shape_verdict edges_match(const edges *e, size_t *partner);
+
+#endif
