@@ -151,6 +151,7 @@ bats_suites = \
     tests/cli/cli_pair.bats \
     tests/cli/readme.bats \
     tests/cli/cli_solve.bats \
+    tests/cli/files.bats \
     tests/cli/host.bats \
     tests/cli/hostile.bats \
     tests/cli/matrix.bats \

@@ -75,7 +75,9 @@ tools_bench = \
 tools_cli = \
     tools/cli/arguments.c tools/cli/arguments.h \
     tools/cli/batch.c tools/cli/batch.h \
+    tools/cli/batch_record.c tools/cli/batch_record.h \
     tools/cli/batch_resume.c tools/cli/batch_resume.h \
+    tools/cli/batch_scene.c tools/cli/batch_scene.h \
     tools/cli/build_tree.c tools/cli/build_tree.h \
     tools/cli/catalogue.c tools/cli/catalogue.h \
     tools/cli/clearance.h \
@@ -87,6 +89,7 @@ tools_cli = \
     tools/cli/crash.c tools/cli/crash.h \
     tools/cli/crew.c tools/cli/crew.h \
     tools/cli/each.c tools/cli/each.h \
+    tools/cli/file_lock.c tools/cli/file_lock.h \
     tools/cli/input.c tools/cli/input.h \
     tools/cli/interrupt.c tools/cli/interrupt.h \
     tools/cli/json_memory.c tools/cli/json_memory.h \
@@ -95,6 +98,7 @@ tools_cli = \
     tools/cli/ordered_pool.c tools/cli/ordered_pool.h \
     tools/cli/output.c tools/cli/output.h \
     tools/cli/output_file.c tools/cli/output_file.h \
+    tools/cli/output_target.c tools/cli/output_target.h \
     tools/cli/parts.c tools/cli/parts.h \
     tools/cli/program.c tools/cli/program.h \
     tools/cli/progress.c tools/cli/progress.h \

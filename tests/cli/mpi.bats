@@ -89,6 +89,47 @@ many() {
     jq -s -e '.[300].error | contains("eval_crashes")' out
 }
 
+# Two balls that never touch, too near to each other to prove it in a lifetime.
+endless_scene() {
+    echo '{"id": 700, "gamma": 1e-9, "bodies": [{"surfaces": [{"type": "sphere"}]},
+        {"surfaces": [{"type": "sphere", "radius": 1.000000002}]}]}' | tr -d '\n'
+    echo
+}
+
+@test "a run that loses any one rank to SIGKILL is resumed to the same bytes" {
+    { many 699 && endless_scene && many 60; } >scenes.jsonl
+    run -4 "$IMPINGE" batch scenes.jsonl --resume whole --max-pairs 1000
+    without_seconds <whole >expected
+    local victim
+    for victim in 0 3; do # the first rank holds the output, the last one only answers
+        rm -f out out.options
+        # shellcheck disable=SC2016 # each rank expands it
+        ranks 4 bash -c 'echo $$ >"pid.$OMPI_COMM_WORLD_RANK"; exec "$@"' - \
+            "$mpi" batch scenes.jsonl --resume out --max-bytes 0 >said 2>&1 &
+        local run=$! status=0
+        until [ "$(wc -l 2>/dev/null <out)" = 512 ]; do sleep 0.1; done
+        kill -KILL "$(cat "pid.$victim")"
+        wait "$run" || status=$?
+        [ "$status" -ne 0 ]
+        run -4 --separate-stderr ranks 4 "$mpi" batch scenes.jsonl --resume out --max-pairs 1000
+        without_seconds <out | cmp - expected
+    done
+}
+
+@test "an output that another run is writing is refused, and its process named" {
+    mkfifo lines
+    "$IMPINGE" batch lines --resume out 8>&- &
+    local first=$!
+    exec 8>lines
+    scene '"id": 1,' >&8
+    until [ -s out ]; do sleep 0.05; done
+    scene '"id": 1,' >scenes.jsonl
+    run -4 --separate-stderr ranks 2 "$mpi" batch scenes.jsonl --resume out 8>&-
+    [[ $stderr == *"out: process $first is writing it"* ]]
+    exec 8>&-
+    wait "$first"
+}
+
 @test "an output of other scenes is not resumed, and keeps its answers" {
     scene '"id": 1,' >scenes.jsonl
     { scene '"id": 2,' && scene '"id": 1,'; } >others.jsonl

@@ -110,7 +110,7 @@ static bool is_wanted(batch *b, const input_text *line, bool *ok)
     }
     answered_line done;
     const resume_state state = batch_resume_match(&b->resume, line, &done);
-    *ok = state != RESUME_MISMATCH;
+    *ok = state != RESUME_REFUSED;
     if (state == RESUME_ANSWERED) {
         b->failures += done.failed;
         b->answered = b->line;
@@ -125,6 +125,7 @@ bool batch_next_line(batch *b, batch_item *item)
     while (ok && !wanted && !interrupt_came()) {
         const bool read = input_read_line(b->file, b->name, b->args->verb->name, &item->text);
         if (!read && !interrupt_came()) b->input_failed = true;
+        if (read && item->text.length == 0) b->input_failed = !batch_resume_match_end(&b->resume);
         if (!read || item->text.length == 0) return false;
         item->line = ++b->line;
         wanted = is_wanted(b, &item->text, &ok);

@@ -12,201 +12,172 @@
 
 #include "core/common/system_error.h"
 #include "tools/cli/output.h"
+#include "tools/cli/output_target.h"
 #include "tools/cli/standard_output.h"
 #include "tools/cli/verbs.h"
 
-exit_status batch_shard_read(const arguments *args, batch_shard *shard)
+static const char *verb_of(const batch_resume *resume) { return resume->args->verb->name; }
+
+static exit_status fail(const batch_resume *resume, const char *what)
 {
-    const option_value *value = arguments_option(args, "shard");
-    *shard = (batch_shard){0, 1};
-    if (value == NULL) return EXIT_ANSWERED;
-    char rest;
-    unsigned index, count;
-    if (strspn(value->text, "0123456789/") == strlen(value->text) &&
-        sscanf(value->text, "%9u/%9u%c", &index, &count, &rest) == 2 && index >= 1 &&
-        index <= count) {
-        *shard = (batch_shard){index - 1, count};
-        return EXIT_ANSWERED;
-    }
-    return complain(EXIT_USAGE, args->verb->name,
-                    "--shard: got '%s', must be I/N with 1 <= I <= N, for example 1/4",
-                    value->text);
+    return complain(EXIT_DATA, verb_of(resume), "%s: %s", resume->path, what);
 }
 
-/* --- Ids ---------------------------------------------------------------------------------------- */
+/* --- Opening ------------------------------------------------------------------------------------- */
 
-/* Behind the JSON string that begins at `at`; NULL: it does not end. *plain: without escapes. */
-static const char *behind_string(const char *at, const char *end, bool *plain)
+/* What is left of an answer that was cut: the beginning of one, or a place that was never written. */
+static bool is_torn_answer(const input_text *line)
 {
-    *plain = true;
-    for (++at; at < end && *at != '"'; ++at)
-        if (*at == '\\') {
-            *plain = false;
-            ++at;
+    static const char beginning[] = "{\"id\":";
+    const size_t most = sizeof beginning - 1;
+    const size_t length = line->length < most ? line->length : most;
+    return memchr(line->text, '\0', line->length) != NULL ||
+           memcmp(line->text, beginning, length) == 0;
+}
+
+static bool is_torn(const input_text *line)
+{
+    return line->length == 0 || line->text[line->length - 1] != '\n' ||
+           memchr(line->text, '\0', line->length) != NULL;
+}
+
+/* Counts the whole lines from the start; `end` is behind the last of them. A zero byte is a place
+ * that was never written: all from its line on is torn. */
+static exit_status count_answers(batch_resume *resume)
+{
+    while (input_read_line(resume->file, resume->path, verb_of(resume), &resume->line)) {
+        if (is_torn(&resume->line)) {
+            rewind(resume->file);
+            resume->has_rest = resume->line.length > 0;
+            if (is_torn_answer(&resume->line)) return EXIT_ANSWERED;
+            return fail(resume, "its last line is no answer of a batch; name another file");
         }
-    return at < end ? at + 1 : NULL;
-}
-
-/* The keys and values of the outermost object, one by one. */
-typedef struct member_walk {
-    const char *at, *end;
-} member_walk;
-
-static void skip_blanks(member_walk *w)
-{
-    while (w->at < w->end && strchr(" \t\r\n", *w->at) != NULL) ++w->at;
-}
-
-/* To the ',' or '}' behind a value. False: there is none. */
-static bool skip_value(member_walk *w)
-{
-    size_t depth = 0;
-    bool plain;
-    while (w->at != NULL && w->at < w->end) {
-        if (*w->at == '"') {
-            w->at = behind_string(w->at, w->end, &plain);
-            continue;
-        }
-        if (depth == 0 && (*w->at == ',' || *w->at == '}')) return true;
-        depth += *w->at == '{' || *w->at == '[';
-        depth -= depth > 0 && (*w->at == '}' || *w->at == ']');
-        ++w->at;
-    }
-    return false;
-}
-
-/* Where the value of the last "id" is, found without reading the rest as values. False: the text is
- * no object, or has keys with escapes. */
-static bool find_id(const input_text *line, const char **id, size_t *length)
-{
-    member_walk w = {line->text, line->text + line->length};
-    *id = NULL;
-    skip_blanks(&w);
-    if (w.at == w.end || *w.at != '{') return false;
-    do {
-        ++w.at; /* the '{' or ',' */
-        skip_blanks(&w);
-        const char *key = w.at;
-        bool plain;
-        if (w.at == w.end || *w.at != '"') return false;
-        w.at = behind_string(w.at, w.end, &plain);
-        if (w.at == NULL || !plain) return false;
-        const bool is_id = w.at - key == 4 && memcmp(key, "\"id\"", 4) == 0;
-        skip_blanks(&w);
-        if (w.at == w.end || *w.at++ != ':') return false;
-        const char *value = w.at;
-        if (!skip_value(&w)) return false;
-        if (is_id) *id = value, *length = (size_t)(w.at - value);
-    } while (*w.at == ',');
-    return true;
-}
-
-json_t *batch_scene_id(const input_text *line)
-{
-    const char *text;
-    size_t length;
-    if (!find_id(line, &text, &length)) return batch_line_id(line);
-    json_t *id = text != NULL ? json_loadb(text, length, JSON_DECODE_ANY, NULL) : NULL;
-    return id != NULL ? id : json_null();
-}
-
-json_t *batch_line_id(const input_text *line)
-{
-    json_t *object = json_loadb(line->text, line->length, 0, NULL);
-    json_t *id = json_object_get(object, "id");
-    id = id != NULL ? json_incref(id) : json_null();
-    json_decref(object);
-    return id;
-}
-
-/* --- The file of answers ------------------------------------------------------------------------ */
-
-static bool fail(const batch_resume *resume, const char *what)
-{
-    complain(EXIT_DATA, resume->verb, "%s: %s", resume->path, what);
-    return false;
-}
-
-/* Counts the whole lines from the start; *end is behind the last of them. A zero byte is a place
- * that was never written: what is from its line on is torn. */
-static bool count_answers(batch_resume *resume, off_t *end)
-{
-    for (*end = 0; input_read_line(resume->file, resume->path, resume->verb, &resume->line);) {
-        const input_text *line = &resume->line;
-        if (line->length == 0 || line->text[line->length - 1] != '\n' ||
-            memchr(line->text, '\0', line->length) != NULL)
-            return true;
-        *end += (off_t)line->length;
+        resume->end += (off_t)resume->line.length;
         resume->answers += 1;
     }
-    return false; /* complained of */
+    return EXIT_DATA; /* complained of */
 }
 
-/* Standard output goes behind the last whole answer from now on. */
-static bool take_over_stdout(const batch_resume *resume, int fd, off_t end)
+static exit_status open_file(batch_resume *resume)
 {
-    return (lseek(fd, end, SEEK_SET) == end && fflush(stdout) == 0 &&
-            standard_output_replace(fd)) ||
-           fail(resume, system_error_text(errno));
+    const int fd = open(resume->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd >= 0) resume->file = fdopen(fd, "r");
+    if (resume->file != NULL) return EXIT_ANSWERED;
+    const exit_status status = fail(resume, system_error_text(errno));
+    if (fd >= 0) close(fd);
+    return status;
 }
 
-bool batch_resume_open(batch_resume *resume, const char *path, const arguments *args, off_t *size)
+exit_status batch_resume_open(batch_resume *resume, const char *path, const arguments *args,
+                              bool to_stdout)
 {
-    *resume = (batch_resume){.path = path,
-                             .verb = args->verb->name,
-                             .exit_code = arguments_option(args, "exit-code") != NULL};
+    const output_target target = output_target_of(path);
+    *resume = (batch_resume){.path = target.path,
+                             .args = args,
+                             .record = {.descriptor = -1},
+                             .is_new = target.kind == OUTPUT_NEW,
+                             .to_stdout = to_stdout};
+    if (target.kind == OUTPUT_REFUSED)
+        return complain(EXIT_DATA, args->verb->name, "%s: %s", path, system_error_text(errno));
+    if (target.path == NULL)
+        return complain(EXIT_DATA, args->verb->name,
+                        "%s: --resume needs a file, which can be read and cut", path);
     if (input_is_same(path, args->operands[0]))
         return fail(resume, "the output must not be the input");
-    const int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (fd < 0) return fail(resume, system_error_text(errno));
-    resume->file = fopen(path, "r");
-    off_t end;
-    bool ok = resume->file != NULL || fail(resume, system_error_text(errno));
-    ok = ok && count_answers(resume, &end) &&
-         (ftruncate(fd, end) == 0 || fail(resume, system_error_text(errno))) &&
-         (size != NULL || take_over_stdout(resume, fd, end));
-    if (ok && size != NULL) *size = end;
-    if (ok) rewind(resume->file);
-    close(fd);
-    return ok;
+    exit_status status = batch_record_open(&resume->record, target.path, args);
+    if (status == EXIT_ANSWERED) status = open_file(resume);
+    return status == EXIT_ANSWERED ? count_answers(resume) : status;
 }
 
 exit_status batch_resume_close(batch_resume *resume)
 {
-    free(resume->line.text);
+    const char *speaker = resume->args != NULL ? verb_of(resume) : NULL;
+    if (resume->is_new && !resume->begun && resume->file != NULL) unlink(resume->path);
+    if (resume->args != NULL) batch_record_close(&resume->record);
     if (resume->file != NULL) fclose(resume->file);
-    const char *speaker = resume->verb;
+    free(resume->line.text);
+    free(resume->path);
     *resume = (batch_resume){0};
     return output_flush(speaker);
 }
+
+/* --- Answers that are there -------------------------------------------------------------------------- */
 
 /* What an answer of an earlier run adds to the exit status. */
 static answered_line judge(const batch_resume *resume, const json_t *answer)
 {
     const char *verdict = json_string_value(json_object_get(answer, "verdict"));
+    const bool exit_code = arguments_option(resume->args, "exit-code") != NULL;
     if (verdict == NULL) return (answered_line){true, EXIT_DATA};
     if (strcmp(verdict, "undecided") == 0) return (answered_line){false, EXIT_UNDECIDED};
     const bool touches = strcmp(verdict, "contact") == 0;
-    return (answered_line){false, touches && resume->exit_code ? EXIT_CONTACT : EXIT_ANSWERED};
+    return (answered_line){false, touches && exit_code ? EXIT_CONTACT : EXIT_ANSWERED};
+}
+
+/* The gamma that a scene is solved with. */
+static double gamma_of(const batch_resume *resume, const json_t *scene)
+{
+    const option_value *given = arguments_option(resume->args, "gamma");
+    const json_t *own = json_object_get(scene, "gamma");
+    if (given != NULL) return given->number[0];
+    return json_is_number(own) ? json_number_value(own) : 1e-6; /* as scene files are read */
+}
+
+static bool refuse(const batch_resume *resume, const char *why)
+{
+    complain(
+        EXIT_DATA, verb_of(resume),
+        "%s, line %zu: %s; name the output of the same input, options and shard, or a new file",
+        resume->path, resume->matched, why);
+    return false;
+}
+
+/* Whether that is the answer to that scene. Complains if not. */
+static bool fits(const batch_resume *resume, const json_t *answer, const json_t *scene)
+{
+    const json_t *id = json_object_get(answer, "id"), *wanted = json_object_get(scene, "id");
+    const json_t *gamma = json_object_get(answer, "gamma");
+    if (id == NULL || !(wanted != NULL ? json_equal(id, wanted) : json_is_null(id)))
+        return refuse(resume,
+                      "not the answer to that scene of the input (another id, or no answer)");
+    if (gamma == NULL || json_number_value(gamma) == gamma_of(resume, scene)) return true;
+    return refuse(resume, "the answer was asked for with another gamma");
+}
+
+/* All answers that are there fit: cuts off what is behind them. */
+static bool begin(batch_resume *resume)
+{
+    const int fd = fileno(resume->file);
+    if (resume->begun) return true;
+    if (batch_record_write(&resume->record, resume->args) != EXIT_ANSWERED) return false;
+    resume->begun = ftruncate(fd, resume->end) == 0;
+    if (resume->begun && resume->to_stdout)
+        resume->begun = lseek(fd, resume->end, SEEK_SET) == resume->end && fflush(stdout) == 0 &&
+                        standard_output_replace(fd);
+    if (!resume->begun) fail(resume, system_error_text(errno));
+    return resume->begun;
 }
 
 resume_state batch_resume_match(batch_resume *resume, const input_text *scene,
                                 answered_line *answer)
 {
-    if (resume->file == NULL || resume->matched == resume->answers) return RESUME_NEW;
-    const bool read = input_read_line(resume->file, resume->path, resume->verb, &resume->line);
+    if (resume->file == NULL) return RESUME_NEW;
+    if (resume->matched == resume->answers) return begin(resume) ? RESUME_NEW : RESUME_REFUSED;
+    const bool read = input_read_line(resume->file, resume->path, verb_of(resume), &resume->line);
     json_t *done = read ? json_loadb(resume->line.text, resume->line.length, 0, NULL) : NULL;
-    json_t *wanted = batch_line_id(scene);
-    const json_t *id = json_object_get(done, "id");
+    json_t *asked = json_loadb(scene->text, scene->length, 0, NULL);
     resume->matched += 1;
-    const bool fits = id != NULL && json_equal(id, wanted);
+    const bool good = fits(resume, done, asked);
     *answer = judge(resume, done);
     json_decref(done);
-    json_decref(wanted);
-    if (fits) return RESUME_ANSWERED;
-    complain(EXIT_DATA, resume->verb,
-             "%s, line %zu: not the answer to that scene of the input (another id, or no answer); "
-             "name the output of the same input, options and shard, or a new file",
-             resume->path, resume->matched);
-    return RESUME_MISMATCH;
+    json_decref(asked);
+    return good ? RESUME_ANSWERED : RESUME_REFUSED;
+}
+
+bool batch_resume_match_end(batch_resume *resume)
+{
+    if (resume->file == NULL || resume->begun) return true;
+    if (resume->matched == resume->answers && !resume->has_rest) return begin(resume);
+    resume->matched += 1;
+    return refuse(resume, "the input has no scene for this line");
 }

@@ -62,12 +62,14 @@ static void answer_lines(batch *b)
 static exit_status answer_file(batch *b)
 {
     const option_value *resume = arguments_option(b->args, "resume");
-    if (resume != NULL && !batch_resume_open(&b->resume, resume->text, b->args, NULL))
-        return EXIT_DATA;
-    const exit_status prepared = batch_prepare(b);
-    if (prepared != EXIT_ANSWERED) return prepared;
-    answer_lines(b);
-    batch_sum_up(b);
+    exit_status status = EXIT_ANSWERED;
+    if (resume != NULL) status = batch_resume_open(&b->resume, resume->text, b->args, true);
+    if (status == EXIT_ANSWERED) status = batch_prepare(b);
+    if (status == EXIT_ANSWERED) {
+        answer_lines(b);
+        batch_sum_up(b);
+    }
+    batch_keep_worst(b, status);
     if (resume != NULL) batch_keep_worst(b, batch_resume_close(&b->resume));
     return b->worst;
 }

@@ -139,16 +139,16 @@ static exit_status do_blocks(ranked_batch *r)
 
 /* --- The output ------------------------------------------------------------------------------- */
 
-/* The first rank cuts off what is torn, and compares ids when it reads the input; the others pass
+/* The first rank locks the output, compares ids when it reads the input, and then cuts off what is torn; the others pass
  * over as many scenes as there are answers. */
 static exit_status open_output(ranked_batch *r, const char *path)
 {
-    off_t end = 0;
-    bool ok = true;
-    if (ranks_own() == FIRST_RANK) ok = batch_resume_open(&r->b.resume, path, r->b.args, &end);
-    const exit_status status = ranks_worst(ok ? EXIT_ANSWERED : EXIT_DATA);
+    exit_status status = EXIT_ANSWERED;
+    if (ranks_own() == FIRST_RANK)
+        status = batch_resume_open(&r->b.resume, path, r->b.args, false);
+    status = ranks_worst(status);
     if (status != EXIT_ANSWERED) return status;
-    int64_t known[2] = {(int64_t)end, (int64_t)r->b.resume.answers};
+    int64_t known[2] = {(int64_t)r->b.resume.end, (int64_t)r->b.resume.answers};
     MPI_Bcast(known, 2, MPI_INT64_T, FIRST_RANK, MPI_COMM_WORLD);
     r->end = (MPI_Offset)known[0];
     if (ranks_own() != FIRST_RANK) r->b.passed_over = (uint64_t)known[1];
@@ -208,7 +208,7 @@ exit_status ranks_batch(const arguments *args)
         else
             MPI_File_close(&r.out);
     }
-    if (r.b.resume.file != NULL) batch_resume_close(&r.b.resume);
+    if (ranks_own() == FIRST_RANK) batch_keep_worst(&r.b, batch_resume_close(&r.b.resume));
     free(r.item.text.text);
     batch_end(&r.b);
     return status;

@@ -5,6 +5,7 @@
 #include "tools/cli/input.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
+#include "tools/cli/output_target.h"
 #include "tools/cli/verbs.h"
 #include "tools/simulate/record.h"
 
@@ -12,7 +13,9 @@ static exit_status report(const simulation *s, const arguments *args, const char
 {
     exit_status status = record_write(s, path);
     if (status != EXIT_ANSWERED) return status;
-    if (arguments_option(args, "json") != NULL) {
+    if (output_is_standard(path)) {
+        status = EXIT_ANSWERED; /* the motion alone */
+    } else if (arguments_option(args, "json") != NULL) {
         status = output_json(record_json(s, path), args->verb->name);
     } else {
         record_print(s, path);
@@ -40,7 +43,7 @@ static exit_status run(const arguments *args)
         return complain(EXIT_USAGE, args->verb->name,
                         "--output FILE is missing: where the motion "
                         "is to be written, as a scene");
-    if (input_is_same(output->text, args->operands[0]))
+    if (!output_is_standard(output->text) && input_is_same(output->text, args->operands[0]))
         return complain(EXIT_USAGE, args->verb->name,
                         "--output %s is the scene itself, which would be overwritten",
                         output->text);
@@ -54,7 +57,7 @@ static const option simulate_options[] = {
     {.name = "output",
      .kind = OPTION_TEXT,
      .argument = "FILE",
-     .help = "write the motion here, as a scene (also -o FILE)"},
+     .help = "write the motion here, as a scene (also -o FILE; '-': standard output)"},
     {.name = "clearance",
      .kind = OPTION_NUMBER,
      .argument = "LENGTH",

@@ -12,6 +12,15 @@
 
 bool png_is_available(void) { return true; }
 
+/* What libpng would say itself, on standard error. The caller says what is wrong. */
+_Noreturn static void leave(png_structp png, png_const_charp text)
+{
+    (void)text;
+    png_longjmp(png, 1);
+}
+
+static void keep_quiet(png_structp png, png_const_charp text) { (void)png, (void)text; }
+
 /* libpng leaves by longjmp; what is used after it is not changed between. */
 static bool write_rows(png_structp png, png_infop info, FILE *file, const raster *r, uint8_t *row)
 {
@@ -30,7 +39,7 @@ static bool write_rows(png_structp png, png_infop info, FILE *file, const raster
 
 bool png_write_raster(FILE *file, const raster *r)
 {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, leave, keep_quiet);
     png_infop info = png != NULL ? png_create_info_struct(png) : NULL;
     uint8_t *row = malloc(3 * r->width);
     const bool written = info != NULL && row != NULL && write_rows(png, info, file, r, row);

@@ -4,13 +4,23 @@
 
 #include "tools/view/request.h"
 
+#include <string.h>
+
 #include "tools/cli/verbs.h"
+
+static const char *const formats[] = {"png", "svg", "glb", "html", "obj", "vtu", "pvd", NULL};
+static const char *const endings[] = {".png", ".svg", ".glb", ".html", ".obj", ".vtu", ".pvd"};
 
 const option request_options[] = {
     {.name = "output",
      .kind = OPTION_TEXT,
      .argument = "FILE",
-     .help = "write here (also -o FILE); the extension selects the format"},
+     .help = "write here (also -o FILE; '-': standard output)"},
+    {.name = "format",
+     .kind = OPTION_CHOICE,
+     .argument = "NAME",
+     .choices = formats,
+     .help = "of the output; else its extension selects it"},
     {.name = "width", .kind = OPTION_COUNT, .argument = "PX", .help = "of the picture (1200)"},
     {.name = "height", .kind = OPTION_COUNT, .argument = "PX", .help = "of the picture (960)"},
     {.name = "azimuth",
@@ -62,6 +72,21 @@ static exit_status count_in(const arguments *args, const char *name, uint64_t ot
                     (unsigned)lo, (unsigned)hi, value->text);
 }
 
+const char *request_ending(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return strrchr(slash != NULL ? slash : path, '.');
+}
+
+/* NULL: --format is not given, and the name says nothing. */
+static const char *format_asked(const arguments *args)
+{
+    const option_value *output = arguments_option(args, "output");
+    const option_value *format = arguments_option(args, "format");
+    if (format != NULL) return endings[format->choice];
+    return output != NULL ? request_ending(output->text) : NULL;
+}
+
 exit_status request_read(const arguments *args, view_request *request)
 {
     const option_value *output = arguments_option(args, "output");
@@ -72,6 +97,7 @@ exit_status request_read(const arguments *args, view_request *request)
     if (status != EXIT_ANSWERED) return status;
     *request = (view_request){.verb = args->verb->name,
                               .output = output != NULL ? output->text : NULL,
+                              .format = format_asked(args),
                               .width = (double)width,
                               .height = (double)height,
                               .zoom = number_or(args, "zoom", 1, NULL),

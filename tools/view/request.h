@@ -10,6 +10,7 @@
 
 typedef struct view_request {
     const char *verb, *output;
+    const char *format; /* ".png", ...: of --format, or the ending of the output; NULL: none */
     double width, height; /* pixels */
     bool has_azimuth, has_elevation;
     direction from; /* degrees */
@@ -22,6 +23,9 @@ typedef struct view_request {
 } view_request;
 
 extern const option request_options[];
+
+/* What a file's name ends with, from its last dot on; NULL: it has none. */
+const char *request_ending(const char *path);
 
 /* Checks and complains. */
 exit_status request_read(const arguments *args, view_request *request);

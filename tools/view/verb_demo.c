@@ -154,6 +154,7 @@ static exit_status write_one(const subject *what, const arguments *args, const c
         0)
         return complain_of_memory(args->verb->name);
     request.output = path;
+    request.format = ending;
     request.frames = FRAMES_OF_PAGE;
     if (status == EXIT_ANSWERED) status = view_write(what, &request);
     free(path);

@@ -136,6 +136,7 @@ static exit_status draw(imp_registry *registry, const imp_type_info *info, const
     exit_status status = request_read(args, &request);
     if (status != EXIT_ANSWERED) return status;
     request.output = arguments_option(args, "view")->text;
+    request.format = request_ending(request.output);
     request.body_count = 1;
     status = view_check_output(&request);
     if (status != EXIT_ANSWERED) return status;
@@ -166,7 +167,8 @@ static exit_status check_view(const arguments *args)
 {
     const option_value *view = arguments_option(args, "view");
     const view_request request = {.verb = args->verb->name,
-                                  .output = view != NULL ? view->text : NULL};
+                                  .output = view != NULL ? view->text : NULL,
+                                  .format = view != NULL ? request_ending(view->text) : NULL};
     return view != NULL ? view_check_output(&request) : EXIT_ANSWERED;
 }
 

@@ -14,16 +14,22 @@
 #include "tools/cli/verbs.h"
 #include "tools/view/plot_source.h"
 #include "tools/view/png.h"
+#include "tools/view/request.h"
 
 /* --- Where it goes --------------------------------------------------------------------------- */
 
 enum { WIDTH = 960, HEIGHT = 480, COLUMNS = 79, ROWS = 24 }; /* pixels; characters */
 
+static const char *const formats[] = {"png", "svg", NULL};
+
+/* NULL: to the terminal. */
 static const char *ending(const arguments *args)
 {
     const option_value *output = arguments_option(args, "output");
+    const option_value *format = arguments_option(args, "format");
     if (output == NULL) return NULL;
-    const char *dot = strrchr(output->text, '.');
+    if (format != NULL) return format->choice == 0 ? ".png" : ".svg";
+    const char *dot = request_ending(output->text);
     return dot != NULL ? dot : "";
 }
 
@@ -34,7 +40,7 @@ static exit_status check_output(const arguments *args)
     if (strcmp(end, ".png") == 0)
         return png_check(arguments_option(args, "output")->text, args->verb->name);
     return complain(EXIT_USAGE, args->verb->name,
-                    "--output must end with one of .png, .svg, not '%s'",
+                    "--output must end with one of .png, .svg, or --format say which, not '%s'",
                     arguments_option(args, "output")->text);
 }
 
@@ -64,9 +70,11 @@ static exit_status write_file(const plot *p, const arguments *args)
         canvas_svg_end(&c);
     }
     status = output_file_end(&out, good);
+    if (status != EXIT_ANSWERED) return status;
     if (!good) return complain_of_memory(args->verb->name);
-    if (status == EXIT_ANSWERED) printf("%s: %dx%d pixels\n", message_shown(path).text, WIDTH, HEIGHT);
-    return status;
+    if (!output_is_standard(path))
+        printf("%s: %dx%d pixels\n", message_shown(path).text, WIDTH, HEIGHT);
+    return EXIT_ANSWERED;
 }
 
 static exit_status show(const plot *p, const arguments *args)
@@ -180,7 +188,12 @@ static const option plot_options[] = {
     {.name = "output",
      .kind = OPTION_TEXT,
      .argument = "FILE",
-     .help = "write here (also -o FILE), .png or .svg; without it, to the terminal"},
+     .help = "write here (also -o FILE; '-': standard output); without it, to the terminal"},
+    {.name = "format",
+     .kind = OPTION_CHOICE,
+     .argument = "NAME",
+     .choices = formats,
+     .help = "of the output; else its extension selects it"},
     {.name = "slices",
      .kind = OPTION_COUNT,
      .argument = "N",

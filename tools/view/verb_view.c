@@ -29,7 +29,7 @@ const verb verb_view = {
     .operands = "SCENE|RESULT or A B",
     .summary = "Draw a scene: picture, animation, page",
     .details =
-        "Solves the scene and writes what --output names; its extension selects the format:\n"
+        "Solves the scene and writes what --output names; its extension, or --format, says how:\n"
         "\n"
         "  .png   start, contact and end, and the contact from near, shaded\n"
         "  .svg   the same as lines\n"

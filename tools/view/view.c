@@ -110,13 +110,24 @@ static imp_code write_glb(const subject *what, const view_request *request, FILE
     return write_film(what, request, file, w, error, animation_glb);
 }
 
+/* A collection consists of files with names of their own. */
+static exit_status check_pvd(const view_request *request)
+{
+    const char *ending = request_ending(request->output);
+    if (ending != NULL && strcmp(ending, ".pvd") == 0) return EXIT_ANSWERED;
+    return complain(EXIT_USAGE, request->verb,
+                    "--output must be a file that ends with .pvd, whose frames are files beside it, "
+                    "not '%s'",
+                    request->output);
+}
+
 /* One frame beside the collection, under its own name. */
 static imp_code write_pvd_frame(const film *f, const view_request *request, size_t frame,
                                 imp_error *error)
 {
     output_file out;
     char path[4096];
-    const int stem = (int)(strrchr(request->output, '.') - request->output);
+    const int stem = (int)(request_ending(request->output) - request->output);
     if (snprintf(path, sizeof path, "%.*s_%04zu.vtu", stem, request->output, frame) >=
         (int)sizeof path)
         return mesh_no_memory(error);
@@ -191,11 +202,10 @@ static const format formats[] = {{".png", write_png},   {".svg", write_svg}, {".
                                  {".pvd", write_pvd}};
 enum { FORMATS = sizeof formats / sizeof formats[0] };
 
-static const format *format_of(const char *path)
+static const format *format_of(const char *ending)
 {
-    const char *dot = strrchr(path, '.');
-    for (size_t k = 0; k < FORMATS && dot != NULL; ++k)
-        if (strcmp(dot, formats[k].ending) == 0) return &formats[k];
+    for (size_t k = 0; k < FORMATS && ending != NULL; ++k)
+        if (strcmp(ending, formats[k].ending) == 0) return &formats[k];
     return NULL;
 }
 
@@ -213,7 +223,8 @@ static exit_status unknown_format(const view_request *request)
     for (size_t k = 0; k < FORMATS; ++k)
         snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", k == 0 ? "" : ", ",
                  formats[k].ending);
-    return complain(EXIT_USAGE, request->verb, "--output must end with one of %s, not '%s'", all,
+    return complain(EXIT_USAGE, request->verb,
+                    "--output must end with one of %s, or --format say which, not '%s'", all,
                     request->output);
 }
 
@@ -222,8 +233,9 @@ exit_status view_check_output(const view_request *request)
     if (request->output == NULL)
         return complain(EXIT_USAGE, request->verb,
                         "where to? -o FILE is missing, such as -o %s.png", request->verb);
-    const format *f = format_of(request->output);
+    const format *f = format_of(request->format);
     if (f == NULL) return unknown_format(request);
+    if (f->write == write_pvd) return check_pvd(request);
     if (f->write == write_html) return html_check(request->output, request->verb);
     if (f->write == write_png) return png_check(request->output, request->verb);
     return EXIT_ANSWERED;
@@ -236,11 +248,12 @@ exit_status view_write(const subject *what, const view_request *request)
     imp_error error = {0};
     exit_status status = output_file_begin(&out, request->output, request->verb);
     if (status != EXIT_ANSWERED) return status;
-    const imp_code code = format_of(request->output)->write(what, request, out.file, &w, &error);
+    const imp_code code = format_of(request->format)->write(what, request, out.file, &w, &error);
     status = output_file_end(&out, code == IMP_SUCCESS);
+    if (status != EXIT_ANSWERED) return status;
     if (code == IMP_ERROR_FILE && error.text[0] == '\0') return EXIT_DATA; /* complained of */
     if (code != IMP_SUCCESS) return complain_of(&error, request->verb);
-    if (status != EXIT_ANSWERED) return status;
+    if (output_is_standard(request->output)) return EXIT_ANSWERED; /* the picture alone */
     printf("%s: %s, surfaces to within %s\n", message_shown(request->output).text, w.what,
            output_number_upper(w.error_upper).text);
     return output_flush(request->verb);

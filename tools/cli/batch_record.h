@@ -1,0 +1,31 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_BATCH_RECORD_H
+#define TOOLS_CLI_BATCH_RECORD_H
+
+#include "tools/cli/arguments.h"
+
+/* OUT.options: what the answers in OUT were asked with
+ * ====================================================
+ * One line of JSON beside the output of `batch --resume OUT`: the options that change what is asked,
+ * such as --gamma; not limits, threads and the like. It is locked while OUT is written, so that of two
+ * runs on one output the second is refused. OUT itself cannot be: an MPI library opens and closes
+ * it, which would end the lock. */
+
+typedef struct batch_record {
+    int descriptor; /* -1: none */
+    char *path;
+    bool is_known; /* it tells how the answers were asked for */
+} batch_record;
+
+/* Opens and locks the record of the output `out`. Complains, and answers the status, if another
+ * process has it, or the answers were asked for with other options. batch_record_close in any case. */
+exit_status batch_record_open(batch_record *record, const char *out, const arguments *args);
+
+/* Writes it, unless it is known. */
+exit_status batch_record_write(batch_record *record, const arguments *args);
+
+/* Unlocks it, and removes it where nothing was written. */
+void batch_record_close(batch_record *record);
+
+#endif
