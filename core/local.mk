@@ -119,6 +119,7 @@ core_broad_phase = \
     core/broad_phase/broad_phase.c core/broad_phase/broad_phase.h \
     core/broad_phase/candidate.c core/broad_phase/candidate.h \
     core/broad_phase/candidates.c core/broad_phase/candidates.h \
+    core/broad_phase/collect_frames.c \
     core/broad_phase/collect_pairs.c \
     core/broad_phase/collect_roots.c \
     core/broad_phase/collect_surfaces.c \
@@ -142,13 +143,15 @@ core_solver = \
     core/solver/query_internal.h \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \
-    core/solver/upper_time.c core/solver/upper_time.h
+    core/solver/upper_time.c core/solver/upper_time.h \
+    core/solver/world.c core/solver/world.h
 
 core_reader = \
     core/reader/arguments.c core/reader/arguments.h \
     core/reader/builder.c \
     core/reader/examine.c \
     core/reader/json_keys.c core/reader/json_keys.h \
+    core/reader/instance_table.c core/reader/instance_table.h \
     core/reader/pipeline.c core/reader/pipeline.h \
     core/reader/pipeline_value.c core/reader/pipeline_value.h \
     core/reader/scene_bodies.c core/reader/scene_bodies.h \

@@ -58,6 +58,7 @@ check_suites = \
     tests/unit/test_scene_file \
     tests/unit/test_scene_judge \
     tests/unit/test_separation \
+    tests/unit/test_shared_motion \
     tests/unit/test_series \
     tests/unit/test_upper_times \
     tests/unit/test_sliding \

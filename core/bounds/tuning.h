@@ -171,6 +171,10 @@
 /* Level: the polynomial varies by less than this times the remainder.
  * 4: +8, 64: no change */
 #define TUNING_DISTANCE_LEVEL 16
+/* Two surfaces that turn within themselves are searched at one moment where rounding varies their distance by less
+ * than gamma_clear / this. */
+#define TUNING_REST_SLIP 0x1p12
+
 /* A surface slides along the other within itself, if it leaves that by less than 1 / this of the clearance. */
 #define TUNING_DISTANCE_SLIP 0x1p12
 /* Where an axis parts nodes whose parents slid: one in SHARE distances has to show more, or WAIT

@@ -13,6 +13,7 @@
 typedef struct candidate {
     tree *tree;
     size_t body, surface;
+    size_t left_out;   /* maps of the surface that the tree's nodes are not under */
     double eval_error; /* of points evaluated, about, of 16 of its pieces if it has more; < 0: not
                           measured yet; length */
     size_t still_maps; /* then: of a surface with distances, surface_still_maps */

@@ -10,6 +10,7 @@
 
 #include "core/base/status.h"
 #include "core/broad_phase/collection.h"
+#include "core/bounds/tuning.h"
 
 /* --- The order of pairs ------------------------------------------------------------------- */
 
@@ -89,11 +90,22 @@ static bool prepare(collection *all)
     return all->surfaces != NULL && all->sweep != NULL;
 }
 
-imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
-                         double clearance, const candidate_limit *limit, imp_stats *stats,
-                         imp_error *error)
+/* A slip is small beside gamma_clear, and beside what is to be told apart. */
+static double slip_most(const imp_options *options)
 {
+    const double clear = options->clearance < 0 ? 0.5 * options->gamma : options->clearance;
+    const double room = options->gamma - clear;
+    return (clear < room ? clear : room) / TUNING_REST_SLIP;
+}
+
+imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
+                         double clearance, bool may_rest, const candidate_limit *limit,
+                         imp_stats *stats, imp_error *error)
+{
+    const bool models = options->method == IMP_METHOD_MODELS; /* the paper's algorithm knows no frames */
     collection all = {.scene = scene,
+                      .slip_most = models && may_rest ? slip_most(options) : -1,
+                      .common_motion = models ? collection_common_motion(scene) : 0,
                       .options = options,
                       .limit = limit,
                       .stats = stats,
@@ -104,6 +116,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
         prepare(&all) ? collection_add_surfaces(&all, &done, error) : error_set_memory(error);
     collection_count_rest(&all);
     if (done) code = collect_pairs(&all, &done, error);
+    if (done && models) code = collection_use_frames(&all, &done, error);
     if (done) code = collection_make_roots(&all, &done, error);
     if (all.boxes != all.at_hand) free(all.boxes);
     free(all.surfaces);
@@ -136,7 +149,10 @@ static candidate_span span_of(const candidate_pair *pairs, size_t count, int sid
 static candidate *own_candidate(candidate *place, const candidate *from, imp_stats *stats)
 {
     if (place->tree != NULL) return place;
-    *place = (candidate){.body = from->body, .surface = from->surface, .eval_error = -1};
+    *place = (candidate){.body = from->body,
+                         .surface = from->surface,
+                         .left_out = from->left_out,
+                         .eval_error = -1};
     tree_growth growth = {0};
     if (tree_new_from_root(from->tree, &place->tree, &growth, NULL) != IMP_SUCCESS) return NULL;
     stats->bytes += growth.bytes;
@@ -151,6 +167,7 @@ imp_code candidates_part(candidate_list *list, const candidate_list *whole, size
     *list = (candidate_list){.count = span[0].count + span[1].count,
                              .pair_count = count,
                              .pair_capacity = count,
+                             .slip = whole->slip,
                              .complete = true,
                              .owns_trees = true};
     list->candidates = calloc(list->count, sizeof *list->candidates);

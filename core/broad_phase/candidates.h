@@ -9,7 +9,11 @@
  * ===================================
  * Every surface that exists at any of the query's times gets its tree, whose root is a box around
  * all that the surface sweeps. Surfaces of different bodies whose boxes come within the clearance
- * of each other, unless their bodies ignore each other, are the candidate pairs. */
+ * of each other, unless their bodies ignore each other, are the candidate pairs.
+ *
+ * A pair of which each surface turns only within itself, or as the other can be turned within itself, has trees
+ * of one moment, the first at which both exist: at any other time the surfaces are as far apart, but for the
+ * list's slip. What is proved of the list at a distance of c holds at c - slip. */
 
 enum { CANDIDATES_AT_HAND = 3 }; /* that need no memory of their own */
 
@@ -19,6 +23,7 @@ typedef struct candidate_list {
     size_t count;
     candidate_pair *pairs; /* by body of a, body of b, surface of a, surface of b */
     size_t pair_count, pair_capacity;
+    double slip; /* >= surface_pair_slip of each pair whose trees hold one moment; length */
     bool complete;
     bool owns_trees; /* else they are the scene's */
 } candidate_list;    /* begins as {0}, and stays where it is once filled; candidates_clear frees */
@@ -32,12 +37,13 @@ typedef struct candidate_limit {
     void *context;
 } candidate_limit;
 
-/* Fills an empty list; the nodes made for it are added to `stats`. The trees are the scene's. Where
+/* Fills an empty list; the nodes made for it are added to `stats`. The trees are the scene's. `may_rest`: pairs
+ * that turn within themselves may have trees of one moment; false where parts of the times are asked for. Where
  * a limit ends it, the list is empty again and not complete; after that, or a failure, it may be
  * filled again. */
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
-                         double clearance, const candidate_limit *limit, imp_stats *stats,
-                         imp_error *error);
+                         double clearance, bool may_rest, const candidate_limit *limit,
+                         imp_stats *stats, imp_error *error);
 
 /* Fills an empty list with `count` pairs of another from `first` on, all of the same two bodies, and
  * trees of its own. `whole` is only read, also by other threads. Bytes are added to `stats`. */

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <math.h>
+
 #include "core/broad_phase/collection.h"
 #include "core/scene/scene_trees.h"
 #include "core/tree/bound_audit.h"
@@ -20,15 +22,17 @@ static tree_kind kind_of(const imp_options *options)
 }
 
 /* False: the surface exists at none of the query's times. */
-static bool plan_of(const collection *all, size_t body, size_t index, tree_plan *plan)
+static bool plan_of(const collection *all, const surface_view *view, tree_plan *plan)
 {
     const imp_options *options = all->options;
     double lo[3], hi[3];
-    surface_domain(scene_surface(all->scene, body, index), lo, hi);
+    surface_domain(scene_surface(all->scene, view->body, view->surface), lo, hi);
     *plan = (tree_plan){.kind = kind_of(options),
                         .t_start = lo[2] > options->t_start ? lo[2] : options->t_start,
                         .t_end = hi[2] < options->t_end ? hi[2] : options->t_end,
-                        .audit = options->audit ? bound_audit_run : NULL};
+                        .audit = options->audit ? bound_audit_run : NULL,
+                        .left_out = view->left_out};
+    if (!isnan(view->moment)) plan->t_start = plan->t_end = view->moment;
     return plan->t_start <= plan->t_end;
 }
 
@@ -42,7 +46,8 @@ static void make_trees(void *of, size_t task)
         tree_plan plan;
         tree *t;
         if (collection_may_end(all, 0)) return;
-        if (!plan_of(all, s->body, s->surface, &plan)) continue;
+        const surface_view view = {s->body, s->surface, all->common_motion, NAN};
+        if (!plan_of(all, &view, &plan)) continue;
         if (scene_tree(all->scene, s->body, s->surface, &plan, all->with_roots, &t, &s->growth,
                        NULL) == IMP_SUCCESS)
             atomic_fetch_add(&all->bytes_ahead, s->growth.bytes);
@@ -70,29 +75,45 @@ void collection_count_rest(collection *all)
         collection_count(all, &all->surfaces[all->used].growth);
 }
 
-/* Adds one surface, if it exists at any of the query's times. */
-static imp_code collect_surface(collection *all, size_t body, size_t index, imp_error *error)
+imp_code collection_make_tree(collection *all, const surface_view *view, candidate *made,
+                              bool *exists, imp_error *error)
 {
     tree_plan plan;
     tree *t;
     tree_growth growth = {0};
+    *exists = plan_of(all, view, &plan);
+    if (!*exists) return IMP_SUCCESS;
+    const imp_code code = scene_tree(all->scene, view->body, view->surface, &plan, all->with_roots,
+                                     &t, &growth, error);
+    if (code != IMP_SUCCESS) return code;
+    collection_count(all, &growth);
+    all->any_lacks_root = all->any_lacks_root || !tree_has_root(t);
+    *made = (candidate){.tree = t,
+                        .body = view->body,
+                        .surface = view->surface,
+                        .left_out = view->left_out,
+                        .eval_error = -1};
+    return IMP_SUCCESS;
+}
+
+/* Adds one surface, if it exists at any of the query's times. */
+static imp_code collect_surface(collection *all, size_t body, size_t index, imp_error *error)
+{
+    bool exists;
     if (all->surfaces != NULL) {
         if (all->used == all->ahead) look_ahead(all, body, index);
         collection_count(all, &all->surfaces[all->used++].growth);
     }
-    if (!plan_of(all, body, index, &plan)) return IMP_SUCCESS;
-    const imp_code code =
-        scene_tree(all->scene, body, index, &plan, all->with_roots, &t, &growth, error);
-    if (code != IMP_SUCCESS) return code;
-    collection_count(all, &growth);
-    const size_t k = all->list->count++;
+    const size_t k = all->list->count;
+    candidate *made = &all->list->candidates[k];
+    const surface_view view = {body, index, all->common_motion, NAN};
+    const imp_code code = collection_make_tree(all, &view, made, &exists, error);
+    if (code != IMP_SUCCESS || !exists) return code;
+    all->list->count += 1;
     swept_box *box = &all->boxes[k];
     box->owner = k;
     box->group = body;
-    all->any_lacks_root = all->any_lacks_root || !tree_has_root(t);
-    tree_box(t, box->lo, box->hi);
-    all->list->candidates[k] =
-        (candidate){.tree = t, .body = body, .surface = index, .eval_error = -1};
+    tree_box(made->tree, box->lo, box->hi);
     return IMP_SUCCESS;
 }
 

@@ -53,6 +53,8 @@ typedef struct collection {
     const candidate_limit *limit;
     imp_stats *stats;
     double clearance;
+    size_t common_motion; /* last maps of all surfaces that no tree has */
+    double slip_most;     /* of pairs that are taken to be at rest; < 0: none are; length */
     swept_box *boxes, at_hand[BOXES_AT_HAND];
     candidate_list *list;
     uint64_t bytes_asked; /* stats->bytes when limits were last checked */
@@ -99,6 +101,24 @@ void collection_count_rest(collection *all);
 
 /* False: a limit, or no memory, which all->out_of_memory tells. */
 bool collection_add_pairs(collection *all);
+
+/* How many of their last maps all surfaces have in common, as surface_common_motion. */
+size_t collection_common_motion(const imp_scene *scene);
+
+/* Gives the surfaces of each pair trees without the motion that both have in common; *done as above. */
+imp_code collection_use_frames(collection *all, bool *done, imp_error *error);
+
+/* A surface as a tree is to hold it. */
+typedef struct surface_view {
+    size_t body, surface;
+    size_t left_out; /* maps, counted from the last */
+    double moment;   /* the only one, or NAN: all of the query's times */
+} surface_view;
+
+/* Makes such a tree. *exists false: the surface exists at none of
+ * the query's times, and *made stays as it is. */
+imp_code collection_make_tree(collection *all, const surface_view *view, candidate *made,
+                              bool *exists, imp_error *error);
 
 /* Makes the roots that surfaces of pairs lack; *done as above. */
 imp_code collection_make_roots(collection *all, bool *done, imp_error *error);

@@ -126,7 +126,7 @@ static imp_code make(imp_builder *b, imp_type_kind kind, const char *type,
     json_t *object;
     imp_code code = arguments_to_json(type, arguments, count, at, &object, error);
     if (code != IMP_SUCCESS) return code;
-    code = scene_build_shared(&b->bodies.instances.source, kind, object, at, made, error);
+    code = scene_instances_make(&b->bodies.instances, kind, object, at, made);
     json_decref(object);
     return code;
 }

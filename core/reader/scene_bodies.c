@@ -35,6 +35,7 @@ imp_scene *scene_bodies_finish(scene_bodies *b, const place *at)
                     "found more than %u maps on all surfaces together, those of parents included",
                     ASSEMBLY_WORK_MAX);
     } else {
+        instance_table_clear(&b->instances.made); /* holders share what a scene counts of a part */
         scene = assembly_finish(&b->assembly);
         if (scene == NULL) error_set_memory(b->error);
     }

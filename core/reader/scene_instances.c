@@ -43,6 +43,7 @@ void scene_instances_clear(scene_instances *p)
         shape_list_clear(&p->definitions[k].shapes);
         instance_list_clear(&p->definitions[k].maps);
     }
+    instance_table_clear(&p->made);
     free(p->definitions);
     json_decref(p->names);
     p->definitions = NULL;
@@ -149,6 +150,20 @@ imp_code scene_instances_finish(scene_instances *p)
     return code;
 }
 
+/* --- Instances --------------------------------------------------------------------------------- */
+
+imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object, const place *at,
+                          shared_instance **made)
+{
+    shared_instance *known = instance_table_find(&p->made, kind, object);
+    if (known != NULL) return *made = instance_hold(known), IMP_SUCCESS;
+    const imp_code code = scene_build_shared(&p->source, kind, object, at, made, p->error);
+    if (code != IMP_SUCCESS || instance_table_add(&p->made, kind, object, *made)) return code;
+    instance_release(*made);
+    *made = NULL;
+    return error_set_memory(p->error);
+}
+
 /* --- Maps ----------------------------------------------------------------------------------- */
 
 static imp_code keep(const scene_instances *p, bool kept)
@@ -163,8 +178,7 @@ static place place_of_map(const place *maps, size_t index, const json_t *map)
     return maps->argument && type != NULL ? place_argument(maps, type) : place_index(maps, index);
 }
 
-static imp_code add_map(scene_instances *p, const json_t *element, const place *at,
-                        instance_list *to)
+static imp_code add_map(scene_instances *p, json_t *element, const place *at, instance_list *to)
 {
     if (json_is_string(element)) {
         definition *used = NULL;
@@ -172,7 +186,7 @@ static imp_code add_map(scene_instances *p, const json_t *element, const place *
         return code == IMP_SUCCESS ? keep(p, instance_list_add_all(to, &used->maps)) : code;
     }
     shared_instance *made = NULL;
-    imp_code code = scene_build_shared(&p->source, IMP_KIND_MAP, element, at, &made, p->error);
+    imp_code code = scene_instances_make(p, IMP_KIND_MAP, element, at, &made);
     if (code == IMP_SUCCESS) code = keep(p, instance_list_add(to, made));
     instance_release(made);
     return code;
@@ -183,7 +197,7 @@ imp_code scene_instances_maps(scene_instances *p, const json_t *array, const pla
 {
     imp_code code = IMP_SUCCESS;
     for (size_t i = 0; i < json_array_size(array) && code == IMP_SUCCESS; ++i) {
-        const json_t *map = json_array_get(array, i);
+        json_t *map = json_array_get(array, i);
         const place element = place_of_map(at, i, map);
         code = add_map(p, map, &element, to);
     }
@@ -192,14 +206,13 @@ imp_code scene_instances_maps(scene_instances *p, const json_t *array, const pla
 
 /* --- Surfaces --------------------------------------------------------------------------------- */
 
-imp_code scene_instances_surface(scene_instances *p, const json_t *object, const place *at,
-                                 shape_list *to)
+imp_code scene_instances_surface(scene_instances *p, json_t *object, const place *at, shape_list *to)
 {
     shared_instance *type = NULL;
     instance_list maps = {.count = 0};
     json_t *array = NULL;
     const place member = at->argument ? *at : place_key(at, "maps");
-    imp_code code = scene_build_shared(&p->source, IMP_KIND_SURFACE, object, at, &type, p->error);
+    imp_code code = scene_instances_make(p, IMP_KIND_SURFACE, object, at, &type);
     if (code == IMP_SUCCESS) code = json_keys_array(object, "maps", false, at, &array, p->error);
     if (code == IMP_SUCCESS) code = scene_instances_maps(p, array, &member, &maps);
     if (code == IMP_SUCCESS) code = keep(p, shape_list_add(to, type, &maps));
@@ -213,7 +226,7 @@ imp_code scene_instances_surfaces(scene_instances *p, const json_t *array, const
 {
     imp_code code = IMP_SUCCESS;
     for (size_t i = 0; i < json_array_size(array) && code == IMP_SUCCESS; ++i) {
-        const json_t *element = json_array_get(array, i);
+        json_t *element = json_array_get(array, i);
         const place here = place_index(at, i);
         definition *used = NULL;
         if (json_is_string(element)) {

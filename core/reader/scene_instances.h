@@ -3,6 +3,7 @@
 #ifndef CORE_READER_SCENE_INSTANCES_H
 #define CORE_READER_SCENE_INSTANCES_H
 
+#include "core/reader/instance_table.h"
 #include "core/reader/scene_build.h"
 #include "core/scene/assembly.h"
 
@@ -36,6 +37,7 @@ typedef struct definition {
 
 typedef struct scene_instances {
     scene_source source;
+    instance_table made;
     definition *definitions;
     size_t count;
     json_t *names;  /* of definitions, to their index */
@@ -49,6 +51,10 @@ typedef struct scene_instances {
 imp_code scene_instances_begin(scene_instances *p, const json_t *root, const place *at);
 void scene_instances_clear(scene_instances *p);
 
+/* The instance that the object describes: an equal one that was made before, or a new one. The caller releases it. */
+imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object, const place *at,
+                          shared_instance **made);
+
 /* Adds what the array at `at` asks for; NULL is an empty one. */
 imp_code scene_instances_maps(scene_instances *p, const json_t *array, const place *at,
                               instance_list *to);
@@ -56,8 +62,7 @@ imp_code scene_instances_surfaces(scene_instances *p, const json_t *array, const
                                   shape_list *to);
 
 /* Adds one surface under its maps, written as one object. */
-imp_code scene_instances_surface(scene_instances *p, const json_t *object, const place *at,
-                                 shape_list *to);
+imp_code scene_instances_surface(scene_instances *p, json_t *object, const place *at, shape_list *to);
 
 /* Reads the definitions that nobody used, for their errors. */
 imp_code scene_instances_finish(scene_instances *p);

@@ -17,9 +17,18 @@
 #include "core/scene/key_pairs.h"
 #include "core/scene/scene_trees.h"
 
+/* A surface without its last maps, for trees in a frame that moves with these. */
+typedef struct inner {
+    struct inner *next;
+    surface *surface;
+    size_t left_out;
+} inner;
+
 typedef struct member {
     surface *surface;
-    _Atomic(tree *) trees; /* the first of a list, to whose front threads add */
+    /* the first of either list, to whose front threads add */
+    _Atomic(tree *) trees;
+    _Atomic(inner *) inners;
 } member;
 
 typedef struct scene_body {
@@ -53,11 +62,21 @@ imp_scene *scene_new(void)
     return scene;
 }
 
+static void inner_free(inner *i)
+{
+    surface_free(i->surface);
+    free(i);
+}
+
 static void member_free(member *m)
 {
     for (tree *t = m->trees, *next; t != NULL; t = next) {
         next = tree_next(t);
         tree_free(t);
+    }
+    for (inner *i = m->inners, *next; i != NULL; i = next) {
+        next = i->next;
+        inner_free(i);
     }
     surface_free(m->surface);
 }
@@ -424,6 +443,40 @@ static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
     return made;
 }
 
+static const surface *find_inner(const inner *i, size_t left_out)
+{
+    while (i != NULL && i->left_out != left_out) i = i->next;
+    return i != NULL ? i->surface : NULL;
+}
+
+/* The surface without its last maps, made now if it is asked for first. NULL: no memory. */
+static const surface *surface_in_frame(member *m, size_t left_out, tree_growth *growth)
+{
+    if (left_out == 0) return m->surface;
+    inner *first = atomic_load_explicit(&m->inners, memory_order_acquire);
+    const surface *found = find_inner(first, left_out);
+    if (found != NULL) return found;
+    inner *made = malloc(sizeof *made);
+    if (made == NULL) return NULL;
+    *made = (inner){NULL, surface_new_inner(m->surface, surface_map_count(m->surface) - left_out),
+                    left_out};
+    if (made->surface == NULL) {
+        free(made);
+        return NULL;
+    }
+    do {
+        found = find_inner(first, left_out);
+        if (found != NULL) {
+            inner_free(made);
+            return found;
+        }
+        made->next = first;
+    } while (!atomic_compare_exchange_weak_explicit(&m->inners, &first, made, memory_order_release,
+                                                    memory_order_acquire));
+    growth->bytes += sizeof *made + surface_bytes(made->surface);
+    return made->surface;
+}
+
 /* Threads may make trees of one surface at once; one of each plan is kept. */
 imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan *plan,
                     bool with_root, tree **found, tree_growth *growth, imp_error *error)
@@ -433,8 +486,10 @@ imp_code scene_tree(imp_scene *scene, size_t body, size_t index, const tree_plan
     tree_growth own = {0};
     *found = find_tree(atomic_load_explicit(&m->trees, memory_order_acquire), plan);
     if (*found != NULL) return IMP_SUCCESS;
-    const imp_code code = with_root ? tree_new(m->surface, plan, &made, &own, error)
-                                    : tree_new_without_root(m->surface, plan, &made, &own, error);
+    const surface *s = surface_in_frame(m, plan->left_out, growth);
+    if (s == NULL) return error_set_memory(error);
+    const imp_code code = with_root ? tree_new(s, plan, &made, &own, error)
+                                    : tree_new_without_root(s, plan, &made, &own, error);
     if (code != IMP_SUCCESS) return code;
     *found = keep_tree(m, plan, made);
     if (*found == made) growth->nodes += own.nodes, growth->bytes += own.bytes;

@@ -6,15 +6,23 @@
 
 #include <string.h>
 
+#include "core/base/rounding.h"
 #include "core/bounds/separation.h"
 #include "core/bounds/tuning.h"
 #include "core/common/clock.h"
+#include "core/solver/world.h"
 
 /* --- The minimum distance of a task --------------------------------------------------------- */
 
 /* Part of what is required that counts as kept: between this and what is required, either answer
  * is right. */
 static double relaxed(const clearance_search *c) { return c->asked.required * (1 - 1e-6); }
+
+/* What the searches have to keep for it: room for the slip of pairs that are taken to be at rest. */
+static double searched(const clearance_search *c)
+{
+    return c->list->slip > 0 ? sum_upper(relaxed(c), 2 * c->list->slip) : relaxed(c);
+}
 
 static imp_code begin_task(clearance_search *c, imp_error *error)
 {
@@ -28,7 +36,8 @@ static imp_code begin_task(clearance_search *c, imp_error *error)
         .tolerance = c->asked.tolerance,
         .gamma = required > 0 && required < c->options.gamma ? required : c->options.gamma,
         .required = required,
-        .relaxed = relaxed(c),
+        .relaxed = searched(c),
+        .slip = c->list->slip,
         .candidates = c->list->pairs,
         .stats = c->stats};
     const imp_code code = min_distance_begin(&c->distance, p->first, p->count, error);
@@ -39,14 +48,6 @@ static imp_code begin_task(clearance_search *c, imp_error *error)
     return code;
 }
 
-static imp_side side_of(const clearance_search *c, uint32_t k, const witness *w, int side)
-{
-    const candidate *of = c->list->pairs[k].side[side];
-    imp_side s = {of->body, of->surface, w->piece[side], w->u[side], w->v[side], {0, 0, 0}};
-    memcpy(s.point, w->point[side].x, sizeof s.point);
-    return s;
-}
-
 static imp_requirement requirement_of(const clearance_search *c, double lower, double upper)
 {
     if (!(c->asked.required > 0)) return IMP_REQUIREMENT_NONE;
@@ -55,26 +56,31 @@ static imp_requirement requirement_of(const clearance_search *c, double lower, d
 }
 
 /* Takes the witness of candidate k at time t, which gives `upper`. */
-static void take_witness(const clearance_search *c, uint32_t k, const witness *w, double t,
-                         imp_clearance *answer)
+static imp_code take_witness(const clearance_search *c, uint32_t k, const witness *w, double t,
+                             imp_clearance *answer, imp_error *error)
 {
+    world_witness told;
+    const imp_code code = world_witness_of(c->scene, &c->list->pairs[k], w, t, &told, error);
+    if (code != IMP_SUCCESS) return code;
     answer->has_witness = true;
     answer->upper = w->gap_upper;
     answer->t = t;
-    answer->a = side_of(c, k, w, 0);
-    answer->b = side_of(c, k, w, 1);
+    answer->a = told.side[0];
+    answer->b = told.side[1];
     answer->has_normal = w->has_normal;
-    memcpy(answer->normal, w->normal.x, sizeof answer->normal);
+    memcpy(answer->normal, told.normal, sizeof answer->normal);
+    return IMP_SUCCESS;
 }
 
 /* What the search has found so far, into the answer. */
-static void take_bracket(const clearance_search *c, imp_clearance *answer)
+static imp_code take_bracket(const clearance_search *c, imp_clearance *answer, imp_error *error)
 {
     const min_distance *m = &c->distance;
     answer->lower = min_distance_lower(m);
     answer->upper = m->upper;
     answer->verdict = requirement_of(c, answer->lower, answer->upper);
-    if (m->upper < INFINITY) take_witness(c, m->candidate, &m->found, m->t, answer);
+    if (!(m->upper < INFINITY)) return IMP_SUCCESS;
+    return take_witness(c, m->candidate, &m->found, m->t, answer, error);
 }
 
 /* What the current task has cost. */
@@ -120,7 +126,7 @@ static void begin_violation(clearance_search *c)
 {
     const imp_clearance *answer = &c->tasks[c->current].answer;
     c->violation = (impact){.gamma = c->asked.required,
-                            .clearance = relaxed(c),
+                            .clearance = searched(c),
                             .window = {answer->t_start, answer->t_end},
                             .method = IMP_METHOD_MODELS,
                             .candidate_pairs = c->list->pairs,
@@ -158,20 +164,20 @@ static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_err
 {
     clearance_task *p = &c->tasks[c->current];
     min_distance_state state;
-    const imp_code code = min_distance_advance(&c->distance, &state, error);
+    imp_code code = min_distance_advance(&c->distance, &state, error);
     if (code != IMP_SUCCESS) return code;
     const bool running = state == MIN_DISTANCE_RUNNING;
     if (running && !ends_early(c)) {
         if (!c->takes_turns || c->unresolved || !turn_ends(c)) return IMP_SUCCESS;
-        take_bracket(c, &p->answer);
         c->stage = STAGE_VIOLATION;
-        return IMP_SUCCESS;
+        return take_bracket(c, &p->answer, error);
     }
     if (state == MIN_DISTANCE_NO_MEMORY) {
         *reason = IMP_REASON_MEMORY;
         return IMP_SUCCESS;
     }
-    take_bracket(c, &p->answer);
+    code = take_bracket(c, &p->answer, error);
+    if (code != IMP_SUCCESS) return code;
     p->answer.reason = state == MIN_DISTANCE_RESOLUTION ? IMP_REASON_RESOLUTION
                        : p->answer.has_witness          ? IMP_REASON_NONE
                                                         : reason_of_none(c);
@@ -189,17 +195,22 @@ static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_err
 
 /* --- The earliest violation, or that there is none ------------------------------------------- */
 
-static void take_violation(const clearance_search *c, imp_clearance *answer)
+static imp_code take_violation(const clearance_search *c, imp_clearance *answer, imp_error *error)
 {
     const impact *im = &c->violation;
+    const uint32_t k = im->found_candidate;
+    world_witness told;
+    imp_code code =
+        world_witness_of(c->scene, &c->list->pairs[k], &im->found, im->t_lower, &told, error);
     answer->verdict = IMP_REQUIREMENT_VIOLATED;
-    if (im->found.gap_upper < answer->upper)
-        take_witness(c, im->found_candidate, &im->found, im->t_lower, answer);
-    if (c->asked.slices > 1) return;
+    if (code == IMP_SUCCESS && im->found.gap_upper < answer->upper)
+        code = take_witness(c, k, &im->found, im->t_lower, answer, error);
+    if (code != IMP_SUCCESS || c->asked.slices > 1) return code;
     answer->t_violated = im->t_lower;
-    answer->gap_violated = im->found.gap;
-    answer->a_violated = side_of(c, im->found_candidate, &im->found, 0);
-    answer->b_violated = side_of(c, im->found_candidate, &im->found, 1);
+    answer->gap_violated = told.gap;
+    answer->a_violated = told.side[0];
+    answer->b_violated = told.side[1];
+    return IMP_SUCCESS;
 }
 
 /* Double precision ends the search for contact where a millionth of what is required is too little to be told
@@ -210,20 +221,22 @@ static void go_on_with_distance(clearance_search *c)
     c->stage = STAGE_DISTANCE;
 }
 
-static void conclude_violation(clearance_search *c, impact_state state, imp_reason *reason)
+static imp_code conclude_violation(clearance_search *c, impact_state state, imp_reason *reason,
+                                   imp_error *error)
 {
+    imp_code code = IMP_SUCCESS;
     imp_clearance *answer = &c->tasks[c->current].answer;
     switch (state) {
     case IMPACT_RUNNING:
-        if (answer->verdict != IMP_REQUIREMENT_UNDECIDED || !turn_ends(c)) return;
+        if (answer->verdict != IMP_REQUIREMENT_UNDECIDED || !turn_ends(c)) return code;
         c->takes_turns = true;
         c->stage = STAGE_DISTANCE;
-        return;
+        return code;
     case IMPACT_NO_MEMORY:
         *reason = IMP_REASON_MEMORY;
-        return;
+        return code;
     case IMPACT_CONTACT:
-        take_violation(c, answer);
+        code = take_violation(c, answer, error);
         break;
     case IMPACT_CLEAR: /* also where a witness violates it: within the room both are right */
         answer->verdict = IMP_REQUIREMENT_HOLDS;
@@ -233,12 +246,13 @@ static void conclude_violation(clearance_search *c, impact_state state, imp_reas
         if (answer->verdict == IMP_REQUIREMENT_UNDECIDED) {
             c->unresolved = true;
             go_on_with_distance(c);
-            return;
+            return code;
         }
         answer->reason = IMP_REASON_RESOLUTION;
         break;
     }
     finish_task(c, answer->reason);
+    return code;
 }
 
 /* Whether a candidate pair is too far apart to matter; a clearance's list has pairs at any
@@ -247,7 +261,7 @@ static bool is_far(const clearance_search *c, size_t k)
 {
     const candidate_pair *both = &c->list->pairs[k];
     const node *a = tree_root(both->side[0]->tree), *b = tree_root(both->side[1]->tree);
-    return a->bounded && b->bounded && separation_of_boxes(a, b, relaxed(c));
+    return a->bounded && b->bounded && separation_of_boxes(a, b, searched(c));
 }
 
 static imp_code search_violation(clearance_search *c, imp_reason *reason, imp_error *error)
@@ -265,8 +279,7 @@ static imp_code search_violation(clearance_search *c, imp_reason *reason, imp_er
     } else {
         code = impact_advance(&c->violation, &state, error);
     }
-    if (code == IMP_SUCCESS) conclude_violation(c, state, reason);
-    return code;
+    return code == IMP_SUCCESS ? conclude_violation(c, state, reason, error) : code;
 }
 
 /* --- All tasks ------------------------------------------------------------------------------- */
@@ -302,14 +315,17 @@ clearance_state clearance_look(const clearance_search *c)
 
 size_t clearance_count(const clearance_search *c) { return c->count; }
 
-imp_clearance clearance_answer(const clearance_search *c, size_t index, imp_reason reason)
+imp_code clearance_answer(const clearance_search *c, size_t index, imp_reason reason,
+                          imp_clearance *answer, imp_error *error)
 {
-    imp_clearance answer = c->tasks[index].answer;
-    if (c->tasks[index].done) return answer;
-    if (index == c->current && c->stage == STAGE_DISTANCE) take_bracket(c, &answer);
-    if (index == c->current && c->stage != STAGE_NEXT) answer.stats = cost(c);
-    if (c->asked.required > 0 && answer.verdict == IMP_REQUIREMENT_NONE)
-        answer.verdict = IMP_REQUIREMENT_UNDECIDED; /* not begun */
-    answer.reason = reason;
-    return answer;
+    const bool is_current = index == c->current && c->stage != STAGE_NEXT;
+    imp_code code = IMP_SUCCESS;
+    *answer = c->tasks[index].answer;
+    if (c->tasks[index].done) return code;
+    if (is_current && c->stage == STAGE_DISTANCE) code = take_bracket(c, answer, error);
+    if (is_current) answer->stats = cost(c);
+    if (c->asked.required > 0 && answer->verdict == IMP_REQUIREMENT_NONE)
+        answer->verdict = IMP_REQUIREMENT_UNDECIDED; /* not begun */
+    answer->reason = reason;
+    return code;
 }

@@ -22,6 +22,7 @@ imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options 
 imp_code clearance_part(const clearance_search *whole, const size_t body[2],
                         clearance_search **made, imp_error *error);
 bool clearance_is_each(const clearance_search *c);
+bool clearance_is_of_all_times(const clearance_search *c); /* not of slices */
 void clearance_free(clearance_search *c);
 
 /* Divides the candidates, which must outlive it like `stats`, into tasks. */
@@ -41,6 +42,7 @@ clearance_state clearance_look(const clearance_search *c);
 size_t clearance_count(const clearance_search *c);
 
 /* `reason` is given to tasks that are not done. */
-imp_clearance clearance_answer(const clearance_search *c, size_t index, imp_reason reason);
+imp_code clearance_answer(const clearance_search *c, size_t index, imp_reason reason,
+                          imp_clearance *answer, imp_error *error);
 
 #endif

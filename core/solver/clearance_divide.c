@@ -114,6 +114,8 @@ imp_code clearance_part(const clearance_search *whole, const size_t body[2],
 
 bool clearance_is_each(const clearance_search *c) { return c->asked.each; }
 
+bool clearance_is_of_all_times(const clearance_search *c) { return c->asked.slices == 1; }
+
 void clearance_free(clearance_search *c)
 {
     if (c == NULL) return;

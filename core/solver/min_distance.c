@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 
+#include "core/base/rounding.h"
 #include "core/base/status.h"
 #include "core/bounds/distance.h"
 #include "core/bounds/separation.h"
@@ -45,8 +46,9 @@ static double waiting(const min_distance *m)
 
 double min_distance_lower(const min_distance *m)
 {
-    const double aside = settled(m), next = waiting(m);
-    return aside < next ? aside : next;
+    const double aside = settled(m), next = waiting(m), lower = aside < next ? aside : next;
+    if (!(m->slip > 0)) return lower;
+    return lower > m->slip ? difference_lower(lower, m->slip) : 0;
 }
 
 /* --- Beginning ------------------------------------------------------------------------------ */

@@ -21,6 +21,7 @@ typedef struct min_distance {
     double gamma;     /* or when upper is no more than this; length */
     double required;  /* or, if > 0, not before upper <= required or lower >= relaxed; length */
     double relaxed;   /* a little below what is required */
+    double slip;      /* what is proved of the candidates holds of the surfaces but for this; length */
     candidate_pair *candidates; /* the caller's */
     imp_stats *stats;           /* the caller's; bytes: of the trees, without the heap */
     /* kept */
@@ -48,7 +49,7 @@ imp_code min_distance_begin(min_distance *m, size_t first, size_t count, imp_err
 /* Takes one pair and follows it one step. */
 imp_code min_distance_advance(min_distance *m, min_distance_state *state, imp_error *error);
 
-/* What is proved so far; INFINITY if there are no candidates. */
+/* What is proved so far of the surfaces; INFINITY if there are no candidates. */
 double min_distance_lower(const min_distance *m);
 
 void min_distance_clear(min_distance *m);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/base/fp_mode.h"
+#include "core/base/rounding.h"
 #include "core/base/sized.h"
 #include "core/base/status.h"
 #include "core/common/clock.h"
@@ -73,6 +74,7 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
     *query = (imp_query){.scene = scene,
                          .scene_bytes = scene_bytes(scene),
                          .options = *options,
+                         .gamma_clear = clearance,
                          .examined = examined,
                          .impact = {.gamma = options->gamma,
                                     .clearance = clearance,
@@ -134,11 +136,11 @@ imp_reason query_reason_of_clear(const imp_query *query)
 static bool is_at_rest(const imp_query *query, int side)
 {
     const candidate *c = query->candidates.pairs[query->impact.found_candidate].side[side];
-    const surface *s = tree_surface(c->tree);
+    const surface *s = scene_surface(query->scene, c->body, c->surface);
     const imp_region *times = &tree_root(c->tree)->region;
     double lo[3], hi[3];
     imp_rate_matrix rates;
-    if (c->moves) return false;
+    if (c->moves && c->left_out == 0) return false;
     if (surface_piece_count(s) > 0) s = surface_piece(s, query->impact.found.piece[side]);
     surface_domain(s, lo, hi);
     lo[2] = times->lo[2], hi[2] = times->hi[2];
@@ -149,15 +151,22 @@ static bool is_at_rest(const imp_query *query, int side)
     return rests;
 }
 
-static void conclude(imp_query *query, impact_state state)
+static imp_code conclude_contact(imp_query *query, imp_error *error)
+{
+    const impact *im = &query->impact;
+    const candidate_pair *both = &query->candidates.pairs[im->found_candidate];
+    query_finish(query, IMP_CONTACT, IMP_REASON_NONE);
+    query->at_rest = is_at_rest(query, 0) && is_at_rest(query, 1);
+    return world_witness_of(query->scene, both, &im->found, im->t_lower, &query->contact, error);
+}
+
+static imp_code conclude(imp_query *query, impact_state state, imp_error *error)
 {
     switch (state) {
     case IMPACT_RUNNING:
         break;
     case IMPACT_CONTACT:
-        query_finish(query, IMP_CONTACT, IMP_REASON_NONE);
-        query->at_rest = is_at_rest(query, 0) && is_at_rest(query, 1);
-        break;
+        return conclude_contact(query, error);
     case IMPACT_CLEAR:
         query_finish(query, IMP_CLEAR, query_reason_of_clear(query));
         break;
@@ -168,6 +177,7 @@ static void conclude(imp_query *query, impact_state state)
         query_finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
         break;
     }
+    return IMP_SUCCESS;
 }
 
 static void note_bytes(imp_query *query, uint64_t of_candidates)
@@ -207,8 +217,7 @@ static imp_code search_contact(imp_query *query, imp_error *error)
     } else {
         code = impact_advance(&query->impact, &state, error);
     }
-    if (code == IMP_SUCCESS) conclude(query, state);
-    return code;
+    return code == IMP_SUCCESS ? conclude(query, state, error) : code;
 }
 
 static imp_code work(imp_query *query, imp_error *error)
@@ -291,6 +300,13 @@ static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
             c->seconds_before + (clock_seconds() - c->start) >= options->max_seconds);
 }
 
+/* Below this nothing is to be missed: what is asked for, and the slip of pairs that are taken to be at rest. */
+static double query_clearance(const imp_query *query, double gamma_clear)
+{
+    const double slip = query->candidates.slip;
+    return slip > 0 ? sum_upper(gamma_clear, slip) : gamma_clear;
+}
+
 /* What a limit ends begins anew with the next step. Where the minimum distance is asked for, all
  * surfaces count, however far apart. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
@@ -298,8 +314,10 @@ imp_code query_collect(imp_query *query, double start, imp_error *error)
     const double near = query->clearance == NULL ? query->impact.clearance : INFINITY;
     collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
+    const bool may_rest = query->clearance == NULL || clearance_is_of_all_times(query->clearance);
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options, near,
-                                          &limit, &query->stats, error);
+                                          may_rest, &limit, &query->stats, error);
+    query->impact.clearance = query_clearance(query, query->gamma_clear);
     query->impact.candidate_pairs = query->candidates.pairs;
     query->impact.candidate_pair_count = query->candidates.pair_count;
     if (code == IMP_SUCCESS && !query->candidates.complete)
@@ -364,13 +382,15 @@ FP_APART static imp_code refine(imp_query *query, double gamma, double clearance
     if (query->clearance != NULL)
         return error_set(error, IMP_ERROR_USAGE, "refine: this query asks for a minimum distance");
     if (check_tolerances(gamma, &clearance, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
-    if (gamma > query->impact.gamma || clearance > query->impact.clearance)
+    if (gamma > query->impact.gamma || clearance > query->gamma_clear)
         return error_set(
             error, IMP_ERROR_USAGE,
             "refine: gamma %g and clearance %g may not exceed those in force, %g and %g", gamma,
-            clearance, query->impact.gamma, query->impact.clearance);
-    if (!impact_refine(&query->impact, gamma, clearance, query->candidates.pair_count))
+            clearance, query->impact.gamma, query->gamma_clear);
+    if (!impact_refine(&query->impact, gamma, query_clearance(query, clearance),
+                       query->candidates.pair_count))
         return error_set_memory(error);
+    query->gamma_clear = clearance;
     if (query->verdict == IMP_CONTACT) query_finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;
 }

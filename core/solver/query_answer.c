@@ -9,15 +9,6 @@
 #include "core/base/status.h"
 #include "core/solver/query_internal.h"
 
-static imp_side side_of(const imp_query *query, int side)
-{
-    const candidate *of = query->candidates.pairs[query->impact.found_candidate].side[side];
-    const witness *w = &query->impact.found;
-    imp_side s = {of->body, of->surface, w->piece[side], w->u[side], w->v[side], {0, 0, 0}};
-    memcpy(s.point, w->point[side].x, sizeof s.point);
-    return s;
-}
-
 static size_t unresolved(const imp_query *query, int side)
 {
     return query->candidates.pairs[query->impact.found_candidate].side[side]->body;
@@ -33,7 +24,7 @@ static imp_result result_of(const imp_query *query)
                     .t_lower = im->t_lower,
                     .gap = NAN,
                     .gamma = im->gamma,
-                    .gamma_clear = im->clearance,
+                    .gamma_clear = query->gamma_clear,
                     .stats = query->stats,
                     .t_start = query->options.t_start,
                     .t_end = query->options.t_end,
@@ -48,11 +39,11 @@ static imp_result result_of(const imp_query *query)
     if (r.verdict != IMP_CONTACT) return r;
     r.at_rest = query->at_rest;
     r.t = im->t_lower;
-    r.gap = im->found.gap;
-    r.a = side_of(query, 0);
-    r.b = side_of(query, 1);
+    r.gap = query->contact.gap;
+    r.a = query->contact.side[0];
+    r.b = query->contact.side[1];
     r.has_normal = im->found.has_normal;
-    memcpy(r.normal, im->found.normal.x, sizeof r.normal);
+    memcpy(r.normal, query->contact.normal, sizeof r.normal);
     return r;
 }
 

@@ -60,9 +60,10 @@ FP_APART static imp_code read_answer(const imp_query *query, size_t index, imp_c
     if (index >= count)
         return error_set(error, IMP_ERROR_USAGE, "answer: got %zu, must be below %zu", index,
                          count);
-    const imp_clearance own = clearance_answer(query->clearance, index, query->reason);
-    sized_write(answer, &own);
-    return IMP_SUCCESS;
+    imp_clearance own;
+    const imp_code read = clearance_answer(query->clearance, index, query->reason, &own, error);
+    if (read == IMP_SUCCESS) sized_write(answer, &own);
+    return read;
 }
 
 imp_code imp_clearance_read(const imp_query *query, size_t index, imp_clearance *answer,

@@ -8,6 +8,7 @@
 #include "core/broad_phase/examined_times.h"
 #include "core/solver/clearance.h"
 #include "core/solver/time_of_impact.h"
+#include "core/solver/world.h"
 
 /* What the files of the query share: query.c runs it, query_divide.c divides it, query_answer.c
  * and query_clearance.c tell how far it has come. */
@@ -17,12 +18,14 @@ struct imp_query {
     imp_options options;
     examined_times examined;
     imp_stats stats;      /* bytes: of the trees, without the heap */
+    double gamma_clear;   /* asked for; the search has room for slips beside it; length */
     uint64_t scene_bytes; /* 0 in a part of a divided query, which counts them */
     uint64_t peak_bytes;
     double next_report; /* seconds spent when options.progress is called next */
     bool failed;
     imp_verdict verdict;
-    bool at_rest; /* CONTACT: of two surfaces that do not move */
+    bool at_rest;          /* CONTACT: of two surfaces that do not move, */
+    world_witness contact; /* found here */
     imp_reason reason;
     atomic_bool cancelled;
     candidate_list candidates;

@@ -59,9 +59,35 @@ imp_code surface_add_map(surface *s, const imp_map_type *type, void *self)
     return code;
 }
 
+surface *surface_new_inner(const surface *s, size_t maps)
+{
+    assert(maps <= s->map_count);
+    surface *inner = malloc(sizeof *inner);
+    if (inner == NULL) return NULL;
+    *inner = *s;
+    inner->outer = s;
+    inner->map_count = maps;
+    if (s->pieces == NULL) return inner;
+    inner->pieces = malloc(s->piece_count * sizeof *inner->pieces);
+    for (size_t k = 0; inner->pieces != NULL && k < s->piece_count; ++k) {
+        inner->pieces[k] = s->pieces[k];
+        inner->pieces[k].whole = inner;
+        inner->pieces[k].outer = &s->pieces[k];
+        inner->pieces[k].map_count = maps;
+    }
+    if (inner->pieces != NULL) return inner;
+    free(inner);
+    return NULL;
+}
+
 void surface_free(surface *s)
 {
     if (s == NULL) return;
+    if (s->outer != NULL) {
+        free(s->pieces);
+        free(s);
+        return;
+    }
     for (size_t k = 0; k < s->map_count; ++k) instance_release(s->maps[k].origin);
     free(s->maps);
     free(s->pieces);
@@ -94,8 +120,9 @@ imp_code surface_divide(surface *s)
 
 size_t surface_bytes(const surface *s)
 {
-    size_t bytes = sizeof *s + INSTANCE_BLOCK + s->piece_count * sizeof *s->pieces +
-                   s->map_capacity * sizeof *s->maps + instance_bytes(s->origin) / s->origin->holders;
+    size_t bytes = sizeof *s + INSTANCE_BLOCK + s->piece_count * sizeof *s->pieces;
+    if (s->outer != NULL) return bytes;
+    bytes += s->map_capacity * sizeof *s->maps + instance_bytes(s->origin) / s->origin->holders;
     for (size_t k = 0; k < s->map_count; ++k)
         bytes += instance_bytes(s->maps[k].origin) / s->maps[k].origin->holders;
     return bytes;
@@ -121,13 +148,14 @@ void surface_set_body(surface *s, const char *body, size_t index)
     for (size_t k = 0; k < s->piece_count; ++k) surface_set_body(&s->pieces[k], body, index);
 }
 
-/* Of the type and all maps. */
+/* Names the type and all maps, those that an inner surface leaves out included. */
 static void label_of(const surface *s, char label[INSTANCE_LABEL_MAX])
 {
+    const surface *whole = s->outer != NULL ? s->outer : s;
     label[0] = '\0';
-    for (size_t k = 0; k <= s->map_count; ++k) {
+    for (size_t k = 0; k <= whole->map_count; ++k) {
         if (k > 0) instance_label_add(label, " ! ");
-        instance_label_add(label, instance_label(k == 0 ? s->origin : s->maps[k - 1].origin));
+        instance_label_add(label, instance_label(k == 0 ? whole->origin : whole->maps[k - 1].origin));
     }
 }
 

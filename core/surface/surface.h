@@ -22,6 +22,10 @@ imp_code surface_add_instance(surface *s, shared_instance *map);
 surface *surface_new(const imp_surface_type *type, void *self);
 imp_code surface_add_map(surface *s, const imp_map_type *type, void *self);
 
+/* The surface under its first `maps` maps alone, divided into pieces where `s` is. It has the times of `s`,
+ * which must outlive it. NULL: no memory. */
+surface *surface_new_inner(const surface *s, size_t maps);
+
 void surface_free(surface *s);
 
 /* Where its type's instance consists of pieces: makes a surface of each, under the same maps. No map
@@ -155,8 +159,22 @@ imp_status surface_distance_within(const surface *s, const imp_region *region, s
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double *slip);
 
+/* How much the distance of two surfaces may differ at other times from what it is at the moment, which is one of
+ * the times; INFINITY: nothing is known. It is mere rounding where both turn only within themselves, or as one
+ * of them can be turned within itself: rollers, a shaft in its bore. `bare` holds models of all points of each
+ * before its maps, of which the ranges are used; neither moves by itself. */
+imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
+                             const imp_region *times, double moment, double *slip);
+
 /* How many maps, counted from the last, are the same instances on both. */
 size_t surface_common_maps(const surface *a, const surface *b);
+
+/* How many of these, counted from the last, are rigid in exact arithmetic (IMP_TURNS_EXACTLY): the distance of
+ * two points is the same before and after them. */
+size_t surface_common_motion(const surface *a, const surface *b);
+
+/* What the maps after the first `maps` make of a point at time t, in place. */
+imp_status surface_move_outward(const surface *s, size_t maps, double t, double x[3]);
 
 size_t surface_map_count(const surface *s);
 

@@ -31,6 +31,16 @@ size_t surface_common_maps(const surface *a, const surface *b)
     return n;
 }
 
+size_t surface_common_motion(const surface *a, const surface *b)
+{
+    const size_t common = surface_common_maps(a, b);
+    size_t n = 0;
+    while (n < common && instance_offers_pose(a->maps[a->map_count - 1 - n].type) &&
+           map_turns_exactly(&a->maps[a->map_count - 1 - n]))
+        ++n;
+    return n;
+}
+
 imp_status surface_still_maps(const surface *s, const imp_region *region, size_t *count)
 {
     imp_pose pose;

@@ -32,6 +32,7 @@ struct surface {
     surface *pieces;     /* piece_count of them, which share origin and maps; or NULL */
     size_t piece_count;
     const surface *whole; /* what it is a piece of, or NULL */
+    const surface *outer; /* whose type and first maps it shares without holding them, or NULL */
 };
 
 /* 0 for a finite x, else NaN: a sum of these is 0 only if all are finite, and costs no branches. */

@@ -106,6 +106,15 @@ imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, 
     return eval_under(s, s->map_count, n, p, x, error);
 }
 
+imp_status surface_move_outward(const surface *s, size_t maps, double t, double x[3])
+{
+    const double p[3] = {0, 0, t};
+    imp_status status = IMP_OK;
+    for (size_t k = maps; k < s->map_count && status == IMP_OK; ++k)
+        status = batch_through_map(&s->maps[k], 1, p, x, NULL);
+    return status;
+}
+
 /* --- Rates ---------------------------------------------------------------------- */
 
 imp_status surface_box_around(const surface *s, const imp_region *region,

@@ -31,6 +31,7 @@ static bool is_sane(const imp_symmetry *found)
         if (!isfinite(found->center[i]) || !isfinite(found->axis[i])) return false;
         if (fabs(found->axis[i]) > most) most = fabs(found->axis[i]);
     }
+    if (found->is_closed > 1) return false;
     return found->kind == IMP_SYMMETRIC_ABOUT_POINT || (most > AXIS_LEAST && most < AXIS_MOST);
 }
 
@@ -124,7 +125,9 @@ typedef struct seen {
 
 typedef struct question {
     const surface *a, *b;
-    size_t a_maps, b_maps; /* of either, without those that both end with */
+    size_t a_maps, b_maps;   /* of either, without those that both end with */
+    size_t a_still, b_still; /* the first of these, which are taken at one moment, `then` */
+    imp_region then;
     imp_symmetry found;    /* of b */
     const imp_model *bare; /* a before its maps */
 } question;
@@ -137,6 +140,19 @@ static imp_status pose_of(const surface *s, size_t k, const imp_region *times, i
     if (status == IMP_OK)
         *d = map_turns_exactly(&s->maps[k]) ? 0 : surface_pose_deviation_upper(pose);
     return status == IMP_OK && !(*d <= 0.5) ? IMP_UNBOUNDED : status;
+}
+
+/* The pose of a's map k, and of b's, at these times. */
+static imp_status pose_of_a(const question *q, size_t k, const imp_region *times, imp_pose *pose,
+                            double *d)
+{
+    return pose_of(q->a, k, k < q->a_still ? &q->then : times, pose, d);
+}
+
+static imp_status pose_of_b(const question *q, size_t k, const imp_region *times, imp_pose *pose,
+                            double *d)
+{
+    return pose_of(q->b, k, k < q->b_still ? &q->then : times, pose, d);
 }
 
 /* But for what points are off by. */
@@ -153,11 +169,11 @@ static imp_status see_features(const question *q, const imp_region *times, seen 
     }
     x->feature[0].off = x->feature[1].off = x->off = 0;
     for (size_t k = 0; k < q->b_maps && status == IMP_OK; ++k) {
-        status = pose_of(q->b, k, times, &pose, &d);
+        status = pose_of_b(q, k, times, &pose, &d);
         for (int f = 0; f < features && status == IMP_OK; ++f) push(&pose, d, &x->feature[f]);
     }
     for (size_t k = q->a_maps; k-- > 0 && status == IMP_OK;) {
-        status = pose_of(q->a, k, times, &pose, &d);
+        status = pose_of_a(q, k, times, &pose, &d);
         for (int f = 0; f < features && status == IMP_OK; ++f) pull(&pose, d, &x->feature[f]);
     }
     if (status != IMP_OK) return status;
@@ -175,11 +191,11 @@ static imp_status see(const question *q, const imp_region *times, seen *x)
     imp_status status = see_features(q, times, x);
     for (int i = 0; i < 3; ++i) y.at[i] = imp_between(q->bare[i].lo, q->bare[i].hi);
     for (size_t k = 0; k < q->a_maps && status == IMP_OK; ++k) {
-        status = pose_of(q->a, k, times, &pose, &d);
+        status = pose_of_a(q, k, times, &pose, &d);
         if (status == IMP_OK) push(&pose, d, &y);
     }
     for (size_t k = q->b_maps; k-- > 0 && status == IMP_OK;) {
-        status = pose_of(q->b, k, times, &pose, &d);
+        status = pose_of_b(q, k, times, &pose, &d);
         if (status == IMP_OK) pull_truly(&pose, d, &y);
     }
     x->off = y.off;
@@ -283,29 +299,154 @@ static imp_status give_up(const question *q, const imp_region *still, const imp_
     return status;
 }
 
+/* *slip as found for the question, whose symmetry is known; INFINITY where the motion is none of its kind. */
+static imp_status answer(const question *q, const imp_region *times, double *slip)
+{
+    question center = *q;
+    bool given_up = false;
+    seen then;
+    imp_status status = IMP_OK;
+    *slip = INFINITY;
+    center.found.kind = IMP_SYMMETRIC_ABOUT_POINT;
+    /* Rotations about a line keep its center, which alone costs less to see. */
+    if (q->found.kind == IMP_SYMMETRIC_ABOUT_LINE)
+        status = give_up(&center, &q->then, times, &given_up);
+    if (status == IMP_OK && !given_up) status = give_up(q, &q->then, times, &given_up);
+    if (given_up) return IMP_OK;
+    if (status == IMP_OK) status = see(q, &q->then, &then);
+    if (status == IMP_OK) {
+        *slip = 0;
+        status = slip_over(q, &then, times, HALVINGS, slip);
+    }
+    if (status != IMP_OK || !(*slip >= 0)) *slip = INFINITY;
+    return status == IMP_UNBOUNDED ? IMP_OK : status;
+}
+
+static bool moves_rigidly(const surface *s) { return s->map_count == 0 || surface_is_rigid(s); }
+
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double *slip)
 {
     const size_t common = surface_common_maps(a, b);
-    question q = {a, b, a->map_count - common, b->map_count - common, {0}, bare};
-    const imp_region still = at_times(times, moment, moment);
-    seen then;
+    question q = {.a = a,
+                  .b = b,
+                  .a_maps = a->map_count - common,
+                  .b_maps = b->map_count - common,
+                  .then = at_times(times, moment, moment),
+                  .bare = bare};
     *slip = INFINITY;
-    if ((!surface_is_rigid(a) && a->map_count > 0) || q.a_maps + q.b_maps == 0) return IMP_OK;
-    imp_status status = symmetry_of(b, &q.found);
-    question center = q;
-    center.found.kind = IMP_SYMMETRIC_ABOUT_POINT;
-    bool given_up = false;
-    /* Rotations about a line keep its center, which alone costs less to see. */
-    if (status == IMP_OK && q.found.kind == IMP_SYMMETRIC_ABOUT_LINE)
-        status = give_up(&center, &still, times, &given_up);
-    if (status == IMP_OK && !given_up) status = give_up(&q, &still, times, &given_up);
-    if (given_up) return IMP_OK;
-    if (status == IMP_OK) status = see(&q, &still, &then);
-    if (status == IMP_OK) {
-        *slip = 0;
-        status = slip_over(&q, &then, times, HALVINGS, slip);
-    }
-    if (status != IMP_OK || !(*slip >= 0)) *slip = INFINITY;
+    if (!moves_rigidly(a) || q.a_maps + q.b_maps == 0) return IMP_OK;
+    const imp_status status = symmetry_of(b, &q.found);
+    if (status == IMP_OK) return answer(&q, times, slip);
     return status == IMP_UNBOUNDED ? IMP_OK : status;
+}
+
+/* --- Pairs that turn within themselves ------------------------------------------------------------- */
+
+/* The rotations that keep the whole surface. IMP_UNBOUNDED: none are known. */
+static imp_status closed_symmetry_of(const surface *s, imp_symmetry *found)
+{
+    if (!instance_offers_symmetry(s->type)) return IMP_UNBOUNDED;
+    const imp_status status = symmetry_of(s, found);
+    if (status != IMP_OK) return status;
+    if (!found->is_closed) return IMP_UNBOUNDED;
+    if (found->kind != IMP_SYMMETRIC_ABOUT_POINT) found->kind = IMP_SYMMETRIC_ABOUT_LINE;
+    return IMP_OK;
+}
+
+/* Lemma. Let P(t) be what the first maps of s do. In the lemma of slip_upper let b be s under these maps, and a
+ * what they make of s at the moment, at rest. Then the points of P(t0) s are within `slip` of P(t) s, and those
+ * of P(t) s of P(t0) s: F, which takes one center and axis to the other, moves neither
+ * farther. So s may stay as it is at the moment under these maps, if `slip` is added to what is proved. */
+static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetry *found,
+                                const imp_model bare[3], const imp_region *times,
+                                const imp_region *then, double *slip)
+{
+    imp_model there[3];
+    surface rest = {.map_count = 0};
+    memcpy(there, bare, sizeof there);
+    for (size_t k = 0; k < maps; ++k) {
+        imp_pose pose;
+        double d;
+        carried y = {.off = 0};
+        const imp_status status = pose_of(s, k, then, &pose, &d);
+        if (status != IMP_OK) return status;
+        memcpy(y.at, there, sizeof y.at);
+        push(&pose, d, &y);
+        for (int i = 0; i < 3; ++i) {
+            const imp_interval range = imp_model_range(&y.at[i]);
+            there[i] = imp_between(difference_lower(range.lo, y.off), sum_upper(range.hi, y.off));
+        }
+    }
+    const question q = {
+        .a = &rest, .b = s, .b_maps = maps, .then = *then, .found = *found, .bare = there};
+    return answer(&q, times, slip);
+}
+
+/* How many of the first maps only turn s within itself, and what that may be off by; what is sought is more than
+ * one map only where the first alone is none. */
+static imp_status first_maps_within(const surface *s, const imp_model bare[3],
+                                    const imp_region *times, const imp_region *then, size_t *maps,
+                                    double *slip)
+{
+    imp_symmetry found;
+    imp_status status = closed_symmetry_of(s, &found);
+    *maps = 0;
+    *slip = 0;
+    if (status != IMP_OK) return status == IMP_UNBOUNDED ? IMP_OK : status;
+    for (size_t k = s->map_count; k > 0; --k) {
+        double found_slip;
+        status = slip_of_first(s, k, &found, bare, times, then, &found_slip);
+        if (status != IMP_OK && status != IMP_UNBOUNDED) return status;
+        if (status != IMP_OK || !(found_slip < INFINITY)) continue;
+        *maps = k;
+        *slip = found_slip;
+        return IMP_OK;
+    }
+    return IMP_OK;
+}
+
+/* What is left of a's motion as b sees it: within b's closed symmetry but for *slip. */
+static imp_status slip_of_rest(const surface *const s[2], const size_t still[2],
+                               const imp_model *bare, const imp_region *times,
+                               const imp_region *then, double *slip)
+{
+    question q = {.a = s[0],
+                  .b = s[1],
+                  .a_maps = s[0]->map_count,
+                  .b_maps = s[1]->map_count,
+                  .a_still = still[0],
+                  .b_still = still[1],
+                  .then = *then,
+                  .bare = bare};
+    *slip = INFINITY;
+    imp_status status = closed_symmetry_of(s[1], &q.found);
+    if (status == IMP_OK) status = answer(&q, times, slip);
+    return status == IMP_UNBOUNDED ? IMP_OK : status;
+}
+
+imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
+                             const imp_region *times, double moment, double *slip)
+{
+    const imp_region then = at_times(times, moment, moment);
+    size_t still[2];
+    double own[2], rest = 0;
+    *slip = INFINITY;
+    if (!moves_rigidly(s[0]) || !moves_rigidly(s[1])) return IMP_OK;
+    for (int k = 0; k < 2; ++k) {
+        const imp_status status =
+            first_maps_within(s[k], bare[k], times, &then, &still[k], &own[k]);
+        if (status != IMP_OK) return status;
+    }
+    if (still[0] < s[0]->map_count || still[1] < s[1]->map_count) {
+        imp_status status = slip_of_rest(s, still, bare[0], times, &then, &rest);
+        if (status == IMP_OK && !(rest < INFINITY)) {
+            const surface *const turned[2] = {s[1], s[0]};
+            status = slip_of_rest(turned, (size_t[2]){still[1], still[0]}, bare[1], times, &then,
+                                  &rest);
+        }
+        if (status != IMP_OK) return status;
+    }
+    *slip = sum_upper(sum_upper(own[0], own[1]), rest);
+    return IMP_OK;
 }

@@ -83,6 +83,7 @@ typedef struct tree_plan {
     tree_kind kind;
     double t_start, t_end; /* within the surface's domain */
     node_audit audit;      /* may be NULL */
+    size_t left_out;       /* maps of the surface that its nodes are not under, counted from the last */
 } tree_plan;
 
 /* What calls have made, summed up. */

@@ -92,6 +92,7 @@ static imp_status cone_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const cone_instance *s = self;
     symmetry->kind = IMP_SYMMETRIC_ABOUT_LINE;
+    symmetry->is_closed = 1;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_OK;

@@ -66,6 +66,7 @@ static imp_status cylinder_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const cylinder_instance *s = self;
     symmetry->kind = IMP_SYMMETRIC_ALONG_LINE;
+    symmetry->is_closed = 1;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_OK;

@@ -103,6 +103,7 @@ static imp_status ellipsoid_symmetry(const void *self, imp_symmetry *symmetry)
     const ellipsoid_instance *s = self;
     const double *r = s->radii;
     memcpy(symmetry->center, s->center, sizeof s->center);
+    symmetry->is_closed = 1;
     symmetry->kind =
         r[0] == r[1] && r[1] == r[2] ? IMP_SYMMETRIC_ABOUT_POINT : IMP_SYMMETRIC_ABOUT_LINE;
     for (int i = 0; i < 3; ++i)

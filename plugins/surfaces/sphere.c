@@ -67,6 +67,7 @@ static imp_status sphere_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const sphere_instance *s = self;
     symmetry->kind = IMP_SYMMETRIC_ABOUT_POINT;
+    symmetry->is_closed = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_OK;
 }

@@ -74,6 +74,7 @@ static imp_status torus_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const torus_instance *s = self;
     symmetry->kind = IMP_SYMMETRIC_ABOUT_LINE;
+    symmetry->is_closed = 1;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_OK;

@@ -239,11 +239,14 @@ enum {
     IMP_SYMMETRIC_ACROSS_LINE = 4  /* these rotations, and translations perpendicular to the line */
 };
 
+/* is_closed claims more: each rotation of the kind takes the surface itself, all u and v of its domain, to
+ * itself. A cylinder all around is closed, one half of it is not (a full turn needs IMP_TWO_PI_UPPER). Two
+ * bodies that only turn so are as far apart at one time as at another. */
 typedef struct imp_symmetry {
-    uint32_t kind;     /* one of these */
-    uint32_t reserved; /* 0 */
-    double center[3];  /* length */
-    double axis[3];    /* some component from 1e-100 to 1e100 */
+    uint32_t kind;      /* one of these */
+    uint32_t is_closed; /* 0 or 1 */
+    double center[3];   /* length */
+    double axis[3];     /* some component from 1e-100 to 1e100 */
 } imp_symmetry;
 
 /* --- Types ------------------------------------------------------------------------ */

@@ -75,7 +75,7 @@ static void regions(void)
     NUMBER(IMP_SYMMETRIC_ABOUT_POINT), NUMBER(IMP_SYMMETRIC_ABOUT_LINE);
     NUMBER(IMP_SYMMETRIC_ALONG_LINE), NUMBER(IMP_SYMMETRIC_ACROSS_LINE);
     FIXED(imp_symmetry);
-    FIELD(imp_symmetry, kind), FIELD(imp_symmetry, reserved);
+    FIELD(imp_symmetry, kind), FIELD(imp_symmetry, is_closed);
     FIELD(imp_symmetry, center), FIELD(imp_symmetry, axis);
 }
 

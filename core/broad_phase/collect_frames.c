@@ -1,0 +1,240 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/base/status.h"
+#include "core/bounds/time_window.h"
+#include "core/broad_phase/collection.h"
+#include "core/common/array.h"
+
+/* Pairs in the frame that both surfaces move in, and at rest where they only turn within themselves
+ * =============================================
+ * Lemma. Let both surfaces of a pair end with the same maps, each of which is x -> R(t) x + c(t) with an exact
+ * rotation R(t). At each time such a map changes the distance of no two points, so two points are as far
+ * apart before these maps as after them. All that is proved of the surfaces without these maps (a time before
+ * which nothing is near, a gap, a minimum distance) holds for the surfaces under all of their maps, with
+ * the same u, v and t. Times at which one of these maps does not exist are in no tree: a tree has the times of
+ * the whole surface.
+ *
+ * Parts that a moving body carries are then at rest, and cost as little as bodies at rest. Which maps are the
+ * same is seen by their instances: a parent's are shared, and the reader shares equal maps.
+ *
+ * Lemma. Let the distance of two surfaces at any time differ by at most s from what it is at a moment
+ * (surface_pair_slip). If it is above c + s at the moment, it is above c at all times; a contact at the moment,
+ * the first of both, is the earliest. So such a pair has trees of that moment alone. */
+
+/* A surface in one frame: candidate `of` as `view` says. */
+typedef struct frame {
+    size_t of;
+    size_t next; /* of the same candidate, or NONE */
+    surface_view view;
+    candidate made;
+} frame;
+
+#define NONE SIZE_MAX
+
+typedef struct frame_list {
+    frame *at;
+    size_t count, capacity;
+    size_t *first;       /* of each candidate, or NONE */
+    size_t (*of_pair)[2]; /* frames of its two sides */
+} frame_list;
+
+size_t collection_common_motion(const imp_scene *scene)
+{
+    const surface *first = NULL;
+    size_t common = 0;
+    for (size_t b = 0; b < scene_body_count(scene); ++b)
+        for (size_t k = 0; k < scene_surface_count(scene, b); ++k) {
+            const surface *s = scene_surface(scene, b, k);
+            const size_t n = surface_common_motion(first != NULL ? first : s, s);
+            if (first == NULL || n < common) common = n;
+            if (first == NULL) first = s;
+            if (common == 0) return 0;
+        }
+    return common;
+}
+
+/* --- What a pair needs ------------------------------------------------------------------------- */
+
+static size_t motion_of(const candidate_pair *p)
+{
+    return surface_common_motion(tree_surface(p->side[0]->tree), tree_surface(p->side[1]->tree));
+}
+
+/* Whether one of both can be turned within itself, and both may be at rest but for that. */
+static bool may_turn_within(const collection *all, const candidate_pair *p)
+{
+    if (all->slip_most < 0) return false;
+    const surface *const s[2] = {tree_surface(p->side[0]->tree), tree_surface(p->side[1]->tree)};
+    bool moves = false, turns = false;
+    for (int k = 0; k < 2; ++k) {
+        if (surface_map_count(s[k]) > 0 && !surface_is_rigid(s[k])) return false;
+        moves = moves || surface_map_count(s[k]) > 0;
+        turns = turns || surface_has_symmetry(s[k]);
+    }
+    return moves && turns;
+}
+
+static bool any_has_frame(const collection *all)
+{
+    const candidate_list *list = all->list;
+    bool any = false;
+    for (size_t k = 0; k < list->pair_count && !any; ++k)
+        any = motion_of(&list->pairs[k]) > 0 || may_turn_within(all, &list->pairs[k]);
+    return any;
+}
+
+/* --- Frames ---------------------------------------------------------------------------------------- */
+
+static bool are_equal(const surface_view *x, const surface_view *y)
+{
+    return x->left_out == y->left_out &&
+           (x->moment == y->moment || (isnan(x->moment) && isnan(y->moment)));
+}
+
+/* The candidate's frame, made now unless it is there. *found NONE: a limit came first. */
+static imp_code find_frame(collection *all, frame_list *frames, const candidate *c,
+                           const surface_view *view, size_t *found, imp_error *error)
+{
+    const size_t of = (size_t)(c - all->list->candidates);
+    for (*found = frames->first[of]; *found != NONE; *found = frames->at[*found].next)
+        if (are_equal(&frames->at[*found].view, view)) return IMP_SUCCESS;
+    frame *grown = array_reserve(frames->at, frames->count, &frames->capacity, sizeof *grown);
+    if (grown == NULL) return error_set_memory(error);
+    frames->at = grown;
+    frame *made = &grown[frames->count];
+    *made = (frame){of, frames->first[of], *view, *c};
+    bool exists = true;
+    if (view->left_out != c->left_out || !isnan(view->moment)) {
+        if (collection_must_end(all)) return IMP_SUCCESS;
+        const imp_code code = collection_make_tree(all, view, &made->made, &exists, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    *found = frames->first[of] = frames->count++;
+    return IMP_SUCCESS;
+}
+
+/* Models of all points of a tree's surface before its maps. False: it moves by itself, or has none. */
+static bool bare_models(const node *root, imp_model bare[3])
+{
+    if (root->many != NULL)
+        cluster_models(root->many, &root->region, bare);
+    else if (surface_include_bare(root->surface, &root->region, bare) != IMP_OK)
+        return false;
+    for (int i = 0; i < 3; ++i)
+        if (!(bare[i].e < INFINITY) || (bare[i].depends >> PARAMETER_T & 1) != 0) return false;
+    return true;
+}
+
+/* Whether the pair of these frames is as far apart at one time as at another, but for *slip. */
+static imp_code ask_slip(collection *all, candidate *const side[2], time_window *times,
+                         double *slip, imp_error *error)
+{
+    imp_model bare[2][3];
+    const surface *s[2];
+    *slip = INFINITY;
+    for (int k = 0; k < 2; ++k) {
+        tree_growth growth = {0};
+        const imp_code code = tree_make_root(side[k]->tree, &growth, error);
+        if (code != IMP_SUCCESS) return code;
+        collection_count(all, &growth);
+        s[k] = tree_surface(side[k]->tree);
+        if (!bare_models(tree_root(side[k]->tree), bare[k])) return IMP_SUCCESS;
+    }
+    *times = pair_times(tree_root(side[0]->tree), tree_root(side[1]->tree));
+    if (times->lo > times->hi) return IMP_SUCCESS;
+    const imp_region all_times =
+        region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
+    const imp_status status = surface_pair_slip(s, bare, &all_times, times->lo, slip);
+    if (status == IMP_OK) return IMP_SUCCESS;
+    surface_fault(s[1], error, ": %s", surface_status_told(s[1], status).text);
+    return surface_set_code(status, error);
+}
+
+/* Puts a pair that only turns within itself at rest. */
+static imp_code rest_pair(collection *all, frame_list *frames, size_t k, imp_error *error)
+{
+    const candidate_pair *p = &all->list->pairs[k];
+    size_t *of_pair = frames->of_pair[k];
+    candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
+    time_window times;
+    double slip;
+    imp_code code = ask_slip(all, side, &times, &slip, error);
+    if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;
+    for (int j = 0; j < 2 && code == IMP_SUCCESS; ++j) {
+        surface_view view = frames->at[of_pair[j]].view;
+        view.moment = times.lo;
+        code = find_frame(all, frames, p->side[j], &view, &of_pair[j], error);
+        if (of_pair[j] == NONE) return code;
+    }
+    if (slip > all->list->slip) all->list->slip = slip;
+    return code;
+}
+
+static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp_error *error)
+{
+    const candidate_list *list = all->list;
+    for (size_t k = 0; k < list->count; ++k) frames->first[k] = NONE;
+    for (size_t k = 0; k < list->pair_count; ++k) {
+        const candidate_pair *p = &list->pairs[k];
+        const size_t motion = motion_of(p);
+        imp_code code = IMP_SUCCESS;
+        *done = true;
+        for (int side = 0; side < 2 && *done && code == IMP_SUCCESS; ++side) {
+            const candidate *c = p->side[side];
+            const surface_view view = {c->body, c->surface, c->left_out + motion, NAN};
+            code = find_frame(all, frames, c, &view, &frames->of_pair[k][side], error);
+            *done = frames->of_pair[k][side] != NONE;
+        }
+        if (code == IMP_SUCCESS && *done && may_turn_within(all, p)) {
+            code = rest_pair(all, frames, k, error);
+            *done = frames->of_pair[k][0] != NONE && frames->of_pair[k][1] != NONE;
+        }
+        *done = *done && code == IMP_SUCCESS;
+        if (!*done) return code;
+    }
+    return IMP_SUCCESS;
+}
+
+/* Puts the frames in the place of the candidates, in their order: those of one candidate are neighbours. False:
+ * no memory. */
+static bool take_frames(candidate_list *list, frame_list *frames)
+{
+    candidate *made = malloc((frames->count + 1) * sizeof *made);
+    if (made == NULL) return false;
+    size_t *at = malloc((frames->count + 1) * sizeof *at), count = 0;
+    if (at == NULL) return free(made), false;
+    for (size_t k = 0; k < list->count; ++k)
+        for (size_t f = frames->first[k]; f != NONE; f = frames->at[f].next) {
+            made[count] = frames->at[f].made;
+            at[f] = count++;
+        }
+    for (size_t k = 0; k < list->pair_count; ++k)
+        for (int side = 0; side < 2; ++side)
+            list->pairs[k].side[side] = &made[at[frames->of_pair[k][side]]];
+    free(at);
+    if (list->candidates != list->at_hand) free(list->candidates);
+    list->candidates = made;
+    list->count = count;
+    return true;
+}
+
+imp_code collection_use_frames(collection *all, bool *done, imp_error *error)
+{
+    candidate_list *list = all->list;
+    if (!any_has_frame(all)) return IMP_SUCCESS;
+    frame_list frames = {.first = malloc((list->count + 1) * sizeof *frames.first),
+                         .of_pair = malloc((list->pair_count + 1) * sizeof *frames.of_pair)};
+    imp_code code = IMP_SUCCESS;
+    if (frames.first == NULL || frames.of_pair == NULL) code = error_set_memory(error);
+    if (code == IMP_SUCCESS) code = find_frames(all, &frames, done, error);
+    if (code == IMP_SUCCESS && *done && !take_frames(list, &frames)) code = error_set_memory(error);
+    free(frames.at);
+    free(frames.first);
+    free(frames.of_pair);
+    return code;
+}

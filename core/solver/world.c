@@ -1,0 +1,85 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/world.h"
+
+#include <math.h>
+#include <string.h>
+
+static const surface *piece_of(const imp_scene *scene, const imp_side *at)
+{
+    const surface *s = scene_surface(scene, at->body, at->surface);
+    return surface_piece_count(s) > 0 ? surface_piece(s, at->piece) : s;
+}
+
+static imp_code fault(const surface *s, imp_status status, double t, imp_error *error)
+{
+    surface_fault(s, error, "at t = %.17g: %s", t, surface_status_told(s, status).text);
+    return surface_set_code(status, error);
+}
+
+/* The length of the arrow whose image gives the normal: a power of two beside which the rounding of the points'
+ * coordinates is small. */
+static double arrow_length(const vec3 *from, const double to[3])
+{
+    const vec3 image = {{to[0], to[1], to[2]}};
+    const double largest = fmax(vec3_norm1(*from), vec3_norm1(image));
+    int exponent;
+    frexp(largest > 0 && largest < 0x1p500 ? largest : 1, &exponent);
+    return ldexp(1, exponent);
+}
+
+/* Maps both ends of an arrow along the normal. */
+static imp_code turn_normal(const surface *s, size_t maps, const witness *found, double t,
+                            world_witness *told, imp_error *error)
+{
+    vec3 from = found->point[0];
+    const double length = arrow_length(&from, told->side[0].point);
+    vec3 to = vec3_sub(from, vec3_scale(found->normal, -length));
+    imp_status status = surface_move_outward(s, maps, t, from.x);
+    if (status == IMP_OK) status = surface_move_outward(s, maps, t, to.x);
+    if (status != IMP_OK) return fault(s, status, t, error);
+    const vec3 image = vec3_sub(to, from);
+    memcpy(told->normal, vec3_scale(image, 1 / vec3_norm(image)).x, sizeof told->normal);
+    return IMP_SUCCESS;
+}
+
+/* The point as the search has it, or moved outward. */
+static imp_code place_side(const imp_scene *scene, const candidate *of, const witness *found,
+                           int side, double t, imp_side *at, imp_error *error)
+{
+    *at = (imp_side){of->body,       of->surface,    found->piece[side],
+                     found->u[side], found->v[side], {0, 0, 0}};
+    memcpy(at->point, found->point[side].x, sizeof at->point);
+    if (of->left_out == 0) return IMP_SUCCESS;
+    const surface *s = piece_of(scene, at);
+    const imp_status status = surface_eval(s, 1, (double[3]){at->u, at->v, t}, at->point, NULL);
+    return status == IMP_OK ? IMP_SUCCESS : fault(s, status, t, error);
+}
+
+static double distance_of(const imp_side side[2])
+{
+    vec3 apart;
+    for (int i = 0; i < 3; ++i) apart.x[i] = side[1].point[i] - side[0].point[i];
+    return vec3_norm(apart);
+}
+
+imp_code world_witness_of(const imp_scene *scene, const candidate_pair *both, const witness *found,
+                          double t, world_witness *told, imp_error *error)
+{
+    for (int side = 0; side < 2; ++side) {
+        const imp_code code =
+            place_side(scene, both->side[side], found, side, t, &told->side[side], error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    told->gap = found->gap;
+    memcpy(told->normal, found->normal.x, sizeof told->normal);
+    const size_t left_out = both->side[0]->left_out;
+    if (left_out == 0) return IMP_SUCCESS;
+    const double gap = distance_of(told->side);
+    told->gap = gap < found->gap_upper ? gap : found->gap_upper;
+    if (!found->has_normal) return IMP_SUCCESS;
+    const surface *s = piece_of(scene, &told->side[0]);
+    return turn_normal(s, surface_map_count(s) - left_out, found, t, told, error);
+}
