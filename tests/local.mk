@@ -155,6 +155,7 @@ bats_suites = \
     tests/cli/files.bats \
     tests/cli/host.bats \
     tests/cli/hostile.bats \
+    tests/cli/json_errors.bats \
     tests/cli/matrix.bats \
     tests/cli/mesh.bats \
     tests/cli/mpi.bats \

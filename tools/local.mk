@@ -215,6 +215,7 @@ pkgdata_DATA = \
     tools/schema/bench.schema.json \
     tools/schema/check.schema.json \
     tools/schema/clearance.schema.json \
+    tools/schema/error.schema.json \
     tools/schema/matrix.schema.json \
     tools/schema/result.schema.json \
     tools/schema/scene.schema.json \

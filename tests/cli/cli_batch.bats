@@ -257,6 +257,6 @@ without_seconds() { jq -c 'if .stats then del(.stats.seconds) else . end'; }
         echo "{\"bodies\": [{\"surfaces\": [{\"type\": \"$type\"}]}, {\"surfaces\": [{\"type\": \"sphere\"}]}]}" \
             >scenes.jsonl
         run -5 --separate-stderr "$IMPINGE" batch scenes.jsonl --threads 2 --plugin-path plugins
-        [[ $stderr == *"type '$type' crashes in its "* ]]
+        [[ $stderr == *"crashed in the "*" of type '$type'"* ]]
     done
 }

@@ -473,13 +473,16 @@ blames() { fails 5 "$2" pair "$1" "$ball" "${@:3}"; }
 
 @test "a crash, an exit or a stack used up is laid at the door of type and callback" {
     takes create_crashes domain_crashes eval_crashes eval_aborts eval_exits eval_overflows_stack
-    blames create_crashes "type 'create_crashes' crashes in its create;"
-    blames domain_crashes "type 'domain_crashes' crashes in its domain;"
-    blames eval_crashes "type 'eval_crashes' crashes in its eval;"
-    blames eval_aborts "type 'eval_aborts' crashes in its eval;"
+    blames create_crashes "crashed in the create of type 'create_crashes';"
+    blames domain_crashes "crashed in the domain of type 'domain_crashes';"
+    blames eval_crashes "crashed in the eval of type 'eval_crashes';"
+    blames eval_aborts "crashed in the eval of type 'eval_aborts';"
     blames eval_exits "type 'eval_exits' ends the process in its eval;"
-    blames eval_overflows_stack "type 'eval_overflows_stack' crashes in its eval;"
-    blames 'eval_crashes height=1' "type 'eval_crashes'" --json
+    blames eval_overflows_stack "crashed in the eval of type 'eval_overflows_stack';"
+    run -5 --separate-stderr pair eval_crashes "$ball" --json
+    [[ $stderr == "impinge: crashed in the eval of type 'eval_crashes';"* ]]
+    valid result
+    json --arg said "${stderr#impinge: }" '.error == $said'
     still_works
 }
 
@@ -504,7 +507,7 @@ blames() { fails 5 "$2" pair "$1" "$ball" "${@:3}"; }
     } >scenes.jsonl
     # with one thread line 1 is answered before line 2 begins
     run -5 --separate-stderr "$IMPINGE" batch scenes.jsonl --threads 1 --plugin-path "$PWD/plugins"
-    [[ $stderr == *"type 'eval_crashes' crashes in its eval"* ]]
+    [[ $stderr == *"crashed in the eval of type 'eval_crashes'"* ]]
     valid result
     [ "$(jq .id <<<"$output")" = 1 ]
 }

@@ -29,12 +29,14 @@ lifted="$square ! hostile-map"
 usual_ball=$ball
 
 # Those that a type need not offer, as TYPE:PHASE; and of such a type the two operands.
-offered='hostile-net:net hostile-distance:distance hostile-pieces:piece_count hostile-pieces:piece hostile-rigid:rigid'
+offered='hostile-net:net hostile-distance:distance hostile-pieces:piece_count hostile-pieces:piece hostile-rigid:rigid hostile-symmetry:symmetry'
 operands_of() {
     OPERAND=$1 ball=$usual_ball
     [ "$1" != hostile-rigid ] || OPERAND="$square ! hostile-rigid"
     # No distance is asked for unless the other is much the same for long: here it is nearly flat.
-    [ "$1" != hostile-distance ] || ball='sphere radius=9 center=.3,.2,9.9'
+    [[ $1 != hostile-distance && $1 != hostile-symmetry ]] || ball='sphere radius=9 center=.3,.2,9.9'
+    # No symmetry is asked for unless the type turns.
+    [ "$1" != hostile-symmetry ] || OPERAND='hostile-symmetry ! rotate axis=0,0,1 rate=1'
     # No net is asked for unless the other has one too, and bends.
     [ "$1" != hostile-net ] || ball='bezier degree=2,1 points=[[-1,-1,1.4],[-1,1,1.4],[0,-1,.6],[0,1,.6],[1,-1,1.4],[1,1,1.4]]'
 }
@@ -46,9 +48,13 @@ hostile() {
     local method=models
     [ "$1" != rate ] || method=paper
     [ -d "$here/cache" ] || "$IMPINGE" list --plugin-path "$here/plugins" >/dev/null
-    HOSTILE="$1 $2" timeout 60 env --default-signal=QUIT,TERM "${surroundings[@]}" "$IMPINGE" pair "${OPERAND-hostile}" \
+    : >"$here/confessions"
+    HOSTILE="$1 $2" HOSTILE_CONFESSIONS=$here/confessions timeout 60 env --default-signal=QUIT,TERM "${surroundings[@]}" "$IMPINGE" pair "${OPERAND-hostile}" \
         "$ball" --method $method --gamma 0.1 --plugin-path "$here/plugins" --json "${@:3}"
 }
+
+# committed PHASE SIN: that was not only asked for, the scene has called the callback.
+committed() { grep -qx "$1 $2" "$here/confessions"; }
 
 # contact COMMAND...: the answer is one line that says so.
 contact() {
@@ -56,6 +62,7 @@ contact() {
     echo "$*: $output / $stderr"
     [ "${#lines[@]}" -eq 1 ]
     json '.verdict == "contact"'
+    [ "$1" != hostile ] || committed "$2" "$3"
 }
 
 # --- Isolated ----------------------------------------------------------------------------------------
@@ -125,11 +132,17 @@ crashes() { echo crash abort && { has_sanitizers || echo overflow; }; }
 ends() { echo exit _exit _Exit quick_exit && { has_sanitizers || echo pthread_exit; }; }
 
 # named PHASE SIN WHAT [WHO]: the hostile pair ends with status 5 and one line that names plugin and
-# phase.
+# phase; --json has it too.
 named() {
+    local says="*${4-hostile}*' $3 in its $1;*"
+    [ "$3" != crashes ] || says="crashed in the $1 of *${4-hostile}*';*"
     run -5 --separate-stderr hostile "$1" "$2"
     echo "$1 $2: $output / $stderr"
-    [[ $stderr == "impinge: "*"${4-hostile}"*"' $3 in its $1;"* && ${#stderr_lines[@]} -eq 1 ]]
+    # shellcheck disable=SC2053 # a pattern
+    [[ $stderr == "impinge: "$says && ${#stderr_lines[@]} -eq 1 ]]
+    committed "$1" "$2"
+    valid result
+    jq -es --arg said "${stderr#impinge: }" 'last.error == $said' <<<"$output"
 }
 
 @test "a crash or the end of the process is laid at the door of the type, in each callback" {
@@ -233,6 +246,53 @@ named() {
 blamed() {
     [[ $4 == *": $1 of '$2' ($PWD/plugins/hostile.so) $3"* || $4 == *": $3"*" ($1 of '$2')" ||
         ($1 == destroy && $4 == *"/hostile.so: destroy of '$2' $3"*) ]]
+}
+
+# --- What belongs to the process -----------------------------------------------------------------------
+
+@test "whatever a plugin makes of standard output and of descriptors: the answer comes, or an error tells" {
+    local phase sin
+    for phase in create eval destroy; do
+        for sin in fclose setvbuf; do contact hostile $phase $sin; done
+        named $phase freopen crashes # in the C library, which cannot do that to our stream
+        [ $phase != destroy ] || continue # then the answer is out
+        for sin in close reuse; do
+            run -4 --separate-stderr hostile $phase $sin
+            echo "$phase $sin: $output / $stderr"
+            committed $phase $sin
+            [ "$stderr" = 'impinge: pair: standard output: Bad file descriptor' ]
+            [ -z "$output" ]
+        done
+    done
+    [ ! -s stolen ]
+    for sin in fclose setvbuf close reuse; do
+        contact hostile eval $sin --isolate all
+    done
+}
+
+@test "limits that a plugin sets cost at most the answer, and that is told" {
+    local sin status
+    for sin in no_file no_descriptor no_memory no_stack; do
+        status=0
+        hostile eval $sin >answer 2>said || status=$?
+        echo "$sin: $status $(cat answer said)"
+        committed eval $sin
+        [ "$status" -eq 4 ] && [ -s said ] || { [ "$status" -eq 0 ] && jq -e '.verdict == "contact"' answer; }
+    done
+    for sin in no_file no_descriptor no_stack; do contact hostile eval $sin --isolate all; done
+}
+
+@test "a crash of a thread that a plugin has left, or at the end of one, is laid at its door" {
+    has_sanitizers && skip 'they catch crashes themselves'
+    local phase
+    for phase in create eval include; do
+        run -5 --separate-stderr hostile $phase later
+        echo "$phase: $stderr"
+        committed $phase later
+        [[ $stderr == "impinge: crashed in plugin '$PWD/plugins/hostile.so' outside of its callbacks"* ]]
+        valid result
+        json '.error | startswith("crashed in plugin")'
+    done
 }
 
 @test "isolated, whatever a callback does ends the query, not the host, and is laid at the door of the type" {

@@ -67,8 +67,9 @@ failing() {
 @test "one that crashes ends it and leaves no half an answer" {
     mkdir plugins
     cp "$top_builddir/tests/plugins/.libs/eval_crashes.so" plugins
-    fails 5 "type 'eval_crashes' crashes in its eval" \
-        "$IMPINGE" matrix "${quick[@]}" --plugin-path "$PWD/plugins" --json
+    run -5 --separate-stderr "$IMPINGE" matrix "${quick[@]}" --plugin-path "$PWD/plugins" --json
+    [[ $stderr == "impinge: crashed in the eval of type 'eval_crashes'"* ]]
+    json '(keys == ["error"]) and (.error | contains("eval_crashes"))'
 }
 
 @test "isolated, one that crashes costs its own cells only" {

@@ -55,7 +55,7 @@ printable() {
     "$IMPINGE" list --plugin-path . >/dev/null 2>&1
     HOSTILE='constructor crash' run -5 --separate-stderr "$IMPINGE" pair sphere sphere --plugin-path .
     printable
-    [[ $stderr == *'folder\x1b[7m/hostile.so'"' crashes in its constructor;"* ]]
+    [[ $stderr == *"crashed in the constructor of plugin '"*'folder\x1b[7m/hostile.so'"';"* ]]
 }
 
 checks='file format class machine kind headers segments tables note abi'

@@ -7,10 +7,15 @@
 #include <fenv.h>
 #include <locale.h>
 #include <pthread.h>
+#include <sched.h>
+#include <setjmp.h>
 #include <signal.h>
+#include <stdatomic.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -58,13 +63,76 @@ static void leave_thread(void)
     if (pthread_create(&thread, NULL, sleep_on, NULL) == 0) pthread_detach(thread);
 }
 
-static void block_signal(void)
+/* Crashes when the callback that started it has returned, and waits in the next one. */
+static atomic_bool returned;
+
+static void *crash_later(void *unused)
+{
+    while (!atomic_load(&returned)) sched_yield();
+    raise(SIGSEGV);
+    return unused;
+}
+
+static void leave_crashing_thread(void)
+{
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, crash_later, NULL) == 0) pthread_detach(thread);
+}
+
+static void wait_for_crash(void)
+{
+    atomic_store(&returned, true);
+    for (;;) pause();
+}
+
+/* At the end of the thread that the callback runs in, when that has returned. */
+static void crash_at_end(void *unused)
+{
+    (void)unused;
+    raise(SIGSEGV);
+}
+
+static void leave_thread_data(void)
+{
+    static pthread_key_t key;
+    if (pthread_key_create(&key, crash_at_end) == 0) pthread_setspecific(key, &key);
+}
+
+static void block_signals(bool all)
 {
     sigset_t blocked;
     sigemptyset(&blocked);
     sigaddset(&blocked, SIGUSR1);
+    if (all) sigfillset(&blocked);
     pthread_sigmask(SIG_BLOCK, &blocked, NULL);
 }
+
+/* Signals by which users end the command. */
+static void ignore_signals(void)
+{
+    signal(SIGINT, SIG_IGN);
+    signal(SIGTERM, SIG_IGN);
+}
+
+static void limit(int what, rlim_t to)
+{
+    struct rlimit now;
+    getrlimit(what, &now);
+    now.rlim_cur = to;
+    setrlimit(what, &now);
+}
+
+/* All but the standard ones; with `reuse` files of its own take their numbers. */
+static void close_descriptors(bool reuse)
+{
+    for (int k = 3; k < 256; ++k) close(k);
+    for (int k = 3; reuse && k < 256; ++k) (void)!open("stolen", O_CREAT | O_WRONLY | O_APPEND, 0666);
+}
+
+/* To a frame that has returned. */
+static jmp_buf left;
+
+static void jump(void) { longjmp(left, 1); }
 
 static void let_exceptions_trap(void)
 {
@@ -92,7 +160,13 @@ static void change_environment(const char *sin)
     if (strcmp(sin, "x87") == 0) lose_precision();
     if (strcmp(sin, "chdir") == 0) (void)!chdir("/");
     if (strcmp(sin, "umask") == 0) umask(0777);
-    if (strcmp(sin, "block") == 0) block_signal();
+    if (strcmp(sin, "block") == 0) block_signals(false);
+    if (strcmp(sin, "block_all") == 0) block_signals(true);
+    if (strcmp(sin, "ignore") == 0) ignore_signals();
+    if (strcmp(sin, "no_file") == 0) limit(RLIMIT_FSIZE, 0);
+    if (strcmp(sin, "no_descriptor") == 0) limit(RLIMIT_NOFILE, 3);
+    if (strcmp(sin, "no_memory") == 0) limit(RLIMIT_AS, 1 << 20);
+    if (strcmp(sin, "no_stack") == 0) limit(RLIMIT_STACK, 1 << 13);
     if (strcmp(sin, "locale") == 0) setlocale(LC_ALL, "");
     if (strcmp(sin, "uselocale") == 0) uselocale(newlocale(LC_ALL_MASK, "C.UTF-8", (locale_t)0));
     if (strcmp(sin, "thread") == 0) leave_thread();
@@ -112,9 +186,27 @@ static void commit(const char *sin)
     if (strcmp(sin, "pthread_exit") == 0) pthread_exit(NULL);
     if (strcmp(sin, "hang") == 0) hang();
     if (strcmp(sin, "fork") == 0) fork();
+    if (strcmp(sin, "later") == 0) leave_crashing_thread();
+    if (strcmp(sin, "thread_data") == 0) leave_thread_data();
+    if (strcmp(sin, "longjmp") == 0) jump();
+    if (strcmp(sin, "fclose") == 0) fclose(stdout);
+    if (strcmp(sin, "freopen") == 0) (void)!freopen("stolen", "w", stdout);
+    if (strcmp(sin, "setvbuf") == 0) setvbuf(stdout, NULL, _IOFBF, 4096);
+    if (strcmp(sin, "close") == 0) close_descriptors(false);
+    if (strcmp(sin, "reuse") == 0) close_descriptors(true);
     if (strcmp(sin, "child") == 0) leave_child();
     if (strcmp(sin, "print") == 0) puts("{\"verdict\": \"printed\"}"), fflush(stdout);
     if (strcmp(sin, "write") == 0) (void)!write(1, "{\"verdict\": \"written\"}\n", 23);
+}
+
+/* A line for each sin that was committed: the proof that a scene calls the callback. */
+static void confess(const char *wanted)
+{
+    const char *file = getenv("HOSTILE_CONFESSIONS");
+    const int error = errno, to = file != NULL ? open(file, O_CREAT | O_WRONLY | O_APPEND, 0666) : -1;
+    if (to >= 0) dprintf(to, "%s\n", wanted);
+    if (to >= 0) close(to);
+    errno = error;
 }
 
 /* Once in each phase: a second time would hide what the first one did. */
@@ -123,9 +215,12 @@ static void enter(const char *phase)
     static char done[20];
     const char *wanted = getenv("HOSTILE");
     const size_t length = strlen(phase);
-    if (wanted == NULL || strncmp(wanted, phase, length) != 0 || wanted[length] != ' ') return;
+    if (wanted == NULL) return;
+    if (done[0] != '\0' && strstr(wanted, " later") != NULL) wait_for_crash();
+    if (strncmp(wanted, phase, length) != 0 || wanted[length] != ' ') return;
     if (strcmp(done, phase) == 0) return;
     snprintf(done, sizeof done, "%s", phase);
+    confess(wanted);
     commit(wanted + length + 1);
 }
 
@@ -134,6 +229,7 @@ __attribute__((destructor)) static void destruct(void) { enter("destructor"); }
 
 static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
+    if (setjmp(left) != 0) return IMP_INTERNAL;
     enter("create");
     return slab_create(values, self, why);
 }
@@ -182,6 +278,14 @@ static imp_status distance(const void *self, const imp_model point[4], imp_model
     return IMP_UNBOUNDED;
 }
 
+/* Its own, of no axis. */
+static imp_status symmetry(const void *self, imp_symmetry *out)
+{
+    (void)self, (void)out;
+    enter("symmetry");
+    return IMP_UNBOUNDED;
+}
+
 static size_t piece_count(const void *self)
 {
     (void)self;
@@ -210,6 +314,8 @@ static const imp_surface_type surface_type = HOSTILE_SURFACE("hostile", .source 
 static const imp_surface_type net_type = HOSTILE_SURFACE("hostile-net", .net = net);
 static const imp_surface_type distance_type =
     HOSTILE_SURFACE("hostile-distance", .distance = distance);
+static const imp_surface_type symmetry_type =
+    HOSTILE_SURFACE("hostile-symmetry", .distance = distance, .symmetry = symmetry);
 static const imp_surface_type pieces_type =
     HOSTILE_SURFACE("hostile-pieces", .piece_count = piece_count, .piece = piece);
 
@@ -281,9 +387,9 @@ static const imp_map_type rigid_type = HOSTILE_MAP("hostile-rigid", .rigid = rig
 /* --- The file ----------------------------------------------------------------------------------- */
 
 static const imp_surface_type *const surface_types[] = {&surface_type, &net_type, &distance_type,
-                                                        &pieces_type};
+                                                        &symmetry_type, &pieces_type};
 static const imp_map_type *const map_types[] = {&map_type, &rigid_type};
-static const imp_surface_factory surface_factory = {sizeof surface_factory, 4, surface_types};
+static const imp_surface_factory surface_factory = {sizeof surface_factory, 5, surface_types};
 static const imp_map_factory map_factory = {sizeof map_factory, 2, map_types};
 
 static const void *get_factory(const char *id)

@@ -175,6 +175,13 @@ exit_status arguments_read(arguments *args, int argc, const char *const *argv)
     return check_operands(args);
 }
 
+bool arguments_ask_for_json(int argc, const char *const *argv)
+{
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i)
+        if (strcmp(argv[i], "--json") == 0) return true;
+    return false;
+}
+
 void arguments_free(arguments *args)
 {
     free(args->operands);

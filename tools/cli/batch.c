@@ -174,10 +174,8 @@ void batch_sum_up(batch *b)
     const char *speaker = b->args->verb->name;
     if (b->input_failed) batch_keep_worst(b, EXIT_DATA);
     if (b->failures > 0)
-        complain(b->worst, speaker,
-                 "%s: %zu of %zu lines could not be answered; their errors are in "
-                 "their places",
-                 b->name, b->failures, b->line);
+        remark(speaker, "%s: %zu of %zu lines could not be answered; their errors are in their places",
+               b->name, b->failures, b->line);
     if (interrupt_came())
         batch_keep_worst(b, complain(EXIT_UNDECIDED, speaker, "%s: interrupted after line %zu",
                                      b->name, b->answered));

@@ -4,7 +4,10 @@
 
 #include "tools/cli/crash.h"
 
+#include <dlfcn.h>
+#include <execinfo.h>
 #include <impinge/impinge.h>
+#include <link.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -14,45 +17,175 @@
 #include <unistd.h>
 
 #include "tools/cli/message.h"
+#include "tools/cli/standard_output.h"
 
 /* The process that was prepared: its copies may end as they like. */
 static pid_t prepared;
-
-/* Only calls that are safe in a signal handler. */
-static void say(const char *text)
-{
-    const ssize_t written = write(STDERR_FILENO, text, strlen(text));
-    (void)written;
-}
+static bool json_wanted;
 
 _Noreturn static void leave(int status)
 {
     for (;;) syscall(SYS_exit_group, status);
 }
 
-/* Of a plugin that is being loaded or unloaded, `type` is the path. */
-_Noreturn static void blame(const char *type, const char *callback, const char *what)
+/* --- What is said; only calls that are safe in a signal handler --------------------------------- */
+
+typedef struct line {
+    char text[1 << 13];
+    size_t used;
+} line;
+
+static void add(line *l, const char *text)
 {
-    say(type[0] == '/' ? "impinge: plugin '" : "impinge: type '");
-    say(message_shown(type).text);
-    say("' ");
-    say(what);
-    say(" in its ");
-    say(callback);
-    say(type[0] == '/' ? "; `impinge why FILE` loads it in a process of its own\n"
-                       : "; `impinge check` shows more, --isolate runs it in another process\n");
+    const size_t length = strlen(text), room = sizeof l->text - 2 - l->used;
+    const size_t part = length < room ? length : room;
+    memcpy(l->text + l->used, text, part);
+    l->used += part;
+}
+
+static void add_shown(line *l, const char *text) { add(l, message_shown(text).text); }
+
+/* For a string of JSON; the text has no control characters. */
+static void add_escaped(line *l, const char *text)
+{
+    for (; *text != '\0'; ++text) {
+        if (*text == '"' || *text == '\\') add(l, "\\");
+        add(l, (const char[2]){*text, '\0'});
+    }
+}
+
+static void say(line *l)
+{
+    add(l, "\n");
+    const ssize_t written = write(STDERR_FILENO, l->text, l->used);
+    (void)written;
+}
+
+/* Says it as complain does, and with --json on standard output, too. */
+_Noreturn static void end_with(const line *what)
+{
+    line text = {.used = 0}, object = {.used = 0};
+    add(&text, "impinge: ");
+    add(&text, what->text);
+    say(&text);
+    if (json_wanted) {
+        add(&object, "{\"error\":\"");
+        add_escaped(&object, what->text);
+        add(&object, "\"}\n");
+        standard_output_write_at_crash(object.text, object.used);
+    }
     leave(EXIT_PLUGIN);
 }
 
+/* --- Whose fault it is ---------------------------------------------------------------------------- */
+
+/* While a plugin is loaded or unloaded its path stands for the type. */
+static bool is_path(const char *type) { return type[0] == '/'; }
+
+static const char cure_of_loading[] = "; `impinge why FILE` loads it in a process of its own";
+
+/* "PLACE of type 'TYPE'", or of a plugin. */
+static void add_place(line *l, const char *type, const char *callback)
+{
+    add(l, callback);
+    add(l, is_path(type) ? " of plugin '" : " of type '");
+    add_shown(l, type);
+    add(l, "'");
+}
+
+/* Where a callback crashes another plugin may have damaged what it works on. */
+_Noreturn static void blame_for_crash(const char *type, const char *callback)
+{
+    line l = {.used = 0};
+    add(&l, "crashed in the ");
+    add_place(&l, type, callback);
+    add(&l, is_path(type) ? cure_of_loading
+                          : "; another plugin may have damaged memory: run with --isolate all, or "
+                            "under valgrind; `impinge check` shows more");
+    end_with(&l);
+}
+
+_Noreturn static void blame_for_end(const char *type, const char *callback, const char *what)
+{
+    line l = {.used = 0};
+    add(&l, is_path(type) ? "plugin '" : "type '");
+    add_shown(&l, type);
+    add(&l, "' ");
+    add(&l, what);
+    add(&l, " in its ");
+    add(&l, callback);
+    add(&l, is_path(type) ? cure_of_loading
+                          : "; `impinge check` shows more, --isolate runs it in another process");
+    end_with(&l);
+}
+
+/* `what` NULL: a crash. */
 static void blame_if_in_call(const char *what)
 {
     const char *callback, *type = imp_call_in_progress(&callback);
-    if (type != NULL && prepared == getpid()) blame(type, callback, what);
+    if (type == NULL || prepared != getpid()) return;
+    if (what == NULL) blame_for_crash(type, callback);
+    blame_for_end(type, callback, what);
+}
+
+/* The program and the libraries it was started with, which come first in the linker's list. */
+static struct {
+    const struct link_map *first;
+    size_t count;
+} started_with;
+
+static void note_objects(void)
+{
+    started_with.first = dlopen(NULL, RTLD_LAZY);
+    for (const struct link_map *o = started_with.first; o != NULL; o = o->l_next)
+        started_with.count += 1;
+}
+
+/* The file of the plugin, or a library that one needs, whose code is at that address; or NULL. */
+static const char *plugin_at(void *address)
+{
+    Dl_info info;
+    struct link_map *object = NULL;
+    if (dladdr1(address, &info, (void **)&object, RTLD_DL_LINKMAP) == 0 || object == NULL)
+        return NULL;
+    const struct link_map *o = started_with.first;
+    for (size_t k = 0; k < started_with.count && o != NULL; ++k, o = o->l_next)
+        if (o == object) return NULL;
+    return info.dli_fname;
+}
+
+/* Code of a plugin also runs outside of its callbacks: in threads that it has left, in destructors of
+ * thread-local data, in handlers. Looking at the stack is not safe in a handler, but the process is lost
+ * anyway; should the look hang, the alarm ends it. */
+static void blame_if_on_stack(void)
+{
+    enum { FRAMES = 64, SECONDS = 5 };
+    void *frame[FRAMES];
+    if (prepared != getpid()) return;
+    signal(SIGALRM, SIG_DFL);
+    alarm(SECONDS);
+    const int count = backtrace(frame, FRAMES);
+    for (int k = 0; k < count; ++k) {
+        const char *file = plugin_at(frame[k]);
+        if (file == NULL) continue;
+        line l = {.used = 0};
+        add(&l, "crashed in plugin '");
+        add_shown(&l, file);
+        add(&l, "' outside of its callbacks, as in a thread that it left; run with --isolate all");
+        end_with(&l);
+    }
 }
 
 static void on_crash(int number)
 {
-    blame_if_in_call("crashes");
+    blame_if_in_call(NULL);
+    blame_if_on_stack();
+    if (prepared == getpid()) {
+        line l = {.used = 0};
+        add(&l, "impinge: crashed outside of all plugins; if one has damaged memory, --isolate all "
+                "or valgrind shows which");
+        say(&l);
+    }
     signal(number, SIG_DFL);
     raise(number);
 }
@@ -88,11 +221,11 @@ static void leave_call(void)
 
 static void say_interrupted(const char *type, const char *callback)
 {
-    say("impinge: interrupted in ");
-    say(callback);
-    say(type[0] == '/' ? " of plugin '" : " of type '");
-    say(message_shown(type).text);
-    say(type[0] == '/' ? "'\n" : "'; where a callback hangs, --isolate ends it after 5 s\n");
+    line l = {.used = 0};
+    add(&l, "impinge: interrupted in ");
+    add_place(&l, type, callback);
+    if (!is_path(type)) add(&l, "; where a callback hangs, --isolate ends it after 5 s");
+    say(&l);
 }
 
 void crash_interrupted(int number)
@@ -146,12 +279,14 @@ void crash_thread_left(void *unused)
 }
 
 /* On a stack of its own: a plugin may have used up the other. */
-void crash_prepare(void)
+void crash_prepare(bool json)
 {
     static char room[SIGNAL_STACK];
     const stack_t stack = {.ss_sp = room, .ss_size = sizeof room};
     struct sigaction action = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK};
     prepared = getpid();
+    json_wanted = json;
+    note_objects();
     enter_call();
     sigemptyset(&action.sa_mask);
     sigaltstack(&stack, NULL);

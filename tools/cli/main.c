@@ -41,7 +41,8 @@ int main(int argc, char **argv)
     c_locale_enter();
     progress_begin();
     if (!output_prepare()) return EXIT_DATA;
-    crash_prepare();
+    const bool json = arguments_ask_for_json(argc, (const char *const *)argv);
+    crash_prepare(json);
     arguments args;
     exit_status status = arguments_read(&args, argc, (const char *const *)argv);
     const char *speaker = args.verb != NULL ? args.verb->name : NULL;
@@ -51,6 +52,7 @@ int main(int argc, char **argv)
     if (status == EXIT_ANSWERED) status = run(&args);
     arguments_free(&args);
     progress_end();
+    if (json) output_error_object();
     const exit_status finished = output_finish(speaker);
     return (int)(status > finished ? status : finished);
 }

@@ -73,17 +73,46 @@ static bool silent;
 
 void complain_aloud(bool aloud) { silent = !aloud; }
 
+enum { TEXT = 2048 };
+
+/* One for the process, as standard error is. */
+static char first_error[TEXT];
+
+const char *complain_first(void) { return first_error[0] != '\0' ? first_error : NULL; }
+
+static bool is_error(exit_status status)
+{
+    return status != EXIT_ANSWERED && status != EXIT_CONTACT && status != EXIT_UNDECIDED;
+}
+
+static void say(const char *verb, const char *text)
+{
+    fprintf(stderr, "impinge: %s%s%s\n", verb != NULL ? verb : "", verb != NULL ? ": " : "",
+            message_shown(text).text);
+}
+
 exit_status complain(exit_status status, const char *verb, const char *format, ...)
 {
-    char text[2048];
+    char text[TEXT];
     va_list list;
     if (silent) return status;
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
-    fprintf(stderr, "impinge: %s%s%s\n", verb != NULL ? verb : "", verb != NULL ? ": " : "",
-            message_shown(text).text);
+    if (is_error(status) && first_error[0] == '\0') memcpy(first_error, text, sizeof text);
+    say(verb, text);
     return status;
+}
+
+void remark(const char *verb, const char *format, ...)
+{
+    char text[TEXT];
+    va_list list;
+    if (silent) return;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    say(verb, text);
 }
 
 const char *message_of(const imp_error *error)

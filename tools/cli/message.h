@@ -44,6 +44,13 @@ void complain_aloud(bool aloud);
 exit_status complain(exit_status status, const char *verb, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Writes a line like those of complain about what is no error of the command. */
+void remark(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The text of the first complaint with the status of an error (2 or from 4 on), or NULL: with --json it
+ * becomes the object {"error": text} (output_finish). */
+const char *complain_first(void);
+
 /* Its text, or that of its code. */
 const char *message_of(const imp_error *error);
 

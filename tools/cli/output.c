@@ -32,7 +32,9 @@ bool output_prepare(void)
 static exit_status complain_of_output(const char *verb)
 {
     const int error = errno;
-    if (error == EPIPE) return EXIT_DATA; /* nobody reads any more, as behind `| head` */
+    static bool complained;
+    if (error == EPIPE || complained) return EXIT_DATA; /* EPIPE: nobody reads, as behind `| head` */
+    complained = true;
     return complain(EXIT_DATA, verb, "standard output: %s", system_error_text(error));
 }
 
@@ -56,6 +58,15 @@ exit_status output_finish(const char *verb)
 {
     if (json_memory_failed()) return refuse_damaged(verb);
     return standard_output_close() ? EXIT_ANSWERED : complain_of_output(verb);
+}
+
+void output_error_object(void)
+{
+    const char *text = complain_first();
+    if (text == NULL || standard_output_is_replaced()) return;
+    char *line = output_json_line(json_pack("{s:o}", "error", output_json_text(text)));
+    if (line != NULL) puts(line);
+    free(line);
 }
 
 static bool coloured;

@@ -21,6 +21,10 @@ bool output_prepare(void);
 exit_status output_flush(const char *verb);
 exit_status output_finish(const char *verb);
 
+/* With --json: prints the first error that was complained of, if any, as {"error": text}, so that a
+ * program that reads standard output is told, too. To be called before output_finish. */
+void output_error_object(void);
+
 /* Colour for people: none unless it is wanted, standard output is a terminal that has colours, and
  * NO_COLOR is not in the environment. */
 void output_choose_colour(bool wanted);

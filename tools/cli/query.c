@@ -43,7 +43,7 @@ static void warn(const imp_registry *registry, const char *speaker)
 {
     imp_plugin_refusal warning;
     for (size_t i = 0; imp_registry_warning(registry, i, &warning); ++i)
-        complain(EXIT_ANSWERED, speaker, "warning: %s: %s", warning.file, warning.reason);
+        remark(speaker, "warning: %s: %s", warning.file, warning.reason);
 }
 
 imp_registry *query_registry(const arguments *args)
@@ -67,7 +67,7 @@ void query_registry_free(imp_registry *registry)
 {
     imp_plugin_refusal fault;
     for (size_t i = 0; imp_registry_fault(registry, i, &fault); ++i)
-        complain(EXIT_ANSWERED, NULL, "warning: %s: %s", fault.file, fault.reason);
+        remark(NULL, "warning: %s: %s", fault.file, fault.reason);
     imp_registry_free(registry);
 }
 
@@ -211,16 +211,6 @@ exit_status query_print(const imp_scene *scene, const imp_result *result, const 
     return output_flush(args->verb->name);
 }
 
-/* What went wrong, on standard error; with --json also as the one object on standard output. */
-static exit_status refused(const imp_error *error, const arguments *args)
-{
-    const exit_status status = complain_of(error, args->verb->name);
-    if (arguments_option(args, "json") == NULL) return status;
-    const exit_status printed = output_json(
-        json_pack("{s:o}", "error", output_json_text(message_of(error))), args->verb->name);
-    return printed != EXIT_ANSWERED ? printed : status;
-}
-
 static exit_status answer(imp_scene *scene, const arguments *args)
 {
     imp_result result;
@@ -228,14 +218,14 @@ static exit_status answer(imp_scene *scene, const arguments *args)
     imp_options options = query_options(scene, args);
     crew threads = {query_threads_asked(args)};
     query_lend_threads(&options, &threads);
-    if (solve(scene, &options, &result, &error) != IMP_SUCCESS) return refused(&error, args);
+    if (solve(scene, &options, &result, &error) != IMP_SUCCESS) return complain_of(&error, args->verb->name);
     const exit_status printed = query_print(scene, &result, args);
     return printed != EXIT_ANSWERED ? printed : query_status(&result, args);
 }
 
 exit_status query_answer(imp_scene *scene, const imp_error *error, const arguments *args)
 {
-    if (scene == NULL) return refused(error, args);
+    if (scene == NULL) return complain_of(error, args->verb->name);
     interrupt_prepare();
     const exit_status status = answer(scene, args);
     imp_scene_free(scene);

@@ -10,13 +10,15 @@
 #include <poll.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* One for the process, as stdout is. */
 static struct {
     int descriptor;
+    struct stat file; /* what the descriptor was opened on: a plugin may close it, or open another */
     pid_t owner;
-    bool is_terminal;
+    bool is_terminal, is_replaced;
     int error; /* errno of a write that failed and was not reported yet; 0: none */
     size_t used;
     char text[1 << 14];
@@ -42,18 +44,30 @@ static bool write_all(const char *text, size_t length)
     return true;
 }
 
+/* Whether the descriptor is still ours; errno EBADF if not. */
+static bool is_still_ours(void)
+{
+    struct stat now;
+    if (fstat(output.descriptor, &now) != 0) return false;
+    errno = EBADF;
+    return now.st_dev == output.file.st_dev && now.st_ino == output.file.st_ino;
+}
+
 static bool write_out(void)
 {
     const size_t used = output.used;
     output.used = 0;
-    if (output.owner != getpid()) return true;
-    if (output.error == 0 && !write_all(output.text, used)) output.error = errno;
+    if (output.owner != getpid() || used == 0) return output.error == 0;
+    if (output.error == 0 && !(is_still_ours() && write_all(output.text, used)))
+        output.error = errno;
     return output.error == 0;
 }
 
+/* A plugin may have given stdout a buffer, which is emptied first. */
 bool standard_output_flush(void)
 {
-    const bool written = write_out();
+    const bool passed_on = fflush(stdout) == 0;
+    const bool written = write_out() && passed_on;
     errno = output.error;
     output.error = 0;
     return written;
@@ -88,25 +102,52 @@ static ssize_t take(void *unused, const char *text, size_t length)
     return collect(text, length) ? (ssize_t)length : 0;
 }
 
-/* With no descriptor left, plugins share descriptor 1. */
-bool standard_output_prepare(void)
+static bool open_stream(void);
+
+/* Only a plugin closes the stream (fclose, freopen): then there is a new one, and what the plugin prints
+ * into the old one is lost. Where there is no memory for it, the answer is, which is told. */
+static int reopen(void *unused)
 {
-    const cookie_io_functions_t functions = {.write = take};
+    (void)unused;
+    if (!open_stream()) output.error = ENOMEM;
+    return 0;
+}
+
+static bool open_stream(void)
+{
+    const cookie_io_functions_t functions = {.write = take, .close = reopen};
     FILE *stream = fopencookie(NULL, "w", functions);
     if (stream == NULL) return false;
-    const int copy = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    output.descriptor = copy >= 0 ? copy : STDOUT_FILENO;
-    output.owner = getpid();
-    output.is_terminal = isatty(output.descriptor);
-    if (copy >= 0) dup2(STDERR_FILENO, STDOUT_FILENO);
     setvbuf(stream, NULL, _IONBF, 0);
     stdout = stream;
     return true;
 }
 
+/* With no descriptor left, plugins share descriptor 1. */
+bool standard_output_prepare(void)
+{
+    const int copy = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    output.descriptor = copy >= 0 ? copy : STDOUT_FILENO;
+    output.owner = getpid();
+    output.is_terminal = isatty(output.descriptor);
+    (void)fstat(output.descriptor, &output.file);
+    if (copy >= 0) dup2(STDERR_FILENO, STDOUT_FILENO);
+    return open_stream();
+}
+
 bool standard_output_replace(int descriptor)
 {
-    return dup3(descriptor, output.descriptor, O_CLOEXEC) == output.descriptor;
+    output.is_replaced = dup3(descriptor, output.descriptor, O_CLOEXEC) == output.descriptor &&
+                         fstat(output.descriptor, &output.file) == 0;
+    return output.is_replaced;
+}
+
+bool standard_output_is_replaced(void) { return output.is_replaced; }
+
+void standard_output_write_at_crash(const char *text, size_t length)
+{
+    output.used = 0;
+    if (!output.is_replaced && is_still_ours()) (void)write_all(text, length);
 }
 
 bool standard_output_close(void)

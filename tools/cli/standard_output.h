@@ -4,13 +4,15 @@
 #define TOOLS_CLI_STANDARD_OUTPUT_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /* A standard output that plugins cannot reach
  * ===========================================
  * A plugin runs in this process and may print. What it writes to descriptor 1, or prints while one
  * of its callbacks runs, goes to standard error; what a copy of the process prints (a plugin may
  * fork) is dropped. The command prints with stdio as usual: `stdout` then collects its text, which
- * goes to a private copy of descriptor 1. A signal or a slow reader interrupts no write. */
+ * goes to a private copy of descriptor 1. A signal or a slow reader interrupts no write. Whatever a
+ * plugin closes, text that is lost is an error. */
 
 /* False: no memory. */
 bool standard_output_prepare(void);
@@ -21,6 +23,13 @@ bool standard_output_replace(int descriptor);
 /* Writes out what has been collected. False: errno says why; also if an earlier write failed and
  * that was not reported yet. */
 bool standard_output_flush(void);
+
+/* Whether standard_output_replace was called: the text goes to a file of the user's. */
+bool standard_output_is_replaced(void);
+
+/* Writes the text at once, and drops what has been collected: a process that crashes prints no more.
+ * [async-signal-safe] */
+void standard_output_write_at_crash(const char *text, size_t length);
 
 bool standard_output_is_terminal(void);
 

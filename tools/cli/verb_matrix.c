@@ -69,7 +69,7 @@ static void tell_failure(matrix *m, const char *a, const char *b, const char *wh
         json_array_append_new(m->rows,
                               json_pack("{s:o, s:o, s:o}", "a", output_json_text(a), "b",
                                         output_json_text(b), "error", output_json_text(why)));
-    complain(EXIT_PLUGIN, m->args->verb->name, "%s  |  %s: %s", a, b, why);
+    remark(m->args->verb->name, "%s  |  %s: %s", a, b, why);
 }
 
 /* One pair; a failure is reported at once, with both names. */

@@ -74,7 +74,8 @@ int main(int argc, char **argv)
     progress_begin();
     output_prepare();
     MPI_Init(&argc, &argv);
-    crash_prepare();
+    const bool json = arguments_ask_for_json(argc, (const char *const *)argv);
+    crash_prepare(json);
     complain_aloud(ranks_own() == FIRST_RANK);
     arguments args;
     exit_status status = arguments_read(&args, argc, (const char *const *)argv);
@@ -82,6 +83,7 @@ int main(int argc, char **argv)
     if (status == EXIT_ANSWERED) status = run(&args);
     arguments_free(&args);
     progress_end();
+    if (json) output_error_object();
     const exit_status finished = output_finish(NULL);
     if (finished > status) status = finished;
     const bool first = ranks_own() == FIRST_RANK;
