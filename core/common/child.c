@@ -74,13 +74,14 @@ static child_fate watch(pid_t child, int fd, double seconds)
     return stopped != 0 ? (child_fate){CHILD_STOPPED, stopped} : fate_of(status, done, late);
 }
 
-child_fate child_run(child_work *work, void *result, const void *task, double seconds)
+/* `errors`: standard error of the child, or -1. */
+static child_fate run(child_work *work, void *result, const void *task, double seconds, int errors)
 {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) return (child_fate){CHILD_NOT_RUN, errno};
     const pid_t child = fork();
     if (child == 0) {
-        child_process_detach(ends[1]);
+        child_process_detach(ends[1], errors);
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         work(result, task);
         _exit(write(CHILD_DESCRIPTOR, "", 1) == 1 ? 0 : 1);
@@ -90,6 +91,32 @@ child_fate child_run(child_work *work, void *result, const void *task, double se
     if (child > 0) setpgid(child, child); /* whoever of the two is first */
     const child_fate fate =
         child > 0 ? watch(child, ends[0], seconds) : (child_fate){CHILD_NOT_RUN, error};
+    close(ends[0]);
+    return fate;
+}
+
+child_fate child_run(child_work *work, void *result, const void *task, double seconds)
+{
+    return run(work, result, task, seconds, -1);
+}
+
+child_fate child_run_heard(child_work *work, void *result, const void *task, double seconds,
+                           char *said, size_t size)
+{
+    int ends[2];
+    size_t length = 0;
+    said[0] = '\0';
+    if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0)
+        return child_run(work, result, task, seconds);
+    const child_fate fate = run(work, result, task, seconds, ends[1]);
+    close(ends[1]);
+    while (length + 1 < size) {
+        const ssize_t got = read(ends[0], said + length, size - 1 - length);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        length += (size_t)got;
+    }
+    said[length] = '\0';
     close(ends[0]);
     return fate;
 }

@@ -154,11 +154,13 @@ static bool check_segments(elf_file *file, elf_probe *probe, elf_check *check)
 
 static bool check_tables(elf_file *file, elf_probe *probe, elf_check *check)
 {
-    (void)probe;
     elf_loads loads;
     char text[200];
     const bool good = elf_segments_check(file, &loads, text, sizeof text) &&
                       elf_tables_check(file, &loads, text, sizeof text);
+    if (good)
+        snprintf(probe->sanitizer, sizeof probe->sanitizer, "%s",
+                 elf_tables_runtime(file, &loads).name);
     return answer(check, good, "%s%s", text, good ? "" : "; " CUT_SHORT);
 }
 

@@ -61,6 +61,8 @@ typedef struct elf_probe {
     elf_check check[PROBE_CHECKS];
     elf_identity file; /* once PROBE_FILE has passed */
 
+    char sanitizer[32]; /* the runtime it needs, as libasan.so.8; empty: none */
+
     /* The note, once PROBE_NOTE has passed. */
     uint32_t abi_major, abi_minor;
     char name[TEXT_NAME_MAX + 1]; /* of the plugin */

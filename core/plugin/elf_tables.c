@@ -8,6 +8,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 bool elf_refuse(elf_object *o, const char *format, ...)
 {
@@ -70,4 +71,25 @@ bool elf_tables_check(elf_file *file, const elf_loads *loads, char *text, size_t
     if (!check_strings(&o) || !elf_symbols_check(&o) || !elf_relocations_check(&o)) return false;
     snprintf(text, size, "%llu symbols, all inside the object", (unsigned long long)o.symbol_count);
     return true;
+}
+
+elf_runtime elf_tables_runtime(elf_file *file, const elf_loads *loads)
+{
+    elf_dynamic d;
+    uint64_t strings, bytes;
+    elf_runtime found = {""};
+    if (!elf_dynamic_open(&d, file, loads) || !elf_dynamic_find(&d, DT_STRTAB, &strings) ||
+        !elf_dynamic_find(&d, DT_STRSZ, &bytes))
+        return found;
+    for (unsigned k = 0; k < d.count && found.name[0] == '\0'; ++k) {
+        const uint64_t name = d.entry[k].d_un.d_val;
+        if (d.entry[k].d_tag != DT_NEEDED || name >= bytes) continue;
+        const uint64_t room = sizeof found.name - 1, left = bytes - name;
+        const size_t length = (size_t)(left < room ? left : room);
+        const bool is_read = elf_dynamic_load(&d, strings + name, found.name, length);
+        found.name[is_read ? length : 0] = '\0';
+        if (strncmp(found.name, "libasan.", 8) != 0 && strncmp(found.name, "libtsan.", 8) != 0)
+            found.name[0] = '\0';
+    }
+    return found;
 }

@@ -22,11 +22,26 @@ static void step_read(plugin_file *plugin, const char *path, load_outcome *out)
     load_outcome_refuse(out, LOAD_READ, check->name, "%s", check->text);
 }
 
+/* A sanitizer's runtime ends the process if it is not loaded before everything else. */
+static bool has_runtime(const char *sanitizer)
+{
+    if (sanitizer[0] == '\0') return true;
+    return dlsym(RTLD_DEFAULT, sanitizer[3] == 'a' ? "__asan_init" : "__tsan_init") != NULL;
+}
+
 /* RTLD_NOW: an undefined function is reported here, not by a dead host at its first call.
  * RTLD_LOCAL: plugins do not see each other. The constructors run here. */
 static void step_open(plugin_file *plugin, const char *path, load_outcome *out)
 {
+    const char *sanitizer = plugin->facts.sanitizer;
     const fp_mode before = fp_mode_read();
+    if (!has_runtime(sanitizer)) {
+        load_outcome_refuse(out, LOAD_OPEN, "load",
+                            "it is compiled with -fsanitize and needs %s, which has to be there first: "
+                            "LD_PRELOAD=$(cc -print-file-name=%.8sso) ASAN_OPTIONS=detect_leaks=0 impinge ...",
+                            sanitizer, sanitizer);
+        return;
+    }
     plugin->handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     const bool kept = fp_mode_kept(before);
     if (plugin->handle == NULL && errno == ENOMEM) {

@@ -52,7 +52,7 @@ static void limit_memory(void)
 
 _Noreturn static void run(worker_type type, channel *c, int lifeline)
 {
-    child_process_detach(lifeline);
+    child_process_detach(lifeline, -1);
     follow_lifeline();
     limit_memory();
     worker_serve(c, type);

@@ -7,6 +7,7 @@
  * A puddle after a drop has fallen into it: rings run outward and decay with the distance. */
 
 #include <impinge/formula.h>
+#include <impinge/plugin.h>
 #include <new>
 
 namespace
@@ -22,27 +23,13 @@ imp_model operator-(imp_model a) { return imp_neg(a); }
 
 /* --- Parameters ----------------------------------------------------------------------- */
 
-constexpr imp_parameter positive(const char *name, const char *unit, const char *default_value,
-                                 const char *doc)
-{
-    imp_parameter row{};
-    row.name = name;
-    row.unit = unit;
-    row.default_value = default_value;
-    row.doc = doc;
-    row.kind = IMP_NUMBER;
-    row.flags = IMP_MIN_OPEN;
-    row.max = INFINITY;
-    return row;
-}
-
 enum { SIZE, HEIGHT, RINGS, SPEED, ROWS };
 
 constexpr imp_parameter parameters[ROWS] = {
-    positive("size", "length", "1", "distance at which the height falls to 37%"),
-    positive("height", "length", "0.1", "height in the middle"),
-    positive("rings", "rad/length^2", "12", "density of the rings"),
-    positive("speed", "rad/time", "10", "how fast they run outward"),
+    IMP_ROW_POSITIVE("size", "length", "1", "distance at which the height falls to 37%"),
+    IMP_ROW_POSITIVE("height", "length", "0.1", "height in the middle"),
+    IMP_ROW_POSITIVE("rings", "rad/length^2", "12", "density of the rings"),
+    IMP_ROW_POSITIVE("speed", "rad/time", "10", "how fast they run outward"),
 };
 
 /* --- The surface ---------------------------------------------------------------------- */
@@ -79,48 +66,35 @@ class Puddle
 
 /* --- The callbacks -------------------------------------------------------------------- */
 
-imp_status create(const imp_value *values, void **self, imp_create_error *)
+imp_status puddle_create(const imp_value *values, void **self, imp_create_error *)
 {
     *self = new (std::nothrow) Puddle(values);
     return *self != nullptr ? IMP_OK : IMP_INTERNAL;
 }
 
-void destroy(void *self) { delete static_cast<Puddle *>(self); }
+void puddle_destroy(void *self) { delete static_cast<Puddle *>(self); }
 
-void domain(const void *self, double lo[3], double hi[3])
+void puddle_domain(const void *self, double lo[3], double hi[3])
 {
     static_cast<const Puddle *>(self)->domain(lo, hi);
 }
 
-void formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
+void puddle_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
 {
     static_cast<const Puddle *>(self)->formula(u, v, t, out);
 }
-IMP_SURFACE_FORMULA(formula)
+IMP_SURFACE_FORMULA(puddle_formula)
 
-constexpr imp_surface_type make_type()
-{
-    imp_surface_type type{};
-    type.struct_size = sizeof(imp_surface_type);
-    type.parameter_count = ROWS;
-    type.parameter_size = sizeof(imp_parameter);
-    type.name = "puddle";
+constexpr imp_surface_type puddle = [] {
+    imp_surface_type type =
+        IMP_SURFACE_VALUE_OF("puddle", puddle, puddle_formula, puddle_destroy);
     type.summary = "rings that run outward and decay";
     type.equation = "r2 = u^2 + v^2: (u, v, height exp(-r2/size^2) cos(rings r2 - speed t)), "
                     "u and v in [-2 size, 2 size]";
     type.example = "puddle height=0.2";
-    type.parameters = parameters;
-    type.create = create;
-    type.destroy = destroy;
-    type.domain = domain;
-    type.eval = formula_eval;
-    type.rate = formula_rate;
-    type.include = formula_include;
     return type;
-}
-
-constexpr imp_surface_type type = make_type();
+}();
 
 } // namespace
 
-IMPINGE_SURFACE_PLUGIN("puddle", "1.0", "MIT", "The Impinge authors", type);
+IMPINGE_SURFACE_PLUGIN("puddle", "1.0", "MIT", "The Impinge authors", puddle);

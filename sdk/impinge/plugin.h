@@ -38,7 +38,8 @@ extern "C" {
  *   };
  *   IMPINGE_SURFACE_PLUGIN("ball", "1.0", "MIT", "your name", ball);
  *
- * The macros use designated initializers: C, and C++ from C++20 on. */
+ * In C++17 everything but IMP_..._FIELDS works alike; IMP_SURFACE_VALUE and IMP_MAP_VALUE stand in for
+ * those. <impinge/model.hpp> makes a type of a class or of a lambda. */
 
 /* --- Rows of a parameter table ---------------------------------------------------------------
  *
@@ -49,8 +50,7 @@ extern "C" {
  * MAX. */
 #define IMP_ROW_OF(KIND, NAME, UNIT, DEFAULT, FLAGS, RANK, EXTENT0, EXTENT1, MIN, MAX, DOC)        \
     {                                                                                              \
-        .name = NAME, .unit = UNIT, .doc = DOC, .default_value = DEFAULT, .kind = KIND,            \
-        .flags = FLAGS, .rank = RANK, .extent = {EXTENT0, EXTENT1}, .min = MIN, .max = MAX         \
+        NAME, UNIT, DOC, DEFAULT, KIND, FLAGS, RANK, {EXTENT0, EXTENT1, 0}, MIN, MAX               \
     }
 #define IMP_ROW(NAME, UNIT, DEFAULT, FLAGS, RANK, EXTENT0, EXTENT1, MIN, MAX, DOC)                 \
     IMP_ROW_OF(IMP_NUMBER, NAME, UNIT, DEFAULT, FLAGS, RANK, EXTENT0, EXTENT1, MIN, MAX, DOC)
@@ -141,6 +141,8 @@ static inline void imp_set_domain(double lo[3], double hi[3], double u_lo, doubl
  * In the short forms the type is called PREFIX, and an instance is one block from malloc. Otherwise
  * NAME is the type's name, a string, and DESTROY frees an instance. */
 
+#ifndef __cplusplus
+
 /* TYPE is imp_surface_type or imp_map_type; the other callbacks follow after this macro. */
 #define IMP_TYPE_FIELDS(TYPE, NAME, PREFIX, DESTROY)                                               \
     .struct_size = (uint32_t)sizeof(TYPE),                                                         \
@@ -161,8 +163,72 @@ static inline void imp_set_domain(double lo[3], double hi[3], double u_lo, doubl
                                                           .apply = CALLS##_apply
 #define IMP_MAP_FIELDS(PREFIX, CALLS) IMP_MAP_FIELDS_OF(#PREFIX, PREFIX, CALLS, free, CALLS##_rate)
 
-#ifdef __cplusplus
+#else
 }
+
+/* C++ wants designated initializers in the order of the fields. Here the same macros, with VALUE for FIELDS,
+ * are a value that a lambda completes:
+ *
+ *   constexpr imp_surface_type ball = [] {
+ *       imp_surface_type type = IMP_SURFACE_VALUE(ball, ball_formula);
+ *       type.summary = "...", type.equation = "...", type.example = "...";
+ *       return type;
+ *   }();
+ */
+template <class Type, class Create>
+constexpr Type imp_type_value_(const char *name, const imp_parameter *parameters, size_t count,
+                               Create create, void (*destroy)(void *))
+{
+    Type type{};
+    type.struct_size = (uint32_t)sizeof(Type);
+    type.parameter_count = (uint32_t)count;
+    type.parameter_size = (uint32_t)sizeof(imp_parameter);
+    type.name = name;
+    type.parameters = parameters;
+    type.create = create;
+    type.destroy = destroy;
+    return type;
+}
+
+template <class Domain, class Eval, class Rate, class Include>
+constexpr imp_surface_type imp_surface_value_(imp_surface_type type, Domain domain, Eval eval,
+                                              Rate rate, Include include)
+{
+    type.domain = domain;
+    type.eval = eval;
+    type.rate = rate;
+    type.include = include;
+    return type;
+}
+
+template <class Times, class Eval, class Rate, class Apply>
+constexpr imp_map_type imp_map_value_(imp_map_type type, Times times, Eval eval, Rate rate,
+                                      Apply apply)
+{
+    type.time_domain = times;
+    type.eval = eval;
+    type.rate = rate;
+    type.apply = apply;
+    return type;
+}
+
+#define IMP_TYPE_VALUE(TYPE, NAME, PREFIX, DESTROY)                                                \
+    imp_type_value_<TYPE>(NAME, parameters, sizeof parameters / sizeof parameters[0],              \
+                          PREFIX##_create, DESTROY)
+
+#define IMP_SURFACE_VALUE_OF(NAME, PREFIX, CALLS, DESTROY)                                         \
+    imp_surface_value_(IMP_TYPE_VALUE(imp_surface_type, NAME, PREFIX, DESTROY), PREFIX##_domain,   \
+                       CALLS##_eval, CALLS##_rate, CALLS##_include)
+#define IMP_SURFACE_VALUE(PREFIX, CALLS) IMP_SURFACE_VALUE_OF(#PREFIX, PREFIX, CALLS, free)
+
+#define IMP_MAP_VALUE_OF(NAME, PREFIX, CALLS, DESTROY, RATE)                                       \
+    imp_map_value_(IMP_TYPE_VALUE(imp_map_type, NAME, PREFIX, DESTROY), PREFIX##_time_domain,      \
+                   CALLS##_eval, RATE, CALLS##_apply)
+#define IMP_MAP_VALUE(PREFIX, CALLS) IMP_MAP_VALUE_OF(#PREFIX, PREFIX, CALLS, free, CALLS##_rate)
+
+/* Says what to use instead. */
+#define IMP_SURFACE_FIELDS(...) "IMP_SURFACE_FIELDS is for C; in C++ use IMP_SURFACE_VALUE"
+#define IMP_MAP_FIELDS(...) "IMP_MAP_FIELDS is for C; in C++ use IMP_MAP_VALUE"
 #endif
 
 #endif /* IMPINGE_PLUGIN_H */

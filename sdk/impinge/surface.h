@@ -412,6 +412,29 @@ typedef struct imp_map_factory {
     const imp_map_type *const *types;
 } imp_map_factory;
 
+/* How a plugin was compiled; IMPINGE_PLUGIN answers it. Optional, and told to authors by `impinge check`. */
+#define IMP_BUILD_FACTORY "impinge.build/1"
+
+typedef struct imp_build {
+    uint32_t struct_size;
+    uint32_t is_contracted; /* 1: a * b + c is rounded once, not twice (-ffp-contract) */
+} imp_build;
+
+/* 0 as a product and a sum; -2^-60 as one operation. */
+static inline const void *imp_build_facts_(void)
+{
+    static const imp_build facts[2] = {{sizeof(imp_build), 0}, {sizeof(imp_build), 1}};
+    volatile double a = 1 + 0x1p-30, b = 1 - 0x1p-30, c = -1;
+    const double x = a, y = b, z = c;
+    return &facts[x * y + z != 0];
+}
+
+static inline int imp_text_is_(const char *text, const char *other)
+{
+    while (*other != '\0' && *other == *text) ++other, ++text;
+    return *other == *text;
+}
+
 typedef struct imp_plugin {
     uint32_t magic; /* IMP_PLUGIN_MAGIC */
     uint32_t struct_size;
@@ -464,6 +487,10 @@ extern IMP_EXPORT const imp_plugin IMPINGE_PLUGIN_SYMBOL;
  * is a function as in imp_plugin. One type per file? See IMPINGE_SURFACE_PLUGIN below. */
 #define IMPINGE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, GET_FACTORY)                                \
     IMP_NOTE_(NAME, VERSION);                                                                      \
+    static const void *imp_find_factory_(const char *id)                                           \
+    {                                                                                              \
+        return imp_text_is_(id, IMP_BUILD_FACTORY) ? imp_build_facts_() : (GET_FACTORY)(id);       \
+    }                                                                                              \
     const imp_plugin IMPINGE_PLUGIN_SYMBOL = {IMP_PLUGIN_MAGIC,                                    \
                                               (uint32_t)sizeof(imp_plugin),                        \
                                               IMP_ABI_MAJOR,                                       \
@@ -472,7 +499,7 @@ extern IMP_EXPORT const imp_plugin IMPINGE_PLUGIN_SYMBOL;
                                               VERSION,                                             \
                                               LICENSE,                                             \
                                               AUTHOR,                                              \
-                                              GET_FACTORY}
+                                              imp_find_factory_}
 
 #define IMP_SINGLE_PLUGIN_(FACTORY, ID, NAME, VERSION, LICENSE, AUTHOR, TYPE)                      \
     static const FACTORY##_type *const imp_types_[] = {&(TYPE)};                                   \
@@ -480,9 +507,7 @@ extern IMP_EXPORT const imp_plugin IMPINGE_PLUGIN_SYMBOL;
                                                    imp_types_};                                    \
     static const void *imp_get_factory_(const char *id)                                            \
     {                                                                                              \
-        const char *want = ID;                                                                     \
-        while (*want != '\0' && *want == *id) ++want, ++id;                                        \
-        return *want == *id ? &imp_factory_ : NULL;                                                \
+        return imp_text_is_(id, ID) ? &imp_factory_ : NULL;                                        \
     }                                                                                              \
     IMPINGE_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, imp_get_factory_)
 

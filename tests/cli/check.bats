@@ -255,6 +255,14 @@ follows() {
     [[ $output == *"expected three formulas with ';' between them"* ]]
 }
 
+@test "a formula may name booleans, and elements of lists that not all instances have" {
+    fails 2 "'hat' is neither a variable (xyzt) nor a constant; these are pi, e, times0 ... times2, " \
+        "$IMPINGE" check keyframes --formula 'x; y; z*hat'
+    [[ $stderr == *', hold' ]]
+    run -0 "$IMPINGE" check segment --only proof --effort 0.05 --formula '2*u; u*t*velocities4; 0'
+    [[ $output == *'as: segment'*'as: segment'*'  pass  proof        all '* ]]
+}
+
 @test "parameters that are wrong are the user's fault, not the plugin's" {
     run -4 "$IMPINGE" check 'sphere radius=-1'
     [[ $output == *"'sphere radius=-1': surface: radius: got -1, must be > 0"* ]]

@@ -240,7 +240,8 @@ compile_example() {
     local HOME=$PWD/home dir
     export HOME
     for XDG_DATA_HOME in "$PWD/data" ''; do
-        eval "dir=$(sdk pluginuserdir)"
+        dir=$HOME/$(sdk pluginuserdir)
+        [ -z "$XDG_DATA_HOME" ] || dir=$XDG_DATA_HOME/impinge/1
         mkdir -p "$dir" && cp unit_square.so "$dir"
         run -0 "$impinge" list
         [[ $output == *unit_square* ]]

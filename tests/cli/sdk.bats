@@ -351,6 +351,65 @@ refused() {
     refused 's/= imp_sin(/= imp_shine(/; s/^static void drum_formula/imp_model imp_shine(imp_model);\n&/' 'load: wobble.so: undefined symbol: imp_shine'
 }
 
+# --- Debugging ----------------------------------------------------------------------------------
+
+# broken SED_SCRIPT: the template `wobble`, edited so, as a plugin in this folder.
+broken() {
+    impinge new wobble >/dev/null
+    sed -i "$1" wobble/wobble.c
+    CFLAGS='-g -O0' impinge build wobble/wobble.c >/dev/null 2>&1
+}
+
+crashing='s/^static const imp_surface_type type/static imp_status crash(const void *self, const imp_region *r, imp_model m[3])\
+{\
+    fprintf(stderr, "about to crash\\n");\
+    return m == NULL ? IMP_OK : *(const volatile int *)((const char *)self - (uintptr_t)self);\
+}\
+&/; s/, free),/&\n    .include = crash,/'
+
+@test "a crash in include is found by gdb with the command that check prints" {
+    command -v gdb >/dev/null || skip 'no gdb'
+    local debug
+    broken "$crashing"
+    run -6 impinge check wobble --plugin-path .
+    [[ $output == *'crashed (Segmentation fault) in include over u in '*'said: about to crash'* ]]
+    debug=$(sed -n 's/^ *debug: //p' <<<"$output" | head -n 1)
+    [[ $debug == 'gdb -ex run --args impinge check wobble '*' --call '* ]]
+    run -0 bash -c "${debug/-ex run/-batch -ex run -ex continue -ex backtrace} 2>&1"
+    [[ $output == *'comes next, of include'*SIGTRAP*SIGSEGV*'#0 '*'crash (self='*'wobble.c:'* ]]
+}
+
+@test "check --in-process crashes itself, and --call wants to know which check" {
+    broken "$crashing"
+    run -139 bash -c 'impinge check wobble --plugin-path . --only inclusions --in-process'
+    [[ $output == *'about to crash'* ]]
+    fails 2 '--call counts the calls of one check: add --only' \
+        impinge check sphere --call 3
+    run -0 impinge check sphere --in-process
+    [[ $output == *'0 failed'* && $output == *'pass  environment'* ]]
+}
+
+@test "a plugin for AddressSanitizer is told what it needs, and its report is shown" {
+    local runtime
+    runtime=$($CC -print-file-name=libasan.so)
+    [ -f "$runtime" ] || skip 'no libasan'
+    impinge new wobble >/dev/null
+    sed -i 's/^    const drum \*d = self;/&\n    static volatile double few[2];\n    few[d->height != 0 ? 2 : 0] = 1;/' wobble/wobble.c
+    export CFLAGS='-g -fsanitize=address' ASAN_OPTIONS=detect_leaks=0
+    fails 5 'is compiled with -fsanitize and needs libasan.so' impinge build wobble/wobble.c
+    LD_PRELOAD=$runtime impinge build wobble/wobble.c
+    run -6 env LD_PRELOAD="$runtime" impinge check wobble --plugin-path . --only finite
+    [[ $output == *'said: '*'AddressSanitizer: global-buffer-overflow'* ]]
+}
+
+@test "an example that does not work is told once" {
+    broken 's/ height=0.5"/ hieght=0.5"/'
+    run -6 impinge check wobble --plugin-path .
+    [[ $output == *"FAIL  example "*"the type's example does not work: 'wobble hieght=0.5': "*"'height'"* ]]
+    [ "$(grep -c FAIL <<<"$output")" -eq 1 ]
+    [[ $output == *'pass  rates'* ]]
+}
+
 # --- Our own types ------------------------------------------------------------------------------
 
 # With nothing but $prefix/include and copies of plugins/ to include from.
@@ -413,6 +472,17 @@ parts_of_guide() {
         case $name in param | between | unbounded | model_*) continue ;; esac
         grep -qwE "(imp_)?$name" <<<"$guide" || { echo "no $name"; false; }
     done
+}
+
+@test "impinge-sdk.pc keeps a * b + c as written, and check notes where it is contracted" {
+    { [ "$(uname -m)" = x86_64 ] && grep -qw fma /proc/cpuinfo; } || skip 'needs fused operations'
+    local source=$prefix/share/doc/impinge/sdk/examples/seashell.c
+    # shellcheck disable=SC2046 # flags are words
+    $CC -shared -fPIC -O2 -mfma -o seashell.so "$source" $(pkg-config --cflags --libs impinge-sdk)
+    run -0 impinge check seashell --plugin-path . --only build
+    $CC -shared -fPIC -O2 -mfma -o seashell.so "$source" -I"$prefix/include" -lm
+    run -0 impinge check ./seashell.so --only build
+    [[ $output == *'note  build        compiled so that a * b + c is rounded once'*'add -ffp-contract=off'* ]]
 }
 
 # --- The ABI ------------------------------------------------------------------------------------

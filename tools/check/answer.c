@@ -4,6 +4,7 @@
 
 #include "tools/check/answer.h"
 
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,6 +14,14 @@ write_text(check_answer *answer, check_verdict verdict, const char *format, va_l
 {
     answer->verdict = verdict;
     vsnprintf(answer->text, sizeof answer->text, format, list);
+}
+
+void answer_forget(check_answer *answer)
+{
+    answer->verdict = CHECK_PASS;
+    answer->text[0] = '\0';
+    answer->faults = 0;
+    answer->blamed = 0;
 }
 
 void answer_prefix(check_answer *answer, const char *words)
@@ -53,6 +62,11 @@ write_failure(check_answer *answer, unsigned faults, const char *format, va_list
     if (answer->verdict == CHECK_FAIL) return false;
     write_text(answer, CHECK_FAIL, format, list);
     answer->faults = faults;
+    if (answer->blamed == 0) {
+        const unsigned of_claims = FAULT_RATE | FAULT_RANGE | FAULT_REMAINDER | FAULT_ERROR;
+        const bool is_claim = (faults & of_claims) != 0 && (faults & FAULT_VALUE) == 0;
+        answer->blamed = is_claim && answer->claim_call > 0 ? answer->claim_call : answer->calls;
+    }
     return false;
 }
 
@@ -72,4 +86,29 @@ bool answer_fail_for(check_answer *answer, unsigned faults, const char *format, 
     write_failure(answer, faults, format, list);
     va_end(list);
     return false;
+}
+
+/* --- Calls -------------------------------------------------------------------------------------- */
+
+/* A process that is traced has a tracer other than 0. */
+static bool is_traced(void)
+{
+    char line[200];
+    int tracer = 0;
+    FILE *status = fopen("/proc/self/status", "r");
+    while (status != NULL && tracer == 0 && fgets(line, sizeof line, status) != NULL)
+        sscanf(line, "TracerPid: %d", &tracer);
+    if (status != NULL) fclose(status);
+    return tracer != 0;
+}
+
+void answer_count_call(check_answer *answer)
+{
+    const char *name = answer->call.name;
+    ++answer->calls;
+    if (strcmp(name, "eval") != 0) answer->claim_call = answer->calls;
+    if (strcmp(name, "rate") == 0) answer->rate_call = answer->calls;
+    if (answer->calls != answer->stop_at) return;
+    fprintf(stderr, "call %llu comes next, of %s\n", (unsigned long long)answer->calls, name);
+    if (is_traced()) raise(SIGTRAP);
 }

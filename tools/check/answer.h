@@ -60,7 +60,21 @@ typedef struct check_answer {
     check_proof proof; /* filled by `proof` */
 
     check_call call;
+
+    /* Calls into the plugin are counted, so that any of them can be found again. */
+    uint64_t calls;
+    uint64_t claim_call, rate_call; /* the last that was no eval, and the last that was rate */
+    uint64_t blamed;                /* of a failure: the call that is at fault; 0: not known */
+    uint64_t stop_at;               /* tell a debugger before this call; 0: never */
+
+    char said[2048]; /* the beginning of what was written to standard error */
 } check_answer;
+
+/* Counts the call that `call` describes, which is about to be made. */
+void answer_count_call(check_answer *answer);
+
+/* Takes back a failure. */
+void answer_forget(check_answer *answer);
 
 /* Puts a prefix and a colon in front of the answer's text. */
 void answer_prefix(check_answer *answer, const char *words);

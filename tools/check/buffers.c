@@ -76,7 +76,7 @@ static bool bounds_keep_buffers(const subject *s, const box *where)
     imp_model in[4];
     surround(&rates);
     surround(&models);
-    s->answer->call = (check_call){.name = "rate, include or apply"};
+    subject_note_call(s->answer, "rate, include or apply", NULL);
     if (i->surface != NULL) {
         i->surface->rate(i->self, &copy, &rates.in.rates);
         if (i->surface->include != NULL) i->surface->include(i->self, &copy, models.in.model);
@@ -158,12 +158,12 @@ static void map_at_end(const imp_instance *i, pages *g, const box *where)
 
 static void bounds_at_end(const subject *s, pages *g, const box *where)
 {
-    s->answer->call = (check_call){.name = "rate, include or apply", .hint = HINT};
+    subject_note_call(s->answer, "rate, include or apply", HINT);
     if (s->n == 3)
         surface_at_end(s->instance, g, where);
     else
         map_at_end(s->instance, g, where);
-    s->answer->call = (check_call){.name = NULL};
+    subject_note_call(s->answer, NULL, NULL);
     ++s->answer->tests;
 }
 

@@ -182,13 +182,14 @@ static void check_life(watch *w, imp_registry *registry, const imp_type_info *ty
 }
 
 /* Standard output becomes a file in memory, as a stream and as a descriptor: where that ends tells
- * whether anything was written. The process is the check's own. */
+ * whether anything was written. */
 void environment_check(imp_registry *registry, const imp_type_info *type, const char *stage,
                        check_answer *answer)
 {
     watch w = {.answer = answer, .output = memfd_create("standard output", MFD_CLOEXEC)};
     FILE *stream = w.output >= 0 ? fdopen(w.output, "w") : NULL;
-    if (stream == NULL || dup2(w.output, STDOUT_FILENO) < 0) {
+    const int before = dup(STDOUT_FILENO);
+    if (stream == NULL || before < 0 || dup2(w.output, STDOUT_FILENO) < 0) {
         answer_skip(answer, "no file in memory could be made: %s", strerror(errno));
         return;
     }
@@ -197,5 +198,7 @@ void environment_check(imp_registry *registry, const imp_type_info *type, const 
     stdout = stream;
     check_life(&w, registry, type, stage);
     stdout = usual;
+    dup2(before, STDOUT_FILENO);
+    close(before);
     fclose(stream);
 }

@@ -123,6 +123,30 @@ void exports_check(const char *file, check_answer *answer)
     free(m.byte);
 }
 
+/* --- How it was compiled -------------------------------------------------------------------- */
+
+void build_check(const char *file, check_answer *answer)
+{
+    void *handle = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+    const imp_plugin *entry = handle != NULL ? dlsym(handle, "impinge_plugin") : NULL;
+    if (entry == NULL) {
+        answer_fail(answer, "cannot be loaded: %s", dlerror());
+        return;
+    }
+    answer->call.name = "get_factory";
+    const imp_build *build = entry->get_factory(IMP_BUILD_FACTORY);
+    answer->call.name = NULL;
+    ++answer->tests;
+    if (build == NULL || build->struct_size < sizeof *build)
+        answer_skip(answer, "the plugin does not say how it was compiled");
+    else if (build->is_contracted)
+        answer_note(answer, "compiled so that a * b + c is rounded once: bounds written by hand that count "
+                            "two roundings, or compare such sums, may fail; add -ffp-contract=off, as "
+                            "`pkg-config --cflags impinge-sdk` does");
+    else
+        answer_pass(answer, "a * b + c is rounded twice, as written");
+}
+
 /* --- Factories --------------------------------------------------------------------------- */
 
 void factories_check(const char *file, check_answer *answer)

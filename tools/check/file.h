@@ -10,6 +10,9 @@
 /* The plugin exports exactly one symbol of its own, impinge_plugin. */
 void exports_check(const char *file, check_answer *answer);
 
+/* The compiler left sums and products as they were written; a note where not. */
+void build_check(const char *file, check_answer *answer);
+
 /* Unknown ids get no factory. */
 void factories_check(const char *file, check_answer *answer);
 

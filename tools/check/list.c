@@ -43,6 +43,7 @@ typedef struct check {
 static const check all[] = {
     {.name = "exports", .of_file = exports_check},
     {.name = "factories", .of_file = factories_check},
+    {.name = "build", .of_file = build_check},
     {.name = "parameters", .of_stage = parameters_check},
     {.name = "arguments", .of_stage = arguments_check},
     {.name = "memory", .of_stage = memory_check},
@@ -65,7 +66,7 @@ static const check all[] = {
     {.name = "cost", .of_subject = cost_check},
 };
 const char *const check_names[] = {
-    "exports",   "factories",   "parameters", "arguments",   "memory",      "finite", "domain",
+    "exports",   "factories",   "build",       "parameters", "arguments",   "memory",      "finite", "domain",
     "determinism", "state",     "allocations", "environment", "buffers",    "pieces", "rates",
     "errors",    "inclusions",  "nets",       "poses",       "distances",   "proof",  "tightness",
     "cost",      NULL};
@@ -189,11 +190,18 @@ static void work(void *result, const void *data)
 
 child_fate check_run(const check_task *task, double seconds, check_answer *shared)
 {
-    *shared = (check_answer){.verdict = CHECK_PASS};
-    const child_fate fate = child_run(work, shared, task, seconds);
+    static char said[sizeof shared->said];
+    *shared = (check_answer){.verdict = CHECK_PASS, .stop_at = task->stop_at};
+    said[0] = '\0';
+    if (task->in_process) work(shared, task);
+    const child_fate fate = task->in_process
+                                ? (child_fate){CHILD_DONE, 0}
+                                : child_run_heard(work, shared, task, seconds, said, sizeof said);
+    memcpy(shared->said, said, sizeof said);
     if (fate.end == CHILD_DONE) return fate;
     const char *type = task->type != NULL ? task->type : "the plugin";
-    shared->verdict = CHECK_PASS;
+    answer_forget(shared);
+    shared->blamed = shared->calls;
     answer_fail_for(shared, FAULT_CRASH, "%s %s %s", type, fate_text_of(fate, seconds).text,
                     subject_call_text(&shared->call).text);
     return fate;
@@ -265,28 +273,42 @@ typedef struct defaults {
     size_t type; /* index in the survey */
 } defaults;
 
-/* Removes the type's name from the stages if create rejects it. */
+/* Whether create takes the stage; else *fault says why. Without memory or a registry it is left to the checks. */
+static bool works(const defaults *d, imp_type_kind kind, const char *stage, imp_error *fault)
+{
+    imp_instance made = {NULL, NULL, NULL};
+    imp_registry *registry = imp_registry_from_file(d->file);
+    const bool made_one =
+        registry == NULL ||
+        imp_instance_from_text(registry, kind, stage, &made, fault) == IMP_SUCCESS;
+    imp_instance_free(&made);
+    imp_registry_free(registry);
+    return made_one;
+}
+
+/* Removes the stages that create rejects: the type's name alone, if parameters are required; its example, if
+ * that is wrong. */
 static void defaults_work(void *result, const void *data)
 {
     const defaults *d = data;
     survey_type *t = &((survey *)result)->type[d->type];
-    imp_instance made = {NULL, NULL, NULL};
     imp_error error;
-    imp_registry *registry = imp_registry_from_file(d->file);
-    if (registry == NULL ||
-        imp_instance_from_text(registry, t->kind, t->name, &made, &error) != IMP_SUCCESS)
-        t->stage[1][0] = '\0';
+    if (t->stage[1][0] != '\0' && !works(d, t->kind, t->stage[1], &error)) t->stage[1][0] = '\0';
+    if (works(d, t->kind, t->stage[0], &error)) return;
+    char stage[sizeof t->stage[0]];
+    memcpy(stage, t->stage[0], sizeof stage);
+    snprintf(t->example_fault, sizeof t->example_fault, "'%.300s': %.600s", stage, error.text);
+    memcpy(t->stage[0], t->stage[1], sizeof t->stage[0]);
+    t->stage[1][0] = '\0';
 }
 
-/* With all defaults too, unless parameters are required. If create crashes, its checks report it.
- */
-static void survey_defaults(const char *file, double seconds, survey *s)
+/* If create crashes, its checks report it. */
+static void survey_stages(const char *file, double seconds, survey *s)
 {
     for (size_t k = 0; k < s->count; ++k) {
         survey_type *t = &s->type[k];
         const defaults d = {file, k};
-        if (strcmp(t->stage[0], t->name) == 0) continue;
-        snprintf(t->stage[1], sizeof t->stage[1], "%s", t->name);
+        if (strcmp(t->stage[0], t->name) != 0) memcpy(t->stage[1], t->name, sizeof t->name);
         child_run(defaults_work, s, &d, seconds);
     }
 }
@@ -295,6 +317,6 @@ child_fate check_survey(const char *file, double seconds, survey *shared)
 {
     memset(shared, 0, sizeof *shared);
     const child_fate fate = child_run(survey_work, shared, file, seconds);
-    if (fate.end == CHILD_DONE) survey_defaults(file, seconds, shared);
+    if (fate.end == CHILD_DONE) survey_stages(file, seconds, shared);
     return fate;
 }

@@ -25,6 +25,8 @@ typedef struct check_task {
     uint64_t seed;
     double effort; /* 1: as usual */
     size_t check;  /* index */
+    bool in_process;  /* run it in this process, which ends where the plugin crashes */
+    uint64_t stop_at; /* tell a debugger before this call into the plugin; 0: never */
 } check_task;
 
 /* Names of the checks, in the order they are run, NULL-terminated. */
@@ -36,7 +38,7 @@ bool check_is_of_file(size_t check);
 /* Whether it tries to refute bounds, so that its comparisons count for the type's label. */
 bool check_is_of_bounds(size_t check);
 
-/* Runs it in a child process with that time limit in seconds. *shared is from child_memory. */
+/* Runs it in a child process with that time limit in seconds, or in this one. *shared is from child_memory. */
 child_fate check_run(const check_task *task, double seconds, check_answer *shared);
 
 /* --- The request ------------------------------------------------------------------------------ */
@@ -58,6 +60,7 @@ typedef struct survey_type {
     imp_type_kind kind;
     char name[80];
     char stage[CHECK_STAGES][800]; /* those that work; empty: none */
+    char example_fault[1000];      /* why the example does not; empty: it does */
 } survey_type;
 
 typedef struct survey {

@@ -43,15 +43,15 @@ double pair_slope(int coordinate, int j, const evaluated *a, const evaluated *b)
     return change > 0 && step > 0 ? (double)(change / step) : 0;
 }
 
-double pair_judge(const subject *s, const box *where, double rate[3][BOX_DIMS], const evaluated *a,
-                  const evaluated *b, pair_finding *worst)
+double pair_judge(const subject *s, const box *where, double rate[3][BOX_DIMS], uint64_t call,
+                  const evaluated *a, const evaluated *b, pair_finding *worst)
 {
     double largest = 0;
     for (int i = 0; i < 3; ++i) {
         const double ratio = pair_ratio(s->n, i, rate[i], a, b);
         if (ratio > largest) largest = ratio;
         if (!(ratio > worst->ratio)) continue;
-        *worst = (pair_finding){.ratio = ratio, .coordinate = i, .where = *where, .a = *a, .b = *b};
+        *worst = (pair_finding){.ratio = ratio, .coordinate = i, .where = *where, .a = *a, .b = *b, .call = call};
         memcpy(worst->rate, rate[i], sizeof worst->rate);
     }
     ++s->answer->tests;
@@ -78,6 +78,7 @@ bool pair_conclude(const subject *s, const pair_finding *worst, const char *clai
 {
     const int i = worst->coordinate;
     if (!(worst->ratio > 1)) return true;
+    s->answer->blamed = worst->call;
     /* If the ratio is close to 1, the errors may be too small instead of the rates. */
     const char *or_errors = worst->ratio < 1 + 1e-6 ? " or eval's errors" : "";
     return answer_fail_for(

@@ -29,11 +29,13 @@ typedef struct pair_finding {
     box where; /* the rates hold over this */
     double rate[BOX_DIMS];
     evaluated a, b;
+    uint64_t call; /* that made the claim */
 } pair_finding;
 
-/* Compares two points of a region with all three rows of its rates. Returns the largest ratio. */
-double pair_judge(const subject *s, const box *where, double rate[3][BOX_DIMS], const evaluated *a,
-                  const evaluated *b, pair_finding *worst);
+/* Compares two points of a region with all three rows of its rates, which that call gave. Returns the largest
+ * ratio. */
+double pair_judge(const subject *s, const box *where, double rate[3][BOX_DIMS], uint64_t call,
+                  const evaluated *a, const evaluated *b, pair_finding *worst);
 
 /* Evaluates points; false, with or without a failure, if that cannot be done. */
 bool pair_evaluate(const subject *s, size_t count, evaluated *points);

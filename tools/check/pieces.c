@@ -37,7 +37,7 @@ static bool take(visit *v, size_t k)
 static bool is_kept(const visit *v, size_t k)
 {
     v->answer->tests += 1;
-    v->answer->call = (check_call){.name = "piece"};
+    subject_note_call(v->answer, "piece", NULL);
     const bool kept = v->whole->surface->piece(v->whole->self, k) == v->pieces[k];
     v->answer->call.name = NULL;
     return kept || answer_fail(v->answer,

@@ -164,7 +164,7 @@ static bool judge_cluster(const subject *s, uint64_t *random)
     if (!subject_rate_sane(s, &around, rate) || !pair_evaluate(s, NEIGHBOURS, points))
         return s->answer->verdict != CHECK_FAIL;
     for (int k = 0; k < NEIGHBOURS; ++k)
-        for (int l = 0; l < k; ++l) pair_judge(s, &around, rate, &points[k], &points[l], &worst);
+        for (int l = 0; l < k; ++l) pair_judge(s, &around, rate, s->answer->rate_call, &points[k], &points[l], &worst);
     return pair_conclude(s, &worst, "between neighbouring doubles, eval's errors or the rates",
                          FAULT_RATE | FAULT_ERROR | FAULT_RANGE);
 }

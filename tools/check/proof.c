@@ -102,6 +102,7 @@ static bool refute(const proof *p, const branch_field *field, const branch_claim
                                        "the distance from the quadratic"};
     double at[BOX_DIMS];
     for (int j = 0; j < BOX_DIMS; ++j) at[j] = (double)o->p[j];
+    if (o->kind == BRANCH_RATE && field->n == p->s->n) p->s->answer->blamed = p->s->answer->rate_call;
     static const unsigned faults[] = {FAULT_RATE, FAULT_RANGE, FAULT_REMAINDER};
     return answer_fail_for(p->s->answer, faults[o->kind],
                            "%s: by the formula %s at %s is surely in [%.20Lg, %.20Lg]%s",
@@ -289,13 +290,15 @@ static void conclude(const subject *s)
 
 void proof_check(const subject *s, uint64_t *random, double effort)
 {
-    char fault[240];
+    char fault[480];
     proof p = {.s = s};
     p.f = stated_formula(s->registry, s->type, s->stage, s->formula, fault, sizeof fault);
     if (p.f == NULL && fault[0] == '\0')
         answer_skip(s->answer, "no formula is known; state it with --formula 'X; Y; Z'");
+    else if (p.f == NULL && s->formula != NULL && s->answer->proof.claims > 0)
+        return; /* it has been proved of another stage, which has more parameters */
     else if (p.f == NULL && s->formula != NULL)
-        answer_fail(s->answer, "the formula cannot be read: %s", fault);
+        answer_skip(s->answer, "with these parameters the formula cannot be read: %s", fault);
     else if (p.f == NULL) /* its texts may be in another language */
         answer_skip(s->answer, "x, y and z cannot be read as formulas: %s", fault);
     if (p.f == NULL) return;

@@ -46,6 +46,7 @@ static double judge_region(search *r, const box *where)
     evaluated points[2 * BOX_DIMS + 4];
     const size_t count = 2 * (size_t)n + 4;
     r->answered = subject_rate_sane(s, where, rate);
+    const uint64_t call = s->answer->rate_call;
     if (!r->answered) return 0;
     memset(points, 0, sizeof points);
     for (size_t k = 0; k < count; ++k)
@@ -60,7 +61,7 @@ static double judge_region(search *r, const box *where)
     }
     if (!pair_evaluate(s, count, points)) return 0;
     for (size_t k = 0; k < count; k += 2) {
-        const double ratio = pair_judge(s, where, rate, &points[k], &points[k + 1], &r->worst);
+        const double ratio = pair_judge(s, where, rate, call, &points[k], &points[k + 1], &r->worst);
         if (ratio > largest) largest = ratio;
     }
     return largest;
@@ -134,15 +135,15 @@ static void search_tiny(search *r, double effort)
 /* --- Lines, halved towards the steeper half --------------------------------------------------- */
 
 /* Of the two halves of a pair, one changes at least half as much: the slope never falls. */
-static void halve(search *r, evaluated a, evaluated b, double rate[3][BOX_DIMS])
+static void halve(search *r, evaluated a, evaluated b, double rate[3][BOX_DIMS], uint64_t call)
 {
     const subject *s = r->s;
     for (int depth = 0; depth < 30 && goes_on(r); ++depth) {
         evaluated mid = a;
         for (int j = 0; j < s->n; ++j) mid.p[j] = 0.5 * a.p[j] + 0.5 * b.p[j];
         if (!pair_evaluate(s, 1, &mid)) return;
-        const double below = pair_judge(s, &s->domain, rate, &a, &mid, &r->worst);
-        const double above = pair_judge(s, &s->domain, rate, &mid, &b, &r->worst);
+        const double below = pair_judge(s, &s->domain, rate, call, &a, &mid, &r->worst);
+        const double above = pair_judge(s, &s->domain, rate, call, &mid, &b, &r->worst);
         if (!(below > 0 || above > 0)) return;
         if (below > above)
             b = mid;
@@ -156,13 +157,14 @@ static void search_lines(search *r, double effort)
     const subject *s = r->s;
     double rate[3][BOX_DIMS];
     if (!subject_rate_sane(s, &s->domain, rate)) return;
+    const uint64_t call = s->answer->rate_call;
     for (int k = times(LINES, effort); k > 0 && goes_on(r); --k) {
         evaluated ends[2] = {{.p = {0}}, {.p = {0}}};
         draw_point(r->random, &s->domain, s->n, ends[0].p);
         draw_partner(r->random, &s->domain, s->n, ends[0].p, ends[1].p);
         if (!pair_evaluate(s, 2, ends)) return;
-        pair_judge(s, &s->domain, rate, &ends[0], &ends[1], &r->worst);
-        halve(r, ends[0], ends[1], rate);
+        pair_judge(s, &s->domain, rate, call, &ends[0], &ends[1], &r->worst);
+        halve(r, ends[0], ends[1], rate, call);
     }
 }
 
@@ -171,6 +173,7 @@ static void search_lines(search *r, double effort)
 typedef struct hunt {
     box root;
     double rate[3][BOX_DIMS]; /* claimed over the root */
+    uint64_t call;            /* by this call */
     int i, j;                 /* the entry under suspicion */
     double slope;             /* largest seen */
     double at[BOX_DIMS];      /* there */
@@ -186,7 +189,7 @@ static void probe(search *r, hunt *h, const double p[BOX_DIMS])
     memcpy(ends[1].p, p, sizeof ends[1].p);
     ends[1].p[j] += ends[1].p[j] + step <= h->root.hi[j] ? step : -step;
     if (ends[1].p[j] < h->root.lo[j] || !pair_evaluate(r->s, 2, ends)) return;
-    pair_judge(r->s, &h->root, h->rate, &ends[0], &ends[1], &r->worst);
+    pair_judge(r->s, &h->root, h->rate, h->call, &ends[0], &ends[1], &r->worst);
     const double slope = pair_slope(h->i, j, &ends[0], &ends[1]);
     if (!(slope > h->slope)) return;
     h->slope = slope;
@@ -263,6 +266,7 @@ static void hunt_region(search *r, const box *where)
     h.j = (int)draw_index(r->random, (size_t)r->s->n);
     judge_region(r, where);
     if (!subject_rate_sane(r->s, where, h.rate)) return;
+    h.call = r->s->answer->rate_call;
     if (!(where->lo[h.j] < where->hi[h.j])) return;
     split_towards_claims(r, &h);
     if (h.slope > 0.5 * h.rate[h.i][h.j]) climb_slope(r, &h);

@@ -10,6 +10,8 @@
 #include "tools/cli/catalogue.h"
 #include "tools/cli/output.h"
 
+enum { SAID_LINES = 12 };
+
 static const char *verdict_name(check_verdict verdict)
 {
     static const char *const names[] = {
@@ -107,13 +109,52 @@ static bool is_echo(check_report *r, const char *check, const check_answer *a)
     return told;
 }
 
-static void add_json(check_report *r, const char *check, const check_answer *a, const char *again,
+/* What the plugin wrote to standard error. */
+static void print_said(const char *said)
+{
+    char line[400];
+    for (int k = 0; k < SAID_LINES && *said != '\0'; ++k) {
+        const size_t length = strcspn(said, "\n");
+        snprintf(line, sizeof line, "%.*s", length < 399 ? (int)length : 399, said);
+        print_line("        said: ", "", line);
+        said += said[length] == '\n' ? length + 1 : length;
+    }
+    if (*said != '\0') puts("        said: ... (--in-process shows all)");
+}
+
+/* The command that repeats a check, and that which stops in a debugger before the call at fault. */
+typedef struct commands {
+    char again[2048], debug[2200];
+} commands;
+
+static commands commands_of(const check_report *r, const char *check, const check_answer *a)
+{
+    commands c = {"", ""};
+    const bool alone = strcmp(check, "load") != 0 && strcmp(check, "example") != 0;
+    snprintf(c.again, sizeof c.again, "%s%s%s", r->again, alone ? " --only " : "",
+             alone ? check : "");
+    if (a->blamed > 0)
+        snprintf(c.debug, sizeof c.debug, "gdb -ex run --args %s --call %llu", c.again,
+                 (unsigned long long)a->blamed);
+    return c;
+}
+
+static void note_spoke(check_report *r, const char *check)
+{
+    const size_t used = strlen(r->spoke);
+    snprintf(r->spoke + used, sizeof r->spoke - used, "%s%s", used > 0 ? ", " : "", check);
+}
+
+static void add_json(check_report *r, const char *check, const check_answer *a, const commands *c,
                      bool echo)
 {
     json_t *object =
         json_pack("{s:s, s:s, s:o, s:I}", "name", check, "verdict", verdict_name(a->verdict),
                   "text", output_json_text(a->text), "tests", (json_int_t)a->tests);
-    if (a->verdict == CHECK_FAIL) json_object_set_new(object, "replay", output_json_text(again));
+    if (a->verdict == CHECK_FAIL) json_object_set_new(object, "replay", output_json_text(c->again));
+    if (a->verdict == CHECK_FAIL && c->debug[0] != '\0')
+        json_object_set_new(object, "debug", output_json_text(c->debug));
+    if (a->said[0] != '\0') json_object_set_new(object, "stderr", output_json_text(a->said));
     if (a->verdict == CHECK_FAIL) json_object_set_new(object, "told_before", json_boolean(echo));
     json_array_append_new(r->checks, object);
     if (r->type != NULL) add_measures(r, check, a);
@@ -121,9 +162,7 @@ static void add_json(check_report *r, const char *check, const check_answer *a, 
 
 void report_add(check_report *r, const char *check, bool of_bounds, const check_answer *a)
 {
-    char again[2048];
-    const bool alone = strcmp(check, "load") != 0;
-    snprintf(again, sizeof again, "%s%s%s", r->again, alone ? " --only " : "", alone ? check : "");
+    const commands c = commands_of(r, check, a);
     r->verdicts[a->verdict] += 1;
     if (a->proof.claims > 0)
         r->type_proof = a->proof;
@@ -133,15 +172,19 @@ void report_add(check_report *r, const char *check, bool of_bounds, const check_
         *(of_bounds && a->tests > 0 ? &r->type_refuted : &r->type_failed) = true;
     const bool echo = is_echo(r, check, a);
     if (r->as_json) {
-        add_json(r, check, a, again, echo);
+        add_json(r, check, a, &c, echo);
         return;
     }
+    if (a->said[0] != '\0' && (echo || a->verdict != CHECK_FAIL)) note_spoke(r, check);
     if (echo) return;
     char label[40];
     snprintf(label, sizeof label, "  %s  %-12s",
              a->verdict == CHECK_FAIL ? "FAIL" : verdict_name(a->verdict), check);
     print_line(label, " ", a->text);
-    if (a->verdict == CHECK_FAIL) print_line("        again: ", "", again);
+    if (a->verdict != CHECK_FAIL) return;
+    print_said(a->said);
+    print_line("        again: ", "", c.again);
+    if (c.debug[0] != '\0') print_line("        debug: ", "", c.debug);
 }
 
 /* --- Totals ------------------------------------------------------------------------- */
@@ -154,8 +197,16 @@ static const char *type_label(const check_report *r)
     return p->claims > 0 && p->proved == p->claims ? "proved" : "tested";
 }
 
+static void tell_spoke(check_report *r)
+{
+    if (r->spoke[0] != '\0' && !r->as_json)
+        printf("  note  standard error was written to in %s; --in-process shows it\n", r->spoke);
+    r->spoke[0] = '\0';
+}
+
 void report_type_end(check_report *r)
 {
+    tell_spoke(r);
     const char *label = type_label(r);
     const unsigned long long seed = r->seed;
     if (r->as_json) {

@@ -22,6 +22,7 @@ typedef struct check_report {
     char type_echoes[400]; /* checks that fail for a reported cause: "errors, proof" */
     uint64_t type_tests;   /* comparisons of bounds */
     check_proof type_proof;
+    char spoke[400]; /* checks in which something was written to standard error */
 } check_report;
 
 /* One bug can fail many checks. The first failure is reported in full; checks that fail for a

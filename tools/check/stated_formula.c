@@ -26,9 +26,9 @@ typedef struct stated {
 
 static void add_constant(stated *s, const char *name, const json_t *value)
 {
-    if (s->count == CONSTANTS_MAX || !json_is_number(value)) return;
+    if (s->count == CONSTANTS_MAX || !(json_is_number(value) || json_is_boolean(value))) return;
     s->name[s->count] = strdup(name);
-    s->value[s->count] = json_number_value(value);
+    s->value[s->count] = json_is_boolean(value) ? json_is_true(value) : json_number_value(value);
     if (s->name[s->count] != NULL) ++s->count;
 }
 

@@ -70,7 +70,9 @@ const char *subject_status_name(imp_status status)
 void subject_note_stage(check_answer *answer, const char *name, const char *stage)
 {
     answer->call = (check_call){.name = name};
-    if (name != NULL) snprintf(answer->call.stage, sizeof answer->call.stage, "%s", stage);
+    if (name == NULL) return;
+    snprintf(answer->call.stage, sizeof answer->call.stage, "%s", stage);
+    answer_count_call(answer);
 }
 
 imp_code subject_create(imp_registry *registry, imp_type_kind kind, const char *stage,
@@ -91,6 +93,12 @@ void subject_destroy(imp_instance *made, const char *stage, check_answer *answer
     subject_note_stage(answer, NULL, NULL);
 }
 
+void subject_note_call(check_answer *answer, const char *name, const char *hint)
+{
+    answer->call = (check_call){.name = name, .hint = hint};
+    if (name != NULL) answer_count_call(answer);
+}
+
 static void note(const subject *s, const char *name, int n, const double *lo, const double *hi)
 {
     check_call *call = &s->answer->call;
@@ -99,6 +107,7 @@ static void note(const subject *s, const char *name, int n, const double *lo, co
     call->count = hi != NULL ? 2 * n : n;
     if (lo != NULL) memcpy(call->number, lo, (size_t)n * sizeof *lo);
     if (hi != NULL) memcpy(call->number + n, hi, (size_t)n * sizeof *hi);
+    answer_count_call(s->answer);
 }
 
 static imp_status noted(const subject *s, imp_status status)
@@ -298,7 +307,7 @@ bool subject_rate_sane(const subject *s, const box *where, double rate[3][BOX_DI
 /* Names a call without numbers, and keeps what is special about it. */
 static void name_call(check_answer *answer, const char *name)
 {
-    answer->call = (check_call){.name = name, .hint = answer->call.hint};
+    subject_note_call(answer, name, answer->call.hint);
 }
 
 /* --- Domains ------------------------------------------------------------------------- */

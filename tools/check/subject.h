@@ -43,6 +43,9 @@ imp_code subject_create(imp_registry *registry, imp_type_kind kind, const char *
                         imp_instance *made, imp_error *error, check_answer *answer);
 void subject_destroy(imp_instance *made, const char *stage, check_answer *answer);
 
+/* Records that a call without numbers is in progress; NULL: it has returned. `hint`: as in check_call. */
+void subject_note_call(check_answer *answer, const char *name, const char *hint);
+
 /* Records that one of the two is in progress. NULL: it has returned. */
 void subject_note_stage(check_answer *answer, const char *name, const char *stage);
 

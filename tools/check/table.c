@@ -160,7 +160,7 @@ void parameters_check(imp_registry *registry, const imp_type_info *type, const c
         return;
     }
     t.tries_points = has_points(&t, text);
-    *answer = (check_answer){.tests = answer->tests}; /* the check of that name reports it */
+    if (answer->verdict == CHECK_FAIL) answer_forget(answer); /* the check of that name reports it */
     if (!is_refused(&t, "no_such_parameter", "1")) return;
     for (size_t k = 0; k < type->parameter_count; ++k)
         if (!try_row(&t, catalogue_parameter(type, k))) return;

@@ -26,6 +26,8 @@ typedef struct job {
     uint64_t seed;
     const option_value *formula, *domain; /* or NULL */
     const option_value *only;             /* NULL: all checks */
+    bool in_process;
+    uint64_t stop_at; /* the call of --call, or 0 */
     check_report report;
     operand_file *file; /* these are shared with children */
     survey *survey;
@@ -108,11 +110,28 @@ static void run_checks(job *j, check_task *task, bool of_file)
     }
 }
 
+static check_task task_of(const job *j)
+{
+    return (check_task){.file = j->file->file,
+                        .seed = j->seed,
+                        .effort = j->effort,
+                        .in_process = j->in_process,
+                        .stop_at = j->stop_at};
+}
+
+/* The example in the type's own table does not work: told once, not by every check. */
+static void tell_example(job *j, const survey_type *t)
+{
+    *j->answer = (check_answer){.verdict = CHECK_PASS};
+    answer_fail(j->answer, "the type's example does not work: %s", t->example_fault);
+    report_add(&j->report, "example", false, j->answer);
+}
+
 static void run_type(job *j, const survey_type *t)
 {
-    check_task task = {.file = j->file->file, .kind = t->kind, .type = t->name};
-    task.seed = j->seed;
-    task.effort = j->effort;
+    check_task task = task_of(j);
+    task.kind = t->kind;
+    task.type = t->name;
     task.formula = text_or_null(j->formula);
     task.domain = text_or_null(j->domain);
     for (int k = 0; k < CHECK_STAGES; ++k) task.stage[k] = t->stage[k][0] ? t->stage[k] : NULL;
@@ -121,7 +140,8 @@ static void run_type(job *j, const survey_type *t)
         task.stage[1] = NULL;
     }
     report_type(&j->report, t->kind, t->name, task.stage);
-    run_checks(j, &task, false);
+    if (t->example_fault[0] != '\0' && given_stage(j) == NULL) tell_example(j, t);
+    if (task.stage[0] != NULL) run_checks(j, &task, false);
     report_type_end(&j->report);
 }
 
@@ -168,7 +188,7 @@ static exit_status run_all(job *j)
     if (!report_begin(&j->report, j->file->file, j->effort))
         return complain_of_memory(j->args->verb->name);
     if (load(j)) {
-        check_task task = {.file = j->file->file, .seed = j->seed, .effort = j->effort};
+        check_task task = task_of(j);
         run_checks(j, &task, true);
         for (size_t k = 0; k < j->survey->count; ++k)
             if (j->type.name[0] == '\0' || strcmp(j->type.name, j->survey->type[k].name) == 0)
@@ -194,6 +214,7 @@ static exit_status find_and_run(job *j)
 static exit_status run(const arguments *args)
 {
     const option_value *seed = arguments_option(args, "seed");
+    const option_value *stop_at = arguments_option(args, "call");
     job j = {.args = args, .operand = args->operands[0], .type = {.args = args}};
     j.seconds = number_or(args, "max-seconds", 60);
     j.effort = number_or(args, "effort", 1);
@@ -201,6 +222,11 @@ static exit_status run(const arguments *args)
     j.formula = arguments_option(args, "formula");
     j.domain = arguments_option(args, "domain");
     j.only = arguments_option(args, "only");
+    j.stop_at = stop_at != NULL ? stop_at->count : 0;
+    j.in_process = stop_at != NULL || arguments_option(args, "in-process") != NULL;
+    if (stop_at != NULL && j.only == NULL)
+        return complain(EXIT_USAGE, args->verb->name,
+                        "--call counts the calls of one check: add --only CHECK");
     j.file = child_memory(sizeof *j.file);
     j.survey = child_memory(sizeof *j.survey);
     j.answer = child_memory(sizeof *j.answer);
@@ -245,6 +271,13 @@ static const option options_check[] = {
      .argument = "CHECK",
      .choices = check_names,
      .help = "run this check alone"},
+    {.name = "in-process",
+     .kind = OPTION_FLAG,
+     .help = "run the checks in this process, for debuggers and sanitizers: a crash ends it"},
+    {.name = "call",
+     .kind = OPTION_COUNT,
+     .argument = "N",
+     .help = "with --only, in this process: stop in the debugger before call N into the plugin"},
     {.name = "max-seconds",
      .kind = OPTION_NUMBER,
      .argument = "S",

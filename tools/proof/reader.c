@@ -147,6 +147,27 @@ static int apply(reader *r, const char *f, const int *a, int count)
     return made >= 0 ? made : fail(r, "there is no function %s of %d arguments", f, count);
 }
 
+typedef struct constants {
+    char text[240];
+} constants;
+
+/* ", radius, center0 ... center2": elements of a list follow each other. */
+static constants constants_text(const formula_scope *s)
+{
+    constants c = {""};
+    for (size_t k = 0; k < s->count; ++k) {
+        const size_t stem = strcspn(s->name[k], "0123456789"), used = strlen(c.text);
+        const size_t first = k;
+        while (k + 1 < s->count && s->name[k][stem] != '\0' &&
+               strcspn(s->name[k + 1], "0123456789") == stem &&
+               strncmp(s->name[k + 1], s->name[k], stem) == 0)
+            ++k;
+        snprintf(c.text + used, sizeof c.text - used, ", %s%s%s", s->name[first],
+                 k > first ? " ... " : "", k > first ? s->name[k] : "");
+    }
+    return c;
+}
+
 static int read_name(reader *r, const char *word)
 {
     const formula_scope *s = r->scope;
@@ -156,7 +177,8 @@ static int read_name(reader *r, const char *word)
         if (strcmp(s->name[k], word) == 0) return number(r, s->value[k]);
     if (strcmp(word, "pi") == 0) return add_step(r, (step){.kind = STEP_PI});
     if (strcmp(word, "e") == 0) return add_step(r, (step){.kind = STEP_E});
-    return fail(r, "'%s' is neither a variable (%s) nor a constant", word, s->variables);
+    return fail(r, "'%s' is neither a variable (%s) nor a constant; these are pi, e%s", word,
+                s->variables, constants_text(s).text);
 }
 
 /* --- Grammar ---------------------------------------------------------------------------------- */
