@@ -110,6 +110,10 @@ static imp_status points_of(const distance_question *q, size_t common, imp_model
     const node *a = q->a;
     if (!distance_slides(q)) return points_before(a, common, point);
     const imp_region then = at_moment(&a->region, q->moment);
+    if (a->many != NULL) {
+        cluster_models(a->many, &then, point);
+        return surface_include_image(a->surface, &then, point);
+    }
     return surface_include_inner(a->surface, &then, surface_map_count(a->surface) - common, point);
 }
 
@@ -119,6 +123,8 @@ static imp_status distance_of(const distance_question *q, size_t common, const i
     const surface *b = q->b->surface;
     const imp_region *r = &q->a->region;
     const size_t maps = surface_map_count(b) - common;
+    if (q->plane != NULL)
+        return surface_height_within(b, q->plane, r, point, q->moment, q->slip, g);
     return distance_slides(q) ? surface_distance_within(b, r, maps, point, q->moment, q->slip, g)
                               : surface_distance(b, r, maps, point, g);
 }
@@ -247,6 +253,19 @@ static double sides_lower(const sides *both, double slack)
     return lower[0] > lower[1] ? lower[0] : lower[1];
 }
 
+distance_view distance_view_none(const node *a)
+{
+    distance_view view = {false, false, 0, {0, 0, 0}};
+    memcpy(view.bend, a->nonlinear_extent, sizeof view.bend);
+    return view;
+}
+
+/* Also of a pair of one moment, which stands for all times. */
+static bool is_within_itself(const distance_question *q)
+{
+    return distance_slides(q) || q->a->region.lo[PARAMETER_T] == q->a->region.hi[PARAMETER_T];
+}
+
 imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
                       imp_error *error)
 {
@@ -254,8 +273,7 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
     const double clearance = q->clearance;
     imp_model g;
     bool known;
-    *view = (distance_view){false, false, 0, {0, 0, 0}};
-    memcpy(view->bend, a->nonlinear_extent, sizeof view->bend);
+    *view = distance_view_none(a);
     const imp_code code = ask(q, &g, view->bend, &known, error);
     if (code != IMP_SUCCESS || !known) return code;
     const double range = range_lower(&g);
@@ -273,7 +291,7 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], clearance);
     view->is_promising =
-        !view->is_apart && promises(&g, &both, a, clearance, size, distance_slides(q));
+        !view->is_apart && promises(&g, &both, a, clearance, size, is_within_itself(q));
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
     return IMP_SUCCESS;
 }

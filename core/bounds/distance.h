@@ -22,6 +22,9 @@ typedef struct distance_view {
     double bend[3];    /* how far u, v and t bend points beside the other surface, about; length */
 } distance_view;
 
+/* Nothing is known yet. */
+distance_view distance_view_none(const node *a);
+
 /* Whether distances of points of a from the surface of b are known, and worth asking for. Where both have maps
  * in common points are included anew: not for nodes that are small, and not parallel. */
 bool distance_is_known(const node *a, const node *b);
@@ -30,7 +33,8 @@ bool distance_is_known(const node *a, const node *b);
  * one moment (surface_slip): then time costs nothing. */
 typedef struct distance_question {
     const node *a, *b;
-    double clearance; /* length */
+    const surface_plane *plane; /* of b's points, which stands for its surface; NULL: b's type is asked */
+    double clearance;           /* length */
     double moment;
     double slip; /* of a node that is posed; INFINITY: it does not slide so; length */
 } distance_question;
@@ -39,8 +43,8 @@ typedef struct distance_question {
 bool distance_slides(const distance_question *q);
 
 /* Cuts the window, which lies in both nodes' times, to the times at which points of a may be within the
- * clearance of the whole surface of b; empty: *view says so, and the window stays. Preconditions:
- * distance_is_known; both bounded; no map of b alone turns it further (surface_still_maps), or distance_slides.
+ * clearance of the whole surface of b, or of its plane; empty: *view says so, and the window stays.
+ * Preconditions: distance_is_known, or there is a plane and distance_slides; both bounded; no map of b alone turns it further (surface_still_maps), or distance_slides.
  * IMP_ERROR_PLUGIN: the callback breaks the ABI. */
 imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
                       imp_error *error);
@@ -67,6 +71,9 @@ typedef struct distance_outcome {
 
 /* Nothing is known yet. */
 distance_outcome distance_outcome_none(const time_window *window);
+
+/* Whether one node is flat and the two move along its plane, but for rounding. */
+bool distance_slides_on_face(const node *a, const node *b);
 
 /* Tries node 0, then node 1, until one decides, and adds what they show to *seen. Precondition: both nodes
  * are bounded. IMP_ERROR_PLUGIN: a callback breaks the ABI. */

@@ -6,24 +6,27 @@
 
 #include <string.h>
 
+#include "core/bounds/tuning.h"
+
 distance_outcome distance_outcome_none(const time_window *window)
 {
     return (distance_outcome){*window, false, 0, -1, {0, 0, 0}};
 }
 
-/* Of the one along the other, over all times of both; INFINITY: nothing is known, as of surfaces of many
- * pieces, of which each has its own. */
-static imp_code find_slip(const node *own, const node *other, const time_window *times,
-                          double moment, double *slip, imp_error *error)
+/* How far one surface slides along the other over all times of both. `plane`: that of a part of the other, or NULL
+ * for the other's symmetry. INFINITY: nothing is known, as of other surfaces of many pieces, of which each has its
+ * own. */
+static imp_code find_slip(const node *own, const node *other, const surface_plane *plane,
+                          const time_window *times, double moment, double *slip, imp_error *error)
 {
     imp_model bare[3];
     *slip = INFINITY;
-    if (own->many != NULL || other->many != NULL) return IMP_SUCCESS;
-    if (surface_include_bare(own->surface, &own->region, bare) != IMP_OK) return IMP_SUCCESS;
-    for (int i = 0; i < 3; ++i)
-        if ((bare[i].depends >> PARAMETER_T & 1) != 0) return IMP_SUCCESS; /* it moves by itself */
+    if ((plane == NULL && other->many != NULL) || !node_bare_models(own, bare)) return IMP_SUCCESS;
     const imp_region all = region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
-    const imp_status status = surface_slip(own->surface, other->surface, bare, &all, moment, slip);
+    const surface *a = own->surface, *b = other->surface;
+    const imp_status status = plane == NULL
+                                  ? surface_slip(a, b, bare, &all, moment, slip)
+                                  : surface_slip_along(a, b, plane, bare, &all, moment, slip);
     if (status == IMP_OK) return IMP_SUCCESS;
     surface_fault(other->surface, error, ": %s", surface_status_told(other->surface, status).text);
     return surface_set_code(status, error);
@@ -42,7 +45,7 @@ static imp_code question_of(const distance_sides *of, int side, double clearance
                             distance_question *q, imp_error *error)
 {
     const node *own = of->node[side], *other = of->node[!side];
-    *q = (distance_question){own, other, clearance, 0, INFINITY};
+    *q = (distance_question){own, other, NULL, clearance, 0, INFINITY};
     if (!surface_has_symmetry(other->surface)) return IMP_SUCCESS;
     if (own->still == NULL && !is_turned(of, side)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
@@ -51,7 +54,7 @@ static imp_code question_of(const distance_sides *of, int side, double clearance
     if (*slip == 0) {
         double found;
         const imp_code code =
-            find_slip(of->root[side], of->root[!side], &times, q->moment, &found, error);
+            find_slip(of->root[side], of->root[!side], NULL, &times, q->moment, &found, error);
         if (code != IMP_SUCCESS) return code;
         *slip = nextafterf((float)found, INFINITY);
     }
@@ -59,19 +62,81 @@ static imp_code question_of(const distance_sides *of, int side, double clearance
     return IMP_SUCCESS;
 }
 
+/* --- Faces ------------------------------------------------------------------------------------------ */
+
+/* Motion along a direction below this part of all motion is rounding. */
+#define ALONG_FACE 0x1p-30
+
+/* Whether the other node is flat and the two move along it: what they move along its normal is mere rounding. */
+static bool may_slide_along(const node *own, const node *other)
+{
+    const quadratic3 *f = &own->f, *g = &other->f;
+    const vec3 n = other->normal;
+    double along = 0, all = 0;
+    if (other->many != NULL || !(vec3_norm1(n) > 0) || node_bends(other)) return false;
+    double bt = 0, ut = 0, vt = 0, tt = 0;
+    for (int i = 0; i < 3; ++i) {
+        bt += n.x[i] * (f->bt[i] - g->bt[i]);
+        ut += n.x[i] * f->qut[i];
+        vt += n.x[i] * f->qvt[i];
+        tt += n.x[i] * (f->qtt[i] - g->qtt[i]);
+        all += own->motion[i] + other->motion[i];
+    }
+    along = fabs(bt) + fabs(ut) + fabs(vt) + fabs(tt);
+    return all > 0 && along <= ALONG_FACE * all * vec3_norm1(n);
+}
+
+bool distance_slides_on_face(const node *a, const node *b)
+{
+    return may_slide_along(a, b) || may_slide_along(b, a);
+}
+
+/* Asks how far the points of one side are from the plane of the other's node, along which they slide. */
+static imp_code cut_along_face(const distance_sides *of, int side, double clearance,
+                               time_window *window, distance_view *view, imp_error *error)
+{
+    const node *own = of->node[side], *other = of->node[!side];
+    surface_plane plane;
+    *view = distance_view_none(own);
+    if (surface_common_maps(own->surface, other->surface) > 0) return IMP_SUCCESS;
+    if (surface_plane_of(other->surface, &other->region, &plane) != IMP_OK) return IMP_SUCCESS;
+    if (!(TUNING_DISTANCE_SLIP * plane.off <= clearance)) return IMP_SUCCESS;
+    const time_window times = pair_times(of->root[side], of->root[!side]);
+    distance_question q = {own,     other, &plane, clearance, 0.5 * times.lo + 0.5 * times.hi,
+                           INFINITY};
+    const imp_code code =
+        find_slip(of->root[side], other, &plane, &times, q.moment, &q.slip, error);
+    return code == IMP_SUCCESS && distance_slides(&q) ? distance_cut(&q, window, view, error)
+                                                      : code;
+}
+
+/* --- Both ------------------------------------------------------------------------------------------- */
+
+static imp_code cut_side(const distance_sides *of, int side, double clearance, time_window *window,
+                         distance_view *view, imp_error *error)
+{
+    const node *own = of->node[side], *other = of->node[!side];
+    distance_question asked;
+    *view = distance_view_none(own);
+    if (!distance_is_known(own, other)) {
+        if (!may_slide_along(own, other)) return IMP_SUCCESS;
+        return cut_along_face(of, side, clearance, window, view, error);
+    }
+    const imp_code code = question_of(of, side, clearance, &asked, error);
+    if (code != IMP_SUCCESS) return code;
+    if (!distance_slides(&asked) && is_turned(of, side)) return IMP_SUCCESS;
+    return distance_cut(&asked, window, view, error);
+}
+
 /* Lemma. The nodes' points are points of their whole surfaces: the distance of one node's points from all of
- * the other surface is no greater than that of the two nodes. Each side cuts what the other has left. */
+ * the other surface, or from the plane of its node, is no greater than that of the two nodes. Each side cuts what
+ * the other has left. */
 imp_code distance_cut_sides(const distance_sides *of, double clearance, distance_outcome *seen,
                             imp_error *error)
 {
     for (int side = 0; side < 2 && !seen->is_apart && seen->side < 0; ++side) {
         distance_view view;
-        if (!distance_is_known(of->node[side], of->node[!side])) continue;
-        distance_question asked;
-        imp_code code = question_of(of, side, clearance, &asked, error);
-        if (code != IMP_SUCCESS) return code;
-        if (!distance_slides(&asked) && is_turned(of, side)) continue;
-        code = distance_cut(&asked, &seen->left, &view, error);
+        const imp_code code = cut_side(of, side, clearance, &seen->left, &view, error);
         if (code != IMP_SUCCESS) return code;
         seen->is_apart = view.is_apart;
         if (view.lower > seen->lower) seen->lower = view.lower;

@@ -39,7 +39,7 @@ typedef struct frame {
 typedef struct frame_list {
     frame *at;
     size_t count, capacity;
-    size_t *first;       /* of each candidate, or NONE */
+    size_t *first;        /* of each candidate, or NONE */
     size_t (*of_pair)[2]; /* frames of its two sides */
 } frame_list;
 
@@ -118,18 +118,6 @@ static imp_code find_frame(collection *all, frame_list *frames, const candidate 
     return IMP_SUCCESS;
 }
 
-/* Models of all points of a tree's surface before its maps. False: it moves by itself, or has none. */
-static bool bare_models(const node *root, imp_model bare[3])
-{
-    if (root->many != NULL)
-        cluster_models(root->many, &root->region, bare);
-    else if (surface_include_bare(root->surface, &root->region, bare) != IMP_OK)
-        return false;
-    for (int i = 0; i < 3; ++i)
-        if (!(bare[i].e < INFINITY) || (bare[i].depends >> PARAMETER_T & 1) != 0) return false;
-    return true;
-}
-
 /* Whether the pair of these frames is as far apart at one time as at another, but for *slip. */
 static imp_code ask_slip(collection *all, candidate *const side[2], time_window *times,
                          double *slip, imp_error *error)
@@ -143,7 +131,7 @@ static imp_code ask_slip(collection *all, candidate *const side[2], time_window 
         if (code != IMP_SUCCESS) return code;
         collection_count(all, &growth);
         s[k] = tree_surface(side[k]->tree);
-        if (!bare_models(tree_root(side[k]->tree), bare[k])) return IMP_SUCCESS;
+        if (!node_bare_models(tree_root(side[k]->tree), bare[k])) return IMP_SUCCESS;
     }
     *times = pair_times(tree_root(side[0]->tree), tree_root(side[1]->tree));
     if (times->lo > times->hi) return IMP_SUCCESS;

@@ -96,7 +96,8 @@ static imp_type_kind kind_of(const shared_instance *p)
 }
 
 /* The entry of an equal description, or the empty one where it belongs. */
-static instance_entry *find(const instance_table *t, uint64_t hash, imp_type_kind kind, const json_t *from)
+static instance_entry *find(const instance_table *t, uint64_t hash, imp_type_kind kind,
+                            const json_t *from)
 {
     size_t k = (size_t)hash & (t->capacity - 1);
     for (;; k = (k + 1) & (t->capacity - 1)) {
@@ -106,7 +107,8 @@ static instance_entry *find(const instance_table *t, uint64_t hash, imp_type_kin
     }
 }
 
-shared_instance *instance_table_find(const instance_table *t, imp_type_kind kind, const json_t *from)
+shared_instance *instance_table_find(const instance_table *t, imp_type_kind kind,
+                                     const json_t *from)
 {
     if (t->count == 0 || !is_kept(kind, from)) return NULL;
     return find(t, hash_of(kind, from), kind, from)->made;
@@ -117,7 +119,7 @@ static bool reserve(instance_table *t)
 {
     if (2 * (t->count + 1) <= t->capacity) return true;
     instance_table grown = {.count = t->count,
-                        .capacity = t->capacity > 0 ? 2 * t->capacity : CAPACITY_FIRST};
+                            .capacity = t->capacity > 0 ? 2 * t->capacity : CAPACITY_FIRST};
     grown.at = calloc(grown.capacity, sizeof *grown.at);
     if (grown.at == NULL) return false;
     for (size_t k = 0; k < t->capacity; ++k) {

@@ -245,12 +245,13 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcom
 }
 
 /* Whether the nodes may slide along each other: no fixed axis parts them from the start of their
- * times on, or their parents slid. Where an axis parts them, this is tried as often as it pays. If
- * surfaces approach each other, axes cut the start of the window first. */
+ * times on, or their parents slid, or one is flat and they move along it. Where an axis parts them, this is tried
+ * as often as it pays. If surfaces approach each other, axes cut the start of the window first. */
 static bool may_slide(const pair *p, bool is_parted, trial_rate *sliding)
 {
     if (!is_parted) return p->slides || !(p->window.lo > pair_times(p->a, p->b).lo);
-    return p->slides && trial_rate_take(sliding, TUNING_DISTANCE_SHARE, TUNING_DISTANCE_WAIT);
+    return (p->slides || distance_slides_on_face(p->a, p->b)) &&
+           trial_rate_take(sliding, TUNING_DISTANCE_SHARE, TUNING_DISTANCE_WAIT);
 }
 
 /* What the nodes' distances from each other's whole surfaces show, where that has a chance. */

@@ -159,6 +159,27 @@ imp_status surface_distance_within(const surface *s, const imp_region *region, s
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double *slip);
 
+/* A plane, and how far at most points of a part of a surface are from it, before its maps. */
+typedef struct surface_plane {
+    double center[3]; /* length */
+    double axis[3];   /* unit, but for rounding; 0: the part has no plane */
+    double off;       /* length */
+} surface_plane;
+
+/* The plane along which the surface lies in the middle of the region. */
+imp_status surface_plane_of(const surface *s, const imp_region *region, surface_plane *plane);
+
+/* How far a slides along a plane that b's maps carry, other than in the plane: as surface_slip, whose symmetry is
+ * that of the plane. The two have no maps in common. */
+imp_status surface_slip_along(const surface *a, const surface *b, const surface_plane *plane,
+                              const imp_model bare[3], const imp_region *times, double moment,
+                              double *slip);
+
+/* As surface_distance_within under all maps of s, of the part of s that lies along the plane. */
+imp_status surface_height_within(const surface *s, const surface_plane *plane,
+                                 const imp_region *region, const imp_model point[3], double moment,
+                                 double slip, imp_model *height);
+
 /* How much the distance of two surfaces may differ at other times from what it is at the moment, which is one of
  * the times; INFINITY: nothing is known. It is mere rounding where both turn only within themselves, or as one
  * of them can be turned within itself: rollers, a shaft in its bore. `bare` holds models of all points of each

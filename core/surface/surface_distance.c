@@ -214,6 +214,71 @@ static bool exists_during(const surface *s, const imp_region *region)
     return s->lo[2] <= region->lo[2] && region->hi[2] <= s->hi[2];
 }
 
+/* --- Planes ------------------------------------------------------------------------------------------ */
+
+/* n.(x - center) of models of x. */
+static imp_model height_of(const surface_plane *plane, const imp_model x[3])
+{
+    imp_model axis[3], way[3];
+    for (int i = 0; i < 3; ++i) {
+        axis[i] = imp_num(plane->axis[i]);
+        way[i] = imp_shift(x[i], -plane->center[i]);
+    }
+    return imp_dot3(axis, way);
+}
+
+imp_status surface_plane_of(const surface *s, const imp_region *region, surface_plane *plane)
+{
+    imp_model x[3];
+    double length = 0;
+    *plane = (surface_plane){.off = INFINITY};
+    const imp_status status = surface_include_bare(s, region, x);
+    if (status != IMP_OK) return status;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        plane->center[i] = x[i].a;
+        plane->axis[i] = x[j].b[0] * x[k].b[1] - x[k].b[0] * x[j].b[1];
+        length += plane->axis[i] * plane->axis[i];
+        if ((x[i].depends >> PARAMETER_T & 1) != 0) return IMP_UNBOUNDED;
+    }
+    length = sqrt(length);
+    if (!(length > 0x1p-300 && length < 0x1p300)) return IMP_UNBOUNDED;
+    for (int i = 0; i < 3; ++i) plane->axis[i] /= length;
+    const imp_model height = height_of(plane, x);
+    plane->off = imp_interval_mag(imp_model_range(&height));
+    return IMP_OK;
+}
+
+/* Lemma. |n| <= 1 + 8 u, as n is a quotient by the root of a sum of squares. With y a point of the part and z one
+ * within `slip` of x,
+ *
+ *   |n.(x - center)| <= |n.(z - y)| + |n.(y - center)| + |n.(x - z)| <= (1 + 8 u) (|z - y| + slip) + off. */
+PAD_COVERS(32, 8);
+static imp_model lowered(const surface_plane *plane, double slip, double stretch, imp_model height)
+{
+    const double room = sum_upper(plane->off, padded_upper(slip, 32));
+    return imp_scale(imp_add(height, imp_between(-room, room)), stretch * (1 - 0x1p-48));
+}
+
+imp_status surface_height_within(const surface *s, const surface_plane *plane,
+                                 const imp_region *region, const imp_model point[3], double moment,
+                                 double slip, imp_model *height)
+{
+    imp_model at[3] = {point[0], point[1], point[2]};
+    double stretch = 1, unused;
+    imp_status status = IMP_OK;
+    if (!exists_during(s, region)) return IMP_UNBOUNDED;
+    const imp_region then = region_make((double[3]){region->lo[0], region->lo[1], moment},
+                                        (double[3]){region->hi[0], region->hi[1], moment});
+    if (s->map_count > 0) status = take_back_before(s, s->map_count, &then, point, at, &unused);
+    if (status == IMP_OK) status = stretch_by(s, 0, region, &stretch);
+    if (status != IMP_OK) return status;
+    *height = lowered(plane, slip, stretch, height_of(plane, at));
+    height->depends = 7;
+    for (int j = 0; j < 3; ++j) height->rate[j] = INFINITY;
+    return judge(IMP_OK, height);
+}
+
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance)
 {

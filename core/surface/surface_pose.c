@@ -43,6 +43,7 @@ static imp_status judge(imp_status status, const imp_pose *pose)
         for (int j = 0; j < 3; ++j)
             if (!is_sane(&pose->turn[i][j])) return SURFACE_BAD_POSE;
         if (!is_sane(&pose->shift[i]) || !isfinite(pose->pivot[i])) return SURFACE_BAD_POSE;
+        if (!(fabs(pose->fixed[i]) < 0x1p340)) return SURFACE_BAD_POSE;
     }
     return IMP_OK;
 }
@@ -95,7 +96,7 @@ static void add_pose(imp_pose *next, double norm, imp_pose *pose)
     for (int i = 0; i < 3; ++i) way[i] = imp_shift(pose->shift[i], -next->pivot[i]);
     if (is_identity(next->turn)) {
         for (int i = 0; i < 3; ++i) pose->shift[i] = imp_add(way[i], next->shift[i]);
-        return;
+        return; /* pose->fixed stays fixed */
     }
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
@@ -106,6 +107,7 @@ static void add_pose(imp_pose *next, double norm, imp_pose *pose)
         all.shift[i] = imp_add(imp_dot3(next->turn[i], way), next->shift[i]);
     }
     memcpy(all.pivot, pose->pivot, sizeof all.pivot);
+    memset(all.fixed, 0, sizeof all.fixed);
     *pose = all;
 }
 

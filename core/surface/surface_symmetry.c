@@ -80,6 +80,22 @@ typedef struct carried {
     double off;
 } carried;
 
+/* Takes from `way` what is along the direction f that the pose leaves fixed. Lemma. R f = f, and R^T f = f where R
+ * is a rotation; so with w = c f + w', R w = c f + R w', and what is not known of R counts for w' alone: for a
+ * direction along the axis of the turn it is 0 but for rounding, however far the pose turns. Any c is right. Of a
+ * map that is no rotation in exact arithmetic R^T f is not f: nothing is taken. */
+static void take_along(const imp_pose *pose, imp_model way[3], imp_model along[3])
+{
+    imp_model f[3], c = imp_num(0);
+    const double *g = pose->fixed, square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+    for (int i = 0; i < 3; ++i) f[i] = imp_num(g[i]);
+    if (square > AXIS_LEAST * AXIS_LEAST) c = imp_scale(imp_dot3(f, way), 1 / square);
+    for (int i = 0; i < 3; ++i) {
+        along[i] = imp_mul(c, f[i]);
+        way[i] = imp_sub(way[i], along[i]);
+    }
+}
+
 /* Lemma. Let R be the turn of a map, R^T R = 1 + D with |D| <= d <= 1/2. Its polar decomposition is U H with a
  * rotation U, H = (1 + D)^(1/2) and |H - 1| <= d, since 1 - (1 - d)^(1/2) <= d. So
  *
@@ -88,21 +104,24 @@ typedef struct carried {
  * and what the point was off by stays as long under U. */
 static void push(const imp_pose *pose, double d, carried *x)
 {
-    imp_model way[3];
+    imp_model way[3], along[3];
     for (int i = 0; i < 3; ++i) way[i] = imp_shift(x->at[i], -pose->pivot[i]);
-    for (int i = 0; i < 3; ++i) x->at[i] = imp_add(imp_dot3(pose->turn[i], way), pose->shift[i]);
     x->off = sum_upper(x->off, d * size_upper(way));
+    take_along(pose, way, along);
+    for (int i = 0; i < 3; ++i)
+        x->at[i] = imp_add(imp_add(imp_dot3(pose->turn[i], way), along[i]), pose->shift[i]);
 }
 
 static void pull(const imp_pose *pose, double d, carried *x)
 {
-    imp_model way[3];
+    imp_model way[3], along[3];
     for (int i = 0; i < 3; ++i) way[i] = imp_sub(x->at[i], pose->shift[i]);
+    x->off = sum_upper(x->off, d * size_upper(way));
+    take_along(pose, way, along);
     for (int j = 0; j < 3; ++j) {
         const imp_model column[3] = {pose->turn[0][j], pose->turn[1][j], pose->turn[2][j]};
-        x->at[j] = imp_shift(imp_dot3(column, way), pose->pivot[j]);
+        x->at[j] = imp_shift(imp_add(imp_dot3(column, way), along[j]), pose->pivot[j]);
     }
-    x->off = sum_upper(x->off, d * size_upper(way));
 }
 
 /* Of R^-1 instead of R^T. Lemma. |R^-1 w| <= |w| / (1 - d)^(1/2) <= 2 |w|, and R^T w - R^-1 w = D R^-1 w is
@@ -139,6 +158,7 @@ static imp_status pose_of(const surface *s, size_t k, const imp_region *times, i
     const imp_status status = surface_pose_of_maps(s, k, k + 1, times, pose);
     if (status == IMP_OK)
         *d = map_turns_exactly(&s->maps[k]) ? 0 : surface_pose_deviation_upper(pose);
+    if (status == IMP_OK && *d > 0) memset(pose->fixed, 0, sizeof pose->fixed);
     return status == IMP_OK && !(*d <= 0.5) ? IMP_UNBOUNDED : status;
 }
 
@@ -324,6 +344,70 @@ static imp_status answer(const question *q, const imp_region *times, double *sli
 
 static bool moves_rigidly(const surface *s) { return s->map_count == 0 || surface_is_rigid(s); }
 
+/* How a point that b's maps carry moves from one time to another, as a sees it, about. */
+static imp_status way_of(const question *q, const double point[3], const imp_region *other,
+                         double way[3])
+{
+    question p = *q;
+    seen now, then;
+    p.found.kind = IMP_SYMMETRIC_ABOUT_POINT;
+    memcpy(p.found.center, point, sizeof p.found.center);
+    imp_status status = see_features(&p, &q->then, &then);
+    if (status == IMP_OK) status = see_features(&p, other, &now);
+    for (int i = 0; i < 3 && status == IMP_OK; ++i)
+        way[i] = now.feature[0].at[i].a - then.feature[0].at[i].a;
+    return status;
+}
+
+/* Two directions across the axis of the plane. */
+static void directions_across(const double axis[3], double across[2][3])
+{
+    int least = 0;
+    for (int i = 1; i < 3; ++i)
+        if (fabs(axis[i]) < fabs(axis[least])) least = i;
+    double side[3] = {0, 0, 0};
+    side[least] = 1;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        across[0][i] = axis[j] * side[k] - axis[k] * side[j];
+    }
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        across[1][i] = axis[j] * across[0][k] - axis[k] * across[0][j];
+    }
+}
+
+static double dot(const double x[3], const double y[3])
+{
+    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+
+#define SINGULAR 0x1p-30
+
+/* Every point of a plane may be its center. That which the motion leaves where it is, if there is one, is seen most
+ * exactly: the point of least way, which depends linearly on the point. */
+static imp_status choose_center(question *q, const imp_region *times)
+{
+    const double t = times->lo[2] + 0.375 * (times->hi[2] - times->lo[2]);
+    const imp_region other = at_times(times, t, t);
+    double across[2][3], way[3][3], *center = q->found.center;
+    directions_across(q->found.axis, across);
+    imp_status status = way_of(q, center, &other, way[0]);
+    for (int k = 0; k < 2 && status == IMP_OK; ++k) {
+        double point[3];
+        for (int i = 0; i < 3; ++i) point[i] = center[i] + across[k][i];
+        status = way_of(q, point, &other, way[k + 1]);
+        for (int i = 0; i < 3; ++i) way[k + 1][i] -= way[0][i];
+    }
+    if (status != IMP_OK) return status;
+    const double a = dot(way[1], way[1]), b = dot(way[1], way[2]), c = dot(way[2], way[2]);
+    const double det = a * c - b * b, r = -dot(way[1], way[0]), s = -dot(way[2], way[0]);
+    if (!(det > SINGULAR * a * c)) return IMP_OK;
+    const double along[2] = {(c * r - b * s) / det, (a * s - b * r) / det};
+    for (int i = 0; i < 3; ++i) center[i] += along[0] * across[0][i] + along[1] * across[1][i];
+    return IMP_OK;
+}
+
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double *slip)
 {
@@ -336,9 +420,31 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
                   .bare = bare};
     *slip = INFINITY;
     if (!moves_rigidly(a) || q.a_maps + q.b_maps == 0) return IMP_OK;
-    const imp_status status = symmetry_of(b, &q.found);
-    if (status == IMP_OK) return answer(&q, times, slip);
-    return status == IMP_UNBOUNDED ? IMP_OK : status;
+    imp_status status = symmetry_of(b, &q.found);
+    if (status == IMP_OK && q.found.kind == IMP_SYMMETRIC_ACROSS_LINE)
+        status = choose_center(&q, times);
+    if (status == IMP_OK && is_sane(&q.found)) return answer(&q, times, slip);
+    return status == IMP_OK || status == IMP_UNBOUNDED ? IMP_OK : status;
+}
+
+imp_status surface_slip_along(const surface *a, const surface *b, const surface_plane *plane,
+                              const imp_model bare[3], const imp_region *times, double moment,
+                              double *slip)
+{
+    question q = {.a = a,
+                  .b = b,
+                  .a_maps = a->map_count,
+                  .b_maps = b->map_count,
+                  .then = at_times(times, moment, moment),
+                  .found = {.kind = IMP_SYMMETRIC_ACROSS_LINE},
+                  .bare = bare};
+    memcpy(q.found.center, plane->center, sizeof q.found.center);
+    memcpy(q.found.axis, plane->axis, sizeof q.found.axis);
+    *slip = INFINITY;
+    if (!moves_rigidly(a) || !moves_rigidly(b)) return IMP_OK;
+    const imp_status status = choose_center(&q, times);
+    if (status == IMP_OK && is_sane(&q.found)) return answer(&q, times, slip);
+    return status == IMP_OK || status == IMP_UNBOUNDED ? IMP_OK : status;
 }
 
 /* --- Pairs that turn within themselves ------------------------------------------------------------- */
@@ -442,8 +548,8 @@ imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][
         imp_status status = slip_of_rest(s, still, bare[0], times, &then, &rest);
         if (status == IMP_OK && !(rest < INFINITY)) {
             const surface *const turned[2] = {s[1], s[0]};
-            status = slip_of_rest(turned, (size_t[2]){still[1], still[0]}, bare[1], times, &then,
-                                  &rest);
+            status =
+                slip_of_rest(turned, (size_t[2]){still[1], still[0]}, bare[1], times, &then, &rest);
         }
         if (status != IMP_OK) return status;
     }

@@ -186,6 +186,9 @@ static inline bool nodes_have_flat_nets(const node *a, const node *b)
            !net_is_curved(node_net_made(b));
 }
 
+/* Models of all points of the node before any map. False: it moves by itself, or has no bounds. */
+bool node_bare_models(const node *n, imp_model bare[3]);
+
 /* Why there is no going on at a node without bounds that cannot be halved: IMP_ERROR_PLUGIN names
  * the type, and the place where it is undefined or the region over which it has no bounds. */
 imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error);

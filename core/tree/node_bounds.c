@@ -130,6 +130,17 @@ static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
     return IMP_SUCCESS;
 }
 
+bool node_bare_models(const node *n, imp_model bare[3])
+{
+    if (n->many != NULL)
+        cluster_models(n->many, &n->region, bare);
+    else if (surface_include_bare(n->surface, &n->region, bare) != IMP_OK)
+        return false;
+    for (int i = 0; i < 3; ++i)
+        if (!(bare[i].e < INFINITY) || (bare[i].depends >> PARAMETER_T & 1) != 0) return false;
+    return true;
+}
+
 imp_code node_bounds_find(const tree *t, node *n, imp_error *error)
 {
     if (t->plan.kind == TREE_MODELS) return fill_from_model(t, n, error);

@@ -29,7 +29,7 @@ static const imp_parameter parameters[] = {
 };
 
 typedef struct rotate_instance {
-    double center[3];
+    double center[3], direction[3];
     axis_frame axis;
     course angle;
 } rotate_instance;
@@ -46,6 +46,7 @@ static imp_status rotate_create(const imp_value *values, void **self, imp_create
         return status;
     }
     s->axis = axis_frame_of(values[AXIS].number);
+    imp_copy_vector(s->direction, &values[AXIS]);
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
     return IMP_OK;
@@ -123,6 +124,7 @@ static imp_status rotate_rigid(const void *self, const imp_model *t, imp_pose *p
     for (int i = 0; i < 3; ++i) {
         pose->shift[i] = imp_num(s->center[i]);
         pose->pivot[i] = s->center[i];
+        pose->fixed[i] = s->direction[i];
     }
     return imp_pose_status(pose);
 }

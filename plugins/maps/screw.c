@@ -20,7 +20,7 @@ static const imp_parameter parameters[] = {
 };
 
 typedef struct screw_instance {
-    double center[3];
+    double center[3], direction[3];
     axis_frame axis;
     near_constant advance[3]; /* per radian */
     polynomial angle;
@@ -45,6 +45,7 @@ static imp_status screw_create(const imp_value *values, void **self, imp_create_
     screw_instance *s = malloc(sizeof *s + numbers * sizeof(double));
     if (s == NULL) return IMP_INTERNAL;
     s->axis = axis_frame_of(values[AXIS].number);
+    imp_copy_vector(s->direction, &values[AXIS]);
     set_advance(s, values[PITCH].number[0], values[AXIS].number);
     imp_copy_vector(s->center, &values[CENTER]);
     s->angle = polynomial_read(&values[RATE], &values[ANGLE], 1, s->coefficients);
@@ -80,6 +81,7 @@ static imp_status screw_rigid(const void *self, const imp_model *t, imp_pose *po
     for (int i = 0; i < 3; ++i) {
         pose->shift[i] = imp_shift(near_scale(angle, s->advance[i]), s->center[i]);
         pose->pivot[i] = s->center[i];
+        pose->fixed[i] = s->direction[i];
     }
     return imp_pose_status(pose);
 }

@@ -218,13 +218,17 @@ typedef struct imp_net {
  * turn(t) is a rotation: no entry of turn^T turn - 1 is beyond IMP_RIGID_SLACK in size, and its
  * determinant is positive. The entries are models of functions of t alone, whose s_2 is that of t; the
  * pivot is exact. Any pivot is right; best is one about which the map turns, because what is not known
- * of a rotation moves a point the farther, the farther it is from the pivot. All finite. */
+ * of a rotation moves a point the farther, the farther it is from the pivot. All finite.
+ *
+ * `fixed` is a direction that turn(t) leaves as it is at all times, in exact arithmetic: that of a constant axis. 0:
+ * none is known. Some component is from 1e-100 to 1e100, none is larger. */
 #define IMP_RIGID_SLACK 0x1p-16
 
 typedef struct imp_pose {
     imp_model turn[3][3]; /* row, column; 1 */
     imp_model shift[3];   /* length */
     double pivot[3];      /* length */
+    double fixed[3];      /* any unit */
 } imp_pose;
 
 /* --- How a surface can be moved within itself ------------------------------------- */
@@ -544,8 +548,8 @@ IMP_LAYOUT(offsetof(imp_surface_type, net) == 112);
 IMP_LAYOUT(offsetof(imp_surface_type, piece_count) == 120);
 IMP_LAYOUT(offsetof(imp_surface_type, distance) == 136);
 IMP_LAYOUT(offsetof(imp_surface_type, symmetry) == 144);
-IMP_LAYOUT(sizeof(imp_pose) == 1656 && offsetof(imp_pose, shift) == 1224);
-IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632);
+IMP_LAYOUT(sizeof(imp_pose) == 1680 && offsetof(imp_pose, shift) == 1224);
+IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632 && offsetof(imp_pose, fixed) == 1656);
 IMP_LAYOUT(sizeof(imp_symmetry) == 56 && offsetof(imp_symmetry, center) == 8);
 IMP_LAYOUT(sizeof(imp_map_type) == 128 && offsetof(imp_map_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);

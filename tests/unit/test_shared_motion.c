@@ -10,11 +10,11 @@
  * themselves at one moment. */
 
 #define BOX(X, Y, Z, H)                                                                            \
-    "{'type':'mesh','points':[[" #X "," #Y "," #Z "],[" #X "," #Y "," H "],[" #X ",1," #Z          \
-    "],[" #X ",1," H "],[1," #Y "," #Z "],[1," #Y "," H "],[1,1," #Z "],[1,1," H                   \
+    "{'type':'mesh','points':[[" #X "," #Y "," #Z "],[" #X "," #Y "," H "],[" #X ",1," #Z "],[" #X \
+    ",1," H "],[1," #Y "," #Z "],[1," #Y "," H "],[1,1," #Z "],[1,1," H                            \
     "]],'faces':[[0,1,3,2],[4,6,7,5],[0,4,5,1],[2,3,7,6],[0,2,6,4],[1,5,7,3]]}"
 #define TUMBLE                                                                                     \
-    "{'type':'rotate','axis':[1,2,3],'rate':20},{'type':'rotate','axis':[0,1,0],'rate':1.5,"      \
+    "{'type':'rotate','axis':[1,2,3],'rate':20},{'type':'rotate','axis':[0,1,0],'rate':1.5,"       \
     "'center':[3,0,0]},{'type':'translate','velocity':[5,1,0]}"
 
 static imp_registry *registry;
@@ -64,10 +64,12 @@ static imp_clearance clearance(imp_scene *scene)
 
 /* Two boxes 0.001 apart, the upper one carried by the lower one, and the same maps written twice. */
 static const char *const carried[] = {
-    "{'bodies':[{'name':'hand','surfaces':[" BOX(-1, -1, -1, "0") "],'maps':[" TUMBLE "]},"
-    "{'name':'part','parent':'hand','surfaces':[" BOX(0, 0, 0.001, "2") "]}]}",
-    "{'bodies':[{'surfaces':[" BOX(-1, -1, -1, "0") "],'maps':[" TUMBLE "]},"
-    "{'surfaces':[" BOX(0, 0, 0.001, "2") "],'maps':[" TUMBLE "]}]}"};
+    "{'bodies':[{'name':'hand','surfaces':[" BOX(
+        -1, -1, -1, "0") "],'maps':[" TUMBLE "]},"
+                         "{'name':'part','parent':'hand','surfaces':[" BOX(0, 0, 0.001, "2") "]}]}",
+    "{'bodies':[{'surfaces':[" BOX(
+        -1, -1, -1, "0") "],'maps':[" TUMBLE "]},"
+                         "{'surfaces':[" BOX(0, 0, 0.001, "2") "],'maps':[" TUMBLE "]}]}"};
 
 START_TEST(parts_that_are_carried_cost_what_they_cost_at_rest)
 {
@@ -111,9 +113,10 @@ START_TEST(answers_are_told_in_the_world)
     assert_in_world(scene, &near.a, &near.b, near.t, near.upper, near.normal);
     imp_scene_free(scene);
     scene = scene_of("{'time':[0.25,1],'bodies':[{'name':'hand','surfaces':[{'type':'plane',"
-                     "'origin':[-1,-1,0],'edge_u':[2,0,0],'edge_v':[0,2,0]}],'maps':[" TUMBLE "]},{'parent':'hand','surfaces':[{'type':'sphere',"
-                       "'radius':0.5,'center':[0,0,1]}],'maps':[{'type':'translate',"
-                       "'velocity':[0,0,-1]}]}]}");
+                     "'origin':[-1,-1,0],'edge_u':[2,0,0],'edge_v':[0,2,0]}],'maps':[" TUMBLE
+                     "]},{'parent':'hand','surfaces':[{'type':'sphere',"
+                     "'radius':0.5,'center':[0,0,1]}],'maps':[{'type':'translate',"
+                     "'velocity':[0,0,-1]}]}]}");
     const imp_result r = solve(scene, 1e-3);
     ck_assert_int_eq(r.verdict, IMP_CONTACT);
     ck_assert(r.t <= 0.5 && r.t >= 0.499 - 1e-6 && r.has_normal && !r.at_rest);
@@ -204,7 +207,8 @@ static const turning turnings[] = {
      "torus minor_radius=.201", 1e-3, 1e-4, 2000},
     {"cylinder radius=.2 height=1 center=.799,0,0 ! rotate rate=5 center=.799,0,0 ! rotate rate=1",
      "cylinder height=3", 1e-3, 1e-7, 100},
-    {"mesh points=[[-.6,-.6,0],[.6,-.6,0],[0,.8,0],[0,0,.5]] faces=[[0,2,1],[0,1,3],[1,2,3],[2,0,3]]"
+    {"mesh points=[[-.6,-.6,0],[.6,-.6,0],[0,.8,0],[0,0,.5]] "
+     "faces=[[0,2,1],[0,1,3],[1,2,3],[2,0,3]]"
      " ! rotate rate=30",
      "cylinder height=3 radius=.849", 4.7e-4, 1e-5, 200}};
 
@@ -279,6 +283,85 @@ START_TEST(what_touches_while_it_turns_touches_at_the_start)
 }
 END_TEST
 
+/* --- Sliding along faces ------------------------------------------------------------------------------ */
+
+/* The x, y and z axes of a table that is inclined, in whole numbers: (2,-1,2), (2,2,-1), (-1,2,2), a third each. */
+static void inclined(const double p[3], double x[3])
+{
+    static const double axis[3][3] = {{2, -1, 2}, {2, 2, -1}, {-1, 2, 2}};
+    for (int i = 0; i < 3; ++i)
+        x[i] = (axis[0][i] * p[0] + axis[1][i] * p[1] + axis[2][i] * p[2]) / 3;
+}
+
+/* A box from lo to hi in the table's axes, as a mesh. */
+static void print_box(char *text, size_t size, const double lo[3], const double hi[3])
+{
+    size_t used = (size_t)snprintf(text, size, "mesh points=[");
+    for (int k = 0; k < 8; ++k) {
+        double x[3];
+        inclined((double[3]){k & 4 ? hi[0] : lo[0], k & 2 ? hi[1] : lo[1], k & 1 ? hi[2] : lo[2]},
+                 x);
+        used += (size_t)snprintf(text + used, size - used, "%s[%.17g,%.17g,%.17g]", k ? "," : "",
+                                 x[0], x[1], x[2]);
+    }
+    snprintf(text + used, size - used,
+             "] faces=[[0,1,3,2],[4,6,7,5],[0,4,5,1],[2,3,7,6],[0,2,6,4],[1,5,7,3]]");
+}
+
+static const char *const tables[] = {
+    NULL, /* a mesh */
+    "plane origin=-4,-1,-1 edge_u=4,-2,4 edge_v=4,4,-2",
+    "bezier degree=[1,1] points=[[-4,-1,-1],[0,3,-3],[0,-3,3],[4,1,1]]",
+};
+
+enum { TABLES = sizeof tables / sizeof tables[0] };
+
+START_TEST(a_box_that_turns_on_an_inclined_table_costs_no_time)
+{
+    for (double gap = 1e-2; gap >= 1e-6; gap /= 100) {
+        char box[1000], table[800], moving[1200];
+        print_box(box, sizeof box, (double[3]){-0.2, -0.4, gap}, (double[3]){0.8, 0.4, 1});
+        print_box(table, sizeof table, (double[3]){-3, -3, -1}, (double[3]){3, 3, 0});
+        snprintf(moving, sizeof moving, "%s ! rotate axis=-1,2,2 rate=2", box);
+        const question q = {.a = moving,
+                            .b = tables[_i] != NULL ? tables[_i] : table,
+                            .gamma = gap / 10,
+                            .max_pairs = 2000};
+        imp_error error;
+        imp_scene *scene = imp_scene_from_pair(registry, q.a, q.b, &error);
+        ck_assert_msg(scene != NULL, "%s", error.text);
+        const imp_options options = query_options(scene, &q);
+        imp_result r = {.struct_size = sizeof r};
+        ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_SUCCESS);
+        ck_assert_msg(r.verdict == IMP_CLEAR, "gap %g: %llu pairs", gap,
+                      (unsigned long long)r.stats.pairs);
+        const imp_clearance near = clearance(scene);
+        ck_assert_double_le(near.lower, gap * (1 + 1e-9));
+        ck_assert_double_ge(near.upper, gap * (1 - 1e-9));
+        ck_assert_double_le(near.upper - near.lower, 2e-3 * gap);
+        imp_scene_free(scene);
+    }
+}
+END_TEST
+
+/* An axis that leans by a thousandth takes an edge of the box into the table. */
+START_TEST(a_box_whose_axis_leans_touches_the_table)
+{
+    char box[1000], moving[1200];
+    print_box(box, sizeof box, (double[3]){-0.8, -0.4, 1e-4}, (double[3]){0.8, 0.4, 1});
+    snprintf(moving, sizeof moving, "%s ! rotate axis=-1,2.003,2 rate=3", box);
+    imp_error error;
+    imp_scene *scene = imp_scene_from_pair(registry, moving, tables[1], &error);
+    imp_options options = imp_options_default(scene);
+    options.gamma = 1e-6;
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_SUCCESS);
+    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert(r.t > 0 && r.t < 1);
+    imp_scene_free(scene);
+}
+END_TEST
+
 static const char TITLE[] = "shared motion";
 
 int main(void)
@@ -297,6 +380,8 @@ int main(void)
     tcase_add_test(tcase, slices_of_time_know_of_what_turns);
     tcase_add_test(tcase, what_turns_beside_its_axis_is_searched_in_time);
     tcase_add_test(tcase, what_touches_while_it_turns_touches_at_the_start);
+    tcase_add_loop_test(tcase, a_box_that_turns_on_an_inclined_table_costs_no_time, 0, TABLES);
+    tcase_add_test(tcase, a_box_whose_axis_leans_touches_the_table);
     suite_add_tcase(suite, tcase);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

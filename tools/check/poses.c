@@ -72,6 +72,28 @@ static long double value_at(const imp_model *m, long double at)
     return m->a + at * (m->b[2] + at * m->q[IMP_TT]);
 }
 
+/* Whether the pose's direction may be one that the turn leaves as it is. */
+static bool judge_fixed(const subject *s, const imp_region *span, const imp_pose *pose, double t)
+{
+    const long double d = span->d[2], at = d > 0 ? (t - (long double)span->c[2]) / d : 0;
+    for (int i = 0; i < 3; ++i) {
+        long double sum = -(long double)pose->fixed[i], e = 0, size = fabsl(sum);
+        for (int j = 0; j < 3; ++j) {
+            sum += value_at(&pose->turn[i][j], at) * pose->fixed[j];
+            e += pose->turn[i][j].e * fabsl((long double)pose->fixed[j]);
+            size += 3 * fabsl((long double)pose->fixed[j]);
+        }
+        ++s->answer->tests;
+        if (fabsl(sum) > e + 64 * LDBL_EPSILON * size)
+            return answer_fail(s->answer,
+                               "the pose over %s says that it leaves the direction %.9g, %.9g, %.9g "
+                               "fixed; at t = %.17g it turns it by %.3Lg in %c",
+                               times_text(span).text, pose->fixed[0], pose->fixed[1],
+                               pose->fixed[2], t, sum, "xyz"[i]);
+    }
+    return true;
+}
+
 /* `off` is how far the product is from that of a rotation's columns, which is 1 or 0. */
 static bool refute_rotation(const subject *s, const imp_region *span, int j, int k, long double off,
                             long double slack)
@@ -243,6 +265,7 @@ static bool judge_span(const subject *s, uint64_t *random)
         for (int n = 0; n < ENTRIES; ++n)
             if (!judge_entry(s, &span, &pose, n / 4, n % 4, &seen[0], &seen[1])) return false;
         if (!judge_image(s, random, &span, &pose, time[0])) return false;
+        if (!judge_fixed(s, &span, &pose, time[0])) return false;
     }
     return true;
 }
