@@ -13,6 +13,7 @@ check_suites = \
     tests/fuzz/proof \
     tests/fuzz/scene \
     tests/unit/test_alloc_failure \
+    tests/unit/test_api \
     tests/unit/test_callers_mode \
     tests/unit/test_clearance \
     tests/unit/test_broad_phase \
@@ -99,6 +100,16 @@ type_oracle = tests/support/oracle_number.c tests/support/oracle_number.h \
     tests/support/expression_oracle.c tests/support/expression_oracle.h \
     tests/support/map_oracle.c tests/support/map_oracle.h \
     tests/support/instance.c tests/support/instance.h
+# All functions of the public headers.
+tests_unit_test_api_SOURCES = tests/unit/test_api.c
+nodist_tests_unit_test_api_SOURCES = tests/unit/api_table.h
+tests/unit/test_api.$(OBJEXT): tests/unit/api_table.h
+tests/unit/api_table.h: tests/support/api_table.awk $(core_include_HEADERS)
+	@$(MKDIR_P) tests/unit
+	$(AM_V_GEN)$(AWK) -f $(srcdir)/tests/support/api_table.awk \
+	  $(core_include_HEADERS:%=$(srcdir)/%) >$@.part && mv $@.part $@
+CLEANFILES += tests/unit/api_table.h
+EXTRA_DIST += tests/support/api_table.awk
 tests_unit_test_scene_judge_SOURCES = tests/unit/test_scene_judge.c tests/fuzz/scene_judge.c \
     tests/fuzz/scene_judge.h
 # Scenes of many bodies, for programs and for the command.

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <impinge/surface.h>
 
@@ -428,6 +429,7 @@ IMP_EXPORT imp_code imp_options_read(const imp_scene *scene, imp_options *option
 static inline imp_options imp_options_default(const imp_scene *scene)
 {
     imp_options options;
+    memset(&options, 0, sizeof options); /* is left where scene is NULL; no query takes it */
     options.struct_size = (uint32_t)sizeof options;
     imp_options_read(scene, &options, NULL);
     return options;
@@ -495,7 +497,10 @@ IMP_EXPORT imp_code imp_query_read(const imp_query *query, imp_result *result, i
 static inline imp_result imp_query_result(const imp_query *query)
 {
     imp_result result;
+    memset(&result, 0, sizeof result);
     result.struct_size = (uint32_t)sizeof result;
+    result.verdict = IMP_UNDECIDED; /* is left where query is NULL */
+    result.reason = IMP_REASON_CANCELLED;
     imp_query_read(query, &result, NULL);
     return result;
 }
@@ -555,7 +560,7 @@ IMP_EXPORT imp_code imp_scene_solve(imp_scene *scene, const imp_options *options
 static inline imp_code imp_solve(imp_scene *scene, const imp_options *options, imp_result *result,
                                  imp_error *error)
 {
-    result->struct_size = (uint32_t)sizeof *result;
+    if (result != NULL) result->struct_size = (uint32_t)sizeof *result;
     return imp_scene_solve(scene, options, result, error);
 }
 
@@ -639,9 +644,11 @@ IMP_EXPORT imp_code imp_clearance_read(const imp_query *query, size_t index, imp
                                        imp_error *error);
 
 /* The paper's h(t) = t0 - t: time left from t until the first contact, negative when that is past;
- * INFINITY when there is none in the interval; where it is undecided, the time proved to be left. */
+ * INFINITY when there is none in the interval; where it is undecided, the time proved to be left. NAN for
+ * a NULL. */
 static inline double imp_time_left(const imp_result *result, double t)
 {
+    if (result == NULL) return NAN;
     if (result->verdict == IMP_CONTACT) return result->t - t;
     return result->verdict == IMP_CLEAR ? INFINITY : result->t_lower - t;
 }

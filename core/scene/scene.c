@@ -256,7 +256,8 @@ size_t imp_scene_body_count(const imp_scene *scene) { return scene != NULL ? sce
 
 bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b)
 {
-    return scene_ignores(scene, a, b);
+    const size_t bodies = imp_scene_body_count(scene);
+    return a < bodies && b < bodies && scene_ignores(scene, a, b);
 }
 
 const char *imp_scene_body_name(const imp_scene *scene, size_t body)

@@ -408,6 +408,7 @@ imp_code imp_query_refine(imp_query *query, double gamma, double clearance, imp_
 
 imp_code imp_query_pass(imp_query *query, imp_error *error)
 {
+    if (query == NULL) return error_set_missing(error, "imp_query_pass");
     const bool found = query->verdict == IMP_CONTACT || query->reason == IMP_REASON_RESOLUTION;
     if (!found || query->clearance != NULL)
         return error_set(error, IMP_ERROR_USAGE,
