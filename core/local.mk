@@ -84,6 +84,7 @@ core_plugin = \
 
 core_scene = \
     core/scene/assembly.c core/scene/assembly.h \
+    core/scene/default_times.c core/scene/default_times.h \
     core/scene/key_pairs.c core/scene/key_pairs.h \
     core/scene/scene.c core/scene/scene.h \
     core/scene/scene_trees.h

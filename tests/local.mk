@@ -177,6 +177,7 @@ bats_suites = \
     tests/cli/simulate.bats \
     tests/cli/simulate_scenes.bats \
     tests/cli/subdivision.bats \
+    tests/cli/times.bats \
     tests/cli/plot.bats \
     tests/cli/progress.bats \
     tests/cli/view.bats \

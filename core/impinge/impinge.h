@@ -142,8 +142,8 @@ typedef struct imp_type_info {
     const imp_parameter *parameters; /* step by parameter_size bytes */
     size_t parameter_count, parameter_size;
     const char *capabilities; /* what this host uses of it, names with blanks between: "core", always;
-                                 "order-2": include or apply; "net"; "pieces"; "rigid"; "distance";
-                                 "symmetry" */
+                                 "order-2": include or apply; "net"; "pieces"; "rigid"; "span";
+                                 "distance"; "symmetry" */
 } imp_type_info;
 
 /* Types in the order found, shadowed ones included. Returns false past the last. */
@@ -422,7 +422,11 @@ typedef struct imp_options {
 } imp_options;
 
 /* The options a scene asks for, and for the rest the library's own. *options comes with its
- * struct_size set; IMP_ERROR_USAGE if that is none. */
+ * struct_size set; IMP_ERROR_USAGE if that is none. A scene that names no times is examined while all of
+ * its types and maps are defined: for the span that its tables and keyframes share. Tables that hold at
+ * their ends, and surfaces that do not exist at other times, extend it; without any it is from 0 to 1.
+ * IMP_ERROR_SCENE: they share no time. *options is filled all the same, t_start and t_end are NAN, and
+ * queries answer the error until both are set. */
 IMP_EXPORT imp_code imp_options_read(const imp_scene *scene, imp_options *options,
                                      imp_error *error);
 

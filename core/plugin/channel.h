@@ -39,6 +39,7 @@ typedef enum channel_callback {
     CALLBACK_CREATE,
     CALLBACK_DOMAIN,
     CALLBACK_TIME_DOMAIN,
+    CALLBACK_SPAN,
     CALLBACK_PIECE_COUNT,
     CALLBACK_PIECE,
     CALLBACK_COUNT
@@ -52,7 +53,7 @@ typedef struct channel_work {
     imp_create_error why;
     const void *piece;   /* as the worker knows it: set by REQUEST_PIECE; or NULL */
     size_t pieces;       /* set by REQUEST_CREATE of a type that has them; else 0 */
-    double lo[3], hi[3]; /* domain, after REQUEST_CREATE and _PIECE; a map: times in [0] */
+    double lo[3], hi[3]; /* domain, after REQUEST_CREATE and _PIECE; a map: times in [0], span in [1] */
     size_t n;            /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values */
     int wants_error;
     double p[4 * CHANNEL_POINTS], x[3 * CHANNEL_POINTS], error[3 * CHANNEL_POINTS];

@@ -79,7 +79,7 @@ static imp_status create_pieces(isolated *i)
 static void name_callback(const isolated *i)
 {
     static const char *const names[CALLBACK_COUNT] = {"create", "domain", "time_domain",
-                                                      "piece_count", "piece"};
+                                                      "span", "piece_count", "piece"};
     const unsigned last = i->worker != NULL ? atomic_load(&i->worker->channel->callback) : 0;
     const char *type = i->type.surface != NULL ? i->type.surface->name : i->type.map->name;
     active_callback_end(

@@ -18,7 +18,7 @@ struct isolated {
     worker *worker;      /* NULL: none was to be had */
     void *self;          /* the instance, as the worker knows it; NULL: not created */
     const void *user;    /* whose requests they are: itself, or what it is a piece of */
-    double lo[3], hi[3]; /* domain; a map: times in [0] */
+    double lo[3], hi[3]; /* domain; a map: times in [0], span in [1] */
     isolated *pieces;    /* piece_count of them, unless that breaks the ABI; or NULL */
     size_t piece_count;
 };

@@ -134,6 +134,12 @@ static void map_times_of(const void *self, double *lo, double *hi)
     *hi = stand_in_of(self)->hi[0];
 }
 
+static void map_span_of(const void *self, double *lo, double *hi)
+{
+    *lo = stand_in_of(self)->lo[1];
+    *hi = stand_in_of(self)->hi[1];
+}
+
 static imp_status map_eval_of(const void *self, size_t n, const double *p, double *x, double *error)
 {
     return points(stand_in_of(self), n, 4, p, x, error);
@@ -217,7 +223,8 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
                                      .rate = map_rate_of,
                                      .apply = type->apply != NULL ? map_apply_of : NULL,
                                      .net = type->net != NULL ? net_of : NULL,
-                                     .rigid = instance_offers_pose(type) ? map_rigid_of : NULL};
+                                     .rigid = instance_offers_pose(type) ? map_rigid_of : NULL,
+                                     .span = instance_offers_span(type) ? map_span_of : NULL};
     return i;
 }
 

@@ -203,7 +203,7 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
                            wrong->name, shown(wrong->text).at);
     if (null_callback != NULL)
         return place_error(&type, error, IMP_ERROR_PLUGIN,
-                           "%s is NULL; only include, apply, net, rigid, distance and symmetry may be",
+                           "%s is NULL; only include, apply, net, rigid, span, distance and symmetry may be",
                            null_callback);
     return check_table(&view->table, &type, error);
 }

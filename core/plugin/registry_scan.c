@@ -43,11 +43,12 @@ static void list_capabilities(found_type *found)
     const bool net = surface != NULL ? surface->net != NULL : map->net != NULL;
     const bool pieces = surface != NULL && instance_offers_pieces(surface);
     const bool rigid = map != NULL && instance_offers_pose(map);
+    const bool span = map != NULL && instance_offers_span(map);
     const bool distance = surface != NULL && instance_offers_distance(surface);
     const bool symmetry = surface != NULL && instance_offers_symmetry(surface);
-    snprintf(found->capabilities, sizeof found->capabilities, "core%s%s%s%s%s%s",
+    snprintf(found->capabilities, sizeof found->capabilities, "core%s%s%s%s%s%s%s",
              second ? " order-2" : "", net ? " net" : "", pieces ? " pieces" : "",
-             rigid ? " rigid" : "", distance ? " distance" : "", symmetry ? " symmetry" : "");
+             rigid ? " rigid" : "", span ? " span" : "", distance ? " distance" : "", symmetry ? " symmetry" : "");
 }
 
 static bool add_type(imp_registry *r, const loaded_plugin *from, imp_type_kind kind,

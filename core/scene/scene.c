@@ -14,6 +14,7 @@
 #include "core/base/sized.h"
 #include "core/base/status.h"
 #include "core/common/array.h"
+#include "core/scene/default_times.h"
 #include "core/scene/key_pairs.h"
 #include "core/scene/scene_trees.h"
 
@@ -57,7 +58,7 @@ imp_scene *scene_new(void)
 {
     imp_scene *scene = calloc(1, sizeof *scene);
     if (scene == NULL) return NULL;
-    scene->settings = (scene_settings){0, 1, 1e-6, -1};
+    scene->settings = (scene_settings){NAN, NAN, 1e-6, -1};
     scene->t_from = INFINITY, scene->t_to = -INFINITY;
     return scene;
 }
@@ -231,8 +232,13 @@ static void note_times(imp_scene *scene)
 
 void scene_complete(imp_scene *scene)
 {
+    scene_settings *set = &scene->settings;
+    double time[2];
     scene->bytes = sum_of_bytes(scene);
     note_times(scene);
+    if (!isnan(set->t_start) || default_times(scene, time, NULL) != IMP_SUCCESS) return;
+    set->t_start = time[0];
+    set->t_end = time[1];
 }
 
 bool scene_is_defined(const imp_scene *scene, double t_start, double t_end)
@@ -407,6 +413,16 @@ void scene_options(const imp_scene *scene, imp_options *options)
                              .method = IMP_METHOD_MODELS,
                              .bounds = IMP_BOUNDS_BOX,
                              .rates = IMP_RATES_FULL};
+    double time[2];
+    if (!isnan(set->t_start) || default_times(scene, time, NULL) != IMP_SUCCESS) return;
+    options->t_start = time[0];
+    options->t_end = time[1];
+}
+
+imp_code scene_check_times(const imp_scene *scene, double t_start, double t_end, imp_error *error)
+{
+    double time[2];
+    return isnan(t_start) && isnan(t_end) ? default_times(scene, time, error) : IMP_SUCCESS;
 }
 
 imp_code imp_options_read(const imp_scene *scene, imp_options *options, imp_error *error)
@@ -415,8 +431,9 @@ imp_code imp_options_read(const imp_scene *scene, imp_options *options, imp_erro
     imp_options own;
     scene_options(scene, &own);
     const imp_code code = sized_check("imp_options", options, SCENE_OPTIONS_FIRST, error);
-    if (code == IMP_SUCCESS) sized_write(options, &own);
-    return code;
+    if (code != IMP_SUCCESS) return code;
+    sized_write(options, &own);
+    return scene_check_times(scene, own.t_start, own.t_end, error);
 }
 
 /* --- Trees ----------------------------------------------------------------------------- */

@@ -50,7 +50,8 @@ void scene_complete(imp_scene *scene);
 /* Whether all types and maps are known to be defined from t_start to t_end. */
 bool scene_is_defined(const imp_scene *scene, double t_start, double t_end);
 
-/* What the scene file asks for; the defaults of imp_options_default. Preset: 0, 1, 1e-6, -1. */
+/* What the scene file asks for; the defaults of imp_options_default. Preset: NAN, NAN, 1e-6, -1. Times that
+ * nobody has set are chosen by scene_complete (default_times), and stay NAN where there are none. */
 typedef struct scene_settings {
     double t_start, t_end, gamma, clearance;
 } scene_settings;
@@ -58,6 +59,9 @@ scene_settings *scene_settings_of(imp_scene *scene);
 
 /* What imp_options_default answers. */
 void scene_options(const imp_scene *scene, imp_options *options);
+
+/* IMP_ERROR_SCENE, and why: both are NAN because the scene has no times to examine. */
+imp_code scene_check_times(const imp_scene *scene, double t_start, double t_end, imp_error *error);
 
 /* Bytes of imp_options in the first release. */
 #define SCENE_OPTIONS_FIRST sizeof(imp_options)

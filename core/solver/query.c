@@ -35,8 +35,10 @@ static imp_code check_choice(const char *name, int found, int last, imp_error *e
 }
 
 /* All but the tolerances. */
-static imp_code check_options(const imp_options *options, imp_error *error)
+static imp_code check_options(const imp_scene *scene, const imp_options *options, imp_error *error)
 {
+    if (scene_check_times(scene, options->t_start, options->t_end, error) != IMP_SUCCESS)
+        return IMP_ERROR_SCENE;
     if (!(options->t_start <= options->t_end && options->t_start > -INFINITY &&
           options->t_end < INFINITY))
         return error_set(error, IMP_ERROR_USAGE, "time: got [%g, %g], must be finite and not empty",
@@ -61,7 +63,7 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
         return NULL;
     double clearance = options->clearance;
     if (check_tolerances(options->gamma, &clearance, error) != IMP_SUCCESS) return NULL;
-    if (check_options(options, error) != IMP_SUCCESS) return NULL;
+    if (check_options(scene, options, error) != IMP_SUCCESS) return NULL;
     examined_times examined;
     if (examined_times_find(scene, options->t_start, options->t_end, &examined, error) !=
         IMP_SUCCESS)

@@ -47,6 +47,12 @@ bool instance_offers_pose(const imp_map_type *type)
            type->rigid != NULL;
 }
 
+bool instance_offers_span(const imp_map_type *type)
+{
+    return type->struct_size >= offsetof(imp_map_type, span) + sizeof type->span &&
+           type->span != NULL;
+}
+
 /* One piece, and whether it keeps the rules; p->lo and p->hi are those of the first. */
 static imp_status take_piece(shared_instance *p, size_t k)
 {
@@ -82,6 +88,25 @@ static bool take_pieces(shared_instance *p)
     return true;
 }
 
+static void set_span(shared_instance *p, double lo, double hi)
+{
+    p->span[0] = lo;
+    p->span[1] = hi;
+}
+
+/* Precondition: the times are known. */
+static void take_span(shared_instance *p)
+{
+    double lo = p->lo[2], hi = p->hi[2];
+    if (instance_offers_span(p->map)) {
+        const surface_call call = surface_call_begin(p->map->name, "span");
+        p->map->span(p->self, &lo, &hi);
+        p->breach = surface_call_end(call, IMP_OK);
+    }
+    if (p->breach == IMP_OK && !(lo <= hi)) p->breach = SURFACE_BAD_SPAN;
+    set_span(p, lo, hi);
+}
+
 static void take_times(shared_instance *p)
 {
     p->lo[2] = -INFINITY, p->hi[2] = INFINITY;
@@ -89,6 +114,7 @@ static void take_times(shared_instance *p)
     p->map->time_domain(p->self, &p->lo[2], &p->hi[2]);
     p->breach = surface_call_end(call, IMP_OK);
     if (p->breach == IMP_OK && !(p->lo[2] <= p->hi[2])) p->breach = SURFACE_BAD_DOMAIN;
+    if (p->breach == IMP_OK) take_span(p);
 }
 
 shared_instance *instance_of_surface(const imp_surface_type *type, void *self)
@@ -105,6 +131,7 @@ shared_instance *instance_of_surface(const imp_surface_type *type, void *self)
         instance_release(p);
         return NULL;
     }
+    set_span(p, p->lo[2], p->hi[2]);
     return p;
 }
 

@@ -19,6 +19,7 @@ typedef struct shared_instance {
     void *self;
     size_t holders;
     double lo[3], hi[3]; /* a surface's domain; of a map, the times alone: [2] */
+    double span[2];      /* times it is made for; -INFINITY, INFINITY: none before others */
     const void **pieces; /* instances that `self` owns, in place of it; NULL: it is one surface */
     size_t piece_count;  /* 0: it is one surface */
     imp_status breach;   /* IMP_OK, or for surface_status_text: how the domain breaks the ABI;
@@ -39,6 +40,9 @@ bool instance_offers_pieces(const imp_surface_type *type);
 
 /* Whether the map says that it is rigid (imp_pose). */
 bool instance_offers_pose(const imp_map_type *type);
+
+/* Whether the map may be made for fewer times than it is defined at. */
+bool instance_offers_span(const imp_map_type *type);
 
 /* Whether the type knows distances from its instances. */
 bool instance_offers_distance(const imp_surface_type *type);

@@ -183,36 +183,33 @@ void surface_domain(const surface *s, double lo[3], double hi[3])
 
 /* --- Times --------------------------------------------------------------------- */
 
-/* Instance 0 is the type, instance k the map k - 1. */
-static surface_instance instance_at(const surface *s, size_t k, bool *absent)
+bool surface_instance_at(const surface *s, size_t k, surface_instance *found)
 {
-    if (k == 0) {
-        *absent = s->type->flags & IMP_ABSENT_OUTSIDE_TIMES;
-        return (surface_instance){s->type->name, s->origin->lo[2], s->origin->hi[2]};
-    }
-    const mapping *map = &s->maps[k - 1];
-    *absent = map->type->flags & IMP_ABSENT_OUTSIDE_TIMES;
-    return (surface_instance){map->type->name, map->origin->lo[2], map->origin->hi[2]};
+    if (k > s->map_count) return false;
+    const shared_instance *p = k == 0 ? s->origin : s->maps[k - 1].origin;
+    const uint32_t flags = p->surface != NULL ? p->surface->flags : p->map->flags;
+    *found = (surface_instance){.name = p->surface != NULL ? p->surface->name : p->map->name,
+                                .lo = p->lo[2],
+                                .hi = p->hi[2],
+                                .span = {p->span[0], p->span[1]},
+                                .absent = flags & IMP_ABSENT_OUTSIDE_TIMES};
+    return true;
 }
 
 void surface_existence(const surface *s, double *lo, double *hi)
 {
+    surface_instance x;
     *lo = -INFINITY, *hi = INFINITY;
-    for (size_t k = 0; k <= s->map_count; ++k) {
-        bool absent;
-        const surface_instance x = instance_at(s, k, &absent);
-        if (absent && x.lo > *lo) *lo = x.lo;
-        if (absent && x.hi < *hi) *hi = x.hi;
+    for (size_t k = 0; surface_instance_at(s, k, &x); ++k) {
+        if (x.absent && x.lo > *lo) *lo = x.lo;
+        if (x.absent && x.hi < *hi) *hi = x.hi;
     }
 }
 
 bool surface_undefined_instance(const surface *s, double lo, double hi, surface_instance *found)
 {
-    for (size_t k = 0; k <= s->map_count; ++k) {
-        bool absent;
-        *found = instance_at(s, k, &absent);
-        if (!absent && (found->lo > lo || found->hi < hi)) return true;
-    }
+    for (size_t k = 0; surface_instance_at(s, k, found); ++k)
+        if (!found->absent && (found->lo > lo || found->hi < hi)) return true;
     return false;
 }
 
@@ -254,6 +251,8 @@ const char *surface_status_text(imp_status status)
     case SURFACE_BAD_SYMMETRY:
         return "its symmetry has an unknown kind, a center or an axis that is not finite, or an axis "
                "without length";
+    case SURFACE_BAD_SPAN:
+        return "the span of its times is empty or NaN";
     case SURFACE_CRASHED:
         return "crashes or ends its process, in which it runs isolated";
     case SURFACE_HUNG:

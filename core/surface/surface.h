@@ -52,11 +52,16 @@ imp_code surface_fault(const surface *s, imp_error *error, const char *format, .
 /* Domain; time is what the type and all maps have in common: lo[2] > hi[2] if nothing. */
 void surface_domain(const surface *s, double lo[3], double hi[3]);
 
-/* The type or one of the maps, and the times it is defined for. */
+/* The type or one of the maps: the times it is defined for, and those it is made for. */
 typedef struct surface_instance {
     const char *name;
     double lo, hi;
+    double span[2]; /* -INFINITY, INFINITY: none before others */
+    bool absent;    /* at other times it does not exist (IMP_ABSENT_OUTSIDE_TIMES) */
 } surface_instance;
+
+/* Instance 0 is the type, instance k the map k - 1; false past the last. */
+bool surface_instance_at(const surface *s, size_t k, surface_instance *found);
 
 /* The times at which the surface exists: all that no instance excludes (IMP_ABSENT_OUTSIDE_TIMES).
  * lo > hi: none. */
@@ -85,6 +90,7 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 #define SURFACE_BAD_POSE 1014
 #define SURFACE_BAD_DISTANCE 1015
 #define SURFACE_BAD_SYMMETRY 1016
+#define SURFACE_BAD_SPAN 1017
 
 /* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);

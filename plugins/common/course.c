@@ -155,11 +155,17 @@ imp_status course_read(course *c, const imp_value *values, int first, size_t wid
 
 /* --- Asking --------------------------------------------------------------------------------- */
 
+void course_span(const course *c, double *lo, double *hi)
+{
+    const bool is_table = c->polynomial.count == 0;
+    *lo = is_table ? c->table.time[0] : -INFINITY;
+    *hi = is_table ? c->table.time[c->table.pieces] : INFINITY;
+}
+
 void course_times(const course *c, double *lo, double *hi)
 {
-    const bool always = c->polynomial.count > 0 || c->hold;
-    *lo = always ? -INFINITY : c->table.time[0];
-    *hi = always ? INFINITY : c->table.time[c->table.pieces];
+    course_span(c, lo, hi);
+    if (c->hold) *lo = -INFINITY, *hi = INFINITY;
 }
 
 bool course_is_defined(const course *c, double from, double to)

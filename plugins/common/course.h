@@ -67,6 +67,9 @@ imp_status course_read(course *c, const imp_value *values, int first, size_t wid
 /* The times at which it is defined: from *lo to *hi. */
 void course_times(const course *c, double *lo, double *hi);
 
+/* The times of a table, held or not; -INFINITY and INFINITY: it is none. */
+void course_span(const course *c, double *lo, double *hi);
+
 /* Whether it is defined all from one time to the other. */
 bool course_is_defined(const course *c, double from, double to);
 

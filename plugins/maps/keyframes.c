@@ -219,6 +219,13 @@ static void keyframes_time_domain(const void *self, double *lo, double *hi)
     *hi = s->hold ? INFINITY : s->path.time[s->path.pieces];
 }
 
+static void keyframes_span(const void *self, double *lo, double *hi)
+{
+    const keyframes_instance *s = self;
+    *lo = s->path.time[0];
+    *hi = s->path.time[s->path.pieces];
+}
+
 /* An entry of R: within [-1, 1]. Its rate is at most the angular speed, as a column of R moves
  * like a point at distance 1. */
 static imp_model entry(imp_model r, const imp_model *t, double speed)
@@ -322,6 +329,7 @@ static const imp_map_type keyframes = {
     IMP_MAP_FIELDS(keyframes, keyframes),
     .flags = IMP_TURNS_EXACTLY,
     .rigid = keyframes_rigid,
+    .span = keyframes_span,
     .summary = "moves and turns smoothly through positions and orientations at given times",
     .equation =
         "R(q) (x,y,z) + p; p and q are cubics between keys, with the slope at each key from the "

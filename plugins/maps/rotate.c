@@ -65,6 +65,12 @@ static void rotate_time_domain(const void *self, double *lo, double *hi)
     course_times(&s->angle, lo, hi);
 }
 
+static void rotate_span(const void *self, double *lo, double *hi)
+{
+    const rotate_instance *s = self;
+    course_span(&s->angle, lo, hi);
+}
+
 static void turned(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
                    imp_model out[3])
 {
@@ -133,6 +139,7 @@ static const imp_map_type rotate = {
     IMP_MAP_FIELDS_OF("rotate", rotate, rotate, rotate_destroy, rotate_rate),
     .flags = IMP_TURNS_EXACTLY,
     .rigid = rotate_rigid,
+    .span = rotate_span,
     .summary = "turns about an axis, at a constant rate, by a polynomial angle or by a table",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t, sum_k angle_k t^k, or the "
                 "table's value at t: center + k (k.w) + cos A (w - k (k.w)) + sin A (k x w)",

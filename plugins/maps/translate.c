@@ -47,6 +47,8 @@ static void translate_time_domain(const void *self, double *lo, double *hi)
     course_times(self, lo, hi);
 }
 
+static void translate_span(const void *self, double *lo, double *hi) { course_span(self, lo, hi); }
+
 /* --- At constant velocity ------------------------------------------------------------------------ */
 
 /* What most translations are: c0 + c1 t, or c0 alone. */
@@ -287,6 +289,7 @@ static const imp_map_type translate = {
     .net = translate_net,
     .flags = IMP_TURNS_EXACTLY,
     .rigid = translate_rigid,
+    .span = translate_span,
     .summary = "moves along a straight line, along a polynomial in time, or by a table",
     .equation = "(x,y,z) + velocity t, or (x,y,z) + sum_k offset_k t^k, or (x,y,z) + the "
                 "table's value at t",

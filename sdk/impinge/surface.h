@@ -397,6 +397,13 @@ typedef struct imp_map_type {
      * IMP_UNBOUNDED: there is no pose over these times, and *pose is ignored; shorter ones may have
      * one. The host has set all to 0. [thread-safe] */
     imp_status (*rigid)(const void *self, const imp_model *t, imp_pose *pose);
+
+    /* Capability `span`; NULL, or a struct_size that ends before it: the span is the time domain.
+     *
+     * The times that the map is made for, where it is defined at others, too: those of a table whose
+     * ends hold before and after it. A host that is not told which times to examine examines these.
+     * -INFINITY and INFINITY: none before others. [thread-safe] */
+    void (*span)(const void *self, double *lo, double *hi);
 } imp_map_type;
 
 /* --- The plugin ---------------------------------------------------------------- */
@@ -551,9 +558,10 @@ IMP_LAYOUT(offsetof(imp_surface_type, symmetry) == 144);
 IMP_LAYOUT(sizeof(imp_pose) == 1680 && offsetof(imp_pose, shift) == 1224);
 IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632 && offsetof(imp_pose, fixed) == 1656);
 IMP_LAYOUT(sizeof(imp_symmetry) == 56 && offsetof(imp_symmetry, center) == 8);
-IMP_LAYOUT(sizeof(imp_map_type) == 128 && offsetof(imp_map_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_map_type) == 136 && offsetof(imp_map_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);
 IMP_LAYOUT(offsetof(imp_map_type, net) == 112 && offsetof(imp_map_type, rigid) == 120);
+IMP_LAYOUT(offsetof(imp_map_type, span) == 128);
 IMP_LAYOUT(sizeof(imp_surface_factory) == 16 && sizeof(imp_map_factory) == 16);
 IMP_LAYOUT(sizeof(imp_plugin) == 56 && offsetof(imp_plugin, name) == 16);
 IMP_LAYOUT(offsetof(imp_plugin, get_factory) == 48);

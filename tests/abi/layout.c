@@ -120,11 +120,12 @@ static void types(void)
     TYPE_FIELDS(imp_map_type);
     FIELD(imp_map_type, time_domain), FIELD(imp_map_type, eval);
     FIELD(imp_map_type, rate), FIELD(imp_map_type, apply), FIELD(imp_map_type, net);
-    FIELD(imp_map_type, rigid);
+    FIELD(imp_map_type, rigid), FIELD(imp_map_type, span);
     CALL(imp_map_type, time_domain, void (*)(const void *, double *, double *));
     CALL(imp_map_type, rate, imp_status(*)(const void *, const imp_box4 *, imp_map_rates *));
     CALL(imp_map_type, apply, imp_status(*)(const void *, const imp_model *, imp_model *));
     CALL(imp_map_type, rigid, imp_status(*)(const void *, const imp_model *, imp_pose *));
+    CALL(imp_map_type, span, void (*)(const void *, double *, double *));
 }
 
 static void plugins(void)

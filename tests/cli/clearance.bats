@@ -214,7 +214,7 @@ END
 }
 
 @test "slices in which a surface does not exist leave the answer of the others as it is" {
-    run -0 "$IMPINGE" clearance 'formula time=0,0.4' 'sphere center=0,0,3' --profile 3 --json
+    run -0 "$IMPINGE" clearance 'formula time=0,0.4' 'sphere center=0,0,3' --profile 3 --json --time 0,1
     valid clearance
     tail -1 <<<"$output" | jq -e '.reason == null and .upper >= 2 and .slices[2].upper == null'
 }

@@ -116,8 +116,8 @@ load ../support/cli_helper
     [ "$(uses sphere)" = 'core order-2 distance symmetry' ]
     [ "$(uses superellipsoid)" = 'core order-2' ]
     [ "$(uses bezier)" = 'core order-2 net' ]
-    [ "$(uses translate)" = 'core order-2 net rigid' ]
-    [ "$(uses rotate)" = 'core order-2 rigid' ]
+    [ "$(uses translate)" = 'core order-2 net rigid span' ]
+    [ "$(uses rotate)" = 'core order-2 rigid span' ]
     run -0 "$IMPINGE" info triangle
     [[ $output == *'uses       core order-2 net'* ]]
 }

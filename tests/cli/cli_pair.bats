@@ -48,11 +48,11 @@ load ../support/cli_helper
 
 @test "surfaces that are never there together are clear for that reason" {
     build_twin 5 6
-    run -0 "$IMPINGE" pair twin "$left" --plugin-path "$PWD" --json
+    run -0 "$IMPINGE" pair twin "$left" --plugin-path "$PWD" --time 0,1 --json
     valid result
     json '.verdict == "clear" and .reason == "no-time" and .t_lower == 1'
-    run -0 "$IMPINGE" pair twin "$left" --plugin-path "$PWD"
-    [[ ${lines[2]} == *"no two surfaces that are tested exist together"* ]]
+    run -0 "$IMPINGE" pair twin "$left" --plugin-path "$PWD" --time 0,1
+    [[ ${lines[3]} == *"no two surfaces that are tested exist together"* ]]
 }
 
 @test "times in the text are at most one unit in their tenth digit below those proved" {
@@ -99,7 +99,7 @@ load ../support/cli_helper
     valid result
     json '.verdict == "clear" and .t_lower == 2 and .t_examined == [0.25,0.5]'
     run -0 "$IMPINGE" pair "$short" 'point position=0,0,9' --time 0,2
-    [[ ${lines[2]} == "  examined t from 0.25 to 0.5 only; at other times no two "* ]]
+    [[ ${lines[3]} == "  examined t from 0.25 to 0.5 only; at other times no two "* ]]
 }
 
 @test "times that a map is not defined for are refused, with body, map and times" {
@@ -172,13 +172,14 @@ load ../support/cli_helper
 @test "a contact in text tells verdict, proof, both sides, gap, normal and cost" {
     run -0 "$IMPINGE" pair "$left" "$right" --gamma 1e-4
     [[ ${lines[0]} == 'contact at t = 0.49'* ]]
-    [[ ${lines[1]} == '  proved   nothing nearer than 5e-05 before t = 0.49'* ]]
-    [[ ${lines[2]} == '  a        surface 0 of "a"  u '*' v '*' at ('*')' ]]
-    [[ ${lines[3]} == '  b        surface 0 of "b"  u '*' v '*' at ('*')' ]]
-    [[ ${lines[4]} == '  gap      '*', at most gamma = 0.0001' ]]
-    [[ ${lines[5]} == '  normal   ('*'), from a to b' ]]
-    [[ ${lines[6]} == '  cost     '*' pairs, '*' nodes, '* ]]
-    [ "${#lines[@]}" -eq 7 ]
+    [[ ${lines[1]} == '  time     from 0 to 1' ]]
+    [[ ${lines[2]} == '  proved   nothing nearer than 5e-05 before t = 0.49'* ]]
+    [[ ${lines[3]} == '  a        surface 0 of "a"  u '*' v '*' at ('*')' ]]
+    [[ ${lines[4]} == '  b        surface 0 of "b"  u '*' v '*' at ('*')' ]]
+    [[ ${lines[5]} == '  gap      '*', at most gamma = 0.0001' ]]
+    [[ ${lines[6]} == '  normal   ('*'), from a to b' ]]
+    [[ ${lines[7]} == '  cost     '*' pairs, '*' nodes, '* ]]
+    [ "${#lines[@]}" -eq 8 ]
 }
 
 @test "the text claims no more than the numbers do" {

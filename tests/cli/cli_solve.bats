@@ -151,8 +151,8 @@ refuses_table() { # TABLE PARAMETERS SAYING
     valid result
     json '.a.body == "Kännchen \"x\""'
     run -0 solve_text "$text"
-    [[ ${lines[2]} == *'of "Kännchen "x""  u '* ]]
-    [[ ${lines[3]} == *'of "b"             u '* ]]
+    [[ ${lines[3]} == *'of "Kännchen "x""  u '* ]]
+    [[ ${lines[4]} == *'of "b"             u '* ]]
     fails 4 '/bodies/0/name' solve_text "${text/x/\\n}"
 }
 

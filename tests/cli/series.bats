@@ -29,7 +29,7 @@ END
     jq -s -e '[.[:3][].t] as $t | $t == ($t | sort)' <<<"$output"
     run -1 "$IMPINGE" solve four.json --each --exit-code
     [ "${lines[0]}" = "overlap at rest, all the time: a, b" ]
-    [[ ${lines[1]} == "contact at t = 0.50"*": a, c" && ${lines[4]} == "clear: b, d" ]]
+    [[ ${lines[1]} == "contact at t = 0.50"*": a, c" && ${lines[4]} == "clear from t = 0 to 1: b, d" ]]
 }
 
 @test "an answer is printed as soon as no other can come before it" {

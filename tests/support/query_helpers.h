@@ -39,8 +39,8 @@ static inline imp_result query_audited(const char *a, const char *b)
     return r;
 }
 
-/* What a question leaves open has the default: times [0, 1], gamma 1e-6, clearance gamma / 2,
- * models. */
+/* What a question leaves open: times [0, 1], whatever tables the scene has, gamma 1e-6, clearance
+ * gamma / 2, models. */
 typedef struct question {
     const char *a, *b; /* pipelines */
     double t_start, t_end, gamma, clearance;
@@ -53,10 +53,9 @@ typedef struct question {
 static inline imp_options query_options(const imp_scene *scene, const question *q)
 {
     imp_options options = imp_options_default(scene);
-    if (q->t_start != 0 || q->t_end != 0) {
-        options.t_start = q->t_start;
-        options.t_end = q->t_end;
-    }
+    const bool open = q->t_start == 0 && q->t_end == 0;
+    options.t_start = q->t_start;
+    options.t_end = open ? 1 : q->t_end;
     if (q->gamma > 0) options.gamma = q->gamma;
     if (q->clearance > 0) options.clearance = q->clearance;
     options.method = q->method;

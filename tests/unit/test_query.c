@@ -28,6 +28,7 @@ static imp_scene *two(const ball *a, const ball *b)
 static imp_query *begin(imp_scene *scene, double gamma)
 {
     imp_options options = imp_options_default(scene);
+    options.t_start = 0, options.t_end = 1;
     options.gamma = gamma;
     imp_error error = {IMP_SUCCESS, ""};
     imp_query *query = imp_query_new(scene, &options, &error);

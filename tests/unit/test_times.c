@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "core/scene/scene.h"
 #include "tests/support/query_helpers.h"
 
 /* No answer claims a time that was not examined: what is defined for part of the interval only is
@@ -156,15 +157,96 @@ START_TEST(a_body_that_is_tested_with_none_may_be_defined_for_any_times)
 {
     imp_result r;
     imp_error error = {IMP_SUCCESS, ""};
-    static const char tested[] = "{\"bodies\": [" BODY("a", "\"sphere\"", SHORT_TRACK) "," BODY(
+    static const char tested[] = "{\"time\": [0,1], \"bodies\": [" BODY("a", "\"sphere\"", SHORT_TRACK) "," BODY(
         "b", "\"sphere\"", "") "," BODY("c", "\"sphere\", \"center\": [4,0,0]", "") "]}";
-    static const char ignored[] = "{\"bodies\": [" BODY("a", "\"sphere\"", SHORT_TRACK) "," BODY(
+    static const char ignored[] = "{\"time\": [0,1], \"bodies\": [" BODY("a", "\"sphere\"", SHORT_TRACK) "," BODY(
         "b", "\"sphere\"", "") "," BODY("c", "\"sphere\", \"center\": [4,0,0]",
                                         "") "], \"ignore\": [[\"a\",\"b\"],[\"a\",\"c\"]]}";
     ck_assert_int_eq(solve_text(tested, &r, &error), IMP_ERROR_SCENE);
     ck_assert_ptr_nonnull(strstr(error.text, "body 'a', surface 0"));
     ck_assert_int_eq(solve_text(ignored, &r, &error), IMP_SUCCESS);
     ck_assert(r.verdict == IMP_CLEAR && r.t_examined[0] == 0 && r.t_examined[1] == 1);
+}
+END_TEST
+
+/* --- Where nobody says which times ----------------------------------------------------------------- */
+
+START_TEST(a_scene_whose_tables_share_no_time_is_refused_until_somebody_says)
+{
+    imp_result r;
+    imp_error error = {IMP_SUCCESS, ""};
+    imp_registry *registry = query_registry();
+    imp_scene *scene =
+        imp_scene_from_pair(registry, track,
+                            "sphere center=9,0,0 ! keyframes times=2,3 positions=[[0,0,0],[1,0,0]]",
+                            &error);
+    imp_options options = {.struct_size = sizeof options};
+    ck_assert_int_eq(imp_options_read(scene, &options, &error), IMP_ERROR_SCENE);
+    ck_assert_ptr_nonnull(strstr(error.text, "up to t = 1;"));
+    ck_assert(isnan(options.t_start) && isnan(options.t_end) && options.gamma == 1e-6);
+    error.text[0] = '\0';
+    ck_assert_int_eq(imp_solve(scene, &options, &r, &error), IMP_ERROR_SCENE);
+    ck_assert_ptr_nonnull(strstr(error.text, "up to t = 1;"));
+    options.t_start = 2;
+    ck_assert_int_eq(imp_solve(scene, &options, &r, &error), IMP_ERROR_USAGE);
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+}
+END_TEST
+
+typedef struct some_times {
+    double start, end;
+} some_times;
+
+static void some_domain(const void *self, double lo[3], double hi[3])
+{
+    const some_times *at = self;
+    lo[0] = lo[1] = 0, hi[0] = hi[1] = 1;
+    lo[2] = at->start, hi[2] = at->end;
+}
+
+static void keep(void *self) { (void)self; }
+
+static const imp_surface_type plain = {
+    .struct_size = sizeof plain, .name = "plain", .domain = some_domain, .destroy = keep};
+
+/* The default times of a scene of two surfaces that are defined at these times. */
+static imp_options times_of(some_times a, some_times b)
+{
+    some_times of[2] = {a, b};
+    imp_scene *scene = scene_new();
+    for (size_t k = 0; k < 2; ++k) {
+        ck_assert_int_eq(scene_add_body(scene, "one"), IMP_SUCCESS);
+        ck_assert_int_eq(scene_add_surface(scene, k, surface_new(&plain, &of[k])), IMP_SUCCESS);
+    }
+    scene_complete(scene);
+    const imp_options options = imp_options_default(scene);
+    imp_scene_free(scene);
+    return options;
+}
+
+START_TEST(domains_without_an_end_leave_the_interval_where_it_is_if_that_is_possible)
+{
+    const struct {
+        some_times a, b, expected;
+    } cases[] = {
+        {{-INFINITY, INFINITY}, {-INFINITY, INFINITY}, {0, 1}},
+        {{0, INFINITY}, {-INFINITY, INFINITY}, {0, 1}},
+        {{5, INFINITY}, {-INFINITY, INFINITY}, {5, 6}},
+        {{-INFINITY, 0.5}, {-INFINITY, INFINITY}, {-0.5, 0.5}},
+        {{5, INFINITY}, {-INFINITY, 8}, {5, 8}},
+        {{5, INFINITY}, {0, 8}, {5, 8}},
+        {{0, 4}, {2, 8}, {2, 4}},
+        {{0, 4}, {4, 8}, {4, 4}},
+        {{-INFINITY, INFINITY}, {2, 8}, {2, 8}},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
+        for (int swap = 0; swap < 2; ++swap) {
+            const imp_options o = swap ? times_of(cases[k].b, cases[k].a)
+                                       : times_of(cases[k].a, cases[k].b);
+            ck_assert_msg(o.t_start == cases[k].expected.start && o.t_end == cases[k].expected.end,
+                          "case %zu: [%g, %g]", k, o.t_start, o.t_end);
+        }
 }
 END_TEST
 
@@ -176,4 +258,6 @@ SUITE_MAIN("times", times_a_map_is_not_defined_for_are_refused,
            surfaces_that_never_exist_together_leave_nothing_to_examine,
            a_contact_and_an_undecided_answer_say_what_was_examined,
            a_scene_examines_from_the_first_to_the_last_time_that_two_bodies_exist,
-           a_body_that_is_tested_with_none_may_be_defined_for_any_times)
+           a_body_that_is_tested_with_none_may_be_defined_for_any_times,
+           a_scene_whose_tables_share_no_time_is_refused_until_somebody_says,
+           domains_without_an_end_leave_the_interval_where_it_is_if_that_is_possible)

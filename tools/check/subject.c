@@ -323,6 +323,28 @@ static void cut_times(double *lo, double *hi)
         *hi = *lo + 4;
 }
 
+/* Times around the span of a map that is defined at all times, some of them before and after it;
+ * false, and the check fails, if it is invalid. */
+static bool take_span(subject *s, double *lo, double *hi)
+{
+    const imp_map_type *map = s->instance->map;
+    double span[2] = {-INFINITY, INFINITY};
+    if (map == NULL || map->struct_size < offsetof(imp_map_type, span) + sizeof map->span ||
+        map->span == NULL)
+        return true;
+    s->answer->call = (check_call){.name = "span"};
+    map->span(s->instance->self, &span[0], &span[1]);
+    s->answer->call.name = NULL;
+    if (!(span[0] <= span[1]))
+        return answer_fail_for(s->answer, FAULT_DOMAIN, "the span is empty or NaN: [%g, %g]",
+                               span[0], span[1]);
+    const double margin = (span[1] - span[0]) / 4;
+    if (!(margin < INFINITY)) return true;
+    if (*lo == -INFINITY) *lo = span[0] - margin;
+    if (*hi == INFINITY) *hi = span[1] + margin;
+    return true;
+}
+
 static bool judge_domain(const subject *s)
 {
     const box *d = &s->domain;
@@ -381,6 +403,7 @@ bool subject_make(subject *s, const imp_instance *instance, const imp_instance *
     answer->call.name = NULL;
     s->ends[0] = s->domain.lo[t];
     s->ends[1] = s->domain.hi[t];
+    if (!take_span(s, &s->domain.lo[t], &s->domain.hi[t])) return false;
     cut_times(&s->domain.lo[t], &s->domain.hi[t]);
     return judge_domain(s);
 }

@@ -61,8 +61,9 @@ static json_t *checked(json_t *object, int failed)
 json_t *clearance_json(const imp_scene *scene, const imp_clearance *r)
 {
     json_t *object =
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reason",
-                  result_reason_json(r->reason), "lower", output_json_number(r->lower), "upper",
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reason",
+                  result_reason_json(r->reason), "time",
+                  result_times_json(r->t_start, r->t_end), "lower", output_json_number(r->lower), "upper",
                   output_json_number(r->upper), "t", output_json_number(r->t), "a",
                   r->has_witness ? result_side_json(scene, &r->a) : json_null(), "b",
                   r->has_witness ? result_side_json(scene, &r->b) : json_null(), "normal",

@@ -193,6 +193,7 @@ static void print_points(const imp_scene *scene, const imp_clearance *r, double 
 void clearance_print(const imp_scene *scene, const imp_clearance *r, double gamma)
 {
     print_first_line(scene, r, gamma);
+    result_print_times(r->t_start, r->t_end);
     print_required(r);
     print_proved(r);
     print_ended(r);

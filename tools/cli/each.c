@@ -98,7 +98,7 @@ static void print_text(const imp_scene *scene, const imp_result *r, size_t a, si
     else if (r->verdict == IMP_CONTACT)
         printf("contact at t = %s", output_number_lower(r->t).text);
     else if (r->verdict == IMP_CLEAR)
-        printf("clear");
+        printf("clear from t = %.10g to %.10g", r->t_start, r->t_end);
     else
         printf("undecided from t = %s (%s)", output_number_lower(r->t_lower).text,
                result_excuse(r->reason).why);

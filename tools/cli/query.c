@@ -7,6 +7,7 @@
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <math.h>
 #include <string.h>
 
 #include "tools/cli/build_tree.h"
@@ -129,6 +130,16 @@ imp_options query_options(const imp_scene *scene, const arguments *args)
     o.audit = arguments_option(args, "audit") != NULL;
     o.progress = goes_on;
     return o;
+}
+
+exit_status query_check_times(const imp_scene *scene, const imp_options *options,
+                              const arguments *args)
+{
+    imp_error error = {0};
+    imp_options own = {.struct_size = (uint32_t)sizeof own};
+    if (!isnan(options->t_start)) return EXIT_ANSWERED;
+    imp_options_read(scene, &own, &error);
+    return complain_of(&error, args->verb->name);
 }
 
 imp_code query_run(imp_query *query, imp_result *result, imp_error *error)

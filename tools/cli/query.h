@@ -24,8 +24,13 @@ imp_registry *query_registry_first(const char *path, unsigned flags, const char 
 /* Checks of the options that concern more than one of them. */
 exit_status query_check(const arguments *args);
 
-/* What the scene asks for, overridden by what the command line says. */
+/* What the scene asks for, overridden by what the command line says. Times that neither names and the
+ * scene does not have are NAN, which queries refuse. */
 imp_options query_options(const imp_scene *scene, const arguments *args);
+
+/* Complains of such times, for verbs that need them before they ask anything. */
+exit_status query_check_times(const imp_scene *scene, const imp_options *options,
+                              const arguments *args);
 
 /* Runs the query to its end. A signal ends it early: then the result is UNDECIDED, CANCELLED. */
 imp_code query_run(imp_query *query, imp_result *result, imp_error *error);

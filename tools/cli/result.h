@@ -22,6 +22,7 @@ const char *result_verdict_name(imp_verdict verdict);
 
 /* Lines behind the first begin with a label. */
 void result_print_label(const char *label);
+void result_print_times(double from, double to);
 void result_print_sides(const imp_scene *scene, const imp_side *a, const imp_side *b);
 void result_print_normal(const double *normal); /* NULL: undefined */
 void result_print_gap(double gap, double gamma);
@@ -36,6 +37,8 @@ excuse result_excuse(imp_reason reason);
 /* Why nothing was searched, or NULL. */
 const char *result_reason_of_none(imp_reason reason);
 
+/* [from, to]; null: there is no such time. */
+json_t *result_times_json(double from, double to);
 json_t *result_reason_json(imp_reason reason);
 json_t *result_vector_json(const double v[3]);
 json_t *result_side_json(const imp_scene *scene, const imp_side *side);

@@ -50,10 +50,10 @@ json_t *result_vector_json(const double v[3])
                      output_json_number(v[2]));
 }
 
-static json_t *times_json(const double times[2])
+json_t *result_times_json(double from, double to)
 {
-    if (!(times[0] <= times[1])) return json_null();
-    return json_pack("[o,o]", output_json_number(times[0]), output_json_number(times[1]));
+    if (!(from <= to)) return json_null();
+    return json_pack("[o,o]", output_json_number(from), output_json_number(to));
 }
 
 json_t *result_side_json(const imp_scene *scene, const imp_side *side)
@@ -80,15 +80,16 @@ json_t *result_stats_json(const imp_stats *stats)
 json_t *result_json(const imp_scene *scene, const imp_result *r)
 {
     const bool contact = r->verdict == IMP_CONTACT;
-    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
-                     result_verdict_name(r->verdict), "reason", result_reason_json(r->reason), "t",
-                     contact ? output_json_number(r->t) : json_null(), "t_lower",
-                     output_json_number(r->t_lower), "t_examined", times_json(r->t_examined), "gap",
-                     contact ? output_json_number(r->gap) : json_null(), "gamma",
-                     output_json_number(r->gamma), "gamma_clear",
-                     output_json_number(r->gamma_clear), "a",
-                     contact ? result_side_json(scene, &r->a) : json_null(), "b",
-                     contact ? result_side_json(scene, &r->b) : json_null(), "normal",
-                     contact && r->has_normal ? result_vector_json(r->normal) : json_null(),
-                     "stats", result_stats_json(&r->stats));
+    return json_pack(
+        "{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
+        result_verdict_name(r->verdict), "reason", result_reason_json(r->reason), "time",
+        result_times_json(r->t_start, r->t_end), "t",
+        contact ? output_json_number(r->t) : json_null(), "t_lower", output_json_number(r->t_lower),
+        "t_examined", result_times_json(r->t_examined[0], r->t_examined[1]), "gap",
+        contact ? output_json_number(r->gap) : json_null(), "gamma", output_json_number(r->gamma),
+        "gamma_clear", output_json_number(r->gamma_clear), "a",
+        contact ? result_side_json(scene, &r->a) : json_null(), "b",
+        contact ? result_side_json(scene, &r->b) : json_null(), "normal",
+        contact && r->has_normal ? result_vector_json(r->normal) : json_null(), "stats",
+        result_stats_json(&r->stats));
 }

@@ -10,6 +10,7 @@
 /* What is printed, for a contact:
  *
  *   contact at t = 0.49995
+ *     time     from 0 to 1
  *     proved   nothing nearer than 5e-05 before t = 0.49995
  *     a        surface 0 of "pot"   u 1.5         v 0.25   at (1, 0, 0)
  *     b        surface 0 of "ball"  u 3.14159265  v 1.5    at (1.00009, 0, 0)
@@ -19,6 +20,12 @@
  */
 
 void result_print_label(const char *label) { printf("  %-8s ", label); }
+
+void result_print_times(double from, double to)
+{
+    result_print_label("time");
+    printf("from %.10g to %.10g\n", from, to);
+}
 
 static void print_vector(const double v[3]) { printf("(%.10g, %.10g, %.10g)", v[0], v[1], v[2]); }
 
@@ -187,6 +194,7 @@ void result_print(const imp_scene *scene, const imp_result *r)
     if (r->verdict == IMP_CONTACT) printf(" at t = %s", output_number_lower(r->t).text);
     if (r->verdict == IMP_UNDECIDED) printf(": %s", result_excuse(r->reason).why);
     putchar('\n');
+    result_print_times(r->t_start, r->t_end);
     print_proved(r);
     print_examined(r);
     if (r->verdict == IMP_CONTACT) print_contact(scene, r);

@@ -18,7 +18,7 @@ typedef struct measuring {
     const arguments *args;
     const imp_scene *scene;
     imp_query *query;
-    double gamma;
+    imp_options options;
     bool json, each, profile;
     imp_clearance *answers;
     imp_stats stats;
@@ -104,6 +104,8 @@ static imp_clearance nothing(const measuring *m)
     const double required = required_of(m->args);
     return (imp_clearance){.reason = IMP_REASON_NO_PAIRS,
                            .verdict = required > 0 ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_NONE,
+                           .t_start = m->options.t_start,
+                           .t_end = m->options.t_end,
                            .required = required,
                            .body = {SIZE_MAX, SIZE_MAX},
                            .lower = INFINITY,
@@ -153,7 +155,7 @@ static exit_status conclude(measuring *m)
     if (m->json) {
         status = output_json(whole_json(m, &table, &all), speaker);
     } else if (!m->profile) {
-        clearance_print(m->scene, &all, m->gamma);
+        clearance_print(m->scene, &all, m->options.gamma);
         if (m->each && m->count > 0) clearance_print_pairs(&table);
         status = output_flush(speaker);
     }
@@ -192,7 +194,7 @@ static exit_status measure_scene(imp_scene *scene, const arguments *args)
     const imp_clearance_options asked = asked_for(args);
     measuring m = {.args = args,
                    .scene = scene,
-                   .gamma = options.gamma,
+                   .options = options,
                    .json = arguments_option(args, "json") != NULL,
                    .each = arguments_option(args, "each") != NULL,
                    .profile = arguments_option(args, "profile") != NULL};

@@ -148,7 +148,8 @@ exit_status setup_read(setup *s, const arguments *args)
     if (status != EXIT_ANSWERED) return status;
     s->options = query_options(s->still, args);
     s->limits.max_pairs = s->options.max_pairs;
-    status = check_options(s);
+    status = query_check_times(s->still, &s->options, args);
+    if (status == EXIT_ANSWERED) status = check_options(s);
     return status == EXIT_ANSWERED ? read_actors(s) : status;
 }
 

@@ -56,6 +56,15 @@ static bool side_of(const json_t *side, const imp_scene *scene, vec *point, size
     return false;
 }
 
+void recorded_times(const recorded *r, imp_options *options)
+{
+    const json_t *time = json_object_get(r->json, "time");
+    const json_t *from = json_array_get(time, 0), *to = json_array_get(time, 1);
+    if (!json_is_number(from) || !json_is_number(to)) return;
+    options->t_start = json_number_value(from);
+    options->t_end = json_number_value(to);
+}
+
 exit_status recorded_contact(const recorded *r, const imp_scene *scene, const char *name,
                              const char *verb, stage_contact *contact)
 {

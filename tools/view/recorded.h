@@ -23,6 +23,9 @@ exit_status recorded_read(const char *text, size_t length, const char *name, con
                           recorded *r);
 void recorded_free(recorded *r);
 
+/* Sets the times that the answer is about, if it tells them. */
+void recorded_times(const recorded *r, imp_options *options);
+
 /* The answer, in terms of the scene. */
 exit_status recorded_contact(const recorded *r, const imp_scene *scene, const char *name,
                              const char *verb, stage_contact *contact);

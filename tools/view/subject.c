@@ -59,7 +59,10 @@ static exit_status read_text(subject *s, const arguments *args, const input_text
         done = complain_of(&error, args->verb->name);
     } else if (answer.is_result) {
         s->options = query_options(s->scene, args);
-        done = recorded_contact(&answer, s->scene, name, args->verb->name, &s->contact);
+        if (arguments_option(args, "time") == NULL) recorded_times(&answer, &s->options);
+        done = query_check_times(s->scene, &s->options, args);
+        if (done == EXIT_ANSWERED)
+            done = recorded_contact(&answer, s->scene, name, args->verb->name, &s->contact);
     }
     recorded_free(&answer);
     return done;
