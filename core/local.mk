@@ -90,6 +90,7 @@ core_scene = \
     core/scene/scene_trees.h
 
 core_bounds = \
+    core/bounds/claim_audit.c core/bounds/claim_audit.h \
     core/bounds/difference.c core/bounds/difference.h \
     core/bounds/distance.c core/bounds/distance.h \
     core/bounds/distance_sides.c \

@@ -24,6 +24,7 @@ tools_check = \
     tools/check/arguments.c tools/check/arguments.h \
     tools/check/buffers.c tools/check/buffers.h \
     tools/check/calls.c tools/check/calls.h \
+    tools/check/closed.c tools/check/closed.h \
     tools/check/clearance_cost.c tools/check/clearance_cost.h \
     tools/check/cost.c tools/check/cost.h \
     tools/check/fate.c tools/check/fate.h \

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "core/bounds/claim_audit.h"
 #include "core/bounds/quadratic.h"
 #include "core/bounds/tuning.h"
 
@@ -266,32 +267,42 @@ static bool is_within_itself(const distance_question *q)
     return distance_slides(q) || q->a->region.lo[PARAMETER_T] == q->a->region.hi[PARAMETER_T];
 }
 
-imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
-                      imp_error *error)
+/* What g shows over the window, which is cut. */
+static void cut_by(const distance_question *q, const imp_model *g, time_window *window,
+                   distance_view *view)
 {
     const node *a = q->a;
-    const double clearance = q->clearance;
-    imp_model g;
-    bool known;
-    *view = distance_view_none(a);
-    const imp_code code = ask(q, &g, view->bend, &known, error);
-    if (code != IMP_SUCCESS || !known) return code;
-    const double range = range_lower(&g);
+    const double clearance = q->clearance, range = range_lower(g);
     if (range > 0) view->lower = range;
     view->is_apart = range > clearance;
-    const double size = size_upper(&g);
-    if (view->is_apart || !(size < 0x1p400)) return IMP_SUCCESS;
+    const double size = size_upper(g);
+    if (view->is_apart || !(size < 0x1p400)) return;
     const span whole = span_of(window);
-    const sides both = sides_of(&g, &a->region, &whole);
+    const sides both = sides_of(g, &a->region, &whole);
     const double slack =
-        padded_upper(g.e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) + QUADRATIC_UNDERFLOW;
+        padded_upper(g->e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) + QUADRATIC_UNDERFLOW;
     const double lower = sides_lower(&both, slack);
     if (lower > view->lower) view->lower = lower;
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], clearance);
     view->is_promising =
-        !view->is_apart && promises(&g, &both, a, clearance, size, is_within_itself(q));
+        !view->is_apart && promises(g, &both, a, clearance, size, is_within_itself(q));
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
-    return IMP_SUCCESS;
+}
+
+imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
+                      imp_error *error)
+{
+    const time_window before = *window;
+    imp_model g;
+    bool known;
+    *view = distance_view_none(q->a);
+    const imp_code code = ask(q, &g, view->bend, &known, error);
+    if (code != IMP_SUCCESS || !known) return code;
+    cut_by(q, &g, window, view);
+    const bool decides = view->is_apart || view->lower > 0 || window->lo > before.lo ||
+                         window->hi < before.hi;
+    const bool is_of_types = q->plane == NULL && q->a->many == NULL;
+    return decides && is_of_types && q->is_audited ? claim_audit_run(q, &g, &before, error) : IMP_SUCCESS;
 }

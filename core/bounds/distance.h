@@ -37,6 +37,7 @@ typedef struct distance_question {
     double clearance;           /* length */
     double moment;
     double slip; /* of a node that is posed; INFINITY: it does not slide so; length */
+    bool is_audited; /* hold what decides against points (claim_audit.h) */
 } distance_question;
 
 /* Whether a slides along b within itself, but for what is little beside the clearance. */
@@ -57,6 +58,7 @@ typedef struct distance_sides {
     size_t still_maps[2]; /* surface_still_maps of each surface */
     float *slip; /* the caller's two numbers: >= surface_slip of each surface along the other, over
                              all times of both; 0: not asked yet */
+    bool is_audited;
 } distance_sides;
 
 /* What the nodes' distances from each other's surface show. */

@@ -45,7 +45,7 @@ static imp_code question_of(const distance_sides *of, int side, double clearance
                             distance_question *q, imp_error *error)
 {
     const node *own = of->node[side], *other = of->node[!side];
-    *q = (distance_question){own, other, NULL, clearance, 0, INFINITY};
+    *q = (distance_question){own, other, NULL, clearance, 0, INFINITY, of->is_audited};
     if (!surface_has_symmetry(other->surface)) return IMP_SUCCESS;
     if (own->still == NULL && !is_turned(of, side)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
@@ -103,7 +103,7 @@ static imp_code cut_along_face(const distance_sides *of, int side, double cleara
     if (!(TUNING_DISTANCE_SLIP * plane.off <= clearance)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
     distance_question q = {own,     other, &plane, clearance, 0.5 * times.lo + 0.5 * times.hi,
-                           INFINITY};
+                           INFINITY, of->is_audited};
     const imp_code code =
         find_slip(of->root[side], other, &plane, &times, q.moment, &q.slip, error);
     return code == IMP_SUCCESS && distance_slides(&q) ? distance_cut(&q, window, view, error)

@@ -137,9 +137,10 @@ static imp_code ask_slip(collection *all, candidate *const side[2], time_window 
     if (times->lo > times->hi) return IMP_SUCCESS;
     const imp_region all_times =
         region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
-    const imp_status status = surface_pair_slip(s, bare, &all_times, times->lo, slip);
+    int asked = 1;
+    const imp_status status = surface_pair_slip(s, bare, &all_times, times->lo, slip, &asked);
     if (status == IMP_OK) return IMP_SUCCESS;
-    surface_fault(s[1], error, ": %s", surface_status_told(s[1], status).text);
+    surface_fault(s[asked], error, ": %s", surface_status_told(s[asked], status).text);
     return surface_set_code(status, error);
 }
 

@@ -17,7 +17,8 @@ distance_sides pair_sides(const pair *p, candidate_pair *both)
     return (distance_sides){.node = {p->a, p->b},
                             .root = {tree_root(a->tree), tree_root(b->tree)},
                             .still_maps = {a->still_maps, b->still_maps},
-                            .slip = both->slip};
+                            .slip = both->slip,
+                            .is_audited = tree_is_audited(a->tree)};
 }
 
 static const node *side_of(const pair *p, int side) { return side == 0 ? p->a : p->b; }

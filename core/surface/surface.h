@@ -189,9 +189,10 @@ imp_status surface_height_within(const surface *s, const surface_plane *plane,
 /* How much the distance of two surfaces may differ at other times from what it is at the moment, which is one of
  * the times; INFINITY: nothing is known. It is mere rounding where both turn only within themselves, or as one
  * of them can be turned within itself: rollers, a shaft in its bore. `bare` holds models of all points of each
- * before its maps, of which the ranges are used; neither moves by itself. */
+ * before its maps, of which the ranges are used; neither moves by itself. *asked: whose symmetry was asked for
+ * last. */
 imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
-                             const imp_region *times, double moment, double *slip);
+                             const imp_region *times, double moment, double *slip, int *asked);
 
 /* How many maps, counted from the last, are the same instances on both. */
 size_t surface_common_maps(const surface *a, const surface *b);

@@ -532,7 +532,7 @@ static imp_status slip_of_rest(const surface *const s[2], const size_t still[2],
 }
 
 imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
-                             const imp_region *times, double moment, double *slip)
+                             const imp_region *times, double moment, double *slip, int *asked)
 {
     const imp_region then = at_times(times, moment, moment);
     size_t still[2];
@@ -540,6 +540,7 @@ imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][
     *slip = INFINITY;
     if (!moves_rigidly(s[0]) || !moves_rigidly(s[1])) return IMP_OK;
     for (int k = 0; k < 2; ++k) {
+        *asked = k;
         const imp_status status =
             first_maps_within(s[k], bare[k], times, &then, &still[k], &own[k]);
         if (status != IMP_OK) return status;
@@ -548,6 +549,7 @@ imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][
         imp_status status = slip_of_rest(s, still, bare[0], times, &then, &rest);
         if (status == IMP_OK && !(rest < INFINITY)) {
             const surface *const turned[2] = {s[1], s[0]};
+            *asked = 0;
             status =
                 slip_of_rest(turned, (size_t[2]){still[1], still[0]}, bare[1], times, &then, &rest);
         }

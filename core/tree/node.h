@@ -117,6 +117,7 @@ node *tree_root(const tree *t);                           /* precondition: it ha
 void tree_box(const tree *t, double lo[3], double hi[3]); /* the root's */
 const surface *tree_surface(const tree *t);
 bool tree_is_of(const tree *t, const tree_plan *plan);
+bool tree_is_audited(const tree *t);
 
 /* The half of `parent` below (side 0) or above (1) its centre along j. Precondition:
  * region_can_split. What this call makes, if anything, is added to *growth. IMP_ERROR_PLUGIN names the

@@ -196,3 +196,5 @@ bool tree_is_of(const tree *t, const tree_plan *plan)
            t->plan.t_end == plan->t_end && t->plan.audit == plan->audit &&
            t->plan.left_out == plan->left_out;
 }
+
+bool tree_is_audited(const tree *t) { return t->plan.audit != NULL; }

@@ -110,7 +110,8 @@ blamed() {
     local missed
     missed=$(missed distance --only distances)
     [ "$missed" = distance_no_mistake ]
-    [ "$(wc -l <seen)" -eq 11 ]
+    [ "$(wc -l <seen)" -eq 13 ]
+    shows distances distance symmetry_open 'symmetry says is_closed, but turning by '
     shows distances distance distance_farthest 'distance claims at least '
     shows distances distance symmetry_leaning 'symmetry allows turning by '
     [[ $output == *'which takes the point ('*' to ('*'there distance claims at least '*', but before it is '* ]]

@@ -629,6 +629,22 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
     json '.verdict == "clear" and .stats.pairs < 40'
 }
 
+@test "distances and symmetries that lie where the search asks are found by --audit" {
+    takes mistakes_distance
+    local ring='cylinder radius=50 height=1 center=0,0,1 ! rotate axis=0,0,1 rate=2'
+    local ball='sphere radius=0.15 center=0.9,0,1 ! rotate axis=0,0,1 times=0,1 angles=3.5,7'
+    run -0 pair symmetry_half "$ball" --json
+    json '.verdict == "clear"' # wrongly
+    fails 5 "type 'symmetry_half' is not as symmetric as it says: the distance from a surface that does not turn claims at least" \
+        pair symmetry_half "$ball" --audit
+    clearance() { "$IMPINGE" clearance --plugin-path "$PWD/plugins" "$@"; }
+    fails 5 "type 'distance_farther' claims too large a distance: distance claims at least" \
+        clearance distance_farther "$ring" --audit
+    clearance distance_no_mistake "$ring" --json | jq 'del(.stats)' >plain
+    clearance distance_no_mistake "$ring" --json --audit | jq 'del(.stats)' >audited
+    cmp plain audited
+}
+
 @test "distances under rigid maps are held against points too" {
     takes liar_distance liar_truthful_distance
     local maps='! rotate axis=1,2,3 angle=0.7 ! translate velocity=1,2,3'

@@ -100,9 +100,69 @@ static imp_status ended_distance(const void *self, const imp_model point[4], imp
     return IMP_OK;
 }
 
+/* Half of the pipe, y >= 0, and its true distance, that from its edges where y < 0. It says that it can be turned. */
+static void half_domain(const void *self, double lo[3], double hi[3])
+{
+    pipe_domain(self, lo, hi);
+    hi[0] = IMP_PI_UPPER;
+}
+
+static imp_status half_distance(const void *self, const imp_model point[4], imp_model *g)
+{
+    if (point[1].hi > 0) return pipe_gap_distance(self, point, g);
+    const imp_model from[3] = {imp_shift(imp_abs(point[0]), -1), point[1], imp_num(0)};
+    *g = imp_sqrt(imp_dot3(from, from));
+    return g->e < INFINITY ? IMP_OK : IMP_UNBOUNDED;
+}
+
+/* Of a pipe that goes three quarters around: that its rotations take it to itself. */
+static void open_domain(const void *self, double lo[3], double hi[3])
+{
+    pipe_domain(self, lo, hi);
+    hi[0] = 1.5 * IMP_PI_UPPER;
+}
+
+static imp_status closed_symmetry(const void *self, imp_symmetry *found)
+{
+    (void)self;
+    *found = axis;
+    found->is_closed = 1;
+    return IMP_OK;
+}
+
+static const imp_surface_type symmetry_open_type = {.struct_size = sizeof(imp_surface_type),
+                                                    .parameter_size = sizeof(imp_parameter),
+                                                    .name = "symmetry_open",
+                                                    .summary = "a pipe with a slit",
+                                                    .equation = "(cos u, sin u, v)",
+                                                    .example = "symmetry_open",
+                                                    .create = tiny_create,
+                                                    .destroy = tiny_destroy,
+                                                    .domain = open_domain,
+                                                    .eval = pipe_formula_eval,
+                                                    .rate = pipe_formula_rate,
+                                                    .include = pipe_formula_include,
+                                                    .distance = pipe_gap_distance,
+                                                    .symmetry = closed_symmetry};
+
+static const imp_surface_type symmetry_half_type = {.struct_size = sizeof(imp_surface_type),
+                                                    .parameter_size = sizeof(imp_parameter),
+                                                    .name = "symmetry_half",
+                                                    .summary = "half a pipe",
+                                                    .equation = "(cos u, sin u, v)",
+                                                    .example = "symmetry_half",
+                                                    .create = tiny_create,
+                                                    .destroy = tiny_destroy,
+                                                    .domain = half_domain,
+                                                    .eval = pipe_formula_eval,
+                                                    .rate = pipe_formula_rate,
+                                                    .include = pipe_formula_include,
+                                                    .distance = half_distance,
+                                                    .symmetry = symmetry};
+
 #define MISTAKEN(NAME, DISTANCE, SYMMETRY)                                                         \
     static const imp_surface_type NAME##_type = PIPE_TYPE(#NAME, DISTANCE, SYMMETRY)
-MISTAKEN(distance_no_mistake, pipe_gap_distance, symmetry);
+MISTAKEN(distance_no_mistake, pipe_gap_distance, closed_symmetry);
 MISTAKEN(distance_far, far_distance, NULL);
 MISTAKEN(distance_farther, farther_distance, NULL);
 MISTAKEN(distance_farthest, farthest_distance, NULL);
@@ -118,7 +178,8 @@ static const imp_surface_type *const types[] = {
     &distance_no_mistake_type, &distance_far_type,   &distance_farther_type,
     &distance_farthest_type,   &distance_late_type,  &distance_early_type,
     &distance_spot_type,       &distance_axial_type, &symmetry_plate_type,
-    &symmetry_leaning_type,    &symmetry_ended_type,
+    &symmetry_leaning_type,    &symmetry_ended_type, &symmetry_half_type,
+    &symmetry_open_type,
 };
 static const imp_surface_factory factory = {sizeof factory, sizeof types / sizeof *types, types};
 

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "tools/check/closed.h"
 #include "tools/check/motions.h"
 #include "tools/check/moving_point.h"
 #include "tools/check/nearest.h"
@@ -289,6 +290,7 @@ void distances_check(const subject *s, uint64_t *random, double effort)
     }
     h.has_symmetry = status == IMP_OK;
     if (h.has_symmetry && !judge_symmetry(s, &h.symmetry)) return;
+    if (h.has_symmetry && h.symmetry.is_closed && !closed_check(s, random, &h.symmetry)) return;
     double middle[3];
     if (!spot_extent(s, s->domain.lo[2], middle, &h.radius) || !(h.radius > 0)) h.radius = 1;
     uint64_t k = 0;

@@ -1,0 +1,92 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/check/closed.h"
+
+#include <impinge/formula.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "tools/check/motions.h"
+#include "tools/check/nearest.h"
+
+enum { POINTS = 48, PARTS = 4096 };
+#define NEAR 1e-6 /* of the surface's size: too near to be told from the surface */
+
+/* At most the distance of x from the surface over the region; 0 where it has no bounds. */
+static double apart_lower(const subject *s, const imp_region *region, const double x[3])
+{
+    double y[3], error[3], rate[3][BOX_DIMS], square = 0;
+    box where = {.lo = {0}};
+    memcpy(where.lo, region->lo, sizeof region->lo);
+    memcpy(where.hi, region->hi, sizeof region->hi);
+    if (subject_eval(s, 1, region->c, y, error) != IMP_OK) return 0;
+    if (subject_rate(s, &where, rate) != IMP_OK) return 0;
+    for (int i = 0; i < 3; ++i) {
+        double reach = error[i];
+        for (int j = 0; j < 3; ++j) reach += rate[i][j] * region->d[j];
+        const double off = fabs(x[i] - y[i]) - reach;
+        if (off > 0) square += off * off;
+    }
+    return sqrt(square) * (1 - 0x1p-40);
+}
+
+typedef struct part {
+    double lo[2], hi[2];
+} part;
+
+/* Whether the whole surface at time t is surely farther than `least` from x. */
+static bool is_off(const subject *s, const double x[3], double t, double least)
+{
+    static part parts[PARTS + 2];
+    const box *d = &s->domain;
+    size_t count = 1;
+    parts[0] = (part){{d->lo[0], d->lo[1]}, {d->hi[0], d->hi[1]}};
+    for (int k = 0; k < PARTS && count > 0; ++k) {
+        const part p = parts[--count];
+        const imp_region r =
+            imp_region_between((double[3]){p.lo[0], p.lo[1], t}, (double[3]){p.hi[0], p.hi[1], t});
+        if (apart_lower(s, &r, x) > least) continue;
+        const int j = (p.hi[0] - p.lo[0]) * (d->hi[1] - d->lo[1]) >
+                              (p.hi[1] - p.lo[1]) * (d->hi[0] - d->lo[0])
+                          ? 0
+                          : 1;
+        if (!(p.lo[j] < r.c[j] && r.c[j] < p.hi[j])) return false;
+        parts[count] = parts[count + 1] = p;
+        parts[count].hi[j] = parts[count + 1].lo[j] = r.c[j];
+        count += 2;
+    }
+    return count == 0;
+}
+
+static bool judge(const subject *s, uint64_t *random, const imp_symmetry *of)
+{
+    double middle[3], radius;
+    spot at, found;
+    draw_point(random, &s->domain, 3, at.p);
+    if (!spot_evaluate(s, &at) || !spot_extent(s, at.p[2], middle, &radius)) return true;
+    motion m = motion_draw(random, of, radius);
+    memset(m.shift, 0, sizeof m.shift);
+    double x[3] = {at.x[0], at.x[1], at.x[2]};
+    motion_apply(&m, x);
+    if (!spot_nearest(s, x, at.p[2], &found)) return true;
+    const double apart = (double)spot_apart_upper(&found, x);
+    ++s->answer->tests;
+    if (!(apart > NEAR * radius + 2 * at.error) || !is_off(s, x, at.p[2], 0.5 * apart)) return true;
+    return answer_fail_for(
+        s->answer, FAULT_ERROR,
+        "symmetry says is_closed, but %s takes the surface's point at %s to (%.17g, "
+        "%.17g, %.17g), which is more than %.6g from the surface",
+        motion_text(&m).text, subject_point_text(3, at.p).text, x[0], x[1], x[2], 0.5 * apart);
+}
+
+bool closed_check(const subject *s, uint64_t *random, const imp_symmetry *of)
+{
+    imp_symmetry rotations = *of;
+    if (of->kind != IMP_SYMMETRIC_ABOUT_POINT) rotations.kind = IMP_SYMMETRIC_ABOUT_LINE;
+    for (int k = 0; k < POINTS; ++k)
+        if (!judge(s, random, &rotations)) return false;
+    return true;
+}
