@@ -154,6 +154,7 @@ core_reader = \
     core/reader/examine.c \
     core/reader/json_keys.c core/reader/json_keys.h \
     core/reader/instance_table.c core/reader/instance_table.h \
+    core/reader/json_text.c core/reader/json_text.h \
     core/reader/pipeline.c core/reader/pipeline.h \
     core/reader/pipeline_value.c core/reader/pipeline_value.h \
     core/reader/scene_bodies.c core/reader/scene_bodies.h \

@@ -210,6 +210,11 @@ IMP_EXPORT imp_scene *imp_scene_from_file(imp_registry *registry, const char *pa
 /* Bodies "a" and "b" from two pipelines: "TYPE name=value ... ! MAP name=value ...". */
 IMP_EXPORT imp_scene *imp_scene_from_pair(imp_registry *registry, const char *a, const char *b,
                                           imp_error *error);
+/* The text of a scene file that makes the scene of imp_scene_from_pair. Only the pipelines' syntax is
+ * checked; values are not compared with the types' parameters. Names of files are copied, and begin where
+ * the reader of the text says. NULL on error. The caller frees the text by free(). [any thread] */
+IMP_EXPORT char *imp_pair_to_json(const imp_registry *registry, const char *a, const char *b,
+                                  imp_error *error);
 IMP_EXPORT void imp_scene_free(imp_scene *scene);
 
 /* --- Scenes built without text ------------------------------------------------------ */

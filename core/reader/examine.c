@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/base/fp_mode.h"
+#include "core/reader/json_text.h"
 #include "core/reader/pipeline.h"
 #include "core/reader/scene_build.h"
 
@@ -44,8 +45,7 @@ FP_APART static char *stage_to_json(const imp_registry *registry, imp_type_kind 
     const char *who = kind == IMP_KIND_SURFACE ? "surface" : "map";
     json_t *stage = pipeline_read_stage(registry, kind, who, text, error);
     if (stage == NULL) return NULL;
-    char *json = json_dumps(stage, JSON_COMPACT);
-    if (json == NULL) error_set_memory(error);
+    char *json = json_text_of(stage, error);
     json_decref(stage);
     return json;
 }

@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/plugin/parameters.h"
 #include "core/reader/json_keys.h"
+#include "core/reader/json_text.h"
 #include "core/reader/pipeline.h"
 #include "core/reader/scene_file.h"
 #include "core/reader/scene_json.h"
@@ -218,4 +219,46 @@ imp_scene *imp_scene_from_pair(imp_registry *registry, const char *a, const char
     imp_scene *scene = from_pair(registry, a, b, error);
     fp_environment_leave(&environment);
     return scene;
+}
+
+/* {"name": NAME, "surfaces": [the pipeline's]}; NULL on error. */
+static json_t *body_of_pipeline(const imp_registry *registry, const char *name, const char *line,
+                                imp_error *error)
+{
+    json_t *only = pipeline_read(registry, name, line, error);
+    if (only == NULL) return NULL;
+    json_t *body = json_pack("{s:s, s:[o]}", "name", name, "surfaces", only);
+    if (body == NULL) error_set_memory(error);
+    return body;
+}
+
+FP_APART static char *pair_to_json(const imp_registry *registry, const char *a, const char *b,
+                                   imp_error *error)
+{
+    if (registry == NULL || a == NULL || b == NULL) {
+        error_set_missing(error, "imp_pair_to_json");
+        return NULL;
+    }
+    json_t *first = body_of_pipeline(registry, "a", a, error);
+    json_t *second = first != NULL ? body_of_pipeline(registry, "b", b, error) : NULL;
+    if (second == NULL) {
+        json_decref(first);
+        return NULL;
+    }
+    json_t *scene = json_pack("{s:[o, o]}", "bodies", first, second);
+    char *text = NULL;
+    if (scene != NULL)
+        text = json_text_of(scene, error);
+    else
+        error_set_memory(error);
+    json_decref(scene);
+    return text;
+}
+
+char *imp_pair_to_json(const imp_registry *registry, const char *a, const char *b, imp_error *error)
+{
+    const fp_environment environment = fp_environment_enter();
+    char *text = pair_to_json(registry, a, b, error);
+    fp_environment_leave(&environment);
+    return text;
 }

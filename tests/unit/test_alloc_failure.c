@@ -125,14 +125,28 @@ static imp_scene *plenty(imp_registry *registry)
 START_TEST(a_scene_is_whole_or_not_there) { scenes_are_whole_or_not_there(plenty); }
 END_TEST
 
+static const char *const
+    nudged_a = "kit radius=1 center=1,2,3 label=sin(u) constants={\"a\":1} ! nudge by=1,0,0",
+    *const nudged_b = "kit radius=.5 weights=.5,.25 label=\"x\" ! nudge by=0,.5,0 ! nudge by=1,1,1";
+
 static imp_scene *nudged_pair(imp_registry *registry)
 {
-    const char *a = "kit radius=1 center=1,2,3 label=sin(u) constants={\"a\":1} ! nudge by=1,0,0",
-               *b = "kit radius=.5 weights=.5,.25 label=\"x\" ! nudge by=0,.5,0 ! nudge by=1,1,1";
-    return imp_scene_from_pair(registry, a, b, &error);
+    return imp_scene_from_pair(registry, nudged_a, nudged_b, &error);
+}
+
+static imp_scene *written_pair(imp_registry *registry)
+{
+    char *text = imp_pair_to_json(registry, nudged_a, nudged_b, &error);
+    imp_scene *scene =
+        text != NULL ? imp_scene_from_json(registry, text, strlen(text), "pair", &error) : NULL;
+    free(text);
+    return scene;
 }
 
 START_TEST(a_pair_is_whole_or_not_there) { scenes_are_whole_or_not_there(nudged_pair); }
+END_TEST
+
+START_TEST(a_pair_s_text_is_whole_or_not_there) { scenes_are_whole_or_not_there(written_pair); }
 END_TEST
 
 /* The scene of PLENTY, nearly, without text. */
@@ -191,5 +205,5 @@ END_TEST
 
 SUITE_MAIN("alloc_failure", a_registry_is_whole_or_not_there, the_search_path_is_whole_or_refused,
            a_scene_is_whole_or_not_there, a_pair_is_whole_or_not_there,
-           a_scene_built_without_text_is_whole_or_not_there,
+           a_pair_s_text_is_whole_or_not_there, a_scene_built_without_text_is_whole_or_not_there,
            a_file_that_does_not_fit_into_memory_is_told)

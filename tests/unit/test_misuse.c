@@ -78,6 +78,9 @@ START_TEST(scenes_are_not_made_from_nothing)
     expect_nothing(imp_scene_from_file(registry, NULL, &error), "imp_scene_from_file");
     expect_nothing(imp_scene_from_pair(NULL, "sphere", "sphere", &error), "imp_scene_from_pair");
     expect_nothing(imp_scene_from_pair(registry, NULL, "sphere", &error), "imp_scene_from_pair");
+    expect_nothing(imp_pair_to_json(NULL, "sphere", "sphere", &error), "imp_pair_to_json");
+    expect_nothing(imp_pair_to_json(registry, NULL, "sphere", &error), "imp_pair_to_json");
+    expect_nothing(imp_pair_to_json(registry, "sphere", NULL, &error), "imp_pair_to_json");
     expect_nothing(imp_scene_from_pair(registry, "sphere", NULL, &error), "imp_scene_from_pair");
     imp_registry_free(registry);
     imp_scene_free(NULL);

@@ -217,6 +217,33 @@ START_TEST(a_pair_is_a_scene_of_bodies_a_and_b)
 }
 END_TEST
 
+START_TEST(a_pair_has_the_text_of_a_scene_file)
+{
+    registry = kit_registry();
+    char *text = imp_pair_to_json(registry, "kit radius=1 ! nudge by=0,0,.1 ! nudge by=0,1,0",
+                                  "kit radius=5e-1 label=x", &error);
+    ck_assert_ptr_nonnull(text);
+    ck_assert_str_eq(
+        text,
+        "{\"bodies\":[{\"name\":\"a\",\"surfaces\":[{\"type\":\"kit\",\"radius\":1.0,\"maps\":["
+        "{\"type\":\"nudge\",\"by\":[0.0,0.0,0.10000000000000001]},"
+        "{\"type\":\"nudge\",\"by\":[0.0,1.0,0.0]}]}]},"
+        "{\"name\":\"b\",\"surfaces\":[{\"type\":\"kit\",\"radius\":0.5,\"label\":\"x\","
+        "\"maps\":[]}]}]}");
+    imp_scene *scene = imp_scene_from_json(registry, text, strlen(text), "pair", &error);
+    free(text);
+    ck_assert_ptr_nonnull(scene);
+    ck_assert_str_eq(imp_scene_body_name(scene, 1), "b");
+    imp_scene_free(scene);
+    ck_assert_ptr_null(imp_pair_to_json(registry, "kit radius=1", "kit radius=[", &error));
+    ck_assert_ptr_nonnull(strstr(error.text, "b: at character 12: got '[' that is never closed"));
+    ck_assert_ptr_null(imp_pair_to_json(registry, "! nudge", "kit", &error));
+    ck_assert_ptr_nonnull(strstr(error.text, "a: at character 1: got '!'"));
+    imp_registry_free(registry);
+    registry = NULL;
+}
+END_TEST
+
 START_TEST(random_lines_are_read_or_refused_and_never_harm)
 {
     static const char *const pieces[] = {
@@ -244,4 +271,4 @@ SUITE_MAIN("pipeline", a_type_alone_is_a_pipeline, values_are_json_or_short_for_
            what_cannot_be_read_is_told_by_its_character,
            values_that_are_no_json_are_told_with_jansson_s_words,
            what_does_not_fit_is_told_by_its_name, a_pair_is_a_scene_of_bodies_a_and_b,
-           random_lines_are_read_or_refused_and_never_harm)
+           a_pair_has_the_text_of_a_scene_file, random_lines_are_read_or_refused_and_never_harm)

@@ -1,0 +1,13 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_READER_JSON_TEXT_H
+#define CORE_READER_JSON_TEXT_H
+
+#include <jansson.h>
+
+#include "core/base/status.h"
+
+/* The value as compact text. NULL: no memory. The caller frees it by free(). */
+char *json_text_of(const json_t *value, imp_error *error);
+
+#endif
