@@ -49,15 +49,23 @@ sdk_folders = $(templatedir) $(examplesdir) $(sdkdocdir) $(hostexamplesdir) $(do
 # The Python module, also installed by pip from here. Installed by make it knows its library.
 python_module = \
     sdk/python/impinge/__init__.py \
+    sdk/python/impinge/_arguments.py \
+    sdk/python/impinge/_document.py \
+    sdk/python/impinge/_files.py \
+    sdk/python/impinge/_find.py \
+    sdk/python/impinge/_handle.py \
     sdk/python/impinge/_library.py \
+    sdk/python/impinge/_parts.py \
+    sdk/python/impinge/_query.py \
+    sdk/python/impinge/_registry.py \
+    sdk/python/impinge/_values.py \
+    sdk/python/impinge/batching.py \
     sdk/python/impinge/builder.py \
     sdk/python/impinge/errors.py \
     sdk/python/impinge/py.typed \
-    sdk/python/impinge/query.py \
-    sdk/python/impinge/registry.py \
     sdk/python/impinge/results.py \
     sdk/python/impinge/scene.py
-EXTRA_DIST += sdk/python/pyproject.toml $(python_module)
+EXTRA_DIST += sdk/python/pyproject.toml sdk/python/setup.py $(python_module)
 if HAVE_PYTHON
 pythonmoduledir = $(pythondir)/impinge
 pythonmodule_DATA = $(python_module) sdk/python/_installed.py

@@ -645,7 +645,12 @@ AM_TESTS_ENVIRONMENT = \
     XDG_CACHE_HOME='$(abs_top_builddir)/tests/cache'; export XDG_CACHE_HOME; \
     unset IMPINGE_PLUGIN_PATH;
 
-EXTRA_DIST += tests/python/test_impinge.py
+EXTRA_DIST += \
+    tests/python/support.py \
+    tests/python/test_hostile.py \
+    tests/python/test_impinge.py \
+    tests/python/test_text.py \
+    tests/python/typed.py
 EXTRA_DIST += $(bats_suites) $(script_suites) tests/support/include_order tests/support/cli_helper.bash \
     tests/support/comma_locale \
     tests/support/simulate_helper.bash \

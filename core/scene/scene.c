@@ -297,18 +297,36 @@ static const surface *piece_at(const imp_scene *scene, imp_place at)
     return surface_piece_count(s) > 0 ? surface_piece(s, at.piece) : s;
 }
 
-/* A callback's refusal of what lies outside the domain is the caller's fault. */
+/* A callback's refusal of a place is the caller's fault. */
 static imp_code refusal(const surface *s, imp_status status, imp_error *why)
 {
     surface_fault(
         s, why, ": %s",
         status == IMP_DOMAIN
-            ? "is undefined there, or too large for a double; imp_scene_domain answers where "
-              "it should be defined"
+            ? "is undefined there, or too large for a double, though that lies in its domain"
             : surface_status_told(s, status).text);
     if (status != IMP_DOMAIN) return surface_set_code(status, why);
     if (why != NULL) why->code = IMP_ERROR_USAGE;
     return IMP_ERROR_USAGE;
+}
+
+/* The error for the first of n points that lies outside the domain; IMP_SUCCESS: none does. */
+static imp_code refuse_outside(const surface *s, size_t n, const double *p, imp_error *why)
+{
+    double lo[3], hi[3];
+    surface_domain(s, lo, hi);
+    for (; n > 0; --n, p += 3) {
+        bool inside = true;
+        for (int j = 0; j < 3; ++j) inside = inside && lo[j] <= p[j] && p[j] <= hi[j];
+        if (inside) continue;
+        surface_fault(s, why,
+                      ": got (u, v, t) = (%g, %g, %g), must be in its domain, u in [%g, %g], "
+                      "v in [%g, %g], t in [%g, %g]",
+                      p[0], p[1], p[2], lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]);
+        if (why != NULL) why->code = IMP_ERROR_USAGE;
+        return IMP_ERROR_USAGE;
+    }
+    return IMP_SUCCESS;
 }
 
 static imp_code no_surface(const imp_scene *scene, imp_place at, imp_error *why)
@@ -326,6 +344,7 @@ FP_APART static imp_code eval(const imp_scene *scene, imp_place at, size_t n, co
     const surface *s = piece_at(scene, at);
     if (s == NULL) return no_surface(scene, at, why);
     const imp_status status = surface_eval(s, n, p, x, error);
+    if (status == IMP_DOMAIN && refuse_outside(s, n, p, why) != IMP_SUCCESS) return IMP_ERROR_USAGE;
     return status == IMP_OK ? IMP_SUCCESS : refusal(s, status, why);
 }
 

@@ -11,6 +11,7 @@ setup() {
     cd "$BATS_TEST_TMPDIR"
     export IMPINGE_LIBRARY=$top_builddir/.libs/libimpinge.so
     export IMPINGE_PLUGIN_PATH=$top_builddir/plugins/.libs PYTHONDONTWRITEBYTECODE=1
+    unset PYTHONPATH IMPINGE_COMMAND
     arm=$top_srcdir/tools/data/arm.json examples=$top_srcdir/sdk/examples
 }
 
@@ -59,14 +60,51 @@ needs_python() {
     [ "$status" -eq 0 ]
 }
 
-@test "pip installs the Python module without reaching an index" {
+@test "the Python module and programs that use it have types" {
     needs_python
+    "$PYTHON3" -c 'import mypy' || skip "no python3-mypy"
+    MYPYPATH=$top_srcdir/sdk/python run "$PYTHON3" -m mypy --strict --cache-dir cache \
+        "$top_srcdir/sdk/python/impinge" "$top_srcdir/tests/python/typed.py"
+    echo "$output"
+    [ "$status" -eq 0 ]
+}
+
+pip_installs() {
     "$PYTHON3" -c 'import ensurepip, setuptools, wheel' ||
         skip "no python3-venv, python3-setuptools or python3-wheel"
     cp -R "$top_srcdir/sdk/python" source
     chmod -R u+w source
     "$PYTHON3" -m venv --system-site-packages venv
     venv/bin/python -m pip install --quiet --no-index --no-build-isolation ./source
+}
+
+@test "pip installs the Python module without reaching an index" {
+    needs_python
+    pip_installs
     run -0 venv/bin/python -c 'import impinge; print(impinge.__file__, impinge.version())'
     [[ $output == *venv*'libimpinge '* ]]
+    run -0 venv/bin/python -c 'import impinge; print(impinge.__version__)'
+    [ "libimpinge $output" = "$(venv/bin/python -c 'import impinge; print(impinge.version())')" ]
+}
+
+# As make install leaves it below a prefix that the dynamic linker does not know.
+prefix_of_our_own() {
+    mkdir -p prefix/lib/pkgconfig
+    cp -L "$IMPINGE_LIBRARY" prefix/lib/libimpinge.so.0
+    printf '%s\n' "libdir=$PWD/prefix/lib" 'Name: impinge' 'Description: x' 'Version: 1' \
+        >prefix/lib/pkgconfig/impinge.pc
+}
+
+@test "a module from pip finds the library that pkg-config knew when it was built" {
+    needs_python
+    prefix_of_our_own
+    PKG_CONFIG_PATH=$PWD/prefix/lib/pkgconfig pip_installs
+    unset IMPINGE_LIBRARY
+    run -0 env -u PKG_CONFIG_PATH venv/bin/python -c 'import impinge
+from impinge import _find, _library
+print(_find.library_folder(_library.library))'
+    [ "$output" = "$PWD/prefix/lib" ]
+    mv prefix moved
+    run -1 env -u PKG_CONFIG_PATH PATH="$PWD/venv/bin" venv/bin/python -c 'import impinge'
+    [[ $output == *'let IMPINGE_LIBRARY name its libimpinge.so.0'* ]]
 }

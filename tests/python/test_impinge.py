@@ -4,7 +4,6 @@
 """The Python module, over the library and plugins of the build tree."""
 
 import ctypes
-import os
 import pathlib
 import signal
 import threading
@@ -13,15 +12,7 @@ import impinge
 import numpy
 import pytest
 
-ARM = pathlib.Path(os.environ["top_srcdir"]) / "tools" / "data" / "arm.json"
-
-
-def flying(speed: float = -2) -> impinge.Builder:
-    builder = impinge.Builder(gamma=1e-6)
-    builder.body("left").surface("sphere", radius=0.5)
-    builder.body("right").surface("sphere", radius=0.5, center=numpy.array([2.0, 0, 0])).map(
-        "translate", velocity=[speed, 0, 0])
-    return builder
+from support import ARM, crowd, endless, flying
 
 
 def test_a_scene_is_built_and_solved():
@@ -133,18 +124,6 @@ def test_parents_groups_and_files_make_an_arm():
     assert {clearance.a.body, clearance.b.body} == {"link5", "fixture"}
 
 
-def crowd() -> impinge.Scene:
-    """Three balls that meet a wall one after the other, one that never does, and two that ignore."""
-    builder = impinge.Builder()
-    builder.body("wall").surface("plane", origin=[-5, -5, 0], edge_u=[10, 0, 0], edge_v=[0, 10, 0])
-    for k, height in enumerate((1.5, 1.25, 1.75, 4.5)):
-        builder.body(f"ball{k}", group="balls").surface(
-            "sphere", radius=0.5, center=[3 * k - 5, 0, height]).map(
-            "translate", velocity=[0, 0, -2])
-    builder.ignore("balls", "balls")
-    return builder.build()
-
-
 def test_each_pair_meets_in_order_of_time_and_what_stays_clear_comes_last():
     results = list(crowd().solve_each())
     assert [r.bodies[1] for r in results] == ["ball1", "ball0", "ball2", "ball3"]
@@ -166,13 +145,6 @@ def test_finer_answers_come_from_one_search():
     assert [r.gamma for r in results] == [1e-2, 1e-4, 1e-8]
     assert results[-1].t == pytest.approx(flying().build().solve(gamma=1e-8).t, abs=1e-8)
     assert list(flying().build().refine([])) == []
-
-
-ENDLESS = ("sphere radius=1", "sphere radius=1.000000002")
-
-
-def endless() -> impinge.Scene:
-    return impinge.Scene.from_pair(*ENDLESS)
 
 
 def test_a_progress_sink_sees_a_search_advance_and_ends_it():
@@ -220,14 +192,14 @@ def test_a_budget_ends_a_search_with_what_is_proved():
 
 
 def test_arrays_of_doubles_are_not_copied():
-    from impinge.builder import _argument
+    from impinge._arguments import argument
 
     points = numpy.zeros((16, 3))
-    address = ctypes.cast(_argument("points", points, []).number, ctypes.c_void_p).value
+    address = ctypes.cast(argument("points", points, [], {}).number, ctypes.c_void_p).value
     assert address == points.ctypes.data
     turned = numpy.asfortranarray(points)
     kept = []
-    _argument("points", turned, kept)
+    argument("points", turned, kept, {})
     assert kept[0].flags.c_contiguous and kept[0].shape == (16, 3)
 
 

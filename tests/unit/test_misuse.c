@@ -125,7 +125,9 @@ START_TEST(points_outside_of_a_domain_are_refused_with_the_type)
     ck_assert_msg(scene != NULL, "%s", error.text);
     double x[3];
     expect_usage(imp_scene_eval(scene, 0, 0, 1, (const double[3]){0.5, 0.5, -1}, x, NULL, &error),
-                 "type 'formula x='sqrt(t)' time=0,1': is undefined there");
+                 "type 'formula x='sqrt(t)' time=0,1': got (u, v, t) = (0.5, 0.5, -1), must be in "
+                 "its domain, "
+                 "u in [0, 1], v in [0, 1], t in [0, 1]");
     ck_assert_int_eq(
         imp_scene_eval(scene, 0, 0, 1, (const double[3]){0.5, 0.5, 0.25}, x, NULL, &error),
         IMP_SUCCESS);

@@ -10,15 +10,19 @@
 """
 
 from . import _library
+from .batching import batch
 from .builder import Body, Builder
 from .errors import FileError, ImpingeError, PluginError, SceneError, UsageError
 from .results import Clearance, Profile, Progress, Result, Side
-from .scene import Scene, batch
+from .scene import Scene
+
+__version__ = "0.1.0"
 
 __all__ = ["Body", "Builder", "Clearance", "FileError", "ImpingeError", "PluginError", "Profile",
-           "Progress", "Result", "Scene", "SceneError", "Side", "UsageError", "batch", "version"]
+           "Progress", "Result", "Scene", "SceneError", "Side", "UsageError",
+           "__version__", "batch", "version"]
 
 
 def version() -> str:
-    """ "libimpinge x.y.z" of the library that runs."""
-    return _library.library.imp_version().decode()
+    """ "libimpinge x.y.z" of the library that runs; `__version__` is that of this module."""
+    return str(_library.library.imp_version().decode())

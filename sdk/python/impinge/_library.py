@@ -3,15 +3,12 @@
 
 """The C interface of libimpinge (<impinge/impinge.h>), as ctypes sees it.
 
-The library is the one that the environment's IMPINGE_LIBRARY names, or else that which this module was
-installed with, or that which the dynamic linker or pkg-config finds.
 Structs that grow begin with their size, so that a newer library runs with this module.
 """
 
 import ctypes as c
-import os
-import subprocess
-from typing import Iterator
+
+from ._find import open_library
 
 
 class Error(c.Structure):
@@ -38,7 +35,7 @@ class Options(c.Structure):
         ("t_start", c.c_double),
         ("t_end", c.c_double),
         ("gamma", c.c_double),
-        ("clearance", c.c_double),
+        ("gamma_clear", c.c_double),
         ("max_pairs", c.c_uint64),
         ("max_seconds", c.c_double),
         ("max_bytes", c.c_uint64),
@@ -133,8 +130,55 @@ class Clearance(c.Structure):
     ]
 
 
+class Progress(c.Structure):
+    _fields_ = [
+        ("struct_size", c.c_uint32),
+        ("reason", c.c_int),
+        ("t_lower", c.c_double),
+        ("pairs", c.c_uint64),
+        ("heap", c.c_uint64),
+        ("seconds", c.c_double),
+        ("lower", c.c_double),
+        ("upper", c.c_double),
+        ("gap", c.c_double),
+    ]
+
+
+class Parameter(c.Structure):
+    _fields_ = [
+        ("name", c.c_char_p),
+        ("unit", c.c_char_p),
+        ("doc", c.c_char_p),
+        ("default_value", c.c_char_p),
+        ("kind", c.c_uint32),
+        ("flags", c.c_uint32),
+    ]  # as far as it is read here; a table's rows are parameter_size bytes apart
+
+
+class TypeInfo(c.Structure):
+    _fields_ = [
+        ("kind", c.c_int),
+        ("name", c.c_char_p),
+        ("summary", c.c_char_p),
+        ("equation", c.c_char_p),
+        ("source", c.c_char_p),
+        ("example", c.c_char_p),
+        ("file", c.c_char_p),
+        ("plugin", c.c_char_p),
+        ("version", c.c_char_p),
+        ("license", c.c_char_p),
+        ("author", c.c_char_p),
+        ("shadowed_by", c.c_char_p),
+        ("parameters", c.c_void_p),
+        ("parameter_count", c.c_size_t),
+        ("parameter_size", c.c_size_t),
+        ("capabilities", c.c_char_p),
+    ]
+
+
 CLEAR, CONTACT = 0, 1  # imp_verdict
 RESOLUTION, RUNNING = 7, 8  # imp_reason
+PARAMETER_FILE = 1 << 4  # IMP_FILE
 
 _P, _S, _D, _N = c.c_void_p, c.c_char_p, c.c_double, c.c_size_t
 _E, _A = c.POINTER(Error), c.POINTER(Argument)
@@ -144,9 +188,11 @@ _FUNCTIONS = {
     "imp_version": (_S,),
     "imp_registry_new": (_P, _S),
     "imp_registry_free": (None, _P),
+    "imp_registry_type": (c.c_bool, _P, _N, c.POINTER(TypeInfo)),
     "imp_scene_from_json": (_P, _P, _S, _N, _S, _E),
     "imp_scene_from_file": (_P, _P, _S, _E),
     "imp_scene_from_pair": (_P, _P, _S, _S, _E),
+    "imp_pair_to_json": (_P, _P, _S, _S, _E),
     "imp_scene_free": (None, _P),
     "imp_scene_body_count": (_N, _P),
     "imp_scene_body_name": (_S, _P, _N),
@@ -171,6 +217,8 @@ _FUNCTIONS = {
     "imp_query_refine": (c.c_int, _P, _D, _D, _E),
     "imp_query_pass": (c.c_int, _P, _E),
     "imp_query_cancel": (None, _P),
+    "imp_query_divide": (c.c_int, _P, c.POINTER(_N), _E),
+    "imp_query_part": (_P, _P, _N, _E),
     "imp_clearance_options_read": (c.c_int, c.POINTER(ClearanceOptions), _E),
     "imp_clearance_new": (_P, _P, c.POINTER(Options), c.POINTER(ClearanceOptions), _E),
     "imp_clearance_count": (_N, _P),
@@ -180,45 +228,19 @@ _FUNCTIONS = {
 }
 
 
-_NAME = "libimpinge.so.0"
-
-
-def _candidates() -> Iterator[str]:
-    named = os.environ.get("IMPINGE_LIBRARY")
-    if named:
-        yield named
-        return
-    try:
-        from ._installed import LIBRARY  # written by make install
-
-        yield LIBRARY
-    except ImportError:
-        pass
-    yield _NAME
-    try:
-        asked = subprocess.run(["pkg-config", "--variable=libdir", "impinge"], check=True,
-                               capture_output=True, text=True)
-        yield os.path.join(asked.stdout.strip(), _NAME)
-    except (OSError, subprocess.CalledProcessError):
-        pass
-
-
-def _open() -> c.CDLL:
-    tried = []
-    for path in _candidates():
-        try:
-            return c.CDLL(path)
-        except OSError as error:
-            tried.append(str(error))
-    raise ImportError(f"{'; '.join(tried)}. Install Impinge, or let IMPINGE_LIBRARY name its {_NAME}")
-
-
 def _load() -> c.CDLL:
-    library = _open()
+    loaded = open_library()
     for name, (result, *arguments) in _FUNCTIONS.items():
-        function = getattr(library, name)
+        function = getattr(loaded, name)
         function.restype, function.argtypes = result, arguments
-    return library
+    return loaded
+
+
+def _find_free() -> "c._FuncPointer":
+    function = c.CDLL(None).free
+    function.restype, function.argtypes = None, [c.c_void_p]
+    return function
 
 
 library = _load()
+free = _find_free()  # of texts that the library hands over

@@ -5,115 +5,150 @@
 
 import ctypes as c
 import os
+import threading
 import weakref
-from typing import Any, Iterable, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
-import numpy
+from numpy.typing import ArrayLike
 
+from . import _arguments as arguments
+from . import _document as document
 from . import _library as lib
-from .errors import UsageError, check
-from .registry import Registry
+from . import _values as values
+from ._handle import Handle
+from ._registry import Registry
+from .errors import check
 from .scene import Scene
 
-_NUMBER, _BOOLEAN, _STRING, _TABLE = 1, 3, 4, 5
-
-
-def _argument(name: str, value: Any, kept: List[Any]) -> lib.Argument:
-    """The value by pointer and extents; what it points to is put into `kept`."""
-    a = lib.Argument(name=name.encode(), rank=0, extent=(1, 1, 1))
-    if isinstance(value, (bool, numpy.bool_)):
-        a.kind, a.single = _BOOLEAN, float(value)
-    elif isinstance(value, (str, os.PathLike)):
-        a.kind, a.text = _STRING, os.fspath(value).encode()
-    elif isinstance(value, dict):
-        texts = (c.c_char_p * len(value))(*(key.encode() for key in value))
-        numbers = (c.c_double * len(value))(*value.values())
-        kept += [texts, numbers]
-        a.kind, a.extent[0] = _TABLE, len(value)
-        a.string, a.number = c.cast(texts, c.POINTER(c.c_char_p)), c.cast(numbers, c.POINTER(c.c_double))
-    elif isinstance(value, (list, tuple)) and value and all(isinstance(x, str) for x in value):
-        texts = (c.c_char_p * len(value))(*(x.encode() for x in value))
-        kept.append(texts)
-        a.kind, a.rank, a.extent[0] = _STRING, 1, len(value)
-        a.string = c.cast(texts, c.POINTER(c.c_char_p))
-    else:
-        array = numpy.ascontiguousarray(value, dtype=numpy.float64)
-        if numpy.ndim(value) == 0:
-            a.kind, a.single = _NUMBER, float(array.reshape(()))
-        elif array.ndim > 3:
-            raise UsageError(f"{name}: an array of {array.ndim} dimensions, allowed are 3")
-        else:
-            kept.append(array)
-            a.kind, a.rank = _NUMBER, array.ndim
-            for k, extent in enumerate(array.shape):
-                a.extent[k] = extent
-            a.number = array.ctypes.data_as(c.POINTER(c.c_double))
-    return a
+Value = Union[bool, str, "os.PathLike[str]", Mapping[str, float], Sequence[str], ArrayLike]
+Stage = Tuple[str, Mapping[str, Value]]
 
 
 class Body:
-    """One body of a `Builder`."""
+    """One body of a `Builder`, which makes it."""
 
     def __init__(self, builder: "Builder", index: int, name: str):
         self._builder, self.index, self.name = builder, index, name
+        self._surfaces = 0
 
-    def surface(self, type: str, *, maps: Iterable[Tuple[str, dict]] = (), **parameters: Any) -> "Body":
-        """Adds a surface, under maps of its own: pairs of a type and its parameters."""
-        self._builder._add(lib.library.imp_builder_surface, (self.index,), type, parameters)
-        for map_type, map_parameters in maps:
-            self._builder._add(lib.library.imp_builder_surface_map,
-                               (self.index, self._surfaces), map_type, map_parameters)
+    def surface(self, type: str, *, maps: Iterable[Stage] = (), **parameters: Value) -> "Body":
+        """Adds a surface, under maps of its own: pairs of a type and its parameters. Answers the body."""
+        stages = [_stage(stage) for stage in maps]
+        self._builder._add_surface(self.index, type, parameters)
         self._surfaces += 1
+        for map_type, map_parameters in stages:
+            self._builder._add_surface_map(self.index, self._surfaces - 1, map_type, map_parameters)
         return self
 
-    _surfaces = 0
-
-    def map(self, type: str, **parameters: Any) -> "Body":
-        """Adds a map, after those there are."""
-        self._builder._add(lib.library.imp_builder_map, (self.index,), type, parameters)
+    def map(self, type: str, **parameters: Value) -> "Body":
+        """Adds a map, after those there are. Answers the body."""
+        self._builder._add_map(self.index, type, parameters)
         return self
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a Body of a Builder cannot be copied or pickled")
+
+
+def _stage(stage: Any) -> Tuple[str, Dict[str, Any]]:
+    try:
+        map_type, parameters = stage
+        return map_type, dict(parameters)
+    except (TypeError, ValueError):
+        raise values.refuse("maps", stage, "pairs of a type and a dict of its parameters") from None
 
 
 class Builder:
     """Builds a scene: bodies, their surfaces and maps, parents, groups, who ignores whom. Parameters
-    are numbers, strings, booleans, dicts, sequences and NumPy arrays, which go by pointer."""
+    are numbers, strings, booleans, dicts of numbers, sequences and NumPy arrays, which go by pointer. Names
+    of files begin at the working directory. What is nearer than `gamma_clear` (half of gamma) is never
+    missed. Several threads may use one builder, one after the other."""
 
     def __init__(self, *, time: Sequence[float] = (0, 1), gamma: float = 1e-6,
-                 clearance: float = -1):
+                 gamma_clear: Optional[float] = None):
+        self._lock = threading.RLock()
         self._handle = lib.library.imp_builder_new(Registry.handle())
         if not self._handle:
             raise MemoryError("out of memory")
-        self._finalizer = weakref.finalize(self, lib.library.imp_builder_free, self._handle)
-        self._call(lib.library.imp_builder_time, *map(float, time))
-        self._call(lib.library.imp_builder_gamma, gamma, clearance)
+        weakref.finalize(self, lib.library.imp_builder_free, self._handle).atexit = False
+        start, end = values.interval("time", time)
+        gamma = values.number("gamma", gamma)
+        clear = -1 if gamma_clear is None else values.number("gamma_clear", gamma_clear)
+        if gamma_clear is not None and clear < 0:
+            raise values.refuse("gamma_clear", gamma_clear, "a number from 0 to below gamma")
+        self._call(lib.library.imp_builder_time, start, end)
+        self._call(lib.library.imp_builder_gamma, gamma, clear)
+        self._document: document.Document = {"time": [start, end], "gamma": gamma, "bodies": []}
+        if gamma_clear is not None:
+            self._document["clearance"] = clear
 
-    def _call(self, function: Any, *arguments: Any) -> None:
+    def __reduce__(self) -> Any:
+        raise TypeError("a Builder cannot be copied or pickled; its scene can: builder.build()")
+
+    # --- To the library, and into the document ----------------------------------------------------
+
+    def _call(self, function: Any, *given: Any) -> None:
         error = lib.Error()
-        check(function(self._handle, *arguments, c.byref(error)), error)
+        check(function(self._handle, *given, c.byref(error)), error)
 
-    def _add(self, function: Any, where: Tuple[int, ...], type: str, parameters: dict) -> None:
-        kept: List[Any] = []
-        arguments = [_argument(name, value, kept) for name, value in parameters.items()]
-        array = (lib.Argument * max(len(arguments), 1))(*arguments)
-        self._call(function, *where, type.encode(), array, len(arguments))
+    def _add(self, function: Any, where: Tuple[int, ...], type_name: str,
+             parameters: Mapping[str, Any]) -> document.Document:
+        """Adds a surface or a map; what a scene file would have for it."""
+        packed = arguments.pack(parameters)
+        self._call(function, *where, values.text("type", type_name), packed.array, packed.size)
+        stage = {"type": type_name, **packed.written}
+        document.resolve_stage(type_name, stage, os.getcwd())
+        return stage
+
+    def _add_surface(self, body: int, type_name: str, parameters: Mapping[str, Any]) -> None:
+        with self._lock:
+            stage = self._add(lib.library.imp_builder_surface, (body,), type_name, parameters)
+            self._document["bodies"][body]["surfaces"].append(stage)
+
+    def _add_map(self, body: int, type_name: str, parameters: Mapping[str, Any]) -> None:
+        with self._lock:
+            stage = self._add(lib.library.imp_builder_map, (body,), type_name, parameters)
+            self._document["bodies"][body].setdefault("maps", []).append(stage)
+
+    def _add_surface_map(self, body: int, surface: int, type_name: str,
+                         parameters: Mapping[str, Any]) -> None:
+        with self._lock:
+            stage = self._add(lib.library.imp_builder_surface_map, (body, surface), type_name, parameters)
+            self._document["bodies"][body]["surfaces"][surface].setdefault("maps", []).append(stage)
+
+    # --- Bodies -------------------------------------------------------------------------------------
 
     def body(self, name: Optional[str] = None, *, parent: Optional[Body] = None,
              group: Union[str, Iterable[str]] = ()) -> Body:
         """Begins a body; the maps of its parent come after its own."""
-        index = c.c_size_t()
-        self._call(lib.library.imp_builder_body, name.encode() if name is not None else None,
-                   c.byref(index))
-        if parent is not None:
-            self._call(lib.library.imp_builder_parent, index.value, parent.index)
-        for one in (group,) if isinstance(group, str) else group:
-            self._call(lib.library.imp_builder_group, index.value, one.encode())
-        return Body(self, index.value, name if name is not None else f"body{index.value}")
+        if parent is not None and not (isinstance(parent, Body) and parent._builder is self):
+            raise values.refuse("parent", parent, "a Body of this Builder")
+        text = None if name is None else values.text("name", name)
+        groups = [values.text("group", one) for one in ([group] if isinstance(group, str) else group)]
+        with self._lock:
+            index = c.c_size_t()
+            self._call(lib.library.imp_builder_body, text, c.byref(index))
+            body = Body(self, index.value, name if name is not None else f"body{index.value}")
+            written: document.Document = {"name": body.name, "surfaces": []}
+            self._document["bodies"].append(written)
+            if parent is not None:
+                self._call(lib.library.imp_builder_parent, index.value, parent.index)
+                written["parent"] = parent.name
+            for one in groups:
+                self._call(lib.library.imp_builder_group, index.value, one)
+                written.setdefault("group", []).append(one.decode())
+        return body
 
     def ignore(self, x: str, y: str) -> None:
         """Bodies, or groups of them, that are never tested with each other."""
-        self._call(lib.library.imp_builder_ignore, x.encode(), y.encode())
+        with self._lock:
+            self._call(lib.library.imp_builder_ignore, values.text("x", x), values.text("y", y))
+            self._document.setdefault("ignore", []).append([x, y])
 
     def build(self) -> Scene:
         """The scene; the builder is done then."""
-        error = lib.Error()
-        return Scene.made(lib.library.imp_builder_finish(self._handle, c.byref(error)), error)
+        error, made = lib.Error(), self._document
+        with self._lock:
+            address = lib.library.imp_builder_finish(self._handle, c.byref(error))
+        if not address:
+            check(error.code, error)
+        return Scene._made(Handle(address, lambda: made))

@@ -13,7 +13,7 @@ class ImpingeError(Exception):
 
 
 class UsageError(ImpingeError, ValueError):
-    """An argument is out of its range."""
+    """An argument is of the wrong type or out of its range."""
 
 
 class SceneError(ImpingeError, ValueError):
@@ -25,14 +25,17 @@ class PluginError(ImpingeError):
 
 
 class FileError(ImpingeError, OSError):
-    """A file cannot be read."""
+    """A file cannot be read or written."""
 
 
 _ERRORS = {_USAGE: UsageError, _SCENE: SceneError, _PLUGIN: PluginError, _FILE: FileError}
 
 
 def check(code: int, error: lib.Error) -> None:
+    """Raises the exception of a code that is not success."""
+    if code == 0:
+        return
+    text = error.text.decode("utf-8", "replace")
     if code == _MEMORY:
-        raise MemoryError(error.text.decode())
-    if code != 0:
-        raise _ERRORS.get(code, ImpingeError)(error.text.decode("utf-8", "replace"))
+        raise MemoryError(text)
+    raise _ERRORS.get(code, ImpingeError)(text)

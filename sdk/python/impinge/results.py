@@ -1,40 +1,52 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: MIT
 
-"""Answers, as plain objects."""
+"""Answers, as plain objects. Lengths are in the scene's unit of length, times in its unit of time."""
 
-from dataclasses import dataclass
-from typing import Optional, Tuple
+import ctypes as c
+from dataclasses import dataclass, fields
+from typing import Iterable, List, Literal, Optional, Tuple
 
 import numpy
+from numpy.typing import NDArray
 
 from . import _library as lib
+from ._values import Floats
 
-_VERDICTS = ("clear", "contact", "undecided")
-_REASONS = (None, "no-time", "no-pairs", "pairs", "seconds", "memory", "cancelled", "resolution",
-            "running", "decided")
-_REQUIREMENTS = (None, "holds", "violated", "undecided")
+Verdict = Literal["clear", "contact", "undecided"]
+Requirement = Literal["holds", "violated", "undecided"]
+Reason = Literal["no-time", "no-pairs", "pairs", "seconds", "memory", "cancelled", "resolution",
+                 "running", "decided"]
+Vector = Tuple[float, float, float]
+Bodies = Tuple[str, str]
+
+_VERDICTS: Tuple[Verdict, ...] = ("clear", "contact", "undecided")
+_REASONS: Tuple[Optional[Reason], ...] = (
+    None, "no-time", "no-pairs", "pairs", "seconds", "memory", "cancelled", "resolution", "running",
+    "decided")
+_REQUIREMENTS: Tuple[Optional[Requirement], ...] = (None, "holds", "violated", "undecided")
 
 
 @dataclass(frozen=True)
 class Side:
-    """One point of a witness."""
+    """One point of a witness: where it is on its surface, and in the world."""
 
     body: str
     surface: int
     piece: int
     u: float
     v: float
-    point: Tuple[float, float, float]
+    point: Vector
 
 
 @dataclass(frozen=True)
 class Result:
-    """The earliest contact. Before `t_lower` no points of two bodies are nearer than `gamma_clear`:
-    that is proved, whatever the verdict ("contact", "clear" or "undecided")."""
+    """The earliest contact from `t_start` to `t_end`. Before `t_lower` no points of two bodies are nearer
+    than `gamma_clear`: that is proved, whatever the verdict. `t`, `gap` (the distance of the two points),
+    `a` and `b` are None unless the verdict is "contact"; `normal` points from a to b."""
 
-    verdict: str
-    reason: Optional[str]
+    verdict: Verdict
+    reason: Optional[Reason]
     t: Optional[float]
     t_lower: float
     gap: Optional[float]
@@ -42,11 +54,13 @@ class Result:
     gamma_clear: float
     a: Optional[Side]
     b: Optional[Side]
-    normal: Optional[Tuple[float, float, float]]
+    normal: Optional[Vector]
     pairs: int
     seconds: float
+    t_start: float
+    t_end: float
     at_rest: bool = False  # contact of two surfaces that do not move: they overlap
-    bodies: Optional[Tuple[str, str]] = None  # of `solve_each`
+    bodies: Optional[Bodies] = None  # of `solve_each`, or those that touch
 
     def time_left(self, t: float) -> float:
         """Time left from t until contact; negative when that is past, infinite when clear."""
@@ -69,43 +83,75 @@ class Progress:
 @dataclass(frozen=True)
 class Clearance:
     """The minimum distance from `t_start` to `t_end`: proved to be at least `lower`, and evaluated to
-    be at most `upper` at the witness `t`, `a`, `b`. With a required distance, `verdict` is "holds",
-    "violated" or "undecided"; with `reason` "decided" the bracket is as it was when that was
-    known."""
+    be at most `upper` at the witness `t`, `a`, `b` (None: nothing was evaluated). With a required
+    distance, `verdict` tells whether it is kept; with `reason` "decided" the bracket is as it was when
+    that was known. `bodies` are those of the witness, or those that were asked about. `t_violated` is the
+    earliest violation, at the points `a_violated` and `b_violated`, which are `gap_violated` apart."""
 
     lower: float
     upper: float
     t: Optional[float]
     a: Optional[Side]
     b: Optional[Side]
-    normal: Optional[Tuple[float, float, float]]
-    verdict: Optional[str]
+    normal: Optional[Vector]
+    verdict: Optional[Requirement]
     required: Optional[float]
     t_violated: Optional[float]
     t_start: float
     t_end: float
-    bodies: Optional[Tuple[str, str]]
-    reason: Optional[str]
+    bodies: Optional[Bodies]
+    reason: Optional[Reason]
     pairs: int
+    gap_violated: Optional[float] = None
+    a_violated: Optional[Side] = None
+    b_violated: Optional[Side] = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Profile:
-    """Clearance over slices of time, as arrays of one number for each slice."""
+    """Clearance over slices of time, one element for each slice: it begins at `t0` and ends at `t1`; the
+    bracket `lower`, `upper`; the time `t` of the witness (NaN: none) and its two bodies (None: none); the
+    verdict about a required distance."""
 
-    t0: numpy.ndarray
-    t1: numpy.ndarray
-    lower: numpy.ndarray
-    upper: numpy.ndarray
-    verdict: Tuple[Optional[str], ...]
+    t0: Floats
+    t1: Floats
+    lower: Floats
+    upper: Floats
+    t: Floats
+    bodies: Tuple[Optional[Bodies], ...]
+    verdict: Tuple[Optional[Requirement], ...]
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Profile):
+            return NotImplemented
+        return all(_same(getattr(self, field.name), getattr(other, field.name))
+                   for field in fields(self))
+
+    __hash__ = None  # type: ignore[assignment]  # arrays can be changed
+
+    def __len__(self) -> int:
+        return len(self.t0)
+
+
+def _same(x: object, y: object) -> bool:
+    if isinstance(x, numpy.ndarray) and isinstance(y, numpy.ndarray):
+        return numpy.array_equal(x, y, equal_nan=True)
+    return bool(x == y)
+
+
+# --- From the structs of C -------------------------------------------------------------------
 
 
 def _number(x: float) -> Optional[float]:
     return None if x != x else x
 
 
+def _vector(v: "c.Array[c.c_double]") -> Vector:
+    return v[0], v[1], v[2]
+
+
 def _side(names: Tuple[str, ...], side: lib.Side) -> Side:
-    return Side(names[side.body], side.surface, side.piece, side.u, side.v, tuple(side.point))
+    return Side(names[side.body], side.surface, side.piece, side.u, side.v, _vector(side.point))
 
 
 def progress_of(r: lib.Result, bracket: Optional[lib.Clearance]) -> Progress:
@@ -118,25 +164,64 @@ def progress_of(r: lib.Result, bracket: Optional[lib.Clearance]) -> Progress:
 def result_of(names: Tuple[str, ...], r: lib.Result,
               pair: Optional[Tuple[int, int]] = None) -> Result:
     """From the C struct; `names` are those of the bodies."""
-    contact = _VERDICTS[r.verdict] == "contact"
+    contact = r.verdict == lib.CONTACT
+    if pair is None and contact:
+        pair = (r.a.body, r.b.body)
     return Result(
         verdict=_VERDICTS[r.verdict], reason=_REASONS[r.reason], t=_number(r.t),
         t_lower=r.t_lower, gap=_number(r.gap), gamma=r.gamma, gamma_clear=r.gamma_clear,
         a=_side(names, r.a) if contact else None, b=_side(names, r.b) if contact else None,
-        normal=tuple(r.normal) if r.has_normal else None, pairs=r.stats.pairs,
-        seconds=r.stats.seconds, at_rest=r.at_rest,
+        normal=_vector(r.normal) if r.has_normal else None, pairs=r.stats.pairs,
+        seconds=r.stats.seconds, t_start=r.t_start, t_end=r.t_end, at_rest=r.at_rest,
         bodies=(names[pair[0]], names[pair[1]]) if pair is not None else None)
 
 
 def clearance_of(names: Tuple[str, ...], k: lib.Clearance) -> Clearance:
     """From the C struct; `names` are those of the bodies."""
-    pair = k.body[0] < len(names) and k.body[1] < len(names)
+    violated = k.t_violated == k.t_violated
+    pair = (k.a.body, k.b.body) if k.has_witness else (k.body[0], k.body[1])
+    known = pair[0] < len(names) and pair[1] < len(names)
     return Clearance(
         lower=k.lower, upper=k.upper, t=_number(k.t),
         a=_side(names, k.a) if k.has_witness else None,
         b=_side(names, k.b) if k.has_witness else None,
-        normal=tuple(k.normal) if k.has_normal else None, verdict=_REQUIREMENTS[k.verdict],
+        normal=_vector(k.normal) if k.has_normal else None, verdict=_REQUIREMENTS[k.verdict],
         required=k.required if k.required > 0 else None, t_violated=_number(k.t_violated),
         t_start=k.t_start, t_end=k.t_end,
-        bodies=(names[k.body[0]], names[k.body[1]]) if pair else None, reason=_REASONS[k.reason],
-        pairs=k.stats.pairs)
+        bodies=(names[pair[0]], names[pair[1]]) if known else None, reason=_REASONS[k.reason],
+        pairs=k.stats.pairs, gap_violated=_number(k.gap_violated) if violated else None,
+        a_violated=_side(names, k.a_violated) if violated else None,
+        b_violated=_side(names, k.b_violated) if violated else None)
+
+
+_COLUMNS = ("t_start", "t_end", "lower", "upper", "t")
+
+
+def profile_of(names: Tuple[str, ...], chunks: Iterable["NDArray[numpy.void]"]) -> Profile:
+    """From the C structs of its slices, as structured arrays."""
+    columns: List[List[Floats]] = [[] for _ in _COLUMNS]
+    bodies: List[Optional[Bodies]] = []
+    verdicts: List[Optional[Requirement]] = []
+    for chunk in chunks:
+        for column, name in zip(columns, _COLUMNS):
+            column.append(chunk[name].copy())
+        pairs = zip(chunk["has_witness"].tolist(), chunk["a"]["body"].tolist(),
+                    chunk["b"]["body"].tolist())
+        bodies += [(names[a], names[b]) if found else None for found, a, b in pairs]
+        verdicts += [_REQUIREMENTS[verdict] for verdict in chunk["verdict"].tolist()]
+    t0, t1, lower, upper, t = (numpy.concatenate(column) for column in columns)
+    return Profile(t0, t1, lower, upper, t, tuple(bodies), tuple(verdicts))
+
+
+def clearance_without_part(names: Tuple[str, ...], whole: lib.Result, pair: Tuple[int, int],
+                           required: Optional[float]) -> Clearance:
+    """Of two bodies that are never both there; or, where a limit came before anything was searched, of
+    any two. `whole` is what is known of the divided question."""
+    ended = whole.verdict not in (lib.CLEAR, lib.CONTACT)
+    verdict: Requirement = "undecided" if ended else "holds"
+    return Clearance(
+        lower=0.0 if ended else float("inf"), upper=float("inf"), t=None, a=None, b=None, normal=None,
+        verdict=verdict if required is not None else None, required=required,
+        t_violated=None, t_start=whole.t_start, t_end=whole.t_end,
+        bodies=(names[pair[0]], names[pair[1]]), reason=_REASONS[whole.reason] if ended else "no-time",
+        pairs=0)

@@ -5,98 +5,157 @@
 
 import ctypes as c
 import os
-import threading
-import weakref
-from collections import deque
-from concurrent.futures import ThreadPoolExecutor
-from numbers import Real
-from typing import Any, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Type, TypeVar, cast
 
 import numpy
 
+from . import _document as document
+from . import _files
 from . import _library as lib
+from . import _values as values
+from ._handle import Handle, from_text
+from ._parts import Parts
+from ._query import ProgressSink, Query, Settings, Wanted
+from ._registry import Registry
 from .errors import UsageError, check
-from .query import ProgressSink, Query
-from .registry import Registry
-from .results import Clearance, Profile, Result, clearance_of, result_of
+from .results import Clearance, Profile, Result, clearance_of, profile_of, result_of
+
+AnyScene = TypeVar("AnyScene", bound="Scene")
 
 
 class Scene:
-    """Bodies in motion. Make one by `Scene.from_file`, `Scene.from_json`, `Scene.from_pair` or a
-    `Builder`. Several threads may ask one scene at once; the interpreter's lock is released.
+    """Bodies in motion: of a scene file, `Scene(path)`, or made by `Scene.from_json`, `Scene.from_pair` or
+    a `Builder`. Several threads may ask one scene at once; the interpreter's lock is released. Copies share
+    what they know; pickle writes the scene's text.
 
     All questions take `time=(start, end)`, budgets (`max_pairs`, `max_seconds`, `max_bytes`), which
-    end them as "undecided", and `progress`: a function that is called with a `Progress` about ten
-    times a second, and ends the question, as "undecided", by returning False. An exception that it
-    raises, or Ctrl-C, ends the question."""
+    end them as "undecided", `audit=True`, which holds what plugins claim against points of them, and
+    `progress`: a function that is called with a `Progress` about ten times a second, and ends the
+    question, as "undecided", by returning False. An exception that it raises, or Ctrl-C, ends the
+    question. Wrong arguments are a `UsageError`, which names them."""
 
-    def __init__(self, handle: int):
-        self.handle = handle
-        self._finalizer = weakref.finalize(self, lib.library.imp_scene_free, handle)
-        count = lib.library.imp_scene_body_count(handle)
-        self.bodies: Tuple[str, ...] = tuple(
-            lib.library.imp_scene_body_name(handle, k).decode() for k in range(count))
+    bodies: Tuple[str, ...]
+
+    def __init__(self, path: values.Path):
+        name = values.path("path", path)
+        self._begin_text(_files.read(name), name)
+
+    def _begin(self, handle: Handle) -> None:
+        self._handle = handle
+        self.bodies = handle.names()
+
+    def _begin_text(self, data: bytes, name: str) -> None:
+        """As the text says; relative names of files begin at the folder of `name`."""
+        folder = os.path.dirname(os.path.abspath(name))
+        address = from_text(data, os.fsencode(name))
+        self._begin(Handle(address, lambda: document.from_text(data, folder)))
 
     @classmethod
-    def made(cls, handle: Optional[int], error: lib.Error) -> "Scene":
-        """Of what the library answers; for the module itself."""
-        if not handle:
+    def _made(cls: Type[AnyScene], handle: Handle) -> AnyScene:
+        scene = cls.__new__(cls)
+        scene._begin(handle)
+        return scene
+
+    @classmethod
+    def from_file(cls: Type[AnyScene], path: values.Path) -> AnyScene:
+        """A scene file, as by `Scene(path)`."""
+        name = values.path("path", path)
+        return cls._from_text(_files.read(name), name)
+
+    @classmethod
+    def _from_text(cls: Type[AnyScene], data: bytes, name: str) -> AnyScene:
+        scene = cls.__new__(cls)
+        scene._begin_text(data, name)
+        return scene
+
+    @classmethod
+    def from_json(cls: Type[AnyScene], text: str, name: str = "scene") -> AnyScene:
+        """The text of a scene file. `name` stands for it in errors; relative names of files begin at its
+        folder."""
+        return cls._from_text(values.text("text", text), values.path("name", name))
+
+    @classmethod
+    def from_pair(cls: Type[AnyScene], a: str, b: str) -> AnyScene:
+        """Bodies "a" and "b" of two pipelines, "TYPE name=value ... ! MAP name=value ..."."""
+        lines, error, folder = (values.text("a", a), values.text("b", b)), lib.Error(), os.getcwd()
+        address = lib.library.imp_scene_from_pair(Registry.handle(), *lines, c.byref(error))
+        if not address:
             check(error.code, error)
-        return cls(handle)
+        return cls._made(Handle(address, lambda: _pair_document(lines, folder)))
 
-    @classmethod
-    def from_file(cls, path: Union[str, os.PathLike]) -> "Scene":
-        """A scene file."""
-        error = lib.Error()
-        handle = lib.library.imp_scene_from_file(Registry.handle(), os.fsencode(path),
-                                                 c.byref(error))
-        return cls.made(handle, error)
+    # --- Copies and texts ---------------------------------------------------------------------
 
-    @classmethod
-    def from_json(cls, text: str, name: str = "scene") -> "Scene":
-        """The text of a scene file; relative names of files begin at the folder of `name`."""
-        data, error = text.encode(), lib.Error()
-        handle = lib.library.imp_scene_from_json(Registry.handle(), data, len(data),
-                                                 name.encode(), c.byref(error))
-        return cls.made(handle, error)
+    def to_json(self) -> str:
+        """The text of a scene file, on one line, that makes this scene wherever it is read: names of files
+        in it are absolute."""
+        return self._handle.text()
 
-    @classmethod
-    def from_pair(cls, a: str, b: str) -> "Scene":
-        """Two pipelines, "TYPE name=value ... ! MAP name=value ..."."""
-        error = lib.Error()
-        handle = lib.library.imp_scene_from_pair(Registry.handle(), a.encode(), b.encode(),
-                                                 c.byref(error))
-        return cls.made(handle, error)
+    def save(self, path: values.Path) -> None:
+        """Writes a scene file that makes this scene: lines for people, names of files absolute."""
+        _files.write(values.path("path", path), document.to_pretty_text(self._handle.document()).encode())
 
     def __repr__(self) -> str:
         return f"Scene(bodies={self.bodies!r})"
 
-    def eval(self, body: str, surface: int, points: Any) -> numpy.ndarray:
+    def __copy__(self: AnyScene) -> AnyScene:
+        copied = type(self).__new__(type(self))
+        copied.__dict__.update(self.__dict__)
+        return copied
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "_handle": self.to_json()}
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._begin_text(cast(str, state["_handle"]).encode(), "pickled scene")
+
+    def __deepcopy__(self: AnyScene, memo: Any) -> AnyScene:
+        return self.__copy__()
+
+    # --- Points -----------------------------------------------------------------------------------
+
+    def _index(self, body: str) -> int:
+        if not isinstance(body, str) or body not in self.bodies:
+            raise values.refuse("body", body, f"one of {', '.join(self.bodies)}")
+        return self.bodies.index(body)
+
+    def eval(self, body: str, surface: int, points: Any) -> values.Floats:
         """Points of one surface, its maps applied: from rows of (u, v, t) to rows of (x, y, z)."""
-        if body not in self.bodies:
-            raise UsageError(f"body: got {body!r}, must be one of {', '.join(self.bodies)}")
-        p = numpy.ascontiguousarray(points, dtype=numpy.float64).reshape(-1, 3)
+        index = self._index(body)
+        count = lib.library.imp_scene_surface_count(self._handle.address, index)
+        if values.count("surface", surface) >= count:
+            raise UsageError(f"surface: got {surface}, body {body!r} has {count}, counted from 0")
+        p = values.rows("points", points, ("u", "v", "t"))
         x, error = numpy.empty_like(p), lib.Error()
-        check(lib.library.imp_scene_eval(self.handle, self.bodies.index(body), surface, len(p),
+        check(lib.library.imp_scene_eval(self._handle.address, index, int(surface), len(p),
                                          p.ctypes.data, x.ctypes.data, None, c.byref(error)), error)
         return x
 
     # --- The earliest contact ----------------------------------------------------------------
 
     def solve(self, *, time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
-              clearance: Optional[float] = None, progress: Optional[ProgressSink] = None,
-              **budgets: float) -> Result:
-        """The earliest contact over the scene's time, or `time`."""
-        with Query(self, time, progress, gamma=gamma, clearance=clearance, **budgets) as query:
+              gamma_clear: Optional[float] = None, max_pairs: Optional[int] = None,
+              max_seconds: Optional[float] = None, max_bytes: Optional[int] = None,
+              audit: Optional[bool] = None, progress: Optional[ProgressSink] = None) -> Result:
+        """The earliest contact over the scene's time, or `time`: two points no farther apart than `gamma`.
+        Nothing nearer than `gamma_clear` is missed."""
+        settings = Settings(time, gamma, gamma_clear, max_pairs, max_seconds, max_bytes, audit, progress)
+        with Query(self._handle, settings) as query:
             return result_of(self.bodies, query.step())
 
     def solve_each(self, *, time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
-                   clearance: Optional[float] = None, progress: Optional[ProgressSink] = None,
-                   **budgets: float) -> Iterator[Result]:
+                   gamma_clear: Optional[float] = None, max_pairs: Optional[int] = None,
+                   max_seconds: Optional[float] = None, max_bytes: Optional[int] = None,
+                   audit: Optional[bool] = None,
+                   progress: Optional[ProgressSink] = None) -> Iterator[Result]:
         """The first contact of each pair of bodies, in order of time, each as soon as it is proved; then
         a clear result for each pair that never touches. Where a budget ends the search the last result is
         "undecided", and has no `bodies`."""
-        with Query(self, time, progress, gamma=gamma, clearance=clearance, **budgets) as query:
+        settings = Settings(time, gamma, gamma_clear, max_pairs, max_seconds, max_bytes, audit, progress)
+        return self._solve_each(Query(self._handle, settings))
+
+    def _solve_each(self, opened: Query) -> Iterator[Result]:
+        with opened as query:
             answer = query.step()
             met = set()
             while answer.verdict == lib.CONTACT or answer.reason == lib.RESOLUTION:
@@ -113,81 +172,78 @@ class Scene:
                     yield result_of(self.bodies, answer, pair)
 
     def refine(self, gammas: Iterable[float], *, time: Optional[Sequence[float]] = None,
-               progress: Optional[ProgressSink] = None, **budgets: float) -> Iterator[Result]:
+               max_pairs: Optional[int] = None, max_seconds: Optional[float] = None,
+               max_bytes: Optional[int] = None, audit: Optional[bool] = None,
+               progress: Optional[ProgressSink] = None) -> Iterator[Result]:
         """The earliest contact at each gamma, the widest first, from one search."""
-        widest_first = sorted(gammas, reverse=True)
+        widest_first = sorted((values.number("gammas", gamma) for gamma in gammas), reverse=True)
         if not widest_first:
-            return
-        with Query(self, time, progress, gamma=widest_first[0], **budgets) as query:
+            return iter(())
+        settings = Settings(time, widest_first[0], None, max_pairs, max_seconds, max_bytes, audit,
+                            progress)
+        return self._refine(Query(self._handle, settings), widest_first[1:])
+
+    def _refine(self, opened: Query, finer: List[float]) -> Iterator[Result]:
+        with opened as query:
             yield result_of(self.bodies, query.step())
-            for gamma in widest_first[1:]:
+            for gamma in finer:
                 query.refine(gamma)
                 yield result_of(self.bodies, query.step())
 
     def _pairs(self) -> Iterator[Tuple[int, int]]:
         for a in range(len(self.bodies)):
             for b in range(a + 1, len(self.bodies)):
-                if not lib.library.imp_scene_ignores(self.handle, a, b):
+                if not lib.library.imp_scene_ignores(self._handle.address, a, b):
                     yield a, b
 
     # --- Clearance ------------------------------------------------------------------------------
 
-    def _clearances(self, asked: dict, time: Optional[Sequence[float]],
-                    progress: Optional[ProgressSink], budgets: dict) -> List[Clearance]:
-        required = asked.get("required")
-        if required is not None and not (isinstance(required, Real) and required > 0):
-            raise UsageError(f"required: got {required!r}, must be a number > 0")
-        with Query(self, time, progress, asked=asked, **budgets) as query:
-            query.step()
-            return [clearance_of(self.bodies, answer) for answer in query.clearances()]
-
     def clearance(self, *, required: Optional[float] = None, tolerance: Optional[float] = None,
-                  time: Optional[Sequence[float]] = None, progress: Optional[ProgressSink] = None,
-                  **budgets: float) -> Clearance:
+                  time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
+                  max_pairs: Optional[int] = None, max_seconds: Optional[float] = None,
+                  max_bytes: Optional[int] = None, audit: Optional[bool] = None,
+                  progress: Optional[ProgressSink] = None) -> Clearance:
         """The minimum distance of all bodies over the interval; is the `required` one kept? With
-        `required` and no `tolerance` the search ends as soon as that is known."""
-        asked = {"required": required, "tolerance": tolerance, "decide": tolerance is None}
-        return self._clearances(asked, time, progress, budgets)[0]
+        `required` and no `tolerance` the search ends as soon as that is known. Without, it ends when
+        upper - lower is at most `tolerance` (1e-3) times upper. At `gamma` bodies touch."""
+        settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress)
+        with Query(self._handle, settings, Wanted(required, tolerance)) as query:
+            query.step()
+            return clearance_of(self.bodies, query.clearance(0))
 
     def each(self, *, required: Optional[float] = None, tolerance: Optional[float] = None,
-             time: Optional[Sequence[float]] = None, progress: Optional[ProgressSink] = None,
-             **budgets: float) -> List[Clearance]:
-        """The clearance of every two bodies that do not ignore each other, the tightest first."""
-        asked = {"each": True, "required": required, "tolerance": tolerance,
-                 "decide": tolerance is None}
-        answers = self._clearances(asked, time, progress, budgets)
-        return sorted(answers, key=lambda answer: answer.upper)
+             time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
+             max_pairs: Optional[int] = None, max_seconds: Optional[float] = None,
+             max_bytes: Optional[int] = None, audit: Optional[bool] = None,
+             progress: Optional[ProgressSink] = None,
+             threads: Optional[int] = None) -> List[Clearance]:
+        """The clearance of every two bodies that do not ignore each other, the least `lower` first, found
+        by so many threads (all processors); the answers are the same for any number. `max_pairs` and
+        `max_bytes` hold for each pair of bodies, `max_seconds` for all."""
+        settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress)
+        with Query(self._handle, settings, Wanted(required, tolerance)) as query:
+            parts = Parts(query, self.bodies, required, progress)
+            answers = parts.answers(self._pairs(), values.threads(threads))
+        return sorted(answers, key=lambda answer: answer.lower)
 
     def profile(self, slices: int, *, required: Optional[float] = None,
                 tolerance: Optional[float] = None, time: Optional[Sequence[float]] = None,
-                progress: Optional[ProgressSink] = None, **budgets: float) -> Profile:
+                gamma: Optional[float] = None, max_pairs: Optional[int] = None,
+                max_seconds: Optional[float] = None, max_bytes: Optional[int] = None,
+                audit: Optional[bool] = None, progress: Optional[ProgressSink] = None) -> Profile:
         """The clearance in each of so many equal slices of time."""
-        asked = {"slices": slices, "required": required, "tolerance": tolerance}
-        answers = self._clearances(asked, time, progress, budgets)
-        columns = ([getattr(answer, name) for answer in answers]
-                   for name in ("t_start", "t_end", "lower", "upper"))
-        return Profile(*(numpy.array(column) for column in columns),
-                       tuple(answer.verdict for answer in answers))
+        settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress)
+        with Query(self._handle, settings, Wanted(required, tolerance, slices)) as query:
+            query.step()
+            return profile_of(self.bodies, query.chunks())
 
 
-def batch(scenes: Iterable[Scene], *, threads: Optional[int] = None,
-          **options: Any) -> Iterator[Result]:
-    """Solves scenes on so many threads (all processors); results in order, as they come. Of `scenes`
-    only as many are taken ahead as keep the threads busy. Closing the iterator, or Ctrl-C, ends the
-    questions that run."""
-    count = threads or os.cpu_count() or 1
-    ended = threading.Event()
-    with ThreadPoolExecutor(max_workers=count) as pool:
-        running: deque = deque()
-        try:
-            for scene in scenes:
-                running.append(pool.submit(scene.solve, **options,
-                                           progress=lambda _: not ended.is_set()))
-                if len(running) > 2 * count:
-                    yield running.popleft().result()
-            while running:
-                yield running.popleft().result()
-        finally:
-            ended.set()
-            for one in running:
-                one.cancel()
+def _pair_document(lines: Tuple[bytes, bytes], folder: str) -> document.Document:
+    error = lib.Error()
+    made = lib.library.imp_pair_to_json(Registry.handle(), *lines, c.byref(error))
+    if not made:
+        check(error.code, error)
+    try:
+        return document.from_text(c.string_at(made), folder)
+    finally:
+        lib.free(made)
