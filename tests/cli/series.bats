@@ -126,3 +126,47 @@ without_seconds() { sed -E 's/"seconds":[^,]*,//g'; }
     fails 2 "exclude each other" "$IMPINGE" solve scene.json --refine 1e-2 --each
     fails 2 "exclude each other" "$IMPINGE" solve scene.json --refine 1e-2 --gamma 1e-3
 }
+
+# spaced COUNT: a line of balls, neighbours far from each other.
+spaced() {
+    jq -nc --argjson n "$1" '{bodies: [range($n) | {surfaces: [{type: "sphere", center: [3 * ., 0, 0]}]}]}'
+}
+
+@test "pairs of bodies that a limit leaves out are one line with their count, and lines on request" {
+    spaced 2000 >spaced.json
+    run -3 "$IMPINGE" solve spaced.json --each --max-seconds 1e-9 --json
+    [ "${#lines[@]}" -eq 1 ]
+    valid result
+    json '.not_listed == {clear: 0, not_examined: 1999000} and .reason == "max-seconds"'
+    run -3 "$IMPINGE" solve spaced.json --each --max-seconds 1e-9
+    [ "$output" = "not examined: 1999000 pairs of bodies (the time limit is reached); --list-all lists them" ]
+    spaced 20 >few.json
+    run -3 "$IMPINGE" solve few.json --each --max-seconds 1e-9 --list-all --json
+    valid result
+    [ "${#lines[@]}" -eq 190 ]
+    jq -es 'all(.verdict == "undecided" and .reason == "max-seconds" and .t_lower == 0)' <<<"$output"
+    fails 2 '--list-all belongs to --each' "$IMPINGE" solve few.json --list-all
+}
+
+@test "lines that take longer than the limit end, and say how many are left" {
+    spaced 3000 >spaced.json
+    "$IMPINGE" solve spaced.json --each --max-seconds 1 --threads 1 --json >out
+    output=$(tail -n 1 out)
+    valid result
+    json '.not_listed.not_examined == 0 and .not_listed.clear > 0'
+    [ $(($(wc -l <out) - 1 + $(jq .not_listed.clear <<<"$output"))) -eq 4498500 ]
+}
+
+@test "a signal ends the output" {
+    spaced 3000 >spaced.json
+    mkfifo lines
+    "$IMPINGE" solve spaced.json --each --json >lines &
+    local pid=$! status=0
+    exec 8<lines
+    read -r line <&8
+    kill -TERM "$pid"
+    cat <&8 >rest
+    wait "$pid" || status=$?
+    tail -n 1 rest | jq -e '.reason == "cancelled" and .not_listed.clear > 0'
+    [ "$(wc -l <rest)" -lt 1000000 ]
+}

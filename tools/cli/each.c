@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/common/clock.h"
+#include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/query.h"
@@ -23,16 +25,26 @@ static void take(void *context, size_t index, imp_query *part)
     e->answers[index] = imp_query_result(part);
 }
 
+static bool is_over(void *context)
+{
+    const each *e = context;
+    return interrupt_came() || clock_seconds() >= e->until;
+}
+
 exit_status each_begin(each *e, imp_scene *scene, const arguments *args, size_t threads)
 {
     imp_error error = {0};
     imp_options options = query_options(scene, args);
     json_object_seed(0); /* before there are threads */
-    *e = (each){.args = args, .scene = scene, .crew = {threads}};
+    *e = (each){.args = args,
+                .scene = scene,
+                .crew = {threads},
+                .until = options.max_seconds > 0 ? clock_seconds() + options.max_seconds : INFINITY};
     query_lend_threads(&options, &e->crew);
     e->plan = (parts_plan){.whole = imp_query_new(scene, &options, &error),
                            .threads = threads,
                            .take = take,
+                           .is_over = is_over,
                            .context = e};
     if (e->plan.whole == NULL ||
         imp_query_divide(e->plan.whole, &e->plan.count, &error) != IMP_SUCCESS)
@@ -59,12 +71,14 @@ typedef struct timed {
 struct printing {
     each *e;
     bool json;
-    imp_result rest; /* of the divided query */
+    imp_result rest;    /* of the divided query */
+    imp_result unknown; /* of a part that was not examined */
     char **names;    /* of bodies, as JSON */
     char *head, *tail;
     size_t *waiting; /* parts whose answers have not come */
     timed *order;    /* answers that are not clear, by time; the first `shown` are printed */
     size_t waiting_count, count, shown, lines;
+    size_t clear, unexamined; /* pairs of bodies without a line */
     exit_status worst, status;
 };
 
@@ -165,7 +179,29 @@ static bool advance(void *context, double t_lower)
     return p->status == EXIT_ANSWERED;
 }
 
-/* Parts are in the order of the scene. */
+/* Whether lines are left out: with hundreds of millions of them output would take longer than the search.
+ * The clock is read now and then. */
+static bool is_cut(printing *p)
+{
+    enum { LINES_TO_LOOK = 256 };
+    if (p->clear == 0 && p->lines % LINES_TO_LOOK == 0 && is_over(p->e)) return true;
+    return p->clear > 0;
+}
+
+static exit_status print_or_count(printing *p, const imp_result *r, size_t a, size_t b)
+{
+    const bool is_listed = arguments_option(p->e->args, "list-all") != NULL && !interrupt_came();
+    if (is_listed) return print_line(p, r->struct_size > 0 ? r : &p->unknown, a, b);
+    if (r->struct_size == 0 || r->verdict == IMP_UNDECIDED)
+        p->unexamined += 1;
+    else if (is_cut(p))
+        p->clear += 1;
+    else
+        return print_line(p, r, a, b);
+    return EXIT_ANSWERED;
+}
+
+/* Parts are in the order of the scene. Those without an answer were not examined. */
 static exit_status print_clear(printing *p)
 {
     const each *e = p->e;
@@ -178,10 +214,36 @@ static exit_status print_clear(printing *p)
                 imp_query_part_bodies(e->plan.whole, part, of) && of[0] == a && of[1] == b;
             const imp_result *r = is_part ? &e->answers[part] : &p->rest;
             part += is_part;
-            if (is_part ? r->verdict == IMP_CLEAR : !imp_scene_ignores(e->scene, a, b))
-                status = print_line(p, r, a, b);
+            if (is_part ? r->struct_size == 0 || r->verdict == IMP_CLEAR
+                        : !imp_scene_ignores(e->scene, a, b))
+                status = print_or_count(p, r, a, b);
         }
     return status;
+}
+
+static imp_reason reason_of_cut(const printing *p)
+{
+    if (interrupt_came()) return IMP_REASON_CANCELLED;
+    return p->rest.verdict == IMP_UNDECIDED ? p->rest.reason : IMP_REASON_SECONDS;
+}
+
+/* One line for all pairs of bodies that have none. */
+static exit_status print_counts(printing *p)
+{
+    const imp_reason reason = reason_of_cut(p);
+    if (p->clear + p->unexamined == 0) return EXIT_ANSWERED;
+    if (p->unexamined > 0 && p->worst < EXIT_UNDECIDED) p->worst = EXIT_UNDECIDED;
+    if (p->json)
+        return output_json(json_pack("{s:{s:I, s:I}, s:o}", "not_listed", "clear",
+                                     (json_int_t)p->clear, "not_examined",
+                                     (json_int_t)p->unexamined, "reason",
+                                     result_reason_json(reason)),
+                           p->e->args->verb->name);
+    if (p->clear > 0) printf("clear, and not listed: %zu pairs of bodies\n", p->clear);
+    if (p->unexamined > 0)
+        printf("not examined: %zu pairs of bodies (%s); --list-all lists them\n", p->unexamined,
+               result_excuse(reason).why);
+    return EXIT_ANSWERED;
 }
 
 /* --- All -------------------------------------------------------------------------------------- */
@@ -221,6 +283,10 @@ static exit_status printing_begin(printing *p, each *e)
                     .waiting = calloc(e->plan.count + 1, sizeof *p->waiting),
                     .order = calloc(e->plan.count + 1, sizeof *p->order)};
     e->printing = p;
+    p->unknown = p->rest;
+    p->unknown.verdict = IMP_UNDECIDED;
+    p->unknown.reason = interrupt_came() ? IMP_REASON_CANCELLED : IMP_REASON_SECONDS;
+    p->unknown.t_lower = p->rest.t_start;
     if (p->waiting == NULL || p->order == NULL || (p->json && !prepare_json(p)))
         return complain_of_memory(e->args->verb->name);
     for (; p->waiting_count < e->plan.count; ++p->waiting_count)
@@ -233,6 +299,7 @@ static exit_status print_rest(printing *p)
 {
     advance(p->e, INFINITY);
     if (p->status == EXIT_ANSWERED) p->status = print_clear(p);
+    if (p->status == EXIT_ANSWERED) p->status = print_counts(p);
     if (p->status == EXIT_ANSWERED) p->status = output_flush(p->e->args->verb->name);
     return p->status != EXIT_ANSWERED ? p->status : p->worst;
 }

@@ -11,14 +11,16 @@
  * ==================================================
  * What is not clear comes in order of time, then by the bodies' places in the scene; what is clear
  * follows in the order of the scene. Bodies that the broad phase parts have the answer of the divided
- * query. */
+ * query. Pairs of bodies that were not examined, or not listed, when a limit or a signal came are counted in
+ * one last line. */
 
 typedef struct printing printing;
 
 typedef struct each {
     const arguments *args;
     const imp_scene *scene;
-    crew crew; /* threads that the query is divided by */
+    crew crew;    /* threads that the query is divided by */
+    double until; /* seconds of the clock: the limit of time; INFINITY: none */
     parts_plan plan;
     imp_result *answers; /* of the parts; all bytes 0: not there yet */
     printing *printing;  /* while it lasts */

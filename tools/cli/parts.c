@@ -45,6 +45,8 @@ typedef struct turn {
 static imp_code take_turn(const parts_plan *plan, open_part *part, imp_error *error)
 {
     enum { PAIRS_A_TURN = 2000 };
+    if (part->query == NULL && plan->is_over != NULL && plan->is_over(plan->context))
+        return IMP_SUCCESS;
     if (part->query == NULL) part->query = imp_query_part(plan->whole, part->index, error);
     if (part->query == NULL) return error->code;
     if (interrupt_came()) imp_query_cancel(part->query);

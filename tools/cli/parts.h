@@ -21,6 +21,9 @@ typedef struct parts_plan {
     /* Called as the search goes on, no take being under way: parts whose answers are not taken yet are
      * proved clear before t_lower. False: stop. May be NULL. [one thread] */
     bool (*advance)(void *context, double t_lower);
+    /* Whether parts that have not begun are left out from now on, without an answer: a limit of all parts is
+     * reached. May be NULL. [any of the threads] */
+    bool (*is_over)(void *context);
     void *context;
 } parts_plan;
 

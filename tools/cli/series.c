@@ -14,6 +14,8 @@
 
 const option options_series[] = {
     {.name = "each", .help = "print the first contact of each pair of bodies, in order of time"},
+    {.name = "list-all",
+     .help = "with --each: a line for each pair of bodies, also those that were not examined"},
     {.name = "threads",
      .kind = OPTION_COUNT,
      .argument = "N",
@@ -42,6 +44,8 @@ exit_status series_check(const arguments *args)
     const char *speaker = args->verb->name;
     const option_value *refine = arguments_option(args, "refine");
     const bool each = arguments_option(args, "each") != NULL;
+    if (!each && arguments_option(args, "list-all") != NULL)
+        return complain(EXIT_USAGE, speaker, "--list-all belongs to --each");
     if (refine == NULL) return EXIT_ANSWERED;
     if (each) return complain(EXIT_USAGE, speaker, "--each and --refine exclude each other");
     const char *const excluded[] = {"gamma", "clearance"};
