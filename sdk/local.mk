@@ -50,11 +50,13 @@ sdk_folders = $(templatedir) $(examplesdir) $(sdkdocdir) $(hostexamplesdir) $(do
 python_module = \
     sdk/python/impinge/__init__.py \
     sdk/python/impinge/_arguments.py \
+    sdk/python/impinge/_command.py \
     sdk/python/impinge/_document.py \
     sdk/python/impinge/_files.py \
     sdk/python/impinge/_find.py \
     sdk/python/impinge/_handle.py \
     sdk/python/impinge/_library.py \
+    sdk/python/impinge/_mesh.py \
     sdk/python/impinge/_parts.py \
     sdk/python/impinge/_query.py \
     sdk/python/impinge/_registry.py \
@@ -62,6 +64,8 @@ python_module = \
     sdk/python/impinge/batching.py \
     sdk/python/impinge/builder.py \
     sdk/python/impinge/errors.py \
+    sdk/python/impinge/motions.py \
+    sdk/python/impinge/pictures.py \
     sdk/python/impinge/py.typed \
     sdk/python/impinge/results.py \
     sdk/python/impinge/scene.py

@@ -649,6 +649,7 @@ EXTRA_DIST += \
     tests/python/support.py \
     tests/python/test_hostile.py \
     tests/python/test_impinge.py \
+    tests/python/test_pictures.py \
     tests/python/test_text.py \
     tests/python/typed.py
 EXTRA_DIST += $(bats_suites) $(script_suites) tests/support/include_order tests/support/cli_helper.bash \

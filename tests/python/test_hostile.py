@@ -58,6 +58,7 @@ CALLS = {
     "clearance": (scene.clearance, {}),
     "each": (scene.each, {}),
     "profile": (scene.profile, {"slices": 3}),
+    "mesh": (scene.mesh, {"body": "wall"}),
     "batch": (impinge.batch, {"scenes": [scene]}),
     "Builder": (impinge.Builder, {}),
     "Builder.body": (lambda **given: flying().body(**given), {}),

@@ -11,16 +11,19 @@
 
 from . import _library
 from .batching import batch
+from ._mesh import Mesh
 from .builder import Body, Builder
 from .errors import FileError, ImpingeError, PluginError, SceneError, UsageError
+from .motions import Motion, simulate
+from .pictures import Picture
 from .results import Clearance, Profile, Progress, Result, Side
 from .scene import Scene
 
 __version__ = "0.1.0"
 
-__all__ = ["Body", "Builder", "Clearance", "FileError", "ImpingeError", "PluginError", "Profile",
-           "Progress", "Result", "Scene", "SceneError", "Side", "UsageError",
-           "__version__", "batch", "version"]
+__all__ = ["Body", "Builder", "Clearance", "FileError", "ImpingeError", "Mesh", "Motion", "Picture",
+           "PluginError", "Profile", "Progress", "Result", "Scene", "SceneError", "Side", "UsageError",
+           "__version__", "batch", "simulate", "version"]
 
 
 def version() -> str:

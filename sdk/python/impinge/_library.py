@@ -61,6 +61,10 @@ class Side(c.Structure):
     ]
 
 
+class Place(c.Structure):
+    _fields_ = [("body", c.c_size_t), ("surface", c.c_size_t), ("piece", c.c_size_t)]
+
+
 class Stats(c.Structure):
     _fields_ = [
         ("seconds", c.c_double),
@@ -198,6 +202,9 @@ _FUNCTIONS = {
     "imp_scene_body_name": (_S, _P, _N),
     "imp_scene_surface_count": (_N, _P, _N),
     "imp_scene_eval": (c.c_int, _P, _N, _N, _N, _P, _P, _P, _E),
+    "imp_scene_piece_count": (_N, _P, _N, _N),
+    "imp_piece_eval": (c.c_int, _P, Place, _N, _P, _P, _P, _E),
+    "imp_piece_domain": (None, _P, Place, _P, _P),
     "imp_builder_new": (_P, _P),
     "imp_builder_free": (None, _P),
     "imp_builder_time": (c.c_int, _P, _D, _D, _E),

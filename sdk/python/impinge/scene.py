@@ -12,12 +12,14 @@ import numpy
 from . import _document as document
 from . import _files
 from . import _library as lib
+from . import _mesh
 from . import _values as values
 from ._handle import Handle, from_text
 from ._parts import Parts
 from ._query import ProgressSink, Query, Settings, Wanted
 from ._registry import Registry
 from .errors import UsageError, check
+from .pictures import Format, Picture, draw
 from .results import Clearance, Profile, Result, clearance_of, profile_of, result_of
 
 AnyScene = TypeVar("AnyScene", bound="Scene")
@@ -130,6 +132,43 @@ class Scene:
         check(lib.library.imp_scene_eval(self._handle.address, index, int(surface), len(p),
                                          p.ctypes.data, x.ctypes.data, None, c.byref(error)), error)
         return x
+
+    def mesh(self, body: str, t: Optional[float] = None, *,
+             tolerance: Optional[float] = None) -> _mesh.Mesh:
+        """A body at time t (the scene's first) as triangles, for matplotlib and others: surfaces bend away
+        from them by about `tolerance` (a thousandth of the body's size). What does not exist then is left
+        out."""
+        index = self._index(body)
+        if t is None:
+            options, error = lib.Options(struct_size=c.sizeof(lib.Options)), lib.Error()
+            check(lib.library.imp_options_read(self._handle.address, c.byref(options), c.byref(error)),
+                  error)
+            t = options.t_start
+        if tolerance is not None and not values.number("tolerance", tolerance) > 0:
+            raise values.refuse("tolerance", tolerance, "a length > 0")
+        return _mesh.make(self._handle, index, values.number("t", t), tolerance)
+
+    def view(self, path: Optional[values.Path] = None, *, format: Format = "png",
+             width: Optional[int] = None, height: Optional[int] = None,
+             azimuth: Optional[float] = None, elevation: Optional[float] = None,
+             zoom: Optional[float] = None, at: Optional[float] = None,
+             tolerance: Optional[float] = None, frames: Optional[int] = None,
+             time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
+             max_seconds: Optional[float] = None) -> Optional[Picture]:
+        """Draws the scene by the command `impinge view`, whose options these are: a `Picture`, which
+        notebooks show, or the file `path` (.png, .svg, .html, .glb, .obj, .vtu, .pvd), and None."""
+        return draw("view", self.to_json(), path, format,
+                    {"width": width, "height": height, "azimuth": azimuth, "elevation": elevation,
+                     "zoom": zoom, "at": at, "tolerance": tolerance, "frames": frames, "time": time,
+                     "gamma": gamma, "max_seconds": max_seconds})
+
+    def plot(self, path: Optional[values.Path] = None, *, format: Format = "png",
+             slices: Optional[int] = None, time: Optional[Sequence[float]] = None,
+             gamma: Optional[float] = None, max_seconds: Optional[float] = None) -> Optional[Picture]:
+        """Plots the least distance over time by the command `impinge plot`: a `Picture`, or the file `path`
+        (.png, .svg), and None."""
+        return draw("plot", self.to_json(), path, format,
+                    {"slices": slices, "time": time, "gamma": gamma, "max_seconds": max_seconds})
 
     # --- The earliest contact ----------------------------------------------------------------
 
