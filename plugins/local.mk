@@ -138,6 +138,8 @@ plugins_libcommon_la_SOURCES = \
     plugins/common/axis.c plugins/common/axis.h \
     plugins/common/course.c plugins/common/course.h \
     plugins/common/csv.c plugins/common/csv.h \
+    plugins/common/csv_cell.c plugins/common/csv_cell.h \
+    plugins/common/units.c plugins/common/units.h \
     plugins/common/keys.c plugins/common/keys.h \
     plugins/common/linear.c plugins/common/linear.h \
     plugins/common/sinc.c plugins/common/sinc.h \

@@ -177,6 +177,7 @@ bats_suites = \
     tests/cli/simulate.bats \
     tests/cli/simulate_scenes.bats \
     tests/cli/subdivision.bats \
+    tests/cli/tables.bats \
     tests/cli/times.bats \
     tests/cli/plot.bats \
     tests/cli/progress.bats \
@@ -466,6 +467,7 @@ EXTRA_DIST += \
     tests/fuzz/csv.d/empty \
     tests/fuzz/csv.d/few \
     tests/fuzz/csv.d/long_number \
+    tests/fuzz/csv.d/mark \
     tests/fuzz/csv.d/nul \
     tests/fuzz/csv.d/old_line_ends \
     tests/fuzz/csv.d/overflow \

@@ -12,84 +12,173 @@ void course_clear(course *c) { free(c->memory); }
 
 /* --- Making one ------------------------------------------------------------------------------ */
 
-/* Exactly one of rate, coefficients, times with values, and file. */
-static imp_status course_check(const imp_value *values, int first, imp_create_error *why,
-                               const imp_parameter *rows)
+/* What course_read is asked for. */
+typedef struct course_question {
+    const imp_value *v; /* those of the course */
+    int first;          /* row of the type's table that v begins with */
+    unit_kind kind;
+    imp_create_error *why;
+    const imp_parameter *rows;
+} course_question;
+
+static size_t width_of(const course_question *q) { return q->kind == UNIT_ANGLE ? 1 : 3; }
+
+/* A unit belongs to a table of angles, or to a file of lengths. */
+static imp_status course_check_unit(const course_question *q, int given)
 {
-    const imp_value *v = values + first;
+    const imp_value *u = &q->v[COURSE_UNIT];
+    const bool angle = q->kind == UNIT_ANGLE, asked = angle ? u->number[0] != 0 : imp_is_given(u);
+    if (!asked || given == COURSE_FILE || (angle && given == COURSE_TIMES)) return IMP_OK;
+    return imp_reject(q->why, q->first + COURSE_UNIT, -1, "belongs to a %s, which is missing",
+                      angle ? "table" : "file");
+}
+
+/* Exactly one of rate, coefficients, times with values, and file. */
+static imp_status course_check(const course_question *q)
+{
+    const imp_value *v = q->v;
+    const imp_parameter *rows = q->rows + q->first;
     static const int forms[] = {COURSE_RATE, COURSE_COEFFICIENTS, COURSE_TIMES, COURSE_FILE};
     int given = -1;
     for (int k = 0; k < 4; ++k) {
         if (!imp_is_given(&v[forms[k]])) continue;
         if (given >= 0)
-            return imp_reject(why, first + forms[k], -1,
+            return imp_reject(q->why, q->first + forms[k], -1,
                               "given beside %s, but only one of the two can hold",
-                              rows[first + given].name);
+                              rows[given].name);
         given = forms[k];
     }
     if (given < 0)
-        return imp_reject(why, -1, -1, "neither %s nor %s nor times nor file is given; give one",
-                          rows[first + COURSE_RATE].name, rows[first + COURSE_COEFFICIENTS].name);
+        return imp_reject(q->why, -1, -1, "neither %s nor %s nor times nor file is given; give one",
+                          rows[COURSE_RATE].name, rows[COURSE_COEFFICIENTS].name);
     if (imp_is_given(&v[COURSE_VALUES]) != (given == COURSE_TIMES))
-        return imp_reject(why, first + COURSE_VALUES, -1,
+        return imp_reject(q->why, q->first + COURSE_VALUES, -1,
                           "times and %s belong together: give both or neither",
-                          rows[first + COURSE_VALUES].name);
+                          rows[COURSE_VALUES].name);
     if (imp_is_given(&v[COURSE_COLUMNS]) && given != COURSE_FILE)
-        return imp_reject(why, first + COURSE_COLUMNS, -1, "belongs to a file, which is missing");
-    return IMP_OK;
+        return imp_reject(q->why, q->first + COURSE_COLUMNS, -1,
+                          "belongs to a file, which is missing");
+    return course_check_unit(q, given);
 }
 
-static imp_status course_read_polynomial(course *c, const imp_value *v, size_t width)
+static imp_status course_read_polynomial(course *c, const course_question *q)
 {
-    c->memory =
-        malloc(width * polynomial_count(&v[COURSE_RATE], &v[COURSE_COEFFICIENTS]) * sizeof(double));
+    const imp_value *rate = &q->v[COURSE_RATE], *coefficients = &q->v[COURSE_COEFFICIENTS];
+    c->memory = malloc(width_of(q) * polynomial_count(rate, coefficients) * sizeof(double));
     if (c->memory == NULL) return IMP_INTERNAL;
-    c->polynomial =
-        polynomial_read(&v[COURSE_RATE], &v[COURSE_COEFFICIENTS], width, (double *)c->memory);
+    c->polynomial = polynomial_read(rate, coefficients, width_of(q), (double *)c->memory);
     return IMP_OK;
 }
 
-/* Rows of a time and `width` values, from the parameters. */
-static imp_status course_collect(const imp_value *v, int first, size_t width, csv_numbers *to,
-                                 imp_create_error *why)
+/* --- Tables --------------------------------------------------------------------------------- */
+
+/* Rows of a time and some values, and the units of each column: in the table, and in the host. */
+typedef struct course_table {
+    csv_numbers numbers;
+    unit from[CSV_COLUMNS_MAX], to[CSV_COLUMNS_MAX];
+    int row; /* of the parameter that it came from */
+    bool in_file;
+} course_table;
+
+/* From the parameters. */
+static imp_status course_collect(const course_question *q, csv_numbers *to)
 {
-    to->rows = v[COURSE_TIMES].count;
-    if (v[COURSE_VALUES].extent[0] != to->rows)
-        return imp_reject(why, first + COURSE_VALUES, -1,
-                          "%zu for %zu times; there must be one for each",
-                          v[COURSE_VALUES].extent[0], to->rows);
+    const imp_value *times = &q->v[COURSE_TIMES], *values = &q->v[COURSE_VALUES];
+    const size_t width = width_of(q);
+    to->rows = times->count;
+    if (values->extent[0] != to->rows)
+        return imp_reject(q->why, q->first + COURSE_VALUES, -1,
+                          "%zu for %zu times; there must be one for each", values->extent[0],
+                          to->rows);
     to->number = malloc(to->rows * to->columns * sizeof(double));
     if (to->number == NULL) return IMP_INTERNAL;
     for (size_t i = 0; i < to->rows; ++i) {
-        to->number[i * to->columns] = v[COURSE_TIMES].number[i];
-        memcpy(to->number + i * to->columns + 1, v[COURSE_VALUES].number + i * width,
+        to->number[i * to->columns] = times->number[i];
+        memcpy(to->number + i * to->columns + 1, values->number + i * width,
                width * sizeof(double));
     }
     return IMP_OK;
 }
 
-static imp_status course_check_times(const csv_numbers *table, int row, bool in_file,
-                                     imp_create_error *why)
+/* That of a kind where nobody says. */
+static const unit plain_unit = {1, 1, false};
+
+static imp_status refuse_unit(const course_question *q, const course_table *t, size_t k,
+                              unit_kind kind)
 {
-    if (table->rows < 2)
-        return imp_reject(why, row, -1, "%zu rows of a table; allowed are two or more",
-                          table->rows);
-    for (size_t i = 1; i < table->rows; ++i) {
-        const double before = table->number[(i - 1) * table->columns];
-        const double now = table->number[i * table->columns];
-        if (!(before < now))
-            return imp_reject(why, row, in_file ? -1 : (int64_t)i,
-                              "%.17g after %.17g (row %zu of the table); times must increase", now,
-                              before, i + 1);
+    return imp_reject(q->why, t->row, -1, "column %zu is in '%s'; allowed are %s",
+                      t->numbers.place[k] + 1, t->numbers.unit[k], unit_names(kind));
+}
+
+/* Of column k > 0, whose head says one, or none. */
+static imp_status course_find_unit(const course_question *q, course_table *t, size_t k)
+{
+    const imp_value *u = &q->v[COURSE_UNIT];
+    const char *said = t->numbers.unit[k];
+    const bool degrees = q->kind == UNIT_ANGLE && u->number[0] != 0;
+    if (*said != '\0' && !unit_find(q->kind, said, &t->from[k]))
+        return refuse_unit(q, t, k, q->kind);
+    if (degrees && *said != '\0' && !t->from[k].is_of_pi)
+        return imp_reject(q->why, t->row, -1, "column %zu is in %s, but degrees is true",
+                          t->numbers.place[k] + 1, said);
+    if (degrees) unit_find(UNIT_ANGLE, "deg", &t->from[k]);
+    if (q->kind == UNIT_ANGLE) return IMP_OK;
+    if (*said != '\0' && !imp_is_given(u))
+        return imp_reject(q->why, t->row, -1,
+                          "column %zu is in %s, but the scene's unit is not known; give scene_unit",
+                          t->numbers.place[k] + 1, said);
+    if (imp_is_given(u) && !unit_find(UNIT_LENGTH, u->string[0], &t->to[k]))
+        return imp_reject(q->why, q->first + COURSE_UNIT, -1, "found '%.40s'; allowed are %s",
+                          u->string[0], unit_names(UNIT_LENGTH));
+    if (*said == '\0') t->from[k] = t->to[k];
+    return IMP_OK;
+}
+
+static imp_status course_find_units(const course_question *q, course_table *t)
+{
+    imp_status status = IMP_OK;
+    for (size_t k = 0; k < CSV_COLUMNS_MAX; ++k) t->from[k] = t->to[k] = plain_unit;
+    if (t->numbers.unit[0][0] != '\0' && !unit_find(UNIT_TIME, t->numbers.unit[0], &t->from[0]))
+        return refuse_unit(q, t, 0, UNIT_TIME);
+    for (size_t k = 1; k < t->numbers.columns && status == IMP_OK; ++k)
+        status = course_find_unit(q, t, k);
+    return status;
+}
+
+/* Converts the times, and sees that they increase. */
+static imp_status course_take_times(course_table *t, imp_create_error *why)
+{
+    const csv_numbers *n = &t->numbers;
+    if (n->rows < 2)
+        return imp_reject(why, t->row, -1, "a table of %zu row%s; it must have two or more",
+                          n->rows, n->rows == 1 ? "" : "s");
+    for (size_t i = 0; i < n->rows; ++i) {
+        double *time = &n->number[i * n->columns];
+        *time = unit_convert_near(*time, &t->from[0], &t->to[0]);
+        if (i > 0 && !(time[-(ptrdiff_t)n->columns] < *time))
+            return imp_reject(why, t->row, t->in_file ? -1 : (int64_t)i,
+                              "%.17g after %.17g (row %zu of the table); times must increase",
+                              *time, time[-(ptrdiff_t)n->columns], i + 1);
     }
     return IMP_OK;
 }
 
+static void fill_keys(const course_table *t, double *time, imp_interval *key)
+{
+    const size_t columns = t->numbers.columns;
+    for (size_t i = 0; i < t->numbers.rows; ++i) {
+        const double *row = &t->numbers.number[i * columns];
+        time[i] = row[0];
+        for (size_t k = 1; k < columns; ++k)
+            key[i * (columns - 1) + k - 1] = unit_convert(row[k], &t->from[k], &t->to[k]);
+    }
+}
+
 /* The spline of a checked table. */
-static imp_status course_set_table(course *c, const csv_numbers *table, bool linear, int row,
+static imp_status course_set_table(course *c, const course_table *t, bool linear,
                                    imp_create_error *why)
 {
-    const size_t width = table->columns - 1, keys = table->rows;
+    const size_t width = t->numbers.columns - 1, keys = t->numbers.rows;
     imp_interval *key = malloc(keys * width * sizeof *key);
     c->memory = malloc(spline_bytes(keys, width, 0));
     if (key == NULL || c->memory == NULL) {
@@ -98,19 +187,13 @@ static imp_status course_set_table(course *c, const csv_numbers *table, bool lin
     }
     c->table = spline_place(keys, width, 0, c->memory);
     c->table.kinked = linear;
-    for (size_t i = 0; i < keys; ++i) {
-        c->table.time[i] = table->number[i * table->columns];
-        for (size_t j = 0; j < width; ++j) {
-            const double x = table->number[i * table->columns + 1 + j];
-            key[i * width + j] = imp_interval_make(x, x);
-        }
-    }
+    fill_keys(t, c->table.time, key);
     size_t piece;
     const bool good = spline_set(&c->table, key, &piece);
     free(key);
     if (!good)
         return imp_reject(
-            why, row, -1,
+            why, t->row, -1,
             "row %zu of the table is too far from the one before for the time between "
             "them: speeds are not finite",
             piece + 2);
@@ -118,37 +201,38 @@ static imp_status course_set_table(course *c, const csv_numbers *table, bool lin
     return IMP_OK;
 }
 
-static imp_status course_read_table(course *c, const imp_value *values, int first, size_t width,
-                                    imp_create_error *why)
+static imp_status course_read_table(course *c, const course_question *q)
 {
-    const imp_value *v = values + first;
+    const imp_value *v = q->v;
     const char *way = v[COURSE_INTERPOLATION].string[0];
     const bool linear = strcmp(way, "linear") == 0, in_file = imp_is_given(&v[COURSE_FILE]);
     if (!linear && strcmp(way, "cubic") != 0)
-        return imp_reject(why, first + COURSE_INTERPOLATION, -1,
+        return imp_reject(q->why, q->first + COURSE_INTERPOLATION, -1,
                           "found \"%.40s\", allowed \"linear\" or \"cubic\"", way);
-    csv_numbers table = {.columns = width + 1};
-    const int row = first + (in_file ? COURSE_FILE : COURSE_TIMES);
-    imp_status status = in_file ? csv_read(v[COURSE_FILE].string[0], row, v[COURSE_COLUMNS].string,
-                                           first + COURSE_COLUMNS, &table, why)
-                                : course_collect(v, first, width, &table, why);
-    if (status == IMP_OK) status = course_check_times(&table, row, in_file, why);
-    if (status == IMP_OK) status = course_set_table(c, &table, linear, row, why);
-    free(table.number);
+    course_table t = {.numbers = {.columns = width_of(q) + 1},
+                      .row = q->first + (in_file ? COURSE_FILE : COURSE_TIMES),
+                      .in_file = in_file};
+    imp_status status = in_file
+                            ? csv_read(v[COURSE_FILE].string[0], t.row, v[COURSE_COLUMNS].string,
+                                       q->first + COURSE_COLUMNS, &t.numbers, q->why)
+                            : course_collect(q, &t.numbers);
+    if (status == IMP_OK) status = course_find_units(q, &t);
+    if (status == IMP_OK) status = course_take_times(&t, q->why);
+    if (status == IMP_OK) status = course_set_table(c, &t, linear, q->why);
+    free(t.numbers.number);
     return status;
 }
 
 /* On failure there is nothing to clear. */
-imp_status course_read(course *c, const imp_value *values, int first, size_t width,
+imp_status course_read(course *c, const imp_value *values, int first, unit_kind kind,
                        imp_create_error *why, const imp_parameter *rows)
 {
-    const imp_value *v = values + first;
-    *c = (course){.hold = v[COURSE_HOLD].number[0] != 0};
-    imp_status status = course_check(values, first, why, rows);
+    const course_question q = {values + first, first, kind, why, rows};
+    *c = (course){.hold = q.v[COURSE_HOLD].number[0] != 0};
+    imp_status status = course_check(&q);
     if (status != IMP_OK) return status;
-    const bool is_table = imp_is_given(&v[COURSE_TIMES]) || imp_is_given(&v[COURSE_FILE]);
-    status = is_table ? course_read_table(c, values, first, width, why)
-                      : course_read_polynomial(c, v, width);
+    const bool is_table = imp_is_given(&q.v[COURSE_TIMES]) || imp_is_given(&q.v[COURSE_FILE]);
+    status = is_table ? course_read_table(c, &q) : course_read_polynomial(c, &q);
     if (status != IMP_OK) course_clear(c);
     return status;
 }

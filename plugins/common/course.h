@@ -5,12 +5,14 @@
 
 #include "plugins/common/polynomial.h"
 #include "plugins/common/spline.h"
+#include "plugins/common/units.h"
 
 /* A quantity in the course of time
  * ================================
- * One number, or three, as a polynomial in time (polynomial.h), or from a table of times and values:
- * given as parameters, or as columns of a file (csv.h). Between the times of a table it is linear, or
- * the cubic of a spline (spline.h). Beyond them it is held, or the map is not defined. */
+ * An angle, or three lengths, as a polynomial in time (polynomial.h), or from a table of times and
+ * values: given as parameters, or as columns of a file (csv.h), converted from their units (units.h).
+ * Between the times of a table it is linear, or the cubic of a spline (spline.h). Beyond them it is
+ * held, or the map is not defined. */
 
 /* The rows of a type's table, in this order, from `first` on. */
 enum {
@@ -20,12 +22,13 @@ enum {
     COURSE_VALUES,
     COURSE_FILE,
     COURSE_COLUMNS,
+    COURSE_UNIT,
     COURSE_INTERPOLATION,
     COURSE_HOLD,
     COURSE_ROWS
 };
 
-/* The last six; VALUES is a row of its own kind. */
+/* VALUES is a row of its own kind; UNIT is that of angles or that of lengths. */
 #define COURSE_ROW_TIMES                                                                           \
     IMP_ROW_NUMBERS("times", "time", NULL, IMP_OPTIONAL,                                           \
                     "instead: of a table, increasing, two or more")
@@ -33,12 +36,22 @@ enum {
 #define COURSE_ROW_FILE                                                                            \
     IMP_ROW_OF(IMP_STRING, "file", "1", NULL, IMP_OPTIONAL | IMP_FILE, 0, 0, 0, -INFINITY,         \
                INFINITY,                                                                           \
-               "instead: a table of numbers between commas, times in its first column; "           \
-               "relative to the scene file")
+               "instead: a table of numbers between commas, or semicolons, or tabs; times in its " \
+               "first column, in s if a head has a unit ('t [ms]'); relative to the scene file")
 
 #define COURSE_ROW_COLUMNS(NAME, COUNT, FLAGS, DOC)                                                \
     IMP_ROW_OF(IMP_STRING, NAME, "1", NULL, IMP_OPTIONAL | (FLAGS), 1, COUNT, 0, -INFINITY,        \
                INFINITY, DOC)
+
+#define COURSE_ROW_DEGREES                                                                         \
+    IMP_ROW_BOOLEAN("degrees", "false",                                                            \
+                    "of a table: whether its angles are in degrees; a head may say so instead "    \
+                    "('j1 [deg]')")
+
+#define COURSE_ROW_SCENE_UNIT                                                                      \
+    IMP_ROW_OF(IMP_STRING, "scene_unit", "1", NULL, IMP_OPTIONAL, 0, 0, 0, -INFINITY, INFINITY,    \
+               "of a file whose head has units ('x [mm]'): that of the scene's lengths, which "    \
+               "the columns are converted to: m, cm, mm, um, nm, km, in or ft")
 
 #define COURSE_ROW_INTERPOLATION                                                                   \
     IMP_ROW_OF(IMP_STRING, "interpolation", "1", "\"linear\"", 0, 0, 0, 0, -INFINITY, INFINITY,    \
@@ -59,9 +72,9 @@ typedef struct course {
 /* Frees what course_read took. */
 void course_clear(course *c);
 
-/* Reads the rows `first` ... first + COURSE_ROWS - 1 of the table `rows`, each value of `width` numbers. On
+/* Reads the rows `first` ... first + COURSE_ROWS - 1 of the table `rows`: an angle, or three lengths. On
  * failure there is nothing to clear. */
-imp_status course_read(course *c, const imp_value *values, int first, size_t width,
+imp_status course_read(course *c, const imp_value *values, int first, unit_kind kind,
                        imp_create_error *why, const imp_parameter *rows);
 
 /* The times at which it is defined: from *lo to *hi. */

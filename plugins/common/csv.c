@@ -3,8 +3,8 @@
 
 #include "plugins/common/csv.h"
 
-#include <locale.h>
-#include <math.h>
+#include "plugins/common/csv_cell.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,11 +14,15 @@
 typedef struct csv_reader {
     FILE *file;
     const char *path;
-    unsigned long line;
-    char *text; /* CSV_LINE_MAX */
-    int row;    /* of the parameter, for errors */
+    unsigned long line, first_line; /* numbers from 1; the first that counts */
+    char *text;                     /* CSV_LINE_MAX */
+    char separator;                 /* that of the first line */
+    size_t width;                   /* cells of the first line; 0: it is not read yet */
+    int row;                        /* of the parameter, for errors */
     imp_create_error *why;
 } csv_reader;
+
+/* --- Lines ---------------------------------------------------------------------------------- */
 
 /* Reads a line, without its end ("\n", "\r\n" or "\r"); *length is 0 for an empty one. False: none is left. */
 static bool csv_read_line(csv_reader *r, size_t *length)
@@ -33,6 +37,15 @@ static bool csv_read_line(csv_reader *r, size_t *length)
     r->text[*length] = '\0';
     r->line += 1;
     return true;
+}
+
+/* Passes over the byte order mark that some programs begin UTF-8 with. */
+static void csv_skip_mark(csv_reader *r)
+{
+    char mark[3];
+    const bool is_mark = fread(mark, 1, sizeof mark, r->file) == sizeof mark &&
+                         memcmp(mark, "\xEF\xBB\xBF", sizeof mark) == 0;
+    if (!is_mark) rewind(r->file);
 }
 
 /* The next line that counts; *more is false at the end of the file. */
@@ -55,132 +68,212 @@ static imp_status csv_next_line(csv_reader *r, bool *more)
     }
 }
 
-/* Cuts the field at *next off its line and answers it without blanks around it; NULL: none is left.
- * *next then is the field after it. */
-static char *csv_field(char **next)
+/* --- Heads ---------------------------------------------------------------------------------- */
+
+/* Text after a word for its number. */
+static const char *plural(size_t count) { return count == 1 ? "" : "s"; }
+
+static const char *separators_told(char separator)
 {
-    char *field = *next;
-    if (field == NULL) return NULL;
-    char *end = field + strcspn(field, ",;\t");
-    *next = *end != '\0' ? end + 1 : NULL;
-    *end = '\0';
-    field += strspn(field, " \"");
-    for (end = field + strlen(field); end > field && strchr(" \"", end[-1]) != NULL; --end)
-        end[-1] = '\0';
-    return field;
+    return separator == ';' ? " between semicolons" : separator == '\t' ? " between tabs" : "";
 }
 
-enum { CSV_NUMBER_MAX = 100 };
-
-/* strtod takes the point of the locale, and names of what is no number. */
-static bool csv_number(const char *field, double *number)
+/* A line of names, not all of them empty. */
+static bool csv_is_head(const csv_reader *r)
 {
-    char text[CSV_NUMBER_MAX], *end;
-    if (strlen(field) >= sizeof text || field[strspn(field, "+-.0123456789eE")] != '\0')
-        return false;
-    strcpy(text, field);
-    char *point = strchr(text, '.');
-    if (point != NULL) *point = *localeconv()->decimal_point;
-    *number = strtod(text, &end);
-    return end != text && *end == '\0' && isfinite(*number);
-}
-
-/* A copy to cut fields from. NULL: no memory. */
-static char *csv_copy(const char *line)
-{
-    char *copy = malloc(strlen(line) + 1);
-    return copy != NULL ? strcpy(copy, line) : NULL;
-}
-
-/* Is a field of the line no number? The line stays as it is. False: no memory. */
-static bool csv_find_header(const char *line, bool *header)
-{
-    char *copy = csv_copy(line), *next = copy, *field;
-    double unused;
-    *header = false;
-    while (!*header && (field = csv_field(&next)) != NULL) *header = !csv_number(field, &unused);
-    free(copy);
-    return copy != NULL;
-}
-
-/* Where a header names the column; `place` stays where it does not. False: no memory. */
-static bool csv_find_name(const char *header, const char *name, size_t *place, bool *found)
-{
-    char *copy = csv_copy(header), *next = copy, *field;
-    *found = false;
-    for (size_t column = 0; !*found && (field = csv_field(&next)) != NULL; ++column) {
-        *found = strcmp(field, name) == 0;
-        if (*found) *place = column;
+    const char *next = r->text;
+    bool named = false;
+    for (csv_cell cell; csv_cell_next(&next, r->separator, &cell);) {
+        if (!csv_cell_is_name(&cell)) return false;
+        named = named || cell.length > 0;
     }
-    free(copy);
-    return copy != NULL;
+    return named;
 }
 
-/* Where the columns called name[0 ... count-2] stand: by the header ("" if there is none), or by
- * number, from 1. No names: the second column, the third, .... place[0] is the first column. */
-static imp_status csv_find_columns(const csv_reader *r, const char *header, size_t count,
-                                   const char *const *name, int name_row, size_t *place)
+static size_t csv_count(const char *line, char separator)
 {
-    place[0] = 0;
-    for (size_t k = 1; k < count; ++k) {
-        bool found;
-        place[k] = k;
-        if (name == NULL) continue;
-        if (!csv_find_name(header, name[k - 1], &place[k], &found)) return IMP_INTERNAL;
-        if (found) continue;
-        char *end;
-        const unsigned long number = strtoul(name[k - 1], &end, 10);
-        if (number == 0 || *end != '\0' || number > CSV_LINE_MAX)
-            return imp_reject(r->why, name_row, (int64_t)k - 1,
-                              "'%.40s' is no column of '%.100s'; allowed are names in its first "
-                              "line, and numbers from 1",
-                              name[k - 1], r->path);
-        place[k] = number - 1;
-    }
-    return IMP_OK;
+    size_t count = 1;
+    for (; *line != '\0'; ++line) count += *line == separator;
+    return count;
 }
 
-static imp_status csv_read_row(csv_reader *r, const size_t *place, csv_numbers *to)
+/* What there is to choose from, cut where it is long. */
+typedef struct csv_choice {
+    char text[100];
+} csv_choice;
+
+static csv_choice choice_of(const csv_reader *r, const char *head)
 {
-    double *grown = to->number;
-    if (to->rows == to->capacity) {
-        to->capacity = 2 * to->capacity + 64;
-        grown = realloc(to->number, to->capacity * to->columns * sizeof *grown);
+    csv_choice c = {""};
+    size_t used = 0;
+    if (*head == '\0') {
+        snprintf(c.text, sizeof c.text, "it has no head, and columns 1 to %zu", r->width);
+        return c;
     }
-    if (grown == NULL) return IMP_INTERNAL;
-    to->number = grown;
-    char *next = r->text, *field;
-    size_t found = 0;
-    for (size_t column = 0; (field = csv_field(&next)) != NULL; ++column)
-        for (size_t k = 0; k < to->columns; ++k) {
-            if (place[k] != column) continue;
-            found += 1;
-            if (!csv_number(field, &grown[to->rows * to->columns + k]))
-                return imp_reject(
-                    r->why, r->row, -1,
-                    "'%.100s' line %lu column %zu: found '%.40s', allowed is a number", r->path,
-                    r->line, column + 1, field);
+    for (csv_cell cell, name, unit; csv_cell_next(&head, r->separator, &cell);) {
+        csv_cell_split(&cell, &name, &unit);
+        const size_t room = sizeof c.text - used;
+        const int more = snprintf(c.text + used, room, "%s%.*s", used > 0 ? ", " : "it has ",
+                                  (int)name.length, name.text);
+        if (more < 0 || (size_t)more >= room) {
+            memcpy(c.text + sizeof c.text - 4, "...", 4);
+            return c;
         }
-    if (found != to->columns)
-        return imp_reject(r->why, r->row, -1, "'%.100s' line %lu has too few columns", r->path,
-                          r->line);
-    to->rows += 1;
+        used += (size_t)more;
+    }
+    return c;
+}
+
+/* Where the head names the column; `place` stays where it does not. */
+static imp_status csv_find_name(const csv_reader *r, const char *head, const char *wanted,
+                                int name_row, int64_t element, size_t *place, bool *found)
+{
+    const char *next = *head != '\0' ? head : NULL;
+    size_t column = 0;
+    *found = false;
+    for (csv_cell cell, name, unit; csv_cell_next(&next, r->separator, &cell); ++column) {
+        csv_cell_split(&cell, &name, &unit);
+        if (!csv_cell_equals(&cell, wanted) && !csv_cell_equals(&name, wanted)) continue;
+        if (*found)
+            return imp_reject(r->why, name_row, element,
+                              "'%.40s' names columns %zu and %zu of '%.100s'", wanted, *place + 1,
+                              column + 1, r->path);
+        *found = true;
+        *place = column;
+    }
     return IMP_OK;
+}
+
+/* By the head ("" if there is none), or by number, from 1. */
+static imp_status csv_find_column(const csv_reader *r, const char *head, const char *wanted,
+                                  int name_row, int64_t element, size_t *place)
+{
+    bool found;
+    const imp_status status = csv_find_name(r, head, wanted, name_row, element, place, &found);
+    if (status != IMP_OK || found) return status;
+    char *end;
+    const unsigned long number = strtoul(wanted, &end, 10);
+    if (number == 0 || *end != '\0' || number > r->width)
+        return imp_reject(r->why, name_row, element, "'%.40s' is no column of '%.80s'; %s", wanted,
+                          r->path, choice_of(r, head).text);
+    *place = number - 1;
+    return IMP_OK;
+}
+
+/* Without names: the second column, the third, .... The first is always the first. */
+static imp_status csv_find_columns(const csv_reader *r, const char *head, const char *const *name,
+                                   int name_row, csv_numbers *to)
+{
+    for (size_t k = 0; k < to->columns; ++k) {
+        to->place[k] = k;
+        if (k == 0 || name == NULL) continue;
+        const imp_status status =
+            csv_find_column(r, head, name[k - 1], name_row, (int64_t)k - 1, &to->place[k]);
+        if (status != IMP_OK) return status;
+    }
+    if (to->columns > r->width)
+        return imp_reject(r->why, r->row, -1, "'%.100s' has %zu column%s; %zu are needed", r->path,
+                          r->width, plural(r->width), to->columns);
+    return IMP_OK;
+}
+
+static void csv_take_units(const csv_reader *r, const char *head, csv_numbers *to)
+{
+    size_t column = 0;
+    for (csv_cell cell, name, unit; csv_cell_next(&head, r->separator, &cell); ++column) {
+        csv_cell_split(&cell, &name, &unit);
+        for (size_t k = 0; k < to->columns; ++k)
+            if (to->place[k] == column)
+                snprintf(to->unit[k], sizeof to->unit[k], "%.*s", (int)unit.length, unit.text);
+    }
+}
+
+/* --- Rows ------------------------------------------------------------------------------------- */
+
+/* What is often meant by a cell that is no number. */
+static const char *hint_for(const csv_cell *cell)
+{
+    double number;
+    const csv_cell all_but_last = {cell->text, cell->length > 0 ? cell->length - 1 : 0};
+    if (memchr(cell->text, ',', cell->length) != NULL) return "; decimals have a point";
+    if (cell->length > 1 && !csv_cell_is_name(cell) && !csv_cell_number(&all_but_last, &number))
+        return "; a unit belongs into the head, as in 'x [mm]'";
+    return "";
+}
+
+static imp_status csv_refuse_cell(const csv_reader *r, size_t column, const csv_cell *cell)
+{
+    if (cell->length == 0)
+        return imp_reject(r->why, r->row, -1,
+                          "'%.100s' line %lu column %zu: found nothing, allowed is a number",
+                          r->path, r->line, column + 1);
+    return imp_reject(r->why, r->row, -1,
+                      "'%.80s' line %lu column %zu: found '%.*s', allowed is a number%s", r->path,
+                      r->line, column + 1, cell->length < 40 ? (int)cell->length : 40, cell->text,
+                      hint_for(cell));
+}
+
+static imp_status csv_check_width(const csv_reader *r, size_t width)
+{
+    if (width == r->width) return IMP_OK;
+    return imp_reject(r->why, r->row, -1, "'%.100s': line %lu has %zu column%s, line %lu has %zu%s",
+                      r->path, r->line, width, plural(width), r->first_line, r->width,
+                      separators_told(r->separator));
+}
+
+/* Room for one more row. False: no memory. */
+static bool csv_reserve(csv_numbers *to)
+{
+    if (to->rows < to->capacity) return true;
+    const size_t capacity = 2 * to->capacity + 64;
+    double *grown = realloc(to->number, capacity * to->columns * sizeof *grown);
+    if (grown == NULL) return false;
+    to->number = grown;
+    to->capacity = capacity;
+    return true;
+}
+
+static imp_status csv_read_row(csv_reader *r, csv_numbers *to)
+{
+    if (!csv_reserve(to)) return IMP_INTERNAL;
+    double *row = to->number + to->rows * to->columns, number;
+    const char *next = r->text;
+    const imp_status status = csv_check_width(r, csv_count(r->text, r->separator));
+    size_t column = 0;
+    for (csv_cell cell; status == IMP_OK && csv_cell_next(&next, r->separator, &cell); ++column) {
+        if (!csv_cell_number(&cell, &number)) return csv_refuse_cell(r, column, &cell);
+        for (size_t k = 0; k < to->columns; ++k)
+            if (to->place[k] == column) row[k] = number;
+    }
+    to->rows += status == IMP_OK;
+    return status;
+}
+
+/* --- All -------------------------------------------------------------------------------------- */
+
+/* Takes the first line as the head, if it is one, and else leaves it to be read as a row. */
+static imp_status csv_begin(csv_reader *r, const char *const *name, int name_row, csv_numbers *to,
+                            bool *more)
+{
+    r->first_line = r->line;
+    r->separator = csv_separator_of(r->text);
+    r->width = csv_count(r->text, r->separator);
+    const bool has_head = csv_is_head(r);
+    imp_status status = csv_find_columns(r, has_head ? r->text : "", name, name_row, to);
+    if (status != IMP_OK || !has_head) return status;
+    csv_take_units(r, r->text, to);
+    return csv_next_line(r, more);
 }
 
 static imp_status csv_read_all(csv_reader *r, const char *const *name, int name_row,
                                csv_numbers *to)
 {
-    size_t place[CSV_COLUMNS_MAX];
     bool more;
+    csv_skip_mark(r);
     imp_status status = csv_next_line(r, &more);
-    if (status != IMP_OK) return status;
-    bool header = false;
-    if (more && !csv_find_header(r->text, &header)) return IMP_INTERNAL;
-    status = csv_find_columns(r, header ? r->text : "", to->columns, name, name_row, place);
-    if (status == IMP_OK && header) status = csv_next_line(r, &more);
+    if (status == IMP_OK && more) status = csv_begin(r, name, name_row, to, &more);
     while (status == IMP_OK && more) {
-        status = csv_read_row(r, place, to);
+        status = csv_read_row(r, to);
         if (status == IMP_OK) status = csv_next_line(r, &more);
     }
     return status;

@@ -8,20 +8,25 @@
 
 /* Columns of numbers from a file
  * ==============================
- * Fields between commas, semicolons or tabs, with a point in numbers in every locale. Empty lines, and
- * those that begin with '#', are passed over. If the first line that is left has a field that is no
- * number, it names the columns. */
+ * Cells (csv_cell.h) between commas, or between semicolons or tabs if the first line has these. Empty
+ * lines, and those that begin with '#', are passed over. If no cell of the first line that is left
+ * begins as a number does, and one is not empty, it is the head, which names the columns. Every cell of
+ * every other line is a finite number, and all lines have as many cells as the first. */
 
-enum { CSV_COLUMNS_MAX = 4, CSV_LINE_MAX = 65536 };
+enum { CSV_COLUMNS_MAX = 4, CSV_LINE_MAX = 65536, CSV_UNIT_MAX = 16 };
 
 /* What was read: `columns` numbers in each of `rows` rows. */
 typedef struct csv_numbers {
     double *number;
     size_t rows, capacity, columns;
+    size_t place[CSV_COLUMNS_MAX]; /* of each column in the file, from 0 */
+    char unit[CSV_COLUMNS_MAX]
+             [CSV_UNIT_MAX]; /* as the head says; "": it says none; cut if longer */
 } csv_numbers;
 
-/* Reads the first column and those called `name` (to->columns in all). The caller frees
- * to->number, also on failure. `row` is the parameter with the path, `name_row` that with names. */
+/* Reads the first column and those called `name` (to->columns in all); NULL: those that follow it. The
+ * caller frees to->number, also on failure. `row` is the parameter with the path, `name_row` that with
+ * names. */
 imp_status csv_read(const char *path, int row, const char *const *name, int name_row,
                     csv_numbers *to, imp_create_error *why);
 

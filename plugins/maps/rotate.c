@@ -22,8 +22,9 @@ static const imp_parameter parameters[] = {
         IMP_ROW_NUMBERS("angles", "rad", NULL, IMP_OPTIONAL, "one for each of times"),
     [ANGLE + COURSE_FILE] = COURSE_ROW_FILE,
     [ANGLE + COURSE_COLUMNS] = COURSE_ROW_COLUMNS("column", 1, IMP_SCALAR_OK,
-                                                  "of the file: that of the angle, in rad, by name "
-                                                  "or by number from 1; default: the second"),
+                                                  "of the file: that of the angle, by name or by "
+                                                  "number from 1; default: the second"),
+    [ANGLE + COURSE_UNIT] = COURSE_ROW_DEGREES,
     [ANGLE + COURSE_INTERPOLATION] = COURSE_ROW_INTERPOLATION,
     [ANGLE + COURSE_HOLD] = COURSE_ROW_HOLD,
 };
@@ -40,7 +41,7 @@ static imp_status rotate_create(const imp_value *values, void **self, imp_create
     if (status != IMP_OK) return status;
     rotate_instance *s = malloc(sizeof *s);
     if (s == NULL) return IMP_INTERNAL;
-    status = course_read(&s->angle, values, ANGLE, 1, why, parameters);
+    status = course_read(&s->angle, values, ANGLE, UNIT_ANGLE, why, parameters);
     if (status != IMP_OK) {
         free(s);
         return status;

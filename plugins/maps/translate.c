@@ -22,6 +22,7 @@ static const imp_parameter parameters[] = {
     [COURSE_COLUMNS] = COURSE_ROW_COLUMNS("columns", 3, 0,
                                           "of the file: those of x, y and z, by name or by number "
                                           "from 1; default: the second to the fourth"),
+    [COURSE_UNIT] = COURSE_ROW_SCENE_UNIT,
     [COURSE_INTERPOLATION] = COURSE_ROW_INTERPOLATION,
     [COURSE_HOLD] = COURSE_ROW_HOLD,
 };
@@ -30,7 +31,7 @@ static imp_status translate_create(const imp_value *values, void **self, imp_cre
 {
     course *way = malloc(sizeof *way);
     if (way == NULL) return IMP_INTERNAL;
-    const imp_status status = course_read(way, values, 0, 3, why, parameters);
+    const imp_status status = course_read(way, values, 0, UNIT_LENGTH, why, parameters);
     if (status != IMP_OK) return free(way), status;
     *self = way;
     return IMP_OK;

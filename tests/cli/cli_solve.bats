@@ -94,7 +94,7 @@ swing() {
 
 @test "names of tables are relative to the scene file" {
     mkdir -p scenes/data
-    printf '# in rad\ntime, q1; "q2"\n\n0,0,7\n 0.5,1e0,7\r\n1,2,7\n' | tr -d ' ' >scenes/data/joints.csv
+    printf '# in rad\ntime, q1, "q2"\n\n0,0,7\n 0.5,1e0,7\r\n1,2,7\n' | tr -d ' ' >scenes/data/joints.csv
     swing '"file": "data/joints.csv", "column": "q1"' >scenes/by_name.json
     sed 's/"q1"/"2"/' scenes/by_name.json >scenes/by_number.json
     sed 's/, "column": "q1"//' scenes/by_name.json >scenes/second.json
@@ -119,12 +119,12 @@ refuses_table() { # TABLE PARAMETERS SAYING
     refuses_table 't,q\n0,0\n1,x\n' '' "'table.csv' line 3 column 2: found 'x', allowed is a number"
     refuses_table 't,q\n0,0\n1,nan\n' '' "found 'nan'"
     refuses_table 't,q\n0,0\n1,1e999\n' '' "found '1e999'"
-    refuses_table 't,q\n0,0\n1\n' '' "line 3 has too few columns"
+    refuses_table 't,q\n0,0\n1\n' '' "line 3 has 1 column, line 1 has 2"
     refuses_table 't,q\n0,0\n1,1\n1,2\n' '' "1 after 1 (row 3 of the table); times must increase"
-    refuses_table '0,0\n' '' "1 rows of a table; allowed are two or more"
-    refuses_table '' '' "0 rows of a table"
+    refuses_table '0,0\n' '' "a table of 1 row; it must have two or more"
+    refuses_table '' '' "a table of 0 rows"
     refuses_table 't,q\n0,0\n1,1\n' ', "column": "p"' "'p' is no column of 'table.csv'"
-    refuses_table '0,0\n1,1\n' ', "column": "9"' "line 1 has too few columns"
+    refuses_table '0,0\n1,1\n' ', "column": "9"' "'9' is no column of 'table.csv'; it has no head, and columns 1 to 2"
     refuses_table '0,0\n1,1\n' ', "rate": 1' 'given beside rate'
     refuses_table '0,0\n1,1\n' ', "interpolation": "round"' 'allowed "linear" or "cubic"'
     rm table.csv

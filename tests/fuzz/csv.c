@@ -56,11 +56,12 @@ static bool read_numbers(const char *const *names, csv_numbers *to)
     return false;
 }
 
-/* Lines that are not empty and no comment: one of them may be a header, the others are rows. */
+/* Lines behind a byte order mark that are not empty and no comment: one of them may be a header, the others are rows. */
 static size_t count_lines(const unsigned char *bytes, size_t length)
 {
+    const bool mark = length >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0;
     size_t count = 0;
-    for (size_t k = 0; k < length;) {
+    for (size_t k = mark ? 3 : 0; k < length;) {
         const bool comment = bytes[k] == '#';
         bool empty = true;
         for (; k < length && bytes[k] != '\n' && bytes[k] != '\r'; ++k)
