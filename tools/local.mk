@@ -49,6 +49,7 @@ tools_check = \
     tools/check/proof.c tools/check/proof.h \
     tools/check/purity.c tools/check/purity.h \
     tools/check/rates.c tools/check/rates.h \
+    tools/check/remainders.c tools/check/remainders.h \
     tools/check/report.c tools/check/report.h \
     tools/check/sampling.c tools/check/sampling.h \
     tools/check/state.c tools/check/state.h \

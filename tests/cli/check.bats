@@ -527,6 +527,16 @@ missed() {
     json '.types[0].label == "proved" and .types[0].proof.claims == .types[0].proof.proved'
 }
 
+@test "what include leaves beside a quadratic is measured, and a missing one is told with its cost" {
+    run -0 "$IMPINGE" check torus --json --only tightness
+    valid check
+    json '.types[0].tightness | (.remainders | all(. >= 0.9 and . < 3)) and .distances >= 1 and .distances < 1.5'
+    run -0 "$IMPINGE" check "$liars/liar_percent.so" --only tightness
+    [[ $output == *'There is no include: remainders are those of rates'* ]]
+    run -0 "$IMPINGE" check "$liars/liar_percent.so" --only tightness --json
+    json '.types[0].tightness.remainders[0] > 100'
+}
+
 @test "every check can be asked for alone, and an unknown one is refused" {
     local name
     for name in $("$IMPINGE" help check | sed -n 's/^ *--only CHECK *//p' | cut -d: -f1 | tr '|' ' '); do

@@ -79,8 +79,10 @@ static void add_measures(check_report *r, const char *check, const check_answer 
     if (a->verdict != CHECK_PASS) return;
     if (strcmp(check, "tightness") == 0)
         json_object_set_new(r->type, check,
-                            json_pack("{s:o, s:o}", "rates", ratios_json(a->rate_ratio), "ranges",
-                                      ratios_json(a->range_ratio)));
+                            json_pack("{s:o, s:o, s:o, s:o}", "rates", ratios_json(a->rate_ratio),
+                                      "ranges", ratios_json(a->range_ratio), "remainders",
+                                      ratios_json(a->remainder_ratio), "distances",
+                                      output_json_number(a->distance_ratio)));
     if (a->proof.claims > 0)
         json_object_set_new(r->type, check,
                             json_pack("{s:I, s:I, s:I, s:I}", "claims", (json_int_t)a->proof.claims,
