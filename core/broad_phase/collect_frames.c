@@ -164,6 +164,8 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, imp_err
     return code;
 }
 
+enum { PAIRS_AN_ASK = 64 }; /* pairs between looks at the limits: some milliseconds */
+
 static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp_error *error)
 {
     const candidate_list *list = all->list;
@@ -172,7 +174,7 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
         const candidate_pair *p = &list->pairs[k];
         const size_t motion = motion_of(p);
         imp_code code = IMP_SUCCESS;
-        *done = true;
+        *done = k % PAIRS_AN_ASK != PAIRS_AN_ASK - 1 || !collection_must_end(all);
         for (int side = 0; side < 2 && *done && code == IMP_SUCCESS; ++side) {
             const candidate *c = p->side[side];
             const surface_view view = {c->body, c->surface, c->left_out + motion, NAN};

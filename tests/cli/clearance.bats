@@ -261,3 +261,25 @@ END
     fails 2 "exclude each other" "$IMPINGE" clearance "${passing[@]}" --profile 2 --each
     fails 4 "cannot be read" "$IMPINGE" clearance missing.json
 }
+
+@test "pairs that a limit leaves out are counted, and bound nothing" {
+    jq -nc '{bodies: [range(1000) | {surfaces: [{type: "sphere", center: [3 * ., 0, 0]}],
+        maps: [{type: "translate", velocity: [0, . % 7, 0]}]}]}' >many.json
+    run -3 "$IMPINGE" clearance many.json --each --threads 1 --max-seconds 1 --require 0.5 --json
+    valid clearance
+    json '.lower == 0 and .verdict == "undecided" and .reason == "max-seconds"'
+    json '.not_examined + (.pairs | length) == 499500 and .not_examined > 0'
+    run -3 "$IMPINGE" clearance many.json --each --threads 1 --max-seconds 1e-9
+    [[ $output == *'not examined: 499500 pairs of bodies'* ]]
+}
+
+@test "a limit of time ends the work on many pairs of bodies within it" {
+    ! has_sanitizers || skip 'they take processor time of their own'
+    jq -nc '{bodies: [range(1000) | {surfaces: [{type: "sphere", center: [3 * ., 0, 0]}],
+        maps: [{type: "translate", velocity: [0, . % 7, 0]}]}]}' >many.json
+    local used
+    used=$(TIMEFORMAT='%U'
+        { time "$IMPINGE" clearance many.json --each --threads 1 --max-seconds 1 >/dev/null 2>&1; } 2>&1) || true
+    echo "$used s of processor time"
+    jq -en --argjson used "$used" '$used < 2' # 14 s were used
+}

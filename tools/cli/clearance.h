@@ -6,6 +6,8 @@
 #include <impinge/impinge.h>
 #include <jansson.h>
 
+#include "tools/cli/message.h"
+
 /* Minimum distances, for people and for programs: tools/schema/clearance.schema.json. */
 
 typedef struct clearance_table {
@@ -20,12 +22,20 @@ typedef struct clearance_each {
     imp_query *query; /* of the whole scene; is divided */
     double required;
     size_t threads;
+    uint64_t max_bytes; /* of the answers; 0: no limit */
+    double until;       /* seconds of the clock: the limit of time; INFINITY: none */
 } clearance_each;
 
-/* The answers, in the order of the scene and to be freed, and what they cost together. On an error
- * there are none. */
-imp_code clearance_each_run(const clearance_each *of, imp_clearance **answers, size_t *count,
-                            imp_stats *stats, imp_error *error);
+typedef struct clearance_answers {
+    imp_clearance *list; /* in the order of the scene; the caller frees it */
+    size_t count;
+    size_t not_examined; /* pairs of bodies, because of a limit or a signal; if > 0, list[count], beyond the
+                            others, stands for all of them */
+    imp_stats stats;     /* of all together */
+} clearance_answers;
+
+/* Measures each pair. found->list is freed after an error, too. */
+imp_code clearance_each_run(const clearance_each *of, clearance_answers *found, imp_error *error);
 
 /* "holds", "violated", "undecided"; NULL: nothing was required. */
 const char *clearance_verdict_name(imp_requirement verdict);
@@ -52,7 +62,10 @@ void clearance_print_csv(const imp_clearance *slice);
 
 json_t *clearance_json(const imp_scene *scene, const imp_clearance *answer);
 json_t *clearance_slice_json(const imp_clearance *slice);
-/* A list, slices or pairs of bodies. */
-json_t *clearance_list_json(const clearance_table *table, bool slices);
+/* Prints the object, which is taken over, on one line, with the answers as its last key: "slices", or
+ * "pairs" of bodies. They are made and printed one by one: all at once they would take kilobytes each. A signal
+ * ends the list. */
+exit_status clearance_print_json(json_t *object, const clearance_table *table, bool slices,
+                                 const char *verb);
 
 #endif

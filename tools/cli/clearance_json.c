@@ -5,7 +5,11 @@
 #include "tools/cli/clearance.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/result.h"
 
@@ -60,15 +64,14 @@ static json_t *checked(json_t *object, int failed)
 
 json_t *clearance_json(const imp_scene *scene, const imp_clearance *r)
 {
-    json_t *object =
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reason",
-                  result_reason_json(r->reason), "time",
-                  result_times_json(r->t_start, r->t_end), "lower", output_json_number(r->lower), "upper",
-                  output_json_number(r->upper), "t", output_json_number(r->t), "a",
-                  r->has_witness ? result_side_json(scene, &r->a) : json_null(), "b",
-                  r->has_witness ? result_side_json(scene, &r->b) : json_null(), "normal",
-                  r->has_normal ? result_vector_json(r->normal) : json_null(), "stats",
-                  result_stats_json(&r->stats));
+    json_t *object = json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reason", result_reason_json(r->reason),
+        "time", result_times_json(r->t_start, r->t_end), "lower", output_json_number(r->lower),
+        "upper", output_json_number(r->upper), "t", output_json_number(r->t), "a",
+        r->has_witness ? result_side_json(scene, &r->a) : json_null(), "b",
+        r->has_witness ? result_side_json(scene, &r->b) : json_null(), "normal",
+        r->has_normal ? result_vector_json(r->normal) : json_null(), "stats",
+        result_stats_json(&r->stats));
     if (object == NULL) return NULL;
     int failed = set_required(object, scene, r);
     if (r->body[0] != SIZE_MAX) failed |= set(object, "bodies", pair_json(scene, r->body));
@@ -85,15 +88,20 @@ json_t *clearance_slice_json(const imp_clearance *r)
     return checked(object, set(object, "verdict", json_string(clearance_verdict_name(r->verdict))));
 }
 
-json_t *clearance_list_json(const clearance_table *table, bool slices)
+exit_status clearance_print_json(json_t *object, const clearance_table *table, bool slices,
+                                 const char *verb)
 {
-    json_t *list = json_array();
-    for (size_t k = 0; k < table->count; ++k) {
-        json_t *one = slices ? clearance_slice_json(&table->answers[k])
-                             : clearance_json(table->scene, &table->answers[k]);
-        if (json_array_append_new(list, one) == 0) continue;
-        json_decref(list);
-        return NULL;
+    char *line = output_json_line(object);
+    if (line == NULL) return output_line(line, verb);
+    printf("%.*s,\"%s\":[", (int)strlen(line) - 1, line, slices ? "slices" : "pairs");
+    free(line);
+    for (size_t k = 0; k < table->count && !interrupt_came(); ++k) {
+        line = output_json_line(slices ? clearance_slice_json(&table->answers[k])
+                                       : clearance_json(table->scene, &table->answers[k]));
+        if (line == NULL) return output_line(line, verb);
+        printf("%s%s", k > 0 ? "," : "", line);
+        free(line);
     }
-    return list;
+    puts("]}");
+    return output_flush(verb);
 }

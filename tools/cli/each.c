@@ -36,10 +36,11 @@ exit_status each_begin(each *e, imp_scene *scene, const arguments *args, size_t 
     imp_error error = {0};
     imp_options options = query_options(scene, args);
     json_object_seed(0); /* before there are threads */
-    *e = (each){.args = args,
-                .scene = scene,
-                .crew = {threads},
-                .until = options.max_seconds > 0 ? clock_seconds() + options.max_seconds : INFINITY};
+    *e =
+        (each){.args = args,
+               .scene = scene,
+               .crew = {threads},
+               .until = options.max_seconds > 0 ? clock_seconds() + options.max_seconds : INFINITY};
     query_lend_threads(&options, &e->crew);
     e->plan = (parts_plan){.whole = imp_query_new(scene, &options, &error),
                            .threads = threads,
@@ -73,7 +74,7 @@ struct printing {
     bool json;
     imp_result rest;    /* of the divided query */
     imp_result unknown; /* of a part that was not examined */
-    char **names;    /* of bodies, as JSON */
+    char **names;       /* of bodies, as JSON */
     char *head, *tail;
     size_t *waiting; /* parts whose answers have not come */
     timed *order;    /* answers that are not clear, by time; the first `shown` are printed */

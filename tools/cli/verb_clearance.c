@@ -3,8 +3,10 @@
 #include <config.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
+#include "core/common/clock.h"
 #include "tools/cli/clearance.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
@@ -22,7 +24,8 @@ typedef struct measuring {
     bool json, each, profile;
     imp_clearance *answers;
     imp_stats stats;
-    size_t count, told; /* how many there are, and how many slices have been printed */
+    size_t not_examined; /* pairs of bodies of --each */
+    size_t count, told;  /* how many there are, and how many slices have been printed */
 } measuring;
 
 /* --- What is asked ------------------------------------------------------------------------ */
@@ -114,14 +117,13 @@ static imp_clearance nothing(const measuring *m)
                            .t_violated = NAN};
 }
 
-static json_t *whole_json(const measuring *m, const clearance_table *table,
-                          const imp_clearance *all)
+static json_t *whole_json(const measuring *m, const imp_clearance *all)
 {
     json_t *object = clearance_json(m->scene, all);
-    const char *key = m->profile ? "slices" : "pairs";
     int failed = json_object_set_new(object, "scene", query_scene_json(m->args));
-    if (m->profile || m->each)
-        failed |= json_object_set_new(object, key, clearance_list_json(table, m->profile));
+    if (m->not_examined > 0)
+        failed |=
+            json_object_set_new(object, "not_examined", json_integer((json_int_t)m->not_examined));
     if (!failed) return object;
     json_decref(object);
     return NULL;
@@ -144,21 +146,27 @@ static exit_status status_of(const imp_clearance *all)
     return answered ? EXIT_ANSWERED : EXIT_UNDECIDED;
 }
 
-static exit_status conclude(measuring *m)
+static exit_status print(const measuring *m, const clearance_table *table, const imp_clearance *all)
 {
     const char *speaker = m->args->verb->name;
+    if (m->json && (m->profile || m->each))
+        return clearance_print_json(whole_json(m, all), table, m->profile, speaker);
+    if (m->json) return output_json(whole_json(m, all), speaker);
+    if (m->profile) return EXIT_ANSWERED;
+    clearance_print(m->scene, all, m->options.gamma);
+    if (m->each && m->count > 0) clearance_print_pairs(table);
+    if (m->not_examined > 0) printf("not examined: %zu pairs of bodies\n", m->not_examined);
+    return output_flush(speaker);
+}
+
+static exit_status conclude(measuring *m)
+{
     if (m->each) clearance_sort(m->answers, m->count);
     const clearance_table table = {m->scene, m->answers, m->count};
-    imp_clearance all = m->count > 0 ? clearance_summary(&table) : nothing(m);
+    const clearance_table with_rest = {m->scene, m->answers, m->count + (m->not_examined > 0)};
+    imp_clearance all = with_rest.count > 0 ? clearance_summary(&with_rest) : nothing(m);
     all.stats = m->stats;
-    exit_status status = EXIT_ANSWERED;
-    if (m->json) {
-        status = output_json(whole_json(m, &table, &all), speaker);
-    } else if (!m->profile) {
-        clearance_print(m->scene, &all, m->options.gamma);
-        if (m->each && m->count > 0) clearance_print_pairs(&table);
-        status = output_flush(speaker);
-    }
+    const exit_status status = print(m, &table, &all);
     return status != EXIT_ANSWERED ? status : status_of(&all);
 }
 
@@ -166,11 +174,21 @@ static exit_status measure_each(measuring *m)
 {
     imp_error error = {0};
     json_object_seed(0); /* before there are threads */
-    const clearance_each of = {m->scene, m->query, required_of(m->args), query_threads(m->args)};
-    if (clearance_each_run(&of, &m->answers, &m->count, &m->stats, &error) != IMP_SUCCESS)
-        return complain_of(&error, m->args->verb->name);
-    const exit_status status = conclude(m);
-    free(m->answers);
+    const imp_options *o = &m->options;
+    const clearance_each of = {.scene = m->scene,
+                               .query = m->query,
+                               .required = required_of(m->args),
+                               .threads = query_threads(m->args),
+                               .max_bytes = o->max_bytes,
+                               .until = o->max_seconds > 0 ? clock_seconds() + o->max_seconds
+                                                           : INFINITY};
+    clearance_answers found;
+    const imp_code code = clearance_each_run(&of, &found, &error);
+    m->answers = found.list, m->count = found.count;
+    m->not_examined = found.not_examined, m->stats = found.stats;
+    const exit_status status =
+        code == IMP_SUCCESS ? conclude(m) : complain_of(&error, m->args->verb->name);
+    free(found.list);
     return status;
 }
 
@@ -261,8 +279,10 @@ const verb verb_clearance = {
         "nearer than its lower end bodies never come, which is proved; its upper end is the\n"
         "distance of two points of them at one time. What is no farther apart than gamma touches.\n"
         "\n"
-        "--require D answers holds, violated, with the earliest time, or undecided. It ends as soon\n"
-        "as that is known, with the bracket as it is then; with --tolerance or --profile it goes on.\n"
+        "--require D answers holds, violated, with the earliest time, or undecided. It ends as "
+        "soon\n"
+        "as that is known, with the bracket as it is then; with --tolerance or --profile it goes "
+        "on.\n"
         "Where the minimum lies between D (1 - 1e-6) and D, both holds and violated are right.\n",
     .example = "impinge clearance 'sphere' 'sphere center=-3,3,0 ! translate velocity=6,0,0' \\\n"
                "               --require 0.9",
