@@ -32,8 +32,8 @@ core_surface = \
     core/surface/region.c core/surface/region.h \
     core/surface/surface.c core/surface/surface.h \
     core/surface/surface_distance.c \
-    core/surface/surface_include.c core/surface/surface_net.c \
-    core/surface/surface_internal.h core/surface/surface_pose.c \
+    core/surface/surface_include.c core/surface/surface_internal.h \
+    core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
     core/surface/surface_rate.c \
     core/surface/surface_symmetry.c
 

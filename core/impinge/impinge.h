@@ -360,6 +360,21 @@ IMP_EXPORT imp_code imp_piece_include(const imp_scene *scene, imp_place at, cons
                                       const double hi[3], imp_model model[3], imp_error *why);
 IMP_EXPORT void imp_piece_domain(const imp_scene *scene, imp_place at, double lo[3], double hi[3]);
 
+/* A motion x -> turn x + shift; turn[row][column] is a rotation, shift a length. It never grows. */
+typedef struct imp_rigid_motion {
+    bool is_known;
+    double turn[3][3], shift[3];
+} imp_rigid_motion;
+
+/* How a surface, or one of its pieces, moves as a whole from one time of its domain to another: where
+ * motion->is_known, its point (u, v, to) is turn x + shift of its point x = (u, v, from), for all u and
+ * v, to within 1e-9 radians and 1e-9 of the numbers that enter, rounding included. Otherwise it
+ * deforms, or is not known to be rigid, and `turn` is the identity. Pieces of one surface are moved by
+ * the same maps, so that where it is known of two it is the same motion. For pictures and animations:
+ * it is computed, not enclosed. [any thread] */
+IMP_EXPORT imp_code imp_piece_motion(const imp_scene *scene, imp_place at, double from, double to,
+                                     imp_rigid_motion *motion, imp_error *why);
+
 /* --- Queries ----------------------------------------------------------------------- */
 
 typedef enum imp_verdict { IMP_CLEAR, IMP_CONTACT, IMP_UNDECIDED } imp_verdict;

@@ -407,6 +407,33 @@ imp_code imp_scene_include(const imp_scene *scene, size_t body, size_t index, co
     return imp_piece_include(scene, (imp_place){body, index, 0}, lo, hi, model, why);
 }
 
+FP_APART static imp_code piece_motion(const imp_scene *scene, imp_place at, double from, double to,
+                                      imp_rigid_motion *motion, imp_error *why)
+{
+    double lo[3], hi[3];
+    const surface *s = piece_at(scene, at);
+    if (s == NULL) return no_surface(scene, at, why);
+    surface_domain(s, lo, hi);
+    const double first = from < to ? from : to, last = from < to ? to : from;
+    if (!(lo[2] <= first && last <= hi[2] && isfinite(first) && isfinite(last)))
+        return error_set(why, IMP_ERROR_USAGE,
+                         "body %zu, surface %zu: times %g and %g, must be finite and in the domain, "
+                         "from %g to %g",
+                         at.body, at.surface, from, to, lo[2], hi[2]);
+    surface_motion(s, from, to, motion);
+    return IMP_SUCCESS;
+}
+
+imp_code imp_piece_motion(const imp_scene *scene, imp_place at, double from, double to,
+                          imp_rigid_motion *motion, imp_error *why)
+{
+    if (scene == NULL || motion == NULL) return error_set_missing(why, "imp_piece_motion");
+    const fp_environment environment = fp_environment_enter();
+    const imp_code code = piece_motion(scene, at, from, to, motion, why);
+    fp_environment_leave(&environment);
+    return code;
+}
+
 void imp_piece_domain(const imp_scene *scene, imp_place at, double lo[3], double hi[3])
 {
     const surface *s = piece_at(scene, at);

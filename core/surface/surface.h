@@ -135,6 +135,9 @@ bool surface_is_rigid(const surface *s);
  * Precondition: surface_is_rigid. */
 imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose);
 
+/* What imp_piece_motion answers. Times are in the surface's domain. */
+bool surface_motion(const surface *s, double from, double to, imp_rigid_motion *motion);
+
 /* At least |x'| / |x| for what such a pose makes of a vector x; 1 but for that slack. */
 double surface_pose_norm_upper(const surface *s);
 
