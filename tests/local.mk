@@ -43,6 +43,7 @@ check_suites = \
     tests/unit/test_metamorphic \
     tests/unit/test_misuse \
     tests/unit/test_map_answers \
+    tests/unit/test_palette \
     tests/unit/test_parallel \
     tests/unit/test_parameters \
     tests/unit/test_parts \
@@ -56,6 +57,7 @@ check_suites = \
     tests/unit/test_query \
     tests/unit/test_query_memory \
     tests/unit/test_registry \
+    tests/unit/test_rigid_motion \
     tests/unit/test_scene_file \
     tests/unit/test_scene_judge \
     tests/unit/test_separation \
@@ -118,7 +120,12 @@ tests_unit_test_parts_SOURCES = tests/unit/test_parts.c tools/bench/crowd.c tool
 tests_support_crowd_scene_SOURCES = tests/support/crowd_scene.c tools/bench/crowd.c
 tests_support_crowd_scene_LDADD = -lm
 check_PROGRAMS += tests/support/crowd_scene
-tests_unit_test_mesh_SOURCES = tests/unit/test_mesh.c tools/view/mesh.c tools/view/mesh_points.c tools/view/mesh.h
+tests_unit_test_mesh_SOURCES = tests/unit/test_mesh.c \
+    tools/view/allowance.c tools/view/allowance.h tools/view/mesh.c tools/view/mesh.h \
+    tools/view/mesh_cell.c tools/view/mesh_cell.h tools/view/mesh_grid.c tools/view/mesh_grid.h \
+    tools/view/mesh_points.c tools/view/mesh_steps.c
+tests_unit_test_palette_SOURCES = tests/unit/test_palette.c \
+    tools/view/palette.c tools/view/palette.h tools/view/raster.h
 tests_unit_test_keyframes_SOURCES = tests/unit/test_keyframes.c tests/support/map_images.h $(type_oracle)
 tests_unit_test_nested_SOURCES = tests/unit/test_nested.c $(type_oracle) \
     tests/support/judge.c tests/support/judge.h \

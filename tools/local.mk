@@ -128,13 +128,22 @@ tools_view = \
     tools/view/animation.h \
     tools/view/camera.h \
     tools/view/canvas.c tools/view/canvas.h \
+    tools/view/cloud.c tools/view/cloud.h \
+    tools/view/events.c tools/view/events.h \
     tools/view/film.c tools/view/film.h \
     tools/view/gap.c tools/view/gap.h \
     tools/view/glb.c \
     tools/view/html.c tools/view/html.h \
     tools/view/html_data.c tools/view/html_data.h \
-    tools/view/mesh.c tools/view/mesh_points.c tools/view/mesh.h \
+    tools/view/legend.c tools/view/legend.h \
+    tools/view/allowance.c tools/view/allowance.h \
+    tools/view/mesh.c tools/view/mesh.h \
+    tools/view/mesh_cell.c tools/view/mesh_cell.h \
+    tools/view/mesh_grid.c tools/view/mesh_grid.h \
+    tools/view/mesh_points.c tools/view/mesh_steps.c \
+    tools/view/nearest.c tools/view/nearest.h \
     tools/view/obj.c \
+    tools/view/palette.c tools/view/palette.h \
     tools/view/picture.c tools/view/picture.h \
     tools/view/plot.c tools/view/plot.h \
     tools/view/plot_source.c tools/view/plot_source.h \
@@ -149,6 +158,8 @@ tools_view = \
     tools/view/stroke_font.c tools/view/stroke_font.h \
     tools/view/subject.c tools/view/subject.h \
     tools/view/view.c tools/view/view.h \
+    tools/view/view_film.c tools/view/view_film.h \
+    tools/view/visibility.c tools/view/visibility.h \
     tools/view/vtu.c \
     tools/view/verb_demo.c \
     tools/view/verb_info.c \

@@ -10,7 +10,7 @@ has_png() { grep -q '^#define HAVE_LIBPNG 1' "$top_builddir/config.h"; }
 
 @test "distance over time falls from 2 to 0, with the contact in the middle" {
     run -0 "$IMPINGE" plot "$left" "$right" --gamma 1e-3 --slices 34
-    [ "${lines[0]}" = 'Least distance between bodies over time' ]
+    [[ ${lines[0]} == 'Distance between bodies over time, sphere radius=1'* ]]
     [[ $output == *'|  contact, t = 0.4995'* || $output == *'|  contact, t = 0.49'* ]]
     awk '{ if (length($0) > 79) exit 1 }' <<<"$output"
     # Between the axis's bars: the band's row in the first column, then, and behind the contact.
@@ -35,10 +35,37 @@ has_png() { grep -q '^#define HAVE_LIBPNG 1' "$top_builddir/config.h"; }
 @test "plots are written as SVG and PNG" {
     run -0 "$IMPINGE" plot "$left" "$right" --slices 4 -o gap.svg
     [ "$output" = 'gap.svg: 960x480 pixels' ]
-    grep -q '>Least distance between bodies over time<' gap.svg
+    grep -q '>Distance between bodies over time, sphere' gap.svg
     has_png || skip 'built without libpng'
     run -0 "$IMPINGE" plot "$left" "$right" --slices 4 -o gap.png
     [ "$(od -An -tx1 -N 8 gap.png | tr -d ' ')" = 89504e470d0a1a0a ]
+}
+
+@test "the least distance is marked with the bodies' names, and what is required as a line" {
+    local passing=('sphere ! translate velocity=2,0,0' 'sphere center=1,3,0')
+    run -0 "$IMPINGE" plot "${passing[@]}" --require 1.1
+    [[ $output == *'  *  least 1 at t = 0.5, a and b'* && $output == *'  -  required 1.1'* ]]
+    # The star is in the middle of the row below the line's.
+    local star line
+    star=$(grep -n '|.*\*' <<<"$output" | head -n 1)
+    line=$(grep -n '|.*---' <<<"$output" | head -n 1)
+    [ "${star%%:*}" -gt "${line%%:*}" ]
+    run -0 "$IMPINGE" plot "${passing[@]}" --require 1.1 -o gap.svg
+    grep -q '>least 1 at t = 0.5, a and b<' gap.svg && grep -q '>required 1.1<' gap.svg
+    run -0 "$IMPINGE" plot "$left" "$right" --slices 4 -o gap.svg
+    run ! grep -q 'least ' gap.svg
+    fails 2 '--require must be a finite number greater than 0' "$IMPINGE" plot "$left" "$right" --require 0
+}
+
+@test "endings may be in capitals" {
+    run -0 "$IMPINGE" plot "$left" "$right" --slices 2 -o GAP.SVG
+    [ "$output" = 'GAP.SVG: 960x480 pixels' ]
+    grep -q '</svg>' GAP.SVG
+}
+
+@test "distances too large for a sum, and times, have a place" {
+    run -0 "$IMPINGE" plot 'sphere radius=1e307' 'sphere radius=1e307 center=9e307,0,0' --slices 2 -o far.svg
+    run ! grep -qE 'nan|inf' far.svg
 }
 
 @test "figure 7 is plotted from a run of the benchmark, or from what it printed" {

@@ -15,7 +15,7 @@ has_png() { grep -q '^#define HAVE_LIBPNG 1' "$top_builddir/config.h"; }
     run -0 view -o picture.svg
     [[ $output =~ ^picture\.svg:\ 1200x960\ pixels,\ surfaces\ to\ within\ (0\.00[0-9]+)$ ]]
     local word
-    for word in 'start: t = 0<' 'contact: t = 0.4999999<' 'end: t = 1<' 'times nearer<' \
+    for word in 'start: t = 0<' 'contact: t = 0.4999999, a and b<' 'end: t = 1<' 'times nearer<' \
         '>a<' '>b<' '>surfaces drawn to within 0.00'; do
         grep -qF "$word" picture.svg
     done
@@ -40,12 +40,32 @@ has_png() { grep -q '^#define HAVE_LIBPNG 1' "$top_builddir/config.h"; }
     fails 2 'install libpng-dev' view -o one.png
 }
 
-@test "a scene without a contact is shown at four moments, and one alone with --at" {
-    run -0 "$IMPINGE" view sphere 'sphere center=9,0,0' -o clear.svg
-    [ "$(grep -c '>[a-z: ]*t = ' clear.svg)" -eq 4 ]
-    run ! grep -q '#d61a1c' clear.svg
-    run -0 "$IMPINGE" view sphere 'sphere center=9,0,0' -o clear.svg --at 0.25
+# Two balls of radius 1 whose centres pass each other 3 apart, at t = 0.5.
+passing=('sphere ! translate velocity=2,0,0' 'sphere center=1,3,0')
+
+@test "a scene without a contact is shown at its nearest approach, and one moment alone with --at" {
+    run -0 "$IMPINGE" view "${passing[@]}" -o clear.svg
+    [ "$(grep -o '>[a-z]*: t = [0-9.]*' clear.svg | tr -d '\n')" = '>start: t = 0>nearest: t = 0.5>end: t = 1' ]
+    grep -qE '>nearest: t = 0\.5[0-9]*, a and b 1 apart<' clear.svg && grep -q 'nearest, .* times nearer' clear.svg
+    # Twice, the line between two dots, which are discs in front of larger ones, and its length.
+    [ "$(grep -c '^<polyline.*stroke="#d61a1c"' clear.svg)" -eq 2 ]
+    [ "$(grep -c '^<polygon.*#d61a1c' clear.svg)" -eq 4 ]
+    [ "$(grep -cE '^<text.*#d61a1c.*>1(\.00[0-9]*)?<' clear.svg)" -eq 2 ]
+    run -0 "$IMPINGE" view "${passing[@]}" -o clear.svg --at 0.25
     [ "$(grep -o '>[a-z: ]*t = [0-9.]*' clear.svg)" = '>t = 0.25' ]
+    run ! grep -q '#d61a1c' clear.svg
+    run -0 "$IMPINGE" view "${passing[@]}" -o clear.svg --at nearest
+    [ "$(grep -o '>[a-z: ]*t = [0-9.]*' clear.svg)" = '>nearest: t = 0.5' ]
+    run -0 view -o contact.svg --at nearest
+    [ "$(grep -o '>[a-z: ]*t = [0-9.]*' contact.svg)" = '>contact: t = 0.4999999' ]
+    fails 2 "--at must be a finite number, or 'nearest', not 'soon'" view -o x.svg --at soon
+}
+
+@test "what comes near nothing is shown at four moments" {
+    echo '{"bodies": [{"name": "only", "surfaces": [{"type": "sphere"}]}]}' >only.json
+    run -0 "$IMPINGE" view only.json -o only.svg
+    [ "$(grep -c '>[a-z: ]*t = ' only.svg)" -eq 4 ]
+    run ! grep -q '#d61a1c' only.svg
 }
 
 @test "a finer picture is more exact" {

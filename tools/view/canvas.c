@@ -37,25 +37,40 @@ static void svg_points(const canvas *c, const char *element, const double *xy, s
     fputs("\"", c->file);
 }
 
+/* XML 1.0 allows no control characters and no U+FFFE and U+FFFF, even as references; "]]>" must not
+ * stand in text. */
 static void svg_escaped(const canvas *c, const char *text)
 {
     for (; *text != '\0'; ++text) {
-        const char *entity = *text == '<' ? "&lt;" : *text == '&' ? "&amp;" : NULL;
-        if (entity != NULL)
-            fputs(entity, c->file);
+        const unsigned char byte = (unsigned char)*text;
+        const bool is_no_character =
+            strncmp(text, "\xEF\xBF\xBE", 3) == 0 || strncmp(text, "\xEF\xBF\xBF", 3) == 0;
+        if (byte == '<')
+            fputs("&lt;", c->file);
+        else if (byte == '>')
+            fputs("&gt;", c->file);
+        else if (byte == '&')
+            fputs("&amp;", c->file);
         else
-            fputc(*text >= 0x20 && *text < 0x7F ? *text : '?', c->file);
+            fputc(byte < 0x20 || byte == 0x7F || is_no_character ? '?' : byte, c->file);
+        if (is_no_character) text += 2;
     }
 }
 
+/* Sizes of letters are those of strokes, of which a line is higher than the letters of a typeface. */
+static const double svg_letters = 0.8;
+
+/* `length`: the letters are spread or pressed to this many pixels; 0: as they are. */
 static void svg_text(canvas *c, double x, double y, double size, canvas_anchor anchor, colour tint,
-                     const char *text)
+                     double length, const char *text)
 {
     static const char *const anchors[] = {"start", "middle", "end"};
     fprintf(c->file,
             "<text x=\"%.2f\" y=\"%.2f\" font-family=\"sans-serif\" font-size=\"%.2f\" "
             "text-anchor=\"%s\"",
-            x, y, 0.8 * size, anchors[anchor]);
+            x, y, svg_letters * size, anchors[anchor]);
+    if (length > 0)
+        fprintf(c->file, " textLength=\"%.2f\" lengthAdjust=\"spacingAndGlyphs\"", length);
     svg_colour(c, "fill", tint);
     fputs(">", c->file);
     svg_escaped(c, text);
@@ -64,8 +79,17 @@ static void svg_text(canvas *c, double x, double y, double size, canvas_anchor a
 
 /* --- Either ----------------------------------------------------------------------------- */
 
+/* Far outside of every picture, and where a number has no place on it. */
+static bool are_places(const double *xy, size_t n)
+{
+    for (size_t k = 0; k < 2 * n; ++k)
+        if (!(fabs(xy[k]) < 1e9)) return false;
+    return true;
+}
+
 void canvas_line(canvas *c, const double *xy, size_t n, pen p)
 {
+    if (!are_places(xy, n)) return;
     if (c->file != NULL) {
         svg_points(c, "polyline", xy, n);
         svg_colour(c, "stroke", p.colour);
@@ -80,6 +104,7 @@ void canvas_line(canvas *c, const double *xy, size_t n, pen p)
 
 void canvas_shape(canvas *c, const double *xy, size_t n, colour fill)
 {
+    if (!are_places(xy, n)) return;
     if (c->file != NULL) {
         svg_points(c, "polygon", xy, n);
         svg_colour(c, "fill", fill);
@@ -100,29 +125,79 @@ void canvas_disc(canvas *c, double x, double y, double radius, colour fill)
     canvas_shape(c, xy, CORNERS, fill);
 }
 
+/* --- Words --------------------------------------------------------------------------------------- */
+
+/* Bytes of the character that begins here. */
+static size_t character_bytes(const char *text)
+{
+    size_t n = 1;
+    while (((unsigned char)text[n] & 0xC0) == 0x80) ++n;
+    return n;
+}
+
+/* Pixels that a character takes. Of a typeface it is what most letters stay below. */
+static double character_width(const canvas *c, double size, const char *text)
+{
+    if (c->file == NULL) return size * STROKE_ADVANCE / STROKE_LINE;
+    return svg_letters * size * ((unsigned char)*text < 0x80 ? 0.58 : 1);
+}
+
+double canvas_text_width(const canvas *c, double size, const char *text)
+{
+    double width = 0;
+    for (; *text != '\0'; text += character_bytes(text)) width += character_width(c, size, text);
+    return width;
+}
+
+void canvas_fitted(const canvas *c, double size, double room, const char *text, char *fitted,
+                   size_t length)
+{
+    static const char dots[] = "...";
+    double width = 0;
+    size_t used = 0, kept = 0; /* kept: what leaves room for the dots */
+    const double less = canvas_text_width(c, size, dots);
+    while (text[used] != '\0') {
+        const size_t bytes = character_bytes(text + used);
+        width += character_width(c, size, text + used);
+        if (width > room || used + bytes + sizeof dots > length) break;
+        used += bytes;
+        if (width + less <= room) kept = used;
+    }
+    if (text[used] == '\0')
+        snprintf(fitted, length, "%s", text);
+    else
+        snprintf(fitted, length, "%.*s%s", (int)kept, text, dots);
+}
+
+/* One letter with its left foot at x, y; what has no strokes is drawn as '?'. */
+static void stroke_letter(canvas *c, double x, double y, double unit, colour tint, char letter)
+{
+    double from[2] = {0, 0};
+    bool drawing = false;
+    for (const char *s = stroke_of(letter); *s != '\0';) {
+        if (*s == ' ') {
+            drawing = false;
+            ++s;
+            continue;
+        }
+        const double to[2] = {x + unit * (s[0] - '0'), y - unit * (s[1] - '2')};
+        if (drawing)
+            canvas_line(c, (const double[4]){from[0], from[1], to[0], to[1]}, 2,
+                        (pen){tint, 1.05 * unit});
+        from[0] = to[0], from[1] = to[1], drawing = true;
+        s += 2;
+    }
+}
+
 static void stroke_text(canvas *c, double x, double y, double size, canvas_anchor anchor,
                         colour tint, const char *text)
 {
-    const double unit = size / STROKE_LINE, wide = unit * STROKE_ADVANCE;
-    const double length = wide * (double)strlen(text);
+    const double length = canvas_text_width(c, size, text);
     if (anchor == CANVAS_MIDDLE) x -= 0.5 * length;
     if (anchor == CANVAS_RIGHT) x -= length;
-    for (; *text != '\0'; ++text, x += wide) {
-        double from[2] = {0, 0};
-        bool drawing = false;
-        for (const char *s = stroke_of(*text); *s != '\0';) {
-            if (*s == ' ') {
-                drawing = false;
-                ++s;
-                continue;
-            }
-            const double to[2] = {x + unit * (s[0] - '0'), y - unit * (s[1] - '2')};
-            if (drawing)
-                canvas_line(c, (const double[4]){from[0], from[1], to[0], to[1]}, 2,
-                            (pen){tint, 1.05 * unit});
-            from[0] = to[0], from[1] = to[1], drawing = true;
-            s += 2;
-        }
+    for (; *text != '\0'; text += character_bytes(text)) {
+        stroke_letter(c, x, y, size / STROKE_LINE, tint, *text);
+        x += character_width(c, size, text);
     }
 }
 
@@ -130,7 +205,15 @@ void canvas_text(canvas *c, double x, double y, double size, canvas_anchor ancho
                  const char *text)
 {
     if (c->file != NULL)
-        svg_text(c, x, y, size, anchor, tint, text);
+        svg_text(c, x, y, size, anchor, tint, 0, text);
     else
         stroke_text(c, x, y, size, anchor, tint, text);
+}
+
+void canvas_text_fixed(canvas *c, double x, double y, double size, colour tint, const char *text)
+{
+    if (c->file != NULL)
+        svg_text(c, x, y, size, CANVAS_LEFT, tint, canvas_text_width(c, size, text), text);
+    else
+        stroke_text(c, x, y, size, CANVAS_LEFT, tint, text);
 }

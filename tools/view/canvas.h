@@ -35,8 +35,16 @@ void canvas_shape(canvas *c, const double *xy, size_t n, colour fill);
 void canvas_disc(canvas *c, double x, double y, double radius, colour fill);
 
 /* Words whose baseline begins, has its middle, or ends at x, y; `size` is the height of a line of
- * text, pixels. ASCII; other bytes are shown as '?'. */
+ * text, pixels. In pixels what is not ASCII is shown as '?'. */
 void canvas_text(canvas *c, double x, double y, double size, canvas_anchor anchor, colour tint,
                  const char *text);
+
+/* Words that begin at x, y and are exactly canvas_text_width wide, whatever the typeface. */
+void canvas_text_fixed(canvas *c, double x, double y, double size, colour tint, const char *text);
+double canvas_text_width(const canvas *c, double size, const char *text);
+
+/* The text, or as much of it as fits `room` pixels and `length` bytes, with dots at its end. */
+void canvas_fitted(const canvas *c, double size, double room, const char *text, char *fitted,
+                   size_t length);
 
 #endif

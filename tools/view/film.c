@@ -12,88 +12,53 @@
 
 /* --- Which frames -------------------------------------------------------------------------- */
 
-static size_t plan_frames(const subject *what, const view_request *request, double *times,
-                          size_t *contact_frame)
+static int by_value(const void *a, const void *b)
+{
+    const double s = *(const double *)a, t = *(const double *)b;
+    return s < t ? -1 : s > t;
+}
+
+/* Times between the ends, and no time twice. */
+static size_t sorted(double *times, size_t count, double t0, double t1)
+{
+    size_t kept = 0;
+    qsort(times, count, sizeof *times, by_value);
+    for (size_t k = 0; k < count; ++k)
+        if (t0 <= times[k] && times[k] <= t1 && (kept == 0 || times[k] > times[kept - 1]))
+            times[kept++] = times[k];
+    return kept;
+}
+
+static double *plan_frames(const subject *what, const view_request *request, size_t *frames)
 {
     const double t0 = what->options.t_start, t1 = what->options.t_end;
-    const bool contact = what->contact.verdict == IMP_CONTACT;
-    *contact_frame = SIZE_MAX;
-    if (request->has_at || !(t0 < t1)) {
-        times[0] = request->has_at ? request->at : t0;
-        if (contact && times[0] == what->contact.t) *contact_frame = 0;
-        return 1;
-    }
-    size_t n = 0;
-    for (size_t k = 0; k < request->frames; ++k) {
-        const double last = (double)(request->frames - 1);
-        const double t = k + 1 == request->frames ? t1 : t0 + (t1 - t0) * ((double)k / last);
-        if (contact && *contact_frame == SIZE_MAX && t >= what->contact.t) {
-            *contact_frame = n;
-            if (t > what->contact.t) times[n++] = what->contact.t;
-        }
-        times[n++] = t;
-    }
-    return n;
+    const size_t even = request->frames;
+    double *times = calloc(even + what->events.count + 1, sizeof *times);
+    *frames = 1;
+    if (times == NULL) return NULL;
+    times[0] = t0;
+    if (request->at_kind == REQUEST_AT_TIME) times[0] = request->at;
+    if (request->at_kind == REQUEST_AT_SPOT && what->spot.is_known) times[0] = what->spot.t;
+    if (request->at_kind != REQUEST_AT_ALL || !(t0 < t1)) return times;
+    for (size_t k = 0; k < even; ++k)
+        times[k] = k + 1 == even ? t1 : t0 + (t1 - t0) * ((double)k / (double)(even - 1));
+    for (size_t k = 0; k < what->events.count; ++k) times[even + k] = what->events.event[k].t;
+    times[even + what->events.count] = what->spot.is_known ? what->spot.t : t0;
+    *frames = sorted(times, even + what->events.count + 1, t0, t1);
+    return times;
 }
 
-/* --- Rigid or not ---------------------------------------------------------------------------- */
-
-/* Three points that are far from one line, to tell a pose by. */
-typedef struct triple {
-    size_t at[3];
-    bool found;
-} triple;
-
-static triple choose_triple(const track *t)
+static size_t frame_of(const film *f, const stage_spot *spot)
 {
-    triple three = {{0, 0, 0}, false};
-    double farthest = 0;
-    for (size_t k = 0; k < t->count; ++k) {
-        const double d = vec_length(vec_sub(t->point[k], t->point[0]));
-        if (d > farthest) farthest = d, three.at[1] = k;
-    }
-    const double length = farthest;
-    const vec along = vec_unit(vec_sub(t->point[three.at[1]], t->point[0]));
-    farthest = 0;
-    for (size_t k = 0; k < t->count; ++k) {
-        const double d = vec_length(vec_cross(along, vec_sub(t->point[k], t->point[0])));
-        if (d > farthest) farthest = d, three.at[2] = k;
-    }
-    three.found = farthest > 1e-3 * length && length > 0;
-    return three;
+    for (size_t k = 0; k < f->frames; ++k)
+        if (spot->is_known && f->times[k] == spot->t) return k;
+    return SIZE_MAX;
 }
 
-typedef struct basis {
-    vec axis[3];
-} basis;
-
-static basis basis_at(const vec *points, const triple *three)
-{
-    const vec o = points[three->at[0]];
-    const vec x = vec_unit(vec_sub(points[three->at[1]], o));
-    const vec z = vec_unit(vec_cross(x, vec_sub(points[three->at[2]], o)));
-    return (basis){{x, vec_cross(z, x), z}};
-}
-
-/* The rotation that takes one basis to the other, as a matrix. */
-static void rotation(const basis *from, const basis *to, double r[3][3])
-{
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            r[i][j] = 0;
-            for (int k = 0; k < 3; ++k) r[i][j] += to->axis[k].x[i] * from->axis[k].x[j];
-        }
-}
-
-static vec turned(double r[3][3], vec p)
-{
-    vec q;
-    for (int i = 0; i < 3; ++i) q.x[i] = r[i][0] * p.x[0] + r[i][1] * p.x[1] + r[i][2] * p.x[2];
-    return q;
-}
+/* --- Poses ----------------------------------------------------------------------------------- */
 
 /* By the largest of the four squares, so that nothing is divided by what is small. */
-static void quaternion(double r[3][3], double q[4])
+static void quaternion(const double r[3][3], double q[4])
 {
     const double trace = r[0][0] + r[1][1] + r[2][2];
     int i = r[1][1] > r[0][0] ? 1 : 0;
@@ -118,86 +83,136 @@ static void keep_near(double q[4], const double before[4])
     for (int n = 0; n < 4 && dot < 0; ++n) q[n] = -q[n];
 }
 
-static bool fit_pose(track *t, size_t frame, const triple *three, const basis *first, double slack)
+/* From where it stands at frame 0, which is where `first` put it, to where `now` puts it. */
+static pose pose_between(const imp_rigid_motion *first, const imp_rigid_motion *now)
 {
-    const vec *now = t->point + frame * t->count;
-    const basis here = basis_at(now, three);
-    double r[3][3];
-    rotation(first, &here, r);
-    t->poses[frame].shift = vec_sub(now[three->at[0]], turned(r, t->point[three->at[0]]));
-    quaternion(r, t->poses[frame].turn);
-    if (frame > 0) keep_near(t->poses[frame].turn, t->poses[frame - 1].turn);
-    for (size_t k = 0; k < t->count; ++k) {
-        const vec at = vec_add(turned(r, t->point[k]), t->poses[frame].shift);
-        if (!(vec_length(vec_sub(at, now[k])) <= slack)) return false;
-    }
-    return true;
+    double turn[3][3];
+    pose p = {.shift = vec_of(now->shift)};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            turn[i][j] = 0;
+            for (int k = 0; k < 3; ++k) turn[i][j] += now->turn[i][k] * first->turn[j][k];
+            p.shift.x[i] -= turn[i][j] * first->shift[j];
+        }
+    quaternion(turn, p.turn);
+    return p;
 }
 
-/* A hundred-thousandth of a pixel or so is no difference. */
-static void judge_rigid(track *t, size_t frames, double size)
+/* --- Tracks ------------------------------------------------------------------------------------ */
+
+static double clamped_time(const stage *s, const mesh *m, double t)
 {
-    const triple three = choose_triple(t);
-    if (!three.found) return;
-    const basis first = basis_at(t->point, &three);
-    t->rigid = true;
-    for (size_t k = 0; k < frames && t->rigid; ++k)
-        t->rigid = fit_pose(t, k, &three, &first, 1e-8 * size);
+    double lo[3], hi[3];
+    imp_scene_domain(s->scene, m->body, m->surface, lo, hi);
+    return fmin(fmax(t, lo[2]), hi[2]);
 }
 
-/* --- All of it ---------------------------------------------------------------------------------- */
-
-static bool begin_tracks(film *f)
+static imp_code find_poses(film *f, track *t, imp_error *error)
 {
-    f->tracks = calloc(f->stage.count + 1, sizeof *f->tracks);
-    for (size_t k = 0; k < f->stage.count && f->tracks != NULL; ++k) {
-        track *t = &f->tracks[f->count++];
-        t->mesh = &f->stage.meshes[k];
-        t->count = t->mesh->nu * t->mesh->nv;
-        t->point = calloc(f->frames * t->count, sizeof *t->point);
-        t->normal = calloc(f->frames * t->count, sizeof *t->normal);
-        t->poses = calloc(f->frames, sizeof *t->poses);
-        t->there = calloc(f->frames, sizeof *t->there);
-        t->always_there = true;
-        if (t->point == NULL || t->normal == NULL || t->poses == NULL || t->there == NULL)
-            return false;
-    }
-    return f->tracks != NULL;
-}
-
-static imp_code take_frame(film *f, size_t frame, imp_error *error)
-{
-    static const vec up = {{0, 0, 1}};
-    for (size_t k = 0; k < f->count; ++k) {
-        track *t = &f->tracks[k];
-        mesh *m = &f->stage.meshes[k];
-        double lo[3], hi[3], upper = 0;
-        imp_piece_domain(f->stage.scene, (imp_place){m->body, m->surface, m->piece}, lo, hi);
-        const double at = fmin(fmax(f->times[frame], lo[2]), hi[2]);
-        t->there[frame] = at == f->times[frame];
-        t->always_there &= t->there[frame];
-        imp_code code = mesh_move(f->stage.scene, m, at, error);
-        if (code == IMP_SUCCESS) code = mesh_error(f->stage.scene, m, at, &upper, error);
+    imp_rigid_motion first, now;
+    t->rigid = t->mesh->is_rigid;
+    for (size_t k = 0; k < f->frames && t->rigid; ++k) {
+        const double at = clamped_time(&f->stage, t->mesh, f->times[k]);
+        const imp_code code = mesh_motion(f->stage.scene, t->mesh, at, &now, error);
         if (code != IMP_SUCCESS) return code;
-        if (!(upper <= f->stage.error_upper)) f->stage.error_upper = upper;
-        memcpy(t->point + frame * t->count, m->point, t->count * sizeof *m->point);
-        for (size_t i = 0; i < t->count; ++i)
-            t->normal[frame * t->count + i] =
-                vec_dot(m->normal[i], m->normal[i]) > 0 ? m->normal[i] : up;
+        if (k == 0) first = now;
+        t->rigid = now.is_known;
+        if (t->rigid) t->poses[k] = pose_between(&first, &now);
+        if (t->rigid && k > 0) keep_near(t->poses[k].turn, t->poses[k - 1].turn);
     }
     return IMP_SUCCESS;
 }
 
-imp_code film_make(const subject *what, const view_request *request, film *f, imp_error *error)
+static imp_code begin_track(film *f, track *t, mesh *m, imp_error *error)
 {
-    *f = (film){.times = calloc(request->frames + 1, sizeof *f->times)};
-    if (f->times != NULL) f->frames = plan_frames(what, request, f->times, &f->contact_frame);
-    imp_code code = storyboard_stage(what, request, f->times, f->frames, &f->stage, error);
-    if (code == IMP_SUCCESS && !begin_tracks(f)) code = mesh_no_memory(error);
-    for (size_t k = 0; k < f->frames && code == IMP_SUCCESS; ++k) code = take_frame(f, k, error);
-    for (size_t k = 0; k < f->count && code == IMP_SUCCESS; ++k)
-        judge_rigid(&f->tracks[k], f->frames, stage_size(&f->stage));
+    *t = (track){.mesh = m, .count = m->point_count, .always_there = true};
+    t->poses = calloc(f->frames, sizeof *t->poses);
+    t->there = calloc(f->frames, sizeof *t->there);
+    if (t->poses == NULL || t->there == NULL) return mesh_no_memory(error);
+    imp_code code = find_poses(f, t, error);
+    if (code != IMP_SUCCESS) return code;
+    const size_t kept = (t->rigid ? 1 : f->frames) * t->count;
+    code = allowance_check_bytes(f->stage.allowance, 2 * kept * sizeof *t->point,
+                                 "frames were kept", error);
+    if (code != IMP_SUCCESS) return code;
+    t->point = calloc(kept, sizeof *t->point);
+    t->normal = calloc(kept, sizeof *t->normal);
+    return t->point != NULL && t->normal != NULL ? IMP_SUCCESS : mesh_no_memory(error);
+}
+
+/* Where the mesh stands now. */
+static void keep_points(track *t, size_t frame)
+{
+    static const vec up = {{0, 0, 1}};
+    const mesh *m = t->mesh;
+    memcpy(t->point + frame * t->count, m->point, t->count * sizeof *m->point);
+    for (size_t i = 0; i < t->count; ++i)
+        t->normal[frame * t->count + i] =
+            vec_dot(m->normal[i], m->normal[i]) > 0 ? m->normal[i] : up;
+}
+
+static imp_code take_frame(film *f, track *t, mesh *m, size_t frame, imp_error *error)
+{
+    const double at = clamped_time(&f->stage, m, f->times[frame]);
+    double upper = 0;
+    t->there[frame] = at == f->times[frame];
+    t->always_there &= t->there[frame];
+    if (t->rigid && frame > 0) return IMP_SUCCESS;
+    imp_code code = mesh_move(f->stage.scene, m, at, f->stage.allowance, error);
+    if (code == IMP_SUCCESS)
+        code = mesh_error(f->stage.scene, m, at, f->stage.allowance, &upper, error);
+    if (code != IMP_SUCCESS) return code;
+    if (!(upper <= f->stage.error_upper)) f->stage.error_upper = upper;
+    keep_points(t, frame);
     return code;
+}
+
+/* turn(x): x + 2 w (q x x) + 2 q x (q x x), with the quaternion (q, w). */
+static vec turned(const double turn[4], vec x)
+{
+    const vec q = vec_of(turn), once = vec_scale(2, vec_cross(q, x));
+    return vec_add(vec_along(x, turn[3], once), vec_cross(q, once));
+}
+
+vec pose_apply(const pose *p, vec x) { return vec_add(turned(p->turn, x), p->shift); }
+
+vec track_point(const track *t, size_t frame, size_t k)
+{
+    if (!t->rigid) return t->point[frame * t->count + k];
+    return pose_apply(&t->poses[frame], t->point[k]);
+}
+
+vec track_normal(const track *t, size_t frame, size_t k)
+{
+    return t->rigid ? turned(t->poses[frame].turn, t->normal[k]) : t->normal[frame * t->count + k];
+}
+
+static imp_code make_tracks(film *f, imp_error *error)
+{
+    f->tracks = calloc(f->stage.count + 1, sizeof *f->tracks);
+    if (f->tracks == NULL) return mesh_no_memory(error);
+    for (size_t k = 0; k < f->stage.count; ++k) {
+        track *t = &f->tracks[f->count++];
+        mesh *m = &f->stage.meshes[k];
+        imp_code code = begin_track(f, t, m, error);
+        for (size_t frame = 0; frame < f->frames && code == IMP_SUCCESS; ++frame)
+            code = take_frame(f, t, m, frame, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    return IMP_SUCCESS;
+}
+
+imp_code film_make(subject *what, const view_request *request, film *f, imp_error *error)
+{
+    *f = (film){.spot_frame = SIZE_MAX};
+    if (request->at_kind == REQUEST_AT_SPOT) {
+        const imp_code code = subject_find_nearest(what, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    f->times = plan_frames(what, request, &f->frames);
+    imp_code code = storyboard_stage(what, request, f->times, f->frames, &f->stage, error);
+    if (code == IMP_SUCCESS) f->spot_frame = frame_of(f, &what->spot);
+    return code == IMP_SUCCESS ? make_tracks(f, error) : code;
 }
 
 void film_free(film *f)

@@ -4,12 +4,13 @@
 
 #include <jansson.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tools/cli/output.h"
 #include "tools/view/animation.h"
-#include "tools/view/picture.h"
+#include "tools/view/palette.h"
 
 /* glTF 2.0 (Khronos, 2021): a JSON text of accessors, meshes, nodes and animations, and one buffer
  * behind it. z is up here and y there, so one node above all turns the world. */
@@ -21,8 +22,9 @@ typedef struct glb {
     FILE *bytes; /* of the buffer */
     size_t length;
     json_t *accessors, *views, *meshes, *nodes, *channels, *samplers, *materials, *roots;
-    bool failed;
-    int times; /* accessor of the frames' moments */
+    bool failed;    /* no memory */
+    bool too_large; /* a number is none of 32 bits */
+    int times;      /* accessor of the frames' moments */
 } glb;
 
 static void append(glb *g, json_t *array, json_t *value)
@@ -40,6 +42,7 @@ static void put_u32(FILE *file, uint32_t word)
 static void put_float(glb *g, float value)
 {
     uint32_t word;
+    if (!isfinite(value)) g->too_large = true;
     memcpy(&word, &value, sizeof word);
     put_u32(g->bytes, word);
     g->length += 4;
@@ -102,10 +105,10 @@ static int add_numbers(glb *g, const double *x, size_t count, const char *type, 
     return accessor;
 }
 
-static void put_corner(void *context, const mesh *m, const size_t c[3])
+static void put_corner(void *context, const mesh *m, const size_t c[3], size_t cell)
 {
     glb *g = context;
-    (void)m;
+    (void)m, (void)cell;
     for (int k = 0; k < 3; ++k) put_u32(g->bytes, (uint32_t)c[k]);
     g->length += 12;
 }
@@ -114,8 +117,8 @@ static int add_triangles(glb *g, const mesh *m)
 {
     const size_t from = g->length;
     mesh_triangles(m, put_corner, g);
-    return add_accessor(g, add_view(g, from, ELEMENT_ARRAY_BUFFER), INDICES,
-                        3 * mesh_triangle_count(m), "SCALAR");
+    return add_accessor(g, add_view(g, from, ELEMENT_ARRAY_BUFFER), INDICES, 3 * m->triangle_count,
+                        "SCALAR");
 }
 
 /* --- Animation ---------------------------------------------------------------------------------- */
@@ -132,7 +135,9 @@ static void add_channel(glb *g, int node, const char *path, const char *interpol
 
 static bool moves(const track *t, size_t frames)
 {
-    for (size_t k = 1; k < frames; ++k)
+    for (size_t k = 1; k < frames && t->rigid; ++k)
+        if (memcmp(&t->poses[0], &t->poses[k], sizeof t->poses[0]) != 0) return true;
+    for (size_t k = 1; k < frames && !t->rigid; ++k)
         if (memcmp(t->point, t->point + k * t->count, t->count * sizeof *t->point) != 0)
             return true;
     return false;
@@ -224,9 +229,9 @@ static void add_track(glb *g, const track *t)
     const int points = add_vectors(g, t->point, NULL, t->count, true, ARRAY_BUFFER);
     const int normals = add_vectors(g, t->normal, NULL, t->count, false, ARRAY_BUFFER);
     const int triangles = add_triangles(g, t->mesh);
-    json_t *primitive = json_pack("{s:{s:i, s:i}, s:i, s:i}", "attributes", "POSITION", points,
-                                  "NORMAL", normals, "indices", triangles, "material",
-                                  add_material(g, picture_body_colour(t->mesh->body)));
+    json_t *primitive =
+        json_pack("{s:{s:i, s:i}, s:i, s:i}", "attributes", "POSITION", points, "NORMAL", normals,
+                  "indices", triangles, "material", add_material(g, palette_colour(t->mesh->body)));
     if (shape && json_object_set_new(primitive, "targets", targets_of(g, t)) != 0) g->failed = true;
     append(g, g->meshes, json_pack("{s:[o]}", "primitives", primitive));
     const int node = add_node(g, imp_scene_body_name(g->film->stage.scene, t->mesh->body),
@@ -293,27 +298,61 @@ static void end(glb *g)
     for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; ++k) json_decref(arrays[k]);
 }
 
+static imp_code refuse(imp_error *error, const char *why)
+{
+    error->code = IMP_ERROR_USAGE;
+    snprintf(error->text, sizeof error->text, "%s", why);
+    return error->code;
+}
+
+static imp_code add_tracks(glb *g, imp_error *error)
+{
+    imp_code code = IMP_SUCCESS;
+    for (size_t k = 0; k < g->film->count && !g->failed && code == IMP_SUCCESS; ++k) {
+        add_track(g, &g->film->tracks[k]);
+        code = allowance_check(g->film->stage.allowance, "the file was written", error);
+    }
+    if (code != IMP_SUCCESS) return code;
+    if (g->failed) return mesh_no_memory(error);
+    if (g->too_large)
+        return refuse(error,
+                      "glTF holds numbers of 32 bits, up to 3.4e+38: coordinates or times here "
+                      "are larger; choose a larger unit");
+    if (g->length > UINT32_MAX / 2)
+        return refuse(error,
+                      "glTF holds less than 4 GiB: ask for fewer moments (--frames) or less exact "
+                      "surfaces (--tolerance)");
+    return code;
+}
+
+static void add_times(glb *g)
+{
+    const film *f = g->film;
+    double *seconds = calloc(f->frames, sizeof *seconds);
+    if (seconds == NULL) g->failed = true;
+    for (size_t k = 0; k < f->frames && !g->failed; ++k) seconds[k] = f->times[k] - f->times[0];
+    if (!g->failed && f->frames > 1)
+        g->times = add_numbers(g, seconds, f->frames, "SCALAR", 1, true);
+    free(seconds);
+}
+
 imp_code animation_glb(const film *f, FILE *file, imp_error *error)
 {
-    char *bytes = NULL;
+    char *bytes = NULL, *text = NULL;
     size_t size = 0;
     glb g = {.film = f, .bytes = open_memstream(&bytes, &size)};
     if (g.bytes == NULL) return mesh_no_memory(error);
     begin(&g);
-    double *seconds = calloc(f->frames, sizeof *seconds);
-    if (seconds == NULL) g.failed = true;
-    for (size_t k = 0; k < f->frames && !g.failed; ++k) seconds[k] = f->times[k] - f->times[0];
-    if (!g.failed && f->frames > 1)
-        g.times = add_numbers(&g, seconds, f->frames, "SCALAR", 1, true);
-    for (size_t k = 0; k < f->count && !g.failed; ++k) add_track(&g, &f->tracks[k]);
-    free(seconds);
-    json_t *root = g.failed ? NULL : document(&g);
-    char *text = root != NULL ? json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17)) : NULL;
-    const bool good = fclose(g.bytes) == 0 && text != NULL && !g.failed && size <= UINT32_MAX / 2;
-    if (good) write_glb(file, text, bytes, size);
+    add_times(&g);
+    imp_code code = add_tracks(&g, error);
+    json_t *root = code == IMP_SUCCESS ? document(&g) : NULL;
+    if (root != NULL) text = json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    if (fclose(g.bytes) != 0 || (code == IMP_SUCCESS && (text == NULL || g.failed)))
+        code = mesh_no_memory(error);
+    if (code == IMP_SUCCESS) write_glb(file, text, bytes, size);
     free(text);
     free(bytes);
     json_decref(root);
     end(&g);
-    return good ? IMP_SUCCESS : mesh_no_memory(error);
+    return code;
 }

@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include "tools/cli/input.h"
@@ -43,14 +44,16 @@ static exit_status read_file(const char *path, const char *verb, input_text *tex
     return read ? EXIT_ANSWERED : EXIT_DATA;
 }
 
-/* A script inside a page. Where its text would end the element, the slash is escaped, which means the
- * same in a string and in a regular expression. */
+/* A script inside a page. Where its text would end the element, or begin what hides that end, a
+ * character is escaped, which means the same in a string and in a regular expression. */
 static void put_script(const char *text, size_t length, FILE *file)
 {
-    static const char end[] = "</script";
+    static const char *const words[] = {"</script", "<!--"};
     for (size_t k = 0; k < length; ++k) {
-        const bool ends =
-            length - k >= sizeof end - 1 && memcmp(text + k, end, sizeof end - 1) == 0;
+        bool ends = false;
+        for (size_t w = 0; w < 2; ++w)
+            ends |= length - k >= strlen(words[w]) &&
+                    strncasecmp(text + k, words[w], strlen(words[w])) == 0;
         fputc(text[k], file);
         if (ends) fputc('\\', file);
     }
@@ -65,28 +68,66 @@ static exit_status put_library(int index, FILE *file, const char *verb)
     return status;
 }
 
+/* In JSON '<' stands in strings only, where it may be written by its number: then no name ends the
+ * element, whatever it is. */
 static exit_status put_data(const html_page *page, FILE *file, const char *verb)
 {
     json_t *data = html_data(page);
     char *text = data != NULL ? json_dumps(data, JSON_COMPACT | JSON_REAL_PRECISION(17)) : NULL;
-    if (text != NULL) put_script(text, strlen(text), file);
-    free(text);
+    for (const char *c = text; c != NULL && *c != '\0'; ++c) {
+        if (*c == '<')
+            fputs("\\u003c", file);
+        else
+            fputc(*c, file);
+    }
     json_decref(data);
-    return text != NULL ? EXIT_ANSWERED : complain_of_memory(verb);
+    const bool good = text != NULL;
+    free(text);
+    return good ? EXIT_ANSWERED : complain_of_memory(verb);
+}
+
+static void put_title(const char *title, FILE *file)
+{
+    for (; *title != '\0'; ++title) {
+        const char *entity = *title == '<' ? "&lt;" : *title == '&' ? "&amp;" : NULL;
+        if (entity != NULL)
+            fputs(entity, file);
+        else
+            fputc(*title, file);
+    }
+}
+
+typedef enum word { WORD_TITLE, WORD_THREE, WORD_ORBIT, WORD_DATA, WORDS } word;
+
+static exit_status put_word(word w, const html_page *page, FILE *file, const char *verb)
+{
+    switch (w) {
+    case WORD_TITLE:
+        put_title(page->title, file);
+        return EXIT_ANSWERED;
+    case WORD_THREE:
+        return put_library(0, file, verb);
+    case WORD_ORBIT:
+        return put_library(1, file, verb);
+    case WORD_DATA:
+    case WORDS:
+        break;
+    }
+    return put_data(page, file, verb);
 }
 
 /* The template with each @WORD@ replaced. */
 static exit_status put_page(const char *template, const html_page *page, FILE *file,
                             const char *verb)
 {
-    static const char *const words[] = {"@THREE@", "@ORBIT@", "@DATA@"};
+    static const char *const words[WORDS] = {"@TITLE@", "@THREE@", "@ORBIT@", "@DATA@"};
     exit_status status = EXIT_ANSWERED;
-    for (int k = 0; k < 3 && status == EXIT_ANSWERED; ++k) {
-        const char *at = strstr(template, words[k]);
-        if (at == NULL) return complain(EXIT_DATA, verb, "page.html: %s is missing", words[k]);
+    for (word w = WORD_TITLE; w < WORDS && status == EXIT_ANSWERED; ++w) {
+        const char *at = strstr(template, words[w]);
+        if (at == NULL) return complain(EXIT_DATA, verb, "page.html: %s is missing", words[w]);
         fwrite(template, 1, (size_t)(at - template), file);
-        status = k < 2 ? put_library(k, file, verb) : put_data(page, file, verb);
-        template = at + strlen(words[k]);
+        status = put_word(w, page, file, verb);
+        template = at + strlen(words[w]);
     }
     fputs(template, file);
     return status;

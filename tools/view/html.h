@@ -3,6 +3,7 @@
 #ifndef TOOLS_VIEW_HTML_H
 #define TOOLS_VIEW_HTML_H
 
+#include "tools/view/events.h"
 #include "tools/view/film.h"
 #include "tools/view/gap.h"
 #include "tools/view/regions.h"
@@ -17,9 +18,12 @@ exit_status html_check(const char *path, const char *verb);
 /* What the page shows. */
 typedef struct html_page {
     const film *film;
-    const gap_profile *gap; /* NULL: none */
-    const regions *regions; /* NULL: none */
-    vec toward;             /* from where to look */
+    const event_list *events;
+    const char *title;
+    gap_profile gap;     /* in slices of time; none of them: it is not shown */
+    gap_profile moments; /* at the film's frames; none: it is not shown */
+    regions regions;     /* none: they are not shown */
+    vec toward;          /* from where to look */
 } html_page;
 
 /* Complains of files that cannot be read. */

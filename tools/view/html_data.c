@@ -5,12 +5,12 @@
 #include "tools/view/html_data.h"
 
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tools/cli/output.h"
-#include "tools/cli/result.h"
-#include "tools/view/picture.h"
+#include "tools/view/palette.h"
 
 /* --- Arrays ----------------------------------------------------------------------------------- */
 
@@ -40,11 +40,6 @@ static void put_float(packed *p, double number)
     put_word(p, word);
 }
 
-static void put_vectors(packed *p, const vec *x, size_t count)
-{
-    for (size_t i = 0; i < 3 * count; ++i) put_float(p, x[i / 3].x[i % 3]);
-}
-
 /* RFC 4648. Frees the numbers; NULL: no memory. */
 static json_t *packed_json(packed *p)
 {
@@ -64,14 +59,6 @@ static json_t *packed_json(packed *p)
     return json;
 }
 
-static json_t *vectors_json(const vec *x, size_t count)
-{
-    packed p;
-    if (!packed_begin(&p, 3 * count)) return NULL;
-    put_vectors(&p, x, count);
-    return packed_json(&p);
-}
-
 static json_t *numbers_json(const double *x, size_t count)
 {
     json_t *array = json_array();
@@ -81,44 +68,72 @@ static json_t *numbers_json(const double *x, size_t count)
 
 static json_t *vector_json(vec v) { return numbers_json(v.x, 3); }
 
+/* --- Places ------------------------------------------------------------------------------------ */
+
+/* The page's numbers have 32 bits: its origin is the middle of the scene, its unit the scene's size, so
+ * that neither large nor far away scenes lose anything that shows. */
+typedef struct frame {
+    vec centre;
+    double unit; /* 1 / length */
+} frame;
+
+static frame frame_of(const stage *s)
+{
+    const vec_box *box = &s->cloud.box;
+    if (s->cloud.count == 0) return (frame){{{0, 0, 0}}, 1};
+    return (frame){vec_scale(0.5, vec_add(box->lo, box->hi)), 1 / stage_size(s)};
+}
+
+static vec place_of(const frame *f, vec p) { return vec_scale(f->unit, vec_sub(p, f->centre)); }
+
+static json_t *places_json(const frame *f, const vec *x, size_t count)
+{
+    packed p;
+    if (!packed_begin(&p, 3 * count)) return NULL;
+    for (size_t k = 0; k < count; ++k) {
+        const vec at = f != NULL ? place_of(f, x[k]) : x[k];
+        for (int i = 0; i < 3; ++i) put_float(&p, at.x[i]);
+    }
+    return packed_json(&p);
+}
+
 /* --- One surface --------------------------------------------------------------------------------- */
 
-static void put_corners(void *context, const mesh *m, const size_t c[3])
+static void put_corners(void *context, const mesh *m, const size_t c[3], size_t cell)
 {
-    (void)m;
+    (void)m, (void)cell;
     for (int k = 0; k < 3; ++k) put_word(context, (uint32_t)c[k]);
 }
 
 static json_t *triangles_json(const mesh *m)
 {
     packed p;
-    if (!packed_begin(&p, 3 * mesh_triangle_count(m))) return NULL;
+    if (!packed_begin(&p, 3 * m->triangle_count)) return NULL;
     mesh_triangles(m, put_corners, &p);
     return packed_json(&p);
 }
 
-static void put_step(void *context, const mesh *m, size_t from, size_t to)
-{
-    (void)m;
-    put_word(context, (uint32_t)from);
-    put_word(context, (uint32_t)to);
-}
-
-static json_t *lines_json(const mesh *m)
+static json_t *steps_json(const mesh *m, bool edges)
 {
     packed p;
-    if (!packed_begin(&p, 4 * m->nu * m->nv)) return NULL;
-    mesh_marked_steps(m, put_step, &p);
+    if (!packed_begin(&p, 2 * m->step_count)) return NULL;
+    for (size_t k = 0; k < m->step_count; ++k) {
+        if ((m->steps[k].kind == MESH_EDGE) != edges) continue;
+        put_word(&p, m->steps[k].from);
+        put_word(&p, m->steps[k].to);
+    }
     return packed_json(&p);
 }
 
-static json_t *poses_json(const track *t, size_t frames)
+/* In the page's places the pose x -> R x + s is x -> R x + (R c + s - c) / size. */
+static json_t *poses_json(const frame *f, const track *t, size_t frames)
 {
     json_t *poses = json_array();
     for (size_t k = 0; k < frames; ++k) {
         const pose *p = &t->poses[k];
-        const double all[7] = {p->turn[0],    p->turn[1],    p->turn[2],   p->turn[3],
-                               p->shift.x[0], p->shift.x[1], p->shift.x[2]};
+        const vec shift = place_of(f, pose_apply(p, f->centre));
+        const double all[7] = {p->turn[0], p->turn[1], p->turn[2], p->turn[3],
+                               shift.x[0], shift.x[1], shift.x[2]};
         json_array_append_new(poses, numbers_json(all, 7));
     }
     return poses;
@@ -131,94 +146,149 @@ static json_t *presence_json(const track *t, size_t frames)
     return array;
 }
 
-/* For each cell how many pairs had been tested when it was proved clear. */
+typedef struct proof {
+    packed *to;
+    const double *pairs; /* of the cells */
+} proof;
+
+static void put_proof(void *context, const mesh *m, const size_t c[3], size_t cell)
+{
+    const proof *p = context;
+    (void)m, (void)c;
+    put_float(p->to, p->pairs[cell]);
+}
+
+/* For each triangle how many pairs had been tested when it was proved clear. */
 static json_t *proved_json(const html_page *page, size_t index)
 {
     const mesh *m = page->film->tracks[index].mesh;
-    const size_t cells = (m->nu - 1) * (m->nv - 1);
     packed p;
-    if (page->regions == NULL) return json_null();
-    if (!packed_begin(&p, cells)) return NULL;
-    for (size_t k = 0; k < cells; ++k) put_float(&p, page->regions->pairs[index][k]);
+    if (page->regions.count == 0) return json_null();
+    if (!packed_begin(&p, m->triangle_count)) return NULL;
+    proof all = {&p, page->regions.pairs[index]};
+    mesh_triangles(m, put_proof, &all);
     return packed_json(&p);
 }
 
-static json_t *surface_json(const html_page *page, size_t index)
+static json_t *surface_json(const html_page *page, const frame *f, size_t index)
 {
     const track *t = &page->film->tracks[index];
     const size_t frames = page->film->frames, shown = t->rigid ? 1 : frames;
-    return json_pack("{s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "colour",
-                     picture_colour_json(picture_body_colour(t->mesh->body)), "count",
-                     (json_int_t)t->count, "index", triangles_json(t->mesh), "lines",
-                     lines_json(t->mesh), "points", vectors_json(t->point, shown * t->count),
-                     "normals", vectors_json(t->normal, shown * t->count), "poses",
-                     t->rigid ? poses_json(t, frames) : json_null(), "there",
+    return json_pack("{s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "body",
+                     (json_int_t)t->mesh->body, "count", (json_int_t)t->count, "index",
+                     triangles_json(t->mesh), "lines", steps_json(t->mesh, false), "edges",
+                     steps_json(t->mesh, true), "points",
+                     places_json(f, t->point, shown * t->count), "normals",
+                     places_json(NULL, t->normal, shown * t->count), "poses",
+                     t->rigid ? poses_json(f, t, frames) : json_null(), "there",
                      presence_json(t, frames), "proved", proved_json(page, index));
 }
 
 /* --- The whole ----------------------------------------------------------------------------------- */
 
-static json_t *surfaces_json(const html_page *page)
+static json_t *surfaces_json(const html_page *page, const frame *f)
 {
     json_t *all = json_array();
     for (size_t k = 0; k < page->film->count && all != NULL; ++k)
-        if (json_array_append_new(all, surface_json(page, k)) != 0) {
+        if (json_array_append_new(all, surface_json(page, f, k)) != 0) {
             json_decref(all);
             all = NULL;
         }
     return all;
 }
 
+/* "#rrggbb" */
+static json_t *colour_json(colour c)
+{
+    char text[16];
+    snprintf(text, sizeof text, "#%02x%02x%02x", (unsigned)(255 * c.r + 0.5f),
+             (unsigned)(255 * c.g + 0.5f), (unsigned)(255 * c.b + 0.5f));
+    return json_string(text);
+}
+
 static json_t *bodies_json(const stage *s)
 {
     json_t *all = json_array();
     for (size_t b = 0; b < s->body_count; ++b)
-        json_array_append_new(
-            all, json_pack("{s:o, s:o}", "name", output_json_text(imp_scene_body_name(s->scene, b)),
-                           "colour", picture_colour_json(picture_body_colour(b))));
+        json_array_append_new(all, json_pack("{s:o, s:o, s:b}", "name",
+                                             output_json_text(imp_scene_body_name(s->scene, b)),
+                                             "colour", colour_json(palette_colour(b)), "shown",
+                                             imp_scene_surface_count(s->scene, b) > 0));
     return all;
 }
 
-static json_t *contact_json(const stage *s)
+static json_t *spot_json(const stage *s, const frame *f)
 {
-    if (s->contact.verdict != IMP_CONTACT) return json_null();
-    return json_pack("{s:o, s:o, s:o}", "t", output_json_number(s->contact.t), "point",
-                     vector_json(stage_contact_point(s)), "normal",
-                     s->contact.has_normal ? vector_json(s->contact.normal) : json_null());
+    const stage_spot *spot = &s->spot;
+    if (!spot->is_known) return json_null();
+    return json_pack("{s:o, s:b, s:o, s:o, s:o, s:[i,i], s:o}", "t", output_json_number(spot->t),
+                     "contact", spot->is_contact, "a", vector_json(place_of(f, spot->point[0])),
+                     "b", vector_json(place_of(f, spot->point[1])), "normal",
+                     spot->has_normal ? vector_json(spot->normal) : json_null(), "bodies",
+                     (int)spot->body[0], (int)spot->body[1], "distance",
+                     output_json_number(spot->upper));
 }
 
-static json_t *gap_json(const gap_profile *gap)
+static json_t *events_json(const html_page *page, const frame *f)
 {
-    return json_pack("{s:o, s:o, s:o}", "t", numbers_json(gap->t, gap->count + 1), "lower",
+    json_t *all = json_array();
+    for (size_t k = 0; k < page->events->count; ++k) {
+        const event *e = &page->events->event[k];
+        json_array_append_new(all, json_pack("{s:o, s:o, s:o, s:o}", "t", output_json_number(e->t),
+                                             "point", vector_json(place_of(f, e->point)), "normal",
+                                             e->has_normal ? vector_json(e->normal) : json_null(),
+                                             "what", output_json_text(e->what)));
+    }
+    return all;
+}
+
+static json_t *gap_json(const gap_profile *gap, size_t times)
+{
+    if (gap->count == 0) return json_null();
+    return json_pack("{s:o, s:o, s:o}", "t", numbers_json(gap->t, times), "lower",
                      numbers_json(gap->lower, gap->count), "upper",
                      numbers_json(gap->upper, gap->count));
 }
 
+/* What is known, in words. */
 static json_t *told_json(const stage *s)
 {
-    char text[256];
-    const char *verdict = result_verdict_name(s->contact.verdict);
-    if (s->contact.verdict == IMP_CONTACT)
-        snprintf(text, sizeof text, "contact at t = %.10g, gap at most %.3g", s->contact.t,
-                 s->contact.gamma);
-    else
-        snprintf(text, sizeof text, "%s, proved until t = %.10g", verdict, s->contact.t);
-    snprintf(text + strlen(text), sizeof text - strlen(text), "; surfaces drawn to within %.2g",
-             s->error_upper);
-    return json_string(text);
+    char text[700];
+    const stage_contact *c = &s->contact;
+    const stage_spot *spot = &s->spot;
+    size_t used = 0;
+    text[0] = '\0';
+    if (c->is_known && c->verdict == IMP_CONTACT)
+        snprintf(text, sizeof text, "First contact at t = %.7g", c->t);
+    else if (c->is_known && c->verdict == IMP_CLEAR)
+        snprintf(text, sizeof text, "No contact from t = %.7g to %.7g, proved. ", s->t_start,
+                 s->t_end);
+    else if (c->is_known)
+        snprintf(text, sizeof text, "No contact before t = %.7g, proved; not decided after. ",
+                 c->t);
+    used = strlen(text);
+    if (spot->is_known)
+        snprintf(text + used, sizeof text - used,
+                 spot->is_contact ? ": %.100s and %.100s; proved that none is earlier. "
+                                  : "Nearest: %.100s and %.100s, %.4g apart at t = %.7g. ",
+                 imp_scene_body_name(s->scene, spot->body[0]),
+                 imp_scene_body_name(s->scene, spot->body[1]), spot->upper, spot->t);
+    used = strlen(text);
+    snprintf(text + used, sizeof text - used, "Surfaces are drawn to within %.2g.", s->error_upper);
+    return output_json_text(text);
 }
 
 json_t *html_data(const html_page *page)
 {
     const film *f = page->film;
     const stage *s = &f->stage;
-    json_t *searched = page->regions != NULL ? json_real(page->regions->total) : json_null();
-    json_t *gap = page->gap != NULL ? gap_json(page->gap) : json_null();
-    const vec centre = vec_scale(0.5, vec_add(s->box.lo, s->box.hi));
-    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:f, s:o, s:o}", "title",
-                     "impinge view", "times", numbers_json(f->times, f->frames), "contact",
-                     contact_json(s), "told", told_json(s), "bodies", bodies_json(s), "surfaces",
-                     surfaces_json(page), "centre", vector_json(centre), "toward",
-                     vector_json(page->toward), "size", stage_size(s), "gap", gap, "searched",
-                     searched);
+    const frame place = frame_of(s);
+    json_t *searched = page->regions.count > 0 ? json_real(page->regions.total) : json_null();
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
+                     output_json_text(page->title), "times", numbers_json(f->times, f->frames),
+                     "spot", spot_json(s, &place), "told", told_json(s), "bodies", bodies_json(s),
+                     "surfaces", surfaces_json(page, &place), "toward", vector_json(page->toward),
+                     "events", events_json(page, &place), "gap",
+                     gap_json(&page->gap, page->gap.count + 1), "distance",
+                     gap_json(&page->moments, page->moments.count), "searched", searched);
 }

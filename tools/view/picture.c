@@ -5,27 +5,13 @@
 #include "tools/view/picture.h"
 
 #include <stdlib.h>
-#include <string.h>
+
+#include "tools/view/palette.h"
+#include "tools/view/visibility.h"
 
 enum { TITLE = 20 }; /* pixels above the middle that the title takes */
 
-static const colour ink = {0.13f, 0.15f, 0.18f}, mark = {0.84f, 0.10f, 0.11f}, white = {1, 1, 1};
-
-colour picture_body_colour(size_t body)
-{
-    static const colour palette[] = {{0.40f, 0.62f, 0.86f}, {0.95f, 0.65f, 0.32f},
-                                     {0.52f, 0.76f, 0.47f}, {0.79f, 0.55f, 0.80f},
-                                     {0.90f, 0.83f, 0.42f}, {0.45f, 0.76f, 0.76f}};
-    return palette[body % (sizeof palette / sizeof palette[0])];
-}
-
-json_t *picture_colour_json(colour c)
-{
-    char text[16];
-    snprintf(text, sizeof text, "#%02x%02x%02x", (unsigned)(255 * c.r + 0.5f),
-             (unsigned)(255 * c.g + 0.5f), (unsigned)(255 * c.b + 0.5f));
-    return json_string(text);
-}
+static const colour ink = {0.13f, 0.15f, 0.18f}, white = {1, 1, 1};
 
 static colour darker(colour c, float by) { return (colour){c.r * by, c.g * by, c.b * by}; }
 
@@ -37,11 +23,12 @@ static colour lighter(colour c, float by)
 void picture_frame(camera *c, const raster_window *w, const stage *s)
 {
     double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+    const cloud *all = &s->cloud;
     c->target = (vec){{0, 0, 0}};
     c->scale = 1, c->middle[0] = c->middle[1] = 0;
-    if (s->cloud_count > 0) c->target = vec_scale(0.5, vec_add(s->box.lo, s->box.hi));
-    for (size_t i = 0; i < s->cloud_count; ++i) {
-        const vec seen = camera_see(c, s->cloud[i]);
+    if (all->count > 0) c->target = vec_scale(0.5, vec_add(all->box.lo, all->box.hi));
+    for (size_t i = 0; i < all->count; ++i) {
+        const vec seen = camera_see(c, all->point[i]);
         for (int k = 0; k < 2; ++k) lo[k] = fmin(lo[k], seen.x[k]), hi[k] = fmax(hi[k], seen.x[k]);
     }
     const double wide = hi[0] - lo[0], high = hi[1] - lo[1];
@@ -52,6 +39,29 @@ void picture_frame(camera *c, const raster_window *w, const stage *s)
     c->middle[1] = w->y + 0.5 * (w->height + TITLE) - (extends ? 0.5 * scale * (lo[1] + hi[1]) : 0);
 }
 
+/* --- What hides the spot ------------------------------------------------------------------------- */
+
+/* Pixels in front of the spot, at least, from which on the bodies that hide it are transparent. */
+static const double veil_pixels = 2;
+
+typedef struct veil {
+    bool *hides;  /* one a body; NULL: none does */
+    double depth; /* what is nearer is transparent; pixels, as the camera sees it */
+} veil;
+
+static imp_code veil_begin(veil *v, const stage *s, const panel *p, imp_error *error)
+{
+    *v = (veil){NULL, INFINITY};
+    if (!p->marks || !s->spot.is_known) return IMP_SUCCESS;
+    v->hides = calloc(s->body_count + 1, sizeof *v->hides);
+    if (v->hides == NULL) return mesh_no_memory(error);
+    const double slack = 0.25 * visibility_slack(s) * p->camera.scale;
+    v->depth = camera_see(&p->camera, stage_spot_point(s)).x[2] + fmax(slack, veil_pixels);
+    return visibility_hiding(s, p->camera.toward, v->hides, error);
+}
+
+static bool is_veiled(const veil *v, size_t body) { return v->hides != NULL && v->hides[body]; }
+
 /* --- Surfaces ----------------------------------------------------------------------------- */
 
 typedef struct painter {
@@ -60,11 +70,12 @@ typedef struct painter {
     colour colour;
 } painter;
 
-static void paint_triangle(void *context, const mesh *m, const size_t c[3])
+static void paint_triangle(void *context, const mesh *m, const size_t c[3], size_t cell)
 {
     const painter *paint = context;
     const camera *cam = paint->camera;
     raster_corner corner[3];
+    (void)cell;
     for (int k = 0; k < 3; ++k) {
         const vec n = m->normal[c[k]];
         corner[k].at = camera_see(cam, m->point[c[k]]);
@@ -82,33 +93,50 @@ static vec lifted(const camera *c, vec p)
     return seen;
 }
 
-static void paint_step(void *context, const mesh *m, size_t from, size_t to)
+/* How lines are drawn, by mesh_step_kind: share of the body's colour, pixels. */
+typedef struct step_style {
+    float darkness;
+    double width;
+} step_style;
+static const step_style styles[] = {{0.62f, 0.8}, {0.72f, 0.7}, {0.45f, 1.2}};
+
+static void paint_steps(const painter *paint, const mesh *m)
 {
-    const painter *paint = context;
-    raster_line(paint->raster, lifted(paint->camera, m->point[from]),
-                lifted(paint->camera, m->point[to]), 0.8, darker(paint->colour, 0.62f), true);
+    for (size_t k = 0; k < m->step_count; ++k) {
+        const mesh_step *s = &m->steps[k];
+        raster_line(paint->raster, lifted(paint->camera, m->point[s->from]),
+                    lifted(paint->camera, m->point[s->to]), styles[s->kind].width,
+                    darker(paint->colour, styles[s->kind].darkness), true);
+    }
 }
 
-static void paint_surfaces(const stage *s, const camera *c, raster *r, bool lines)
+static imp_code paint_surfaces(const stage *s, const camera *c, const veil *v, raster *r,
+                               bool lines, imp_error *error)
 {
-    for (size_t k = 0; k < s->count; ++k) {
-        painter paint = {c, r, picture_body_colour(s->meshes[k].body)};
-        if (!stage_is_there(s, &s->meshes[k])) continue;
-        mesh_triangles(&s->meshes[k], paint_triangle, &paint);
-        if (lines) mesh_marked_steps(&s->meshes[k], paint_step, &paint);
+    imp_code code = IMP_SUCCESS;
+    for (size_t k = 0; k < s->count && code == IMP_SUCCESS; ++k) {
+        const mesh *m = &s->meshes[k];
+        const painter paint = {c, r, palette_colour(m->body)};
+        if (!stage_is_there(s, m)) continue;
+        if (!raster_veil(r, is_veiled(v, m->body) ? v->depth : INFINITY))
+            return mesh_no_memory(error);
+        painter own = paint;
+        mesh_triangles(m, paint_triangle, &own);
+        if (lines) paint_steps(&paint, m);
+        code = allowance_check(s->allowance, "triangles were drawn", error);
     }
+    raster_veil_end(r);
+    return code;
 }
 
 /* --- As lines ------------------------------------------------------------------------------- */
 
 /* Depths of the panel, to tell what is hidden. */
 typedef struct outliner {
-    const camera *camera;
+    const panel *panel;
     const raster *depths; /* of the panel alone */
-    raster_window window; /* of the panel */
+    const veil *veil;
     canvas *canvas;
-    colour colour;
-    bool hidden; /* which of the two kinds of step is drawn now */
 } outliner;
 
 static bool is_inside(const raster_window *w, const double *p)
@@ -116,37 +144,47 @@ static bool is_inside(const raster_window *w, const double *p)
     return p[0] >= w->x && p[0] <= w->x + w->width && p[1] >= w->y && p[1] <= w->y + w->height;
 }
 
-static void outline_step(void *context, const mesh *m, size_t from, size_t to)
+/* Of the two kinds of step, the hidden or the others; a veiled one is drawn as if hidden. */
+static void outline_step(const outliner *o, const mesh *m, const mesh_step *s, bool faint)
 {
-    const outliner *o = context;
-    const vec a = lifted(o->camera, m->point[from]), b = lifted(o->camera, m->point[to]);
+    const camera *cam = &o->panel->camera;
+    const vec a = lifted(cam, m->point[s->from]), b = lifted(cam, m->point[s->to]);
     const vec middle = vec_scale(0.5, vec_add(a, b));
-    const raster_window *w = &o->window;
+    const raster_window *w = &o->panel->window;
     if (!is_inside(w, a.x) || !is_inside(w, b.x)) return;
     const double front = raster_depth(o->depths, middle.x[0] - w->x, middle.x[1] - w->y);
-    if ((front > middle.x[2] + 1.5) != o->hidden) return;
-    const colour c = o->hidden ? lighter(o->colour, 0.35f) : darker(o->colour, 0.75f);
+    const bool veiled = is_veiled(o->veil, m->body) && middle.x[2] > o->veil->depth;
+    if ((front > middle.x[2] + 1.5 || veiled) != faint) return;
+    const colour body = palette_colour(m->body);
+    const colour c =
+        faint ? lighter(body, 0.35f) : darker(body, s->kind == MESH_EDGE ? 0.6f : 0.75f);
     canvas_line(o->canvas, (const double[4]){a.x[0], a.x[1], b.x[0], b.x[1]}, 2,
-                (pen){c, o->hidden ? 0.4 : 0.9});
+                (pen){c, faint                  ? 0.4
+                         : s->kind == MESH_EDGE ? 1.2
+                                                : 0.9});
 }
 
-static imp_code outline_surfaces(const stage *s, const panel *p, canvas *c, imp_error *error)
+static imp_code outline_surfaces(const stage *s, const panel *p, const veil *v, canvas *c,
+                                 imp_error *error)
 {
-    raster depths;
+    raster depths = {.width = 0};
     camera shifted = p->camera;
     shifted.middle[0] -= p->window.x, shifted.middle[1] -= p->window.y;
-    const bool begun =
-        raster_begin(&depths, (size_t)p->window.width, (size_t)p->window.height, white);
-    if (begun) paint_surfaces(s, &shifted, &depths, false);
-    for (int pass = 0; pass < 2 && begun; ++pass)
+    imp_code code = allowance_check_bytes(
+        s->allowance, raster_bytes(p->window.width, p->window.height), "pixels were kept", error);
+    const bool begun = code == IMP_SUCCESS && raster_begin(&depths, (size_t)p->window.width,
+                                                           (size_t)p->window.height, white);
+    if (code == IMP_SUCCESS && !begun) code = mesh_no_memory(error);
+    if (code == IMP_SUCCESS) code = paint_surfaces(s, &shifted, v, &depths, false, error);
+    const outliner o = {p, &depths, v, c};
+    for (int faint = 1; faint >= 0 && code == IMP_SUCCESS; --faint)
         for (size_t k = 0; k < s->count; ++k) {
             const mesh *m = &s->meshes[k];
-            outliner o = {&p->camera, &depths, p->window, c, picture_body_colour(m->body),
-                          pass == 0};
-            if (stage_is_there(s, m)) mesh_marked_steps(m, outline_step, &o);
+            for (size_t i = 0; i < m->step_count && stage_is_there(s, m); ++i)
+                outline_step(&o, m, &m->steps[i], faint != 0);
         }
     raster_free(&depths);
-    return begun ? IMP_SUCCESS : mesh_no_memory(error);
+    return code;
 }
 
 /* --- Marks ---------------------------------------------------------------------------------- */
@@ -156,89 +194,82 @@ static void arrow(canvas *c, const double from[2], const double to[2])
     const double dx = to[0] - from[0], dy = to[1] - from[1], length = sqrt(dx * dx + dy * dy);
     if (!(length > 4)) return;
     const double x = dx / length, y = dy / length, base[2] = {to[0] - 11 * x, to[1] - 11 * y};
-    canvas_line(c, (const double[4]){from[0], from[1], base[0], base[1]}, 2, (pen){mark, 2.2});
+    canvas_line(c, (const double[4]){from[0], from[1], base[0], base[1]}, 2,
+                (pen){palette_mark, 2.2});
     canvas_shape(c,
                  (const double[6]){to[0], to[1], base[0] - 5 * y, base[1] + 5 * x, base[0] + 5 * y,
                                    base[1] - 5 * x},
-                 3, mark);
+                 3, palette_mark);
+}
+
+static void dot(canvas *c, const double at[2])
+{
+    canvas_disc(c, at[0], at[1], 5.2, white);
+    canvas_disc(c, at[0], at[1], 3.8, palette_mark);
 }
 
 /* The normal is drawn as long as a sixth of the panel would be, seen from the side. */
-static void draw_marks(const stage *s, const panel *p, canvas *c)
+static void mark_contact(const stage *s, const panel *p, canvas *c)
 {
-    const vec at = camera_see(&p->camera, stage_contact_point(s));
+    const vec at = camera_see(&p->camera, stage_spot_point(s));
     if (!is_inside(&p->window, at.x)) return;
-    if (s->contact.has_normal) {
-        const vec tip = vec_along(stage_contact_point(s), p->window.height / 6 / p->camera.scale,
-                                  s->contact.normal);
+    if (s->spot.has_normal) {
+        const vec tip =
+            vec_along(stage_spot_point(s), p->window.height / 6 / p->camera.scale, s->spot.normal);
         arrow(c, at.x, camera_see(&p->camera, tip).x);
     }
-    canvas_disc(c, at.x[0], at.x[1], 5.2, white);
-    canvas_disc(c, at.x[0], at.x[1], 3.8, mark);
+    dot(c, at.x);
+}
+
+/* The line between the two points, with its length. */
+static void mark_nearest(const stage *s, const panel *p, canvas *c)
+{
+    const vec a = camera_see(&p->camera, s->spot.point[0]);
+    const vec b = camera_see(&p->camera, s->spot.point[1]);
+    if (!is_inside(&p->window, a.x) || !is_inside(&p->window, b.x)) return;
+    canvas_line(c, (const double[4]){a.x[0], a.x[1], b.x[0], b.x[1]}, 2, (pen){palette_mark, 2.2});
+    dot(c, a.x);
+    dot(c, b.x);
+    char text[32];
+    snprintf(text, sizeof text, "%.4g", s->spot.upper);
+    const double x = 0.5 * (a.x[0] + b.x[0]) + 10, y = 0.5 * (a.x[1] + b.x[1]) - 8;
+    const double wide = canvas_text_width(c, 15, text);
+    const double left = fmin(x, p->window.x + p->window.width - wide - 4);
+    canvas_shape(c,
+                 (const double[8]){left - 3, y + 5, left + wide + 3, y + 5, left + wide + 3, y - 13,
+                                   left - 3, y - 13},
+                 4, white);
+    canvas_text_fixed(c, left, y, 15, palette_mark, text);
 }
 
 static void draw_frame(const panel *p, canvas *c)
 {
     const raster_window *w = &p->window;
-    const double x0 = w->x + 0.5, y0 = w->y + 0.5, x1 = x0 + w->width - 1, y1 = y0 + w->height - 1;
-    canvas_line(c, (const double[10]){x0, y0, x1, y0, x1, y1, x0, y1, x0, y0}, 5,
+    const double x = w->x + 0.5, y = w->y + 0.5, x1 = w->x + w->width - 0.5,
+                 y1 = w->y + w->height - 0.5;
+    char title[sizeof p->title];
+    canvas_line(c, (const double[10]){x, y, x1, y, x1, y1, x, y1, x, y}, 5,
                 (pen){{0.82f, 0.84f, 0.86f}, 1});
-    const double right = w->x + 20 + 9.4 * (double)strlen(p->title), low = w->y + 32;
+    canvas_fitted(c, 17, w->width - 24, p->title, title, sizeof title);
+    const double right = w->x + 20 + canvas_text_width(c, 17, title), low = w->y + 32;
     canvas_shape(c,
                  (const double[8]){w->x + 4, w->y + 4, right, w->y + 4, right, low, w->x + 4, low},
                  4, white);
-    canvas_text(c, w->x + 12, w->y + 24, 17, CANVAS_LEFT, ink, p->title);
+    canvas_text(c, w->x + 12, w->y + 24, 17, CANVAS_LEFT, ink, title);
 }
 
 imp_code picture_draw(const stage *s, const panel *p, canvas *c, imp_error *error)
 {
-    imp_code code = IMP_SUCCESS;
-    if (c->raster != NULL) {
+    veil v;
+    imp_code code = veil_begin(&v, s, p, error);
+    if (code == IMP_SUCCESS && c->raster != NULL) {
         c->raster->window = p->window;
-        paint_surfaces(s, &p->camera, c->raster, true);
-    } else {
-        code = outline_surfaces(s, p, c, error);
+        code = paint_surfaces(s, &p->camera, &v, c->raster, true, error);
+    } else if (code == IMP_SUCCESS) {
+        code = outline_surfaces(s, p, &v, c, error);
     }
-    if (p->marks) draw_marks(s, p, c);
+    free(v.hides);
+    if (p->marks && s->spot.is_known) (s->spot.is_contact ? mark_contact : mark_nearest)(s, p, c);
     draw_frame(p, c);
     return code;
-}
-
-/* --- From where to look ------------------------------------------------------------------------ */
-
-enum { LOOK = 64 }; /* pixels: width and height of a trial */
-
-/* Whether the contact is in front, and how well its normal shows. */
-static double merit(const stage *s, raster *r, direction d)
-{
-    camera c = camera_toward(d.azimuth, d.elevation);
-    const raster_window all = {0, 0, LOOK, LOOK};
-    picture_frame(&c, &all, s);
-    for (size_t k = 0; k < LOOK * LOOK * RASTER_FINE * RASTER_FINE; ++k) r->depth[k] = -INFINITY;
-    paint_surfaces(s, &c, r, false);
-    const vec at = camera_see(&c, stage_contact_point(s));
-    const bool seen = raster_depth(r, at.x[0], at.x[1]) <= at.x[2] + 1;
-    const double side =
-        s->contact.has_normal ? 1 - fabs(vec_dot(s->contact.normal, c.toward)) : 0.5;
-    const double turned = fmod(fabs(d.azimuth + 55) + 1e-9, 360);
-    return (seen ? 2 : 0) + side - (turned > 180 ? 360 - turned : turned) / 400 -
-           fabs(d.elevation - 25) / 200;
-}
-
-imp_code picture_choose(const stage *s, direction *chosen, imp_error *error)
-{
-    static const double elevations[] = {25, 50, -20};
-    raster r;
-    double best = -INFINITY;
-    *chosen = (direction){-55, 25};
-    if (s->contact.verdict != IMP_CONTACT) return IMP_SUCCESS;
-    const bool begun = raster_begin(&r, LOOK, LOOK, white);
-    for (size_t k = 0; k < 3 && begun; ++k)
-        for (int turn = 0; turn < 8; ++turn) {
-            const direction d = {-55 + 45 * turn, elevations[k]};
-            const double found = merit(s, &r, d);
-            if (found > best) best = found, *chosen = d;
-        }
-    raster_free(&r);
-    return begun ? IMP_SUCCESS : mesh_no_memory(error);
 }

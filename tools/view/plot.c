@@ -4,18 +4,25 @@
 
 #include "tools/view/plot.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/view/palette.h"
+
+/* Curves are thin: darker than bodies. */
+static colour tint_of(size_t k)
+{
+    const colour c = palette_colour(k);
+    return (colour){0.72f * c.r, 0.72f * c.g, 0.72f * c.b};
+}
+
 plot_series *plot_add(plot *p, const char *name, plot_kind kind, size_t count)
 {
-    static const colour tints[] = {{0.16f, 0.42f, 0.74f}, {0.86f, 0.37f, 0.14f},
-                                   {0.20f, 0.58f, 0.28f}, {0.57f, 0.32f, 0.66f},
-                                   {0.55f, 0.47f, 0.10f}, {0.12f, 0.58f, 0.60f}};
     if (p->count == PLOT_SERIES_MAX) return NULL;
     plot_series *s = &p->series[p->count];
     *s = (plot_series){.kind = kind,
-                       .tint = tints[p->count % (sizeof tints / sizeof tints[0])],
+                       .tint = tint_of(p->count),
                        .letter = kind == PLOT_BAND ? '#' : (char)('a' + (int)p->count),
                        .x = calloc(count + 1, sizeof(double)),
                        .y = calloc(count + 1, sizeof(double)),
@@ -66,6 +73,7 @@ static void round_ends(const plot *p, plot_scale *s, int axis)
     if (axis == 1) *lo = fmin(*lo, 0);
     if (!(*lo < *hi)) *hi = *lo + 1;
     if (axis == 1) *hi = tick_step(*hi - *lo) * ceil(*hi / tick_step(*hi - *lo) - 1e-9);
+    if (!(*hi <= DBL_MAX)) *hi = DBL_MAX;
 }
 
 plot_scale plot_measure(const plot *p)
@@ -81,6 +89,7 @@ plot_scale plot_measure(const plot *p)
             stretch(p, &s, 1, q->high[i]);
         }
     }
+    if (p->has_level) stretch(p, &s, 1, p->level);
     for (int axis = 0; axis < 2; ++axis) round_ends(p, &s, axis);
     return s;
 }
@@ -92,7 +101,7 @@ double plot_place(const plot *p, const plot_scale *s, int axis, double value)
         if (!(value > 0)) return NAN;
         value = log10(value), lo = log10(lo), hi = log10(hi);
     }
-    return (value - lo) / (hi - lo);
+    return (0.5 * value - 0.5 * lo) / (0.5 * hi - 0.5 * lo); /* differences may be above DBL_MAX */
 }
 
 size_t plot_ticks(const plot *p, const plot_scale *s, int axis, double *ticks, size_t most)
@@ -105,7 +114,7 @@ size_t plot_ticks(const plot *p, const plot_scale *s, int axis, double *ticks, s
             ticks[count++] = lo * pow(10, d);
         return count;
     }
-    const double step = tick_step(hi - lo);
+    const double step = tick_step(fmin(hi - lo, DBL_MAX));
     for (double k = ceil(lo / step - 1e-9); k * step <= hi + 1e-9 * step && count < most; ++k)
         ticks[count++] = k * step + 0.0; /* no -0 */
     return count;
@@ -113,8 +122,7 @@ size_t plot_ticks(const plot *p, const plot_scale *s, int axis, double *ticks, s
 
 /* --- On a canvas ------------------------------------------------------------------------------ */
 
-static const colour ink = {0.13f, 0.15f, 0.18f}, faint = {0.88f, 0.89f, 0.90f},
-                    mark = {0.84f, 0.10f, 0.11f};
+static const colour ink = {0.13f, 0.15f, 0.18f}, faint = {0.88f, 0.89f, 0.90f}, white = {1, 1, 1};
 
 typedef struct frame {
     const plot *plot;
@@ -154,7 +162,6 @@ static void draw_axes(const frame *f, canvas *c)
     canvas_line(c, (const double[6]){f->x, f->y, f->x, y1, x1, y1}, 3, (pen){ink, 1.2});
     canvas_text(c, f->x + 0.5 * f->width, y1 + 44, 16, CANVAS_MIDDLE, ink, f->plot->x_label);
     canvas_text(c, f->x - 8, f->y - 14, 16, CANVAS_LEFT, ink, f->plot->y_label);
-    canvas_text(c, f->x + 0.5 * f->width, f->y - 40, 19, CANVAS_MIDDLE, ink, f->plot->title);
 }
 
 static colour pale(colour c)
@@ -200,27 +207,81 @@ static void draw_legend(const frame *f, canvas *c)
     }
 }
 
-static double legend_width(const plot *p)
+static double legend_width(const plot *p, const canvas *c)
 {
-    size_t longest = 0;
+    double widest = 0;
     for (size_t k = 0; k < p->count; ++k)
-        if (strlen(p->series[k].name) > longest) longest = strlen(p->series[k].name);
-    return 40 + 8 * (double)longest;
+        widest = fmax(widest, canvas_text_width(c, 14, p->series[k].name));
+    return 44 + widest;
+}
+
+/* Words on a white ground that end at x, the baseline at y. */
+static void draw_level_label(const frame *f, canvas *c, double x, double y)
+{
+    char text[64];
+    canvas_fitted(c, 14, f->width - 8, f->plot->level_label, text, sizeof text);
+    const double left = x - canvas_text_width(c, 14, text) - 4, top = y - 12, bottom = y + 4;
+    canvas_shape(c, (const double[8]){left - 3, top, x, top, x, bottom, left - 3, bottom}, 4,
+                 white);
+    canvas_text_fixed(c, left, y, 14, palette_mark, text);
+}
+
+static void draw_level(const frame *f, canvas *c)
+{
+    const double y = frame_y(f, f->plot->level), step = 9;
+    for (double x = f->x; x + step <= f->x + f->width; x += 2 * step)
+        canvas_line(c, (const double[4]){x, y, x + step, y}, 2, (pen){palette_mark, 1.4});
+    draw_level_label(f, c, f->x + f->width, y > f->y + 24 ? y - 7 : y + 16);
+}
+
+/* Words above the frame, as near to x as there is room beside the name of the vertical axis. */
+static void draw_top_label(const frame *f, canvas *c, double x, const char *text)
+{
+    char fitted[192];
+    const double begin = f->x + canvas_text_width(c, 16, f->plot->y_label) + 4;
+    canvas_fitted(c, 14, c->width - begin - 8, text, fitted, sizeof fitted);
+    const double width = canvas_text_width(c, 14, fitted);
+    const double left = fmax(begin, fmin(x - 0.5 * width, c->width - width - 8));
+    canvas_text_fixed(c, left, f->y - 6, 14, palette_mark, fitted);
+}
+
+static void draw_mark(const frame *f, canvas *c)
+{
+    const double x = frame_x(f, f->plot->mark);
+    canvas_line(c, (const double[4]){x, f->y, x, f->y + f->height}, 2, (pen){palette_mark, 1.6});
+    draw_top_label(f, c, x, f->plot->mark_label);
+}
+
+/* A thin line leads from the point up to its label. */
+static void draw_point(const frame *f, canvas *c)
+{
+    const double x = frame_x(f, f->plot->point[0]), y = frame_y(f, f->plot->point[1]);
+    if (!isfinite(x) || !isfinite(y)) return;
+    canvas_line(c, (const double[4]){x, f->y, x, y}, 2, (pen){palette_mark, 0.6});
+    canvas_disc(c, x, y, 5.2, white);
+    canvas_disc(c, x, y, 3.8, palette_mark);
+    draw_top_label(f, c, x, f->plot->point_label);
+}
+
+static void draw_title(const plot *p, canvas *c)
+{
+    char title[sizeof p->title];
+    canvas_fitted(c, 19, c->width - 24, p->title, title, sizeof title);
+    canvas_text(c, 0.5 * c->width, 34, 19, CANVAS_MIDDLE, ink, title);
 }
 
 void plot_draw(const plot *p, canvas *c)
 {
     const frame f = {
-        p, plot_measure(p), 84, 74, c->width - 84 - legend_width(p), c->height - 74 - 62};
+        p, plot_measure(p), 84, 74, c->width - 84 - legend_width(p, c), c->height - 74 - 62};
+    draw_title(p, c);
     draw_axes(&f, c);
     for (size_t k = 0; k < p->count; ++k)
         if (p->series[k].kind == PLOT_BAND) draw_band(&f, c, &p->series[k]);
     for (size_t k = 0; k < p->count; ++k)
         if (p->series[k].kind != PLOT_BAND) draw_curve(&f, c, &p->series[k]);
-    if (p->marked) {
-        const double x = frame_x(&f, p->mark);
-        canvas_line(c, (const double[4]){x, f.y, x, f.y + f.height}, 2, (pen){mark, 1.6});
-        canvas_text(c, x, f.y - 6, 14, CANVAS_MIDDLE, mark, p->mark_label);
-    }
+    if (p->marked) draw_mark(&f, c);
+    if (p->has_level) draw_level(&f, c);
+    if (p->has_point) draw_point(&f, c);
     draw_legend(&f, c);
 }

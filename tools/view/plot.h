@@ -26,13 +26,19 @@ enum { PLOT_SERIES_MAX = 16 };
 
 /* Logarithmic scales leave out what is not above 0. */
 typedef struct plot {
-    char title[128], x_label[64], y_label[64];
+    char title[160], x_label[64], y_label[64];
     bool log_x, log_y;
     plot_series series[PLOT_SERIES_MAX];
     size_t count;
     bool marked; /* a vertical line, */
     double mark; /* at this x, */
     char mark_label[64];
+    bool has_level; /* a horizontal line, */
+    double level;   /* at this y, */
+    char level_label[64];
+    bool has_point; /* one point that stands out */
+    double point[2];
+    char point_label[192];
 } plot;
 
 /* Adds a series of room for `count` steps (one x more); NULL: no memory, or no room. */

@@ -7,19 +7,38 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool plot_of_gap(plot *p, const gap_profile *gap, const stage_contact *contact)
+static void mark_contact(plot *p, const subject *what)
 {
-    *p = (plot){.title = "Least distance between bodies over time",
-                .x_label = "time t",
-                .y_label = "distance"};
-    plot_series *s = plot_add(p, "proved bracket", PLOT_BAND, gap->count);
+    p->marked = what->spot.is_contact && what->contact.is_known;
+    p->mark = what->contact.t;
+    snprintf(p->mark_label, sizeof p->mark_label, "contact, t = %.7g", p->mark);
+}
+
+static void mark_least(plot *p, const subject *what)
+{
+    const stage_spot *least = &what->spot;
+    p->has_point = least->is_known && !least->is_contact;
+    if (!p->has_point) return;
+    p->point[0] = least->t, p->point[1] = least->upper;
+    snprintf(p->point_label, sizeof p->point_label, "least %.4g at t = %.4g, %.60s and %.60s",
+             least->upper, least->t, imp_scene_body_name(what->scene, least->body[0]),
+             imp_scene_body_name(what->scene, least->body[1]));
+}
+
+bool plot_of_gap(plot *p, const gap_profile *gap, const subject *what, double required)
+{
+    *p = (plot){.x_label = "time t", .y_label = "distance"};
+    snprintf(p->title, sizeof p->title, "Distance between bodies over time, %.100s", what->title);
+    plot_series *s = plot_add(p, "proved to lie in", PLOT_BAND, gap->count);
     if (s == NULL) return false;
     memcpy(s->x, gap->t, (gap->count + 1) * sizeof *s->x);
     memcpy(s->y, gap->lower, gap->count * sizeof *s->y);
     memcpy(s->high, gap->upper, gap->count * sizeof *s->high);
-    p->marked = contact->verdict == IMP_CONTACT;
-    p->mark = contact->t;
-    snprintf(p->mark_label, sizeof p->mark_label, "contact, t = %.7g", contact->t);
+    mark_contact(p, what);
+    mark_least(p, what);
+    p->has_level = required > 0;
+    p->level = required;
+    snprintf(p->level_label, sizeof p->level_label, "required %.6g", required);
     return true;
 }
 

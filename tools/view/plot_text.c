@@ -64,8 +64,16 @@ static void fill_grid(grid *g)
         const size_t at = index_of(mark, g->columns);
         if (g->cells[r * g->columns + at] == ' ') put(g, at, r, '|');
     }
+    const double level = p->has_level ? plot_place(p, &g->scale, 1, p->level) : NAN;
+    for (size_t c = 0; c < g->columns && isfinite(level); ++c) {
+        const size_t row = row_of(g, p->level);
+        if (g->cells[row * g->columns + c] == ' ') put(g, c, row, '-');
+    }
     for (size_t k = 0; k < p->count; ++k)
         if (p->series[k].kind != PLOT_BAND) print_curve(g, &p->series[k]);
+    const double x = p->has_point ? plot_place(p, &g->scale, 0, p->point[0]) : NAN;
+    if (isfinite(x) && isfinite(plot_place(p, &g->scale, 1, p->point[1])))
+        put(g, index_of(x, g->columns), row_of(g, p->point[1]), '*');
 }
 
 enum { MARGIN = 11 }; /* columns of the vertical scale */
@@ -105,11 +113,27 @@ static void print_x_axis(const grid *g, FILE *to)
     fprintf(to, "\n%*s%s\n", MARGIN, "", g->plot->x_label);
 }
 
-static void print_legend(const plot *p, FILE *to)
+/* So many characters of a text, and the line's end. */
+static void print_line(const char *text, size_t columns, FILE *to)
+{
+    for (; *text != '\0'; ++text) {
+        const bool begins = ((unsigned char)*text & 0xC0) != 0x80;
+        if (begins && columns-- == 0) break;
+        fputc(*text, to);
+    }
+    fputc('\n', to);
+}
+
+static void print_legend(const plot *p, size_t columns, FILE *to)
 {
     for (size_t k = 0; k < p->count; ++k)
         fprintf(to, "  %c  %s\n", p->series[k].letter, p->series[k].name);
     if (p->marked) fprintf(to, "  |  %s\n", p->mark_label);
+    if (p->has_level) fprintf(to, "  -  %s\n", p->level_label);
+    if (p->has_point) {
+        fputs("  *  ", to);
+        print_line(p->point_label, columns - 5, to);
+    }
 }
 
 bool plot_print(const plot *p, FILE *to, size_t columns, size_t rows)
@@ -118,10 +142,11 @@ bool plot_print(const plot *p, FILE *to, size_t columns, size_t rows)
     g.cells = malloc(g.columns * g.rows);
     if (g.cells == NULL) return false;
     fill_grid(&g);
-    fprintf(to, "%s\n%s\n", p->title, p->y_label);
+    print_line(p->title, columns, to);
+    print_line(p->y_label, columns, to);
     print_rows(&g, to);
     print_x_axis(&g, to);
-    print_legend(p, to);
+    print_legend(p, columns, to);
     free(g.cells);
     return true;
 }

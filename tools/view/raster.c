@@ -5,6 +5,7 @@
 #include "tools/view/raster.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static size_t fine_width(const raster *r) { return r->width * RASTER_FINE; }
 static size_t fine_height(const raster *r) { return r->height * RASTER_FINE; }
@@ -15,46 +16,115 @@ static uint8_t byte_of(float share)
     return share < 1 ? (uint8_t)(255 * share + 0.5f) : 255;
 }
 
-static void put(raster *r, size_t at, colour c)
+static void put(uint8_t *rgb, size_t at, colour c)
 {
-    r->rgb[3 * at] = byte_of(c.r), r->rgb[3 * at + 1] = byte_of(c.g),
-               r->rgb[3 * at + 2] = byte_of(c.b);
+    rgb[3 * at] = byte_of(c.r), rgb[3 * at + 1] = byte_of(c.g), rgb[3 * at + 2] = byte_of(c.b);
+}
+
+size_t raster_bytes(double width, double height)
+{
+    const double fine = width * height * RASTER_FINE * RASTER_FINE;
+    return (size_t)(fine * (3 + sizeof(float)));
+}
+
+static bool layer_begin(raster_layer *layer, size_t n)
+{
+    layer->rgb = malloc(3 * n);
+    layer->depth = malloc(n * sizeof *layer->depth);
+    if (layer->rgb == NULL || layer->depth == NULL) return false;
+    for (size_t k = 0; k < n; ++k) layer->depth[k] = -INFINITY;
+    return true;
+}
+
+static void layer_free(raster_layer *layer)
+{
+    free(layer->rgb);
+    free(layer->depth);
 }
 
 bool raster_begin(raster *r, size_t width, size_t height, colour background)
 {
-    *r =
-        (raster){.width = width, .height = height, .window = {0, 0, (double)width, (double)height}};
+    *r = (raster){.width = width,
+                  .height = height,
+                  .veil_depth = INFINITY,
+                  .window = {0, 0, (double)width, (double)height}};
     const size_t n = fine_width(r) * fine_height(r);
-    r->rgb = malloc(3 * n);
-    r->depth = malloc(n * sizeof *r->depth);
-    if (r->rgb == NULL || r->depth == NULL) return false;
-    for (size_t k = 0; k < n; ++k) {
-        put(r, k, background);
-        r->depth[k] = -INFINITY;
-    }
+    if (!layer_begin(&r->front, n)) return false;
+    for (size_t k = 0; k < n; ++k) put(r->front.rgb, k, background);
     return true;
 }
 
 void raster_free(raster *r)
 {
-    free(r->rgb);
-    free(r->depth);
+    layer_free(&r->front);
+    layer_free(&r->veil);
     *r = (raster){0};
 }
 
+/* --- Veil --------------------------------------------------------------------------------- */
+
+bool raster_veil(raster *r, double depth)
+{
+    r->veil_depth = depth;
+    if (r->veil.depth != NULL || !(depth < INFINITY)) return true;
+    layer_free(&r->veil); /* half of one, where memory ran out */
+    r->veil = (raster_layer){NULL, NULL};
+    return layer_begin(&r->veil, fine_width(r) * fine_height(r));
+}
+
+/* The window's fine pixels: lo to hi - 1. */
+static void fine_window(const raster *r, size_t lo[2], size_t hi[2])
+{
+    const raster_window *w = &r->window;
+    const double x1 = fmin(w->x + w->width, (double)r->width);
+    const double y1 = fmin(w->y + w->height, (double)r->height);
+    lo[0] = w->x > 0 ? (size_t)(w->x * RASTER_FINE) : 0,
+    hi[0] = x1 > 0 ? (size_t)(x1 * RASTER_FINE) : 0;
+    lo[1] = w->y > 0 ? (size_t)(w->y * RASTER_FINE) : 0,
+    hi[1] = y1 > 0 ? (size_t)(y1 * RASTER_FINE) : 0;
+}
+
+/* What is left of 255 parts of the picture under the veil. */
+enum { SHINES_THROUGH = 185 };
+
+void raster_veil_end(raster *r)
+{
+    size_t lo[2], hi[2];
+    r->veil_depth = INFINITY;
+    if (r->veil.depth == NULL) return;
+    fine_window(r, lo, hi);
+    for (size_t y = lo[1]; y < hi[1]; ++y)
+        for (size_t x = lo[0]; x < hi[0]; ++x) {
+            const size_t at = y * fine_width(r) + x;
+            if (!(r->veil.depth[at] > r->front.depth[at])) continue;
+            for (size_t k = 3 * at; k < 3 * at + 3; ++k)
+                r->front.rgb[k] = (uint8_t)((SHINES_THROUGH * r->front.rgb[k] +
+                                             (255 - SHINES_THROUGH) * r->veil.rgb[k] + 127) /
+                                            255);
+            r->veil.depth[at] = -INFINITY;
+        }
+}
+
 /* --- Light ------------------------------------------------------------------------------ */
+
+/* x^48 */
+static double sharpened(double x)
+{
+    const double x2 = x * x, x4 = x2 * x2, x8 = x4 * x4, x16 = x8 * x8;
+    return x16 * x16 * x16;
+}
 
 /* Lambert and a highlight, by a lamp at the upper left behind the camera; the side turned to the
  * camera is lit, whichever it is. */
 static colour lit(colour c, vec n)
 {
     static const vec lamp = {{-0.42, 0.55, 0.722}}, halfway = {{-0.226, 0.296, 0.928}};
-    const double length = vec_length(n);
-    if (!(length > 0)) return c;
-    n = vec_scale((n.x[2] < 0 ? -1 : 1) / length, n);
-    const double facing = fmax(0, vec_dot(n, lamp)), shine = pow(fmax(0, vec_dot(n, halfway)), 48);
-    const float diffuse = (float)(0.42 + 0.62 * facing), highlight = (float)(0.22 * shine);
+    const double square = vec_dot(n, n);
+    if (!(square > 0)) return c;
+    const double scale = (n.x[2] < 0 ? -1 : 1) / sqrt(square);
+    const double facing = scale * vec_dot(n, lamp), mirrored = scale * vec_dot(n, halfway);
+    const float diffuse = (float)(0.42 + 0.62 * (facing > 0 ? facing : 0));
+    const float highlight = (float)(0.22 * (mirrored > 0 ? sharpened(mirrored) : 0));
     return (colour){c.r * diffuse + highlight, c.g * diffuse + highlight,
                     c.b * diffuse + highlight};
 }
@@ -86,10 +156,62 @@ static void bounds(const raster *r, const raster_corner c[3], size_t lo[2], size
          &hi[1]);
 }
 
-/* The corner's shares at a point inside sum up to 1. */
-static vec blend(const double share[3], vec a, vec b, vec c)
+/* A function that is linear over the picture: value at the pixel (0,0), and what a step adds. */
+typedef struct ramp {
+    double at, dx, dy;
+} ramp;
+
+/* That is 1 at corner a, and 0 on the line from b to c; area: as cross2 of the three. */
+static ramp share_of(const vec *b, const vec *c, double area)
 {
-    return vec_along(vec_along(vec_scale(share[0], a), share[1], b), share[2], c);
+    const double dx = (b->x[1] - c->x[1]) / area, dy = (c->x[0] - b->x[0]) / area;
+    return (ramp){-(dx * b->x[0] + dy * b->x[1]), dx, dy};
+}
+
+static double ramp_at(const ramp *r, double x, double y) { return r->at + r->dx * x + r->dy * y; }
+
+/* A triangle on its way into pixels. */
+typedef struct shaded {
+    const raster_corner *corner;
+    ramp share[3];
+    colour tint;
+    bool is_even; /* one normal: the colour is that of `flat` everywhere */
+    colour flat;
+} shaded;
+
+static shaded shade(const raster_corner c[3], double area, colour tint)
+{
+    const vec *n0 = &c[0].normal, *n1 = &c[1].normal, *n2 = &c[2].normal;
+    shaded s = {.corner = c,
+                .share = {share_of(&c[1].at, &c[2].at, area), share_of(&c[2].at, &c[0].at, area),
+                          share_of(&c[0].at, &c[1].at, area)},
+                .tint = tint,
+                .is_even = memcmp(n0, n1, sizeof *n0) == 0 && memcmp(n0, n2, sizeof *n0) == 0};
+    if (s.is_even) s.flat = lit(tint, *n0);
+    return s;
+}
+
+static colour colour_at(const shaded *s, const double share[3])
+{
+    if (s->is_even) return s->flat;
+    const raster_corner *c = s->corner;
+    const vec two = vec_along(vec_scale(share[0], c[0].normal), share[1], c[1].normal);
+    return lit(s->tint, vec_along(two, share[2], c[2].normal));
+}
+
+/* One fine pixel inside the triangle: over everything, or where nothing nearer is. */
+static void put_pixel(raster *r, const shaded *s, size_t at, const double share[3], bool hidden)
+{
+    raster_layer *layer = &r->front;
+    if (hidden) {
+        const raster_corner *c = s->corner;
+        const double depth =
+            share[0] * c[0].at.x[2] + share[1] * c[1].at.x[2] + share[2] * c[2].at.x[2];
+        if (depth > r->veil_depth) layer = &r->veil;
+        if (!((float)depth > layer->depth[at])) return;
+        layer->depth[at] = (float)depth;
+    }
+    put(layer->rgb, at, colour_at(s, share));
 }
 
 static void fill(raster *r, const raster_corner c[3], colour tint, bool hidden)
@@ -98,19 +220,18 @@ static void fill(raster *r, const raster_corner c[3], colour tint, bool hidden)
     const double area = cross2(&c[0].at, &c[1].at, c[2].at.x[0], c[2].at.x[1]);
     if (!(area != 0) || !isfinite(area)) return;
     bounds(r, c, lo, hi);
-    for (size_t y = lo[1]; y < hi[1]; ++y)
+    if (lo[0] >= hi[0] || lo[1] >= hi[1]) return;
+    const shaded s = shade(c, area, tint);
+    for (size_t y = lo[1]; y < hi[1]; ++y) {
+        const double py = ((double)y + 0.5) / RASTER_FINE;
         for (size_t x = lo[0]; x < hi[0]; ++x) {
-            const double px = ((double)x + 0.5) / RASTER_FINE, py = ((double)y + 0.5) / RASTER_FINE;
-            const double share[3] = {cross2(&c[1].at, &c[2].at, px, py) / area,
-                                     cross2(&c[2].at, &c[0].at, px, py) / area,
-                                     cross2(&c[0].at, &c[1].at, px, py) / area};
-            if (!(share[0] >= 0 && share[1] >= 0 && share[2] >= 0)) continue;
-            const size_t at = y * fine_width(r) + x;
-            const float depth = (float)blend(share, c[0].at, c[1].at, c[2].at).x[2];
-            if (hidden && !(depth > r->depth[at])) continue;
-            if (hidden) r->depth[at] = depth;
-            put(r, at, lit(tint, blend(share, c[0].normal, c[1].normal, c[2].normal)));
+            const double px = ((double)x + 0.5) / RASTER_FINE;
+            const double share[3] = {ramp_at(&s.share[0], px, py), ramp_at(&s.share[1], px, py),
+                                     ramp_at(&s.share[2], px, py)};
+            if (share[0] >= 0 && share[1] >= 0 && share[2] >= 0)
+                put_pixel(r, &s, y * fine_width(r) + x, share, hidden);
         }
+    }
 }
 
 void raster_triangle(raster *r, const raster_corner corner[3], colour c)
@@ -151,7 +272,7 @@ double raster_depth(const raster *r, double x, double y)
     const raster_window *w = &r->window;
     if (!(x >= w->x && y >= w->y && x < w->x + w->width && y < w->y + w->height)) return -INFINITY;
     if (!(x >= 0 && y >= 0 && x < (double)r->width && y < (double)r->height)) return -INFINITY;
-    return r->depth[(size_t)(y * RASTER_FINE) * fine_width(r) + (size_t)(x * RASTER_FINE)];
+    return r->front.depth[(size_t)(y * RASTER_FINE) * fine_width(r) + (size_t)(x * RASTER_FINE)];
 }
 
 void raster_row(const raster *r, size_t y, uint8_t *rgb)
@@ -161,8 +282,9 @@ void raster_row(const raster *r, size_t y, uint8_t *rgb)
         for (size_t i = 0; i < RASTER_FINE; ++i)
             for (size_t j = 0; j < RASTER_FINE; ++j)
                 sum +=
-                    r->rgb[3 * ((y * RASTER_FINE + i) * fine_width(r) + k / 3 * RASTER_FINE + j) +
-                           k % 3];
+                    r->front
+                        .rgb[3 * ((y * RASTER_FINE + i) * fine_width(r) + k / 3 * RASTER_FINE + j) +
+                             k % 3];
         rgb[k] = (uint8_t)((sum + RASTER_FINE * RASTER_FINE / 2) / (RASTER_FINE * RASTER_FINE));
     }
 }

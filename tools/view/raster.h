@@ -13,7 +13,10 @@
  * ==========
  * Pixels are kept RASTER_FINE times finer in both directions than they are written, and averaged in
  * the end: that is what smooths edges. All coordinates here are those of the written picture, y
- * downward; the centre of its first pixel is (0.5, 0.5). */
+ * downward; the centre of its first pixel is (0.5, 0.5).
+ *
+ * What hides something can be drawn into a veil: a second buffer that is laid over the picture,
+ * transparent, when the veil ends. */
 
 enum { RASTER_FINE = 3 };
 
@@ -26,16 +29,31 @@ typedef struct raster_window {
     double x, y, width, height;
 } raster_window;
 
+/* Fine pixels. */
+typedef struct raster_layer {
+    uint8_t *rgb;
+    float *depth; /* greater is nearer; -INFINITY: nothing there */
+} raster_layer;
+
 typedef struct raster {
-    size_t width, height; /* of the written picture */
-    uint8_t *rgb;         /* fine pixels */
-    float *depth;         /* of them; greater is nearer; -INFINITY: nothing there */
+    size_t width, height;     /* of the written picture */
+    raster_layer front, veil; /* front: the picture; veil: NULLs until there is one */
+    double veil_depth;    /* what is nearer than this goes into the veil; INFINITY: nothing does */
     raster_window window; /* all of it, until the caller sets it */
 } raster;
+
+/* Bytes that raster_begin takes, and as many again with a veil. */
+size_t raster_bytes(double width, double height);
 
 /* False: no memory. */
 bool raster_begin(raster *r, size_t width, size_t height, colour background);
 void raster_free(raster *r);
+
+/* From here on, what is nearer than `depth` goes into a veil; INFINITY: nothing does. False: no memory. */
+bool raster_veil(raster *r, double depth);
+
+/* Lays the veil over the window, and clears it. */
+void raster_veil_end(raster *r);
 
 /* A corner of a triangle: x, y, depth; the normal as the camera sees it (right, up, toward). */
 typedef struct raster_corner {

@@ -8,36 +8,30 @@
 
 #include "tools/cli/result.h"
 
-void recorded_free(recorded *r)
+/* A scene has bodies; an answer about two of several bodies names them. */
+static recorded_kind kind_of(const json_t *json)
 {
-    json_decref(r->json);
-    *r = (recorded){0};
+    if (json_object_get(json, "bodies") != NULL) return RECORDED_NOTHING;
+    if (json_object_get(json, "lower") != NULL && json_object_get(json, "upper") != NULL)
+        return RECORDED_CLEARANCE;
+    return json_object_get(json, "verdict") != NULL ? RECORDED_RESULT : RECORDED_NOTHING;
 }
 
-exit_status recorded_read(const char *text, size_t length, const char *name, const char *verb,
-                          recorded *r)
+exit_status recorded_read(const json_t *json, const char *name, const char *verb, recorded *r)
 {
-    *r = (recorded){0};
-    json_t *json = json_loadb(text, length, 0, NULL);
-    if (json_object_get(json, "verdict") == NULL || json_object_get(json, "bodies") != NULL) {
-        json_decref(json);
-        return EXIT_ANSWERED;
-    }
     const json_t *scene = json_object_get(json, "scene");
-    *r = (recorded){
-        true,
-        json,
-        json_string_value(scene),
-        {json_string_value(json_array_get(scene, 0)), json_string_value(json_array_get(scene, 1))}};
+    *r = (recorded){.kind = kind_of(json), .json = json};
+    if (r->kind == RECORDED_NOTHING) return EXIT_ANSWERED;
+    r->scene = json_string_value(scene);
+    for (size_t k = 0; k < 2; ++k) r->pair[k] = json_string_value(json_array_get(scene, k));
     if (r->scene != NULL || (r->pair[0] != NULL && r->pair[1] != NULL)) return EXIT_ANSWERED;
-    recorded_free(r);
     return complain(EXIT_DATA, verb,
                     "%s: /scene: this result does not name its scene (it was read from standard "
                     "input, or belongs to a batch); view the scene itself",
                     name);
 }
 
-static bool vector_of(const json_t *array, vec *v)
+bool recorded_vector(const json_t *array, vec *v)
 {
     if (json_array_size(array) != 3) return false;
     for (size_t k = 0; k < 3; ++k) {
@@ -47,12 +41,12 @@ static bool vector_of(const json_t *array, vec *v)
     return true;
 }
 
-static bool side_of(const json_t *side, const imp_scene *scene, vec *point, size_t *body)
+static bool read_side(const json_t *side, const imp_scene *scene, vec *point, size_t *body)
 {
     const char *name = json_string_value(json_object_get(side, "body"));
     for (*body = 0; name != NULL && *body < imp_scene_body_count(scene); ++*body)
         if (strcmp(imp_scene_body_name(scene, *body), name) == 0)
-            return vector_of(json_object_get(side, "point"), point);
+            return recorded_vector(json_object_get(side, "point"), point);
     return false;
 }
 
@@ -65,25 +59,58 @@ void recorded_times(const recorded *r, imp_options *options)
     options->t_end = json_number_value(to);
 }
 
-exit_status recorded_contact(const recorded *r, const imp_scene *scene, const char *name,
-                             const char *verb, stage_contact *contact)
+/* False: what is named is not in the scene. */
+static bool read_spot(const json_t *json, const imp_scene *scene, stage_spot *spot)
 {
-    const char *verdict = json_string_value(json_object_get(r->json, "verdict"));
-    const json_t *normal = json_object_get(r->json, "normal");
-    *contact = (stage_contact){.t = json_number_value(json_object_get(r->json, "t_lower")),
-                               .gap = json_number_value(json_object_get(r->json, "gap")),
-                               .gamma = json_number_value(json_object_get(r->json, "gamma"))};
-    bool good = verdict != NULL && contact->gamma > 0;
-    for (int k = IMP_CLEAR; good && k <= IMP_UNDECIDED; ++k)
+    const char *const sides[2] = {"a", "b"};
+    bool good = true;
+    for (int k = 0; k < 2; ++k)
+        good &= read_side(json_object_get(json, sides[k]), scene, &spot->point[k], &spot->body[k]);
+    spot->t = json_number_value(json_object_get(json, "t"));
+    spot->has_normal = recorded_vector(json_object_get(json, "normal"), &spot->normal);
+    spot->is_known = good;
+    return good;
+}
+
+static bool read_result(const json_t *json, const imp_scene *scene, stage_contact *contact,
+                        stage_spot *spot)
+{
+    const char *verdict = json_string_value(json_object_get(json, "verdict"));
+    bool known = false;
+    contact->is_known = true;
+    contact->t = json_number_value(json_object_get(json, "t_lower"));
+    contact->gap = json_number_value(json_object_get(json, "gap"));
+    contact->gamma = json_number_value(json_object_get(json, "gamma"));
+    for (int k = IMP_CLEAR; k <= IMP_UNDECIDED && verdict != NULL; ++k)
         if (strcmp(verdict, result_verdict_name((imp_verdict)k)) == 0)
-            contact->verdict = (imp_verdict)k;
-    if (good && contact->verdict == IMP_CONTACT) {
-        const char *const sides[2] = {"a", "b"};
-        for (int k = 0; k < 2; ++k)
-            good &= side_of(json_object_get(r->json, sides[k]), scene, &contact->point[k],
-                            &contact->body[k]);
-        contact->has_normal = vector_of(normal, &contact->normal);
-    }
+            contact->verdict = (imp_verdict)k, known = true;
+    if (!known || !(contact->gamma > 0)) return false;
+    if (contact->verdict != IMP_CONTACT) return true;
+    spot->is_contact = true;
+    spot->upper = contact->gap;
+    return read_spot(json, scene, spot);
+}
+
+static bool read_clearance(const json_t *json, const imp_scene *scene, double gamma,
+                           stage_spot *spot)
+{
+    const json_t *upper = json_object_get(json, "upper");
+    spot->lower = json_number_value(json_object_get(json, "lower"));
+    spot->upper = json_number_value(upper);
+    spot->is_contact = json_is_number(upper) && spot->upper <= gamma;
+    return !json_is_number(upper) || read_spot(json, scene, spot);
+}
+
+exit_status recorded_answer(const recorded *r, const imp_scene *scene, const imp_options *options,
+                            const char *name, const char *verb, stage_contact *contact,
+                            stage_spot *spot)
+{
+    *contact =
+        (stage_contact){.verdict = IMP_UNDECIDED, .t = options->t_start, .gamma = options->gamma};
+    *spot = (stage_spot){.is_known = false};
+    const bool good = r->kind == RECORDED_RESULT
+                          ? read_result(r->json, scene, contact, spot)
+                          : read_clearance(r->json, scene, options->gamma, spot);
     if (good) return EXIT_ANSWERED;
     return complain(EXIT_DATA, verb, "%s: not a result of the scene that it names", name);
 }

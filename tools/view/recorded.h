@@ -8,26 +8,33 @@
 #include "tools/cli/message.h"
 #include "tools/view/stage.h"
 
-/* A result that `solve --json` or `pair --json` printed, read back. It names its scene: the file, or
- * the two surfaces. */
+/* A result that `solve --json`, `pair --json` or `clearance --json` printed, read back. It names its
+ * scene: the file, or the two surfaces. */
+
+typedef enum recorded_kind {
+    RECORDED_NOTHING, /* it is taken for a scene, and the rest is empty */
+    RECORDED_RESULT,
+    RECORDED_CLEARANCE
+} recorded_kind;
 
 typedef struct recorded {
-    bool is_result; /* else it is taken for a scene, and the rest is empty */
-    json_t *json;
-    const char *scene, *pair[2]; /* one of them; the json's */
+    recorded_kind kind;
+    const json_t *json;          /* the caller's, */
+    const char *scene, *pair[2]; /* and one of them: the JSON's */
 } recorded;
 
-/* What the text is. Complains of a result that names no scene; of text that is no JSON the reader
- * of scenes complains. */
-exit_status recorded_read(const char *text, size_t length, const char *name, const char *verb,
-                          recorded *r);
-void recorded_free(recorded *r);
+/* What the JSON is, which may be NULL. Complains of a result that names no scene. */
+exit_status recorded_read(const json_t *json, const char *name, const char *verb, recorded *r);
 
 /* Sets the times that the answer is about, if it tells them. */
 void recorded_times(const recorded *r, imp_options *options);
 
-/* The answer, in terms of the scene. */
-exit_status recorded_contact(const recorded *r, const imp_scene *scene, const char *name,
-                             const char *verb, stage_contact *contact);
+/* The answer, in terms of the scene; the spot is known where two points are named. */
+exit_status recorded_answer(const recorded *r, const imp_scene *scene, const imp_options *options,
+                            const char *name, const char *verb, stage_contact *contact,
+                            stage_spot *spot);
+
+/* Three numbers. */
+bool recorded_vector(const json_t *array, vec *v);
 
 #endif

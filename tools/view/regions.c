@@ -8,11 +8,18 @@
 
 enum { STEPS = 64 };
 
-static size_t cells_of(const mesh *m) { return (m->nu - 1) * (m->nv - 1); }
-
 static bool overlaps(const double at[2], const double with[2])
 {
     return at[0] < with[1] && with[0] < at[1];
+}
+
+static void take_patch(const mesh *m, const mesh_patch *p, const struct imp_pending_side *side,
+                       double tested, double *pairs)
+{
+    const double *u = mesh_u(m, p), *v = mesh_v(m, p);
+    for (size_t i = 0; i + 1 < p->nu; ++i)
+        for (size_t j = 0; j + 1 < p->nv && overlaps(u + i, side->u); ++j)
+            if (overlaps(v + j, side->v)) pairs[p->first_cell + i * (p->nv - 1) + j] = tested;
 }
 
 /* The cells that the side covers are not proved clear before the pairs tested now. */
@@ -21,14 +28,13 @@ static void take_side(const film *f, const struct imp_pending_side *side, double
     for (size_t k = 0; k < f->count; ++k) {
         const mesh *m = f->tracks[k].mesh;
         if (side->body != m->body || side->surface != m->surface) continue;
-        if (side->piece == SIZE_MAX) { /* perhaps all of it */
-            for (size_t i = 0; i < cells_of(m); ++i) r->pairs[k][i] = tested;
-            continue;
-        }
-        if (side->piece != m->piece) continue;
-        for (size_t i = 0; i + 1 < m->nu; ++i)
-            for (size_t j = 0; j + 1 < m->nv && overlaps(m->u + i, side->u); ++j)
-                if (overlaps(m->v + j, side->v)) r->pairs[k][i * (m->nv - 1) + j] = tested;
+        for (size_t i = 0; i < m->cell_count && side->piece == SIZE_MAX && r->whole[k] != tested;
+             ++i)
+            r->pairs[k][i] = tested;
+        if (side->piece == SIZE_MAX)
+            r->whole[k] = tested; /* perhaps all of it, noted once a step */
+        if (side->piece < m->patch_count)
+            take_patch(m, &m->patches[side->piece], side, tested, r->pairs[k]);
     }
 }
 
@@ -59,13 +65,16 @@ static imp_code run(const subject *what, const film *f, imp_query *query, region
 
 imp_code regions_measure(const subject *what, const film *f, regions *r, imp_error *error)
 {
-    *r = (regions){.pairs = calloc(f->count + 1, sizeof *r->pairs)};
-    if (r->pairs == NULL) return mesh_no_memory(error);
+    *r = (regions){.pairs = calloc(f->count + 1, sizeof *r->pairs),
+                   .whole = calloc(f->count + 1, sizeof *r->whole)};
+    if (r->pairs == NULL || r->whole == NULL) return mesh_no_memory(error);
     for (size_t k = 0; k < f->count; ++k) {
-        r->pairs[r->count++] = calloc(cells_of(f->tracks[k].mesh), sizeof **r->pairs);
+        r->pairs[r->count++] = calloc(f->tracks[k].mesh->cell_count, sizeof **r->pairs);
         if (r->pairs[k] == NULL) return mesh_no_memory(error);
     }
-    imp_query *query = imp_query_new(what->scene, &what->options, error);
+    imp_options options = what->options;
+    options.max_seconds = allowance_left(&what->allowance, 0.5);
+    imp_query *query = imp_query_new(what->scene, &options, error);
     if (query == NULL) return error->code;
     const imp_code code = run(what, f, query, r, error);
     imp_query_free(query);
@@ -76,5 +85,6 @@ void regions_free(regions *r)
 {
     for (size_t k = 0; k < r->count; ++k) free(r->pairs[k]);
     free(r->pairs);
+    free(r->whole);
     *r = (regions){0};
 }

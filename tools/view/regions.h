@@ -12,7 +12,8 @@
  * then, as seen at the end of a step. */
 
 typedef struct regions {
-    double **pairs; /* [track][cell i * (nv - 1) + j] */
+    double **pairs; /* [track][cell of its mesh] */
+    double *whole;  /* [track]: the last number of pairs at which all cells were noted */
     size_t count;
     double total; /* pairs tested in all */
 } regions;

@@ -4,6 +4,8 @@
 
 #include "tools/view/request.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "tools/cli/verbs.h"
@@ -39,10 +41,11 @@ const option request_options[] = {
      .min_open = true,
      .help = "magnify, about the contact if there is one (1)"},
     {.name = "at",
-     .kind = OPTION_NUMBER,
+     .kind = OPTION_TEXT,
      .argument = "T",
-     .min = -1e300,
-     .help = "show this moment alone (start, contact and end)"},
+     .help =
+         "show this moment alone: a time, or 'nearest', where bodies touch or come nearest (start, "
+         "that, and end)"},
     {.name = "tolerance",
      .kind = OPTION_NUMBER,
      .argument = "LENGTH",
@@ -87,6 +90,22 @@ static const char *format_asked(const arguments *args)
     return output != NULL ? request_ending(output->text) : NULL;
 }
 
+/* A time, or a word for one. */
+static exit_status read_at(const arguments *args, view_request *request)
+{
+    const option_value *value = arguments_option(args, "at");
+    char *end;
+    if (value == NULL) return EXIT_ANSWERED;
+    request->at = strtod(value->text, &end);
+    request->at_kind = REQUEST_AT_TIME;
+    if (end != value->text && *end == '\0' && isfinite(request->at)) return EXIT_ANSWERED;
+    request->at_kind = REQUEST_AT_SPOT;
+    if (strcmp(value->text, "nearest") == 0 || strcmp(value->text, "contact") == 0)
+        return EXIT_ANSWERED;
+    return complain(EXIT_USAGE, args->verb->name,
+                    "--at must be a finite number, or 'nearest', not '%s'", value->text);
+}
+
 exit_status request_read(const arguments *args, view_request *request)
 {
     const option_value *output = arguments_option(args, "output");
@@ -98,14 +117,13 @@ exit_status request_read(const arguments *args, view_request *request)
     *request = (view_request){.verb = args->verb->name,
                               .output = output != NULL ? output->text : NULL,
                               .format = format_asked(args),
+                              .json = arguments_option(args, "json") != NULL,
                               .width = (double)width,
                               .height = (double)height,
                               .zoom = number_or(args, "zoom", 1, NULL),
                               .tolerance = number_or(args, "tolerance", 0, NULL),
-                              .frames = (size_t)frames,
-                              .body_count = SIZE_MAX};
+                              .frames = (size_t)frames};
     request->from.azimuth = number_or(args, "azimuth", -55, &request->has_azimuth);
     request->from.elevation = number_or(args, "elevation", 25, &request->has_elevation);
-    request->at = number_or(args, "at", 0, &request->has_at);
-    return EXIT_ANSWERED;
+    return read_at(args, request);
 }

@@ -4,22 +4,28 @@
 #define TOOLS_VIEW_REQUEST_H
 
 #include "tools/cli/arguments.h"
-#include "tools/view/picture.h"
+#include "tools/view/visibility.h"
 
 /* What the options of `view` ask for. */
 
+typedef enum request_at {
+    REQUEST_AT_ALL,  /* no moment is asked for */
+    REQUEST_AT_TIME, /* that of `at` */
+    REQUEST_AT_SPOT  /* of the contact, or the nearest approach */
+} request_at;
+
 typedef struct view_request {
     const char *verb, *output;
-    const char *format; /* ".png", ...: of --format, or the ending of the output; NULL: none */
+    const char *format;   /* ".png", ...: of --format, or the ending of the output; NULL: none */
+    bool json;            /* what was written is told as JSON */
     double width, height; /* pixels */
     bool has_azimuth, has_elevation;
     direction from; /* degrees */
     double zoom;    /* 1: all of it */
-    bool has_at;
+    request_at at_kind;
     double at;        /* time */
     double tolerance; /* length; 0: as the size asks */
     size_t frames;    /* of animations */
-    size_t body_count;
 } view_request;
 
 extern const option request_options[];

@@ -4,6 +4,7 @@
 
 #include "tools/view/subject.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,61 +12,119 @@
 #include "tools/cli/interrupt.h"
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
+#include "tools/view/nearest.h"
 #include "tools/view/recorded.h"
 
-static stage_contact contact_of(const imp_result *r)
+/* --- Solving ------------------------------------------------------------------------------------- */
+
+static void take_result(subject *s, const imp_result *r)
 {
     const bool contact = r->verdict == IMP_CONTACT;
-    stage_contact c = {.verdict = r->verdict,
-                       .t = contact ? r->t : r->t_lower,
-                       .body = {r->a.body, r->b.body},
-                       .has_normal = contact && r->has_normal,
-                       .normal = vec_of(r->normal),
-                       .gap = r->gap,
-                       .gamma = r->gamma};
-    c.point[0] = vec_of(r->a.point), c.point[1] = vec_of(r->b.point);
-    return c;
+    s->contact = (stage_contact){.is_known = true,
+                                 .verdict = r->verdict,
+                                 .t = contact ? r->t : r->t_lower,
+                                 .gap = r->gap,
+                                 .gamma = r->gamma};
+    s->spot = (stage_spot){.is_known = contact, .is_contact = contact};
+    if (!contact) return;
+    s->spot.t = r->t, s->spot.upper = r->gap;
+    s->spot.point[0] = vec_of(r->a.point), s->spot.point[1] = vec_of(r->b.point);
+    s->spot.body[0] = r->a.body, s->spot.body[1] = r->b.body;
+    s->spot.has_normal = r->has_normal, s->spot.normal = vec_of(r->normal);
 }
+
+/* Shares of the time that is left, of search and nearest approach. */
+static const double share_of_search = 0.5, share_of_nearest = 0.5;
 
 static exit_status solve(subject *s, const arguments *args)
 {
     imp_error error = {0};
     imp_result result;
     s->options = query_options(s->scene, args);
-    s->query = imp_query_new(s->scene, &s->options, &error);
+    imp_options search = s->options;
+    search.max_seconds = allowance_left(&s->allowance, share_of_search);
+    s->query = imp_query_new(s->scene, &search, &error);
     if (s->query == NULL) return complain_of(&error, args->verb->name);
     interrupt_prepare();
     if (query_run(s->query, &result, &error) != IMP_SUCCESS)
         return complain_of(&error, args->verb->name);
-    s->contact = contact_of(&result);
+    take_result(s, &result);
     return EXIT_ANSWERED;
 }
 
+imp_code subject_find_nearest(subject *s, imp_error *error)
+{
+    imp_options options = s->options;
+    if (s->spot.is_known || s->has_looked) return IMP_SUCCESS;
+    s->has_looked = true;
+    options.max_seconds = allowance_left(&s->allowance, share_of_nearest);
+    options.method = IMP_METHOD_MODELS;
+    return nearest_find(s->scene, &options, &s->spot, error);
+}
+
+/* --- Reading --------------------------------------------------------------------------------------- */
+
+static void begin(subject *s, const arguments *args)
+{
+    const option_value *seconds = arguments_option(args, "max-seconds");
+    const option_value *bytes = arguments_option(args, "max-bytes");
+    *s = (subject){.scene = NULL};
+    allowance_begin(&s->allowance, seconds != NULL ? seconds->number[0] : 0,
+                    bytes != NULL ? bytes->count : (uint64_t)1 << 30);
+    s->allowance.interrupted = interrupt_came;
+}
+
+/* A file's name without folders. */
+static const char *base_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL && slash[1] != '\0' ? slash + 1 : path;
+}
+
+static void set_title(subject *s, const char *file, const char *const pair[2])
+{
+    if (file != NULL)
+        snprintf(s->title, sizeof s->title, "%.250s", base_of(file));
+    else
+        snprintf(s->title, sizeof s->title, "%.120s and %.120s", pair[0], pair[1]);
+}
+
+/* A scene, or a result of one. */
 static exit_status read_text(subject *s, const arguments *args, const input_text *t)
 {
     imp_error error = {0};
     const char *name = input_name(args->operands[0]);
+    json_t *json = json_loadb(t->text, t->length, 0, NULL);
     recorded answer;
-    const exit_status status = recorded_read(t->text, t->length, name, args->verb->name, &answer);
-    if (status != EXIT_ANSWERED) return status;
-    if (!answer.is_result)
-        s->scene = imp_scene_from_json(s->registry, t->text, t->length, name, &error);
-    else if (answer.pair[0] != NULL)
-        s->scene = imp_scene_from_pair(s->registry, answer.pair[0], answer.pair[1], &error);
-    else
-        s->scene = imp_scene_from_file(s->registry, answer.scene, &error);
-    exit_status done = EXIT_ANSWERED;
-    if (s->scene == NULL) {
-        done = complain_of(&error, args->verb->name);
-    } else if (answer.is_result) {
-        s->options = query_options(s->scene, args);
-        if (arguments_option(args, "time") == NULL) recorded_times(&answer, &s->options);
-        done = query_check_times(s->scene, &s->options, args);
-        if (done == EXIT_ANSWERED)
-            done = recorded_contact(&answer, s->scene, name, args->verb->name, &s->contact);
+    exit_status status = recorded_read(json, name, args->verb->name, &answer);
+    if (status == EXIT_ANSWERED) {
+        if (answer.kind == RECORDED_NOTHING)
+            s->scene = imp_scene_from_json(s->registry, t->text, t->length, name, &error);
+        else if (answer.pair[0] != NULL)
+            s->scene = imp_scene_from_pair(s->registry, answer.pair[0], answer.pair[1], &error);
+        else
+            s->scene = imp_scene_from_file(s->registry, answer.scene, &error);
+        set_title(s,
+                  answer.pair[0] != NULL ? NULL
+                  : answer.scene != NULL ? answer.scene
+                                         : name,
+                  answer.pair);
+        if (s->scene == NULL) status = complain_of(&error, args->verb->name);
     }
-    recorded_free(&answer);
-    return done;
+    if (status == EXIT_ANSWERED && !events_read(json, &s->events))
+        status = complain_of_memory(args->verb->name);
+    if (status == EXIT_ANSWERED && answer.kind != RECORDED_NOTHING) {
+        s->options = query_options(s->scene, args);
+        s->has_looked = answer.kind == RECORDED_CLEARANCE;
+        if (arguments_option(args, "time") == NULL) recorded_times(&answer, &s->options);
+        status = query_check_times(s->scene, &s->options, args);
+    }
+    if (status == EXIT_ANSWERED && answer.kind != RECORDED_NOTHING) {
+        status = recorded_answer(&answer, s->scene, &s->options, name, args->verb->name,
+                                 &s->contact, &s->spot);
+    }
+    json_decref(json);
+    return status;
 }
 
 static exit_status read_file(subject *s, const arguments *args)
@@ -81,20 +140,25 @@ static exit_status read_file(subject *s, const arguments *args)
     return status;
 }
 
+static exit_status read_pair(subject *s, const arguments *args)
+{
+    imp_error error = {0};
+    s->scene = imp_scene_from_pair(s->registry, args->operands[0], args->operands[1], &error);
+    set_title(s, NULL, args->operands);
+    return s->scene != NULL ? EXIT_ANSWERED : complain_of(&error, args->verb->name);
+}
+
 exit_status subject_read(subject *s, const arguments *args)
 {
-    *s = (subject){0};
+    begin(s, args);
     exit_status status = query_check(args);
     if (status != EXIT_ANSWERED) return status;
     s->registry = query_registry(args);
     if (s->registry == NULL) return EXIT_DATA;
-    if (args->operand_count == 1) {
-        status = read_file(s, args);
-    } else {
-        imp_error error = {0};
-        s->scene = imp_scene_from_pair(s->registry, args->operands[0], args->operands[1], &error);
-        if (s->scene == NULL) status = complain_of(&error, args->verb->name);
-    }
+    allowance_watch_reading(&s->allowance, args->verb->name);
+    status = args->operand_count == 1 ? read_file(s, args) : read_pair(s, args);
+    allowance_unwatch_reading();
+    /* What was read already may be a result, of which nothing more is asked. */
     if (status != EXIT_ANSWERED || s->contact.gamma > 0) return status;
     return solve(s, args);
 }
@@ -102,9 +166,11 @@ exit_status subject_read(subject *s, const arguments *args)
 exit_status subject_of_file(subject *s, const char *path, const arguments *args)
 {
     imp_error error = {0};
-    *s = (subject){.registry = query_registry(args)};
+    begin(s, args);
+    s->registry = query_registry(args);
     if (s->registry == NULL) return EXIT_DATA;
     s->scene = imp_scene_from_file(s->registry, path, &error);
+    set_title(s, path, NULL);
     return s->scene != NULL ? solve(s, args) : complain_of(&error, args->verb->name);
 }
 
@@ -112,6 +178,7 @@ void subject_free(subject *s)
 {
     imp_query_free(s->query);
     imp_scene_free(s->scene);
+    events_free(&s->events);
     query_registry_free(s->registry);
     *s = (subject){0};
 }

@@ -4,6 +4,7 @@
 #define TOOLS_VIEW_SUBJECT_H
 
 #include "tools/cli/arguments.h"
+#include "tools/view/events.h"
 #include "tools/view/stage.h"
 
 /* What a verb of pictures is asked to show: a scene file, a result that names one, or two surfaces;
@@ -14,13 +15,24 @@ typedef struct subject {
     imp_scene *scene;
     imp_query *query; /* run to its end; NULL where the answer was read */
     imp_options options;
+    size_t body_count;   /* bodies from here on are not drawn; 0: all are */
+    allowance allowance; /* of the whole verb */
     stage_contact contact;
+    stage_spot spot;   /* the contact; else the nearest approach, once it was asked for */
+    bool has_looked;   /* the nearest approach was searched for, or read */
+    event_list events; /* of a simulation */
+    char title[256];   /* the scene's name: its file, or the two surfaces */
 } subject;
 
 /* Reads the operands and solves, unless they are a result. Complains. Free in any case. */
 exit_status subject_read(subject *s, const arguments *args);
-/* The same of a scene file; the operands are not looked at. */
+
+/* subject_read of a scene file; the operands are not looked at. */
 exit_status subject_of_file(subject *s, const char *path, const arguments *args);
+
+/* Finds the nearest approach where there is no contact. */
+imp_code subject_find_nearest(subject *s, imp_error *error);
+
 void subject_free(subject *s);
 
 #endif

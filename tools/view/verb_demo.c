@@ -45,42 +45,15 @@ static exit_status show_teapot(imp_registry *registry, const char *path, const a
 enum { FRAMES_A_SECOND = 60 };
 
 /* The distance at each frame, as proved brackets. */
-typedef struct frames {
-    double *t, *lower, *upper;
-    size_t count, nearest;
-} frames;
-
-static void frames_free(frames *f)
-{
-    free(f->t);
-    free(f->lower);
-    free(f->upper);
-}
-
-static imp_code measure_frame(const subject *what, frames *f, size_t k, imp_error *error)
-{
-    gap_profile gap;
-    imp_options moment = what->options;
-    f->t[k] = what->options.t_start + (double)k / FRAMES_A_SECOND;
-    moment.t_start = moment.t_end = f->t[k];
-    const imp_code code = gap_measure(what->scene, &moment, 1, 1e-3, &gap, error);
-    if (code == IMP_SUCCESS) f->lower[k] = gap.lower[0], f->upper[k] = gap.upper[0];
-    if (f->lower[k] < f->lower[f->nearest]) f->nearest = k;
-    gap_free(&gap);
-    return code;
-}
-
-static imp_code measure_frames(const subject *what, frames *f, imp_error *error)
+static imp_code measure_frames(const subject *what, gap_profile *f, imp_error *error)
 {
     const double span = what->options.t_end - what->options.t_start;
-    f->count = (size_t)floor(span * FRAMES_A_SECOND + 1e-9) + 1;
-    f->t = calloc(f->count, sizeof *f->t);
-    f->lower = calloc(f->count, sizeof *f->lower);
-    f->upper = calloc(f->count, sizeof *f->upper);
-    if (f->t == NULL || f->lower == NULL || f->upper == NULL) return mesh_no_memory(error);
-    imp_code code = IMP_SUCCESS;
-    for (size_t k = 0; k < f->count && code == IMP_SUCCESS; ++k)
-        code = measure_frame(what, f, k, error);
+    const size_t count = (size_t)floor(span * FRAMES_A_SECOND + 1e-9) + 1;
+    double *t = calloc(count, sizeof *t);
+    if (t == NULL) return mesh_no_memory(error);
+    for (size_t k = 0; k < count; ++k) t[k] = what->options.t_start + (double)k / FRAMES_A_SECOND;
+    const imp_code code = gap_at_moments(what->scene, &what->options, NULL, t, count, f, error);
+    free(t);
     return code;
 }
 
@@ -93,12 +66,14 @@ static exit_status introduce(const char *speaker)
     return output_flush(speaker);
 }
 
-static void tell_frames(const frames *f)
+static void tell_frames(const gap_profile *f)
 {
+    size_t nearest = 0;
+    for (size_t k = 1; k < f->count; ++k)
+        if (f->lower[k] < f->lower[nearest]) nearest = k;
     printf("1. Looking at %zu moments, %d frames a second: no contact.\n"
            "   The nearest frame is t = %.4g, where the two are %s apart.\n\n",
-           f->count, FRAMES_A_SECOND, f->t[f->nearest],
-           output_number_lower(f->lower[f->nearest]).text);
+           f->count, FRAMES_A_SECOND, f->t[nearest], output_number_lower(f->lower[nearest]).text);
 }
 
 static void tell_search(const subject *what)
@@ -114,7 +89,7 @@ static void tell_search(const subject *what)
             r.gamma, r.gamma_clear);
 }
 
-static bool add_frames(plot *p, const frames *f)
+static bool add_frames(plot *p, const gap_profile *f)
 {
     plot_series *s = plot_add(p, "what the frames see", PLOT_POINTS, f->count);
     if (s == NULL) return false;
@@ -124,7 +99,7 @@ static bool add_frames(plot *p, const frames *f)
     return true;
 }
 
-static exit_status tell_gap(const subject *what, const frames *f, const char *speaker)
+static exit_status tell_gap(const subject *what, const gap_profile *f, const char *speaker)
 {
     gap_profile gap;
     plot p = {0};
@@ -132,7 +107,7 @@ static exit_status tell_gap(const subject *what, const frames *f, const char *sp
     exit_status status = EXIT_ANSWERED;
     if (gap_measure(what->scene, &what->options, 67, 0.05, &gap, &error) != IMP_SUCCESS)
         status = complain_of(&error, speaker);
-    else if (puts("\n3. Between the frames:") < 0 || !plot_of_gap(&p, &gap, &what->contact) ||
+    else if (puts("\n3. Between the frames:") < 0 || !plot_of_gap(&p, &gap, what, 0) ||
              !add_frames(&p, f) || !plot_print(&p, stdout, 79, 22))
         status = complain_of_memory(speaker);
     plot_free(&p);
@@ -144,7 +119,7 @@ static exit_status tell_gap(const subject *what, const frames *f, const char *sp
 
 enum { FRAMES_OF_PAGE = 26 }; /* a hundredth of a second apart; more would take longer to make */
 
-static exit_status write_one(const subject *what, const arguments *args, const char *directory,
+static exit_status write_one(subject *what, const arguments *args, const char *directory,
                              const char *ending)
 {
     view_request request;
@@ -156,12 +131,12 @@ static exit_status write_one(const subject *what, const arguments *args, const c
     request.output = path;
     request.format = ending;
     request.frames = FRAMES_OF_PAGE;
-    if (status == EXIT_ANSWERED) status = view_write(what, &request);
+    if (status == EXIT_ANSWERED) status = view_write_and_tell(what, &request);
     free(path);
     return status;
 }
 
-static exit_status write_files(const subject *what, const arguments *args)
+static exit_status write_files(subject *what, const arguments *args)
 {
     const option_value *output = arguments_option(args, "output");
     const char *directory = output != NULL ? output->text : "";
@@ -171,9 +146,9 @@ static exit_status write_files(const subject *what, const arguments *args)
     return write_one(what, args, directory, ".html");
 }
 
-static exit_status show_blade(const subject *what, const char *path, const arguments *args)
+static exit_status show_blade(subject *what, const char *path, const arguments *args)
 {
-    frames f = {0};
+    gap_profile f = {0};
     imp_error error = {0};
     exit_status status = EXIT_ANSWERED;
     if (measure_frames(what, &f, &error) != IMP_SUCCESS)
@@ -183,7 +158,7 @@ static exit_status show_blade(const subject *what, const char *path, const argum
         tell_search(what);
         status = tell_gap(what, &f, args->verb->name);
     }
-    frames_free(&f);
+    gap_free(&f);
     if (status == EXIT_ANSWERED) status = write_files(what, args);
     if (status != EXIT_ANSWERED) return status;
     puts("\nTry next:");

@@ -21,8 +21,7 @@ static bool is_asked_for(const imp_type_info *info, const char *name)
 
 static void print_line(const char *label, const char *text)
 {
-    if (text != NULL && text[0] != '\0')
-        printf("  %-10s %s\n", label, message_shown(text).text);
+    if (text != NULL && text[0] != '\0') printf("  %-10s %s\n", label, message_shown(text).text);
 }
 
 static void print_parameter(const imp_parameter *p)
@@ -137,7 +136,7 @@ static exit_status draw(imp_registry *registry, const imp_type_info *info, const
     if (status != EXIT_ANSWERED) return status;
     request.output = arguments_option(args, "view")->text;
     request.format = request_ending(request.output);
-    request.body_count = 1;
+    request.json = false;
     status = view_check_output(&request);
     if (status != EXIT_ANSWERED) return status;
     const bool map = info->kind == IMP_KIND_MAP && surface != NULL;
@@ -148,8 +147,9 @@ static exit_status draw(imp_registry *registry, const imp_type_info *info, const
     free(pipeline);
     if (what.scene == NULL) return complain_of(&error, args->verb->name);
     what.options = imp_options_default(what.scene);
-    what.contact = (stage_contact){.verdict = IMP_CLEAR, .t = what.options.t_start};
-    status = view_write(&what, &request);
+    what.body_count = 1, what.has_looked = true;
+    snprintf(what.title, sizeof what.title, "%s", info->name);
+    status = view_write_and_tell(&what, &request);
     imp_scene_free(what.scene);
     return status;
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "core/common/system_error.h"
 #include "tools/cli/input.h"
@@ -33,24 +34,30 @@ static const char *ending(const arguments *args)
     return dot != NULL ? dot : "";
 }
 
+/* In letters of either case. */
+static bool ends_with(const arguments *args, const char *wanted)
+{
+    return strcasecmp(ending(args), wanted) == 0;
+}
+
 static exit_status check_output(const arguments *args)
 {
-    const char *end = ending(args);
-    if (end == NULL || strcmp(end, ".svg") == 0) return EXIT_ANSWERED;
-    if (strcmp(end, ".png") == 0)
+    if (ending(args) == NULL || ends_with(args, ".svg")) return EXIT_ANSWERED;
+    if (ends_with(args, ".png"))
         return png_check(arguments_option(args, "output")->text, args->verb->name);
     return complain(EXIT_USAGE, args->verb->name,
                     "--output must end with one of .png, .svg, or --format say which, not '%s'",
                     arguments_option(args, "output")->text);
 }
 
+/* False: no memory. What cannot be written is complained of when the file is closed. */
 static bool write_png(const plot *p, FILE *file)
 {
     raster r;
     canvas c = {WIDTH, HEIGHT, &r, NULL};
     const bool begun = raster_begin(&r, WIDTH, HEIGHT, (colour){1, 1, 1});
     if (begun) plot_draw(p, &c);
-    const bool good = begun && png_write_raster(file, &r);
+    const bool good = begun && (png_write_raster(file, &r) || ferror(file));
     raster_free(&r);
     return good;
 }
@@ -62,7 +69,7 @@ static exit_status write_file(const plot *p, const arguments *args)
     exit_status status = output_file_begin(&out, path, args->verb->name);
     if (status != EXIT_ANSWERED) return status;
     bool good = true;
-    if (strcmp(ending(args), ".png") == 0) {
+    if (ends_with(args, ".png")) {
         good = write_png(p, out.file);
     } else {
         canvas c = canvas_svg_begin(out.file, WIDTH, HEIGHT);
@@ -70,21 +77,42 @@ static exit_status write_file(const plot *p, const arguments *args)
         canvas_svg_end(&c);
     }
     status = output_file_end(&out, good);
-    if (status != EXIT_ANSWERED) return status;
-    if (!good) return complain_of_memory(args->verb->name);
-    if (!output_is_standard(path))
-        printf("%s: %dx%d pixels\n", message_shown(path).text, WIDTH, HEIGHT);
-    return EXIT_ANSWERED;
+    return good || status != EXIT_ANSWERED ? status : complain_of_memory(args->verb->name);
+}
+
+static json_t *plot_json(const arguments *args)
+{
+    const option_value *output = arguments_option(args, "output");
+    return json_pack("{s:o, s:i, s:i}", "file", output_json_text(output->text), "width", WIDTH,
+                     "height", HEIGHT);
 }
 
 static exit_status show(const plot *p, const arguments *args)
 {
-    if (ending(args) != NULL) return write_file(p, args);
-    return plot_print(p, stdout, COLUMNS, ROWS) ? output_flush(args->verb->name)
-                                                : complain_of_memory(args->verb->name);
+    if (ending(args) == NULL)
+        return plot_print(p, stdout, COLUMNS, ROWS) ? output_flush(args->verb->name)
+                                                    : complain_of_memory(args->verb->name);
+    const char *path = arguments_option(args, "output")->text;
+    const exit_status status = write_file(p, args);
+    if (status != EXIT_ANSWERED || output_is_standard(path)) return status; /* the plot alone */
+    if (arguments_option(args, "json") != NULL)
+        return output_json(plot_json(args), args->verb->name);
+    printf("%s: %dx%d pixels\n", message_shown(path).text, WIDTH, HEIGHT);
+    return output_flush(args->verb->name);
 }
 
 /* --- Distance over time ------------------------------------------------------------------------ */
+
+static exit_status measure(subject *what, size_t slices, const arguments *args, gap_profile *gap)
+{
+    imp_error error = {0};
+    imp_options options = what->options;
+    imp_code code = subject_find_nearest(what, &error);
+    options.max_seconds = allowance_left(&what->allowance, 0.9);
+    options.method = IMP_METHOD_MODELS;
+    if (code == IMP_SUCCESS) code = gap_measure(what->scene, &options, slices, 0.1, gap, &error);
+    return code == IMP_SUCCESS ? EXIT_ANSWERED : complain_of(&error, args->verb->name);
+}
 
 static exit_status plot_scene(const arguments *args)
 {
@@ -93,17 +121,16 @@ static exit_status plot_scene(const arguments *args)
     if (count < 1 || count > 10000)
         return complain(EXIT_USAGE, args->verb->name, "--slices must be from 1 to 10000, not '%s'",
                         slices->text);
+    const option_value *required = arguments_option(args, "require");
     subject what;
     gap_profile gap = {0};
     plot p = {0};
-    imp_error error = {0};
     exit_status status = subject_read(&what, args);
-    if (status == EXIT_ANSWERED &&
-        gap_measure(what.scene, &what.options, (size_t)count, 0.1, &gap, &error) != IMP_SUCCESS)
-        status = complain_of(&error, args->verb->name);
+    if (status == EXIT_ANSWERED) status = measure(&what, (size_t)count, args, &gap);
     if (status == EXIT_ANSWERED)
-        status = plot_of_gap(&p, &gap, &what.contact) ? show(&p, args)
-                                                      : complain_of_memory(args->verb->name);
+        status = plot_of_gap(&p, &gap, &what, required != NULL ? required->number[0] : 0)
+                     ? show(&p, args)
+                     : complain_of_memory(args->verb->name);
     plot_free(&p);
     gap_free(&gap);
     subject_free(&what);
@@ -138,7 +165,8 @@ static exit_status plot_set(const char *set, const arguments *args)
     const program_end end = program_run(words, PROGRAM_OUTPUT, false);
     exit_status status = (exit_status)end.status;
     if (end.error != 0)
-        status = complain(EXIT_DATA, args->verb->name, "bench %s: %s", set, system_error_text(end.error));
+        status = complain(EXIT_DATA, args->verb->name, "bench %s: %s", set,
+                          system_error_text(end.error));
     else if (status == EXIT_ANSWERED && end.said != NULL)
         status = show_bench(end.said, strlen(end.said), set, args);
     free(end.said);
@@ -194,6 +222,11 @@ static const option plot_options[] = {
      .argument = "NAME",
      .choices = formats,
      .help = "of the output; else its extension selects it"},
+    {.name = "require",
+     .kind = OPTION_NUMBER,
+     .argument = "D",
+     .min_open = true,
+     .help = "draw a line at this distance"},
     {.name = "slices",
      .kind = OPTION_COUNT,
      .argument = "N",

@@ -16,7 +16,7 @@ static exit_status run(const arguments *args)
     if (status == EXIT_ANSWERED) status = view_check_output(&request);
     if (status != EXIT_ANSWERED) return status;
     status = subject_read(&what, args);
-    if (status == EXIT_ANSWERED) status = view_write(&what, &request);
+    if (status == EXIT_ANSWERED) status = view_write_and_tell(&what, &request);
     subject_free(&what);
     return status;
 }

@@ -5,207 +5,68 @@
 #include "tools/view/view.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "tools/cli/output.h"
 #include "tools/cli/output_file.h"
-#include "tools/view/animation.h"
 #include "tools/view/html.h"
 #include "tools/view/png.h"
 #include "tools/view/storyboard.h"
+#include "tools/view/view_film.h"
 
-/* What was written, for the line that is printed. */
-typedef struct written {
-    char what[64];
-    double error_upper; /* length */
-} written;
+/* --- Pictures ------------------------------------------------------------------------------------ */
 
-typedef struct format {
-    const char *ending;
-    imp_code (*write)(const subject *, const view_request *, FILE *, written *, imp_error *);
-} format;
+static void tell_picture(const view_request *request, written *w)
+{
+    w->width = (size_t)request->width, w->height = (size_t)request->height;
+}
 
-static imp_code write_png(const subject *what, const view_request *request, FILE *file, written *w,
+/* What could not be written is complained of when the file is closed. */
+static imp_code write_png(subject *what, const view_request *request, FILE *file, written *w,
                           imp_error *error)
 {
-    raster r;
+    raster r = {.width = 0};
     canvas c = {request->width, request->height, &r, NULL};
-    const bool begun =
-        raster_begin(&r, (size_t)request->width, (size_t)request->height, (colour){1, 1, 1});
-    imp_code code =
-        begun ? storyboard_draw(what, request, &c, &w->error_upper, error) : mesh_no_memory(error);
-    if (code == IMP_SUCCESS && !png_write_raster(file, &r)) code = mesh_no_memory(error);
-    snprintf(w->what, sizeof w->what, "%gx%g pixels", request->width, request->height);
+    tell_picture(request, w);
+    imp_code code = allowance_check_bytes(&what->allowance, raster_bytes(c.width, c.height),
+                                          "pixels were kept", error);
+    if (code == IMP_SUCCESS && !raster_begin(&r, w->width, w->height, (colour){1, 1, 1}))
+        code = mesh_no_memory(error);
+    if (code == IMP_SUCCESS) code = storyboard_draw(what, request, &c, &w->error_upper, error);
+    if (code == IMP_SUCCESS && !png_write_raster(file, &r) && !ferror(file))
+        code = mesh_no_memory(error);
     raster_free(&r);
     return code;
 }
 
-static imp_code write_svg(const subject *what, const view_request *request, FILE *file, written *w,
+static imp_code write_svg(subject *what, const view_request *request, FILE *file, written *w,
                           imp_error *error)
 {
     canvas c = canvas_svg_begin(file, request->width, request->height);
+    tell_picture(request, w);
     const imp_code code = storyboard_draw(what, request, &c, &w->error_upper, error);
     canvas_svg_end(&c);
-    snprintf(w->what, sizeof w->what, "%gx%g pixels", request->width, request->height);
     return code;
 }
 
-/* --- Films --------------------------------------------------------------------------------- */
+/* --- Formats --------------------------------------------------------------------------------------- */
 
-/* One moment, where no other is asked for: the contact's, or the start. */
-static view_request one_moment(const subject *what, const view_request *request)
-{
-    view_request still = *request;
-    if (!still.has_at)
-        still.at = what->contact.verdict == IMP_CONTACT ? what->contact.t : what->options.t_start;
-    still.has_at = true;
-    return still;
-}
+typedef struct format {
+    const char *ending;
+    imp_code (*write)(subject *, const view_request *, FILE *, written *, imp_error *);
+} format;
 
-static void tell_film(const film *f, written *w)
-{
-    size_t triangles = 0;
-    for (size_t k = 0; k < f->count; ++k) triangles += mesh_triangle_count(f->tracks[k].mesh);
-    w->error_upper = f->stage.error_upper;
-    snprintf(w->what, sizeof w->what, "%zu moment%s, %zu triangles", f->frames,
-             f->frames == 1 ? "" : "s", triangles);
-}
-
-typedef imp_code (*film_writer)(const film *, FILE *, imp_error *);
-
-static imp_code write_film(const subject *what, const view_request *request, FILE *file, written *w,
-                           imp_error *error, film_writer write)
-{
-    film f;
-    imp_code code = film_make(what, request, &f, error);
-    if (code == IMP_SUCCESS) code = write(&f, file, error);
-    if (code == IMP_SUCCESS) tell_film(&f, w);
-    film_free(&f);
-    return code;
-}
-
-static imp_code write_obj(const subject *what, const view_request *request, FILE *file, written *w,
-                          imp_error *error)
-{
-    const view_request still = one_moment(what, request);
-    return write_film(what, &still, file, w, error, animation_obj);
-}
-
-static imp_code first_vtu(const film *f, FILE *file, imp_error *error)
-{
-    return animation_vtu(f, 0, file, error);
-}
-
-static imp_code write_vtu(const subject *what, const view_request *request, FILE *file, written *w,
-                          imp_error *error)
-{
-    const view_request still = one_moment(what, request);
-    return write_film(what, &still, file, w, error, first_vtu);
-}
-
-static imp_code write_glb(const subject *what, const view_request *request, FILE *file, written *w,
-                          imp_error *error)
-{
-    return write_film(what, request, file, w, error, animation_glb);
-}
-
-/* A collection consists of files with names of their own. */
-static exit_status check_pvd(const view_request *request)
-{
-    const char *ending = request_ending(request->output);
-    if (ending != NULL && strcmp(ending, ".pvd") == 0) return EXIT_ANSWERED;
-    return complain(EXIT_USAGE, request->verb,
-                    "--output must be a file that ends with .pvd, whose frames are files beside it, "
-                    "not '%s'",
-                    request->output);
-}
-
-/* One frame beside the collection, under its own name. */
-static imp_code write_pvd_frame(const film *f, const view_request *request, size_t frame,
-                                imp_error *error)
-{
-    output_file out;
-    char path[4096];
-    const int stem = (int)(request_ending(request->output) - request->output);
-    if (snprintf(path, sizeof path, "%.*s_%04zu.vtu", stem, request->output, frame) >=
-        (int)sizeof path)
-        return mesh_no_memory(error);
-    if (output_file_begin(&out, path, request->verb) != EXIT_ANSWERED) return IMP_ERROR_FILE;
-    const imp_code code = animation_vtu(f, frame, out.file, error);
-    return output_file_end(&out, code == IMP_SUCCESS) == EXIT_ANSWERED ? code : IMP_ERROR_FILE;
-}
-
-static imp_code write_pvd(const subject *what, const view_request *request, FILE *file, written *w,
-                          imp_error *error)
-{
-    film f;
-    const char *slash = strrchr(request->output, '/');
-    const char *base = slash != NULL ? slash + 1 : request->output;
-    char *stem = strndup(base, (size_t)(strrchr(base, '.') - base));
-    imp_code code = film_make(what, request, &f, error);
-    if (code == IMP_SUCCESS && stem == NULL) code = mesh_no_memory(error);
-    for (size_t k = 0; k < f.frames && code == IMP_SUCCESS; ++k)
-        code = write_pvd_frame(&f, request, k, error);
-    if (code == IMP_SUCCESS) code = animation_pvd(&f, stem, file, error);
-    if (code == IMP_SUCCESS) tell_film(&f, w);
-    free(stem);
-    film_free(&f);
-    return code;
-}
-
-/* From where the picture of the contact is taken. */
-static imp_code look(const subject *what, const view_request *request, vec *toward,
-                     imp_error *error)
-{
-    direction from = request->from;
-    stage s;
-    double *moment = malloc(sizeof *moment);
-    if (moment != NULL) *moment = what->contact.t;
-    imp_code code = storyboard_stage(what, request, moment, 1, &s, error);
-    if (code == IMP_SUCCESS) code = storyboard_direction(&s, request, &from, error);
-    stage_free(&s);
-    *toward = camera_toward(from.azimuth, from.elevation).toward;
-    return code;
-}
-
-enum { PAGE_SLICES = 120 };
-
-static imp_code write_html(const subject *what, const view_request *request, FILE *file, written *w,
-                           imp_error *error)
-{
-    film f;
-    gap_profile gap = {0};
-    regions proved = {0};
-    html_page page = {&f, NULL, NULL, {{0, 0, 1}}};
-    imp_code code = film_make(what, request, &f, error);
-    if (code == IMP_SUCCESS) code = look(what, request, &page.toward, error);
-    if (code == IMP_SUCCESS && f.frames > 1) {
-        page.gap = &gap;
-        code = gap_measure(what->scene, &what->options, PAGE_SLICES, 0.05, &gap, error);
-    }
-    if (code == IMP_SUCCESS && what->query != NULL) {
-        page.regions = &proved;
-        code = regions_measure(what, &f, &proved, error);
-    }
-    if (code == IMP_SUCCESS && html_write(&page, file, request->verb) != EXIT_ANSWERED)
-        code = IMP_ERROR_FILE;
-    if (code == IMP_SUCCESS) tell_film(&f, w);
-    regions_free(&proved);
-    gap_free(&gap);
-    film_free(&f);
-    return code;
-}
-
-static const format formats[] = {{".png", write_png},   {".svg", write_svg}, {".glb", write_glb},
-                                 {".html", write_html}, {".obj", write_obj}, {".vtu", write_vtu},
-                                 {".pvd", write_pvd}};
+static const format formats[] = {{".png", write_png},      {".svg", write_svg},
+                                 {".glb", view_write_glb}, {".html", view_write_html},
+                                 {".obj", view_write_obj}, {".vtu", view_write_vtu},
+                                 {".pvd", view_write_pvd}};
 enum { FORMATS = sizeof formats / sizeof formats[0] };
 
 static const format *format_of(const char *ending)
 {
     for (size_t k = 0; k < FORMATS && ending != NULL; ++k)
-        if (strcmp(ending, formats[k].ending) == 0) return &formats[k];
+        if (strcasecmp(ending, formats[k].ending) == 0) return &formats[k];
     return NULL;
 }
 
@@ -213,7 +74,7 @@ bool view_has(const char *ending)
 {
     const format *f = format_of(ending);
     if (f == NULL) return false;
-    if (f->write == write_html) return html_is_available();
+    if (f->write == view_write_html) return html_is_available();
     return f->write != write_png || png_is_available();
 }
 
@@ -228,6 +89,18 @@ static exit_status unknown_format(const view_request *request)
                     request->output);
 }
 
+/* A collection consists of files with names of their own. */
+static exit_status check_collection(const view_request *request)
+{
+    const char *ending = request_ending(request->output);
+    if (ending != NULL && strcasecmp(ending, ".pvd") == 0) return EXIT_ANSWERED;
+    return complain(
+        EXIT_USAGE, request->verb,
+        "--output must be a file that ends with .pvd, whose frames are files beside it, "
+        "not '%s'",
+        request->output);
+}
+
 exit_status view_check_output(const view_request *request)
 {
     if (request->output == NULL)
@@ -235,26 +108,64 @@ exit_status view_check_output(const view_request *request)
                         "where to? -o FILE is missing, such as -o %s.png", request->verb);
     const format *f = format_of(request->format);
     if (f == NULL) return unknown_format(request);
-    if (f->write == write_pvd) return check_pvd(request);
-    if (f->write == write_html) return html_check(request->output, request->verb);
+    if (f->write == view_write_pvd) return check_collection(request);
+    if (f->write == view_write_html) return html_check(request->output, request->verb);
     if (f->write == write_png) return png_check(request->output, request->verb);
     return EXIT_ANSWERED;
 }
 
-exit_status view_write(const subject *what, const view_request *request)
+exit_status view_write(subject *what, const view_request *request, written *w)
 {
     output_file out;
-    written w = {.error_upper = 0};
     imp_error error = {0};
+    *w = (written){.error_upper = 0};
     exit_status status = output_file_begin(&out, request->output, request->verb);
     if (status != EXIT_ANSWERED) return status;
-    const imp_code code = format_of(request->format)->write(what, request, out.file, &w, &error);
+    allowance_begin_drawing(&what->allowance);
+    const imp_code code = format_of(request->format)->write(what, request, out.file, w, &error);
     status = output_file_end(&out, code == IMP_SUCCESS);
     if (status != EXIT_ANSWERED) return status;
     if (code == IMP_ERROR_FILE && error.text[0] == '\0') return EXIT_DATA; /* complained of */
-    if (code != IMP_SUCCESS) return complain_of(&error, request->verb);
-    if (output_is_standard(request->output)) return EXIT_ANSWERED; /* the picture alone */
-    printf("%s: %s, surfaces to within %s\n", message_shown(request->output).text, w.what,
-           output_number_upper(w.error_upper).text);
+    if (code == IMP_SUCCESS) return status;
+    if (!allowance_ended(&what->allowance)) return complain_of(&error, request->verb);
+    return complain(EXIT_UNDECIDED, request->verb, "%s; nothing was written", error.text);
+}
+
+/* --- What is told ------------------------------------------------------------------------------------ */
+
+static json_t *written_json(const view_request *request, const written *w)
+{
+    json_t *object = json_pack("{s:o, s:o}", "file", output_json_text(request->output),
+                               "surfaces_within", output_json_number(w->error_upper));
+    const bool picture = w->width > 0;
+    const size_t first = picture ? w->width : w->moments,
+                 second = picture ? w->height : w->triangles;
+    if (json_object_set_new(object, picture ? "width" : "moments",
+                            json_integer((json_int_t)first)) == 0 &&
+        json_object_set_new(object, picture ? "height" : "triangles",
+                            json_integer((json_int_t)second)) == 0)
+        return object;
+    json_decref(object);
+    return NULL;
+}
+
+static void print_written(const view_request *request, const written *w)
+{
+    const char *file = message_shown(request->output).text;
+    if (w->width > 0)
+        printf("%s: %zux%zu pixels", file, w->width, w->height);
+    else
+        printf("%s: %zu moment%s, %zu triangles", file, w->moments, w->moments == 1 ? "" : "s",
+               w->triangles);
+    printf(", surfaces to within %s\n", output_number_upper(w->error_upper).text);
+}
+
+exit_status view_write_and_tell(subject *what, const view_request *request)
+{
+    written w;
+    const exit_status status = view_write(what, request, &w);
+    if (status != EXIT_ANSWERED || output_is_standard(request->output)) return status;
+    if (request->json) return output_json(written_json(request, &w), request->verb);
+    print_written(request, &w);
     return output_flush(request->verb);
 }

@@ -9,10 +9,10 @@ typedef struct vtu {
     size_t before, frame;
 } vtu;
 
-static void put_triangle(void *context, const mesh *m, const size_t c[3])
+static void put_triangle(void *context, const mesh *m, const size_t c[3], size_t cell)
 {
     const vtu *v = context;
-    (void)m;
+    (void)m, (void)cell;
     fprintf(v->file, "%zu %zu %zu\n", v->before + c[0], v->before + c[1], v->before + c[2]);
 }
 
@@ -20,23 +20,28 @@ typedef void (*put_values)(const track *t, const vtu *v);
 
 static void put_points(const track *t, const vtu *v)
 {
-    const vec *p = t->point + v->frame * t->count;
-    for (size_t i = 0; i < t->count; ++i)
-        fprintf(v->file, "%.9g %.9g %.9g\n", p[i].x[0], p[i].x[1], p[i].x[2]);
+    for (size_t i = 0; i < t->count; ++i) {
+        const vec p = track_point(t, v->frame, i);
+        fprintf(v->file, "%.9g %.9g %.9g\n", p.x[0], p.x[1], p.x[2]);
+    }
 }
 
 static void put_normals(const track *t, const vtu *v)
 {
-    const vec *n = t->normal + v->frame * t->count;
-    for (size_t i = 0; i < t->count; ++i)
-        fprintf(v->file, "%.6g %.6g %.6g\n", n[i].x[0], n[i].x[1], n[i].x[2]);
+    for (size_t i = 0; i < t->count; ++i) {
+        const vec n = track_normal(t, v->frame, i);
+        fprintf(v->file, "%.6g %.6g %.6g\n", n.x[0], n.x[1], n.x[2]);
+    }
 }
 
 static void put_parameters(const track *t, const vtu *v)
 {
     const mesh *m = t->mesh;
-    for (size_t i = 0; i < t->count; ++i)
-        fprintf(v->file, "%.9g %.9g\n", m->u[i / m->nv], m->v[i % m->nv]);
+    for (size_t k = 0; k < m->patch_count; ++k) {
+        const mesh_patch *p = &m->patches[k];
+        for (size_t i = 0; i < p->nu * p->nv; ++i)
+            fprintf(v->file, "%.9g %.9g\n", mesh_u(m, p)[i / p->nv], mesh_v(m, p)[i % p->nv]);
+    }
 }
 
 static void put_connectivity(const track *t, const vtu *v)
@@ -47,13 +52,12 @@ static void put_connectivity(const track *t, const vtu *v)
 
 static void put_bodies(const track *t, const vtu *v)
 {
-    for (size_t i = mesh_triangle_count(t->mesh); i > 0; --i)
-        fprintf(v->file, "%zu\n", t->mesh->body);
+    for (size_t i = t->mesh->triangle_count; i > 0; --i) fprintf(v->file, "%zu\n", t->mesh->body);
 }
 
 static void put_surfaces(const track *t, const vtu *v)
 {
-    for (size_t i = mesh_triangle_count(t->mesh); i > 0; --i)
+    for (size_t i = t->mesh->triangle_count; i > 0; --i)
         fprintf(v->file, "%zu\n", t->mesh->surface);
 }
 
@@ -88,7 +92,7 @@ imp_code animation_vtu(const film *f, size_t frame, FILE *file, imp_error *error
     for (size_t k = 0; k < f->count; ++k) {
         if (!f->tracks[k].there[frame]) continue;
         points += f->tracks[k].count;
-        triangles += mesh_triangle_count(f->tracks[k].mesh);
+        triangles += f->tracks[k].mesh->triangle_count;
     }
     fprintf(file,
             "<?xml version=\"1.0\"?>\n"
