@@ -131,6 +131,7 @@ core_broad_phase = \
 
 core_solver = \
     core/solver/clearance.c core/solver/clearance.h \
+    core/solver/contradiction.c core/solver/contradiction.h \
     core/solver/clearance_divide.c \
     core/solver/clearance_internal.h \
     core/solver/expand_pair.c core/solver/expand_pair.h \

@@ -10,6 +10,7 @@
 #include "core/bounds/separation.h"
 #include "core/bounds/tuning.h"
 #include "core/common/clock.h"
+#include "core/solver/contradiction.h"
 #include "core/solver/world.h"
 
 /* --- The minimum distance of a task --------------------------------------------------------- */
@@ -101,6 +102,18 @@ static bool is_narrow(const clearance_search *c, const imp_clearance *answer)
 {
     const double width = answer->upper - answer->lower;
     return width <= c->asked.tolerance * answer->upper || answer->upper <= c->options.gamma;
+}
+
+/* Lemma. No points are nearer than `lower` before time t, and those of the witness are no farther apart
+ * than `upper`, but for what pairs that are taken to be at rest slip. */
+static imp_code check_witness(const clearance_search *c, const imp_clearance *answer, double lower,
+                              double t, imp_error *error)
+{
+    const double upper = sum_upper(answer->upper, 2 * c->list->slip);
+    if (!answer->has_witness || !(upper < lower && answer->t < t)) return IMP_SUCCESS;
+    return contradiction_fault(scene_surface(c->scene, answer->a.body, answer->a.surface),
+                               scene_surface(c->scene, answer->b.body, answer->b.surface), upper,
+                               answer->t, lower, error);
 }
 
 static void finish_task(clearance_search *c, imp_reason reason)
@@ -200,8 +213,9 @@ static imp_code take_violation(const clearance_search *c, imp_clearance *answer,
     const impact *im = &c->violation;
     const uint32_t k = im->found_candidate;
     world_witness told;
-    imp_code code =
-        world_witness_of(c->scene, &c->list->pairs[k], &im->found, im->t_lower, &told, error);
+    imp_code code = check_witness(c, answer, relaxed(c), im->t_lower, error);
+    if (code == IMP_SUCCESS)
+        code = world_witness_of(c->scene, &c->list->pairs[k], &im->found, im->t_lower, &told, error);
     answer->verdict = IMP_REQUIREMENT_VIOLATED;
     if (code == IMP_SUCCESS && im->found.gap_upper < answer->upper)
         code = take_witness(c, k, &im->found, im->t_lower, answer, error);
@@ -237,10 +251,12 @@ static imp_code conclude_violation(clearance_search *c, impact_state state, imp_
         return code;
     case IMPACT_CONTACT:
         code = take_violation(c, answer, error);
+        if (code == IMP_SUCCESS) code = check_witness(c, answer, answer->lower, INFINITY, error);
         break;
     case IMPACT_CLEAR: /* also where a witness violates it: within the room both are right */
         answer->verdict = IMP_REQUIREMENT_HOLDS;
         if (answer->lower < relaxed(c)) answer->lower = relaxed(c);
+        code = check_witness(c, answer, answer->lower, INFINITY, error);
         break;
     case IMPACT_RESOLUTION:
         if (answer->verdict == IMP_REQUIREMENT_UNDECIDED) {
@@ -251,7 +267,7 @@ static imp_code conclude_violation(clearance_search *c, impact_state state, imp_
         answer->reason = IMP_REASON_RESOLUTION;
         break;
     }
-    finish_task(c, answer->reason);
+    if (code == IMP_SUCCESS) finish_task(c, answer->reason);
     return code;
 }
 

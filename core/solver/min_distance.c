@@ -11,6 +11,7 @@
 #include "core/bounds/distance.h"
 #include "core/bounds/separation.h"
 #include "core/bounds/tuning.h"
+#include "core/solver/contradiction.h"
 
 /* --- How near is near enough --------------------------------------------------------------- */
 
@@ -141,6 +142,9 @@ static imp_code find_witness(min_distance *m, const pair *p, imp_error *error)
     m->stats->witness_searches += 1;
     code = witness_seek(nodes, p->moment, m->upper, &seen, error);
     if (code != IMP_SUCCESS || !(seen.gap_upper < m->upper)) return code;
+    if (seen.gap_upper < p->key[0])
+        return contradiction_fault(single.a->surface, single.b->surface, seen.gap_upper, p->moment,
+                                   p->key[0], error);
     m->upper = seen.gap_upper;
     m->found = seen;
     m->t = p->moment;

@@ -7,6 +7,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "core/solver/contradiction.h"
 #include "core/solver/expand_pair.h"
 
 /* Of many candidate pairs most are pushed: room for half of those to come is made at once. */
@@ -153,6 +154,14 @@ static impact_state settle(impact *im)
     return impact_contact(im, &im->upper.seen);
 }
 
+/* A contact below the clearance is known before the time up to which nothing is that near. */
+static imp_code contradict(const impact *im, imp_error *error)
+{
+    const candidate_pair *both = &im->candidate_pairs[im->found_candidate];
+    return contradiction_fault(tree_surface(both->side[0]->tree), tree_surface(both->side[1]->tree),
+                               im->found.gap_upper, im->t_lower, im->clearance, error);
+}
+
 /* Ends the pair's window at the horizon. What lies behind waits on the heap, which has room. */
 static void postpone(impact *im, pair *p)
 {
@@ -198,7 +207,10 @@ enum { ROOM_OF_STEP = 3 };
  * t_lower, since it was followed from a window's start, and no later one is popped since. */
 imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
 {
+    const double proved = im->t_lower;
     *state = is_settled(im) ? settle(im) : IMPACT_CLEAR;
+    if (*state == IMPACT_CONTACT && im->t_lower < proved && im->found.gap_upper < im->clearance)
+        return contradict(im, error);
     if (*state == IMPACT_CONTACT || im->heap.count == 0) return IMP_SUCCESS;
     *state = IMPACT_NO_MEMORY;
     if (!pair_heap_reserve(&im->heap, ROOM_OF_STEP) || !reserve_chances(im))

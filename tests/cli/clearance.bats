@@ -283,3 +283,14 @@ END
     echo "$used s of processor time"
     jq -en --argjson used "$used" '$used < 2' # 14 s were used
 }
+
+@test "a type that breaks its promises where it shows is an error, not an answer" {
+    local lies="$top_builddir/tests/plugins/.libs"
+    fails 5 "but proved to stay 4.04" "$IMPINGE" clearance liar_distance 'cylinder radius=5' \
+        --plugin-path "$lies" --require 4.05
+    [[ $stderr == *"type 'liar_distance'"*"type 'cylinder radius=5'"*"are seen 4"* ]]
+    fails 5 "apart; one of these types breaks a promise" "$IMPINGE" clearance liar_distance \
+        'cylinder radius=5' --plugin-path "$lies" --require 4.05 --tolerance 1e-3
+    run -0 "$IMPINGE" clearance cylinder 'cylinder radius=5' --require 3.99 --json
+    json '.verdict == "holds" and .lower <= .upper'
+}
