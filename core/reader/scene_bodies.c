@@ -30,6 +30,7 @@ void scene_bodies_clear(scene_bodies *b)
 imp_scene *scene_bodies_finish(scene_bodies *b, const place *at)
 {
     imp_scene *scene = NULL;
+    assembly_skip_bare_parents(&b->assembly);
     if (assembly_is_too_large(&b->assembly)) {
         place_error(at, b->error, IMP_ERROR_SCENE,
                     "found more than %u maps on all surfaces together, those of parents included",

@@ -94,6 +94,22 @@ assembly_search assembly_find_cycle(const assembly *a, size_t *body)
     return found ? ASSEMBLY_CYCLE : ASSEMBLY_NO_CYCLE;
 }
 
+/* Each link is shortened to the next ancestor that has maps, and so are those on the way to it, which
+ * later bodies then need not walk again. */
+void assembly_skip_bare_parents(assembly *a)
+{
+    for (size_t k = 0; k < a->count; ++k) {
+        size_t mapped = a->bodies[k].parent, up = k;
+        while (mapped != ASSEMBLY_NO_PARENT && a->bodies[mapped].maps.count == 0)
+            mapped = a->bodies[mapped].parent;
+        while (a->bodies[up].parent != mapped) {
+            const size_t next = a->bodies[up].parent;
+            a->bodies[up].parent = mapped;
+            up = next;
+        }
+    }
+}
+
 bool assembly_is_too_large(const assembly *a)
 {
     size_t work = 0;

@@ -208,6 +208,27 @@ static char *chain(size_t n, size_t maps)
     return text;
 }
 
+#define BODY(NAME, MORE) "{'name':'" NAME "','surfaces':[" AT(0, 0, 0) "]" MORE "}"
+
+START_TEST(ancestors_without_maps_count_for_nothing)
+{
+    char *text = chain(20000, 0);
+    imp_scene *scene = read_good(text);
+    assert_point(scene, 19999, 0, 0, 0, 0);
+    imp_scene_free(scene);
+    free(text);
+    scene =
+        read_good("{'bodies':[" BODY("d", ",'parent':'c'") "," BODY("c", ",'parent':'b'") "," BODY(
+            "b", ",'parent':'a','maps':[" NUDGE(
+                     1, 0, 0) "]") "," BODY("a", ",'parent':'z'") "," BODY("z",
+                                                                           ",'maps':[" NUDGE(
+                                                                               0, 1, 0) "]") "]}");
+    for (size_t body = 0; body < 3; ++body) assert_point(scene, body, 0, 1, 1, 0);
+    assert_point(scene, 3, 0, 0, 1, 0);
+    imp_scene_free(scene);
+}
+END_TEST
+
 START_TEST(long_chains_are_composed_or_refused)
 {
     char *text = chain(300, 2);
@@ -283,5 +304,6 @@ SUITE_MAIN("mechanism", a_child_moves_with_its_parent_and_that_with_its_own,
            definitions_stand_for_what_they_hold, definitions_there_are_not_are_refused,
            definitions_that_go_in_circles_are_refused, definitions_are_checked_whether_used_or_not,
            definitions_within_definitions_have_an_end, what_is_defined_is_created_once,
-           long_chains_are_composed_or_refused, groups_are_ignored_among_themselves_and_with_others,
-           groups_that_are_unclear_are_refused, many_ignored_pairs_are_all_found)
+           ancestors_without_maps_count_for_nothing, long_chains_are_composed_or_refused,
+           groups_are_ignored_among_themselves_and_with_others, groups_that_are_unclear_are_refused,
+           many_ignored_pairs_are_all_found)
