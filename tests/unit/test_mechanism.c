@@ -208,7 +208,16 @@ static char *chain(size_t n, size_t maps)
     return text;
 }
 
-#define BODY(NAME, MORE) "{'name':'" NAME "','surfaces':[" AT(0, 0, 0) "]" MORE "}"
+/* Each body hangs on the next: d and c, b with a map, a, and z with another. */
+/* clang-format off */
+static const char bare_ancestors[] =
+    "{'bodies':["
+    "{'name':'d','parent':'c','surfaces':[" AT(0, 0, 0) "]},"
+    "{'name':'c','parent':'b','surfaces':[" AT(0, 0, 0) "]},"
+    "{'name':'b','parent':'a','surfaces':[" AT(0, 0, 0) "],'maps':[" NUDGE(1, 0, 0) "]},"
+    "{'name':'a','parent':'z','surfaces':[" AT(0, 0, 0) "]},"
+    "{'name':'z','surfaces':[" AT(0, 0, 0) "],'maps':[" NUDGE(0, 1, 0) "]}]}";
+/* clang-format on */
 
 START_TEST(ancestors_without_maps_count_for_nothing)
 {
@@ -217,12 +226,7 @@ START_TEST(ancestors_without_maps_count_for_nothing)
     assert_point(scene, 19999, 0, 0, 0, 0);
     imp_scene_free(scene);
     free(text);
-    scene =
-        read_good("{'bodies':[" BODY("d", ",'parent':'c'") "," BODY("c", ",'parent':'b'") "," BODY(
-            "b", ",'parent':'a','maps':[" NUDGE(
-                     1, 0, 0) "]") "," BODY("a", ",'parent':'z'") "," BODY("z",
-                                                                           ",'maps':[" NUDGE(
-                                                                               0, 1, 0) "]") "]}");
+    scene = read_good(bare_ancestors);
     for (size_t body = 0; body < 3; ++body) assert_point(scene, body, 0, 1, 1, 0);
     assert_point(scene, 3, 0, 0, 1, 0);
     imp_scene_free(scene);
