@@ -163,7 +163,8 @@ static void try_cut(const trial *y, double more, uint64_t *random, tally *of)
     time_window left = y->window;
     distance_view view;
     imp_error error;
-    const distance_question asked = {&y->own, &y->other, NULL, y->clearance, 0, INFINITY};
+    const distance_question asked = {
+        .a = &y->own, .b = &y->other, .clearance = y->clearance, .slip = INFINITY};
     ck_assert_int_eq(distance_cut(&asked, &left, &view, &error), IMP_SUCCESS);
     ck_assert(y->window.lo <= left.lo && left.lo <= left.hi && left.hi <= y->window.hi);
     if (view.is_apart) left = (time_window){y->window.hi, y->window.hi};
