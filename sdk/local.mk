@@ -69,16 +69,25 @@ python_module = \
     sdk/python/impinge/py.typed \
     sdk/python/impinge/results.py \
     sdk/python/impinge/scene.py
-EXTRA_DIST += sdk/python/pyproject.toml sdk/python/setup.py $(python_module)
+python_robot = \
+    sdk/python/impinge/robot/__init__.py \
+    sdk/python/impinge/robot/__main__.py \
+    sdk/python/impinge/robot/_moveit.py \
+    sdk/python/impinge/robot/_shapes.py \
+    sdk/python/impinge/robot/_urdf.py
+EXTRA_DIST += sdk/python/pyproject.toml sdk/python/setup.py $(python_module) $(python_robot)
 if HAVE_PYTHON
 pythonmoduledir = $(pythondir)/impinge
 pythonmodule_DATA = $(python_module) sdk/python/_installed.py
+pythonrobotdir = $(pythondir)/impinge/robot
+pythonrobot_DATA = $(python_robot)
 sdk/python/_installed.py: Makefile
 	$(AM_V_GEN)$(MKDIR_P) sdk/python && echo 'LIBRARY = "$(libdir)/libimpinge.so.0"' >$@
 CLEANFILES += sdk/python/_installed.py
 uninstall_python = uninstall-pycache
 uninstall-pycache:
-	rm -rf "$(DESTDIR)$(pythonmoduledir)/__pycache__"
+	rm -rf "$(DESTDIR)$(pythonmoduledir)/__pycache__" "$(DESTDIR)$(pythonrobotdir)/__pycache__"
+	-rmdir "$(DESTDIR)$(pythonrobotdir)" 2>/dev/null
 	-rmdir "$(DESTDIR)$(pythonmoduledir)" 2>/dev/null
 endif
 

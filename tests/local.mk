@@ -659,6 +659,7 @@ EXTRA_DIST += \
     tests/python/test_hostile.py \
     tests/python/test_impinge.py \
     tests/python/test_pictures.py \
+    tests/python/test_robot.py \
     tests/python/test_text.py \
     tests/python/typed.py
 EXTRA_DIST += $(bats_suites) $(script_suites) tests/support/include_order tests/support/cli_helper.bash \

@@ -215,6 +215,7 @@ dist_man_MANS = tools/impinge.1
 pkgdata_DATA = \
     tools/data/arm.csv \
     tools/data/arm.json \
+    tools/data/arm.urdf \
     tools/data/bicubic_moving_100.jsonl \
     tools/data/blade.json \
     tools/data/bolt.json \

@@ -229,7 +229,7 @@ _FUNCTIONS = {
     "imp_clearance_options_read": (c.c_int, c.POINTER(ClearanceOptions), _E),
     "imp_clearance_new": (_P, _P, c.POINTER(Options), c.POINTER(ClearanceOptions), _E),
     "imp_clearance_count": (_N, _P),
-    "imp_clearance_read": (c.c_int, _P, _N, c.POINTER(Clearance), _E),
+    "imp_clearance_read": (c.c_int, _P, _N, _P, _E),
     "imp_query_step": (c.c_int, _P, c.c_uint64, _E),
     "imp_query_free": (None, _P),
 }

@@ -178,24 +178,23 @@ class Query:
 
     def clearance(self, index: int) -> lib.Clearance:
         """One answer to a question of clearance."""
-        answer = lib.Clearance()
-        self._clearance_into(index, answer)
-        return answer
-
-    def _clearance_into(self, index: int, answer: lib.Clearance) -> None:
-        error = lib.Error()
-        answer.struct_size = c.sizeof(lib.Clearance)
+        answer, error = lib.Clearance(struct_size=c.sizeof(lib.Clearance)), lib.Error()
         check(lib.library.imp_clearance_read(self._address, index, c.byref(answer), c.byref(error)),
               error)
+        return answer
 
     def chunks(self) -> Iterator["NDArray[numpy.void]"]:
         """All answers to a question of clearance, as structured arrays of some thousands each."""
         count = lib.library.imp_clearance_count(self._address)
+        read, size, error = lib.library.imp_clearance_read, c.sizeof(lib.Clearance), lib.Error()
         for first in range(0, count, _CHUNK):
             answers = (lib.Clearance * min(_CHUNK, count - first))()
-            for k, answer in enumerate(answers):
-                self._clearance_into(first + k, answer)
-            yield numpy.frombuffer(answers, dtype=lib.Clearance)
+            chunk = numpy.frombuffer(answers, dtype=lib.Clearance)
+            chunk["struct_size"] = size
+            for k in range(len(answers)):  # there may be a million
+                place = c.byref(answers, k * size)
+                check(read(self._address, first + k, place, c.byref(error)), error)
+            yield chunk
 
     def divide(self) -> int:
         """Divides a question of clearance into parts, one for each pair of bodies; how many."""

@@ -197,6 +197,14 @@ def clearance_of(names: Tuple[str, ...], k: lib.Clearance) -> Clearance:
 _COLUMNS = ("t_start", "t_end", "lower", "upper", "t")
 
 
+def _bodies_of(names: Tuple[str, ...], chunk: "NDArray[numpy.void]") -> List[Optional[Bodies]]:
+    """The two bodies of each witness, in tuples that slices share."""
+    pairs = list(zip(chunk["has_witness"].tolist(), chunk["a"]["body"].tolist(),
+                     chunk["b"]["body"].tolist()))
+    shared = {pair: (names[pair[1]], names[pair[2]]) if pair[0] else None for pair in set(pairs)}
+    return [shared[pair] for pair in pairs]
+
+
 def profile_of(names: Tuple[str, ...], chunks: Iterable["NDArray[numpy.void]"]) -> Profile:
     """From the C structs of its slices, as structured arrays."""
     columns: List[List[Floats]] = [[] for _ in _COLUMNS]
@@ -205,10 +213,8 @@ def profile_of(names: Tuple[str, ...], chunks: Iterable["NDArray[numpy.void]"]) 
     for chunk in chunks:
         for column, name in zip(columns, _COLUMNS):
             column.append(chunk[name].copy())
-        pairs = zip(chunk["has_witness"].tolist(), chunk["a"]["body"].tolist(),
-                    chunk["b"]["body"].tolist())
-        bodies += [(names[a], names[b]) if found else None for found, a, b in pairs]
-        verdicts += [_REQUIREMENTS[verdict] for verdict in chunk["verdict"].tolist()]
+        bodies += _bodies_of(names, chunk)
+        verdicts += map(_REQUIREMENTS.__getitem__, chunk["verdict"].tolist())
     t0, t1, lower, upper, t = (numpy.concatenate(column) for column in columns)
     return Profile(t0, t1, lower, upper, t, tuple(bodies), tuple(verdicts))
 
