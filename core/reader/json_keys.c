@@ -53,8 +53,7 @@ imp_code json_keys_refuse(const json_t *object, const char *const *keys, const p
         if (json_object_get(object, *keys) == NULL) continue;
         place member = place_key(at, *keys);
         return place_error(&member, error, IMP_ERROR_SCENE,
-                           "found a motion that is not computed yet; `impinge simulate` makes a "
-                           "scene of it");
+                           "%s needs `impinge simulate` first; pass its output here", *keys);
     }
     return IMP_SUCCESS;
 }

@@ -4,15 +4,30 @@
 #include "plugins/mesh/mesh_file.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+
+/* The bytes of a byte order mark, which some programs begin text with; a binary STL file may begin with
+ * any bytes. */
+static size_t mark_length(mesh_format format, const char *bytes, size_t length)
+{
+    static const char mark[] = "\xEF\xBB\xBF", word[] = "solid";
+    const size_t of_mark = sizeof mark - 1, of_word = sizeof word - 1;
+    if (length < of_mark || memcmp(bytes, mark, of_mark) != 0) return 0;
+    if (format != MESH_STL) return of_mark;
+    const bool is_text =
+        length >= of_mark + of_word && memcmp(bytes + of_mark, word, of_word) == 0;
+    return is_text ? of_mark : 0;
+}
 
 imp_status mesh_read_bytes(mesh_format format, const char *bytes, size_t length, triangles *to,
                            triangles_fault *fault)
 {
     imp_status (*const read[])(const char *, size_t, triangles *, triangles_fault *) = {
         [MESH_OBJ] = mesh_read_obj, [MESH_OFF] = mesh_read_off, [MESH_STL] = mesh_read_stl};
-    const imp_status status = read[format](bytes, length, to, fault);
+    const size_t mark = mark_length(format, bytes, length);
+    const imp_status status = read[format](bytes + mark, length - mark, to, fault);
     if (status != IMP_OK || to->count > 0) return status;
     return triangles_refuse(fault, 0, "no faces in it; a mesh needs one at least");
 }

@@ -27,7 +27,8 @@ static imp_status read_corner(obj_reader *r, char *word)
     word[strcspn(word, "/")] = '\0';
     if (!mesh_text_integer(word, &k) || k == 0)
         return triangles_refuse(r->fault, r->text.line,
-                                "'%.40s' is no point; they are numbered from 1, or back from -1",
+                                "point %.40s does not exist; points are numbered from 1, or backwards "
+                                "from -1",
                                 word);
     const int64_t points = (int64_t)r->to->point_count, at = k > 0 ? k - 1 : points + k;
     if (at < 0 || at >= points)

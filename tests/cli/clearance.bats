@@ -294,3 +294,14 @@ END
     run -0 "$IMPINGE" clearance cylinder 'cylinder radius=5' --require 3.99 --json
     json '.verdict == "holds" and .lower <= .upper'
 }
+
+@test "a file and a number are told what --require is for" {
+    three >three.json
+    fails 2 "'three.json' is a file, which is asked about alone, and '2' is left over; --require" \
+        "$IMPINGE" clearance three.json 2
+}
+
+@test "slices are written in the fewest digits that read back" {
+    run -0 "$IMPINGE" clearance "${passing[@]}" --profile 5
+    [[ ${lines[1]} == "0,0.2,"* && ${lines[2]} == "0.2,0.4,"* && $output != *0000000000* ]]
+}

@@ -83,3 +83,18 @@ END
     run -4 "$IMPINGE" pair 'mesh points=[[0,0,0],[1,0,0],[0,1,0]] faces=[[0,1,2]] velocities=[[0,0,1]]' sphere
     [[ $output == *'1 velocities for 3 points'* ]]
 }
+
+@test "a byte order mark before a mesh of text is passed over" {
+    local mark=$'\xEF\xBB\xBF'
+    printf '%sv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' "$mark" >mark.obj
+    printf '%sOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' "$mark" >mark.off
+    printf '%ssolid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n' \
+        "$mark" >mark.stl
+    for format in obj off stl; do
+        run -0 "$IMPINGE" pair "mesh file=mark.$format" 'sphere radius=0.1 center=0.2,0.2,0' --json
+        json '.verdict == "contact"'
+    done
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 2 3\n' >zero.obj
+    fails 4 'point 0 does not exist; points are numbered from 1, or backwards from -1' \
+        "$IMPINGE" pair 'mesh file=zero.obj' sphere
+}

@@ -155,7 +155,7 @@ wrong() {
     echo "{\"bodies\": [$floor}, $(ball ball 2 0,0,1.5)]}" >still.json
     run -0 "$IMPINGE" solve still.json
     jq '.bodies[1].velocity = [0,0,-1]' still.json >moving.json
-    fails 4 '/bodies/1/velocity: found a motion that is not computed yet' "$IMPINGE" solve moving.json
+    fails 4 '/bodies/1/velocity: velocity needs `impinge simulate` first; pass its output here' "$IMPINGE" solve moving.json
     run -0 "$IMPINGE" simulate moving.json -o out.json
     run -0 "$IMPINGE" solve out.json --gamma 5e-7 --clearance 4e-7
     [ "${lines[0]}" = clear ]

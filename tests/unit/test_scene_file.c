@@ -126,14 +126,12 @@ END_TEST
 START_TEST(properties_of_bodies_are_ignored_and_motions_to_compute_refused)
 {
     assert_wrong("{'bodies':[{'surfaces':[" KIT "],'mass':1,'velocity':[1,0,0]}]}",
-                 "s.json: /bodies/0/velocity: found a motion that is not computed yet; `impinge "
-                 "simulate` makes a scene of it");
+                 "s.json: /bodies/0/velocity: velocity needs `impinge simulate` first; pass its "
+                 "output here");
     assert_wrong("{'bodies':[{'surfaces':[" KIT "],'spin':[1,0,0]}]}",
-                 "s.json: /bodies/0/spin: found a motion that is not computed yet; `impinge "
-                 "simulate` makes a scene of it");
+                 "s.json: /bodies/0/spin: spin needs `impinge simulate` first; pass its output here");
     assert_wrong(SCENE(",'gravity':[0,0,-1]"),
-                 "s.json: /gravity: found a motion that is not computed yet; `impinge simulate` "
-                 "makes a scene of it");
+                 "s.json: /gravity: gravity needs `impinge simulate` first; pass its output here");
     imp_scene *scene =
         read_good("{'events':[],'bodies':[{'surfaces':[" KIT "],'mass':1,'inertia':0,"
                   "'center':0,'restitution':1,'friction':1}]}");

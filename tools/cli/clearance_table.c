@@ -86,7 +86,7 @@ void clearance_print_csv_head(void) { puts("t0,t1,lower,upper,t,verdict"); }
 /* An empty field for what is not there. */
 static void print_field(double number)
 {
-    if (isfinite(number)) printf("%.17g", number);
+    if (isfinite(number)) printf("%s", output_number_exact(number).text);
     putchar(',');
 }
 

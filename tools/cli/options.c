@@ -63,7 +63,7 @@ const option options_search[] = {
      .kind = OPTION_CHOICE,
      .argument = "HOW",
      .choices = progress,
-     .help = "how far it is, to standard error: auto (to a terminal), json, none"},
+     .help = "report progress on standard error: auto (terminals only), json, none"},
     {.name = "audit", .help = "hold the bounds of every region against points of it; slower"},
     {.name = NULL},
 };

@@ -276,3 +276,13 @@ static number_text number_on_side(double number, int side)
 
 number_text output_number_lower(double number) { return number_on_side(number, -1); }
 number_text output_number_upper(double number) { return number_on_side(number, 1); }
+
+number_text output_number_exact(double number)
+{
+    number_text n;
+    for (int digits = 15; digits <= 17; ++digits) {
+        snprintf(n.text, sizeof n.text, "%.*g", digits, number);
+        if (strtod(n.text, NULL) == number) break;
+    }
+    return n;
+}

@@ -65,6 +65,8 @@ typedef struct number_text {
     char text[32];
 } number_text;
 number_text output_number_lower(double number);
+/* The fewest digits that read back exactly. */
+number_text output_number_exact(double number);
 number_text output_number_upper(double number);
 
 #endif

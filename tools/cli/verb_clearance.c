@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "core/common/clock.h"
 #include "tools/cli/clearance.h"
@@ -30,8 +31,20 @@ typedef struct measuring {
 
 /* --- What is asked ------------------------------------------------------------------------ */
 
+/* Two operands are surfaces; a file beside something else is often a forgotten "--require". */
+static exit_status check_operands(const arguments *args)
+{
+    if (args->operand_count < 2 || access(args->operands[0], F_OK) != 0) return EXIT_ANSWERED;
+    return complain(EXIT_USAGE, args->verb->name,
+                    "'%.200s' is a file, which is asked about alone, and '%.100s' is left over; "
+                    "--require 2 asks for a distance, and two operands are surfaces",
+                    args->operands[0], args->operands[1]);
+}
+
 static exit_status check(const arguments *args)
 {
+    const exit_status operands = check_operands(args);
+    if (operands != EXIT_ANSWERED) return operands;
     const option_value *profile = arguments_option(args, "profile");
     if (profile != NULL && profile->count == 0)
         return complain(EXIT_USAGE, args->verb->name, "--profile must be at least 1, not '%s'",
