@@ -132,6 +132,43 @@ passing=('sphere ! translate velocity=2,0,0' 'sphere center=1,3,0')
     [ "$(echo x.svg*)" = x.svg ]
 }
 
+@test "endings may be in capitals" {
+    run -0 view -o X.SVG --at 0
+    [[ $output == 'X.SVG: 1200x960 pixels'* ]]
+    [ "$(tail -n 1 X.SVG)" = '</svg>' ]
+}
+
+@test "names and numbers of any kind leave an SVG that is well formed, or a reason" {
+    jq -nc '{bodies: [{name: "]]><&\uFFFE", surfaces: [{type: "sphere"}]},
+        {name: "b", surfaces: [{type: "sphere", center: [3,0,0]}]}]}' >names.json
+    "$IMPINGE" view names.json -o names.svg
+    "$PYTHON3" -c 'import sys, xml.dom.minidom as x; x.parse(sys.argv[1])' names.svg
+    fails 2 'too large for a picture' "$IMPINGE" view 'sphere radius=1e160' sphere -o huge.svg
+    fails 2 'glTF holds numbers of 32 bits' "$IMPINGE" view 'sphere radius=1e100' sphere -o huge.glb --at 0
+    [ ! -e huge.svg ] && [ ! -e huge.glb ]
+}
+
+@test "limits hold while triangles are made, and nothing is left" {
+    fails 3 '--max-bytes 20971520 is not enough' view -o x.png --width 4000 --height 4000 --max-bytes 20M
+    [ ! -e x.png ] && [ ! -e x.png.part ]
+    # 2,000 balls: some 9 seconds to draw.
+    jq -nc '{bodies: [range(2000) | {name: "b\(.)", group: "all", surfaces: [{type: "sphere",
+        radius: 0.4, center: [. % 50, (. / 50 | floor), 0]}]}], ignore: [["all", "all"]]}' >balls.json
+    run -3 --separate-stderr bash -c 'ulimit -t 4; exec "$IMPINGE" view balls.json -o balls.html --max-seconds 1'
+    [[ $stderr == 'impinge: view: --max-seconds 1 was over while '*'; nothing was written' ]]
+    [ ! -e balls.html ]
+}
+
+@test "every body has its own entry in the legend, and none overlaps another" {
+    jq -nc '{bodies: [range(14) | {name: "a long name of link \(.)", group: "all", surfaces: [{type: "sphere",
+        radius: 0.4, center: [., 0, 0]}]}], ignore: [["all", "all"]]}' >many.json
+    "$IMPINGE" view many.json -o many.svg --at 0
+    [ "$(grep -c 'textLength.*>a long name of link' many.svg)" -eq 14 ]
+    # In each row an entry begins behind the end of the one before.
+    sed -n 's/^<text x="\([0-9.]*\)" y="\([0-9.]*\)".* textLength="\([0-9.]*\)".*>a long.*/\2 \1 \3/p' many.svg |
+        awk '{ if ($1 == y && $2 < end + 10) exit 1; if ($2 + $3 > 1200) exit 1; y = $1; end = $2 + $3 }'
+}
+
 # --- For other programs ------------------------------------------------------------------------------
 
 spin=('torus ! rotate axis=1,0,0 rate=2' 'ripple speed=1 center=3,0,0')

@@ -313,7 +313,7 @@ static imp_code add_tracks(glb *g, imp_error *error)
         code = allowance_check(g->film->stage.allowance, "the file was written", error);
     }
     if (code != IMP_SUCCESS) return code;
-    if (g->failed) return mesh_no_memory(error);
+    if (g->failed && !g->too_large) return mesh_no_memory(error);
     if (g->too_large)
         return refuse(error,
                       "glTF holds numbers of 32 bits, up to 3.4e+38: coordinates or times here "

@@ -31,10 +31,10 @@ const verb verb_view = {
     .details =
         "Solves the scene and writes what --output names; its extension, or --format, says how:\n"
         "\n"
-        "  .png   start, contact and end, and the contact from near, shaded\n"
+        "  .png   start, contact or nearest approach, end, and that from near, shaded\n"
         "  .svg   the same as lines\n"
         "  .glb   animation (glTF 2.0): rigid motions as tracks, deformations as morph targets\n"
-        "  .html  a page: turn, play, the search's regions, distance over time; for any browser\n"
+        "  .html  a page for any browser: turn, play, distance over time, events of a simulation\n"
         "  .obj   triangles of one moment, as .vtu for VTK and its kin\n"
         "  .pvd   a .vtu beside it for each moment\n"
         "\n"
