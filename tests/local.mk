@@ -4,6 +4,7 @@
 # One line per suite: tests/unit/NAME is built from tests/unit/NAME.c and linked with everything in
 # core, internal symbols included.
 check_suites = \
+    tests/fuzz/api \
     tests/fuzz/cache \
     tests/fuzz/csv \
     tests/fuzz/elf \
@@ -438,6 +439,7 @@ noinst_HEADERS += tests/plugins/mistakes.h tests/plugins/pipe.h tests/plugins/sl
 tests_fuzz_elf_LDFLAGS = $(AM_LDFLAGS) -export-dynamic
 tests_fuzz_elf_SOURCES = tests/fuzz/elf.c tests/fuzz/elf_changes.c tests/fuzz/elf_changes.h \
     tests/fuzz/replay.c tests/fuzz/fuzz.h
+tests_fuzz_api_SOURCES = tests/fuzz/api.c tests/fuzz/replay.c tests/fuzz/fuzz_registry.h
 tests_fuzz_cache_SOURCES = tests/fuzz/cache.c tests/fuzz/replay.c tests/fuzz/fuzz_mutate.h
 tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c
 tests_fuzz_csv_LDADD = plugins/libcommon.la $(LDADD)
@@ -458,6 +460,10 @@ fuzz-libraries: core/libcore.la tools/libproof.la plugins/libexpression.la plugi
     plugins/libmesh.la plugins/libsubdivision.la plugins/libpatch.la $(plugin_LTLIBRARIES)
 fuzz-plugins: $(check_LTLIBRARIES)
 EXTRA_DIST += \
+    tests/fuzz/api.d/distance \
+    tests/fuzz/api.d/divided \
+    tests/fuzz/api.d/random \
+    tests/fuzz/api.d/refined \
     tests/fuzz/cache.d/codes \
     tests/fuzz/cache.d/cut \
     tests/fuzz/cache.d/empty \
