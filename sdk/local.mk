@@ -8,6 +8,7 @@ pkginclude_HEADERS = \
     sdk/impinge/formula.h \
     sdk/impinge/interval.h \
     sdk/impinge/model.h \
+    sdk/impinge/model.hpp \
     sdk/impinge/model_angles.h \
     sdk/impinge/model_arithmetic.h \
     sdk/impinge/model_functions.h \
@@ -41,7 +42,8 @@ dist_examples_DATA = \
     sdk/examples/hand_rates.c \
     sdk/examples/puddle.cc \
     sdk/examples/seashell.c \
-    sdk/examples/twirl.c
+    sdk/examples/twirl.c \
+    sdk/examples/waves.cc
 
 # Innermost first.
 sdk_folders = $(templatedir) $(examplesdir) $(sdkdocdir) $(hostexamplesdir) $(docdir)

@@ -248,7 +248,7 @@ examples=share/doc/impinge/sdk/examples
 
 @test "every example builds, is loaded, and the command that info proposes finds an answer" {
     local file name
-    [ "$(find "$prefix/$examples" -type f | wc -l)" -eq 4 ]
+    [ "$(find "$prefix/$examples" -type f | wc -l)" -eq 5 ]
     for file in "$prefix/$examples"/*; do
         run -0 --separate-stderr impinge build "$file"
         [ -z "$stderr" ] # no warning
@@ -270,6 +270,7 @@ examples=share/doc/impinge/sdk/examples
     t_of seashell 'sphere radius=0.5 center=2.5,0,0 ! translate velocity=-1,0,0'
     t_of 'blade pitch=0' 'sphere radius=0.5 center=2,0,0 ! translate velocity=-1,0,0'
     t_of 'puddle height=1e-9' 'sphere radius=0.5 center=1,1,1 ! translate velocity=0,0,-1'
+    t_of 'waves height=1e-9' 'sphere radius=0.5 center=0,0,1 ! translate velocity=0,0,-1'
     t_of 'sphere radius=0.5 ! twirl' 'sphere radius=0.5 center=0,0,1.5 ! translate velocity=0,0,-1'
 }
 
@@ -582,6 +583,20 @@ with_abidiff() {
     sed -i 's/imp_query_step/imp_forgotten/' tests/abi/libimpinge_0.abi
     run ! tests/abi/libimpinge compare "$top_builddir"
     [[ $output == *imp_forgotten* ]]
+}
+
+@test "types in C++ are proved by their formulas, and no exception leaves a callback" {
+    local file
+    for file in waves puddle; do impinge build "$prefix/$examples/$file.cc" >/dev/null; done
+    export IMPINGE_PLUGIN_PATH=$PWD
+    run -0 impinge check waves --only proof --effort 0.1 --formula 'u; v; height*sin(waves*(u+v/2)-speed*t)'
+    [[ $output == *'  proved('* ]]
+    fails 4 'size: must be below 1e100' impinge pair 'puddle size=1e101' sphere
+    run -0 impinge check puddle
+    for std in 17 20; do
+        g++ -std=c++$std -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$prefix/include" "$prefix/$examples/puddle.cc"
+    done
+    g++ -std=c++17 -fno-exceptions -Wall -Wextra -Werror -fsyntax-only -I"$prefix/include" "$prefix/$examples/waves.cc"
 }
 
 @test "C++ before C++17 is told so, once" {

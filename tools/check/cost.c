@@ -111,7 +111,7 @@ static void measure_remainders(const subject *s, const box *where, ratios *remai
 {
     double claimed[3], needed[3];
     if (s->n != 3 || !remainder_measure(s, where, claimed, needed)) return;
-    for (int i = 0; i < 3; ++i) add_ratio(remainders, claimed[i], needed[i]);
+    add_ratio(remainders, claimed[0] + claimed[1] + claimed[2], needed[0] + needed[1] + needed[2]);
 }
 
 static double measure_distances(const subject *s, uint64_t *random)
