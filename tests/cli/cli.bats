@@ -254,3 +254,13 @@ verbs() { "$IMPINGE" help | sed -n 's/^  \([a-z]*\) .*/\1/p'; }
     run script -qec '"$IMPINGE" pair sphere "$near" --gamma 1e-9 --max-bytes 0 --max-seconds 1.8' /dev/null
     [[ $output == *' pairs, '*' wait, clear until t = 0'*$'\e[K'* ]]
 }
+
+@test "help fits 80 columns, or those of COLUMNS, and tells a verb's own limits" {
+    local verb
+    for verb in $("$IMPINGE" help | sed -n 's/^  \([a-z]*\) .*/\1/p'); do
+        "$IMPINGE" help "$verb" | sed -n '/^Options:/,/^Example:/p' >options
+        [ "$(wc -L <options)" -le 80 ]
+    done
+    COLUMNS=120 "$IMPINGE" help pair | grep -q -- '--max-bytes N .*no limit (1G)$'
+    "$IMPINGE" help matrix | tr -s ' \n' ' ' | grep -q 'no limit (10000)'
+}
