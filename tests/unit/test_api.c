@@ -24,6 +24,7 @@ static imp_clearance answer_none, answer_good, answer_wild;
 static imp_argument argument_none;
 static imp_instance instance_none;
 static imp_model models[4];
+static imp_rigid_motion motion_place;
 static imp_pending pending_place;
 static imp_plugin plugin_none;
 static imp_plugin_refusal refusal_place;
@@ -51,6 +52,7 @@ static imp_clearance *const of_imp_clearance_p[] = {NULL, &answer_none, &answer_
 static imp_argument *const of_imp_argument_p[] = {NULL, &argument_none};
 static imp_instance *const of_imp_instance_p[] = {NULL, &instance_none};
 static imp_model *const of_imp_model_p[] = {NULL, models};
+static imp_rigid_motion *const of_imp_rigid_motion_p[] = {NULL, &motion_place};
 static imp_pending *const of_imp_pending_p[] = {NULL, &pending_place};
 static imp_plugin *const of_imp_plugin_p[] = {NULL, &plugin_none};
 static imp_plugin_refusal *const of_imp_plugin_refusal_p[] = {NULL, &refusal_place};
