@@ -151,6 +151,10 @@ passing=('sphere ! translate velocity=2,0,0' 'sphere center=1,3,0')
 @test "limits hold while triangles are made, and nothing is left" {
     fails 3 '--max-bytes 20971520 is not enough' view -o x.png --width 4000 --height 4000 --max-bytes 20M
     [ ! -e x.png ] && [ ! -e x.png.part ]
+    run -3 --separate-stderr view -o x.png --width 4000 --height 4000 --max-bytes 20M --json
+    json '.error | test("--max-bytes")'
+    run -0 view -o x.svg --at 0 --json
+    json '.file == "x.svg" and .width == 1200 and .surfaces_within > 0'
     # 2,000 balls: some 9 seconds to draw.
     jq -nc '{bodies: [range(2000) | {name: "b\(.)", group: "all", surfaces: [{type: "sphere",
         radius: 0.4, center: [. % 50, (. / 50 | floor), 0]}]}], ignore: [["all", "all"]]}' >balls.json
