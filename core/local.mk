@@ -16,7 +16,7 @@ core_common = \
     core/common/system_error.h
 
 core_base = \
-    core/impinge/impinge.h \
+    core/impinge/baseline.h core/impinge/examine.h core/impinge/impinge.h \
     core/base/active_callback.c core/base/active_callback.h \
     core/base/file_text.c core/base/file_text.h \
     core/base/fp_mode.h \
@@ -204,7 +204,7 @@ libimpinge.a: core/libcore.la
 CLEANFILES += libimpinge.a core/impinge.o
 
 core_includedir = $(pkgincludedir)
-core_include_HEADERS = core/impinge/impinge.h
+core_include_HEADERS = core/impinge/baseline.h core/impinge/examine.h core/impinge/impinge.h
 
 pkgconfig_DATA += core/impinge.pc
 

@@ -27,7 +27,7 @@ static bool take(place *at, const double p[3], const double x[3], const double e
 static bool evaluate(const surface *s, const double p[3], place *at)
 {
     double x[3], error[3];
-    return surface_eval(s, 1, p, x, error) == IMP_OK && take(at, p, x, error);
+    return surface_eval(s, 1, p, x, error) == IMP_STATUS_OK && take(at, p, x, error);
 }
 
 /* --- The nearest point of the other surface ---------------------------------------------------------- */
@@ -57,7 +57,7 @@ typedef struct hunt {
 static void look_at(hunt *h, const double p[3 * GRID], size_t count)
 {
     double x[3 * GRID], error[3 * GRID];
-    if (surface_eval(h->s, count, p, x, error) != IMP_OK) return;
+    if (surface_eval(h->s, count, p, x, error) != IMP_STATUS_OK) return;
     for (size_t k = 0; k < 3 * count; k += 3) {
         place at;
         if (!take(&at, p + k, x + k, error + k)) continue;
@@ -131,7 +131,7 @@ static bool blames_symmetry(const distance_question *q, const place *at, double 
         point[i].hi = sum_upper(at->x[i], at->error);
     }
     if (!distance_slides(q)) return false;
-    return surface_distance(b, &r, surface_map_count(b), point, &g) == IMP_OK &&
+    return surface_distance(b, &r, surface_map_count(b), point, &g) == IMP_STATUS_OK &&
            !(claimed_lower(&g, &r, at->p, false) > apart);
 }
 

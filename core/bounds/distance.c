@@ -62,7 +62,7 @@ static imp_status points_before(const node *a, size_t common, imp_model model[3]
     if (common > 0)
         return surface_include_inner(s, &a->region, surface_map_count(s) - common, model);
     point_models(a, model);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* As node.nonlinear_extent: terms of second order, and a share of the remainder, by what the polynomial
@@ -102,7 +102,7 @@ static imp_region at_moment(const imp_region *r, double moment)
 
 bool distance_slides(const distance_question *q)
 {
-    return q->slip < INFINITY && TUNING_DISTANCE_SLIP * q->slip <= q->clearance;
+    return q->slip < INFINITY && TUNING_DISTANCE_SLIP * q->slip <= q->gamma_clear;
 }
 
 /* Of the node's points before the maps that both surfaces end with; at the moment, if that will do. */
@@ -138,14 +138,14 @@ static imp_code ask(const distance_question *q, imp_model *g, double bend[3], bo
     const size_t common = surface_common_maps(q->a->surface, q->b->surface);
     imp_status status = points_of(q, common, point);
     *known = false;
-    if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
-    if (status != IMP_OK) return fault(q->a->surface, status, error);
+    if (status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
+    if (status != IMP_STATUS_OK) return fault(q->a->surface, status, error);
     const imp_region then = at_moment(&q->a->region, q->moment);
     const bool still = distance_slides(q);
     if (still || common > 0) bend_of(point, still ? &then : &q->a->region, bend);
     status = distance_of(q, common, point, g);
-    *known = status == IMP_OK;
-    if (status == IMP_OK || status == IMP_UNBOUNDED) return IMP_SUCCESS;
+    *known = status == IMP_STATUS_OK;
+    if (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
     return fault(q->b->surface, status, error);
 }
 
@@ -177,7 +177,7 @@ static span span_of(const time_window *window)
  *   g >= (G0 + G1) / 2 + w (G1 - G0) / 2 - max(q_tt, 0) k^2 - e,
  *
  * |g| <= |x - y| for each point x of the node and each y of the surface: where that exceeds the
- * clearance on either side, the node is farther away than it.
+ * gamma_clear on either side, the node is farther away than it.
  * Rounding, in units of u S, S = |a| + sum |b| + sum |q|, |s_t| <= 1 but for rounding:
  *
  *   s_t = s +- k at the ends  8: differences, quotients, sum: 4 of |b_t| + 2 |q_tt| + |q_ut| + |q_vt|
@@ -230,7 +230,7 @@ static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
  * times some neighbours are as near. Then halves of the node, whose remainders are a small part of it, are
  * worth more than those of its neighbours. Not of remainders that are mere rounding, nor of nodes so large
  * that these say nothing of the surface. */
-static bool promises(const imp_model *g, const sides *both, const node *n, double clearance,
+static bool promises(const imp_model *g, const sides *both, const node *n, double gamma_clear,
                      double size, bool within_itself)
 {
     const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
@@ -240,7 +240,7 @@ static bool promises(const imp_model *g, const sides *both, const node *n, doubl
     for (int k = 0; k < 2; ++k) least[k] = both->low[k] - fabs(both->drift[k]);
     const double farther = least[0] > least[1] ? least[0] : least[1];
     const bool is_level = -(least[0] + least[1]) < TUNING_DISTANCE_LEVEL * g->e;
-    return farther + (within_itself || is_level ? g->e : 0) > clearance;
+    return farther + (within_itself || is_level ? g->e : 0) > gamma_clear;
 }
 
 /* Where the remainder is too large, the range may still do. */
@@ -272,9 +272,9 @@ static void cut_by(const distance_question *q, const imp_model *g, time_window *
                    distance_view *view)
 {
     const node *a = q->a;
-    const double clearance = q->clearance, range = range_lower(g);
+    const double gamma_clear = q->gamma_clear, range = range_lower(g);
     if (range > 0) view->lower = range;
-    view->is_apart = range > clearance;
+    view->is_apart = range > gamma_clear;
     const double size = size_upper(g);
     if (view->is_apart || !(size < 0x1p400)) return;
     const span whole = span_of(window);
@@ -285,9 +285,9 @@ static void cut_by(const distance_question *q, const imp_model *g, time_window *
     if (lower > view->lower) view->lower = lower;
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
-        view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], clearance);
+        view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], gamma_clear);
     view->is_promising =
-        !view->is_apart && promises(g, &both, a, clearance, size, is_within_itself(q));
+        !view->is_apart && promises(g, &both, a, gamma_clear, size, is_within_itself(q));
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
 }
 
@@ -301,8 +301,9 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
     const imp_code code = ask(q, &g, view->bend, &known, error);
     if (code != IMP_SUCCESS || !known) return code;
     cut_by(q, &g, window, view);
-    const bool decides = view->is_apart || view->lower > 0 || window->lo > before.lo ||
-                         window->hi < before.hi;
+    const bool decides =
+        view->is_apart || view->lower > 0 || window->lo > before.lo || window->hi < before.hi;
     const bool is_of_types = q->plane == NULL && q->a->many == NULL;
-    return decides && is_of_types && q->is_audited ? claim_audit_run(q, &g, &before, error) : IMP_SUCCESS;
+    return decides && is_of_types && q->is_audited ? claim_audit_run(q, &g, &before, error)
+                                                   : IMP_SUCCESS;
 }

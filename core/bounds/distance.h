@@ -16,7 +16,7 @@
 
 /* What a node's distance from the surface of another shows over a window. */
 typedef struct distance_view {
-    bool is_apart;     /* farther than the clearance all the time */
+    bool is_apart;     /* farther than gamma_clear all the time */
     bool is_promising; /* no: but halves of the node, which have smaller remainders, may be */
     double lower;      /* bound of the distance over the window as handed over; length */
     double bend[3];    /* how far u, v and t bend points beside the other surface, about; length */
@@ -33,18 +33,19 @@ bool distance_is_known(const node *a, const node *b);
  * one moment (surface_slip): then time costs nothing. */
 typedef struct distance_question {
     const node *a, *b;
-    const surface_plane *plane; /* of b's points, which stands for its surface; NULL: b's type is asked */
-    double clearance;           /* length */
+    const surface_plane
+        *plane;         /* of b's points, which stands for its surface; NULL: b's type is asked */
+    double gamma_clear; /* length */
     double moment;
-    double slip; /* of a node that is posed; INFINITY: it does not slide so; length */
+    double slip;     /* of a node that is posed; INFINITY: it does not slide so; length */
     bool is_audited; /* hold what decides against points (claim_audit.h) */
 } distance_question;
 
-/* Whether a slides along b within itself, but for what is little beside the clearance. */
+/* Whether a slides along b within itself, but for what is little beside gamma_clear. */
 bool distance_slides(const distance_question *q);
 
 /* Cuts the window, which lies in both nodes' times, to the times at which points of a may be within the
- * clearance of the whole surface of b, or of its plane; empty: *view says so, and the window stays.
+ * gamma_clear of the whole surface of b, or of its plane; empty: *view says so, and the window stays.
  * Preconditions: distance_is_known, or there is a plane and distance_slides; both bounded; no map of b alone turns it further (surface_still_maps), or distance_slides.
  * IMP_ERROR_PLUGIN: the callback breaks the ABI. */
 imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
@@ -64,9 +65,9 @@ typedef struct distance_sides {
 /* What the nodes' distances from each other's surface show. */
 typedef struct distance_outcome {
     time_window
-        left; /* of the window asked for: outside, the nodes are farther apart than the clearance */
+        left; /* of the window asked for: outside, the nodes are farther apart than gamma_clear */
     bool is_apart;  /* all the time */
-    double lower;   /* bound of the distance over the window, if below the clearance; length */
+    double lower;   /* bound of the distance over the window, if below gamma_clear; length */
     int side;       /* the side whose node to split; -1: none */
     double bend[3]; /* how far u, v and t bend its points beside the other surface, about; length */
 } distance_outcome;
@@ -79,7 +80,7 @@ bool distance_slides_on_face(const node *a, const node *b);
 
 /* Tries node 0, then node 1, until one decides, and adds what they show to *seen. Precondition: both nodes
  * are bounded. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
-imp_code distance_cut_sides(const distance_sides *of, double clearance, distance_outcome *seen,
+imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error);
 
 #endif

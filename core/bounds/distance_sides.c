@@ -27,7 +27,7 @@ static imp_code find_slip(const node *own, const node *other, const surface_plan
     const imp_status status = plane == NULL
                                   ? surface_slip(a, b, bare, &all, moment, slip)
                                   : surface_slip_along(a, b, plane, bare, &all, moment, slip);
-    if (status == IMP_OK) return IMP_SUCCESS;
+    if (status == IMP_STATUS_OK) return IMP_SUCCESS;
     surface_fault(other->surface, error, ": %s", surface_status_told(other->surface, status).text);
     return surface_set_code(status, error);
 }
@@ -41,11 +41,11 @@ static bool is_turned(const distance_sides *of, int side)
 }
 
 /* What is asked of one side. Models of a node that moves uniformly are as good as those of one moment. */
-static imp_code question_of(const distance_sides *of, int side, double clearance,
+static imp_code question_of(const distance_sides *of, int side, double gamma_clear,
                             distance_question *q, imp_error *error)
 {
     const node *own = of->node[side], *other = of->node[!side];
-    *q = (distance_question){own, other, NULL, clearance, 0, INFINITY, of->is_audited};
+    *q = (distance_question){own, other, NULL, gamma_clear, 0, INFINITY, of->is_audited};
     if (!surface_has_symmetry(other->surface)) return IMP_SUCCESS;
     if (own->still == NULL && !is_turned(of, side)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
@@ -92,18 +92,19 @@ bool distance_slides_on_face(const node *a, const node *b)
 }
 
 /* Asks how far the points of one side are from the plane of the other's node, along which they slide. */
-static imp_code cut_along_face(const distance_sides *of, int side, double clearance,
+static imp_code cut_along_face(const distance_sides *of, int side, double gamma_clear,
                                time_window *window, distance_view *view, imp_error *error)
 {
     const node *own = of->node[side], *other = of->node[!side];
     surface_plane plane;
     *view = distance_view_none(own);
     if (surface_common_maps(own->surface, other->surface) > 0) return IMP_SUCCESS;
-    if (surface_plane_of(other->surface, &other->region, &plane) != IMP_OK) return IMP_SUCCESS;
-    if (!(TUNING_DISTANCE_SLIP * plane.off <= clearance)) return IMP_SUCCESS;
+    if (surface_plane_of(other->surface, &other->region, &plane) != IMP_STATUS_OK)
+        return IMP_SUCCESS;
+    if (!(TUNING_DISTANCE_SLIP * plane.off <= gamma_clear)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
-    distance_question q = {own,     other, &plane, clearance, 0.5 * times.lo + 0.5 * times.hi,
-                           INFINITY, of->is_audited};
+    distance_question q = {
+        own, other, &plane, gamma_clear, 0.5 * times.lo + 0.5 * times.hi, INFINITY, of->is_audited};
     const imp_code code =
         find_slip(of->root[side], other, &plane, &times, q.moment, &q.slip, error);
     return code == IMP_SUCCESS && distance_slides(&q) ? distance_cut(&q, window, view, error)
@@ -112,17 +113,17 @@ static imp_code cut_along_face(const distance_sides *of, int side, double cleara
 
 /* --- Both ------------------------------------------------------------------------------------------- */
 
-static imp_code cut_side(const distance_sides *of, int side, double clearance, time_window *window,
-                         distance_view *view, imp_error *error)
+static imp_code cut_side(const distance_sides *of, int side, double gamma_clear,
+                         time_window *window, distance_view *view, imp_error *error)
 {
     const node *own = of->node[side], *other = of->node[!side];
     distance_question asked;
     *view = distance_view_none(own);
     if (!distance_is_known(own, other)) {
         if (!may_slide_along(own, other)) return IMP_SUCCESS;
-        return cut_along_face(of, side, clearance, window, view, error);
+        return cut_along_face(of, side, gamma_clear, window, view, error);
     }
-    const imp_code code = question_of(of, side, clearance, &asked, error);
+    const imp_code code = question_of(of, side, gamma_clear, &asked, error);
     if (code != IMP_SUCCESS) return code;
     if (!distance_slides(&asked) && is_turned(of, side)) return IMP_SUCCESS;
     return distance_cut(&asked, window, view, error);
@@ -131,12 +132,12 @@ static imp_code cut_side(const distance_sides *of, int side, double clearance, t
 /* Lemma. The nodes' points are points of their whole surfaces: the distance of one node's points from all of
  * the other surface, or from the plane of its node, is no greater than that of the two nodes. Each side cuts what
  * the other has left. */
-imp_code distance_cut_sides(const distance_sides *of, double clearance, distance_outcome *seen,
+imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error)
 {
     for (int side = 0; side < 2 && !seen->is_apart && seen->side < 0; ++side) {
         distance_view view;
-        const imp_code code = cut_side(of, side, clearance, &seen->left, &view, error);
+        const imp_code code = cut_side(of, side, gamma_clear, &seen->left, &view, error);
         if (code != IMP_SUCCESS) return code;
         seen->is_apart = view.is_apart;
         if (view.lower > seen->lower) seen->lower = view.lower;

@@ -111,14 +111,14 @@ IMP_QUAD_INLINE imp_quad bundle_orient(bundle *n, const difference *r, double w)
     return longest;
 }
 
-/* |n| clearance, rounded up. Roundings: squares 1, sums 2, root (1 + 2) / 2 + 1, product 1. */
+/* |n| gamma_clear, rounded up. Roundings: squares 1, sums 2, root (1 + 2) / 2 + 1, product 1. */
 PAD_COVERS(16, 3 + 1);
-IMP_QUAD_INLINE imp_quad limit_upper(const bundle *n, double clearance)
+IMP_QUAD_INLINE imp_quad limit_upper(const bundle *n, double gamma_clear)
 {
     const imp_quad square = n->x[0] * n->x[0] + n->x[1] * n->x[1] + n->x[2] * n->x[2];
     imp_quad root;
     for (int k = 0; k < IMP_QUAD; ++k) root[k] = sqrt(square[k]);
-    return quad_padded_upper(root * imp_quad_all(clearance), 16);
+    return quad_padded_upper(root * imp_quad_all(gamma_clear), 16);
 }
 
 /* Adds the line low + drift w of each lane. The length is rounded up:
@@ -178,7 +178,7 @@ IMP_QUAD_INLINE chord chord_over_edges(const difference *r, const bundle *n)
  *   n.delta + n.drift w + [min Qb - max Qa, max Qb - min Qa],   the forms with their slopes at w,
  *
  * and |n.(y - x)| <= |n| |y - x|. So where the chords less or more sum_i |n_i| slack_i, and that over the
- * edges, leave [-g, g], g = |n| clearance, the nodes are farther apart than the clearance. 2^-490
+ * edges, leave [-g, g], g = |n| gamma_clear, the nodes are farther apart than gamma_clear. 2^-490
  * outweighs underflow, since every axis has a coordinate of 1. Lanes whose axis or size is out of
  * range are left out: they prove nothing. The far side is computed only where it may end below g.
  * Rounding, in units of u R, R = sum_i |n_i| magnitude_i:
@@ -193,8 +193,8 @@ enum { AXIS_ROUNDING = 256 };
 _Static_assert(DIFFERENCE_ROUNDING + 6 + 2 + 2 * QUADRATIC_ROUNDING + 16 + 12 <= AXIS_ROUNDING,
                "rounding along one axis");
 
-IMP_QUAD_INLINE bool cut_along_bundle(const difference *r, bundle *n, double clearance, w_range *s,
-                                      gap_lines *lines, bool is_posed, bool bends)
+IMP_QUAD_INLINE bool cut_along_bundle(const difference *r, bundle *n, double gamma_clear,
+                                      w_range *s, gap_lines *lines, bool is_posed, bool bends)
 {
     const imp_quad longest = bundle_orient(n, r, r->focus);
     const forms a = project(n, &r->a, bends, is_posed), b = project(n, &r->b, bends, is_posed);
@@ -207,7 +207,7 @@ IMP_QUAD_INLINE bool cut_along_bundle(const difference *r, bundle *n, double cle
                            imp_quad_all(QUADRATIC_UNDERFLOW);
     const imp_quad_mask sane = (longest > imp_quad_all(0x1p-400)) &
                                (longest < imp_quad_all(0x1p400)) & (size < imp_quad_all(0x1p400));
-    const imp_quad limit = imp_quad_pick(sane, limit_upper(n, clearance), imp_quad_all(INFINITY));
+    const imp_quad limit = imp_quad_pick(sane, limit_upper(n, gamma_clear), imp_quad_all(INFINITY));
     chord over = {none, none}, near = chord_under(&b, &minus_a);
     if (is_posed) {
         over = chord_over_edges(r, n);
@@ -233,15 +233,15 @@ IMP_QUAD_INLINE bool cut_along_bundle(const difference *r, bundle *n, double cle
     return window_lanes_take(s, &c);
 }
 
-IMP_QUAD_INLINE bool bundle_cut(const difference *r, bundle *n, double clearance, w_range *s,
+IMP_QUAD_INLINE bool bundle_cut(const difference *r, bundle *n, double gamma_clear, w_range *s,
                                 gap_lines *lines)
 {
     const bool bends = !(r->squares == 0);
     if (r->posed > 0)
-        return bends ? cut_along_bundle(r, n, clearance, s, lines, true, true)
-                     : cut_along_bundle(r, n, clearance, s, lines, true, false);
-    return bends ? cut_along_bundle(r, n, clearance, s, lines, false, true)
-                 : cut_along_bundle(r, n, clearance, s, lines, false, false);
+        return bends ? cut_along_bundle(r, n, gamma_clear, s, lines, true, true)
+                     : cut_along_bundle(r, n, gamma_clear, s, lines, true, false);
+    return bends ? cut_along_bundle(r, n, gamma_clear, s, lines, false, true)
+                 : cut_along_bundle(r, n, gamma_clear, s, lines, false, false);
 }
 
 IMP_QUAD_INLINE imp_quad direction(const slice *s, double w)
@@ -271,7 +271,7 @@ IMP_QUAD_INLINE bundle bundle_with(const difference *r, vec3 x, vec3 y)
 /* Along the axis that is best at the focus, the window's start where that decides when the earliest
  * contact can be; both normals; and the line of centres at the end of the window that is farther from
  * the focus. Where no axis is any good at the focus, along the line of centres there. */
-IMP_QUAD_INLINE bool cut_along_axes(const difference *r, double clearance, w_range *s, vec3 *axis,
+IMP_QUAD_INLINE bool cut_along_axes(const difference *r, double gamma_clear, w_range *s, vec3 *axis,
                                     gap_lines *lines)
 {
     const vec3 here = difference_offset(r, r->focus);
@@ -280,49 +280,50 @@ IMP_QUAD_INLINE bool cut_along_axes(const difference *r, double clearance, w_ran
     const bool apart = gjk_axis(r, r->focus, &best);
     *axis = apart ? best : (vec3){{0, 0, 0}};
     bundle n = bundle_with(r, apart ? best : here, end);
-    return bundle_cut(r, &n, clearance, s, lines);
+    return bundle_cut(r, &n, gamma_clear, s, lines);
 }
 
 /* The same with an axis that is known; nothing is searched for. */
-IMP_QUAD_INLINE bool cut_along_given(const difference *r, double clearance, w_range *s, vec3 axis)
+IMP_QUAD_INLINE bool cut_along_given(const difference *r, double gamma_clear, w_range *s, vec3 axis)
 {
     const vec3 end = vec3_sub(vec3_from(r->delta), vec3_scale(vec3_from(r->drift), -1));
     bundle n = bundle_with(r, axis, end);
-    return bundle_cut(r, &n, clearance, s, NULL);
+    return bundle_cut(r, &n, gamma_clear, s, NULL);
 }
 
-IMP_QUAD_NARROW static bool cut_along_given_narrow(const difference *r, double clearance,
+IMP_QUAD_NARROW static bool cut_along_given_narrow(const difference *r, double gamma_clear,
                                                    w_range *s, vec3 axis)
 {
-    return cut_along_given(r, clearance, s, axis);
+    return cut_along_given(r, gamma_clear, s, axis);
 }
 
-IMP_QUAD_WIDE static bool cut_along_given_wide(const difference *r, double clearance, w_range *s,
+IMP_QUAD_WIDE static bool cut_along_given_wide(const difference *r, double gamma_clear, w_range *s,
                                                vec3 axis)
 {
-    return cut_along_given(r, clearance, s, axis);
+    return cut_along_given(r, gamma_clear, s, axis);
 }
 
-bool fixed_axes_cut_along(const difference *r, double clearance, w_range *s, vec3 axis)
+bool fixed_axes_cut_along(const difference *r, double gamma_clear, w_range *s, vec3 axis)
 {
-    return imp_quad_is_wide() ? cut_along_given_wide(r, clearance, s, axis)
-                              : cut_along_given_narrow(r, clearance, s, axis);
+    return imp_quad_is_wide() ? cut_along_given_wide(r, gamma_clear, s, axis)
+                              : cut_along_given_narrow(r, gamma_clear, s, axis);
 }
 
-IMP_QUAD_NARROW static bool cut_along_axes_narrow(const difference *r, double clearance, w_range *s,
-                                                  vec3 *axis, gap_lines *lines)
+IMP_QUAD_NARROW static bool cut_along_axes_narrow(const difference *r, double gamma_clear,
+                                                  w_range *s, vec3 *axis, gap_lines *lines)
 {
-    return cut_along_axes(r, clearance, s, axis, lines);
+    return cut_along_axes(r, gamma_clear, s, axis, lines);
 }
 
-IMP_QUAD_WIDE static bool cut_along_axes_wide(const difference *r, double clearance, w_range *s,
+IMP_QUAD_WIDE static bool cut_along_axes_wide(const difference *r, double gamma_clear, w_range *s,
                                               vec3 *axis, gap_lines *lines)
 {
-    return cut_along_axes(r, clearance, s, axis, lines);
+    return cut_along_axes(r, gamma_clear, s, axis, lines);
 }
 
-bool fixed_axes_cut(const difference *r, double clearance, w_range *s, vec3 *axis, gap_lines *lines)
+bool fixed_axes_cut(const difference *r, double gamma_clear, w_range *s, vec3 *axis,
+                    gap_lines *lines)
 {
-    return imp_quad_is_wide() ? cut_along_axes_wide(r, clearance, s, axis, lines)
-                              : cut_along_axes_narrow(r, clearance, s, axis, lines);
+    return imp_quad_is_wide() ? cut_along_axes_wide(r, gamma_clear, s, axis, lines)
+                              : cut_along_axes_narrow(r, gamma_clear, s, axis, lines);
 }

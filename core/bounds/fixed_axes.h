@@ -14,10 +14,10 @@
  * the axis that was best for the parents, or 0, and is given the best at the focus, or 0 where none
  * parts the nodes there; no length is meant. What the
  * axes prove of the distance is added to `lines`, unless NULL. */
-bool fixed_axes_cut(const difference *r, double clearance, w_range *s, vec3 *axis,
+bool fixed_axes_cut(const difference *r, double gamma_clear, w_range *s, vec3 *axis,
                     gap_lines *lines);
 
 /* The same along an axis that was found elsewhere, both normals and the line of centres. */
-bool fixed_axes_cut_along(const difference *r, double clearance, w_range *s, vec3 axis);
+bool fixed_axes_cut_along(const difference *r, double gamma_clear, w_range *s, vec3 axis);
 
 #endif

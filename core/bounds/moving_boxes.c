@@ -50,39 +50,39 @@ IMP_QUAD_INLINE passing passing_of(const node *a, const node *b, double mid, dou
                          imp_quad_all(QUADRATIC_UNDERFLOW)};
 }
 
-IMP_QUAD_INLINE bool cut_by_boxes(const node *a, const node *b, double clearance, double mid,
+IMP_QUAD_INLINE bool cut_by_boxes(const node *a, const node *b, double gamma_clear, double mid,
                                   double half, w_range *s)
 {
     const passing p = passing_of(a, b, mid, half);
     const imp_quad most = imp_quad_abs(p.delta) + imp_quad_abs(p.drift) - p.reach;
-    const imp_quad_mask some = most > imp_quad_all(clearance);
+    const imp_quad_mask some = most > imp_quad_all(gamma_clear);
     if (!imp_quad_any(some)) return true;
-    const imp_quad limit = imp_quad_pick(some, imp_quad_all(clearance), imp_quad_all(INFINITY));
+    const imp_quad limit = imp_quad_pick(some, imp_quad_all(gamma_clear), imp_quad_all(INFINITY));
     window_lanes c = window_lanes_none();
     window_lanes_add(&c, p.delta - p.reach, p.drift, limit);
     window_lanes_add(&c, -p.delta - p.reach, -p.drift, limit);
     return window_lanes_take(s, &c);
 }
 
-IMP_QUAD_NARROW static bool cut_by_boxes_narrow(const node *a, const node *b, double clearance,
+IMP_QUAD_NARROW static bool cut_by_boxes_narrow(const node *a, const node *b, double gamma_clear,
                                                 double mid, double half, w_range *s)
 {
-    return cut_by_boxes(a, b, clearance, mid, half, s);
+    return cut_by_boxes(a, b, gamma_clear, mid, half, s);
 }
 
-IMP_QUAD_WIDE static bool cut_by_boxes_wide(const node *a, const node *b, double clearance,
+IMP_QUAD_WIDE static bool cut_by_boxes_wide(const node *a, const node *b, double gamma_clear,
                                             double mid, double half, w_range *s)
 {
-    return cut_by_boxes(a, b, clearance, mid, half, s);
+    return cut_by_boxes(a, b, gamma_clear, mid, half, s);
 }
 
-bool moving_boxes_cut(const node *a, const node *b, double clearance, time_window *window)
+bool moving_boxes_cut(const node *a, const node *b, double gamma_clear, time_window *window)
 {
     w_range s = {-1, 1};
     if (!a->bounded || !b->bounded) return true;
     const double mid = 0.5 * window->lo + 0.5 * window->hi, half = window_half_upper(window, mid);
-    const bool some = imp_quad_is_wide() ? cut_by_boxes_wide(a, b, clearance, mid, half, &s)
-                                         : cut_by_boxes_narrow(a, b, clearance, mid, half, &s);
+    const bool some = imp_quad_is_wide() ? cut_by_boxes_wide(a, b, gamma_clear, mid, half, &s)
+                                         : cut_by_boxes_narrow(a, b, gamma_clear, mid, half, &s);
     if (some) window_cut(window, mid, half, &s);
     return some;
 }

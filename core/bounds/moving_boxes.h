@@ -7,7 +7,7 @@
 
 /* As separation_window, by boxes around the nodes that move linearly, for a tenth of the work.
  * Shrinks `window`, which lies in both nodes' times, to the times in which these may be within the
- * clearance; false: nothing of it is left. A NaN leaves it as it is. */
-bool moving_boxes_cut(const node *a, const node *b, double clearance, time_window *window);
+ * gamma_clear; false: nothing of it is left. A NaN leaves it as it is. */
+bool moving_boxes_cut(const node *a, const node *b, double gamma_clear, time_window *window);
 
 #endif

@@ -62,15 +62,15 @@ bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis)
 /* Lemma (one axis). But for the error each surface lies in the hull of its net at every moment, so n.(y -
  * x) is at least the least over pairs of control points. Their motion is linear, so that least is concave
  * in time, and lies above the line between its values at the window's ends. Where the line, less errors and
- * rounding, is above |n| clearance, the nodes are farther apart than the clearance. With a coordinate of
+ * rounding, is above |n| gamma_clear, the nodes are farther apart than gamma_clear. With a coordinate of
  * n equal to 1 nothing that counts underflows; a NaN or infinity cuts nothing. */
-IMP_QUAD_INLINE bool cut_along(const node *a, const node *b, vec3 axis, double clearance,
+IMP_QUAD_INLINE bool cut_along(const node *a, const node *b, vec3 axis, double gamma_clear,
                                time_window *window)
 {
     const net *p = node_net_made(a), *q = node_net_made(b);
     vec3 n;
     if (!axis_scaled(axis, &n)) return true;
-    const double limit = net_limit_upper(n, clearance, slack_upper(p, q, n, window));
+    const double limit = net_limit_upper(n, gamma_clear, slack_upper(p, q, n, window));
     const window_ends low = lowest_heights_of(q, window, n, 1);
     const window_ends high = lowest_heights_of(p, window, n, -1);
     const window_ends at = places_along(p, q, n, window);
@@ -79,14 +79,14 @@ IMP_QUAD_INLINE bool cut_along(const node *a, const node *b, vec3 axis, double c
     return line_cut(g0, g1, limit, window);
 }
 
-IMP_QUAD_WIDE static bool cut_along_wide(const node *a, const node *b, vec3 axis, double clearance,
-                                         time_window *window)
+IMP_QUAD_WIDE static bool cut_along_wide(const node *a, const node *b, vec3 axis,
+                                         double gamma_clear, time_window *window)
 {
-    return cut_along(a, b, axis, clearance, window);
+    return cut_along(a, b, axis, gamma_clear, window);
 }
 
-bool net_axis_cut(const node *a, const node *b, vec3 axis, double clearance, time_window *window)
+bool net_axis_cut(const node *a, const node *b, vec3 axis, double gamma_clear, time_window *window)
 {
-    return imp_quad_is_wide() ? cut_along_wide(a, b, axis, clearance, window)
-                              : cut_along(a, b, axis, clearance, window);
+    return imp_quad_is_wide() ? cut_along_wide(a, b, axis, gamma_clear, window)
+                              : cut_along(a, b, axis, gamma_clear, window);
 }

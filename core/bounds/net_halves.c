@@ -206,13 +206,13 @@ IMP_QUAD_INLINE bool find_half(net_heights of[2], double limit, window_ends at, 
     return false;
 }
 
-IMP_QUAD_INLINE void find(const node *a, const node *b, vec3 axis, double clearance,
+IMP_QUAD_INLINE void find(const node *a, const node *b, vec3 axis, double gamma_clear,
                           const time_window *w, net_halves *halves)
 {
     const net *p = node_net_made(a), *q = node_net_made(b);
     vec3 n;
     if (p == NULL || q == NULL || !axis_scaled(axis, &n)) return;
-    halves->limit = net_limit_upper(n, clearance, 2 * slack_upper(p, q, n, w));
+    halves->limit = net_limit_upper(n, gamma_clear, 2 * slack_upper(p, q, n, w));
     halves->at = places_along(p, q, n, w);
     if (!(halves->limit < INFINITY && fabs(halves->at.lo) < INFINITY &&
           fabs(halves->at.hi) < INFINITY))
@@ -227,21 +227,21 @@ IMP_QUAD_INLINE void find(const node *a, const node *b, vec3 axis, double cleara
         if (found[halves->count++].half < 0) break;
 }
 
-IMP_QUAD_WIDE static void find_wide(const node *a, const node *b, vec3 axis, double clearance,
+IMP_QUAD_WIDE static void find_wide(const node *a, const node *b, vec3 axis, double gamma_clear,
                                     const time_window *w, net_halves *halves)
 {
-    find(a, b, axis, clearance, w, halves);
+    find(a, b, axis, gamma_clear, w, halves);
 }
 
-void net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+void net_halves_find(const node *a, const node *b, vec3 axis, double gamma_clear,
                      const time_window *window, net_halves *halves)
 {
     halves->count = 0;
     halves->has_heights = false;
     if (imp_quad_is_wide())
-        find_wide(a, b, axis, clearance, window, halves);
+        find_wide(a, b, axis, gamma_clear, window, halves);
     else
-        find(a, b, axis, clearance, window, halves);
+        find(a, b, axis, gamma_clear, window, halves);
 }
 
 /* --- Windows of halves --------------------------------------------------------------------------- */

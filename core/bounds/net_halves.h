@@ -41,10 +41,10 @@ typedef struct net_halves {
     net_heights of[2];
 } net_halves;
 
-/* Finds halves of either node that the axis shows farther from the other node than the clearance
+/* Finds halves of either node that the axis shows farther from the other node than gamma_clear
  * over the whole window, which lies in both nodes' times. It finds one half, then one of what is
  * left, until neither half of a node is left or no half is excluded. */
-void net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+void net_halves_find(const node *a, const node *b, vec3 axis, double gamma_clear,
                      const time_window *window, net_halves *halves);
 
 /* Cuts the window for both halves, along u or v, of what is left of one side; near[k]: something is left for

@@ -152,13 +152,13 @@ static inline bool axis_scaled(vec3 axis, vec3 *n)
     return longest > 0x1p-400 && longest < 0x1p400;
 }
 
-PAD_COVERS(16, 4); /* |n| clearance: square 1, sums 2, root (1 + 2) / 2 + 1, product 1 */
+PAD_COVERS(16, 4); /* |n| gamma_clear: square 1, sums 2, root (1 + 2) / 2 + 1, product 1 */
 PAD_COVERS(4, 1);  /* its sum with the slack */
 
-/* |n| clearance plus the slack. */
-static inline double net_limit_upper(vec3 n, double clearance, double slack)
+/* |n| gamma_clear plus the slack. */
+static inline double net_limit_upper(vec3 n, double gamma_clear, double slack)
 {
-    return padded_upper(padded_upper(vec3_norm(n) * clearance, 16) + slack, 4);
+    return padded_upper(padded_upper(vec3_norm(n) * gamma_clear, 16) + slack, 4);
 }
 
 /* --- Between two nets --------------------------------------------------------------------------- */

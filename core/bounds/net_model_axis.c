@@ -204,10 +204,10 @@ IMP_QUAD_INLINE window_ends lowest_values(const node *f, const time_window *w, v
 /* Lemma (one axis). At every moment n.(model - net) is at least the least value of the model, less its
  * remainder, less the greatest of the control points, less the net's error. The least of n.(-point) over
  * control points, which move linearly, is above the line between its values at the window's ends, as is
- * that of the model (bow). Where the sum of both lines, less errors and rounding, is above |n| clearance, the
- * nodes are farther apart than the clearance. With a coordinate of n equal to 1 nothing that counts
+ * that of the model (bow). Where the sum of both lines, less errors and rounding, is above |n| gamma_clear, the
+ * nodes are farther apart than gamma_clear. With a coordinate of n equal to 1 nothing that counts
  * underflows; a NaN or a number out of range cuts nothing. */
-IMP_QUAD_INLINE bool net_model_cut(const net_model *p, vec3 axis, double clearance,
+IMP_QUAD_INLINE bool net_model_cut(const net_model *p, vec3 axis, double gamma_clear,
                                    time_window *window)
 {
     double size;
@@ -215,7 +215,7 @@ IMP_QUAD_INLINE bool net_model_cut(const net_model *p, vec3 axis, double clearan
     if (!axis_scaled(vec3_scale(axis, p->way), &n)) return true;
     const double early = fabs(window->lo - p->net->time), after = fabs(window->hi - p->net->time);
     const double slack = net_model_slack_upper(p, n, early > after ? early : after, &size);
-    const double limit = net_limit_upper(n, clearance, slack);
+    const double limit = net_limit_upper(n, gamma_clear, slack);
     const window_ends low = lowest_values(p->model, window, n);
     const window_ends high = lowest_heights_of(p->net, window, n, -1);
     const double g0 = low.lo + high.lo + vec3_dot(n, centre_apart(p, window->lo));
@@ -224,16 +224,16 @@ IMP_QUAD_INLINE bool net_model_cut(const net_model *p, vec3 axis, double clearan
     return line_cut(g0, g1, limit, window);
 }
 
-IMP_QUAD_WIDE static bool net_model_cut_wide(const net_model *p, vec3 axis, double clearance,
+IMP_QUAD_WIDE static bool net_model_cut_wide(const net_model *p, vec3 axis, double gamma_clear,
                                              time_window *window)
 {
-    return net_model_cut(p, axis, clearance, window);
+    return net_model_cut(p, axis, gamma_clear, window);
 }
 
-bool net_model_axis_cut(const node *a, const node *b, vec3 axis, double clearance,
+bool net_model_axis_cut(const node *a, const node *b, vec3 axis, double gamma_clear,
                         time_window *window)
 {
     const net_model p = net_model_of(a, b);
-    return imp_quad_is_wide() ? net_model_cut_wide(&p, axis, clearance, window)
-                              : net_model_cut(&p, axis, clearance, window);
+    return imp_quad_is_wide() ? net_model_cut_wide(&p, axis, gamma_clear, window)
+                              : net_model_cut(&p, axis, gamma_clear, window);
 }

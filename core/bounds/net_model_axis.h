@@ -12,7 +12,7 @@
 
 bool net_model_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 
-bool net_model_axis_cut(const node *a, const node *b, vec3 axis, double clearance,
+bool net_model_axis_cut(const node *a, const node *b, vec3 axis, double gamma_clear,
                         time_window *window);
 
 #endif

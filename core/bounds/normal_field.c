@@ -281,7 +281,7 @@ static double bending_upper(const difference *r, vec3 n)
  *
  *   |n|^2 <= |n0|^2 + 2 sum_i mu_i |n0.t_i| + (sum_i mu_i |t_i|)^2.
  *
- * So where the lower bound of n.D exceeds |n| clearance, every point of B is farther than that
+ * So where the lower bound of n.D exceeds |n| gamma_clear, every point of B is farther than that
  * from every point of A. n0, t and m are what they are in double precision: they need not be unit,
  * tangent or accurate.
  *
@@ -380,7 +380,7 @@ static void least_values(const quadratics *p, double least[IMP_QUAD])
         quadratics_least(p, least);
 }
 
-bool normal_field_cut(const difference *r, double clearance, w_range *s, gap_lines *lines)
+bool normal_field_cut(const difference *r, double gamma_clear, w_range *s, gap_lines *lines)
 {
     frame f;
     turns m;
@@ -404,5 +404,5 @@ bool normal_field_cut(const difference *r, double clearance, w_range *s, gap_lin
     if (!slack_and_length(r, &f, &a, &b, &m, &x, &slack, &length)) return true;
     const double low = middle - slack;
     if (lines != NULL) gap_lines_add(lines, low, drift, length);
-    return w_range_cut(s, low, drift, length * clearance);
+    return w_range_cut(s, low, drift, length * gamma_clear);
 }

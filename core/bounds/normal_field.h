@@ -17,6 +17,6 @@
 
 /* Cuts the range of w to the w at which the field does not show the nodes apart; false: none is left.
  * What the field proves of the distance is added to `lines`, unless NULL. */
-bool normal_field_cut(const difference *r, double clearance, w_range *s, gap_lines *lines);
+bool normal_field_cut(const difference *r, double gamma_clear, w_range *s, gap_lines *lines);
 
 #endif

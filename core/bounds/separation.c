@@ -18,7 +18,7 @@ static double focus_of(const difference *r, double moment)
     return w < -1 ? -1 : w > 1 ? 1 : w;
 }
 
-/* Lemma. Outside the range s that is left, nodes are farther apart than the clearance; within it, no
+/* Lemma. Outside the range s that is left, nodes are farther apart than gamma_clear; within it, no
  * nearer than the lines say, nor than the boxes. */
 static void approach_take(approach *near, const difference *r, const gap_lines *lines, w_range s)
 {
@@ -45,14 +45,14 @@ static bool are_flat(const node *a, const node *b)
 
 /* The axis that is best at the end of what is left: once two edges have crossed, the axis that was
  * best before is the wrong one. */
-static bool cut_at_end(const node *a, const node *b, double clearance, time_window *window)
+static bool cut_at_end(const node *a, const node *b, double gamma_clear, time_window *window)
 {
     difference r;
     w_range s = {-1, 1};
     vec3 axis = {{0, 0, 0}};
     difference_at(a, b, window, &r);
     r.focus = 1;
-    if (!fixed_axes_cut(&r, clearance, &s, &axis, NULL)) return false;
+    if (!fixed_axes_cut(&r, gamma_clear, &s, &axis, NULL)) return false;
     window_cut(window, r.mid, r.half, &s);
     return true;
 }
@@ -67,7 +67,7 @@ static bool is_thin(const node *n)
 
 /* Cuts the window of two nodes without normals along axes that need no search: perpendicular to
  * both, and the lines of centres, at either end of the window; again if that pays. */
-static bool cut_across(const node *a, const node *b, double clearance, time_window *window,
+static bool cut_across(const node *a, const node *b, double gamma_clear, time_window *window,
                        int rounds)
 {
     bool pays = true;
@@ -75,7 +75,7 @@ static bool cut_across(const node *a, const node *b, double clearance, time_wind
         difference r;
         w_range s = {-1, 1};
         difference_at(a, b, window, &r);
-        if (!fixed_axes_cut_along(&r, clearance, &s, difference_offset(&r, -1))) return false;
+        if (!fixed_axes_cut_along(&r, gamma_clear, &s, difference_offset(&r, -1))) return false;
         window_cut(window, r.mid, r.half, &s);
         pays = s.hi - s.lo < TUNING_CURVE_SHRINKS;
     }
@@ -84,26 +84,26 @@ static bool cut_across(const node *a, const node *b, double clearance, time_wind
 
 /* Cuts by an axis that turns. It shows more only where one surface lies in the other's concave
  * side, or nearly; there fixed axes seldom cut the start of a window. */
-static bool cut_by_turning(const difference *r, double clearance, w_range *s, trial_rate *turning,
+static bool cut_by_turning(const difference *r, double gamma_clear, w_range *s, trial_rate *turning,
                            gap_lines *lines)
 {
     const w_range before = *s;
     const bool is_chance = s->lo > -1;
     if (is_chance && !trial_rate_take(turning, TUNING_FIELD_SHARE, TUNING_FIELD_WAIT)) return true;
-    const bool some = normal_field_cut(r, clearance, s, lines);
+    const bool some = normal_field_cut(r, gamma_clear, s, lines);
     const bool pays = !some || s->lo > before.lo || s->hi < before.hi;
     if (is_chance) trial_rate_note(turning, pays);
     return some;
 }
 
 /* `near` is NULL where only the window matters. */
-static bool shrink(const node *a, const node *b, double clearance, time_window *window, vec3 *axis,
-                   trial_rate *turning, approach *near)
+static bool shrink(const node *a, const node *b, double gamma_clear, time_window *window,
+                   vec3 *axis, trial_rate *turning, approach *near)
 {
     const bool across = near == NULL && !has_normal(a) && !has_normal(b);
     const bool thin = across && is_thin(a) && is_thin(b);
     const int rounds = thin ? TUNING_THIN_ROUNDS : TUNING_CURVE_ROUNDS;
-    if (across && !cut_across(a, b, clearance, window, rounds)) return false;
+    if (across && !cut_across(a, b, gamma_clear, window, rounds)) return false;
     for (int round = 1;; ++round) {
         difference r;
         gap_lines lines;
@@ -115,13 +115,14 @@ static bool shrink(const node *a, const node *b, double clearance, time_window *
             r.share = TUNING_GJK_GAP_OF_BOUND;
         }
         gap_lines *const kept = near != NULL ? &lines : NULL;
-        if (!fixed_axes_cut(&r, clearance, &s, axis, kept)) return false;
-        if (!cut_by_turning(&r, clearance, &s, turning, kept)) return false;
+        if (!fixed_axes_cut(&r, gamma_clear, &s, axis, kept)) return false;
+        if (!cut_by_turning(&r, gamma_clear, &s, turning, kept)) return false;
         window_cut(window, r.mid, r.half, &s);
         if (near != NULL) approach_take(near, &r, &lines, s);
         if (!(s.hi - s.lo < 2) || thin) return true;
         const bool flat = are_flat(a, b);
-        if (flat && near == NULL && s.lo > -1 && !cut_at_end(a, b, clearance, window)) return false;
+        if (flat && near == NULL && s.lo > -1 && !cut_at_end(a, b, gamma_clear, window))
+            return false;
         if (round == (flat ? TUNING_FLAT_ROUNDS : TUNING_WINDOW_ROUNDS)) return true;
         if (!flat && !(s.hi - s.lo < TUNING_WINDOW_SHRINKS)) return true;
     }
@@ -153,25 +154,25 @@ static bool seek_by_nets(const node *a, const node *b, double t, vec3 *axis)
     return have_both_nets(a, b) ? net_axis_seek(a, b, t, axis) : net_model_axis_seek(a, b, t, axis);
 }
 
-static bool cut_by_nets(const node *a, const node *b, vec3 axis, double clearance,
+static bool cut_by_nets(const node *a, const node *b, vec3 axis, double gamma_clear,
                         time_window *window)
 {
-    return have_both_nets(a, b) ? net_axis_cut(a, b, axis, clearance, window)
-                                : net_model_axis_cut(a, b, axis, clearance, window);
+    return have_both_nets(a, b) ? net_axis_cut(a, b, axis, gamma_clear, window)
+                                : net_model_axis_cut(a, b, axis, gamma_clear, window);
 }
 
 /* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls show,
  * or any that can be found where the hulls meet. */
-static bool cut_by_models(const node *a, const node *b, double clearance, time_window *window,
+static bool cut_by_models(const node *a, const node *b, double gamma_clear, time_window *window,
                           vec3 *axis, trial_rate *turning, bool found)
 {
     difference r;
     w_range s = {-1, 1};
     difference_at(a, b, window, &r);
-    if (found ? !fixed_axes_cut_along(&r, clearance, &s, *axis)
-              : !fixed_axes_cut(&r, clearance, &s, axis, NULL))
+    if (found ? !fixed_axes_cut_along(&r, gamma_clear, &s, *axis)
+              : !fixed_axes_cut(&r, gamma_clear, &s, axis, NULL))
         return false;
-    if (!cut_by_turning(&r, clearance, &s, turning, NULL)) return false;
+    if (!cut_by_turning(&r, gamma_clear, &s, turning, NULL)) return false;
     window_cut(window, r.mid, r.half, &s);
     return true;
 }
@@ -195,7 +196,7 @@ static bool are_models_closer(const node *a, const node *b)
 
 /* Cuts by hulls at the start of the window as long as that pays, then by quadratics. Flat nodes of
  * which one has no net get the full search, others one cut where quadratics may show more. */
-static bool shrink_by_nets(const node *a, const node *b, double clearance, time_window *window,
+static bool shrink_by_nets(const node *a, const node *b, double gamma_clear, time_window *window,
                            vec3 *axis, trial_rate *turning)
 {
     bool found = true, pays = true;
@@ -206,47 +207,47 @@ static bool shrink_by_nets(const node *a, const node *b, double clearance, time_
     for (int round = 0; round < rounds && found && pays; ++round) {
         const double length = window->hi - window->lo;
         found = seek_by_nets(a, b, window->lo, axis);
-        if (found && !cut_by_nets(a, b, *axis, clearance, window)) return false;
+        if (found && !cut_by_nets(a, b, *axis, gamma_clear, window)) return false;
         pays = window->hi - window->lo < shrinks * length;
     }
     if (!have_both_nets(a, b) && are_flat(a, b))
-        return shrink(a, b, clearance, window, axis, turning, NULL);
+        return shrink(a, b, gamma_clear, window, axis, turning, NULL);
     return (found && !are_models_closer(a, b)) ||
-           cut_by_models(a, b, clearance, window, axis, turning, found);
+           cut_by_models(a, b, gamma_clear, window, axis, turning, found);
 }
 
-bool separation_without_nets(const node *a, const node *b, double clearance, time_window *window,
+bool separation_without_nets(const node *a, const node *b, double gamma_clear, time_window *window,
                              vec3 *axis, trial_rate *turning)
 {
     if (!a->bounded || !b->bounded) return true;
-    return !separation_of_boxes(a, b, clearance) &&
-           shrink(a, b, clearance, window, axis, turning, NULL);
+    return !separation_of_boxes(a, b, gamma_clear) &&
+           shrink(a, b, gamma_clear, window, axis, turning, NULL);
 }
 
-bool separation_window(const node *a, const node *b, double clearance, time_window *window,
+bool separation_window(const node *a, const node *b, double gamma_clear, time_window *window,
                        vec3 *axis, trial_rate *turning)
 {
-    if (!have_nets(a, b)) return separation_without_nets(a, b, clearance, window, axis, turning);
-    return !separation_of_boxes(a, b, clearance) &&
-           shrink_by_nets(a, b, clearance, window, axis, turning);
+    if (!have_nets(a, b)) return separation_without_nets(a, b, gamma_clear, window, axis, turning);
+    return !separation_of_boxes(a, b, gamma_clear) &&
+           shrink_by_nets(a, b, gamma_clear, window, axis, turning);
 }
 
-bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,
+bool separation_first_look(const node *a, const node *b, double gamma_clear, time_window *window,
                            vec3 *axis, trial_rate *turning, bool *more)
 {
     *more = have_nets(a, b) && vec3_norm1(*axis) > 0;
-    return *more ? cut_by_nets(a, b, *axis, clearance, window)
-                 : separation_window(a, b, clearance, window, axis, turning);
+    return *more ? cut_by_nets(a, b, *axis, gamma_clear, window)
+                 : separation_window(a, b, gamma_clear, window, axis, turning);
 }
 
-bool separation_approach(const node *a, const node *b, double clearance, time_window *window,
+bool separation_approach(const node *a, const node *b, double gamma_clear, time_window *window,
                          vec3 *axis, approach *near)
 {
     near->lower = 0;
     if (!a->bounded || !b->bounded) return true;
     near->lower = separation_boxes_lower(a, b);
-    if (near->lower > clearance) return false;
-    return shrink(a, b, clearance, window, axis, NULL, near) && !(near->lower > clearance);
+    if (near->lower > gamma_clear) return false;
+    return shrink(a, b, gamma_clear, window, axis, NULL, near) && !(near->lower > gamma_clear);
 }
 
 /* Boxes and balls. Roundings: difference 1, square 1, sums 2, root, which halves them and counts 1:
@@ -266,17 +267,17 @@ double separation_boxes_lower(const node *a, const node *b)
     return sum < INFINITY ? padded_lower(sqrt(sum), 16) : 0x1p511;
 }
 
-bool separation_of_boxes(const node *a, const node *b, double clearance)
+bool separation_of_boxes(const node *a, const node *b, double gamma_clear)
 {
-    return separation_boxes_lower(a, b) > clearance;
+    return separation_boxes_lower(a, b) > gamma_clear;
 }
 
-bool separation_of_balls(const node *a, const node *b, double clearance)
+bool separation_of_balls(const node *a, const node *b, double gamma_clear)
 {
     if (!a->bounded || !b->bounded) return false;
     const vec3 apart = vec3_sub(vec3_from(b->f.a), vec3_from(a->f.a));
     const double reach = a->radius + b->radius;
-    return padded_lower(vec3_norm(apart), 16) - padded_upper(reach, 8) > clearance;
+    return padded_lower(vec3_norm(apart), 16) - padded_upper(reach, 8) > gamma_clear;
 }
 
 double separation_farthest_of_boxes(const node *a, const node *b)

@@ -9,22 +9,22 @@
 /* When can two nodes be near?
  * ===========================
  * Times in a window at which no axis shows the two inclusions apart. Outside the window that
- * is left, the nodes' points are farther than `clearance` from each other: proved, rounding
+ * is left, the nodes' points are farther than `gamma_clear` from each other: proved, rounding
  * included. A NaN or an infinity anywhere leaves the window as it is. */
 
 /* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. `axis` is as for
  * fixed_axes_cut. `turning`: the candidate pair's chances of axes that turn (normal_field.h) where fixed
  * axes cut the start of the window; NULL: each is taken. */
-bool separation_window(const node *a, const node *b, double clearance, time_window *window,
+bool separation_window(const node *a, const node *b, double gamma_clear, time_window *window,
                        vec3 *axis, trial_rate *turning);
 
 /* The same by the quadratics alone. */
-bool separation_without_nets(const node *a, const node *b, double clearance, time_window *window,
+bool separation_without_nets(const node *a, const node *b, double gamma_clear, time_window *window,
                              vec3 *axis, trial_rate *turning);
 
 /* As the first; but where both nodes have control nets and the axis is not 0, only the nets are
  * tried, along that axis. `more`: whether separation_window may leave less. */
-bool separation_first_look(const node *a, const node *b, double clearance, time_window *window,
+bool separation_first_look(const node *a, const node *b, double gamma_clear, time_window *window,
                            vec3 *axis, trial_rate *turning, bool *more);
 
 /* How near two nodes come. */
@@ -34,17 +34,17 @@ typedef struct approach {
 } approach;
 
 /* The same, and how near the nodes come: at no time of the window as it was handed over is their
- * distance below `near->lower` and below `clearance`. `near->moment` holds a guess to begin with. */
-bool separation_approach(const node *a, const node *b, double clearance, time_window *window,
+ * distance below `near->lower` and below `gamma_clear`. `near->moment` holds a guess to begin with. */
+bool separation_approach(const node *a, const node *b, double gamma_clear, time_window *window,
                          vec3 *axis, approach *near);
 
 /* Lower bound of the distance of the bounding boxes over the whole of the nodes' times. */
 double separation_boxes_lower(const node *a, const node *b);
 
 /* The paper's test: bounding boxes over the whole of the nodes' times (eqs. 20-22), or balls
- * (section 3.2), farther apart than `clearance`. */
-bool separation_of_boxes(const node *a, const node *b, double clearance);
-bool separation_of_balls(const node *a, const node *b, double clearance);
+ * (section 3.2), farther apart than `gamma_clear`. */
+bool separation_of_boxes(const node *a, const node *b, double gamma_clear);
+bool separation_of_balls(const node *a, const node *b, double gamma_clear);
 
 /* Length of the longest way from a point of one to a point of the other, about; the paper's
  * termination (eq. 6) compares it with gamma. */

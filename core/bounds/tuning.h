@@ -36,7 +36,7 @@
  * Pairs of the arm of tools/data with 3 to 20 mm required, 21467 in all: 1: +30, 4: +15,
  * 64: +2, 256: +25 */
 #define TUNING_BEND_OF_PLACE 16
-/* u and v are no longer cut: extents below (gamma - clearance) / this.
+/* u and v are no longer cut: extents below (gamma - gamma_clear) / this.
  * 32, 128: no change */
 #define TUNING_TINY 64
 
@@ -93,7 +93,7 @@
  *
  * No scene of the sets comes to that. */
 
-/* gamma - clearance is below this.
+/* gamma - gamma_clear is below this.
  * 8, 32: no change */
 #define TUNING_PRECISION_ROOM 16
 /* And remainders are, where curvatures are below 1.
@@ -175,7 +175,7 @@
  * than gamma_clear / this. */
 #define TUNING_REST_SLIP 0x1p12
 
-/* A surface slides along the other within itself, if it leaves that by less than 1 / this of the clearance. */
+/* A surface slides along the other within itself, if it leaves that by less than 1 / this of gamma_clear. */
 #define TUNING_DISTANCE_SLIP 0x1p12
 /* Where an axis parts nodes whose parents slid: one in SHARE distances has to show more, or WAIT
  * chances are left out before the next. Pairs, and instructions of tori, beside asking for all:
@@ -184,7 +184,7 @@
 #define TUNING_DISTANCE_SHARE 2
 #define TUNING_DISTANCE_WAIT 15
 
-/* --- When the searches for contact and for the distance go on in turn (clearance.c) --- */
+/* --- When the searches for contact and for the distance go on in turn (gamma_clear.c) --- */
 
 /* After so many pairs, and two more for each candidate pair, without a verdict. */
 #define TUNING_DECIDE_PAIRS 2000

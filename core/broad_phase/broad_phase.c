@@ -11,15 +11,15 @@
 
 /* Written so that a NaN is never apart. */
 PAD_COVERS(2, 1); /* one difference */
-static bool apart(double above, double below, double clearance)
+static bool apart(double above, double below, double gamma_clear)
 {
-    return padded_lower(above - below, 2) > clearance;
+    return padded_lower(above - below, 2) > gamma_clear;
 }
 
-static bool boxes_apart(const swept_box *a, const swept_box *b, double clearance)
+static bool boxes_apart(const swept_box *a, const swept_box *b, double gamma_clear)
 {
     for (int i = 0; i < 3; ++i)
-        if (apart(a->lo[i], b->hi[i], clearance) || apart(b->lo[i], a->hi[i], clearance))
+        if (apart(a->lo[i], b->hi[i], gamma_clear) || apart(b->lo[i], a->hi[i], gamma_clear))
             return true;
     return false;
 }
@@ -79,11 +79,11 @@ int broad_phase_sort(swept_box *boxes, size_t count)
     return axis;
 }
 
-/* Lemma. No two boxes of different groups within the clearance are left out. A box with a NaN along the axis starts before all
+/* Lemma. No two boxes of different groups within gamma_clear are left out. A box with a NaN along the axis starts before all
  * others and ends after them, so that the order is one of numbers. A box behind another in it starts no
  * earlier: once one is apart from it along the axis, so are all that follow. */
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
-                           double clearance, const broad_phase_visitor *visitor)
+                           double gamma_clear, const broad_phase_visitor *visitor)
 {
     size_t l = k + 1;
     while (l < count) {
@@ -91,8 +91,8 @@ bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_
             l = boxes[l].beyond;
             continue;
         }
-        if (apart(boxes[l].lo[axis], boxes[k].hi[axis], clearance)) break;
-        if (!boxes_apart(&boxes[k], &boxes[l], clearance) &&
+        if (apart(boxes[l].lo[axis], boxes[k].hi[axis], gamma_clear)) break;
+        if (!boxes_apart(&boxes[k], &boxes[l], gamma_clear) &&
             !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
             return false;
         ++l;
@@ -102,25 +102,26 @@ bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_
 
 enum { FEW = 6 }; /* boxes that are not worth sorting */
 
-static bool visit_few(const swept_box *boxes, size_t count, double clearance,
+static bool visit_few(const swept_box *boxes, size_t count, double gamma_clear,
                       const broad_phase_visitor *visitor)
 {
     for (size_t k = 0; k < count; ++k)
         for (size_t l = k + 1; l < count; ++l)
-            if (boxes[k].group != boxes[l].group && !boxes_apart(&boxes[k], &boxes[l], clearance) &&
+            if (boxes[k].group != boxes[l].group &&
+                !boxes_apart(&boxes[k], &boxes[l], gamma_clear) &&
                 !visitor->visit(visitor->context, boxes[k].owner, boxes[l].owner))
                 return false;
     return true;
 }
 
-bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
+bool broad_phase_visit(swept_box *boxes, size_t count, double gamma_clear,
                        const broad_phase_visitor *visitor)
 {
-    if (count <= FEW) return visit_few(boxes, count, clearance, visitor);
+    if (count <= FEW) return visit_few(boxes, count, gamma_clear, visitor);
     const int axis = broad_phase_sort(boxes, count);
     for (size_t k = 0; k < count; ++k) {
         if (!visitor->next_box(visitor->context)) return false;
-        if (!broad_phase_visit_box(boxes, count, axis, k, clearance, visitor)) return false;
+        if (!broad_phase_visit_box(boxes, count, axis, k, gamma_clear, visitor)) return false;
     }
     return true;
 }

@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 /* Which boxes are near each other? Sweep and prune along the axis on which the boxes crowd least:
- * every pair of the boxes of different groups whose gap along every axis is at most the clearance
+ * every pair of the boxes of different groups whose gap along every axis is at most gamma_clear
  * is visited. A box with an infinity or a NaN is near all. */
 
 typedef struct swept_box {
@@ -26,7 +26,7 @@ typedef struct broad_phase_visitor {
 
 /* Visits in the order of the sweep; a few boxes in any order. False from a callback stops the
  * visit and is returned. Sorts `boxes`. */
-bool broad_phase_visit(swept_box *boxes, size_t count, double clearance,
+bool broad_phase_visit(swept_box *boxes, size_t count, double gamma_clear,
                        const broad_phase_visitor *visitor);
 
 /* The same in two steps, of which the second may be taken by several threads: sorts the boxes along the
@@ -35,6 +35,6 @@ int broad_phase_sort(swept_box *boxes, size_t count);
 
 /* and visits the pairs of box k with those behind it. */
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
-                           double clearance, const broad_phase_visitor *visitor);
+                           double gamma_clear, const broad_phase_visitor *visitor);
 
 #endif

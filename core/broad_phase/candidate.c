@@ -38,7 +38,7 @@ static imp_code count_still_maps(candidate *c, const node *root, imp_error *erro
     const surface *s = root->surface;
     if (!surface_has_distance(s)) return IMP_SUCCESS;
     const imp_status status = surface_still_maps(s, &root->region, &c->still_maps);
-    if (status == IMP_OK) return IMP_SUCCESS;
+    if (status == IMP_STATUS_OK) return IMP_SUCCESS;
     surface_fault(s, error, "over t [%.17g, %.17g]: %s", root->region.lo[PARAMETER_T],
                   root->region.hi[PARAMETER_T], surface_status_told(s, status).text);
     return surface_set_code(status, error);

@@ -9,8 +9,10 @@
 #include <string.h>
 
 #include "core/base/status.h"
-#include "core/broad_phase/collection.h"
 #include "core/bounds/tuning.h"
+#include "core/broad_phase/collection.h"
+
+#include <impinge/baseline.h>
 
 /* --- The order of pairs ------------------------------------------------------------------- */
 
@@ -83,7 +85,7 @@ static bool prepare(collection *all)
                                 : malloc(most * sizeof *all->list->candidates);
     if (all->boxes == NULL || all->list->candidates == NULL) return false;
     all->with_roots =
-        most <= ROOTS_AT_ONCE || !(all->clearance < INFINITY); /* or all are in pairs */
+        most <= ROOTS_AT_ONCE || !(all->gamma_clear < INFINITY); /* or all are in pairs */
     if (!parallel_is_on(all->options)) return true;
     all->surfaces = malloc(SURFACES_A_ROUND * sizeof *all->surfaces);
     all->sweep = calloc(TASKS_A_ROUND, sizeof *all->sweep);
@@ -93,23 +95,24 @@ static bool prepare(collection *all)
 /* A slip is small beside gamma_clear, and beside what is to be told apart. */
 static double slip_most(const imp_options *options)
 {
-    const double clear = options->clearance < 0 ? 0.5 * options->gamma : options->clearance;
+    const double clear = options->gamma_clear < 0 ? 0.5 * options->gamma : options->gamma_clear;
     const double room = options->gamma - clear;
     return (clear < room ? clear : room) / TUNING_REST_SLIP;
 }
 
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
-                         double clearance, bool may_rest, const candidate_limit *limit,
+                         double gamma_clear, bool may_rest, const candidate_limit *limit,
                          imp_stats *stats, imp_error *error)
 {
-    const bool models = options->method == IMP_METHOD_MODELS; /* the paper's algorithm knows no frames */
+    const bool models =
+        options->baseline == IMP_BASELINE_NONE; /* the paper's algorithm knows no frames */
     collection all = {.scene = scene,
                       .slip_most = models && may_rest ? slip_most(options) : -1,
                       .common_motion = models ? collection_common_motion(scene) : 0,
                       .options = options,
                       .limit = limit,
                       .stats = stats,
-                      .clearance = clearance,
+                      .gamma_clear = gamma_clear,
                       .list = list};
     bool done = false;
     imp_code code =
@@ -149,10 +152,8 @@ static candidate_span span_of(const candidate_pair *pairs, size_t count, int sid
 static candidate *own_candidate(candidate *place, const candidate *from, imp_stats *stats)
 {
     if (place->tree != NULL) return place;
-    *place = (candidate){.body = from->body,
-                         .surface = from->surface,
-                         .left_out = from->left_out,
-                         .eval_error = -1};
+    *place = (candidate){
+        .body = from->body, .surface = from->surface, .left_out = from->left_out, .eval_error = -1};
     tree_growth growth = {0};
     if (tree_new_from_root(from->tree, &place->tree, &growth, NULL) != IMP_SUCCESS) return NULL;
     stats->bytes += growth.bytes;

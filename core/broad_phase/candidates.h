@@ -8,7 +8,7 @@
 /* How a query begins: the broad phase
  * ===================================
  * Every surface that exists at any of the query's times gets its tree, whose root is a box around
- * all that the surface sweeps. Surfaces of different bodies whose boxes come within the clearance
+ * all that the surface sweeps. Surfaces of different bodies whose boxes come within gamma_clear
  * of each other, unless their bodies ignore each other, are the candidate pairs.
  *
  * A pair of which each surface turns only within itself, or as the other can be turned within itself, has trees
@@ -42,7 +42,7 @@ typedef struct candidate_limit {
  * a limit ends it, the list is empty again and not complete; after that, or a failure, it may be
  * filled again. */
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
-                         double clearance, bool may_rest, const candidate_limit *limit,
+                         double gamma_clear, bool may_rest, const candidate_limit *limit,
                          imp_stats *stats, imp_error *error);
 
 /* Fills an empty list with `count` pairs of another from `first` on, all of the same two bodies, and

@@ -139,7 +139,7 @@ static imp_code ask_slip(collection *all, candidate *const side[2], time_window 
         region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
     int asked = 1;
     const imp_status status = surface_pair_slip(s, bare, &all_times, times->lo, slip, &asked);
-    if (status == IMP_OK) return IMP_SUCCESS;
+    if (status == IMP_STATUS_OK) return IMP_SUCCESS;
     surface_fault(s[asked], error, ": %s", surface_status_told(s[asked], status).text);
     return surface_set_code(status, error);
 }

@@ -69,7 +69,7 @@ static void sweep_boxes(void *of, size_t index)
     for (size_t k = first; k < count && k < first + BOXES_A_TASK; ++k) {
         const size_t before = task.to->count;
         if (collection_may_end(all, sizeof(candidate_pair))) return;
-        if (!broad_phase_visit_box(all->boxes, count, all->axis, k, all->clearance, &visitor))
+        if (!broad_phase_visit_box(all->boxes, count, all->axis, k, all->gamma_clear, &visitor))
             return;
         atomic_fetch_add(&all->bytes_ahead, (task.to->count - before) * sizeof(candidate_pair));
     }
@@ -86,7 +86,7 @@ static bool take_boxes(collection *all, const sweep_ahead *found, size_t first)
         go_on = keep_pair(all, &found->pairs[k]);
     for (size_t k = first; go_on && !found->complete && k < count && k < first + BOXES_A_TASK; ++k)
         go_on = !collection_must_end(all) && broad_phase_visit_box(all->boxes, count, all->axis, k,
-                                                                all->clearance, &visitor);
+                                                                all->gamma_clear, &visitor);
     return go_on;
 }
 
@@ -132,6 +132,6 @@ bool collection_add_pairs(collection *all)
     const bool done =
         all->sweep != NULL
             ? sweep_by_threads(all)
-            : broad_phase_visit(all->boxes, all->list->count, all->clearance, &visitor);
+            : broad_phase_visit(all->boxes, all->list->count, all->gamma_clear, &visitor);
     return done && !collection_must_end(all); /* notes what the last pairs take */
 }

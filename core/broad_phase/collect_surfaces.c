@@ -8,17 +8,14 @@
 #include "core/scene/scene_trees.h"
 #include "core/tree/bound_audit.h"
 
+#include <impinge/baseline.h>
+
 static tree_kind kind_of(const imp_options *options)
 {
-    if (options->method == IMP_METHOD_MODELS) return TREE_MODELS;
-    switch (options->rates) {
-    case IMP_RATES_COLUMN:
-        return TREE_RATES_COLUMN;
-    case IMP_RATES_CONSTANT:
-        return TREE_RATES_CONSTANT;
-    default:
-        return TREE_RATES_FULL;
-    }
+    if (options->baseline == IMP_BASELINE_NONE) return TREE_MODELS;
+    if ((options->baseline & IMP_BASELINE_COLUMN_RATES) != 0) return TREE_RATES_COLUMN;
+    return (options->baseline & IMP_BASELINE_CONSTANT_RATES) != 0 ? TREE_RATES_CONSTANT
+                                                                  : TREE_RATES_FULL;
 }
 
 /* False: the surface exists at none of the query's times. */

@@ -52,7 +52,7 @@ typedef struct collection {
     const imp_options *options;
     const candidate_limit *limit;
     imp_stats *stats;
-    double clearance;
+    double gamma_clear;
     size_t common_motion; /* last maps of all surfaces that no tree has */
     double slip_most;     /* of pairs that are taken to be at rest; < 0: none are; length */
     swept_box *boxes, at_hand[BOXES_AT_HAND];

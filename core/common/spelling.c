@@ -4,6 +4,7 @@
 
 #include "core/common/spelling.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -31,10 +32,22 @@ size_t spelling_distance(const char *a, const char *b)
     return row[n % 3][m];
 }
 
+/* Names of before, and what they became. */
+static const char *const renamed[][2] = {{"clearance", "gamma_clear"},
+                                         {"clearance", "gamma-clear"}};
+
+static bool was_called(const char *name, const char *before)
+{
+    for (size_t k = 0; k < sizeof renamed / sizeof *renamed; ++k)
+        if (strcmp(renamed[k][0], before) == 0 && strcmp(renamed[k][1], name) == 0) return true;
+    return false;
+}
+
 void spelling_offer(spelling_search *search, const char *candidate)
 {
     size_t allowed = (strlen(search->wanted) + 2) / 3;
-    size_t d = spelling_distance(search->wanted, candidate);
+    size_t d =
+        was_called(candidate, search->wanted) ? 0 : spelling_distance(search->wanted, candidate);
     if (d > allowed || d >= strlen(candidate)) return;
     if (search->best != NULL && search->distance <= d) return;
     search->best = candidate;

@@ -37,18 +37,19 @@ extern "C" {
  * signal handlers included.
  *
  * Structs that may grow begin with their size as the program was compiled, and grow at the end: the
- * library reads and writes no further. The inline functions below set it.
+ * library reads and writes no further. Functions named ..._get_... fill a struct whose struct_size the
+ * caller has set; inline functions without get_ set it and answer the struct by value.
  *
  * Nothing here prints, exits, or changes errno's meaning for the caller.
  *
  * Floating point: answers do not depend on the mode the program has set. Every function here that
  * computes or runs code of a plugin sets the default environment for the time of the call (round to
  * nearest, subnormals kept, exceptions masked: FE_DFL_ENV) and restores the program's own, sticky
- * flags included. The program's callbacks are called in the default environment. Only the callbacks
- * of an imp_instance are called by the program itself: it calls them in the default environment. */
+ * flags included. The program's callbacks are called in the default environment. */
 
 /* --- What can go wrong -------------------------------------------------------- */
 
+/* What functions of the library answer. (Callbacks of plugins answer an imp_status: IMP_STATUS_OK, ....) */
 typedef enum imp_code {
     IMP_SUCCESS = 0,
     IMP_ERROR_USAGE,  /* an argument is out of its documented range */
@@ -128,7 +129,7 @@ IMP_EXPORT void imp_registry_free(imp_registry *registry);
 IMP_EXPORT imp_code imp_registry_isolate(imp_registry *registry, const char *names,
                                          imp_error *error);
 
-typedef enum imp_type_kind { IMP_KIND_SURFACE, IMP_KIND_MAP } imp_type_kind;
+typedef enum imp_type_kind { IMP_TYPE_SURFACE, IMP_TYPE_MAP } imp_type_kind;
 
 #define IMP_LINKED_IN "linked into the program"
 
@@ -141,9 +142,10 @@ typedef struct imp_type_info {
     const char *shadowed_by;         /* file of the earlier type of that name, or NULL */
     const imp_parameter *parameters; /* step by parameter_size bytes */
     size_t parameter_count, parameter_size;
-    const char *capabilities; /* what this host uses of it, names with blanks between: "core", always;
-                                 "order-2": include or apply; "net"; "pieces"; "rigid"; "span";
-                                 "distance"; "symmetry" */
+    const char
+        *capabilities; /* what this host uses of it, names with blanks between: "core", always;
+                                 "order-2": the callback include (surfaces) or apply (maps);
+                                 the callbacks "net", "pieces", "rigid", "span", "distance", "symmetry" */
 } imp_type_info;
 
 /* Types in the order found, shadowed ones included. Returns false past the last. */
@@ -165,36 +167,6 @@ IMP_EXPORT bool imp_registry_warning(const imp_registry *registry, size_t index,
  * entry for which there is no memory is missing. [any thread] */
 IMP_EXPORT bool imp_registry_fault(const imp_registry *registry, size_t index,
                                    imp_plugin_refusal *fault);
-
-/* Everything that is checked of a plugin file, in order, each with a verdict: told one by one. What
- * comes after a refusal and depends on it is not reached. Loads the file in a child process
- * only. Answers whether all passed. */
-typedef enum imp_finding { IMP_NOT_REACHED, IMP_PASSED, IMP_REFUSED } imp_finding;
-typedef void (*imp_finding_sink)(void *context, const char *check, imp_finding finding,
-                                 const char *text);
-IMP_EXPORT bool imp_plugin_examine(const char *path, imp_finding_sink tell, void *context);
-
-/* One surface or map by itself, for programs that examine a type: its callbacks
- * (<impinge/surface.h>) and what create made. Without the guards that scenes put around
- * every call. */
-typedef struct imp_instance {
-    const imp_surface_type *surface; /* NULL: it is a map */
-    const imp_map_type *map;         /* NULL: it is a surface */
-    void *self;
-} imp_instance;
-
-/* From one stage of a pipeline, "TYPE name=value ...". The registry must outlive the instance. */
-IMP_EXPORT imp_code imp_instance_from_text(imp_registry *registry, imp_type_kind kind,
-                                           const char *text, imp_instance *instance,
-                                           imp_error *error);
-/* What a stage says, as the JSON object that a scene file would have for it: {"type": TYPE,
- * "name": value, ...}. Values are not compared with the type's parameters, and defaults are not added.
- * NULL on error. The caller frees the text by free(). */
-IMP_EXPORT char *imp_stage_to_json(const imp_registry *registry, imp_type_kind kind,
-                                   const char *text, imp_error *error);
-
-/* An empty one ({NULL, NULL, NULL}) may be freed too. */
-IMP_EXPORT void imp_instance_free(imp_instance *instance);
 
 /* --- Scenes --------------------------------------------------------------------- */
 
@@ -224,7 +196,7 @@ IMP_EXPORT void imp_scene_free(imp_scene *scene);
  * (names to numbers) has both, and its count in extent[0]. Nothing is kept beyond the call. */
 typedef struct imp_argument {
     const char *name;
-    imp_kind kind; /* IMP_NUMBER, ... */
+    imp_kind kind; /* IMP_KIND_NUMBER, ... */
     uint32_t rank; /* 0 to IMP_RANK_MAX */
     size_t extent[IMP_RANK_MAX];
     double single;
@@ -244,21 +216,21 @@ static inline imp_argument imp_argument_of(const char *name, imp_kind kind, uint
 
 static inline imp_argument imp_argument_number(const char *name, double value)
 {
-    imp_argument a = imp_argument_of(name, IMP_NUMBER, 0);
+    imp_argument a = imp_argument_of(name, IMP_KIND_NUMBER, 0);
     a.single = value;
     return a;
 }
 
 static inline imp_argument imp_argument_boolean(const char *name, bool value)
 {
-    imp_argument a = imp_argument_of(name, IMP_BOOLEAN, 0);
+    imp_argument a = imp_argument_of(name, IMP_KIND_BOOLEAN, 0);
     a.single = value ? 1 : 0;
     return a;
 }
 
 static inline imp_argument imp_argument_text(const char *name, const char *value)
 {
-    imp_argument a = imp_argument_of(name, IMP_STRING, 0);
+    imp_argument a = imp_argument_of(name, IMP_KIND_STRING, 0);
     a.text = value;
     return a;
 }
@@ -266,7 +238,7 @@ static inline imp_argument imp_argument_text(const char *name, const char *value
 /* A vector or list of n numbers. */
 static inline imp_argument imp_argument_list(const char *name, const double *value, size_t n)
 {
-    imp_argument a = imp_argument_of(name, IMP_NUMBER, 1);
+    imp_argument a = imp_argument_of(name, IMP_KIND_NUMBER, 1);
     a.extent[0] = n, a.number = value;
     return a;
 }
@@ -275,7 +247,7 @@ static inline imp_argument imp_argument_list(const char *name, const double *val
 static inline imp_argument imp_argument_rows(const char *name, const double *value, size_t n,
                                              size_t width)
 {
-    imp_argument a = imp_argument_of(name, IMP_NUMBER, 2);
+    imp_argument a = imp_argument_of(name, IMP_KIND_NUMBER, 2);
     a.extent[0] = n, a.extent[1] = width, a.number = value;
     return a;
 }
@@ -288,10 +260,10 @@ typedef struct imp_builder imp_builder;
 IMP_EXPORT imp_builder *imp_builder_new(imp_registry *registry); /* NULL: no memory */
 IMP_EXPORT void imp_builder_free(imp_builder *builder);
 
-/* As "time", "gamma" and "clearance" (< 0: gamma / 2) of a scene file. */
+/* The keys "time", "gamma" and "gamma_clear" (< 0: gamma / 2) of a scene file. */
 IMP_EXPORT imp_code imp_builder_time(imp_builder *builder, double start, double end,
                                      imp_error *error);
-IMP_EXPORT imp_code imp_builder_gamma(imp_builder *builder, double gamma, double clearance,
+IMP_EXPORT imp_code imp_builder_gamma(imp_builder *builder, double gamma, double gamma_clear,
                                       imp_error *error);
 
 /* Adds a body, whose index, counted from 0, goes to *body (may be NULL). A name that is NULL becomes
@@ -377,7 +349,11 @@ IMP_EXPORT imp_code imp_piece_motion(const imp_scene *scene, imp_place at, doubl
 
 /* --- Queries ----------------------------------------------------------------------- */
 
-typedef enum imp_verdict { IMP_CLEAR, IMP_CONTACT, IMP_UNDECIDED } imp_verdict;
+typedef enum imp_verdict {
+    IMP_VERDICT_CLEAR,
+    IMP_VERDICT_CONTACT,
+    IMP_VERDICT_UNDECIDED
+} imp_verdict;
 
 typedef enum imp_reason {
     IMP_REASON_NONE,       /* contact, or clear after a search */
@@ -391,13 +367,6 @@ typedef enum imp_reason {
     IMP_REASON_RUNNING,    /* undecided: not finished yet */
     IMP_REASON_DECIDED     /* imp_clearance only: the verdict is known, `decide` was set */
 } imp_reason;
-
-typedef enum imp_method {
-    IMP_METHOD_MODELS, /* order-2 inclusions, windows in time (default) */
-    IMP_METHOD_PAPER   /* the 1990 algorithm, kept as the baseline */
-} imp_method;
-typedef enum imp_bounds { IMP_BOUNDS_BOX, IMP_BOUNDS_SPHERE } imp_bounds; /* paper only */
-typedef enum imp_rates { IMP_RATES_FULL, IMP_RATES_COLUMN, IMP_RATES_CONSTANT } imp_rates;
 
 /* How far a query has come. Grows at the end: the library's may be longer than the program knows. */
 typedef struct imp_progress {
@@ -427,35 +396,33 @@ typedef struct imp_options {
     bool audit;           /* hold every node's bounds against points of it: slower, catches liars */
     double t_start, t_end; /* t_start <= t_end, finite */
     double gamma;          /* > 0, length: what is reported is no farther apart */
-    double clearance;      /* gamma_clear, in [0, gamma), length; < 0: gamma / 2 */
+    double gamma_clear;    /* in [0, gamma), length: nothing nearer is missed; < 0: gamma / 2 */
     uint64_t max_pairs;    /* pairs tested; 0: no limit */
     double max_seconds;    /* wall clock; 0: no limit */
     uint64_t max_bytes;    /* memory of scene, trees and heap; 0: no limit */
-    imp_method method;
-    imp_bounds bounds;
-    imp_rates rates;
-    uint32_t reserved;          /* 0 */
+    uint32_t baseline;     /* 0; else by the algorithm of 1990: <impinge/baseline.h> */
+    uint32_t reserved;     /* 0 */
     imp_progress_sink progress; /* NULL: none */
     void *progress_context;     /* handed to it */
     imp_parallel parallel;      /* NULL: the thread that steps does all; parts never use it */
     void *parallel_context;     /* handed to it */
 } imp_options;
 
-/* The options a scene asks for, and for the rest the library's own. *options comes with its
- * struct_size set; IMP_ERROR_USAGE if that is none. A scene that names no times is examined while all of
- * its types and maps are defined: for the span that its tables and keyframes share. Tables that hold at
- * their ends, and surfaces that do not exist at other times, extend it; without any it is from 0 to 1.
+/* The defaults: what the scene asks for, and for the rest the library's own. The caller sets
+ * options->struct_size before; IMP_ERROR_USAGE if that is none. A scene that names no times is examined
+ * while all of its types and maps are defined: for the span that its tables and keyframes share. Tables
+ * that hold at their ends, and surfaces that do not exist at other times, extend it; without any it is from 0 to 1.
  * IMP_ERROR_SCENE: they share no time. *options is filled all the same, t_start and t_end are NAN, and
  * queries answer the error until both are set. */
-IMP_EXPORT imp_code imp_options_read(const imp_scene *scene, imp_options *options,
-                                     imp_error *error);
+IMP_EXPORT imp_code imp_options_get_default(const imp_scene *scene, imp_options *options,
+                                            imp_error *error);
 
 static inline imp_options imp_options_default(const imp_scene *scene)
 {
     imp_options options;
     memset(&options, 0, sizeof options); /* is left where scene is NULL; no query takes it */
     options.struct_size = (uint32_t)sizeof options;
-    imp_options_read(scene, &options, NULL);
+    imp_options_get_default(scene, &options, NULL);
     return options;
 }
 
@@ -476,14 +443,14 @@ typedef struct imp_stats {
     uint64_t bytes; /* peak memory of scene, trees and heap, about; of a part without the scene */
 } imp_stats;
 
-/* What is proved so far. With gamma_clear = the clearance in force:
+/* What is proved so far, with the gamma_clear in force:
  *   (a) no points of two bodies are nearer than gamma_clear at any time in [t_start, t_lower);
  *       for every verdict, undecided included;
  *   (b) CONTACT: a.point and b.point lie on their surfaces at time t, evaluated, no farther than
  *       gamma apart, rounding included, and t == t_lower;
  *   (c) CLEAR: never nearer than gamma_clear in [t_start, t_end]; t_lower == t_end.
  * Surfaces of some types do not exist at all times, and touch nothing when they do not
- * (IMP_ABSENT_OUTSIDE_TIMES). t_examined is the part of [t_start, t_end] from the first to the last
+ * (IMP_FLAG_ABSENT_OUTSIDE_TIMES). t_examined is the part of [t_start, t_end] from the first to the last
  * time at which two surfaces that are tested exist together: all of it where types set no limit. */
 typedef struct imp_result {
     uint32_t
@@ -516,16 +483,17 @@ IMP_EXPORT void imp_query_free(imp_query *query);
 IMP_EXPORT imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error);
 
 /* *result comes with its struct_size set; IMP_ERROR_USAGE if that is none. */
-IMP_EXPORT imp_code imp_query_read(const imp_query *query, imp_result *result, imp_error *error);
+IMP_EXPORT imp_code imp_query_get_result(const imp_query *query, imp_result *result,
+                                         imp_error *error);
 
 static inline imp_result imp_query_result(const imp_query *query)
 {
     imp_result result;
     memset(&result, 0, sizeof result);
     result.struct_size = (uint32_t)sizeof result;
-    result.verdict = IMP_UNDECIDED; /* is left where query is NULL */
+    result.verdict = IMP_VERDICT_UNDECIDED; /* is left where query is NULL */
     result.reason = IMP_REASON_CANCELLED;
-    imp_query_read(query, &result, NULL);
+    imp_query_get_result(query, &result, NULL);
     return result;
 }
 
@@ -546,15 +514,15 @@ typedef struct imp_pending {
  * ended the query before its first pair. */
 IMP_EXPORT bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pending);
 
-/* Ask again, finer: gamma and clearance (< 0: gamma / 2) no larger than now. Work done so far is
+/* Ask again, finer: gamma and gamma_clear (< 0: gamma / 2) no larger than now. Work done so far is
  * kept; continue with imp_query_step. */
-IMP_EXPORT imp_code imp_query_refine(imp_query *query, double gamma, double clearance,
+IMP_EXPORT imp_code imp_query_refine(imp_query *query, double gamma, double gamma_clear,
                                      imp_error *error);
 
-/* Each pair of bodies in turn: after a CONTACT, or UNDECIDED for want of RESOLUTION, goes on with the
- * search without the two bodies of that answer; step again for the next, which is later or at the same
+/* Each pair of bodies in turn: after a CONTACT, or UNDECIDED for want of RESOLUTION, excludes the pair of
+ * bodies of that answer from the search; step again for the next, which is later or at the same
  * time. CLEAR is then said of all bodies that are left. */
-IMP_EXPORT imp_code imp_query_pass(imp_query *query, imp_error *error);
+IMP_EXPORT imp_code imp_query_exclude_pair(imp_query *query, imp_error *error);
 
 /* Each pair of bodies by themselves, perhaps by several threads: divides a query that has not been stepped
  * into *count parts, one for each pair of bodies that come near each other, in the order of the scene. The
@@ -576,17 +544,10 @@ IMP_EXPORT imp_query *imp_query_part(const imp_query *query, size_t index, imp_e
  * async-signal-safe] */
 IMP_EXPORT void imp_query_cancel(imp_query *query);
 
-/* new, step to the end, result, free. *result comes with its struct_size set, and stays as it is on
- * error. */
+/* The earliest contact in one call: makes a query, steps it to its end, reads its result and frees it. The
+ * caller sets result->struct_size before; *result stays as it is on error. */
 IMP_EXPORT imp_code imp_scene_solve(imp_scene *scene, const imp_options *options,
                                     imp_result *result, imp_error *error);
-
-static inline imp_code imp_solve(imp_scene *scene, const imp_options *options, imp_result *result,
-                                 imp_error *error)
-{
-    if (result != NULL) result->struct_size = (uint32_t)sizeof *result;
-    return imp_scene_solve(scene, options, result, error);
-}
 
 /* --- Clearance: how near do bodies come? --------------------------------------------- */
 
@@ -603,13 +564,14 @@ typedef struct imp_clearance_options {
 
 /* Sets the defaults: a tolerance of 1e-3, nothing required, one answer, decide false. The caller sets
  * asked->struct_size before. */
-IMP_EXPORT imp_code imp_clearance_options_read(imp_clearance_options *asked, imp_error *error);
+IMP_EXPORT imp_code imp_clearance_options_get_default(imp_clearance_options *asked,
+                                                      imp_error *error);
 
 static inline imp_clearance_options imp_clearance_options_default(void)
 {
     imp_clearance_options asked;
     asked.struct_size = (uint32_t)sizeof asked;
-    imp_clearance_options_read(&asked, NULL);
+    imp_clearance_options_get_default(&asked, NULL);
     return asked;
 }
 
@@ -653,8 +615,7 @@ typedef struct imp_clearance {
 } imp_clearance;
 
 /* Begins; step, cancel and free it like any query. `asked` NULL: the default. Of `options` gamma is
- * the distance that counts as contact; clearance is not used, and the method must be
- * IMP_METHOD_MODELS. What imp_query_read tells is the reason, NONE when all answers are there, and
+ * the distance that counts as contact; gamma_clear is not used, and baseline must be 0. What imp_query_get_result tells is the reason, NONE when all answers are there, and
  * the stats. */
 IMP_EXPORT imp_query *imp_clearance_new(imp_scene *scene, const imp_options *options,
                                         const imp_clearance_options *asked, imp_error *error);
@@ -664,8 +625,8 @@ IMP_EXPORT imp_query *imp_clearance_new(imp_scene *scene, const imp_options *opt
 IMP_EXPORT size_t imp_clearance_count(const imp_query *query);
 
 /* *answer comes with its struct_size set. */
-IMP_EXPORT imp_code imp_clearance_read(const imp_query *query, size_t index, imp_clearance *answer,
-                                       imp_error *error);
+IMP_EXPORT imp_code imp_clearance_get(const imp_query *query, size_t index, imp_clearance *answer,
+                                      imp_error *error);
 
 /* The paper's h(t) = t0 - t: time left from t until the first contact, negative when that is past;
  * INFINITY when there is none in the interval; where it is undecided, the time proved to be left. NAN for
@@ -673,8 +634,8 @@ IMP_EXPORT imp_code imp_clearance_read(const imp_query *query, size_t index, imp
 static inline double imp_time_left(const imp_result *result, double t)
 {
     if (result == NULL) return NAN;
-    if (result->verdict == IMP_CONTACT) return result->t - t;
-    return result->verdict == IMP_CLEAR ? INFINITY : result->t_lower - t;
+    if (result->verdict == IMP_VERDICT_CONTACT) return result->t - t;
+    return result->verdict == IMP_VERDICT_CLEAR ? INFINITY : result->t_lower - t;
 }
 
 #ifdef __cplusplus

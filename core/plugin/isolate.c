@@ -17,8 +17,8 @@
 static imp_status send_bytes(isolated *i, const unsigned char *bytes, size_t size)
 {
     channel *c = i->worker->channel;
-    imp_status status = IMP_OK;
-    for (size_t at = 0; at < size && status == IMP_OK; at += c->work.n) {
+    imp_status status = IMP_STATUS_OK;
+    for (size_t at = 0; at < size && status == IMP_STATUS_OK; at += c->work.n) {
         c->work.n = size - at < CHANNEL_BYTES ? size - at : CHANNEL_BYTES;
         memcpy(c->bytes, bytes + at, c->work.n);
         status = worker_request(i->worker, i, REQUEST_VALUES);
@@ -31,16 +31,16 @@ static imp_status request_create(isolated *i, const unsigned char *bytes, size_t
 {
     channel_work *c = &i->worker->channel->work;
     imp_status status = worker_enter(i->worker, i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     c->why = *why;
     status = send_bytes(i, bytes, size);
     c->n = count;
-    if (status == IMP_OK) status = worker_request(i->worker, i, REQUEST_CREATE);
+    if (status == IMP_STATUS_OK) status = worker_request(i->worker, i, REQUEST_CREATE);
     *why = c->why;
-    i->self = status == IMP_OK ? c->self : NULL;
+    i->self = status == IMP_STATUS_OK ? c->self : NULL;
     memcpy(i->lo, c->lo, sizeof i->lo);
     memcpy(i->hi, c->hi, sizeof i->hi);
-    i->piece_count = status == IMP_OK ? c->pieces : 0;
+    i->piece_count = status == IMP_STATUS_OK ? c->pieces : 0;
     worker_leave(i->worker);
     return status;
 }
@@ -50,8 +50,8 @@ static imp_status request_pieces(isolated *i)
 {
     channel_work *c = &i->worker->channel->work;
     imp_status status = worker_enter(i->worker, i);
-    if (status != IMP_OK) return status;
-    for (size_t k = 0; k < i->piece_count && status == IMP_OK; ++k) {
+    if (status != IMP_STATUS_OK) return status;
+    for (size_t k = 0; k < i->piece_count && status == IMP_STATUS_OK; ++k) {
         isolated *piece = &i->pieces[k];
         c->self = i->self;
         c->n = k;
@@ -59,7 +59,7 @@ static imp_status request_pieces(isolated *i)
         *piece = (isolated){.type = i->type,
                             .worker = i->worker,
                             .user = i,
-                            .self = status == IMP_OK ? unconst(c->piece) : NULL};
+                            .self = status == IMP_STATUS_OK ? unconst(c->piece) : NULL};
         memcpy(piece->lo, c->lo, sizeof piece->lo);
         memcpy(piece->hi, c->hi, sizeof piece->hi);
     }
@@ -70,9 +70,9 @@ static imp_status request_pieces(isolated *i)
 /* A count that breaks the ABI is the host's to refuse. */
 static imp_status create_pieces(isolated *i)
 {
-    if (i->piece_count == 0 || i->piece_count > IMP_PIECES_MAX) return IMP_OK;
+    if (i->piece_count == 0 || i->piece_count > IMP_PIECES_MAX) return IMP_STATUS_OK;
     i->pieces = malloc(i->piece_count * sizeof *i->pieces);
-    return i->pieces != NULL ? request_pieces(i) : IMP_INTERNAL;
+    return i->pieces != NULL ? request_pieces(i) : IMP_STATUS_INTERNAL;
 }
 
 /* For messages: the callback that this thread began last is the one that ended the worker. */
@@ -101,21 +101,21 @@ static imp_status create(isolated *i, const imp_value *values, imp_create_error 
     value_bytes_write(values, count, bytes);
     const imp_status status = request_create(i, bytes, size, count, why);
     free(bytes);
-    if (status == IMP_OK && i->self == NULL) return IMP_INTERNAL;
-    return status == IMP_OK ? create_pieces(i) : status;
+    if (status == IMP_STATUS_OK && i->self == NULL) return IMP_STATUS_INTERNAL;
+    return status == IMP_STATUS_OK ? create_pieces(i) : status;
 }
 
 imp_status isolate_create(isolated *i, const imp_value *values, imp_create_error *why)
 {
     const imp_status status = create(i, values, why);
-    if (status > IMP_INTERNAL) name_callback(i);
+    if (status > IMP_STATUS_INTERNAL) name_callback(i);
     return status;
 }
 
 /* There is no one to answer to: the pool keeps what went wrong. */
 static void request_destroy(isolated *i)
 {
-    if (i->self == NULL || worker_enter(i->worker, i) != IMP_OK) return;
+    if (i->self == NULL || worker_enter(i->worker, i) != IMP_STATUS_OK) return;
     i->worker->channel->work.self = i->self;
     const imp_status end = worker_request(i->worker, i, REQUEST_DESTROY);
     worker_leave(i->worker);

@@ -13,7 +13,7 @@ static isolated *stand_in_of(const void *self) { return (isolated *)(uintptr_t)s
 static imp_status enter(isolated *i)
 {
     const imp_status status = worker_enter(i->worker, i->user);
-    if (status == IMP_OK) i->worker->channel->work.self = i->self;
+    if (status == IMP_STATUS_OK) i->worker->channel->work.self = i->self;
     return status;
 }
 
@@ -22,7 +22,7 @@ static imp_status some_points(isolated *i, size_t n, size_t width, const double 
 {
     channel_work *c = &i->worker->channel->work;
     imp_status status = enter(i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     c->n = n;
     c->wants_error = error != NULL;
     memcpy(c->p, p, width * n * sizeof *p);
@@ -36,8 +36,8 @@ static imp_status some_points(isolated *i, size_t n, size_t width, const double 
 static imp_status points(isolated *i, size_t n, size_t width, const double *p, double *x,
                          double *error)
 {
-    imp_status status = IMP_OK;
-    for (size_t from = 0; from < n && status == IMP_OK; from += CHANNEL_POINTS) {
+    imp_status status = IMP_STATUS_OK;
+    for (size_t from = 0; from < n && status == IMP_STATUS_OK; from += CHANNEL_POINTS) {
         const size_t count = n - from < CHANNEL_POINTS ? n - from : CHANNEL_POINTS;
         status = some_points(i, count, width, p + width * from, x + 3 * from,
                              error != NULL ? error + 3 * from : NULL);
@@ -62,7 +62,7 @@ static imp_status surface_rate_of(const void *self, const imp_region *region,
 {
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     i->worker->channel->work.region = *region;
     status = worker_request(i->worker, i->user, REQUEST_RATE);
     *rates = i->worker->channel->work.rates;
@@ -74,7 +74,7 @@ static imp_status surface_include_of(const void *self, const imp_region *region,
 {
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     i->worker->channel->work.region = *region;
     status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
     memcpy(model, i->worker->channel->work.out, 3 * sizeof *model);
@@ -87,7 +87,7 @@ static imp_status net_of(const void *self, const imp_region *region, imp_net *ne
 {
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     i->worker->channel->work.region = *region;
     i->worker->channel->work.net = *net;
     status = worker_request(i->worker, i->user, REQUEST_NET);
@@ -100,7 +100,7 @@ static imp_status distance_of(const void *self, const imp_model point[4], imp_mo
 {
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     memcpy(i->worker->channel->work.in, point, 4 * sizeof *point);
     status = worker_request(i->worker, i->user, REQUEST_DISTANCE);
     *distance = i->worker->channel->work.out[0];
@@ -112,7 +112,7 @@ static imp_status symmetry_of(const void *self, imp_symmetry *symmetry)
 {
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     i->worker->channel->work.symmetry = *symmetry;
     status = worker_request(i->worker, i->user, REQUEST_SYMMETRY);
     *symmetry = i->worker->channel->work.symmetry;
@@ -149,7 +149,7 @@ static imp_status map_rate_of(const void *self, const imp_box4 *box, imp_map_rat
 {
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     i->worker->channel->work.box = *box;
     status = worker_request(i->worker, i->user, REQUEST_RATE);
     *rates = i->worker->channel->work.map_rates;
@@ -161,7 +161,7 @@ static imp_status map_apply_of(const void *self, const imp_model in[4], imp_mode
 {
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     memcpy(i->worker->channel->work.in, in, 4 * sizeof *in);
     status = worker_request(i->worker, i->user, REQUEST_INCLUDE);
     memcpy(out, i->worker->channel->work.out, 3 * sizeof *out);
@@ -173,7 +173,7 @@ static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *p
 {
     isolated *i = stand_in_of(self);
     imp_status status = enter(i);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     i->worker->channel->work.in[3] = *t;
     i->worker->channel->work.pose = *pose;
     status = worker_request(i->worker, i->user, REQUEST_POSE);

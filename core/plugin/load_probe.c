@@ -76,7 +76,7 @@ static void refuse_by_fate(load_outcome *outcome, child_fate fate)
     else if (fate.number >= 0)
         load_outcome_refuse(outcome, LOAD_PROBE, "trial",
                             "loading it ends the process with status %d; a plugin must not exit: "
-                            "return IMP_INTERNAL from create instead",
+                            "return IMP_STATUS_INTERNAL from create instead",
                             fate.number);
     else
         load_outcome_refuse(outcome, LOAD_OPEN, "trial",

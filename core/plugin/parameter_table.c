@@ -36,7 +36,7 @@ const char *parameter_table_nearest(const parameter_table *table, const char *na
 parameter_words parameter_range_words(const imp_parameter *row)
 {
     parameter_words words;
-    bool above = row->flags & IMP_MIN_OPEN, below = row->flags & IMP_MAX_OPEN;
+    bool above = row->flags & IMP_PARAMETER_MIN_OPEN, below = row->flags & IMP_PARAMETER_MAX_OPEN;
     text_number min = text_of_number(row->min), max = text_of_number(row->max);
     if (isfinite(row->min) && isfinite(row->max))
         snprintf(words.at, sizeof words.at, "in %s%s, %s%s", above ? "(" : "[", min.at, max.at,
@@ -53,13 +53,13 @@ parameter_words parameter_range_words(const imp_parameter *row)
 static const char *kind_word(imp_kind kind, bool many)
 {
     switch (kind) {
-    case IMP_NUMBER:
+    case IMP_KIND_NUMBER:
         return many ? "numbers" : "a number";
-    case IMP_INTEGER:
+    case IMP_KIND_INTEGER:
         return many ? "whole numbers" : "a whole number";
-    case IMP_BOOLEAN:
+    case IMP_KIND_BOOLEAN:
         return many ? "booleans" : "true or false";
-    case IMP_STRING:
+    case IMP_KIND_STRING:
         return many ? "strings" : "a string";
     default:
         return many ? "objects of numbers" : "an object of numbers";
@@ -68,7 +68,8 @@ static const char *kind_word(imp_kind kind, bool many)
 
 static bool has_range(const imp_parameter *row)
 {
-    bool counts = row->kind == IMP_NUMBER || row->kind == IMP_INTEGER || row->kind == IMP_TABLE;
+    bool counts = row->kind == IMP_KIND_NUMBER || row->kind == IMP_KIND_INTEGER ||
+                  row->kind == IMP_KIND_TABLE;
     return counts && (isfinite(row->min) || isfinite(row->max));
 }
 

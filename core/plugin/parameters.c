@@ -52,8 +52,8 @@ static bool reserve_string(reader *r)
 
 static imp_code add(reader *r, double number, const char *string)
 {
-    bool numbers = r->row->kind != IMP_STRING;
-    bool strings = r->row->kind == IMP_STRING || r->row->kind == IMP_TABLE;
+    bool numbers = r->row->kind != IMP_KIND_STRING;
+    bool strings = r->row->kind == IMP_KIND_STRING || r->row->kind == IMP_KIND_TABLE;
     if ((numbers && !reserve_number(r)) || (strings && !reserve_string(r)))
         return error_set_memory(r->error);
     if (numbers) r->number[r->value->count] = number;
@@ -70,20 +70,20 @@ static imp_code refuse(reader *r, const json_t *json, uint32_t depth, const plac
 
 static bool is_in_range(const imp_parameter *row, double x)
 {
-    bool above = row->flags & IMP_MIN_OPEN ? x > row->min : x >= row->min;
-    bool below = row->flags & IMP_MAX_OPEN ? x < row->max : x <= row->max;
+    bool above = row->flags & IMP_PARAMETER_MIN_OPEN ? x > row->min : x >= row->min;
+    bool below = row->flags & IMP_PARAMETER_MAX_OPEN ? x < row->max : x <= row->max;
     return isfinite(x) && above && below;
 }
 
 static imp_code read_number(reader *r, const json_t *json, const char *name, const place *at)
 {
     const imp_parameter *row = r->row;
-    if (!json_is_number(json) && row->kind == IMP_TABLE)
+    if (!json_is_number(json) && row->kind == IMP_KIND_TABLE)
         return place_error(at, r->error, IMP_ERROR_SCENE, "got %s, must be a number",
                            json_describe(json).at);
     if (!json_is_number(json)) return refuse(r, json, row->rank, at);
     double x = json_number_value(json);
-    if (row->kind == IMP_INTEGER && !(fabs(x) <= INTEGER_MAX && floor(x) == x))
+    if (row->kind == IMP_KIND_INTEGER && !(fabs(x) <= INTEGER_MAX && floor(x) == x))
         return refuse(r, json, row->rank, at);
     if (!is_in_range(row, x))
         return place_error(at, r->error, IMP_ERROR_SCENE, "got %s, must be %s",
@@ -118,12 +118,12 @@ static imp_code read_table(reader *r, const json_t *json, const place *at)
 static imp_code read_leaf(reader *r, const json_t *json, const place *at)
 {
     switch (r->row->kind) {
-    case IMP_BOOLEAN:
+    case IMP_KIND_BOOLEAN:
         if (!json_is_boolean(json)) return refuse(r, json, r->row->rank, at);
         return add(r, json_is_true(json) ? 1 : 0, NULL);
-    case IMP_STRING:
+    case IMP_KIND_STRING:
         return read_string(r, json, at);
-    case IMP_TABLE:
+    case IMP_KIND_TABLE:
         return read_table(r, json, at);
     default:
         return read_number(r, json, NULL, at);
@@ -159,7 +159,7 @@ static imp_code read_level(reader *r, const json_t *json, uint32_t depth, const 
 
 static bool is_bare_scalar(const imp_parameter *row, const json_t *json)
 {
-    return row->rank == 1 && (row->flags & IMP_SCALAR_OK) && !json_is_array(json);
+    return row->rank == 1 && (row->flags & IMP_PARAMETER_SCALAR_OK) && !json_is_array(json);
 }
 
 imp_code parameters_read_value(const imp_parameter *row, const json_t *json, const place *at,
@@ -234,7 +234,7 @@ static imp_code read_absent(const imp_parameter *row, const place *at, parameter
                             imp_value *value, imp_error *error)
 {
     for (uint32_t k = row->rank; k < IMP_RANK_MAX; ++k) value->extent[k] = 1;
-    if (row->flags & IMP_OPTIONAL) return IMP_SUCCESS;
+    if (row->flags & IMP_PARAMETER_OPTIONAL) return IMP_SUCCESS;
     if (row->default_value == NULL)
         return place_error(at, error, IMP_ERROR_SCENE, "'%s' is missing; it must be %s", row->name,
                            parameter_shape_words(row, 0).at);
@@ -252,7 +252,8 @@ static imp_code whole_name(const imp_parameter *row, const char *folder, paramet
                            const json_t **json, imp_error *error)
 {
     const char *name = json_string_value(*json);
-    if ((row->flags & IMP_FILE) == 0 || folder == NULL || name == NULL) return IMP_SUCCESS;
+    if ((row->flags & IMP_PARAMETER_FILE) == 0 || folder == NULL || name == NULL)
+        return IMP_SUCCESS;
     if (name[0] == '/' || name[0] == '\0') return IMP_SUCCESS;
     char *path = malloc(strlen(folder) + strlen(name) + 1);
     if (path == NULL) return error_set_memory(error);

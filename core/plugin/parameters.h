@@ -15,7 +15,7 @@
  * and what is unknown. A type's create checks only what the table cannot say.
  *
  * JSON numbers are expected as reals, whole ones too (JSON_DECODE_INT_AS_REAL): the text then
- * may have numbers of any length, and IMP_INTEGER takes 3.0 for 3. */
+ * may have numbers of any length, and IMP_KIND_INTEGER takes 3.0 for 3. */
 
 #define PARAMETERS_JSON_FLAGS (JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL)
 
@@ -31,7 +31,7 @@ typedef struct parameter_values {
 } parameter_values;
 
 /* Reads the parameters of the type called `type` from `object`, which is at `at`. Relative names
- * of files (IMP_FILE) begin at `folder`, which ends in '/', or if it is NULL where the process does.
+ * of files (IMP_PARAMETER_FILE) begin at `folder`, which ends in '/', or if it is NULL where the process does.
  * On failure there is nothing to clear. */
 imp_code parameters_read(const parameter_table *table, const char *type, const json_t *object,
                          const char *folder, const place *at, parameter_values *values,

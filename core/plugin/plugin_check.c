@@ -15,7 +15,7 @@
 #define TYPES_MAX 4096u
 #define PARAMETERS_MAX 256u
 
-#define PARAMETER_FLAGS (IMP_MIN_OPEN | IMP_MAX_OPEN | IMP_SCALAR_OK | IMP_OPTIONAL | IMP_FILE)
+#define PARAMETER_FLAGS (IMP_PARAMETER_MIN_OPEN | IMP_PARAMETER_MAX_OPEN | IMP_PARAMETER_SCALAR_OK | IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_FILE)
 
 /* --- The entry ----------------------------------------------------------------------- */
 
@@ -113,22 +113,22 @@ static const char *row_texts_fault(const imp_parameter *row)
 
 static const char *row_shape_fault(const imp_parameter *row)
 {
-    if (row->kind < IMP_NUMBER || row->kind > IMP_TABLE) return "kind: is unknown";
+    if (row->kind < IMP_KIND_NUMBER || row->kind > IMP_KIND_TABLE) return "kind: is unknown";
     if (row->flags & ~(uint32_t)PARAMETER_FLAGS) return "flags: has unknown bits";
     if (row->rank > IMP_RANK_MAX) return "rank: is more than 3";
-    if (row->kind == IMP_TABLE && row->rank != 0) return "rank: of a table must be 0";
-    if (row->flags & IMP_SCALAR_OK && (row->rank != 1 || row->extent[0] > 1))
-        return "flags: IMP_SCALAR_OK is for rank 1 with extent 0 or 1";
-    if (row->flags & IMP_OPTIONAL && row->default_value != NULL)
-        return "flags: IMP_OPTIONAL means absent when left out, so default_value must be NULL";
-    if (row->flags & IMP_FILE && (row->kind != IMP_STRING || row->rank != 0))
-        return "flags: IMP_FILE is for IMP_STRING of rank 0";
+    if (row->kind == IMP_KIND_TABLE && row->rank != 0) return "rank: of a table must be 0";
+    if (row->flags & IMP_PARAMETER_SCALAR_OK && (row->rank != 1 || row->extent[0] > 1))
+        return "flags: IMP_PARAMETER_SCALAR_OK is for rank 1 with extent 0 or 1";
+    if (row->flags & IMP_PARAMETER_OPTIONAL && row->default_value != NULL)
+        return "flags: IMP_PARAMETER_OPTIONAL means absent when left out, so default_value must be NULL";
+    if (row->flags & IMP_PARAMETER_FILE && (row->kind != IMP_KIND_STRING || row->rank != 0))
+        return "flags: IMP_PARAMETER_FILE is for IMP_KIND_STRING of rank 0";
     return NULL;
 }
 
 static const char *row_range_fault(const imp_parameter *row)
 {
-    bool open = row->flags & (IMP_MIN_OPEN | IMP_MAX_OPEN);
+    bool open = row->flags & (IMP_PARAMETER_MIN_OPEN | IMP_PARAMETER_MAX_OPEN);
     if (!(row->min <= row->max)) return "min, max: min must not exceed max, nor be NaN";
     if (row->min == row->max && (open || isinf(row->min))) return "min, max: no value is allowed";
     return NULL;
@@ -228,7 +228,7 @@ static imp_code check_size(uint32_t size, size_t least, const char *const *name,
 static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 {
     imp_code code = check_size(type->struct_size, SURFACE_TYPE_FIRST, &type->name,
-                               type->flags, IMP_ABSENT_OUTSIDE_TIMES, error);
+                               type->flags, IMP_FLAG_ABSENT_OUTSIDE_TIMES, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_surface(type);
     const char *null_callback = type->create == NULL    ? "create"
@@ -250,7 +250,7 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 
 static imp_code check_map(const imp_map_type *type, imp_error *error)
 {
-    const uint32_t flags = IMP_ABSENT_OUTSIDE_TIMES | IMP_TURNS_EXACTLY;
+    const uint32_t flags = IMP_FLAG_ABSENT_OUTSIDE_TIMES | IMP_FLAG_TURNS_EXACTLY;
     imp_code code = check_size(type->struct_size, MAP_TYPE_FIRST, &type->name, type->flags, flags, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_map(type);

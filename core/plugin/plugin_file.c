@@ -13,6 +13,8 @@
 #include <errno.h>
 #include <stdlib.h>
 
+#include <impinge/examine.h>
+
 #define ENTRY "impinge_plugin"
 
 static void step_read(plugin_file *plugin, const char *path, load_outcome *out)
@@ -196,13 +198,14 @@ imp_code plugin_file_link(plugin_file *plugin, const imp_plugin *entry, imp_erro
 static bool examine(const char *path, imp_finding_sink tell, void *context)
 {
     elf_probe facts;
-    const imp_finding findings[] = {IMP_NOT_REACHED, IMP_PASSED, IMP_REFUSED};
+    const imp_finding findings[] = {IMP_FINDING_NOT_REACHED, IMP_FINDING_PASSED,
+                                    IMP_FINDING_REFUSED};
     const bool good = elf_probe_file(path, true, &facts);
     for (int k = 0; k < PROBE_CHECKS; ++k)
         tell(context, facts.check[k].name, findings[facts.check[k].verdict], facts.check[k].text);
     char *absolute = good ? realpath(path, NULL) : NULL;
     if (absolute == NULL) {
-        tell(context, "trial", IMP_NOT_REACHED, "");
+        tell(context, "trial", IMP_FINDING_NOT_REACHED, "");
         return false;
     }
     load_outcome out;
@@ -212,11 +215,12 @@ static bool examine(const char *path, imp_finding_sink tell, void *context)
     load_cache_close(cache);
     free(absolute);
     if (out.code == IMP_SUCCESS)
-        tell(context, "trial", IMP_PASSED, "loads in a child process, and its tables are in order");
+        tell(context, "trial", IMP_FINDING_PASSED,
+             "loads in a child process, and its tables are in order");
     else if (out.code == IMP_ERROR_MEMORY)
-        tell(context, "trial", IMP_REFUSED, "out of memory");
+        tell(context, "trial", IMP_FINDING_REFUSED, "out of memory");
     else
-        tell(context, out.check, IMP_REFUSED, out.error.text);
+        tell(context, out.check, IMP_FINDING_REFUSED, out.error.text);
     return out.code == IMP_SUCCESS;
 }
 

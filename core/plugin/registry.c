@@ -22,13 +22,13 @@ const found_type *registry_find(const imp_registry *r, imp_type_kind kind, const
 
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name)
 {
-    const found_type *found = registry_find(registry, IMP_KIND_SURFACE, name);
+    const found_type *found = registry_find(registry, IMP_TYPE_SURFACE, name);
     return found != NULL ? found->type : NULL;
 }
 
 const imp_map_type *registry_find_map(const imp_registry *registry, const char *name)
 {
-    const found_type *found = registry_find(registry, IMP_KIND_MAP, name);
+    const found_type *found = registry_find(registry, IMP_TYPE_MAP, name);
     return found != NULL ? found->type : NULL;
 }
 
@@ -91,8 +91,8 @@ static bool unknown_name(const imp_registry *r, const char *list, char name[TEXT
 {
     for (const char *c = list + 1; *c != '\0'; c += strcspn(c, ",") + 1) {
         snprintf(name, TEXT_NAME_MAX + 1, "%.*s", (int)strcspn(c, ","), c);
-        if (registry_find(r, IMP_KIND_SURFACE, name) == NULL &&
-            registry_find(r, IMP_KIND_MAP, name) == NULL)
+        if (registry_find(r, IMP_TYPE_SURFACE, name) == NULL &&
+            registry_find(r, IMP_TYPE_MAP, name) == NULL)
             return true;
     }
     return false;

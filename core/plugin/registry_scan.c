@@ -37,8 +37,8 @@ static bool add_refusal(imp_registry *r, const char *file, const char *reason)
 /* Appends to "core"; all words together fit. */
 static void list_capabilities(found_type *found)
 {
-    const imp_surface_type *surface = found->kind == IMP_KIND_SURFACE ? found->type : NULL;
-    const imp_map_type *map = found->kind == IMP_KIND_MAP ? found->type : NULL;
+    const imp_surface_type *surface = found->kind == IMP_TYPE_SURFACE ? found->type : NULL;
+    const imp_map_type *map = found->kind == IMP_TYPE_MAP ? found->type : NULL;
     const bool second = surface != NULL ? surface->include != NULL : map->apply != NULL;
     const bool net = surface != NULL ? surface->net != NULL : map->net != NULL;
     const bool pieces = surface != NULL && instance_offers_pieces(surface);
@@ -69,12 +69,12 @@ static bool add_types(imp_registry *r, const loaded_plugin *plugin)
     const imp_surface_factory *surfaces = plugin->file.surfaces;
     for (uint32_t i = 0; surfaces != NULL && i < surfaces->count; ++i) {
         const imp_surface_type *type = surfaces->types[i];
-        if (!add_type(r, plugin, IMP_KIND_SURFACE, type, type_view_of_surface(type))) return false;
+        if (!add_type(r, plugin, IMP_TYPE_SURFACE, type, type_view_of_surface(type))) return false;
     }
     const imp_map_factory *maps = plugin->file.maps;
     for (uint32_t i = 0; maps != NULL && i < maps->count; ++i) {
         const imp_map_type *type = maps->types[i];
-        if (!add_type(r, plugin, IMP_KIND_MAP, type, type_view_of_map(type))) return false;
+        if (!add_type(r, plugin, IMP_TYPE_MAP, type, type_view_of_map(type))) return false;
     }
     return true;
 }

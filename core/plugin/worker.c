@@ -158,7 +158,7 @@ static imp_status look(const worker *w)
 {
     siginfo_t end;
     if (!find_end(w, WEXITED, &end)) return SURFACE_CRASHED;
-    if (end.si_pid == 0) return IMP_OK;
+    if (end.si_pid == 0) return IMP_STATUS_OK;
     return end.si_code != CLD_EXITED && end.si_status == SIGKILL ? SURFACE_KILLED : SURFACE_CRASHED;
 }
 
@@ -188,7 +188,7 @@ static imp_status await_reply(worker *w, const void *user)
             if (atomic_load(&c->answering) == c->number) return c->work.status;
         } else if (errno == ETIMEDOUT) {
             const imp_status end = look(w);
-            if (end != IMP_OK) return end_with(w, user, end);
+            if (end != IMP_STATUS_OK) return end_with(w, user, end);
         }
         until = in_a_glance();
     }
@@ -198,7 +198,7 @@ static imp_status await_reply(worker *w, const void *user)
 bool worker_runs(worker *w)
 {
     pthread_mutex_lock(&w->lock);
-    const bool runs = w->end == IMP_OK;
+    const bool runs = w->end == IMP_STATUS_OK;
     pthread_mutex_unlock(&w->lock);
     return runs;
 }
@@ -207,7 +207,7 @@ imp_status worker_enter(worker *w, const void *user)
 {
     if (w->owner != getpid()) return SURFACE_FORKED;
     pthread_mutex_lock(&w->lock);
-    if (w->end == IMP_OK) return IMP_OK;
+    if (w->end == IMP_STATUS_OK) return IMP_STATUS_OK;
     const imp_status end = w->culprit == user ? w->end : SURFACE_LOST;
     pthread_mutex_unlock(&w->lock);
     return end;

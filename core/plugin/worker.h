@@ -37,7 +37,7 @@ typedef struct worker {
     pid_t process;       /* 0: none any more */
     pid_t owner;         /* the process that started it */
     int lifeline;        /* end of a pipe: the kernel kills the worker when it is closed */
-    imp_status end;      /* IMP_OK while it runs */
+    imp_status end;      /* IMP_STATUS_OK while it runs */
     const void *culprit; /* the instance whose request ended it */
     size_t users;        /* instances that exist; guarded by the pool */
 } worker;
@@ -52,7 +52,7 @@ bool worker_runs(worker *w);
 void worker_end(worker *w);
 
 /* Takes the channel for one request of the instance `user` (an address, for comparison only).
- * IMP_OK: fill in the request, call worker_request and read the reply, then worker_leave. Anything
+ * IMP_STATUS_OK: fill in the request, call worker_request and read the reply, then worker_leave. Anything
  * else: the channel was not entered. */
 imp_status worker_enter(worker *w, const void *user);
 imp_status worker_request(worker *w, const void *user, channel_request what);

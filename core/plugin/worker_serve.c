@@ -40,7 +40,7 @@ static void begin(const server *s, channel_callback what)
 static imp_status out_of_memory(channel_work *w)
 {
     snprintf(w->why.text, sizeof w->why.text, "out of memory in the process that isolates it");
-    return IMP_INTERNAL;
+    return IMP_STATUS_INTERNAL;
 }
 
 static imp_status receive(server *s)
@@ -53,7 +53,7 @@ static imp_status receive(server *s)
     }
     memcpy(s->bytes + s->length, s->with->bytes, w->n);
     s->length += w->n;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status create_with(server *s, const imp_value *values)
@@ -63,11 +63,11 @@ static imp_status create_with(server *s, const imp_value *values)
     begin(s, CALLBACK_CREATE);
     const imp_status status = type.surface != NULL ? type.surface->create(values, &w->self, &w->why)
                                                    : type.map->create(values, &w->self, &w->why);
-    if (status != IMP_OK || w->self == NULL) return status;
+    if (status != IMP_STATUS_OK || w->self == NULL) return status;
     if (type.surface == NULL) {
         begin(s, CALLBACK_TIME_DOMAIN);
         type.map->time_domain(w->self, &w->lo[0], &w->hi[0]);
-        if (!instance_offers_span(type.map)) return IMP_OK;
+        if (!instance_offers_span(type.map)) return IMP_STATUS_OK;
         begin(s, CALLBACK_SPAN);
         type.map->span(w->self, &w->lo[1], &w->hi[1]);
     } else if (instance_offers_pieces(type.surface)) {
@@ -77,7 +77,7 @@ static imp_status create_with(server *s, const imp_value *values)
         begin(s, CALLBACK_DOMAIN);
         type.surface->domain(w->self, w->lo, w->hi);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status piece(server *s)
@@ -85,20 +85,20 @@ static imp_status piece(server *s)
     channel_work *w = &s->work;
     begin(s, CALLBACK_PIECE);
     w->piece = s->type.surface->piece(w->self, w->n);
-    if (w->piece == NULL) return IMP_OK;
+    if (w->piece == NULL) return IMP_STATUS_OK;
     begin(s, CALLBACK_DOMAIN);
     s->type.surface->domain(w->piece, w->lo, w->hi);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status create(server *s)
 {
     channel_work *w = &s->work;
     imp_value *values = w->n > 0 ? value_bytes_read(s->bytes, w->n) : NULL;
-    imp_status status = w->n == 0 || values != NULL ? IMP_OK : out_of_memory(w);
+    imp_status status = w->n == 0 || values != NULL ? IMP_STATUS_OK : out_of_memory(w);
     w->self = NULL;
     w->pieces = 0;
-    if (status == IMP_OK) status = create_with(s, values);
+    if (status == IMP_STATUS_OK) status = create_with(s, values);
     free(values);
     free(s->bytes);
     s->bytes = NULL;
@@ -112,7 +112,7 @@ static imp_status destroy(server *s)
         s->type.surface->destroy(s->work.self);
     else
         s->type.map->destroy(s->work.self);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status obey_surface(channel_work *w, const imp_surface_type *type)

@@ -14,7 +14,7 @@
  * is not finite or a text that is not UTF-8, which *bad then says. */
 static json_t *leaf(const imp_argument *a, size_t k, bool *bad)
 {
-    if (a->kind == IMP_STRING) {
+    if (a->kind == IMP_KIND_STRING) {
         const char *text = a->rank == 0 ? a->text : a->string[k];
         *bad = text == NULL || !text_is_utf8(text);
         return *bad ? NULL : json_string(text);
@@ -22,7 +22,7 @@ static json_t *leaf(const imp_argument *a, size_t k, bool *bad)
     const double x = a->rank == 0 ? a->single : a->number[k];
     *bad = !isfinite(x);
     if (*bad) return NULL;
-    return a->kind == IMP_BOOLEAN ? json_boolean(x != 0) : json_real(x);
+    return a->kind == IMP_KIND_BOOLEAN ? json_boolean(x != 0) : json_real(x);
 }
 
 typedef struct walk {
@@ -35,7 +35,7 @@ typedef struct walk {
 static imp_code refuse_leaf(const walk *w)
 {
     const imp_argument *a = w->argument;
-    if (a->kind == IMP_STRING)
+    if (a->kind == IMP_KIND_STRING)
         return place_error(w->at, w->error, IMP_ERROR_SCENE,
                            "element %zu is NULL or not UTF-8, must be strings of UTF-8",
                            w->next);
@@ -91,17 +91,17 @@ static imp_code table(const imp_argument *a, const place *at, json_t **made, imp
 static imp_code check(const imp_argument *a, const place *at, imp_error *error)
 {
     size_t elements = 1;
-    if (a->kind < IMP_NUMBER || a->kind > IMP_TABLE || a->rank > IMP_RANK_MAX)
+    if (a->kind < IMP_KIND_NUMBER || a->kind > IMP_KIND_TABLE || a->rank > IMP_RANK_MAX)
         return place_error(at, error, IMP_ERROR_USAGE, "kind %u of rank %u does not exist",
                            (unsigned)a->kind, (unsigned)a->rank);
-    const bool is_table = a->kind == IMP_TABLE;
+    const bool is_table = a->kind == IMP_KIND_TABLE;
     for (uint32_t k = 0; k < a->rank; ++k)
         if (__builtin_mul_overflow(elements, a->extent[k], &elements) || a->extent[k] == 0)
             return place_error(at, error, IMP_ERROR_SCENE,
                                "extent %u is %zu, must be from 1 to what memory holds", (unsigned)k,
                                a->extent[k]);
-    const bool numbers = a->kind != IMP_STRING && (a->rank > 0 || is_table);
-    const bool strings = (a->kind == IMP_STRING && a->rank > 0) || is_table;
+    const bool numbers = a->kind != IMP_KIND_STRING && (a->rank > 0 || is_table);
+    const bool strings = (a->kind == IMP_KIND_STRING && a->rank > 0) || is_table;
     if ((numbers && a->number == NULL) || (strings && a->string == NULL))
         return place_error(at, error, IMP_ERROR_USAGE, "the array is NULL");
     return IMP_SUCCESS;
@@ -118,7 +118,7 @@ static imp_code add(json_t *object, const imp_argument *a, const place *up, imp_
     imp_code code = check(a, &at, error);
     walk w = {.argument = a, .at = &at, .error = error};
     if (code == IMP_SUCCESS)
-        code = a->kind == IMP_TABLE ? table(a, &at, &value, error) : level(&w, 0, &value);
+        code = a->kind == IMP_KIND_TABLE ? table(a, &at, &value, error) : level(&w, 0, &value);
     if (code == IMP_SUCCESS && json_object_set_new(object, a->name, value) != 0)
         code = error_set_memory(error);
     return code;

@@ -89,19 +89,19 @@ imp_code imp_builder_time(imp_builder *b, double start, double end, imp_error *e
     return IMP_SUCCESS;
 }
 
-imp_code imp_builder_gamma(imp_builder *b, double gamma, double clearance, imp_error *error)
+imp_code imp_builder_gamma(imp_builder *b, double gamma, double gamma_clear, imp_error *error)
 {
     const imp_code code = enter(b, error);
     if (code != IMP_SUCCESS) return code;
     if (!(gamma > 0 && gamma < INFINITY))
         return error_set(error, IMP_ERROR_USAGE, "gamma: got %.17g, must be > 0 and finite",
                          gamma);
-    if (!(clearance < gamma))
+    if (!(gamma_clear < gamma))
         return error_set(error, IMP_ERROR_USAGE,
-                         "clearance: got %.17g, must be below gamma = %.17g", clearance, gamma);
+                         "gamma_clear: got %.17g, must be below gamma = %.17g", gamma_clear, gamma);
     scene_settings *s = scene_settings_of(b->bodies.assembly.scene);
     s->gamma = gamma;
-    s->clearance = clearance;
+    s->gamma_clear = gamma_clear;
     return IMP_SUCCESS;
 }
 
@@ -141,7 +141,7 @@ static FP_APART imp_code add_surface(imp_builder *b, size_t body, const char *ty
     const place whole = place_argument(NULL, words.at), at = place_argument(&whole, surface_words);
     const instance_list no_maps = {.count = 0};
     shared_instance *made = NULL;
-    imp_code code = make(b, IMP_KIND_SURFACE, type, arguments, count, &at, &made, error);
+    imp_code code = make(b, IMP_TYPE_SURFACE, type, arguments, count, &at, &made, error);
     if (code == IMP_SUCCESS && !shape_list_add(shapes, made, &no_maps))
         code = error_set_memory(error);
     instance_release(made);
@@ -170,7 +170,7 @@ static FP_APART imp_code add_map(imp_builder *b, size_t body, const char *whose,
     snprintf(map_words, sizeof map_words, "%smap %zu", whose, maps->count);
     const place whole = place_argument(NULL, words.at), at = place_argument(&whole, map_words);
     shared_instance *made = NULL;
-    imp_code code = make(b, IMP_KIND_MAP, type, arguments, count, &at, &made, error);
+    imp_code code = make(b, IMP_TYPE_MAP, type, arguments, count, &at, &made, error);
     if (code == IMP_SUCCESS && !instance_list_add(maps, made)) code = error_set_memory(error);
     instance_release(made);
     return code;

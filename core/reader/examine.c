@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <impinge/examine.h>
+
 #include "core/base/fp_mode.h"
 #include "core/reader/json_text.h"
 #include "core/reader/pipeline.h"
@@ -16,7 +18,7 @@ FP_APART static imp_code from_text(imp_registry *registry, imp_type_kind kind, c
         return error_set_missing(error, "imp_instance_from_text");
     imp_error own;
     imp_error *why = error != NULL ? error : &own;
-    const char *who = kind == IMP_KIND_SURFACE ? "surface" : "map";
+    const char *who = kind == IMP_TYPE_SURFACE ? "surface" : "map";
     json_t *stage = pipeline_read_stage(registry, kind, who, text, why);
     if (stage == NULL) return why->code;
     place at = place_argument(NULL, who);
@@ -42,7 +44,7 @@ FP_APART static char *stage_to_json(const imp_registry *registry, imp_type_kind 
         error_set_missing(error, "imp_stage_to_json");
         return NULL;
     }
-    const char *who = kind == IMP_KIND_SURFACE ? "surface" : "map";
+    const char *who = kind == IMP_TYPE_SURFACE ? "surface" : "map";
     json_t *stage = pipeline_read_stage(registry, kind, who, text, error);
     if (stage == NULL) return NULL;
     char *json = json_text_of(stage, error);

@@ -78,7 +78,7 @@ static bool has_text(const json_t *from)
 
 static bool is_kept(imp_type_kind kind, const json_t *from)
 {
-    return json_is_object(from) && (kind == IMP_KIND_MAP || has_text(from));
+    return json_is_object(from) && (kind == IMP_TYPE_MAP || has_text(from));
 }
 
 /* --- The table --------------------------------------------------------------------------------------- */
@@ -92,7 +92,7 @@ static uint64_t hash_of(imp_type_kind kind, const json_t *from)
 
 static imp_type_kind kind_of(const shared_instance *p)
 {
-    return p->map != NULL ? IMP_KIND_MAP : IMP_KIND_SURFACE;
+    return p->map != NULL ? IMP_TYPE_MAP : IMP_TYPE_SURFACE;
 }
 
 /* The entry of an equal description, or the empty one where it belongs. */

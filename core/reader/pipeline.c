@@ -216,7 +216,7 @@ json_t *pipeline_read_stage(const imp_registry *registry, imp_type_kind kind, co
     bool more;
     if (!begin(&r, registry, who, line, error)) return NULL;
     json_t *stage = json_object();
-    imp_code code = read_stage(&r, stage, kind == IMP_KIND_MAP, &more);
+    imp_code code = read_stage(&r, stage, kind == IMP_TYPE_MAP, &more);
     if (code == IMP_SUCCESS && more)
         code = fail(&r, r.at - 1, "got '!', expected the end of the line");
     if (code == IMP_SUCCESS) return stage;

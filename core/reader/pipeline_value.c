@@ -140,7 +140,7 @@ imp_code pipeline_value_read(const imp_parameter *row, const char *text, size_t 
                              json_t **json, char *why, size_t why_size)
 {
     bool list = find_comma(text, length) < length;
-    if (row != NULL && row->kind == IMP_STRING) {
+    if (row != NULL && row->kind == IMP_KIND_STRING) {
         if (row->rank == 0) return read_string(text, length, json, why, why_size);
         if (text[0] != '[') return read_strings(text, length, json, why, why_size);
     }

@@ -19,14 +19,14 @@
 
 static const char *kind_word(imp_type_kind kind)
 {
-    return kind == IMP_KIND_SURFACE ? "surface type" : "map";
+    return kind == IMP_TYPE_SURFACE ? "surface type" : "map";
 }
 
 /* A name that is unknown, perhaps because it is of the other kind. */
 static imp_code refuse_type(const imp_registry *registry, imp_type_kind kind, const char *name,
                             const place *at, imp_error *error)
 {
-    imp_type_kind other = kind == IMP_KIND_SURFACE ? IMP_KIND_MAP : IMP_KIND_SURFACE;
+    imp_type_kind other = kind == IMP_TYPE_SURFACE ? IMP_TYPE_MAP : IMP_TYPE_SURFACE;
     const char *verb = "`impinge list` shows what there is";
     if (registry_find_file(registry, other, name) != NULL)
         return place_error(at, error, IMP_ERROR_SCENE, "got the %s '%s', must be a %s; %s",
@@ -73,14 +73,14 @@ static imp_code judge_failure(imp_status status, const type_view *view, const ch
                               const parameter_values *values, imp_create_error *why,
                               const place *at, imp_error *error)
 {
-    if (status > IMP_INTERNAL) {
+    if (status > IMP_STATUS_INTERNAL) {
         const char *callback;
         active_callback_last(&callback);
         place_error(at, error, IMP_ERROR_PLUGIN, "%s of '%s' (%s) %s%s%s", callback, view->name,
                     file, surface_status_text(status), why->text[0] != '\0' ? ": " : "", why->text);
         return surface_set_code(status, error);
     }
-    if (status == IMP_PARAMETER)
+    if (status == IMP_STATUS_PARAMETER)
         return parameters_create_error(&view->table, values, why, at, error);
     char what[360];
     why->text[sizeof why->text - 1] = '\0';
@@ -137,9 +137,10 @@ static imp_code run_create(const type_view *view, isolated *stand_in, const char
     if (!is_whole(&g))
         return blame(file, view, "create wrote beyond the imp_create_error it was given", at,
                      error);
-    if (status != IMP_OK) return judge_failure(status, view, file, values, &g.why, at, error);
+    if (status != IMP_STATUS_OK)
+        return judge_failure(status, view, file, values, &g.why, at, error);
     if (*self == NULL)
-        return blame(file, view, "create returned IMP_OK without an instance", at, error);
+        return blame(file, view, "create returned IMP_STATUS_OK without an instance", at, error);
     if (kept) return IMP_SUCCESS;
     view->destroy(*self);
     fp_mode_kept(before);
@@ -179,7 +180,7 @@ imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, co
     imp_code code = read_type(object, kind, at, &name, error);
     if (code != IMP_SUCCESS) return code;
     imp_instance i = {.self = NULL};
-    if (kind == IMP_KIND_SURFACE)
+    if (kind == IMP_TYPE_SURFACE)
         i.surface = registry_find_surface(registry, name);
     else
         i.map = registry_find_map(registry, name);
@@ -269,17 +270,17 @@ imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, cons
     imp_instance i;
     imp_code code = scene_build_instance(source, kind, object, at, &i, error);
     if (code != IMP_SUCCESS) return code;
-    shared_instance *p = kind == IMP_KIND_SURFACE ? instance_of_surface(i.surface, i.self)
+    shared_instance *p = kind == IMP_TYPE_SURFACE ? instance_of_surface(i.surface, i.self)
                                                   : instance_of_map(i.map, i.self);
     if (p == NULL) return error_set_memory(error);
     p->given = bytes_given(object);
-    if (p->breach == IMP_OK && label_part(p, object)) {
+    if (p->breach == IMP_STATUS_OK && label_part(p, object)) {
         *made = p;
         return IMP_SUCCESS;
     }
     const char *name = json_string_value(json_object_get(object, "type"));
     code = error_set_memory(error);
-    if (p->breach != IMP_OK)
+    if (p->breach != IMP_STATUS_OK)
         code = place_error(at, error, IMP_ERROR_PLUGIN, "'%s' (%s) %s", name,
                            registry_find_file(source->registry, kind, name),
                            surface_status_of_last(p->breach).text);

@@ -9,6 +9,8 @@
 #include "core/plugin/registry.h"
 #include "core/surface/surface.h"
 
+#include <impinge/examine.h>
+
 /* From {"type": ..., parameters} to an instance of that type
  * ==========================================================
  * The one way by which plugins' create is called: parameters are read by the type's table,

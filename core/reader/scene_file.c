@@ -17,24 +17,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const scene_keys[] = {"time",   "gamma",   "clearance", "define",
-                                         "bodies", "ignore",  "id",        "reference",
-                                         "note",   "gravity", "events",    NULL};
+static const char *const scene_keys[] = {"time",   "gamma",   "gamma_clear", "define",
+                                         "bodies", "ignore",  "id",          "reference",
+                                         "note",   "gravity", "events",      NULL};
 static const char *const simulated_keys[] = {"gravity", NULL};
 
 /* --- Settings ------------------------------------------------------------------------ */
 
 /* Rows like those of a type, so that numbers of the scene are read by the same code. */
 static const imp_parameter time_row = {.name = "time",
-                                       .kind = IMP_NUMBER,
+                                       .kind = IMP_KIND_NUMBER,
                                        .rank = 1,
                                        .extent = {2},
                                        .min = -INFINITY,
                                        .max = INFINITY};
-static const imp_parameter gamma_row = {
-    .name = "gamma", .kind = IMP_NUMBER, .flags = IMP_MIN_OPEN, .min = 0, .max = INFINITY};
-static const imp_parameter clearance_row = {
-    .name = "clearance", .kind = IMP_NUMBER, .min = 0, .max = INFINITY};
+static const imp_parameter gamma_row = {.name = "gamma",
+                                        .kind = IMP_KIND_NUMBER,
+                                        .flags = IMP_PARAMETER_MIN_OPEN,
+                                        .min = 0,
+                                        .max = INFINITY};
+static const imp_parameter gamma_clear_row = {
+    .name = "gamma_clear", .kind = IMP_KIND_NUMBER, .min = 0, .max = INFINITY};
 
 /* Reads the numbers at the row's key into to[], if the key is there. */
 static imp_code read_numbers(const scene_bodies *b, const json_t *object, const imp_parameter *row,
@@ -55,11 +58,11 @@ static imp_code read_settings(scene_bodies *b, const json_t *root, const place *
     scene_settings *s = scene_settings_of(b->assembly.scene);
     double time[2] = {s->t_start, s->t_end};
     place at_time = place_key(at, "time"), at_gamma = place_key(at, "gamma");
-    place at_clearance = place_key(at, "clearance");
+    place at_gamma_clear = place_key(at, "gamma_clear");
     imp_code code = read_numbers(b, root, &time_row, &at_time, time);
     if (code == IMP_SUCCESS) code = read_numbers(b, root, &gamma_row, &at_gamma, &s->gamma);
     if (code == IMP_SUCCESS)
-        code = read_numbers(b, root, &clearance_row, &at_clearance, &s->clearance);
+        code = read_numbers(b, root, &gamma_clear_row, &at_gamma_clear, &s->gamma_clear);
     if (code != IMP_SUCCESS) return code;
     s->t_start = time[0];
     s->t_end = time[1];
@@ -68,10 +71,10 @@ static imp_code read_settings(scene_bodies *b, const json_t *root, const place *
             &at_time, b->error, IMP_ERROR_SCENE,
             "got the empty interval [%s, %s], must be [start, end] with start <= end",
             text_of_number(time[0]).at, text_of_number(time[1]).at);
-    if (s->clearance >= s->gamma)
-        return place_error(&at_clearance, b->error, IMP_ERROR_SCENE,
+    if (s->gamma_clear >= s->gamma)
+        return place_error(&at_gamma_clear, b->error, IMP_ERROR_SCENE,
                            "got %s, must be in [0, %s), below gamma",
-                           text_of_number(s->clearance).at, text_of_number(s->gamma).at);
+                           text_of_number(s->gamma_clear).at, text_of_number(s->gamma).at);
     return IMP_SUCCESS;
 }
 

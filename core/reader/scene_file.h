@@ -12,7 +12,7 @@
  *
  *     "time"       [start, end]; start <= end. Preset [0, 1]
  *     "gamma"      tolerance, > 0, length. Preset 1e-6
- *     "clearance"  nothing nearer is missed; in [0, gamma). Preset: half of gamma
+ *     "gamma_clear" nothing nearer is missed; in [0, gamma). Preset: half of gamma
  *     "define"     lists of surfaces or of maps by name: scene_instances.h
  *     "bodies"     at least one:
  *         "name"       unique; default "body0", "body1", ... by position

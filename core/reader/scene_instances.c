@@ -75,7 +75,7 @@ static imp_code refuse_name(const scene_instances *p, const char *name, const pl
 
 static const char *kind_words(imp_type_kind kind)
 {
-    return kind == IMP_KIND_SURFACE ? "surfaces" : "maps";
+    return kind == IMP_TYPE_SURFACE ? "surfaces" : "maps";
 }
 
 /* The kind of what it begins with; `otherwise` where that does not tell. */
@@ -91,7 +91,7 @@ static imp_type_kind kind_of(const scene_instances *p, const definition *d, imp_
     const bool is_surface = registry_find_surface(p->source.registry, type) != NULL;
     const bool is_map = registry_find_map(p->source.registry, type) != NULL;
     if (is_surface == is_map) return otherwise;
-    return is_surface ? IMP_KIND_SURFACE : IMP_KIND_MAP;
+    return is_surface ? IMP_TYPE_SURFACE : IMP_TYPE_MAP;
 }
 
 static imp_code read_definition(scene_instances *p, definition *d, imp_type_kind otherwise)
@@ -100,7 +100,7 @@ static imp_code read_definition(scene_instances *p, definition *d, imp_type_kind
     d->kind = kind_of(p, d, otherwise);
     d->state = DEFINITION_BEING_READ;
     p->depth += 1;
-    const imp_code code = d->kind == IMP_KIND_SURFACE
+    const imp_code code = d->kind == IMP_TYPE_SURFACE
                               ? scene_instances_surfaces(p, d->array, &at, &d->shapes)
                               : scene_instances_maps(p, d->array, &at, &d->maps);
     p->depth -= 1;
@@ -146,14 +146,14 @@ imp_code scene_instances_finish(scene_instances *p)
     imp_code code = IMP_SUCCESS;
     for (size_t k = 0; k < p->count && code == IMP_SUCCESS; ++k)
         if (p->definitions[k].state == DEFINITION_UNREAD)
-            code = read_definition(p, &p->definitions[k], IMP_KIND_SURFACE);
+            code = read_definition(p, &p->definitions[k], IMP_TYPE_SURFACE);
     return code;
 }
 
 /* --- Instances --------------------------------------------------------------------------------- */
 
-imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object, const place *at,
-                          shared_instance **made)
+imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object,
+                              const place *at, shared_instance **made)
 {
     shared_instance *known = instance_table_find(&p->made, kind, object);
     if (known != NULL) return *made = instance_hold(known), IMP_SUCCESS;
@@ -182,11 +182,11 @@ static imp_code add_map(scene_instances *p, json_t *element, const place *at, in
 {
     if (json_is_string(element)) {
         definition *used = NULL;
-        const imp_code code = use(p, json_string_value(element), IMP_KIND_MAP, at, &used);
+        const imp_code code = use(p, json_string_value(element), IMP_TYPE_MAP, at, &used);
         return code == IMP_SUCCESS ? keep(p, instance_list_add_all(to, &used->maps)) : code;
     }
     shared_instance *made = NULL;
-    imp_code code = scene_instances_make(p, IMP_KIND_MAP, element, at, &made);
+    imp_code code = scene_instances_make(p, IMP_TYPE_MAP, element, at, &made);
     if (code == IMP_SUCCESS) code = keep(p, instance_list_add(to, made));
     instance_release(made);
     return code;
@@ -206,13 +206,14 @@ imp_code scene_instances_maps(scene_instances *p, const json_t *array, const pla
 
 /* --- Surfaces --------------------------------------------------------------------------------- */
 
-imp_code scene_instances_surface(scene_instances *p, json_t *object, const place *at, shape_list *to)
+imp_code scene_instances_surface(scene_instances *p, json_t *object, const place *at,
+                                 shape_list *to)
 {
     shared_instance *type = NULL;
     instance_list maps = {.count = 0};
     json_t *array = NULL;
     const place member = at->argument ? *at : place_key(at, "maps");
-    imp_code code = scene_instances_make(p, IMP_KIND_SURFACE, object, at, &type);
+    imp_code code = scene_instances_make(p, IMP_TYPE_SURFACE, object, at, &type);
     if (code == IMP_SUCCESS) code = json_keys_array(object, "maps", false, at, &array, p->error);
     if (code == IMP_SUCCESS) code = scene_instances_maps(p, array, &member, &maps);
     if (code == IMP_SUCCESS) code = keep(p, shape_list_add(to, type, &maps));
@@ -230,7 +231,7 @@ imp_code scene_instances_surfaces(scene_instances *p, const json_t *array, const
         const place here = place_index(at, i);
         definition *used = NULL;
         if (json_is_string(element)) {
-            code = use(p, json_string_value(element), IMP_KIND_SURFACE, &here, &used);
+            code = use(p, json_string_value(element), IMP_TYPE_SURFACE, &here, &used);
             if (code == IMP_SUCCESS) code = keep(p, shape_list_add_all(to, &used->shapes));
         } else {
             code = scene_instances_surface(p, element, &here, to);

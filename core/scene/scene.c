@@ -302,10 +302,10 @@ static imp_code refusal(const surface *s, imp_status status, imp_error *why)
 {
     surface_fault(
         s, why, ": %s",
-        status == IMP_DOMAIN
+        status == IMP_STATUS_DOMAIN
             ? "is undefined there, or too large for a double, though that lies in its domain"
             : surface_status_told(s, status).text);
-    if (status != IMP_DOMAIN) return surface_set_code(status, why);
+    if (status != IMP_STATUS_DOMAIN) return surface_set_code(status, why);
     if (why != NULL) why->code = IMP_ERROR_USAGE;
     return IMP_ERROR_USAGE;
 }
@@ -344,8 +344,9 @@ FP_APART static imp_code eval(const imp_scene *scene, imp_place at, size_t n, co
     const surface *s = piece_at(scene, at);
     if (s == NULL) return no_surface(scene, at, why);
     const imp_status status = surface_eval(s, n, p, x, error);
-    if (status == IMP_DOMAIN && refuse_outside(s, n, p, why) != IMP_SUCCESS) return IMP_ERROR_USAGE;
-    return status == IMP_OK ? IMP_SUCCESS : refusal(s, status, why);
+    if (status == IMP_STATUS_DOMAIN && refuse_outside(s, n, p, why) != IMP_SUCCESS)
+        return IMP_ERROR_USAGE;
+    return status == IMP_STATUS_OK ? IMP_SUCCESS : refusal(s, status, why);
 }
 
 static bool is_inside(const surface *s, const double lo[3], const double hi[3])
@@ -371,7 +372,8 @@ FP_APART static imp_code include(const imp_scene *scene, imp_place at, const dou
                          at.body, at.surface, lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]);
     const imp_region region = region_make(lo, hi);
     const imp_status status = surface_include(s, &region, model);
-    return status == IMP_OK || status == IMP_UNBOUNDED ? IMP_SUCCESS : refusal(s, status, why);
+    return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED ? IMP_SUCCESS
+                                                                     : refusal(s, status, why);
 }
 
 imp_code imp_piece_eval(const imp_scene *scene, imp_place at, size_t n, const double *p, double *x,
@@ -454,11 +456,8 @@ void scene_options(const imp_scene *scene, imp_options *options)
                              .t_start = set->t_start,
                              .t_end = set->t_end,
                              .gamma = set->gamma,
-                             .clearance = set->clearance,
-                             .max_bytes = (uint64_t)1 << 30,
-                             .method = IMP_METHOD_MODELS,
-                             .bounds = IMP_BOUNDS_BOX,
-                             .rates = IMP_RATES_FULL};
+                             .gamma_clear = set->gamma_clear,
+                             .max_bytes = (uint64_t)1 << 30};
     double time[2];
     if (!isnan(set->t_start) || default_times(scene, time, NULL) != IMP_SUCCESS) return;
     options->t_start = time[0];
@@ -471,9 +470,9 @@ imp_code scene_check_times(const imp_scene *scene, double t_start, double t_end,
     return isnan(t_start) && isnan(t_end) ? default_times(scene, time, error) : IMP_SUCCESS;
 }
 
-imp_code imp_options_read(const imp_scene *scene, imp_options *options, imp_error *error)
+imp_code imp_options_get_default(const imp_scene *scene, imp_options *options, imp_error *error)
 {
-    if (scene == NULL) return error_set_missing(error, "imp_options_read");
+    if (scene == NULL) return error_set_missing(error, "imp_options_get_default");
     imp_options own;
     scene_options(scene, &own);
     const imp_code code = sized_check("imp_options", options, SCENE_OPTIONS_FIRST, error);

@@ -53,7 +53,7 @@ bool scene_is_defined(const imp_scene *scene, double t_start, double t_end);
 /* What the scene file asks for; the defaults of imp_options_default. Preset: NAN, NAN, 1e-6, -1. Times that
  * nobody has set are chosen by scene_complete (default_times), and stay NAN where there are none. */
 typedef struct scene_settings {
-    double t_start, t_end, gamma, clearance;
+    double t_start, t_end, gamma, gamma_clear;
 } scene_settings;
 scene_settings *scene_settings_of(imp_scene *scene);
 

@@ -139,9 +139,9 @@ static void begin_violation(clearance_search *c)
 {
     const imp_clearance *answer = &c->tasks[c->current].answer;
     c->violation = (impact){.gamma = c->asked.required,
-                            .clearance = searched(c),
+                            .gamma_clear = searched(c),
                             .window = {answer->t_start, answer->t_end},
-                            .method = IMP_METHOD_MODELS,
+                            .baseline = IMP_BASELINE_NONE,
                             .candidate_pairs = c->list->pairs,
                             .stats = c->stats,
                             .t_lower = answer->t_start};

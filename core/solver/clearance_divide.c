@@ -77,8 +77,9 @@ imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options 
                        imp_error *error)
 {
     if (check(asked, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
-    if (options->method != IMP_METHOD_MODELS)
-        return error_set(error, IMP_ERROR_USAGE, "method: clearance takes models only");
+    if (options->baseline != IMP_BASELINE_NONE)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "baseline: must be 0 where the minimum distance is asked for");
     clearance_search *c = calloc(1, sizeof *c);
     if (c == NULL) return error_set_memory(error);
     c->scene = scene;

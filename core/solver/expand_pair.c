@@ -70,7 +70,7 @@ static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *
     halves->has_heights = false;
     *some = true;
     if (!nodes_have_nets(p->a, p->b)) return IMP_SUCCESS;
-    net_halves_find(p->a, p->b, p->axis, im->clearance, &p->window, halves);
+    net_halves_find(p->a, p->b, p->axis, im->gamma_clear, &p->window, halves);
     const int count = halves->count;
     *some = count == 0 || halves->found[count - 1].half >= 0;
     if (count == 0 || !*some) return IMP_SUCCESS;
@@ -82,10 +82,10 @@ static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *
 /* --- Following one pair ------------------------------------------------------------------ */
 
 /* What is to be told apart; by default half of gamma. */
-static double room(const impact *im) { return im->gamma - im->clearance; }
+static double room(const impact *im) { return im->gamma - im->gamma_clear; }
 
 /* Whether both have nets so close to the surfaces that the nets' nearest points are within gamma
- * where the surfaces come within the clearance. */
+ * where the surfaces come within gamma_clear. */
 static bool have_close_nets(const impact *im, const pair *p)
 {
     return nodes_have_nets(p->a, p->b) &&
@@ -165,8 +165,9 @@ static imp_code expand_unbounded(impact *im, const pair *p, impact_state *state,
  * collision; any other is subdivided. */
 static imp_code expand_by_paper(impact *im, const pair *p, impact_state *state, imp_error *error)
 {
-    const double farthest = im->bounds == IMP_BOUNDS_BOX ? separation_farthest_of_boxes(p->a, p->b)
-                                                         : separation_farthest_of_balls(p->a, p->b);
+    const double farthest = (im->baseline & IMP_BASELINE_BOXES) != 0
+                                ? separation_farthest_of_boxes(p->a, p->b)
+                                : separation_farthest_of_balls(p->a, p->b);
     if (farthest <= im->gamma && !pair_has_cluster(p)) {
         witness seen;
         const imp_code code = find_witness(im, p, false, &seen, error);
@@ -262,7 +263,7 @@ static imp_code look(const impact *im, const pair *p, distance_outcome *seen, im
     *seen = distance_outcome_none(&p->window);
     if (!may_slide(p, is_parted, sliding)) return IMP_SUCCESS;
     const distance_sides both = pair_sides(p, candidate_pair_of(im, p));
-    const imp_code code = distance_cut_sides(&both, im->clearance, seen, error);
+    const imp_code code = distance_cut_sides(&both, im->gamma_clear, seen, error);
     if (is_parted) trial_rate_note(sliding, seen->is_apart || seen->side >= 0);
     return code;
 }
@@ -310,6 +311,6 @@ imp_code expand_pair(impact *im, pair *p, impact_state *state, imp_error *error)
     const imp_code code = candidate_pair_measure(candidate_pair_of(im, p), error);
     if (code != IMP_SUCCESS) return code;
     if (!p->a->bounded || !p->b->bounded) return expand_unbounded(im, p, state, error);
-    return im->method == IMP_METHOD_PAPER ? expand_by_paper(im, p, state, error)
-                                          : expand_by_models(im, p, state, error);
+    return im->baseline != IMP_BASELINE_NONE ? expand_by_paper(im, p, state, error)
+                                             : expand_by_models(im, p, state, error);
 }

@@ -9,6 +9,8 @@
 #include "core/solver/upper_time.h"
 #include "core/witness/witness.h"
 
+#include <impinge/baseline.h>
+
 /* The state of a search for the earliest contact
  * ==============================================
  * time_of_impact.h takes its steps, expand_pair.h divides pairs and pair_test.h tests them. */
@@ -24,7 +26,7 @@ typedef enum impact_state {
 /* The first test of a pair. */
 typedef struct pair_test {
     pair p;         /* the window that is left, and the axis */
-    bool near;      /* whether its nodes may be within the clearance */
+    bool near;      /* whether its nodes may be within gamma_clear */
     bool any_time;  /* for a candidate pair: both exist at one time; else nothing else counts */
     bool done;      /* ahead of its turn */
     uint64_t bytes; /* of nets made for it */
@@ -43,10 +45,9 @@ typedef struct pair_trials {
 } pair_trials;
 
 typedef struct impact {
-    double gamma, clearance;
-    time_window window; /* what is before or after does not count */
-    imp_method method;
-    imp_bounds bounds;
+    double gamma, gamma_clear;
+    time_window window;              /* what is before or after does not count */
+    uint32_t baseline;               /* of imp_options; 0: by models */
     candidate_pair *candidate_pairs; /* the caller's */
     size_t candidate_pair_count;     /* 0: their roots are tested at once, each */
     imp_stats *stats;                /* the caller's; bytes: of the trees, without the heap */

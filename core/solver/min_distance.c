@@ -25,7 +25,7 @@ static double enough(const min_distance *m)
     return m->upper > m->required && part < m->relaxed ? m->relaxed : part;
 }
 
-/* What is to be told apart: `scale` is to it as gamma is to gamma - clearance by default. */
+/* What is to be told apart: `scale` is to it as gamma is to gamma - gamma_clear by default. */
 static double room(const min_distance *m) { return m->upper - enough(m); }
 
 static double scale(const min_distance *m) { return 2 * room(m); }

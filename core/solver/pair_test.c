@@ -13,15 +13,16 @@
 
 static bool test_by_paper(const impact *im, const pair *p)
 {
-    return im->bounds == IMP_BOUNDS_BOX ? !separation_of_boxes(p->a, p->b, im->clearance)
-                                        : !separation_of_balls(p->a, p->b, im->clearance);
+    return (im->baseline & IMP_BASELINE_BOXES) != 0
+               ? !separation_of_boxes(p->a, p->b, im->gamma_clear)
+               : !separation_of_balls(p->a, p->b, im->gamma_clear);
 }
 
 bool pair_test_fully(const impact *im, pair *p)
 {
-    if (im->method == IMP_METHOD_PAPER) return test_by_paper(im, p);
+    if (im->baseline != IMP_BASELINE_NONE) return test_by_paper(im, p);
     p->is_seen_only = false;
-    return separation_window(p->a, p->b, im->clearance, &p->window, &p->axis,
+    return separation_window(p->a, p->b, im->gamma_clear, &p->window, &p->axis,
                              impact_turning(im, p));
 }
 
@@ -36,7 +37,7 @@ imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes
     bool offers[2], useful = false;
     tree_growth growth = {0};
     imp_code code = IMP_SUCCESS;
-    if (im->method == IMP_METHOD_PAPER) return IMP_SUCCESS;
+    if (im->baseline != IMP_BASELINE_NONE) return IMP_SUCCESS;
     if (node_net_is_asked(p->a) && node_net_is_asked(p->b)) return IMP_SUCCESS;
     for (int side = 0; side < 2; ++side) {
         offers[side] = surface_offers_net(nodes[side]->surface);
@@ -55,7 +56,7 @@ imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes
  * cost less than asking for nets. */
 static bool waits_for_nets(const impact *im, const pair *p)
 {
-    if (im->method == IMP_METHOD_PAPER || vec3_norm1(p->axis) > 0) return false;
+    if (im->baseline != IMP_BASELINE_NONE || vec3_norm1(p->axis) > 0) return false;
     const node *const nodes[2] = {p->a, p->b};
     bool blurs = false;
     for (int side = 0; side < 2; ++side) {
@@ -72,14 +73,15 @@ imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, im
     pair *p = &t->p;
     if (waits_for_nets(im, p)) {
         p->is_seen_only = p->lacks_nets = true;
-        t->near = separation_without_nets(p->a, p->b, im->clearance, &p->window, &p->axis, turning);
+        t->near =
+            separation_without_nets(p->a, p->b, im->gamma_clear, &p->window, &p->axis, turning);
         return IMP_SUCCESS;
     }
     const imp_code code = pair_test_ask_for_nets(im, &t->p, &t->bytes, error);
     if (code != IMP_SUCCESS) return code;
-    t->near = im->method == IMP_METHOD_PAPER
+    t->near = im->baseline != IMP_BASELINE_NONE
                   ? test_by_paper(im, &t->p)
-                  : separation_first_look(t->p.a, t->p.b, im->clearance, &t->p.window, &t->p.axis,
+                  : separation_first_look(t->p.a, t->p.b, im->gamma_clear, &t->p.window, &t->p.axis,
                                           turning, &t->p.is_seen_only);
     return IMP_SUCCESS;
 }
@@ -93,7 +95,7 @@ static bool is_of_many(const impact *im, size_t index)
 {
     const size_t apart = TUNING_GLANCES_APART;
     const candidate_pair *both = &im->candidate_pairs[index];
-    if (im->method != IMP_METHOD_MODELS) return false;
+    if (im->baseline != IMP_BASELINE_NONE) return false;
     return (index >= apart && candidate_pairs_same_bodies(both - apart, both)) ||
            (index + apart < im->candidate_pair_count &&
             candidate_pairs_same_bodies(both + apart, both));
@@ -109,7 +111,7 @@ static imp_code test_roots(const impact *im, uint32_t index, pair_test *t, imp_e
     t->any_time = t->p.window.lo <= t->p.window.hi;
     if (!t->any_time) return IMP_SUCCESS;
     if (!is_of_many(im, index)) return pair_test_first(im, t, NULL, error);
-    t->near = moving_boxes_cut(t->p.a, t->p.b, im->clearance, &t->p.window);
+    t->near = moving_boxes_cut(t->p.a, t->p.b, im->gamma_clear, &t->p.window);
     t->p.is_seen_only = t->p.lacks_nets = true;
     return IMP_SUCCESS;
 }
@@ -127,7 +129,7 @@ imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error
 static bool makes_no_net(const impact *im, size_t index)
 {
     const candidate_pair *both = &im->candidate_pairs[index];
-    if (im->method == IMP_METHOD_PAPER || is_of_many(im, index)) return true;
+    if (im->baseline != IMP_BASELINE_NONE || is_of_many(im, index)) return true;
     for (int side = 0; side < 2; ++side) {
         const node *root = tree_root(both->side[side]->tree);
         if (surface_offers_net(root->surface) && !node_net_is_asked(root)) return false;

@@ -5,7 +5,7 @@
 
 #include "core/solver/impact.h"
 
-/* Whether a pair's nodes may be within the clearance
+/* Whether a pair's nodes may be within gamma_clear
  * ==================================================
  * The first test of a pair may leave too much of its window. It is completed when the pair is
  * popped, since a third of the pairs pushed never is. Pairs of roots are tested first of all,

@@ -4,6 +4,7 @@
 
 #include "core/solver/query_internal.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,21 +18,31 @@
 
 /* --- Creation and destruction ------------------------------------------------------------ */
 
-/* gamma > 0 and 0 <= *clearance < gamma, *clearance < 0 standing for gamma / 2, which it becomes. */
-static imp_code check_tolerances(double gamma, double *clearance, imp_error *error)
+/* gamma > 0 and 0 <= *gamma_clear < gamma, *gamma_clear < 0 standing for gamma / 2, which it becomes. */
+static imp_code check_tolerances(double gamma, double *gamma_clear, imp_error *error)
 {
     if (!(gamma > 0 && gamma < INFINITY))
         return error_set(error, IMP_ERROR_USAGE, "gamma: got %g, must be > 0 and finite", gamma);
-    if (*clearance < 0) *clearance = 0.5 * gamma;
-    if (*clearance < gamma) return IMP_SUCCESS;
+    if (*gamma_clear < 0) *gamma_clear = 0.5 * gamma;
+    if (*gamma_clear < gamma) return IMP_SUCCESS;
     return error_set(error, IMP_ERROR_USAGE,
-                     "clearance: got %g, must be from 0 to below gamma = %g", *clearance, gamma);
+                     "gamma_clear: got %g, must be from 0 to below gamma = %g", *gamma_clear,
+                     gamma);
 }
 
-static imp_code check_choice(const char *name, int found, int last, imp_error *error)
+/* None, or one kind of volume with at most one form of rates. */
+static imp_code check_baseline(uint32_t baseline, imp_error *error)
 {
-    if (found >= 0 && found <= last) return IMP_SUCCESS;
-    return error_set(error, IMP_ERROR_USAGE, "%s: got %d, must be from 0 to %d", name, found, last);
+    const uint32_t volume = baseline & (IMP_BASELINE_BOXES | IMP_BASELINE_SPHERES),
+                   rates = baseline & (IMP_BASELINE_COLUMN_RATES | IMP_BASELINE_CONSTANT_RATES);
+    const bool has_one = volume == IMP_BASELINE_BOXES || volume == IMP_BASELINE_SPHERES;
+    const bool has_both = rates == (IMP_BASELINE_COLUMN_RATES | IMP_BASELINE_CONSTANT_RATES);
+    if (baseline == IMP_BASELINE_NONE) return IMP_SUCCESS;
+    if (baseline == (volume | rates) && has_one && !has_both) return IMP_SUCCESS;
+    return error_set(error, IMP_ERROR_USAGE,
+                     "baseline: got 0x%" PRIx32 ", must be 0, or boxes (1) or spheres (2), with at "
+                     "most one of column rates (4) and constant rates (8)",
+                     baseline);
 }
 
 /* All but the tolerances. */
@@ -46,12 +57,7 @@ static imp_code check_options(const imp_scene *scene, const imp_options *options
     if (!(options->max_seconds >= 0))
         return error_set(error, IMP_ERROR_USAGE, "max_seconds: got %g, must be >= 0",
                          options->max_seconds);
-    imp_code code = check_choice("method", (int)options->method, IMP_METHOD_PAPER, error);
-    if (code == IMP_SUCCESS)
-        code = check_choice("bounds", (int)options->bounds, IMP_BOUNDS_SPHERE, error);
-    if (code == IMP_SUCCESS)
-        code = check_choice("rates", (int)options->rates, IMP_RATES_CONSTANT, error);
-    return code;
+    return check_baseline(options->baseline, error);
 }
 
 FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given, imp_error *error)
@@ -61,8 +67,8 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
     scene_options(scene, &own);
     if (sized_read("imp_options", &own, given, SCENE_OPTIONS_FIRST, error) != IMP_SUCCESS)
         return NULL;
-    double clearance = options->clearance;
-    if (check_tolerances(options->gamma, &clearance, error) != IMP_SUCCESS) return NULL;
+    double gamma_clear = options->gamma_clear;
+    if (check_tolerances(options->gamma, &gamma_clear, error) != IMP_SUCCESS) return NULL;
     if (check_options(scene, options, error) != IMP_SUCCESS) return NULL;
     examined_times examined;
     if (examined_times_find(scene, options->t_start, options->t_end, &examined, error) !=
@@ -76,16 +82,15 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
     *query = (imp_query){.scene = scene,
                          .scene_bytes = scene_bytes(scene),
                          .options = *options,
-                         .gamma_clear = clearance,
+                         .gamma_clear = gamma_clear,
                          .examined = examined,
                          .impact = {.gamma = options->gamma,
-                                    .clearance = clearance,
-                                    .method = options->method,
-                                    .bounds = options->bounds,
+                                    .gamma_clear = gamma_clear,
+                                    .baseline = options->baseline,
                                     .t_lower = options->t_start,
                                     .window = {options->t_start, options->t_end},
                                     .stats = &query->stats},
-                         .verdict = IMP_UNDECIDED,
+                         .verdict = IMP_VERDICT_UNDECIDED,
                          .reason = IMP_REASON_RUNNING};
     query->peak_bytes = query->scene_bytes + sizeof *query;
     return query;
@@ -124,7 +129,7 @@ void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason)
 {
     query->verdict = verdict;
     query->reason = reason;
-    if (verdict == IMP_CLEAR) query->impact.t_lower = query->options.t_end;
+    if (verdict == IMP_VERDICT_CLEAR) query->impact.t_lower = query->options.t_end;
 }
 
 imp_reason query_reason_of_clear(const imp_query *query)
@@ -147,7 +152,7 @@ static bool is_at_rest(const imp_query *query, int side)
     surface_domain(s, lo, hi);
     lo[2] = times->lo[2], hi[2] = times->hi[2];
     const imp_region region = region_make(lo, hi);
-    if (surface_rate(s, &region, &rates) != IMP_OK) return false;
+    if (surface_rate(s, &region, &rates) != IMP_STATUS_OK) return false;
     bool rests = true;
     for (int i = 0; i < 3; ++i) rests = rests && rates.m[i][PARAMETER_T] == 0;
     return rests;
@@ -157,7 +162,7 @@ static imp_code conclude_contact(imp_query *query, imp_error *error)
 {
     const impact *im = &query->impact;
     const candidate_pair *both = &query->candidates.pairs[im->found_candidate];
-    query_finish(query, IMP_CONTACT, IMP_REASON_NONE);
+    query_finish(query, IMP_VERDICT_CONTACT, IMP_REASON_NONE);
     query->at_rest = is_at_rest(query, 0) && is_at_rest(query, 1);
     return world_witness_of(query->scene, both, &im->found, im->t_lower, &query->contact, error);
 }
@@ -170,13 +175,13 @@ static imp_code conclude(imp_query *query, impact_state state, imp_error *error)
     case IMPACT_CONTACT:
         return conclude_contact(query, error);
     case IMPACT_CLEAR:
-        query_finish(query, IMP_CLEAR, query_reason_of_clear(query));
+        query_finish(query, IMP_VERDICT_CLEAR, query_reason_of_clear(query));
         break;
     case IMPACT_RESOLUTION:
-        query_finish(query, IMP_UNDECIDED, IMP_REASON_RESOLUTION);
+        query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RESOLUTION);
         break;
     case IMPACT_NO_MEMORY:
-        query_finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
+        query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_MEMORY);
         break;
     }
     return IMP_SUCCESS;
@@ -303,7 +308,7 @@ static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
 }
 
 /* Below this nothing is to be missed: what is asked for, and the slip of pairs that are taken to be at rest. */
-static double query_clearance(const imp_query *query, double gamma_clear)
+static double searched_gamma_clear(const imp_query *query, double gamma_clear)
 {
     const double slip = query->candidates.slip;
     return slip > 0 ? sum_upper(gamma_clear, slip) : gamma_clear;
@@ -313,17 +318,17 @@ static double query_clearance(const imp_query *query, double gamma_clear)
  * surfaces count, however far apart. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
 {
-    const double near = query->clearance == NULL ? query->impact.clearance : INFINITY;
+    const double near = query->clearance == NULL ? query->impact.gamma_clear : INFINITY;
     collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
     const bool may_rest = query->clearance == NULL || clearance_is_of_all_times(query->clearance);
     const imp_code code = candidates_find(&query->candidates, query->scene, &query->options, near,
                                           may_rest, &limit, &query->stats, error);
-    query->impact.clearance = query_clearance(query, query->gamma_clear);
+    query->impact.gamma_clear = searched_gamma_clear(query, query->gamma_clear);
     query->impact.candidate_pairs = query->candidates.pairs;
     query->impact.candidate_pair_count = query->candidates.pair_count;
     if (code == IMP_SUCCESS && !query->candidates.complete)
-        query_finish(query, IMP_UNDECIDED, c.reason);
+        query_finish(query, IMP_VERDICT_UNDECIDED, c.reason);
     return code;
 }
 
@@ -339,7 +344,8 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
 {
     if (query->failed)
         return error_set(error, IMP_ERROR_USAGE, "this query has ended with an error already");
-    if (query->verdict != IMP_UNDECIDED || query->reason == IMP_REASON_NONE) return IMP_SUCCESS;
+    if (query->verdict != IMP_VERDICT_UNDECIDED || query->reason == IMP_REASON_NONE)
+        return IMP_SUCCESS;
     const double start = clock_seconds(), before = query->stats.seconds;
     const uint64_t done = query->stats.pairs;
     const uint64_t until = pairs == 0 || pairs > UINT64_MAX - done ? UINT64_MAX : done + pairs;
@@ -352,7 +358,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
         note_bytes(query, of_candidates);
         const imp_reason reason = exhausted(query, query->stats.seconds);
         if (reason != IMP_REASON_NONE)
-            query_finish(query, IMP_UNDECIDED, reason);
+            query_finish(query, IMP_VERDICT_UNDECIDED, reason);
         else if (query->stats.pairs >= until)
             break;
         else
@@ -361,7 +367,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     query->stats.seconds = before + (clock_seconds() - start);
     note_bytes(query, of_candidates);
     if (code == IMP_ERROR_MEMORY) {
-        query_finish(query, IMP_UNDECIDED, IMP_REASON_MEMORY);
+        query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_MEMORY);
         return IMP_SUCCESS;
     }
     query->failed = code != IMP_SUCCESS;
@@ -379,43 +385,46 @@ imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error)
 
 /* --- Finer ----------------------------------------------------------------------------- */
 
-FP_APART static imp_code refine(imp_query *query, double gamma, double clearance, imp_error *error)
+FP_APART static imp_code refine(imp_query *query, double gamma, double gamma_clear,
+                                imp_error *error)
 {
     if (query->clearance != NULL)
         return error_set(error, IMP_ERROR_USAGE, "refine: this query asks for a minimum distance");
-    if (check_tolerances(gamma, &clearance, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
-    if (gamma > query->impact.gamma || clearance > query->gamma_clear)
+    if (check_tolerances(gamma, &gamma_clear, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
+    if (gamma > query->impact.gamma || gamma_clear > query->gamma_clear)
         return error_set(
             error, IMP_ERROR_USAGE,
-            "refine: gamma %g and clearance %g may not exceed those in force, %g and %g", gamma,
-            clearance, query->impact.gamma, query->gamma_clear);
-    if (!impact_refine(&query->impact, gamma, query_clearance(query, clearance),
+            "refine: gamma %g and gamma_clear %g may not exceed those in force, %g and %g", gamma,
+            gamma_clear, query->impact.gamma, query->gamma_clear);
+    if (!impact_refine(&query->impact, gamma, searched_gamma_clear(query, gamma_clear),
                        query->candidates.pair_count))
         return error_set_memory(error);
-    query->gamma_clear = clearance;
-    if (query->verdict == IMP_CONTACT) query_finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
+    query->gamma_clear = gamma_clear;
+    if (query->verdict == IMP_VERDICT_CONTACT)
+        query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;
 }
 
-imp_code imp_query_refine(imp_query *query, double gamma, double clearance, imp_error *error)
+imp_code imp_query_refine(imp_query *query, double gamma, double gamma_clear, imp_error *error)
 {
     if (query == NULL) return error_set_missing(error, "imp_query_refine");
     const fp_environment environment = fp_environment_enter();
-    const imp_code code = refine(query, gamma, clearance, error);
+    const imp_code code = refine(query, gamma, gamma_clear, error);
     fp_environment_leave(&environment);
     return code;
 }
 
 /* --- Without two bodies ------------------------------------------------------------------- */
 
-imp_code imp_query_pass(imp_query *query, imp_error *error)
+imp_code imp_query_exclude_pair(imp_query *query, imp_error *error)
 {
-    if (query == NULL) return error_set_missing(error, "imp_query_pass");
-    const bool found = query->verdict == IMP_CONTACT || query->reason == IMP_REASON_RESOLUTION;
+    if (query == NULL) return error_set_missing(error, "imp_query_exclude_pair");
+    const bool found =
+        query->verdict == IMP_VERDICT_CONTACT || query->reason == IMP_REASON_RESOLUTION;
     if (!found || query->clearance != NULL)
         return error_set(error, IMP_ERROR_USAGE,
                          "pass: this query has found no contact, and nothing that is unresolved");
     if (!impact_pass(&query->impact, query->candidates.pair_count)) return error_set_memory(error);
-    query_finish(query, IMP_UNDECIDED, IMP_REASON_RUNNING);
+    query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;
 }

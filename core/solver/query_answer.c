@@ -36,7 +36,7 @@ static imp_result result_of(const imp_query *query)
         r.a.body = unresolved(query, 0);
         r.b.body = unresolved(query, 1);
     }
-    if (r.verdict != IMP_CONTACT) return r;
+    if (r.verdict != IMP_VERDICT_CONTACT) return r;
     r.at_rest = query->at_rest;
     r.t = im->t_lower;
     r.gap = query->contact.gap;
@@ -50,9 +50,9 @@ static imp_result result_of(const imp_query *query)
 /* Bytes of imp_result in the first release. */
 #define RESULT_FIRST sizeof(imp_result)
 
-imp_code imp_query_read(const imp_query *query, imp_result *result, imp_error *error)
+imp_code imp_query_get_result(const imp_query *query, imp_result *result, imp_error *error)
 {
-    if (query == NULL) return error_set_missing(error, "imp_query_read");
+    if (query == NULL) return error_set_missing(error, "imp_query_get_result");
     const imp_code code = sized_check("imp_result", result, RESULT_FIRST, error);
     if (code != IMP_SUCCESS) return code;
     const imp_result own = result_of(query);
@@ -98,7 +98,7 @@ imp_code imp_scene_solve(imp_scene *scene, const imp_options *options, imp_resul
     imp_query *query = imp_query_new(scene, options, why);
     if (query == NULL) return why->code;
     imp_code code = imp_query_step(query, 0, why);
-    if (code == IMP_SUCCESS) code = imp_query_read(query, result, why);
+    if (code == IMP_SUCCESS) code = imp_query_get_result(query, result, why);
     imp_query_free(query);
     return code;
 }

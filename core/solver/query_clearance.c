@@ -14,7 +14,7 @@
 static const imp_clearance_options usual = {
     .struct_size = (uint32_t)sizeof usual, .tolerance = 1e-3, .slices = 1};
 
-imp_code imp_clearance_options_read(imp_clearance_options *asked, imp_error *error)
+imp_code imp_clearance_options_get_default(imp_clearance_options *asked, imp_error *error)
 {
     const imp_code code = sized_check("imp_clearance_options", asked, OPTIONS_FIRST, error);
     if (code == IMP_SUCCESS) sized_write(asked, &usual);
@@ -66,10 +66,10 @@ FP_APART static imp_code read_answer(const imp_query *query, size_t index, imp_c
     return read;
 }
 
-imp_code imp_clearance_read(const imp_query *query, size_t index, imp_clearance *answer,
-                            imp_error *error)
+imp_code imp_clearance_get(const imp_query *query, size_t index, imp_clearance *answer,
+                           imp_error *error)
 {
-    if (query == NULL) return error_set_missing(error, "imp_clearance_read");
+    if (query == NULL) return error_set_missing(error, "imp_clearance_get");
     const fp_environment environment = fp_environment_enter();
     const imp_code code = read_answer(query, index, answer, error);
     fp_environment_leave(&environment);

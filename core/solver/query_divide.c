@@ -35,7 +35,7 @@ static imp_code conclude(imp_query *query, imp_error *error)
     imp_reason reason = IMP_REASON_RUNNING;
     imp_code code = IMP_SUCCESS;
     query->candidates_tested = query->candidates.pair_count;
-    query_finish(query, IMP_CLEAR, query_reason_of_clear(query));
+    query_finish(query, IMP_VERDICT_CLEAR, query_reason_of_clear(query));
     if (query->clearance == NULL) return IMP_SUCCESS;
     clearance_begin(query->clearance, &none, &query->stats);
     while (code == IMP_SUCCESS && reason == IMP_REASON_RUNNING)
@@ -96,13 +96,12 @@ static imp_query *fresh_query(const imp_query *whole, imp_error *error)
     query->gamma_clear = whole->gamma_clear;
     query->options.parallel = NULL;
     query->examined = whole->examined;
-    query->verdict = IMP_UNDECIDED;
+    query->verdict = IMP_VERDICT_UNDECIDED;
     query->reason = IMP_REASON_RUNNING;
     query->impact = (impact){.gamma = whole->impact.gamma,
-                             .clearance = whole->impact.clearance,
+                             .gamma_clear = whole->impact.gamma_clear,
                              .window = whole->impact.window,
-                             .method = whole->impact.method,
-                             .bounds = whole->impact.bounds,
+                             .baseline = whole->impact.baseline,
                              .stats = &query->stats,
                              .t_lower = whole->options.t_start};
     atomic_init(&query->cancelled, false);

@@ -45,9 +45,9 @@ static time_window window_of_roots(impact *im, uint32_t index)
     return pair_test_fully(im, &p) ? p.window : (time_window){INFINITY, -INFINITY};
 }
 
-/* Lemma. Everything pruned so far is farther apart than the old clearance, and windows were cut by
+/* Lemma. Everything pruned so far is farther apart than the old gamma_clear, and windows were cut by
  * it; for a smaller one both still hold, so the heap and t_lower carry over. */
-bool impact_refine(impact *im, double gamma, double clearance, size_t count)
+bool impact_refine(impact *im, double gamma, double gamma_clear, size_t count)
 {
     if (im->roots == NULL && count > 0) {
         im->roots = malloc(count * sizeof *im->roots);
@@ -56,9 +56,9 @@ bool impact_refine(impact *im, double gamma, double clearance, size_t count)
     }
     for (size_t k = 0; k < count; ++k)
         if (im->roots[k].lo > -INFINITY) im->roots[k] = (time_window){NAN, NAN};
-    im->ahead.count = 0; /* they are not for this clearance */
+    im->ahead.count = 0; /* they are not for this gamma_clear */
     im->gamma = gamma;
-    im->clearance = clearance;
+    im->gamma_clear = gamma_clear;
     upper_time_refine(&im->upper, gamma);
     im->refined = im->serial;
     return true;
@@ -74,7 +74,7 @@ static const time_window *roots_of(impact *im, const pair *p)
     return whole;
 }
 
-/* After refining, cuts what is left of a pair by the new clearance; false: it is pruned, or waits for
+/* After refining, cuts what is left of a pair by the new gamma_clear; false: it is pruned, or waits for
  * its later start. The window of the roots bounds those of all their descendants. Where it starts as
  * late as any proof can say, descendants that were cut to an earlier start would each prove a start
  * of their own, a little before it, and all that fills a curve of contacts would be searched before a
@@ -82,7 +82,7 @@ static const time_window *roots_of(impact *im, const pair *p)
  * 118; afresh it takes 110.) Where the roots are of no use the pair itself is tested again, once. */
 static bool is_still_first(impact *im, pair *p)
 {
-    if (im->roots == NULL || im->method != IMP_METHOD_MODELS) return true;
+    if (im->roots == NULL || im->baseline != IMP_BASELINE_NONE) return true;
     const time_window *whole = roots_of(im, p);
     p->window = window_common(p->window, *whole);
     if (p->window.lo > p->window.hi) return false;
@@ -154,12 +154,12 @@ static impact_state settle(impact *im)
     return impact_contact(im, &im->upper.seen);
 }
 
-/* A contact below the clearance is known before the time up to which nothing is that near. */
+/* A contact below gamma_clear is known before the time up to which nothing is that near. */
 static imp_code contradict(const impact *im, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[im->found_candidate];
     return contradiction_fault(tree_surface(both->side[0]->tree), tree_surface(both->side[1]->tree),
-                               im->found.gap_upper, im->t_lower, im->clearance, error);
+                               im->found.gap_upper, im->t_lower, im->gamma_clear, error);
 }
 
 /* Ends the pair's window at the horizon. What lies behind waits on the heap, which has room. */
@@ -177,7 +177,7 @@ static void postpone(impact *im, pair *p)
 static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 {
     bool sought;
-    if (im->method != IMP_METHOD_MODELS) return IMP_SUCCESS;
+    if (im->baseline != IMP_BASELINE_NONE) return IMP_SUCCESS;
     const imp_code code = upper_time_follow(&im->upper, p, im->gamma, &sought, error);
     im->stats->witness_searches += sought;
     if (im->upper.is_known) impact_note_gap(im, &im->upper.seen);
@@ -190,7 +190,7 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 /* Returns false if there is no memory. */
 static bool reserve_chances(impact *im)
 {
-    const size_t count = im->method == IMP_METHOD_MODELS ? im->candidate_pair_count : 0;
+    const size_t count = im->baseline == IMP_BASELINE_NONE ? im->candidate_pair_count : 0;
     if (im->trials != NULL || count == 0) return true;
     im->trials = calloc(count, sizeof *im->trials);
     if (im->trials != NULL) im->stats->bytes += count * sizeof *im->trials;
@@ -201,7 +201,7 @@ static bool reserve_chances(impact *im)
 enum { ROOM_OF_STEP = 3 };
 
 /* Lemma. The popped pair's window starts first of all, and outside the windows on the heap no two
- * points are within the clearance: so nothing is before that start. Children's windows lie in their
+ * points are within gamma_clear: so nothing is before that start. Children's windows lie in their
  * parent's, so the bound never falls. A pair that ends the search goes back: finer gamma can go on
  * from it. A contact that is known, no later than the first window, is the answer; it is no earlier than
  * t_lower, since it was followed from a window's start, and no later one is popped since. */
@@ -209,7 +209,7 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
 {
     const double proved = im->t_lower;
     *state = is_settled(im) ? settle(im) : IMPACT_CLEAR;
-    if (*state == IMPACT_CONTACT && im->t_lower < proved && im->found.gap_upper < im->clearance)
+    if (*state == IMPACT_CONTACT && im->t_lower < proved && im->found.gap_upper < im->gamma_clear)
         return contradict(im, error);
     if (*state == IMPACT_CONTACT || im->heap.count == 0) return IMP_SUCCESS;
     *state = IMPACT_NO_MEMORY;

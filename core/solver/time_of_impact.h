@@ -7,7 +7,7 @@
 
 /* The search for the earliest contact: pop, witness, prune, split, push
  * =====================================================================
- * After every impact_advance: (a) no pair of points of the candidates is nearer than `clearance` at
+ * After every impact_advance: (a) no pair of points of the candidates is nearer than `gamma_clear` at
  * any time before t_lower; (b) with IMPACT_CONTACT the witness's gap_upper is at most gamma at
  * t_lower; (c) with IMPACT_CLEAR there are no such points at all. (a) holds for every answer. */
 
@@ -18,9 +18,9 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
  * its results so far still stand. */
 imp_code impact_advance(impact *im, impact_state *state, imp_error *error);
 
-/* Goes on with a smaller gamma and clearance; `count` candidate pairs, or 0 while these are not
+/* Goes on with a smaller gamma and gamma_clear; `count` candidate pairs, or 0 while these are not
  * known. False: no memory, nothing has changed. */
-bool impact_refine(impact *im, double gamma, double clearance, size_t count);
+bool impact_refine(impact *im, double gamma, double gamma_clear, size_t count);
 
 /* After IMPACT_CONTACT or IMPACT_RESOLUTION: goes on without the two bodies of that pair. False: no
  * memory, nothing has changed. */

@@ -38,8 +38,8 @@ static imp_code turn_normal(const surface *s, size_t maps, const witness *found,
     const double length = arrow_length(&from, told->side[0].point);
     vec3 to = vec3_sub(from, vec3_scale(found->normal, -length));
     imp_status status = surface_move_outward(s, maps, t, from.x);
-    if (status == IMP_OK) status = surface_move_outward(s, maps, t, to.x);
-    if (status != IMP_OK) return fault(s, status, t, error);
+    if (status == IMP_STATUS_OK) status = surface_move_outward(s, maps, t, to.x);
+    if (status != IMP_STATUS_OK) return fault(s, status, t, error);
     const vec3 image = vec3_sub(to, from);
     memcpy(told->normal, vec3_scale(image, 1 / vec3_norm(image)).x, sizeof told->normal);
     return IMP_SUCCESS;
@@ -55,7 +55,7 @@ static imp_code place_side(const imp_scene *scene, const candidate *of, const wi
     if (of->left_out == 0) return IMP_SUCCESS;
     const surface *s = piece_of(scene, at);
     const imp_status status = surface_eval(s, 1, (double[3]){at->u, at->v, t}, at->point, NULL);
-    return status == IMP_OK ? IMP_SUCCESS : fault(s, status, t, error);
+    return status == IMP_STATUS_OK ? IMP_SUCCESS : fault(s, status, t, error);
 }
 
 static double distance_of(const imp_side side[2])

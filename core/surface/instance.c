@@ -19,7 +19,7 @@ static void destroy(const char *type, void (*destroy_it)(void *), void *self)
 {
     const surface_call call = surface_call_begin(type, "destroy");
     destroy_it(self);
-    surface_call_end(call, IMP_OK);
+    surface_call_end(call, IMP_STATUS_OK);
 }
 
 /* Domains are asked for once; one that is not finite in u and v, inverted or NaN is a breach. */
@@ -28,11 +28,11 @@ imp_status instance_domain(const imp_surface_type *type, const void *self, doubl
 {
     const surface_call call = surface_call_begin(type->name, "domain");
     type->domain(self, lo, hi);
-    const imp_status status = surface_call_end(call, IMP_OK);
+    const imp_status status = surface_call_end(call, IMP_STATUS_OK);
     bool good = lo[0] > -INFINITY && lo[1] > -INFINITY;
     good = good && hi[0] < INFINITY && hi[1] < INFINITY;
     for (int j = 0; j < 3; ++j) good = good && lo[j] <= hi[j];
-    return status == IMP_OK && !good ? SURFACE_BAD_DOMAIN : status;
+    return status == IMP_STATUS_OK && !good ? SURFACE_BAD_DOMAIN : status;
 }
 
 bool instance_offers_pieces(const imp_surface_type *type)
@@ -59,16 +59,16 @@ static imp_status take_piece(shared_instance *p, size_t k)
     double lo[3], hi[3];
     const surface_call call = surface_call_begin(p->surface->name, "piece");
     p->pieces[k] = p->surface->piece(p->self, k);
-    imp_status status = surface_call_end(call, IMP_OK);
-    if (status != IMP_OK) return status;
+    imp_status status = surface_call_end(call, IMP_STATUS_OK);
+    if (status != IMP_STATUS_OK) return status;
     if (p->pieces[k] == NULL) return SURFACE_NULL_PIECE;
     status = instance_domain(p->surface, p->pieces[k], lo, hi);
     if (k == 0) {
         memcpy(p->lo, lo, sizeof lo);
         memcpy(p->hi, hi, sizeof hi);
     }
-    return status == IMP_OK && (lo[2] != p->lo[2] || hi[2] != p->hi[2]) ? SURFACE_PIECE_TIMES
-                                                                        : status;
+    return status == IMP_STATUS_OK && (lo[2] != p->lo[2] || hi[2] != p->hi[2]) ? SURFACE_PIECE_TIMES
+                                                                               : status;
 }
 
 /* False: no memory. */
@@ -76,15 +76,16 @@ static bool take_pieces(shared_instance *p)
 {
     const surface_call call = surface_call_begin(p->surface->name, "piece_count");
     const size_t count = p->surface->piece_count(p->self);
-    p->breach = surface_call_end(call, IMP_OK);
-    if (p->breach == IMP_OK && (count == 0 || count > IMP_PIECES_MAX))
+    p->breach = surface_call_end(call, IMP_STATUS_OK);
+    if (p->breach == IMP_STATUS_OK && (count == 0 || count > IMP_PIECES_MAX))
         p->breach = SURFACE_PIECE_COUNT;
-    if (p->breach == IMP_OK) {
+    if (p->breach == IMP_STATUS_OK) {
         p->pieces = malloc(count * sizeof *p->pieces);
         if (p->pieces == NULL) return false;
         p->piece_count = count;
     }
-    for (size_t k = 0; k < p->piece_count && p->breach == IMP_OK; ++k) p->breach = take_piece(p, k);
+    for (size_t k = 0; k < p->piece_count && p->breach == IMP_STATUS_OK; ++k)
+        p->breach = take_piece(p, k);
     return true;
 }
 
@@ -101,9 +102,9 @@ static void take_span(shared_instance *p)
     if (instance_offers_span(p->map)) {
         const surface_call call = surface_call_begin(p->map->name, "span");
         p->map->span(p->self, &lo, &hi);
-        p->breach = surface_call_end(call, IMP_OK);
+        p->breach = surface_call_end(call, IMP_STATUS_OK);
     }
-    if (p->breach == IMP_OK && !(lo <= hi)) p->breach = SURFACE_BAD_SPAN;
+    if (p->breach == IMP_STATUS_OK && !(lo <= hi)) p->breach = SURFACE_BAD_SPAN;
     set_span(p, lo, hi);
 }
 
@@ -112,9 +113,9 @@ static void take_times(shared_instance *p)
     p->lo[2] = -INFINITY, p->hi[2] = INFINITY;
     const surface_call call = surface_call_begin(p->map->name, "time_domain");
     p->map->time_domain(p->self, &p->lo[2], &p->hi[2]);
-    p->breach = surface_call_end(call, IMP_OK);
-    if (p->breach == IMP_OK && !(p->lo[2] <= p->hi[2])) p->breach = SURFACE_BAD_DOMAIN;
-    if (p->breach == IMP_OK) take_span(p);
+    p->breach = surface_call_end(call, IMP_STATUS_OK);
+    if (p->breach == IMP_STATUS_OK && !(p->lo[2] <= p->hi[2])) p->breach = SURFACE_BAD_DOMAIN;
+    if (p->breach == IMP_STATUS_OK) take_span(p);
 }
 
 shared_instance *instance_of_surface(const imp_surface_type *type, void *self)

@@ -22,9 +22,9 @@ typedef struct shared_instance {
     double span[2];      /* times it is made for; -INFINITY, INFINITY: none before others */
     const void **pieces; /* instances that `self` owns, in place of it; NULL: it is one surface */
     size_t piece_count;  /* 0: it is one surface */
-    imp_status breach;   /* IMP_OK, or for surface_status_text: how the domain breaks the ABI;
+    imp_status breach; /* IMP_STATUS_OK, or for surface_status_text: how the domain breaks the ABI;
                                    then the instance may only be released */
-    size_t given;        /* bytes of the values it was made from: about what the instance keeps */
+    size_t given;      /* bytes of the values it was made from: about what the instance keeps */
     char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
     size_t label_size; /* bytes of it, its end included */
 } shared_instance;
@@ -50,7 +50,7 @@ bool instance_offers_distance(const imp_surface_type *type);
 /* Whether the type may know how its instances can be moved within themselves. */
 bool instance_offers_symmetry(const imp_surface_type *type);
 
-/* The domain of an instance; IMP_OK, or how it breaks the ABI. */
+/* The domain of an instance; IMP_STATUS_OK, or how it breaks the ABI. */
 imp_status instance_domain(const imp_surface_type *type, const void *self, double lo[3],
                            double hi[3]);
 

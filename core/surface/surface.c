@@ -110,7 +110,7 @@ imp_code surface_divide(surface *s)
         piece->pieces = NULL;
         piece->piece_count = 0;
         piece->self = origin->pieces[k];
-        if (instance_domain(s->type, piece->self, lo, hi) != IMP_OK)
+        if (instance_domain(s->type, piece->self, lo, hi) != IMP_STATUS_OK)
             continue; /* good when it was made */
         memcpy(piece->lo, lo, 2 * sizeof *lo);
         memcpy(piece->hi, hi, 2 * sizeof *hi);
@@ -155,7 +155,8 @@ static void label_of(const surface *s, char label[INSTANCE_LABEL_MAX])
     label[0] = '\0';
     for (size_t k = 0; k <= whole->map_count; ++k) {
         if (k > 0) instance_label_add(label, " ! ");
-        instance_label_add(label, instance_label(k == 0 ? whole->origin : whole->maps[k - 1].origin));
+        instance_label_add(label,
+                           instance_label(k == 0 ? whole->origin : whole->maps[k - 1].origin));
     }
 }
 
@@ -192,7 +193,7 @@ bool surface_instance_at(const surface *s, size_t k, surface_instance *found)
                                 .lo = p->lo[2],
                                 .hi = p->hi[2],
                                 .span = {p->span[0], p->span[1]},
-                                .absent = flags & IMP_ABSENT_OUTSIDE_TIMES};
+                                .absent = flags & IMP_FLAG_ABSENT_OUTSIDE_TIMES};
     return true;
 }
 
@@ -216,13 +217,13 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 const char *surface_status_text(imp_status status)
 {
     switch (status) {
-    case IMP_DOMAIN:
+    case IMP_STATUS_DOMAIN:
         return "is undefined there, or too large for a double, though that lies in its domain; "
                "shrink the domain, or the times asked for, to where it (and each map on it) is "
                "defined";
-    case IMP_UNBOUNDED:
+    case IMP_STATUS_UNBOUNDED:
         return "has no bounds there";
-    case IMP_INTERNAL:
+    case IMP_STATUS_INTERNAL:
         return "reports an internal error";
     case SURFACE_CHANGED_MODE:
         return "changes the floating-point mode of its caller, which breaks every bound";
@@ -249,7 +250,8 @@ const char *surface_status_text(imp_status status)
         return "a distance from it has a remainder that is negative or NaN, or a range that is "
                "inverted, NaN or at infinity";
     case SURFACE_BAD_SYMMETRY:
-        return "its symmetry has an unknown kind, a center or an axis that is not finite, or an axis "
+        return "its symmetry has an unknown kind, a center or an axis that is not finite, or an "
+               "axis "
                "without length";
     case SURFACE_BAD_SPAN:
         return "the span of its times is empty or NaN";

@@ -57,13 +57,13 @@ typedef struct surface_instance {
     const char *name;
     double lo, hi;
     double span[2]; /* -INFINITY, INFINITY: none before others */
-    bool absent;    /* at other times it does not exist (IMP_ABSENT_OUTSIDE_TIMES) */
+    bool absent;    /* at other times it does not exist (IMP_FLAG_ABSENT_OUTSIDE_TIMES) */
 } surface_instance;
 
 /* Instance 0 is the type, instance k the map k - 1; false past the last. */
 bool surface_instance_at(const surface *s, size_t k, surface_instance *found);
 
-/* The times at which the surface exists: all that no instance excludes (IMP_ABSENT_OUTSIDE_TIMES).
+/* The times at which the surface exists: all that no instance excludes (IMP_FLAG_ABSENT_OUTSIDE_TIMES).
  * lo > hi: none. */
 void surface_existence(const surface *s, double *lo, double *hi);
 
@@ -92,7 +92,7 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 #define SURFACE_BAD_SYMMETRY 1016
 #define SURFACE_BAD_SPAN 1017
 
-/* What a status other than IMP_OK means here, as the end of "type 'x' ...: ". */
+/* What a status other than IMP_STATUS_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
 
 /* The same for what a callback of this thread answered last: where the text leaves open which it was,
@@ -120,7 +120,7 @@ imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_mat
  * has no better. */
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3]);
 
-/* The control net of the composition over a region (imp_net). IMP_UNBOUNDED: it has none there, as where
+/* The control net of the composition over a region (imp_net). IMP_STATUS_UNBOUNDED: it has none there, as where
  * the type or a map has none. */
 imp_status surface_net(const surface *s, const imp_region *region, imp_net *net);
 
@@ -131,7 +131,7 @@ bool surface_offers_net(const surface *s);
 bool surface_is_rigid(const surface *s);
 
 /* The pose that all maps together have over the region's times (imp_pose), but that turn and turn^T turn
- * are off those of a rotation by as much for each map as is allowed for one. IMP_UNBOUNDED: there is none.
+ * are off those of a rotation by as much for each map as is allowed for one. IMP_STATUS_UNBOUNDED: there is none.
  * Precondition: surface_is_rigid. */
 imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose);
 
@@ -149,7 +149,7 @@ bool surface_has_symmetry(const surface *s);
 
 /* Precondition: surface_has_distance. The distance, as in imp_surface_type, of a point with these models over the region,
  * whose rates are not used, from the whole surface under its first `maps` maps; or less, where the maps after
- * these bring both nearer to each other. IMP_UNBOUNDED: nothing is known, as at times at which the surface
+ * these bring both nearer to each other. IMP_STATUS_UNBOUNDED: nothing is known, as at times at which the surface
  * does not exist. */
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance);
@@ -200,7 +200,7 @@ imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][
 /* How many maps, counted from the last, are the same instances on both. */
 size_t surface_common_maps(const surface *a, const surface *b);
 
-/* How many of these, counted from the last, are rigid in exact arithmetic (IMP_TURNS_EXACTLY): the distance of
+/* How many of these, counted from the last, are rigid in exact arithmetic (IMP_FLAG_TURNS_EXACTLY): the distance of
  * two points is the same before and after them. */
 size_t surface_common_motion(const surface *a, const surface *b);
 

@@ -46,10 +46,10 @@ imp_status surface_still_maps(const surface *s, const imp_region *region, size_t
     imp_pose pose;
     for (*count = 0; *count < s->map_count; ++*count) {
         const imp_status status = surface_pose_of_maps(s, *count, *count + 1, region, &pose);
-        if (status == IMP_UNBOUNDED || (status == IMP_OK && pose_turns(&pose))) break;
-        if (status != IMP_OK) return status;
+        if (status == IMP_STATUS_UNBOUNDED || (status == IMP_STATUS_OK && pose_turns(&pose))) break;
+        if (status != IMP_STATUS_OK) return status;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- How far a pose is from rigid ------------------------------------------------------------------ */
@@ -145,13 +145,13 @@ static bool take_back(const imp_pose *pose, const deviation *d, const imp_model 
 /* A NaN or an infinity among the coefficients: nothing is known. Nothing is infinitely far away. */
 static imp_status judge(imp_status status, const imp_model *distance)
 {
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     if (!(distance->e >= 0 && distance->lo <= distance->hi)) return SURFACE_BAD_DISTANCE;
     if (!(distance->lo < INFINITY && distance->hi > -INFINITY)) return SURFACE_BAD_DISTANCE;
     double sum = fabs(distance->a) + distance->e;
     for (int j = 0; j < 3; ++j) sum += fabs(distance->b[j]);
     for (int k = 0; k < 6; ++k) sum += fabs(distance->q[k]);
-    return sum < INFINITY ? IMP_OK : IMP_UNBOUNDED;
+    return sum < INFINITY ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 static imp_status distance_before_maps(const surface *s, const imp_region *region,
@@ -171,7 +171,7 @@ static imp_status stretch_by(const surface *s, size_t first, const imp_region *r
     for (size_t k = first; k < s->map_count; ++k) {
         imp_pose pose;
         const imp_status status = surface_pose_of_maps(s, k, k + 1, region, &pose);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
         double least = map_turns_exactly(&s->maps[k]) ? 1 : 1 / norm;
         if (least < 1 && !pose_turns(&pose)) {
             const deviation d = deviation_of(&pose, norm);
@@ -179,7 +179,7 @@ static imp_status stretch_by(const surface *s, size_t first, const imp_region *r
         }
         if (least < 1) *stretch = nextafter(*stretch * least, 0);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* The point before the first `maps` maps, and their least stretch. */
@@ -189,10 +189,10 @@ static imp_status take_back_before(const surface *s, size_t maps, const imp_regi
     imp_pose pose;
     const double norm = surface_pose_norm_upper(s);
     const imp_status status = surface_pose_of_maps(s, 0, maps, region, &pose);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     const deviation d = deviation_of(&pose, norm);
     *stretch = least_stretch(&d, norm);
-    return take_back(&pose, &d, point, at) ? IMP_OK : IMP_UNBOUNDED;
+    return take_back(&pose, &d, point, at) ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 /* Lemma. Maps that follow on both, and are rigid, stretch what is between any two points at the same time by
@@ -202,11 +202,11 @@ static imp_status stretched(const surface *s, const imp_region *region, const im
                             double stretch, imp_model *distance)
 {
     const imp_status status = distance_before_maps(s, region, at, distance);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     distance->depends = 7;
     for (int j = 0; j < 3; ++j) distance->rate[j] = INFINITY;
     *distance = imp_scale(*distance, stretch);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static bool exists_during(const surface *s, const imp_region *region)
@@ -233,20 +233,20 @@ imp_status surface_plane_of(const surface *s, const imp_region *region, surface_
     double length = 0;
     *plane = (surface_plane){.off = INFINITY};
     const imp_status status = surface_include_bare(s, region, x);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         plane->center[i] = x[i].a;
         plane->axis[i] = x[j].b[0] * x[k].b[1] - x[k].b[0] * x[j].b[1];
         length += plane->axis[i] * plane->axis[i];
-        if ((x[i].depends >> PARAMETER_T & 1) != 0) return IMP_UNBOUNDED;
+        if ((x[i].depends >> PARAMETER_T & 1) != 0) return IMP_STATUS_UNBOUNDED;
     }
     length = sqrt(length);
-    if (!(length > 0x1p-300 && length < 0x1p300)) return IMP_UNBOUNDED;
+    if (!(length > 0x1p-300 && length < 0x1p300)) return IMP_STATUS_UNBOUNDED;
     for (int i = 0; i < 3; ++i) plane->axis[i] /= length;
     const imp_model height = height_of(plane, x);
     plane->off = imp_interval_mag(imp_model_range(&height));
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Lemma. |n| <= 1 + 8 u, as n is a quotient by the root of a sum of squares. With y a point of the part and z one
@@ -266,17 +266,17 @@ imp_status surface_height_within(const surface *s, const surface_plane *plane,
 {
     imp_model at[3] = {point[0], point[1], point[2]};
     double stretch = 1, unused;
-    imp_status status = IMP_OK;
-    if (!exists_during(s, region)) return IMP_UNBOUNDED;
+    imp_status status = IMP_STATUS_OK;
+    if (!exists_during(s, region)) return IMP_STATUS_UNBOUNDED;
     const imp_region then = region_make((double[3]){region->lo[0], region->lo[1], moment},
                                         (double[3]){region->hi[0], region->hi[1], moment});
     if (s->map_count > 0) status = take_back_before(s, s->map_count, &then, point, at, &unused);
-    if (status == IMP_OK) status = stretch_by(s, 0, region, &stretch);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = stretch_by(s, 0, region, &stretch);
+    if (status != IMP_STATUS_OK) return status;
     *height = lowered(plane, slip, stretch, height_of(plane, at));
     height->depends = 7;
     for (int j = 0; j < 3; ++j) height->rate[j] = INFINITY;
-    return judge(IMP_OK, height);
+    return judge(IMP_STATUS_OK, height);
 }
 
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
@@ -284,12 +284,12 @@ imp_status surface_distance(const surface *s, const imp_region *region, size_t m
 {
     imp_model at[3] = {point[0], point[1], point[2]};
     double stretch = 1;
-    imp_status status = IMP_OK;
-    if (!exists_during(s, region)) return IMP_UNBOUNDED;
+    imp_status status = IMP_STATUS_OK;
+    if (!exists_during(s, region)) return IMP_STATUS_UNBOUNDED;
     if (s->map_count == 0) return distance_before_maps(s, region, point, distance);
     if (maps > 0) status = take_back_before(s, maps, region, point, at, &stretch);
-    if (status == IMP_OK) status = stretch_by(s, maps, region, &stretch);
-    return status == IMP_OK ? stretched(s, region, at, stretch, distance) : status;
+    if (status == IMP_STATUS_OK) status = stretch_by(s, maps, region, &stretch);
+    return status == IMP_STATUS_OK ? stretched(s, region, at, stretch, distance) : status;
 }
 
 /* Lemma. The point is taken back by the maps of the moment. At every time of the region the claim that is made
@@ -301,13 +301,13 @@ imp_status surface_distance_within(const surface *s, const imp_region *region, s
 {
     imp_model at[3] = {point[0], point[1], point[2]};
     double stretch = 1, unused;
-    imp_status status = IMP_OK;
-    if (!exists_during(s, region)) return IMP_UNBOUNDED;
+    imp_status status = IMP_STATUS_OK;
+    if (!exists_during(s, region)) return IMP_STATUS_UNBOUNDED;
     const imp_region then = region_make((double[3]){region->lo[0], region->lo[1], moment},
                                         (double[3]){region->hi[0], region->hi[1], moment});
     if (maps > 0) status = take_back_before(s, maps, &then, point, at, &unused);
-    if (status == IMP_OK) status = stretch_by(s, 0, region, &stretch);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = stretch_by(s, 0, region, &stretch);
+    if (status != IMP_STATUS_OK) return status;
     for (int i = 0; i < 3; ++i) at[i] = imp_add(at[i], imp_between(-slip, slip));
     return stretched(s, region, at, stretch, distance);
 }

@@ -26,7 +26,7 @@ static imp_status model_from_rates(const surface *s, const imp_region *region,
 {
     centred_box around;
     const imp_status status = surface_box_around(s, region, rates, maps, &around);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     memset(model, 0, 3 * sizeof *model);
     for (int i = 0; i < 3; ++i) {
         model[i].a = around.centre[i];
@@ -47,8 +47,8 @@ static imp_status include_type(const surface *s, const imp_region *region, imp_m
     }
     imp_rate_matrix rates;
     const imp_status status = surface_type_rate(s, region, &rates);
-    if (status == IMP_UNBOUNDED) model_unbounded(model);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_UNBOUNDED) model_unbounded(model);
+    if (status != IMP_STATUS_OK) return status;
     return model_from_rates(s, region, &rates, 0, model);
 }
 
@@ -91,9 +91,9 @@ static imp_status rates_through_map(const surface *s, size_t k, const imp_region
         hi[i] = model[i].hi;
         memcpy(inner.m[i], model[i].rate, sizeof inner.m[i]);
     }
-    if (!surface_box4_from(lo, hi, region, box)) return IMP_UNBOUNDED;
+    if (!surface_box4_from(lo, hi, region, box)) return IMP_STATUS_UNBOUNDED;
     const imp_status status = surface_map_rate(&s->maps[k], box, p);
-    return status == IMP_OK ? surface_chain_rule(p, &inner, rates) : status;
+    return status == IMP_STATUS_OK ? surface_chain_rule(p, &inner, rates) : status;
 }
 
 /* Map k on top of the models, by rates alone. */
@@ -107,7 +107,7 @@ static imp_status include_by_chain_rule(const surface *s, size_t k, const imp_re
     imp_map_rates p;
     imp_rate_matrix rates;
     const imp_status status = rates_through_map(s, k, region, model, &box, &p, &rates);
-    return status == IMP_OK ? model_from_rates(s, region, &rates, k + 1, model) : status;
+    return status == IMP_STATUS_OK ? model_from_rates(s, region, &rates, k + 1, model) : status;
 }
 
 /* The same where no point of what is included is known: the image of the box of the models. Lemma.
@@ -123,7 +123,7 @@ static imp_status include_box(const surface *s, size_t k, const imp_region *regi
     imp_rate_matrix rates;
     double c[4], half[4], x[3], error[3];
     imp_status status = rates_through_map(s, k, region, model, &box, &p, &rates);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     for (int j = 0; j < 4; ++j) {
         c[j] = 0.5 * box.lo[j] + 0.5 * box.hi[j];
         if (!(c[j] >= box.lo[j])) c[j] = box.lo[j];
@@ -134,7 +134,7 @@ static imp_status include_box(const surface *s, size_t k, const imp_region *regi
     }
     const surface_call call = surface_call_begin(s->maps[k].type->name, "eval");
     status = surface_call_end(call, s->maps[k].type->eval(s->maps[k].self, 1, c, x, error));
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     memset(model, 0, 3 * sizeof *model);
     for (int i = 0; i < 3; ++i) {
         double sum = error[i];
@@ -146,7 +146,7 @@ static imp_status include_box(const surface *s, size_t k, const imp_region *regi
         memcpy(model[i].rate, rates.m[i], sizeof model[i].rate);
         model[i].depends = 7;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* One map on top of the models. `*unbounded` says that rates are no longer to be trusted, though
@@ -155,7 +155,7 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
                                       box_step *step, imp_model model[3], bool *unbounded)
 {
     const mapping *map = &s->maps[k];
-    imp_status status = IMP_UNBOUNDED;
+    imp_status status = IMP_STATUS_UNBOUNDED;
     if (!models_are_sane(model, !*unbounded)) return SURFACE_BAD_MODEL;
     if (models_are_finite(model) && map->type->apply != NULL) {
         const imp_model in[4] = {model[0], model[1], model[2], surface_time(region)};
@@ -164,24 +164,24 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
         status = surface_call_end(call, status);
     } else if (!*unbounded) {
         status = step(s, k, region, model);
-        if (status == IMP_UNBOUNDED) model_unbounded(model);
+        if (status == IMP_STATUS_UNBOUNDED) model_unbounded(model);
     } else {
         model_unbounded(model);
     }
-    if (status != IMP_UNBOUNDED) return status;
+    if (status != IMP_STATUS_UNBOUNDED) return status;
     *unbounded = true;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* The first `maps` maps on top of models that came with `status`. */
 static imp_status include_through_maps(const surface *s, const imp_region *region, size_t maps,
                                        box_step *step, imp_status status, imp_model model[3])
 {
-    bool unbounded = status == IMP_UNBOUNDED;
-    if (unbounded) status = IMP_OK;
-    for (size_t k = 0; k < maps && status == IMP_OK; ++k)
+    bool unbounded = status == IMP_STATUS_UNBOUNDED;
+    if (unbounded) status = IMP_STATUS_OK;
+    for (size_t k = 0; k < maps && status == IMP_STATUS_OK; ++k)
         status = include_through_map(s, k, region, step, model, &unbounded);
-    return status == IMP_OK && unbounded ? IMP_UNBOUNDED : status;
+    return status == IMP_STATUS_OK && unbounded ? IMP_STATUS_UNBOUNDED : status;
 }
 
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3])
@@ -195,7 +195,7 @@ imp_status surface_include_inner(const surface *s, const imp_region *region, siz
 {
     imp_status status = include_type(s, region, model);
     status = include_through_maps(s, region, maps, include_by_chain_rule, status, model);
-    return status == IMP_OK && !models_are_sane(model, true) ? SURFACE_BAD_MODEL : status;
+    return status == IMP_STATUS_OK && !models_are_sane(model, true) ? SURFACE_BAD_MODEL : status;
 }
 
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3])
@@ -205,6 +205,6 @@ imp_status surface_include_bare(const surface *s, const imp_region *region, imp_
 
 imp_status surface_include_image(const surface *s, const imp_region *region, imp_model model[3])
 {
-    const imp_status status = models_are_finite(model) ? IMP_OK : IMP_UNBOUNDED;
+    const imp_status status = models_are_finite(model) ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
     return include_through_maps(s, region, s->map_count, include_box, status, model);
 }

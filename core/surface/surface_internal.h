@@ -82,7 +82,7 @@ bool surface_box4_from(const double lo[3], const double hi[3], const imp_region 
 /* Whether its pose holds a rotation in exact arithmetic. */
 static inline bool map_turns_exactly(const mapping *map)
 {
-    return (map->type->flags & IMP_TURNS_EXACTLY) != 0;
+    return (map->type->flags & IMP_FLAG_TURNS_EXACTLY) != 0;
 }
 
 /* Whether its rotation depends on time. */
@@ -97,7 +97,7 @@ imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end,
                                 const imp_region *region, imp_pose *pose);
 
 /* One step of the chain rule (paper, section 5): M_g[:,j] = P M_f[:,j], + p_t for j = t.
- * IMP_UNBOUNDED: a product of finite rates is too large for a double. */
+ * IMP_STATUS_UNBOUNDED: a product of finite rates is too large for a double. */
 imp_status surface_chain_rule(const imp_map_rates *p, const imp_rate_matrix *in,
                               imp_rate_matrix *out);
 

@@ -28,7 +28,7 @@ static bool stands_still(const surface *s, size_t maps, double from, double to)
     surface_domain(s, lo, hi);
     lo[2] = from < to ? from : to, hi[2] = from < to ? to : from;
     const imp_region region = region_make(lo, hi);
-    if (surface_include_inner(s, &region, maps, model) != IMP_OK) return false;
+    if (surface_include_inner(s, &region, maps, model) != IMP_STATUS_OK) return false;
     return model[0].rate[2] == 0 && model[1].rate[2] == 0 && model[2].rate[2] == 0;
 }
 
@@ -52,7 +52,7 @@ static bool place_at(const surface *s, size_t first, double t, placement *at)
     surface_domain(s, lo, hi);
     lo[2] = hi[2] = t;
     const imp_region region = region_make(lo, hi);
-    if (surface_pose_of_maps(s, first, s->map_count, &region, &pose) != IMP_OK) return false;
+    if (surface_pose_of_maps(s, first, s->map_count, &region, &pose) != IMP_STATUS_OK) return false;
     bool exact = true;
     for (int i = 0; i < 3; ++i) {
         at->shift[i] = pose.shift[i].a;

@@ -32,7 +32,7 @@ static bool fits(const imp_net *net)
 
 static imp_status judge(imp_status status, const imp_net *net)
 {
-    return status == IMP_OK && !(fits(net) && is_sane(net)) ? SURFACE_BAD_NET : status;
+    return status == IMP_STATUS_OK && !(fits(net) && is_sane(net)) ? SURFACE_BAD_NET : status;
 }
 
 bool surface_offers_net(const surface *s)
@@ -53,12 +53,12 @@ static void clear(imp_net *net)
 
 imp_status surface_net(const surface *s, const imp_region *region, imp_net *net)
 {
-    if (!surface_offers_net(s)) return IMP_UNBOUNDED;
+    if (!surface_offers_net(s)) return IMP_STATUS_UNBOUNDED;
     clear(net);
     const surface_call call = surface_call_begin(s->type->name, "net");
     imp_status status = s->type->net(s->self, region, net);
     status = judge(surface_call_end(call, status), net);
-    for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
+    for (size_t k = 0; k < s->map_count && status == IMP_STATUS_OK; ++k) {
         const mapping *map = &s->maps[k];
         const surface_call of_map = surface_call_begin(map->type->name, "net");
         status = map->type->net(map->self, region, net);

@@ -38,14 +38,14 @@ static bool is_sane(const imp_model *m)
 
 static imp_status judge(imp_status status, const imp_pose *pose)
 {
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)
             if (!is_sane(&pose->turn[i][j])) return SURFACE_BAD_POSE;
         if (!is_sane(&pose->shift[i]) || !isfinite(pose->pivot[i])) return SURFACE_BAD_POSE;
         if (!(fabs(pose->fixed[i]) < 0x1p340)) return SURFACE_BAD_POSE;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 bool pose_turns(const imp_pose *pose)
@@ -116,22 +116,22 @@ imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end, cons
 {
     const imp_model t = surface_time(region);
     const double norm = surface_pose_norm_upper(s);
-    imp_status status = IMP_OK;
-    for (size_t k = first; k < end && status == IMP_OK; ++k) {
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = first; k < end && status == IMP_STATUS_OK; ++k) {
         const mapping *map = &s->maps[k];
         imp_pose next;
         memset(&next, 0, sizeof next);
         const surface_call call = surface_call_begin(map->type->name, "rigid");
         status = map->type->rigid(map->self, &t, &next);
         status = judge(surface_call_end(call, status), &next);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
         if (k == first)
             *pose = next;
         else
             add_pose(&next, norm, pose);
     }
-    if (end - first == 1) return IMP_OK;
-    return judge(IMP_OK, pose) == IMP_OK ? IMP_OK : IMP_UNBOUNDED;
+    if (end - first == 1) return IMP_STATUS_OK;
+    return judge(IMP_STATUS_OK, pose) == IMP_STATUS_OK ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose)

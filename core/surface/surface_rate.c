@@ -11,7 +11,7 @@
 
 static imp_status checked_rates(imp_status status, const double *rates, int count)
 {
-    for (int k = 0; k < count && status == IMP_OK; ++k)
+    for (int k = 0; k < count && status == IMP_STATUS_OK; ++k)
         if (!(rates[k] >= 0 && rates[k] < INFINITY)) return SURFACE_BAD_RATES;
     return status;
 }
@@ -46,20 +46,20 @@ static imp_status error_through_map(const mapping *map, const double x[4], const
 {
     imp_box4 box;
     for (int j = 0; j < 3; ++j) {
-        if (!(inner[j] < INFINITY)) return IMP_UNBOUNDED;
+        if (!(inner[j] < INFINITY)) return IMP_STATUS_UNBOUNDED;
         box.lo[j] = difference_lower(x[j], inner[j]);
         box.hi[j] = sum_upper(x[j], inner[j]);
     }
     box.lo[3] = box.hi[3] = x[3];
     imp_map_rates p;
     const imp_status status = surface_map_rate(map, &box, &p);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     for (int i = 0; i < 3; ++i) {
         double sum = error[i];
         for (int j = 0; j < 3; ++j) sum += p.m[i][j] * inner[j];
         error[i] = padded_upper(sum, 16) + PRODUCTS_UNDERFLOW;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status batch_through_map(const mapping *map, size_t n, const double *p, double *x,
@@ -73,16 +73,16 @@ static imp_status batch_through_map(const mapping *map, size_t n, const double *
     const surface_call call = surface_call_begin(map->type->name, "eval");
     imp_status status = map->type->eval(map->self, n, in, x, error == NULL ? NULL : own);
     status = surface_call_end(call, status);
-    if (status != IMP_OK || error == NULL) return status;
+    if (status != IMP_STATUS_OK || error == NULL) return status;
     for (size_t k = 0; k < n; ++k) {
         status = error_through_map(map, in + 4 * k, error + 3 * k, own + 3 * k);
-        if (status == IMP_UNBOUNDED)
+        if (status == IMP_STATUS_UNBOUNDED)
             own[3 * k] = own[3 * k + 1] = own[3 * k + 2] = INFINITY;
-        else if (status != IMP_OK)
+        else if (status != IMP_STATUS_OK)
             return status;
     }
     memcpy(error, own, 3 * n * sizeof *own);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Under the first `maps` maps. */
@@ -92,8 +92,8 @@ static imp_status eval_under(const surface *s, size_t maps, size_t n, const doub
     const surface_call call = surface_call_begin(s->type->name, "eval");
     imp_status status = s->type->eval(s->self, n, p, x, error);
     status = surface_call_end(call, status);
-    for (size_t k = 0; k < maps && status == IMP_OK; ++k)
-        for (size_t from = 0; from < n && status == IMP_OK; from += BATCH) {
+    for (size_t k = 0; k < maps && status == IMP_STATUS_OK; ++k)
+        for (size_t from = 0; from < n && status == IMP_STATUS_OK; from += BATCH) {
             const size_t count = n - from < BATCH ? n - from : BATCH;
             status = batch_through_map(&s->maps[k], count, p + 3 * from, x + 3 * from,
                                        error == NULL ? NULL : error + 3 * from);
@@ -109,8 +109,8 @@ imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, 
 imp_status surface_move_outward(const surface *s, size_t maps, double t, double x[3])
 {
     const double p[3] = {0, 0, t};
-    imp_status status = IMP_OK;
-    for (size_t k = maps; k < s->map_count && status == IMP_OK; ++k)
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = maps; k < s->map_count && status == IMP_STATUS_OK; ++k)
         status = batch_through_map(&s->maps[k], 1, p, x, NULL);
     return status;
 }
@@ -122,7 +122,7 @@ imp_status surface_box_around(const surface *s, const imp_region *region,
 {
     double error[3];
     const imp_status status = eval_under(s, maps, 1, region->c, box->centre, error);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     for (int i = 0; i < 3; ++i) {
         PAD_COVERS(2, 1);
         box->reach[i] = padded_upper(error[i] + region_reach_upper(region, rates->m[i]), 2);
@@ -157,16 +157,16 @@ imp_status surface_chain_rule(const imp_map_rates *p, const imp_rate_matrix *in,
             out->m[i][j] = padded_upper(sum, 16);
             finite = finite && out->m[i][j] < INFINITY;
         }
-    return finite ? IMP_OK : IMP_UNBOUNDED;
+    return finite ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates)
 {
     imp_status status = surface_type_rate(s, region, rates);
-    for (size_t k = 0; k < s->map_count && status == IMP_OK; ++k) {
+    for (size_t k = 0; k < s->map_count && status == IMP_STATUS_OK; ++k) {
         centred_box around;
         status = surface_box_around(s, region, rates, k, &around);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
         double lo[3], hi[3];
         for (int i = 0; i < 3; ++i) {
             lo[i] = difference_lower(around.centre[i], around.reach[i]);
@@ -175,9 +175,9 @@ imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_mat
         imp_box4 box;
         imp_map_rates p;
         const imp_rate_matrix inner = *rates;
-        if (!surface_box4_from(lo, hi, region, &box)) return IMP_UNBOUNDED;
+        if (!surface_box4_from(lo, hi, region, &box)) return IMP_STATUS_UNBOUNDED;
         status = surface_map_rate(&s->maps[k], &box, &p);
-        if (status == IMP_OK) status = surface_chain_rule(&p, &inner, rates);
+        if (status == IMP_STATUS_OK) status = surface_chain_rule(&p, &inner, rates);
     }
     return status;
 }

@@ -25,14 +25,14 @@ bool instance_offers_symmetry(const imp_surface_type *type)
 static bool is_sane(const imp_symmetry *found)
 {
     double most = 0;
-    if (found->kind < IMP_SYMMETRIC_ABOUT_POINT || found->kind > IMP_SYMMETRIC_ACROSS_LINE)
+    if (found->kind < IMP_SYMMETRY_ABOUT_POINT || found->kind > IMP_SYMMETRY_ACROSS_LINE)
         return false;
     for (int i = 0; i < 3; ++i) {
         if (!isfinite(found->center[i]) || !isfinite(found->axis[i])) return false;
         if (fabs(found->axis[i]) > most) most = fabs(found->axis[i]);
     }
     if (found->is_closed > 1) return false;
-    return found->kind == IMP_SYMMETRIC_ABOUT_POINT || (most > AXIS_LEAST && most < AXIS_MOST);
+    return found->kind == IMP_SYMMETRY_ABOUT_POINT || (most > AXIS_LEAST && most < AXIS_MOST);
 }
 
 bool surface_has_symmetry(const surface *s)
@@ -43,12 +43,12 @@ bool surface_has_symmetry(const surface *s)
 static imp_status symmetry_of(const surface *s, imp_symmetry *found)
 {
     memset(found, 0, sizeof *found);
-    if (!surface_has_symmetry(s)) return IMP_UNBOUNDED;
+    if (!surface_has_symmetry(s)) return IMP_STATUS_UNBOUNDED;
     const surface_call call = surface_call_begin(s->type->name, "symmetry");
     imp_status status = s->type->symmetry(s->self, found);
     status = surface_call_end(call, status);
-    if (status != IMP_OK) return status;
-    return is_sane(found) ? IMP_OK : SURFACE_BAD_SYMMETRY;
+    if (status != IMP_STATUS_OK) return status;
+    return is_sane(found) ? IMP_STATUS_OK : SURFACE_BAD_SYMMETRY;
 }
 
 /* --- Lengths --------------------------------------------------------------------------------------- */
@@ -156,10 +156,10 @@ static imp_status pose_of(const surface *s, size_t k, const imp_region *times, i
                           double *d)
 {
     const imp_status status = surface_pose_of_maps(s, k, k + 1, times, pose);
-    if (status == IMP_OK)
+    if (status == IMP_STATUS_OK)
         *d = map_turns_exactly(&s->maps[k]) ? 0 : surface_pose_deviation_upper(pose);
-    if (status == IMP_OK && *d > 0) memset(pose->fixed, 0, sizeof pose->fixed);
-    return status == IMP_OK && !(*d <= 0.5) ? IMP_UNBOUNDED : status;
+    if (status == IMP_STATUS_OK && *d > 0) memset(pose->fixed, 0, sizeof pose->fixed);
+    return status == IMP_STATUS_OK && !(*d <= 0.5) ? IMP_STATUS_UNBOUNDED : status;
 }
 
 /* The pose of a's map k, and of b's, at these times. */
@@ -178,29 +178,31 @@ static imp_status pose_of_b(const question *q, size_t k, const imp_region *times
 /* But for what points are off by. */
 static imp_status see_features(const question *q, const imp_region *times, seen *x)
 {
-    const int features = q->found.kind == IMP_SYMMETRIC_ABOUT_POINT ? 1 : 2;
+    const int features = q->found.kind == IMP_SYMMETRY_ABOUT_POINT ? 1 : 2;
     imp_model from[3];
     imp_pose pose;
     double d;
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     for (int i = 0; i < 3; ++i) {
         x->feature[0].at[i] = imp_num(q->found.center[i]);
         x->feature[1].at[i] = imp_add(imp_num(q->found.center[i]), imp_num(q->found.axis[i]));
     }
     x->feature[0].off = x->feature[1].off = x->off = 0;
-    for (size_t k = 0; k < q->b_maps && status == IMP_OK; ++k) {
+    for (size_t k = 0; k < q->b_maps && status == IMP_STATUS_OK; ++k) {
         status = pose_of_b(q, k, times, &pose, &d);
-        for (int f = 0; f < features && status == IMP_OK; ++f) push(&pose, d, &x->feature[f]);
+        for (int f = 0; f < features && status == IMP_STATUS_OK; ++f)
+            push(&pose, d, &x->feature[f]);
     }
-    for (size_t k = q->a_maps; k-- > 0 && status == IMP_OK;) {
+    for (size_t k = q->a_maps; k-- > 0 && status == IMP_STATUS_OK;) {
         status = pose_of_a(q, k, times, &pose, &d);
-        for (int f = 0; f < features && status == IMP_OK; ++f) pull(&pose, d, &x->feature[f]);
+        for (int f = 0; f < features && status == IMP_STATUS_OK; ++f)
+            pull(&pose, d, &x->feature[f]);
     }
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     for (int i = 0; i < 3; ++i)
         from[i] = imp_sub(imp_between(q->bare[i].lo, q->bare[i].hi), x->feature[0].at[i]);
     x->far = sum_upper(size_upper(from), x->feature[0].off);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status see(const question *q, const imp_region *times, seen *x)
@@ -210,13 +212,13 @@ static imp_status see(const question *q, const imp_region *times, seen *x)
     double d;
     imp_status status = see_features(q, times, x);
     for (int i = 0; i < 3; ++i) y.at[i] = imp_between(q->bare[i].lo, q->bare[i].hi);
-    for (size_t k = 0; k < q->a_maps && status == IMP_OK; ++k) {
+    for (size_t k = 0; k < q->a_maps && status == IMP_STATUS_OK; ++k) {
         status = pose_of_a(q, k, times, &pose, &d);
-        if (status == IMP_OK) push(&pose, d, &y);
+        if (status == IMP_STATUS_OK) push(&pose, d, &y);
     }
-    for (size_t k = q->b_maps; k-- > 0 && status == IMP_OK;) {
+    for (size_t k = q->b_maps; k-- > 0 && status == IMP_STATUS_OK;) {
         status = pose_of_b(q, k, times, &pose, &d);
-        if (status == IMP_OK) pull_truly(&pose, d, &y);
+        if (status == IMP_STATUS_OK) pull_truly(&pose, d, &y);
     }
     x->off = y.off;
     return status;
@@ -245,7 +247,7 @@ static double slip_upper(const imp_symmetry *of, const seen *now, const seen *th
     for (int i = 0; i < 3; ++i) v[i] = imp_sub(now->feature[0].at[i], then->feature[0].at[i]);
     const double off = now->feature[0].off + then->feature[0].off, all = size_upper(v) + off;
     const double points = now->off + then->off;
-    if (of->kind == IMP_SYMMETRIC_ABOUT_POINT) return padded_upper(all + points, 16);
+    if (of->kind == IMP_SYMMETRY_ABOUT_POINT) return padded_upper(all + points, 16);
     for (int i = 0; i < 3; ++i) {
         w[i] = imp_sub(imp_sub(now->feature[1].at[i], then->feature[1].at[i]), v[i]);
         axis[i] = imp_sub(then->feature[1].at[i], then->feature[0].at[i]);
@@ -254,14 +256,14 @@ static double slip_upper(const imp_symmetry *of, const seen *now, const seen *th
     const double tips = off + now->feature[1].off + then->feature[1].off;
     const double turn = (size_upper(w) + tips) / length;
     double shift = all;
-    if (of->kind == IMP_SYMMETRIC_ALONG_LINE) {
+    if (of->kind == IMP_SYMMETRY_ALONG_LINE) {
         imp_model across[3];
         for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3, k = (i + 2) % 3;
             across[i] = imp_sub(imp_mul(v[j], axis[k]), imp_mul(v[k], axis[j]));
         }
         shift = (size_upper(across) + all * tips) / length + off + all * turn;
-    } else if (of->kind == IMP_SYMMETRIC_ACROSS_LINE) {
+    } else if (of->kind == IMP_SYMMETRY_ACROSS_LINE) {
         const imp_model along[3] = {imp_dot3(v, axis), imp_num(0), imp_num(0)};
         shift = (size_upper(along) + all * tips) / length + off + all * turn;
     }
@@ -287,19 +289,19 @@ static imp_status slip_over(const question *q, const seen *then, const imp_regio
 {
     seen now;
     const imp_status status = see(q, times, &now);
-    double found = status == IMP_OK ? slip_upper(&q->found, &now, then) : INFINITY;
+    double found = status == IMP_STATUS_OK ? slip_upper(&q->found, &now, then) : INFINITY;
     const double middle = times->c[2];
     if (!(found >= 0)) found = INFINITY; /* NaN */
-    if (status != IMP_OK && status != IMP_UNBOUNDED) return status;
+    if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) return status;
     const bool divides = halvings > 0 && times->lo[2] < middle && middle < times->hi[2];
     if (found <= GOOD_ENOUGH * then->far || !divides) {
         if (!(found <= *slip)) *slip = found;
-        return IMP_OK;
+        return IMP_STATUS_OK;
     }
     const imp_region first = at_times(times, times->lo[2], middle);
     const imp_region second = at_times(times, middle, times->hi[2]);
     const imp_status before = slip_over(q, then, &first, halvings - 1, slip);
-    return before == IMP_OK ? slip_over(q, then, &second, halvings - 1, slip) : before;
+    return before == IMP_STATUS_OK ? slip_over(q, then, &second, halvings - 1, slip) : before;
 }
 
 /* Whether the motion is surely none within b, as seen at both ends of the times. */
@@ -309,12 +311,12 @@ static imp_status give_up(const question *q, const imp_region *still, const imp_
     seen then;
     imp_status status = see_features(q, still, &then);
     const double ends[2] = {times->lo[2], times->hi[2]};
-    for (int k = 0; k < 2 && status == IMP_OK && !*given_up; ++k) {
+    for (int k = 0; k < 2 && status == IMP_STATUS_OK && !*given_up; ++k) {
         const imp_region end = at_times(times, ends[k], ends[k]);
         seen now;
         status = see_features(q, &end, &now);
         *given_up =
-            status == IMP_OK && !(slip_upper(&q->found, &now, &then) <= GIVEN_UP * then.far);
+            status == IMP_STATUS_OK && !(slip_upper(&q->found, &now, &then) <= GIVEN_UP * then.far);
     }
     return status;
 }
@@ -325,21 +327,21 @@ static imp_status answer(const question *q, const imp_region *times, double *sli
     question center = *q;
     bool given_up = false;
     seen then;
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     *slip = INFINITY;
-    center.found.kind = IMP_SYMMETRIC_ABOUT_POINT;
+    center.found.kind = IMP_SYMMETRY_ABOUT_POINT;
     /* Rotations about a line keep its center, which alone costs less to see. */
-    if (q->found.kind == IMP_SYMMETRIC_ABOUT_LINE)
+    if (q->found.kind == IMP_SYMMETRY_ABOUT_LINE)
         status = give_up(&center, &q->then, times, &given_up);
-    if (status == IMP_OK && !given_up) status = give_up(q, &q->then, times, &given_up);
-    if (given_up) return IMP_OK;
-    if (status == IMP_OK) status = see(q, &q->then, &then);
-    if (status == IMP_OK) {
+    if (status == IMP_STATUS_OK && !given_up) status = give_up(q, &q->then, times, &given_up);
+    if (given_up) return IMP_STATUS_OK;
+    if (status == IMP_STATUS_OK) status = see(q, &q->then, &then);
+    if (status == IMP_STATUS_OK) {
         *slip = 0;
         status = slip_over(q, &then, times, HALVINGS, slip);
     }
-    if (status != IMP_OK || !(*slip >= 0)) *slip = INFINITY;
-    return status == IMP_UNBOUNDED ? IMP_OK : status;
+    if (status != IMP_STATUS_OK || !(*slip >= 0)) *slip = INFINITY;
+    return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
 static bool moves_rigidly(const surface *s) { return s->map_count == 0 || surface_is_rigid(s); }
@@ -350,11 +352,11 @@ static imp_status way_of(const question *q, const double point[3], const imp_reg
 {
     question p = *q;
     seen now, then;
-    p.found.kind = IMP_SYMMETRIC_ABOUT_POINT;
+    p.found.kind = IMP_SYMMETRY_ABOUT_POINT;
     memcpy(p.found.center, point, sizeof p.found.center);
     imp_status status = see_features(&p, &q->then, &then);
-    if (status == IMP_OK) status = see_features(&p, other, &now);
-    for (int i = 0; i < 3 && status == IMP_OK; ++i)
+    if (status == IMP_STATUS_OK) status = see_features(&p, other, &now);
+    for (int i = 0; i < 3 && status == IMP_STATUS_OK; ++i)
         way[i] = now.feature[0].at[i].a - then.feature[0].at[i].a;
     return status;
 }
@@ -393,19 +395,19 @@ static imp_status choose_center(question *q, const imp_region *times)
     double across[2][3], way[3][3], *center = q->found.center;
     directions_across(q->found.axis, across);
     imp_status status = way_of(q, center, &other, way[0]);
-    for (int k = 0; k < 2 && status == IMP_OK; ++k) {
+    for (int k = 0; k < 2 && status == IMP_STATUS_OK; ++k) {
         double point[3];
         for (int i = 0; i < 3; ++i) point[i] = center[i] + across[k][i];
         status = way_of(q, point, &other, way[k + 1]);
         for (int i = 0; i < 3; ++i) way[k + 1][i] -= way[0][i];
     }
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     const double a = dot(way[1], way[1]), b = dot(way[1], way[2]), c = dot(way[2], way[2]);
     const double det = a * c - b * b, r = -dot(way[1], way[0]), s = -dot(way[2], way[0]);
-    if (!(det > SINGULAR * a * c)) return IMP_OK;
+    if (!(det > SINGULAR * a * c)) return IMP_STATUS_OK;
     const double along[2] = {(c * r - b * s) / det, (a * s - b * r) / det};
     for (int i = 0; i < 3; ++i) center[i] += along[0] * across[0][i] + along[1] * across[1][i];
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
@@ -419,12 +421,12 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
                   .then = at_times(times, moment, moment),
                   .bare = bare};
     *slip = INFINITY;
-    if (!moves_rigidly(a) || q.a_maps + q.b_maps == 0) return IMP_OK;
+    if (!moves_rigidly(a) || q.a_maps + q.b_maps == 0) return IMP_STATUS_OK;
     imp_status status = symmetry_of(b, &q.found);
-    if (status == IMP_OK && q.found.kind == IMP_SYMMETRIC_ACROSS_LINE)
+    if (status == IMP_STATUS_OK && q.found.kind == IMP_SYMMETRY_ACROSS_LINE)
         status = choose_center(&q, times);
-    if (status == IMP_OK && is_sane(&q.found)) return answer(&q, times, slip);
-    return status == IMP_OK || status == IMP_UNBOUNDED ? IMP_OK : status;
+    if (status == IMP_STATUS_OK && is_sane(&q.found)) return answer(&q, times, slip);
+    return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
 imp_status surface_slip_along(const surface *a, const surface *b, const surface_plane *plane,
@@ -436,28 +438,28 @@ imp_status surface_slip_along(const surface *a, const surface *b, const surface_
                   .a_maps = a->map_count,
                   .b_maps = b->map_count,
                   .then = at_times(times, moment, moment),
-                  .found = {.kind = IMP_SYMMETRIC_ACROSS_LINE},
+                  .found = {.kind = IMP_SYMMETRY_ACROSS_LINE},
                   .bare = bare};
     memcpy(q.found.center, plane->center, sizeof q.found.center);
     memcpy(q.found.axis, plane->axis, sizeof q.found.axis);
     *slip = INFINITY;
-    if (!moves_rigidly(a) || !moves_rigidly(b)) return IMP_OK;
+    if (!moves_rigidly(a) || !moves_rigidly(b)) return IMP_STATUS_OK;
     const imp_status status = choose_center(&q, times);
-    if (status == IMP_OK && is_sane(&q.found)) return answer(&q, times, slip);
-    return status == IMP_OK || status == IMP_UNBOUNDED ? IMP_OK : status;
+    if (status == IMP_STATUS_OK && is_sane(&q.found)) return answer(&q, times, slip);
+    return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
 /* --- Pairs that turn within themselves ------------------------------------------------------------- */
 
-/* The rotations that keep the whole surface. IMP_UNBOUNDED: none are known. */
+/* The rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known. */
 static imp_status closed_symmetry_of(const surface *s, imp_symmetry *found)
 {
-    if (!instance_offers_symmetry(s->type)) return IMP_UNBOUNDED;
+    if (!instance_offers_symmetry(s->type)) return IMP_STATUS_UNBOUNDED;
     const imp_status status = symmetry_of(s, found);
-    if (status != IMP_OK) return status;
-    if (!found->is_closed) return IMP_UNBOUNDED;
-    if (found->kind != IMP_SYMMETRIC_ABOUT_POINT) found->kind = IMP_SYMMETRIC_ABOUT_LINE;
-    return IMP_OK;
+    if (status != IMP_STATUS_OK) return status;
+    if (!found->is_closed) return IMP_STATUS_UNBOUNDED;
+    if (found->kind != IMP_SYMMETRY_ABOUT_POINT) found->kind = IMP_SYMMETRY_ABOUT_LINE;
+    return IMP_STATUS_OK;
 }
 
 /* Lemma. Let P(t) be what the first maps of s do. In the lemma of slip_upper let b be s under these maps, and a
@@ -476,7 +478,7 @@ static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetr
         double d;
         carried y = {.off = 0};
         const imp_status status = pose_of(s, k, then, &pose, &d);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
         memcpy(y.at, there, sizeof y.at);
         push(&pose, d, &y);
         for (int i = 0; i < 3; ++i) {
@@ -499,17 +501,17 @@ static imp_status first_maps_within(const surface *s, const imp_model bare[3],
     imp_status status = closed_symmetry_of(s, &found);
     *maps = 0;
     *slip = 0;
-    if (status != IMP_OK) return status == IMP_UNBOUNDED ? IMP_OK : status;
+    if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
     for (size_t k = s->map_count; k > 0; --k) {
         double found_slip;
         status = slip_of_first(s, k, &found, bare, times, then, &found_slip);
-        if (status != IMP_OK && status != IMP_UNBOUNDED) return status;
-        if (status != IMP_OK || !(found_slip < INFINITY)) continue;
+        if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) return status;
+        if (status != IMP_STATUS_OK || !(found_slip < INFINITY)) continue;
         *maps = k;
         *slip = found_slip;
-        return IMP_OK;
+        return IMP_STATUS_OK;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* What is left of a's motion as b sees it: within b's closed symmetry but for *slip. */
@@ -527,8 +529,8 @@ static imp_status slip_of_rest(const surface *const s[2], const size_t still[2],
                   .bare = bare};
     *slip = INFINITY;
     imp_status status = closed_symmetry_of(s[1], &q.found);
-    if (status == IMP_OK) status = answer(&q, times, slip);
-    return status == IMP_UNBOUNDED ? IMP_OK : status;
+    if (status == IMP_STATUS_OK) status = answer(&q, times, slip);
+    return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
 imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
@@ -538,23 +540,23 @@ imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][
     size_t still[2];
     double own[2], rest = 0;
     *slip = INFINITY;
-    if (!moves_rigidly(s[0]) || !moves_rigidly(s[1])) return IMP_OK;
+    if (!moves_rigidly(s[0]) || !moves_rigidly(s[1])) return IMP_STATUS_OK;
     for (int k = 0; k < 2; ++k) {
         *asked = k;
         const imp_status status =
             first_maps_within(s[k], bare[k], times, &then, &still[k], &own[k]);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
     }
     if (still[0] < s[0]->map_count || still[1] < s[1]->map_count) {
         imp_status status = slip_of_rest(s, still, bare[0], times, &then, &rest);
-        if (status == IMP_OK && !(rest < INFINITY)) {
+        if (status == IMP_STATUS_OK && !(rest < INFINITY)) {
             const surface *const turned[2] = {s[1], s[0]};
             *asked = 0;
             status =
                 slip_of_rest(turned, (size_t[2]){still[1], still[0]}, bare[1], times, &then, &rest);
         }
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
     }
     *slip = sum_upper(sum_upper(own[0], own[1]), rest);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }

@@ -244,7 +244,7 @@ static imp_code judge(const surface *s, const node *n, const double p[3], const 
 /* A point with its error bounds; what cannot be evaluated is no evidence here. */
 static bool evaluate(const surface *s, const double p[3], double x[3], double eval_error[3])
 {
-    if (surface_eval(s, 1, p, x, eval_error) != IMP_OK) return false;
+    if (surface_eval(s, 1, p, x, eval_error) != IMP_STATUS_OK) return false;
     for (int i = 0; i < 3; ++i)
         if (!(eval_error[i] >= 0 && isfinite(x[i]))) return false;
     return true;

@@ -81,9 +81,10 @@ static bool draw_passage(const node *n, uint64_t *state, passage *w)
         if (d > 0 && !(d > 0x1p-30 * fabs(w->region.c[j]))) return false;
     }
     size_t still; /* as the solver asks */
-    if (surface_still_maps(n->surface, &w->region, &still) != IMP_OK) return false;
+    if (surface_still_maps(n->surface, &w->region, &still) != IMP_STATUS_OK) return false;
     w->maps = random_bits(state) % (still + 1);
-    if (surface_include_inner(n->surface, &w->region, w->maps, w->point) != IMP_OK) return false;
+    if (surface_include_inner(n->surface, &w->region, w->maps, w->point) != IMP_STATUS_OK)
+        return false;
     double extent = 0;
     for (int i = 0; i < 3; ++i)
         extent += fabs(w->point[i].b[0]) + fabs(w->point[i].b[1]) + w->point[i].e;
@@ -133,7 +134,7 @@ enum { PASSAGES = 8, STEPS = 4 };
 static imp_code judge_passage(const node *n, const passage *w, uint64_t *state, imp_error *error)
 {
     imp_model g;
-    if (surface_distance(n->surface, &w->region, w->maps, w->point, &g) != IMP_OK)
+    if (surface_distance(n->surface, &w->region, w->maps, w->point, &g) != IMP_STATUS_OK)
         return IMP_SUCCESS;
     for (int k = 0; k < STEPS; ++k) {
         const double end = 1 - 0x1p-20;

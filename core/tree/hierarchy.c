@@ -69,13 +69,13 @@ static imp_code take_piece(const hierarchy *h, size_t k, cluster_bound *b, imp_e
     lo[2] = h->lo, hi[2] = h->hi;
     const imp_region region = region_make(lo, hi);
     const imp_status status = surface_include_bare(piece, &region, model);
-    if (status != IMP_OK && status != IMP_UNBOUNDED) {
+    if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) {
         surface_fault(piece, error, "over its domain, t [%.17g, %.17g]: %s", h->lo, h->hi,
                       surface_status_told(piece, status).text);
         return surface_set_code(status, error);
     }
     for (int i = 0; i < 3; ++i) bound_piece(b, i, &model[i]);
-    if (status == IMP_UNBOUNDED || !is_bound(b)) bound_nothing(b);
+    if (status == IMP_STATUS_UNBOUNDED || !is_bound(b)) bound_nothing(b);
     return IMP_SUCCESS;
 }
 

@@ -227,7 +227,7 @@ imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error)
     double x[3];
     const double *p = n->region.c;
     const imp_status status = surface_eval(n->surface, 1, p, x, NULL);
-    if (status != IMP_OK)
+    if (status != IMP_STATUS_OK)
         return surface_fault(n->surface, error, "at u = %.17g, v = %.17g, t = %.17g: %s", p[0],
                              p[1], p[2], surface_status_told(n->surface, status).text);
     return node_fault(

@@ -33,8 +33,9 @@ static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
     if (n->many != NULL) cluster_models(n->many, &n->region, model);
     const imp_status status = n->many != NULL ? surface_include_image(t->surface, &n->region, model)
                                               : surface_include(n->surface, &n->region, model);
-    if (status != IMP_OK && status != IMP_UNBOUNDED) return node_status_fault(n, status, error);
-    const char *breach = node_take_model(n, model, status == IMP_UNBOUNDED);
+    if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED)
+        return node_status_fault(n, status, error);
+    const char *breach = node_take_model(n, model, status == IMP_STATUS_UNBOUNDED);
     return breach != NULL ? node_fault(n, breach, error) : IMP_SUCCESS;
 }
 
@@ -109,10 +110,10 @@ static imp_code fill_from_rates(const tree *t, node *n, imp_error *error)
 {
     imp_rate_matrix rates;
     imp_status status = surface_rate(n->surface, &n->region, &rates);
-    if (status == IMP_UNBOUNDED) return take_infinite(n), IMP_SUCCESS;
-    if (status != IMP_OK) return node_status_fault(n, status, error);
+    if (status == IMP_STATUS_UNBOUNDED) return take_infinite(n), IMP_SUCCESS;
+    if (status != IMP_STATUS_OK) return node_status_fault(n, status, error);
     status = surface_eval(n->surface, 1, n->region.c, n->f.a, n->e);
-    if (status != IMP_OK) return node_status_fault(n, status, error);
+    if (status != IMP_STATUS_OK) return node_status_fault(n, status, error);
     n->bounded = true;
     for (int i = 0; i < 3; ++i) {
         if (!(n->e[i] >= 0 && isfinite(n->f.a[i])))
@@ -134,7 +135,7 @@ bool node_bare_models(const node *n, imp_model bare[3])
 {
     if (n->many != NULL)
         cluster_models(n->many, &n->region, bare);
-    else if (surface_include_bare(n->surface, &n->region, bare) != IMP_OK)
+    else if (surface_include_bare(n->surface, &n->region, bare) != IMP_STATUS_OK)
         return false;
     for (int i = 0; i < 3; ++i)
         if (!(bare[i].e < INFINITY) || (bare[i].depends >> PARAMETER_T & 1) != 0) return false;

@@ -55,8 +55,8 @@ static imp_code ask_net(const node *n, net_buffer *room, const net **made, imp_e
     imp_net given;
     const imp_status status = surface_net(n->surface, &n->region, &given);
     *made = NULL;
-    if (status == IMP_UNBOUNDED) return IMP_SUCCESS;
-    if (status != IMP_OK) return node_status_fault(n, status, error);
+    if (status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
+    if (status != IMP_STATUS_OK) return node_status_fault(n, status, error);
     if (net_take(net_in(room), &given, &n->region)) *made = net_in(room);
     return IMP_SUCCESS;
 }

@@ -75,7 +75,7 @@ static void shape_fill(shape *s, const node *n, const node *root)
     memset(s, 0, sizeof *s);
     if (n->many != NULL)
         cluster_models(n->many, &region, model);
-    else if (surface_include_bare(n->surface, &region, model) != IMP_OK)
+    else if (surface_include_bare(n->surface, &region, model) != IMP_STATUS_OK)
         return;
     for (int i = 0; i < 3; ++i)
         if (!(model[i].e < INFINITY)) return;
@@ -126,12 +126,12 @@ static imp_code span_fill(span *s, const node *n, imp_error *error)
     imp_pose given;
     memset(s, 0, sizeof *s);
     const imp_status status = surface_pose(n->surface, &n->region, &given);
-    if (status != IMP_OK && status != IMP_UNBOUNDED) {
+    if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) {
         surface_fault(n->surface, error, "over t [%.17g, %.17g]: %s", n->region.lo[2],
                       n->region.hi[2], surface_status_told(n->surface, status).text);
         return surface_set_code(status, error);
     }
-    s->is_known = status == IMP_OK;
+    s->is_known = status == IMP_STATUS_OK;
     s->is_uniform = s->is_known && is_uniform(&given);
     if (s->is_known) pose_take(&s->pose, &given, surface_pose_norm_upper(n->surface));
     return IMP_SUCCESS;

@@ -93,7 +93,7 @@ static imp_code point_at(const surface *s, const double *p, vec3 *x, double eval
                          imp_error *error)
 {
     const imp_status status = surface_eval(s, 1, p, x->x, eval_error);
-    if (status != IMP_OK) return status_fault(s, status, p, error);
+    if (status != IMP_STATUS_OK) return status_fault(s, status, p, error);
     return point_check(s, p, *x, eval_error, error);
 }
 
@@ -103,11 +103,12 @@ static imp_code points_at(const surface *s, size_t n, const double (*p)[3], vec3
                           double (*eval_error)[3], imp_error *error)
 {
     const imp_status status = surface_eval(s, n, p[0], x->x, eval_error[0]);
-    const imp_code together = status == IMP_OK ? IMP_SUCCESS : status_fault(s, status, p[0], error);
+    const imp_code together =
+        status == IMP_STATUS_OK ? IMP_SUCCESS : status_fault(s, status, p[0], error);
     imp_code each = IMP_SUCCESS;
     for (size_t k = 0; k < n && each == IMP_SUCCESS; ++k)
-        each = status == IMP_OK ? point_check(s, p[k], x[k], eval_error[k], error)
-                                : point_at(s, p[k], &x[k], eval_error[k], error);
+        each = status == IMP_STATUS_OK ? point_check(s, p[k], x[k], eval_error[k], error)
+                                       : point_at(s, p[k], &x[k], eval_error[k], error);
     return each == IMP_SUCCESS ? together : each;
 }
 

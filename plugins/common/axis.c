@@ -8,7 +8,7 @@
 imp_status axis_check(int row, const double axis[3], imp_create_error *why)
 {
     for (int i = 0; i < 3; ++i)
-        if (fabs(axis[i]) >= AXIS_MIN) return IMP_OK;
+        if (fabs(axis[i]) >= AXIS_MIN) return IMP_STATUS_OK;
     return imp_reject(why, row, -1,
                       "[%g,%g,%g] has no direction; must be any vector but 0 (some component at "
                       "least %g)",
@@ -243,7 +243,7 @@ imp_status axis_turn_rates(const axis_frame *frame, const double center[3],
         rates->m[i][3] = imp_round_up(imp_interval_mag(speed) * angle.rate[2]);
         size += rates->m[i][3];
     }
-    return size < INFINITY ? IMP_OK : IMP_UNBOUNDED;
+    return size < INFINITY ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 /* --- Centres --- */
@@ -267,7 +267,7 @@ void axis_add_center(const double center[3], imp_model out[3])
 
 imp_status axis_check_range(int row, const double range[2], imp_create_error *why)
 {
-    if (range[1] - range[0] >= RANGE_MIN) return IMP_OK;
+    if (range[1] - range[0] >= RANGE_MIN) return IMP_STATUS_OK;
     return imp_reject(
         why, row, -1,
         "[%g,%g] is no range; the second number must be greater than the first, by %g "

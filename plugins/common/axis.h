@@ -29,10 +29,10 @@ imp_status axis_check(int row, const double axis[3], imp_create_error *why);
 
 /* An angle in time, by a constant rate or by its coefficients (polynomial.h). */
 #define ROW_TURNING_RATE(DOC)                                                                      \
-    IMP_ROW("rate", "rad/time", NULL, IMP_OPTIONAL, 0, 0, 0, -INFINITY, INFINITY, DOC)
+    IMP_ROW("rate", "rad/time", NULL, IMP_PARAMETER_OPTIONAL, 0, 0, 0, -INFINITY, INFINITY, DOC)
 
 #define ROW_TURNING_ANGLE                                                                          \
-    IMP_ROW_NUMBERS("angle", "rad/time^k", NULL, IMP_OPTIONAL | IMP_SCALAR_OK,                     \
+    IMP_ROW_NUMBERS("angle", "rad/time^k", NULL, IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_SCALAR_OK, \
                     "instead: coefficients of t^0, t^1, t^2 ... of the angle")
 
 /* k . w; what is surely 0 is left out. */

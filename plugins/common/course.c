@@ -28,7 +28,7 @@ static imp_status course_check_unit(const course_question *q, int given)
 {
     const imp_value *u = &q->v[COURSE_UNIT];
     const bool angle = q->kind == UNIT_ANGLE, asked = angle ? u->number[0] != 0 : imp_is_given(u);
-    if (!asked || given == COURSE_FILE || (angle && given == COURSE_TIMES)) return IMP_OK;
+    if (!asked || given == COURSE_FILE || (angle && given == COURSE_TIMES)) return IMP_STATUS_OK;
     return imp_reject(q->why, q->first + COURSE_UNIT, -1, "belongs to a %s, which is missing",
                       angle ? "table" : "file");
 }
@@ -65,9 +65,9 @@ static imp_status course_read_polynomial(course *c, const course_question *q)
 {
     const imp_value *rate = &q->v[COURSE_RATE], *coefficients = &q->v[COURSE_COEFFICIENTS];
     c->memory = malloc(width_of(q) * polynomial_count(rate, coefficients) * sizeof(double));
-    if (c->memory == NULL) return IMP_INTERNAL;
+    if (c->memory == NULL) return IMP_STATUS_INTERNAL;
     c->polynomial = polynomial_read(rate, coefficients, width_of(q), (double *)c->memory);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Tables --------------------------------------------------------------------------------- */
@@ -91,13 +91,13 @@ static imp_status course_collect(const course_question *q, csv_numbers *to)
                           "%zu for %zu times; there must be one for each", values->extent[0],
                           to->rows);
     to->number = malloc(to->rows * to->columns * sizeof(double));
-    if (to->number == NULL) return IMP_INTERNAL;
+    if (to->number == NULL) return IMP_STATUS_INTERNAL;
     for (size_t i = 0; i < to->rows; ++i) {
         to->number[i * to->columns] = times->number[i];
         memcpy(to->number + i * to->columns + 1, values->number + i * width,
                width * sizeof(double));
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* That of a kind where nobody says. */
@@ -122,7 +122,7 @@ static imp_status course_find_unit(const course_question *q, course_table *t, si
         return imp_reject(q->why, t->row, -1, "column %zu is in %s, but degrees is true",
                           t->numbers.place[k] + 1, said);
     if (degrees) unit_find(UNIT_ANGLE, "deg", &t->from[k]);
-    if (q->kind == UNIT_ANGLE) return IMP_OK;
+    if (q->kind == UNIT_ANGLE) return IMP_STATUS_OK;
     if (*said != '\0' && !imp_is_given(u))
         return imp_reject(q->why, t->row, -1,
                           "column %zu is in %s, but the scene's unit is not known; give scene_unit",
@@ -131,16 +131,16 @@ static imp_status course_find_unit(const course_question *q, course_table *t, si
         return imp_reject(q->why, q->first + COURSE_UNIT, -1, "found '%.40s'; allowed are %s",
                           u->string[0], unit_names(UNIT_LENGTH));
     if (*said == '\0') t->from[k] = t->to[k];
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status course_find_units(const course_question *q, course_table *t)
 {
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     for (size_t k = 0; k < CSV_COLUMNS_MAX; ++k) t->from[k] = t->to[k] = plain_unit;
     if (t->numbers.unit[0][0] != '\0' && !unit_find(UNIT_TIME, t->numbers.unit[0], &t->from[0]))
         return refuse_unit(q, t, 0, UNIT_TIME);
-    for (size_t k = 1; k < t->numbers.columns && status == IMP_OK; ++k)
+    for (size_t k = 1; k < t->numbers.columns && status == IMP_STATUS_OK; ++k)
         status = course_find_unit(q, t, k);
     return status;
 }
@@ -160,7 +160,7 @@ static imp_status course_take_times(course_table *t, imp_create_error *why)
                               "%.17g after %.17g (row %zu of the table); times must increase",
                               *time, time[-(ptrdiff_t)n->columns], i + 1);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void fill_keys(const course_table *t, double *time, imp_interval *key)
@@ -183,7 +183,7 @@ static imp_status course_set_table(course *c, const course_table *t, bool linear
     c->memory = malloc(spline_bytes(keys, width, 0));
     if (key == NULL || c->memory == NULL) {
         free(key);
-        return IMP_INTERNAL;
+        return IMP_STATUS_INTERNAL;
     }
     c->table = spline_place(keys, width, 0, c->memory);
     c->table.kinked = linear;
@@ -198,7 +198,7 @@ static imp_status course_set_table(course *c, const course_table *t, bool linear
             "them: speeds are not finite",
             piece + 2);
     spline_grow(&c->table);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status course_read_table(course *c, const course_question *q)
@@ -216,9 +216,9 @@ static imp_status course_read_table(course *c, const course_question *q)
                             ? csv_read(v[COURSE_FILE].string[0], t.row, v[COURSE_COLUMNS].string,
                                        q->first + COURSE_COLUMNS, &t.numbers, q->why)
                             : course_collect(q, &t.numbers);
-    if (status == IMP_OK) status = course_find_units(q, &t);
-    if (status == IMP_OK) status = course_take_times(&t, q->why);
-    if (status == IMP_OK) status = course_set_table(c, &t, linear, q->why);
+    if (status == IMP_STATUS_OK) status = course_find_units(q, &t);
+    if (status == IMP_STATUS_OK) status = course_take_times(&t, q->why);
+    if (status == IMP_STATUS_OK) status = course_set_table(c, &t, linear, q->why);
     free(t.numbers.number);
     return status;
 }
@@ -230,10 +230,10 @@ imp_status course_read(course *c, const imp_value *values, int first, unit_kind 
     const course_question q = {values + first, first, kind, why, rows};
     *c = (course){.hold = q.v[COURSE_HOLD].number[0] != 0};
     imp_status status = course_check(&q);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     const bool is_table = imp_is_given(&q.v[COURSE_TIMES]) || imp_is_given(&q.v[COURSE_FILE]);
     status = is_table ? course_read_table(c, &q) : course_read_polynomial(c, &q);
-    if (status != IMP_OK) course_clear(c);
+    if (status != IMP_STATUS_OK) course_clear(c);
     return status;
 }
 

@@ -30,18 +30,18 @@ enum {
 
 /* VALUES is a row of its own kind; UNIT is that of angles or that of lengths. */
 #define COURSE_ROW_TIMES                                                                           \
-    IMP_ROW_NUMBERS("times", "time", NULL, IMP_OPTIONAL,                                           \
+    IMP_ROW_NUMBERS("times", "time", NULL, IMP_PARAMETER_OPTIONAL,                                 \
                     "instead: of a table, increasing, two or more")
 
 #define COURSE_ROW_FILE                                                                            \
-    IMP_ROW_OF(IMP_STRING, "file", "1", NULL, IMP_OPTIONAL | IMP_FILE, 0, 0, 0, -INFINITY,         \
-               INFINITY,                                                                           \
+    IMP_ROW_OF(IMP_KIND_STRING, "file", "1", NULL, IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_FILE, 0, \
+               0, 0, -INFINITY, INFINITY,                                                          \
                "instead: a table of numbers between commas, or semicolons, or tabs; times in its " \
                "first column, in s if a head has a unit ('t [ms]'); relative to the scene file")
 
 #define COURSE_ROW_COLUMNS(NAME, COUNT, FLAGS, DOC)                                                \
-    IMP_ROW_OF(IMP_STRING, NAME, "1", NULL, IMP_OPTIONAL | (FLAGS), 1, COUNT, 0, -INFINITY,        \
-               INFINITY, DOC)
+    IMP_ROW_OF(IMP_KIND_STRING, NAME, "1", NULL, IMP_PARAMETER_OPTIONAL | (FLAGS), 1, COUNT, 0,    \
+               -INFINITY, INFINITY, DOC)
 
 #define COURSE_ROW_DEGREES                                                                         \
     IMP_ROW_BOOLEAN("degrees", "false",                                                            \
@@ -49,13 +49,14 @@ enum {
                     "('j1 [deg]')")
 
 #define COURSE_ROW_SCENE_UNIT                                                                      \
-    IMP_ROW_OF(IMP_STRING, "scene_unit", "1", NULL, IMP_OPTIONAL, 0, 0, 0, -INFINITY, INFINITY,    \
+    IMP_ROW_OF(IMP_KIND_STRING, "scene_unit", "1", NULL, IMP_PARAMETER_OPTIONAL, 0, 0, 0,          \
+               -INFINITY, INFINITY,                                                                \
                "of a file whose head has units ('x [mm]'): that of the scene's lengths, which "    \
                "the columns are converted to: m, cm, mm, um, nm, km, in or ft")
 
 #define COURSE_ROW_INTERPOLATION                                                                   \
-    IMP_ROW_OF(IMP_STRING, "interpolation", "1", "\"linear\"", 0, 0, 0, 0, -INFINITY, INFINITY,    \
-               "of a table: linear, or cubic with continuous slopes as in keyframes")
+    IMP_ROW_OF(IMP_KIND_STRING, "interpolation", "1", "\"linear\"", 0, 0, 0, 0, -INFINITY,         \
+               INFINITY, "of a table: linear, or cubic with continuous slopes as in keyframes")
 
 #define COURSE_ROW_HOLD                                                                            \
     IMP_ROW_BOOLEAN("hold", "false",                                                               \

@@ -56,7 +56,7 @@ static imp_status csv_next_line(csv_reader *r, bool *more)
         *more = csv_read_line(r, &length);
         if (ferror(r->file))
             return imp_reject(r->why, r->row, -1, "'%.120s' cannot be read", r->path);
-        if (!*more) return IMP_OK;
+        if (!*more) return IMP_STATUS_OK;
         if (length == CSV_LINE_MAX - 1)
             return imp_reject(r->why, r->row, -1, "'%.120s' line %lu is longer than %d bytes",
                               r->path, r->line, CSV_LINE_MAX - 2);
@@ -64,7 +64,7 @@ static imp_status csv_next_line(csv_reader *r, bool *more)
             return imp_reject(r->why, r->row, -1,
                               "'%.120s' line %lu: found a byte 0, allowed is text", r->path,
                               r->line);
-        if (r->text[strspn(r->text, " \t")] != '\0' && r->text[0] != '#') return IMP_OK;
+        if (r->text[strspn(r->text, " \t")] != '\0' && r->text[0] != '#') return IMP_STATUS_OK;
     }
 }
 
@@ -141,7 +141,7 @@ static imp_status csv_find_name(const csv_reader *r, const char *head, const cha
         *found = true;
         *place = column;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* By the head ("" if there is none), or by number, from 1. */
@@ -150,14 +150,14 @@ static imp_status csv_find_column(const csv_reader *r, const char *head, const c
 {
     bool found;
     const imp_status status = csv_find_name(r, head, wanted, name_row, element, place, &found);
-    if (status != IMP_OK || found) return status;
+    if (status != IMP_STATUS_OK || found) return status;
     char *end;
     const unsigned long number = strtoul(wanted, &end, 10);
     if (number == 0 || *end != '\0' || number > r->width)
         return imp_reject(r->why, name_row, element, "'%.40s' is no column of '%.80s'; %s", wanted,
                           r->path, choice_of(r, head).text);
     *place = number - 1;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Without names: the second column, the third, .... The first is always the first. */
@@ -169,12 +169,12 @@ static imp_status csv_find_columns(const csv_reader *r, const char *head, const 
         if (k == 0 || name == NULL) continue;
         const imp_status status =
             csv_find_column(r, head, name[k - 1], name_row, (int64_t)k - 1, &to->place[k]);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
     }
     if (to->columns > r->width)
         return imp_reject(r->why, r->row, -1, "'%.100s' has %zu column%s; %zu are needed", r->path,
                           r->width, plural(r->width), to->columns);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void csv_take_units(const csv_reader *r, const char *head, csv_numbers *to)
@@ -215,7 +215,7 @@ static imp_status csv_refuse_cell(const csv_reader *r, size_t column, const csv_
 
 static imp_status csv_check_width(const csv_reader *r, size_t width)
 {
-    if (width == r->width) return IMP_OK;
+    if (width == r->width) return IMP_STATUS_OK;
     return imp_reject(r->why, r->row, -1, "'%.100s': line %lu has %zu column%s, line %lu has %zu%s",
                       r->path, r->line, width, plural(width), r->first_line, r->width,
                       separators_told(r->separator));
@@ -235,17 +235,18 @@ static bool csv_reserve(csv_numbers *to)
 
 static imp_status csv_read_row(csv_reader *r, csv_numbers *to)
 {
-    if (!csv_reserve(to)) return IMP_INTERNAL;
+    if (!csv_reserve(to)) return IMP_STATUS_INTERNAL;
     double *row = to->number + to->rows * to->columns, number;
     const char *next = r->text;
     const imp_status status = csv_check_width(r, csv_count(r->text, r->separator));
     size_t column = 0;
-    for (csv_cell cell; status == IMP_OK && csv_cell_next(&next, r->separator, &cell); ++column) {
+    for (csv_cell cell; status == IMP_STATUS_OK && csv_cell_next(&next, r->separator, &cell);
+         ++column) {
         if (!csv_cell_number(&cell, &number)) return csv_refuse_cell(r, column, &cell);
         for (size_t k = 0; k < to->columns; ++k)
             if (to->place[k] == column) row[k] = number;
     }
-    to->rows += status == IMP_OK;
+    to->rows += status == IMP_STATUS_OK;
     return status;
 }
 
@@ -260,7 +261,7 @@ static imp_status csv_begin(csv_reader *r, const char *const *name, int name_row
     r->width = csv_count(r->text, r->separator);
     const bool has_head = csv_is_head(r);
     imp_status status = csv_find_columns(r, has_head ? r->text : "", name, name_row, to);
-    if (status != IMP_OK || !has_head) return status;
+    if (status != IMP_STATUS_OK || !has_head) return status;
     csv_take_units(r, r->text, to);
     return csv_next_line(r, more);
 }
@@ -271,10 +272,10 @@ static imp_status csv_read_all(csv_reader *r, const char *const *name, int name_
     bool more;
     csv_skip_mark(r);
     imp_status status = csv_next_line(r, &more);
-    if (status == IMP_OK && more) status = csv_begin(r, name, name_row, to, &more);
-    while (status == IMP_OK && more) {
+    if (status == IMP_STATUS_OK && more) status = csv_begin(r, name, name_row, to, &more);
+    while (status == IMP_STATUS_OK && more) {
         status = csv_read_row(r, to);
-        if (status == IMP_OK) status = csv_next_line(r, &more);
+        if (status == IMP_STATUS_OK) status = csv_next_line(r, &more);
     }
     return status;
 }
@@ -292,7 +293,8 @@ imp_status csv_read(const char *path, int row, const char *const *name, int name
     csv_reader r = {.path = path, .row = row, .why = why, .file = csv_open(path)};
     if (r.file == NULL) return imp_reject(why, row, -1, "'%.180s' cannot be read", path);
     r.text = malloc(CSV_LINE_MAX);
-    const imp_status status = r.text != NULL ? csv_read_all(&r, name, name_row, to) : IMP_INTERNAL;
+    const imp_status status =
+        r.text != NULL ? csv_read_all(&r, name, name_row, to) : IMP_STATUS_INTERNAL;
     free(r.text);
     fclose(r.file);
     return status;

@@ -14,7 +14,7 @@ imp_status keys_check_times(int row, const imp_value *times, imp_create_error *w
         if (!(times->number[i - 1] < times->number[i]))
             return imp_reject(why, row, (int64_t)i, "%.17g after %.17g; times must increase",
                               times->number[i], times->number[i - 1]);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 imp_status keys_check_rotations(int row, const imp_value *rotations, imp_create_error *why)
@@ -27,5 +27,5 @@ imp_status keys_check_rotations(int row, const imp_value *rotations, imp_create_
                               "[%g,%g,%g,%g] has length %.9g; must be 1 within %g", q[0], q[1],
                               q[2], q[3], length, UNIT_SLACK);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }

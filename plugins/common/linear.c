@@ -104,12 +104,12 @@ IMP_QUAD_INLINE imp_status linear_points(const linear *f, size_t n, const double
 {
     const linear_terms c = terms_of(f);
     for (size_t k = 0; k < n; ++k, p += 3, x += 3) {
-        if (!(fabs(p[2]) <= LINEAR_LATE)) return IMP_DOMAIN;
+        if (!(fabs(p[2]) <= LINEAR_LATE)) return IMP_STATUS_DOMAIN;
         const imp_quad at = linear_at(&c, p);
         take_three(x, at);
         if (error != NULL) take_three(error + 3 * k, linear_error(f, &c, p, at));
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 IMP_QUAD_NARROW static imp_status points_narrow(const linear *f, size_t n, const double *p,
@@ -191,11 +191,11 @@ imp_status linear_rate(const void *self, const imp_region *region, imp_rate_matr
     const linear *f = self;
     const linear_terms c = terms_of(f);
     imp_quad rate[3];
-    if (linear_is_late(region)) return IMP_UNBOUNDED;
+    if (linear_is_late(region)) return IMP_STATUS_UNBOUNDED;
     linear_rates(f, &c, region, rate);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) rates->m[i][j] = rate[j][i];
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* The models of the coordinates, side by side. */
@@ -323,13 +323,13 @@ imp_status linear_include(const void *self, const imp_region *region, imp_model 
     const linear *f = self;
     if (linear_is_late(region)) {
         for (int i = 0; i < 3; ++i) model[i] = imp_unbounded((uint32_t)f->depends[i]);
-        return IMP_UNBOUNDED;
+        return IMP_STATUS_UNBOUNDED;
     }
     if (imp_quad_is_wide())
         models_wide(f, region, model);
     else
         models_narrow(f, region, model);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- The net over a region --- */
@@ -347,7 +347,7 @@ imp_status linear_net(const void *self, const imp_region *region, imp_net *net)
     const linear *f = self;
     const linear_terms c = terms_of(f);
     const double middle = region->c[2];
-    if (linear_is_late(region)) return IMP_UNBOUNDED;
+    if (linear_is_late(region)) return IMP_STATUS_UNBOUNDED;
     for (int i = 0; i < 3; ++i) {
         if (f->depends[i] & 1) net->degree[0] = 1;
         if (f->depends[i] & 2) net->degree[1] = 1;
@@ -366,5 +366,5 @@ imp_status linear_net(const void *self, const imp_region *region, imp_net *net)
         net->place[i] = f->still[LINEAR_1][i];
         net->error[i] = noise[i];
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }

@@ -15,7 +15,7 @@
 static inline imp_status check_one_of(const imp_value *values, int rate, int coefficients,
                                       imp_create_error *why, const imp_parameter *rows)
 {
-    if (imp_is_given(&values[rate]) != imp_is_given(&values[coefficients])) return IMP_OK;
+    if (imp_is_given(&values[rate]) != imp_is_given(&values[coefficients])) return IMP_STATUS_OK;
     if (imp_is_given(&values[rate]))
         return imp_reject(why, coefficients, -1,
                           "given beside %s, but only one of the two can hold", rows[rate].name);
@@ -68,7 +68,7 @@ static inline polynomial polynomial_spread(const double *number, size_t count, s
 
 /* A parameter of one number that has only coefficients: a bare number is a constant. */
 #define ROW_IN_TIME(NAME, UNIT, DEFAULT, DOC)                                                      \
-    IMP_ROW_NUMBERS(NAME, UNIT, DEFAULT, IMP_SCALAR_OK,                                            \
+    IMP_ROW_NUMBERS(NAME, UNIT, DEFAULT, IMP_PARAMETER_SCALAR_OK,                                  \
                     DOC "; or coefficients of t^0, t^1, t^2 ...")
 
 /* Component i at time t. */

@@ -27,7 +27,7 @@ imp_status superellipse_check_exponents(const imp_value *exponents, int row, imp
                               "(cos a, sin a) / (|cos a|^p + |sin a|^p)^(1/p), p = 2/exponent, "
                               "is not Lipschitz",
                               exponents->number[k]);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Lemma. For m = min(2, p), d = |p - 2| and r = d / m, z^m (1 - z^d) is greatest where z^d = 1 / (1

@@ -24,7 +24,7 @@ typedef struct superellipse {
 
 /* Exponents of two superellipses, the first and second number of a row. */
 #define ROW_EXPONENTS(DOC)                                                                         \
-    IMP_ROW("exponents", "1", "[0.5,0.5]", IMP_MIN_OPEN, 1, 2, 0, 0, INFINITY, DOC)
+    IMP_ROW("exponents", "1", "[0.5,0.5]", IMP_PARAMETER_MIN_OPEN, 1, 2, 0, 0, INFINITY, DOC)
 
 /* Each of the two is in (0, 2]. */
 imp_status superellipse_check_exponents(const imp_value *exponents, int row, imp_create_error *why);

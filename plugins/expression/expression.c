@@ -117,15 +117,15 @@ static imp_status assemble(const builder *b, size_t variables, const uint16_t ou
                            expression_program **program, expression_error *error)
 {
     expression_program *p = malloc(sizeof *p + b->count * sizeof p->instructions[0]);
-    if (p == NULL) return IMP_INTERNAL;
+    if (p == NULL) return IMP_STATUS_INTERNAL;
     p->variables = variables;
     *program = p;
-    if (write_instructions(b, out, a, p)) return IMP_OK;
+    if (write_instructions(b, out, a, p)) return IMP_STATUS_OK;
     free(p);
     error->at = EXPRESSION_AT_ALL;
     snprintf(error->message, sizeof error->message,
              "x, y and z have more than %d common parts to be kept at once", EXPRESSION_SLOTS_MAX);
-    return IMP_PARAMETER;
+    return IMP_STATUS_PARAMETER;
 }
 
 imp_status expression_compile(const expression_scope *scope, const char *const text[3],
@@ -133,13 +133,13 @@ imp_status expression_compile(const expression_scope *scope, const char *const t
 {
     assert(scope->variable_count > 0 && scope->variable_count <= EXPRESSION_VARIABLES_MAX);
     uint16_t out[3];
-    imp_status status = IMP_INTERNAL;
+    imp_status status = IMP_STATUS_INTERNAL;
     builder *b = malloc(sizeof *b);
     allocation *a = malloc(sizeof *a);
     if (a != NULL && b != NULL)
         status = read_texts(scope, text, b, out, error)
                      ? assemble(b, scope->variable_count, out, a, program, error)
-                     : IMP_PARAMETER;
+                     : IMP_STATUS_PARAMETER;
     free(a);
     free(b);
     return status;
@@ -183,12 +183,12 @@ static imp_status point_by_models(const expression_program *p, const double *var
                                   near_constant out[3])
 {
     imp_model model[3], number[EXPRESSION_VARIABLES_MAX];
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     for (size_t k = 0; k < p->variables; ++k) number[k] = imp_num(variables[k]);
     expression_models(p, number, model);
     for (int i = 0; i < 3; ++i) {
         out[i] = near_of(model[i]);
-        if (!(out[i].error < INFINITY)) status = IMP_DOMAIN;
+        if (!(out[i].error < INFINITY)) status = IMP_STATUS_DOMAIN;
     }
     return status;
 }
@@ -197,9 +197,9 @@ imp_status expression_point(const expression_program *p, const double *variables
                             double *error)
 {
     near_constant slot[EXPRESSION_SLOTS_MAX], out[3];
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     for (size_t k = 0; k < p->variables; ++k) {
-        if (!(variables[k] - variables[k] == 0)) return IMP_DOMAIN;
+        if (!(variables[k] - variables[k] == 0)) return IMP_STATUS_DOMAIN;
         slot[k] = near_exact(variables[k]);
     }
     if (!run_points(p, slot))

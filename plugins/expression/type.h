@@ -16,15 +16,17 @@ enum { TEXT_X, TEXT_Y, TEXT_Z, CONSTANTS, TIME, TEXT_ROWS };
 
 #define ROW_TEXT(NAME, DEFAULT, DOC)                                                               \
     {                                                                                              \
-        .name = NAME, .unit = "length", .default_value = DEFAULT, .doc = DOC, .kind = IMP_STRING   \
+        .name = NAME, .unit = "length", .default_value = DEFAULT, .doc = DOC,                      \
+        .kind = IMP_KIND_STRING                                                                    \
     }
 #define ROW_CONSTANTS                                                                              \
     {                                                                                              \
         .name = "constants", .unit = "1",                                                          \
-        .doc = "at most 4096 names with numbers, for use in x, y and z", .kind = IMP_TABLE,        \
-        .flags = IMP_OPTIONAL, .min = -INFINITY, .max = INFINITY                                   \
+        .doc = "at most 4096 names with numbers, for use in x, y and z", .kind = IMP_KIND_TABLE,   \
+        .flags = IMP_PARAMETER_OPTIONAL, .min = -INFINITY, .max = INFINITY                         \
     }
-#define ROW_TIME(DOC) IMP_ROW("time", "time", NULL, IMP_OPTIONAL, 1, 2, 0, -INFINITY, INFINITY, DOC)
+#define ROW_TIME(DOC)                                                                              \
+    IMP_ROW("time", "time", NULL, IMP_PARAMETER_OPTIONAL, 1, 2, 0, -INFINITY, INFINITY, DOC)
 
 /* t0 <= t1, or all times. */
 static inline imp_status read_time(const imp_value *values, double *lo, double *hi,
@@ -32,9 +34,9 @@ static inline imp_status read_time(const imp_value *values, double *lo, double *
 {
     const double *given = values[TIME].number;
     *lo = -INFINITY, *hi = INFINITY;
-    if (!imp_is_given(&values[TIME])) return IMP_OK;
+    if (!imp_is_given(&values[TIME])) return IMP_STATUS_OK;
     *lo = given[0], *hi = given[1];
-    if (*lo <= *hi) return IMP_OK;
+    if (*lo <= *hi) return IMP_STATUS_OK;
     return imp_reject(why, TIME, -1, "[%g,%g] ends before it begins", *lo, *hi);
 }
 
@@ -56,7 +58,7 @@ static inline imp_status compile_texts(const imp_value *values, expression_scope
     scope->constant_count = values[CONSTANTS].count;
     expression_error error;
     imp_status status = expression_compile(scope, text, program, &error);
-    if (status != IMP_PARAMETER) return status;
+    if (status != IMP_STATUS_PARAMETER) return status;
     int row = error.at < 3                          ? TEXT_X + error.at
               : error.at == EXPRESSION_AT_CONSTANTS ? CONSTANTS
                                                     : -1;

@@ -80,17 +80,17 @@ static bool set_frame(bend_instance *s, const double axis[3], const double along
 static imp_status check(const imp_value *values, imp_create_error *why)
 {
     imp_status status = axis_check(AXIS, values[AXIS].number, why);
-    if (status == IMP_OK) status = axis_check(ALONG, values[ALONG].number, why);
-    if (status == IMP_OK) status = axis_check_range(RANGE, values[RANGE].number, why);
+    if (status == IMP_STATUS_OK) status = axis_check(ALONG, values[ALONG].number, why);
+    if (status == IMP_STATUS_OK) status = axis_check_range(RANGE, values[RANGE].number, why);
     return status;
 }
 
 static imp_status bend_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check(values, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     bend_instance *s = malloc(sizeof *s + values[CURVATURE].count * sizeof(double));
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     if (!set_frame(s, values[AXIS].number, values[ALONG].number)) {
         free(s);
         return imp_reject(why, ALONG, -1, "parallel to axis; must be another direction");
@@ -100,7 +100,7 @@ static imp_status bend_create(const imp_value *values, void **self, imp_create_e
     s->hi = values[RANGE].number[1];
     s->curvature = polynomial_copy(&values[CURVATURE], 1, s->coefficients);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Y and Z, to be replaced by Y' and Z'. */

@@ -18,13 +18,13 @@ enum { LATTICE, LO, HI, POINTS, VELOCITIES };
     IMP_ROW(NAME, UNIT, NULL, FLAGS, 2, 0, 3, -FAR, FAR, DOC)
 
 static const imp_parameter parameters[] = {
-    [LATTICE] = IMP_ROW_OF(IMP_INTEGER, "lattice", "1", "[2,2,2]", 0, 1, 3, 0, 2, LATTICE_SIDE_MAX,
-                           "numbers l, m, n of control points along x, y and z"),
+    [LATTICE] = IMP_ROW_OF(IMP_KIND_INTEGER, "lattice", "1", "[2,2,2]", 0, 1, 3, 0, 2,
+                           LATTICE_SIDE_MAX, "numbers l, m, n of control points along x, y and z"),
     [LO] = ROW_CORNER("lo", "[-1,-1,-1]", "least corner of the box"),
     [HI] = ROW_CORNER("hi", "[1,1,1]", "greatest corner of the box"),
     [POINTS] = ROW_LATTICE("points", "length", 0,
                            "control points; number i, j, k is at index (i m + j) n + k"),
-    [VELOCITIES] = ROW_LATTICE("velocities", "length/time", IMP_OPTIONAL,
+    [VELOCITIES] = ROW_LATTICE("velocities", "length/time", IMP_PARAMETER_OPTIONAL,
                                "of the control points, which are at `points` at time 0"),
 };
 
@@ -38,14 +38,14 @@ static imp_status check_box(const imp_value *values, imp_create_error *why)
             return imp_reject(why, HI, j, "%g where lo is %g; must be greater, by %g at least", hi,
                               lo, EXTENT_MIN);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status check_points(const imp_value *values, int row, imp_create_error *why)
 {
     const double *side = values[LATTICE].number;
     const size_t count = (size_t)(side[0] * side[1] * side[2]);
-    if (!imp_is_given(&values[row]) || values[row].extent[0] == count) return IMP_OK;
+    if (!imp_is_given(&values[row]) || values[row].extent[0] == count) return IMP_STATUS_OK;
     return imp_reject(why, row, -1, "%zu %s for a lattice of %g x %g x %g; must be %zu",
                       values[row].extent[0], parameters[row].name, side[0], side[1], side[2],
                       count);
@@ -109,18 +109,18 @@ static imp_status ffd_create(const imp_value *values, void **self, imp_create_er
 {
     const bool moves = imp_is_given(&values[VELOCITIES]);
     imp_status status = check_box(values, why);
-    if (status == IMP_OK) status = check_points(values, POINTS, why);
-    if (status == IMP_OK) status = check_points(values, VELOCITIES, why);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = check_points(values, POINTS, why);
+    if (status == IMP_STATUS_OK) status = check_points(values, VELOCITIES, why);
+    if (status != IMP_STATUS_OK) return status;
     ffd_instance *s = allocate(values[LATTICE].number, moves);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     set_box(s, values[LO].number, values[HI].number);
     for (int axis = 0; axis < 3; ++axis) {
         set_shape(s, values[POINTS].number, axis, s->memory);
         if (moves) set_drift(s, values[VELOCITIES].number, axis, s->memory);
     }
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Points --- */
@@ -172,11 +172,11 @@ static imp_status ffd_eval(const void *self, size_t n, const double *p, double *
         lattice_weigh(&s->lattice, at, &weights);
         for (int axis = 0; axis < 3; ++axis) {
             x[3 * k + (size_t)axis] = moved(s, axis, &weights, p + 4 * k, &off);
-            if (!(off < INFINITY)) return IMP_DOMAIN;
+            if (!(off < INFINITY)) return IMP_STATUS_DOMAIN;
             if (error != NULL) error[3 * k + (size_t)axis] = off;
         }
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- The map --- */

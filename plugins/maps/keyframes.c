@@ -33,10 +33,10 @@ static const imp_parameter parameters[] = {
         IMP_ROW_NUMBERS("times", "time", NULL, 0,
                         "of the keys, increasing, two or more; unless 'hold' is true, the map "
                         "is defined from the first to the last only"),
-    [POSITIONS] = IMP_ROW_VECTORS("positions", "length", NULL, 3, IMP_OPTIONAL,
+    [POSITIONS] = IMP_ROW_VECTORS("positions", "length", NULL, 3, IMP_PARAMETER_OPTIONAL,
                                   "where each key moves the origin to; default: no translation"),
     [ROTATIONS] = IMP_ROW_VECTORS(
-        "rotations", "1", NULL, 4, IMP_OPTIONAL,
+        "rotations", "1", NULL, 4, IMP_PARAMETER_OPTIONAL,
         "rotation of each key about the origin, before the translation: a unit quaternion "
         "[w,x,y,z]; normalized if its length is within 1e-6 of 1"),
     [HOLD] = IMP_ROW_BOOLEAN(
@@ -62,7 +62,7 @@ typedef struct keyframes_instance {
 
 static imp_status check_count(const imp_value *values, int row, imp_create_error *why)
 {
-    if (!imp_is_given(&values[row]) || values[row].extent[0] == values[TIMES].count) return IMP_OK;
+    if (!imp_is_given(&values[row]) || values[row].extent[0] == values[TIMES].count) return IMP_STATUS_OK;
     return imp_reject(why, row, -1, "%zu %s for %zu times; there must be one for each",
                       values[row].extent[0], parameters[row].name, values[TIMES].count);
 }
@@ -82,7 +82,7 @@ static imp_status check_rotations(const imp_value *rotations, imp_create_error *
                               "the direction of rotation is ambiguous: add a key between them",
                               acos(imp_smaller(cosine, 1)) * 360 / IMP_PI_LOWER);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status check(const imp_value *values, imp_create_error *why)
@@ -91,11 +91,11 @@ static imp_status check(const imp_value *values, imp_create_error *why)
     if (!imp_is_given(&values[POSITIONS]) && !imp_is_given(&values[ROTATIONS]))
         return imp_reject(why, -1, -1,
                           "neither positions nor rotations are given; one of them is required");
-    if (status == IMP_OK) status = check_count(values, POSITIONS, why);
-    if (status == IMP_OK) status = check_count(values, ROTATIONS, why);
-    if (status == IMP_OK)
+    if (status == IMP_STATUS_OK) status = check_count(values, POSITIONS, why);
+    if (status == IMP_STATUS_OK) status = check_count(values, ROTATIONS, why);
+    if (status == IMP_STATUS_OK)
         status = keys_check_rotations(ROTATIONS, &values[ROTATIONS], why);
-    if (status == IMP_OK) status = check_rotations(&values[ROTATIONS], why);
+    if (status == IMP_STATUS_OK) status = check_rotations(&values[ROTATIONS], why);
     return status;
 }
 
@@ -185,7 +185,7 @@ static size_t set_path(keyframes_instance *s, const imp_value *values, imp_inter
 static imp_status keyframes_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check(values, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     const size_t position = imp_is_given(&values[POSITIONS]) ? 3 : 0;
     const size_t rotation = imp_is_given(&values[ROTATIONS]) ? 4 : 0;
     const size_t keys = values[TIMES].count, lanes = position + rotation;
@@ -203,10 +203,10 @@ static imp_status keyframes_create(const imp_value *values, void **self, imp_cre
                 "too far from the key before for the time between them: speeds are not finite");
         *self = s;
     } else {
-        status = IMP_INTERNAL;
+        status = IMP_STATUS_INTERNAL;
     }
     free(key);
-    if (status != IMP_OK) free(s);
+    if (status != IMP_STATUS_OK) free(s);
     return status;
 }
 
@@ -294,19 +294,19 @@ static imp_status keyframes_eval(const void *self, size_t n, const double *p, do
                                  double *error)
 {
     for (size_t k = 0; k < n; ++k)
-        if (!is_inside(self, p[4 * k + 3], p[4 * k + 3])) return IMP_DOMAIN;
+        if (!is_inside(self, p[4 * k + 3], p[4 * k + 3])) return IMP_STATUS_DOMAIN;
     return keyframes_formula_eval(self, n, p, x, error);
 }
 
 static imp_status keyframes_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
 {
-    if (!is_inside(self, box->lo[3], box->hi[3])) return IMP_DOMAIN;
+    if (!is_inside(self, box->lo[3], box->hi[3])) return IMP_STATUS_DOMAIN;
     return keyframes_formula_rate(self, box, rates);
 }
 
 static imp_status keyframes_apply(const void *self, const imp_model in[4], imp_model out[3])
 {
-    if (!is_inside(self, in[3].lo, in[3].hi)) return IMP_DOMAIN;
+    if (!is_inside(self, in[3].lo, in[3].hi)) return IMP_STATUS_DOMAIN;
     return keyframes_formula_apply(self, in, out);
 }
 
@@ -315,7 +315,7 @@ static imp_status keyframes_rigid(const void *self, const imp_model *time, imp_p
     const keyframes_instance *s = self;
     imp_model lane[LANES_MAX], t = *time;
     imp_interval node[SPLINE_WIDTH_MAX];
-    if (!is_inside(s, t.lo, t.hi)) return IMP_DOMAIN;
+    if (!is_inside(s, t.lo, t.hi)) return IMP_STATUS_DOMAIN;
     if (s->hold) t = spline_hold(&s->path, t);
     spline_models(&s->path, t, lane, node);
     imp_pose_at_rest(pose);
@@ -327,7 +327,7 @@ static imp_status keyframes_rigid(const void *self, const imp_model *time, imp_p
 
 static const imp_map_type keyframes = {
     IMP_MAP_FIELDS(keyframes, keyframes),
-    .flags = IMP_TURNS_EXACTLY,
+    .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = keyframes_rigid,
     .span = keyframes_span,
     .summary = "moves and turns smoothly through positions and orientations at given times",

@@ -34,10 +34,10 @@ static imp_status compile(const imp_value *values, map_instance *s, imp_create_e
 static imp_status map_create(const imp_value *values, void **self, imp_create_error *why)
 {
     map_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_status status = read_time(values, &s->lo, &s->hi, why);
-    if (status == IMP_OK) status = compile(values, s, why);
-    if (status == IMP_OK)
+    if (status == IMP_STATUS_OK) status = compile(values, s, why);
+    if (status == IMP_STATUS_OK)
         *self = s;
     else
         free(s);
@@ -70,8 +70,8 @@ IMP_MAP_FORMULA(map_models)
 static imp_status map_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
     const map_instance *s = self;
-    imp_status status = IMP_OK;
-    for (size_t k = 0; k < n && status == IMP_OK; ++k)
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = 0; k < n && status == IMP_STATUS_OK; ++k)
         status = expression_point(s->program, p + 4 * k, x + 3 * k,
                                   error != NULL ? error + 3 * k : NULL);
     return status;

@@ -19,9 +19,9 @@ static const imp_parameter parameters[] = {
     [ANGLE + COURSE_COEFFICIENTS] = ROW_TURNING_ANGLE,
     [ANGLE + COURSE_TIMES] = COURSE_ROW_TIMES,
     [ANGLE + COURSE_VALUES] =
-        IMP_ROW_NUMBERS("angles", "rad", NULL, IMP_OPTIONAL, "one for each of times"),
+        IMP_ROW_NUMBERS("angles", "rad", NULL, IMP_PARAMETER_OPTIONAL, "one for each of times"),
     [ANGLE + COURSE_FILE] = COURSE_ROW_FILE,
-    [ANGLE + COURSE_COLUMNS] = COURSE_ROW_COLUMNS("column", 1, IMP_SCALAR_OK,
+    [ANGLE + COURSE_COLUMNS] = COURSE_ROW_COLUMNS("column", 1, IMP_PARAMETER_SCALAR_OK,
                                                   "of the file: that of the angle, by name or by "
                                                   "number from 1; default: the second"),
     [ANGLE + COURSE_UNIT] = COURSE_ROW_DEGREES,
@@ -38,11 +38,11 @@ typedef struct rotate_instance {
 static imp_status rotate_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = axis_check(AXIS, values[AXIS].number, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     rotate_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     status = course_read(&s->angle, values, ANGLE, UNIT_ANGLE, why, parameters);
-    if (status != IMP_OK) {
+    if (status != IMP_STATUS_OK) {
         free(s);
         return status;
     }
@@ -50,7 +50,7 @@ static imp_status rotate_create(const imp_value *values, void **self, imp_create
     imp_copy_vector(s->direction, &values[AXIS]);
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void rotate_destroy(void *self)
@@ -88,18 +88,18 @@ IMP_MAP_FORMULA(turned)
 static imp_status point_eval(const rotate_instance *s, const double *p, double *x, double *error)
 {
     imp_model angle;
-    if (!course_is_defined(&s->angle, p[3], p[3])) return IMP_DOMAIN;
+    if (!course_is_defined(&s->angle, p[3], p[3])) return IMP_STATUS_DOMAIN;
     course_at(&s->angle, 1, imp_num(p[3]), &angle);
     if (imp_is_point(&angle) && axis_turn_point(&s->axis, s->center, &angle, p, x, error))
-        return IMP_OK;
+        return IMP_STATUS_OK;
     return turned_eval(s, 1, p, x, error);
 }
 
 static imp_status rotate_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
     double own[3];
-    imp_status status = IMP_OK;
-    for (size_t k = 0; k < n && status == IMP_OK; ++k)
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = 0; k < n && status == IMP_STATUS_OK; ++k)
         status = point_eval(self, p + 4 * k, x + 3 * k, error != NULL ? error + 3 * k : own);
     return status;
 }
@@ -108,7 +108,7 @@ static imp_status rotate_rate(const void *self, const imp_box4 *box, imp_map_rat
 {
     const rotate_instance *s = self;
     const near_constant nowhere[3] = {{0, 0}, {0, 0}, {0, 0}};
-    if (!course_is_defined(&s->angle, box->lo[3], box->hi[3])) return IMP_DOMAIN;
+    if (!course_is_defined(&s->angle, box->lo[3], box->hi[3])) return IMP_STATUS_DOMAIN;
     imp_model angle;
     course_at(&s->angle, 1, axis_moment(box), &angle);
     return axis_turn_rates(&s->axis, s->center, nowhere, angle, box, rates);
@@ -117,14 +117,14 @@ static imp_status rotate_rate(const void *self, const imp_box4 *box, imp_map_rat
 static imp_status rotate_apply(const void *self, const imp_model in[4], imp_model out[3])
 {
     const rotate_instance *s = self;
-    if (!course_is_defined(&s->angle, in[3].lo, in[3].hi)) return IMP_DOMAIN;
+    if (!course_is_defined(&s->angle, in[3].lo, in[3].hi)) return IMP_STATUS_DOMAIN;
     return turned_apply(self, in, out);
 }
 
 static imp_status rotate_rigid(const void *self, const imp_model *t, imp_pose *pose)
 {
     const rotate_instance *s = self;
-    if (!course_is_defined(&s->angle, t->lo, t->hi)) return IMP_DOMAIN;
+    if (!course_is_defined(&s->angle, t->lo, t->hi)) return IMP_STATUS_DOMAIN;
     imp_model angle;
     course_at(&s->angle, 1, *t, &angle);
     axis_matrix(&s->axis, angle, pose->turn);
@@ -138,7 +138,7 @@ static imp_status rotate_rigid(const void *self, const imp_model *t, imp_pose *p
 
 static const imp_map_type rotate = {
     IMP_MAP_FIELDS_OF("rotate", rotate, rotate, rotate_destroy, rotate_rate),
-    .flags = IMP_TURNS_EXACTLY,
+    .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = rotate_rigid,
     .span = rotate_span,
     .summary = "turns about an axis, at a constant rate, by a polynomial angle or by a table",

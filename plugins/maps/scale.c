@@ -12,11 +12,11 @@ enum { FACTOR, FACTORS, CENTER };
 
 static const imp_parameter parameters[] = {
     [FACTOR] =
-        IMP_ROW_NUMBERS("factor", "1", NULL, IMP_OPTIONAL | IMP_SCALAR_OK,
+        IMP_ROW_NUMBERS("factor", "1", NULL, IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_SCALAR_OK,
                         "constant factor for all directions, or [x,y,z]; 0 flattens, negative "
                         "factors mirror"),
     [FACTORS] =
-        IMP_ROW_VECTORS("factors", "1/time^k", NULL, 0, IMP_OPTIONAL,
+        IMP_ROW_VECTORS("factors", "1/time^k", NULL, 0, IMP_PARAMETER_OPTIONAL,
                         "instead: coefficients of t^0, t^1, t^2 ... of the factor, each of one "
                         "number or of three"),
     [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "the fixed point"),
@@ -30,7 +30,7 @@ typedef struct scale_instance {
 
 static imp_status check_width(int row, size_t width, imp_create_error *why)
 {
-    if (width == 1 || width == 3) return IMP_OK;
+    if (width == 1 || width == 3) return IMP_STATUS_OK;
     return imp_reject(why, row, -1,
                       "factors of %zu numbers; must be one for all directions, or three for x, y "
                       "and z",
@@ -43,14 +43,14 @@ static imp_status scale_create(const imp_value *values, void **self, imp_create_
     const imp_value *given = &values[constant ? FACTOR : FACTORS];
     const size_t count = constant ? 1 : given->extent[0], width = given->extent[!constant];
     imp_status status = check_one_of(values, FACTOR, FACTORS, why, parameters);
-    if (status == IMP_OK) status = check_width(constant ? FACTOR : FACTORS, width, why);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = check_width(constant ? FACTOR : FACTORS, width, why);
+    if (status != IMP_STATUS_OK) return status;
     scale_instance *s = malloc(sizeof *s + 3 * count * sizeof(double));
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_copy_vector(s->center, &values[CENTER]);
     s->factor = polynomial_spread(given->number, count, width, 3, s->coefficients);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void scale_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,

@@ -39,18 +39,18 @@ static void set_advance(screw_instance *s, double pitch, const double axis[3])
 static imp_status screw_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = axis_check(AXIS, values[AXIS].number, why);
-    if (status == IMP_OK) status = check_one_of(values, RATE, ANGLE, why, parameters);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = check_one_of(values, RATE, ANGLE, why, parameters);
+    if (status != IMP_STATUS_OK) return status;
     size_t numbers = polynomial_count(&values[RATE], &values[ANGLE]);
     screw_instance *s = malloc(sizeof *s + numbers * sizeof(double));
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->axis = axis_frame_of(values[AXIS].number);
     imp_copy_vector(s->direction, &values[AXIS]);
     set_advance(s, values[PITCH].number[0], values[AXIS].number);
     imp_copy_vector(s->center, &values[CENTER]);
     s->angle = polynomial_read(&values[RATE], &values[ANGLE], 1, s->coefficients);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void screw_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
@@ -88,7 +88,7 @@ static imp_status screw_rigid(const void *self, const imp_model *t, imp_pose *po
 
 static const imp_map_type screw = {
     IMP_MAP_FIELDS_OF("screw", screw, screw_formula, free, screw_rate),
-    .flags = IMP_TURNS_EXACTLY,
+    .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = screw_rigid,
     .summary = "turns about an axis and moves along it in proportion to the angle",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t or sum_k angle_k t^k: center + "

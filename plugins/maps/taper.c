@@ -32,11 +32,11 @@ typedef struct taper_instance {
 static imp_status taper_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = axis_check(AXIS, values[AXIS].number, why);
-    if (status == IMP_OK) status = axis_check_range(RANGE, values[RANGE].number, why);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = axis_check_range(RANGE, values[RANGE].number, why);
+    if (status != IMP_STATUS_OK) return status;
     size_t numbers = values[START].count + values[END].count;
     taper_instance *s = malloc(sizeof *s + numbers * sizeof(double));
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->axis = axis_frame_of(values[AXIS].number);
     imp_copy_vector(s->center, &values[CENTER]);
     s->lo = values[RANGE].number[0];
@@ -45,7 +45,7 @@ static imp_status taper_create(const imp_value *values, void **self, imp_create_
     s->start = polynomial_copy(&values[START], 1, s->coefficients);
     s->end = polynomial_copy(&values[END], 1, s->coefficients + s->start.count);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Fraction of the distance from lo to hi. */

@@ -42,14 +42,14 @@ static const imp_parameter parameters[] = {
     [POSITIONS] =
         IMP_ROW_VECTORS("positions", "length", NULL, 3, 0, "where each key moves the center to"),
     [ACCELERATIONS] =
-        IMP_ROW_VECTORS("accelerations", "length/time^2", NULL, 3, IMP_OPTIONAL,
+        IMP_ROW_VECTORS("accelerations", "length/time^2", NULL, 3, IMP_PARAMETER_OPTIONAL,
                         "from each key to the next, one less than keys; default: none"),
     [ROTATIONS] = IMP_ROW_VECTORS(
-        "rotations", "1", NULL, 4, IMP_OPTIONAL,
+        "rotations", "1", NULL, 4, IMP_PARAMETER_OPTIONAL,
         "rotation of each key about the center: a unit quaternion [w,x,y,z]; normalized if its "
         "length is within 1e-6 of 1; default: none"),
     [SPINS] = IMP_ROW(
-        "spins", "rad/time", NULL, IMP_OPTIONAL, 2, 0, 3, -1e100, 1e100,
+        "spins", "rad/time", NULL, IMP_PARAMETER_OPTIONAL, 2, 0, 3, -1e100, 1e100,
         "with rotations: angular velocity from each key to the next, one less than keys; it "
         "must lead from each rotation to the next within 1e-6"),
     [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0,
@@ -72,7 +72,7 @@ typedef struct trajectory_instance {
 static imp_status check_count(const imp_value *values, int row, size_t less, imp_create_error *why)
 {
     const size_t wanted = values[TIMES].count - less;
-    if (!imp_is_given(&values[row]) || values[row].extent[0] == wanted) return IMP_OK;
+    if (!imp_is_given(&values[row]) || values[row].extent[0] == wanted) return IMP_STATUS_OK;
     return imp_reject(why, row, -1, "%zu %s for %zu times; must be %zu", values[row].extent[0],
                       parameters[row].name, values[TIMES].count, wanted);
 }
@@ -87,21 +87,21 @@ static imp_status check_spins(const imp_value *spins, imp_create_error *why)
             return imp_reject(why, SPINS, (int64_t)i, "[%g,%g,%g]; must be 0, or %g at least", w[0],
                               w[1], w[2], SPIN_MIN);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status check(const imp_value *values, imp_create_error *why)
 {
     imp_status status = keys_check_times(TIMES, &values[TIMES], why);
-    if (status == IMP_OK) status = check_count(values, POSITIONS, 0, why);
-    if (status == IMP_OK) status = check_count(values, ACCELERATIONS, 1, why);
-    if (status == IMP_OK && imp_is_given(&values[ROTATIONS]) != imp_is_given(&values[SPINS]))
+    if (status == IMP_STATUS_OK) status = check_count(values, POSITIONS, 0, why);
+    if (status == IMP_STATUS_OK) status = check_count(values, ACCELERATIONS, 1, why);
+    if (status == IMP_STATUS_OK && imp_is_given(&values[ROTATIONS]) != imp_is_given(&values[SPINS]))
         return imp_reject(why, imp_is_given(&values[SPINS]) ? SPINS : ROTATIONS, -1,
                           "given alone; rotations and spins belong together");
-    if (status == IMP_OK) status = check_count(values, ROTATIONS, 0, why);
-    if (status == IMP_OK) status = check_count(values, SPINS, 1, why);
-    if (status == IMP_OK) status = keys_check_rotations(ROTATIONS, &values[ROTATIONS], why);
-    if (status == IMP_OK) status = check_spins(&values[SPINS], why);
+    if (status == IMP_STATUS_OK) status = check_count(values, ROTATIONS, 0, why);
+    if (status == IMP_STATUS_OK) status = check_count(values, SPINS, 1, why);
+    if (status == IMP_STATUS_OK) status = keys_check_rotations(ROTATIONS, &values[ROTATIONS], why);
+    if (status == IMP_STATUS_OK) status = check_spins(&values[SPINS], why);
     return status;
 }
 
@@ -144,13 +144,13 @@ static imp_status fill(trajectory_instance *s, const imp_value *values, imp_inte
                           "matrices must agree within %g",
                           SPIN_MISMATCH);
     spline_grow(&s->path);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status trajectory_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check(values, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     const size_t keys = values[TIMES].count, bytes = spline_bytes(keys, 3, 2);
     const bool turns = imp_is_given(&values[ROTATIONS]);
     trajectory_instance *s = malloc(sizeof *s + bytes + keys * sizeof(spin_turn));
@@ -162,10 +162,10 @@ static imp_status trajectory_create(const imp_value *values, void **self, imp_cr
         status = fill(s, values, key, why);
         *self = s;
     } else {
-        status = IMP_INTERNAL;
+        status = IMP_STATUS_INTERNAL;
     }
     free(key);
-    if (status != IMP_OK) free(s);
+    if (status != IMP_STATUS_OK) free(s);
     return status;
 }
 
@@ -266,19 +266,19 @@ static imp_status trajectory_eval(const void *self, size_t n, const double *p, d
                                   double *error)
 {
     for (size_t k = 0; k < n; ++k)
-        if (!is_inside(self, p[4 * k + 3], p[4 * k + 3])) return IMP_DOMAIN;
+        if (!is_inside(self, p[4 * k + 3], p[4 * k + 3])) return IMP_STATUS_DOMAIN;
     return trajectory_formula_eval(self, n, p, x, error);
 }
 
 static imp_status trajectory_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
 {
-    if (!is_inside(self, box->lo[3], box->hi[3])) return IMP_DOMAIN;
+    if (!is_inside(self, box->lo[3], box->hi[3])) return IMP_STATUS_DOMAIN;
     return trajectory_formula_rate(self, box, rates);
 }
 
 static imp_status trajectory_apply(const void *self, const imp_model in[4], imp_model out[3])
 {
-    if (!is_inside(self, in[3].lo, in[3].hi)) return IMP_DOMAIN;
+    if (!is_inside(self, in[3].lo, in[3].hi)) return IMP_STATUS_DOMAIN;
     return trajectory_formula_apply(self, in, out);
 }
 
@@ -289,10 +289,10 @@ static imp_status trajectory_rigid(const void *self, const imp_model *t, imp_pos
 {
     const trajectory_instance *s = self;
     imp_interval node[SPLINE_WIDTH_MAX];
-    if (!is_inside(s, t->lo, t->hi)) return IMP_DOMAIN;
+    if (!is_inside(s, t->lo, t->hi)) return IMP_STATUS_DOMAIN;
     const imp_series around = imp_series_around(imp_model_range(t));
     const spline_span span = spline_span_of(&s->path, t->lo, around.m, t->hi);
-    if (s->rotation != NULL && span.first != span.last) return IMP_UNBOUNDED;
+    if (s->rotation != NULL && span.first != span.last) return IMP_STATUS_UNBOUNDED;
     imp_pose_at_rest(pose);
     spline_models(&s->path, *t, pose->shift, node);
     memcpy(pose->pivot, s->center, sizeof pose->pivot);

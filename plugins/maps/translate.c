@@ -10,13 +10,13 @@
 #include <impinge/quad.h>
 
 static const imp_parameter parameters[] = {
-    [COURSE_RATE] =
-        IMP_ROW_VECTOR("velocity", "length/time", NULL, IMP_OPTIONAL, "constant velocity"),
+    [COURSE_RATE] = IMP_ROW_VECTOR("velocity", "length/time", NULL, IMP_PARAMETER_OPTIONAL,
+                                   "constant velocity"),
     [COURSE_COEFFICIENTS] =
-        IMP_ROW_VECTORS("offset", "length/time^k", NULL, 3, IMP_OPTIONAL,
+        IMP_ROW_VECTORS("offset", "length/time^k", NULL, 3, IMP_PARAMETER_OPTIONAL,
                         "instead: coefficients [x,y,z] of t^0, t^1, t^2 ... of the displacement"),
     [COURSE_TIMES] = COURSE_ROW_TIMES,
-    [COURSE_VALUES] = IMP_ROW_VECTORS("positions", "length", NULL, 3, IMP_OPTIONAL,
+    [COURSE_VALUES] = IMP_ROW_VECTORS("positions", "length", NULL, 3, IMP_PARAMETER_OPTIONAL,
                                       "one [x,y,z] for each of times"),
     [COURSE_FILE] = COURSE_ROW_FILE,
     [COURSE_COLUMNS] = COURSE_ROW_COLUMNS("columns", 3, 0,
@@ -30,11 +30,11 @@ static const imp_parameter parameters[] = {
 static imp_status translate_create(const imp_value *values, void **self, imp_create_error *why)
 {
     course *way = malloc(sizeof *way);
-    if (way == NULL) return IMP_INTERNAL;
+    if (way == NULL) return IMP_STATUS_INTERNAL;
     const imp_status status = course_read(way, values, 0, UNIT_LENGTH, why, parameters);
-    if (status != IMP_OK) return free(way), status;
+    if (status != IMP_STATUS_OK) return free(way), status;
     *self = way;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void translate_destroy(void *self)
@@ -103,11 +103,11 @@ static imp_status steady_eval(const course *way, size_t n, const double *p, doub
     for (size_t k = 0; k < n; ++k)
         for (size_t i = 0; i < 3; ++i) {
             const near_constant at = steady_at(way, i, p[4 * k + i], p[4 * k + 3]);
-            if (!(at.error < INFINITY && fabs(at.value) < INFINITY)) return IMP_DOMAIN;
+            if (!(at.error < INFINITY && fabs(at.value) < INFINITY)) return IMP_STATUS_DOMAIN;
             x[3 * k + i] = at.value;
             if (error != NULL) error[3 * k + i] = at.error;
         }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status steady_rate(const course *way, imp_map_rates *rates)
@@ -116,7 +116,7 @@ static imp_status steady_rate(const course *way, imp_map_rates *rates)
         for (size_t j = 0; j < 3; ++j) rates->m[i][j] = i == j;
         rates->m[i][3] = fabs(speed_of(way, i));
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Three models at constant velocity, side by side --------------------------------------------- */
@@ -237,19 +237,19 @@ static imp_status translate_eval(const void *self, size_t n, const double *p, do
                                  double *error)
 {
     for (size_t k = 0; k < n; ++k)
-        if (!course_is_defined(self, p[4 * k + 3], p[4 * k + 3])) return IMP_DOMAIN;
+        if (!course_is_defined(self, p[4 * k + 3], p[4 * k + 3])) return IMP_STATUS_DOMAIN;
     return is_steady(self) ? steady_eval(self, n, p, x, error) : moved_eval(self, n, p, x, error);
 }
 
 static imp_status translate_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
 {
-    if (!course_is_defined(self, box->lo[3], box->hi[3])) return IMP_DOMAIN;
+    if (!course_is_defined(self, box->lo[3], box->hi[3])) return IMP_STATUS_DOMAIN;
     return is_steady(self) ? steady_rate(self, rates) : moved_rate(self, box, rates);
 }
 
 static imp_status translate_apply(const void *self, const imp_model in[4], imp_model out[3])
 {
-    if (!course_is_defined(self, in[3].lo, in[3].hi)) return IMP_DOMAIN;
+    if (!course_is_defined(self, in[3].lo, in[3].hi)) return IMP_STATUS_DOMAIN;
     if (!moves_steadily(self) || !is_linear(&in[3])) return moved_apply(self, in, out);
     if (imp_quad_is_wide())
         move_steadily_wide(self, in, out);
@@ -264,7 +264,7 @@ static imp_status translate_net(const void *self, const imp_region *region, imp_
 {
     const course *way = self;
     const double middle = region->c[2];
-    if (!is_steady(way)) return IMP_UNBOUNDED;
+    if (!is_steady(way)) return IMP_STATUS_UNBOUNDED;
     for (size_t i = 0; i < 3; ++i) {
         const double from = way->polynomial.coefficient[way->polynomial.count * i];
         const double speed = speed_of(way, i);
@@ -274,12 +274,12 @@ static imp_status translate_net(const void *self, const imp_region *region, imp_
         net->error[i] += (4 * size + 2 * fabs(net->drift[i]) * region->d[2]) * 0x1p-53 + IMP_TINY;
         net->error[i] *= 1 + 0x1p-50;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status translate_rigid(const void *self, const imp_model *t, imp_pose *pose)
 {
-    if (!course_is_defined(self, t->lo, t->hi)) return IMP_DOMAIN;
+    if (!course_is_defined(self, t->lo, t->hi)) return IMP_STATUS_DOMAIN;
     imp_pose_at_rest(pose);
     course_at(self, 3, *t, pose->shift);
     return imp_pose_status(pose);
@@ -288,7 +288,7 @@ static imp_status translate_rigid(const void *self, const imp_model *t, imp_pose
 static const imp_map_type translate = {
     IMP_MAP_FIELDS_OF("translate", translate, translate, translate_destroy, translate_rate),
     .net = translate_net,
-    .flags = IMP_TURNS_EXACTLY,
+    .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = translate_rigid,
     .span = translate_span,
     .summary = "moves along a straight line, along a polynomial in time, or by a table",

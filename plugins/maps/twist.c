@@ -26,14 +26,14 @@ typedef struct twist_instance {
 static imp_status twist_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = axis_check(AXIS, values[AXIS].number, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     twist_instance *s = malloc(sizeof *s + values[RATE].count * sizeof(double));
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->axis = axis_frame_of(values[AXIS].number);
     imp_copy_vector(s->center, &values[CENTER]);
     s->rate = polynomial_copy(&values[RATE], 1, s->coefficients);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void twist_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,

@@ -11,10 +11,10 @@
 enum { AMPLITUDE, AMPLITUDES, WAVE_VECTOR, SPEED, PHASE };
 
 static const imp_parameter parameters[] = {
-    [AMPLITUDE] = IMP_ROW_VECTOR("amplitude", "length", NULL, IMP_OPTIONAL,
+    [AMPLITUDE] = IMP_ROW_VECTOR("amplitude", "length", NULL, IMP_PARAMETER_OPTIONAL,
                                  "constant amplitude: greatest displacement, in any direction"),
     [AMPLITUDES] =
-        IMP_ROW_VECTORS("amplitudes", "length/time^k", NULL, 3, IMP_OPTIONAL,
+        IMP_ROW_VECTORS("amplitudes", "length/time^k", NULL, 3, IMP_PARAMETER_OPTIONAL,
                         "instead: coefficients [x,y,z] of t^0, t^1, t^2 ... of the amplitude"),
     [WAVE_VECTOR] = IMP_ROW("wave_vector", "rad/length", "[1,0,0]", 0, 1, 3, 0, -AXIS_MAX, AXIS_MAX,
                             "direction in which the wave travels, 2pi / wavelength long"),
@@ -52,16 +52,16 @@ static imp_status wave_create(const imp_value *values, void **self, imp_create_e
 {
     size_t count;
     imp_status status = check_one_of(values, AMPLITUDE, AMPLITUDES, why, parameters);
-    if (status == IMP_OK) status = axis_check(WAVE_VECTOR, values[WAVE_VECTOR].number, why);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = axis_check(WAVE_VECTOR, values[WAVE_VECTOR].number, why);
+    if (status != IMP_STATUS_OK) return status;
     const imp_value *amplitude = given(values, &count);
     wave_instance *s = malloc(sizeof *s + 3 * count * sizeof(double));
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     set_waves(s, values[WAVE_VECTOR].number, values[SPEED].number[0]);
     s->phase = values[PHASE].number[0];
     s->amplitude = polynomial_spread(amplitude->number, count, 3, 3, s->coefficients);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void wave_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,

@@ -16,8 +16,7 @@ static size_t mark_length(mesh_format format, const char *bytes, size_t length)
     const size_t of_mark = sizeof mark - 1, of_word = sizeof word - 1;
     if (length < of_mark || memcmp(bytes, mark, of_mark) != 0) return 0;
     if (format != MESH_STL) return of_mark;
-    const bool is_text =
-        length >= of_mark + of_word && memcmp(bytes + of_mark, word, of_word) == 0;
+    const bool is_text = length >= of_mark + of_word && memcmp(bytes + of_mark, word, of_word) == 0;
     return is_text ? of_mark : 0;
 }
 
@@ -28,13 +27,14 @@ imp_status mesh_read_bytes(mesh_format format, const char *bytes, size_t length,
         [MESH_OBJ] = mesh_read_obj, [MESH_OFF] = mesh_read_off, [MESH_STL] = mesh_read_stl};
     const size_t mark = mark_length(format, bytes, length);
     const imp_status status = read[format](bytes + mark, length - mark, to, fault);
-    if (status != IMP_OK || to->count > 0) return status;
+    if (status != IMP_STATUS_OK || to->count > 0) return status;
     return triangles_refuse(fault, 0, "no faces in it; a mesh needs one at least");
 }
 
 static bool find_format(const char *path, mesh_format *format)
 {
-    static const char *const ends[] = {[MESH_OBJ] = ".obj", [MESH_OFF] = ".off", [MESH_STL] = ".stl"};
+    static const char *const ends[] = {
+        [MESH_OBJ] = ".obj", [MESH_OFF] = ".off", [MESH_STL] = ".stl"};
     const size_t length = strlen(path);
     for (int k = 0; k < 3; ++k)
         if (length > 4 && strcasecmp(path + length - 4, ends[k]) == 0) {
@@ -63,9 +63,9 @@ static char *read_whole(const char *path, int row, size_t *length, imp_status *s
     if (file == NULL) return NULL;
     char *bytes = malloc((size_t)facts.st_size + 1);
     if (bytes != NULL) *length = fread(bytes, 1, (size_t)facts.st_size, file);
-    *status = bytes == NULL ? IMP_INTERNAL : ferror(file) ? *status : IMP_OK;
+    *status = bytes == NULL ? IMP_STATUS_INTERNAL : ferror(file) ? *status : IMP_STATUS_OK;
     fclose(file);
-    if (*status == IMP_OK) return bytes;
+    if (*status == IMP_STATUS_OK) return bytes;
     free(bytes);
     return NULL;
 }
@@ -87,7 +87,7 @@ imp_status mesh_read_file(const char *path, int row, triangles *to, imp_create_e
     if (bytes == NULL) return status;
     status = mesh_read_bytes(format, bytes, length, to, &fault);
     free(bytes);
-    if (status != IMP_PARAMETER) return status;
+    if (status != IMP_STATUS_PARAMETER) return status;
     if (fault.line > 0)
         return imp_reject(why, row, -1, "'%.80s', line %zu: %s", path, fault.line, fault.text);
     return imp_reject(why, row, -1, "'%.80s': %s", path, fault.text);

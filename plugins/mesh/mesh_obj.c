@@ -18,7 +18,7 @@ static imp_status read_point(obj_reader *r)
 {
     double x[3];
     const imp_status status = mesh_text_point(&r->text, x, r->fault);
-    return status == IMP_OK ? triangles_add_point(r->to, x, r->text.line, r->fault) : status;
+    return status == IMP_STATUS_OK ? triangles_add_point(r->to, x, r->text.line, r->fault) : status;
 }
 
 static imp_status read_corner(obj_reader *r, char *word)
@@ -34,17 +34,17 @@ static imp_status read_corner(obj_reader *r, char *word)
     if (at < 0 || at >= points)
         return triangles_refuse(r->fault, r->text.line, "point %lld of a face, but only %lld so far",
                                 (long long)k, (long long)points);
-    return mesh_corners_add(&r->corners, at) ? IMP_OK : IMP_INTERNAL;
+    return mesh_corners_add(&r->corners, at) ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }
 
 static imp_status read_face(obj_reader *r)
 {
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     char *word;
     r->corners.count = 0;
-    while (status == IMP_OK && (word = mesh_text_word(&r->text)) != NULL)
+    while (status == IMP_STATUS_OK && (word = mesh_text_word(&r->text)) != NULL)
         status = read_corner(r, word);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     return triangles_add_face(r->to, r->corners.at, r->corners.count, r->text.line, r->fault);
 }
 
@@ -62,7 +62,7 @@ static imp_status read_statement(obj_reader *r)
     const char *word = mesh_text_word(&r->text);
     if (strcmp(word, "v") == 0) return read_point(r);
     if (strcmp(word, "f") == 0) return read_face(r);
-    if (is_one_of(word, ignored)) return IMP_OK;
+    if (is_one_of(word, ignored)) return IMP_STATUS_OK;
     return triangles_refuse(r->fault, r->text.line,
                             "statement '%.40s'; of OBJ only points and faces are read (v, f)", word);
 }
@@ -70,9 +70,9 @@ static imp_status read_statement(obj_reader *r)
 imp_status mesh_read_obj(const char *bytes, size_t length, triangles *to, triangles_fault *fault)
 {
     obj_reader r = {.text = {.at = bytes, .end = bytes + length}, .to = to, .fault = fault};
-    imp_status status = IMP_OK;
-    while (status == IMP_OK && mesh_text_line(&r.text, true)) status = read_statement(&r);
-    if (status == IMP_OK) status = mesh_text_status(&r.text);
+    imp_status status = IMP_STATUS_OK;
+    while (status == IMP_STATUS_OK && mesh_text_line(&r.text, true)) status = read_statement(&r);
+    if (status == IMP_STATUS_OK) status = mesh_text_status(&r.text);
     mesh_text_clear(&r.text);
     free(r.corners.at);
     return status;

@@ -11,15 +11,16 @@
 enum { MESH_FILE, MESH_POINTS, MESH_FACES, MESH_VELOCITIES };
 
 #define ROW_MESH_FILE(DOC)                                                                         \
-    IMP_ROW_OF(IMP_STRING, "file", "1", NULL, IMP_OPTIONAL | IMP_FILE, 0, 0, 0, -INFINITY,         \
-               INFINITY, DOC)
+    IMP_ROW_OF(IMP_KIND_STRING, "file", "1", NULL, IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_FILE, 0, \
+               0, 0, -INFINITY, INFINITY, DOC)
 #define ROW_MESH_POINTS                                                                            \
-    IMP_ROW("points", "length", NULL, IMP_OPTIONAL, 2, 0, 3, -TRIANGLES_FAR, TRIANGLES_FAR,        \
-            "points [x,y,z] at t = 0, in place of a file")
+    IMP_ROW("points", "length", NULL, IMP_PARAMETER_OPTIONAL, 2, 0, 3, -TRIANGLES_FAR,             \
+            TRIANGLES_FAR, "points [x,y,z] at t = 0, in place of a file")
 #define ROW_MESH_FACES(DOC)                                                                        \
-    IMP_ROW_OF(IMP_INTEGER, "faces", "1", NULL, IMP_OPTIONAL, 2, 0, 0, 0, 0x1p32, DOC)
+    IMP_ROW_OF(IMP_KIND_INTEGER, "faces", "1", NULL, IMP_PARAMETER_OPTIONAL, 2, 0, 0, 0, 0x1p32,   \
+               DOC)
 #define ROW_MESH_VELOCITIES                                                                        \
-    IMP_ROW("velocities", "length/time", NULL, IMP_OPTIONAL, 2, 0, 3, -TRIANGLES_FAR,              \
+    IMP_ROW("velocities", "length/time", NULL, IMP_PARAMETER_OPTIONAL, 2, 0, 3, -TRIANGLES_FAR,    \
             TRIANGLES_FAR, "velocity of each point; default: at rest")
 
 /* Adds the points and faces of the file or of the lists. */

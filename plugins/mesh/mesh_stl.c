@@ -27,11 +27,11 @@ static double single_at(const char *bytes)
 /* Three points and the triangle between them. */
 static imp_status add_triangle(triangles *to, double x[3][3], size_t line, triangles_fault *fault)
 {
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     const int64_t first = (int64_t)to->point_count;
-    for (int k = 0; k < 3 && status == IMP_OK; ++k)
+    for (int k = 0; k < 3 && status == IMP_STATUS_OK; ++k)
         status = triangles_add_point(to, x[k], line, fault);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     return triangles_add_face(to, (const int64_t[]){first, first + 1, first + 2}, 3, line, fault);
 }
 
@@ -48,9 +48,9 @@ static imp_status read_binary(const char *bytes, size_t count, triangles *to,
                                         x[i / 3][i % 3]);
         }
         const imp_status status = add_triangle(to, x, 0, fault);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Text --------------------------------------------------------------------------------- */
@@ -64,26 +64,26 @@ static imp_status read_line(mesh_text *text, int *step, double x[3][3], triangle
                             triangles_fault *fault)
 {
     const char *word = mesh_text_word(text);
-    if (*step == 0 && (strcmp(word, "solid") == 0 || strcmp(word, "endsolid") == 0)) return IMP_OK;
+    if (*step == 0 && (strcmp(word, "solid") == 0 || strcmp(word, "endsolid") == 0)) return IMP_STATUS_OK;
     if (strcmp(word, steps[*step]) != 0)
         return triangles_refuse(fault, text->line, "'%.40s' in place of '%s'", word, steps[*step]);
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     if (strcmp(word, "vertex") == 0) status = mesh_text_point(text, x[*step - FIRST_VERTEX], fault);
     *step = (*step + 1) % STEPS;
-    if (status == IMP_OK && *step == 0) status = add_triangle(to, x, text->line, fault);
+    if (status == IMP_STATUS_OK && *step == 0) status = add_triangle(to, x, text->line, fault);
     return status;
 }
 
 static imp_status read_text(const char *bytes, size_t length, triangles *to, triangles_fault *fault)
 {
     mesh_text text = {.at = bytes, .end = bytes + length};
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     int step = 0;
     double x[3][3];
-    while (status == IMP_OK && mesh_text_line(&text, false))
+    while (status == IMP_STATUS_OK && mesh_text_line(&text, false))
         status = read_line(&text, &step, x, to, fault);
-    if (status == IMP_OK) status = mesh_text_status(&text);
-    if (status == IMP_OK && step != 0)
+    if (status == IMP_STATUS_OK) status = mesh_text_status(&text);
+    if (status == IMP_STATUS_OK && step != 0)
         status = triangles_refuse(fault, text.line, "the file ends before '%s'", steps[step]);
     mesh_text_clear(&text);
     return status;

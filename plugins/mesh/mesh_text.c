@@ -157,14 +157,14 @@ imp_status mesh_text_point(mesh_text *text, double x[3], triangles_fault *fault)
         if (!mesh_text_number(word, &x[i]))
             return triangles_refuse(fault, text->line, "'%.40s' is not a finite number", word);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 void mesh_text_clear(mesh_text *text) { free(text->words); }
 
 imp_status mesh_text_status(const mesh_text *text)
 {
-    return text->out_of_memory ? IMP_INTERNAL : IMP_OK;
+    return text->out_of_memory ? IMP_STATUS_INTERNAL : IMP_STATUS_OK;
 }
 
 bool mesh_corners_add(mesh_corners *corners, int64_t k)

@@ -32,7 +32,7 @@ imp_status mesh_text_point(mesh_text *text, double x[3], triangles_fault *fault)
 
 void mesh_text_clear(mesh_text *text);
 
-/* The end of a reader of lines: IMP_INTERNAL if a line was not read for lack of memory. */
+/* The end of a reader of lines: IMP_STATUS_INTERNAL if a line was not read for lack of memory. */
 imp_status mesh_text_status(const mesh_text *text);
 
 /* The corners of one face, collected. */

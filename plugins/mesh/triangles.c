@@ -20,7 +20,7 @@ imp_status triangles_refuse(triangles_fault *fault, size_t line, const char *for
     vsnprintf(fault->text, sizeof fault->text, format, arguments);
     va_end(arguments);
     fault->line = line;
-    return IMP_PARAMETER;
+    return IMP_STATUS_PARAMETER;
 }
 
 /* Room for three more items of that size. NULL: no memory; the old ones are still there. */
@@ -42,10 +42,10 @@ imp_status triangles_add_point(triangles *t, const double x[3], size_t line, tri
     if (t->point_count >= 3 * IMP_PIECES_MAX)
         return triangles_refuse(fault, line, "more than %zu points", 3 * IMP_PIECES_MAX);
     double *grown = reserve(t->point, t->point_count, &t->point_capacity, sizeof *grown);
-    if (grown == NULL) return IMP_INTERNAL;
+    if (grown == NULL) return IMP_STATUS_INTERNAL;
     t->point = grown;
     memcpy(grown + 3 * t->point_count++, x, 3 * sizeof *x);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status add_triangle(triangles *t, uint32_t a, uint32_t b, uint32_t c, size_t line,
@@ -55,11 +55,11 @@ static imp_status add_triangle(triangles *t, uint32_t a, uint32_t b, uint32_t c,
         return triangles_refuse(fault, line, "more than %zu triangles; divide the mesh",
                                 IMP_PIECES_MAX);
     uint32_t *grown = reserve(t->corner, t->count, &t->capacity, sizeof *grown);
-    if (grown == NULL) return IMP_INTERNAL;
+    if (grown == NULL) return IMP_STATUS_INTERNAL;
     t->corner = grown;
     uint32_t *corner = grown + 3 * t->count++;
     corner[0] = a, corner[1] = b, corner[2] = c;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Whole faces --------------------------------------------------------------------------- */
@@ -80,15 +80,15 @@ static imp_status keep_face(triangles *t, const int64_t *corner, size_t count, s
     if (t->count >= IMP_PIECES_MAX)
         return triangles_refuse(fault, line, "more than %zu faces; divide the mesh", IMP_PIECES_MAX);
     uint32_t *first = room_for(t->first, t->count, 1, &t->first_capacity);
-    if (first == NULL) return IMP_INTERNAL;
+    if (first == NULL) return IMP_STATUS_INTERNAL;
     t->first = first;
     uint32_t *corners = room_for(t->corner, t->corner_count, count, &t->capacity);
-    if (corners == NULL) return IMP_INTERNAL;
+    if (corners == NULL) return IMP_STATUS_INTERNAL;
     t->corner = corners;
     first[t->count++] = (uint32_t)t->corner_count;
     for (size_t k = 0; k < count; ++k) corners[t->corner_count++] = (uint32_t)corner[k];
     t->faces += 1;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Polygons ----------------------------------------------------------------------------- */
@@ -190,8 +190,8 @@ imp_status triangles_add_face(triangles *t, const int64_t *corner, size_t count,
                                     t->faces, count, is_plane(&p) ? "convex" : "plane");
     }
     t->faces += 1;
-    imp_status status = IMP_OK;
-    for (size_t k = 2; k < count && status == IMP_OK; ++k)
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = 2; k < count && status == IMP_STATUS_OK; ++k)
         status = add_triangle(t, (uint32_t)corner[0], (uint32_t)corner[k - 1], (uint32_t)corner[k],
                               line, fault);
     return status;

@@ -30,17 +30,17 @@ typedef struct triangles_fault {
     char text[160];
 } triangles_fault;
 
-/* Sets the text, as printf does, and answers IMP_PARAMETER. */
+/* Sets the text, as printf does, and answers IMP_STATUS_PARAMETER. */
 imp_status triangles_refuse(triangles_fault *fault, size_t line, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* IMP_PARAMETER: a coordinate is not finite or too large, or there are too many points.
- * IMP_INTERNAL: no memory. */
+/* IMP_STATUS_PARAMETER: a coordinate is not finite or too large, or there are too many points.
+ * IMP_STATUS_INTERNAL: no memory. */
 imp_status triangles_add_point(triangles *t, const double x[3], size_t line,
                                triangles_fault *fault);
 
 /* A polygon of points that are there, by number from 0, as a fan of triangles from its first corner, or
- * whole. IMP_PARAMETER: fewer than three corners, or a corner that is not there; of a fan also four and
+ * whole. IMP_STATUS_PARAMETER: fewer than three corners, or a corner that is not there; of a fan also four and
  * more corners that do not lie in a plane (a thousandth of its size off), or are not convex, so that a
  * fan is not what is meant. */
 imp_status triangles_add_face(triangles *t, const int64_t *corner, size_t count, size_t line,

@@ -196,7 +196,7 @@ imp_status box_include(const box_data *data, const imp_region *region, imp_model
     if (data->is_mirrored) mirror_series(&b.f);
     set_noise(data, &b.f);
     const imp_status status = patch_include(&b.f, region, model);
-    if (status == IMP_OK) rough_widen_model(&data->points, &b.f, region, model);
+    if (status == IMP_STATUS_OK) rough_widen_model(&data->points, &b.f, region, model);
     return status;
 }
 
@@ -225,6 +225,6 @@ imp_status box_net(const box_data *data, const imp_region *region, imp_net *net)
     for (int lane = 0; lane < b.f.lanes; ++lane)
         b.f.most[lane] *= data->tables->net_size[data->area] * SLACK;
     const imp_status status = patch_net(&b.f, region, net);
-    if (status == IMP_OK) rough_widen_net(&data->points, &b.f, region, net);
+    if (status == IMP_STATUS_OK) rough_widen_net(&data->points, &b.f, region, net);
     return status;
 }

@@ -137,7 +137,7 @@ imp_status nurbs_cell_net(const nurbs_instance *f, const imp_region *region, imp
     imp_region part = *region;
     local_net local;
     if (cell_range_count(&cells) > 1 || patch_points(shape->degree) > IMP_NET_POINTS)
-        return IMP_UNBOUNDED;
+        return IMP_STATUS_UNBOUNDED;
     double shift[2];
     for (int side = 0; side < 2; ++side) {
         cell_localize(&f->side[side], cells.from[side], region, side, &part);
@@ -148,7 +148,7 @@ imp_status nurbs_cell_net(const nurbs_instance *f, const imp_region *region, imp
     net->is_moving = f->moves;
     net->is_weighted = f->rational;
     const double weight = take_weights(shape, &local, net);
-    if (!(weight > 0)) return IMP_UNBOUNDED;
+    if (!(weight > 0)) return IMP_STATUS_UNBOUNDED;
     for (int axis = 0; axis < 3; ++axis) {
         take_points(shape, &local, middle, axis, net);
         net->place[axis] = shape->place[axis] + middle * shape->drift[axis];
@@ -156,5 +156,5 @@ imp_status nurbs_cell_net(const nurbs_instance *f, const imp_region *region, imp
         net->error[axis] = imp_sum_up(net_error(shape, &local, axis, late, weight) +
                                       cell_slip(c, axis, late, shift));
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }

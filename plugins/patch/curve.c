@@ -16,7 +16,7 @@ imp_status curve_check(const imp_value *values, int points, int weights, imp_cre
     if (imp_is_given(&values[weights]) && values[weights].extent[0] != count)
         return imp_reject(why, weights, -1, "got %zu weights for %zu control points",
                           values[weights].extent[0], count);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 patch *curve_new(const imp_value *points, const imp_value *weights)
@@ -60,5 +60,5 @@ void curve_at(const patch *f, imp_model s, int j, imp_model out[3])
     imp_model x[3];
     imp_status status = patch_include(f, &region, x);
     for (int i = 0; i < 3; ++i)
-        out[i] = status == IMP_OK ? curve_of_parameter(&x[i], j) : imp_unbounded(1u << j);
+        out[i] = status == IMP_STATUS_OK ? curve_of_parameter(&x[i], j) : imp_unbounded(1u << j);
 }

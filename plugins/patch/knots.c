@@ -28,7 +28,7 @@ static imp_status knots_check_order(const knot_row *row, imp_create_error *why)
                               "knots %zu and %zu are %g apart, must be 0 or at least %g", i - 1, i,
                               k[i] - k[i - 1], KNOT_NEAR);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* More than `degree` equal knots inside would tear the surface. */
@@ -42,7 +42,7 @@ static imp_status knots_check_multiplicity(const knot_row *row, size_t degree,
                               "knot %g occurs more than %zu times inside the domain, which tears a "
                               "surface of degree %zu",
                               k[i], degree, degree);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 imp_status knots_check(const knot_row *row, int degree, imp_create_error *why)
@@ -53,7 +53,7 @@ imp_status knots_check(const knot_row *row, int degree, imp_create_error *why)
                           "got %zu knots, must be at least 2 * degree + 2 = %zu", length,
                           2 * p + 2);
     imp_status status = knots_check_order(row, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     const double lo = row->number[p], hi = row->number[length - 1 - p];
     if (!(lo < hi))
         return imp_reject(why, row->parameter, row->element,

@@ -171,7 +171,7 @@ imp_status cell_include(const nurbs_instance *f, size_t i, size_t j, const imp_r
     const double shift[2] = {cell_localize(&f->side[0], i, region, 0, &local),
                              cell_localize(&f->side[1], j, region, 1, &local)};
     imp_status status = patch_include(&c->shape, &local, model);
-    for (int axis = 0; axis < 3 && status == IMP_OK; ++axis)
+    for (int axis = 0; axis < 3 && status == IMP_STATUS_OK; ++axis)
         cell_globalize(c, axis, late, h, shift, &model[axis]);
     return status;
 }
@@ -209,15 +209,16 @@ imp_status nurbs_include_few(const nurbs_instance *f, pieces_eval *eval, cell_ra
     imp_status status = pieces_sample(eval, f, region, model);
     for (int axis = 0; axis < 3; ++axis) pieces_begin(&model[axis]);
     for (size_t i = cells.from[0]; i <= cells.to[0]; ++i)
-        for (size_t j = cells.from[1]; j <= cells.to[1] && status == IMP_OK; ++j) {
+        for (size_t j = cells.from[1]; j <= cells.to[1] && status == IMP_STATUS_OK; ++j) {
             imp_model g[3];
             const imp_region part = cell_part(f, i, j, region);
             const pieces_shift shift = pieces_shift_of(region, &part);
             status = cell_include(f, i, j, &part, g);
-            for (int axis = 0; axis < 3 && status == IMP_OK; ++axis)
+            for (int axis = 0; axis < 3 && status == IMP_STATUS_OK; ++axis)
                 pieces_add(&model[axis], &g[axis], &shift);
         }
-    for (int axis = 0; axis < 3 && status == IMP_OK; ++axis) model[axis] = pieces_end(&model[axis]);
+    for (int axis = 0; axis < 3 && status == IMP_STATUS_OK; ++axis)
+        model[axis] = pieces_end(&model[axis]);
     return status;
 }
 

@@ -159,11 +159,11 @@ imp_status patch_eval(const patch *f, size_t count, const double *p, double *x, 
 {
     double unwanted[3];
     for (size_t k = 0; k < count; ++k, p += 3, x += 3) {
-        if (!patch_has(p[0], p[0]) || !patch_has(p[1], p[1])) return IMP_DOMAIN;
-        if (!(fabs(p[2]) <= PATCH_LATE)) return IMP_DOMAIN;
+        if (!patch_has(p[0], p[0]) || !patch_has(p[1], p[1])) return IMP_STATUS_DOMAIN;
+        if (!(fabs(p[2]) <= PATCH_LATE)) return IMP_STATUS_DOMAIN;
         patch_point(f, p, x, error != NULL ? error + 3 * k : unwanted);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Whether rate and include can answer for a region: the lemmas need c + d within rounding of
@@ -172,8 +172,8 @@ imp_status patch_region_status(const imp_region *region)
 {
     for (int j = 0; j < 2; ++j) {
         const double c = region->c[j], d = region->d[j];
-        if (!patch_has(region->lo[j], region->hi[j])) return IMP_DOMAIN;
-        if (!patch_has(c - d + 0x1p-50, c + d - 0x1p-50)) return IMP_DOMAIN;
+        if (!patch_has(region->lo[j], region->hi[j])) return IMP_STATUS_DOMAIN;
+        if (!patch_has(c - d + 0x1p-50, c + d - 0x1p-50)) return IMP_STATUS_DOMAIN;
     }
-    return fabs(region->c[2]) + region->d[2] <= PATCH_LATE ? IMP_OK : IMP_UNBOUNDED;
+    return fabs(region->c[2]) + region->d[2] <= PATCH_LATE ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }

@@ -280,7 +280,7 @@ static void patch_rational(const patch *f, const imp_region *region, imp_model m
 imp_status patch_include(const patch *f, const imp_region *region, imp_model model[3])
 {
     const imp_status status = patch_region_status(region);
-    if (status != IMP_OK) {
+    if (status != IMP_STATUS_OK) {
         for (int i = 0; i < 3; ++i) model[i] = imp_unbounded(7);
         return status;
     }
@@ -290,7 +290,7 @@ imp_status patch_include(const patch *f, const imp_region *region, imp_model mod
         patch_polynomial_wide(f, region, model);
     else
         patch_polynomial_of(f, region, model);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- A whole patch --- */

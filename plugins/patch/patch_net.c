@@ -66,8 +66,8 @@ imp_status patch_net(const patch *f, const imp_region *region, imp_net *net)
     const int points = (int)patch_points(f->degree);
     const double middle = region->c[2];
     const imp_status status = patch_region_status(region);
-    if (status != IMP_OK) return status;
-    if (points > IMP_NET_POINTS) return IMP_UNBOUNDED;
+    if (status != IMP_STATUS_OK) return status;
+    if (points > IMP_NET_POINTS) return IMP_STATUS_UNBOUNDED;
     for (int side = 0; side < 2; ++side) net->degree[side] = (uint32_t)f->degree[side];
     net->is_moving = f->lanes == 8;
     net->is_weighted = f->rational;
@@ -85,5 +85,5 @@ imp_status patch_net(const patch *f, const imp_region *region, imp_net *net)
         net->drift[axis] = f->drift[axis];
         net->error[axis] = net_error(f, axis, region);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }

@@ -144,7 +144,7 @@ imp_status patch_rate(const patch *f, const imp_region *region, imp_rate_matrix 
 {
     _Alignas(imp_quad) double shape[PATCH_NUMBERS_MAX], work[PATCH_NUMBERS_MAX];
     imp_status status = patch_region_status(region);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     const patch_frame frame = patch_make_frame(f, region, shape, work);
     for (int side = 0; side < 2; ++side) {
         patch_restrict(f->difference[side], f->degree[0] - (side == 0), f->degree[1] - (side == 1),
@@ -153,5 +153,5 @@ imp_status patch_rate(const patch *f, const imp_region *region, imp_rate_matrix 
             rates->m[axis][side] = patch_side_rate(f, &frame, side, axis, shape);
     }
     for (int axis = 0; axis < 3; ++axis) rates->m[axis][2] = frame.speed[axis];
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }

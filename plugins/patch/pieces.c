@@ -51,7 +51,7 @@ imp_status pieces_sample(pieces_eval *eval, const void *self, const imp_region *
         pieces_place(region, 0, side ? off : -off, 1, p[PIECES_STILL + 3 + side]);
     }
     imp_status status = eval(self, PIECES_SAMPLES, p[0], x[0], NULL);
-    for (int i = 0; i < 3 && status == IMP_OK; ++i) model[i] = pieces_quadratic(x, i);
+    for (int i = 0; i < 3 && status == IMP_STATUS_OK; ++i) model[i] = pieces_quadratic(x, i);
     return status;
 }
 

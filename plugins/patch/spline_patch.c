@@ -175,7 +175,7 @@ imp_status spline_include(const rough_points *data, const imp_region *region, im
     change_basis(to_chebyshev, 192, s.f.lanes, s.net, s.series);
     set_noise(&s.f);
     const imp_status status = patch_include(&s.f, region, model);
-    if (status == IMP_OK) rough_widen_model(data, &s.f, region, model);
+    if (status == IMP_STATUS_OK) rough_widen_model(data, &s.f, region, model);
     return status;
 }
 
@@ -185,6 +185,6 @@ imp_status spline_net(const rough_points *data, const imp_region *region, imp_ne
     begin(data, &s);
     set_bezier(&s);
     const imp_status status = patch_net(&s.f, region, net);
-    if (status == IMP_OK) rough_widen_net(data, &s.f, region, net);
+    if (status == IMP_STATUS_OK) rough_widen_net(data, &s.f, region, net);
     return status;
 }

@@ -83,7 +83,7 @@ static imp_status check_faces(const control_mesh *m, triangles_fault *fault)
                                     "face %u has point %u twice; leave one out, or divide the face", f,
                                     twice);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status check_valences(const control_mesh *m, const outgoing *o, triangles_fault *fault)
@@ -94,7 +94,7 @@ static imp_status check_valences(const control_mesh *m, const outgoing *o, trian
                                               "the mesh there",
                                     o->from[p + 1] - o->from[p], p, m->face[o->order[o->from[p]]],
                                     CONTROL_VALENCE_MAX);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status check_edges(const control_mesh *m, const outgoing *o, triangles_fault *fault)
@@ -108,7 +108,7 @@ static imp_status check_edges(const control_mesh *m, const outgoing *o, triangle
                                     "them round, or separate them where more than two meet",
                                     m->face[h], m->face[other], a, b);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Twins and fans ------------------------------------------------------------------------------ */
@@ -162,7 +162,7 @@ static imp_status check_fans(const control_mesh *m, const outgoing *o, triangles
                                 "fans a point of its own",
                                 f < other ? f : other, f < other ? other : f, p);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Two triangles between the same points have all edges in common, and so would all that a step makes of
@@ -177,7 +177,7 @@ static imp_status check_pairs(const control_mesh *m, triangles_fault *fault)
                                 "more; leave one out, or divide them",
                                 m->face[at->start], m->face[control_turn_left(m, at->start)], p);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Building --------------------------------------------------------------------------------------- */
@@ -196,17 +196,17 @@ static bool make_room(control_mesh *m)
 imp_status control_connect(control_mesh *m, triangles_fault *fault)
 {
     outgoing o = {NULL, NULL};
-    imp_status status = make_room(m) && outgoing_make(m, &o) ? IMP_OK : IMP_INTERNAL;
+    imp_status status = make_room(m) && outgoing_make(m, &o) ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
     if (fault != NULL) {
-        if (status == IMP_OK) status = check_faces(m, fault);
-        if (status == IMP_OK) status = check_valences(m, &o, fault);
-        if (status == IMP_OK) status = check_edges(m, &o, fault);
+        if (status == IMP_STATUS_OK) status = check_faces(m, fault);
+        if (status == IMP_STATUS_OK) status = check_valences(m, &o, fault);
+        if (status == IMP_STATUS_OK) status = check_edges(m, &o, fault);
     }
-    if (status == IMP_OK) {
+    if (status == IMP_STATUS_OK) {
         set_twins(m, &o);
         set_fans(m, &o);
         if (fault != NULL) status = check_fans(m, &o, fault);
-        if (fault != NULL && status == IMP_OK) status = check_pairs(m, fault);
+        if (fault != NULL && status == IMP_STATUS_OK) status = check_pairs(m, fault);
     }
     outgoing_clear(&o);
     return status;
@@ -225,7 +225,7 @@ imp_status control_begin(control_mesh *m, triangles *from, double *velocity, con
     uint32_t *first = realloc(from->first, (m->face_count + 1) * sizeof *first);
     m->first = first != NULL ? first : from->first;
     *from = (triangles){0};
-    if (first == NULL) return IMP_INTERNAL;
+    if (first == NULL) return IMP_STATUS_INTERNAL;
     m->first[m->face_count] = (uint32_t)m->corner_count;
     return control_connect(m, fault);
 }

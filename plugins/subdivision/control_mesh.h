@@ -98,13 +98,13 @@ static inline bool control_is_quad(const control_mesh *m, uint32_t f)
 double control_loop_share(int n);
 
 /* Takes points and faces over from `from`, and `velocity`; all are freed with the mesh, also when this fails.
- * `loop`: as above. IMP_PARAMETER: a face or a point is not as above; *fault says which and what may be done. */
+ * `loop`: as above. IMP_STATUS_PARAMETER: a face or a point is not as above; *fault says which and what may be done. */
 imp_status control_begin(control_mesh *m, triangles *from, double *velocity, const box_tables *loop,
                          triangles_fault *fault);
 
 /* The mesh after one step, of the faces that are `wanted` and of those that share a point with one.
  * (*wanted_fine)[f]: whether face f of the finer mesh comes of a wanted one. Points farther off are there,
- * but not where the whole mesh would have them. *wanted_fine: for free(). IMP_INTERNAL: no memory. */
+ * but not where the whole mesh would have them. *wanted_fine: for free(). IMP_STATUS_INTERNAL: no memory. */
 imp_status control_refine(const control_mesh *m, const bool *wanted, control_mesh *fine,
                           bool **wanted_fine);
 

@@ -65,7 +65,7 @@ static imp_status cut(const control_mesh *m, const selection *s, control_mesh *p
     part->corner = malloc(s->corners * sizeof *part->corner);
     if (part->point == NULL || (part->velocity == NULL) != (m->velocity == NULL) ||
         part->first == NULL || part->corner == NULL)
-        return IMP_INTERNAL;
+        return IMP_STATUS_INTERNAL;
     uint32_t used = 0;
     for (uint32_t f = 0; f < m->face_count; ++f) {
         if (s->face[f] == CONTROL_NONE) continue;
@@ -157,7 +157,7 @@ static imp_status refine_part(const control_mesh *m, control_mesh *fine)
         control_smooth(m, edge, m->velocity, fine->velocity, fine->slip_motion);
     }
     free(edge);
-    return made ? control_connect(fine, NULL) : IMP_INTERNAL;
+    return made ? control_connect(fine, NULL) : IMP_STATUS_INTERNAL;
 }
 
 /* Which of the finer faces come of wanted ones. NULL: no memory. */
@@ -178,11 +178,11 @@ imp_status control_refine(const control_mesh *m, const bool *wanted, control_mes
 {
     selection s = {0};
     control_mesh part = {0};
-    imp_status status = select_part(m, wanted, &s) ? cut(m, &s, &part) : IMP_INTERNAL;
-    if (status == IMP_OK) status = refine_part(&part, fine);
-    if (status == IMP_OK) {
+    imp_status status = select_part(m, wanted, &s) ? cut(m, &s, &part) : IMP_STATUS_INTERNAL;
+    if (status == IMP_STATUS_OK) status = refine_part(&part, fine);
+    if (status == IMP_STATUS_OK) {
         *wanted_fine = children_of(m, wanted, &s, &part);
-        if (*wanted_fine == NULL) status = IMP_INTERNAL;
+        if (*wanted_fine == NULL) status = IMP_STATUS_INTERNAL;
     }
     control_clear(&part);
     free(s.point);

@@ -64,10 +64,10 @@ imp_status face_eval(const void *self, size_t n, const double *p, double *x, dou
     walk w;
     walk_begin(q, &w);
     for (size_t k = 0; k < n; ++k) {
-        if (!has_point(p + 3 * k)) return IMP_DOMAIN;
+        if (!has_point(p + 3 * k)) return IMP_STATUS_DOMAIN;
         point_at(q, &w, p + 3 * k, x + 3 * k, error != NULL ? error + 3 * k : unwanted);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Regions ------------------------------------------------------------------------------------------------ */
@@ -121,9 +121,9 @@ static void include_square(const face *q, const walk *w, const imp_region *regio
 static imp_status add_quarters(const walk *w, const imp_region *region, const imp_region *rest, int u,
                                int v, imp_model whole[3])
 {
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     for (int a = NEAR; a <= FAR; ++a)
-        for (int b = NEAR; b <= FAR && status == IMP_OK; ++b) {
+        for (int b = NEAR; b <= FAR && status == IMP_STATUS_OK; ++b) {
             if ((a == NEAR && b == NEAR) || !(a & u) || !(b & v)) continue;
             const imp_region part = walk_part(w, rest, a, b);
             status = quarter_of(w->mesh)->add(w, region, &part, a, b, whole);
@@ -138,9 +138,9 @@ static imp_status include_rings(const face *q, walk *w, const imp_region *region
     imp_region rest = *region;
     imp_status status = pieces_sample(face_eval, q, region, model);
     for (int i = 0; i < 3; ++i) pieces_begin(&model[i]);
-    while (status == IMP_OK) {
+    while (status == IMP_STATUS_OK) {
         status = add_quarters(w, region, &rest, u, v, model);
-        if (status != IMP_OK || !(u & NEAR) || !(v & NEAR)) break;
+        if (status != IMP_STATUS_OK || !(u & NEAR) || !(v & NEAR)) break;
         rest = walk_part(w, &rest, NEAR, NEAR);
         if (w->level >= last) {
             imp_model g[3];
@@ -151,7 +151,7 @@ static imp_status include_rings(const face *q, walk *w, const imp_region *region
         walk_step(w);
         u = walk_parts(w, 0, rest.lo[0], rest.hi[0]), v = walk_parts(w, 1, rest.lo[1], rest.hi[1]);
     }
-    for (int i = 0; i < 3 && status == IMP_OK; ++i) model[i] = pieces_end(&model[i]);
+    for (int i = 0; i < 3 && status == IMP_STATUS_OK; ++i) model[i] = pieces_end(&model[i]);
     return status;
 }
 
@@ -160,14 +160,14 @@ imp_status face_include(const face *q, const imp_region *region, imp_model model
     walk w;
     int u = NEAR, v = NEAR;
     const imp_status status = patch_region_status(region);
-    if (status != IMP_OK) {
+    if (status != IMP_STATUS_OK) {
         for (int i = 0; i < 3; ++i) model[i] = imp_unbounded(7);
         return status;
     }
     walk_begin(q, &w);
     if (q->gauge != NULL && !walk_to(q, region, &w, &u, &v)) {
         include_square(q, &w, region, model);
-        return IMP_OK;
+        return IMP_STATUS_OK;
     }
     const quarter_type *quarter = quarter_of(q->mesh);
     if (quarter->is_one(&w, region, u, v)) return quarter->include(&w, region, u, v, model);
@@ -179,8 +179,8 @@ imp_status face_net(const face *q, const imp_region *region, imp_net *net)
     walk w;
     int u = NEAR, v = NEAR;
     const imp_status status = patch_region_status(region);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     walk_begin(q, &w);
-    if (q->gauge != NULL && !walk_to(q, region, &w, &u, &v)) return IMP_UNBOUNDED;
+    if (q->gauge != NULL && !walk_to(q, region, &w, &u, &v)) return IMP_STATUS_UNBOUNDED;
     return quarter_of(q->mesh)->net(&w, region, u, v, net);
 }

@@ -168,7 +168,7 @@ static imp_status include_share(const walk *w, const share *part, imp_model mode
     const imp_region local = region_in_half(w, &part->region, part->is_mirrored);
     take_points(w, part->area, part->is_mirrored, &data);
     const imp_status status = box_include(&data, &local, model);
-    for (int i = 0; i < 3 && status == IMP_OK; ++i) {
+    for (int i = 0; i < 3 && status == IMP_STATUS_OK; ++i) {
         model[i].rate[0] = ldexp(model[i].rate[0], w->level);
         model[i].rate[1] *= 2;
     }
@@ -192,13 +192,13 @@ static imp_status add(const walk *w, const imp_region *whole, const imp_region *
                       imp_model sum[3])
 {
     share shares[SHARES_MAX];
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     const int count = shares_of(w, part, shares);
     (void)u, (void)v;
-    for (int k = 0; k < count && status == IMP_OK; ++k) {
+    for (int k = 0; k < count && status == IMP_STATUS_OK; ++k) {
         imp_model g[3];
         status = include_share(w, &shares[k], g);
-        if (status == IMP_OK) quarter_add_model(whole, &shares[k].region, g, sum);
+        if (status == IMP_STATUS_OK) quarter_add_model(whole, &shares[k].region, g, sum);
     }
     return status;
 }
@@ -214,7 +214,7 @@ static imp_status net_of(const walk *w, const imp_region *region, int u, int v, 
         take_points(w, BOX_WHOLE, false, &data);
         return box_net(&data, region, net);
     }
-    if (u != FAR || shares_of(w, region, shares) > 1) return IMP_UNBOUNDED;
+    if (u != FAR || shares_of(w, region, shares) > 1) return IMP_STATUS_UNBOUNDED;
     const imp_region local = region_in_half(w, region, shares[0].is_mirrored);
     take_points(w, shares[0].area, shares[0].is_mirrored, &data);
     return box_net(&data, &local, net);

@@ -51,7 +51,7 @@ static imp_status include(const walk *w, const imp_region *region, int u, int v,
     const imp_region local = region_in_patch(w, region, u, v);
     take_patch(w, u, v, &data);
     const imp_status status = spline_include(&data, &local, model);
-    for (int i = 0; i < 3 && status == IMP_OK; ++i)
+    for (int i = 0; i < 3 && status == IMP_STATUS_OK; ++i)
         for (int side = 0; side < 2; ++side)
             model[i].rate[side] = ldexp(model[i].rate[side], w->level);
     return status;
@@ -62,14 +62,14 @@ static imp_status add(const walk *w, const imp_region *whole, const imp_region *
 {
     imp_model g[3];
     const imp_status status = include(w, part, u, v, g);
-    if (status == IMP_OK) quarter_add_model(whole, part, g, sum);
+    if (status == IMP_STATUS_OK) quarter_add_model(whole, part, g, sum);
     return status;
 }
 
 static imp_status net_of(const walk *w, const imp_region *region, int u, int v, imp_net *net)
 {
     rough_points data;
-    if (!is_one(w, region, u, v)) return IMP_UNBOUNDED;
+    if (!is_one(w, region, u, v)) return IMP_STATUS_UNBOUNDED;
     const imp_region local = region_in_patch(w, region, u, v);
     take_patch(w, u, v, &data);
     return spline_net(&data, &local, net);

@@ -19,7 +19,7 @@ enum { DEGREE, POINTS, WEIGHTS, VELOCITIES, FACES };
 #define TRIANGLES_MAX 0x1p30
 
 static const imp_parameter parameters[] = {
-    [DEGREE] = IMP_ROW_OF(IMP_INTEGER, "degree", "1", "2", 0, 0, 0, 0, 1, TRIANGLE_DEGREE_MAX,
+    [DEGREE] = IMP_ROW_OF(IMP_KIND_INTEGER, "degree", "1", "2", 0, 0, 0, 0, 1, TRIANGLE_DEGREE_MAX,
                           "polynomial degree n"),
     [POINTS] = ROW_PATCH_POINTS(
         "points", "length",
@@ -28,7 +28,7 @@ static const imp_parameter parameters[] = {
         "row k, j <= k <= n, is at index k*(k+1)/2+j"),
     [WEIGHTS] = ROW_PATCH_WEIGHTS("weights", "one per point, for rational triangles; default: all 1"),
     [VELOCITIES] = ROW_PATCH_VELOCITIES,
-    [FACES] = IMP_ROW_OF(IMP_INTEGER, "faces", "1", NULL, IMP_OPTIONAL, 2, 0, 0, 0, 0x1p32,
+    [FACES] = IMP_ROW_OF(IMP_KIND_INTEGER, "faces", "1", NULL, IMP_PARAMETER_OPTIONAL, 2, 0, 0, 0, 0x1p32,
                          "of many triangles: the (n+1)*(n+2)/2 control points of each, by number of "
                          "the point, from 0; left out: one triangle"),
 };
@@ -56,14 +56,14 @@ static imp_status check_points(const imp_value *values, size_t each, imp_create_
             return imp_reject(why, parameter, -1, "%zu given for %zu points; give one each", found,
                               points);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status check_faces(const imp_value *values, size_t each, imp_create_error *why)
 {
     const imp_value *faces = &values[FACES];
     const size_t points = values[POINTS].extent[0];
-    if (!imp_is_given(faces)) return IMP_OK;
+    if (!imp_is_given(faces)) return IMP_STATUS_OK;
     if (faces->extent[1] != each)
         return imp_reject(why, FACES, -1,
                           "%zu numbers a face, must be %zu, the control points of a triangle of "
@@ -74,7 +74,7 @@ static imp_status check_faces(const imp_value *values, size_t each, imp_create_e
             return imp_reject(why, FACES, (int64_t)(k / each),
                               "point %.0f is not there: points are numbered from 0 to %zu",
                               faces->number[k], points - 1);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* The memory of as many triangles. */
@@ -84,7 +84,7 @@ static imp_status check_size(const imp_value *values, size_t count, imp_create_e
     const double lanes = imp_is_given(&values[VELOCITIES]) ? 8 : 4;
     const double numbers = (2 * side * side + 2 * side * (side - 1)) * lanes;
     const double bytes = (double)count * (sizeof(patch) + numbers * sizeof(double));
-    if (bytes <= TRIANGLES_MAX) return IMP_OK;
+    if (bytes <= TRIANGLES_MAX) return IMP_STATUS_OK;
     return imp_reject(why, FACES, -1,
                       "%zu triangles of degree %g would take %.0f MiB, must be at most %.0f MiB: "
                       "divide the surface",
@@ -113,12 +113,12 @@ static imp_status make_pieces(triangles *f, const imp_value *values, size_t coun
                           .which = given(&values[FACES])};
     while (f->count < count) {
         patch *made = triangle_new(&data);
-        if (made == NULL) return IMP_INTERNAL;
+        if (made == NULL) return IMP_STATUS_INTERNAL;
         f->piece[f->count++] = made;
         if (data.which != NULL) data.which += each;
     }
     f->first = *f->piece[0];
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status triangles_create(const imp_value *values, void **self, imp_create_error *why)
@@ -126,13 +126,13 @@ static imp_status triangles_create(const imp_value *values, void **self, imp_cre
     const size_t each = triangle_points((int)values[DEGREE].number[0]);
     const size_t count = imp_is_given(&values[FACES]) ? values[FACES].extent[0] : 1;
     imp_status status = check_points(values, each, why);
-    if (status == IMP_OK) status = check_faces(values, each, why);
-    if (status == IMP_OK) status = check_size(values, count, why);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = check_faces(values, each, why);
+    if (status == IMP_STATUS_OK) status = check_size(values, count, why);
+    if (status != IMP_STATUS_OK) return status;
     triangles *f = calloc(1, sizeof *f + count * sizeof f->piece[0]);
-    if (f == NULL) return IMP_INTERNAL;
+    if (f == NULL) return IMP_STATUS_INTERNAL;
     status = make_pieces(f, values, count, each);
-    if (status == IMP_OK)
+    if (status == IMP_STATUS_OK)
         *self = f;
     else
         triangles_destroy(f);

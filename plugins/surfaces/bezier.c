@@ -28,7 +28,7 @@ static imp_status check_count(const imp_value *values, int parameter, size_t poi
 {
     size_t count = values[parameter].extent[0];
     const double *degree = values[DEGREE].number;
-    if (!imp_is_given(&values[parameter]) || count == points) return IMP_OK;
+    if (!imp_is_given(&values[parameter]) || count == points) return IMP_STATUS_OK;
     return imp_reject(
         why, parameter, -1,
         "%zu given, but a patch of degree [%g,%g] has (%g+1)*(%g+1) = %zu control points", count,
@@ -45,11 +45,11 @@ static imp_status bezier_create(const imp_value *values, void **self, imp_create
                            imp_is_given(&values[VELOCITIES]) ? values[VELOCITIES].number : NULL};
     for (int parameter = POINTS; parameter <= VELOCITIES; ++parameter) {
         imp_status status = check_count(values, parameter, patch_points(data.degree), why);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
     }
     patch *f = patch_new(&data);
     *self = f;
-    return f != NULL ? IMP_OK : IMP_INTERNAL;
+    return f != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }
 
 static void bezier_domain(const void *self, double lo[3], double hi[3])

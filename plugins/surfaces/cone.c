@@ -28,12 +28,12 @@ static imp_status cone_create(const imp_value *values, void **self, imp_create_e
 {
     (void)why;
     cone_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->radius = values[RADIUS].number[0];
     s->height = values[HEIGHT].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void cone_domain(const void *self, double lo[3], double hi[3])
@@ -70,8 +70,7 @@ static imp_model cone_beyond(const cone_instance *s, const imp_model m[3])
     const double slant = greatest_root_upper(
         &(imp_model){.hi = imp_round_up(imp_round_up(h * h) + imp_round_up(r * r))});
     const imp_model across = sum_of_squares(m, 2), y = imp_shift(imp_neg(m[2]), h);
-    const imp_model sum =
-        imp_sub(imp_mul(across, imp_sqr(imp_num(h))), imp_sqr(imp_scale(y, r)));
+    const imp_model sum = imp_sub(imp_mul(across, imp_sqr(imp_num(h))), imp_sqr(imp_scale(y, r)));
     const double along = imp_round_up(r * imp_interval_mag(imp_model_range(&y)));
     const double most = imp_sum_up(imp_round_up(fabs(h) * greatest_root_upper(&across)) + along);
     return imp_scale(sum, imp_larger(inverse_lower(imp_round_up(most * slant)), 0));
@@ -91,11 +90,11 @@ IMP_DISTANCE_FORMULA(cone_gap)
 static imp_status cone_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const cone_instance *s = self;
-    symmetry->kind = IMP_SYMMETRIC_ABOUT_LINE;
+    symmetry->kind = IMP_SYMMETRY_ABOUT_LINE;
     symmetry->is_closed = 1;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type cone = {

@@ -25,12 +25,12 @@ static imp_status cylinder_create(const imp_value *values, void **self, imp_crea
 {
     (void)why;
     cylinder_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->radius = values[RADIUS].number[0];
     s->height = values[HEIGHT].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void cylinder_domain(const void *self, double lo[3], double hi[3])
@@ -65,11 +65,11 @@ IMP_DISTANCE_FORMULA(cylinder_gap)
 static imp_status cylinder_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const cylinder_instance *s = self;
-    symmetry->kind = IMP_SYMMETRIC_ALONG_LINE;
+    symmetry->kind = IMP_SYMMETRY_ALONG_LINE;
     symmetry->is_closed = 1;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type cylinder = {

@@ -23,11 +23,11 @@ static imp_status ellipsoid_create(const imp_value *values, void **self, imp_cre
 {
     (void)why;
     ellipsoid_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_copy_vector(s->radii, &values[RADII]);
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void ellipsoid_domain(const void *self, double lo[3], double hi[3])
@@ -105,13 +105,13 @@ static imp_status ellipsoid_symmetry(const void *self, imp_symmetry *symmetry)
     memcpy(symmetry->center, s->center, sizeof s->center);
     symmetry->is_closed = 1;
     symmetry->kind =
-        r[0] == r[1] && r[1] == r[2] ? IMP_SYMMETRIC_ABOUT_POINT : IMP_SYMMETRIC_ABOUT_LINE;
+        r[0] == r[1] && r[1] == r[2] ? IMP_SYMMETRY_ABOUT_POINT : IMP_SYMMETRY_ABOUT_LINE;
     for (int i = 0; i < 3; ++i)
         if (r[(i + 1) % 3] == r[(i + 2) % 3]) {
             symmetry->axis[i] = 1;
-            return IMP_OK;
+            return IMP_STATUS_OK;
         }
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 
 static const imp_surface_type ellipsoid = {

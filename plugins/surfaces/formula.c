@@ -47,10 +47,10 @@ static imp_status compile(const imp_value *values, formula_instance *s, imp_crea
 static imp_status formula_create(const imp_value *values, void **self, imp_create_error *why)
 {
     formula_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_status status = read_domain(values, s, why);
-    if (status == IMP_OK) status = compile(values, s, why);
-    if (status == IMP_OK)
+    if (status == IMP_STATUS_OK) status = compile(values, s, why);
+    if (status == IMP_STATUS_OK)
         *self = s;
     else
         free(s);
@@ -85,8 +85,8 @@ static imp_status formula_eval(const void *self, size_t n, const double *p, doub
                                double *error)
 {
     const formula_instance *s = self;
-    imp_status status = IMP_OK;
-    for (size_t k = 0; k < n && status == IMP_OK; ++k)
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = 0; k < n && status == IMP_STATUS_OK; ++k)
         status = expression_point(s->program, p + 3 * k, x + 3 * k,
                                   error != NULL ? error + 3 * k : NULL);
     return status;
@@ -94,7 +94,7 @@ static imp_status formula_eval(const void *self, size_t n, const double *p, doub
 
 static const imp_surface_type formula = {
     IMP_TYPE_FIELDS(imp_surface_type, "formula", formula, formula_destroy),
-    .flags = IMP_ABSENT_OUTSIDE_TIMES,
+    .flags = IMP_FLAG_ABSENT_OUTSIDE_TIMES,
     .summary = "any surface, given by formulas",
     .equation = "(x, y, z), each a text in u, v, t with + - * / ^, pi, e, constants, and abs sqrt "
                 "cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh pow min max hypot "

@@ -45,7 +45,7 @@ static void mesh_destroy(void *self)
 static imp_status make_pieces(mesh *m)
 {
     m->pieces = malloc(m->triangles.count * sizeof *m->pieces);
-    if (m->pieces == NULL) return IMP_INTERNAL;
+    if (m->pieces == NULL) return IMP_STATUS_INTERNAL;
     for (size_t k = 0; k < m->triangles.count; ++k) {
         m->pieces[k].of = m;
         memcpy(m->pieces[k].corner, m->triangles.corner + 3 * k, sizeof m->pieces[k].corner);
@@ -53,18 +53,18 @@ static imp_status make_pieces(mesh *m)
     m->first = m->pieces[0];
     free(m->triangles.corner);
     m->triangles.corner = NULL;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status mesh_create(const imp_value *values, void **self, imp_create_error *why)
 {
     mesh *m = calloc(1, sizeof *m);
-    if (m == NULL) return IMP_INTERNAL;
+    if (m == NULL) return IMP_STATUS_INTERNAL;
     imp_status status = mesh_take_shape(values, &m->triangles, why);
-    if (status == IMP_OK)
+    if (status == IMP_STATUS_OK)
         status = mesh_take_velocities(values, m->triangles.point_count, &m->velocity, why);
-    if (status == IMP_OK) status = make_pieces(m);
-    if (status == IMP_OK)
+    if (status == IMP_STATUS_OK) status = make_pieces(m);
+    if (status == IMP_STATUS_OK)
         *self = m;
     else
         mesh_destroy(m);

@@ -17,7 +17,7 @@ enum { DEGREE, KNOTS, KNOTS_U, KNOTS_V, POINTS, WEIGHTS, VELOCITIES };
 #define FEW_CELLS 16
 
 #define ROW_KNOTS(NAME, DOC)                                                                       \
-    IMP_ROW(NAME, "1", NULL, IMP_OPTIONAL, 1, 0, 0, -KNOT_FAR, KNOT_FAR, DOC)
+    IMP_ROW(NAME, "1", NULL, IMP_PARAMETER_OPTIONAL, 1, 0, 0, -KNOT_FAR, KNOT_FAR, DOC)
 
 static const imp_parameter parameters[] = {
     [DEGREE] = ROW_PATCH_DEGREE("[2,2]", "polynomial degrees [p,q] along u and v"),
@@ -51,8 +51,8 @@ static imp_status check_count(const imp_value *values, int parameter, const size
                               imp_create_error *why)
 {
     const size_t found = values[parameter].extent[0];
-    if (parameter != POINTS && !imp_is_given(&values[parameter])) return IMP_OK;
-    if (found % count[0] == 0 && found / count[0] == count[1]) return IMP_OK;
+    if (parameter != POINTS && !imp_is_given(&values[parameter])) return IMP_STATUS_OK;
+    if (found % count[0] == 0 && found / count[0] == count[1]) return IMP_STATUS_OK;
     return imp_reject(why, parameter, -1,
                       "got %zu, but degree and knots make it %zu along u times %zu along v", found,
                       count[0], count[1]);
@@ -65,11 +65,11 @@ static imp_status check(const imp_value *values, imp_create_error *why)
         const knot_row row = row_of(values, side);
         const int degree = (int)values[DEGREE].number[side];
         imp_status status = knots_check(&row, degree, why);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
         count[side] = row.length - (size_t)degree - 1;
     }
-    imp_status status = IMP_OK;
-    for (int parameter = POINTS; parameter <= VELOCITIES && status == IMP_OK; ++parameter)
+    imp_status status = IMP_STATUS_OK;
+    for (int parameter = POINTS; parameter <= VELOCITIES && status == IMP_STATUS_OK; ++parameter)
         status = check_count(values, parameter, count, why);
     return status;
 }
@@ -127,7 +127,7 @@ static imp_status check_cells(const nurbs_instance *f, imp_create_error *why)
     const size_t spans[2] = {f->side[0].spans, f->side[1].spans};
     const double each = (double)(sizeof(cell) + cell_numbers(f) * sizeof(double));
     const double bytes = (double)spans[0] * (double)spans[1] * each;
-    if (bytes <= NURBS_CELLS_MAX) return IMP_OK;
+    if (bytes <= NURBS_CELLS_MAX) return IMP_STATUS_OK;
     return imp_reject(why, POINTS, -1,
                       "%zu x %zu spans of degree %d x %d would take %.0f MiB, must be at most %.0f "
                       "MiB: give a lower degree or fewer points, or split the surface at knots",
@@ -148,21 +148,21 @@ static imp_status fill(nurbs_instance *f, const imp_value *values, imp_create_er
     for (int side = 0; side < 2; ++side) {
         const knot_row row = row_of(values, side);
         if (!knots_make(&f->side[side], &row, (int)values[DEGREE].number[side]))
-            return IMP_INTERNAL;
+            return IMP_STATUS_INTERNAL;
     }
-    if (!copy_points(f, values)) return IMP_INTERNAL;
+    if (!copy_points(f, values)) return IMP_STATUS_INTERNAL;
     const imp_status status = check_cells(f, why);
-    if (status != IMP_OK) return status;
-    return allocate_cells(f) && nurbs_make_cells(f) ? IMP_OK : IMP_INTERNAL;
+    if (status != IMP_STATUS_OK) return status;
+    return allocate_cells(f) && nurbs_make_cells(f) ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }
 
 static imp_status nurbs_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check(values, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     nurbs_instance *f = calloc(1, sizeof *f);
-    status = f != NULL ? fill(f, values, why) : IMP_INTERNAL;
-    if (status == IMP_OK)
+    status = f != NULL ? fill(f, values, why) : IMP_STATUS_INTERNAL;
+    if (status == IMP_STATUS_OK)
         *self = f;
     else
         nurbs_destroy(f);
@@ -242,10 +242,10 @@ static imp_status nurbs_eval(const void *self, size_t n, const double *p, double
 {
     double unwanted[3];
     for (size_t k = 0; k < n; ++k) {
-        if (!nurbs_has(self, p + 3 * k)) return IMP_DOMAIN;
+        if (!nurbs_has(self, p + 3 * k)) return IMP_STATUS_DOMAIN;
         nurbs_point(self, p + 3 * k, x + 3 * k, error != NULL ? error + 3 * k : unwanted);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Regions --- */
@@ -255,21 +255,21 @@ static imp_status nurbs_include(const void *self, const imp_region *region, imp_
     const nurbs_instance *f = self;
     if (!nurbs_has(f, region->lo) || !nurbs_has(f, region->hi)) {
         for (int axis = 0; axis < 3; ++axis) model[axis] = imp_unbounded(7);
-        return IMP_UNBOUNDED;
+        return IMP_STATUS_UNBOUNDED;
     }
     const cell_range cells = nurbs_cells_of(f, region);
     const size_t count = cell_range_count(&cells);
     if (count == 1) return cell_include(f, cells.from[0], cells.from[1], region, model);
     if (count <= FEW_CELLS) return nurbs_include_few(f, nurbs_eval, cells, region, model);
     nurbs_include_many(f, cells, region, model);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status nurbs_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
     imp_model model[3];
     imp_status status = nurbs_include(self, region, model);
-    for (int i = 0; i < 3 && status == IMP_OK; ++i)
+    for (int i = 0; i < 3 && status == IMP_STATUS_OK; ++i)
         memcpy(rates->m[i], model[i].rate, sizeof rates->m[i]);
     return status;
 }
@@ -277,7 +277,7 @@ static imp_status nurbs_rate(const void *self, const imp_region *region, imp_rat
 static imp_status nurbs_net(const void *self, const imp_region *region, imp_net *net)
 {
     const nurbs_instance *f = self;
-    if (!nurbs_has(f, region->lo) || !nurbs_has(f, region->hi)) return IMP_UNBOUNDED;
+    if (!nurbs_has(f, region->lo) || !nurbs_has(f, region->hi)) return IMP_STATUS_UNBOUNDED;
     return nurbs_cell_net(f, region, net);
 }
 

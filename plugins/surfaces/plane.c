@@ -47,7 +47,7 @@ static imp_status check_edges(const imp_value *values, imp_create_error *why)
     for (int edge = EDGE_U; edge <= EDGE_V; ++edge)
         if (greatest(values[edge].number) == 0)
             return imp_reject(why, edge, -1, "[0,0,0] spans nothing; must be any vector but 0");
-    if (!are_parallel(u, v)) return IMP_OK;
+    if (!are_parallel(u, v)) return IMP_STATUS_OK;
     return imp_reject(why, EDGE_V, -1,
                       "[%g,%g,%g] is parallel to edge_u [%g,%g,%g]; must be any other direction",
                       v[0], v[1], v[2], u[0], u[1], u[2]);
@@ -85,9 +85,9 @@ static void set_normal(plane_instance *s, const double u[3], const double v[3])
 static imp_status plane_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check_edges(values, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     plane_instance *s = calloc(1, sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     linear *f = &s->surface;
     for (int i = 0; i < 3; ++i) {
         f->still[LINEAR_1][i] = values[ORIGIN].number[i];
@@ -97,7 +97,7 @@ static imp_status plane_create(const imp_value *values, void **self, imp_create_
     linear_finish(f);
     set_normal(s, values[EDGE_U].number, values[EDGE_V].number);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* n.(x - origin), the distance from the endless plane. Lemma. Let |n| <= 1 and y = origin + u edge_u + v
@@ -120,10 +120,10 @@ IMP_DISTANCE_FORMULA(plane_gap)
 static imp_status plane_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const plane_instance *s = self;
-    symmetry->kind = IMP_SYMMETRIC_ACROSS_LINE;
+    symmetry->kind = IMP_SYMMETRY_ACROSS_LINE;
     memcpy(symmetry->center, s->surface.still[LINEAR_1], sizeof symmetry->center);
     memcpy(symmetry->axis, s->normal, sizeof symmetry->axis);
-    return greatest(s->normal) > 0 ? IMP_OK : IMP_UNBOUNDED;
+    return greatest(s->normal) > 0 ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 static void plane_domain(const void *self, double lo[3], double hi[3])

@@ -17,14 +17,14 @@ static imp_status point_create(const imp_value *values, void **self, imp_create_
 {
     (void)why;
     linear *f = calloc(1, sizeof *f);
-    if (f == NULL) return IMP_INTERNAL;
+    if (f == NULL) return IMP_STATUS_INTERNAL;
     for (int i = 0; i < 3; ++i) {
         f->still[LINEAR_1][i] = values[POSITION].number[i];
         f->motion[LINEAR_1][i] = values[VELOCITY].number[i];
     }
     linear_finish(f);
     *self = f;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void point_domain(const void *self, double lo[3], double hi[3])

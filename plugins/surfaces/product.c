@@ -40,8 +40,8 @@ static void product_destroy(void *self)
 static imp_status product_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = curve_check(values, C, C_WEIGHTS, why);
-    if (status == IMP_OK) status = curve_check(values, D, D_WEIGHTS, why);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = curve_check(values, D, D_WEIGHTS, why);
+    if (status != IMP_STATUS_OK) return status;
     product_instance *s = calloc(1, sizeof *s);
     if (s != NULL) {
         s->c = curve_new(&values[C], &values[C_WEIGHTS]);
@@ -49,12 +49,12 @@ static imp_status product_create(const imp_value *values, void **self, imp_creat
     }
     if (s == NULL || s->c == NULL || s->d == NULL) {
         product_destroy(s);
-        return IMP_INTERNAL;
+        return IMP_STATUS_INTERNAL;
     }
     imp_copy_vector(s->k, &values[K]);
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void product_domain(const void *self, double lo[3], double hi[3])

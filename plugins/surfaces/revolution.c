@@ -31,16 +31,16 @@ static void revolution_destroy(void *self)
 static imp_status revolution_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = curve_check(values, PROFILE, WEIGHTS, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     revolution_instance *s = calloc(1, sizeof *s);
     if (s != NULL) s->profile = curve_new(&values[PROFILE], &values[WEIGHTS]);
     if (s == NULL || s->profile == NULL) {
         revolution_destroy(s);
-        return IMP_INTERNAL;
+        return IMP_STATUS_INTERNAL;
     }
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void revolution_domain(const void *self, double lo[3], double hi[3])

@@ -16,7 +16,7 @@ enum { SIZE, AMPLITUDE, WAVELENGTH, DIRECTION, SPEED, CENTER };
 #define WAVE_SHORT 1e-100
 
 static const imp_parameter parameters[] = {
-    [SIZE] = IMP_ROW("size", "length", "[2,2]", IMP_MIN_OPEN, 1, 2, 0, 0, WAVE_FAR,
+    [SIZE] = IMP_ROW("size", "length", "[2,2]", IMP_PARAMETER_MIN_OPEN, 1, 2, 0, 0, WAVE_FAR,
                      "extent of the sheet along x and y"),
     [AMPLITUDE] = IMP_ROW_NUMBER("amplitude", "length", "0.1", "greatest height above the mean"),
     [WAVELENGTH] = IMP_ROW("wavelength", "length", "1", 0, 0, 0, 0, WAVE_SHORT, WAVE_FAR,
@@ -56,13 +56,13 @@ static imp_status ripple_create(const imp_value *values, void **self, imp_create
                           "least %g)",
                           direction[0], direction[1], WAVE_SHORT);
     ripple_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     for (int i = 0; i < 2; ++i) s->half[i] = values[SIZE].number[i] / 2;
     s->amplitude = values[AMPLITUDE].number[0];
     set_wave(s, direction, values[WAVELENGTH].number[0], values[SPEED].number[0]);
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void ripple_domain(const void *self, double lo[3], double hi[3])

@@ -11,7 +11,7 @@ enum { POINTS, VELOCITIES };
 static const imp_parameter parameters[] = {
     [POINTS] = ROW_CORNERS("points", "length", "[[0,0,0],[1,0,0]]", 2, 0,
                            "both ends [x,y,z] at t = 0; equal ends: a point"),
-    [VELOCITIES] = ROW_CORNERS("velocities", "length/time", NULL, 2, IMP_OPTIONAL,
+    [VELOCITIES] = ROW_CORNERS("velocities", "length/time", NULL, 2, IMP_PARAMETER_OPTIONAL,
                                "velocity of each end; default: at rest"),
 };
 
@@ -27,12 +27,12 @@ static imp_status segment_create(const imp_value *values, void **self, imp_creat
 {
     (void)why;
     linear *f = calloc(1, sizeof *f);
-    if (f == NULL) return IMP_INTERNAL;
+    if (f == NULL) return IMP_STATUS_INTERNAL;
     set_ends(f->still, values[POINTS].number);
     if (imp_is_given(&values[VELOCITIES])) set_ends(f->motion, values[VELOCITIES].number);
     linear_finish(f);
     *self = f;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void segment_domain(const void *self, double lo[3], double hi[3])

@@ -22,11 +22,11 @@ static imp_status sphere_create(const imp_value *values, void **self, imp_create
 {
     (void)why;
     sphere_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->radius = values[RADIUS].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* The ranges of u and v are rounded outward, so that they cover the full turn and both poles,
@@ -66,10 +66,10 @@ IMP_DISTANCE_FORMULA(sphere_gap)
 static imp_status sphere_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const sphere_instance *s = self;
-    symmetry->kind = IMP_SYMMETRIC_ABOUT_POINT;
+    symmetry->kind = IMP_SYMMETRY_ABOUT_POINT;
     symmetry->is_closed = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type sphere = {

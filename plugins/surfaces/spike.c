@@ -98,7 +98,7 @@ static imp_status spike_create(const imp_value *values, void **self, imp_create_
     for (size_t k = 0; k < spikes->extent[0]; ++k)
         count += repeat(peak_given(spikes, k), width, NULL);
     spike_instance *s = malloc(sizeof *s + count * sizeof s->peaks[0]);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->radius = values[RADIUS].number[0];
     s->height = values[HEIGHT].number[0];
     s->steepness = near_of(imp_div(imp_num(1), imp_sqr(imp_num(width))));
@@ -109,7 +109,7 @@ static imp_status spike_create(const imp_value *values, void **self, imp_create_
     for (size_t k = 0; k < spikes->extent[0]; ++k)
         s->count += repeat(peak_given(spikes, k), width, s->peaks + s->count);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void spike_domain(const void *self, double lo[3], double hi[3])

@@ -18,7 +18,7 @@ static const imp_parameter parameters[] = {
     [MESH_FACES] = ROW_MESH_FACES("corners of each face, by number of the point, from 0; all faces go "
                                   "round the same way"),
     [MESH_VELOCITIES] = ROW_MESH_VELOCITIES,
-    [SCHEME] = IMP_ROW_OF(IMP_STRING, "scheme", "1", "\"catmull-clark\"", 0, 0, 0, 0, -INFINITY, INFINITY,
+    [SCHEME] = IMP_ROW_OF(IMP_KIND_STRING, "scheme", "1", "\"catmull-clark\"", 0, 0, 0, 0, -INFINITY, INFINITY,
                           "rules of subdivision: catmull-clark, or loop, for triangles"),
 };
 
@@ -102,29 +102,29 @@ static imp_status take_level(subdivision *s, const control_mesh *m, bool *wanted
             *left += m->loop != NULL ? 4 : m->first[f + 1] - m->first[f];
         } else {
             if (!add_piece(s, (face){m, is_regular ? NULL : &to_be_measured, start}))
-                return IMP_INTERNAL;
+                return IMP_STATUS_INTERNAL;
             s->gauge_count += !is_regular;
         }
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status divide(subdivision *s, imp_create_error *why)
 {
     size_t left = 0;
     bool *wanted = malloc(s->level[0].face_count * sizeof *wanted);
-    if (wanted == NULL) return IMP_INTERNAL;
+    if (wanted == NULL) return IMP_STATUS_INTERNAL;
     for (size_t f = 0; f < s->level[0].face_count; ++f) wanted[f] = true;
     imp_status status = take_level(s, &s->level[0], wanted, &left);
-    for (int k = 1; k < LEVELS && status == IMP_OK && left > 0; ++k) {
+    for (int k = 1; k < LEVELS && status == IMP_STATUS_OK && left > 0; ++k) {
         bool *finer = NULL;
         if (s->count + left > IMP_PIECES_MAX)
             status = imp_reject(why, -1, -1, "more than %zu faces after %d steps; divide the mesh",
                                 IMP_PIECES_MAX, k);
-        if (status == IMP_OK) status = control_refine(&s->level[k - 1], wanted, &s->level[k], &finer);
+        if (status == IMP_STATUS_OK) status = control_refine(&s->level[k - 1], wanted, &s->level[k], &finer);
         free(wanted);
         wanted = finer;
-        if (status == IMP_OK) status = take_level(s, &s->level[k], wanted, &left);
+        if (status == IMP_STATUS_OK) status = take_level(s, &s->level[k], wanted, &left);
     }
     free(wanted);
     return status;
@@ -133,15 +133,15 @@ static imp_status divide(subdivision *s, imp_create_error *why)
 static imp_status measure(subdivision *s)
 {
     size_t used = 0;
-    if (s->gauge_count == 0) return IMP_OK;
+    if (s->gauge_count == 0) return IMP_STATUS_OK;
     s->gauges = malloc(s->gauge_count * sizeof *s->gauges);
-    if (s->gauges == NULL) return IMP_INTERNAL;
+    if (s->gauges == NULL) return IMP_STATUS_INTERNAL;
     for (size_t k = 0; k < s->count; ++k)
         if (s->pieces[k].gauge != NULL) {
             face_measure(&s->pieces[k], &s->gauges[used]);
             s->pieces[k].gauge = &s->gauges[used++];
         }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- Creation ----------------------------------------------------------------------------------- */
@@ -152,16 +152,16 @@ static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_
     triangles_fault fault = {0, ""};
     double *velocity = NULL;
     imp_status status = mesh_take_shape(values, &given, why);
-    if (status == IMP_OK) status = mesh_take_velocities(values, given.point_count, &velocity, why);
-    if (status != IMP_OK) {
+    if (status == IMP_STATUS_OK) status = mesh_take_velocities(values, given.point_count, &velocity, why);
+    if (status != IMP_STATUS_OK) {
         triangles_clear(&given);
         return status;
     }
     status = control_begin(&s->level[0], &given, velocity, s->loop, &fault);
-    if (status == IMP_PARAMETER && imp_is_given(&values[MESH_FILE]))
+    if (status == IMP_STATUS_PARAMETER && imp_is_given(&values[MESH_FILE]))
         imp_reject(why, MESH_FILE, -1, "'%.60s': %s (numbers from 0)", values[MESH_FILE].string[0],
                    fault.text);
-    else if (status == IMP_PARAMETER)
+    else if (status == IMP_STATUS_PARAMETER)
         imp_reject(why, MESH_FACES, -1, "%s", fault.text);
     return status;
 }
@@ -169,24 +169,24 @@ static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_
 static imp_status take_scheme(subdivision *s, const imp_value *values, imp_create_error *why)
 {
     const char *name = values[SCHEME].string[0];
-    if (strcmp(name, "catmull-clark") == 0) return IMP_OK;
+    if (strcmp(name, "catmull-clark") == 0) return IMP_STATUS_OK;
     if (strcmp(name, "loop") != 0)
         return imp_reject(why, SCHEME, -1, "'%.60s' is not a scheme; catmull-clark and loop are", name);
     s->loop = malloc(sizeof *s->loop);
-    if (s->loop == NULL) return IMP_INTERNAL;
+    if (s->loop == NULL) return IMP_STATUS_INTERNAL;
     box_make_tables(s->loop);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status subdivision_create(const imp_value *values, void **self, imp_create_error *why)
 {
     subdivision *s = calloc(1, sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_status status = take_scheme(s, values, why);
-    if (status == IMP_OK) status = take_mesh(s, values, why);
-    if (status == IMP_OK) status = divide(s, why);
-    if (status == IMP_OK) status = measure(s);
-    if (status == IMP_OK) {
+    if (status == IMP_STATUS_OK) status = take_mesh(s, values, why);
+    if (status == IMP_STATUS_OK) status = divide(s, why);
+    if (status == IMP_STATUS_OK) status = measure(s);
+    if (status == IMP_STATUS_OK) {
         for (int k = 0; k < LEVELS; ++k) control_settle(&s->level[k]);
         s->first = s->pieces[0];
         *self = s;
@@ -220,7 +220,7 @@ static imp_status subdivision_rate(const void *self, const imp_region *region, i
 {
     imp_model model[3];
     const imp_status status = face_include(self, region, model);
-    for (int i = 0; i < 3 && status == IMP_OK; ++i)
+    for (int i = 0; i < 3 && status == IMP_STATUS_OK; ++i)
         memcpy(rates->m[i], model[i].rate, sizeof rates->m[i]);
     return status;
 }

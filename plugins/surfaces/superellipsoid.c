@@ -24,15 +24,15 @@ static imp_status superellipsoid_create(const imp_value *values, void **self, im
 {
     const imp_value *exponents = &values[EXPONENTS];
     imp_status status = superellipse_check_exponents(exponents, EXPONENTS, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     superellipsoid_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_copy_vector(s->radii, &values[RADII]);
     imp_copy_vector(s->center, &values[CENTER]);
     s->meridian = superellipse_of(exponents->number[0]);
     s->parallel = superellipse_of(exponents->number[1]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void superellipsoid_domain(const void *self, double lo[3], double hi[3])

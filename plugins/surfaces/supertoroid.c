@@ -29,16 +29,16 @@ static imp_status supertoroid_create(const imp_value *values, void **self, imp_c
 {
     const imp_value *exponents = &values[EXPONENTS];
     imp_status status = superellipse_check_exponents(exponents, EXPONENTS, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     supertoroid_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->major_radius = values[MAJOR_RADIUS].number[0];
     s->minor_radius = values[MINOR_RADIUS].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
     s->tube = superellipse_of(exponents->number[0]);
     s->ring = superellipse_of(exponents->number[1]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void supertoroid_domain(const void *self, double lo[3], double hi[3])

@@ -34,8 +34,8 @@ static void sweep_destroy(void *self)
 static imp_status sweep_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = curve_check(values, PROFILE, PROFILE_WEIGHTS, why);
-    if (status == IMP_OK) status = curve_check(values, PATH, PATH_WEIGHTS, why);
-    if (status != IMP_OK) return status;
+    if (status == IMP_STATUS_OK) status = curve_check(values, PATH, PATH_WEIGHTS, why);
+    if (status != IMP_STATUS_OK) return status;
     sweep_instance *s = calloc(1, sizeof *s);
     if (s != NULL) {
         s->profile = curve_new(&values[PROFILE], &values[PROFILE_WEIGHTS]);
@@ -43,10 +43,10 @@ static imp_status sweep_create(const imp_value *values, void **self, imp_create_
     }
     if (s == NULL || s->profile == NULL || s->path == NULL) {
         sweep_destroy(s);
-        return IMP_INTERNAL;
+        return IMP_STATUS_INTERNAL;
     }
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void sweep_domain(const void *self, double lo[3], double hi[3])

@@ -21,12 +21,12 @@ static const imp_parameter parameters[] = {
     [RADIUS] =
         IMP_ROW("radius", "length", "1", 0, 0, 0, 0, THREAD_SHORT, THREAD_FAR, "mean radius"),
     [PROFILE] = IMP_ROW(
-        "profile", "length", "[0.1]", IMP_SCALAR_OK, 1, 0, 0, -THREAD_FAR, THREAD_FAR,
+        "profile", "length", "[0.1]", IMP_PARAMETER_SCALAR_OK, 1, 0, 0, -THREAD_FAR, THREAD_FAR,
         "amplitudes a_1, a_2, ... of the radius' waves from crest to crest; one alone is half "
         "the depth"),
     [PITCH] = IMP_ROW("pitch", "length", "0.5", 0, 0, 0, 0, -THREAD_FAR, THREAD_FAR,
                       "along the axis from crest to crest, any but 0; negative: left-handed"),
-    [STARTS] = IMP_ROW_OF(IMP_INTEGER, "starts", "1", "1", 0, 0, 0, 0, 1, STARTS_MAX,
+    [STARTS] = IMP_ROW_OF(IMP_KIND_INTEGER, "starts", "1", "1", 0, 0, 0, 0, 1, STARTS_MAX,
                           "threads side by side; a turn advances by starts * pitch"),
     [HEIGHT] = IMP_ROW("height", "length", "2", 0, 0, 0, 0, THREAD_SHORT, THREAD_FAR,
                        "extent along the z axis"),
@@ -63,16 +63,16 @@ static imp_status check(const imp_value *values, imp_create_error *why)
         return imp_reject(
             why, PROFILE, -1,
             "the sizes of the amplitudes add up to the radius, %g, or more; must be less", radius);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status thread_create(const imp_value *values, void **self, imp_create_error *why)
 {
     const imp_value *profile = &values[PROFILE];
     const imp_status status = check(values, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     thread_instance *s = malloc(sizeof *s + profile->count * sizeof s->profile[0]);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->radius = values[RADIUS].number[0];
     s->root = root_lower(s->radius, profile);
     s->starts = values[STARTS].number[0];
@@ -84,7 +84,7 @@ static imp_status thread_create(const imp_value *values, void **self, imp_create
     s->count = profile->count;
     memcpy(s->profile, profile->number, s->count * sizeof s->profile[0]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void thread_domain(const void *self, double lo[3], double hi[3])

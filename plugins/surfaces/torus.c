@@ -26,12 +26,12 @@ static imp_status torus_create(const imp_value *values, void **self, imp_create_
 {
     (void)why;
     torus_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_INTERNAL;
+    if (s == NULL) return IMP_STATUS_INTERNAL;
     s->major_radius = values[MAJOR_RADIUS].number[0];
     s->minor_radius = values[MINOR_RADIUS].number[0];
     imp_copy_vector(s->center, &values[CENTER]);
     *self = s;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void torus_domain(const void *self, double lo[3], double hi[3])
@@ -73,11 +73,11 @@ IMP_DISTANCE_FORMULA(torus_gap)
 static imp_status torus_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const torus_instance *s = self;
-    symmetry->kind = IMP_SYMMETRIC_ABOUT_LINE;
+    symmetry->kind = IMP_SYMMETRY_ABOUT_LINE;
     symmetry->is_closed = 1;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type torus = {

@@ -11,7 +11,7 @@ enum { POINTS, VELOCITIES };
 static const imp_parameter parameters[] = {
     [POINTS] = ROW_CORNERS("points", "length", "[[0,0,0],[1,0,0],[0,1,0]]", 3, 0,
                            "three corners [x,y,z] at t = 0; collinear corners: a segment"),
-    [VELOCITIES] = ROW_CORNERS("velocities", "length/time", NULL, 3, IMP_OPTIONAL,
+    [VELOCITIES] = ROW_CORNERS("velocities", "length/time", NULL, 3, IMP_PARAMETER_OPTIONAL,
                                "velocity of each corner; default: at rest"),
 };
 
@@ -28,12 +28,12 @@ static imp_status triangle_create(const imp_value *values, void **self, imp_crea
 {
     (void)why;
     linear *f = calloc(1, sizeof *f);
-    if (f == NULL) return IMP_INTERNAL;
+    if (f == NULL) return IMP_STATUS_INTERNAL;
     set_corners(f->still, values[POINTS].number);
     if (imp_is_given(&values[VELOCITIES])) set_corners(f->motion, values[VELOCITIES].number);
     linear_finish(f);
     *self = f;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void triangle_domain(const void *self, double lo[3], double hi[3])

@@ -25,7 +25,7 @@ static imp_code ask(imp_scene *scene, double required, imp_clearance *answer, im
     if (query == NULL) return error->code;
     answer->struct_size = sizeof *answer;
     imp_code code = imp_query_step(query, 0, error);
-    if (code == IMP_SUCCESS) code = imp_clearance_read(query, 0, answer, error);
+    if (code == IMP_SUCCESS) code = imp_clearance_get(query, 0, answer, error);
     imp_query_free(query);
     return code;
 }

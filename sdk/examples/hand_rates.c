@@ -17,9 +17,9 @@
 enum { RADIUS, TURN, PITCH, SPEED };
 
 static const imp_parameter parameters[] = {
-    [RADIUS] = IMP_ROW("radius", "length", "1", IMP_MIN_OPEN, 0, 0, 0, 0, 1e100,
+    [RADIUS] = IMP_ROW("radius", "length", "1", IMP_PARAMETER_MIN_OPEN, 0, 0, 0, 0, 1e100,
                        "from the axis to the tip"),
-    [TURN] = IMP_ROW("turn", "rad", "1", IMP_MIN_OPEN, 0, 0, 0, 0, 1e100,
+    [TURN] = IMP_ROW("turn", "rad", "1", IMP_PARAMETER_MIN_OPEN, 0, 0, 0, 0, 1e100,
                      "angle between the two ends of the blade"),
     [PITCH] = IMP_ROW_BETWEEN("pitch", "length/rad", "0.5", -1e100, 1e100, "rise along the axis"),
     [SPEED] = IMP_ROW_BETWEEN("speed", "rad/time", "0", -1e100, 1e100, "angular velocity"),
@@ -33,13 +33,13 @@ static imp_status blade_create(const imp_value *values, void **self, imp_create_
 {
     (void)why;
     blade *made = malloc(sizeof *made);
-    if (made == NULL) return IMP_INTERNAL;
+    if (made == NULL) return IMP_STATUS_INTERNAL;
     made->radius = values[RADIUS].number[0];
     made->turn = values[TURN].number[0];
     made->pitch = values[PITCH].number[0];
     made->speed = values[SPEED].number[0];
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void blade_domain(const void *self, double lo[3], double hi[3])
@@ -72,12 +72,13 @@ static void eval_one(const blade *b, const double p[3], double x[3], double erro
 
 static imp_status blade_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     for (size_t k = 0; k < n; ++k) {
         double off[3];
         eval_one(self, p + 3 * k, x + 3 * k, off);
         for (size_t i = 0; error != NULL && i < 3; ++i) error[3 * k + i] = off[i];
-        if (!(off[0] < INFINITY)) status = IMP_DOMAIN; /* speed t is too large for a double */
+        if (!(off[0] < INFINITY))
+            status = IMP_STATUS_DOMAIN; /* speed t is too large for a double */
     }
     return status;
 }
@@ -95,7 +96,7 @@ static imp_status blade_rate(const void *self, const imp_region *region, imp_rat
     double u = imp_larger(fabs(region->lo[0]), fabs(region->hi[0]));
     double moved = imp_round_up(u * fabs(b->speed));
     *rates = (imp_rate_matrix){{{1, u, moved}, {1, u, moved}, {0, fabs(b->pitch), 0}}};
-    return moved < INFINITY ? IMP_OK : IMP_UNBOUNDED;
+    return moved < INFINITY ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 /* .include is NULL: the host makes inclusions from eval and rate. */

@@ -32,17 +32,17 @@ int main(void)
 
     imp_type_info type;
     for (size_t k = 0; imp_registry_type(registry, k, &type); ++k)
-        printf("%s %s, %s\n", type.kind == IMP_KIND_SURFACE ? "surface" : "map", type.name,
+        printf("%s %s, %s\n", type.kind == IMP_TYPE_SURFACE ? "surface" : "map", type.name,
                type.file);
 
     imp_scene *scene = imp_scene_from_pair(registry, "seashell center=0,0,-4 ! twirl speed=2",
                                            "blade speed=1", &error);
     if (scene == NULL) return fail(&error);
     imp_options options = imp_options_default(scene);
-    imp_result result;
+    imp_result result = {.struct_size = sizeof result};
     options.t_end = 0.5;
-    if (imp_solve(scene, &options, &result, &error) != IMP_SUCCESS) return fail(&error);
-    printf("%s\n", result.verdict == IMP_CLEAR ? "clear" : "not clear");
+    if (imp_scene_solve(scene, &options, &result, &error) != IMP_SUCCESS) return fail(&error);
+    printf("%s\n", result.verdict == IMP_VERDICT_CLEAR ? "clear" : "not clear");
     imp_scene_free(scene);
     imp_registry_free(registry);
     return 0;

@@ -15,7 +15,8 @@ static const imp_parameter parameters[] = {
     [SIZE] = IMP_ROW_POSITIVE("size", "length", "1", "radius of the last turn"),
     [GROWTH] = IMP_ROW_BETWEEN("growth", "1/rad", "0.15", 0, 10,
                                "logarithm of how much it grows, per radian"),
-    [TURNS] = IMP_ROW("turns", "1", "3", IMP_MIN_OPEN, 0, 0, 0, 0, 100, "how often it goes around"),
+    [TURNS] = IMP_ROW("turns", "1", "3", IMP_PARAMETER_MIN_OPEN, 0, 0, 0, 0, 100,
+                      "how often it goes around"),
     [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "middle of the last turn"),
 };
 
@@ -27,7 +28,7 @@ typedef struct seashell {
 static imp_status check_together(const imp_value *values, imp_create_error *why)
 {
     double grown = values[GROWTH].number[0] * values[TURNS].number[0] * IMP_TWO_PI_UPPER;
-    if (grown <= 100) return IMP_OK;
+    if (grown <= 100) return IMP_STATUS_OK;
     return imp_reject(why, TURNS, -1,
                       "%g turns with growth %g make the first turn e^%g times smaller than the "
                       "last; must be e^100",
@@ -37,15 +38,15 @@ static imp_status check_together(const imp_value *values, imp_create_error *why)
 static imp_status seashell_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check_together(values, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     seashell *shell = malloc(sizeof *shell);
-    if (shell == NULL) return IMP_INTERNAL;
+    if (shell == NULL) return IMP_STATUS_INTERNAL;
     shell->size = values[SIZE].number[0];
     shell->growth = values[GROWTH].number[0];
     shell->end = values[TURNS].number[0] * IMP_TWO_PI_UPPER;
     imp_copy_vector(shell->center, &values[CENTER]);
     *self = shell;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void seashell_domain(const void *self, double lo[3], double hi[3])

@@ -61,7 +61,8 @@ static imp_code ask(imp_registry *registry, const ball *now, imp_result *next, i
     imp_builder_free(b);
     if (scene == NULL) return error->code;
     const imp_options options = imp_options_default(scene);
-    code = imp_solve(scene, &options, next, error);
+    next->struct_size = sizeof *next;
+    code = imp_scene_solve(scene, &options, next, error);
     imp_scene_free(scene);
     return code;
 }

@@ -24,11 +24,11 @@ static imp_status twirl_create(const imp_value *values, void **self, imp_create_
 {
     (void)why;
     twirl *made = malloc(sizeof *made);
-    if (made == NULL) return IMP_INTERNAL;
+    if (made == NULL) return IMP_STATUS_INTERNAL;
     made->speed = values[SPEED].number[0];
     made->size = values[SIZE].number[0];
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 IMP_MAP_AT_ALL_TIMES(twirl)

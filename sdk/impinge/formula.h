@@ -48,25 +48,25 @@ typedef void (*imp_map_formula)(const void *self, imp_model x, imp_model y, imp_
 typedef imp_model (*imp_distance_formula)(const void *self, imp_model x, imp_model y, imp_model z,
                                           imp_model t);
 
-/* Values and errors of a point's three constants. A value that is not finite: IMP_DOMAIN. */
+/* Values and errors of a point's three constants. A value that is not finite: IMP_STATUS_DOMAIN. */
 static inline imp_status imp_formula_point_(const imp_model out[3], double *x, double *error)
 {
     for (int i = 0; i < 3; i++) {
-        if (!(out[i].e < INFINITY)) return IMP_DOMAIN;
+        if (!(out[i].e < INFINITY)) return IMP_STATUS_DOMAIN;
         x[i] = out[i].a;
         if (error != NULL) error[i] = out[i].e;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
-/* What include and apply return for these models: IMP_UNBOUNDED where anything is infinite, else IMP_OK. */
+/* What include and apply return for these models: IMP_STATUS_UNBOUNDED where anything is infinite, else IMP_STATUS_OK. */
 static inline imp_status imp_models_status(const imp_model out[3])
 {
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     for (int i = 0; i < 3; i++) {
         double size = out[i].e + (out[i].hi - out[i].lo);
         double rate = out[i].rate[0] + out[i].rate[1] + out[i].rate[2];
-        if (!(size < INFINITY && rate < INFINITY)) status = IMP_UNBOUNDED;
+        if (!(size < INFINITY && rate < INFINITY)) status = IMP_STATUS_UNBOUNDED;
     }
     return status;
 }
@@ -76,8 +76,8 @@ static inline imp_status imp_surface_formula_eval_(imp_surface_formula f, const 
                                                    double *error)
 {
     imp_model out[3];
-    imp_status status = IMP_OK;
-    for (size_t k = 0; k < n && status == IMP_OK; k++) {
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = 0; k < n && status == IMP_STATUS_OK; k++) {
         f(self, imp_num(p[3 * k]), imp_num(p[3 * k + 1]), imp_num(p[3 * k + 2]), out);
         status = imp_formula_point_(out, x + 3 * k, error != NULL ? error + 3 * k : NULL);
     }
@@ -95,12 +95,12 @@ static inline imp_status imp_surface_formula_rate_(imp_surface_formula f, const 
                                                    const imp_region *region, imp_rate_matrix *rates)
 {
     imp_model out[3];
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     f(self, imp_param(region, 0), imp_param(region, 1), imp_param(region, 2), out);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             rates->m[i][j] = out[i].rate[j];
-            if (!(out[i].rate[j] < INFINITY)) status = IMP_UNBOUNDED;
+            if (!(out[i].rate[j] < INFINITY)) status = IMP_STATUS_UNBOUNDED;
         }
     }
     return status;
@@ -110,8 +110,8 @@ static inline imp_status imp_map_formula_eval_(imp_map_formula f, const void *se
                                                const double *p, double *x, double *error)
 {
     imp_model out[3];
-    imp_status status = IMP_OK;
-    for (size_t k = 0; k < n && status == IMP_OK; k++) {
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = 0; k < n && status == IMP_STATUS_OK; k++) {
         const double *at = p + 4 * k;
         f(self, imp_num(at[0]), imp_num(at[1]), imp_num(at[2]), imp_num(at[3]), out);
         status = imp_formula_point_(out, x + 3 * k, error != NULL ? error + 3 * k : NULL);
@@ -130,7 +130,7 @@ static inline imp_status imp_distance_formula_(imp_distance_formula f, const voi
                                                const imp_model point[4], imp_model *distance)
 {
     *distance = f(self, point[0], point[1], point[2], point[3]);
-    return distance->e < INFINITY ? IMP_OK : IMP_UNBOUNDED;
+    return distance->e < INFINITY ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 /* A region with these bounds: c is inside, d reaches both ends. */
@@ -157,7 +157,7 @@ static inline imp_status imp_map_formula_rate_(imp_map_formula f, const void *se
     imp_model space[3], time[3];
     imp_region region = imp_region_between(over->lo, over->hi);
     imp_region moment = imp_region_between(over->lo + 1, over->hi + 1);
-    imp_status status = IMP_OK;
+    imp_status status = IMP_STATUS_OK;
     f(self, imp_param(&region, 0), imp_param(&region, 1), imp_param(&region, 2),
       imp_between(over->lo[3], over->hi[3]), space);
     f(self, imp_between(over->lo[0], over->hi[0]), imp_between(over->lo[1], over->hi[1]),
@@ -165,7 +165,7 @@ static inline imp_status imp_map_formula_rate_(imp_map_formula f, const void *se
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 4; j++) {
             rates->m[i][j] = j < 3 ? space[i].rate[j] : time[i].rate[2];
-            if (!(rates->m[i][j] < INFINITY)) status = IMP_UNBOUNDED;
+            if (!(rates->m[i][j] < INFINITY)) status = IMP_STATUS_UNBOUNDED;
         }
     }
     return status;
@@ -230,12 +230,12 @@ static inline void imp_pose_at_rest(imp_pose *pose)
     }
 }
 
-/* IMP_UNBOUNDED where anything is infinite. */
+/* IMP_STATUS_UNBOUNDED where anything is infinite. */
 static inline imp_status imp_pose_status(const imp_pose *pose)
 {
     imp_status status = imp_models_status(pose->shift);
     for (int i = 0; i < 3; i++)
-        if (imp_models_status(pose->turn[i]) != IMP_OK) status = IMP_UNBOUNDED;
+        if (imp_models_status(pose->turn[i]) != IMP_STATUS_OK) status = IMP_STATUS_UNBOUNDED;
     return status;
 }
 

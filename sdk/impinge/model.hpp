@@ -37,7 +37,7 @@
  * where(const double *numbers) -> domain.
  *
  * Instances are deleted by the host's call of destroy. No exception leaves a callback: one that is thrown in create
- * rejects the parameters with its text, any other is IMP_INTERNAL. [thread-safe], as in <impinge/surface.h>. */
+ * rejects the parameters with its text, any other is IMP_STATUS_INTERNAL. [thread-safe], as in <impinge/surface.h>. */
 
 namespace impinge
 {
@@ -119,20 +119,20 @@ template <class T> struct callbacks {
 #if defined(__cpp_exceptions)
         try {
             *self = new T(values);
-            return IMP_OK;
+            return IMP_STATUS_OK;
         } catch (const rejected &wrong) {
             return imp_reject(why, wrong.parameter, -1, "%s", wrong.text);
         } catch (const std::bad_alloc &) {
-            return IMP_INTERNAL;
+            return IMP_STATUS_INTERNAL;
         } catch (const std::exception &wrong) {
             return imp_reject(why, -1, -1, "%s", wrong.what());
         } catch (...) {
-            return IMP_INTERNAL;
+            return IMP_STATUS_INTERNAL;
         }
 #else
         (void)why;
         *self = new (std::nothrow) T(values);
-        return *self != nullptr ? IMP_OK : IMP_INTERNAL;
+        return *self != nullptr ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 #endif
     }
 
@@ -160,7 +160,7 @@ template <class T> struct callbacks {
         try {
             return work();
         } catch (...) {
-            return IMP_INTERNAL;
+            return IMP_STATUS_INTERNAL;
         }
 #else
         return work();

@@ -44,7 +44,7 @@ extern "C" {
 /* --- Rows of a parameter table ---------------------------------------------------------------
  *
  * NAME, UNIT, DOC: as in imp_parameter. DEFAULT: JSON text, or NULL for a parameter that must be
- * given. FLAGS: 0, or IMP_OPTIONAL with a DEFAULT of NULL, or others of IMP_MIN_OPEN ... */
+ * given. FLAGS: 0, or IMP_PARAMETER_OPTIONAL with a DEFAULT of NULL, or others of IMP_PARAMETER_MIN_OPEN ... */
 
 /* Any row, and any row of numbers: RANK and EXTENT as in imp_parameter, each number between MIN and
  * MAX. */
@@ -53,13 +53,13 @@ extern "C" {
         NAME, UNIT, DOC, DEFAULT, KIND, FLAGS, RANK, {EXTENT0, EXTENT1, 0}, MIN, MAX               \
     }
 #define IMP_ROW(NAME, UNIT, DEFAULT, FLAGS, RANK, EXTENT0, EXTENT1, MIN, MAX, DOC)                 \
-    IMP_ROW_OF(IMP_NUMBER, NAME, UNIT, DEFAULT, FLAGS, RANK, EXTENT0, EXTENT1, MIN, MAX, DOC)
+    IMP_ROW_OF(IMP_KIND_NUMBER, NAME, UNIT, DEFAULT, FLAGS, RANK, EXTENT0, EXTENT1, MIN, MAX, DOC)
 
 /* One number: any, greater than 0, or from MIN to MAX. */
 #define IMP_ROW_NUMBER(NAME, UNIT, DEFAULT, DOC)                                                   \
     IMP_ROW(NAME, UNIT, DEFAULT, 0, 0, 0, 0, -INFINITY, INFINITY, DOC)
 #define IMP_ROW_POSITIVE(NAME, UNIT, DEFAULT, DOC)                                                 \
-    IMP_ROW(NAME, UNIT, DEFAULT, IMP_MIN_OPEN, 0, 0, 0, 0, INFINITY, DOC)
+    IMP_ROW(NAME, UNIT, DEFAULT, IMP_PARAMETER_MIN_OPEN, 0, 0, 0, 0, INFINITY, DOC)
 #define IMP_ROW_BETWEEN(NAME, UNIT, DEFAULT, MIN, MAX, DOC)                                        \
     IMP_ROW(NAME, UNIT, DEFAULT, 0, 0, 0, 0, MIN, MAX, DOC)
 
@@ -67,7 +67,7 @@ extern "C" {
 #define IMP_ROW_VECTOR(NAME, UNIT, DEFAULT, FLAGS, DOC)                                            \
     IMP_ROW(NAME, UNIT, DEFAULT, FLAGS, 1, 3, 0, -INFINITY, INFINITY, DOC)
 #define IMP_ROW_POSITIVE_VECTOR(NAME, UNIT, DEFAULT, DOC)                                          \
-    IMP_ROW(NAME, UNIT, DEFAULT, IMP_MIN_OPEN, 1, 3, 0, 0, INFINITY, DOC)
+    IMP_ROW(NAME, UNIT, DEFAULT, IMP_PARAMETER_MIN_OPEN, 1, 3, 0, 0, INFINITY, DOC)
 #define IMP_ROW_CENTER IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "centre of the surface")
 
 /* A list of any length: of numbers, or of vectors of WIDTH numbers each. */
@@ -78,11 +78,11 @@ extern "C" {
 
 /* true or false. */
 #define IMP_ROW_BOOLEAN(NAME, DEFAULT, DOC)                                                        \
-    IMP_ROW_OF(IMP_BOOLEAN, NAME, "1", DEFAULT, 0, 0, 0, 0, -INFINITY, INFINITY, DOC)
+    IMP_ROW_OF(IMP_KIND_BOOLEAN, NAME, "1", DEFAULT, 0, 0, 0, 0, -INFINITY, INFINITY, DOC)
 
 /* --- In create ------------------------------------------------------------------------------- */
 
-/* Was the value of a row with IMP_OPTIONAL given? */
+/* Was the value of a row with IMP_PARAMETER_OPTIONAL given? */
 static inline bool imp_is_given(const imp_value *value) { return value->count > 0; }
 
 static inline void imp_copy_vector(double to[3], const imp_value *value)
@@ -91,7 +91,7 @@ static inline void imp_copy_vector(double to[3], const imp_value *value)
 }
 
 /* Reports an error in one element of a parameter. -1 for `element` means the whole parameter, and
- * -1 for both means the type. Returns IMP_PARAMETER, which create returns in turn. The text is one
+ * -1 for both means the type. Returns IMP_STATUS_PARAMETER, which create returns in turn. The text is one
  * sentence, formatted as by printf: what was got, and what is allowed. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5), unused))
@@ -105,7 +105,7 @@ imp_reject(imp_create_error *why, int parameter, int64_t element, const char *fo
     va_start(arguments, format);
     vsnprintf(why->text, sizeof why->text, format, arguments);
     va_end(arguments);
-    return IMP_PARAMETER;
+    return IMP_STATUS_PARAMETER;
 }
 
 /* --- Domains --------------------------------------------------------------------------------- */

@@ -69,48 +69,49 @@ extern "C" {
 
 /* --- Status -------------------------------------------------------------- */
 
-/* What a callback returns. Errors are return values, not exceptions: set no errno. */
+/* What a callback returns. Errors are return values, not exceptions: set no errno. (Functions of libimpinge
+ * return an imp_code: IMP_SUCCESS, IMP_ERROR_....) */
 typedef int32_t imp_status;
 enum {
-    IMP_OK = 0,
-    IMP_DOMAIN = 1,    /* the region or point is outside the type's domain */
-    IMP_UNBOUNDED = 2, /* no finite rate over this region: the host splits it
+    IMP_STATUS_OK = 0,
+    IMP_STATUS_DOMAIN = 1,    /* the region or point is outside the type's domain */
+    IMP_STATUS_UNBOUNDED = 2, /* no finite rate over this region: the host splits it
                           further and never reports it as clear */
-    IMP_PARAMETER = 3, /* create only: the parameters are wrong, see imp_create_error */
-    IMP_INTERNAL = 4   /* anything else, memory included; the query ends with an error */
+    IMP_STATUS_PARAMETER = 3, /* create only: the parameters are wrong, see imp_create_error */
+    IMP_STATUS_INTERNAL = 4   /* anything else, memory included; the query ends with an error */
 };
 
 /* --- Parameters of a type ------------------------------------------------- */
 
 typedef uint32_t imp_kind;
 enum {
-    IMP_NUMBER = 1,  /* finite double */
-    IMP_INTEGER = 2, /* whole number of at most 2^53 in magnitude */
-    IMP_BOOLEAN = 3,
-    IMP_STRING = 4, /* UTF-8, no NUL inside */
-    IMP_TABLE = 5   /* names to numbers, as in {"a": 1, "b": 2} */
+    IMP_KIND_NUMBER = 1,  /* finite double */
+    IMP_KIND_INTEGER = 2, /* whole number of at most 2^53 in magnitude */
+    IMP_KIND_BOOLEAN = 3,
+    IMP_KIND_STRING = 4, /* UTF-8, no NUL inside */
+    IMP_KIND_TABLE = 5   /* names to numbers, as in {"a": 1, "b": 2} */
 };
 
 enum {
-    IMP_MIN_OPEN = 1u << 0,  /* the value must be greater than min, not equal */
-    IMP_MAX_OPEN = 1u << 1,  /* the value must be less than max, not equal */
-    IMP_SCALAR_OK = 1u << 2, /* rank 1: a bare value stands for an array of one */
-    IMP_OPTIONAL = 1u << 3,  /* may be absent: `default_value` is NULL */
-    IMP_FILE = 1u << 4       /* STRING of rank 0: name of a file. If it is relative, create gets it
-                                with the scene file's folder in front */
+    IMP_PARAMETER_MIN_OPEN = 1u << 0,  /* the value must be greater than min, not equal */
+    IMP_PARAMETER_MAX_OPEN = 1u << 1,  /* the value must be less than max, not equal */
+    IMP_PARAMETER_SCALAR_OK = 1u << 2, /* rank 1: a bare value stands for an array of one */
+    IMP_PARAMETER_OPTIONAL = 1u << 3,  /* may be absent: `default_value` is NULL */
+    IMP_PARAMETER_FILE = 1u << 4       /* STRING of rank 0: name of a file; create gets a relative
+                                          one with the scene file's folder in front */
 };
 
 #define IMP_RANK_MAX 3
 
-/* One row of a type's parameter table. A vector is an IMP_NUMBER of rank 1 and
+/* One row of a type's parameter table. A vector is an IMP_KIND_NUMBER of rank 1 and
  * extent {3}; a list of points is rank 2 and extents {0, 3}. */
 typedef struct imp_parameter {
     const char *name;          /* letters, digits, '_', a letter first; as in scene files */
     const char *unit;          /* "length", "rad", "rad/time", "1", ... */
     const char *doc;           /* one line */
-    const char *default_value; /* default as JSON text; NULL: required, or IMP_OPTIONAL */
+    const char *default_value; /* default as JSON text; NULL: required, or IMP_PARAMETER_OPTIONAL */
     imp_kind kind;
-    uint32_t flags;                /* IMP_MIN_OPEN | ... */
+    uint32_t flags;                /* IMP_PARAMETER_MIN_OPEN | ... */
     uint32_t rank;                 /* 0 for a single value, else the number of extents */
     uint32_t extent[IMP_RANK_MAX]; /* 0: any number from 1 up */
     double min, max;               /* of each number; -INFINITY and INFINITY: no limit */
@@ -125,7 +126,7 @@ typedef struct imp_value {
     const char *const *string;   /* STRING, TABLE (the names): count */
 } imp_value;
 
-/* How create reports what is wrong, if it returns IMP_PARAMETER. The host has set struct_size,
+/* How create reports what is wrong, if it returns IMP_STATUS_PARAMETER. The host has set struct_size,
  * parameter = -1, element = -1, text = "". State what was got and what is allowed; the host adds
  * the place (file, line, JSON pointer). */
 typedef struct imp_create_error {
@@ -157,7 +158,7 @@ typedef struct imp_rate_matrix {
     double m[3][3];
 } imp_rate_matrix;
 
-/* The same for a map: bounds of |d phi_i / d (x, y, z, t)_j| over a box. */
+/* Rates of a map: m[i][j] >= max over a box of |d phi_i / d (x, y, z, t)_j|. Finite, >= 0. */
 typedef struct imp_map_rates {
     double m[3][4];
 } imp_map_rates;
@@ -165,16 +166,16 @@ typedef struct imp_map_rates {
 /* Index into imp_model.q of the coefficient of s_j s_k, j <= k. */
 enum { IMP_UU = 0, IMP_UV = 1, IMP_UT = 2, IMP_VV = 3, IMP_VT = 4, IMP_TT = 5 };
 
-/* An inclusion of one coordinate over a region: an order-2 Taylor model. For every p in it, with s
- * as above, both hold for the exact value g(p):
+/* An inclusion of one coordinate g over a region: an order-2 Taylor model. For every point p of the
+ * region, with s = (p - c) / d, both hold for the exact value g(p):
  *
  *   | g(p) - (a + sum_j b_j s_j + sum_{j<=k} q_jk s_j s_k) | <= e
  *   lo <= g(p) <= hi
  *
  * and |g(p) - g(p')| <= sum_j rate_j |p_j - p'_j| inside the region. All finite, e >= 0, lo <= hi,
- * rate >= 0, unless the callback returns IMP_UNBOUNDED: then rate may be INFINITY, lo -INFINITY, hi
- * and e INFINITY, and every finite bound still holds. The rate matrix alone is the case b = q = 0,
- * e = sum_j M_ij d_j. */
+ * rate >= 0, unless the callback returns IMP_STATUS_UNBOUNDED: then rate may be INFINITY, lo -INFINITY, hi
+ * and e INFINITY, and every bound that is finite still holds. A model can be made of a point and the
+ * rates alone: a = g(c), b = q = 0, e = sum_j M_ij d_j. */
 typedef struct imp_model {
     double a;          /* length */
     double b[3];       /* length, per unit of s */
@@ -233,21 +234,21 @@ typedef struct imp_pose {
 
 /* --- How a surface can be moved within itself ------------------------------------- */
 
-/* Rigid motions that change nothing of what `distance` knows of a surface, at any time: those of a ball, of a
- * body of revolution, of an endless cylinder, of an endless plane. The line is that through the center
- * along the axis, whose length does not matter. Both are exact. */
+/* Which rigid motions map the surface, or the larger one from which its `distance` measures, onto itself, at
+ * any time: those of a sphere, of a surface of revolution, of an endless cylinder or of an endless plane. The line goes through the center along
+ * the axis, whose length does not matter. Center and axis are exact. */
 enum {
-    IMP_SYMMETRIC_ABOUT_POINT = 1, /* every rotation about the center; the axis is not read */
-    IMP_SYMMETRIC_ABOUT_LINE = 2,  /* every rotation about the line */
-    IMP_SYMMETRIC_ALONG_LINE = 3,  /* these, and every translation along it */
-    IMP_SYMMETRIC_ACROSS_LINE = 4  /* these rotations, and translations perpendicular to the line */
+    IMP_SYMMETRY_ABOUT_POINT = 1, /* every rotation about the center; the axis is not read */
+    IMP_SYMMETRY_ABOUT_LINE = 2,  /* every rotation about the line */
+    IMP_SYMMETRY_ALONG_LINE = 3,  /* these, and every translation along it */
+    IMP_SYMMETRY_ACROSS_LINE = 4  /* these rotations, and translations perpendicular to the line */
 };
 
 /* is_closed claims more: each rotation of the kind takes the surface itself, all u and v of its domain, to
  * itself. A cylinder all around is closed, one half of it is not (a full turn needs IMP_TWO_PI_UPPER). Two
  * bodies that only turn so are as far apart at one time as at another. */
 typedef struct imp_symmetry {
-    uint32_t kind;      /* one of these */
+    uint32_t kind;      /* IMP_SYMMETRY_... */
     uint32_t is_closed; /* 0 or 1 */
     double center[3];   /* length */
     double axis[3];     /* some component from 1e-100 to 1e100 */
@@ -255,14 +256,14 @@ typedef struct imp_symmetry {
 
 /* --- Types ------------------------------------------------------------------------ */
 
-/* Flag of a type or map that is defined for some times only, and whose surface does not exist at
- * other times and touches nothing then. Without the flag the host knows nothing about other times,
- * and rejects a query that needs them. */
-enum { IMP_ABSENT_OUTSIDE_TIMES = 1u << 0 };
+/* In `flags` of a surface type or map that is defined for some times only: at other times the surface does
+ * not exist, and touches nothing. Without the flag the host knows nothing about other times, and rejects a
+ * query that needs them. */
+enum { IMP_FLAG_ABSENT_OUTSIDE_TIMES = 1u << 0 };
 
-/* Flag of a map with the capability `rigid`: turn(t) of its pose is a rotation in exact arithmetic, without
- * IMP_RIGID_SLACK. */
-enum { IMP_TURNS_EXACTLY = 1u << 1 };
+/* In `flags` of a map with the capability `rigid`: turn(t) of its pose is a rotation in exact arithmetic, not
+ * only within IMP_RIGID_SLACK. */
+enum { IMP_FLAG_TURNS_EXACTLY = 1u << 1 };
 
 /* --- Surface types ----------------------------------------------------------- */
 
@@ -271,7 +272,7 @@ typedef struct imp_surface_type {
     uint32_t struct_size;
     uint32_t parameter_count;
     uint32_t parameter_size; /* sizeof(imp_parameter): the stride of the table */
-    uint32_t flags;          /* 0 or IMP_ABSENT_OUTSIDE_TIMES */
+    uint32_t flags;          /* 0 or IMP_FLAG_ABSENT_OUTSIDE_TIMES */
     const char *name;        /* letters, digits, '_', '-', a letter first; at most 63 bytes */
     const char *summary;     /* one line */
     const char *equation;    /* how (x, y, z) follows from u, v, t and the parameters */
@@ -279,7 +280,7 @@ typedef struct imp_surface_type {
     const char *example;     /* a surface as on the command line: "sphere radius=2" */
     const imp_parameter *parameters;
 
-    /* Makes an instance from one value per row of the table, in its order. On IMP_OK sets *self
+    /* Makes an instance from one value per row of the table, in its order. On IMP_STATUS_OK sets *self
      * (never NULL) and the host calls destroy once later; on any other status *self is ignored and
      * the plugin must have freed everything. [main-thread] */
     imp_status (*create)(const imp_value *values, void **self, imp_create_error *why);
@@ -287,7 +288,7 @@ typedef struct imp_surface_type {
 
     /* The whole parameter domain: finite lo <= hi for u and v. For t, lo may be
      * -INFINITY and hi INFINITY; the host then asks only about the times it needs.
-     * What holds at other times: IMP_ABSENT_OUTSIDE_TIMES.
+     * What holds at other times: IMP_FLAG_ABSENT_OUTSIDE_TIMES.
      * [thread-safe] */
     void (*domain)(const void *self, double lo[3], double hi[3]);
 
@@ -299,13 +300,14 @@ typedef struct imp_surface_type {
     /* Rate matrix over a region inside the domain. [thread-safe] */
     imp_status (*rate)(const void *self, const imp_region *region, imp_rate_matrix *rates);
 
-    /* Order-2 inclusion of x, y, z over a region inside the domain. May be NULL: the
-     * host then uses eval at the centre and rate. [thread-safe] */
+    /* Capability `order-2`. Models of x, y and z over a region inside the domain. May be NULL: the host then
+     * makes models of eval at the region's centre and of rate. [thread-safe] */
     imp_status (*include)(const void *self, const imp_region *region, imp_model model[3]);
 
-    /* Control net over a region inside the domain: for polynomials and rationals of low degree it says
-     * more than include. IMP_UNBOUNDED: there is none over this region, and *net is ignored; smaller
-     * ones may have one. May be NULL: there is none at all. [thread-safe] */
+    /* Capability `net`. A control net over a region inside the domain, where the surface is, or nearly is, a
+     * polynomial or rational of low degree there: its hull lies closer to the surface than a model does.
+     * IMP_STATUS_UNBOUNDED: there is none over this region, and *net is ignored; smaller regions may have
+     * one. May be NULL: there is none at all. [thread-safe] */
     imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
 
     /* Capability `pieces`; both or neither, and a struct_size that ends before them means neither.
@@ -330,21 +332,21 @@ typedef struct imp_surface_type {
      *   |g(p)| <= |(x, y, z)(p) - f(u, v, t(p))|   for every p of the region, all u and v of the domain
      *
      * for every point that the models allow. The best g is the signed distance, negative on one side,
-     * or a number near it that is smooth at the surface: where two surfaces slide along each other the
-     * host parts them by it. The distance from a larger surface, such as an endless cylinder, will
-     * do. IMP_UNBOUNDED: nothing is known there. [thread-safe] */
+     * or a number near it that is smooth at the surface. The host uses it to prove that two surfaces stay
+     * apart that slide along each other. The distance from a larger surface that holds this one, such as
+     * an endless cylinder, will do. IMP_STATUS_UNBOUNDED: nothing is known there. [thread-safe] */
     imp_status (*distance)(const void *self, const imp_model point[4], imp_model *distance);
 
     /* Capability `symmetry`; NULL, or a struct_size that ends before it: there is none. Not without `distance`.
      *
-     * How the surface, as its distance knows it, can be moved within itself: with the g that distance gives
-     * for models of a point, and every such motion S,
+     * Which rigid motions change no distance from the surface. For every such motion S, the g that `distance`
+     * gives for models of a point bounds the distance of the moved point, too,
      *
-     *   |g(p)| <= |S((x, y, z)(p)) - f(u, v, t(p))|
+     *   |g(p)| <= |S((x, y, z)(p)) - f(u, v, t(p))|   for every p of the region, all u and v of the domain,
      *
-     * too, also where another S is taken for each p. Where another surface turns about an axis of this one,
-     * its distance then does not vary with time, and the host need not halve time. The host has set all to 0.
-     * IMP_UNBOUNDED: there is no symmetry with these parameters. [thread-safe] */
+     * and S may be another motion for each p. So a surface that turns about an axis of this one stays as far
+     * from it as it is at one moment, which spares the host from dividing time. The host has set *symmetry to
+     * 0. IMP_STATUS_UNBOUNDED: there is no symmetry with these parameters. [thread-safe] */
     imp_status (*symmetry)(const void *self, imp_symmetry *symmetry);
 } imp_surface_type;
 
@@ -358,7 +360,7 @@ typedef struct imp_map_type {
     uint32_t struct_size;
     uint32_t parameter_count;
     uint32_t parameter_size;
-    uint32_t flags; /* 0, IMP_ABSENT_OUTSIDE_TIMES, IMP_TURNS_EXACTLY, or both */
+    uint32_t flags; /* 0, IMP_FLAG_ABSENT_OUTSIDE_TIMES, IMP_FLAG_TURNS_EXACTLY, or both */
     const char *name;
     const char *summary;
     const char *equation;
@@ -369,7 +371,7 @@ typedef struct imp_map_type {
     void (*destroy)(void *self);
 
     /* The times the map is defined for; -INFINITY and INFINITY if always. A map should be defined
-     * at all times, or have IMP_ABSENT_OUTSIDE_TIMES. Space is not restricted: every (x, y, z) must
+     * at all times, or have IMP_FLAG_ABSENT_OUTSIDE_TIMES. Space is not restricted: every (x, y, z) must
      * have an image. [thread-safe] */
     void (*time_domain)(const void *self, double *lo, double *hi);
 
@@ -380,22 +382,22 @@ typedef struct imp_map_type {
     /* Rates over a box of (x, y, z, t). [thread-safe] */
     imp_status (*rate)(const void *self, const imp_box4 *box, imp_map_rates *rates);
 
-    /* Models of x, y, z and t over one region, to the models of phi over it. `in` and
-     * `out` do not overlap. May be NULL: the host then uses rate and the chain rule
-     * (paper, section 5: M_g[:,j] = P M_f[:,j], + p_t for j = t). [thread-safe] */
+    /* Capability `order-2`. From models of x, y, z and t over one region of a surface's parameters to models
+     * of phi over it. `in` and `out` do not overlap. May be NULL: the host then uses rate and the chain
+     * rule (paper, section 5: M_g[:,j] = P M_f[:,j], + p_t for j = t). [thread-safe] */
     imp_status (*apply)(const void *self, const imp_model in[4], imp_model out[3]);
 
-    /* Turns the net of a surface over a region into the net of its image, in place: for maps that are
-     * affine in space and leave motions linear in time. IMP_UNBOUNDED: the image has none over this
-     * region. May be NULL: it never has one. [thread-safe] */
+    /* Capability `net`. Turns the net of a surface over a region into the net of its image, in place: for
+     * maps that are affine in space and leave motions linear in time. IMP_STATUS_UNBOUNDED: the image has
+     * none over this region. May be NULL: it never has one. [thread-safe] */
     imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
 
     /* Capability `rigid`; a struct_size that ends before it means NULL: the map is not rigid.
      *
-     * The pose over the times of a model of t that depends on no other parameter, or is constant.
-     * Surfaces that do not move by themselves are then bounded once, before the map, for all times.
-     * IMP_UNBOUNDED: there is no pose over these times, and *pose is ignored; shorter ones may have
-     * one. The host has set all to 0. [thread-safe] */
+     * The pose over the times of the model *t, which depends on t alone, or is constant. With it the host
+     * bounds a surface that does not move by itself once, before the map, instead of anew for each span of
+     * times. IMP_STATUS_UNBOUNDED: there is no pose over these times, and *pose is ignored; shorter spans may
+     * have one. The host has set all to 0. [thread-safe] */
     imp_status (*rigid)(const void *self, const imp_model *t, imp_pose *pose);
 
     /* Capability `span`; NULL, or a struct_size that ends before it: the span is the time domain.
@@ -468,7 +470,7 @@ typedef struct imp_plugin {
 #endif
 extern IMP_EXPORT const imp_plugin IMPINGE_PLUGIN_SYMBOL;
 
-/* The same facts for a host that has not run any of our code yet. ELF note, owner
+/* What imp_plugin says, for a host that has not run any code of the plugin yet: an ELF note, owner
  * "Impinge", type 1, descriptor: abi_major, abi_minor (32 bits each), then name and
  * version, NUL-terminated. Written by the assembler because compilers give the section
  * the wrong type. */

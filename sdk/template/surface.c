@@ -26,11 +26,11 @@ static imp_status drum_create(const imp_value *values, void **self, imp_create_e
 {
     (void)why;
     drum *made = malloc(sizeof *made);
-    if (made == NULL) return IMP_INTERNAL;
+    if (made == NULL) return IMP_STATUS_INTERNAL;
     made->height = values[HEIGHT].number[0];
     made->rate = values[RATE].number[0];
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* --- The surface ------------------------------------------------------------------ */

@@ -77,7 +77,7 @@ static void ask_surface(const imp_surface_type *type, const imp_model in[4], con
     void *self;
     imp_rate_matrix rates;
     imp_model model[3];
-    if (type->parameter_count > 0 || type->create(NULL, &self, NULL) != IMP_OK) return;
+    if (type->parameter_count > 0 || type->create(NULL, &self, NULL) != IMP_STATUS_OK) return;
     printf("%s\n", type->name);
     printf("  rate answers %d\n", type->rate(self, region, &rates));
     print("rates", &rates.m[0][0], 9);
@@ -107,7 +107,7 @@ static void ask_map(const imp_map_type *type, const imp_model in[4], const imp_r
     imp_map_rates rates;
     imp_model out[3];
     const imp_box4 box = {{0, 0.5, -1, 0}, {1, 1.5, 2, 0.5}};
-    if (type->parameter_count > 0 || type->create(NULL, &self, NULL) != IMP_OK) return;
+    if (type->parameter_count > 0 || type->create(NULL, &self, NULL) != IMP_STATUS_OK) return;
     printf("%s\n", type->name);
     printf("  rate answers %d\n", type->rate(self, &box, &rates));
     print("rates", &rates.m[0][0], 12);

@@ -19,7 +19,7 @@ static imp_status create_nothing(const imp_value *values, void **self, imp_creat
 {
     (void)values, (void)why;
     *self = &nothing;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void destroy_nothing(void *self) { (void)self; }
@@ -40,22 +40,38 @@ static const imp_parameter kinds_table[] = {
                 "length",
                 "required",
                 NULL,
-                IMP_NUMBER,
-                IMP_MIN_OPEN | IMP_MAX_OPEN,
+                IMP_KIND_NUMBER,
+                IMP_PARAMETER_MIN_OPEN | IMP_PARAMETER_MAX_OPEN,
                 0,
                 {0, 0, 0},
                 0,
                 10},
-    [INTEGER] = {"integer", "1", "whole", "3", IMP_INTEGER, 0, 0, {0, 0, 0}, -5, 5},
-    [BOOLEAN] =
-        {"boolean", "1", "yes or no", "true", IMP_BOOLEAN, 0, 0, {0, 0, 0}, -INFINITY, INFINITY},
-    [STRING] =
-        {"string", "1", "not 'no'", "\"yes\"", IMP_STRING, 0, 0, {0, 0, 0}, -INFINITY, INFINITY},
+    [INTEGER] = {"integer", "1", "whole", "3", IMP_KIND_INTEGER, 0, 0, {0, 0, 0}, -5, 5},
+    [BOOLEAN] = {"boolean",
+                 "1",
+                 "yes or no",
+                 "true",
+                 IMP_KIND_BOOLEAN,
+                 0,
+                 0,
+                 {0, 0, 0},
+                 -INFINITY,
+                 INFINITY},
+    [STRING] = {"string",
+                "1",
+                "not 'no'",
+                "\"yes\"",
+                IMP_KIND_STRING,
+                0,
+                0,
+                {0, 0, 0},
+                -INFINITY,
+                INFINITY},
     [TABLE] = {"table",
                "1",
                "names to numbers",
                "{\"a\": 0.5}",
-               IMP_TABLE,
+               IMP_KIND_TABLE,
                0,
                0,
                {0, 0, 0},
@@ -65,7 +81,7 @@ static const imp_parameter kinds_table[] = {
                 "length",
                 "three numbers",
                 "[0, 0, 0]",
-                IMP_NUMBER,
+                IMP_KIND_NUMBER,
                 0,
                 1,
                 {3, 0, 0},
@@ -75,7 +91,7 @@ static const imp_parameter kinds_table[] = {
                 "length",
                 "rows of three",
                 "[[1, 2, 3]]",
-                IMP_NUMBER,
+                IMP_KIND_NUMBER,
                 0,
                 2,
                 {0, 3, 0},
@@ -85,8 +101,8 @@ static const imp_parameter kinds_table[] = {
               "1",
               "one or more",
               "0.25",
-              IMP_NUMBER,
-              IMP_SCALAR_OK,
+              IMP_KIND_NUMBER,
+              IMP_PARAMETER_SCALAR_OK,
               1,
               {0, 0, 0},
               -INFINITY,
@@ -95,8 +111,8 @@ static const imp_parameter kinds_table[] = {
                 "1",
                 "may be left out",
                 NULL,
-                IMP_NUMBER,
-                IMP_OPTIONAL,
+                IMP_KIND_NUMBER,
+                IMP_PARAMETER_OPTIONAL,
                 0,
                 {0, 0, 0},
                 -INFINITY,
@@ -123,16 +139,16 @@ static imp_status kinds_create(const imp_value *values, void **self, imp_create_
     if (strcmp(values[STRING].string[0], "no") == 0) {
         why->parameter = STRING;
         strcpy(why->text, "found 'no', allowed is every other text");
-        return IMP_PARAMETER;
+        return IMP_STATUS_PARAMETER;
     }
     double *moved = malloc(3 * sizeof *moved);
-    if (moved == NULL) return IMP_INTERNAL;
+    if (moved == NULL) return IMP_STATUS_INTERNAL;
     moved[0] = sum_of(&values[NUMBER]) + sum_of(&values[VECTOR]) + 100 * sum_of(&values[INTEGER]);
     moved[1] = sum_of(&values[POINTS]) + (double)values[POINTS].extent[0] + sum_of(&values[LIST]);
     moved[2] = sum_of(&values[BOOLEAN]) + letters_of(&values[STRING]) + letters_of(&values[TABLE]) +
                sum_of(&values[TABLE]) + 1000 * (double)values[ABSENT].count;
     *self = moved;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status kinds_eval(const void *self, size_t n, const double *p, double *x, double *error)
@@ -142,14 +158,14 @@ static imp_status kinds_eval(const void *self, size_t n, const double *p, double
         x[k] = moved[k % 3] + (k % 3 < 2 ? p[k] : 0);
         if (error != NULL) error[k] = 0x1p-52 * fabs(x[k]);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status kinds_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
     (void)self, (void)region;
     *rates = (imp_rate_matrix){{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}};
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type kinds = {
@@ -212,7 +228,7 @@ static imp_status bare_eval(const void *self, size_t n, const double *p, double 
         x[3 * k] = at[0], x[3 * k + 1] = at[1], x[3 * k + 2] = at[2] * (1 - at[0] * at[1]);
         if (error != NULL) error[3 * k] = error[3 * k + 1] = 0, error[3 * k + 2] = 0x1p-49;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status bare_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
@@ -220,7 +236,7 @@ static imp_status bare_rate(const void *self, const imp_region *region, imp_rate
     (void)self;
     double t = region->hi[2];
     *rates = (imp_rate_matrix){{{1, 0, 0}, {0, 1, 0}, {t, t, 1}}};
-    return t > 1.5 ? IMP_UNBOUNDED : IMP_OK;
+    return t > 1.5 ? IMP_STATUS_UNBOUNDED : IMP_STATUS_OK;
 }
 
 /* Bilinear in u and v, linear in t. */
@@ -236,7 +252,7 @@ static imp_status bare_net(const void *self, const imp_region *region, imp_net *
         net->point[2][k] = region->c[2] * (1 - u * v);
     }
     net->error[2] = 0x1p-49;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* How far above z = t, which the surface never is. */
@@ -305,14 +321,14 @@ static imp_status rise_eval(const void *self, size_t n, const double *p, double 
         for (int i = 0; error != NULL && i < 3; ++i)
             error[3 * k + (size_t)i] = i < 2 ? 0 : 0x1p-52 * fabs(x[3 * k + 2]);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status rise_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
 {
     (void)self, (void)box;
     *rates = (imp_map_rates){{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 1}}};
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status rise_net(const void *self, const imp_region *region, imp_net *net)
@@ -321,7 +337,7 @@ static imp_status rise_net(const void *self, const imp_region *region, imp_net *
     net->place[2] += region->c[2];
     net->drift[2] += 1;
     net->error[2] += 0x1p-52 * (fabs(net->place[2]) + fabs(net->drift[2]) * region->d[2]);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status rise_rigid(const void *self, const imp_model *t, imp_pose *pose)

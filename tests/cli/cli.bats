@@ -96,13 +96,13 @@ load ../support/cli_helper
     done
 }
 
-@test "the clearance is at least zero and below gamma" {
-    fails 2 "--clearance must be a finite number of at least 0, not '-1'" \
-        "$IMPINGE" pair a b --clearance -1
-    fails 2 '--clearance 2e-3 must be less than --gamma 1e-3' \
-        "$IMPINGE" pair a b --clearance 2e-3 --gamma 1e-3
-    fails 2 'clearance' "$IMPINGE" pair "$left" "$right" --clearance 1
-    run -0 "$IMPINGE" pair sphere 'sphere center=9,0,0' --clearance 0 --json
+@test "gamma_clear is at least zero and below gamma" {
+    fails 2 "--gamma-clear must be a finite number of at least 0, not '-1'" \
+        "$IMPINGE" pair a b --gamma-clear -1
+    fails 2 '--gamma-clear 2e-3 must be less than --gamma 1e-3' \
+        "$IMPINGE" pair a b --gamma-clear 2e-3 --gamma 1e-3
+    fails 2 'gamma_clear' "$IMPINGE" pair "$left" "$right" --gamma-clear 1
+    run -0 "$IMPINGE" pair sphere 'sphere center=9,0,0' --gamma-clear 0 --json
     json '.gamma_clear == 0'
 }
 

@@ -71,11 +71,11 @@ options=()
 }
 
 @test "an option that does not fit one scene is that scene's error" {
-    options=(--clearance 1e-4)
+    options=(--gamma-clear 1e-4)
     run -4 --separate-stderr batch_lines "$(scene '"gamma": 1e-5,')" "$(scene '"gamma": 1e-3,')" \
         '{}'
     jq -es 'map(has("error")) == [true, false, true]' <<<"$output"
-    jq -es '.[0].error | contains("clearance")' <<<"$output"
+    jq -es '.[0].error | contains("gamma_clear")' <<<"$output"
 }
 
 @test "the exit status is the greatest of all lines" {

@@ -31,13 +31,13 @@ bodies() {
 }
 
 @test "what the scene asks for is done" {
-    run -0 solve_text "$(scene '"time": [0, 0.25], "gamma": 1e-3, "clearance": 1e-5,')" --json
+    run -0 solve_text "$(scene '"time": [0, 0.25], "gamma": 1e-3, "gamma_clear": 1e-5,')" --json
     json '.verdict == "clear" and .t_lower == 0.25 and .gamma == 1e-3 and .gamma_clear == 1e-5'
 }
 
 @test "options override what the scene asks for" {
-    run -0 solve_text "$(scene '"time": [0, 0.25], "gamma": 1e-3, "clearance": 1e-5,')" --json \
-        --time 0,1 --gamma 1e-4 --clearance 2e-5
+    run -0 solve_text "$(scene '"time": [0, 0.25], "gamma": 1e-3, "gamma_clear": 1e-5,')" --json \
+        --time 0,1 --gamma 1e-4 --gamma-clear 2e-5
     json '.verdict == "contact" and .gamma == 1e-4 and .gamma_clear == 2e-5'
 }
 
@@ -194,7 +194,7 @@ refuses_table() { # TABLE PARAMETERS SAYING
     fails 4 '/bodies/1/surfaces/0/type: ' solve_text "$(bodies | sed 's/"sphere", /"spere", /')"
     fails 4 '/gamma: got -1, must be > 0' solve_text "$(bodies ', "gamma": -1')"
     fails 4 '/time: got the empty interval' solve_text "$(bodies ', "time": [1, 0]')"
-    fails 4 '/clearance: ' solve_text "$(bodies ', "clearance": 1')"
+    fails 4 '/gamma_clear: ' solve_text "$(bodies ', "gamma_clear": 1')"
     fails 4 '/ignore/0/1: got "c"' solve_text "$(bodies ', "ignore": [["a", "c"]]')"
     fails 4 "/bodies/1/name: got the name 'a'" solve_text "$(bodies | sed 's/"b"/"a"/')"
 }
@@ -217,7 +217,7 @@ refuses_table() { # TABLE PARAMETERS SAYING
 
 @test "the schema of scenes takes what solve takes and refuses what it refuses" {
     output=$(bodies) && valid scene
-    output=$(scene '"id": 1, "note": "x", "reference": {}, "time": [0,1], "clearance": 0,')
+    output=$(scene '"id": 1, "note": "x", "reference": {}, "time": [0,1], "gamma_clear": 0,')
     valid scene
     for output in '{}' '{"bodies": []}' '[]' "$(bodies ', "gama": 1')" "$(bodies ', "time": [1]')" \
         "$(bodies ', "gamma": 0')" "$(bodies ', "ignore": [["a"]]')"; do
@@ -305,7 +305,7 @@ refuses_table() { # TABLE PARAMETERS SAYING
 
 @test "numbers have the fewest digits that read back exactly" {
     run -0 "$IMPINGE" pair sphere 'sphere center=3,0,0 ! translate velocity=-1.1,0,0' --gamma 0.1 \
-        --clearance 0.7e-1 --json
+        --gamma-clear 0.7e-1 --json
     [[ $output == *'"gamma":0.1,"gamma_clear":0.07,'* ]]
     local text=$output number
     for number in $(grep -oE '[-0-9][-+.0-9eE]*' <<<"${text%%\"scene\"*}"); do

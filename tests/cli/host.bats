@@ -387,7 +387,7 @@ END
 double helper(void);
 static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
-    return helper() > 0 ? tiny_create(values, self, why) : IMP_INTERNAL;
+    return helper() > 0 ? tiny_create(values, self, why) : IMP_STATUS_INTERNAL;
 }
 static const imp_surface_type type = TINY_TYPE("needy", create, tiny_eval, 0, NULL);
 TINY_PLUGIN("needy", type);
@@ -519,7 +519,7 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
 @test "create that fails, gives nothing or changes the arithmetic is named with its file" {
     takes create_fails create_null create_rounds
     blames create_fails "a: create failed with status 4: bug in plugin type 'create_fails' ($PWD/plugins/"
-    blames create_null "a: create returned IMP_OK without an instance: bug in plugin type 'create_null' ("
+    blames create_null "a: create returned IMP_STATUS_OK without an instance: bug in plugin type 'create_null' ("
     blames create_rounds "a: create changed the mode of arithmetic: bug in plugin type 'create_rounds' ("
     still_works
 }

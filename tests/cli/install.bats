@@ -40,7 +40,7 @@ static imp_status create(const imp_value *values, void **self, imp_create_error 
     static char instance;
     (void)values, (void)why;
     *self = &instance;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 static void destroy(void *self) { (void)self; }
 static void domain(const void *self, double lo[3], double hi[3])
@@ -53,13 +53,13 @@ static imp_status eval(const void *self, size_t n, const double *p, double *x, d
     (void)self;
     for (size_t k = 0; k < n; ++k) x[3 * k] = p[3 * k], x[3 * k + 1] = p[3 * k + 1], x[3 * k + 2] = 0;
     for (size_t k = 0; error && k < 3 * n; ++k) error[k] = 0;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 static imp_status rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
     (void)self, (void)region;
     *rates = (imp_rate_matrix){{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}}};
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 static const imp_surface_type type = {
     .struct_size = sizeof type, .parameter_size = sizeof(imp_parameter), .name = "$1",

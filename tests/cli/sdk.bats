@@ -364,7 +364,7 @@ broken() {
 crashing='s/^static const imp_surface_type type/static imp_status crash(const void *self, const imp_region *r, imp_model m[3])\
 {\
     fprintf(stderr, "about to crash\\n");\
-    return m == NULL ? IMP_OK : *(const volatile int *)((const char *)self - (uintptr_t)self);\
+    return m == NULL ? IMP_STATUS_OK : *(const volatile int *)((const char *)self - (uintptr_t)self);\
 }\
 &/; s/, free),/&\n    .include = crash,/'
 
@@ -532,7 +532,7 @@ changed() {
         field\ imp_{surface,map}_type.{'equation at 32','source at 40'}' of 8'
     changed 's/(\*eval)(const void \*self, size_t n/(*eval)(const void *self, uint32_t n/' \
         "$(grep '^call .*\.eval ' "$top_srcdir/tests/abi/layout_1.txt")"
-    changed 's/IMP_DOMAIN = 1/IMP_DOMAIN = 5/' 'number IMP_DOMAIN 1'
+    changed 's/IMP_STATUS_DOMAIN = 1/IMP_STATUS_DOMAIN = 5/' 'number IMP_STATUS_DOMAIN 1'
     changed 's/^} imp_region;/double more; &/' 'size imp_region 96 fixed'
     changed 's/^} imp_surface_type;/void (*more)(void); &/' ''
 }

@@ -146,7 +146,7 @@ wrong() {
     fails 4 'No such file' "$IMPINGE" simulate good.json -o missing/out.json
     fails 2 '--output FILE is missing' "$IMPINGE" simulate good.json
     fails 2 'would be overwritten' "$IMPINGE" simulate good.json -o ./good.json
-    fails 2 'must be less than gamma' "$IMPINGE" simulate good.json -o out.json --clearance 1
+    fails 2 'must be less than gamma' "$IMPINGE" simulate good.json -o out.json --gamma-clear 1
     echo '{"bodies": [' >broken.json
     fails 4 'broken.json:' "$IMPINGE" simulate broken.json -o out.json
 }
@@ -157,7 +157,7 @@ wrong() {
     jq '.bodies[1].velocity = [0,0,-1]' still.json >moving.json
     fails 4 '/bodies/1/velocity: velocity needs `impinge simulate` first; pass its output here' "$IMPINGE" solve moving.json
     run -0 "$IMPINGE" simulate moving.json -o out.json
-    run -0 "$IMPINGE" solve out.json --gamma 5e-7 --clearance 4e-7
+    run -0 "$IMPINGE" solve out.json --gamma 5e-7 --gamma-clear 4e-7
     [ "${lines[0]}" = clear ]
     run -0 "$IMPINGE" view out.json --tolerance 0.02 -o out.svg
     run -0 "$IMPINGE" view out.json --tolerance 0.02 --frames 3 -o out.html

@@ -23,13 +23,13 @@ unguarded_functions() { # FOLDER
         imp_registry_open imp_registry_free imp_registry_isolate imp_registry_type
         imp_registry_refusal imp_registry_warning imp_registry_fault imp_call_of_thread imp_call_read imp_instance_free imp_scene_from_file
         imp_scene_free imp_scene_body_count imp_scene_body_name imp_scene_surface_count
-        imp_scene_domain imp_options_read imp_query_free imp_query_read imp_query_pending
-        imp_query_cancel imp_query_pass imp_query_part_bodies imp_scene_ignores imp_scene_solve imp_clearance_options_read imp_clearance_count
+        imp_scene_domain imp_options_get_default imp_query_free imp_query_get_result imp_query_pending
+        imp_query_cancel imp_query_exclude_pair imp_query_part_bodies imp_scene_ignores imp_scene_solve imp_clearance_options_get_default imp_clearance_count
         imp_builder_new imp_builder_time imp_builder_gamma imp_builder_body imp_builder_parent
         imp_builder_group imp_builder_ignore imp_scene_piece_count imp_scene_eval imp_scene_include
         imp_piece_domain "
     local name
-    for name in $(grep -h -A1 '^IMP_EXPORT' "$1/core/impinge/impinge.h" |
+    for name in $(grep -h -A1 '^IMP_EXPORT' "$1"/core/impinge/*.h |
         grep -o 'imp_[a-z_]*(' | tr -d '('); do
         [[ " ${plain//$'\n'/ } " == *" $name "* ]] ||
             cat "$1"/core/*/*.c | awk -v name="$name" '
@@ -207,7 +207,7 @@ compiles() {
 
 public_headers_compile() {
     local header
-    for header in "$top_srcdir"/sdk/impinge/*.h "$top_srcdir"/core/impinge/impinge.h; do
+    for header in "$top_srcdir"/sdk/impinge/*.h "$top_srcdir"/core/impinge/*.h; do
         compiles "$1" "#include <impinge/${header##*/}>" || return 1
     done
 }
@@ -332,9 +332,9 @@ first_includes() { # SOURCES
 
 exports_of() { nm -D --defined-only "$1" | awk '{ print $3 }'; }
 
-@test "libimpinge exports what impinge.h declares and nothing else" {
+@test "libimpinge exports what its headers declare and nothing else" {
     declared=$(sed -n 's/^IMP_EXPORT.*[ *]\(imp_[a-z_]*\)(.*/\1/p' \
-        "$top_srcdir"/core/impinge/impinge.h | sort)
+        "$top_srcdir"/core/impinge/*.h | sort)
     [ "$(exports_of "$top_builddir"/.libs/libimpinge.so | sort)" = "$declared" ]
 }
 

@@ -37,16 +37,16 @@ static void judge(const imp_query *query)
 {
     const imp_result r = imp_query_result(query);
     FUZZ_REQUIRE(r.t_lower >= r.t_start && r.t_lower <= r.t_end);
-    FUZZ_REQUIRE(r.verdict != IMP_CLEAR || r.t_lower == r.t_end);
-    FUZZ_REQUIRE(r.verdict != IMP_CONTACT || (r.t == r.t_lower && r.gap <= r.gamma));
-    FUZZ_REQUIRE(r.verdict == IMP_CONTACT || isnan(r.t));
+    FUZZ_REQUIRE(r.verdict != IMP_VERDICT_CLEAR || r.t_lower == r.t_end);
+    FUZZ_REQUIRE(r.verdict != IMP_VERDICT_CONTACT || (r.t == r.t_lower && r.gap <= r.gamma));
+    FUZZ_REQUIRE(r.verdict == IMP_VERDICT_CONTACT || isnan(r.t));
 }
 
 static void judge_distance(const imp_query *query, size_t index)
 {
     imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
     imp_error error = {IMP_SUCCESS, ""};
-    const imp_code code = imp_clearance_read(query, index, &answer, &error);
+    const imp_code code = imp_clearance_get(query, index, &answer, &error);
     judge_error(code, &error);
     FUZZ_REQUIRE((code == IMP_SUCCESS) == (index < imp_clearance_count(query)));
     if (code == IMP_SUCCESS) FUZZ_REQUIRE(answer.lower <= answer.upper);
@@ -124,7 +124,7 @@ static void call(session *s, unsigned what, int place, unsigned argument)
         judge_error(imp_query_refine(query, ldexp(1, -(int)(argument % 40)), -1, &error), &error);
         break;
     case 5:
-        judge_error(imp_query_pass(query, &error), &error);
+        judge_error(imp_query_exclude_pair(query, &error), &error);
         break;
     case 6:
         for (int k = 0; k < QUERIES; ++k)

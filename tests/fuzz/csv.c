@@ -49,8 +49,8 @@ static bool read_numbers(const char *const *names, csv_numbers *to)
 {
     imp_create_error why = {.parameter = -7};
     const imp_status status = csv_read(path, 3, names, 4, to, &why);
-    if (status == IMP_OK) return true;
-    FUZZ_REQUIRE(status == IMP_PARAMETER && why.text[0] != '\0');
+    if (status == IMP_STATUS_OK) return true;
+    FUZZ_REQUIRE(status == IMP_STATUS_PARAMETER && why.text[0] != '\0');
     FUZZ_REQUIRE(why.parameter == 3 || why.parameter == 4);
     free(to->number);
     return false;

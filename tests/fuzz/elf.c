@@ -13,6 +13,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <impinge/examine.h>
+
 /* Plugin files with some of their fields changed, before and behind a good one in one folder. Each is
  * refused with a reason or taken, by all that read it alike; a registry of the folder still has the
  * good one's type, and the host is alive. The input is a list of changes (elf_changes.h), or, from
@@ -122,9 +124,9 @@ static void hear(void *context, const char *check, imp_finding finding, const ch
 {
     bool *refused = context;
     FUZZ_REQUIRE(text_is_line(check));
-    if (finding == IMP_NOT_REACHED) return;
+    if (finding == IMP_FINDING_NOT_REACHED) return;
     FUZZ_REQUIRE(text_is_line(text) && text[0] != '\0');
-    *refused = *refused || finding == IMP_REFUSED;
+    *refused = *refused || finding == IMP_FINDING_REFUSED;
 }
 
 /* Whether the probe passes it: the same with all checks and up to the first refusal. */

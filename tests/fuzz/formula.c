@@ -79,7 +79,7 @@ static void judge(const expression_program *program, const double ends[3][2])
             /* Of p as it was rounded: in a narrow box that shifts s by more than 2^-45. */
             s[j] = region.d[j] > 0 ? (p[j] - region.c[j]) / region.d[j] : 0;
         }
-        if (expression_point(program, p, x, error) != IMP_OK) continue;
+        if (expression_point(program, p, x, error) != IMP_STATUS_OK) continue;
         for (int i = 0; i < 3; ++i) {
             const double off = fabs(x[i] - value_at(&out[i], s));
             const double slack = error[i] + 0x1p-45 * size_of(&out[i]) + 0x1p-1000;
@@ -105,7 +105,7 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
     const imp_status status = expression_compile(&scope, texts, &program, &error);
     formula *proof = formula_read(&(formula_scope){.variables = "uvt"}, texts, fault, sizeof fault);
     random_state = length;
-    if (status == IMP_OK) {
+    if (status == IMP_STATUS_OK) {
         FUZZ_REQUIRE(proof != NULL);
         for (size_t k = 0; k < sizeof boxes / sizeof *boxes; ++k) judge(program, boxes[k]);
         expression_free(program);

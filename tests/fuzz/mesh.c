@@ -22,8 +22,8 @@ static bool read_bytes(mesh_format format, const char *bytes, size_t length, tri
 {
     triangles_fault fault = {0, ""};
     const imp_status status = mesh_read_bytes(format, bytes, length, to, &fault);
-    if (status == IMP_OK) return true;
-    FUZZ_REQUIRE(status == IMP_INTERNAL || (status == IMP_PARAMETER && fault.text[0] != '\0'));
+    if (status == IMP_STATUS_OK) return true;
+    FUZZ_REQUIRE(status == IMP_STATUS_INTERNAL || (status == IMP_STATUS_PARAMETER && fault.text[0] != '\0'));
     FUZZ_REQUIRE(fault.line <= length + 1);
     return false;
 }
@@ -70,13 +70,13 @@ static void judge_control_mesh(mesh_format format, const char *bytes, size_t len
     bool *wanted_fine = NULL;
     if (read_bytes(format, bytes, length, &faces)) {
         const imp_status status = control_begin(&coarse, &faces, NULL, loop, &fault);
-        FUZZ_REQUIRE(status == IMP_OK || (status == IMP_PARAMETER && fault.text[0] != '\0'));
-        if (status == IMP_OK) {
+        FUZZ_REQUIRE(status == IMP_STATUS_OK || (status == IMP_STATUS_PARAMETER && fault.text[0] != '\0'));
+        if (status == IMP_STATUS_OK) {
             bool *wanted = calloc(coarse.face_count, sizeof *wanted);
             FUZZ_REQUIRE(wanted != NULL);
             judge_twins(&coarse);
             wanted[coarse.face_count / 2] = true;
-            FUZZ_REQUIRE(control_refine(&coarse, wanted, &fine, &wanted_fine) == IMP_OK);
+            FUZZ_REQUIRE(control_refine(&coarse, wanted, &fine, &wanted_fine) == IMP_STATUS_OK);
             judge_twins(&fine);
             free(wanted);
         }

@@ -9,6 +9,8 @@
 
 #include <string.h>
 
+#include <impinge/examine.h>
+
 /* Whatever bytes a pipeline is made of, it becomes a JSON object or is refused with a line of text.
  * The object, written out and read as a scene file, makes a scene where the pipeline does and is
  * refused where it is. One stage becomes the same JSON by the public function. */
@@ -82,8 +84,8 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
     char *line = strndup((const char *)bytes, length);
     if (line == NULL) return 0;
     read_surface(registry, line);
-    read_stage(registry, IMP_KIND_SURFACE, line);
-    read_stage(registry, IMP_KIND_MAP, line);
+    read_stage(registry, IMP_TYPE_SURFACE, line);
+    read_stage(registry, IMP_TYPE_MAP, line);
     free(line);
     return 0;
 }

@@ -50,7 +50,7 @@ typedef struct point {
 static bool draw_point(const expression_program *program, const double ends[3][2], point *at)
 {
     for (int j = 0; j < 3; ++j) at->p[j] = draw(ends[j]);
-    return expression_point(program, at->p, at->x, at->error) == IMP_OK;
+    return expression_point(program, at->p, at->x, at->error) == IMP_STATUS_OK;
 }
 
 static void judge_value(const jet *f, double x, double error)
@@ -117,7 +117,7 @@ static expression_program *compile(const char *const texts[3])
                                     .constant_count = CONSTANTS};
     expression_program *program = NULL;
     expression_error error;
-    return expression_compile(&scope, texts, &program, &error) == IMP_OK ? program : NULL;
+    return expression_compile(&scope, texts, &program, &error) == IMP_STATUS_OK ? program : NULL;
 }
 
 int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)

@@ -158,9 +158,9 @@ static void judge_verdict(const imp_options *options, const imp_result *r)
     FUZZ_REQUIRE(r->t_start == options->t_start && r->t_end == options->t_end);
     FUZZ_REQUIRE(r->t_lower >= r->t_start && r->t_lower <= r->t_end);
     FUZZ_REQUIRE(r->reason != IMP_REASON_RUNNING);
-    FUZZ_REQUIRE(r->verdict != IMP_CLEAR || r->t_lower == r->t_end);
-    FUZZ_REQUIRE(r->verdict == IMP_CONTACT || (isnan(r->t) && isnan(r->gap)));
-    FUZZ_REQUIRE((r->verdict == IMP_UNDECIDED) ==
+    FUZZ_REQUIRE(r->verdict != IMP_VERDICT_CLEAR || r->t_lower == r->t_end);
+    FUZZ_REQUIRE(r->verdict == IMP_VERDICT_CONTACT || (isnan(r->t) && isnan(r->gap)));
+    FUZZ_REQUIRE((r->verdict == IMP_VERDICT_UNDECIDED) ==
                  (r->reason != IMP_REASON_NONE && r->reason != IMP_REASON_NO_TIME &&
                   r->reason != IMP_REASON_NO_PAIRS));
     FUZZ_REQUIRE(r->gamma_clear >= 0 && r->gamma_clear < r->gamma);
@@ -171,9 +171,9 @@ void scene_judge(const imp_scene *scene, const imp_options *options, const imp_r
 {
     random_state = seed;
     judge_verdict(options, r);
-    if (r->verdict == IMP_CONTACT) judge_witness(scene, r);
+    if (r->verdict == IMP_VERDICT_CONTACT) judge_witness(scene, r);
     if (imp_scene_ignores(scene, 0, 1))
-        FUZZ_REQUIRE(r->verdict == IMP_CLEAR);
+        FUZZ_REQUIRE(r->verdict == IMP_VERDICT_CLEAR);
     else if (r->t_lower > r->t_start)
         judge_samples(scene, r);
 }
@@ -185,10 +185,10 @@ void scene_judge_by_clearance(imp_scene *scene, const imp_options *options, cons
     memset(&c, 0, sizeof c);
     c.struct_size = (uint32_t)sizeof c;
     if (query != NULL && imp_query_step(query, 0, NULL) == IMP_SUCCESS &&
-        imp_clearance_read(query, 0, &c, NULL) == IMP_SUCCESS) {
-        const double slack = r->verdict == IMP_CONTACT ? 0x1p-40 * r->gap : 0;
-        if (r->verdict == IMP_CONTACT) FUZZ_REQUIRE(!(c.lower > r->gap + slack));
-        if (r->verdict == IMP_CLEAR && c.has_witness)
+        imp_clearance_get(query, 0, &c, NULL) == IMP_SUCCESS) {
+        const double slack = r->verdict == IMP_VERDICT_CONTACT ? 0x1p-40 * r->gap : 0;
+        if (r->verdict == IMP_VERDICT_CONTACT) FUZZ_REQUIRE(!(c.lower > r->gap + slack));
+        if (r->verdict == IMP_VERDICT_CLEAR && c.has_witness)
             FUZZ_REQUIRE(!(c.upper < r->gamma_clear * (1 - 0x1p-40)));
         FUZZ_REQUIRE(!(c.lower > c.upper));
     }

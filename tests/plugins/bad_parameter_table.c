@@ -8,8 +8,8 @@ static const imp_parameter table[] = {
      .unit = "length",
      .doc = "radius",
      .default_value = "-1",
-     .kind = IMP_NUMBER,
-     .flags = IMP_MIN_OPEN,
+     .kind = IMP_KIND_NUMBER,
+     .flags = IMP_PARAMETER_MIN_OPEN,
      .min = 0,
      .max = INFINITY},
 };

@@ -6,7 +6,7 @@
 static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)values, (void)self, (void)why;
-    return IMP_INTERNAL;
+    return IMP_STATUS_INTERNAL;
 }
 
 static const imp_surface_type type = TINY_TYPE("create_fails", create, tiny_eval, 0, NULL);

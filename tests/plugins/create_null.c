@@ -7,7 +7,7 @@ static imp_status create(const imp_value *values, void **self, imp_create_error 
 {
     (void)values, (void)why;
     *self = NULL;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type type = TINY_TYPE("create_null", create, tiny_eval, 0, NULL);

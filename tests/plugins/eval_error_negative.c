@@ -7,7 +7,7 @@ static imp_status eval(const void *self, size_t n, const double *p, double *x, d
 {
     slab_eval(self, n, p, x, error);
     for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = -1;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type type =

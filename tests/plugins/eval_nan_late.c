@@ -8,7 +8,7 @@ static imp_status eval(const void *self, size_t n, const double *p, double *x, d
     slab_eval(self, n, p, x, error);
     for (size_t k = 0; k < n; ++k)
         if (p[3 * k + 2] > 0.5) x[3 * k + 1] = NAN;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type type =

@@ -8,7 +8,7 @@ static imp_status eval(const void *self, size_t n, const double *p, double *x, d
     double deeper[3 * 64] = {p[0]};
     volatile double kept = p[0];
     if (n > 0) eval(self, n, deeper, x, error);
-    return kept > 0 ? IMP_OK : IMP_INTERNAL;
+    return kept > 0 ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }
 
 static const imp_surface_type type =

@@ -229,7 +229,7 @@ __attribute__((destructor)) static void destruct(void) { enter("destructor"); }
 
 static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
-    if (setjmp(left) != 0) return IMP_INTERNAL;
+    if (setjmp(left) != 0) return IMP_STATUS_INTERNAL;
     enter("create");
     return slab_create(values, self, why);
 }
@@ -268,14 +268,14 @@ static imp_status net(const void *self, const imp_region *region, imp_net *out)
 {
     (void)self, (void)region, (void)out;
     enter("net");
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 
 static imp_status distance(const void *self, const imp_model point[4], imp_model *out)
 {
     (void)self, (void)point, (void)out;
     enter("distance");
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 
 /* Its own, of no axis. */
@@ -283,7 +283,7 @@ static imp_status symmetry(const void *self, imp_symmetry *out)
 {
     (void)self, (void)out;
     enter("symmetry");
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 
 static size_t piece_count(const void *self)
@@ -337,7 +337,7 @@ static imp_status map_eval(const void *self, size_t n, const double *p, double *
         memcpy(x + 3 * k, at, sizeof at);
     }
     for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0x1p-52 * fabs(x[k]);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status map_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
@@ -347,7 +347,7 @@ static imp_status map_rate(const void *self, const imp_box4 *box, imp_map_rates 
     memset(rates, 0, sizeof *rates);
     for (int i = 0; i < 3; ++i) rates->m[i][i] = 1;
     rates->m[2][3] = 1;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status apply(const void *self, const imp_model in[4], imp_model out[3])
@@ -358,7 +358,7 @@ static imp_status apply(const void *self, const imp_model in[4], imp_model out[3
     out[0] = in[0];
     out[1] = in[1];
     out[2] = sum;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status rigid(const void *self, const imp_model *t, imp_pose *pose)
@@ -369,7 +369,7 @@ static imp_status rigid(const void *self, const imp_model *t, imp_pose *pose)
     pose->shift[0] = pose->shift[1] = imp_num(0);
     pose->shift[2] = *t;
     for (int i = 0; i < 3; ++i) pose->pivot[i] = 0;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 #define HOSTILE_MAP(NAME, ...)                                                                     \

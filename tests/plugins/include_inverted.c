@@ -8,7 +8,7 @@ static imp_status include(const void *self, const imp_region *region, imp_model 
     slab_include(self, region, model);
     model[0].lo = 1;
     model[0].hi = -1;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type type =

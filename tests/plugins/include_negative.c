@@ -7,7 +7,7 @@ static imp_status include(const void *self, const imp_region *region, imp_model 
 {
     slab_include(self, region, model);
     model[0].e = -0.25;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type type =

@@ -14,15 +14,15 @@ static const imp_parameter surface_table[ROWS] = {
     [RADIUS] = {.name = "radius",
                 .unit = "length",
                 .doc = "required, open below",
-                .kind = IMP_NUMBER,
-                .flags = IMP_MIN_OPEN,
+                .kind = IMP_KIND_NUMBER,
+                .flags = IMP_PARAMETER_MIN_OPEN,
                 .min = 0,
                 .max = INFINITY},
     [CENTER] = {.name = "center",
                 .unit = "length",
                 .doc = "a vector",
                 .default_value = "[0, 0, 0]",
-                .kind = IMP_NUMBER,
+                .kind = IMP_KIND_NUMBER,
                 .rank = 1,
                 .extent = {3},
                 .min = -INFINITY,
@@ -30,8 +30,8 @@ static const imp_parameter surface_table[ROWS] = {
     [POINTS] = {.name = "points",
                 .unit = "length",
                 .doc = "a list of points",
-                .kind = IMP_NUMBER,
-                .flags = IMP_OPTIONAL,
+                .kind = IMP_KIND_NUMBER,
+                .flags = IMP_PARAMETER_OPTIONAL,
                 .rank = 2,
                 .extent = {0, 3},
                 .min = -INFINITY,
@@ -40,36 +40,36 @@ static const imp_parameter surface_table[ROWS] = {
                .unit = "1",
                .doc = "an integer",
                .default_value = "3",
-               .kind = IMP_INTEGER,
+               .kind = IMP_KIND_INTEGER,
                .min = 1,
                .max = 9},
     [CLOSED] = {.name = "closed",
                 .unit = "1",
                 .doc = "a boolean",
                 .default_value = "false",
-                .kind = IMP_BOOLEAN,
+                .kind = IMP_KIND_BOOLEAN,
                 .min = -INFINITY,
                 .max = INFINITY},
     [LABEL] = {.name = "label",
                .unit = "1",
                .doc = "a string",
                .default_value = "\"none\"",
-               .kind = IMP_STRING,
+               .kind = IMP_KIND_STRING,
                .min = -INFINITY,
                .max = INFINITY},
     [CONSTANTS] = {.name = "constants",
                    .unit = "1",
                    .doc = "a table",
-                   .kind = IMP_TABLE,
-                   .flags = IMP_OPTIONAL,
+                   .kind = IMP_KIND_TABLE,
+                   .flags = IMP_PARAMETER_OPTIONAL,
                    .min = -INFINITY,
                    .max = INFINITY},
     [WEIGHTS] = {.name = "weights",
                  .unit = "1",
                  .doc = "one or more, in (0, 1]",
                  .default_value = "1",
-                 .kind = IMP_NUMBER,
-                 .flags = IMP_MIN_OPEN | IMP_SCALAR_OK,
+                 .kind = IMP_KIND_NUMBER,
+                 .flags = IMP_PARAMETER_MIN_OPEN | IMP_PARAMETER_SCALAR_OK,
                  .rank = 1,
                  .extent = {0},
                  .min = 0,
@@ -78,7 +78,7 @@ static const imp_parameter surface_table[ROWS] = {
               .unit = "1",
               .doc = "good, or how to complain",
               .default_value = "\"good\"",
-              .kind = IMP_STRING,
+              .kind = IMP_KIND_STRING,
               .min = -INFINITY,
               .max = INFINITY},
 };
@@ -93,7 +93,7 @@ static imp_status complain(imp_create_error *why, int32_t parameter, int64_t ele
     why->parameter = parameter;
     why->element = element;
     strncpy(why->text, text, sizeof why->text - 1);
-    return IMP_PARAMETER;
+    return IMP_STATUS_PARAMETER;
 }
 
 static imp_status refuse(const char *mood, imp_create_error *why)
@@ -103,18 +103,18 @@ static imp_status refuse(const char *mood, imp_create_error *why)
     if (strcmp(mood, "whole") == 0) return complain(why, -1, -1, "got nonsense");
     if (strcmp(mood, "beyond") == 0) return complain(why, 1234, 5678, "row 1234");
     if (strcmp(mood, "bell") == 0) return complain(why, LABEL, 99, "\a\xff");
-    if (strcmp(mood, "silent") == 0) return IMP_PARAMETER;
-    return IMP_INTERNAL;
+    if (strcmp(mood, "silent") == 0) return IMP_STATUS_PARAMETER;
+    return IMP_STATUS_INTERNAL;
 }
 
 static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     if (strcmp(values[MOOD].string[0], "good") != 0) return refuse(values[MOOD].string[0], why);
     kit *made = malloc(sizeof *made);
-    if (made == NULL) return IMP_INTERNAL;
+    if (made == NULL) return IMP_STATUS_INTERNAL;
     memcpy(made->center, values[CENTER].number, sizeof made->center);
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void destroy(void *self) { free(self); }
@@ -124,7 +124,7 @@ static imp_status eval(const void *self, size_t n, const double *p, double *x, d
     const kit *made = self;
     tiny_eval(self, n, p, x, error);
     for (size_t k = 0; k < 3 * n; ++k) x[k] = made->center[k % 3];
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type kit_type = {
@@ -149,7 +149,7 @@ static const imp_parameter map_table[] = {
     {.name = "by",
      .unit = "length",
      .doc = "a vector",
-     .kind = IMP_NUMBER,
+     .kind = IMP_KIND_NUMBER,
      .rank = 1,
      .extent = {3},
      .min = -INFINITY,
@@ -160,10 +160,10 @@ static imp_status map_create(const imp_value *values, void **self, imp_create_er
 {
     (void)why;
     kit *made = malloc(sizeof *made);
-    if (made == NULL) return IMP_INTERNAL;
+    if (made == NULL) return IMP_STATUS_INTERNAL;
     memcpy(made->center, values[0].number, sizeof made->center);
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void map_times(const void *self, double *lo, double *hi)
@@ -179,7 +179,7 @@ static imp_status map_eval(const void *self, size_t n, const double *p, double *
     for (size_t k = 0; k < n; ++k)
         for (size_t i = 0; i < 3; ++i) x[3 * k + i] = p[4 * k + i] + made->center[i];
     for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0x1p-52 * fabs(x[k]);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status map_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
@@ -187,7 +187,7 @@ static imp_status map_rate(const void *self, const imp_box4 *box, imp_map_rates 
     (void)self, (void)box;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 4; ++j) rates->m[i][j] = i == j;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_map_type nudge_type = {

@@ -106,12 +106,12 @@ static inline imp_status rate_of_grid(const void *self, const imp_region *region
                        : region->lo[j] + (region->hi[j] - region->lo[j]) * at[j] / (n - 1);
         const imp_region point = imp_region_between(p, p);
         const imp_status status = wavy_formula_rate(self, &point, &here);
-        if (status != IMP_OK) return status;
+        if (status != IMP_STATUS_OK) return status;
         for (int i = 0; i < 9; ++i)
             if (here.m[i / 3][i % 3] > rates->m[i / 3][i % 3])
                 rates->m[i / 3][i % 3] = here.m[i / 3][i % 3];
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* The truth, times `factor` in the square of this side at (1.3, 2.1); the domain's side is 4. */

@@ -8,10 +8,10 @@
 static imp_status create(const imp_value *values, void **self, imp_create_error *why)
 {
     double *made = malloc(100);
-    if (made == NULL) return IMP_INTERNAL;
+    if (made == NULL) return IMP_STATUS_INTERNAL;
     made[0] = values[0].number[0];
     why->parameter = 0;
-    if (made[0] < 0) return IMP_PARAMETER;
+    if (made[0] < 0) return IMP_STATUS_PARAMETER;
     free(made);
     return tiny_create(values, self, why);
 }
@@ -20,7 +20,7 @@ static const imp_parameter table[] = {{.name = "size",
                                        .unit = "length",
                                        .doc = "not negative",
                                        .default_value = "1",
-                                       .kind = IMP_NUMBER,
+                                       .kind = IMP_KIND_NUMBER,
                                        .min = -INFINITY,
                                        .max = INFINITY}};
 static const imp_surface_type type = TINY_TYPE("liar_refusal", create, tiny_eval, 1, table);

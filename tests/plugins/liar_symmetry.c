@@ -6,7 +6,7 @@
 static imp_status symmetry(const void *self, imp_symmetry *found)
 {
     (void)self;
-    found->kind = IMP_SYMMETRIC_ABOUT_POINT;
-    return IMP_OK;
+    found->kind = IMP_SYMMETRY_ABOUT_POINT;
+    return IMP_STATUS_OK;
 }
 LIAR_SYMMETRY("liar_symmetry", symmetry);

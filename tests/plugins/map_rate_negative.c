@@ -17,7 +17,7 @@ static imp_status eval(const void *self, size_t n, const double *p, double *x, d
     for (size_t k = 0; k < n; ++k)
         for (size_t i = 0; i < 3; ++i) x[3 * k + i] = -p[4 * k + i];
     for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
@@ -25,7 +25,7 @@ static imp_status rate(const void *self, const imp_box4 *box, imp_map_rates *rat
     (void)self, (void)box;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 4; ++j) rates->m[i][j] = i == j ? -1 : 0;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_map_type type = {

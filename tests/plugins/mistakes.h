@@ -22,23 +22,23 @@ static const imp_parameter tube_table[TUBE_ROWS] = {
                 .unit = "length",
                 .doc = "mean radius",
                 .default_value = "1",
-                .kind = IMP_NUMBER,
-                .flags = IMP_MIN_OPEN,
+                .kind = IMP_KIND_NUMBER,
+                .flags = IMP_PARAMETER_MIN_OPEN,
                 .min = 0,
                 .max = 1e6},
     [WAVE] = {.name = "wave",
               .unit = "length",
               .doc = "how much the radius waves",
               .default_value = "0.25",
-              .kind = IMP_NUMBER,
+              .kind = IMP_KIND_NUMBER,
               .min = -1e6,
               .max = 1e6},
     [PATH] = {.name = "path",
               .unit = "length",
               .doc = "z of v = 0, a polynomial in time",
               .default_value = "[0, 0.5, 0.25]",
-              .kind = IMP_NUMBER,
-              .flags = IMP_SCALAR_OK,
+              .kind = IMP_KIND_NUMBER,
+              .flags = IMP_PARAMETER_SCALAR_OK,
               .rank = 1,
               .min = -1e6,
               .max = 1e6},
@@ -54,15 +54,15 @@ typedef struct tube {
 static inline imp_status tube_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
-    if (values[PATH].count > COEFFICIENTS) return IMP_PARAMETER;
+    if (values[PATH].count > COEFFICIENTS) return IMP_STATUS_PARAMETER;
     tube *made = calloc(1, sizeof *made);
-    if (made == NULL) return IMP_INTERNAL;
+    if (made == NULL) return IMP_STATUS_INTERNAL;
     made->radius = values[RADIUS].number[0];
     made->wave = values[WAVE].number[0];
     made->count = values[PATH].count;
     memcpy(made->path, values[PATH].number, made->count * sizeof *made->path);
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static inline void tube_destroy(void *self) { free(self); }

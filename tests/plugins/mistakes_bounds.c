@@ -7,7 +7,7 @@
 static imp_status no_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
     (void)self, (void)region, (void)rates;
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 MISTAKE(rate_unbounded, tube_create, tube_destroy, tube_domain, tube_formula_eval, no_rate, NULL);
 
@@ -34,7 +34,7 @@ static imp_status bare_rate(const void *self, const imp_region *r, imp_rate_matr
     *rates = (imp_rate_matrix){{{most * sine, 3 * bend * cosine, bend * cosine},
                                 {most * cosine, 3 * bend * sine, bend * sine},
                                 {0, 2, drift}}};
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 MISTAKE(rate_not_padded, tube_create, tube_destroy, tube_domain, tube_formula_eval, bare_rate,
         NULL);
@@ -75,7 +75,7 @@ static imp_status corner_rate(const void *self, const imp_region *r, imp_rate_ma
             rates->m[k / 3][k % 3] =
                 imp_larger(rates->m[k / 3][k % 3], imp_libm_up(4 * fabs(m[k / 3][k % 3])) / 4);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 MISTAKE_RATE(rate_of_corners, corner_rate);
 
@@ -84,7 +84,7 @@ static imp_status centre_rate(const void *self, const imp_region *r, imp_rate_ma
     double m[3][3];
     tube_slopes(self, r->c, m);
     for (int k = 0; k < 9; ++k) rates->m[k / 3][k % 3] = imp_libm_up(fabs(m[k / 3][k % 3]));
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 MISTAKE_RATE(rate_of_centre, centre_rate);
 
@@ -104,7 +104,7 @@ static imp_status no_model(const void *self, const imp_region *r, imp_model mode
 {
     (void)self, (void)r;
     for (int i = 0; i < 3; ++i) model[i] = imp_unbounded(7);
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 MISTAKE_INCLUDE(model_unbounded, no_model);
 
@@ -208,7 +208,7 @@ static imp_status exact_eval(const void *self, size_t n, const double *p, double
 {
     for (size_t k = 0; k < n; ++k) tube_point(self, p + 3 * k, x + 3 * k);
     for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 MISTAKE_EVAL(error_zero, exact_eval);
 
@@ -217,7 +217,7 @@ static imp_status last_eval(const void *self, size_t n, const double *p, double 
 {
     for (size_t k = 0; k < n; ++k) tube_point(self, p + 3 * k, x + 3 * k);
     for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0x1p-53 * fabs(x[k]);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 MISTAKE_EVAL(error_of_last_rounding, last_eval);
 

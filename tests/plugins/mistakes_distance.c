@@ -64,13 +64,13 @@ static imp_status axial_distance(const void *self, const imp_model point[4], imp
     return status;
 }
 
-static const imp_symmetry axis = {.kind = IMP_SYMMETRIC_ALONG_LINE, .axis = {0, 0, 1}};
+static const imp_symmetry axis = {.kind = IMP_SYMMETRY_ALONG_LINE, .axis = {0, 0, 1}};
 
 static imp_status symmetry(const void *self, imp_symmetry *found)
 {
     (void)self;
     *found = axis;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* As if the pipe were a flat plate: it can be moved across its axis. */
@@ -78,8 +78,8 @@ static imp_status plate_symmetry(const void *self, imp_symmetry *found)
 {
     (void)self;
     *found = axis;
-    found->kind = IMP_SYMMETRIC_ACROSS_LINE;
-    return IMP_OK;
+    found->kind = IMP_SYMMETRY_ACROSS_LINE;
+    return IMP_STATUS_OK;
 }
 
 /* An axis that is off by a millionth. */
@@ -88,7 +88,7 @@ static imp_status leaning_symmetry(const void *self, imp_symmetry *found)
     (void)self;
     *found = axis;
     found->axis[0] = 1e-6;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Far from the axis the true distance from the pipe, which ends: less is known beside it than beyond its ends,
@@ -97,7 +97,7 @@ static imp_status ended_distance(const void *self, const imp_model point[4], imp
 {
     if (point[2].a < 100) return pipe_gap_distance(self, point, g);
     *g = imp_shift(point[2], -2);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Half of the pipe, y >= 0, and its true distance, that from its edges where y < 0. It says that it can be turned. */
@@ -112,7 +112,7 @@ static imp_status half_distance(const void *self, const imp_model point[4], imp_
     if (point[1].hi > 0) return pipe_gap_distance(self, point, g);
     const imp_model from[3] = {imp_shift(imp_abs(point[0]), -1), point[1], imp_num(0)};
     *g = imp_sqrt(imp_dot3(from, from));
-    return g->e < INFINITY ? IMP_OK : IMP_UNBOUNDED;
+    return g->e < INFINITY ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 /* Of a pipe that goes three quarters around: that its rotations take it to itself. */
@@ -127,7 +127,7 @@ static imp_status closed_symmetry(const void *self, imp_symmetry *found)
     (void)self;
     *found = axis;
     found->is_closed = 1;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type symmetry_open_type = {.struct_size = sizeof(imp_surface_type),

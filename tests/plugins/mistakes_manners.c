@@ -9,7 +9,8 @@
 static imp_status overread(const imp_value *values, void **self, imp_create_error *why)
 {
     const imp_status status = tube_create(values, self, why);
-    if (status == IMP_OK) ((tube *)*self)->wave += 0 * values[PATH].number[values[PATH].count];
+    if (status == IMP_STATUS_OK)
+        ((tube *)*self)->wave += 0 * values[PATH].number[values[PATH].count];
     return status;
 }
 MISTAKE_CREATE(list_read_too_far, overread, tube_destroy);
@@ -23,12 +24,12 @@ typedef struct borrower {
 static imp_status borrow(const imp_value *values, void **self, imp_create_error *why)
 {
     const imp_status status = tube_create(values, self, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     borrower *made = realloc(*self, sizeof *made);
-    if (made == NULL) return free(*self), IMP_INTERNAL;
+    if (made == NULL) return free(*self), IMP_STATUS_INTERNAL;
     made->path = values[PATH].number;
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 static imp_status borrowed_eval(const void *self, size_t n, const double *p, double *x,
                                 double *error)
@@ -44,7 +45,7 @@ MISTAKE(list_kept, borrow, tube_destroy, tube_domain, borrowed_eval, tube_formul
 static imp_status leak(const imp_value *values, void **self, imp_create_error *why)
 {
     void *volatile scratch = malloc(200);
-    if (values[WAVE].number[0] < 0) return IMP_PARAMETER;
+    if (values[WAVE].number[0] < 0) return IMP_STATUS_PARAMETER;
     free(scratch);
     return tube_create(values, self, why);
 }
@@ -112,7 +113,7 @@ static imp_status ahead(const void *self, size_t n, const double *p, double *x, 
 {
     const volatile double *next = p + 3 * n;
     const imp_status status = tube_formula_eval(self, n, p, x, error);
-    return *next == 1e300 ? IMP_INTERNAL : status;
+    return *next == 1e300 ? IMP_STATUS_INTERNAL : status;
 }
 MISTAKE_EVAL(point_read_too_far, ahead);
 
@@ -129,7 +130,7 @@ MISTAKE_EVAL(error_written_when_null, always);
 static imp_status half_open(const void *self, size_t n, const double *p, double *x, double *error)
 {
     for (size_t k = 0; k < n; ++k)
-        if (p[3 * k + 1] >= 2) return IMP_DOMAIN;
+        if (p[3 * k + 1] >= 2) return IMP_STATUS_DOMAIN;
     return tube_formula_eval(self, n, p, x, error);
 }
 MISTAKE_EVAL(end_of_domain_refused, half_open);
@@ -176,7 +177,7 @@ static imp_status cached(const void *self, size_t n, const double *p, double *x,
 {
     for (size_t k = 0; k < n; ++k)
         if (p[3 * k] != last_u) last_u = p[3 * k], last_radius = ((const tube *)self)->radius;
-    return last_radius < 0 ? IMP_INTERNAL : tube_formula_eval(self, n, p, x, error);
+    return last_radius < 0 ? IMP_STATUS_INTERNAL : tube_formula_eval(self, n, p, x, error);
 }
 MISTAKE_EVAL(static_cache, cached);
 
@@ -186,7 +187,7 @@ static imp_status scratched(const void *self, const imp_region *region, imp_rate
 {
     const imp_status status = tube_formula_include(self, region, scratch);
     for (int k = 0; k < 9; ++k) rates->m[k / 3][k % 3] = scratch[k / 3].rate[k % 3];
-    return status == IMP_UNBOUNDED ? IMP_UNBOUNDED : IMP_OK;
+    return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_UNBOUNDED : IMP_STATUS_OK;
 }
 MISTAKE_RATE(static_scratch, scratched);
 
@@ -199,12 +200,12 @@ typedef struct cacher {
 static imp_status make_cacher(const imp_value *values, void **self, imp_create_error *why)
 {
     const imp_status status = tube_create(values, self, why);
-    if (status != IMP_OK) return status;
+    if (status != IMP_STATUS_OK) return status;
     cacher *made = realloc(*self, sizeof *made);
-    if (made == NULL) return free(*self), IMP_INTERNAL;
+    if (made == NULL) return free(*self), IMP_STATUS_INTERNAL;
     made->last_time = INFINITY;
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 static imp_status cacher_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
@@ -231,7 +232,7 @@ MISTAKE_EVAL(answer_drifts, drifting);
 static imp_status on_the_heap(const void *self, size_t n, const double *p, double *x, double *error)
 {
     double *room = malloc((3 * n + 1) * sizeof *room);
-    if (room == NULL) return IMP_INTERNAL;
+    if (room == NULL) return IMP_STATUS_INTERNAL;
     const imp_status status = tube_formula_eval(self, n, p, room, error);
     memcpy(x, room, 3 * n * sizeof *room);
     free(room);
@@ -243,7 +244,7 @@ MISTAKE_EVAL(eval_allocates, on_the_heap);
 static imp_status copied(const void *self, const imp_region *region, imp_model model[3])
 {
     char *copy = strdup("u, v, t");
-    if (copy == NULL) return IMP_INTERNAL;
+    if (copy == NULL) return IMP_STATUS_INTERNAL;
     const imp_status status = tube_formula_include(self, region, model);
     free(copy);
     return status;

@@ -10,7 +10,7 @@ static const imp_parameter table[] = {{.name = "rate",
                                        .unit = "rad/time",
                                        .doc = "how fast z swings",
                                        .default_value = "1",
-                                       .kind = IMP_NUMBER,
+                                       .kind = IMP_KIND_NUMBER,
                                        .min = -100,
                                        .max = 100}};
 
@@ -18,10 +18,10 @@ static imp_status skew_create(const imp_value *values, void **self, imp_create_e
 {
     (void)why;
     double *made = malloc(sizeof *made);
-    if (made == NULL) return IMP_INTERNAL;
+    if (made == NULL) return IMP_STATUS_INTERNAL;
     *made = values[0].number[0];
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void always(const void *self, double *lo, double *hi)
@@ -105,7 +105,7 @@ static imp_status five(const void *self, const imp_model *in, imp_model out[3])
 {
     const imp_model *volatile next = in + 4;
     const imp_status status = skew_apply(self, in, out);
-    return next->a == 1e300 ? IMP_INTERNAL : status;
+    return next->a == 1e300 ? IMP_STATUS_INTERNAL : status;
 }
 MISTAKE(apply_reads_too_far, skew_eval, skew_rate, five);
 

@@ -53,11 +53,11 @@ static imp_status whole_create(const imp_value *values, void **self, imp_create_
 {
     (void)why;
     whole *made = malloc(sizeof *made);
-    if (made == NULL) return IMP_INTERNAL;
+    if (made == NULL) return IMP_STATUS_INTERNAL;
     *made = (whole){.mark = MARK};
     for (int k = 0; k < 3; ++k) made->piece[k].height = values[0].number[0] + k;
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static size_t whole_count(const void *self) { return ((const whole *)self)->mark == MARK ? 3 : 0; }

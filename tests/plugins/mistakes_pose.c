@@ -10,7 +10,7 @@ static imp_status turn_create(const imp_value *values, void **self, imp_create_e
 {
     (void)values, (void)why;
     *self = malloc(1);
-    return *self != NULL ? IMP_OK : IMP_INTERNAL;
+    return *self != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }
 
 static void always(const void *self, double *lo, double *hi)

@@ -11,13 +11,13 @@ static void domain(const void *self, double lo[3], double hi[3])
 
 static imp_status distance(const void *self, const imp_model point[4], imp_model *g)
 {
-    if (point[3].lo < 0.25 || point[3].hi > 0.5) return IMP_DOMAIN;
+    if (point[3].lo < 0.25 || point[3].hi > 0.5) return IMP_STATUS_DOMAIN;
     return pipe_gap_distance(self, point, g);
 }
 
 static const imp_surface_type pipe_absent = {.struct_size = sizeof(imp_surface_type),
                                              .parameter_size = sizeof(imp_parameter),
-                                             .flags = IMP_ABSENT_OUTSIDE_TIMES,
+                                             .flags = IMP_FLAG_ABSENT_OUTSIDE_TIMES,
                                              .name = "pipe_absent",
                                              .summary = "a pipe, for a while",
                                              .equation = "(cos u, sin u, v), t in [1/4, 1/2]",

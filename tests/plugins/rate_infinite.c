@@ -7,7 +7,7 @@ static imp_status rate(const void *self, const imp_region *region, imp_rate_matr
 {
     slab_rate(self, region, rates);
     rates->m[2][2] = INFINITY;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static const imp_surface_type type =

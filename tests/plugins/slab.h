@@ -17,7 +17,7 @@ static const imp_parameter slab_table[] = {
      .unit = "length",
      .doc = "z at t = 0",
      .default_value = "0",
-     .kind = IMP_NUMBER,
+     .kind = IMP_KIND_NUMBER,
      .min = -INFINITY,
      .max = INFINITY},
 };
@@ -31,7 +31,7 @@ static inline imp_status slab_create(const imp_value *values, void **self, imp_c
     slab *made = &slab_instances[slab_count++ % 64];
     made->height = values[0].number[0];
     *self = made;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static inline void slab_destroy(void *self) { (void)self; }
@@ -53,7 +53,7 @@ static inline imp_status slab_eval(const void *self, size_t n, const double *p, 
         x[3 * k + 2] = made->height + p[3 * k + 2];
     }
     for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0x1p-52 * fabs(x[k]);
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static inline imp_status slab_rate(const void *self, const imp_region *region,
@@ -61,7 +61,7 @@ static inline imp_status slab_rate(const void *self, const imp_region *region,
 {
     (void)self, (void)region;
     for (int k = 0; k < 9; ++k) rates->m[k / 3][k % 3] = k / 3 == k % 3;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static inline imp_status slab_include(const void *self, const imp_region *region,
@@ -79,7 +79,7 @@ static inline imp_status slab_include(const void *self, const imp_region *region
         model[i].b[i] = region->d[i];
         model[i].rate[i] = 1;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* A type from its callbacks; INCLUDE may be NULL. */

@@ -12,14 +12,14 @@ static inline imp_status slack_net(const void *self, const imp_region *region, i
 {
     imp_model model[3];
     const imp_status status = wavy_formula_include(self, region, model);
-    if (status != IMP_OK) return IMP_UNBOUNDED;
+    if (status != IMP_STATUS_OK) return IMP_STATUS_UNBOUNDED;
     for (int i = 0; i < 3; ++i) {
         out->place[i] = model[i].a;
         out->error[i] = model[i].e;
         for (int j = 0; j < 3; ++j) out->error[i] += fabs(model[i].b[j]);
         for (int k = 0; k < 6; ++k) out->error[i] += fabs(model[i].q[k]);
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* Truthful but for its net, perhaps. */

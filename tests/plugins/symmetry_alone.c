@@ -6,8 +6,8 @@
 static imp_status symmetry(const void *self, imp_symmetry *found)
 {
     (void)self;
-    found->kind = IMP_SYMMETRIC_ALONG_LINE;
+    found->kind = IMP_SYMMETRY_ALONG_LINE;
     found->axis[2] = 1;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 LIAR_PIPE("symmetry_alone", NULL, symmetry);

@@ -6,8 +6,8 @@
 static imp_status symmetry(const void *self, imp_symmetry *found)
 {
     (void)self;
-    found->kind = IMP_SYMMETRIC_ABOUT_POINT;
+    found->kind = IMP_SYMMETRY_ABOUT_POINT;
     found->center[1] = NAN;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 LIAR_SYMMETRY("symmetry_nan", symmetry);

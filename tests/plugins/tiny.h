@@ -14,7 +14,7 @@ static inline imp_status tiny_create(const imp_value *values, void **self, imp_c
 {
     (void)values, (void)why;
     *self = &tiny_self;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static inline void tiny_destroy(void *self) { (void)self; }
@@ -32,7 +32,7 @@ static inline imp_status tiny_eval(const void *self, size_t n, const double *p, 
     (void)self, (void)p;
     for (size_t k = 0; k < 3 * n; ++k) x[k] = 0;
     for (size_t k = 0; error != NULL && k < 3 * n; ++k) error[k] = 0;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static inline imp_status tiny_rate(const void *self, const imp_region *region,
@@ -40,7 +40,7 @@ static inline imp_status tiny_rate(const void *self, const imp_region *region,
 {
     (void)self, (void)region;
     for (int k = 0; k < 9; ++k) rates->m[k / 3][k % 3] = 0;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* A type from its callbacks and, if COUNT > 0, its parameter table. */

@@ -101,7 +101,7 @@ static imp_status create(const imp_value *values, void **self, imp_create_error 
     static char instance;
     (void)values, (void)why;
     *self = &instance;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 static void destroy(void *self) { (void)self; }
 static void domain(const void *self, double lo[3], double hi[3])
@@ -117,20 +117,20 @@ static void time_domain(const void *self, double *lo, double *hi)
 static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
     (void)self, (void)n, (void)p, (void)x, (void)error;
-    return IMP_INTERNAL;
+    return IMP_STATUS_INTERNAL;
 }
 static imp_status rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
     (void)self, (void)region, (void)rates;
-    return IMP_INTERNAL;
+    return IMP_STATUS_INTERNAL;
 }
 static imp_status map_rate(const void *self, const imp_box4 *box, imp_map_rates *rates)
 {
     (void)self, (void)box, (void)rates;
-    return IMP_INTERNAL;
+    return IMP_STATUS_INTERNAL;
 }
 static const imp_surface_type surface = {
-    .flags = IMP_ABSENT_OUTSIDE_TIMES,
+    .flags = IMP_FLAG_ABSENT_OUTSIDE_TIMES,
     .struct_size = sizeof surface, .parameter_size = sizeof(imp_parameter), .name = "twin",
     .summary = "one of two", .equation = "none", .example = "twin",
     .create = create, .destroy = destroy, .domain = domain, .eval = eval, .rate = rate};

@@ -29,8 +29,8 @@ static inline expression_program *compiled_three(const char *x, const char *y, c
     expression_program *program;
     expression_error error;
     imp_status status = compile_with(text, 2, name, value, &program, &error);
-    ck_assert_msg(status == IMP_OK, "%.200s: %s", x,
-                  status == IMP_PARAMETER ? error.message : "no memory");
+    ck_assert_msg(status == IMP_STATUS_OK, "%.200s: %s", x,
+                  status == IMP_STATUS_PARAMETER ? error.message : "no memory");
     return program;
 }
 
@@ -68,11 +68,11 @@ static inline const char *complaint(const char *text)
     expression_program *program;
     error = (expression_error){.message = ""};
     imp_status status = compile_with(texts, 0, NULL, NULL, &program, &error);
-    if (status == IMP_OK) {
+    if (status == IMP_STATUS_OK) {
         expression_free(program);
         return "";
     }
-    ck_assert_int_eq(status, IMP_PARAMETER);
+    ck_assert_int_eq(status, IMP_STATUS_PARAMETER);
     ck_assert_int_eq(error.at, 1);
     return error.message;
 }

@@ -83,7 +83,7 @@ instance instance_make(const imp_registry *registry, const char *type, const cha
     imp_code code = parameters_read(&made.view.table, type, made.json, NULL, &at, &made.values, &error);
     ck_assert_msg(code == IMP_SUCCESS, "%s %s: %s", type, made.text, error.text);
     imp_status status = made.view.create(made.values.value, &made.self, &why);
-    ck_assert_msg(status == IMP_OK, "%s %s: %s", type, made.text, why.text);
+    ck_assert_msg(status == IMP_STATUS_OK, "%s %s: %s", type, made.text, why.text);
     made.arguments = (type_arguments){made.view.table, made.values.value};
     return made;
 }

@@ -26,7 +26,7 @@ static inline void image(const instance *made, double x, double y, double z, dou
                          double out[3])
 {
     const double p[4] = {x, y, z, t};
-    ck_assert_int_eq(made->map->eval(made->self, 1, p, out, NULL), IMP_OK);
+    ck_assert_int_eq(made->map->eval(made->self, 1, p, out, NULL), IMP_STATUS_OK);
 }
 
 static inline void expect_point(const double x[3], double a, double b, double c, double slip)

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <impinge/baseline.h>
 #include <impinge/impinge.h>
 
 #include "tests/support/suite.h"
@@ -39,14 +40,12 @@ static inline imp_result query_audited(const char *a, const char *b)
     return r;
 }
 
-/* What a question leaves open: times [0, 1], whatever tables the scene has, gamma 1e-6, clearance
+/* What a question leaves open: times [0, 1], whatever tables the scene has, gamma 1e-6, gamma_clear
  * gamma / 2, models. */
 typedef struct question {
     const char *a, *b; /* pipelines */
-    double t_start, t_end, gamma, clearance;
-    imp_method method;
-    imp_bounds bounds;
-    imp_rates rates;
+    double t_start, t_end, gamma, gamma_clear;
+    uint32_t baseline; /* of imp_options */
     uint64_t max_pairs;
 } question;
 
@@ -57,10 +56,8 @@ static inline imp_options query_options(const imp_scene *scene, const question *
     options.t_start = q->t_start;
     options.t_end = open ? 1 : q->t_end;
     if (q->gamma > 0) options.gamma = q->gamma;
-    if (q->clearance > 0) options.clearance = q->clearance;
-    options.method = q->method;
-    options.bounds = q->bounds;
-    options.rates = q->rates;
+    if (q->gamma_clear > 0) options.gamma_clear = q->gamma_clear;
+    options.baseline = q->baseline;
     options.max_pairs = q->max_pairs > 0 ? q->max_pairs : 2000000;
     return options;
 }
@@ -77,8 +74,8 @@ static inline void query_check(const imp_scene *scene, const imp_options *option
                                const imp_result *r)
 {
     ck_assert(r->t_lower >= options->t_start && r->t_lower <= options->t_end);
-    if (r->verdict == IMP_CLEAR) ck_assert(r->t_lower == options->t_end);
-    if (r->verdict != IMP_CONTACT) return;
+    if (r->verdict == IMP_VERDICT_CLEAR) ck_assert(r->t_lower == options->t_end);
+    if (r->verdict != IMP_VERDICT_CONTACT) return;
     ck_assert(r->t == r->t_lower);
     ck_assert(r->gap >= 0 && r->gap <= r->gamma);
     const imp_side *sides[2] = {&r->a, &r->b};
@@ -104,8 +101,8 @@ static inline imp_result ask_in(imp_registry *registry, const question *q)
     imp_scene *scene = imp_scene_from_pair(registry, q->a, q->b, &error);
     ck_assert_msg(scene != NULL, "%s", error.text);
     const imp_options options = query_options(scene, q);
-    imp_result result;
-    const imp_code code = imp_solve(scene, &options, &result, &error);
+    imp_result result = {.struct_size = sizeof result};
+    const imp_code code = imp_scene_solve(scene, &options, &result, &error);
     ck_assert_msg(code == IMP_SUCCESS, "%s | %s: %s", q->a, q->b, error.text);
     query_check(scene, &options, &result);
     imp_scene_free(scene);
@@ -126,7 +123,7 @@ static inline imp_result ask_contact(const question *q, double time, double earl
 {
     const imp_result r = ask(q);
     ck_assert_msg(
-        r.verdict == IMP_CONTACT && r.t <= time && r.t >= time - early,
+        r.verdict == IMP_VERDICT_CONTACT && r.t <= time && r.t >= time - early,
         "%s | %s: verdict %d (reason %d), t_lower %.17g, expected contact in [%.17g, %.17g]", q->a,
         q->b, (int)r.verdict, (int)r.reason, r.t_lower, time - early, time);
     return r;
@@ -135,7 +132,7 @@ static inline imp_result ask_contact(const question *q, double time, double earl
 static inline imp_result ask_clear(const question *q)
 {
     const imp_result r = ask(q);
-    ck_assert_msg(r.verdict == IMP_CLEAR,
+    ck_assert_msg(r.verdict == IMP_VERDICT_CLEAR,
                   "%s | %s: verdict %d (reason %d), t_lower %.17g, expected clear", q->a, q->b,
                   (int)r.verdict, (int)r.reason, r.t_lower);
     return r;

@@ -203,7 +203,7 @@ ladder ladder_of(imp_registry *registry, const setting *s)
     for (int k = 0; k < 3; ++k) {
         const question q = question_of(s, &plain, &told, k);
         l.rung[k] = ask_in(registry, &q);
-        ck_assert_msg(l.rung[k].verdict == (s->meets ? IMP_CONTACT : IMP_CLEAR),
+        ck_assert_msg(l.rung[k].verdict == (s->meets ? IMP_VERDICT_CONTACT : IMP_VERDICT_CLEAR),
                       "%s: rung %d: verdict %d", s->name, k, (int)l.rung[k].verdict);
         if (k > 0) ck_assert_double_le(l.rung[k - 1].t_lower, l.rung[k].t_lower);
     }
@@ -216,7 +216,7 @@ void check_answer(const ladder *l, const frame *f, const imp_result *r, const ch
     const double t = f->rate * r->t_lower + f->clock;
     ck_assert_msg(r->verdict == l->rung[1].verdict, "%s, %s: verdict %d (reason %d), expected %d",
                   l->about->name, how, (int)r->verdict, (int)r->reason, (int)l->rung[1].verdict);
-    if (r->verdict != IMP_CONTACT) return;
+    if (r->verdict != IMP_VERDICT_CONTACT) return;
     ck_assert_msg(t >= l->rung[0].t_lower && t <= l->rung[2].t,
                   "%s, %s: contact at %.17g, expected in [%.17g, %.17g]", l->about->name, how, t,
                   l->rung[0].t_lower, l->rung[2].t);

@@ -19,17 +19,17 @@ simulated() {
     valid simulate
 }
 
-# out.json has gamma, and twice gamma, as its clearance and gamma; the clearance was gamma / 2.
-# never_nearer [WHOLE]: solve proves of out.json that no two bodies are nearer than 0.98 times the
-# clearance: from event to event, or of all its time at once.
+# out.json has gamma, and twice gamma, as its gamma_clear and gamma; gamma_clear was gamma / 2.
+# never_nearer [WHOLE]: solve proves of out.json that no two bodies are nearer than 0.98 times
+# gamma_clear: from event to event, or of all its time at once.
 never_nearer() {
-    local gamma clearance window
-    gamma=$(jq '.clearance / 2' out.json)
-    clearance=$(jq '.clearance * 0.49' out.json)
+    local gamma clear window
+    gamma=$(jq '.gamma_clear / 2' out.json)
+    clear=$(jq '.gamma_clear * 0.49' out.json)
     jq -r --arg whole "${1-}" '([.time[0]] + (if $whole == "" then [.events[].t] | unique else [] end)
         + [.time[1]]) as $t | range(0; ($t | length) - 1) | "\($t[.]),\($t[. + 1])"' out.json >windows
     while read -r window; do
-        run -0 "$IMPINGE" solve out.json --time "$window" --gamma "$gamma" --clearance "$clearance" \
+        run -0 "$IMPINGE" solve out.json --time "$window" --gamma "$gamma" --gamma-clear "$clear" \
             --max-pairs 1M
         echo "$window: $output"
         [ "${lines[0]}" = clear ]

@@ -42,7 +42,7 @@ static inline void ball_domain(const void *self, double lo[3], double hi[3])
 static inline void ball_destroy(void *self) { (void)self; }
 
 static IMP_UNUSED_ const imp_surface_type ball_type = {.name = "ball",
-                                                       .flags = IMP_ABSENT_OUTSIDE_TIMES,
+                                                       .flags = IMP_FLAG_ABSENT_OUTSIDE_TIMES,
                                                        .destroy = ball_destroy,
                                                        .domain = ball_domain,
                                                        .eval = ball_formula_eval,

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <impinge/examine.h>
+
 #include "tests/support/query_helpers.h"
 #include "tests/support/sphere_scenes.h"
 #include "tests/support/suite.h"
@@ -73,8 +75,8 @@ static const bool of_bool[] = {false, true};
 static const imp_place of_imp_place[] = {
     {0, 0, 0}, {SIZE_MAX, 0, 0}, {0, SIZE_MAX, 0}, {0, 0, SIZE_MAX}, {2, 2, 2}};
 static const imp_code of_imp_code[] = {IMP_SUCCESS, (imp_code)-1, (imp_code)77};
-static const imp_kind of_imp_kind[] = {IMP_NUMBER, (imp_kind)-1};
-static const imp_type_kind of_imp_type_kind[] = {IMP_KIND_SURFACE, IMP_KIND_MAP, (imp_type_kind)77};
+static const imp_kind of_imp_kind[] = {IMP_KIND_NUMBER, (imp_kind)-1};
+static const imp_type_kind of_imp_type_kind[] = {IMP_TYPE_SURFACE, IMP_TYPE_MAP, (imp_type_kind)77};
 
 #define API_VALUE(TYPE, PICK) (of_##TYPE[PICK])
 #define API_COUNT(TYPE) (sizeof of_##TYPE / sizeof *of_##TYPE)

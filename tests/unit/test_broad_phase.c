@@ -29,10 +29,10 @@ static bool note(void *context, size_t a, size_t b)
 }
 
 /* False for a NaN. */
-static bool apart(const swept_box *a, const swept_box *b, double clearance)
+static bool apart(const swept_box *a, const swept_box *b, double gamma_clear)
 {
     for (int i = 0; i < 3; ++i)
-        if (a->lo[i] - b->hi[i] > clearance || b->lo[i] - a->hi[i] > clearance) return true;
+        if (a->lo[i] - b->hi[i] > gamma_clear || b->lo[i] - a->hi[i] > gamma_clear) return true;
     return false;
 }
 
@@ -62,16 +62,16 @@ START_TEST(each_two_near_boxes_are_visited_once_along_any_axis)
     const uint64_t groups[4] = {1, 2, 7, 1 << 30};
     for (int round = 0; round < suite_times(300); ++round) {
         swept_box boxes[BOXES], given[BOXES];
-        const double clearance = round % 2 == 0 ? 1e-6 : 0.1;
+        const double gamma_clear = round % 2 == 0 ? 1e-6 : 0.1;
         draw(boxes, round % 3, groups[round % 4], &state);
         memcpy(given, boxes, sizeof boxes);
         memset(visits, 0, sizeof visits);
-        ck_assert(broad_phase_visit(boxes, BOXES, clearance, &visitor));
+        ck_assert(broad_phase_visit(boxes, BOXES, gamma_clear, &visitor));
         for (size_t a = 0; a < BOXES; ++a)
             for (size_t b = a + 1; b < BOXES; ++b) {
                 const bool alike = given[a].group == given[b].group;
                 ck_assert_uint_le(visits[a][b], alike ? 0 : 1);
-                ck_assert(alike || visits[a][b] == 1 || apart(&given[a], &given[b], clearance));
+                ck_assert(alike || visits[a][b] == 1 || apart(&given[a], &given[b], gamma_clear));
             }
     }
 }

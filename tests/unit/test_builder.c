@@ -68,7 +68,7 @@ START_TEST(a_scene_built_is_the_scene_that_is_written)
     good(imp_builder_ignore(b, "robot", "robot", &error));
     imp_scene *scene = finish(b);
     const imp_options o = imp_options_default(scene);
-    ck_assert(o.t_start == -1 && o.t_end == 2 && o.gamma == 0.25 && o.clearance == 0.125);
+    ck_assert(o.t_start == -1 && o.t_end == 2 && o.gamma == 0.25 && o.gamma_clear == 0.125);
     ck_assert_str_eq(imp_scene_body_name(scene, 1), "body1");
     assert_point(scene, 0, 0, 1, 2, 5);
     assert_point(scene, 1, 0, 2, 2, 5);
@@ -82,8 +82,8 @@ START_TEST(values_of_every_kind_are_taken)
     const char *const names[] = {"a", "b"};
     const double rows[] = {1, 2, 3, 4, 5, 6}, weights[] = {0.5, 1}, constants[] = {1, 2};
     imp_argument count = imp_argument_number("count", 3),
-                 table = imp_argument_of("constants", IMP_TABLE, 0);
-    count.kind = IMP_INTEGER;
+                 table = imp_argument_of("constants", IMP_KIND_TABLE, 0);
+    count.kind = IMP_KIND_INTEGER;
     table.extent[0] = 2, table.string = names, table.number = constants;
     const imp_argument all[] = {imp_argument_number("radius", 1),
                                 imp_argument_rows("points", rows, 2, 3),
@@ -139,7 +139,7 @@ START_TEST(tables_and_names_that_cannot_be_are_refused)
 {
     const char *names[] = {"q", NULL};
     const double numbers[] = {1, 2};
-    imp_argument a = imp_argument_of("constants", IMP_TABLE, 0);
+    imp_argument a = imp_argument_of("constants", IMP_KIND_TABLE, 0);
     a.string = names, a.number = numbers, a.extent[0] = 2;
     surface_refused(a, IMP_ERROR_SCENE, "constants: element 1 has no name of UTF-8");
     names[1] = "\xC0";
@@ -181,7 +181,7 @@ START_TEST(calls_out_of_order_are_refused)
     refused(imp_builder_ignore(b, "arm", "amr", &error), IMP_ERROR_SCENE, "did you mean 'arm'?");
     refused(imp_builder_time(b, 1, 0, &error), IMP_ERROR_USAGE, "time: got [1, 0]");
     refused(imp_builder_gamma(b, 0, -1, &error), IMP_ERROR_USAGE, "gamma: got 0");
-    refused(imp_builder_gamma(b, 1, 2, &error), IMP_ERROR_USAGE, "clearance: got 2");
+    refused(imp_builder_gamma(b, 1, 2, &error), IMP_ERROR_USAGE, "gamma_clear: got 2");
     good(imp_builder_parent(b, hand, arm, &error));
     good(imp_builder_parent(b, arm, hand, &error));
     ck_assert_ptr_null(imp_builder_finish(b, &error));
@@ -208,11 +208,11 @@ END_TEST
 
 START_TEST(time_left_is_the_papers_h)
 {
-    imp_result r = {.verdict = IMP_CONTACT, .t = 0.75, .t_lower = 0.75};
+    imp_result r = {.verdict = IMP_VERDICT_CONTACT, .t = 0.75, .t_lower = 0.75};
     ck_assert(imp_time_left(&r, 0.5) == 0.25 && imp_time_left(&r, 1) == -0.25);
-    r.verdict = IMP_CLEAR;
+    r.verdict = IMP_VERDICT_CLEAR;
     ck_assert(imp_time_left(&r, 0.5) == INFINITY);
-    r.verdict = IMP_UNDECIDED;
+    r.verdict = IMP_VERDICT_UNDECIDED;
     ck_assert(imp_time_left(&r, 0.25) == 0.5);
 }
 END_TEST

@@ -7,6 +7,8 @@
 
 #include "tests/support/query_helpers.h"
 
+#include <impinge/examine.h>
+
 /* Whatever floating-point mode the embedding program has set: the same answers, bit for bit, as
  * under the default, and the program's mode is its own again after every call. */
 
@@ -99,7 +101,7 @@ static const question questions[] = {
      .max_pairs = 3000},
     {.a = "sphere",
      .b = "sphere center=2.3,0,0 ! translate velocity=-.1,0,0",
-     .method = IMP_METHOD_PAPER,
+     .baseline = IMP_BASELINE_BOXES,
      .gamma = 0.1,
      .max_pairs = 3000},
 };
@@ -158,7 +160,7 @@ static void expect_same(const imp_result *found, const imp_result *wanted, const
                  same(found->t_lower, wanted->t_lower) && same(found->gamma, wanted->gamma) &&
                  same(found->gamma_clear, wanted->gamma_clear) &&
                  memcmp(&found->stats, &wanted->stats, sizeof found->stats) == 0;
-    if (wanted->verdict == IMP_CONTACT)
+    if (wanted->verdict == IMP_VERDICT_CONTACT)
         equal = equal && same(found->gap, wanted->gap) && same_side(&found->a, &wanted->a) &&
                 same_side(&found->b, &wanted->b);
     ck_assert_msg(equal, "%s, %s: %s | %s: verdict %d at %.17g, not %d at %.17g", mode->name, how,
@@ -275,13 +277,13 @@ START_TEST(instances_do_not_depend_on_the_callers_mode)
     imp_registry *registry = query_registry();
     imp_instance made;
     double wanted[3], x[3], error[2][3];
-    ck_assert_int_eq(imp_instance_from_text(registry, IMP_KIND_SURFACE, text, &made, NULL), 0);
+    ck_assert_int_eq(imp_instance_from_text(registry, IMP_TYPE_SURFACE, text, &made, NULL), 0);
     made.surface->eval(made.self, 1, p, wanted, error[0]);
     imp_instance_free(&made);
     for (int m = 1; m < MODES; ++m) {
         imp_code code;
         IN_MODE(&modes[m],
-                code = imp_instance_from_text(registry, IMP_KIND_SURFACE, text, &made, NULL));
+                code = imp_instance_from_text(registry, IMP_TYPE_SURFACE, text, &made, NULL));
         ck_assert_int_eq(code, IMP_SUCCESS);
         made.surface->eval(made.self, 1, p, x, error[1]);
         imp_instance_free(&made);

@@ -4,6 +4,8 @@
 
 #include "tests/support/scene_variants.h"
 
+#include <impinge/baseline.h>
+
 /* Minimum distances: closed forms, points sampled, and what the search for contact says. */
 
 /* --- Asking ----------------------------------------------------------------------------- */
@@ -11,7 +13,7 @@
 static imp_clearance read_answer(const imp_query *query, size_t index)
 {
     imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
-    ck_assert_int_eq(imp_clearance_read(query, index, &answer, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(imp_clearance_get(query, index, &answer, NULL), IMP_SUCCESS);
     return answer;
 }
 
@@ -203,7 +205,7 @@ static imp_options before_contact(const imp_scene *scene, const ladder *l)
 {
     imp_options options = imp_options_default(scene);
     options.gamma = rung_gamma(l->about, &plain, 2);
-    if (l->rung[1].verdict == IMP_CONTACT) options.t_end = 0.9 * l->rung[0].t_lower;
+    if (l->rung[1].verdict == IMP_VERDICT_CONTACT) options.t_end = 0.9 * l->rung[0].t_lower;
     return options;
 }
 
@@ -233,15 +235,15 @@ static void compare_with_contact(imp_registry *registry, const ladder *l)
     imp_options options = before_contact(scene, l);
     const imp_clearance_options asked = imp_clearance_options_default();
     const imp_clearance r = measure(scene, &options, &asked);
-    imp_result contact;
+    imp_result contact = {.struct_size = sizeof contact};
     options.gamma = 0.995 * r.lower;
-    options.clearance = 0.99 * r.lower;
-    ck_assert_int_eq(imp_solve(scene, &options, &contact, NULL), IMP_SUCCESS);
-    ck_assert_int_eq(contact.verdict, IMP_CLEAR);
+    options.gamma_clear = 0.99 * r.lower;
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &contact, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(contact.verdict, IMP_VERDICT_CLEAR);
     options.gamma = 1.01 * r.upper;
-    options.clearance = 1.005 * r.upper;
-    ck_assert_int_eq(imp_solve(scene, &options, &contact, NULL), IMP_SUCCESS);
-    ck_assert_int_eq(contact.verdict, IMP_CONTACT);
+    options.gamma_clear = 1.005 * r.upper;
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &contact, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(contact.verdict, IMP_VERDICT_CONTACT);
     ck_assert(contact.t <= r.t);
     imp_scene_free(scene);
 }
@@ -435,7 +437,7 @@ START_TEST(programs_that_know_nothing_of_deciding_get_a_narrow_bracket)
     const imp_clearance r = measure(scene, &options, &asked);
     ck_assert(r.reason == IMP_REASON_NONE && r.verdict == IMP_REQUIREMENT_HOLDS);
     asked.decide = false;
-    ck_assert_int_eq(imp_clearance_options_read(&asked, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(imp_clearance_options_get_default(&asked, NULL), IMP_SUCCESS);
     ck_assert(asked.required == 0 && !asked.decide);
     imp_scene_free(scene);
     imp_registry_free(registry);
@@ -478,12 +480,12 @@ START_TEST(nets_that_others_made_change_no_minimum_distance)
     uint64_t state = suite_seed();
     for (int k = 0; k < suite_times(100); ++k) {
         char a[TEXT], b[TEXT];
-        imp_result met;
+        imp_result met = {.struct_size = sizeof met};
         draw_deforming(&state, 0, a);
         draw_deforming(&state, 2.5, b);
         imp_scene *scene = scene_of(registry, a, b);
         const imp_options options = imp_options_default(scene);
-        ck_assert_int_eq(imp_solve(scene, &options, &met, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_scene_solve(scene, &options, &met, NULL), IMP_SUCCESS);
         const imp_clearance_options asked = imp_clearance_options_default();
         const imp_clearance after = measure(scene, &options, &asked);
         const imp_clearance alone = measure_pair(registry, a, b, asked.tolerance, 0);
@@ -735,19 +737,19 @@ START_TEST(wrong_questions_are_refused_by_name)
         ck_assert_ptr_nonnull(strstr(error.text, wrong[k].name));
     }
     imp_options options = imp_options_default(scene);
-    options.method = IMP_METHOD_PAPER;
+    options.baseline = IMP_BASELINE_BOXES;
     ck_assert_ptr_null(imp_clearance_new(scene, &options, NULL, NULL));
     options = imp_options_default(scene);
     imp_query *query = begin(scene, &options, NULL);
     imp_clearance answer = {.struct_size = 4};
-    ck_assert_int_eq(imp_clearance_read(query, 0, &answer, NULL), IMP_ERROR_USAGE);
+    ck_assert_int_eq(imp_clearance_get(query, 0, &answer, NULL), IMP_ERROR_USAGE);
     answer.struct_size = (uint32_t)sizeof answer;
-    ck_assert_int_eq(imp_clearance_read(query, 1, &answer, NULL), IMP_ERROR_USAGE);
+    ck_assert_int_eq(imp_clearance_get(query, 1, &answer, NULL), IMP_ERROR_USAGE);
     ck_assert_int_eq(imp_query_refine(query, 1e-9, -1, NULL), IMP_ERROR_USAGE);
     imp_query_free(query);
     query = imp_query_new(scene, &options, NULL);
     ck_assert_uint_eq(imp_clearance_count(query), 0);
-    ck_assert_int_eq(imp_clearance_read(query, 0, &answer, NULL), IMP_ERROR_USAGE);
+    ck_assert_int_eq(imp_clearance_get(query, 0, &answer, NULL), IMP_ERROR_USAGE);
     imp_query_free(query);
     imp_scene_free(scene);
     imp_registry_free(registry);

@@ -57,7 +57,7 @@ static imp_status place(const void *self, const imp_model *t, imp_pose *pose)
         pose->pivot[i] = m->pivot[i];
     }
     if (m->spins) pose->turn[0][0] = imp_add(pose->turn[0][0], imp_sub(*t, *t));
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void always(const void *self, double *lo, double *hi)
@@ -252,7 +252,7 @@ static tally try_all(double factor)
         surface *s = compose(&y);
         imp_model g;
         ck_assert(surface_has_distance(s));
-        ck_assert_int_eq(surface_distance(s, &y.region, y.own, y.point, &g), IMP_OK);
+        ck_assert_int_eq(surface_distance(s, &y.region, y.own, y.point, &g), IMP_STATUS_OK);
         g = imp_scale(g, factor);
         judge(&y, &g, &random, &of);
         surface_free(s);
@@ -284,7 +284,7 @@ START_TEST(maps_are_still_until_one_spins)
         size_t still;
         if (spins < y.count) y.motion[spins].spins = true;
         surface *s = compose(&y);
-        ck_assert_int_eq(surface_still_maps(s, &y.region, &still), IMP_OK);
+        ck_assert_int_eq(surface_still_maps(s, &y.region, &still), IMP_STATUS_OK);
         ck_assert_uint_eq(still, spins);
         surface_free(s);
     }

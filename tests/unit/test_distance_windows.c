@@ -9,7 +9,7 @@
 #include "tests/support/suite.h"
 
 /* Windows that random distances cut: at the times that are cut off, and at all where nodes are said to be
- * apart, the polynomial less its remainder is beyond the clearance everywhere; and nowhere in the window is
+ * apart, the polynomial less its remainder is beyond gamma_clear everywhere; and nowhere in the window is
  * it below the bound of the distance. */
 
 enum { CASES = 20000, PLACES = 128, MOMENTS = 8 };
@@ -22,7 +22,7 @@ static imp_status claim(const void *self, const imp_model point[4], imp_model *d
 {
     (void)self, (void)point;
     *distance = claimed;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void domain(const void *self, double lo[3], double hi[3])
@@ -48,7 +48,7 @@ typedef struct place {
 typedef struct trial {
     node own, other;
     time_window window;
-    double size, clearance;
+    double size, gamma_clear;
     place places[PLACES];
     int count;
 } trial;
@@ -138,7 +138,7 @@ static void draw_trial(const surface *s, uint64_t *random, trial *y)
         if (here < least) least = here;
     }
     const double near = random_power(random, -53, -1) * (random_bits(random) % 2 ? 1 : -1);
-    y->clearance = least > 0 ? (double)least * (1 + near) : 0;
+    y->gamma_clear = least > 0 ? (double)least * (1 + near) : 0;
 }
 
 /* Whether anything is nearer than `distance` at a time, surely; `more` is added to the remainder, in parts of
@@ -164,7 +164,7 @@ static void try_cut(const trial *y, double more, uint64_t *random, tally *of)
     distance_view view;
     imp_error error;
     const distance_question asked = {
-        .a = &y->own, .b = &y->other, .clearance = y->clearance, .slip = INFINITY};
+        .a = &y->own, .b = &y->other, .gamma_clear = y->gamma_clear, .slip = INFINITY};
     ck_assert_int_eq(distance_cut(&asked, &left, &view, &error), IMP_SUCCESS);
     ck_assert(y->window.lo <= left.lo && left.lo <= left.hi && left.hi <= y->window.hi);
     if (view.is_apart) left = (time_window){y->window.hi, y->window.hi};
@@ -177,7 +177,7 @@ static void try_cut(const trial *y, double more, uint64_t *random, tally *of)
         const double t = late ? y->window.hi - f * (y->window.hi - left.hi)
                               : y->window.lo + f * (left.lo - y->window.lo);
         const bool is_cut_off = view.is_apart || (late ? t > left.hi : t < left.lo);
-        if (is_cut_off && is_near_at(y, y->clearance, t, more)) of->refuted += 1;
+        if (is_cut_off && is_near_at(y, y->gamma_clear, t, more)) of->refuted += 1;
         if (view.lower > 0 && is_near_at(y, view.lower, t, more)) of->too_far += 1;
     }
 }

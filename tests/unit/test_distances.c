@@ -151,9 +151,10 @@ static tally try_row(const imp_registry *registry, const row *r, int times, doub
             for (int j = 0; j < 3; ++j) models.in[i].rate[j] = INFINITY;
         errno = 0;
         const imp_status status = made.surface->distance(made.self, models.in, &g);
-        ck_assert_msg(status == IMP_OK || status == IMP_UNBOUNDED, "%s: %d", r->type, status);
+        ck_assert_msg(status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED, "%s: %d", r->type,
+                      status);
         ck_assert_int_eq(errno, 0);
-        if (status == IMP_UNBOUNDED) continue;
+        if (status == IMP_STATUS_UNBOUNDED) continue;
         ck_assert(g.e >= 0 && g.lo <= g.hi);
         g.e *= share * factor;
         g.a *= factor;
@@ -248,7 +249,7 @@ static bool is_refuted_beside(const imp_registry *registry, const shape *s, int 
         num_forget();
         draw_beside(&random, s, &made.arguments, x);
         for (int i = 0; i < 3; ++i) in[i] = (imp_model){.a = x[i], .lo = x[i], .hi = x[i]};
-        ck_assert_int_eq(made.surface->distance(made.self, in, &g), IMP_OK);
+        ck_assert_int_eq(made.surface->distance(made.self, in, &g), IMP_STATUS_OK);
         const number at[3] = {num(x[0]), num(x[1]), num(x[2])};
         const double claimed = factor * (g.lo > 0 ? g.lo : g.hi < 0 ? -g.hi : 0);
         refuted = num_is_less(s->about.exact(&made.arguments, at), num(claimed));

@@ -118,7 +118,7 @@ START_TEST(every_operator_and_function_means_what_it_does_elsewhere)
     for (size_t i = 0; i < sizeof meanings / sizeof meanings[0]; ++i) {
         const struct meaning *m = &meanings[i];
         double x, error;
-        ck_assert_int_eq(value_at(m->text, U, V, T, &x, &error), IMP_OK);
+        ck_assert_int_eq(value_at(m->text, U, V, T, &x, &error), IMP_STATUS_OK);
         ck_assert_msg(fabs(x - m->value) <= error + 4e-16 * fabs(m->value),
                       "%s: %.17g +- %g, not %.17g", m->text, x, error, m->value);
         ck_assert_msg(error <= 1e-14 * (1 + fabs(x)), "%s: error %g", m->text, error);
@@ -132,7 +132,7 @@ START_TEST(exact_arithmetic_with_constants_stays_exact)
                                         "-(2-6)*0.5", "10^15", "min(1,2)",  "abs(-3)"};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
         double x, error;
-        ck_assert_int_eq(value_at(texts[i], U, V, T, &x, &error), IMP_OK);
+        ck_assert_int_eq(value_at(texts[i], U, V, T, &x, &error), IMP_STATUS_OK);
         ck_assert_msg(error == 0, "%s: error %g", texts[i], error);
     }
 }
@@ -144,7 +144,7 @@ START_TEST(numbers_are_read_alike_in_every_locale)
     const sandbox box = sandbox_new();
     if (comma_locale_make(&box)) ck_assert_ptr_nonnull(setlocale(LC_NUMERIC, COMMA_LOCALE));
     double x, error;
-    ck_assert_int_eq(value_at("1.5+.25", U, V, T, &x, &error), IMP_OK);
+    ck_assert_int_eq(value_at("1.5+.25", U, V, T, &x, &error), IMP_STATUS_OK);
     ck_assert_double_eq(x, 1.75);
     comma_locale_remove(&box);
 }
@@ -209,13 +209,13 @@ START_TEST(a_point_where_the_formula_is_undefined_is_outside_its_domain)
     double x, error;
     for (size_t i = 0; i < sizeof outside / sizeof outside[0]; ++i) {
         const struct point *p = &outside[i];
-        ck_assert_msg(value_at(p->text, p->u, p->v, p->t, &x, &error) == IMP_DOMAIN,
+        ck_assert_msg(value_at(p->text, p->u, p->v, p->t, &x, &error) == IMP_STATUS_DOMAIN,
                       "%s at %g %g %g: %g +- %g", p->text, p->u, p->v, p->t, x, error);
     }
     for (size_t i = 0; i < sizeof inside / sizeof inside[0]; ++i) {
         const struct point *p = &inside[i];
-        ck_assert_msg(value_at(p->text, p->u, p->v, p->t, &x, &error) == IMP_OK, "%s at %g %g %g",
-                      p->text, p->u, p->v, p->t);
+        ck_assert_msg(value_at(p->text, p->u, p->v, p->t, &x, &error) == IMP_STATUS_OK,
+                      "%s at %g %g %g", p->text, p->u, p->v, p->t);
         ck_assert_msg(error < 1e-7 * (1 + fabs(x)), "%s: %g +- %g", p->text, x, error);
     }
 }
@@ -224,9 +224,9 @@ END_TEST
 START_TEST(what_is_infinite_on_the_way_may_be_finite_in_the_end)
 {
     double x, error;
-    ck_assert_int_eq(value_at("1/(1+exp(1000*v))", 0, 1, 0, &x, &error), IMP_OK);
+    ck_assert_int_eq(value_at("1/(1+exp(1000*v))", 0, 1, 0, &x, &error), IMP_STATUS_OK);
     ck_assert_msg(x - error <= 0 && 0 <= x + error && error <= 0.51, "%g +- %g", x, error);
-    ck_assert_int_eq(value_at("tanh(cosh(1000*v))", 0, 1, 0, &x, &error), IMP_OK);
+    ck_assert_int_eq(value_at("tanh(cosh(1000*v))", 0, 1, 0, &x, &error), IMP_STATUS_OK);
     ck_assert_msg(x - error <= 1 && 1 <= x + error && error <= 1.01, "%g +- %g", x, error);
 }
 END_TEST
@@ -346,7 +346,7 @@ START_TEST(without_memory_nothing_is_compiled_and_nothing_left)
         alloc_failure_begin(++n);
         imp_status status = compile_with(text, 0, NULL, NULL, &program, &error);
         failed = alloc_failure_end();
-        ck_assert_int_eq(status, failed ? IMP_INTERNAL : IMP_OK);
+        ck_assert_int_eq(status, failed ? IMP_STATUS_INTERNAL : IMP_STATUS_OK);
         expression_free(program);
         ck_assert_uint_eq(alloc_failure_live(), before);
     }

@@ -176,15 +176,15 @@ static bool trial_begin(trial *t, uint64_t seed, bool map, const imp_model *whol
     const expression_scope scope = {t->variable, whole, t->variables, constant_name, &t->k, 1};
     expression_error error;
     imp_status status = expression_compile(&scope, text, &t->program, &error);
-    ck_assert_int_ne(status, IMP_INTERNAL);
-    bool expected = status == IMP_OK || strstr(error.message, "undefined everywhere") != NULL ||
-                    strstr(error.message, "copysign") != NULL ||
-                    strstr(error.message, "division by 0") != NULL ||
-                    strstr(error.message, "to the power") != NULL ||
-                    strstr(error.message, "> 0") != NULL ||
-                    strstr(error.message, "this constant overflows") != NULL;
+    ck_assert_int_ne(status, IMP_STATUS_INTERNAL);
+    bool expected =
+        status == IMP_STATUS_OK || strstr(error.message, "undefined everywhere") != NULL ||
+        strstr(error.message, "copysign") != NULL ||
+        strstr(error.message, "division by 0") != NULL ||
+        strstr(error.message, "to the power") != NULL || strstr(error.message, "> 0") != NULL ||
+        strstr(error.message, "this constant overflows") != NULL;
     ck_assert_msg(expected, "%s\n%s\n%s\n%s", text[0], text[1], text[2], error.message);
-    return status == IMP_OK;
+    return status == IMP_STATUS_OK;
 }
 
 /* Which coordinates are known exactly enough to judge by. */
@@ -215,10 +215,11 @@ static void try_point(trial *t, const double *p, bool known, const number truth[
 {
     double x[3], error[3];
     imp_status status = expression_point(t->program, p, x, error);
-    ck_assert(status == IMP_OK || status == IMP_DOMAIN);
+    ck_assert(status == IMP_STATUS_OK || status == IMP_STATUS_DOMAIN);
     ++sum->points;
-    sum->undefined += status != IMP_OK;
-    if (status == IMP_OK && known) expect(t, judge_point(x, error, truth, &t->fault), "point", p);
+    sum->undefined += status != IMP_STATUS_OK;
+    if (status == IMP_STATUS_OK && known)
+        expect(t, judge_point(x, error, truth, &t->fault), "point", p);
 }
 
 static void try_rates(trial *t, const imp_model out[3], const double *p, const double *q,

@@ -147,7 +147,7 @@ START_TEST(constants_need_names_that_mean_nothing_else)
         expression_program *program = NULL;
         expression_error error = {.message = ""};
         imp_status status = compile_with(text, 2, name, value, &program, &error);
-        ck_assert_int_eq(status, n->complaint != NULL ? IMP_PARAMETER : IMP_OK);
+        ck_assert_int_eq(status, n->complaint != NULL ? IMP_STATUS_PARAMETER : IMP_STATUS_OK);
         ck_assert_str_eq(error.message, n->complaint != NULL ? n->complaint : "");
         if (n->complaint != NULL) ck_assert_int_eq(error.at, EXPRESSION_AT_CONSTANTS);
         expression_free(n->complaint != NULL ? NULL : program);
@@ -168,9 +168,9 @@ START_TEST(constants_are_limited_in_number)
     }
     expression_program *program = NULL;
     expression_error error = {.message = ""};
-    ck_assert_int_eq(compile_with(text, MANY - 1, name, value, &program, &error), IMP_OK);
+    ck_assert_int_eq(compile_with(text, MANY - 1, name, value, &program, &error), IMP_STATUS_OK);
     expression_free(program);
-    ck_assert_int_eq(compile_with(text, MANY, name, value, &program, &error), IMP_PARAMETER);
+    ck_assert_int_eq(compile_with(text, MANY, name, value, &program, &error), IMP_STATUS_PARAMETER);
     ck_assert_str_eq(error.message, "got 4097 constants, must be at most 4096");
     ck_assert_int_eq(error.at, EXPRESSION_AT_CONSTANTS);
 }
@@ -188,11 +188,11 @@ START_TEST(an_unknown_name_is_compared_with_the_constants)
     }
     expression_program *program;
     expression_error error;
-    ck_assert_int_eq(compile_with(text, 2, name, value, &program, &error), IMP_PARAMETER);
+    ck_assert_int_eq(compile_with(text, 2, name, value, &program, &error), IMP_STATUS_PARAMETER);
     ck_assert_str_eq(error.message, "line 1, column 1: unknown name 'radios', did you mean "
                                     "'radius'?; known: u, v, t, pi, e, height, radius");
     ck_assert_int_eq(error.at, 2);
-    ck_assert_int_eq(compile_with(text, 60, name, value, &program, &error), IMP_PARAMETER);
+    ck_assert_int_eq(compile_with(text, 60, name, value, &program, &error), IMP_STATUS_PARAMETER);
     ck_assert_ptr_nonnull(
         strstr(error.message, "known: u, v, t, pi, e, height, radius, constant_0"));
     ck_assert_str_eq(error.message + strlen(error.message) - 5, ", ...");
@@ -285,7 +285,7 @@ START_TEST(too_many_values_at_once_are_refused)
     const char *const text[] = {sum, product, "0"};
     expression_program *program;
     expression_error error;
-    ck_assert_int_eq(compile_with(text, 0, NULL, NULL, &program, &error), IMP_PARAMETER);
+    ck_assert_int_eq(compile_with(text, 0, NULL, NULL, &program, &error), IMP_STATUS_PARAMETER);
     ck_assert_int_eq(error.at, EXPRESSION_AT_ALL);
     ck_assert_str_eq(error.message,
                      "x, y and z have more than 512 common parts to be kept at once");
@@ -301,7 +301,7 @@ START_TEST(all_slots_can_be_used)
     expression_program *program = compiled_three(sum, product, sum);
     const double p[] = {0.5, 0, 0};
     double x[3], error[3], by_hand = 0;
-    ck_assert_int_eq(expression_point(program, p, x, error), IMP_OK);
+    ck_assert_int_eq(expression_point(program, p, x, error), IMP_STATUS_OK);
     for (int k = 1; k <= 500; ++k) by_hand += sin(k * 0.5);
     ck_assert_double_le(fabs(x[0] - by_hand), error[0] + 1e-11);
     ck_assert_double_eq(x[2], x[0]);

@@ -7,6 +7,8 @@
 #include "core/base/fp_mode.h"
 #include "tests/support/sphere_scenes.h"
 
+#include <impinge/baseline.h>
+
 /* Types that break promises of the ABI: each ends the query with an error that names the type, the
  * region or point, and what is wrong. And types that have no bounds in places, as they may: a query
  * ends all the same. All are balls that behave until the search has come to small regions. */
@@ -16,7 +18,7 @@ typedef struct liar {
     ball b;      /* first: callbacks of balls see a ball */
     size_t slot; /* which number of the answer, as doubles from its start; NONE: none */
     double value;
-    imp_status status; /* answered instead of IMP_OK */
+    imp_status status; /* answered instead of IMP_STATUS_OK */
 } liar;
 
 #define NONE ((size_t)-1)
@@ -65,12 +67,12 @@ static const ball at_rest = {.radius = 1};
     }
 
 /* What the query says that pairs the liar, of the type, with an honest ball. */
-static imp_error error_of(const imp_surface_type *type, const liar *l, imp_method method)
+static imp_error error_of(const imp_surface_type *type, const liar *l, uint32_t baseline)
 {
     imp_scene *scene = spheres_scene(&ball_type, &at_rest, type, &l->b);
     imp_options options = imp_options_default(scene);
     options.gamma = 1e-3;
-    options.method = method;
+    options.baseline = baseline;
     options.max_pairs = 100000;
     imp_error error = {IMP_SUCCESS, ""};
     imp_query *query = imp_query_new(scene, &options, NULL);
@@ -78,8 +80,8 @@ static imp_error error_of(const imp_surface_type *type, const liar *l, imp_metho
     const imp_code code = imp_query_step(query, 0, &error);
     const imp_result r = imp_query_result(query);
     ck_assert_int_eq(code, error.code);
-    ck_assert_msg(r.verdict == IMP_UNDECIDED && r.t_lower <= 0.43, "verdict %d, t_lower %g: %s",
-                  (int)r.verdict, r.t_lower, error.text);
+    ck_assert_msg(r.verdict == IMP_VERDICT_UNDECIDED && r.t_lower <= 0.43,
+                  "verdict %d, t_lower %g: %s", (int)r.verdict, r.t_lower, error.text);
     if (code != IMP_SUCCESS) /* for good */
         ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_ERROR_USAGE);
     imp_query_free(query);
@@ -87,10 +89,10 @@ static imp_error error_of(const imp_surface_type *type, const liar *l, imp_metho
     return error;
 }
 
-static void is_caught(const imp_surface_type *type, const liar *l, imp_method method,
+static void is_caught(const imp_surface_type *type, const liar *l, uint32_t baseline,
                       const char *what)
 {
-    const imp_error error = error_of(type, l, method);
+    const imp_error error = error_of(type, l, baseline);
     ck_assert_msg(error.code == IMP_ERROR_PLUGIN && strstr(error.text, what) != NULL,
                   "slot %zd, value %g, status %d: code %d, '%s', expected '%s'", (ssize_t)l->slot,
                   l->value, (int)l->status, (int)error.code, error.text, what);
@@ -139,8 +141,8 @@ START_TEST(models_that_are_no_bounds_are_caught)
         {SLOT(rate) + 2, INFINITY, "a rate is negative, infinite or NaN"},
     };
     for (size_t k = 0; k < sizeof sins / sizeof *sins; ++k) {
-        const liar l = {FLIGHT, sins[k].slot, sins[k].value, IMP_OK};
-        is_caught(&model_liar, &l, IMP_METHOD_MODELS, sins[k].what);
+        const liar l = {FLIGHT, sins[k].slot, sins[k].value, IMP_STATUS_OK};
+        is_caught(&model_liar, &l, IMP_BASELINE_NONE, sins[k].what);
     }
 }
 END_TEST
@@ -150,9 +152,9 @@ START_TEST(rates_that_are_no_bounds_are_caught_under_both_methods)
     const double wrong[] = {NAN, -1, INFINITY, -INFINITY};
     for (size_t slot = 0; slot < 9; ++slot)
         for (int k = 0; k < 4; ++k) {
-            const liar l = {FLIGHT, slot, wrong[k], IMP_OK};
-            is_caught(&rate_liar, &l, IMP_METHOD_PAPER, "a rate is negative, infinite or NaN");
-            is_caught(&rate_liar, &l, IMP_METHOD_MODELS, "");
+            const liar l = {FLIGHT, slot, wrong[k], IMP_STATUS_OK};
+            is_caught(&rate_liar, &l, IMP_BASELINE_BOXES, "a rate is negative, infinite or NaN");
+            is_caught(&rate_liar, &l, IMP_BASELINE_NONE, "");
         }
 }
 END_TEST
@@ -162,17 +164,17 @@ START_TEST(statuses_that_are_none_end_the_query)
     const struct {
         imp_status status;
         const char *what;
-    } sins[] = {{IMP_INTERNAL, "reports an internal error"},
-                {IMP_DOMAIN, "is undefined there"},
-                {IMP_PARAMETER, "returned an unknown status"},
+    } sins[] = {{IMP_STATUS_INTERNAL, "reports an internal error"},
+                {IMP_STATUS_DOMAIN, "is undefined there"},
+                {IMP_STATUS_PARAMETER, "returned an unknown status"},
                 {77, "returned an unknown status"},
                 {-1, "returned an unknown status"}};
     for (size_t k = 0; k < sizeof sins / sizeof *sins; ++k) {
         const liar l = {FLIGHT, NONE, 0, sins[k].status};
-        is_caught(&model_liar, &l, IMP_METHOD_MODELS, sins[k].what);
-        is_caught(&rate_liar, &l, IMP_METHOD_MODELS, sins[k].what);
-        is_caught(&rate_liar, &l, IMP_METHOD_PAPER, sins[k].what);
-        is_caught(&point_liar, &l, IMP_METHOD_MODELS, sins[k].what);
+        is_caught(&model_liar, &l, IMP_BASELINE_NONE, sins[k].what);
+        is_caught(&rate_liar, &l, IMP_BASELINE_NONE, sins[k].what);
+        is_caught(&rate_liar, &l, IMP_BASELINE_BOXES, sins[k].what);
+        is_caught(&point_liar, &l, IMP_BASELINE_NONE, sins[k].what);
     }
 }
 END_TEST
@@ -182,15 +184,15 @@ START_TEST(points_that_are_none_are_caught)
     const double wrong[] = {NAN, INFINITY, -INFINITY};
     for (size_t slot = 0; slot < 3; ++slot)
         for (int k = 0; k < 3; ++k) {
-            const liar l = {FLIGHT, slot, wrong[k], IMP_OK};
-            is_caught(&point_liar, &l, IMP_METHOD_MODELS, "infinite or NaN");
-            is_caught(&point_liar, &l, IMP_METHOD_PAPER, "not a number");
+            const liar l = {FLIGHT, slot, wrong[k], IMP_STATUS_OK};
+            is_caught(&point_liar, &l, IMP_BASELINE_NONE, "infinite or NaN");
+            is_caught(&point_liar, &l, IMP_BASELINE_BOXES, "not a number");
         }
     for (size_t slot = 3; slot < 6; ++slot)
         for (int k = 0; k < 2; ++k) {
-            const liar l = {FLIGHT, slot, k == 0 ? NAN : -1e-3, IMP_OK};
-            is_caught(&point_liar, &l, IMP_METHOD_MODELS, "error bound is negative or NaN");
-            is_caught(&point_liar, &l, IMP_METHOD_PAPER, "not a number");
+            const liar l = {FLIGHT, slot, k == 0 ? NAN : -1e-3, IMP_STATUS_OK};
+            is_caught(&point_liar, &l, IMP_BASELINE_NONE, "error bound is negative or NaN");
+            is_caught(&point_liar, &l, IMP_BASELINE_BOXES, "not a number");
         }
 }
 END_TEST
@@ -262,7 +264,7 @@ static imp_status vandal_include(const void *self, const imp_region *region, imp
     return leave_mode(self, "include", ball_formula_include(self, region, model));
 }
 static const imp_surface_type vandal_type = {.name = "vandal",
-                                             .flags = IMP_ABSENT_OUTSIDE_TIMES,
+                                             .flags = IMP_FLAG_ABSENT_OUTSIDE_TIMES,
                                              .destroy = ball_destroy,
                                              .domain = ball_domain,
                                              .eval = vandal_eval,
@@ -311,7 +313,7 @@ static const imp_map_type honest_map = {.name = "third",
                                         .apply = map_vandal_apply};
 
 /* The vandal, as the ball or as the map, among honest parts: found, named, and its mode put back. */
-static void is_found(const vandal *l, bool as_map, imp_method method)
+static void is_found(const vandal *l, bool as_map, uint32_t baseline)
 {
     const ball still = {.radius = 1};
     imp_scene *scene = scene_new();
@@ -326,7 +328,7 @@ static void is_found(const vandal *l, bool as_map, imp_method method)
     ck_assert_int_eq(surface_add_map(s, &honest_map, (void *)(uintptr_t)l), IMP_SUCCESS);
     ck_assert_int_eq(scene_add_surface(scene, 1, s), IMP_SUCCESS);
     imp_options options = imp_options_default(scene);
-    options.method = method;
+    options.baseline = baseline;
     options.max_pairs = 1000;
     const fp_mode before = fp_mode_read();
     char culprit[80];
@@ -348,11 +350,11 @@ START_TEST(a_changed_mode_is_put_back_at_once_and_its_callback_named)
     static const char *const callbacks[] = {"eval", "rate", "include"};
     for (int mode = 0; mode < MODES; ++mode)
         for (int k = 0; k < 3; ++k) {
-            const imp_method method = k == 1 ? IMP_METHOD_PAPER : IMP_METHOD_MODELS;
+            const uint32_t baseline = k == 1 ? IMP_BASELINE_BOXES : IMP_BASELINE_NONE;
             vandal l = {FLIGHT, callbacks[k], mode};
-            is_found(&l, false, method);
+            is_found(&l, false, baseline);
             if (k == 2) l.callback = "apply";
-            is_found(&l, true, method);
+            is_found(&l, true, baseline);
         }
 }
 END_TEST
@@ -381,7 +383,7 @@ static imp_status gap_include(const void *self, const imp_region *region, imp_mo
         model[i] = (imp_model){.e = INFINITY, .lo = -INFINITY, .hi = INFINITY, .depends = 7};
         for (int j = 0; j < 3; ++j) model[i].rate[j] = INFINITY;
     }
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 
 static imp_status gap_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
@@ -389,7 +391,7 @@ static imp_status gap_rate(const void *self, const imp_region *region, imp_rate_
     const imp_status status = ball_formula_rate(self, region, rates);
     if (!holds(self, region)) return status;
     for (int i = 0; i < 3; ++i) rates->m[i][0] = INFINITY;
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 
 /* Like a root at its branch point: infinitely steep in u, and within bounds all the same. */
@@ -398,20 +400,20 @@ static imp_status steep_include(const void *self, const imp_region *region, imp_
     const imp_status status = ball_formula_include(self, region, model);
     if (!holds(self, region)) return status;
     for (int i = 0; i < 3; ++i) model[i].rate[0] = INFINITY;
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 
 static const imp_surface_type gap_of_models = LIAR(ball_formula_eval, gap_rate, gap_include),
                               gap_of_rates = LIAR(ball_formula_eval, gap_rate, NULL),
                               steep = LIAR(ball_formula_eval, gap_rate, steep_include);
 
-static imp_code ask_gap(const imp_surface_type *type, const gap *g, imp_method method,
+static imp_code ask_gap(const imp_surface_type *type, const gap *g, uint32_t baseline,
                         imp_result *r, imp_error *error)
 {
     imp_scene *scene = spheres_scene(&ball_type, &at_rest, type, &g->b);
     imp_options options = imp_options_default(scene);
     options.gamma = 1e-3;
-    options.method = method;
+    options.baseline = baseline;
     options.max_bytes = (uint64_t)1 << 24;
     imp_query *query = imp_query_new(scene, &options, error);
     ck_assert_ptr_nonnull(query);
@@ -422,23 +424,23 @@ static imp_code ask_gap(const imp_surface_type *type, const gap *g, imp_method m
     return code;
 }
 
-static imp_result answer(const imp_surface_type *type, const gap *g, imp_method method)
+static imp_result answer(const imp_surface_type *type, const gap *g, uint32_t baseline)
 {
     imp_result r;
     imp_error error = {IMP_SUCCESS, ""};
-    ck_assert_msg(ask_gap(type, g, method, &r, &error) == IMP_SUCCESS, "%s", error.text);
+    ck_assert_msg(ask_gap(type, g, baseline, &r, &error) == IMP_SUCCESS, "%s", error.text);
     return r;
 }
 
 enum { U = 1, V = 2, T = 4 };
 
 /* Never passed, soon found, and told by type and region. */
-static void expect_told(const imp_surface_type *type, const gap *g, imp_method method, int which)
+static void expect_told(const imp_surface_type *type, const gap *g, uint32_t baseline, int which)
 {
     imp_result r;
     imp_error error = {IMP_SUCCESS, ""};
-    const imp_code code = ask_gap(type, g, method, &r, &error);
-    ck_assert_msg(code == IMP_ERROR_PLUGIN && r.verdict == IMP_UNDECIDED &&
+    const imp_code code = ask_gap(type, g, baseline, &r, &error);
+    ck_assert_msg(code == IMP_ERROR_PLUGIN && r.verdict == IMP_VERDICT_UNDECIDED &&
                       r.t_lower <= (g->in & T ? 0.2 : 0) && r.stats.pairs < 20000,
                   "case %d: code %d, verdict %d, reason %d, t_lower %g, %llu pairs", which,
                   (int)code, (int)r.verdict, (int)r.reason, r.t_lower,
@@ -454,7 +456,7 @@ START_TEST(a_place_without_bounds_at_any_size_is_told)
     const unsigned places[] = {U, V, U | V, U | V | T};
     for (int k = 0; k < 16; ++k) {
         const gap g = {FLIGHT, places[k / 4], {1, 0.3, 0.2}};
-        expect_told(types[k / 2 % 2], &g, k % 2 ? IMP_METHOD_PAPER : IMP_METHOD_MODELS, k);
+        expect_told(types[k / 2 % 2], &g, k % 2 ? IMP_BASELINE_BOXES : IMP_BASELINE_NONE, k);
     }
 }
 END_TEST
@@ -464,7 +466,7 @@ START_TEST(a_moment_without_bounds_is_told_and_never_passed)
     const unsigned places[] = {T, U | T, V | T};
     for (int k = 0; k < 6; ++k) {
         const gap g = {FLIGHT, places[k / 2], {1, 0.3, 0.2}};
-        expect_told(&gap_of_models, &g, k % 2 ? IMP_METHOD_PAPER : IMP_METHOD_MODELS, k);
+        expect_told(&gap_of_models, &g, k % 2 ? IMP_BASELINE_BOXES : IMP_BASELINE_NONE, k);
     }
 }
 END_TEST
@@ -472,9 +474,9 @@ END_TEST
 START_TEST(infinite_rates_do_not_matter_where_the_models_are_finite)
 {
     const gap good = {FLIGHT, U, {-1, 0, 0}}, bad = {FLIGHT, U, {1, 0, 0}};
-    const imp_result expected = answer(&steep, &good, IMP_METHOD_MODELS),
-                     r = answer(&steep, &bad, IMP_METHOD_MODELS);
-    ck_assert(r.verdict == IMP_CONTACT && r.gap <= r.gamma);
+    const imp_result expected = answer(&steep, &good, IMP_BASELINE_NONE),
+                     r = answer(&steep, &bad, IMP_BASELINE_NONE);
+    ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.gap <= r.gamma);
     ck_assert_double_le(fabs(r.t - expected.t), 1e-3);
     ck_assert_uint_lt(r.stats.pairs, 2 * expected.stats.pairs);
 }
@@ -483,8 +485,8 @@ END_TEST
 START_TEST(points_with_unknown_errors_are_no_witnesses)
 {
     for (size_t slot = 3; slot < 6; ++slot) {
-        const liar l = {FLIGHT, slot, INFINITY, IMP_OK};
-        ck_assert_int_eq(error_of(&point_liar, &l, IMP_METHOD_MODELS).code, IMP_SUCCESS);
+        const liar l = {FLIGHT, slot, INFINITY, IMP_STATUS_OK};
+        ck_assert_int_eq(error_of(&point_liar, &l, IMP_BASELINE_NONE).code, IMP_SUCCESS);
     }
 }
 END_TEST

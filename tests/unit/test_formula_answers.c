@@ -63,7 +63,7 @@ START_TEST(points_come_with_their_errors)
 {
     const double p[6] = {0.5, 0.25, 0, 2, -1, 10};
     double x[6], error[6];
-    ck_assert_int_eq(ball_formula_eval(&unit, 2, p, x, error), IMP_OK);
+    ck_assert_int_eq(ball_formula_eval(&unit, 2, p, x, error), IMP_STATUS_OK);
     for (int k = 0; k < 2; k++) {
         double u = p[3 * k], v = p[3 * k + 1], t = p[3 * k + 2];
         const double y[3] = {cos(u) * cos(v) + 3 * t, sin(u) * cos(v), sin(v)};
@@ -81,7 +81,7 @@ START_TEST(the_error_of_a_point_of_a_sphere_is_below_50_units_in_the_last_place)
     for (int i = 0; i < suite_times(1000); i++) {
         const double p[3] = {random_between(&state, -4, 4), random_between(&state, -2, 2), 0};
         double x[3], error[3];
-        ck_assert_int_eq(ball_formula_eval(&unit, 1, p, x, error), IMP_OK);
+        ck_assert_int_eq(ball_formula_eval(&unit, 1, p, x, error), IMP_STATUS_OK);
         for (int k = 0; k < 3; k++)
             ck_assert_msg(error[k] <= 50 * 0x1p-52 * fabs(x[k]), "%g at %g", error[k], x[k]);
     }
@@ -92,10 +92,10 @@ START_TEST(errors_of_points_may_be_left_out)
 {
     const double p[3] = {0.5, 0.25, 1};
     double x[3], y[3], error[3];
-    ck_assert_int_eq(ball_formula_eval(&unit, 1, p, x, NULL), IMP_OK);
-    ck_assert_int_eq(ball_formula_eval(&unit, 1, p, y, error), IMP_OK);
+    ck_assert_int_eq(ball_formula_eval(&unit, 1, p, x, NULL), IMP_STATUS_OK);
+    ck_assert_int_eq(ball_formula_eval(&unit, 1, p, y, error), IMP_STATUS_OK);
     for (int i = 0; i < 3; i++) ck_assert(x[i] == y[i]);
-    ck_assert_int_eq(ball_formula_eval(&unit, 0, NULL, NULL, NULL), IMP_OK);
+    ck_assert_int_eq(ball_formula_eval(&unit, 0, NULL, NULL, NULL), IMP_STATUS_OK);
 }
 END_TEST
 
@@ -103,9 +103,9 @@ START_TEST(a_point_without_a_value_is_outside_the_domain)
 {
     const double outside[3] = {-1, 1, 0}, pole[3] = {1, 0, 0}, nan[3] = {1, NAN, 0};
     double x[3], error[3];
-    ck_assert_int_eq(root_formula_eval(NULL, 1, outside, x, error), IMP_DOMAIN);
-    ck_assert_int_eq(root_formula_eval(NULL, 1, pole, x, error), IMP_DOMAIN);
-    ck_assert_int_eq(root_formula_eval(NULL, 1, nan, x, error), IMP_DOMAIN);
+    ck_assert_int_eq(root_formula_eval(NULL, 1, outside, x, error), IMP_STATUS_DOMAIN);
+    ck_assert_int_eq(root_formula_eval(NULL, 1, pole, x, error), IMP_STATUS_DOMAIN);
+    ck_assert_int_eq(root_formula_eval(NULL, 1, nan, x, error), IMP_STATUS_DOMAIN);
 }
 END_TEST
 
@@ -116,14 +116,14 @@ START_TEST(the_model_of_a_region_follows_its_points)
     imp_region r = region_of(0.5, 0.3, 1, 0.1);
     imp_model m[3];
     uint64_t state = suite_seed();
-    ck_assert_int_eq(ball_formula_include(&unit, &r, m), IMP_OK);
+    ck_assert_int_eq(ball_formula_include(&unit, &r, m), IMP_STATUS_OK);
     for (int k = 0; k < 1000; k++) {
         double s[3], p[3], x[3], error[3];
         for (int j = 0; j < 3; j++) {
             s[j] = random_between(&state, -1, 1);
             p[j] = r.c[j] + r.d[j] * s[j];
         }
-        ck_assert_int_eq(ball_formula_eval(&unit, 1, p, x, error), IMP_OK);
+        ck_assert_int_eq(ball_formula_eval(&unit, 1, p, x, error), IMP_STATUS_OK);
         for (int i = 0; i < 3; i++) {
             ck_assert(fabs(quadratic_at(&m[i], s) - x[i]) <= m[i].e + 1e-15);
             ck_assert(m[i].lo - 1e-15 <= x[i] && x[i] <= m[i].hi + 1e-15);
@@ -137,8 +137,8 @@ START_TEST(rates_are_those_of_the_model)
     imp_region r = region_of(0.5, 0.3, 1, 0.1);
     imp_model m[3];
     imp_rate_matrix rates;
-    ck_assert_int_eq(ball_formula_include(&unit, &r, m), IMP_OK);
-    ck_assert_int_eq(ball_formula_rate(&unit, &r, &rates), IMP_OK);
+    ck_assert_int_eq(ball_formula_include(&unit, &r, m), IMP_STATUS_OK);
+    ck_assert_int_eq(ball_formula_rate(&unit, &r, &rates), IMP_STATUS_OK);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) ck_assert(rates.m[i][j] == m[i].rate[j]);
     ck_assert(rates.m[0][2] >= 3 && rates.m[0][2] <= 3 + 1e-12);
@@ -151,11 +151,11 @@ START_TEST(what_has_no_bound_is_said_to_have_none)
     imp_region at_zero = region_of(0.5, 2, 0, 0.5), below = region_of(2, 0.5, 0, 1);
     imp_model m[3];
     imp_rate_matrix rates;
-    ck_assert_int_eq(root_formula_include(NULL, &at_zero, m), IMP_UNBOUNDED);
+    ck_assert_int_eq(root_formula_include(NULL, &at_zero, m), IMP_STATUS_UNBOUNDED);
     ck_assert(m[0].lo == 0 && m[0].hi >= 1 && m[0].hi < 1 + 1e-12 && m[0].rate[0] == INFINITY);
-    ck_assert_int_eq(root_formula_rate(NULL, &at_zero, &rates), IMP_UNBOUNDED);
+    ck_assert_int_eq(root_formula_rate(NULL, &at_zero, &rates), IMP_STATUS_UNBOUNDED);
     ck_assert(rates.m[0][0] == INFINITY && rates.m[1][1] < INFINITY && rates.m[0][1] == 0);
-    ck_assert_int_eq(root_formula_include(NULL, &below, m), IMP_UNBOUNDED);
+    ck_assert_int_eq(root_formula_include(NULL, &below, m), IMP_STATUS_UNBOUNDED);
     ck_assert(m[1].lo == -INFINITY && m[1].hi >= log(1.5) && m[1].e == INFINITY);
 }
 END_TEST
@@ -186,13 +186,13 @@ START_TEST(a_map_answers_for_points_boxes_and_models)
 {
     const double p[4] = {1, 2, 3, 0.5};
     double x[3], error[3];
-    ck_assert_int_eq(spin_formula_eval(NULL, 1, p, x, error), IMP_OK);
+    ck_assert_int_eq(spin_formula_eval(NULL, 1, p, x, error), IMP_STATUS_OK);
     ck_assert(fabs(x[0] - (cos(0.5) - 2 * sin(0.5))) <= 1e-15 && error[0] < 1e-14);
     ck_assert(x[2] == 3 && error[2] == 0);
     imp_region r = region_of(1, 2, 0.5, 0.01);
     const imp_model in[4] = {imp_param(&r, 0), imp_param(&r, 1), imp_num(3), imp_param(&r, 2)};
     imp_model out[3];
-    ck_assert_int_eq(spin_formula_apply(NULL, in, out), IMP_OK);
+    ck_assert_int_eq(spin_formula_apply(NULL, in, out), IMP_STATUS_OK);
     ck_assert(fabs(out[0].a - x[0]) < 1e-3 && out[0].lo <= x[0] && x[0] <= out[0].hi);
     ck_assert(out[0].e < 1e-5 && out[0].depends == 7 && out[2].depends == 0);
 }
@@ -202,7 +202,7 @@ START_TEST(rates_of_a_map_cover_space_and_time)
 {
     const imp_box4 box = {{-1, 0, 5, 0}, {1, 2, 6, 0.5}};
     imp_map_rates rates;
-    ck_assert_int_eq(spin_formula_rate(NULL, &box, &rates), IMP_OK);
+    ck_assert_int_eq(spin_formula_rate(NULL, &box, &rates), IMP_STATUS_OK);
     ck_assert(rates.m[0][0] >= 1 && rates.m[0][0] < 1 + 1e-6);
     ck_assert(rates.m[0][1] >= sin(0.5) && rates.m[0][1] < sin(0.5) + 5e-3);
     ck_assert(rates.m[0][2] == 0);

@@ -4,28 +4,30 @@
 
 #include "tests/support/scene_variants.h"
 
-/* The promises to the letter: before t_lower nothing is nearer than the clearance, not even by a
+#include <impinge/baseline.h>
+
+/* The promises to the letter: before t_lower nothing is nearer than gamma_clear, not even by a
  * thousandth of it, and what is called clear is that far apart throughout.
  *
  * The judge is a contact itself: its witness is two points, evaluated. A question about times
- * before t_lower with a gamma just below the clearance may be answered in any way but by a contact.
+ * before t_lower with a gamma just below gamma_clear may be answered in any way but by a contact.
  */
 
 static const double almost = 0.999;
 
-/* Asks the same of [start, end] with gamma almost at the clearance that `r` proves. */
+/* Asks the same of [start, end] with gamma almost at gamma_clear that `r` proves. */
 static void check_proved(imp_registry *registry, const question *asked, const imp_result *r,
                          double start, double end)
 {
     question judge = *asked;
-    judge.method = IMP_METHOD_MODELS;
+    judge.baseline = IMP_BASELINE_NONE;
     judge.t_start = start;
     judge.t_end = end;
     judge.gamma = almost * r->gamma_clear;
-    judge.clearance = almost * judge.gamma;
+    judge.gamma_clear = almost * judge.gamma;
     const imp_result found = ask_in(registry, &judge);
-    ck_assert_msg(found.verdict != IMP_CONTACT,
-                  "t_lower %.17g for clearance %g, but a gap of %g at %.17g", r->t_lower,
+    ck_assert_msg(found.verdict != IMP_VERDICT_CONTACT,
+                  "t_lower %.17g for gamma_clear %g, but a gap of %g at %.17g", r->t_lower,
                   r->gamma_clear, found.gap, found.t);
 }
 
@@ -46,9 +48,9 @@ static void keep_clearance(imp_registry *registry, const ladder *l)
     for (int rung = -2; rung < 2; ++rung)
         for (int k = 0; k < 3; ++k) {
             question q = question_of(l->about, &plain, &told, rung);
-            q.clearance = shares[k] * q.gamma;
+            q.gamma_clear = shares[k] * q.gamma;
             const imp_result r = ask_in(registry, &q);
-            ck_assert_int_ne(r.verdict, IMP_UNDECIDED);
+            ck_assert_int_ne(r.verdict, IMP_VERDICT_UNDECIDED);
             check_before(registry, &q, &r);
         }
     untell(&told);
@@ -67,7 +69,7 @@ START_TEST(nor_in_what_was_proved_when_a_budget_ended)
     telling told = tell(s, &plain);
     for (uint64_t pairs = 20; pairs < 3000; pairs *= 3) {
         question q = question_of(s, &plain, &told, 0);
-        q.clearance = 0.9 * q.gamma;
+        q.gamma_clear = 0.9 * q.gamma;
         q.max_pairs = pairs;
         const imp_result r = ask_in(registry, &q);
         check_before(registry, &q, &r);
@@ -85,10 +87,9 @@ START_TEST(the_papers_method_keeps_the_clearance_too)
         const setting *s = setting_of(names[k / 4]);
         telling told = tell(s, &plain);
         question q = question_of(s, &plain, &told, 0);
-        q.method = IMP_METHOD_PAPER;
-        q.bounds = k % 2 ? IMP_BOUNDS_SPHERE : IMP_BOUNDS_BOX;
+        q.baseline = k % 2 ? IMP_BASELINE_SPHERES : IMP_BASELINE_BOXES;
         q.gamma = k / 2 % 2 ? 0.3 : 0.6;
-        q.clearance = 0.9 * q.gamma;
+        q.gamma_clear = 0.9 * q.gamma;
         q.max_pairs = 300000;
         const imp_result r = ask_in(registry, &q);
         ck_assert_double_gt(r.t_lower, 0.05);
@@ -106,12 +107,12 @@ START_TEST(a_near_miss_is_clear_just_below_its_gap_and_contact_just_above)
     telling told = tell(setting_of("miss"), &plain);
     for (double share = 1e-2; share > 1e-7; share /= 10) {
         question q = {.a = told.a, .b = told.b, .gamma = 0.01 * (1 - share)};
-        q.clearance = q.gamma * (1 - share);
-        ck_assert_int_eq(ask_in(registry, &q).verdict, IMP_CLEAR);
-        q.clearance = 0.01 * (1 + share);
-        q.gamma = q.clearance * (1 + share);
+        q.gamma_clear = q.gamma * (1 - share);
+        ck_assert_int_eq(ask_in(registry, &q).verdict, IMP_VERDICT_CLEAR);
+        q.gamma_clear = 0.01 * (1 + share);
+        q.gamma = q.gamma_clear * (1 + share);
         const imp_result r = ask_in(registry, &q);
-        ck_assert_int_eq(r.verdict, IMP_CONTACT);
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
         ck_assert_double_le(r.t, 0.5);
         check_before(registry, &q, &r);
     }
@@ -124,16 +125,16 @@ END_TEST
 START_TEST(bodies_along_an_axis_are_passed_over_only_beyond_the_clearance)
 {
     imp_registry *registry = query_registry();
-    const double clearance = 0.25, gamma = 0.26;
+    const double gamma_clear = 0.25, gamma = 0.26;
     for (int k = 0; k < 12; ++k) {
         char b[100];
         double x[3] = {0, 0, 0};
-        const double gap = k / 6 ? 1.001 * gamma : 0.999 * clearance;
+        const double gap = k / 6 ? 1.001 * gamma : 0.999 * gamma_clear;
         x[k / 2 % 3] = (k % 2 ? -1 : 1) * (2 + gap);
         snprintf(b, sizeof b, "sphere center=%.17g,%.17g,%.17g", x[0], x[1], x[2]);
-        question q = {.a = "sphere", .b = b, .gamma = gamma, .clearance = clearance};
+        question q = {.a = "sphere", .b = b, .gamma = gamma, .gamma_clear = gamma_clear};
         const imp_result r = ask_in(registry, &q);
-        ck_assert_int_eq(r.verdict, k / 6 ? IMP_CLEAR : IMP_CONTACT);
+        ck_assert_int_eq(r.verdict, k / 6 ? IMP_VERDICT_CLEAR : IMP_VERDICT_CONTACT);
     }
     imp_registry_free(registry);
 }

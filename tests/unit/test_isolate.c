@@ -41,7 +41,7 @@ static imp_status make(const imp_value *values, void **self, imp_create_error *w
     if (values->number[0] == CRASH_IN_CREATE) raise(SIGSEGV);
     *self = malloc(sizeof(double));
     memcpy(*self, values->number, sizeof(double));
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static imp_status complain(const imp_value *values, void **self, imp_create_error *why)
@@ -50,7 +50,7 @@ static imp_status complain(const imp_value *values, void **self, imp_create_erro
     (void)self;
     why->parameter = 0;
     strcpy(why->text, "too red");
-    return IMP_PARAMETER;
+    return IMP_STATUS_PARAMETER;
 }
 
 static void bowl_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
@@ -68,8 +68,8 @@ static imp_status allocate(void)
     for (int k = 0; k < 256; ++k)
         if (mmap(NULL, 1 << 28, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE,
                  -1, 0) == MAP_FAILED)
-            return IMP_INTERNAL;
-    return IMP_OK;
+            return IMP_STATUS_INTERNAL;
+    return IMP_STATUS_OK;
 }
 
 static imp_status eval(const void *self, size_t n, const double *p, double *x, double *error)
@@ -130,14 +130,14 @@ static imp_status net(const void *self, const imp_region *region, imp_net *out)
     (void)self;
     for (int k = 0; k < IMP_NET_POINTS; ++k) out->point[2][k] = region->lo[0] / (k + 1);
     out->error[1] = region->hi[2];
-    return region->lo[0] < 0.5 ? IMP_OK : IMP_UNBOUNDED;
+    return region->lo[0] < 0.5 ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 static imp_status distance(const void *self, const imp_model point[4], imp_model *out)
 {
     (void)self;
     *out = imp_sub(imp_add(point[0], point[3]), imp_mul(point[1], point[2]));
-    return point[3].a < 0.75 ? IMP_OK : IMP_UNBOUNDED;
+    return point[3].a < 0.75 ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
 static const imp_surface_type bowl = {.struct_size = sizeof bowl,
@@ -213,16 +213,16 @@ static imp_status eval_at_zero(isolated *i, double x[3])
 
 START_TEST(answers_from_another_process_are_the_same_bit_for_bit)
 {
-    isolated *i = isolated_bowl(0, IMP_OK);
+    isolated *i = isolated_bowl(0, IMP_STATUS_OK);
     const imp_surface_type *type = isolate_surface_type(i);
     const double zero = 0;
     uint64_t state = suite_seed();
     double p[3 * 200], x[2][3 * 200], e[2][3 * 200];
     for (int k = 0; k < 600; ++k) p[k] = random_between(&state, -1, 1);
-    ck_assert_int_eq(type->eval(i, 200, p, x[0], e[0]), IMP_OK);
-    ck_assert_int_eq(eval(&zero, 200, p, x[1], e[1]), IMP_OK);
+    ck_assert_int_eq(type->eval(i, 200, p, x[0], e[0]), IMP_STATUS_OK);
+    ck_assert_int_eq(eval(&zero, 200, p, x[1], e[1]), IMP_STATUS_OK);
     ck_assert(memcmp(x[0], x[1], sizeof x[0]) == 0 && memcmp(e[0], e[1], sizeof e[0]) == 0);
-    ck_assert_int_eq(type->eval(i, 200, p, x[0], NULL), IMP_OK);
+    ck_assert_int_eq(type->eval(i, 200, p, x[0], NULL), IMP_STATUS_OK);
     const imp_region r = {{0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}};
     imp_model m[2][3];
     imp_rate_matrix rates[2];
@@ -238,11 +238,11 @@ START_TEST(answers_from_another_process_are_the_same_bit_for_bit)
     imp_model at[4], far[2];
     memset(far, 0, sizeof far);
     for (int k = 0; k < 4; ++k) at[k] = imp_param(&r, k % 3);
-    ck_assert_int_eq(type->distance(i, at, &far[0]), IMP_OK);
-    ck_assert_int_eq(distance(&zero, at, &far[1]), IMP_OK);
+    ck_assert_int_eq(type->distance(i, at, &far[0]), IMP_STATUS_OK);
+    ck_assert_int_eq(distance(&zero, at, &far[1]), IMP_STATUS_OK);
     ck_assert(memcmp(&far[0], &far[1], sizeof far[0]) == 0);
     at[3] = imp_num(1);
-    ck_assert_int_eq(type->distance(i, at, &far[0]), IMP_UNBOUNDED);
+    ck_assert_int_eq(type->distance(i, at, &far[0]), IMP_STATUS_UNBOUNDED);
     double lo[3], hi[3];
     type->domain(i, lo, hi);
     ck_assert(lo[1] == -2 && hi[0] == 1 && hi[2] == INFINITY);
@@ -257,13 +257,13 @@ START_TEST(poses_from_another_process_are_the_same_bit_for_bit)
     imp_create_error why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
     isolated *i = isolate_map(pool, &turn);
     ck_assert_ptr_nonnull(i);
-    ck_assert_int_eq(isolate_create(i, &value, &why), IMP_OK);
+    ck_assert_int_eq(isolate_create(i, &value, &why), IMP_STATUS_OK);
     const imp_region r = {{0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}};
     const imp_model t = imp_param(&r, 2);
     imp_pose pose[2];
     memset(pose, 0, sizeof pose);
-    ck_assert_int_eq(isolate_map_type(i)->rigid(i, &t, &pose[0]), IMP_OK);
-    ck_assert_int_eq(turn_pose_rigid(&start, &t, &pose[1]), IMP_OK);
+    ck_assert_int_eq(isolate_map_type(i)->rigid(i, &t, &pose[0]), IMP_STATUS_OK);
+    ck_assert_int_eq(turn_pose_rigid(&start, &t, &pose[1]), IMP_STATUS_OK);
     ck_assert(memcmp(&pose[0], &pose[1], sizeof pose[0]) == 0 && pose[0].pivot[2] == 3);
     isolate_destroy(i);
 }
@@ -271,16 +271,16 @@ END_TEST
 
 START_TEST(a_crash_costs_an_answer_and_every_later_one)
 {
-    isolated *i = isolated_bowl(CRASH_IN_EVAL, IMP_OK);
+    isolated *i = isolated_bowl(CRASH_IN_EVAL, IMP_STATUS_OK);
     const imp_surface_type *type = isolate_surface_type(i);
     double p[3] = {0, 0, 0}, x[3];
     imp_rate_matrix rates;
     const imp_region r = {{0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}};
-    ck_assert_int_eq(type->rate(i, &r, &rates), IMP_OK);
+    ck_assert_int_eq(type->rate(i, &r, &rates), IMP_STATUS_OK);
     ck_assert_int_eq(type->eval(i, 1, p, x, NULL), SURFACE_CRASHED);
     ck_assert_int_eq(type->rate(i, &r, &rates), SURFACE_CRASHED);
     isolate_destroy(i);
-    i = isolated_bowl(EXIT_IN_RATE, IMP_OK);
+    i = isolated_bowl(EXIT_IN_RATE, IMP_STATUS_OK);
     ck_assert_int_eq(isolate_surface_type(i)->rate(i, &r, &rates), SURFACE_CRASHED);
     isolate_destroy(i);
     isolate_destroy(isolated_bowl(CRASH_IN_CREATE, SURFACE_CRASHED));
@@ -289,7 +289,7 @@ END_TEST
 
 START_TEST(a_call_that_never_comes_back_is_ended_in_time)
 {
-    isolated *i = isolated_bowl(HANG_IN_EVAL, IMP_OK);
+    isolated *i = isolated_bowl(HANG_IN_EVAL, IMP_STATUS_OK);
     double p[3] = {0, 0, 0}, x[3];
     ck_assert_int_eq(isolate_surface_type(i)->eval(i, 1, p, x, NULL), SURFACE_HUNG);
     isolate_destroy(i);
@@ -299,7 +299,7 @@ END_TEST
 START_TEST(a_changed_floating_point_mode_is_seen_there_too)
 {
 #if defined(__x86_64__)
-    isolated *i = isolated_bowl(TRAP_IN_INCLUDE, IMP_OK);
+    isolated *i = isolated_bowl(TRAP_IN_INCLUDE, IMP_STATUS_OK);
     const imp_region r = {{0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}};
     imp_model m[3];
     ck_assert_int_eq(isolate_surface_type(i)->include(i, &r, m), SURFACE_CHANGED_MODE);
@@ -312,7 +312,7 @@ START_TEST(complaints_of_create_come_through)
 {
     isolated *i = isolate_surface(pool, &fussy);
     imp_create_error why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
-    ck_assert_int_eq(isolate_create(i, NULL, &why), IMP_PARAMETER);
+    ck_assert_int_eq(isolate_create(i, NULL, &why), IMP_STATUS_PARAMETER);
     ck_assert_int_eq(why.parameter, 0);
     ck_assert_str_eq(why.text, "too red");
     isolate_destroy(i);
@@ -321,8 +321,9 @@ END_TEST
 
 START_TEST(no_child_is_left_behind)
 {
-    for (int k = 0; k < 20; ++k) isolate_destroy(isolated_bowl(k % 2 ? CRASH_IN_EVAL : 0, IMP_OK));
-    isolate_destroy(isolated_bowl(EXIT_IN_DESTROY, IMP_OK));
+    for (int k = 0; k < 20; ++k)
+        isolate_destroy(isolated_bowl(k % 2 ? CRASH_IN_EVAL : 0, IMP_STATUS_OK));
+    isolate_destroy(isolated_bowl(EXIT_IN_DESTROY, IMP_STATUS_OK));
     worker_pool_free(pool);
     pool = NULL;
     ck_assert_int_eq(waitpid(-1, NULL, WNOHANG), -1);
@@ -334,11 +335,11 @@ START_TEST(what_destroy_did_is_kept_once_for_each_type)
     worker_type type;
     const char *text;
     ck_assert(!worker_pool_fault(pool, 0, &type, &text));
-    isolate_destroy(isolated_bowl(0, IMP_OK));
-    isolate_destroy(isolated_bowl(KILLED_IN_DESTROY, IMP_OK));
+    isolate_destroy(isolated_bowl(0, IMP_STATUS_OK));
+    isolate_destroy(isolated_bowl(KILLED_IN_DESTROY, IMP_STATUS_OK));
     ck_assert(!worker_pool_fault(pool, 0, &type, &text));
-    isolate_destroy(isolated_bowl(HANG_IN_DESTROY, IMP_OK));
-    isolate_destroy(isolated_bowl(EXIT_IN_DESTROY, IMP_OK));
+    isolate_destroy(isolated_bowl(HANG_IN_DESTROY, IMP_STATUS_OK));
+    isolate_destroy(isolated_bowl(EXIT_IN_DESTROY, IMP_STATUS_OK));
     ck_assert(worker_pool_fault(pool, 0, &type, &text));
     ck_assert(type.surface == &bowl && type.map == NULL);
     ck_assert_str_eq(text, "destroy of 'bowl' does not answer within 5 s; it ran isolated, and its "
@@ -350,9 +351,10 @@ END_TEST
 START_TEST(instances_of_a_type_share_a_process)
 {
     double x[2][3];
-    isolated *one = isolated_bowl(PID_IN_EVAL, IMP_OK), *other = isolated_bowl(PID_IN_EVAL, IMP_OK);
-    ck_assert_int_eq(eval_at_zero(one, x[0]), IMP_OK);
-    ck_assert_int_eq(eval_at_zero(other, x[1]), IMP_OK);
+    isolated *one = isolated_bowl(PID_IN_EVAL, IMP_STATUS_OK),
+             *other = isolated_bowl(PID_IN_EVAL, IMP_STATUS_OK);
+    ck_assert_int_eq(eval_at_zero(one, x[0]), IMP_STATUS_OK);
+    ck_assert_int_eq(eval_at_zero(other, x[1]), IMP_STATUS_OK);
     ck_assert(x[0][0] == x[1][0] && x[0][0] != getpid());
     isolate_destroy(one);
     isolate_destroy(other);
@@ -362,15 +364,16 @@ END_TEST
 START_TEST(an_innocent_instance_is_lost_and_a_new_one_is_served)
 {
     double x[3];
-    isolated *innocent = isolated_bowl(0, IMP_OK), *guilty = isolated_bowl(CRASH_IN_EVAL, IMP_OK);
+    isolated *innocent = isolated_bowl(0, IMP_STATUS_OK),
+             *guilty = isolated_bowl(CRASH_IN_EVAL, IMP_STATUS_OK);
     ck_assert_int_eq(eval_at_zero(guilty, x), SURFACE_CRASHED);
     ck_assert_int_eq(eval_at_zero(innocent, x), SURFACE_LOST);
     ck_assert_int_eq(eval_at_zero(guilty, x), SURFACE_CRASHED);
-    isolated *fresh = isolated_bowl(0, IMP_OK);
-    ck_assert_int_eq(eval_at_zero(fresh, x), IMP_OK);
+    isolated *fresh = isolated_bowl(0, IMP_STATUS_OK);
+    ck_assert_int_eq(eval_at_zero(fresh, x), IMP_STATUS_OK);
     isolate_destroy(guilty);
     isolate_destroy(innocent);
-    ck_assert_int_eq(eval_at_zero(fresh, x), IMP_OK);
+    ck_assert_int_eq(eval_at_zero(fresh, x), IMP_STATUS_OK);
     isolate_destroy(fresh);
 }
 END_TEST
@@ -378,7 +381,7 @@ END_TEST
 START_TEST(a_copy_of_the_host_is_refused_and_ends_nothing)
 {
     double x[3];
-    isolated *i = isolated_bowl(0, IMP_OK);
+    isolated *i = isolated_bowl(0, IMP_STATUS_OK);
     const pid_t copy = fork();
     if (copy == 0) {
         const imp_status status = eval_at_zero(i, x);
@@ -393,18 +396,18 @@ START_TEST(a_copy_of_the_host_is_refused_and_ends_nothing)
     int end;
     ck_assert_int_eq(waitpid(copy, &end, 0), copy);
     ck_assert_int_eq(end, 0);
-    ck_assert_int_eq(eval_at_zero(i, x), IMP_OK);
+    ck_assert_int_eq(eval_at_zero(i, x), IMP_STATUS_OK);
     isolate_destroy(i);
 }
 END_TEST
 
 START_TEST(a_callback_that_forks_and_returns_gives_one_answer)
 {
-    isolated *i = isolated_bowl(FORK_IN_EVAL, IMP_OK);
+    isolated *i = isolated_bowl(FORK_IN_EVAL, IMP_STATUS_OK);
     for (int k = 0; k < 200; ++k) {
         const double p[3] = {0.001 * k, 0, k};
         double x[3], expected[3];
-        ck_assert_int_eq(isolate_surface_type(i)->eval(i, 1, p, x, NULL), IMP_OK);
+        ck_assert_int_eq(isolate_surface_type(i)->eval(i, 1, p, x, NULL), IMP_STATUS_OK);
         bowl_formula_eval(NULL, 1, p, expected, NULL);
         ck_assert_mem_eq(x, expected, sizeof x);
     }
@@ -415,7 +418,7 @@ END_TEST
 static void *make_in_thread(void *unused)
 {
     (void)unused;
-    return isolated_bowl(0, IMP_OK);
+    return isolated_bowl(0, IMP_STATUS_OK);
 }
 
 START_TEST(an_instance_outlives_the_thread_that_made_it)
@@ -426,7 +429,7 @@ START_TEST(an_instance_outlives_the_thread_that_made_it)
     ck_assert_int_eq(pthread_create(&thread, NULL, make_in_thread, NULL), 0);
     ck_assert_int_eq(pthread_join(thread, &made), 0);
     usleep(20000); /* a signal at the thread's end would have come */
-    ck_assert_int_eq(eval_at_zero(made, x), IMP_OK);
+    ck_assert_int_eq(eval_at_zero(made, x), IMP_STATUS_OK);
     isolate_destroy(made);
 }
 END_TEST
@@ -439,7 +442,7 @@ START_TEST(the_process_ends_with_its_host)
         worker_pool_free(pool);
         open_pool();
         double x[3];
-        _exit(eval_at_zero(isolated_bowl(FORK_IN_EVAL, IMP_OK), x) == IMP_OK ? 0 : 1);
+        _exit(eval_at_zero(isolated_bowl(FORK_IN_EVAL, IMP_STATUS_OK), x) == IMP_STATUS_OK ? 0 : 1);
     }
     int end;
     ck_assert_int_eq(waitpid(host, &end, 0), host);
@@ -452,8 +455,8 @@ END_TEST
 START_TEST(memory_is_limited)
 {
     double x[3];
-    isolated *i = isolated_bowl(ALLOCATE_IN_EVAL, IMP_OK);
-    ck_assert_int_eq(eval_at_zero(i, x), IMP_INTERNAL);
+    isolated *i = isolated_bowl(ALLOCATE_IN_EVAL, IMP_STATUS_OK);
+    ck_assert_int_eq(eval_at_zero(i, x), IMP_STATUS_INTERNAL);
     isolate_destroy(i);
 }
 END_TEST
@@ -461,7 +464,7 @@ END_TEST
 START_TEST(a_thread_that_ends_itself_is_a_crash)
 {
     double x[3];
-    isolated *i = isolated_bowl(THREAD_EXIT_IN_EVAL, IMP_OK);
+    isolated *i = isolated_bowl(THREAD_EXIT_IN_EVAL, IMP_STATUS_OK);
     ck_assert_int_eq(eval_at_zero(i, x), SURFACE_CRASHED);
     isolate_destroy(i);
 }
@@ -470,10 +473,10 @@ END_TEST
 START_TEST(what_is_killed_or_stopped_from_outside_is_not_blamed)
 {
     double x[3];
-    isolated *i = isolated_bowl(KILLED_IN_EVAL, IMP_OK);
+    isolated *i = isolated_bowl(KILLED_IN_EVAL, IMP_STATUS_OK);
     ck_assert_int_eq(eval_at_zero(i, x), SURFACE_KILLED);
     isolate_destroy(i);
-    i = isolated_bowl(STOPPED_IN_EVAL, IMP_OK);
+    i = isolated_bowl(STOPPED_IN_EVAL, IMP_STATUS_OK);
     ck_assert_int_eq(eval_at_zero(i, x), SURFACE_KILLED);
     isolate_destroy(i);
 }
@@ -483,7 +486,7 @@ END_TEST
 
 enum { MANY = 50000 };
 
-/* IMP_OK if the values are those of values_of_every_kind_arrive. */
+/* IMP_STATUS_OK if the values are those of values_of_every_kind_arrive. */
 static imp_status compare(const imp_value *values, void **self, imp_create_error *why)
 {
     static char instance;
@@ -494,7 +497,7 @@ static imp_status compare(const imp_value *values, void **self, imp_create_error
     good = good && values[1].count == 0 && values[1].number == NULL && values[1].string == NULL;
     good = good && values[2].count == 1 && strcmp(values[2].string[0], "of 9 bytes") == 0;
     good = good && values[3].count == 2 && strcmp(values[3].string[1], "") == 0;
-    return good && values[3].number[1] == -7 ? IMP_OK : IMP_INTERNAL;
+    return good && values[3].number[1] == -7 ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }
 
 static void keep(void *self) { (void)self; }
@@ -522,7 +525,7 @@ START_TEST(values_of_every_kind_arrive)
     imp_create_error why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
     for (int k = 0; k < 2; ++k) {
         isolated *i = isolate_surface(pool, &comparing);
-        ck_assert_int_eq(isolate_create(i, values, &why), IMP_OK);
+        ck_assert_int_eq(isolate_create(i, values, &why), IMP_STATUS_OK);
         isolate_destroy(i);
     }
 }

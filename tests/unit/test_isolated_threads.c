@@ -33,7 +33,8 @@ static imp_code ask_scene(imp_scene *scene, imp_result *answer)
 {
     imp_options options = imp_options_default(scene);
     options.gamma = 1e-4;
-    return imp_solve(scene, &options, answer, NULL);
+    answer->struct_size = sizeof *answer;
+    return imp_scene_solve(scene, &options, answer, NULL);
 }
 
 /* Without isolation. */
@@ -43,7 +44,7 @@ static imp_result expected(void)
     imp_scene *scene = scene_in(registry);
     imp_result r;
     ck_assert_int_eq(ask_scene(scene, &r), IMP_SUCCESS);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     imp_scene_free(scene);
     imp_registry_free(registry);
     return r;
@@ -216,7 +217,7 @@ START_TEST(an_isolated_query_is_cancelled_by_another_thread)
     ck_assert_int_eq(imp_query_step(q, 0, NULL), IMP_SUCCESS);
     ck_assert_int_eq(imp_query_result(q).reason, IMP_REASON_CANCELLED);
     ck_assert_int_eq(imp_query_step(q, 0, NULL), IMP_SUCCESS);
-    ck_assert_int_eq(imp_query_result(q).verdict, IMP_CONTACT);
+    ck_assert_int_eq(imp_query_result(q).verdict, IMP_VERDICT_CONTACT);
     imp_query_free(q);
     imp_scene_free(scene);
     imp_registry_free(registry);

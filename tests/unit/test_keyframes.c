@@ -81,8 +81,8 @@ START_TEST(keyframes_are_defined_from_the_first_key_to_the_last)
     double lo, hi, x[3];
     made.map->time_domain(made.self, &lo, &hi);
     ck_assert(lo == 0 && hi == 2.25);
-    ck_assert_int_eq(made.map->eval(made.self, 1, before, x, NULL), IMP_DOMAIN);
-    ck_assert_int_eq(made.map->eval(made.self, 1, after, x, NULL), IMP_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, before, x, NULL), IMP_STATUS_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, after, x, NULL), IMP_STATUS_DOMAIN);
     instance_free(&made);
 }
 END_TEST
@@ -113,9 +113,9 @@ START_TEST(keyframes_that_hold_are_at_rest_outside)
     const imp_box4 before = {{-1, -1, -1, -9}, {1, 1, 1, -1}}, after = {{0, 0, 0, 3}, {1, 1, 1, 4}};
     instance made = map("keyframes", held_turn);
     imp_map_rates rates;
-    ck_assert_int_eq(made.map->rate(made.self, &before, &rates), IMP_OK);
+    ck_assert_int_eq(made.map->rate(made.self, &before, &rates), IMP_STATUS_OK);
     for (int i = 0; i < 3; ++i) ck_assert_double_eq(rates.m[i][3], 0);
-    ck_assert_int_eq(made.map->rate(made.self, &after, &rates), IMP_OK);
+    ck_assert_int_eq(made.map->rate(made.self, &after, &rates), IMP_STATUS_OK);
     for (int i = 0; i < 3; ++i) ck_assert_double_eq(rates.m[i][3], 0);
     instance_free(&made);
 }
@@ -127,7 +127,7 @@ static void moved_point(const instance *made, double lo, double hi, imp_model ou
     const double from[3] = {0, 0, lo}, to[3] = {1, 1, hi};
     const imp_region region = region_make(from, to);
     const imp_model in[4] = {imp_num(1), imp_num(-2), imp_num(0.5), imp_param(&region, 2)};
-    ck_assert_int_eq(made->map->apply(made->self, in, out), IMP_OK);
+    ck_assert_int_eq(made->map->apply(made->self, in, out), IMP_STATUS_OK);
 }
 
 START_TEST(remainders_shrink_by_the_square_across_a_key_and_by_the_cube_elsewhere)

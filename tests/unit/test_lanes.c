@@ -81,11 +81,11 @@
 const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite);
 void difference_at(const node *a, const node *b, const time_window *window, difference *r);
 bool gjk_axis(const difference *r, double w, vec3 *axis);
-bool fixed_axes_cut(const difference *r, double clearance, w_range *s, vec3 *axis,
+bool fixed_axes_cut(const difference *r, double gamma_clear, w_range *s, vec3 *axis,
                     gap_lines *lines);
-bool fixed_axes_cut_along(const difference *r, double clearance, w_range *s, vec3 axis);
+bool fixed_axes_cut_along(const difference *r, double gamma_clear, w_range *s, vec3 axis);
 void net_halve(const net *n, parameter j, int side, net *half);
-void net_halves_find(const node *a, const node *b, vec3 axis, double clearance,
+void net_halves_find(const node *a, const node *b, vec3 axis, double gamma_clear,
                      const time_window *window, net_halves *halves);
 bool net_halves_cut(const net_halves *halves, int side, parameter j, const time_window *window,
                     time_window left[2], bool near[2]);
@@ -95,9 +95,9 @@ bool contact_estimate_find(const node *a, const node *b, vec3 axis, const time_w
 void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
                  double y[4]);
 bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
-bool net_axis_cut(const node *a, const node *b, vec3 axis, double clearance, time_window *window);
+bool net_axis_cut(const node *a, const node *b, vec3 axis, double gamma_clear, time_window *window);
 bool net_model_axis_seek(const node *a, const node *b, double t, vec3 *axis);
-bool net_model_axis_cut(const node *a, const node *b, vec3 axis, double clearance,
+bool net_model_axis_cut(const node *a, const node *b, vec3 axis, double gamma_clear,
                         time_window *window);
 
 /* What a NaN is made of is no answer. */
@@ -187,19 +187,19 @@ static void check_pair(uint64_t *state, const node *a, const node *b)
     vec3 n = {{draw(state, 1), draw(state, 1), draw(state, 1)}}, m = n;
     ck_assert(gjk_axis(&wide, -1, &n) == narrow_gjk_axis(&wide, -1, &m));
     ck_assert(same_bits(&n, &m, 3));
-    const double clearance = random_power(state, -30, 0);
+    const double gamma_clear = random_power(state, -30, 0);
     gap_lines seen, narrow_seen;
     gap_lines_begin(&seen);
     gap_lines_begin(&narrow_seen);
     wide.focus = narrow.focus = random_between(state, -1, 1);
-    const bool some = fixed_axes_cut(&wide, clearance, &s, &n, &seen);
-    ck_assert(some == narrow_fixed_axes_cut(&wide, clearance, &t, &m, &narrow_seen));
+    const bool some = fixed_axes_cut(&wide, gamma_clear, &s, &n, &seen);
+    ck_assert(some == narrow_fixed_axes_cut(&wide, gamma_clear, &t, &m, &narrow_seen));
     ck_assert(same_bits(&n, &m, 3) && same_bits(&s, &t, 2));
     ck_assert_int_eq(seen.count, narrow_seen.count);
     ck_assert(same_bits(seen.line, narrow_seen.line, 2 * (size_t)seen.count));
     s = t = (w_range){-1, 1};
-    ck_assert(fixed_axes_cut_along(&wide, clearance, &s, n) ==
-              narrow_fixed_axes_cut_along(&wide, clearance, &t, n));
+    ck_assert(fixed_axes_cut_along(&wide, gamma_clear, &s, n) ==
+              narrow_fixed_axes_cut_along(&wide, gamma_clear, &t, n));
     ck_assert(same_bits(&s, &t, 2));
 }
 

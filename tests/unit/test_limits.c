@@ -65,7 +65,7 @@ static imp_result ask_crowd(imp_options (*limit)(imp_options))
     imp_scene *scene = fresh_crowd();
     imp_query *query = begin(scene, limit(imp_options_default(scene)));
     const imp_result r = step(query, 0);
-    ck_assert_int_eq(r.verdict, IMP_UNDECIDED);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_UNDECIDED);
     ck_assert_double_eq(r.t_lower, 0);
     ck_assert_uint_eq(r.stats.pairs, 0); /* all of it was before the first test */
     imp_query_free(query);
@@ -154,7 +154,7 @@ START_TEST(a_limited_query_answers_as_if_it_had_none_once_the_limit_is_far)
     options.max_seconds = 3600;
     imp_query *limited = begin(scene, options);
     const imp_result r = step(free_query, 0), s = step(limited, 0);
-    ck_assert(r.verdict == IMP_CONTACT && s.verdict == IMP_CONTACT && r.t == s.t);
+    ck_assert(r.verdict == IMP_VERDICT_CONTACT && s.verdict == IMP_VERDICT_CONTACT && r.t == s.t);
     ck_assert_uint_eq(r.stats.pairs, s.stats.pairs);
     imp_query_free(free_query);
     imp_query_free(limited);
@@ -169,7 +169,7 @@ START_TEST(a_step_of_as_many_pairs_as_there_are_numbers_goes_to_the_end)
     imp_scene *scene = spheres_scene(&ball_type, &a, &ball_type, &b);
     imp_query *query = begin(scene, imp_options_default(scene));
     ck_assert_int_eq(step(query, 1).reason, IMP_REASON_RUNNING);
-    ck_assert_int_eq(step(query, UINT64_MAX).verdict, IMP_CONTACT);
+    ck_assert_int_eq(step(query, UINT64_MAX).verdict, IMP_VERDICT_CONTACT);
     imp_query_free(query);
     imp_scene_free(scene);
 }
@@ -186,7 +186,7 @@ START_TEST(each_cancellation_ends_one_step)
     ck_assert_int_eq(step(query, 1).reason, IMP_REASON_RUNNING);
     imp_query_cancel(query); /* after the last look of a step: kept for the next */
     ck_assert_int_eq(step(query, 0).reason, IMP_REASON_CANCELLED);
-    ck_assert_int_eq(step(query, 0).verdict, IMP_CONTACT);
+    ck_assert_int_eq(step(query, 0).verdict, IMP_VERDICT_CONTACT);
     imp_query_free(query);
     imp_scene_free(scene);
 }
@@ -195,7 +195,7 @@ END_TEST
 static imp_status lost_include(const void *self, const imp_region *region, imp_model out[3])
 {
     (void)self, (void)region, (void)out;
-    return IMP_DOMAIN;
+    return IMP_STATUS_DOMAIN;
 }
 
 static void by_itself(void *context, void (*call)(void *of, size_t index), void *of, size_t count)

@@ -21,10 +21,10 @@ static imp_status blob_create(const imp_value *values, void **self, imp_create_e
 {
     (void)why;
     double *radius = malloc(sizeof *radius);
-    if (radius == NULL) return IMP_INTERNAL;
+    if (radius == NULL) return IMP_STATUS_INTERNAL;
     *radius = values[0].number[0];
     *self = radius;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void blob_domain(const void *self, double lo[3], double hi[3])
@@ -75,8 +75,9 @@ static imp_result meet(imp_registry *registry)
     imp_scene *scene = imp_scene_from_pair(registry, "blob", "blob radius=2.5", &error);
     ck_assert_msg(scene != NULL, "%s", error.text);
     const imp_options options = imp_options_default(scene);
-    imp_result result;
-    ck_assert_msg(imp_solve(scene, &options, &result, &error) == IMP_SUCCESS, "%s", error.text);
+    imp_result result = {.struct_size = sizeof result};
+    ck_assert_msg(imp_scene_solve(scene, &options, &result, &error) == IMP_SUCCESS, "%s",
+                  error.text);
     imp_scene_free(scene);
     return result;
 }
@@ -106,7 +107,8 @@ START_TEST(a_plugin_linked_in_offers_its_types_like_any_other)
     ck_assert_str_eq(info.name, "blob");
     ck_assert_str_eq(info.file, IMP_LINKED_IN);
     ck_assert_ptr_null(info.shadowed_by);
-    ck_assert_int_eq(meet(registry).verdict, IMP_CLEAR); /* one inside the other, 1.5 apart */
+    ck_assert_int_eq(meet(registry).verdict,
+                     IMP_VERDICT_CLEAR); /* one inside the other, 1.5 apart */
     imp_registry_free(registry);
 }
 END_TEST
@@ -116,7 +118,7 @@ START_TEST(a_type_linked_in_is_isolated_like_any_other)
     imp_registry *registry = nothing_searched();
     ck_assert_int_eq(imp_registry_add(registry, &blob_plugin, &error), IMP_SUCCESS);
     ck_assert_int_eq(imp_registry_isolate(registry, "blob", &error), IMP_SUCCESS);
-    ck_assert_int_eq(meet(registry).verdict, IMP_CLEAR);
+    ck_assert_int_eq(meet(registry).verdict, IMP_VERDICT_CLEAR);
     imp_registry_free(registry);
 }
 END_TEST
@@ -132,7 +134,7 @@ START_TEST(what_is_isolated_must_be_the_name_of_a_type)
     ck_assert_int_eq(imp_registry_isolate(registry, "helicoid", &error), IMP_ERROR_USAGE);
     ck_assert_str_eq(error.text,
                      "unknown type 'helicoid' to isolate; `impinge list` shows what there is");
-    ck_assert_int_eq(meet(registry).verdict, IMP_CLEAR); /* in this process */
+    ck_assert_int_eq(meet(registry).verdict, IMP_VERDICT_CLEAR); /* in this process */
     imp_registry_free(registry);
 }
 END_TEST

@@ -7,6 +7,8 @@
 #include "tests/support/built_plugins.h"
 #include "tests/support/comma_locale.h"
 
+#include <impinge/examine.h>
+
 /* A program with a locale in which 0.5 is written "0,5": the same texts and answers, and the locale
  * is its own again after every call. */
 
@@ -39,7 +41,7 @@ static void check_messages(imp_registry *registry)
     ck_assert_int_ne(imp_builder_time(builder, 1.5, 0.5, &error), IMP_SUCCESS);
     says(&error, "0.5");
     imp_builder_free(builder);
-    char *json = imp_stage_to_json(registry, IMP_KIND_SURFACE, "sphere radius=.5", &error);
+    char *json = imp_stage_to_json(registry, IMP_TYPE_SURFACE, "sphere radius=.5", &error);
     ck_assert_ptr_nonnull(json);
     ck_assert_ptr_nonnull(strstr(json, "\"radius\":0.5"));
     is_comma("imp_stage_to_json");
@@ -55,8 +57,9 @@ static imp_result answer(imp_registry *registry)
         "sphere radius=.25 center=1.5,0,0 ! translate velocity=-1.5,0,0", &error);
     ck_assert_msg(scene != NULL, "%s", error.text);
     imp_options options = imp_options_default(scene);
-    imp_result result;
-    ck_assert_msg(imp_solve(scene, &options, &result, &error) == IMP_SUCCESS, "%s", error.text);
+    imp_result result = {.struct_size = sizeof result};
+    ck_assert_msg(imp_scene_solve(scene, &options, &result, &error) == IMP_SUCCESS, "%s",
+                  error.text);
     imp_scene_free(scene);
     return result;
 }
@@ -70,8 +73,8 @@ START_TEST(texts_have_a_point_in_a_locale_with_a_comma)
     is_comma("setlocale");
     check_messages(registry);
     const imp_result result = answer(registry);
-    ck_assert(result.verdict == IMP_CONTACT && result.t == usual.t);
-    is_comma("imp_solve");
+    ck_assert(result.verdict == IMP_VERDICT_CONTACT && result.t == usual.t);
+    is_comma("imp_scene_solve");
     imp_registry_free(registry);
     comma_locale_remove(&box);
 }

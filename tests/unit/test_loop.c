@@ -195,7 +195,7 @@ static void point_of(const instance *made, int piece, double u, double v, double
     double error[3];
     const double p[3] = {u, v, 0};
     const void *self = made->surface->piece(made->self, (size_t)piece);
-    ck_assert_int_eq(made->surface->eval(self, 1, p, x, error), IMP_OK);
+    ck_assert_int_eq(made->surface->eval(self, 1, p, x, error), IMP_STATUS_OK);
     for (int i = 0; i < 3; ++i) ck_assert_double_le(error[i], 1e-12);
 }
 
@@ -327,11 +327,11 @@ END_TEST
 START_TEST(contact_at_an_extraordinary_point_comes_at_its_time)
 {
     imp_result r = query_audited(OCTAHEDRON, "point position=2,0,0 velocity=-2,0,0");
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert_double_eq_tol(r.t, 1 - 12. / 55, 1e-9);
     r = query_audited(OCTAHEDRON " velocities=[[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0]]",
                       "point position=2,0,0 velocity=-1,0,0");
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert_double_eq_tol(r.t, 1 - 12. / 55, 1e-9);
 }
 END_TEST
@@ -364,7 +364,7 @@ START_TEST(contact_at_a_tip_of_any_valence_comes_at_its_time)
         char *cone = double_cone(valence[k]);
         const double height = 1 - share_of(valence[k], true);
         const imp_result r = query_audited(cone, "point position=0,0,2 velocity=0,0,-2");
-        ck_assert_int_eq(r.verdict, IMP_CONTACT);
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
         ck_assert_double_eq_tol(r.t, 1 - height / 2, 1e-9);
         free(cone);
     }

@@ -4,6 +4,8 @@
 
 #include "tests/support/sphere_scenes.h"
 
+#include <impinge/baseline.h>
+
 /* Bounds may be loose: that costs pairs and changes no verdict. The same ball under five types,
  * from models to rates twice as large as they need be, must meet within the ladder that
  * tests/support/scene_variants.h derives: later than t_lower at a coarser gamma, no later than the contact at a
@@ -69,41 +71,41 @@ static const ball hits = {.radius = 0.5, .centre = {2, 1.5, -1}, .velocity = {-2
 static const ball misses = {.radius = 0.5, .centre = {2, 1.5, -1}, .velocity = {-2, 0.5, 0}};
 
 static imp_result solve(const imp_surface_type *a, const imp_surface_type *b, const ball *flying,
-                        double gamma, imp_method method)
+                        double gamma, uint32_t baseline)
 {
     imp_scene *scene = spheres_scene(a, &at_rest, b, flying);
     imp_options options = imp_options_default(scene);
     options.gamma = gamma;
-    options.method = method;
-    imp_result r;
+    options.baseline = baseline;
+    imp_result r = {.struct_size = sizeof r};
     imp_error error = {IMP_SUCCESS, ""};
-    ck_assert_msg(imp_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s", error.text);
+    ck_assert_msg(imp_scene_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s", error.text);
     imp_scene_free(scene);
     return r;
 }
 
 /* Every mixture of types, on the rung between gamma and gamma / 16. */
-static void check_mixtures(double gamma, imp_method method)
+static void check_mixtures(double gamma, uint32_t baseline)
 {
-    const double before = solve(types, types, &hits, gamma, IMP_METHOD_MODELS).t_lower,
-                 after = solve(types, types, &hits, gamma / 16, IMP_METHOD_MODELS).t;
+    const double before = solve(types, types, &hits, gamma, IMP_BASELINE_NONE).t_lower,
+                 after = solve(types, types, &hits, gamma / 16, IMP_BASELINE_NONE).t;
     for (int k = 0; k < TYPES * TYPES; ++k) {
         const imp_surface_type *a = &types[k / TYPES], *b = &types[k % TYPES];
-        imp_result r = solve(a, b, &hits, gamma / 4, method);
-        ck_assert_msg(r.verdict == IMP_CONTACT && r.t >= before && r.t <= after,
+        imp_result r = solve(a, b, &hits, gamma / 4, baseline);
+        ck_assert_msg(r.verdict == IMP_VERDICT_CONTACT && r.t >= before && r.t <= after,
                       "%s and %s: verdict %d, t_lower %.17g, expected in [%.17g, %.17g]", a->name,
                       b->name, (int)r.verdict, r.t_lower, before, after);
-        r = solve(a, b, &misses, gamma / 4, method);
-        ck_assert_int_eq(r.verdict, IMP_CLEAR);
+        r = solve(a, b, &misses, gamma / 4, baseline);
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CLEAR);
     }
 }
 
-START_TEST(looser_bounds_lead_to_the_same_contact) { check_mixtures(0.1, IMP_METHOD_MODELS); }
+START_TEST(looser_bounds_lead_to_the_same_contact) { check_mixtures(0.1, IMP_BASELINE_NONE); }
 END_TEST
 
 START_TEST(looser_rates_lead_the_paper_to_the_same_contact)
 {
-    check_mixtures(0.4, IMP_METHOD_PAPER);
+    check_mixtures(0.4, IMP_BASELINE_BOXES);
 }
 END_TEST
 
@@ -111,7 +113,7 @@ START_TEST(looser_bounds_cost_more_and_models_least)
 {
     uint64_t pairs[TYPES];
     for (int k = 0; k < TYPES; ++k)
-        pairs[k] = solve(&types[k], &types[k], &hits, 0.01, IMP_METHOD_MODELS).stats.pairs;
+        pairs[k] = solve(&types[k], &types[k], &hits, 0.01, IMP_BASELINE_NONE).stats.pairs;
     ck_assert_uint_lt(pairs[0], pairs[2]);
     ck_assert_uint_lt(pairs[2], pairs[3]);
     ck_assert_uint_lt(pairs[3], pairs[4]);

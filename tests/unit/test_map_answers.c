@@ -147,7 +147,7 @@ START_TEST(a_track_of_a_thousand_keys_is_cheap)
                         .b = "sphere radius=0.5 center=0,-1.9,2 ! translate velocity=0,0,-2",
                         .max_pairs = 10000};
     const imp_result r = ask(&q);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     free(text);
 }
 END_TEST

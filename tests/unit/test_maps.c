@@ -94,7 +94,7 @@ START_TEST(turned_points_are_within_their_errors_beside_long_doubles)
         instance made = map("rotate", text);
         const long double angle = (long double)rate * p[3];
         turn(axis, center, angle, p, exact);
-        ck_assert_int_eq(made.map->eval(made.self, 1, p, x, error), IMP_OK);
+        ck_assert_int_eq(made.map->eval(made.self, 1, p, x, error), IMP_STATUS_OK);
         const double bound = (0x1p-46 + 0x1p-50 * fabs((double)angle)) * size;
         const long double off = (0x1p-60L + 0x1p-63L * fabsl(angle)) * size;
         for (int i = 0; i < 3; ++i) {
@@ -111,8 +111,9 @@ START_TEST(points_turned_out_of_range_are_undefined)
     double x[3];
     instance made = map("rotate", "{\"axis\": [1,1,0], \"rate\": 1}");
     ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, INFINITY, 0, 0}, x, NULL),
-                     IMP_DOMAIN);
-    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, NAN, 0}, x, NULL), IMP_DOMAIN);
+                     IMP_STATUS_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, NAN, 0}, x, NULL),
+                     IMP_STATUS_DOMAIN);
     instance_free(&made);
 }
 END_TEST
@@ -250,7 +251,7 @@ static double remainder_ratio(const char *type, const char *parameters, double w
         const imp_region region = region_make(lo, hi);
         imp_model in[4], out[3];
         sphere_part(&region, in);
-        ck_assert_int_eq(made.map->apply(made.self, in, out), IMP_OK);
+        ck_assert_int_eq(made.map->apply(made.self, in, out), IMP_STATUS_OK);
         look(&made, &region, out, off);
         for (int i = 0; i < 3; ++i) {
             if (off[i] < 1e-11) continue;
@@ -325,9 +326,9 @@ START_TEST(translations_at_constant_velocity_are_exact_but_for_rounding)
         instance made = map("translate", text), general = map("translate", longer);
         imp_map_rates rates;
         const imp_box4 box = {{-1, -1, -1, -1}, {1, 1, 1, 1}};
-        ck_assert_int_eq(made.map->eval(made.self, 1, p, x, error), IMP_OK);
-        ck_assert_int_eq(general.map->eval(general.self, 1, p, y, NULL), IMP_OK);
-        ck_assert_int_eq(made.map->rate(made.self, &box, &rates), IMP_OK);
+        ck_assert_int_eq(made.map->eval(made.self, 1, p, x, error), IMP_STATUS_OK);
+        ck_assert_int_eq(general.map->eval(general.self, 1, p, y, NULL), IMP_STATUS_OK);
+        ck_assert_int_eq(made.map->rate(made.self, &box, &rates), IMP_STATUS_OK);
         for (int i = 0; i < 3; ++i) {
             const double size = fabs(c[0][i]) + fabs(c[1][i] * p[3]) + fabs(p[i]);
             const long double sum = (long double)c[0][i] + (long double)c[1][i] * p[3] + p[i];
@@ -348,10 +349,11 @@ START_TEST(translations_too_far_for_a_double_are_undefined)
     double x[3];
     instance made = map("translate", "{\"velocity\": [1e200,0,0]}");
     ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, 0, 1e200}, x, NULL),
-                     IMP_DOMAIN);
-    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, 0, NAN}, x, NULL), IMP_DOMAIN);
+                     IMP_STATUS_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, 0, 0, NAN}, x, NULL),
+                     IMP_STATUS_DOMAIN);
     ck_assert_int_eq(made.map->eval(made.self, 1, (double[4]){0, INFINITY, 0, 0}, x, NULL),
-                     IMP_DOMAIN);
+                     IMP_STATUS_DOMAIN);
     instance_free(&made);
 }
 END_TEST
@@ -390,9 +392,9 @@ START_TEST(tables_hold_or_are_undefined_beyond_their_ends)
     instance made = zigzag_map("");
     made.map->time_domain(made.self, &lo, &hi);
     ck_assert(lo == 0 && hi == 4);
-    ck_assert_int_eq(made.map->eval(made.self, 1, before, x, NULL), IMP_DOMAIN);
-    ck_assert_int_eq(made.map->eval(made.self, 1, after, x, NULL), IMP_DOMAIN);
-    ck_assert_int_eq(made.map->rate(made.self, &box, &rates), IMP_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, before, x, NULL), IMP_STATUS_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, after, x, NULL), IMP_STATUS_DOMAIN);
+    ck_assert_int_eq(made.map->rate(made.self, &box, &rates), IMP_STATUS_DOMAIN);
     instance_free(&made);
     made = zigzag_map(", \"hold\": true");
     made.map->time_domain(made.self, &lo, &hi);
@@ -413,12 +415,12 @@ START_TEST(models_of_linear_tables_are_exact_between_kinks_and_tight_across)
         const double inside[3] = {0, 0, 1 - 2 * width};
         const imp_region across = region_make(from, to), within = region_make(inside, from);
         imp_model in[4] = {imp_num(0), imp_num(0), imp_num(0), imp_param(&across, 2)}, out[3];
-        ck_assert_int_eq(made.map->apply(made.self, in, out), IMP_OK);
+        ck_assert_int_eq(made.map->apply(made.self, in, out), IMP_STATUS_OK);
         /* x turns from slope 1 to -2 at 1. */
         ck_assert_double_le(out[0].e, 1.5 * width * 1.0001 + 1e-14);
         ck_assert(out[0].rate[2] >= 2 && out[0].rate[2] < 2.0001);
         in[3] = imp_param(&within, 2);
-        ck_assert_int_eq(made.map->apply(made.self, in, out), IMP_OK);
+        ck_assert_int_eq(made.map->apply(made.self, in, out), IMP_STATUS_OK);
         for (int i = 0; i < 3; ++i) ck_assert_double_le(out[i].e, 1e-13);
     }
     instance_free(&made);
@@ -444,7 +446,7 @@ START_TEST(a_trajectory_follows_parabolas_and_turns_at_constant_spin)
     expect_image(&made, (double[4]){2, 0, 0, 3}, (double[3]){3, 0, -15}, 1e-14);
     const double after[4] = {0, 0, 0, 3.0000000000000004};
     double x[3];
-    ck_assert_int_eq(made.map->eval(made.self, 1, after, x, NULL), IMP_DOMAIN);
+    ck_assert_int_eq(made.map->eval(made.self, 1, after, x, NULL), IMP_STATUS_DOMAIN);
     instance_free(&made);
 }
 END_TEST

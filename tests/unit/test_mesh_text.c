@@ -72,7 +72,7 @@ static void check_words(const char *bytes, size_t length, bool continues, const 
         while ((word = mesh_text_word(&text)) != NULL)
             snprintf(found + strlen(found), sizeof found - strlen(found), "%s ", word);
     }
-    ck_assert(mesh_text_status(&text) == IMP_OK);
+    ck_assert(mesh_text_status(&text) == IMP_STATUS_OK);
     ck_assert_str_eq(found, expected);
     mesh_text_clear(&text);
 }

@@ -38,7 +38,7 @@ START_TEST(moving_both_bodies_alike_does_not_matter) { for_each_setting(move_bot
 END_TEST
 
 /* Only the rounding of evaluation is larger there: 1e8 2^-53 is 1e-8, a hundredth of the room
- * between gamma and clearance on rung 1. */
+ * between gamma and gamma_clear on rung 1. */
 static void move_far(imp_registry *registry, const ladder *l)
 {
     telling told = tell(l->about, &plain);
@@ -122,20 +122,20 @@ static imp_result ask_between(imp_registry *registry, const ladder *l, double st
     return r;
 }
 
-/* Before t_lower of rung 0 gaps are at least its clearance, above rung 1's gamma; at the contact of
- * rung 2 they are below rung 1's clearance. */
+/* Before t_lower of rung 0 gaps are at least its gamma_clear, above rung 1's gamma; at the contact of
+ * rung 2 they are below rung 1's gamma_clear. */
 static void shrink_interval(imp_registry *registry, const ladder *l)
 {
     if (!l->about->meets) {
         const double cuts[] = {0.3, 0.5, 0.501};
         for (int k = 0; k < 3; ++k) {
-            ck_assert_int_eq(ask_between(registry, l, 0, cuts[k]).verdict, IMP_CLEAR);
-            ck_assert_int_eq(ask_between(registry, l, cuts[k], 1).verdict, IMP_CLEAR);
+            ck_assert_int_eq(ask_between(registry, l, 0, cuts[k]).verdict, IMP_VERDICT_CLEAR);
+            ck_assert_int_eq(ask_between(registry, l, cuts[k], 1).verdict, IMP_VERDICT_CLEAR);
         }
         return;
     }
     const double before = l->rung[0].t_lower, after = l->rung[2].t;
-    ck_assert_int_eq(ask_between(registry, l, 0, nextafter(before, 0)).verdict, IMP_CLEAR);
+    ck_assert_int_eq(ask_between(registry, l, 0, nextafter(before, 0)).verdict, IMP_VERDICT_CLEAR);
     imp_result r = ask_between(registry, l, 0, after);
     check_answer(l, &plain, &r, "until just after");
     r = ask_between(registry, l, before, 1);
@@ -143,9 +143,9 @@ static void shrink_interval(imp_registry *registry, const ladder *l)
     r = ask_between(registry, l, before, after);
     check_answer(l, &plain, &r, "around");
     r = ask_between(registry, l, after, 1);
-    ck_assert(r.verdict == IMP_CONTACT && r.t == after);
+    ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.t == after);
     r = ask_between(registry, l, after, after);
-    ck_assert(r.verdict == IMP_CONTACT && r.t == after);
+    ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.t == after);
 }
 
 START_TEST(a_shorter_interval_tells_the_part_of_the_story_it_holds)
@@ -241,8 +241,8 @@ START_TEST(patches_cut_in_two_meet_like_whole_ones)
     ck_assert_msg(scene != NULL, "%s", error.text);
     imp_options options = imp_options_default(scene);
     options.gamma = rung_gamma(l.about, &plain, 1);
-    imp_result r;
-    ck_assert_int_eq(imp_solve(scene, &options, &r, &error), IMP_SUCCESS);
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_SUCCESS);
     query_check(scene, &options, &r);
     check_answer(&l, &plain, &r, "cut in two");
     imp_scene_free(scene);

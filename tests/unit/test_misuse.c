@@ -6,6 +6,8 @@
 #include "tests/support/sphere_scenes.h"
 #include "tests/support/suite.h"
 
+#include <impinge/examine.h>
+
 /* A missing object, text or place for an answer, and an index out of range, are IMP_ERROR_USAGE
  * from every function of the public header that answers a code, and none, zero or false from the
  * others: never a crash. */
@@ -46,9 +48,9 @@ START_TEST(registries_take_no_missing_object)
     ck_assert(!imp_plugin_examine(NULL, NULL, NULL));
     ck_assert_ptr_null(imp_registry_from_file(NULL));
     expect_usage(imp_registry_isolate(NULL, NULL, &error), "imp_registry_isolate");
-    expect_usage(imp_instance_from_text(NULL, IMP_KIND_SURFACE, "sphere", &instance, &error),
+    expect_usage(imp_instance_from_text(NULL, IMP_TYPE_SURFACE, "sphere", &instance, &error),
                  "imp_instance_from_text");
-    expect_nothing(imp_stage_to_json(NULL, IMP_KIND_SURFACE, "sphere", &error),
+    expect_nothing(imp_stage_to_json(NULL, IMP_TYPE_SURFACE, "sphere", &error),
                    "imp_stage_to_json");
     imp_registry *registry = imp_registry_new("");
     ck_assert_ptr_nonnull(registry);
@@ -58,11 +60,11 @@ START_TEST(registries_take_no_missing_object)
     ck_assert(!imp_registry_warning(registry, 0, NULL));
     ck_assert(!imp_registry_fault(registry, 0, NULL));
     ck_assert(!imp_registry_fault(registry, 0, &refusal));
-    expect_usage(imp_instance_from_text(registry, IMP_KIND_SURFACE, NULL, &instance, &error),
+    expect_usage(imp_instance_from_text(registry, IMP_TYPE_SURFACE, NULL, &instance, &error),
                  "imp_instance_from_text");
-    expect_usage(imp_instance_from_text(registry, IMP_KIND_SURFACE, "sphere", NULL, &error),
+    expect_usage(imp_instance_from_text(registry, IMP_TYPE_SURFACE, "sphere", NULL, &error),
                  "imp_instance_from_text");
-    expect_nothing(imp_stage_to_json(registry, IMP_KIND_SURFACE, NULL, &error),
+    expect_nothing(imp_stage_to_json(registry, IMP_TYPE_SURFACE, NULL, &error),
                    "imp_stage_to_json");
     imp_registry_free(registry);
 }
@@ -143,12 +145,12 @@ START_TEST(queries_take_no_missing_object)
     imp_options options = imp_options_default(scene);
     imp_result result = {.struct_size = (uint32_t)sizeof result};
     imp_pending pending;
-    expect_usage(imp_options_read(NULL, &options, &error), "imp_options_read");
-    expect_usage(imp_options_read(scene, NULL, &error), "imp_options");
+    expect_usage(imp_options_get_default(NULL, &options, &error), "imp_options_get_default");
+    expect_usage(imp_options_get_default(scene, NULL, &error), "imp_options");
     expect_nothing(imp_query_new(NULL, &options, &error), "imp_query_new");
     expect_nothing(imp_query_new(scene, NULL, &error), "imp_query_new");
     expect_usage(imp_query_step(NULL, 0, &error), "imp_query_step");
-    expect_usage(imp_query_read(NULL, &result, &error), "imp_query_read");
+    expect_usage(imp_query_get_result(NULL, &result, &error), "imp_query_get_result");
     expect_usage(imp_query_refine(NULL, 1e-9, -1, &error), "imp_query_refine");
     expect_usage(imp_scene_solve(NULL, &options, &result, &error), "imp_query_new");
     expect_usage(imp_scene_solve(scene, NULL, &result, &error), "imp_query_new");
@@ -158,7 +160,7 @@ START_TEST(queries_take_no_missing_object)
     imp_query_free(NULL);
     imp_query *query = imp_query_new(scene, &options, &error);
     ck_assert_ptr_nonnull(query);
-    expect_usage(imp_query_read(query, NULL, &error), "imp_result");
+    expect_usage(imp_query_get_result(query, NULL, &error), "imp_result");
     ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS); /* errors need no place */
     ck_assert(!imp_query_pending(query, 0, NULL));
     imp_query_free(query);
@@ -172,15 +174,15 @@ START_TEST(clearance_queries_take_no_missing_object)
     const imp_options options = imp_options_default(scene);
     imp_clearance_options asked = imp_clearance_options_default();
     imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
-    expect_usage(imp_clearance_options_read(NULL, &error), "imp_clearance_options");
+    expect_usage(imp_clearance_options_get_default(NULL, &error), "imp_clearance_options");
     expect_nothing(imp_clearance_new(NULL, &options, &asked, &error), "imp_query_new");
     expect_nothing(imp_clearance_new(scene, NULL, &asked, &error), "imp_query_new");
     ck_assert_uint_eq(imp_clearance_count(NULL), 0);
-    expect_usage(imp_clearance_read(NULL, 0, &answer, &error), "imp_clearance_read");
+    expect_usage(imp_clearance_get(NULL, 0, &answer, &error), "imp_clearance_get");
     imp_query *query = imp_clearance_new(scene, &options, &asked, &error);
     ck_assert_ptr_nonnull(query);
-    expect_usage(imp_clearance_read(query, SIZE_MAX, &answer, &error), "answer: got");
-    expect_usage(imp_clearance_read(query, 0, NULL, &error), "imp_clearance");
+    expect_usage(imp_clearance_get(query, SIZE_MAX, &answer, &error), "answer: got");
+    expect_usage(imp_clearance_get(query, 0, NULL, &error), "imp_clearance");
     imp_query_free(query);
     imp_scene_free(scene);
 }

@@ -117,7 +117,7 @@ static void expect(chain *c, bool holds, const char *what, const double p[3], co
 static void try_point(chain *c, const double p[3], const number truth[3])
 {
     double x[3], error[3];
-    if (surface_eval(c->composed, 1, p, x, error) != IMP_OK) return;
+    if (surface_eval(c->composed, 1, p, x, error) != IMP_STATUS_OK) return;
     for (int i = 0; i < 3; ++i) {
         if (isinf(error[i])) return; /* rates overflow: nothing is claimed */
         error[i] *= c->lowered;
@@ -145,8 +145,8 @@ typedef struct bounds {
 static bounds bounds_over(const chain *c, const imp_region *region)
 {
     bounds b;
-    b.has_rates = surface_rate(c->composed, region, &b.rates) == IMP_OK;
-    b.has_models = surface_include(c->composed, region, b.model) == IMP_OK;
+    b.has_rates = surface_rate(c->composed, region, &b.rates) == IMP_STATUS_OK;
+    b.has_models = surface_include(c->composed, region, b.model) == IMP_STATUS_OK;
     for (int i = 0; b.has_models && i < 3; ++i) b.model[i].e *= c->lowered;
     return b;
 }

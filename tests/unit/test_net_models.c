@@ -60,9 +60,9 @@ static void model_value(const node *n, const double p[3], number x[3])
     }
 }
 
-/* A surely smaller distance than the clearance at time t: the model's point moved towards the net's as far as
+/* A surely smaller distance than gamma_clear at time t: the model's point moved towards the net's as far as
  * its remainder allows. */
-static bool surely_near(uint64_t *state, const netted *a, const node *b, double t, double clearance)
+static bool surely_near(uint64_t *state, const netted *a, const node *b, double t, double gamma_clear)
 {
     number x[3], y[3], sum = num(0);
     const double p[3] = {random_fraction(state), random_fraction(state), t};
@@ -73,15 +73,15 @@ static bool surely_near(uint64_t *state, const netted *a, const node *b, double 
         const number apart = num_sub(num_abs(num_sub(y[i], x[i])), num(b->e[i]));
         if (!num_is_less(apart, num(0))) sum = num_add(sum, num_sqr(apart));
     }
-    return num_is_less(sum, num_sqr(num(clearance)));
+    return num_is_less(sum, num_sqr(num(gamma_clear)));
 }
 
 /* Cuts with the net as A, or as B. */
-static bool cut(bool turned, const netted *a, const node *b, vec3 axis, double clearance,
+static bool cut(bool turned, const netted *a, const node *b, vec3 axis, double gamma_clear,
                 time_window *w)
 {
-    return turned ? net_model_axis_cut(b, &a->n, axis, clearance, w)
-                  : net_model_axis_cut(&a->n, b, axis, clearance, w);
+    return turned ? net_model_axis_cut(b, &a->n, axis, gamma_clear, w)
+                  : net_model_axis_cut(&a->n, b, axis, gamma_clear, w);
 }
 
 static bool seek(bool turned, const netted *a, const node *b, double t, vec3 *axis)
@@ -103,16 +103,16 @@ START_TEST(nothing_is_near_outside_of_the_window_that_an_axis_leaves)
         const node b = draw_model(&state, far);
         vec3 axis = {{random_between(&state, -1, 1), random_between(&state, -1, 1), 1}};
         time_window w = {0, 1};
-        const double clearance = random_power(&state, -6, 1);
+        const double gamma_clear = random_power(&state, -6, 1);
         seek(turned, &a, &b, random_fraction(&state), &axis);
-        const bool some = cut(turned, &a, &b, axis, clearance, &w);
+        const bool some = cut(turned, &a, &b, axis, gamma_clear, &w);
         apart += !some;
         cuts += some && (w.lo > 0 || w.hi < 1);
         for (int l = 0; l < 8; ++l) {
             num_forget();
             const double t = random_fraction(&state);
             if (some && t >= w.lo && t <= w.hi) continue;
-            ck_assert(!surely_near(&state, &a, &b, t, clearance));
+            ck_assert(!surely_near(&state, &a, &b, t, gamma_clear));
         }
     }
     ck_assert_int_gt(cuts, suite_times(3000) / 20);
@@ -133,11 +133,11 @@ START_TEST(acceleration_is_seen_along_the_axis)
         b.motion[2] = 0.5 + 2 * fabs(bend);
         for (int i = 0; i < 3; ++i) b.region.d[i] = 0.5;
         time_window w = {0, 1};
-        const double clearance = 0.25, chord = 0.75 - fmax(bend, 0);
-        ck_assert(net_model_axis_cut(&a.n, &b, (vec3){{0, 0, 1}}, clearance, &w));
+        const double gamma_clear = 0.25, chord = 0.75 - fmax(bend, 0);
+        ck_assert(net_model_axis_cut(&a.n, &b, (vec3){{0, 0, 1}}, gamma_clear, &w));
         ck_assert_double_eq_tol(w.lo, chord, 1e-13);
         const double s = 2 * w.lo - 1;
-        ck_assert_double_ge(0.5 - 0.5 * s + bend * (s * s - 1), clearance);
+        ck_assert_double_ge(0.5 - 0.5 * s + bend * (s * s - 1), gamma_clear);
     }
 }
 END_TEST
@@ -158,7 +158,7 @@ START_TEST(errors_and_remainders_count_along_the_axis)
 }
 END_TEST
 
-/* The widest clearance along an axis at a moment, to a thousandth. */
+/* The widest gamma_clear along an axis at a moment, to a thousandth. */
 static double gap_along(bool turned, const netted *a, const node *b, double t, vec3 n)
 {
     double below = 0, above = 16;

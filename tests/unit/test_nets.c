@@ -125,9 +125,9 @@ static number square_between(const netted *const both[2], const double p[2][3])
     return sum;
 }
 
-/* A surely smaller distance than the clearance, at random parameters and time t. */
+/* A surely smaller distance than gamma_clear, at random parameters and time t. */
 static bool surely_near(uint64_t *state, const netted *a, const netted *b, double t,
-                        double clearance)
+                        double gamma_clear)
 {
     const netted *const both[2] = {a, b};
     double p[2][3];
@@ -136,7 +136,7 @@ static bool surely_near(uint64_t *state, const netted *a, const netted *b, doubl
         for (int j = 0; j < 2; ++j) p[side][j] = random_fraction(state);
         p[side][2] = t;
     }
-    return num_is_less(square_between(both, p), num_sqr(num(clearance)));
+    return num_is_less(square_between(both, p), num_sqr(num(gamma_clear)));
 }
 
 START_TEST(nothing_is_near_outside_of_the_window_that_an_axis_leaves)
@@ -153,24 +153,24 @@ START_TEST(nothing_is_near_outside_of_the_window_that_an_axis_leaves)
         take(&b, zero, one);
         vec3 axis = {{random_between(&state, -1, 1), random_between(&state, -1, 1), 1}};
         time_window w = {0, 1};
-        const double clearance = random_power(&state, -6, 1);
+        const double gamma_clear = random_power(&state, -6, 1);
         net_axis_seek(&a.n, &b.n, 0, &axis);
-        const bool some = net_axis_cut(&a.n, &b.n, axis, clearance, &w);
+        const bool some = net_axis_cut(&a.n, &b.n, axis, gamma_clear, &w);
         apart += !some;
         cuts += some && (w.lo > 0 || w.hi < 1);
         for (int l = 0; l < 4 && (!some || w.lo > 0); ++l) {
             const double t = some ? random_between(&state, 0, w.lo) : random_fraction(&state);
-            ck_assert(!surely_near(&state, &a, &b, t, clearance));
+            ck_assert(!surely_near(&state, &a, &b, t, gamma_clear));
         }
         if (some && w.hi < 1)
-            ck_assert(!surely_near(&state, &a, &b, random_between(&state, w.hi, 1), clearance));
+            ck_assert(!surely_near(&state, &a, &b, random_between(&state, w.hi, 1), gamma_clear));
     }
     ck_assert_int_gt(cuts, suite_times(3000) / 20);
     ck_assert_int_gt(apart, suite_times(3000) / 20);
 }
 END_TEST
 
-/* Two points on a line, from 1 apart to 0: nearer than the clearance c from t = 1 - c on, to the last
+/* Two points on a line, from 1 apart to 0: nearer than gamma_clear c from t = 1 - c on, to the last
  * bits, however far from the origin; and never later. */
 START_TEST(the_window_of_two_points_starts_when_they_are_near)
 {
@@ -178,7 +178,7 @@ START_TEST(the_window_of_two_points_starts_when_they_are_near)
     for (int k = 0; k < suite_times(2000); ++k) {
         netted a = {.given = {.degree = {0, 0}}}, b = a;
         const double far = ldexp(1, (int)random_between(&state, -8, 20));
-        const double clearance = random_power(&state, -30, -1);
+        const double gamma_clear = random_power(&state, -30, -1);
         const int i = (int)random_between(&state, 0, 3);
         a.given.place[i] = far, b.given.place[i] = far + 1;
         b.given.drift[i] = -1;
@@ -188,9 +188,9 @@ START_TEST(the_window_of_two_points_starts_when_they_are_near)
         vec3 axis = {{0, 0, 0}};
         axis.x[i] = random_power(&state, -20, 20);
         time_window w = {0, 1};
-        ck_assert(net_axis_cut(&a.n, &b.n, axis, clearance, &w));
-        ck_assert(w.lo <= 1 - clearance && w.hi == 1);
-        ck_assert(w.lo >= 1 - clearance - 64 * 0x1p-53 * (far + 4));
+        ck_assert(net_axis_cut(&a.n, &b.n, axis, gamma_clear, &w));
+        ck_assert(w.lo <= 1 - gamma_clear && w.hi == 1);
+        ck_assert(w.lo >= 1 - gamma_clear - 64 * 0x1p-53 * (far + 4));
     }
 }
 END_TEST
@@ -242,10 +242,10 @@ START_TEST(nothing_of_a_half_that_an_axis_excludes_is_near)
         vec3 axis = {{random_between(&state, -1, 1), random_between(&state, -1, 1), 1}};
         const double start = random_fraction(&state);
         const time_window w = {start, start + (1 - start) * random_power(&state, -10, 0)};
-        const double clearance = random_power(&state, -6, 1);
+        const double gamma_clear = random_power(&state, -6, 1);
         net_halves halves;
         net_axis_seek(&a.n, &b.n, w.lo, &axis);
-        net_halves_find(&a.n, &b.n, axis, clearance, &w, &halves);
+        net_halves_find(&a.n, &b.n, axis, gamma_clear, &w, &halves);
         const int count = halves.count;
         if (count == 0) continue;
         found += 1, deep += count > 3, all += halves.found[count - 1].half < 0;
@@ -254,7 +254,7 @@ START_TEST(nothing_of_a_half_that_an_axis_excludes_is_near)
             double p[2][3] = {{0, 0, t}, {0, 0, t}};
             draw_excluded(&state, halves.found, 1 + l % count, p);
             num_forget();
-            ck_assert(!num_is_less(square_between(both, p), num_sqr(num(clearance))));
+            ck_assert(!num_is_less(square_between(both, p), num_sqr(num(gamma_clear))));
         }
     }
     ck_assert_int_gt(found, suite_times(3000) / 20);
@@ -264,7 +264,7 @@ START_TEST(nothing_of_a_half_that_an_axis_excludes_is_near)
 END_TEST
 
 /* A point, and a line of which the upper half lies from 1 on at the start, from `end` at the end. */
-static bool upper_half_is_excluded(double clearance, double end, double error)
+static bool upper_half_is_excluded(double gamma_clear, double end, double error)
 {
     netted a = {.given = {.degree = {0, 0}}}, b = {.given = {.degree = {1, 0}}};
     const time_window w = {0, 1};
@@ -275,7 +275,7 @@ static bool upper_half_is_excluded(double clearance, double end, double error)
     b.given.error[2] = error;
     take(&a, zero, one);
     take(&b, zero, one);
-    net_halves_find(&a.n, &b.n, (vec3){{0, 0, 1}}, clearance, &w, &left);
+    net_halves_find(&a.n, &b.n, (vec3){{0, 0, 1}}, gamma_clear, &w, &left);
     if (left.count == 0) return false;
     const net_half first = left.found[0];
     ck_assert(first.side == 1 && first.along == PARAMETER_U && first.half == 0);
@@ -298,7 +298,7 @@ END_TEST
 /* Whether no point of the half is near outside of the window that is left of it. */
 static bool is_window_of_half(uint64_t *state, const netted *const both[2],
                               const net_halves *halves, int side, const imp_region *half, bool near,
-                              const time_window *left, double clearance)
+                              const time_window *left, double gamma_clear)
 {
     const time_window *w = &halves->window;
     double p[2][3], t = random_between(state, w->lo, w->hi);
@@ -311,7 +311,7 @@ static bool is_window_of_half(uint64_t *state, const netted *const both[2],
         p[k][2] = t;
     }
     num_forget();
-    return !num_is_less(square_between(both, p), num_sqr(num(clearance)));
+    return !num_is_less(square_between(both, p), num_sqr(num(gamma_clear)));
 }
 
 START_TEST(nothing_of_a_half_is_near_outside_of_its_window)
@@ -328,7 +328,7 @@ START_TEST(nothing_of_a_half_is_near_outside_of_its_window)
         take(&a, zero, one);
         take(&b, zero, one);
         vec3 axis = {{random_between(&state, -1, 1), random_between(&state, -1, 1), 1}};
-        const double clearance = random_power(&state, -6, 1);
+        const double gamma_clear = random_power(&state, -6, 1);
         const time_window w = {0, random_power(&state, -6, 0)}, longer = {0, 2 * w.hi};
         const int side = (int)(random_bits(&state) % 2);
         const parameter j = random_bits(&state) % 2 ? PARAMETER_U : PARAMETER_V;
@@ -336,7 +336,7 @@ START_TEST(nothing_of_a_half_is_near_outside_of_its_window)
         time_window left[2];
         bool near[2];
         net_axis_seek(&a.n, &b.n, w.lo, &axis);
-        net_halves_find(&a.n, &b.n, axis, clearance, &w, &halves);
+        net_halves_find(&a.n, &b.n, axis, gamma_clear, &w, &halves);
         if (halves.count > 0 && halves.found[halves.count - 1].half < 0) continue;
         ck_assert(!net_halves_cut(&halves, side, PARAMETER_T, &w, left, near));
         ck_assert(!net_halves_cut(&halves, side, j, &longer, left, near));
@@ -345,7 +345,7 @@ START_TEST(nothing_of_a_half_is_near_outside_of_its_window)
             const imp_region half = region_half(&halves.of[side].region, j, l % 2);
             cuts += near[l % 2] && (left[l % 2].lo > w.lo || left[l % 2].hi < w.hi);
             ck_assert(is_window_of_half(&state, both, &halves, side, &half, near[l % 2],
-                                        &left[l % 2], clearance));
+                                        &left[l % 2], gamma_clear));
         }
     }
     ck_assert_int_gt(cuts, suite_times(6000) / 20);
@@ -364,18 +364,18 @@ START_TEST(windows_of_halves_are_those_that_their_hulls_leave)
         take(&a, zero, one);
         take(&b, zero, one);
         vec3 axis = {{random_between(&state, -1, 1), random_between(&state, -1, 1), 1}};
-        const double clearance = random_power(&state, -6, 1);
+        const double gamma_clear = random_power(&state, -6, 1);
         const time_window w = {0, 1};
         const parameter j = random_bits(&state) % 2 ? PARAMETER_U : PARAMETER_V;
         net_halves halves;
         time_window left[2], hull = w;
         bool near[2];
         net_axis_seek(&a.n, &b.n, w.lo, &axis);
-        net_halves_find(&a.n, &b.n, axis, clearance, &w, &halves);
+        net_halves_find(&a.n, &b.n, axis, gamma_clear, &w, &halves);
         if (halves.count > 0) continue;
         ck_assert(net_halves_cut(&halves, 0, j, &w, left, near));
         net_halve(a.n.net, j, 1, net_in(&a.room));
-        if (!net_axis_cut(&a.n, &b.n, axis, clearance, &hull) || !near[1]) continue;
+        if (!net_axis_cut(&a.n, &b.n, axis, gamma_clear, &hull) || !near[1]) continue;
         cuts += hull.lo > 0 || hull.hi < 1;
         ck_assert_double_eq_tol(left[1].lo, hull.lo, 1e-9);
         ck_assert_double_eq_tol(left[1].hi, hull.hi, 1e-9);
@@ -481,7 +481,7 @@ static imp_status counting_net(const void *self, const imp_region *region, imp_n
 {
     (void)self, (void)region, (void)to;
     asked += 1;
-    return IMP_UNBOUNDED;
+    return IMP_STATUS_UNBOUNDED;
 }
 
 /* A square in the way of the ball. */
@@ -548,10 +548,10 @@ static imp_status rough_net(const void *self, const imp_region *region, imp_net 
                         ss[3] = {1, -1, 1}; /* Bernstein coefficients of s and s^2 */
     const ball *b = self;
     imp_model f[3];
-    if (ball_formula_include(self, region, f) != IMP_OK) return IMP_UNBOUNDED;
+    if (ball_formula_include(self, region, f) != IMP_STATUS_OK) return IMP_STATUS_UNBOUNDED;
     to->degree[0] = to->degree[1] = 2;
     for (int i = 0; i < 3; ++i) {
-        if (!(f[i].e < 0.02)) return IMP_UNBOUNDED;
+        if (!(f[i].e < 0.02)) return IMP_STATUS_UNBOUNDED;
         for (int k = 0; k < 9; ++k) {
             const int u = k / 3, v = k % 3;
             to->point[i][k] = f[i].a + f[i].b[0] * s[u] + f[i].b[1] * s[v] +
@@ -561,7 +561,7 @@ static imp_status rough_net(const void *self, const imp_region *region, imp_net 
         to->drift[i] = b->velocity[i];
         to->error[i] = f[i].e + 1e-12;
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static double contact_of_balls(const imp_surface_type *type)
@@ -575,7 +575,7 @@ static double contact_of_balls(const imp_surface_type *type)
     imp_query *query = imp_query_new(scene, &options, NULL);
     ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
     const imp_result r = imp_query_result(query);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     imp_query_free(query);
     imp_scene_free(scene);
     return r.t;

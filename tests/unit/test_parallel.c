@@ -102,7 +102,7 @@ static void same(const imp_result *r, const imp_result *s)
     ck_assert_uint_eq(r->stats.peak_heap, s->stats.peak_heap);
     if (r->reason != IMP_REASON_RUNNING) ck_assert_uint_eq(r->stats.bytes, s->stats.bytes);
     ck_assert_uint_eq(r->stats.witness_searches, s->stats.witness_searches);
-    if (r->verdict != IMP_CONTACT) return;
+    if (r->verdict != IMP_VERDICT_CONTACT) return;
     ck_assert(r->a.body == s->a.body && r->b.body == s->b.body && r->a.u == s->a.u);
     ck_assert(r->gap == s->gap && memcmp(r->normal, s->normal, sizeof r->normal) == 0);
 }
@@ -131,7 +131,7 @@ START_TEST(a_query_that_is_lent_threads_answers_and_counts_as_one_without)
 {
     host h = {0};
     const imp_result alone = solve(as_it_is, NULL, 0, 1), lent = solve(as_it_is, &h, 0, 1);
-    ck_assert_int_eq(alone.verdict, IMP_CONTACT);
+    ck_assert_int_eq(alone.verdict, IMP_VERDICT_CONTACT);
     ck_assert_uint_gt(alone.stats.pairs, BODIES);
     ck_assert_int_ge(h.lent, 3); /* trees, sweep, first tests */
     same(&alone, &lent);
@@ -152,7 +152,7 @@ END_TEST
 
 static imp_options paper(imp_options o)
 {
-    o.method = IMP_METHOD_PAPER;
+    o.baseline = IMP_BASELINE_BOXES;
     o.max_pairs = 90000; /* more than there can be candidates */
     return o;
 }
@@ -200,7 +200,7 @@ START_TEST(limits_end_a_query_that_is_lent_threads_for_the_same_reason)
     for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
         host h = {0};
         const imp_result alone = solve(limits[k], NULL, 0, 1), lent = solve(limits[k], &h, 0, 1);
-        ck_assert_int_eq(alone.verdict, IMP_UNDECIDED);
+        ck_assert_int_eq(alone.verdict, IMP_VERDICT_UNDECIDED);
         ck_assert_int_eq(alone.reason, lent.reason);
         ck_assert_uint_eq(alone.stats.pairs, lent.stats.pairs);
         ck_assert_double_eq(alone.t_lower, lent.t_lower);
@@ -265,7 +265,7 @@ START_TEST(tests_made_ahead_are_made_again_after_refinement)
 {
     host h = {0};
     const imp_result alone = refined(NULL), lent = refined(&h);
-    ck_assert_int_eq(alone.verdict, IMP_CONTACT);
+    ck_assert_int_eq(alone.verdict, IMP_VERDICT_CONTACT);
     ck_assert_int_ge(h.lent, 4);
     same(&alone, &lent);
 }

@@ -17,29 +17,29 @@
     }
 #define POSITIVE                                                                                   \
     {                                                                                              \
-        .name = "radius", .unit = "length", .doc = "", .kind = IMP_NUMBER, .flags = IMP_MIN_OPEN,  \
-        .min = 0, .max = INFINITY                                                                  \
+        .name = "radius", .unit = "length", .doc = "", .kind = IMP_KIND_NUMBER,                    \
+        .flags = IMP_PARAMETER_MIN_OPEN, .min = 0, .max = INFINITY                                 \
     }
 
 static const imp_parameter positive[] = {POSITIVE};
-static const imp_parameter vector[] = {ROW("axis", IMP_NUMBER, .rank = 1, .extent = {3})};
-static const imp_parameter points[] = {ROW("points", IMP_NUMBER, .rank = 2, .extent = {0, 3})};
-static const imp_parameter cube[] = {ROW("cube", IMP_NUMBER, .rank = 3, .extent = {0, 0, 0})};
-static const imp_parameter integer[] = {ROW("count", IMP_INTEGER, .rank = 0)};
-static const imp_parameter boolean[] = {ROW("closed", IMP_BOOLEAN, .rank = 0)};
-static const imp_parameter string[] = {ROW("x", IMP_STRING, .rank = 0)};
-static const imp_parameter table_row[] = {ROW("constants", IMP_TABLE, .rank = 0)};
-static const imp_parameter scalar[] = {
-    ROW("coefficients", IMP_NUMBER, .flags = IMP_SCALAR_OK, .rank = 1, .extent = {0})};
+static const imp_parameter vector[] = {ROW("axis", IMP_KIND_NUMBER, .rank = 1, .extent = {3})};
+static const imp_parameter points[] = {ROW("points", IMP_KIND_NUMBER, .rank = 2, .extent = {0, 3})};
+static const imp_parameter cube[] = {ROW("cube", IMP_KIND_NUMBER, .rank = 3, .extent = {0, 0, 0})};
+static const imp_parameter integer[] = {ROW("count", IMP_KIND_INTEGER, .rank = 0)};
+static const imp_parameter boolean[] = {ROW("closed", IMP_KIND_BOOLEAN, .rank = 0)};
+static const imp_parameter string[] = {ROW("x", IMP_KIND_STRING, .rank = 0)};
+static const imp_parameter table_row[] = {ROW("constants", IMP_KIND_TABLE, .rank = 0)};
+static const imp_parameter scalar[] = {ROW(
+    "coefficients", IMP_KIND_NUMBER, .flags = IMP_PARAMETER_SCALAR_OK, .rank = 1, .extent = {0})};
 static const imp_parameter preset[] = {
-    ROW("center", IMP_NUMBER, .default_value = "[1, 2, 3]", .rank = 1, .extent = {3})};
+    ROW("center", IMP_KIND_NUMBER, .default_value = "[1, 2, 3]", .rank = 1, .extent = {3})};
 static const imp_parameter optional[] = {
-    ROW("weights", IMP_NUMBER, .flags = IMP_OPTIONAL, .rank = 1, .extent = {0})};
+    ROW("weights", IMP_KIND_NUMBER, .flags = IMP_PARAMETER_OPTIONAL, .rank = 1, .extent = {0})};
 static const imp_parameter between[] = {{.name = "e",
                                          .unit = "1",
                                          .doc = "",
-                                         .kind = IMP_NUMBER,
-                                         .flags = IMP_MIN_OPEN,
+                                         .kind = IMP_KIND_NUMBER,
+                                         .flags = IMP_PARAMETER_MIN_OPEN,
                                          .min = 0,
                                          .max = 2}};
 
@@ -148,7 +148,7 @@ START_TEST(ranges_are_kept_and_told_with_their_ends)
     imp_parameter below = *between;
     below.min = -INFINITY;
     assert_refused(&below, "{\"e\": 3}", "s: /e: got 3, must be <= 2");
-    below.flags = IMP_MAX_OPEN;
+    below.flags = IMP_PARAMETER_MAX_OPEN;
     assert_refused(&below, "{\"e\": 2}", "s: /e: got 2, must be < 2");
 }
 END_TEST
@@ -220,7 +220,7 @@ START_TEST(rows_longer_than_ours_are_stepped_over)
     struct {
         imp_parameter row;
         double more;
-    } rows[2] = {{POSITIVE, 1}, {ROW("x", IMP_NUMBER, .rank = 0), 1}};
+    } rows[2] = {{POSITIVE, 1}, {ROW("x", IMP_KIND_NUMBER, .rank = 0), 1}};
     parameter_table table = {&rows[0].row, 2, sizeof rows[0]};
     ck_assert_int_eq(parameter_table_find(&table, "x"), 1);
     ck_assert_int_eq(parameter_table_find(&table, "y"), -1);
@@ -345,8 +345,10 @@ END_TEST
 
 START_TEST(relative_names_of_files_begin_at_the_scenes_folder)
 {
-    static const imp_parameter row = {
-        .name = "n", .kind = IMP_STRING, .flags = IMP_FILE, .default_value = "\"preset.csv\""};
+    static const imp_parameter row = {.name = "n",
+                                      .kind = IMP_KIND_STRING,
+                                      .flags = IMP_PARAMETER_FILE,
+                                      .default_value = "\"preset.csv\""};
     static const struct {
         const char *text, *name;
     } cases[] = {{"{\"n\":\"a.csv\"}", "/scenes/a.csv"},

@@ -58,7 +58,7 @@ START_TEST(what_is_left_at_the_contact_covers_all_that_comes_near_later)
     imp_query *query = begin(scene);
     ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
     const imp_result r = imp_query_result(query);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     uint64_t random = suite_seed();
     int left = 0;
     for (int k = 0; k < suite_times(20000); ++k) {
@@ -84,7 +84,7 @@ START_TEST(nothing_is_left_of_what_is_clear)
     imp_query *query = begin(scene);
     imp_pending p;
     ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
-    ck_assert_int_eq(imp_query_result(query).verdict, IMP_CLEAR);
+    ck_assert_int_eq(imp_query_result(query).verdict, IMP_VERDICT_CLEAR);
     ck_assert(!imp_query_pending(query, 0, &p));
     imp_query_free(query);
     imp_scene_free(scene);

@@ -9,6 +9,10 @@
 #include "core/tree/node.h"
 #include "tests/support/built_plugins.h"
 
+#include <impinge/baseline.h>
+
+#include <impinge/examine.h>
+
 /* Bodies of many surfaces: what holds of a cluster of pieces, and that a mesh answers as its triangles
  * do one by one. */
 
@@ -119,7 +123,7 @@ static void expect_inside(visit *v, const node *n, const surface *piece)
     const imp_region *r = &n->region;
     for (int j = 0; j < 2; ++j) p[j] = random_between(&v->random, 0, 1);
     p[2] = random_between(&v->random, r->lo[2], r->hi[2]);
-    ck_assert_int_eq(surface_eval(piece, 1, p, x, error), IMP_OK);
+    ck_assert_int_eq(surface_eval(piece, 1, p, x, error), IMP_STATUS_OK);
     const double s = r->d[2] > 0 ? (p[2] - r->c[2]) / r->d[2] : 0;
     for (int i = 0; i < 3; ++i) {
         const double middle = n->f.a[i] + n->f.bt[i] * s + n->f.qtt[i] * s * s;
@@ -190,7 +194,7 @@ END_TEST
 START_TEST(a_map_without_models_bounds_the_box_of_a_cluster)
 {
     imp_instance map;
-    ck_assert_int_eq(imp_instance_from_text(registry, IMP_KIND_MAP, "rotate axis=1,1,0 rate=2", &map,
+    ck_assert_int_eq(imp_instance_from_text(registry, IMP_TYPE_MAP, "rotate axis=1,1,0 rate=2", &map,
                                             NULL),
                      IMP_SUCCESS);
     imp_map_type rates_alone = *map.map;
@@ -198,7 +202,7 @@ START_TEST(a_map_without_models_bounds_the_box_of_a_cluster)
     const char *text = "mesh points=[[0,0,0],[1,0,0],[0,1,0],[0,0,1]] "
                        "faces=[[0,2,1],[0,1,3],[0,3,2],[1,2,3]]";
     imp_instance shape;
-    ck_assert_int_eq(imp_instance_from_text(registry, IMP_KIND_SURFACE, text, &shape, NULL),
+    ck_assert_int_eq(imp_instance_from_text(registry, IMP_TYPE_SURFACE, text, &shape, NULL),
                      IMP_SUCCESS);
     surface *s = surface_new(shape.surface, shape.self);
     ck_assert_int_eq(surface_add_map(s, &rates_alone, map.self), IMP_SUCCESS);
@@ -211,12 +215,12 @@ END_TEST
 
 /* --- Answers -------------------------------------------------------------------------------- */
 
-static imp_result solve(imp_scene *scene, imp_method method)
+static imp_result solve(imp_scene *scene, uint32_t baseline)
 {
     imp_options options = imp_options_default(scene);
-    options.method = method;
-    options.gamma = method == IMP_METHOD_PAPER ? 1e-2 : 1e-4;
-    options.audit = method == IMP_METHOD_MODELS;
+    options.baseline = baseline;
+    options.gamma = baseline == IMP_BASELINE_BOXES ? 1e-2 : 1e-4;
+    options.audit = baseline == IMP_BASELINE_NONE;
     imp_result r = {.struct_size = sizeof r};
     imp_error error;
     ck_assert_msg(imp_scene_solve(scene, &options, &r, &error) == IMP_SUCCESS, "%s", error.text);
@@ -233,13 +237,13 @@ static void expect_point(const imp_scene *scene, const imp_side *side, double t)
     ck_assert_mem_eq(x, side->point, sizeof x);
 }
 
-static void compare(sheet sheets[2], const char *motion, imp_method method)
+static void compare(sheet sheets[2], const char *motion, uint32_t baseline)
 {
     imp_scene *whole = scene_of(sheets, motion, true), *apart = scene_of(sheets, motion, false);
-    const imp_result a = solve(whole, method), b = solve(apart, method);
+    const imp_result a = solve(whole, baseline), b = solve(apart, baseline);
     ck_assert_int_eq(a.verdict, b.verdict);
     ck_assert_double_eq_tol(a.t_lower, b.t_lower, a.gamma);
-    if (a.verdict == IMP_CONTACT) {
+    if (a.verdict == IMP_VERDICT_CONTACT) {
         ck_assert_double_le(a.gap, a.gamma);
         expect_point(whole, &a.a, a.t);
         expect_point(whole, &a.b, a.t);
@@ -257,8 +261,8 @@ START_TEST(a_mesh_meets_another_when_their_triangles_do)
     for (int k = 0; k < suite_times(3); ++k)
         for (int m = 0; m < MOTIONS; ++m) {
             sheet sheets[2] = {rough_sheet(&random, 0, 0.1), rough_sheet(&random, 1.2, m % 2)};
-            compare(sheets, motions[m], IMP_METHOD_MODELS);
-            if (k == 0 && m == 1) compare(sheets, motions[m], IMP_METHOD_PAPER);
+            compare(sheets, motions[m], IMP_BASELINE_NONE);
+            if (k == 0 && m == 1) compare(sheets, motions[m], IMP_BASELINE_BOXES);
         }
 }
 END_TEST
@@ -275,7 +279,7 @@ START_TEST(a_mesh_keeps_the_distance_that_its_triangles_keep)
         ck_assert_ptr_nonnull(query);
         ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
         imp_clearance answer = {.struct_size = sizeof answer};
-        ck_assert_int_eq(imp_clearance_read(query, 0, &answer, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_clearance_get(query, 0, &answer, NULL), IMP_SUCCESS);
         ck_assert(answer.has_witness && answer.reason == IMP_REASON_NONE);
         expect_point(scene, &answer.a, answer.t);
         expect_point(scene, &answer.b, answer.t);
@@ -296,11 +300,11 @@ START_TEST(finer_answers_of_a_mesh_agree_with_those_found_afresh)
     const imp_options options = imp_options_default(scene);
     imp_query *query = imp_query_new(scene, &options, NULL);
     ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
-    ck_assert_int_eq(imp_query_result(query).verdict, IMP_CONTACT);
+    ck_assert_int_eq(imp_query_result(query).verdict, IMP_VERDICT_CONTACT);
     ck_assert_int_eq(imp_query_refine(query, 1e-8, -1, NULL), IMP_SUCCESS);
     ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
     const imp_result fine = imp_query_result(query);
-    ck_assert_int_eq(fine.verdict, IMP_CONTACT);
+    ck_assert_int_eq(fine.verdict, IMP_VERDICT_CONTACT);
     ck_assert_double_le(fine.gap, 1e-8);
     imp_options finer = options;
     finer.gamma = 1e-8;

@@ -97,7 +97,7 @@ END_TEST
 /* No type of ours has a list of strings yet; the ABI allows them. */
 START_TEST(lists_of_strings_need_no_brackets)
 {
-    const imp_parameter names = {.name = "names", .kind = IMP_STRING, .rank = 1};
+    const imp_parameter names = {.name = "names", .kind = IMP_KIND_STRING, .rank = 1};
     static const char *const texts[] = {"one,\"two, three\",4", "[\"one\", \"two, three\", \"4\"]"};
     for (int k = 0; k < 2; ++k) {
         json_t *list = NULL;

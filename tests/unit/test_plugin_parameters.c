@@ -25,7 +25,7 @@ START_TEST(every_example_makes_a_surface_with_points)
     for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) {
         imp_error error = {.text = ""};
         double lo[3], hi[3], x[3], slip[3];
-        imp_scene *scene = scene_of(registry, info.kind == IMP_KIND_MAP, info.example, &error);
+        imp_scene *scene = scene_of(registry, info.kind == IMP_TYPE_MAP, info.example, &error);
         ck_assert_msg(scene != NULL, "%s: %s", info.example, error.text);
         imp_scene_domain(scene, 0, 0, lo, hi);
         double p[3] = {lo[0] + (hi[0] - lo[0]) / 3, (lo[1] + hi[1]) / 2, fmax(lo[2], 0)};

@@ -59,8 +59,9 @@ static void expect(trial *t, bool holds, int kind, const char *what)
 
 static void expect_status(const trial *t, imp_status status, const char *what)
 {
-    ck_assert_msg(status == IMP_OK || status == IMP_UNBOUNDED, "%s of %s %.300s: status %d", what,
-                  t->instance->view.name, t->instance->text, status);
+    ck_assert_msg(status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED,
+                  "%s of %s %.300s: status %d", what, t->instance->view.name, t->instance->text,
+                  status);
 }
 
 static void exact(const instance *made, const double *p, int dimensions, number x[3])
@@ -83,7 +84,7 @@ static void try_surface_point(trial *t)
     double x[3], error[3];
     number truth[3];
     imp_status status = made->surface->eval(made->self, 1, t->p, x, error);
-    ck_assert_msg(status == IMP_OK, "eval of %s: status %d", made->view.name, status);
+    ck_assert_msg(status == IMP_STATUS_OK, "eval of %s: status %d", made->view.name, status);
     exact(made, t->p, 3, truth);
     for (int i = 0; i < 3; ++i) error[i] *= t->share.error;
     expect(t, judge_point(x, error, truth, &t->fault), ERROR, "eval");
@@ -143,7 +144,7 @@ static void try_surface_net(trial *t, const imp_region *region)
     const imp_status status = made->surface->net(made->self, region, &net);
     expect_status(t, status, "net");
     ck_assert_msg(errno == 0, "%s sets errno", made->view.name);
-    if (status != IMP_OK) return;
+    if (status != IMP_STATUS_OK) return;
     for (int i = 0; i < 3; ++i) net.error[i] *= t->share.net;
     for (int k = 0; k < POINTS; ++k) {
         number truth[3];
@@ -180,7 +181,7 @@ static void try_map_box(trial *t, const imp_box4 *box)
         number truth[3];
         num_forget();
         sample_point(&t->random, 4, box->lo, box->hi, t->p);
-        ck_assert_int_eq(made->map->eval(made->self, 1, t->p, x, error), IMP_OK);
+        ck_assert_int_eq(made->map->eval(made->self, 1, t->p, x, error), IMP_STATUS_OK);
         exact(made, t->p, 4, truth);
         for (int i = 0; i < 3; ++i) error[i] *= t->share.error;
         expect(t, judge_point(x, error, truth, &t->fault), ERROR, "eval");
@@ -240,7 +241,7 @@ static void try_map_net(trial *t, const imp_region *region)
     imp_net net = given;
     const imp_status status = made->map->net(made->self, region, &net);
     expect_status(t, status, "net");
-    if (status != IMP_OK) return;
+    if (status != IMP_STATUS_OK) return;
     for (int i = 0; i < 3; ++i) net.error[i] *= t->share.net;
     for (int k = 0; k < POINTS; ++k) {
         number at[4], truth[3];
@@ -277,7 +278,7 @@ static void try_map_pose(trial *t, const imp_region *region)
     const imp_status status = made->map->rigid(made->self, &time, &pose);
     expect_status(t, status, "rigid");
     ck_assert_msg(errno == 0, "%s sets errno", made->view.name);
-    if (status != IMP_OK) return;
+    if (status != IMP_STATUS_OK) return;
     for (int k = 0; k < POINTS; ++k) {
         sample_point(&t->random, 3, region->lo, region->hi, t->p);
         sample_point(&t->random, 3, region->lo, region->hi, t->q);
@@ -518,9 +519,9 @@ static void try_batch(trial *t)
     type->domain(t->instance->self, lo, hi);
     lo[2] = -1, hi[2] = 1;
     for (int k = 0; k < N; ++k) sample_point(&t->random, 3, lo, hi, p + 3 * k);
-    ck_assert_int_eq(type->eval(t->instance->self, N, p, x, error), IMP_OK);
+    ck_assert_int_eq(type->eval(t->instance->self, N, p, x, error), IMP_STATUS_OK);
     for (int k = 0; k < N; ++k) {
-        ck_assert_int_eq(type->eval(t->instance->self, 1, p + 3 * k, alone, NULL), IMP_OK);
+        ck_assert_int_eq(type->eval(t->instance->self, 1, p + 3 * k, alone, NULL), IMP_STATUS_OK);
         ck_assert_mem_eq(alone, x + 3 * k, sizeof alone);
     }
 }

@@ -11,7 +11,7 @@
 #include "core/tree/pose.h"
 #include "tests/support/meeting.h"
 
-/* Pairs of images of shapes under poses, brought together exactly within the clearance at a chosen moment, at
+/* Pairs of images of shapes under poses, brought together exactly within gamma_clear at a chosen moment, at
  * points where remainders reach farthest toward each other: no cut may lose that moment. In long double. */
 
 typedef struct image {
@@ -30,7 +30,7 @@ typedef struct place {
 typedef struct meeting {
     image a, b;
     time_window window;
-    double t, clearance;
+    double t, gamma_clear;
     vec3 along; /* the direction in which they meet */
 } meeting;
 
@@ -179,13 +179,13 @@ static void draw_meeting(uint64_t *state, meeting *m, bool alike)
     fill(&m->a, 0, 1);
     fill(&m->b, alike ? 0 : draw(state, 1) - 1, alike ? 1 : 2);
     m->t = draw_moment(state, -6, &m->window);
-    m->clearance = random_power(state, -14, 0);
+    m->gamma_clear = random_power(state, -14, 0);
     for (int i = 0; i < 3; ++i) m->along.x[i] = draw(state, 1);
     if (alike && random_bits(state) % 4) m->along = m->a.n.normal;
     m->along = vec3_scale(m->along, 1 / vec3_norm(m->along));
 }
 
-/* Moves B so that its lowest point is above A's highest by the clearance times `share`. What the mean of the
+/* Moves B so that its lowest point is above A's highest by gamma_clear times `share`. What the mean of the
  * places is rounded by is far less than what 1e-9 leaves. */
 static void bring_together(uint64_t *state, meeting *m, double share)
 {
@@ -195,7 +195,7 @@ static void bring_together(uint64_t *state, meeting *m, double share)
     point(&m->a, &a, m->t, pa);
     point(&m->b, &b, m->t, pb);
     for (int i = 0; i < 3; ++i)
-        m->b.n.f.a[i] += (double)(pa[i] - pb[i] + m->along.x[i] * m->clearance * share);
+        m->b.n.f.a[i] += (double)(pa[i] - pb[i] + m->along.x[i] * m->gamma_clear * share);
 }
 
 START_TEST(a_meeting_of_turning_nodes_is_never_cut_away)
@@ -207,7 +207,7 @@ START_TEST(a_meeting_of_turning_nodes_is_never_cut_away)
         bring_together(&state, &m, 1 - 1e-9);
         time_window left = m.window;
         vec3 axis = m.along;
-        const bool some = separation_window(&m.a.n, &m.b.n, m.clearance, &left, &axis, NULL);
+        const bool some = separation_window(&m.a.n, &m.b.n, m.gamma_clear, &left, &axis, NULL);
         check_window_left(&m.window, m.t, some, &left, k);
     }
 }
@@ -224,10 +224,10 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
         w_range axes = {-1, 1}, given = {-1, 1}, field = {-1, 1};
         vec3 axis = m.along;
         difference_at(&m.a.n, &m.b.n, &m.window, &r);
-        check_share_left(&r, m.t, fixed_axes_cut_along(&r, m.clearance, &given, m.along), &given,
+        check_share_left(&r, m.t, fixed_axes_cut_along(&r, m.gamma_clear, &given, m.along), &given,
                          k);
-        check_share_left(&r, m.t, fixed_axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
-        check_share_left(&r, m.t, normal_field_cut(&r, m.clearance, &field, NULL), &field, k);
+        check_share_left(&r, m.t, fixed_axes_cut(&r, m.gamma_clear, &axes, &axis, NULL), &axes, k);
+        check_share_left(&r, m.t, normal_field_cut(&r, m.gamma_clear, &field, NULL), &field, k);
     }
 }
 END_TEST
@@ -242,10 +242,10 @@ START_TEST(no_gap_of_turning_nodes_is_below_the_lower_bound_of_the_distance)
         time_window left = m.window;
         vec3 axis = m.along;
         approach near = {NAN, m.t};
-        const double above = m.clearance * (1 + 1e-9);
+        const double above = m.gamma_clear * (1 + 1e-9);
         const bool some = separation_approach(&m.a.n, &m.b.n, above, &left, &axis, &near);
         ck_assert_msg(some && near.lower <= above, "case %d: %g apart, lower bound %g", k,
-                      m.clearance, near.lower);
+                      m.gamma_clear, near.lower);
     }
 }
 END_TEST
@@ -254,7 +254,7 @@ static bool is_parted(const node *a, const node *b, const meeting *m)
 {
     time_window left = m->window;
     vec3 axis = m->along;
-    return !separation_window(a, b, m->clearance, &left, &axis, NULL);
+    return !separation_window(a, b, m->gamma_clear, &left, &axis, NULL);
 }
 
 /* Of those that a box hardly parts. */
@@ -265,7 +265,7 @@ START_TEST(turning_remainders_part_more_than_boxes_do)
     for (int k = 0; k < suite_times(4000); ++k) {
         meeting m;
         draw_meeting(&state, &m, false);
-        m.clearance = 1;
+        m.gamma_clear = 1;
         bring_together(&state, &m, 1 + random_power(&state, -4, 1));
         node a = m.a.n, b = m.b.n;
         by_terms += is_parted(&a, &b, &m);

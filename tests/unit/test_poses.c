@@ -391,7 +391,7 @@ START_TEST(remainders_are_no_larger_than_through_the_maps)
         moved_egg *e = egg_make(&state, 0, false, 2);
         const node *n = descend(&state, e, 8);
         imp_model model[3];
-        ck_assert_int_eq(surface_include(e->s, &n->region, model), IMP_OK);
+        ck_assert_int_eq(surface_include(e->s, &n->region, model), IMP_STATUS_OK);
         for (int i = 0; i < 3; ++i) {
             posed += n->e[i] / (n->e[i] + model[i].e);
             through += model[i].e / (n->e[i] + model[i].e);

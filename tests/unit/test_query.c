@@ -10,6 +10,8 @@
 #include <string.h>
 #include <sys/time.h>
 
+#include <impinge/baseline.h>
+
 /* The query as an object: begun, stepped, made finer, cancelled, freed; and what a scene of many
  * surfaces makes of it. */
 
@@ -61,14 +63,14 @@ typedef struct wrong {
 static void is_refused(imp_scene *scene, const wrong *w)
 {
     imp_error error = {IMP_SUCCESS, ""};
-    imp_result r;
+    imp_result r = {.struct_size = sizeof r};
     ck_assert_ptr_null(imp_query_new(scene, &w->options, &error));
     ck_assert_int_eq(error.code, IMP_ERROR_USAGE);
     ck_assert_msg(strncmp(error.text, w->word, strlen(w->word)) == 0, "%s", error.text);
     ck_assert_ptr_nonnull(strstr(error.text, "must be"));
     ck_assert_ptr_null(imp_query_new(scene, &w->options, NULL));
-    ck_assert_int_eq(imp_solve(scene, &w->options, &r, &error), IMP_ERROR_USAGE);
-    ck_assert_int_eq(imp_solve(scene, &w->options, &r, NULL), IMP_ERROR_USAGE);
+    ck_assert_int_eq(imp_scene_solve(scene, &w->options, &r, &error), IMP_ERROR_USAGE);
+    ck_assert_int_eq(imp_scene_solve(scene, &w->options, &r, NULL), IMP_ERROR_USAGE);
 }
 
 START_TEST(options_out_of_range_are_refused_with_what_is_allowed)
@@ -82,8 +84,8 @@ START_TEST(options_out_of_range_are_refused_with_what_is_allowed)
         wrong w = {"gamma", imp_options_default(scene)};
         w.options.gamma = bad_gamma[k];
         is_refused(scene, &w);
-        w = (wrong){"clearance", imp_options_default(scene)};
-        w.options.clearance = bad_clearance[k];
+        w = (wrong){"gamma_clear", imp_options_default(scene)};
+        w.options.gamma_clear = bad_clearance[k];
         is_refused(scene, &w);
     }
     for (int k = 0; k < 2; ++k) {
@@ -101,18 +103,18 @@ START_TEST(options_out_of_range_are_refused_with_what_is_allowed)
 }
 END_TEST
 
-START_TEST(methods_bounds_and_rates_there_are_not_are_refused)
+START_TEST(forms_of_the_baseline_there_are_not_are_refused)
 {
+    const uint32_t both = IMP_BASELINE_BOXES | IMP_BASELINE_SPHERES,
+                   all_rates = IMP_BASELINE_COLUMN_RATES | IMP_BASELINE_CONSTANT_RATES;
+    const uint32_t bad[] = {both, IMP_BASELINE_COLUMN_RATES, IMP_BASELINE_BOXES | all_rates, 16,
+                            IMP_BASELINE_SPHERES | 1u << 31};
     imp_scene *scene = two(&at_rest, &flying);
-    wrong w = {"method", imp_options_default(scene)};
-    w.options.method = (imp_method)(IMP_METHOD_PAPER + 1);
-    is_refused(scene, &w);
-    w = (wrong){"bounds", imp_options_default(scene)};
-    w.options.bounds = (imp_bounds)(IMP_BOUNDS_SPHERE + 1);
-    is_refused(scene, &w);
-    w = (wrong){"rates", imp_options_default(scene)};
-    w.options.rates = (imp_rates)(IMP_RATES_CONSTANT + 1);
-    is_refused(scene, &w);
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
+        wrong w = {"baseline", imp_options_default(scene)};
+        w.options.baseline = bad[k];
+        is_refused(scene, &w);
+    }
     imp_scene_free(scene);
 }
 END_TEST
@@ -122,11 +124,11 @@ START_TEST(the_tolerances_in_force_are_told)
     imp_scene *scene = two(&at_rest, &flying);
     imp_options options = imp_options_default(scene);
     options.gamma = 0.125;
-    imp_result r;
-    ck_assert_int_eq(imp_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, NULL), IMP_SUCCESS);
     ck_assert(r.gamma == 0.125 && r.gamma_clear == 0.0625);
-    options.clearance = 0;
-    ck_assert_int_eq(imp_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+    options.gamma_clear = 0;
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, NULL), IMP_SUCCESS);
     ck_assert(r.gamma == 0.125 && r.gamma_clear == 0);
     imp_scene_free(scene);
 }
@@ -139,7 +141,8 @@ START_TEST(a_query_that_never_stepped_knows_nothing_and_is_freed)
     imp_scene *scene = two(&at_rest, &flying);
     imp_query *query = begin(scene, 1e-3);
     const imp_result r = imp_query_result(query);
-    ck_assert(r.verdict == IMP_UNDECIDED && r.reason == IMP_REASON_RUNNING && r.t_lower == 0);
+    ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_RUNNING &&
+              r.t_lower == 0);
     ck_assert(isnan(r.t) && isnan(r.gap) && !r.has_normal);
     ck_assert_uint_eq(r.stats.pairs, 0);
     ck_assert_uint_eq(r.stats.nodes, 0);
@@ -155,7 +158,7 @@ START_TEST(steps_behind_the_end_change_nothing)
     imp_scene *scene = two(&at_rest, &flying);
     imp_query *query = begin(scene, 1e-3);
     const imp_result first = step(query, 0), again = step(query, 5);
-    ck_assert_int_eq(first.verdict, IMP_CONTACT);
+    ck_assert_int_eq(first.verdict, IMP_VERDICT_CONTACT);
     ck_assert(first.t == again.t && first.stats.pairs == again.stats.pairs);
     imp_query_free(query);
     imp_scene_free(scene);
@@ -192,7 +195,7 @@ START_TEST(refining_takes_nothing_coarser)
         ck_assert_ptr_nonnull(strstr(error.text, k < 2 ? "may not exceed" : "must be"));
     }
     const imp_result r = step(query, 0);
-    ck_assert(r.verdict == IMP_CONTACT && r.gamma == 1e-3 && r.gamma_clear == 5e-4);
+    ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.gamma == 1e-3 && r.gamma_clear == 5e-4);
     imp_query_free(query);
     imp_scene_free(scene);
 }
@@ -205,19 +208,19 @@ START_TEST(a_contact_made_finer_runs_again_and_clear_stays_clear)
     const imp_result coarse = step(query, 0);
     ck_assert_int_eq(imp_query_refine(query, 1e-4, -1, NULL), IMP_SUCCESS);
     imp_result r = imp_query_result(query);
-    ck_assert(r.verdict == IMP_UNDECIDED && r.reason == IMP_REASON_RUNNING);
+    ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_RUNNING);
     ck_assert(r.t_lower == coarse.t_lower && isnan(r.t));
     r = step(query, 0);
-    ck_assert(r.verdict == IMP_CONTACT && r.gap <= 1e-4 && r.t > coarse.t);
+    ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.gap <= 1e-4 && r.t > coarse.t);
     imp_query_free(query);
     imp_scene_free(scene);
 
     scene = two(&at_rest, &elsewhere);
     query = begin(scene, 1e-2);
-    ck_assert_int_eq(step(query, 0).verdict, IMP_CLEAR);
+    ck_assert_int_eq(step(query, 0).verdict, IMP_VERDICT_CLEAR);
     ck_assert_int_eq(imp_query_refine(query, 1e-4, 0, NULL), IMP_SUCCESS);
     r = step(query, 0);
-    ck_assert(r.verdict == IMP_CLEAR && r.t_lower == 1 && r.gamma_clear == 0);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.t_lower == 1 && r.gamma_clear == 0);
     imp_query_free(query);
     imp_scene_free(scene);
 }
@@ -250,7 +253,7 @@ START_TEST(queries_take_turns_on_the_same_trees)
     for (int turn = 0; turn < 1000; ++turn) step(queries[turn % 3], 1 + (uint64_t)turn % 5);
     for (int k = 0; k < 3; ++k) {
         const imp_result r = step(queries[k], 0);
-        ck_assert(r.verdict == IMP_CONTACT && r.t == expected.t && r.a.u == expected.a.u);
+        ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.t == expected.t && r.a.u == expected.a.u);
         nodes += r.stats.nodes;
         imp_query_free(queries[k]);
     }
@@ -265,15 +268,15 @@ START_TEST(other_times_and_methods_have_trees_of_their_own)
     imp_scene *scene = two(&at_rest, &flying);
     imp_options options = imp_options_default(scene);
     options.gamma = 0.1;
-    imp_result r;
+    imp_result r = {.struct_size = sizeof r};
     for (int k = 0; k < 4; ++k) {
         if (k == 1) options.t_end = 2;
-        if (k == 2) options.method = IMP_METHOD_PAPER;
-        if (k == 3) options.rates = IMP_RATES_COLUMN;
+        if (k == 2) options.baseline = IMP_BASELINE_BOXES;
+        if (k == 3) options.baseline = IMP_BASELINE_BOXES | IMP_BASELINE_COLUMN_RATES;
         if (k == 3) options.max_pairs = 100;
-        ck_assert_int_eq(imp_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_scene_solve(scene, &options, &r, NULL), IMP_SUCCESS);
         ck_assert_uint_ge(r.stats.nodes, 2);
-        ck_assert_int_eq(imp_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_scene_solve(scene, &options, &r, NULL), IMP_SUCCESS);
         ck_assert_uint_eq(r.stats.nodes, 0);
     }
     imp_scene_free(scene);
@@ -319,7 +322,7 @@ START_TEST(of_many_bodies_the_first_that_touch_are_told_as_each_is_ignored_in_tu
     for (int k = 0; k < 5; ++k) {
         const imp_result r = solve(scene, 1e-6);
         const double t = arrivals[order[k] - 1];
-        ck_assert_int_eq(r.verdict, IMP_CONTACT);
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
         ck_assert_uint_eq(r.a.body, 0);
         ck_assert_uint_eq(r.b.body, order[k]);
         ck_assert_double_le(r.t, t);
@@ -327,7 +330,7 @@ START_TEST(of_many_bodies_the_first_that_touch_are_told_as_each_is_ignored_in_tu
         ck_assert_int_eq(scene_ignore(scene, k % 2 ? order[k] : 0, k % 2 ? 0 : order[k]),
                          IMP_SUCCESS);
     }
-    ck_assert_int_eq(solve(scene, 1e-6).verdict, IMP_CLEAR);
+    ck_assert_int_eq(solve(scene, 1e-6).verdict, IMP_VERDICT_CLEAR);
     imp_scene_free(scene);
 }
 END_TEST
@@ -355,7 +358,7 @@ START_TEST(bodies_that_meet_none_cost_little_and_change_nothing)
         ck_assert_int_eq(spheres_add(scene, &ball_type, &others[k]), IMP_SUCCESS);
     }
     const imp_result r = solve(scene, 1e-6), again = solve(scene, 1e-6);
-    ck_assert(r.verdict == IMP_CONTACT && r.t == expected.t && r.b.u == expected.b.u);
+    ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.t == expected.t && r.b.u == expected.b.u);
     ck_assert_uint_eq(r.stats.nodes, expected.stats.nodes);
     ck_assert_uint_lt(r.stats.bytes - expected.stats.bytes, FAR_AWAY * 1000);
     ck_assert(again.t == expected.t && again.stats.nodes == 0);
@@ -371,7 +374,7 @@ START_TEST(surfaces_of_one_body_are_not_tested_with_each_other)
                                        surface_new(&ball_type, unconst(&elsewhere))),
                      IMP_SUCCESS);
     const imp_result r = solve(scene, 1e-3);
-    ck_assert(r.verdict == IMP_CLEAR && r.reason == IMP_REASON_NONE && r.t_lower == 1);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.reason == IMP_REASON_NONE && r.t_lower == 1);
     imp_scene_free(scene);
 }
 END_TEST
@@ -380,15 +383,15 @@ START_TEST(a_body_that_is_alone_is_clear_for_that_reason)
 {
     imp_scene *scene = scene_new();
     imp_result r = solve(scene, 1e-3);
-    ck_assert(r.verdict == IMP_CLEAR && r.reason == IMP_REASON_NO_PAIRS);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.reason == IMP_REASON_NO_PAIRS);
     ck_assert_int_eq(spheres_add(scene, &ball_type, &at_rest), IMP_SUCCESS);
     r = solve(scene, 1e-3);
-    ck_assert(r.verdict == IMP_CLEAR && r.reason == IMP_REASON_NO_PAIRS && r.t_lower == 1);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.reason == IMP_REASON_NO_PAIRS && r.t_lower == 1);
     ck_assert_int_eq(spheres_add(scene, &ball_type, &at_rest), IMP_SUCCESS);
-    ck_assert_int_eq(solve(scene, 1e-3).verdict, IMP_CONTACT);
+    ck_assert_int_eq(solve(scene, 1e-3).verdict, IMP_VERDICT_CONTACT);
     ck_assert_int_eq(scene_ignore(scene, 1, 0), IMP_SUCCESS);
     r = solve(scene, 1e-3);
-    ck_assert(r.verdict == IMP_CLEAR && r.reason == IMP_REASON_NO_PAIRS);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.reason == IMP_REASON_NO_PAIRS);
     imp_scene_free(scene);
 }
 END_TEST
@@ -402,11 +405,11 @@ START_TEST(bodies_that_never_exist_together_are_clear_for_that_reason)
                past = {.radius = 1, .start = -2, .end = -1};
     imp_scene *scene = two(&early, &late);
     imp_result r = solve(scene, 1e-3);
-    ck_assert(r.verdict == IMP_CLEAR && r.reason == IMP_REASON_NO_TIME && r.t_lower == 1);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.reason == IMP_REASON_NO_TIME && r.t_lower == 1);
     imp_scene_free(scene);
     scene = two(&past, &at_rest);
     r = solve(scene, 1e-3);
-    ck_assert(r.verdict == IMP_CLEAR && r.reason == IMP_REASON_NO_TIME);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.reason == IMP_REASON_NO_TIME);
     imp_scene_free(scene);
 }
 END_TEST
@@ -418,11 +421,11 @@ START_TEST(contact_is_no_earlier_than_both_exist)
                moment = {.radius = 1, .centre = {1, 0.5, 0}, .start = 0.625, .end = 3};
     imp_scene *scene = two(&early, &late);
     imp_result r = solve(scene, 1e-3);
-    ck_assert(r.verdict == IMP_CONTACT && r.t == 0.25);
+    ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.t == 0.25);
     imp_scene_free(scene);
     scene = two(&early, &moment);
     r = solve(scene, 1e-3);
-    ck_assert(r.verdict == IMP_CONTACT && r.t == 0.625);
+    ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.t == 0.625);
     imp_scene_free(scene);
 }
 END_TEST
@@ -440,7 +443,7 @@ START_TEST(a_body_that_ends_before_the_other_arrives_is_clear)
     imp_scene_free(scene);
     scene = two(&at_rest, &ends);
     const imp_result r = solve(scene, 1e-4);
-    ck_assert(r.verdict == IMP_CLEAR && r.reason == IMP_REASON_NONE && r.t_lower == 1);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.reason == IMP_REASON_NONE && r.t_lower == 1);
     imp_scene_free(scene);
 }
 END_TEST
@@ -457,7 +460,8 @@ static void on_alarm(int number)
 
 static void check_cancelled(imp_query *query, imp_result r)
 {
-    ck_assert(r.verdict == IMP_UNDECIDED && r.reason == IMP_REASON_CANCELLED && r.t_lower == 0);
+    ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_CANCELLED &&
+              r.t_lower == 0);
     const uint64_t pairs = r.stats.pairs;
     r = step(query, 100); /* and may go on */
     ck_assert_int_eq(r.reason, IMP_REASON_RUNNING);
@@ -525,10 +529,10 @@ START_TEST(structs_of_no_size_are_refused)
         ck_assert_ptr_null(imp_query_new(scene, &options, &error));
         ck_assert_int_eq(error.code, IMP_ERROR_USAGE);
         ck_assert_ptr_nonnull(strstr(error.text, "imp_options.struct_size: got "));
-        ck_assert_int_eq(imp_options_read(scene, &options, NULL), IMP_ERROR_USAGE);
+        ck_assert_int_eq(imp_options_get_default(scene, &options, NULL), IMP_ERROR_USAGE);
         imp_query *query = begin(scene, 1e-3);
         imp_result r = {.struct_size = sizes[k]};
-        ck_assert_int_eq(imp_query_read(query, &r, NULL), IMP_ERROR_USAGE);
+        ck_assert_int_eq(imp_query_get_result(query, &r, NULL), IMP_ERROR_USAGE);
         imp_query_free(query);
     }
     imp_scene_free(scene);
@@ -550,7 +554,7 @@ START_TEST(programs_newer_than_the_library_run_and_are_told_what_it_does_not_kno
     imp_scene *scene = two(&at_rest, &flying);
     later_options options = {.later = 1};
     options.now.struct_size = sizeof options;
-    ck_assert_int_eq(imp_options_read(scene, &options.now, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(imp_options_get_default(scene, &options.now, NULL), IMP_SUCCESS);
     ck_assert(options.now.struct_size == sizeof options && options.later == 0);
     options.later = 1;
     imp_error error = {IMP_SUCCESS, ""};
@@ -561,9 +565,9 @@ START_TEST(programs_newer_than_the_library_run_and_are_told_what_it_does_not_kno
     ck_assert_ptr_nonnull(query);
     step(query, 0);
     later_result r = {.now = {.struct_size = sizeof r}, .later = 1};
-    ck_assert_int_eq(imp_query_read(query, &r.now, NULL), IMP_SUCCESS);
+    ck_assert_int_eq(imp_query_get_result(query, &r.now, NULL), IMP_SUCCESS);
     ck_assert(r.now.struct_size == sizeof r && r.later == 0);
-    ck_assert_int_eq(r.now.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.now.verdict, IMP_VERDICT_CONTACT);
     imp_query_free(query);
     imp_scene_free(scene);
 }
@@ -595,9 +599,9 @@ START_TEST(progress_is_reported_and_may_end_the_step)
     reports all = {.allowed = 3};
     options.progress = take_report;
     options.progress_context = &all;
-    imp_result r;
-    ck_assert_int_eq(imp_solve(scene, &options, &r, NULL), IMP_SUCCESS);
-    ck_assert(r.verdict == IMP_UNDECIDED && r.reason == IMP_REASON_CANCELLED);
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+    ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_CANCELLED);
     ck_assert(all.count == 3);
     imp_scene_free(scene);
 }
@@ -607,7 +611,7 @@ SUITE_MAIN("query", structs_of_no_size_are_refused,
            programs_newer_than_the_library_run_and_are_told_what_it_does_not_know,
            progress_is_reported_and_may_end_the_step,
            options_out_of_range_are_refused_with_what_is_allowed,
-           methods_bounds_and_rates_there_are_not_are_refused, the_tolerances_in_force_are_told,
+           forms_of_the_baseline_there_are_not_are_refused, the_tolerances_in_force_are_told,
            a_query_that_never_stepped_knows_nothing_and_is_freed,
            steps_behind_the_end_change_nothing, a_step_is_about_as_long_as_asked_for,
            refining_takes_nothing_coarser, a_contact_made_finer_runs_again_and_clear_stays_clear,

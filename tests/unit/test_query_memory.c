@@ -5,6 +5,8 @@
 #include "tests/support/alloc_failure.h"
 #include "tests/support/sphere_scenes.h"
 
+#include <impinge/baseline.h>
+
 /* Whatever allocation fails in a scene or a query, nothing leaks, what is answered is true, and a
  * query that ran out of memory goes on when there is some. */
 
@@ -36,11 +38,11 @@ static imp_scene *make_scene(void)
     return NULL;
 }
 
-static imp_options options_of(const imp_scene *scene, imp_method method)
+static imp_options options_of(const imp_scene *scene, uint32_t baseline)
 {
     imp_options options = imp_options_default(scene);
-    options.gamma = method == IMP_METHOD_MODELS ? 1e-7 : 0.3;
-    options.method = method;
+    options.gamma = baseline == IMP_BASELINE_NONE ? 1e-7 : 0.3;
+    options.baseline = baseline;
     return options;
 }
 
@@ -48,8 +50,8 @@ static imp_options options_of(const imp_scene *scene, imp_method method)
 static void check_true(const imp_result *r, size_t n)
 {
     ck_assert_msg(r->t_lower <= meeting, "failing allocation %zu: t_lower %.17g", n, r->t_lower);
-    ck_assert_int_ne(r->verdict, IMP_CLEAR);
-    if (r->verdict == IMP_CONTACT)
+    ck_assert_int_ne(r->verdict, IMP_VERDICT_CLEAR);
+    if (r->verdict == IMP_VERDICT_CONTACT)
         ck_assert(r->gap <= r->gamma && r->t >= meeting - r->gamma && r->a.body == 0);
     else
         ck_assert_int_eq(r->reason, IMP_REASON_MEMORY);
@@ -76,19 +78,19 @@ static void go_on(imp_query *query, bool failed, size_t n)
 {
     imp_result r = imp_query_result(query);
     check_true(&r, n);
-    ck_assert((r.verdict == IMP_UNDECIDED) == failed);
+    ck_assert((r.verdict == IMP_VERDICT_UNDECIDED) == failed);
     ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
     r = imp_query_result(query);
     check_true(&r, n);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
 }
 
 /* The n-th allocation of a query fails; Check allocates too, so nothing is asserted meanwhile. */
-static bool query_failing_at(size_t n, imp_method method)
+static bool query_failing_at(size_t n, uint32_t baseline)
 {
     imp_error error = {IMP_SUCCESS, ""};
     imp_scene *scene = make_scene();
-    const imp_options options = options_of(scene, method);
+    const imp_options options = options_of(scene, baseline);
     imp_code code = IMP_SUCCESS;
     alloc_failure_begin(n);
     imp_query *query = imp_query_new(scene, &options, &error);
@@ -104,12 +106,12 @@ static bool query_failing_at(size_t n, imp_method method)
     return failed;
 }
 
-static void fail_queries(imp_method method)
+static void fail_queries(uint32_t baseline)
 {
     const size_t before = alloc_failure_live();
     size_t n = 0;
     for (bool failed = true; failed && n < ATTEMPTS;) {
-        failed = query_failing_at(++n, method);
+        failed = query_failing_at(++n, baseline);
         assert_nothing_left(before, n);
     }
     ck_assert_uint_gt(n, 12);
@@ -117,22 +119,22 @@ static void fail_queries(imp_method method)
 
 START_TEST(a_query_out_of_memory_is_undecided_with_what_is_proved_and_can_go_on)
 {
-    fail_queries(IMP_METHOD_MODELS);
+    fail_queries(IMP_BASELINE_NONE);
 }
 END_TEST
 
-START_TEST(so_is_the_papers_method) { fail_queries(IMP_METHOD_PAPER); }
+START_TEST(so_is_the_papers_method) { fail_queries(IMP_BASELINE_BOXES); }
 END_TEST
 
 START_TEST(solving_at_once_tells_of_memory_too)
 {
     imp_scene *scene = make_scene();
-    const imp_options options = options_of(scene, IMP_METHOD_MODELS);
+    const imp_options options = options_of(scene, IMP_BASELINE_NONE);
     imp_error error = {IMP_SUCCESS, ""};
-    imp_result r;
+    imp_result r = {.struct_size = sizeof r};
     for (int told = 0; told < 2; ++told) {
         alloc_failure_begin(1);
-        const imp_code code = imp_solve(scene, &options, &r, told ? &error : NULL);
+        const imp_code code = imp_scene_solve(scene, &options, &r, told ? &error : NULL);
         ck_assert(alloc_failure_end());
         ck_assert_int_eq(code, IMP_ERROR_MEMORY);
     }
@@ -158,7 +160,7 @@ static void check_brackets(const imp_query *query, const imp_clearance_options *
     double least = INFINITY;
     for (size_t k = 0; k < imp_clearance_count(query); ++k) {
         imp_clearance a = {.struct_size = (uint32_t)sizeof a};
-        ck_assert_int_eq(imp_clearance_read(query, k, &a, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_clearance_get(query, k, &a, NULL), IMP_SUCCESS);
         ck_assert(a.reason == (whole ? IMP_REASON_NONE : IMP_REASON_MEMORY) ||
                   a.reason == IMP_REASON_NONE);
         ck_assert(a.lower <= a.upper && a.upper >= 0.75);

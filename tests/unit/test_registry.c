@@ -65,7 +65,7 @@ START_TEST(a_plugin_offers_its_types_with_all_they_say)
     ck_assert_uint_eq(count_refusals(registry), 0);
     ck_assert_uint_eq(count_types(registry), 2);
     ck_assert(imp_registry_type(registry, 0, &info));
-    ck_assert_int_eq(info.kind, IMP_KIND_SURFACE);
+    ck_assert_int_eq(info.kind, IMP_TYPE_SURFACE);
     ck_assert_str_eq(info.name, "kit");
     ck_assert_str_eq(info.plugin, "kit");
     ck_assert_str_eq(info.version, "1.0");
@@ -75,7 +75,7 @@ START_TEST(a_plugin_offers_its_types_with_all_they_say)
     ck_assert_int_eq(info.file[0], '/');
     ck_assert_ptr_null(info.shadowed_by);
     ck_assert(imp_registry_type(registry, 1, &info));
-    ck_assert_int_eq(info.kind, IMP_KIND_MAP);
+    ck_assert_int_eq(info.kind, IMP_TYPE_MAP);
     ck_assert_str_eq(info.name, "nudge");
     imp_registry_free(registry);
     sandbox_remove(&box);
@@ -91,11 +91,11 @@ START_TEST(types_are_found_by_sort_and_name)
     ck_assert_str_eq(registry_find_map(registry, "nudge")->name, "nudge");
     ck_assert_ptr_null(registry_find_surface(registry, "nudge"));
     ck_assert_ptr_null(registry_find_map(registry, "kit"));
-    ck_assert_ptr_null(registry_find_file(registry, IMP_KIND_MAP, "kit"));
-    ck_assert_str_eq(registry_nearest(registry, IMP_KIND_SURFACE, "kti"), "kit");
-    ck_assert_str_eq(registry_nearest(registry, IMP_KIND_MAP, "Nudge"), "nudge");
-    ck_assert_ptr_null(registry_nearest(registry, IMP_KIND_SURFACE, "nudge"));
-    ck_assert_ptr_null(registry_nearest(registry, IMP_KIND_SURFACE, ""));
+    ck_assert_ptr_null(registry_find_file(registry, IMP_TYPE_MAP, "kit"));
+    ck_assert_str_eq(registry_nearest(registry, IMP_TYPE_SURFACE, "kti"), "kit");
+    ck_assert_str_eq(registry_nearest(registry, IMP_TYPE_MAP, "Nudge"), "nudge");
+    ck_assert_ptr_null(registry_nearest(registry, IMP_TYPE_SURFACE, "nudge"));
+    ck_assert_ptr_null(registry_nearest(registry, IMP_TYPE_SURFACE, ""));
     imp_registry_free(registry);
     sandbox_remove(&box);
 }
@@ -137,7 +137,7 @@ START_TEST(the_first_type_of_a_name_wins_and_the_later_one_says_who_shadows_it)
     ck_assert(imp_registry_type(registry, 1, &info));
     ck_assert_str_eq(info.plugin, "kit");
     ck_assert_ptr_nonnull(strstr(info.shadowed_by, "/z.so"));
-    ck_assert_ptr_nonnull(strstr(registry_find_file(registry, IMP_KIND_SURFACE, "kit"), "/z.so"));
+    ck_assert_ptr_nonnull(strstr(registry_find_file(registry, IMP_TYPE_SURFACE, "kit"), "/z.so"));
     ck_assert(imp_registry_type(registry, 2, &info)); /* the map is not shadowed */
     ck_assert_ptr_null(info.shadowed_by);
     imp_registry_free(registry);

@@ -26,15 +26,15 @@ START_TEST(settings_are_taken_or_have_their_presets)
     ck_assert_double_eq(options.t_start, 0);
     ck_assert_double_eq(options.t_end, 1);
     ck_assert_double_eq(options.gamma, 1e-6);
-    ck_assert_double_lt(options.clearance, 0);
+    ck_assert_double_lt(options.gamma_clear, 0);
     imp_scene_free(scene);
-    scene = read_good(SCENE(",'time':[-2,3],'gamma':0.5,'clearance':0,'id':7,'reference':{'t':1},"
+    scene = read_good(SCENE(",'time':[-2,3],'gamma':0.5,'gamma_clear':0,'id':7,'reference':{'t':1},"
                             "'note':'n'"));
     options = imp_options_default(scene);
     ck_assert_double_eq(options.t_start, -2);
     ck_assert_double_eq(options.t_end, 3);
     ck_assert_double_eq(options.gamma, 0.5);
-    ck_assert_double_eq(options.clearance, 0);
+    ck_assert_double_eq(options.gamma_clear, 0);
     imp_scene_free(scene);
 }
 END_TEST
@@ -52,9 +52,9 @@ START_TEST(settings_out_of_range_are_refused)
     assert_wrong(SCENE(",'gamma':0"), "s.json: /gamma: got 0, must be > 0");
     assert_wrong(SCENE(",'gamma':-1e-3"), "s.json: /gamma: got -0.001, must be > 0");
     assert_wrong(SCENE(",'gamma':'small'"), "s.json: /gamma: got \"small\", must be a number > 0");
-    assert_wrong(SCENE(",'clearance':1e-6"),
-                 "s.json: /clearance: got 1e-06, must be in [0, 1e-06), below gamma");
-    assert_wrong(SCENE(",'clearance':-1"), "s.json: /clearance: got -1, must be >= 0");
+    assert_wrong(SCENE(",'gamma_clear':1e-6"),
+                 "s.json: /gamma_clear: got 1e-06, must be in [0, 1e-06), below gamma");
+    assert_wrong(SCENE(",'gamma_clear':-1"), "s.json: /gamma_clear: got -1, must be >= 0");
 }
 END_TEST
 
@@ -111,14 +111,14 @@ START_TEST(unknown_keys_are_refused_with_the_nearest)
 {
     assert_wrong(SCENE(",'gama':1"),
                  "s.json: /gama: unknown key, did you mean 'gamma'? "
-                 "Valid keys are time, gamma, clearance, define, bodies, ignore, "
+                 "Valid keys are time, gamma, gamma_clear, define, bodies, ignore, "
                  "id, reference, note, gravity, events");
     assert_wrong("{'bodies':[{'surface':[" KIT "]}]}",
                  "s.json: /bodies/0/surface: unknown key, did you mean 'surfaces'? Valid keys "
                  "are name, surfaces, maps, parent, group, mass, inertia, center, "
                  "friction, restitution, velocity, spin");
     assert_wrong(SCENE(",'comment':1"),
-                 "s.json: /comment: unknown key; valid keys are time, gamma, clearance, "
+                 "s.json: /comment: unknown key; valid keys are time, gamma, gamma_clear, "
                  "define, bodies, ignore, id, reference, note, gravity, events");
 }
 END_TEST
@@ -236,7 +236,7 @@ START_TEST(broken_promises_of_create_are_the_plugins_fault)
 {
     assert_plugin_blamed("create_fails",
                          "s.json: /bodies/0/surfaces/0: create failed with status 4");
-    assert_plugin_blamed("create_null", "create returned IMP_OK without an instance");
+    assert_plugin_blamed("create_null", "create returned IMP_STATUS_OK without an instance");
     assert_plugin_blamed("create_rounds", "create changed the mode of arithmetic");
 }
 END_TEST
@@ -348,7 +348,7 @@ static size_t mutate(char *text, size_t length, size_t capacity, uint64_t *state
 START_TEST(damaged_scenes_are_read_or_refused_and_never_harm)
 {
     static const char scene[] =
-        "{\"time\":[0,1],\"gamma\":1e-3,\"clearance\":1e-4,\"bodies\":[{\"name\":\"a\","
+        "{\"time\":[0,1],\"gamma\":1e-3,\"gamma_clear\":1e-4,\"bodies\":[{\"name\":\"a\","
         "\"surfaces\":"
         "[{\"type\":\"kit\",\"radius\":1,\"center\":[1,2,3],\"points\":[[1,2,3],[4,5,6]],\"count\":"
         "3,"

@@ -26,8 +26,8 @@ static imp_result solved(const char *a, const char *b)
     ck_assert_msg(scene != NULL, "%s", error.text);
     options = imp_options_default(scene);
     options.gamma = 1e-3;
-    imp_result r;
-    ck_assert_int_eq(imp_solve(scene, &options, &r, &error), IMP_SUCCESS);
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_SUCCESS);
     return r;
 }
 
@@ -46,11 +46,11 @@ static void close_scene(void)
 START_TEST(true_answers_pass)
 {
     const imp_result contact = solved(ball, wall);
-    ck_assert_int_eq(contact.verdict, IMP_CONTACT);
+    ck_assert_int_eq(contact.verdict, IMP_VERDICT_CONTACT);
     judge(&contact);
     close_scene();
     const imp_result clear = solved("sphere", "sphere center=0,0,3");
-    ck_assert_int_eq(clear.verdict, IMP_CLEAR);
+    ck_assert_int_eq(clear.verdict, IMP_VERDICT_CLEAR);
     judge(&clear);
     close_scene();
 }
@@ -59,7 +59,7 @@ END_TEST
 START_TEST(contact_called_clear_is_found_by_sampling)
 {
     imp_result r = solved("sphere", "sphere center=1,0,0");
-    r.verdict = IMP_CLEAR, r.t_lower = r.t_end, r.t = r.gap = NAN;
+    r.verdict = IMP_VERDICT_CLEAR, r.t_lower = r.t_end, r.t = r.gap = NAN;
     r.gamma = 0.2, r.gamma_clear = 0.1;
     scene_judge(scene, &options, &r, 1);
 }
@@ -68,7 +68,7 @@ END_TEST
 START_TEST(contact_called_clear_is_found_by_another_search)
 {
     imp_result r = solved(ball, wall);
-    r.verdict = IMP_CLEAR, r.t_lower = r.t_end, r.t = r.gap = NAN;
+    r.verdict = IMP_VERDICT_CLEAR, r.t_lower = r.t_end, r.t = r.gap = NAN;
     scene_judge_by_clearance(scene, &options, &r);
 }
 END_TEST
@@ -76,7 +76,7 @@ END_TEST
 START_TEST(clear_called_contact_is_found)
 {
     imp_result r = solved("sphere", "sphere center=0,0,3");
-    r.verdict = IMP_CONTACT, r.gap = 0;
+    r.verdict = IMP_VERDICT_CONTACT, r.gap = 0;
     scene_judge_by_clearance(scene, &options, &r);
 }
 END_TEST

@@ -12,7 +12,7 @@
 #include "core/bounds/normal_field.h"
 #include "tests/support/meeting.h"
 
-/* Pairs of made-up nodes that are brought together, exactly within the clearance, at a chosen
+/* Pairs of made-up nodes that are brought together, exactly within gamma_clear, at a chosen
  * moment and chosen points: no cut may lose that moment. Where parts of the judgement need it, long
  * double. */
 
@@ -24,7 +24,7 @@ typedef struct meeting {
     node a, b;
     time_window window;
     double t; /* when they are near */
-    double clearance;
+    double gamma_clear;
     long double gap[3]; /* B - A then */
 } meeting;
 
@@ -124,7 +124,7 @@ static long double point(const node *n, int i, const double *s, double t, long d
            f->qtt[i] * st * st + rest * n->e[i];
 }
 
-/* Places B so that at m->t the points at random parameters are within the clearance. */
+/* Places B so that at m->t the points at random parameters are within gamma_clear. */
 static void bring_together(uint64_t *state, meeting *m, posture how, double offset)
 {
     double sa[2], sb[2], toward[3], norm = 0;
@@ -138,8 +138,8 @@ static void bring_together(uint64_t *state, meeting *m, posture how, double offs
         norm += toward[i] * toward[i];
         m->a.f.a[i] = offset * random_between(state, -1, 1);
     }
-    /* within the clearance also after b.a is rounded to a double */
-    const double reach = m->clearance * (random_bits(state) % 2 ? 1 - 1e-9 : 0.5);
+    /* within gamma_clear also after b.a is rounded to a double */
+    const double reach = m->gamma_clear * (random_bits(state) % 2 ? 1 - 1e-9 : 0.5);
     for (int i = 0; i < 3; ++i) {
         const long double ra = suite_end_or_inside(state), rb = suite_end_or_inside(state);
         const long double x = point(&m->a, i, sa, m->t, ra) + reach * toward[i] / sqrt(norm);
@@ -162,7 +162,7 @@ static long double nearest_gap(const meeting *m, const double s[4], long double 
     return sqrtl(square);
 }
 
-/* The clearance becomes the least gap that a search from random parameters finds: no more of the
+/* gamma_clear becomes the least gap that a search from random parameters finds: no more of the
  * window may be cut than that. */
 static void tighten(uint64_t *state, meeting *m)
 {
@@ -183,14 +183,14 @@ static void tighten(uint64_t *state, meeting *m)
                 s[k / 2] = was;
             }
         }
-    m->clearance = (double)(least * (1 + 1e-12L));
+    m->gamma_clear = (double)(least * (1 + 1e-12L));
 }
 
 static bool is_near(const meeting *m)
 {
     const long double square =
         m->gap[0] * m->gap[0] + m->gap[1] * m->gap[1] + m->gap[2] * m->gap[2];
-    return square <= (long double)m->clearance * m->clearance;
+    return square <= (long double)m->gamma_clear * m->gamma_clear;
 }
 
 static void random_meeting(uint64_t *state, meeting *m, posture how)
@@ -203,7 +203,7 @@ static void random_meeting(uint64_t *state, meeting *m, posture how)
     random_node(state, &m->b, size * (close ? 1 : random_power(state, -3, 3)), bend, motion);
     if (how == NESTED) make_nested(state, m, size);
     if (how == TANGENT) make_tangent(state, m, random_power(state, -20, -1), 0.1);
-    m->clearance = size * random_power(state, -20, 0);
+    m->gamma_clear = size * random_power(state, -20, 0);
     m->t = draw_moment(state, -10, &m->window);
     bring_together(state, m, how, random_bits(state) % 8 == 0 ? 100 * size : size);
     if (how == NESTED && random_bits(state) % 4 == 0) tighten(state, m);
@@ -233,7 +233,7 @@ START_TEST(the_moment_of_a_meeting_is_never_cut_away)
         ++near;
         time_window left = m.window;
         vec3 axis = random_axis(&state);
-        const bool some = separation_window(&m.a, &m.b, m.clearance, &left, &axis, NULL);
+        const bool some = separation_window(&m.a, &m.b, m.gamma_clear, &left, &axis, NULL);
         check_window_left(&m.window, m.t, some, &left, k);
     }
     ck_assert_int_gt(near, suite_times(150000) / 2);
@@ -270,10 +270,10 @@ static void meet_with_corners(uint64_t *state, meeting *m)
         const long double x = point(&m->a, i, corner, m->t, 1);
         m->b.f.a[i] = 0;
         m->b.f.a[i] =
-            (double)(x - point(&m->b, i, corner, m->t, -1)) + (i == along ? m->clearance : 0);
+            (double)(x - point(&m->b, i, corner, m->t, -1)) + (i == along ? m->gamma_clear : 0);
         m->gap[i] = point(&m->b, i, corner, m->t, -1) - point(&m->a, i, corner, m->t, 1);
     }
-    m->clearance = nextafter((double)m->gap[along], INFINITY);
+    m->gamma_clear = nextafter((double)m->gap[along], INFINITY);
 }
 
 START_TEST(no_glance_cuts_the_moment_of_a_meeting_away)
@@ -287,7 +287,7 @@ START_TEST(no_glance_cuts_the_moment_of_a_meeting_away)
         if (!is_near(&m)) continue;
         ++near;
         time_window left = m.window;
-        const bool some = moving_boxes_cut(&m.a, &m.b, m.clearance, &left);
+        const bool some = moving_boxes_cut(&m.a, &m.b, m.gamma_clear, &left);
         check_window_left(&m.window, m.t, some, &left, k);
     }
     ck_assert_int_gt(near, suite_times(100000) / 2);
@@ -335,8 +335,8 @@ START_TEST(neither_axes_nor_field_of_normals_lose_a_meeting_alone)
         w_range axes = {-1, 1}, field = {-1, 1};
         vec3 axis = random_axis(&state);
         difference_at(&m.a, &m.b, &m.window, &r);
-        check_share_left(&r, m.t, fixed_axes_cut(&r, m.clearance, &axes, &axis, NULL), &axes, k);
-        check_share_left(&r, m.t, normal_field_cut(&r, m.clearance, &field, NULL), &field, k);
+        check_share_left(&r, m.t, fixed_axes_cut(&r, m.gamma_clear, &axes, &axis, NULL), &axes, k);
+        check_share_left(&r, m.t, normal_field_cut(&r, m.gamma_clear, &field, NULL), &field, k);
     }
 }
 END_TEST

@@ -46,15 +46,15 @@ START_TEST(each_two_bodies_meet_in_order_of_time)
     for (int k = 0; k < 3; ++k) {
         const imp_result r = step(query);
         query_check(scene, &options, &r);
-        ck_assert_int_eq(r.verdict, IMP_CONTACT);
+        ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
         ck_assert(r.a.body == expected[k].a && r.b.body == expected[k].b);
         ck_assert(fabs(r.t - expected[k].t) < 1e-6 && r.at_rest == expected[k].at_rest);
-        ck_assert_int_eq(imp_query_pass(query, NULL), IMP_SUCCESS);
-        ck_assert_int_eq(imp_query_pass(query, NULL), IMP_ERROR_USAGE);
+        ck_assert_int_eq(imp_query_exclude_pair(query, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_query_exclude_pair(query, NULL), IMP_ERROR_USAGE);
     }
     const imp_result r = step(query);
-    ck_assert(r.verdict == IMP_CLEAR && r.t_lower == 1);
-    ck_assert_int_eq(imp_query_pass(query, NULL), IMP_ERROR_USAGE);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.t_lower == 1);
+    ck_assert_int_eq(imp_query_exclude_pair(query, NULL), IMP_ERROR_USAGE);
     imp_query_free(query);
     imp_scene_free(scene);
     imp_registry_free(registry);
@@ -73,7 +73,7 @@ START_TEST(each_answer_is_as_asked_alone)
     const char *const other[] = {"sphere center=-2,0,0", "sphere center=1,0,0"};
     step(query);
     for (int k = 0; k < 2; ++k) {
-        ck_assert_int_eq(imp_query_pass(query, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_query_exclude_pair(query, NULL), IMP_SUCCESS);
         const imp_result r = step(query);
         alone.a = other[k];
         const imp_result own = ask_in(registry, &alone);
@@ -95,7 +95,7 @@ static uint64_t pairs_refined(imp_registry *registry, const question *q, double 
     for (double gamma = 1e-3; gamma > 0.9e-9; gamma /= 10) {
         ck_assert_int_eq(imp_query_refine(query, gamma, -1, NULL), IMP_SUCCESS);
         r = step(query);
-        ck_assert(r.verdict == IMP_CONTACT && r.gap <= gamma);
+        ck_assert(r.verdict == IMP_VERDICT_CONTACT && r.gap <= gamma);
     }
     *t = r.t;
     imp_query_free(query);

@@ -22,14 +22,14 @@ static instance shape(const char *type, const char *parameters)
 static void point_of(const instance *made, double u, double v, double t, double x[3])
 {
     const double p[3] = {u, v, t};
-    ck_assert_int_eq(made->surface->eval(made->self, 1, p, x, NULL), IMP_OK);
+    ck_assert_int_eq(made->surface->eval(made->self, 1, p, x, NULL), IMP_STATUS_OK);
 }
 
 static void models_of(const instance *made, const double lo[3], const double hi[3],
                       imp_model model[3])
 {
     const imp_region region = region_make(lo, hi);
-    ck_assert_int_eq(made->surface->include(made->self, &region, model), IMP_OK);
+    ck_assert_int_eq(made->surface->include(made->self, &region, model), IMP_STATUS_OK);
 }
 
 /* --- Straight ----------------------------------------------------------------------------- */
@@ -175,7 +175,7 @@ START_TEST(each_face_is_a_triangle_of_its_own_points)
         double x[3], y[3];
         point_of(&one, p[0], p[1], p[2], x);
         const void *second = many.surface->piece(many.self, 1);
-        ck_assert_int_eq(many.surface->eval(second, 1, p, y, NULL), IMP_OK);
+        ck_assert_int_eq(many.surface->eval(second, 1, p, y, NULL), IMP_STATUS_OK);
         ck_assert_mem_eq(x, y, sizeof x);
     }
     instance_free(&many);
@@ -198,7 +198,7 @@ START_TEST(bounds_shrink_at_the_collapsed_corner_as_anywhere)
         const double e = fmax(model[0].e, fmax(model[1].e, model[2].e));
         ck_assert(last == 0 || e < 0.3 * last);
         last = e;
-        ck_assert_int_eq(made.surface->net(made.self, &region, &net), IMP_OK);
+        ck_assert_int_eq(made.surface->net(made.self, &region, &net), IMP_STATUS_OK);
         for (int k = 0; k < 16; ++k)
             ck_assert_double_le(fabs(net.place[0] + net.point[0][k] - model[0].a), 16 * size);
     }
@@ -254,7 +254,7 @@ START_TEST(superquadrics_move_at_most_at_speed_two_for_every_exponent)
             const double to[3] = {fmin(u + d, hi[0]), fmin(v + d, hi[1]), 0};
             const imp_region region = region_make(from, to);
             imp_rate_matrix rates;
-            ck_assert_int_eq(made.surface->rate(made.self, &region, &rates), IMP_OK);
+            ck_assert_int_eq(made.surface->rate(made.self, &region, &rates), IMP_STATUS_OK);
             for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 2; ++j) ck_assert_double_le(rates.m[i][j], 2 + 1e-9);
         }
@@ -359,8 +359,8 @@ START_TEST(a_nurbs_has_nets_between_its_knots)
     instance nurbs = shape("nurbs", text);
     const imp_region inside = region_make((double[3]){0.2, 0.5, 0.1}, (double[3]){0.4, 0.9, 0.3});
     imp_net f = {.degree = {0, 0}}, g = f;
-    ck_assert_int_eq(bezier.surface->net(bezier.self, &inside, &f), IMP_OK);
-    ck_assert_int_eq(nurbs.surface->net(nurbs.self, &inside, &g), IMP_OK);
+    ck_assert_int_eq(bezier.surface->net(bezier.self, &inside, &f), IMP_STATUS_OK);
+    ck_assert_int_eq(nurbs.surface->net(nurbs.self, &inside, &g), IMP_STATUS_OK);
     for (int i = 0; i < 3; ++i) {
         ck_assert_double_le(g.error[i], 1e-11);
         for (int k = 0; k < 12; ++k) {
@@ -372,7 +372,7 @@ START_TEST(a_nurbs_has_nets_between_its_knots)
     instance_free(&nurbs);
     nurbs = shape("nurbs", "{}"); /* a knot at 1 */
     const imp_region crossed = region_make((double[3]){0.5, 0, 0}, (double[3]){1.5, 1, 1});
-    ck_assert_int_eq(nurbs.surface->net(nurbs.self, &crossed, &g), IMP_UNBOUNDED);
+    ck_assert_int_eq(nurbs.surface->net(nurbs.self, &crossed, &g), IMP_STATUS_UNBOUNDED);
     instance_free(&nurbs);
 }
 END_TEST

@@ -57,7 +57,7 @@ static imp_clearance clearance(imp_scene *scene)
     ck_assert_msg(query != NULL, "%s", error.text);
     ck_assert_msg(imp_query_step(query, 0, &error) == IMP_SUCCESS, "%s", error.text);
     imp_clearance found = {.struct_size = sizeof found};
-    ck_assert_int_eq(imp_clearance_read(query, 0, &found, &error), IMP_SUCCESS);
+    ck_assert_int_eq(imp_clearance_get(query, 0, &found, &error), IMP_SUCCESS);
     imp_query_free(query);
     return found;
 }
@@ -77,7 +77,7 @@ START_TEST(parts_that_are_carried_cost_what_they_cost_at_rest)
         -1, -1, -1, "0") "]},{'surfaces':[" BOX(0, 0, 0.001, "2") "]}]}");
     imp_scene *moved = scene_of(carried[_i]);
     const imp_result of_rest = solve(rest, 1e-4), of_moved = solve(moved, 1e-4);
-    ck_assert_int_eq(of_moved.verdict, IMP_CLEAR);
+    ck_assert_int_eq(of_moved.verdict, IMP_VERDICT_CLEAR);
     ck_assert_uint_le(of_moved.stats.pairs, of_rest.stats.pairs);
     const imp_clearance near_rest = clearance(rest), near_moved = clearance(moved);
     ck_assert_double_eq(near_moved.lower, near_rest.lower);
@@ -118,7 +118,7 @@ START_TEST(answers_are_told_in_the_world)
                      "'radius':0.5,'center':[0,0,1]}],'maps':[{'type':'translate',"
                      "'velocity':[0,0,-1]}]}]}");
     const imp_result r = solve(scene, 1e-3);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert(r.t <= 0.5 && r.t >= 0.499 - 1e-6 && r.has_normal && !r.at_rest);
     assert_in_world(scene, &r.a, &r.b, r.t, r.gap, r.normal);
     imp_scene_free(scene);
@@ -131,7 +131,7 @@ START_TEST(a_part_that_touches_what_carries_it_is_not_at_rest)
                                 "{'type':'translate','velocity':[1,0,0]}]},{'parent':'hand',"
                                 "'surfaces':[{'type':'sphere','center':[0.5,0.5,1]}]}]}");
     const imp_result r = solve(scene, 1e-6);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert(!r.at_rest);
     imp_scene_free(scene);
 }
@@ -181,7 +181,7 @@ START_TEST(the_earliest_contact_of_several_frames_is_told)
         "'type':'sphere','radius':1,'center':[0,0,3]}],'maps':[{'type':'translate','velocity':"
         "[0,0,-2]}]},{'name':'wall','surfaces':[{'type':'sphere','radius':1,'center':[4,0,0]}]}]}");
     imp_result r = solve(scene, 1e-6); /* hand and part at 0.5, hand and wall too */
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert(r.t <= 0.5 && r.t > 0.5 - 1e-6);
     imp_scene_free(scene);
 }
@@ -224,7 +224,7 @@ START_TEST(what_turns_within_itself_costs_no_time)
     options.gamma = x->gamma;
     imp_result r = {.struct_size = sizeof r};
     ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_SUCCESS);
-    ck_assert_int_eq(r.verdict, IMP_CLEAR);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CLEAR);
     ck_assert_double_eq(r.t_lower, 1);
     ck_assert_double_eq(r.gamma_clear, 0.5 * x->gamma);
     ck_assert_msg(r.stats.pairs <= x->pairs, "%llu pairs", (unsigned long long)r.stats.pairs);
@@ -248,7 +248,7 @@ START_TEST(slices_of_time_know_of_what_turns)
     ck_assert_int_eq(imp_query_step(query, 0, &error), IMP_SUCCESS);
     for (size_t k = 0; k < 3; ++k) {
         imp_clearance found = {.struct_size = sizeof found};
-        ck_assert_int_eq(imp_clearance_read(query, k, &found, &error), IMP_SUCCESS);
+        ck_assert_int_eq(imp_clearance_get(query, k, &found, &error), IMP_SUCCESS);
         ck_assert(found.has_witness && found.upper < 0.0021 && found.lower > 0);
     }
     imp_query_free(query);
@@ -265,7 +265,7 @@ START_TEST(what_turns_beside_its_axis_is_searched_in_time)
     ask_clear(&(question){.a = q.a, .b = q.b, .gamma = 1e-4, .t_end = 0.4, .t_start = 0.1});
     const question mirrored = {.a = q.a, .b = "cylinder height=4 center=2.015,0,0", .gamma = 1e-4};
     const imp_result r = ask(&mirrored);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert(r.t > 0.1 && r.t < 0.5);
 }
 END_TEST
@@ -278,7 +278,7 @@ START_TEST(what_touches_while_it_turns_touches_at_the_start)
                         .t_start = 0.25,
                         .t_end = 0.75};
     const imp_result r = ask(&q);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert_double_eq(r.t, 0.25);
 }
 END_TEST
@@ -333,7 +333,7 @@ START_TEST(a_box_that_turns_on_an_inclined_table_costs_no_time)
         const imp_options options = query_options(scene, &q);
         imp_result r = {.struct_size = sizeof r};
         ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_SUCCESS);
-        ck_assert_msg(r.verdict == IMP_CLEAR, "gap %g: %llu pairs", gap,
+        ck_assert_msg(r.verdict == IMP_VERDICT_CLEAR, "gap %g: %llu pairs", gap,
                       (unsigned long long)r.stats.pairs);
         const imp_clearance near = clearance(scene);
         ck_assert_double_le(near.lower, gap * (1 + 1e-9));
@@ -356,7 +356,7 @@ START_TEST(a_box_whose_axis_leans_touches_the_table)
     options.gamma = 1e-6;
     imp_result r = {.struct_size = sizeof r};
     ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_SUCCESS);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert(r.t > 0 && r.t < 1);
     imp_scene_free(scene);
 }

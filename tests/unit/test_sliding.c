@@ -193,17 +193,17 @@ static double distance_at(const kind *k, const slide *s, double t)
 
 static void judge(const kind *k, const slide *s, const question *q, const imp_result *r)
 {
-    const double clearance = 0.5 * q->gamma, rounding = 1e-12;
-    ck_assert_msg(r->verdict != IMP_UNDECIDED, "%s | %s: undecided after %g pairs", q->a, q->b,
+    const double gamma_clear = 0.5 * q->gamma, rounding = 1e-12;
+    ck_assert_msg(r->verdict != IMP_VERDICT_UNDECIDED, "%s | %s: undecided after %g pairs", q->a, q->b,
                   (double)r->stats.pairs);
     for (int m = 0; m <= MOMENTS; ++m) {
         const double t = (double)m / MOMENTS;
-        if (t >= r->t_lower && r->verdict == IMP_CONTACT) break;
-        ck_assert_msg(distance_at(k, s, t) > clearance - rounding,
+        if (t >= r->t_lower && r->verdict == IMP_VERDICT_CONTACT) break;
+        ck_assert_msg(distance_at(k, s, t) > gamma_clear - rounding,
                       "%s: %s | %s: %g apart at %.17g, before %.17g", k->name, q->a, q->b,
                       distance_at(k, s, t), t, r->t_lower);
     }
-    if (r->verdict != IMP_CONTACT) return;
+    if (r->verdict != IMP_VERDICT_CONTACT) return;
     ck_assert_msg(distance_at(k, s, r->t) < q->gamma + rounding, "%s: %s | %s: %g apart at %.17g",
                   k->name, q->a, q->b, distance_at(k, s, r->t), r->t);
 }
@@ -241,12 +241,12 @@ static void carry(imp_scene *scene, const char *carrier)
 static imp_result ask_carried(const question *q, const char *carrier)
 {
     imp_error error;
-    imp_result r;
+    imp_result r = {.struct_size = sizeof r};
     imp_scene *scene = imp_scene_from_pair(registry, q->a, q->b, &error);
     ck_assert_ptr_nonnull(scene);
     carry(scene, carrier);
     const imp_options options = query_options(scene, q);
-    ck_assert_int_eq(imp_solve(scene, &options, &r, &error), IMP_SUCCESS);
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_SUCCESS);
     query_check(scene, &options, &r);
     imp_scene_free(scene);
     return r;
@@ -297,15 +297,15 @@ START_TEST(what_slides_is_answered_as_its_distance_at_each_moment_demands)
         int seen[3] = {0, 0, 0};
         for (int n = 0; n < suite_times_at_least(SCENES); ++n)
             seen[try_slide(&kinds[k], (setting)(n % SETTINGS), &random)] += 1;
-        ck_assert_msg(seen[IMP_CONTACT] > 0 && seen[IMP_CLEAR] > 0, "%s: %d contacts, %d clear",
-                      kinds[k].name, seen[IMP_CONTACT], seen[IMP_CLEAR]);
+        ck_assert_msg(seen[IMP_VERDICT_CONTACT] > 0 && seen[IMP_VERDICT_CLEAR] > 0, "%s: %d contacts, %d clear",
+                      kinds[k].name, seen[IMP_VERDICT_CONTACT], seen[IMP_VERDICT_CLEAR]);
     }
 }
 END_TEST
 
 static void judge_pairs(const question *q, const imp_result *r, uint64_t most)
 {
-    ck_assert_int_eq(r->verdict, IMP_CLEAR);
+    ck_assert_int_eq(r->verdict, IMP_VERDICT_CLEAR);
     ck_assert_msg(r->stats.pairs <= most, "%s | %s: %g pairs", q->a, q->b, (double)r->stats.pairs);
 }
 
@@ -363,7 +363,7 @@ START_TEST(what_touches_all_over_at_one_instant_is_found_at_once)
     const question q = {.a = "sphere radius=2", .b = "sphere ! scale factors=[[1],[1]]",
                         .t_start = 1, .t_end = 1, .gamma = 1e-6};
     const imp_result r = ask_in(registry, &q);
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert_msg(r.stats.pairs <= 200, "%g pairs", (double)r.stats.pairs);
 }
 END_TEST

@@ -48,7 +48,7 @@ static imp_status pose_of(const void *self, const imp_model *t, imp_pose *pose)
         pose->shift[i] = imp_shift(imp_scale(*t, m->way[i]), m->shift[i]);
         pose->pivot[i] = m->pivot[i];
     }
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 /* (x - pivot) turned and stretched. */
@@ -107,11 +107,11 @@ static imp_model gap(const void *self, imp_model x, imp_model y, imp_model z, im
                     ring = imp_shift(across, -2);
     (void)t;
     switch (s->kind) {
-    case IMP_SYMMETRIC_ABOUT_POINT:
+    case IMP_SYMMETRY_ABOUT_POINT:
         return imp_shift(imp_sqrt(imp_dot3(w, w)), -1);
-    case IMP_SYMMETRIC_ABOUT_LINE:
+    case IMP_SYMMETRY_ABOUT_LINE:
         return imp_shift(imp_sqrt(imp_add(imp_sqr(ring), imp_sqr(w[2]))), -1);
-    case IMP_SYMMETRIC_ALONG_LINE:
+    case IMP_SYMMETRY_ALONG_LINE:
         return imp_shift(across, -1);
     default:
         return w[2];
@@ -122,7 +122,7 @@ IMP_DISTANCE_FORMULA(gap)
 static imp_status symmetry_of(const void *self, imp_symmetry *symmetry)
 {
     *symmetry = *(const imp_symmetry *)self;
-    return IMP_OK;
+    return IMP_STATUS_OK;
 }
 
 static void whole(const void *self, double lo[3], double hi[3])
@@ -151,7 +151,7 @@ static const imp_map_type nearly = {.struct_size = sizeof(imp_map_type),
                                     .destroy = keep,
                                     .rigid = pose_of};
 static const imp_map_type exactly = {.struct_size = sizeof(imp_map_type),
-                                     .flags = IMP_TURNS_EXACTLY,
+                                     .flags = IMP_FLAG_TURNS_EXACTLY,
                                      .name = "exactly",
                                      .time_domain = always,
                                      .destroy = keep,
@@ -226,7 +226,7 @@ static trial draw_trial(uint64_t *random)
     for (int i = 0; i < 3; ++i) {
         spin->pivot[i] = y.symmetry.center[i] + off * random_between(random, -1, 1);
         spin->shift[i] = spin->pivot[i];
-        if (y.symmetry.kind != IMP_SYMMETRIC_ABOUT_POINT && i == 2) spin->pivot[i] += far;
+        if (y.symmetry.kind != IMP_SYMMETRY_ABOUT_POINT && i == 2) spin->pivot[i] += far;
         spin->way[i] = off * random_between(random, -1, 1);
     }
     y.turns = random_bits(random) % 2;
@@ -234,8 +234,8 @@ static trial draw_trial(uint64_t *random)
     y.turn = *spin;
     y.turn.rate = random_between(random, -4, 4);
     y.moves_along = random_bits(random) % 2;
-    if (y.moves_along && y.symmetry.kind == IMP_SYMMETRIC_ALONG_LINE) spin->way[2] = y.reach;
-    if (y.moves_along && y.symmetry.kind == IMP_SYMMETRIC_ACROSS_LINE)
+    if (y.moves_along && y.symmetry.kind == IMP_SYMMETRY_ALONG_LINE) spin->way[2] = y.reach;
+    if (y.moves_along && y.symmetry.kind == IMP_SYMMETRY_ACROSS_LINE)
         spin->way[0] = spin->way[1] = y.reach;
     if (off > 0 && random_bits(random) % 2) tilt(&y, off / y.reach, &y.own[1]);
     y.is_placed = random_bits(random) % 2;
@@ -278,11 +278,11 @@ static orbit orbit_of(const imp_symmetry *of, const long double x[3])
     const long double along = x[2] - of->center[2];
     const long double across = hypotl(x[0] - of->center[0], x[1] - of->center[1]);
     switch (of->kind) {
-    case IMP_SYMMETRIC_ABOUT_POINT:
+    case IMP_SYMMETRY_ABOUT_POINT:
         return (orbit){0, hypotl(across, along)};
-    case IMP_SYMMETRIC_ABOUT_LINE:
+    case IMP_SYMMETRY_ABOUT_LINE:
         return (orbit){along, across};
-    case IMP_SYMMETRIC_ALONG_LINE:
+    case IMP_SYMMETRY_ALONG_LINE:
         return (orbit){0, across};
     default:
         return (orbit){along, 0};
@@ -297,8 +297,8 @@ static long double apart(const orbit *x, const orbit *y)
 /* From the surface whose distance is the gap. */
 static long double off(const imp_symmetry *of, const orbit *x)
 {
-    if (of->kind == IMP_SYMMETRIC_ACROSS_LINE) return fabsl(x->along);
-    if (of->kind == IMP_SYMMETRIC_ABOUT_LINE) return fabsl(hypotl(x->across - 2, x->along) - 1);
+    if (of->kind == IMP_SYMMETRY_ACROSS_LINE) return fabsl(x->along);
+    if (of->kind == IMP_SYMMETRY_ABOUT_LINE) return fabsl(hypotl(x->across - 2, x->along) - 1);
     return fabsl(x->across - 1);
 }
 
@@ -317,7 +317,7 @@ static long double claimed(const trial *y, const surface *b, double slip, const 
     for (int i = 0; i < 3; ++i) point[i] = imp_known((double)x[i], 0x1p-52 * fabs((double)x[i]));
     const imp_status status =
         surface_distance_within(b, &y->times, y->turns + y->is_placed, point, y->moment, slip, &g);
-    if (status != IMP_OK) return 0;
+    if (status != IMP_STATUS_OK) return 0;
     ck_assert(g.b[0] == 0 && g.b[1] == 0 && g.b[2] == 0);
     const double by_polynomial = fabs(g.a) - g.e, by_range = g.lo > -g.hi ? g.lo : -g.hi;
     return by_polynomial > by_range ? by_polynomial : by_range;
@@ -369,7 +369,7 @@ static tally try_all(double factor)
         double slip;
         for (int i = 0; i < 3; ++i)
             bare[i] = imp_between(y.symmetry.center[i] - y.reach, y.symmetry.center[i] + y.reach);
-        ck_assert_int_eq(surface_slip(a, b, bare, &y.times, y.moment, &slip), IMP_OK);
+        ck_assert_int_eq(surface_slip(a, b, bare, &y.times, y.moment, &slip), IMP_STATUS_OK);
         if (slip < INFINITY) judge(&y, b, factor * slip, &random, &of);
         of.known += slip < INFINITY;
         of.exact += slip < 0x1p-36 * (y.reach + 256);
@@ -398,7 +398,7 @@ START_TEST(slips_that_are_too_small_are_found)
 }
 END_TEST
 
-static imp_symmetry ball(void) { return (imp_symmetry){.kind = IMP_SYMMETRIC_ABOUT_POINT}; }
+static imp_symmetry ball(void) { return (imp_symmetry){.kind = IMP_SYMMETRY_ABOUT_POINT}; }
 
 /* The slip of a surface with one map along one without, over t in [0, 1]. */
 static imp_status slip_of(motion *m, imp_symmetry *symmetry, double *slip)
@@ -419,16 +419,16 @@ START_TEST(motions_within_the_symmetry_do_not_slip)
     double slip;
     motion m = {.rate = 3};
     imp_symmetry s = ball();
-    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_OK);
+    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_STATUS_OK);
     ck_assert(slip < 0x1p-48);
     m.way[2] = 1;
-    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_OK);
+    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_STATUS_OK);
     ck_assert(slip == INFINITY);
-    s = (imp_symmetry){.kind = IMP_SYMMETRIC_ALONG_LINE, .axis = {0, 0, 2}};
-    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_OK);
+    s = (imp_symmetry){.kind = IMP_SYMMETRY_ALONG_LINE, .axis = {0, 0, 2}};
+    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_STATUS_OK);
     ck_assert(slip < 0x1p-48);
-    s.kind = IMP_SYMMETRIC_ACROSS_LINE;
-    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_OK);
+    s.kind = IMP_SYMMETRY_ACROSS_LINE;
+    ck_assert_int_eq(slip_of(&m, &s, &slip), IMP_STATUS_OK);
     ck_assert(slip == INFINITY);
 }
 END_TEST
@@ -437,7 +437,7 @@ START_TEST(symmetries_that_are_none_are_refused)
 {
     motion m = {.rate = 3};
     double slip;
-    imp_symmetry bad[4] = {{.kind = 0}, {.kind = 5}, {.kind = IMP_SYMMETRIC_ABOUT_LINE}, ball()};
+    imp_symmetry bad[4] = {{.kind = 0}, {.kind = 5}, {.kind = IMP_SYMMETRY_ABOUT_LINE}, ball()};
     bad[3].center[1] = NAN;
     for (int k = 0; k < 4; ++k) ck_assert_int_eq(slip_of(&m, &bad[k], &slip), SURFACE_BAD_SYMMETRY);
 }

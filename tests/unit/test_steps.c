@@ -33,7 +33,7 @@ static void refine(imp_query *query, const setting *s, int rung)
 /* The lemma, for an answer on any rung. */
 static void check_rung(const ladder *l, int rung, const imp_result *r)
 {
-    if (r->verdict != IMP_CONTACT) return;
+    if (r->verdict != IMP_VERDICT_CONTACT) return;
     ck_assert(r->gap <= r->gamma);
     for (int k = 0; k < 3; ++k) {
         if (k < rung) ck_assert_double_ge(r->t, l->rung[k].t_lower);
@@ -83,7 +83,7 @@ static void check_same(const imp_result *x, const imp_result *y)
     ck_assert_uint_eq(x->stats.peak_heap, y->stats.peak_heap);
     ck_assert_uint_eq(x->stats.witness_searches, y->stats.witness_searches);
     ck_assert_uint_eq(x->stats.bytes, y->stats.bytes);
-    if (x->verdict != IMP_CONTACT) return;
+    if (x->verdict != IMP_VERDICT_CONTACT) return;
     ck_assert(x->t == y->t && x->gap == y->gap);
     ck_assert(x->a.u == y->a.u && x->a.v == y->a.v && x->b.u == y->b.u && x->b.v == y->b.v);
     ck_assert(memcmp(x->normal, y->normal, sizeof x->normal) == 0);
@@ -96,7 +96,8 @@ static void step_any_size(imp_registry *registry, const ladder *l)
         imp_scene *scene = scene_told(registry, l->about);
         imp_query *query = query_on_rung(scene, l->about, 1);
         imp_result r = imp_query_result(query);
-        ck_assert(r.verdict == IMP_UNDECIDED && r.reason == IMP_REASON_RUNNING && r.t_lower == 0);
+        ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_RUNNING &&
+                  r.t_lower == 0);
         while (r.reason == IMP_REASON_RUNNING) {
             const double t_lower = r.t_lower;
             r = step(query, sizes[k]);
@@ -119,8 +120,8 @@ static imp_result solve_within(imp_registry *registry, const setting *s, imp_opt
     options.max_pairs = budget.max_pairs;
     options.max_seconds = budget.max_seconds;
     options.max_bytes = budget.max_bytes;
-    imp_result r;
-    ck_assert_int_eq(imp_solve(scene, &options, &r, NULL), IMP_SUCCESS);
+    imp_result r = {.struct_size = sizeof r};
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, NULL), IMP_SUCCESS);
     query_check(scene, &options, &r);
     imp_scene_free(scene);
     return r;
@@ -132,16 +133,16 @@ static void end_early(imp_registry *registry, const ladder *l)
     double t_lower = 0;
     for (uint64_t pairs = 1; pairs < l->rung[1].stats.pairs; pairs += 1 + pairs / 2) {
         const imp_result r = solve_within(registry, l->about, (imp_options){.max_pairs = pairs});
-        ck_assert(r.verdict == IMP_UNDECIDED && r.reason == IMP_REASON_PAIRS);
+        ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_PAIRS);
         ck_assert(r.t_lower >= t_lower && r.t_lower <= l->rung[1].t_lower);
         ck_assert(isnan(r.t) && isnan(r.gap));
         t_lower = r.t_lower;
     }
     imp_result r = solve_within(registry, l->about, (imp_options){.max_seconds = 1e-9});
-    ck_assert(r.verdict == IMP_UNDECIDED && r.reason == IMP_REASON_SECONDS);
+    ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_SECONDS);
     ck_assert(r.t_lower <= l->rung[1].t_lower);
     r = solve_within(registry, l->about, (imp_options){.max_bytes = 1});
-    ck_assert(r.verdict == IMP_UNDECIDED && r.reason == IMP_REASON_MEMORY);
+    ck_assert(r.verdict == IMP_VERDICT_UNDECIDED && r.reason == IMP_REASON_MEMORY);
     ck_assert(r.t_lower <= l->rung[1].t_lower);
     r = solve_within(registry, l->about,
                      (imp_options){.max_pairs = l->rung[1].stats.pairs + 1,

@@ -38,7 +38,7 @@ static void point_of(const instance *made, size_t piece, double u, double v, dou
                      double error[3])
 {
     const double p[3] = {u, v, 0.5};
-    ck_assert_int_eq(made->surface->eval(piece_of(made, piece), 1, p, x, error), IMP_OK);
+    ck_assert_int_eq(made->surface->eval(piece_of(made, piece), 1, p, x, error), IMP_STATUS_OK);
 }
 
 /* --- Surfaces that are known ------------------------------------------------------------------------ */
@@ -146,7 +146,7 @@ START_TEST(a_plane_mesh_stays_in_its_plane)
         double x[3], error[3];
         point_of(&made, k, 0.01, 0.3, x, error);
         ck_assert_double_eq_tol(x[2], 0.25, 1e-15);
-        ck_assert_int_eq(made.surface->include(piece_of(&made, k), &whole, model), IMP_OK);
+        ck_assert_int_eq(made.surface->include(piece_of(&made, k), &whole, model), IMP_STATUS_OK);
         ck_assert_double_le(model[2].hi - model[2].lo, 1e-12);
     }
     instance_free(&made);
@@ -255,10 +255,11 @@ static void check_region(const instance *made, size_t k, const imp_region *r, ui
 {
     imp_model model[3];
     double x[2][3], error[2][3], p[2][3], s[3];
-    ck_assert_int_eq(made->surface->include(piece_of(made, k), r, model), IMP_OK);
+    ck_assert_int_eq(made->surface->include(piece_of(made, k), r, model), IMP_STATUS_OK);
     for (int n = 0; n < 2; ++n) {
         any_place(random, r, p[n]);
-        ck_assert_int_eq(made->surface->eval(piece_of(made, k), 1, p[n], x[n], error[n]), IMP_OK);
+        ck_assert_int_eq(made->surface->eval(piece_of(made, k), 1, p[n], x[n], error[n]),
+                         IMP_STATUS_OK);
     }
     for (int j = 0; j < 3; ++j) s[j] = r->d[j] > 0 ? (p[0][j] - r->c[j]) / r->d[j] : 0;
     for (int i = 0; i < 3; ++i) {
@@ -308,7 +309,7 @@ START_TEST(bounds_shrink_toward_an_extraordinary_corner)
             const imp_region r = region_make((double[3]){0, 0, 0}, (double[3]){h, h, 0});
             imp_model model[3];
             soil_stack();
-            ck_assert_int_eq(made.surface->include(made.self, &r, model), IMP_OK);
+            ck_assert_int_eq(made.surface->include(made.self, &r, model), IMP_STATUS_OK);
             e = fmax(model[0].e, fmax(model[1].e, model[2].e));
             if (level == 0) first = e;
             ck_assert_double_le(e, 0.75 * last + 1e-14);
@@ -328,10 +329,10 @@ END_TEST
 START_TEST(contact_at_an_extraordinary_point_comes_at_its_time)
 {
     imp_result r = query_audited(CUBE_SURFACE, "point position=2,2,2 velocity=-2,-2,-2");
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert_double_eq_tol(r.t, 0.75, 1e-9);
     r = query_audited(CUBE_SURFACE, "point position=0,0,2 velocity=0,0,-2");
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert_double_eq_tol(r.t, 1 - 34. / 81, 1e-9);
 }
 END_TEST
@@ -343,7 +344,7 @@ START_TEST(moving_control_points_move_the_surface)
         CUBE_SURFACE
         " velocities=[[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0],[1,0,0]]",
         "point position=2,0,0 velocity=-1,0,0");
-    ck_assert_int_eq(r.verdict, IMP_CONTACT);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert_double_eq_tol(r.t, 1 - 34. / 81, 1e-9);
 }
 END_TEST

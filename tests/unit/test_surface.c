@@ -141,11 +141,11 @@ START_TEST(points_of_a_composition_lie_in_its_inclusion)
         surface *s = mixture(k % 4);
         const imp_region r = random_region(&state);
         imp_model model[3];
-        ck_assert_int_eq(surface_include(s, &r, model), IMP_OK);
+        ck_assert_int_eq(surface_include(s, &r, model), IMP_STATUS_OK);
         for (int n = 0; n < 6; ++n) {
             double p[3], x[3], e[3];
             random_point(&state, &r, p);
-            ck_assert_int_eq(surface_eval(s, 1, p, x, e), IMP_OK);
+            ck_assert_int_eq(surface_eval(s, 1, p, x, e), IMP_STATUS_OK);
             for (int i = 0; i < 3; ++i) {
                 const double slack = e[i] + 1e-14;
                 ck_assert(e[i] < 1e-13);
@@ -165,11 +165,11 @@ START_TEST(a_composition_moves_no_faster_than_its_rates)
         surface *s = mixture(k % 4);
         const imp_region r = random_region(&state);
         imp_rate_matrix rates;
-        ck_assert_int_eq(surface_rate(s, &r, &rates), IMP_OK);
+        ck_assert_int_eq(surface_rate(s, &r, &rates), IMP_STATUS_OK);
         double p[6], x[6], e[6];
         random_point(&state, &r, p);
         random_point(&state, &r, p + 3);
-        ck_assert_int_eq(surface_eval(s, 2, p, x, e), IMP_OK);
+        ck_assert_int_eq(surface_eval(s, 2, p, x, e), IMP_STATUS_OK);
         for (int i = 0; i < 3; ++i) {
             double reach = e[i] + e[3 + i];
             for (int j = 0; j < 3; ++j) reach += rates.m[i][j] * fabs(p[j] - p[3 + j]);
@@ -189,7 +189,7 @@ START_TEST(inclusions_through_maps_shrink_like_the_cube_of_the_region)
         const imp_region r =
             region_make((double[3]){1 - h, 0.5 - h, 0.5 - h}, (double[3]){1 + h, 0.5 + h, 0.5 + h});
         imp_model model[3];
-        ck_assert_int_eq(surface_include(s, &r, model), IMP_OK);
+        ck_assert_int_eq(surface_include(s, &r, model), IMP_STATUS_OK);
         e[k] = model[0].e + model[1].e + model[2].e;
     }
     ck_assert_double_lt(e[1], e[0] / 400); /* (2^3)^3 = 512 */
@@ -213,10 +213,10 @@ START_TEST(a_batch_gives_what_single_points_give)
     uint64_t state = suite_seed();
     double p[3 * 50], x[3 * 50], e[3 * 50];
     for (int k = 0; k < 150; ++k) p[k] = random_between(&state, 0, 1.4);
-    ck_assert_int_eq(surface_eval(s, 50, p, x, e), IMP_OK);
+    ck_assert_int_eq(surface_eval(s, 50, p, x, e), IMP_STATUS_OK);
     for (int k = 0; k < 50; ++k) {
         double one[3], error[3];
-        ck_assert_int_eq(surface_eval(s, 1, p + 3 * k, one, error), IMP_OK);
+        ck_assert_int_eq(surface_eval(s, 1, p + 3 * k, one, error), IMP_STATUS_OK);
         ck_assert(memcmp(one, x + 3 * k, sizeof one) == 0);
         ck_assert(memcmp(error, e + 3 * k, sizeof error) == 0);
     }

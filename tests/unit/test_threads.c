@@ -46,7 +46,8 @@ static bool ask_contact_number(imp_scene *scene, int k, imp_result *answer)
     imp_options options = imp_options_default(scene);
     options.gamma = k % 2 == 0 ? 1e-4 : 1e-8;
     options.t_end = k < 2 ? 1 : 0.375;
-    return imp_solve(scene, &options, answer, NULL) == IMP_SUCCESS;
+    answer->struct_size = sizeof *answer;
+    return imp_scene_solve(scene, &options, answer, NULL) == IMP_SUCCESS;
 }
 
 static bool ask_clearance(imp_scene *scene, imp_clearance *answer)
@@ -56,7 +57,7 @@ static bool ask_clearance(imp_scene *scene, imp_clearance *answer)
     imp_query *query = imp_clearance_new(scene, &options, NULL, NULL);
     *answer = (imp_clearance){.struct_size = (uint32_t)sizeof *answer};
     const bool good = query != NULL && imp_query_step(query, 0, NULL) == IMP_SUCCESS &&
-                      imp_clearance_read(query, 0, answer, NULL) == IMP_SUCCESS;
+                      imp_clearance_get(query, 0, answer, NULL) == IMP_SUCCESS;
     imp_query_free(query);
     return good;
 }
@@ -90,7 +91,7 @@ static void same_answers(const answers *x, const answers *y)
         ck_assert_int_eq(r->verdict, s->verdict);
         ck_assert_double_eq(r->t_lower, s->t_lower);
         ck_assert_uint_eq(r->stats.pairs, s->stats.pairs);
-        if (r->verdict != IMP_CONTACT) continue;
+        if (r->verdict != IMP_VERDICT_CONTACT) continue;
         ck_assert_double_eq(r->gap, s->gap);
         same_side(&r->a, &s->a);
         same_side(&r->b, &s->b);
@@ -133,8 +134,8 @@ static void all_at_once(imp_registry *registry, const char *const texts[2], imp_
     imp_scene *fresh = scene_of(registry, texts);
     ask_all(fresh, 0, &alone);
     imp_scene_free(fresh);
-    ck_assert_int_eq(alone.contact[0].verdict, IMP_CONTACT);
-    ck_assert_int_eq(alone.contact[2].verdict, IMP_CLEAR);
+    ck_assert_int_eq(alone.contact[0].verdict, IMP_VERDICT_CONTACT);
+    ck_assert_int_eq(alone.contact[2].verdict, IMP_VERDICT_CLEAR);
     pthread_barrier_t start;
     pthread_barrier_init(&start, NULL, THREADS);
     for (int k = 0; k < THREADS; ++k) {

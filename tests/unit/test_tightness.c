@@ -38,7 +38,7 @@ static void look(const instance *made, const imp_region *region, const imp_model
 {
     double p[3], x[3], beside[3];
     point_at(region, s, p);
-    ck_assert_int_eq(made->surface->eval(made->self, 1, p, x, NULL), IMP_OK);
+    ck_assert_int_eq(made->surface->eval(made->self, 1, p, x, NULL), IMP_STATUS_OK);
     for (int i = 0; i < 3; ++i) {
         found->off[i] = fmax(found->off[i], fabs(x[i] - quadratic_at(&model[i], s)));
         found->lo[i] = fmin(found->lo[i], x[i]);
@@ -66,8 +66,8 @@ static void measure(const instance *made, const imp_region *region, ratios *sums
     imp_model model[3];
     imp_rate_matrix rates;
     seen found = {.lo = {INFINITY, INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY, -INFINITY}};
-    ck_assert_int_eq(made->surface->include(made->self, region, model), IMP_OK);
-    ck_assert_int_eq(made->surface->rate(made->self, region, &rates), IMP_OK);
+    ck_assert_int_eq(made->surface->include(made->self, region, model), IMP_STATUS_OK);
+    ck_assert_int_eq(made->surface->rate(made->self, region, &rates), IMP_STATUS_OK);
     for (int k = 0; k < GRID * GRID * GRID; ++k) {
         const int at[3] = {k % GRID, k / GRID % GRID, k / GRID / GRID};
         double s[3];

@@ -17,7 +17,8 @@ static imp_code code_of(const question *q, imp_result *result, imp_error *error)
     imp_scene *scene = imp_scene_from_pair(registry, q->a, q->b, error);
     ck_assert_msg(scene != NULL, "%s", error->text);
     const imp_options options = query_options(scene, q);
-    const imp_code code = imp_solve(scene, &options, result, error);
+    result->struct_size = sizeof *result;
+    const imp_code code = imp_scene_solve(scene, &options, result, error);
     if (code == IMP_SUCCESS) query_check(scene, &options, result);
     imp_scene_free(scene);
     imp_registry_free(registry);
@@ -114,7 +115,7 @@ START_TEST(a_contact_and_an_undecided_answer_say_what_was_examined)
                            .t_end = 2,
                            .max_pairs = 50};
     const imp_result s = ask(&hard);
-    ck_assert_int_eq(s.verdict, IMP_UNDECIDED);
+    ck_assert_int_eq(s.verdict, IMP_VERDICT_UNDECIDED);
     ck_assert(s.t_examined[0] == 0.25 && s.t_examined[1] == 0.5);
 }
 END_TEST
@@ -127,7 +128,8 @@ static imp_code solve_text(const char *text, imp_result *result, imp_error *erro
     imp_scene *scene = imp_scene_from_json(registry, text, strlen(text), "scene", error);
     ck_assert_msg(scene != NULL, "%s", error->text);
     const imp_options options = imp_options_default(scene);
-    const imp_code code = imp_solve(scene, &options, result, error);
+    result->struct_size = sizeof *result;
+    const imp_code code = imp_scene_solve(scene, &options, result, error);
     imp_scene_free(scene);
     imp_registry_free(registry);
     return code;
@@ -149,7 +151,7 @@ START_TEST(a_scene_examines_from_the_first_to_the_last_time_that_two_bodies_exis
             "b", FORMULA("1", "2", "2.5"), "") "," BODY("c", "\"sphere\", \"center\": [0,0,9]",
                                                         "") "]}";
     ck_assert_msg(solve_text(text, &r, &error) == IMP_SUCCESS, "%s", error.text);
-    ck_assert(r.verdict == IMP_CLEAR && r.t_examined[0] == 0.5 && r.t_examined[1] == 2.5);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.t_examined[0] == 0.5 && r.t_examined[1] == 2.5);
 }
 END_TEST
 
@@ -165,7 +167,7 @@ START_TEST(a_body_that_is_tested_with_none_may_be_defined_for_any_times)
     ck_assert_int_eq(solve_text(tested, &r, &error), IMP_ERROR_SCENE);
     ck_assert_ptr_nonnull(strstr(error.text, "body 'a', surface 0"));
     ck_assert_int_eq(solve_text(ignored, &r, &error), IMP_SUCCESS);
-    ck_assert(r.verdict == IMP_CLEAR && r.t_examined[0] == 0 && r.t_examined[1] == 1);
+    ck_assert(r.verdict == IMP_VERDICT_CLEAR && r.t_examined[0] == 0 && r.t_examined[1] == 1);
 }
 END_TEST
 
@@ -181,14 +183,14 @@ START_TEST(a_scene_whose_tables_share_no_time_is_refused_until_somebody_says)
                             "sphere center=9,0,0 ! keyframes times=2,3 positions=[[0,0,0],[1,0,0]]",
                             &error);
     imp_options options = {.struct_size = sizeof options};
-    ck_assert_int_eq(imp_options_read(scene, &options, &error), IMP_ERROR_SCENE);
+    ck_assert_int_eq(imp_options_get_default(scene, &options, &error), IMP_ERROR_SCENE);
     ck_assert_ptr_nonnull(strstr(error.text, "up to t = 1;"));
     ck_assert(isnan(options.t_start) && isnan(options.t_end) && options.gamma == 1e-6);
     error.text[0] = '\0';
-    ck_assert_int_eq(imp_solve(scene, &options, &r, &error), IMP_ERROR_SCENE);
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_ERROR_SCENE);
     ck_assert_ptr_nonnull(strstr(error.text, "up to t = 1;"));
     options.t_start = 2;
-    ck_assert_int_eq(imp_solve(scene, &options, &r, &error), IMP_ERROR_USAGE);
+    ck_assert_int_eq(imp_scene_solve(scene, &options, &r, &error), IMP_ERROR_USAGE);
     imp_scene_free(scene);
     imp_registry_free(registry);
 }

@@ -81,30 +81,31 @@ static const double rounding = 1e-13;
 
 static void check_touch(const touching *k, const question *q, const imp_result *r, const char *how)
 {
-    /* Distances are below the clearance soon after this time: no t_lower is greater. */
-    const double latest = fmax(q->t_start, 1 - (q->clearance - rounding) / k->fastest);
+    /* Distances are below gamma_clear soon after this time: no t_lower is greater. */
+    const double latest = fmax(q->t_start, 1 - (q->gamma_clear - rounding) / k->fastest);
     /* They are above gamma before this one: no contact is reported earlier. */
     const double earliest = k->slowest > 0 ? 1 - (q->gamma + rounding) / k->slowest : 0;
-    ck_assert_msg(r->verdict == IMP_CONTACT && r->t <= latest && r->t >= earliest,
-                  "%s | %s, %s, gamma %g, clearance %g, times [%g, %g]: verdict %d (reason %d), "
+    ck_assert_msg(r->verdict == IMP_VERDICT_CONTACT && r->t <= latest && r->t >= earliest,
+                  "%s | %s, %s, gamma %g, gamma_clear %g, times [%g, %g]: verdict %d (reason %d), "
                   "t_lower %.17g, expected contact in [%.17g, %.17g]",
-                  q->a, q->b, how, q->gamma, q->clearance, q->t_start, q->t_end, (int)r->verdict,
+                  q->a, q->b, how, q->gamma, q->gamma_clear, q->t_start, q->t_end, (int)r->verdict,
                   (int)r->reason, r->t_lower, earliest, latest);
 }
 
 /* A witness says that at its time the surfaces are no farther apart than its gap. Asked again with a
- * clearance just above that, t_lower is no later, and clear no answer. */
+ * gamma_clear just above that, t_lower is no later, and clear no answer. */
 static void ask_sharper(imp_registry *registry, const question *q, const imp_result *seen)
 {
     question sharper = *q;
-    sharper.clearance = seen->gap + rounding;
-    sharper.gamma = 2 * sharper.clearance;
+    sharper.gamma_clear = seen->gap + rounding;
+    sharper.gamma = 2 * sharper.gamma_clear;
     const imp_result r = ask_in(registry, &sharper);
-    ck_assert_msg(r.verdict != IMP_CLEAR && r.t_lower <= seen->t,
-                  "%s | %s, clearance %.17g, times [%g, %g]: verdict %d, t_lower %.17g, but a gap "
-                  "of %.17g was seen at %.17g",
-                  q->a, q->b, sharper.clearance, q->t_start, q->t_end, (int)r.verdict, r.t_lower,
-                  seen->gap, seen->t);
+    ck_assert_msg(
+        r.verdict != IMP_VERDICT_CLEAR && r.t_lower <= seen->t,
+        "%s | %s, gamma_clear %.17g, times [%g, %g]: verdict %d, t_lower %.17g, but a gap "
+        "of %.17g was seen at %.17g",
+        q->a, q->b, sharper.gamma_clear, q->t_start, q->t_end, (int)r.verdict, r.t_lower, seen->gap,
+        seen->t);
 }
 
 static void ask_touch(imp_registry *registry, const touching *k, const question *q)
@@ -128,8 +129,8 @@ static void ask_everywhen(imp_registry *registry, const touching *k, question q)
     q.t_start = 0;
     q.t_end = 1 - (q.gamma + rounding) / k->slowest;
     const imp_result r = ask_in(registry, &q);
-    ck_assert_msg(r.verdict == IMP_CLEAR, "%s | %s until %.17g: verdict %d (reason %d)", q.a, q.b,
-                  q.t_end, (int)r.verdict, (int)r.reason);
+    ck_assert_msg(r.verdict == IMP_VERDICT_CLEAR, "%s | %s until %.17g: verdict %d (reason %d)",
+                  q.a, q.b, q.t_end, (int)r.verdict, (int)r.reason);
 }
 
 static void for_each_touching(void (*judge)(imp_registry *registry, const touching *k))
@@ -141,12 +142,12 @@ static void for_each_touching(void (*judge)(imp_registry *registry, const touchi
 
 static void ask_everyhow(imp_registry *registry, const touching *k)
 {
-    const double shares[] = {0.03, 0.5, 0.9}; /* of gamma, as clearance */
+    const double shares[] = {0.03, 0.5, 0.9}; /* of gamma, as gamma_clear */
     for (double gamma = k->finest; gamma < 0.2; gamma *= 64)
         for (size_t n = 0; n < sizeof shares / sizeof *shares; ++n)
             ask_everywhen(
                 registry, k,
-                (question){.a = k->a, .b = k->b, .gamma = gamma, .clearance = shares[n] * gamma});
+                (question){.a = k->a, .b = k->b, .gamma = gamma, .gamma_clear = shares[n] * gamma});
 }
 
 START_TEST(a_touch_is_found_when_it_happens_and_no_sharper_question_denies_it)
@@ -160,7 +161,7 @@ END_TEST
 static question question_of_touch(const touching *k)
 {
     return (question){
-        .a = k->a, .b = k->b, .t_end = 2, .gamma = 4 * k->finest, .clearance = 2 * k->finest};
+        .a = k->a, .b = k->b, .t_end = 2, .gamma = 4 * k->finest, .gamma_clear = 2 * k->finest};
 }
 
 static void ask_swapped(imp_registry *registry, const touching *k)
@@ -202,8 +203,9 @@ static void check_before(const touching *k, const question *q, const imp_result 
     const double left = 1 - q->t_end;
     ck_assert(left >= 0);
     const bool apart = k->slowest * left > q->gamma + rounding,
-               near = k->fastest * left < q->clearance - rounding;
-    ck_assert_msg(!(apart && r->verdict != IMP_CLEAR) && !(near && r->verdict == IMP_CLEAR),
+               near = k->fastest * left < q->gamma_clear - rounding;
+    ck_assert_msg(!(apart && r->verdict != IMP_VERDICT_CLEAR) &&
+                      !(near && r->verdict == IMP_VERDICT_CLEAR),
                   "%s | %s, times [%.17g, %.17g]: verdict %d (reason %d)", q->a, q->b, q->t_start,
                   q->t_end, (int)r->verdict, (int)r->reason);
     if (near) check_touch(k, q, r, "just before");
@@ -233,7 +235,7 @@ static void ask_halves(imp_registry *registry, const touching *k)
         q.t_end = cuts[n];
         const imp_result first = ask_in(registry, &q);
         check_before(k, &q, &first);
-        if (first.verdict != IMP_CLEAR) continue;
+        if (first.verdict != IMP_VERDICT_CLEAR) continue;
         q.t_start = cuts[n];
         q.t_end = 2;
         const imp_result second = ask_in(registry, &q);
@@ -270,7 +272,7 @@ static void ask_finer_and_finer(imp_registry *registry, const touching *k)
 {
     question q = question_of_touch(k);
     q.gamma *= 16;
-    q.clearance *= 16;
+    q.gamma_clear *= 16;
     imp_scene *scene = imp_scene_from_pair(registry, q.a, q.b, NULL);
     imp_query *query = begin(scene, &q);
     for (double t_lower = 0; q.gamma >= k->finest;) {
@@ -279,8 +281,8 @@ static void ask_finer_and_finer(imp_registry *registry, const touching *k)
         ck_assert_double_ge(r.t_lower, t_lower);
         t_lower = r.t_lower;
         q.gamma /= 4;
-        q.clearance /= 4;
-        ck_assert_int_eq(imp_query_refine(query, q.gamma, q.clearance, NULL), IMP_SUCCESS);
+        q.gamma_clear /= 4;
+        ck_assert_int_eq(imp_query_refine(query, q.gamma, q.gamma_clear, NULL), IMP_SUCCESS);
     }
     imp_query_free(query);
     imp_scene_free(scene);

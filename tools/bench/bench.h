@@ -3,6 +3,7 @@
 #ifndef TOOLS_BENCH_BENCH_H
 #define TOOLS_BENCH_BENCH_H
 
+#include <impinge/baseline.h>
 #include <impinge/impinge.h>
 #include <jansson.h>
 
@@ -33,7 +34,7 @@ typedef struct bench_scene {
 
 typedef struct bench_case {
     char name[48];
-    double gamma, clearance; /* length; clearance < 0: gamma / 2 */
+    double gamma, gamma_clear; /* length; gamma_clear < 0: gamma / 2 */
     double cut; /* if > 0: asked only up to this part of the time until the first contact */
     bench_scene *scenes;
     size_t count, capacity;
@@ -47,7 +48,7 @@ typedef struct bench_cases {
 } bench_cases;
 
 /* Begins a case; scenes go to the last one begun. */
-void bench_begin(bench_cases *list, double gamma, double clearance, const char *format, ...)
+void bench_begin(bench_cases *list, double gamma, double gamma_clear, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* Adds a scene of two pipelines, or (b NULL) of a scene file's text. Takes over both; a NULL
@@ -72,9 +73,7 @@ typedef enum bench_question {
 
 typedef struct bench_method {
     const char *name;
-    imp_method method;
-    imp_bounds bounds;
-    imp_rates rates;
+    uint32_t baseline; /* of imp_options */
     bench_question question;
     bool capped;    /* whether it ends at the request's budget */
     size_t threads; /* BENCH_STREAM: of the batch; 0: no batch, each scene is read and solved */
@@ -84,7 +83,7 @@ typedef struct bench_method {
 typedef struct bench_request {
     const char *verb;     /* who complains */
     bool only;            /* whether one kind of method alone is wanted, */
-    imp_method method;    /* and which */
+    bool is_paper;        /* and it is the paper's */
     uint64_t max_pairs;   /* budget of methods that are capped, for one scene; 0: none */
     uint64_t repeats;     /* how often a scene is timed; at least 1 */
     uint64_t count, seed; /* of random patches besides the file's */

@@ -13,14 +13,14 @@
 
 /* --- Lists of cases ----------------------------------------------------------------------- */
 
-void bench_begin(bench_cases *list, double gamma, double clearance, const char *format, ...)
+void bench_begin(bench_cases *list, double gamma, double gamma_clear, const char *format, ...)
 {
     bench_case *cases = array_reserve(list->cases, list->count, &list->capacity, sizeof *cases);
     list->no_memory = list->no_memory || cases == NULL;
     if (cases == NULL) return;
     list->cases = cases;
     bench_case *c = &cases[list->count++];
-    *c = (bench_case){.gamma = gamma, .clearance = clearance};
+    *c = (bench_case){.gamma = gamma, .gamma_clear = gamma_clear};
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(c->name, sizeof c->name, format, arguments);

@@ -99,7 +99,7 @@ static exit_status build(bench_cases *list, const bench_request *request)
     return bench_built(list, request);
 }
 
-static const bench_method models = {.name = "models", .method = IMP_METHOD_MODELS, .capped = true};
+static const bench_method models = {.name = "models", .capped = true};
 static const bench_method *const methods[] = {&models, NULL};
 
 const bench_set bench_conformal = {

@@ -9,7 +9,7 @@
 
 #include "tools/bench/crowd.h"
 
-static const bench_method models = {.name = "models", .method = IMP_METHOD_MODELS};
+static const bench_method models = {.name = "models"};
 static const bench_method *const methods[] = {&models, NULL};
 
 /* --- bodies ----------------------------------------------------------------------------------- */

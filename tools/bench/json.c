@@ -13,9 +13,9 @@ static json_t *spread_json(const bench_spread *s)
 
 static json_t *verdicts_json(const bench_tally *t)
 {
-    return json_pack("{s:I, s:I, s:I}", "contact", (json_int_t)t->verdicts[IMP_CONTACT], "clear",
-                     (json_int_t)t->verdicts[IMP_CLEAR], "undecided",
-                     (json_int_t)t->verdicts[IMP_UNDECIDED]);
+    return json_pack("{s:I, s:I, s:I}", "contact", (json_int_t)t->verdicts[IMP_VERDICT_CONTACT],
+                     "clear", (json_int_t)t->verdicts[IMP_VERDICT_CLEAR], "undecided",
+                     (json_int_t)t->verdicts[IMP_VERDICT_UNDECIDED]);
 }
 
 static json_t *reference_json(const bench_tally *t)

@@ -29,10 +29,8 @@ static imp_options options_of(const imp_scene *scene, const bench_case *c, const
 {
     imp_options o = imp_options_default(scene);
     o.gamma = c->gamma;
-    o.clearance = c->clearance;
-    o.method = m->method;
-    o.bounds = m->bounds;
-    o.rates = m->rates;
+    o.gamma_clear = c->gamma_clear;
+    o.baseline = m->baseline;
     o.max_bytes = 0; /* memory is measured, not limited */
     if (m->capped) o.max_pairs = request->max_pairs;
     return o;
@@ -53,10 +51,10 @@ static imp_code run(imp_query *query, imp_result *result, double *seconds, imp_e
 /* Clear: the minimum distance is known, or what is required is kept. */
 static imp_verdict verdict_of(const imp_clearance *answer, double gamma)
 {
-    if (answer->verdict == IMP_REQUIREMENT_HOLDS) return IMP_CLEAR;
-    if (answer->verdict == IMP_REQUIREMENT_VIOLATED) return IMP_CONTACT;
-    if (answer->reason != IMP_REASON_NONE) return IMP_UNDECIDED;
-    return answer->upper > gamma ? IMP_CLEAR : IMP_CONTACT;
+    if (answer->verdict == IMP_REQUIREMENT_HOLDS) return IMP_VERDICT_CLEAR;
+    if (answer->verdict == IMP_REQUIREMENT_VIOLATED) return IMP_VERDICT_CONTACT;
+    if (answer->reason != IMP_REASON_NONE) return IMP_VERDICT_UNDECIDED;
+    return answer->upper > gamma ? IMP_VERDICT_CLEAR : IMP_VERDICT_CONTACT;
 }
 
 /* The minimum distance, or, if something is required, whether it is kept; as the result of a
@@ -74,7 +72,7 @@ static imp_code run_clearance(imp_scene *scene, const imp_options *options, doub
     imp_code code = imp_query_step(query, 0, error);
     *seconds = seconds_computed() - start;
     *least = (imp_clearance){.struct_size = (uint32_t)sizeof *least};
-    if (code == IMP_SUCCESS) code = imp_clearance_read(query, 0, least, error);
+    if (code == IMP_SUCCESS) code = imp_clearance_get(query, 0, least, error);
     if (code == IMP_SUCCESS) {
         *result = imp_query_result(query);
         result->verdict = verdict_of(least, options->gamma);
@@ -94,7 +92,7 @@ static imp_code cut_interval(imp_registry *registry, const bench_scene *s, const
     double seconds;
     const imp_code code = run(imp_query_new(scene, options, error), &first, &seconds, error);
     imp_scene_free(scene);
-    if (code == IMP_SUCCESS && first.verdict == IMP_CONTACT)
+    if (code == IMP_SUCCESS && first.verdict == IMP_VERDICT_CONTACT)
         options->t_end = options->t_start + c->cut * (first.t - options->t_start);
     return code;
 }
@@ -128,7 +126,7 @@ static imp_code solve_once(imp_registry *registry, const bench_scene *s, const b
     if (code == IMP_SUCCESS && (m->question == BENCH_DECISION || m->question == BENCH_PROOF))
         code = find_least(registry, s, &options, &least, error);
     if (m->question == BENCH_PROOF && least > 0)
-        options.gamma = 0.995 * least, options.clearance = 0.99 * least;
+        options.gamma = 0.995 * least, options.gamma_clear = 0.99 * least;
     if (code == IMP_SUCCESS)
         code = m->question == BENCH_CLEARANCE || m->question == BENCH_DECISION
                    ? run_clearance(scene, &options, 0.99 * least, &answer, result, seconds, error)
@@ -163,10 +161,10 @@ static void compare(const bench_scene *s, const imp_result *r, bench_tally *tall
     if (!s->has_reference) return;
     const double late = r->t_lower - s->t;
     tally->references += 1;
-    tally->agreed += r->verdict == (s->meets ? IMP_CONTACT : IMP_CLEAR);
+    tally->agreed += r->verdict == (s->meets ? IMP_VERDICT_CONTACT : IMP_VERDICT_CLEAR);
     if (!s->meets) return;
     tally->latest = fmax(tally->latest, late);
-    if (r->verdict == IMP_CONTACT) tally->earliest = fmin(tally->earliest, late);
+    if (r->verdict == IMP_VERDICT_CONTACT) tally->earliest = fmin(tally->earliest, late);
 }
 
 static imp_code fill(imp_registry *registry, const bench_case *c, const bench_method *m,
@@ -180,7 +178,8 @@ static imp_code fill(imp_registry *registry, const bench_case *c, const bench_me
         if (code != IMP_SUCCESS) return code;
         columns_add(x, &result.stats, seconds);
         tally->verdicts[result.verdict] += 1;
-        tally->ended += result.verdict == IMP_UNDECIDED && result.reason == IMP_REASON_PAIRS;
+        tally->ended +=
+            result.verdict == IMP_VERDICT_UNDECIDED && result.reason == IMP_REASON_PAIRS;
         if (!(c->cut > 0)) compare(&c->scenes[k], &result, tally);
     }
     return IMP_SUCCESS;

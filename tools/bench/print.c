@@ -95,8 +95,8 @@ static void print_row(const bench_row *row, const bench_row *baseline)
 {
     const bench_tally *t = &row->tally;
     const bool ended = t->ended > 0;
-    printf("  %-24s%8zu%6zu%6zu", row->method->name, t->verdicts[IMP_CONTACT],
-           t->verdicts[IMP_CLEAR], t->verdicts[IMP_UNDECIDED]);
+    printf("  %-24s%8zu%6zu%6zu", row->method->name, t->verdicts[IMP_VERDICT_CONTACT],
+           t->verdicts[IMP_VERDICT_CLEAR], t->verdicts[IMP_VERDICT_UNDECIDED]);
     printf("%11s%11s%9.0f%9.0f%9.0f", cell_count(t->pairs.mean, ended).text,
            cell_count(t->pairs.max, ended).text, t->nodes.mean, t->searches.mean, t->heap.max);
     printf("%9s%10s%10s", cell_bytes(t->bytes.max).text, cell_seconds(t->seconds.mean, ended).text,

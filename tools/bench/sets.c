@@ -10,26 +10,23 @@
 
 /* --- Methods ------------------------------------------------------------------------------ */
 
-#define METHOD(ID, NAME, METHOD, BOUNDS, RATES)                                                    \
-    static const bench_method ID = {.name = NAME,                                                  \
-                                    .method = IMP_METHOD_##METHOD,                                 \
-                                    .bounds = IMP_BOUNDS_##BOUNDS,                                 \
-                                    .rates = IMP_RATES_##RATES,                                    \
-                                    .capped = IMP_METHOD_##METHOD == IMP_METHOD_PAPER}
-METHOD(models, "models", MODELS, BOX, FULL);
-METHOD(boxes, "paper", PAPER, BOX, FULL);
-METHOD(boxes_column, "paper, column", PAPER, BOX, COLUMN);
-METHOD(boxes_constant, "paper, constant", PAPER, BOX, CONSTANT);
-METHOD(balls, "paper, spheres", PAPER, SPHERE, FULL);
-METHOD(balls_column, "paper, spheres, column", PAPER, SPHERE, COLUMN);
-METHOD(balls_constant, "paper, spheres, constant", PAPER, SPHERE, CONSTANT);
+#define PAPER(ID, NAME, BASELINE)                                                                  \
+    static const bench_method ID = {                                                               \
+        .name = "paper" NAME, .baseline = IMP_BASELINE_##BASELINE, .capped = true}
+static const bench_method models = {.name = "models"};
+PAPER(boxes, "", BOXES);
+PAPER(boxes_column, ", column", BOXES | IMP_BASELINE_COLUMN_RATES);
+PAPER(boxes_constant, ", constant", BOXES | IMP_BASELINE_CONSTANT_RATES);
+PAPER(balls, ", spheres", SPHERES);
+PAPER(balls_column, ", spheres, column", SPHERES | IMP_BASELINE_COLUMN_RATES);
+PAPER(balls_constant, ", spheres, constant", SPHERES | IMP_BASELINE_CONSTANT_RATES);
 
 static const bench_method clearance_method = {
-    .name = "clearance", .method = IMP_METHOD_MODELS, .question = BENCH_CLEARANCE};
+    .name = "clearance", .question = BENCH_CLEARANCE};
 static const bench_method decision_method = {
-    .name = "require 0.99 of it", .method = IMP_METHOD_MODELS, .question = BENCH_DECISION};
+    .name = "require 0.99 of it", .question = BENCH_DECISION};
 static const bench_method proof_method = {
-    .name = "solve, 0.99 of it", .method = IMP_METHOD_MODELS, .question = BENCH_PROOF};
+    .name = "solve, 0.99 of it", .question = BENCH_PROOF};
 
 static const bench_method *const usual[] = {&models, &boxes, &balls, NULL};
 static const bench_method *const all_rates[] = {
@@ -105,7 +102,7 @@ static size_t find_figure7(const bench_result *results, size_t count, bench_find
 
 static const bench_set figure7 = {
     "figure7",
-    "Two unit spheres, S apart, proved not to touch (gamma S/2, clearance S/4): the line of "
+    "Two unit spheres, S apart, proved not to touch (gamma S/2, gamma_clear S/4): the line of "
     "centres\n"
     "along x, and along 20 random directions. After the paper's figure 7.",
     usual, build_figure7, find_figure7};
@@ -384,7 +381,7 @@ const bench_set *const *bench_sets_all(void) { return all; }
 bool bench_set_is_measured(const bench_set *set, const bench_request *request)
 {
     const bench_method *const *m = set->methods;
-    while (request->only && *m != NULL && (*m)->method != request->method) ++m;
+    while (request->only && *m != NULL && ((*m)->baseline != IMP_BASELINE_NONE) != request->is_paper) ++m;
     return *m != NULL;
 }
 

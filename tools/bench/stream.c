@@ -46,7 +46,8 @@ static imp_code solve_all(stream *s, imp_error *error)
                                                "a scene of the benchmark", error);
         if (scene == NULL) return error->code;
         const imp_options options = imp_options_default(scene);
-        code = imp_solve(scene, &options, &s->results[k], error);
+        s->results[k].struct_size = sizeof s->results[k];
+        code = imp_scene_solve(scene, &options, &s->results[k], error);
         imp_scene_free(scene);
     }
     return code;
@@ -110,9 +111,9 @@ static imp_code read_answer(const char *text, imp_result *result, imp_error *err
                                                  : IMP_ERROR_MEMORY};
     snprintf(error->text, sizeof error->text, "%s", why != NULL ? why : "");
     if (verdict != NULL) {
-        result->verdict = strcmp(verdict, "contact") == 0 ? IMP_CONTACT
-                          : strcmp(verdict, "clear") == 0 ? IMP_CLEAR
-                                                          : IMP_UNDECIDED;
+        result->verdict = strcmp(verdict, "contact") == 0 ? IMP_VERDICT_CONTACT
+                          : strcmp(verdict, "clear") == 0 ? IMP_VERDICT_CLEAR
+                                                          : IMP_VERDICT_UNDECIDED;
         result->stats = (imp_stats){.pairs = count_of(stats, "pairs"),
                                     .nodes = count_of(stats, "nodes"),
                                     .peak_heap = count_of(stats, "peak_heap"),
@@ -200,13 +201,11 @@ imp_code bench_measure_stream(imp_registry *registry, const bench_case *c, const
 /* --- batch ------------------------------------------------------------------------------------------ */
 
 static const bench_method one_by_one = {
-    .name = "solve, one by one", .method = IMP_METHOD_MODELS, .question = BENCH_STREAM};
+    .name = "solve, one by one", .question = BENCH_STREAM};
 static const bench_method one_thread = {.name = "batch, 1 thread",
-                                        .method = IMP_METHOD_MODELS,
                                         .question = BENCH_STREAM,
                                         .threads = 1};
 static const bench_method two_threads = {.name = "batch, 2 threads",
-                                         .method = IMP_METHOD_MODELS,
                                          .question = BENCH_STREAM,
                                          .threads = 2};
 static const bench_method *const methods[] = {&one_by_one, &one_thread, &two_threads, NULL};

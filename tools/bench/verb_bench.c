@@ -33,7 +33,7 @@ static exit_status read_request(const arguments *args, bench_request *request)
     const option_value *method = arguments_option(args, "method");
     *request = (bench_request){.verb = args->verb->name,
                                .only = method != NULL,
-                               .method = method != NULL ? (imp_method)method->choice : 0,
+                               .is_paper = method != NULL && method->choice == 1,
                                .max_pairs = count_or(args, "max-pairs", 100000),
                                .repeats = count_or(args, "repeat", 3),
                                .count = count_or(args, "count", 0),
@@ -75,7 +75,7 @@ static exit_status run_method(bench *b, const bench_method *m, bench_result *res
     const imp_code code =
         bench_measure(b->registry, result->about, m, &b->request, &row->tally, &error);
     if (code != IMP_SUCCESS) return complain_of(&error, b->request.verb);
-    if ((m->method == IMP_METHOD_PAPER || m->question == BENCH_PROOF) && result->baseline == NULL)
+    if ((m->baseline != IMP_BASELINE_NONE || m->question == BENCH_PROOF) && result->baseline == NULL)
         result->baseline = row;
     return EXIT_ANSWERED;
 }
@@ -86,7 +86,7 @@ static exit_status run_case(bench *b, const bench_set *set, const bench_case *c,
 {
     *result = (bench_result){.about = c};
     for (const bench_method *const *m = set->methods; *m != NULL; ++m) {
-        if (b->request.only && (*m)->method != b->request.method) continue;
+        if (b->request.only && ((*m)->baseline != IMP_BASELINE_NONE) != b->request.is_paper) continue;
         const exit_status status = run_method(b, *m, result);
         if (status != EXIT_ANSWERED) return status;
     }
@@ -105,7 +105,7 @@ static exit_status conclude(bench *b, const bench_set *set, const bench_result *
 {
     bench_finding findings[BENCH_FINDINGS_MAX];
     const bool found =
-        set->find != NULL && !(b->request.only && b->request.method != IMP_METHOD_MODELS);
+        set->find != NULL && !(b->request.only && b->request.is_paper);
     const size_t n = found ? set->find(measured, count, findings) : 0;
     if (results == NULL) {
         bench_print_findings(findings, n);

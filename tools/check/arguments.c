@@ -11,6 +11,8 @@
 #include "tools/check/values.h"
 #include "tools/cli/catalogue.h"
 
+#include <impinge/examine.h>
+
 /* --- Values ------------------------------------------------------------------------------------ */
 
 /* One parameter's value: its arrays, each in pages of their own. */
@@ -101,14 +103,15 @@ static bool argument_make(argument *a, const imp_parameter *row, const json_t *v
 {
     json_t *json = stage_value(values, row);
     for (uint32_t k = row->rank; k < IMP_RANK_MAX; ++k) a->value.extent[k] = 1;
-    if (json == NULL) return (row->flags & IMP_OPTIONAL) != 0;
+    if (json == NULL) return (row->flags & IMP_PARAMETER_OPTIONAL) != 0;
     const size_t room = leaves_of(json) + 1;
     a->number = calloc(room, sizeof *a->number);
     a->string = calloc(room, sizeof *a->string);
     bool made = a->number != NULL && a->string != NULL && gather_all(a, json);
     measure(row, json, a->value.extent);
-    if (row->kind != IMP_STRING) made = made && place_numbers(a);
-    if (row->kind == IMP_STRING || row->kind == IMP_TABLE) made = made && place_strings(a);
+    if (row->kind != IMP_KIND_STRING) made = made && place_numbers(a);
+    if (row->kind == IMP_KIND_STRING || row->kind == IMP_KIND_TABLE)
+        made = made && place_strings(a);
     json_decref(json);
     return made;
 }
@@ -203,7 +206,7 @@ static void check_guarded(arguments_list *list, const subject *host, const char 
     answer->call.hint = "whose arguments end where readable memory ends: it reads past one";
     const imp_status status = create_from(list, host->instance, &made);
     subject_note_stage(answer, NULL, NULL);
-    if (status != IMP_OK) {
+    if (status != IMP_STATUS_OK) {
         answer_fail(answer, "create returned '%s' for arguments that it accepted before",
                     subject_status_name(status));
         return;

@@ -25,7 +25,7 @@ static bool sample(const subject *s, extent *e)
         draw_spread(shift, k, s->n, at);
         const box point = draw_around(&s->domain, s->n, at, 0);
         memcpy(p, point.lo, sizeof p);
-        if (subject_eval(s, 1, p, x, error) != IMP_OK) return false;
+        if (subject_eval(s, 1, p, x, error) != IMP_STATUS_OK) return false;
         for (int i = 0; i < 3; ++i) {
             e->lo[i] = fmin(e->lo[i], x[i]);
             e->hi[i] = fmax(e->hi[i], x[i]);
@@ -59,16 +59,16 @@ static double reach(const subject *s, const box *where, int i, double sign, doub
     const imp_region region = imp_region_between(where->lo, where->hi);
     double rate[3][BOX_DIMS], x[3], error[3], spread = 0, most = 0;
     imp_model model[3];
-    if (subject_eval(s, 1, region.c, x, error) != IMP_OK) return NAN;
+    if (subject_eval(s, 1, region.c, x, error) != IMP_STATUS_OK) return NAN;
     *here = sign * x[i];
-    if (subject_rate(s, where, rate) != IMP_OK) return NAN;
+    if (subject_rate(s, where, rate) != IMP_STATUS_OK) return NAN;
     for (int j = 0; j < 3; ++j) {
         const double change = rate[i][j] * region.d[j];
         spread += change;
         if (change > most) most = change, *widest = j;
     }
     if (s->instance->surface->include == NULL) return *here + error[i] + spread;
-    return subject_include(s, &region, model) == IMP_OK ? model_reach(model, i, sign) : NAN;
+    return subject_include(s, &region, model) == IMP_STATUS_OK ? model_reach(model, i, sign) : NAN;
 }
 
 /* The widest variable where there is no bound. */

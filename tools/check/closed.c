@@ -22,8 +22,8 @@ static double apart_lower(const subject *s, const imp_region *region, const doub
     box where = {.lo = {0}};
     memcpy(where.lo, region->lo, sizeof region->lo);
     memcpy(where.hi, region->hi, sizeof region->hi);
-    if (subject_eval(s, 1, region->c, y, error) != IMP_OK) return 0;
-    if (subject_rate(s, &where, rate) != IMP_OK) return 0;
+    if (subject_eval(s, 1, region->c, y, error) != IMP_STATUS_OK) return 0;
+    if (subject_rate(s, &where, rate) != IMP_STATUS_OK) return 0;
     for (int i = 0; i < 3; ++i) {
         double reach = error[i];
         for (int j = 0; j < 3; ++j) reach += rate[i][j] * region->d[j];
@@ -85,7 +85,7 @@ static bool judge(const subject *s, uint64_t *random, const imp_symmetry *of)
 bool closed_check(const subject *s, uint64_t *random, const imp_symmetry *of)
 {
     imp_symmetry rotations = *of;
-    if (of->kind != IMP_SYMMETRIC_ABOUT_POINT) rotations.kind = IMP_SYMMETRIC_ABOUT_LINE;
+    if (of->kind != IMP_SYMMETRY_ABOUT_POINT) rotations.kind = IMP_SYMMETRY_ABOUT_LINE;
     for (int k = 0; k < POINTS; ++k)
         if (!judge(s, random, &rotations)) return false;
     return true;

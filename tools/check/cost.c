@@ -89,7 +89,7 @@ static void measure_region(const subject *s, uint64_t *random, const box *where,
         for (int j = 0; j < s->n; ++j) add_ratio(rates, rate[i][j], found.slope[i][j]);
     if (s->n != 3 || s->instance->surface->include == NULL) return;
     const imp_region region = imp_region_between(where->lo, where->hi);
-    if (subject_include(s, &region, model) != IMP_OK) return;
+    if (subject_include(s, &region, model) != IMP_STATUS_OK) return;
     for (int i = 0; i < 3; ++i)
         add_ratio(ranges, model[i].hi - model[i].lo, found.hi[i] - found.lo[i]);
 }

@@ -108,14 +108,13 @@ static imp_region draw_region(const hunt *h)
 
 static bool judge_symmetry(const subject *s, const imp_symmetry *found)
 {
-    bool sane =
-        found->kind >= IMP_SYMMETRIC_ABOUT_POINT && found->kind <= IMP_SYMMETRIC_ACROSS_LINE;
+    bool sane = found->kind >= IMP_SYMMETRY_ABOUT_POINT && found->kind <= IMP_SYMMETRY_ACROSS_LINE;
     double most = 0;
     for (int i = 0; i < 3; ++i) {
         sane = sane && isfinite(found->center[i]) && isfinite(found->axis[i]);
         most = fmax(most, fabs(found->axis[i]));
     }
-    sane = sane && (found->kind == IMP_SYMMETRIC_ABOUT_POINT || (most >= 1e-100 && most <= 1e100));
+    sane = sane && (found->kind == IMP_SYMMETRY_ABOUT_POINT || (most >= 1e-100 && most <= 1e100));
     return sane ||
            answer_fail(s->answer, "the symmetry has an unknown kind, a center or an axis that is "
                                   "not finite, or an axis without length");
@@ -241,8 +240,8 @@ static bool draw_far(const hunt *h, passage *way)
 static bool ask(const subject *s, passage *way)
 {
     const imp_status status = subject_distance(s, way->in, &way->g);
-    if (status == IMP_UNBOUNDED) return false;
-    if (status != IMP_OK)
+    if (status == IMP_STATUS_UNBOUNDED) return false;
+    if (status != IMP_STATUS_OK)
         return answer_fail(s->answer, "distance returned '%s'", subject_status_name(status));
     return distance_has_form(s, &way->g);
 }
@@ -284,11 +283,11 @@ void distances_check(const subject *s, uint64_t *random, double effort)
     }
     for (int j = 0; j < BOX_DIMS; ++j) h.shift[j] = random_between(random, 0, 1);
     const imp_status status = subject_symmetry(s, &h.symmetry);
-    if (status != IMP_OK && status != IMP_UNBOUNDED) {
+    if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) {
         answer_fail(s->answer, "symmetry returned '%s'", subject_status_name(status));
         return;
     }
-    h.has_symmetry = status == IMP_OK;
+    h.has_symmetry = status == IMP_STATUS_OK;
     if (h.has_symmetry && !judge_symmetry(s, &h.symmetry)) return;
     if (h.has_symmetry && h.symmetry.is_closed && !closed_check(s, random, &h.symmetry)) return;
     double middle[3];

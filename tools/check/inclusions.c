@@ -20,7 +20,7 @@ typedef struct included {
     const subject *s;
     imp_region region;
     imp_model model[3];
-    bool bounded; /* IMP_OK, not IMP_UNBOUNDED */
+    bool bounded; /* IMP_STATUS_OK, not IMP_STATUS_UNBOUNDED */
     under below;  /* maps only */
 } included;
 
@@ -68,8 +68,8 @@ static bool judge_form(const included *n, int i)
 /* False, with or without a failure, if there is nothing to compare. */
 static bool judge_status(included *n, imp_status status)
 {
-    n->bounded = status == IMP_OK;
-    if (status != IMP_OK && status != IMP_UNBOUNDED)
+    n->bounded = status == IMP_STATUS_OK;
+    if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED)
         return answer_fail(n->s->answer, "%s returned '%s' over %s",
                            n->s->n == 3 ? "include" : "apply", subject_status_name(status),
                            region_text(n).text);
@@ -218,7 +218,7 @@ static bool has_model(const subject *s, const double shift[BOX_DIMS], int k)
     for (double width = 1e-4; width > 1e-16; width *= 1e-3) {
         where = draw_around(&s->domain, s->n, at, width);
         const imp_region region = imp_region_between(where.lo, where.hi);
-        if (subject_include(s, &region, model) != IMP_UNBOUNDED) return true;
+        if (subject_include(s, &region, model) != IMP_STATUS_UNBOUNDED) return true;
     }
     return answer_fail_for(s->answer, FAULT_UNBOUNDED,
                            "include has no bound over any region around a place, such as %s",

@@ -12,7 +12,7 @@ static void draw_axis(uint64_t *random, const imp_symmetry *of, long double n[3]
 {
     long double square = 0, most = 0;
     for (int i = 0; i < 3; ++i) {
-        n[i] = of->kind == IMP_SYMMETRIC_ABOUT_POINT ? random_between(random, 0.1, 1) : of->axis[i];
+        n[i] = of->kind == IMP_SYMMETRY_ABOUT_POINT ? random_between(random, 0.1, 1) : of->axis[i];
         most = fmaxl(most, fabsl(n[i]));
     }
     for (int i = 0; i < 3; ++i) square += (n[i] / most) * (n[i] / most);
@@ -32,8 +32,8 @@ motion motion_draw(uint64_t *random, const imp_symmetry *of, double size)
     for (int i = 0; i < 3; ++i) {
         m.center[i] = of->center[i];
         m.axis[i] = (double)n[i];
-        if (of->kind == IMP_SYMMETRIC_ALONG_LINE) m.shift[i] = (double)(far * along * n[i]);
-        if (of->kind == IMP_SYMMETRIC_ACROSS_LINE)
+        if (of->kind == IMP_SYMMETRY_ALONG_LINE) m.shift[i] = (double)(far * along * n[i]);
+        if (of->kind == IMP_SYMMETRY_ACROSS_LINE)
             m.shift[i] = (double)(far * (way[i] - along * n[i]));
     }
     return m;

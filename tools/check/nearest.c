@@ -26,7 +26,7 @@ bool spot_evaluate(const subject *s, spot *at)
 {
     double p[3], x[3], error[3];
     memcpy(p, at->p, sizeof p);
-    return subject_eval(s, 1, p, x, error) == IMP_OK && take(at, p, x, error);
+    return subject_eval(s, 1, p, x, error) == IMP_STATUS_OK && take(at, p, x, error);
 }
 
 /* Rounded 9 times, by at most LDBL_EPSILON / 2 of the value each time. */
@@ -45,7 +45,7 @@ static void keep_nearest(const subject *s, const double x[3], size_t count, cons
                          spot *best, long double *apart)
 {
     double y[3 * GRID], error[3 * GRID];
-    if (subject_eval(s, count, p, y, error) != IMP_OK) return;
+    if (subject_eval(s, count, p, y, error) != IMP_STATUS_OK) return;
     for (size_t k = 0; k < 3 * count; k += 3) {
         spot at;
         if (!take(&at, p + k, y + k, error + k)) continue;
@@ -102,7 +102,7 @@ bool spot_extent(const subject *s, double t, double middle[3], double *radius)
     double p[3 * GRID], y[3 * GRID], error[3 * GRID];
     double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     grid_at(s, t, p);
-    if (subject_eval(s, GRID, p, y, error) != IMP_OK) return false;
+    if (subject_eval(s, GRID, p, y, error) != IMP_STATUS_OK) return false;
     for (int k = 0; k < 3 * GRID; ++k) {
         lo[k % 3] = fmin(lo[k % 3], y[k]);
         hi[k % 3] = fmax(hi[k % 3], y[k]);

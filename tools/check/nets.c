@@ -110,8 +110,8 @@ static bool judge_surface(const subject *s, uint64_t *random)
     const imp_region region = imp_region_between(where.lo, where.hi);
     imp_net net;
     const imp_status status = subject_net(s, &region, &net);
-    if (status == IMP_UNBOUNDED) return true;
-    if (status != IMP_OK)
+    if (status == IMP_STATUS_UNBOUNDED) return true;
+    if (status != IMP_STATUS_OK)
         return answer_fail(s->answer, "net returned '%s' over %s", subject_status_name(status),
                            subject_box_text(3, region.lo, region.hi).text);
     if (!judge_form(s, &region, &net)) return false;
@@ -158,8 +158,8 @@ static bool judge_map(const subject *s, uint64_t *random)
     const imp_net given = draw_net(random);
     imp_net net = given;
     const imp_status status = subject_map_net(s, &region, &net);
-    if (status == IMP_UNBOUNDED) return true;
-    if (status != IMP_OK)
+    if (status == IMP_STATUS_UNBOUNDED) return true;
+    if (status != IMP_STATUS_OK)
         return answer_fail(s->answer, "net returned '%s'", subject_status_name(status));
     if (!judge_form(s, &region, &net)) return false;
     for (int k = 0; k < POINTS; ++k) {

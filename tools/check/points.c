@@ -86,12 +86,12 @@ static bool descend(const subject *s, uint64_t *random)
             box half = where;
             *(upper == (k == 0) ? &half.lo[j] : &half.hi[j]) = middle;
             const bool last = k == 1;
-            if (!last && subject_rate(s, &half, rate) != IMP_UNBOUNDED) continue;
+            if (!last && subject_rate(s, &half, rate) != IMP_STATUS_UNBOUNDED) continue;
             where = half;
             break;
         }
     }
-    if (subject_rate(s, &where, rate) != IMP_UNBOUNDED) return true;
+    if (subject_rate(s, &where, rate) != IMP_STATUS_UNBOUNDED) return true;
     return is_sane_at(s, where.lo) && is_sane_at(s, where.hi);
 }
 
@@ -99,7 +99,7 @@ static void seek_holes(const subject *s, uint64_t *random)
 {
     double rate[3][BOX_DIMS];
     if (!special_points_are_sane(s, random)) return;
-    if (subject_rate(s, &s->domain, rate) != IMP_UNBOUNDED) return;
+    if (subject_rate(s, &s->domain, rate) != IMP_STATUS_UNBOUNDED) return;
     for (int k = 0; k < DESCENTS; ++k)
         if (!descend(s, random)) return;
 }
@@ -177,7 +177,7 @@ static bool judge_against_inclusion(const subject *s, uint64_t *random)
     imp_model model[3];
     draw_point(random, &s->domain, s->n, p);
     const imp_region region = imp_region_between(p, p);
-    if (subject_include(s, &region, model) != IMP_OK) return true;
+    if (subject_include(s, &region, model) != IMP_STATUS_OK) return true;
     if (!subject_eval_sane(s, 1, p, x, error)) return false;
     for (int i = 0; i < 3; ++i) {
         const long double value = x[i], slack = 0x1p-62L * fabsl(value);

@@ -104,7 +104,7 @@ static bool refute_rotation(const subject *s, const imp_region *span, int j, int
                            "%s",
                            times_text(span).text, what, j, k, j == k, off,
                            slack > 0 ? "IMP_RIGID_SLACK, 2^-16"
-                                     : "nothing but rounding, for the flag IMP_TURNS_EXACTLY claims an "
+                                     : "nothing but rounding, for the flag IMP_FLAG_TURNS_EXACTLY claims an "
                                        "exact one");
 }
 
@@ -121,7 +121,7 @@ static bool judge_rotation(const subject *s, const imp_region *span, const imp_p
             size = fmaxl(size, fabsl(r[i][j]));
         }
     const long double off = 3 * (2 * size * worst + worst * worst) + 0x1p-40L * (1 + size * size);
-    const bool is_exact = (s->instance->map->flags & IMP_TURNS_EXACTLY) != 0;
+    const bool is_exact = (s->instance->map->flags & IMP_FLAG_TURNS_EXACTLY) != 0;
     const long double slack = is_exact ? 0 : (long double)IMP_RIGID_SLACK;
     ++s->answer->tests;
     for (int j = 0; j < 3; ++j)
@@ -245,8 +245,8 @@ static bool judge_span(const subject *s, uint64_t *random)
     const imp_region span = subject_span(&where);
     imp_pose pose;
     const imp_status status = subject_pose(s, &span, &pose);
-    if (status == IMP_UNBOUNDED) return true;
-    if (status != IMP_OK)
+    if (status == IMP_STATUS_UNBOUNDED) return true;
+    if (status != IMP_STATUS_OK)
         return answer_fail(s->answer, "rigid returned '%s' over %s", subject_status_name(status),
                            times_text(&span).text);
     if (!judge_form(s, &span, &pose)) return false;

@@ -157,7 +157,7 @@ static void add_rate(branch_claims *c, int i, int j, double rate)
 
 static void add_models(branch_claims *c, imp_status status)
 {
-    c->has_models = status == IMP_OK || status == IMP_UNBOUNDED;
+    c->has_models = status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED;
     for (int i = 0; i < 3 && c->has_models; ++i)
         for (int j = 0; j < 3; ++j) add_rate(c, i, j, c->model[i].rate[j]);
 }

@@ -106,7 +106,7 @@ static bool has_bound(const search *r, const double at[BOX_DIMS])
     box where = {.lo = {0}};
     for (double width = 1e-6; width > 1e-16; width *= 1e-3) {
         where = draw_around(&s->domain, s->n, at, width);
-        if (subject_rate(s, &where, rate) != IMP_UNBOUNDED) return true;
+        if (subject_rate(s, &where, rate) != IMP_STATUS_UNBOUNDED) return true;
     }
     return answer_fail_for(s->answer, FAULT_UNBOUNDED,
                            "rate has no bound over any region around a place, such as %s: no "

@@ -64,11 +64,11 @@ static bool claimed_over(const subject *s, const box *where, double claimed[3])
     imp_model model[3];
     double rate[3][BOX_DIMS];
     if (s->instance->surface->include != NULL) {
-        if (subject_include(s, &region, model) != IMP_OK) return false;
+        if (subject_include(s, &region, model) != IMP_STATUS_OK) return false;
         for (int i = 0; i < 3; ++i) claimed[i] = model[i].e;
         return true;
     }
-    if (subject_rate(s, where, rate) != IMP_OK) return false;
+    if (subject_rate(s, where, rate) != IMP_STATUS_OK) return false;
     for (int i = 0; i < 3; ++i) {
         claimed[i] = 0;
         for (int j = 0; j < 3; ++j) claimed[i] += rate[i][j] * region.d[j];
@@ -90,7 +90,7 @@ bool remainder_measure(const subject *s, const box *where, double claimed[3], do
         }
         terms_at(place, term[k]);
     }
-    if (subject_eval(s, POINTS, p, x, error) != IMP_OK || !claimed_over(s, where, claimed))
+    if (subject_eval(s, POINTS, p, x, error) != IMP_STATUS_OK || !claimed_over(s, where, claimed))
         return false;
     for (int i = 0; i < 3; ++i) {
         double rounding = 0;
@@ -116,7 +116,7 @@ bool distance_measure(const subject *s, uint64_t *random, const box *where, doub
         point[i] = imp_num(x[i]);
     }
     point[3] = imp_num(on.p[2]);
-    if (subject_distance(s, point, &g) != IMP_OK || !spot_nearest(s, x, on.p[2], &found))
+    if (subject_distance(s, point, &g) != IMP_STATUS_OK || !spot_nearest(s, x, on.p[2], &found))
         return false;
     const double claimed = (double)distance_claimed(&g, (double[3]){0, 0, 0});
     *ratio = (double)spot_apart_upper(&found, x) / claimed;

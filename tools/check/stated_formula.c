@@ -56,7 +56,7 @@ static void add_parameter(stated *s, const imp_parameter *row, json_t *value)
     add_list(s, row->name, value, &place);
     json_object_foreach(value, key, entry) add_constant(s, key, entry);
     const bool is_coordinate = strlen(row->name) == 1 && strchr("xyz", row->name[0]) != NULL;
-    if (is_coordinate && row->kind == IMP_STRING && json_is_string(value)) {
+    if (is_coordinate && row->kind == IMP_KIND_STRING && json_is_string(value)) {
         char **text = &s->text[row->name[0] - 'x'];
         free(*text);
         *text = strdup(json_string_value(value));
@@ -116,7 +116,7 @@ formula *stated_formula(const imp_registry *registry, const imp_type_info *type,
     fault[0] = '\0';
     gather_constants(&s, registry, stage);
     if (given == NULL || take_given(&s, given))
-        f = read_stated(&s, type->kind == IMP_KIND_SURFACE ? "uvt" : "xyzt", fault, size);
+        f = read_stated(&s, type->kind == IMP_TYPE_SURFACE ? "uvt" : "xyzt", fault, size);
     else
         snprintf(fault, size, "expected three formulas with ';' between them");
     stated_free(&s);
@@ -177,7 +177,7 @@ bool said_domain_read(said_domain *d, const imp_registry *registry, const imp_ty
                       const char *stage, const char *given, char *fault, size_t size)
 {
     stated s = {.type = type};
-    const bool is_map = type->kind == IMP_KIND_MAP;
+    const bool is_map = type->kind == IMP_TYPE_MAP;
     *d = (said_domain){.count = 0};
     fault[0] = '\0';
     gather_constants(&s, registry, stage);

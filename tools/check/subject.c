@@ -205,7 +205,7 @@ imp_status subject_pose(const subject *s, const imp_region *span, imp_pose *pose
 {
     const imp_model t = span->d[2] > 0 ? imp_param(span, 2) : imp_num(span->c[2]);
     memset(pose, 0, sizeof *pose);
-    if (!subject_is_rigid(s)) return IMP_OK;
+    if (!subject_is_rigid(s)) return IMP_STATUS_OK;
     note(s, "rigid", 3, span->lo, span->hi);
     return noted(s, s->instance->map->rigid(s->instance->self, &t, pose));
 }
@@ -237,7 +237,7 @@ imp_status subject_symmetry(const subject *s, imp_symmetry *symmetry)
     if (!subject_has_distance(s) ||
         type->struct_size < offsetof(imp_surface_type, symmetry) + sizeof type->symmetry ||
         type->symmetry == NULL)
-        return IMP_UNBOUNDED;
+        return IMP_STATUS_UNBOUNDED;
     note(s, "symmetry", 0, NULL, NULL);
     return noted(s, type->symmetry(s->instance->self, symmetry));
 }
@@ -255,9 +255,10 @@ imp_status subject_model(const subject *s, box where, imp_model model[3])
     const imp_region region = imp_region_between(where.lo, where.hi);
     memset(model, 0, 3 * sizeof *model);
     if (s->n == 3)
-        return s->instance->surface->include != NULL ? subject_include(s, &region, model) : IMP_OK;
+        return s->instance->surface->include != NULL ? subject_include(s, &region, model)
+                                                     : IMP_STATUS_OK;
     subject_operands(&where, in);
-    return s->instance->map->apply != NULL ? subject_apply(s, in, model) : IMP_OK;
+    return s->instance->map->apply != NULL ? subject_apply(s, in, model) : IMP_STATUS_OK;
 }
 
 /* --- Direct checks of each result ----------------------------------------------------- */
@@ -278,7 +279,7 @@ static bool judge_point(const subject *s, const double *p, const double *x, cons
 bool subject_eval_sane(const subject *s, size_t count, const double *p, double *x, double *error)
 {
     const imp_status status = subject_eval(s, count, p, x, error);
-    if (status != IMP_OK)
+    if (status != IMP_STATUS_OK)
         return answer_fail_for(
             s->answer, FAULT_VALUE, "eval returned '%s' for %zu points, the first at %s",
             subject_status_name(status), count, subject_point_text(s->n, p).text);
@@ -292,8 +293,8 @@ bool subject_rate_sane(const subject *s, const box *where, double rate[3][BOX_DI
 {
     const imp_status status = subject_rate(s, where, rate);
     const subject_text at = subject_box_text(s->n, where->lo, where->hi);
-    if (status == IMP_UNBOUNDED) return false;
-    if (status != IMP_OK)
+    if (status == IMP_STATUS_UNBOUNDED) return false;
+    if (status != IMP_STATUS_OK)
         return answer_fail_for(s->answer, FAULT_RATE, "rate returned '%s' over %s",
                                subject_status_name(status), at.text);
     for (int i = 0; i < 3; ++i)

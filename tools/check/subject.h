@@ -3,6 +3,7 @@
 #ifndef TOOLS_CHECK_SUBJECT_H
 #define TOOLS_CHECK_SUBJECT_H
 
+#include <impinge/examine.h>
 #include <impinge/impinge.h>
 
 #include "tools/check/answer.h"
@@ -64,7 +65,7 @@ imp_status subject_apply(const subject *s, const imp_model in[4], imp_model out[
 imp_status subject_net(const subject *s, const imp_region *region, imp_net *net);
 imp_status subject_map_net(const subject *s, const imp_region *region, imp_net *net);
 
-/* Whether it is a map that has poses; that over the times of a box. IMP_OK with zeros: it has none. */
+/* Whether it is a map that has poses; that over the times of a box. IMP_STATUS_OK with zeros: it has none. */
 bool subject_is_rigid(const subject *s);
 imp_status subject_pose(const subject *s, const imp_region *span, imp_pose *pose);
 
@@ -75,11 +76,11 @@ imp_region subject_span(const box *where);
 bool subject_has_distance(const subject *s);
 imp_status subject_distance(const subject *s, const imp_model point[4], imp_model *distance);
 
-/* Also how it can be moved within itself. IMP_UNBOUNDED: it cannot. */
+/* Also how it can be moved within itself. IMP_STATUS_UNBOUNDED: it cannot. */
 imp_status subject_symmetry(const subject *s, imp_symmetry *symmetry);
 
 /* include or apply, whichever it has, over a box; a map's operands are x, y, z themselves, as if
- * they were u, v, t. IMP_OK with zeros: it has neither. */
+ * they were u, v, t. IMP_STATUS_OK with zeros: it has neither. */
 imp_status subject_model(const subject *s, box where, imp_model model[3]);
 
 /* The operands of that. */

@@ -96,7 +96,7 @@ static bool fill(const imp_parameter *p, uint32_t depth, const char *number, cha
     size_t used = strlen(to);
     if (depth == p->rank)
         return (size_t)snprintf(to + used, size - used, "%s", number) < size - used;
-    if (p->extent[depth] == 0 && !(p->flags & IMP_SCALAR_OK)) return false;
+    if (p->extent[depth] == 0 && !(p->flags & IMP_PARAMETER_SCALAR_OK)) return false;
     const uint32_t count = p->extent[depth] != 0 ? p->extent[depth] : 1;
     for (uint32_t k = 0; k < count; ++k) {
         used = strlen(to);
@@ -130,9 +130,9 @@ static bool try_end(const trial *t, const imp_parameter *p, double end, bool ope
 {
     if (!isfinite(end)) return true;
     const double step =
-        p->kind == IMP_INTEGER ? end + (outwards > 0 ? 1 : -1) : nextafter(end, outwards);
+        p->kind == IMP_KIND_INTEGER ? end + (outwards > 0 ? 1 : -1) : nextafter(end, outwards);
     const double inwards =
-        p->kind == IMP_INTEGER ? end - (outwards > 0 ? 1 : -1) : nextafter(end, -outwards);
+        p->kind == IMP_KIND_INTEGER ? end - (outwards > 0 ? 1 : -1) : nextafter(end, -outwards);
     const double last = open ? inwards : end, beyond = open ? end : step;
     if (last >= p->min && last <= p->max && !try_number(t, p, last, is_handled)) return false;
     return !isfinite(beyond) || try_number(t, p, beyond, is_refused);
@@ -141,13 +141,14 @@ static bool try_end(const trial *t, const imp_parameter *p, double end, bool ope
 static bool try_row(const trial *t, const imp_parameter *p)
 {
     static const char *const nonsense[] = {"NaN", "-NaN", "Infinity", "1e999", "{}", "null"};
-    if (p->kind == IMP_STRING) return true; /* nearly every text is one */
-    if (p->kind != IMP_NUMBER && p->kind != IMP_INTEGER) return is_refused(t, p->name, "[[[[1]]]]");
+    if (p->kind == IMP_KIND_STRING) return true; /* nearly every text is one */
+    if (p->kind != IMP_KIND_NUMBER && p->kind != IMP_KIND_INTEGER)
+        return is_refused(t, p->name, "[[[[1]]]]");
     for (size_t k = 0; k < sizeof nonsense / sizeof *nonsense; ++k)
         if (!try_text(t, p, nonsense[k], is_refused)) return false;
-    if (p->kind == IMP_INTEGER && !try_text(t, p, "1.5", is_refused)) return false;
-    return try_end(t, p, p->min, (p->flags & IMP_MIN_OPEN) != 0, -INFINITY) &&
-           try_end(t, p, p->max, (p->flags & IMP_MAX_OPEN) != 0, INFINITY);
+    if (p->kind == IMP_KIND_INTEGER && !try_text(t, p, "1.5", is_refused)) return false;
+    return try_end(t, p, p->min, (p->flags & IMP_PARAMETER_MIN_OPEN) != 0, -INFINITY) &&
+           try_end(t, p, p->max, (p->flags & IMP_PARAMETER_MAX_OPEN) != 0, INFINITY);
 }
 
 void parameters_check(imp_registry *registry, const imp_type_info *type, const char *text,
@@ -259,8 +260,9 @@ static bool refusals_are_let_go(const trial *t)
     static const char *const numbers[] = {"0", "1", "-1", "1e6", "1e300"};
     for (size_t k = 0; k < t->type->parameter_count; ++k) {
         const imp_parameter *p = catalogue_parameter(t->type, k);
-        const bool is_number = p->kind == IMP_NUMBER || p->kind == IMP_INTEGER;
-        if (p->kind == IMP_STRING && p->rank == 0 && !is_let_go(t, p->name, "\"(\"")) return false;
+        const bool is_number = p->kind == IMP_KIND_NUMBER || p->kind == IMP_KIND_INTEGER;
+        if (p->kind == IMP_KIND_STRING && p->rank == 0 && !is_let_go(t, p->name, "\"(\""))
+            return false;
         for (size_t n = 0; is_number && n < sizeof numbers / sizeof *numbers; ++n)
             if (!try_text(t, p, numbers[n], is_let_go)) return false;
     }

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <impinge/examine.h>
+
 json_t *stage_values(const imp_registry *registry, imp_type_kind kind, const char *stage)
 {
     char *text = imp_stage_to_json(registry, kind, stage, NULL);

@@ -12,7 +12,7 @@
 
 const char *catalogue_kind_name(imp_type_kind kind)
 {
-    return kind == IMP_KIND_SURFACE ? "surface" : "map";
+    return kind == IMP_TYPE_SURFACE ? "surface" : "map";
 }
 
 const imp_parameter *catalogue_parameter(const imp_type_info *info, size_t index)
@@ -24,15 +24,15 @@ const imp_parameter *catalogue_parameter(const imp_type_info *info, size_t index
 static const char *kind_name(imp_kind kind)
 {
     switch (kind) {
-    case IMP_NUMBER:
+    case IMP_KIND_NUMBER:
         return "number";
-    case IMP_INTEGER:
+    case IMP_KIND_INTEGER:
         return "integer";
-    case IMP_BOOLEAN:
+    case IMP_KIND_BOOLEAN:
         return "boolean";
-    case IMP_STRING:
+    case IMP_KIND_STRING:
         return "string";
-    case IMP_TABLE:
+    case IMP_KIND_TABLE:
         return "table";
     default:
         return "value";
@@ -45,7 +45,7 @@ shape_text catalogue_shape(const imp_parameter *p)
 {
     shape_text shape, inner;
     const uint32_t rank = p->rank < IMP_RANK_MAX ? p->rank : IMP_RANK_MAX;
-    if (p->kind == IMP_TABLE)
+    if (p->kind == IMP_KIND_TABLE)
         snprintf(shape.text, sizeof shape.text, "table of names to numbers");
     else
         snprintf(shape.text, sizeof shape.text, "%s", kind_name(p->kind));
@@ -66,10 +66,10 @@ range_text catalogue_range(const imp_parameter *p)
 {
     range_text range = {""};
     const bool low = isfinite(p->min), high = isfinite(p->max);
-    const char *above = p->flags & IMP_MIN_OPEN ? ">" : ">=";
-    const char *below = p->flags & IMP_MAX_OPEN ? "<" : "<=";
-    if (p->kind != IMP_NUMBER && p->kind != IMP_INTEGER) return range;
-    if (low && high && !(p->flags & (IMP_MIN_OPEN | IMP_MAX_OPEN)))
+    const char *above = p->flags & IMP_PARAMETER_MIN_OPEN ? ">" : ">=";
+    const char *below = p->flags & IMP_PARAMETER_MAX_OPEN ? "<" : "<=";
+    if (p->kind != IMP_KIND_NUMBER && p->kind != IMP_KIND_INTEGER) return range;
+    if (low && high && !(p->flags & (IMP_PARAMETER_MIN_OPEN | IMP_PARAMETER_MAX_OPEN)))
         snprintf(range.text, sizeof range.text, "from %.10g to %.10g", p->min, p->max);
     else if (low && high)
         snprintf(range.text, sizeof range.text, "%s %.10g and %s %.10g", above, p->min, below,
@@ -110,11 +110,11 @@ static json_t *parameter_json(const imp_parameter *p)
 {
     return json_pack("{s:o, s:s, s:o, s:b, s:b, s:o, s:o, s:b, s:o, s:b, s:o, s:o}", "name",
                      output_json_text(p->name), "kind", kind_name(p->kind), "shape",
-                     extents_json(p), "scalar_ok", (p->flags & IMP_SCALAR_OK) != 0, "required",
-                     p->default_value == NULL && (p->flags & IMP_OPTIONAL) == 0, "default",
+                     extents_json(p), "scalar_ok", (p->flags & IMP_PARAMETER_SCALAR_OK) != 0, "required",
+                     p->default_value == NULL && (p->flags & IMP_PARAMETER_OPTIONAL) == 0, "default",
                      default_json(p), "min", output_json_number(p->min), "min_open",
-                     (p->flags & IMP_MIN_OPEN) != 0, "max", output_json_number(p->max), "max_open",
-                     (p->flags & IMP_MAX_OPEN) != 0, "unit", output_json_text(p->unit), "doc",
+                     (p->flags & IMP_PARAMETER_MIN_OPEN) != 0, "max", output_json_number(p->max), "max_open",
+                     (p->flags & IMP_PARAMETER_MAX_OPEN) != 0, "unit", output_json_text(p->unit), "doc",
                      output_json_text(p->doc));
 }
 

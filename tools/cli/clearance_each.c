@@ -23,7 +23,7 @@ static void take(void *context, size_t index, imp_query *part)
     filling *f = context;
     imp_clearance *answer = &f->answers[index];
     answer->struct_size = (uint32_t)sizeof *answer;
-    imp_clearance_read(part, 0, answer, NULL);
+    imp_clearance_get(part, 0, answer, NULL);
     atomic_fetch_add(&f->bytes, sizeof *answer);
 }
 
@@ -116,7 +116,8 @@ static imp_code add_absent(const clearance_each *of, size_t parts, clearance_ans
 static imp_code conclude(filling *f, size_t parts, clearance_answers *found)
 {
     const imp_result whole = imp_query_result(f->of->query);
-    const imp_reason ended = whole.verdict == IMP_UNDECIDED ? whole.reason : atomic_load(&f->ended);
+    const imp_reason ended =
+        whole.verdict == IMP_VERDICT_UNDECIDED ? whole.reason : atomic_load(&f->ended);
     imp_code code = IMP_SUCCESS;
     found->list = f->answers;
     keep_answers(f, parts, found);

@@ -108,11 +108,11 @@ static exit_status print_json(const printing *p, const imp_result *r, size_t a, 
 
 static void print_text(const imp_scene *scene, const imp_result *r, size_t a, size_t b)
 {
-    if (r->verdict == IMP_CONTACT && r->at_rest)
+    if (r->verdict == IMP_VERDICT_CONTACT && r->at_rest)
         printf("overlap at rest, all the time");
-    else if (r->verdict == IMP_CONTACT)
+    else if (r->verdict == IMP_VERDICT_CONTACT)
         printf("contact at t = %s", output_number_lower(r->t).text);
-    else if (r->verdict == IMP_CLEAR)
+    else if (r->verdict == IMP_VERDICT_CLEAR)
         printf("clear from t = %.10g to %.10g", r->t_start, r->t_end);
     else
         printf("undecided from t = %s (%s)", output_number_lower(r->t_lower).text,
@@ -154,7 +154,7 @@ static void collect_timed(printing *p)
         const imp_result *r = &p->e->answers[p->waiting[k]];
         if (r->struct_size == 0)
             p->waiting[waiting++] = p->waiting[k];
-        else if (r->verdict != IMP_CLEAR)
+        else if (r->verdict != IMP_VERDICT_CLEAR)
             p->order[p->count++] = (timed){r->t_lower, p->waiting[k]};
     }
     p->waiting_count = waiting;
@@ -193,7 +193,7 @@ static exit_status print_or_count(printing *p, const imp_result *r, size_t a, si
 {
     const bool is_listed = arguments_option(p->e->args, "list-all") != NULL && !interrupt_came();
     if (is_listed) return print_line(p, r->struct_size > 0 ? r : &p->unknown, a, b);
-    if (r->struct_size == 0 || r->verdict == IMP_UNDECIDED)
+    if (r->struct_size == 0 || r->verdict == IMP_VERDICT_UNDECIDED)
         p->unexamined += 1;
     else if (is_cut(p))
         p->clear += 1;
@@ -215,7 +215,7 @@ static exit_status print_clear(printing *p)
                 imp_query_part_bodies(e->plan.whole, part, of) && of[0] == a && of[1] == b;
             const imp_result *r = is_part ? &e->answers[part] : &p->rest;
             part += is_part;
-            if (is_part ? r->struct_size == 0 || r->verdict == IMP_CLEAR
+            if (is_part ? r->struct_size == 0 || r->verdict == IMP_VERDICT_CLEAR
                         : !imp_scene_ignores(e->scene, a, b))
                 status = print_or_count(p, r, a, b);
         }
@@ -225,7 +225,7 @@ static exit_status print_clear(printing *p)
 static imp_reason reason_of_cut(const printing *p)
 {
     if (interrupt_came()) return IMP_REASON_CANCELLED;
-    return p->rest.verdict == IMP_UNDECIDED ? p->rest.reason : IMP_REASON_SECONDS;
+    return p->rest.verdict == IMP_VERDICT_UNDECIDED ? p->rest.reason : IMP_REASON_SECONDS;
 }
 
 /* One line for all pairs of bodies that have none. */
@@ -285,7 +285,7 @@ static exit_status printing_begin(printing *p, each *e)
                     .order = calloc(e->plan.count + 1, sizeof *p->order)};
     e->printing = p;
     p->unknown = p->rest;
-    p->unknown.verdict = IMP_UNDECIDED;
+    p->unknown.verdict = IMP_VERDICT_UNDECIDED;
     p->unknown.reason = interrupt_came() ? IMP_REASON_CANCELLED : IMP_REASON_SECONDS;
     p->unknown.t_lower = p->rest.t_start;
     if (p->waiting == NULL || p->order == NULL || (p->json && !prepare_json(p)))

@@ -69,7 +69,7 @@ const option options_search[] = {
 };
 
 const option options_query[] = {
-    {.name = "clearance",
+    {.name = "gamma-clear",
      .kind = OPTION_NUMBER,
      .argument = "LENGTH",
      .help = "nothing nearer than this is ever missed; less than gamma (gamma/2)"},

@@ -18,6 +18,8 @@
 #include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
 
+#include <impinge/baseline.h>
+
 /* The plugins of the build tree we run from stand behind those the environment names and before the
  * installed ones, so that a program just built meets the plugins built with it. */
 static bool add_build_tree(void)
@@ -72,18 +74,21 @@ void query_registry_free(imp_registry *registry)
     imp_registry_free(registry);
 }
 
+/* Of --method, in the order of its choices. */
+enum { METHOD_MODELS, METHOD_PAPER };
+
 exit_status query_check(const arguments *args)
 {
     const option_value *gamma = arguments_option(args, "gamma");
-    const option_value *clearance = arguments_option(args, "clearance");
+    const option_value *clear = arguments_option(args, "gamma-clear");
     const option_value *method = arguments_option(args, "method");
     const char *const paper_only[] = {"bounds", "rates"};
-    if (gamma != NULL && clearance != NULL && clearance->number[0] >= gamma->number[0])
-        return complain(EXIT_USAGE, args->verb->name, "--clearance %s must be less than --gamma %s",
-                        clearance->text, gamma->text);
+    if (gamma != NULL && clear != NULL && clear->number[0] >= gamma->number[0])
+        return complain(EXIT_USAGE, args->verb->name,
+                        "--gamma-clear %s must be less than --gamma %s", clear->text, gamma->text);
     for (int i = 0; i < 2; ++i)
         if (arguments_option(args, paper_only[i]) != NULL &&
-            (method == NULL || method->choice != IMP_METHOD_PAPER))
+            (method == NULL || method->choice != METHOD_PAPER))
             return complain(EXIT_USAGE, args->verb->name, "--%s belongs to --method paper",
                             paper_only[i]);
     return EXIT_ANSWERED;
@@ -107,6 +112,15 @@ static size_t choice_or(const arguments *args, const char *name, size_t otherwis
     return value != NULL ? value->choice : otherwise;
 }
 
+/* What --method, --bounds and --rates say. */
+static uint32_t baseline_of(const arguments *args)
+{
+    const uint32_t volumes[] = {IMP_BASELINE_BOXES, IMP_BASELINE_SPHERES},
+                   rates[] = {0, IMP_BASELINE_COLUMN_RATES, IMP_BASELINE_CONSTANT_RATES};
+    if (choice_or(args, "method", 0) != METHOD_PAPER) return IMP_BASELINE_NONE;
+    return volumes[choice_or(args, "bounds", 0)] | rates[choice_or(args, "rates", 0)];
+}
+
 static bool goes_on(void *context, const imp_progress *p)
 {
     (void)context;
@@ -120,13 +134,11 @@ imp_options query_options(const imp_scene *scene, const arguments *args)
     const option_value *time = arguments_option(args, "time");
     if (time != NULL) o.t_start = time->number[0], o.t_end = time->number[1];
     o.gamma = number_or(args, "gamma", o.gamma);
-    o.clearance = number_or(args, "clearance", o.clearance);
+    o.gamma_clear = number_or(args, "gamma-clear", o.gamma_clear);
     o.max_pairs = count_or(args, "max-pairs", args->verb->max_pairs);
     o.max_seconds = number_or(args, "max-seconds", o.max_seconds);
     o.max_bytes = count_or(args, "max-bytes", o.max_bytes);
-    o.method = (imp_method)choice_or(args, "method", o.method);
-    o.bounds = (imp_bounds)choice_or(args, "bounds", o.bounds);
-    o.rates = (imp_rates)choice_or(args, "rates", o.rates);
+    o.baseline = baseline_of(args);
     o.audit = arguments_option(args, "audit") != NULL;
     o.progress = goes_on;
     return o;
@@ -138,7 +150,7 @@ exit_status query_check_times(const imp_scene *scene, const imp_options *options
     imp_error error = {0};
     imp_options own = {.struct_size = (uint32_t)sizeof own};
     if (!isnan(options->t_start)) return EXIT_ANSWERED;
-    imp_options_read(scene, &own, &error);
+    imp_options_get_default(scene, &own, &error);
     return complain_of(&error, args->verb->name);
 }
 
@@ -189,8 +201,8 @@ size_t query_threads(const arguments *args)
 
 exit_status query_status(const imp_result *result, const arguments *args)
 {
-    if (result->verdict == IMP_UNDECIDED) return EXIT_UNDECIDED;
-    if (result->verdict == IMP_CONTACT && arguments_option(args, "exit-code") != NULL)
+    if (result->verdict == IMP_VERDICT_UNDECIDED) return EXIT_UNDECIDED;
+    if (result->verdict == IMP_VERDICT_CONTACT && arguments_option(args, "exit-code") != NULL)
         return EXIT_CONTACT;
     return EXIT_ANSWERED;
 }

@@ -8,11 +8,11 @@
 const char *result_verdict_name(imp_verdict verdict)
 {
     switch (verdict) {
-    case IMP_CLEAR:
+    case IMP_VERDICT_CLEAR:
         return "clear";
-    case IMP_CONTACT:
+    case IMP_VERDICT_CONTACT:
         return "contact";
-    case IMP_UNDECIDED:
+    case IMP_VERDICT_UNDECIDED:
         return "undecided";
     }
     return "undecided";
@@ -63,8 +63,8 @@ json_t *result_side_json(const imp_scene *scene, const imp_side *side)
                      output_json_text(imp_scene_body_name(scene, side->body)), "surface",
                      (json_int_t)side->surface, "piece",
                      pieces ? json_integer((json_int_t)side->piece) : NULL, "u",
-                     output_json_number(side->u), "v",
-                     output_json_number(side->v), "point", result_vector_json(side->point));
+                     output_json_number(side->u), "v", output_json_number(side->v), "point",
+                     result_vector_json(side->point));
 }
 
 json_t *result_stats_json(const imp_stats *stats)
@@ -79,7 +79,7 @@ json_t *result_stats_json(const imp_stats *stats)
 /* json_pack with "o" takes NULL for an error and frees the rest. */
 json_t *result_json(const imp_scene *scene, const imp_result *r)
 {
-    const bool contact = r->verdict == IMP_CONTACT;
+    const bool contact = r->verdict == IMP_VERDICT_CONTACT;
     return json_pack(
         "{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
         result_verdict_name(r->verdict), "reason", result_reason_json(r->reason), "time",

@@ -154,7 +154,7 @@ static void print_proved(const imp_result *r)
 {
     result_print_label("proved");
     const number_text clear = output_number_lower(r->gamma_clear);
-    if (r->verdict == IMP_CLEAR)
+    if (r->verdict == IMP_VERDICT_CLEAR)
         printf("never nearer than %s\n", clear.text);
     else
         printf("nothing nearer than %s before t = %s\n", clear.text,
@@ -187,18 +187,19 @@ static void print_undecided(const imp_result *r)
 
 void result_print(const imp_scene *scene, const imp_result *r)
 {
-    static const output_tint tints[] = {
-        [IMP_CLEAR] = OUTPUT_GREEN, [IMP_CONTACT] = OUTPUT_RED, [IMP_UNDECIDED] = OUTPUT_YELLOW};
+    static const output_tint tints[] = {[IMP_VERDICT_CLEAR] = OUTPUT_GREEN,
+                                        [IMP_VERDICT_CONTACT] = OUTPUT_RED,
+                                        [IMP_VERDICT_UNDECIDED] = OUTPUT_YELLOW};
     printf("%s%s%s", output_colour(tints[r->verdict]), result_verdict_name(r->verdict),
            output_colour(OUTPUT_PLAIN));
-    if (r->verdict == IMP_CONTACT) printf(" at t = %s", output_number_lower(r->t).text);
-    if (r->verdict == IMP_UNDECIDED) printf(": %s", result_excuse(r->reason).why);
+    if (r->verdict == IMP_VERDICT_CONTACT) printf(" at t = %s", output_number_lower(r->t).text);
+    if (r->verdict == IMP_VERDICT_UNDECIDED) printf(": %s", result_excuse(r->reason).why);
     putchar('\n');
     result_print_times(r->t_start, r->t_end);
     print_proved(r);
     print_examined(r);
-    if (r->verdict == IMP_CONTACT) print_contact(scene, r);
-    if (r->verdict == IMP_CLEAR) print_clear(r);
-    if (r->verdict == IMP_UNDECIDED) print_undecided(r);
+    if (r->verdict == IMP_VERDICT_CONTACT) print_contact(scene, r);
+    if (r->verdict == IMP_VERDICT_CLEAR) print_clear(r);
+    if (r->verdict == IMP_VERDICT_UNDECIDED) print_undecided(r);
     result_print_cost(&r->stats);
 }

@@ -48,7 +48,7 @@ exit_status series_check(const arguments *args)
         return complain(EXIT_USAGE, speaker, "--list-all belongs to --each");
     if (refine == NULL) return EXIT_ANSWERED;
     if (each) return complain(EXIT_USAGE, speaker, "--each and --refine exclude each other");
-    const char *const excluded[] = {"gamma", "clearance"};
+    const char *const excluded[] = {"gamma", "gamma-clear"};
     for (int k = 0; k < 2; ++k)
         if (arguments_option(args, excluded[k]) != NULL)
             return complain(EXIT_USAGE, speaker, "--refine and --%s exclude each other",
@@ -87,7 +87,7 @@ static exit_status answer_refined(series *s)
         const exit_status status = query_print(s->scene, &r, s->args);
         if (status != EXIT_ANSWERED) return status;
         s->worst = query_status(&r, s->args);
-        if (r.verdict == IMP_UNDECIDED || *text == '\0') return EXIT_ANSWERED;
+        if (r.verdict == IMP_VERDICT_UNDECIDED || *text == '\0') return EXIT_ANSWERED;
         if (imp_query_refine(s->query, next_gamma(&text, INFINITY), -1, &error) != IMP_SUCCESS)
             return complain_of(&error, s->args->verb->name);
     }
@@ -99,7 +99,7 @@ exit_status series_answer(imp_scene *scene, const arguments *args)
     const char *text = arguments_option(args, "refine")->text;
     imp_options options = query_options(scene, args);
     options.gamma = next_gamma(&text, INFINITY);
-    options.clearance = -1;
+    options.gamma_clear = -1;
     crew threads = {query_threads_asked(args)};
     query_lend_threads(&options, &threads);
     series s = {.args = args, .scene = scene};

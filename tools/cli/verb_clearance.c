@@ -88,7 +88,7 @@ static exit_status take_answers(measuring *m, bool ended)
 {
     for (size_t k = m->told; k < m->count; ++k) {
         m->answers[k].struct_size = (uint32_t)sizeof *m->answers;
-        imp_clearance_read(m->query, k, &m->answers[k], NULL);
+        imp_clearance_get(m->query, k, &m->answers[k], NULL);
         if (!ended && m->answers[k].reason == IMP_REASON_RUNNING) return EXIT_ANSWERED;
         if (m->answers[k].reason == IMP_REASON_RUNNING) m->answers[k].reason = IMP_REASON_CANCELLED;
         const exit_status status = m->profile ? tell_slice(m, &m->answers[k]) : EXIT_ANSWERED;

@@ -20,7 +20,7 @@ typedef struct type_list {
 static int compare(const void *left, const void *right)
 {
     const imp_type_info *a = left, *b = right;
-    if (a->kind != b->kind) return a->kind == IMP_KIND_SURFACE ? -1 : 1;
+    if (a->kind != b->kind) return a->kind == IMP_TYPE_SURFACE ? -1 : 1;
     const int names = strcmp(a->name, b->name);
     if (names != 0) return names;
     if ((a->shadowed_by == NULL) != (b->shadowed_by == NULL))
@@ -98,7 +98,7 @@ static void print_totals(const type_list *list, size_t refused)
     for (size_t i = 0; i < list->count; ++i) {
         if (list->types[i].shadowed_by != NULL)
             ++shadowed;
-        else if (list->types[i].kind == IMP_KIND_SURFACE)
+        else if (list->types[i].kind == IMP_TYPE_SURFACE)
             ++surfaces;
         else
             ++maps;

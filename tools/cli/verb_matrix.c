@@ -29,14 +29,16 @@ typedef struct matrix {
 
 static const char *verdict_name(imp_verdict verdict)
 {
-    return verdict == IMP_CONTACT ? "contact" : verdict == IMP_CLEAR ? "clear" : "undecided";
+    return verdict == IMP_VERDICT_CONTACT ? "contact"
+           : verdict == IMP_VERDICT_CLEAR ? "clear"
+                                          : "undecided";
 }
 
 static void count(tally *t, const imp_result *r)
 {
-    t->contact += r->verdict == IMP_CONTACT;
-    t->clear += r->verdict == IMP_CLEAR;
-    t->undecided += r->verdict == IMP_UNDECIDED;
+    t->contact += r->verdict == IMP_VERDICT_CONTACT;
+    t->clear += r->verdict == IMP_VERDICT_CLEAR;
+    t->undecided += r->verdict == IMP_VERDICT_UNDECIDED;
     t->pairs += r->stats.pairs;
     t->seconds += r->stats.seconds;
 }
@@ -108,7 +110,7 @@ static void row_of_surface(matrix *m, const imp_type_info *a)
 {
     imp_type_info b;
     tally t = {0};
-    for (size_t k = 0; next_type(m, IMP_KIND_SURFACE, &k, &b) && !interrupt_came();)
+    for (size_t k = 0; next_type(m, IMP_TYPE_SURFACE, &k, &b) && !interrupt_came();)
         solve(m, a->example, b.example, &t);
     tell_row(m, a->name, &t);
     add(&m->all, &t);
@@ -118,7 +120,7 @@ static void row_of_map(matrix *m, const imp_type_info *map)
 {
     imp_type_info b;
     tally t = {0};
-    for (size_t k = 0; next_type(m, IMP_KIND_SURFACE, &k, &b) && !interrupt_came();) {
+    for (size_t k = 0; next_type(m, IMP_TYPE_SURFACE, &k, &b) && !interrupt_came();) {
         char *moved;
         if (asprintf(&moved, "%s ! %s", b.example, map->example) < 0) continue;
         solve(m, moved, b.example, &t);
@@ -161,9 +163,9 @@ static exit_status run(const arguments *args)
     if (arguments_option(args, "json") != NULL) m.rows = json_array();
     imp_type_info info;
     interrupt_prepare();
-    for (size_t k = 0; next_type(&m, IMP_KIND_SURFACE, &k, &info) && !interrupt_came();)
+    for (size_t k = 0; next_type(&m, IMP_TYPE_SURFACE, &k, &info) && !interrupt_came();)
         row_of_surface(&m, &info);
-    for (size_t k = 0; next_type(&m, IMP_KIND_MAP, &k, &info) && !interrupt_came();)
+    for (size_t k = 0; next_type(&m, IMP_TYPE_MAP, &k, &info) && !interrupt_came();)
         row_of_map(&m, &info);
     const exit_status status = finish(&m);
     query_registry_free(registry);

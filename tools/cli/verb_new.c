@@ -27,14 +27,14 @@ typedef struct project_kind {
 } project_kind;
 
 static const project_kind surface_project = {
-    IMP_KIND_SURFACE,
+    IMP_TYPE_SURFACE,
     "surface",
     "surface.c",
     "",
     "sphere radius=0.5 center=0,0,2 ! translate velocity=0,0,-2",
     "u; v; height*(1-u^2)*(1-v^2)*sin(rate*t)"};
 static const project_kind map_project = {
-    IMP_KIND_MAP,
+    IMP_TYPE_MAP,
     "map",
     "map.c",
     "sphere center=0,0,2 ! ",

@@ -7,12 +7,14 @@
 #include "tools/cli/output.h"
 #include "tools/cli/verbs.h"
 
+#include <impinge/examine.h>
+
 static const char *finding_name(imp_finding finding)
 {
     switch (finding) {
-    case IMP_PASSED:
+    case IMP_FINDING_PASSED:
         return "passed";
-    case IMP_REFUSED:
+    case IMP_FINDING_REFUSED:
         return "refused";
     default:
         return "not reached";

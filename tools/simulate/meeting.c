@@ -83,11 +83,11 @@ imp_code meeting_make_scene(searching *s, meeting *m)
 
 /* What is left of the budgets goes to each search. */
 static imp_code solve(searching *s, const meeting *m, double from, double to, double gamma,
-                      double clearance, imp_result *result)
+                      double gamma_clear, imp_result *result)
 {
     imp_options o = s->setup->options;
     o.t_start = from, o.t_end = to;
-    o.gamma = gamma, o.clearance = clearance;
+    o.gamma = gamma, o.gamma_clear = gamma_clear;
     limits_apply(&s->limits, &o);
     result->struct_size = (uint32_t)sizeof *result;
     const imp_code code = imp_scene_solve(m->scene, &o, result, &s->error);
@@ -98,12 +98,12 @@ static imp_code solve(searching *s, const meeting *m, double from, double to, do
 }
 
 typedef struct step {
-    double gamma, clearance;
+    double gamma, gamma_clear;
 } step;
 
 static step step_of(const searching *s, int level)
 {
-    const double least = s->setup->options.clearance;
+    const double least = s->setup->options.gamma_clear;
     const double h = ldexp(s->setup->options.gamma - least, -level);
     return (step){least + h, least + 0.75 * h};
 }
@@ -131,12 +131,12 @@ imp_code meeting_level(searching *s, const meeting *m, double t, int least, int 
     now->kind = MEETING_NEVER;
     for (*level = least; *level < LEVEL_NONE; ++*level) {
         const step at = step_of(s, *level);
-        const double clearance = at.gamma * (1 + 1e-12);
-        const double gamma = at.gamma + (at.gamma - s->setup->options.clearance) / 4;
-        const imp_code code = solve(s, m, t, t, gamma, clearance, &r);
-        if (code != IMP_SUCCESS || r.verdict == IMP_CLEAR) return code;
-        if (r.verdict == IMP_CONTACT) set_contact(now, &r);
-        if (r.verdict == IMP_UNDECIDED && r.reason != IMP_REASON_RESOLUTION) {
+        const double gamma_clear = at.gamma * (1 + 1e-12);
+        const double gamma = at.gamma + (at.gamma - s->setup->options.gamma_clear) / 4;
+        const imp_code code = solve(s, m, t, t, gamma, gamma_clear, &r);
+        if (code != IMP_SUCCESS || r.verdict == IMP_VERDICT_CLEAR) return code;
+        if (r.verdict == IMP_VERDICT_CONTACT) set_contact(now, &r);
+        if (r.verdict == IMP_VERDICT_UNDECIDED && r.reason != IMP_REASON_RESOLUTION) {
             set_undecided(now, &r);
             now->t = t;
             return IMP_SUCCESS;
@@ -150,13 +150,13 @@ static imp_code find_at(searching *s, meeting *m, double t, int level)
 {
     const step at = step_of(s, level);
     imp_result r;
-    const imp_code code = solve(s, m, t, s->end, at.gamma, at.clearance, &r);
+    const imp_code code = solve(s, m, t, s->end, at.gamma, at.gamma_clear, &r);
     if (code != IMP_SUCCESS) return code;
     m->level = level;
     m->kind = MEETING_NEVER;
     m->t = s->end;
-    if (r.verdict == IMP_CONTACT) set_contact(m, &r);
-    if (r.verdict == IMP_UNDECIDED) set_undecided(m, &r);
+    if (r.verdict == IMP_VERDICT_CONTACT) set_contact(m, &r);
+    if (r.verdict == IMP_VERDICT_UNDECIDED) set_undecided(m, &r);
     return IMP_SUCCESS;
 }
 

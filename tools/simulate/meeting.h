@@ -7,7 +7,7 @@
 
 /* When two bodies meet next, with proof
  * =====================================
- * The promise: no two bodies are ever nearer than Gc, the clearance, and what is reported as contact is
+ * The promise: no two bodies are ever nearer than Gc, gamma_clear, and what is reported as contact is
  * no farther apart than G, gamma. After a contact the two are within G of each other, so that a
  * search with the same numbers would end where it begins. Hence a ladder of levels between Gc and G:
  *
@@ -23,7 +23,7 @@
  *
  * Once the bodies have parted by more than G, the search goes on at level 0: at the middle of the time
  * until the contact at level k, if they are apart enough then. Up to there the search at level k has
- * proved its clearance, from there on that of level 0 has.
+ * proved its gamma_clear, from there on that of level 0 has.
  *
  * Level LEVEL_LASTING is reached by bodies that met so often without parting by more than G. LEVEL_MAX
  * is the end: the margin clear_k - Gc, which also covers what rounding does to a trajectory when it is cut at

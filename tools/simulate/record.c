@@ -29,7 +29,7 @@ static int record_body(const simulation *s, size_t i, json_t *body)
         maps, mover_trajectory(&s->movers[i], s->t > start ? s->t : s->search.end));
 }
 
-/* Asked with twice gamma, and gamma as the clearance, the scene answers with its first event: there the
+/* Asked with twice gamma, and gamma as gamma_clear, the scene answers with its first event: there the
  * bodies are within gamma. With the numbers of the simulation contact and clear would both be right. */
 static json_t *scene_json(const simulation *s)
 {
@@ -39,7 +39,7 @@ static json_t *scene_json(const simulation *s)
     json_object_del(root, "gravity");
     failed |= json_object_set_new(root, "time", json_pack("[f,f]", o->t_start, s->t));
     failed |= json_object_set_new(root, "gamma", json_real(2 * o->gamma));
-    failed |= json_object_set_new(root, "clearance", json_real(o->gamma));
+    failed |= json_object_set_new(root, "gamma_clear", json_real(o->gamma));
     size_t i;
     json_t *body;
     json_array_foreach(json_object_get(root, "bodies"), i, body) failed |= record_body(s, i, body);
@@ -93,7 +93,7 @@ void record_print(const simulation *s, const char *path)
         printf("%s: nothing is known of times after %.9g\n", s->reason, s->t);
     }
     print_label("proved");
-    printf("never nearer than %.9g\n", o->clearance);
+    printf("never nearer than %.9g\n", o->gamma_clear);
     print_label("energy");
     printf("%.9g -> %.9g, lost in contacts %.9g, drift %.3g\n", s->start.energy, s->end.energy,
            s->energy_lost, energy_drift(s));
@@ -156,7 +156,7 @@ json_t *record_json(const simulation *s, const char *path)
                      "scene", output_json_text(s->setup->name), "out", output_json_text(path),
                      "time", o->t_start, s->t, "reason", s->reason, "impacts",
                      (json_int_t)s->impacts, "resting", (json_int_t)(s->events - s->impacts),
-                     "held", (json_int_t)s->held, "gamma", o->gamma, "gamma_clear", o->clearance,
+                     "held", (json_int_t)s->held, "gamma", o->gamma, "gamma_clear", o->gamma_clear,
                      "energy", energy, "momentum", momentum, "angular_momentum", angular,
                      "substep_error", simulation_substep_error(s), "bodies", bodies_json(s),
                      "events", s->log, "stats", stats);

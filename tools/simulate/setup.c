@@ -122,10 +122,10 @@ static exit_status read_text(setup *s, const arguments *args)
 static exit_status check_options(setup *s)
 {
     imp_options *o = &s->options;
-    if (o->clearance < 0) o->clearance = o->gamma / 2;
-    if (!(o->clearance < o->gamma))
-        return complain(EXIT_USAGE, speaker, "the clearance %g must be less than gamma, %g",
-                        o->clearance, o->gamma);
+    if (o->gamma_clear < 0) o->gamma_clear = o->gamma / 2;
+    if (!(o->gamma_clear < o->gamma))
+        return complain(EXIT_USAGE, speaker, "gamma_clear, %g, must be less than gamma, %g",
+                        o->gamma_clear, o->gamma);
     if (!(o->gamma <= VALUE_MAX))
         return complain(EXIT_USAGE, speaker, "gamma, %g, must be at most %g", o->gamma, VALUE_MAX);
     if (!(o->t_start < o->t_end))

@@ -137,10 +137,10 @@ static exit_status refuse_overlap(const simulation *s, const meeting *m)
 {
     return complain(
         EXIT_DATA, speaker,
-        "%.300s: the bodies '%s' and '%s' are nearer than the clearance %g at the start; "
+        "%.300s: the bodies '%s' and '%s' are nearer than gamma_clear, %g, at the start; "
         "move them apart, or make gamma smaller",
         s->setup->name, s->setup->actors[m->body[0]].name, s->setup->actors[m->body[1]].name,
-        s->setup->options.clearance);
+        s->setup->options.gamma_clear);
 }
 
 exit_status timeline_predict_all(simulation *s)

@@ -58,7 +58,7 @@ static const option simulate_options[] = {
      .kind = OPTION_TEXT,
      .argument = "FILE",
      .help = "write the motion here, as a scene (also -o FILE; '-': standard output)"},
-    {.name = "clearance",
+    {.name = "gamma-clear",
      .kind = OPTION_NUMBER,
      .argument = "LENGTH",
      .help = "no two bodies are ever nearer than this; less than gamma (gamma/2)"},
@@ -89,7 +89,7 @@ const verb verb_simulate = {
         "and itself \"gravity\": [x,y,z]. The motion is written to --output as a scene with maps "
         "of\n"
         "type trajectory and the list \"events\": solve, clearance, view and plot take it. At no\n"
-        "time are two bodies nearer than the clearance. Energy and momentum are printed, and how\n"
+        "time are two bodies nearer than gamma_clear. Energy and momentum are printed, and how\n"
         "far they drift beyond what contacts and gravity explain. A budget or a signal ends it\n"
         "early, with status 3 and the motion so far.\n",
     .example =

@@ -24,7 +24,7 @@ static imp_code read_slices(const imp_query *query, gap_profile *gap, imp_error 
     imp_clearance answer;
     answer.struct_size = (uint32_t)sizeof answer;
     for (size_t k = 0; k < gap->count; ++k) {
-        const imp_code code = imp_clearance_read(query, k, &answer, error);
+        const imp_code code = imp_clearance_get(query, k, &answer, error);
         if (code != IMP_SUCCESS) return code;
         gap->t[k] = answer.t_start, gap->t[k + 1] = answer.t_end;
         gap->lower[k] = answer.lower, gap->upper[k] = answer.upper;

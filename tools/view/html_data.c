@@ -258,9 +258,9 @@ static json_t *told_json(const stage *s)
     const stage_spot *spot = &s->spot;
     size_t used = 0;
     text[0] = '\0';
-    if (c->is_known && c->verdict == IMP_CONTACT)
+    if (c->is_known && c->verdict == IMP_VERDICT_CONTACT)
         snprintf(text, sizeof text, "First contact at t = %.7g", c->t);
-    else if (c->is_known && c->verdict == IMP_CLEAR)
+    else if (c->is_known && c->verdict == IMP_VERDICT_CLEAR)
         snprintf(text, sizeof text, "No contact from t = %.7g to %.7g, proved. ", s->t_start,
                  s->t_end);
     else if (c->is_known)

@@ -35,7 +35,7 @@ imp_code nearest_find(imp_scene *scene, const imp_options *options, stage_spot *
     if (query == NULL) return error->code;
     imp_code code = query_run(query, &result, error);
     if (code == IMP_SUCCESS && imp_clearance_count(query) > 0)
-        code = imp_clearance_read(query, 0, &answer, error);
+        code = imp_clearance_get(query, 0, &answer, error);
     if (code == IMP_SUCCESS) *spot = nearest_of(&answer, options->gamma);
     imp_query_free(query);
     return code;

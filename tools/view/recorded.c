@@ -81,11 +81,11 @@ static bool read_result(const json_t *json, const imp_scene *scene, stage_contac
     contact->t = json_number_value(json_object_get(json, "t_lower"));
     contact->gap = json_number_value(json_object_get(json, "gap"));
     contact->gamma = json_number_value(json_object_get(json, "gamma"));
-    for (int k = IMP_CLEAR; k <= IMP_UNDECIDED && verdict != NULL; ++k)
+    for (int k = IMP_VERDICT_CLEAR; k <= IMP_VERDICT_UNDECIDED && verdict != NULL; ++k)
         if (strcmp(verdict, result_verdict_name((imp_verdict)k)) == 0)
             contact->verdict = (imp_verdict)k, known = true;
     if (!known || !(contact->gamma > 0)) return false;
-    if (contact->verdict != IMP_CONTACT) return true;
+    if (contact->verdict != IMP_VERDICT_CONTACT) return true;
     spot->is_contact = true;
     spot->upper = contact->gap;
     return read_spot(json, scene, spot);
@@ -105,8 +105,8 @@ exit_status recorded_answer(const recorded *r, const imp_scene *scene, const imp
                             const char *name, const char *verb, stage_contact *contact,
                             stage_spot *spot)
 {
-    *contact =
-        (stage_contact){.verdict = IMP_UNDECIDED, .t = options->t_start, .gamma = options->gamma};
+    *contact = (stage_contact){
+        .verdict = IMP_VERDICT_UNDECIDED, .t = options->t_start, .gamma = options->gamma};
     *spot = (stage_spot){.is_known = false};
     const bool good = r->kind == RECORDED_RESULT
                           ? read_result(r->json, scene, contact, spot)

@@ -68,7 +68,7 @@ static void add_spot(story *tale, const subject *what)
 static void add_proved(story *tale, const subject *what)
 {
     const stage_contact *c = &what->contact;
-    if (!c->is_known || c->verdict != IMP_UNDECIDED) return;
+    if (!c->is_known || c->verdict != IMP_VERDICT_UNDECIDED) return;
     if (c->t > what->options.t_start && c->t < what->options.t_end)
         add(tale, c->t, "no contact before: ", "");
 }

@@ -15,11 +15,13 @@
 #include "tools/view/nearest.h"
 #include "tools/view/recorded.h"
 
+#include <impinge/baseline.h>
+
 /* --- Solving ------------------------------------------------------------------------------------- */
 
 static void take_result(subject *s, const imp_result *r)
 {
-    const bool contact = r->verdict == IMP_CONTACT;
+    const bool contact = r->verdict == IMP_VERDICT_CONTACT;
     s->contact = (stage_contact){.is_known = true,
                                  .verdict = r->verdict,
                                  .t = contact ? r->t : r->t_lower,
@@ -58,7 +60,7 @@ imp_code subject_find_nearest(subject *s, imp_error *error)
     if (s->spot.is_known || s->has_looked) return IMP_SUCCESS;
     s->has_looked = true;
     options.max_seconds = allowance_left(&s->allowance, share_of_nearest);
-    options.method = IMP_METHOD_MODELS;
+    options.baseline = IMP_BASELINE_NONE;
     return nearest_find(s->scene, &options, &s->spot, error);
 }
 

@@ -81,7 +81,7 @@ static void tell_search(const subject *what)
     const imp_result r = imp_query_result(what->query);
     puts("2. Searching all moments, with proof:");
     result_print(what->scene, &r);
-    if (r.verdict == IMP_CONTACT)
+    if (r.verdict == IMP_VERDICT_CONTACT)
         printf(
             "   Two points at most %g apart were evaluated at that time, rounding included, and\n"
             "   no two points of blade and sheet, of which there are infinitely many, come\n"

@@ -28,12 +28,12 @@ static void print_parameter(const imp_parameter *p)
 {
     const range_text range = catalogue_range(p);
     printf("    %s: %s", p->name, catalogue_shape(p).text);
-    if (p->flags & IMP_SCALAR_OK) printf(" (one may stand alone)");
+    if (p->flags & IMP_PARAMETER_SCALAR_OK) printf(" (one may stand alone)");
     if (range.text[0] != '\0') printf(", %s%s", p->rank > 0 ? "each " : "", range.text);
     if (p->default_value != NULL)
         printf("; default %s", p->default_value);
     else
-        printf("; %s", p->flags & IMP_OPTIONAL ? "optional" : "required");
+        printf("; %s", p->flags & IMP_PARAMETER_OPTIONAL ? "optional" : "required");
     if (p->unit != NULL && p->unit[0] != '\0' && strcmp(p->unit, "1") != 0)
         printf("; unit %s", p->unit);
     putchar('\n');
@@ -57,7 +57,7 @@ static const char *any_surface(const imp_registry *registry)
     imp_type_info info;
     const char *best = NULL;
     for (size_t i = 0; imp_registry_type(registry, i, &info); ++i) {
-        if (info.kind != IMP_KIND_SURFACE || info.shadowed_by != NULL) continue;
+        if (info.kind != IMP_TYPE_SURFACE || info.shadowed_by != NULL) continue;
         if (best == NULL || strlen(info.example) < strlen(best)) best = info.example;
     }
     return best;
@@ -66,10 +66,10 @@ static const char *any_surface(const imp_registry *registry)
 /* A command that runs: the example against itself, under the map if it is one. */
 static void print_command(const imp_registry *registry, const imp_type_info *info)
 {
-    const char *surface = info->kind == IMP_KIND_MAP ? any_surface(registry) : info->example;
+    const char *surface = info->kind == IMP_TYPE_MAP ? any_surface(registry) : info->example;
     char *pipeline = NULL;
     if (surface == NULL) return;
-    const int length = info->kind == IMP_KIND_MAP
+    const int length = info->kind == IMP_TYPE_MAP
                            ? asprintf(&pipeline, "%s ! %s", surface, info->example)
                            : asprintf(&pipeline, "%s", surface);
     char *a = length >= 0 ? output_shell_word(pipeline) : NULL;
@@ -128,7 +128,7 @@ static exit_status unknown(const imp_registry *registry, const arguments *args)
 /* The example as a subject: alone, at rest or as its map moves it. */
 static exit_status draw(imp_registry *registry, const imp_type_info *info, const arguments *args)
 {
-    const char *surface = info->kind == IMP_KIND_MAP ? any_surface(registry) : info->example;
+    const char *surface = info->kind == IMP_TYPE_MAP ? any_surface(registry) : info->example;
     char *pipeline = NULL;
     imp_error error = {0};
     view_request request;
@@ -139,7 +139,7 @@ static exit_status draw(imp_registry *registry, const imp_type_info *info, const
     request.json = false;
     status = view_check_output(&request);
     if (status != EXIT_ANSWERED) return status;
-    const bool map = info->kind == IMP_KIND_MAP && surface != NULL;
+    const bool map = info->kind == IMP_TYPE_MAP && surface != NULL;
     if (asprintf(&pipeline, "%s%s%s", map ? surface : info->example, map ? " ! " : "",
                  map ? info->example : "") < 0)
         return complain_of_memory(args->verb->name);

@@ -17,6 +17,8 @@
 #include "tools/view/png.h"
 #include "tools/view/request.h"
 
+#include <impinge/baseline.h>
+
 /* --- Where it goes --------------------------------------------------------------------------- */
 
 enum { WIDTH = 960, HEIGHT = 480, COLUMNS = 79, ROWS = 24 }; /* pixels; characters */
@@ -109,7 +111,7 @@ static exit_status measure(subject *what, size_t slices, const arguments *args, 
     imp_options options = what->options;
     imp_code code = subject_find_nearest(what, &error);
     options.max_seconds = allowance_left(&what->allowance, 0.9);
-    options.method = IMP_METHOD_MODELS;
+    options.baseline = IMP_BASELINE_NONE;
     if (code == IMP_SUCCESS) code = gap_measure(what->scene, &options, slices, 0.1, gap, &error);
     return code == IMP_SUCCESS ? EXIT_ANSWERED : complain_of(&error, args->verb->name);
 }

@@ -65,7 +65,6 @@ def _words(options: Dict[str, Any]) -> List[str]:
     return words
 
 
-GAMMA_CLEAR = "clearance"  # the option that the command has for it
 _COUNTS = ("width", "height", "frames", "slices", "max_pairs", "max_bytes", "max_events")
 
 

@@ -39,9 +39,7 @@ class Options(c.Structure):
         ("max_pairs", c.c_uint64),
         ("max_seconds", c.c_double),
         ("max_bytes", c.c_uint64),
-        ("method", c.c_int),
-        ("bounds", c.c_int),
-        ("rates", c.c_int),
+        ("baseline", c.c_uint32),
         ("reserved", c.c_uint32),
         ("progress", c.c_void_p),
         ("progress_context", c.c_void_p),
@@ -182,7 +180,7 @@ class TypeInfo(c.Structure):
 
 CLEAR, CONTACT = 0, 1  # imp_verdict
 RESOLUTION, RUNNING = 7, 8  # imp_reason
-PARAMETER_FILE = 1 << 4  # IMP_FILE
+PARAMETER_FILE = 1 << 4  # IMP_PARAMETER_FILE
 
 _P, _S, _D, _N = c.c_void_p, c.c_char_p, c.c_double, c.c_size_t
 _E, _A = c.POINTER(Error), c.POINTER(Argument)
@@ -217,19 +215,19 @@ _FUNCTIONS = {
     "imp_builder_group": (c.c_int, _P, _N, _S, _E),
     "imp_builder_ignore": (c.c_int, _P, _S, _S, _E),
     "imp_builder_finish": (_P, _P, _E),
-    "imp_options_read": (c.c_int, _P, c.POINTER(Options), _E),
+    "imp_options_get_default": (c.c_int, _P, c.POINTER(Options), _E),
     "imp_scene_ignores": (c.c_bool, _P, _N, _N),
     "imp_query_new": (_P, _P, c.POINTER(Options), _E),
-    "imp_query_read": (c.c_int, _P, c.POINTER(Result), _E),
+    "imp_query_get_result": (c.c_int, _P, c.POINTER(Result), _E),
     "imp_query_refine": (c.c_int, _P, _D, _D, _E),
-    "imp_query_pass": (c.c_int, _P, _E),
+    "imp_query_exclude_pair": (c.c_int, _P, _E),
     "imp_query_cancel": (None, _P),
     "imp_query_divide": (c.c_int, _P, c.POINTER(_N), _E),
     "imp_query_part": (_P, _P, _N, _E),
-    "imp_clearance_options_read": (c.c_int, c.POINTER(ClearanceOptions), _E),
+    "imp_clearance_options_get_default": (c.c_int, c.POINTER(ClearanceOptions), _E),
     "imp_clearance_new": (_P, _P, c.POINTER(Options), c.POINTER(ClearanceOptions), _E),
     "imp_clearance_count": (_N, _P),
-    "imp_clearance_read": (c.c_int, _P, _N, _P, _E),
+    "imp_clearance_get": (c.c_int, _P, _N, _P, _E),
     "imp_query_step": (c.c_int, _P, c.c_uint64, _E),
     "imp_query_free": (None, _P),
 }

@@ -82,13 +82,13 @@ class Query:
 
     def __init__(self, scene: Handle, settings: Settings, wanted: Optional[Wanted] = None):
         options, error = lib.Options(struct_size=c.sizeof(lib.Options)), lib.Error()
-        check(lib.library.imp_options_read(scene.address, c.byref(options), c.byref(error)), error)
+        check(lib.library.imp_options_get_default(scene.address, c.byref(options), c.byref(error)), error)
         settings.write(options)
         if wanted is None:
             made = lib.library.imp_query_new(scene.address, c.byref(options), c.byref(error))
         else:
             asked = lib.ClearanceOptions(struct_size=c.sizeof(lib.ClearanceOptions))
-            check(lib.library.imp_clearance_options_read(c.byref(asked), c.byref(error)), error)
+            check(lib.library.imp_clearance_options_get_default(c.byref(asked), c.byref(error)), error)
             wanted.write(asked)
             made = lib.library.imp_clearance_new(scene.address, c.byref(options), c.byref(asked),
                                                  c.byref(error))
@@ -125,7 +125,7 @@ class Query:
     def result(self) -> lib.Result:
         """How far it has come."""
         answer, error = lib.Result(struct_size=c.sizeof(lib.Result)), lib.Error()
-        check(lib.library.imp_query_read(self._address, c.byref(answer), c.byref(error)), error)
+        check(lib.library.imp_query_get_result(self._address, c.byref(answer), c.byref(error)), error)
         return answer
 
     def _running(self) -> Optional[lib.Clearance]:
@@ -167,7 +167,7 @@ class Query:
     def go_on(self) -> None:
         """Without the two bodies of the answer."""
         error = lib.Error()
-        check(lib.library.imp_query_pass(self._address, c.byref(error)), error)
+        check(lib.library.imp_query_exclude_pair(self._address, c.byref(error)), error)
 
     def refine(self, gamma: float) -> None:
         """At a smaller gamma."""
@@ -179,14 +179,14 @@ class Query:
     def clearance(self, index: int) -> lib.Clearance:
         """One answer to a question of clearance."""
         answer, error = lib.Clearance(struct_size=c.sizeof(lib.Clearance)), lib.Error()
-        check(lib.library.imp_clearance_read(self._address, index, c.byref(answer), c.byref(error)),
+        check(lib.library.imp_clearance_get(self._address, index, c.byref(answer), c.byref(error)),
               error)
         return answer
 
     def chunks(self) -> Iterator["NDArray[numpy.void]"]:
         """All answers to a question of clearance, as structured arrays of some thousands each."""
         count = lib.library.imp_clearance_count(self._address)
-        read, size, error = lib.library.imp_clearance_read, c.sizeof(lib.Clearance), lib.Error()
+        read, size, error = lib.library.imp_clearance_get, c.sizeof(lib.Clearance), lib.Error()
         for first in range(0, count, _CHUNK):
             answers = (lib.Clearance * min(_CHUNK, count - first))()
             chunk = numpy.frombuffer(answers, dtype=lib.Clearance)

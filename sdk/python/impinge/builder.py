@@ -79,7 +79,7 @@ class Builder:
         self._call(lib.library.imp_builder_gamma, gamma, clear)
         self._document: document.Document = {"time": [start, end], "gamma": gamma, "bodies": []}
         if gamma_clear is not None:
-            self._document["clearance"] = clear
+            self._document["gamma_clear"] = clear
 
     def __reduce__(self) -> Any:
         raise TypeError("a Builder cannot be copied or pickled; its scene can: builder.build()")

@@ -51,7 +51,7 @@ def simulate(scene: Union[Scene, values.Path, Mapping[str, Any]], *,
              max_bytes: Optional[int] = None, audit: Optional[bool] = None) -> Motion:
     """Moves bodies by the laws of impact, with proof, by the command `impinge simulate`: `scene` is the path
     or the object of a scene file whose bodies may have "mass", "velocity" and so on (see the manual)."""
-    options = {"time": time, "gamma": gamma, command.GAMMA_CLEAR: gamma_clear, "max_events": max_events,
+    options = {"time": time, "gamma": gamma, "gamma_clear": gamma_clear, "max_events": max_events,
                "max_pairs": max_pairs, "max_seconds": max_seconds, "max_bytes": max_bytes,
                "audit": audit}
     complete, data, printed = command.write_bytes("simulate", _text(scene), ".json", options)

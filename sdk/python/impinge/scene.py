@@ -141,7 +141,7 @@ class Scene:
         index = self._index(body)
         if t is None:
             options, error = lib.Options(struct_size=c.sizeof(lib.Options)), lib.Error()
-            check(lib.library.imp_options_read(self._handle.address, c.byref(options), c.byref(error)),
+            check(lib.library.imp_options_get_default(self._handle.address, c.byref(options), c.byref(error)),
                   error)
             t = options.t_start
         if tolerance is not None and not values.number("tolerance", tolerance) > 0:
