@@ -140,7 +140,12 @@ static imp_code ask_slip(collection *all, candidate *const side[2], time_window 
     int asked = 1;
     const imp_status status = surface_pair_slip(s, bare, &all_times, times->lo, slip, &asked);
     if (status == IMP_STATUS_OK) return IMP_SUCCESS;
-    surface_fault(s[asked], error, ": %s", surface_status_told(s[asked], status).text);
+    const surface_told what = surface_status_told(s[asked], status);
+    if (status == SURFACE_BAD_SYMMETRY)
+        surface_fault(s[asked], error, ": %s", what.text);
+    else
+        surface_fault(s[asked], error, "over t [%.17g, %.17g]: %s", times->lo, times->hi,
+                      what.text);
     return surface_set_code(status, error);
 }
 

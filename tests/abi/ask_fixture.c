@@ -7,6 +7,7 @@
 #include <dlfcn.h>
 #include <impinge/impinge.h>
 #include <impinge/model_arithmetic.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -120,7 +121,8 @@ static void ask_map(const imp_map_type *type, const imp_model in[4], const imp_r
         printf("  net answers %d\n", type->net(self, region, &net));
         print_net(&net);
     }
-    if (type->struct_size >= sizeof *type && type->rigid != NULL) {
+    if (type->struct_size >= offsetof(imp_map_type, rigid) + sizeof type->rigid &&
+        type->rigid != NULL) {
         imp_pose pose;
         memset(&pose, 0, sizeof pose);
         printf("  rigid answers %d\n", type->rigid(self, &in[3], &pose));

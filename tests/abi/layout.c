@@ -71,7 +71,7 @@ static void regions(void)
     FIELD(imp_net, place), FIELD(imp_net, drift), FIELD(imp_net, error);
     FIELD(imp_net, point), FIELD(imp_net, velocity), FIELD(imp_net, weight);
     FIXED(imp_pose);
-    FIELD(imp_pose, turn), FIELD(imp_pose, shift), FIELD(imp_pose, pivot);
+    FIELD(imp_pose, turn), FIELD(imp_pose, shift), FIELD(imp_pose, pivot), FIELD(imp_pose, fixed);
     NUMBER(IMP_SYMMETRY_ABOUT_POINT), NUMBER(IMP_SYMMETRY_ABOUT_LINE);
     NUMBER(IMP_SYMMETRY_ALONG_LINE), NUMBER(IMP_SYMMETRY_ACROSS_LINE);
     FIXED(imp_symmetry);

@@ -233,6 +233,5 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
 @test "a set whose types are missing is told so" {
     mkdir empty
     cp "$top_builddir"/tools/.libs/impinge . 2>/dev/null || skip 'linked statically'
-    LD_LIBRARY_PATH=$top_builddir/.libs fails 4 "unknown surface type 'sphere'" ./impinge bench moving \
-        --json
+    LD_LIBRARY_PATH=$top_builddir/.libs fails 4 "unknown surface type 'sphere'" ./impinge bench moving
 }
