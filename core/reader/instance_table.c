@@ -29,7 +29,7 @@ static uint64_t hash_text(uint64_t hash, const char *text)
 
 static uint64_t hash_json(uint64_t hash, const json_t *json)
 {
-    const int type = json_typeof(json);
+    const int type = (int)json_typeof(json);
     size_t i;
     const char *key;
     json_t *item;

@@ -61,7 +61,8 @@ static imp_code take_witness(const clearance_search *c, uint32_t k, const witnes
                              imp_clearance *answer, imp_error *error)
 {
     world_witness told;
-    const imp_code code = world_witness_of(c->scene, &c->list->pairs[k], w, t, &told, error);
+    const imp_code code =
+        world_witness_of(c->scene, &c->list->pairs[k], w, t, INFINITY, &told, error);
     if (code != IMP_SUCCESS) return code;
     answer->has_witness = true;
     answer->upper = w->gap_upper;
@@ -215,7 +216,8 @@ static imp_code take_violation(const clearance_search *c, imp_clearance *answer,
     world_witness told;
     imp_code code = check_witness(c, answer, relaxed(c), im->t_lower, error);
     if (code == IMP_SUCCESS)
-        code = world_witness_of(c->scene, &c->list->pairs[k], &im->found, im->t_lower, &told, error);
+        code = world_witness_of(c->scene, &c->list->pairs[k], &im->found, im->t_lower, INFINITY,
+                                &told, error);
     answer->verdict = IMP_REQUIREMENT_VIOLATED;
     if (code == IMP_SUCCESS && im->found.gap_upper < answer->upper)
         code = take_witness(c, k, &im->found, im->t_lower, answer, error);

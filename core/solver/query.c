@@ -164,7 +164,8 @@ static imp_code conclude_contact(imp_query *query, imp_error *error)
     const candidate_pair *both = &query->candidates.pairs[im->found_candidate];
     query_finish(query, IMP_VERDICT_CONTACT, IMP_REASON_NONE);
     query->at_rest = is_at_rest(query, 0) && is_at_rest(query, 1);
-    return world_witness_of(query->scene, both, &im->found, im->t_lower, &query->contact, error);
+    return world_witness_of(query->scene, both, &im->found, im->t_lower, im->gamma, &query->contact,
+                            error);
 }
 
 static imp_code conclude(imp_query *query, impact_state state, imp_error *error)

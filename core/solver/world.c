@@ -66,7 +66,7 @@ static double distance_of(const imp_side side[2])
 }
 
 imp_code world_witness_of(const imp_scene *scene, const candidate_pair *both, const witness *found,
-                          double t, world_witness *told, imp_error *error)
+                          double t, double most, world_witness *told, imp_error *error)
 {
     for (int side = 0; side < 2; ++side) {
         const imp_code code =
@@ -78,7 +78,7 @@ imp_code world_witness_of(const imp_scene *scene, const candidate_pair *both, co
     const size_t left_out = both->side[0]->left_out;
     if (left_out == 0) return IMP_SUCCESS;
     const double gap = distance_of(told->side);
-    told->gap = gap < found->gap_upper ? gap : found->gap_upper;
+    told->gap = gap <= most ? gap : found->gap_upper;
     if (!found->has_normal) return IMP_SUCCESS;
     const surface *s = piece_of(scene, &told->side[0]);
     return turn_normal(s, surface_map_count(s) - left_out, found, t, told, error);

@@ -12,7 +12,7 @@
  * A pair is searched in the frame that both of its surfaces move in (collect_frames.c). What is told of a
  * witness is in the world: its points are those that imp_piece_eval gives for its parameters, and its normal
  * turns with the frame. The gap is the distance of these points, or the proved bound of the search where
- * rounding in the world makes it larger than that. */
+ * rounding in the world makes it larger than `most`. */
 
 /* A witness of a pair, as it is told. */
 typedef struct world_witness {
@@ -23,6 +23,6 @@ typedef struct world_witness {
 
 /* IMP_ERROR_PLUGIN: a map that the search left out fails at time t. */
 imp_code world_witness_of(const imp_scene *scene, const candidate_pair *both, const witness *found,
-                          double t, world_witness *told, imp_error *error);
+                          double t, double most, world_witness *told, imp_error *error);
 
 #endif

@@ -233,5 +233,7 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
 @test "a set whose types are missing is told so" {
     mkdir empty
     cp "$top_builddir"/tools/.libs/impinge . 2>/dev/null || skip 'linked statically'
-    LD_LIBRARY_PATH=$top_builddir/.libs fails 4 "unknown surface type 'sphere'" ./impinge bench moving
+    LD_LIBRARY_PATH=$top_builddir/.libs run -4 --separate-stderr ./impinge bench moving --json
+    [[ $stderr == "impinge: "*"unknown surface type 'sphere'"* ]]
+    json '.error | contains("unknown surface type")'
 }

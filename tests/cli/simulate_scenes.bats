@@ -137,7 +137,7 @@ wrong() {
     wrong 'must be positive definite' '.bodies[1].inertia = [[1,2,0],[2,1,0],[0,0,1]]'
     wrong "did you mean 'restitution'" '.bodies[1].restitutoin = 0.5'
     wrong "did you mean 'gravity'" '.gravty = [0,0,1] | del(.gravity)'
-    wrong "the bodies 'floor' and 'ball' are nearer than the clearance" '.bodies[1].surfaces[0].center[2] = 0.4'
+    wrong "the bodies 'floor' and 'ball' are nearer than gamma_clear" '.bodies[1].surfaces[0].center[2] = 0.4'
     wrong '/bodies/0/spin: found on a body without "mass"' '.bodies[0].spin = [0,0,1]'
     wrong 'no body has a "mass"' 'del(.bodies[1].mass)'
     wrong '/bodies/1/parent: found on a body with a mass' '.bodies[1].parent = "floor"'

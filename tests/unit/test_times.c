@@ -144,7 +144,7 @@ static imp_code solve_text(const char *text, imp_result *result, imp_error *erro
 
 START_TEST(a_scene_examines_from_the_first_to_the_last_time_that_two_bodies_exist)
 {
-    imp_result r;
+    imp_result r = {.struct_size = sizeof r};
     imp_error error = {IMP_SUCCESS, ""};
     static const char text[] =
         "{\"time\": [0,3], \"bodies\": [" BODY("a", FORMULA("0", "0.5", "1"), "") "," BODY(
@@ -157,7 +157,7 @@ END_TEST
 
 START_TEST(a_body_that_is_tested_with_none_may_be_defined_for_any_times)
 {
-    imp_result r;
+    imp_result r = {.struct_size = sizeof r};
     imp_error error = {IMP_SUCCESS, ""};
     static const char tested[] = "{\"time\": [0,1], \"bodies\": [" BODY("a", "\"sphere\"", SHORT_TRACK) "," BODY(
         "b", "\"sphere\"", "") "," BODY("c", "\"sphere\", \"center\": [4,0,0]", "") "]}";
@@ -175,7 +175,7 @@ END_TEST
 
 START_TEST(a_scene_whose_tables_share_no_time_is_refused_until_somebody_says)
 {
-    imp_result r;
+    imp_result r = {.struct_size = sizeof r};
     imp_error error = {IMP_SUCCESS, ""};
     imp_registry *registry = query_registry();
     imp_scene *scene =
