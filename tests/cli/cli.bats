@@ -96,6 +96,13 @@ load ../support/cli_helper
     done
 }
 
+@test "what is called gamma_clear now is named where its former name is written" {
+    fails 2 "unknown option '--clearance', did you mean '--gamma-clear'?" \
+        "$IMPINGE" pair a b --clearance 1e-3
+    echo '{"clearance": 1e-7, "bodies": [{"name": "a", "surfaces": [{"type": "sphere"}]}]}' >old.json
+    fails 4 "/clearance: unknown key, did you mean 'gamma_clear'?" "$IMPINGE" solve old.json
+}
+
 @test "gamma_clear is at least zero and below gamma" {
     fails 2 "--gamma-clear must be a finite number of at least 0, not '-1'" \
         "$IMPINGE" pair a b --gamma-clear -1
