@@ -7,6 +7,7 @@
 core_common = \
     core/common/array.h \
     core/common/c_locale.h \
+    core/common/capabilities.c core/common/capabilities.h \
     core/common/child.c core/common/child.h \
     core/common/child_process.c core/common/child_process.h \
     core/common/clock.h \

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "core/common/capabilities.h"
 #include "core/plugin/isolate_internal.h"
 
 #include <stdlib.h>
@@ -182,6 +183,8 @@ static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *p
     return status;
 }
 
+_Static_assert(CAPABILITIES == 8, "stand-ins offer what their types do");
+
 isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
 {
     isolated *i = calloc(1, sizeof *i);
@@ -189,7 +192,7 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
     i->pool = pool;
     i->user = i;
     i->type.surface = type;
-    const bool pieces = instance_offers_pieces(type);
+    const bool pieces = IMP_OFFERS(type, piece);
     i->surface_stand_in =
         (imp_surface_type){.struct_size = sizeof i->surface_stand_in,
                            .flags = type->flags,
@@ -202,8 +205,8 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
                            .net = type->net != NULL ? net_of : NULL,
                            .piece_count = pieces ? piece_count_of : NULL,
                            .piece = pieces ? piece_of : NULL,
-                           .distance = instance_offers_distance(type) ? distance_of : NULL,
-                           .symmetry = instance_offers_symmetry(type) ? symmetry_of : NULL};
+                           .distance = IMP_OFFERS(type, distance) ? distance_of : NULL,
+                           .symmetry = IMP_OFFERS(type, symmetry) ? symmetry_of : NULL};
     return i;
 }
 
@@ -223,8 +226,8 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
                                      .rate = map_rate_of,
                                      .apply = type->apply != NULL ? map_apply_of : NULL,
                                      .net = type->net != NULL ? net_of : NULL,
-                                     .rigid = instance_offers_pose(type) ? map_rigid_of : NULL,
-                                     .span = instance_offers_span(type) ? map_span_of : NULL};
+                                     .rigid = IMP_OFFERS(type, rigid) ? map_rigid_of : NULL,
+                                     .span = IMP_OFFERS(type, span) ? map_span_of : NULL};
     return i;
 }
 

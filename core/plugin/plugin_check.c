@@ -3,10 +3,10 @@
 #include <config.h>
 
 #include "core/base/text.h"
+#include "core/common/capabilities.h"
 #include "core/plugin/parameters.h"
 #include "core/plugin/plugin_check.h"
 #include "core/plugin/type_view.h"
-#include "core/surface/instance.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -238,12 +238,17 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
                                 : type->rate == NULL    ? "rate"
                                                         : NULL;
     code = check_view(&view, null_callback, error);
-    if (code != IMP_SUCCESS || type->struct_size < offsetof(imp_surface_type, distance)) return code;
+    if (code != IMP_SUCCESS) return code;
     const place at = place_argument(NULL, view.name);
-    if (instance_offers_symmetry(type) && !instance_offers_distance(type))
-        return place_error(&at, error, IMP_ERROR_PLUGIN,
-                           "distance is NULL, but symmetry is given; it says what changes no distance");
-    if ((type->piece_count == NULL) == (type->piece == NULL)) return IMP_SUCCESS;
+    for (capability k = CAPABILITY_CORE; k < CAPABILITIES; ++k) {
+        const capability_row *row = &capabilities[k];
+        if (surface_type_offers(type, k) && !surface_type_offers(type, row->needs))
+            return place_error(&at, error, IMP_ERROR_PLUGIN,
+                               "%s is NULL, but %s is given; it says %s",
+                               capabilities[row->needs].name, row->name, row->why);
+    }
+    if (!IMP_HAS(type, piece) || (type->piece_count == NULL) == (type->piece == NULL))
+        return IMP_SUCCESS;
     return place_error(&at, error, IMP_ERROR_PLUGIN, "%s is NULL; give piece_count and piece, or neither",
                        type->piece == NULL ? "piece" : "piece_count");
 }

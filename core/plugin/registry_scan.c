@@ -4,11 +4,12 @@
 
 #include "core/base/fp_mode.h"
 #include "core/base/status.h"
+#include "core/base/text.h"
 #include "core/common/array.h"
+#include "core/common/capabilities.h"
 #include "core/common/system_error.h"
 #include "core/plugin/file_trust.h"
 #include "core/plugin/registry_internal.h"
-#include "core/surface/instance.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -34,21 +35,15 @@ static bool add_refusal(imp_registry *r, const char *file, const char *reason)
     return add_remark(&r->refusals, file, reason);
 }
 
-/* Appends to "core"; all words together fit. */
+/* Their names, which all fit. */
 static void list_capabilities(found_type *found)
 {
     const imp_surface_type *surface = found->kind == IMP_TYPE_SURFACE ? found->type : NULL;
     const imp_map_type *map = found->kind == IMP_TYPE_MAP ? found->type : NULL;
-    const bool second = surface != NULL ? surface->include != NULL : map->apply != NULL;
-    const bool net = surface != NULL ? surface->net != NULL : map->net != NULL;
-    const bool pieces = surface != NULL && instance_offers_pieces(surface);
-    const bool rigid = map != NULL && instance_offers_pose(map);
-    const bool span = map != NULL && instance_offers_span(map);
-    const bool distance = surface != NULL && instance_offers_distance(surface);
-    const bool symmetry = surface != NULL && instance_offers_symmetry(surface);
-    snprintf(found->capabilities, sizeof found->capabilities, "core%s%s%s%s%s%s%s",
-             second ? " order-2" : "", net ? " net" : "", pieces ? " pieces" : "",
-             rigid ? " rigid" : "", span ? " span" : "", distance ? " distance" : "", symmetry ? " symmetry" : "");
+    for (capability k = CAPABILITY_CORE; k < CAPABILITIES; ++k)
+        if (surface_type_offers(surface, k) || map_type_offers(map, k))
+            text_append(found->capabilities, sizeof found->capabilities, "%s%s",
+                        k == CAPABILITY_CORE ? "" : " ", capabilities[k].name);
 }
 
 static bool add_type(imp_registry *r, const loaded_plugin *from, imp_type_kind kind,
@@ -59,7 +54,7 @@ static bool add_type(imp_registry *r, const loaded_plugin *from, imp_type_kind k
     r->type = grown;
     const found_type *earlier = registry_find(r, kind, view.name);
     r->type[r->type_count++] =
-        (found_type){kind, view, type, from, earlier != NULL ? earlier->from : NULL, "core"};
+        (found_type){kind, view, type, from, earlier != NULL ? earlier->from : NULL, ""};
     list_capabilities(&r->type[r->type_count - 1]);
     return true;
 }

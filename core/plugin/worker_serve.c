@@ -67,10 +67,10 @@ static imp_status create_with(server *s, const imp_value *values)
     if (type.surface == NULL) {
         begin(s, CALLBACK_TIME_DOMAIN);
         type.map->time_domain(w->self, &w->lo[0], &w->hi[0]);
-        if (!instance_offers_span(type.map)) return IMP_STATUS_OK;
+        if (!IMP_OFFERS(type.map, span)) return IMP_STATUS_OK;
         begin(s, CALLBACK_SPAN);
         type.map->span(w->self, &w->lo[1], &w->hi[1]);
-    } else if (instance_offers_pieces(type.surface)) {
+    } else if (IMP_OFFERS(type.surface, piece)) {
         begin(s, CALLBACK_PIECE_COUNT);
         w->pieces = type.surface->piece_count(w->self);
     } else {

@@ -35,24 +35,6 @@ imp_status instance_domain(const imp_surface_type *type, const void *self, doubl
     return status == IMP_STATUS_OK && !good ? SURFACE_BAD_DOMAIN : status;
 }
 
-bool instance_offers_pieces(const imp_surface_type *type)
-{
-    return type->struct_size >= offsetof(imp_surface_type, piece) + sizeof type->piece &&
-           type->piece_count != NULL && type->piece != NULL;
-}
-
-bool instance_offers_pose(const imp_map_type *type)
-{
-    return type->struct_size >= offsetof(imp_map_type, rigid) + sizeof type->rigid &&
-           type->rigid != NULL;
-}
-
-bool instance_offers_span(const imp_map_type *type)
-{
-    return type->struct_size >= offsetof(imp_map_type, span) + sizeof type->span &&
-           type->span != NULL;
-}
-
 /* One piece, and whether it keeps the rules; p->lo and p->hi are those of the first. */
 static imp_status take_piece(shared_instance *p, size_t k)
 {
@@ -99,7 +81,7 @@ static void set_span(shared_instance *p, double lo, double hi)
 static void take_span(shared_instance *p)
 {
     double lo = p->lo[2], hi = p->hi[2];
-    if (instance_offers_span(p->map)) {
+    if (IMP_OFFERS(p->map, span)) {
         const surface_call call = surface_call_begin(p->map->name, "span");
         p->map->span(p->self, &lo, &hi);
         p->breach = surface_call_end(call, IMP_STATUS_OK);
@@ -126,7 +108,7 @@ shared_instance *instance_of_surface(const imp_surface_type *type, void *self)
         return NULL;
     }
     *p = (shared_instance){.surface = type, .self = self, .holders = 1};
-    if (!instance_offers_pieces(type)) {
+    if (!IMP_OFFERS(type, piece)) {
         p->breach = instance_domain(type, self, p->lo, p->hi);
     } else if (!take_pieces(p)) {
         instance_release(p);

@@ -35,21 +35,6 @@ typedef struct shared_instance {
 shared_instance *instance_of_surface(const imp_surface_type *type, void *self);
 shared_instance *instance_of_map(const imp_map_type *type, void *self);
 
-/* Whether instances of the type may consist of pieces. */
-bool instance_offers_pieces(const imp_surface_type *type);
-
-/* Whether the map says that it is rigid (imp_pose). */
-bool instance_offers_pose(const imp_map_type *type);
-
-/* Whether the map may be made for fewer times than it is defined at. */
-bool instance_offers_span(const imp_map_type *type);
-
-/* Whether the type knows distances from its instances. */
-bool instance_offers_distance(const imp_surface_type *type);
-
-/* Whether the type may know how its instances can be moved within themselves. */
-bool instance_offers_symmetry(const imp_surface_type *type);
-
 /* The domain of an instance; IMP_STATUS_OK, or how it breaks the ABI. */
 imp_status instance_domain(const imp_surface_type *type, const void *self, double lo[3],
                            double hi[3]);

@@ -9,15 +9,9 @@
 #include "core/surface/region.h"
 #include "core/surface/surface_internal.h"
 
-bool instance_offers_distance(const imp_surface_type *type)
-{
-    return type->struct_size >= offsetof(imp_surface_type, distance) + sizeof type->distance &&
-           type->distance != NULL;
-}
-
 bool surface_has_distance(const surface *s)
 {
-    return instance_offers_distance(s->type) && (s->map_count == 0 || surface_is_rigid(s));
+    return IMP_OFFERS(s->type, distance) && (s->map_count == 0 || surface_is_rigid(s));
 }
 
 size_t surface_map_count(const surface *s) { return s->map_count; }
@@ -35,7 +29,7 @@ size_t surface_common_motion(const surface *a, const surface *b)
 {
     const size_t common = surface_common_maps(a, b);
     size_t n = 0;
-    while (n < common && instance_offers_pose(a->maps[a->map_count - 1 - n].type) &&
+    while (n < common && IMP_OFFERS(a->maps[a->map_count - 1 - n].type, rigid) &&
            map_turns_exactly(&a->maps[a->map_count - 1 - n]))
         ++n;
     return n;

@@ -14,7 +14,7 @@
 static size_t first_rigid(const surface *s)
 {
     size_t first = s->map_count;
-    while (first > 0 && instance_offers_pose(s->maps[first - 1].type)) --first;
+    while (first > 0 && IMP_OFFERS(s->maps[first - 1].type, rigid)) --first;
     return first;
 }
 

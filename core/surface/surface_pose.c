@@ -10,7 +10,7 @@
 bool surface_is_rigid(const surface *s)
 {
     for (size_t k = 0; k < s->map_count; ++k)
-        if (!instance_offers_pose(s->maps[k].type)) return false;
+        if (!IMP_OFFERS(s->maps[k].type, rigid)) return false;
     return s->map_count > 0;
 }
 

@@ -10,12 +10,6 @@
 #include "core/surface/region.h"
 #include "core/surface/surface_internal.h"
 
-bool instance_offers_symmetry(const imp_surface_type *type)
-{
-    return type->struct_size >= offsetof(imp_surface_type, symmetry) + sizeof type->symmetry &&
-           type->symmetry != NULL;
-}
-
 /* --- Asking ---------------------------------------------------------------------------------------- */
 
 /* Squares neither underflow nor overflow; 1e-100 and 1e100 are inside. */
@@ -37,7 +31,7 @@ static bool is_sane(const imp_symmetry *found)
 
 bool surface_has_symmetry(const surface *s)
 {
-    return instance_offers_symmetry(s->type) && surface_has_distance(s);
+    return IMP_OFFERS(s->type, symmetry) && surface_has_distance(s);
 }
 
 static imp_status symmetry_of(const surface *s, imp_symmetry *found)
@@ -454,7 +448,7 @@ imp_status surface_slip_along(const surface *a, const surface *b, const surface_
 /* The rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known. */
 static imp_status closed_symmetry_of(const surface *s, imp_symmetry *found)
 {
-    if (!instance_offers_symmetry(s->type)) return IMP_STATUS_UNBOUNDED;
+    if (!IMP_OFFERS(s->type, symmetry)) return IMP_STATUS_UNBOUNDED;
     const imp_status status = symmetry_of(s, found);
     if (status != IMP_STATUS_OK) return status;
     if (!found->is_closed) return IMP_STATUS_UNBOUNDED;

@@ -67,6 +67,13 @@ extern "C" {
 #define IMP_EXPORT
 #endif
 
+/* Whether the struct that p points to, which begins with its struct_size, has a field: structs of a plugin that
+ * was built with an older header end before fields that were appended since. And whether it has a callback
+ * there that is not NULL. */
+#define IMP_HAS(p, field)                                                                          \
+    ((size_t)((const char *)(&(p)->field + 1) - (const char *)(p)) <= (p)->struct_size)
+#define IMP_OFFERS(p, callback) (IMP_HAS(p, callback) && (p)->callback != NULL)
+
 /* --- Status -------------------------------------------------------------- */
 
 /* What a callback returns. Errors are return values, not exceptions: set no errno. (Functions of libimpinge

@@ -328,6 +328,20 @@ first_includes() { # SOURCES
     [[ $output == *"-ffast-math"* ]]
 }
 
+# --- Capabilities ----------------------------------------------------------------------------------
+
+@test "the schema and the headers name each capability" {
+    local table name
+    table=$(sed -n 's/^ *\[CAPABILITY_[A-Z_0-9]*\] = {"\([a-z0-9-]*\)".*/\1/p' \
+        "$top_srcdir"/core/common/capabilities.c)
+    [ "$(jq -r '.. | .capabilities? // empty | .items.enum[]' \
+        "$top_srcdir"/tools/schema/types.schema.json)" = "$table" ]
+    for name in $table; do
+        grep -q "\"$name\"" "$top_srcdir"/core/impinge/impinge.h
+        [ "$name" = core ] || grep -q "[Cc]apability \`$name\`" "$top_srcdir"/sdk/impinge/surface.h
+    done
+}
+
 # --- Exports ---------------------------------------------------------------------------------------
 
 exports_of() { nm -D --defined-only "$1" | awk '{ print $3 }'; }

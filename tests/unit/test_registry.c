@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/base/fp_mode.h"
+#include "core/common/capabilities.h"
 #include "core/plugin/registry.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/suite.h"
@@ -347,6 +348,40 @@ START_TEST(the_public_registry_sees_the_directories_of_its_argument_first)
 }
 END_TEST
 
+static imp_status no_distance(const void *self, const imp_model point[4], imp_model *distance)
+{
+    (void)self, (void)point, (void)distance;
+    return IMP_STATUS_UNBOUNDED;
+}
+
+static imp_status no_pose(const void *self, const imp_model *t, imp_pose *pose)
+{
+    (void)self, (void)t, (void)pose;
+    return IMP_STATUS_UNBOUNDED;
+}
+
+START_TEST(a_type_offers_what_its_struct_reaches_and_no_more)
+{
+    imp_surface_type type = {.struct_size = sizeof type, .distance = no_distance};
+    ck_assert(surface_type_offers(&type, CAPABILITY_CORE));
+    ck_assert(surface_type_offers(&type, CAPABILITY_DISTANCE));
+    ck_assert(!surface_type_offers(&type, CAPABILITY_SYMMETRY));
+    ck_assert(!surface_type_offers(&type, CAPABILITY_RIGID));
+    ck_assert(!surface_type_offers(NULL, CAPABILITY_CORE));
+    type.struct_size = (uint32_t)offsetof(imp_surface_type, symmetry);
+    ck_assert(surface_type_offers(&type, CAPABILITY_DISTANCE));
+    ck_assert(!IMP_HAS(&type, symmetry));
+    type.struct_size -= 1;
+    ck_assert(!surface_type_offers(&type, CAPABILITY_DISTANCE));
+
+    imp_map_type map = {.struct_size = sizeof map, .rigid = no_pose};
+    ck_assert(map_type_offers(&map, CAPABILITY_RIGID));
+    ck_assert(!map_type_offers(&map, CAPABILITY_PIECES));
+    map.struct_size = (uint32_t)offsetof(imp_map_type, rigid);
+    ck_assert(!map_type_offers(&map, CAPABILITY_RIGID));
+}
+END_TEST
+
 SUITE_MAIN("registry", a_plugin_offers_its_types_with_all_they_say,
            types_are_found_by_sort_and_name,
            files_are_taken_in_bytewise_order_and_only_those_ending_in_so,
@@ -361,4 +396,5 @@ SUITE_MAIN("registry", a_plugin_offers_its_types_with_all_they_say,
            two_registries_live_side_by_side,
            the_path_is_argument_then_environment_then_user_then_installed,
            the_users_directory_falls_back_to_home_or_is_left_out,
-           the_public_registry_sees_the_directories_of_its_argument_first)
+           the_public_registry_sees_the_directories_of_its_argument_first,
+           a_type_offers_what_its_struct_reaches_and_no_more)

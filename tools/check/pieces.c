@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/common/capabilities.h"
 #include "tools/check/calls.h"
 
 typedef struct visit {
@@ -89,7 +90,7 @@ void pieces_check(imp_registry *registry, const imp_type_info *type, const char 
         return;
     }
     visit v = {.whole = &made, .count = subject_piece_count(&made, answer), .answer = answer};
-    const bool has = strstr(type->capabilities, "pieces") != NULL;
+    const bool has = surface_type_offers(made.surface, CAPABILITY_PIECES);
     if (has && (v.count == 0 || v.count > IMP_PIECES_MAX))
         answer_fail(answer, "piece_count is %zu, must be from 1 to %zu", v.count, IMP_PIECES_MAX);
     else if (has) {

@@ -11,6 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/common/capabilities.h"
+
 /* --- Text ---------------------------------------------------------------------------- */
 
 static char letter(int n, int j) { return n == 3 ? "uvt"[j] : "xyzt"[j]; }
@@ -192,8 +194,7 @@ imp_status subject_map_net(const subject *s, const imp_region *region, imp_net *
 bool subject_is_rigid(const subject *s)
 {
     const imp_map_type *map = s->instance->map;
-    return map != NULL && map->struct_size >= offsetof(imp_map_type, rigid) + sizeof map->rigid &&
-           map->rigid != NULL;
+    return map_type_offers(map, CAPABILITY_RIGID);
 }
 
 imp_region subject_span(const box *where)
@@ -213,9 +214,7 @@ imp_status subject_pose(const subject *s, const imp_region *span, imp_pose *pose
 bool subject_has_distance(const subject *s)
 {
     const imp_surface_type *type = s->instance->surface;
-    return type != NULL &&
-           type->struct_size >= offsetof(imp_surface_type, distance) + sizeof type->distance &&
-           type->distance != NULL;
+    return surface_type_offers(type, CAPABILITY_DISTANCE);
 }
 
 imp_status subject_distance(const subject *s, const imp_model point[4], imp_model *distance)
@@ -234,10 +233,7 @@ imp_status subject_symmetry(const subject *s, imp_symmetry *symmetry)
 {
     const imp_surface_type *type = s->instance->surface;
     memset(symmetry, 0, sizeof *symmetry);
-    if (!subject_has_distance(s) ||
-        type->struct_size < offsetof(imp_surface_type, symmetry) + sizeof type->symmetry ||
-        type->symmetry == NULL)
-        return IMP_STATUS_UNBOUNDED;
+    if (!surface_type_offers(type, CAPABILITY_SYMMETRY)) return IMP_STATUS_UNBOUNDED;
     note(s, "symmetry", 0, NULL, NULL);
     return noted(s, type->symmetry(s->instance->self, symmetry));
 }
@@ -330,9 +326,7 @@ static bool take_span(subject *s, double *lo, double *hi)
 {
     const imp_map_type *map = s->instance->map;
     double span[2] = {-INFINITY, INFINITY};
-    if (map == NULL || map->struct_size < offsetof(imp_map_type, span) + sizeof map->span ||
-        map->span == NULL)
-        return true;
+    if (!map_type_offers(map, CAPABILITY_SPAN)) return true;
     s->answer->call = (check_call){.name = "span"};
     map->span(s->instance->self, &span[0], &span[1]);
     s->answer->call.name = NULL;
@@ -356,16 +350,9 @@ static bool judge_domain(const subject *s)
     return true;
 }
 
-static bool offers_pieces(const imp_surface_type *type)
-{
-    return type != NULL &&
-           type->struct_size >= offsetof(imp_surface_type, piece) + sizeof type->piece &&
-           type->piece_count != NULL && type->piece != NULL;
-}
-
 size_t subject_piece_count(const imp_instance *instance, check_answer *answer)
 {
-    if (!offers_pieces(instance->surface)) return 0;
+    if (!surface_type_offers(instance->surface, CAPABILITY_PIECES)) return 0;
     name_call(answer, "piece_count");
     const size_t count = instance->surface->piece_count(instance->self);
     answer->call.name = NULL;
