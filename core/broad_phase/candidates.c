@@ -11,6 +11,7 @@
 #include "core/base/status.h"
 #include "core/bounds/tuning.h"
 #include "core/broad_phase/collection.h"
+#include "core/scene/tolerances.h"
 
 #include <impinge/baseline.h>
 
@@ -95,7 +96,7 @@ static bool prepare(collection *all)
 /* A slip is small beside gamma_clear, and beside what is to be told apart. */
 static double slip_most(const imp_options *options)
 {
-    const double clear = options->gamma_clear < 0 ? 0.5 * options->gamma : options->gamma_clear;
+    const double clear = tolerances_clear(options->gamma, options->gamma_clear);
     const double room = options->gamma - clear;
     return (clear < room ? clear : room) / TUNING_REST_SLIP;
 }
@@ -149,15 +150,15 @@ static candidate_span span_of(const candidate_pair *pairs, size_t count, int sid
 }
 
 /* The part's own candidate in place of the whole list's, with a tree; NULL: no memory. */
-static candidate *own_candidate(candidate *place, const candidate *from, imp_stats *stats)
+static candidate *own_candidate(candidate *slot, const candidate *from, imp_stats *stats)
 {
-    if (place->tree != NULL) return place;
-    *place = (candidate){
+    if (slot->tree != NULL) return slot;
+    *slot = (candidate){
         .body = from->body, .surface = from->surface, .left_out = from->left_out, .eval_error = -1};
     tree_growth growth = {0};
-    if (tree_new_from_root(from->tree, &place->tree, &growth, NULL) != IMP_SUCCESS) return NULL;
+    if (tree_new_from_root(from->tree, &slot->tree, &growth, NULL) != IMP_SUCCESS) return NULL;
     stats->bytes += growth.bytes;
-    return place;
+    return slot;
 }
 
 imp_code candidates_part(candidate_list *list, const candidate_list *whole, size_t first,
@@ -179,8 +180,8 @@ imp_code candidates_part(candidate_list *list, const candidate_list *whole, size
         for (int side = 0; side < 2; ++side) {
             const candidate *from = pairs[k].side[side];
             const size_t before = side == 0 ? 0 : span[0].count;
-            candidate *place = list->candidates + before + (size_t)(from - span[side].first);
-            list->pairs[k].side[side] = own_candidate(place, from, stats);
+            candidate *slot = list->candidates + before + (size_t)(from - span[side].first);
+            list->pairs[k].side[side] = own_candidate(slot, from, stats);
             ok = ok && list->pairs[k].side[side] != NULL;
         }
     }

@@ -9,6 +9,7 @@
 #include "core/base/fp_mode.h"
 #include "core/reader/arguments.h"
 #include "core/reader/scene_bodies.h"
+#include "core/scene/tolerances.h"
 
 /* Scenes that a program builds. What it gives goes the way of scene files from the first check on: a
  * type's arguments become the JSON object that a file would have (arguments.h), never text. */
@@ -91,14 +92,9 @@ imp_code imp_builder_time(imp_builder *b, double start, double end, imp_error *e
 
 imp_code imp_builder_gamma(imp_builder *b, double gamma, double gamma_clear, imp_error *error)
 {
-    const imp_code code = enter(b, error);
+    imp_code code = enter(b, error);
+    if (code == IMP_SUCCESS) code = tolerances_check(gamma, gamma_clear, NULL, error);
     if (code != IMP_SUCCESS) return code;
-    if (!(gamma > 0 && gamma < INFINITY))
-        return error_set(error, IMP_ERROR_USAGE, "gamma: got %.17g, must be > 0 and finite",
-                         gamma);
-    if (!(gamma_clear < gamma))
-        return error_set(error, IMP_ERROR_USAGE,
-                         "gamma_clear: got %.17g, must be below gamma = %.17g", gamma_clear, gamma);
     scene_settings *s = scene_settings_of(b->bodies.assembly.scene);
     s->gamma = gamma;
     s->gamma_clear = gamma_clear;

@@ -11,6 +11,7 @@
 #include "core/reader/pipeline.h"
 #include "core/reader/scene_file.h"
 #include "core/reader/scene_json.h"
+#include "core/scene/tolerances.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -71,11 +72,7 @@ static imp_code read_settings(scene_bodies *b, const json_t *root, const place *
             &at_time, b->error, IMP_ERROR_SCENE,
             "got the empty interval [%s, %s], must be [start, end] with start <= end",
             text_of_number(time[0]).at, text_of_number(time[1]).at);
-    if (s->gamma_clear >= s->gamma)
-        return place_error(&at_gamma_clear, b->error, IMP_ERROR_SCENE,
-                           "got %s, must be in [0, %s), below gamma",
-                           text_of_number(s->gamma_clear).at, text_of_number(s->gamma).at);
-    return IMP_SUCCESS;
+    return tolerances_check(s->gamma, s->gamma_clear, at, b->error);
 }
 
 /* --- Scenes -------------------------------------------------------------------------- */

@@ -14,21 +14,10 @@
 #include "core/base/sized.h"
 #include "core/base/status.h"
 #include "core/common/clock.h"
+#include "core/scene/tolerances.h"
 #include "core/solver/pair_test.h"
 
 /* --- Creation and destruction ------------------------------------------------------------ */
-
-/* gamma > 0 and 0 <= *gamma_clear < gamma, *gamma_clear < 0 standing for gamma / 2, which it becomes. */
-static imp_code check_tolerances(double gamma, double *gamma_clear, imp_error *error)
-{
-    if (!(gamma > 0 && gamma < INFINITY))
-        return error_set(error, IMP_ERROR_USAGE, "gamma: got %g, must be > 0 and finite", gamma);
-    if (*gamma_clear < 0) *gamma_clear = 0.5 * gamma;
-    if (*gamma_clear < gamma) return IMP_SUCCESS;
-    return error_set(error, IMP_ERROR_USAGE,
-                     "gamma_clear: got %g, must be from 0 to below gamma = %g", *gamma_clear,
-                     gamma);
-}
 
 /* None, or one kind of volume with at most one form of rates. */
 static imp_code check_baseline(uint32_t baseline, imp_error *error)
@@ -67,8 +56,9 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
     scene_options(scene, &own);
     if (sized_read("imp_options", &own, given, SCENE_OPTIONS_FIRST, error) != IMP_SUCCESS)
         return NULL;
-    double gamma_clear = options->gamma_clear;
-    if (check_tolerances(options->gamma, &gamma_clear, error) != IMP_SUCCESS) return NULL;
+    if (tolerances_check(options->gamma, options->gamma_clear, NULL, error) != IMP_SUCCESS)
+        return NULL;
+    const double gamma_clear = tolerances_clear(options->gamma, options->gamma_clear);
     if (check_options(scene, options, error) != IMP_SUCCESS) return NULL;
     examined_times examined;
     if (examined_times_find(scene, options->t_start, options->t_end, &examined, error) !=
@@ -391,7 +381,9 @@ FP_APART static imp_code refine(imp_query *query, double gamma, double gamma_cle
 {
     if (query->clearance != NULL)
         return error_set(error, IMP_ERROR_USAGE, "refine: this query asks for a minimum distance");
-    if (check_tolerances(gamma, &gamma_clear, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
+    const imp_code code = tolerances_check(gamma, gamma_clear, NULL, error);
+    if (code != IMP_SUCCESS) return code;
+    gamma_clear = tolerances_clear(gamma, gamma_clear);
     if (gamma > query->impact.gamma || gamma_clear > query->gamma_clear)
         return error_set(
             error, IMP_ERROR_USAGE,

@@ -53,7 +53,7 @@ START_TEST(settings_out_of_range_are_refused)
     assert_wrong(SCENE(",'gamma':-1e-3"), "s.json: /gamma: got -0.001, must be > 0");
     assert_wrong(SCENE(",'gamma':'small'"), "s.json: /gamma: got \"small\", must be a number > 0");
     assert_wrong(SCENE(",'gamma_clear':1e-6"),
-                 "s.json: /gamma_clear: got 1e-06, must be in [0, 1e-06), below gamma");
+                 "s.json: /gamma_clear: got 1e-06, must be from 0 to below gamma = 1e-06");
     assert_wrong(SCENE(",'gamma_clear':-1"), "s.json: /gamma_clear: got -1, must be >= 0");
 }
 END_TEST
