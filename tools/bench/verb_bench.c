@@ -22,23 +22,17 @@ typedef struct bench {
 
 /* --- What is asked ------------------------------------------------------------------------ */
 
-static uint64_t count_or(const arguments *args, const char *name, uint64_t otherwise)
-{
-    const option_value *value = arguments_option(args, name);
-    return value != NULL ? value->count : otherwise;
-}
-
 static exit_status read_request(const arguments *args, bench_request *request)
 {
     const option_value *method = arguments_option(args, "method");
     *request = (bench_request){.verb = args->verb->name,
                                .only = method != NULL,
                                .is_paper = method != NULL && method->choice == 1,
-                               .max_pairs = count_or(args, "max-pairs", 100000),
-                               .repeats = count_or(args, "repeat", 3),
-                               .count = count_or(args, "count", 0),
-                               .seed = count_or(args, "seed", 1),
-                               .up_to = count_or(args, "up-to", UINT64_MAX)};
+                               .max_pairs = arguments_count(args, "max-pairs", 100000),
+                               .repeats = arguments_count(args, "repeat", 3),
+                               .count = arguments_count(args, "count", 0),
+                               .seed = arguments_count(args, "seed", 1),
+                               .up_to = arguments_count(args, "up-to", UINT64_MAX)};
     if (request->repeats == 0)
         return complain(EXIT_USAGE, request->verb, "--repeat must be at least 1, not '0'");
     if (request->count == 0 && arguments_option(args, "seed") != NULL)

@@ -35,12 +35,6 @@ typedef struct job {
     check_misreading *misreading;
 } job;
 
-static double number_or(const arguments *args, const char *name, double otherwise)
-{
-    const option_value *value = arguments_option(args, name);
-    return value != NULL ? value->number[0] : otherwise;
-}
-
 /* " --NAME VALUE", or nothing if it was not given. Free it. NULL: no memory. */
 static char *option_again(const arguments *args, const char *name)
 {
@@ -213,16 +207,15 @@ static exit_status find_and_run(job *j)
 
 static exit_status run(const arguments *args)
 {
-    const option_value *seed = arguments_option(args, "seed");
     const option_value *stop_at = arguments_option(args, "call");
     job j = {.args = args, .operand = args->operands[0], .type = {.args = args}};
-    j.seconds = number_or(args, "max-seconds", 60);
-    j.effort = number_or(args, "effort", 1);
-    j.seed = seed != NULL ? seed->count : 1;
+    j.seconds = arguments_number(args, "max-seconds", 60);
+    j.effort = arguments_number(args, "effort", 1);
+    j.seed = arguments_count(args, "seed", 1);
     j.formula = arguments_option(args, "formula");
     j.domain = arguments_option(args, "domain");
     j.only = arguments_option(args, "only");
-    j.stop_at = stop_at != NULL ? stop_at->count : 0;
+    j.stop_at = arguments_count(args, "call", 0);
     j.in_process = stop_at != NULL || arguments_option(args, "in-process") != NULL;
     if (stop_at != NULL && j.only == NULL)
         return complain(EXIT_USAGE, args->verb->name,

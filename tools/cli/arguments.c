@@ -195,3 +195,21 @@ const option_value *arguments_option(const arguments *args, const char *name)
         if (strcmp(args->values[i - 1].row->name, name) == 0) return &args->values[i - 1];
     return NULL;
 }
+
+double arguments_number(const arguments *args, const char *name, double otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->number[0] : otherwise;
+}
+
+uint64_t arguments_count(const arguments *args, const char *name, uint64_t otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->count : otherwise;
+}
+
+size_t arguments_choice(const arguments *args, const char *name, size_t otherwise)
+{
+    const option_value *value = arguments_option(args, name);
+    return value != NULL ? value->choice : otherwise;
+}

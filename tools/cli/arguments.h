@@ -36,4 +36,9 @@ void arguments_free(arguments *args);
 /* The last value given for the option, or NULL. */
 const option_value *arguments_option(const arguments *args, const char *name);
 
+/* The last value given for the option, or `otherwise`: a number, a count, the index of a choice. */
+double arguments_number(const arguments *args, const char *name, double otherwise);
+uint64_t arguments_count(const arguments *args, const char *name, uint64_t otherwise);
+size_t arguments_choice(const arguments *args, const char *name, size_t otherwise);
+
 #endif

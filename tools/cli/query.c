@@ -94,31 +94,13 @@ exit_status query_check(const arguments *args)
     return EXIT_ANSWERED;
 }
 
-static double number_or(const arguments *args, const char *name, double otherwise)
-{
-    const option_value *value = arguments_option(args, name);
-    return value != NULL ? value->number[0] : otherwise;
-}
-
-static uint64_t count_or(const arguments *args, const char *name, uint64_t otherwise)
-{
-    const option_value *value = arguments_option(args, name);
-    return value != NULL ? value->count : otherwise;
-}
-
-static size_t choice_or(const arguments *args, const char *name, size_t otherwise)
-{
-    const option_value *value = arguments_option(args, name);
-    return value != NULL ? value->choice : otherwise;
-}
-
 /* What --method, --bounds and --rates say. */
 static uint32_t baseline_of(const arguments *args)
 {
     const uint32_t volumes[] = {IMP_BASELINE_BOXES, IMP_BASELINE_SPHERES},
                    rates[] = {0, IMP_BASELINE_COLUMN_RATES, IMP_BASELINE_CONSTANT_RATES};
-    if (choice_or(args, "method", 0) != METHOD_PAPER) return IMP_BASELINE_NONE;
-    return volumes[choice_or(args, "bounds", 0)] | rates[choice_or(args, "rates", 0)];
+    if (arguments_choice(args, "method", 0) != METHOD_PAPER) return IMP_BASELINE_NONE;
+    return volumes[arguments_choice(args, "bounds", 0)] | rates[arguments_choice(args, "rates", 0)];
 }
 
 static bool goes_on(void *context, const imp_progress *p)
@@ -133,11 +115,11 @@ imp_options query_options(const imp_scene *scene, const arguments *args)
     imp_options o = imp_options_default(scene);
     const option_value *time = arguments_option(args, "time");
     if (time != NULL) o.t_start = time->number[0], o.t_end = time->number[1];
-    o.gamma = number_or(args, "gamma", o.gamma);
-    o.gamma_clear = number_or(args, "gamma-clear", o.gamma_clear);
-    o.max_pairs = count_or(args, "max-pairs", args->verb->max_pairs);
-    o.max_seconds = number_or(args, "max-seconds", o.max_seconds);
-    o.max_bytes = count_or(args, "max-bytes", o.max_bytes);
+    o.gamma = arguments_number(args, "gamma", o.gamma);
+    o.gamma_clear = arguments_number(args, "gamma-clear", o.gamma_clear);
+    o.max_pairs = arguments_count(args, "max-pairs", args->verb->max_pairs);
+    o.max_seconds = arguments_number(args, "max-seconds", o.max_seconds);
+    o.max_bytes = arguments_count(args, "max-bytes", o.max_bytes);
     o.baseline = baseline_of(args);
     o.audit = arguments_option(args, "audit") != NULL;
     o.progress = goes_on;
@@ -192,7 +174,7 @@ size_t query_threads_asked(const arguments *args)
 size_t query_threads(const arguments *args)
 {
     enum { THREADS_MAX = 1024 };
-    const uint64_t asked = count_or(args, "threads", 0);
+    const uint64_t asked = arguments_count(args, "threads", 0);
     cpu_set_t usable;
     int count = sched_getaffinity(0, sizeof usable, &usable) == 0 ? CPU_COUNT(&usable) : 1;
     if (asked > 0) count = asked < THREADS_MAX ? (int)asked : THREADS_MAX;

@@ -56,11 +56,7 @@ static exit_status check(const arguments *args)
     return EXIT_ANSWERED;
 }
 
-static double required_of(const arguments *args)
-{
-    const option_value *required = arguments_option(args, "require");
-    return required != NULL ? required->number[0] : 0;
-}
+static double required_of(const arguments *args) { return arguments_number(args, "require", 0); }
 
 static imp_clearance_options asked_for(const arguments *args)
 {

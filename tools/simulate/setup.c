@@ -139,9 +139,8 @@ static exit_status check_options(setup *s)
 
 exit_status setup_read(setup *s, const arguments *args)
 {
-    const option_value *seconds = arguments_option(args, "max-seconds");
     *s = (setup){.name = input_name(args->operands[0])};
-    s->limits = limits_begin(seconds != NULL ? seconds->number[0] : 0, 0);
+    s->limits = limits_begin(arguments_number(args, "max-seconds", 0), 0);
     s->registry = query_registry(args);
     if (s->registry == NULL) return EXIT_DATA;
     exit_status status = read_text(s, args);

@@ -12,12 +12,6 @@
 
 static const char speaker[] = "simulate";
 
-static uint64_t count_or(const arguments *args, const char *name, uint64_t otherwise)
-{
-    const option_value *value = arguments_option(args, name);
-    return value != NULL ? value->count : otherwise;
-}
-
 static exit_status begin(simulation *s, const setup *what, const arguments *args)
 {
     const size_t n = what->count;
@@ -27,7 +21,7 @@ static exit_status begin(simulation *s, const setup *what, const arguments *args
                       .meetings = calloc(n * (n - 1) / 2 + 1, sizeof *s->meetings),
                       .rests = calloc(n, sizeof *s->rests),
                       .held_now = calloc(n, sizeof *s->held_now),
-                      .max_events = count_or(args, "max-events", 10000),
+                      .max_events = arguments_count(args, "max-events", 10000),
                       .t = o->t_start,
                       .log = json_array()};
     s->search = (searching){

@@ -57,19 +57,12 @@ const option request_options[] = {
      .help = "of animations: moments in all (61)"},
     {.name = NULL}};
 
-static double number_or(const arguments *args, const char *name, double otherwise, bool *given)
-{
-    const option_value *value = arguments_option(args, name);
-    if (given != NULL) *given = value != NULL;
-    return value != NULL ? value->number[0] : otherwise;
-}
-
 /* A count between `lo` and `hi`. */
 static exit_status count_in(const arguments *args, const char *name, uint64_t otherwise,
                             uint64_t lo, uint64_t hi, uint64_t *count)
 {
     const option_value *value = arguments_option(args, name);
-    *count = value != NULL ? value->count : otherwise;
+    *count = arguments_count(args, name, otherwise);
     if (*count >= lo && *count <= hi) return EXIT_ANSWERED;
     return complain(EXIT_USAGE, args->verb->name, "--%s must be from %u to %u, not '%s'", name,
                     (unsigned)lo, (unsigned)hi, value->text);
@@ -120,10 +113,12 @@ exit_status request_read(const arguments *args, view_request *request)
                               .json = arguments_option(args, "json") != NULL,
                               .width = (double)width,
                               .height = (double)height,
-                              .zoom = number_or(args, "zoom", 1, NULL),
-                              .tolerance = number_or(args, "tolerance", 0, NULL),
+                              .zoom = arguments_number(args, "zoom", 1),
+                              .tolerance = arguments_number(args, "tolerance", 0),
                               .frames = (size_t)frames};
-    request->from.azimuth = number_or(args, "azimuth", -55, &request->has_azimuth);
-    request->from.elevation = number_or(args, "elevation", 25, &request->has_elevation);
+    request->from.azimuth = arguments_number(args, "azimuth", -55);
+    request->from.elevation = arguments_number(args, "elevation", 25);
+    request->has_azimuth = arguments_option(args, "azimuth") != NULL;
+    request->has_elevation = arguments_option(args, "elevation") != NULL;
     return read_at(args, request);
 }

@@ -68,11 +68,9 @@ imp_code subject_find_nearest(subject *s, imp_error *error)
 
 static void begin(subject *s, const arguments *args)
 {
-    const option_value *seconds = arguments_option(args, "max-seconds");
-    const option_value *bytes = arguments_option(args, "max-bytes");
     *s = (subject){.scene = NULL};
-    allowance_begin(&s->allowance, seconds != NULL ? seconds->number[0] : 0,
-                    bytes != NULL ? bytes->count : (uint64_t)1 << 30);
+    allowance_begin(&s->allowance, arguments_number(args, "max-seconds", 0),
+                    arguments_count(args, "max-bytes", (uint64_t)1 << 30));
     s->allowance.interrupted = interrupt_came;
 }
 

@@ -119,20 +119,19 @@ static exit_status measure(subject *what, size_t slices, const arguments *args, 
 static exit_status plot_scene(const arguments *args)
 {
     const option_value *slices = arguments_option(args, "slices");
-    const uint64_t count = slices != NULL ? slices->count : 64;
+    const uint64_t count = arguments_count(args, "slices", 64);
     if (count < 1 || count > 10000)
         return complain(EXIT_USAGE, args->verb->name, "--slices must be from 1 to 10000, not '%s'",
                         slices->text);
-    const option_value *required = arguments_option(args, "require");
+    const double required = arguments_number(args, "require", 0);
     subject what;
     gap_profile gap = {0};
     plot p = {0};
     exit_status status = subject_read(&what, args);
     if (status == EXIT_ANSWERED) status = measure(&what, (size_t)count, args, &gap);
     if (status == EXIT_ANSWERED)
-        status = plot_of_gap(&p, &gap, &what, required != NULL ? required->number[0] : 0)
-                     ? show(&p, args)
-                     : complain_of_memory(args->verb->name);
+        status = plot_of_gap(&p, &gap, &what, required) ? show(&p, args)
+                                                        : complain_of_memory(args->verb->name);
     plot_free(&p);
     gap_free(&gap);
     subject_free(&what);
