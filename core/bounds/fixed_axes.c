@@ -286,7 +286,7 @@ IMP_QUAD_INLINE bool cut_along_axes(const difference *r, double gamma_clear, w_r
 /* The same with an axis that is known; nothing is searched for. */
 IMP_QUAD_INLINE bool cut_along_given(const difference *r, double gamma_clear, w_range *s, vec3 axis)
 {
-    const vec3 end = vec3_sub(vec3_from(r->delta), vec3_scale(vec3_from(r->drift), -1));
+    const vec3 end = vec3_add(vec3_from(r->delta), vec3_from(r->drift));
     bundle n = bundle_with(r, axis, end);
     return bundle_cut(r, &n, gamma_clear, s, NULL);
 }

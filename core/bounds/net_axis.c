@@ -21,7 +21,7 @@ IMP_QUAD_INLINE vec3 lowest_of(const hulls *h, vec3 n)
 {
     const vec3 p = lowest_of_cloud(&h->b, h->quads_b, n);
     const vec3 q = lowest_of_cloud(&h->a, h->quads_a, vec3_scale(n, -1));
-    return vec3_sub(vec3_sub(p, q), vec3_scale(h->apart, -1));
+    return vec3_add(vec3_sub(p, q), h->apart);
 }
 
 /* As gjk_axis.c does it, on points. */

@@ -99,7 +99,7 @@ IMP_QUAD_INLINE vec3 net_model_lowest(const net_and_bowl *h, vec3 n)
 {
     const vec3 p = lowest_of_bowl(&h->bowl, n);
     const vec3 q = lowest_of_cloud(&h->net, h->quads, vec3_scale(n, -1));
-    return vec3_sub(vec3_sub(p, q), vec3_scale(h->apart, -1));
+    return vec3_add(vec3_sub(p, q), h->apart);
 }
 
 /* As gjk_axis.c does it. */

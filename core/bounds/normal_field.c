@@ -54,7 +54,7 @@ static bool frame_between(const difference *r, frame *f)
     const vec3 na = vec3_scale(r->a.normal, 1 / la), nb = vec3_scale(r->b.normal, 1 / lb);
     const double cosine = vec3_dot(na, nb);
     if (!(fabs(cosine) > TUNING_FIELD_COSINE)) return false;
-    vec3 n = cosine > 0 ? vec3_sub(na, vec3_scale(nb, -1)) : vec3_sub(na, nb);
+    vec3 n = cosine > 0 ? vec3_add(na, nb) : vec3_sub(na, nb);
     n = vec3_scale(n, 1 / vec3_norm(n));
     const int least = fabs(n.x[0]) < fabs(n.x[1]) ? (fabs(n.x[0]) < fabs(n.x[2]) ? 0 : 2)
                                                   : (fabs(n.x[1]) < fabs(n.x[2]) ? 1 : 2);

@@ -173,11 +173,6 @@ imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y
     return key_pairs_add(&scene->ignored, key_of(x), key_of(y)) ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 
-imp_code scene_ignore(imp_scene *scene, size_t a, size_t b)
-{
-    return scene_ignore_members(scene, (scene_members){false, a}, (scene_members){false, b});
-}
-
 /* The body's own key (k == 0), or that of its group number k - 1. */
 static size_t body_key(const imp_scene *scene, size_t index, size_t k)
 {

@@ -31,7 +31,6 @@ typedef struct scene_members {
 
 /* No body of x is ever tested with one of y; x and y may be the same group. */
 imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y);
-imp_code scene_ignore(imp_scene *scene, size_t a, size_t b); /* two bodies */
 bool scene_ignores(const imp_scene *scene, size_t a, size_t b);
 
 /* As imp_scene_body_count and imp_scene_surface_count; body < scene_body_count. */

@@ -52,13 +52,6 @@ void region_set_half(imp_region *half, const imp_region *region, parameter j, in
     interval_centre(half->lo[j], half->hi[j], &half->c[j], &half->d[j]);
 }
 
-imp_region region_half(const imp_region *region, parameter j, int side)
-{
-    imp_region half;
-    region_set_half(&half, region, j, side);
-    return half;
-}
-
 /* Each term is a product and goes through at most three sums of non-negative terms. */
 PAD_COVERS(8, 1 + 3);
 double region_reach_upper(const imp_region *region, const double rate[3])

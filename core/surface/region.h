@@ -20,7 +20,6 @@ bool region_can_split(const imp_region *region, parameter j);
 
 /* The half of the region below (side 0) or above (side 1) its centre along j. The two
  * share the identical split value. Precondition: region_can_split. */
-imp_region region_half(const imp_region *region, parameter j, int side);
 void region_set_half(imp_region *half, const imp_region *region, parameter j, int side);
 
 /* sum_j rate_j d_j, rounded up: how far one coordinate can be from its value at the centre. */

@@ -31,14 +31,6 @@ surface *surface_new_of(shared_instance *type)
     return s;
 }
 
-surface *surface_new(const imp_surface_type *type, void *self)
-{
-    shared_instance *p = instance_of_surface(type, self);
-    surface *s = p != NULL ? surface_new_of(p) : NULL;
-    instance_release(p);
-    return s;
-}
-
 imp_code surface_add_instance(surface *s, shared_instance *map)
 {
     assert(map->map != NULL);
@@ -49,14 +41,6 @@ imp_code surface_add_instance(surface *s, shared_instance *map)
     if (map->lo[2] > s->lo[2]) s->lo[2] = map->lo[2];
     if (map->hi[2] < s->hi[2]) s->hi[2] = map->hi[2];
     return IMP_SUCCESS;
-}
-
-imp_code surface_add_map(surface *s, const imp_map_type *type, void *self)
-{
-    shared_instance *p = instance_of_map(type, self);
-    const imp_code code = p != NULL ? surface_add_instance(s, p) : IMP_ERROR_MEMORY;
-    instance_release(p);
-    return code;
 }
 
 surface *surface_new_inner(const surface *s, size_t maps)

@@ -18,10 +18,6 @@ surface *surface_new_of(shared_instance *type);
 /* Puts a map on top of those already there, and holds it. */
 imp_code surface_add_instance(surface *s, shared_instance *map);
 
-/* The same with instances of its own: takes over `self`, also when it fails. */
-surface *surface_new(const imp_surface_type *type, void *self);
-imp_code surface_add_map(surface *s, const imp_map_type *type, void *self);
-
 /* The surface under its first `maps` maps alone, divided into pieces where `s` is. It has the times of `s`,
  * which must outlive it. NULL: no memory. */
 surface *surface_new_inner(const surface *s, size_t maps);

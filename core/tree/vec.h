@@ -14,6 +14,11 @@ typedef struct vec3 {
 
 static inline vec3 vec3_from(const double *x) { return (vec3){{x[0], x[1], x[2]}}; }
 
+static inline vec3 vec3_add(vec3 a, vec3 b)
+{
+    return (vec3){{a.x[0] + b.x[0], a.x[1] + b.x[1], a.x[2] + b.x[2]}};
+}
+
 static inline vec3 vec3_sub(vec3 a, vec3 b)
 {
     return (vec3){{a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2]}};

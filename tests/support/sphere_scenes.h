@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/scene/scene.h"
+#include "tests/support/compose.h"
 #include "tests/support/suite.h"
 
 /* Balls in flight: a surface type of the tests' own, without a plugin, and scenes of them. A test

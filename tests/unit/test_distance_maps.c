@@ -6,6 +6,7 @@
 
 #include "core/surface/region.h"
 #include "core/surface/surface.h"
+#include "tests/support/compose.h"
 #include "tests/support/suite.h"
 
 /* Distances of random moving points from a ball under chains of rigid maps, some as far from rigid as they may

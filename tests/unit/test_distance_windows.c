@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/bounds/distance.h"
+#include "tests/support/compose.h"
 #include "tests/support/suite.h"
 
 /* Windows that random distances cut: at the times that are cut off, and at all where nodes are said to be

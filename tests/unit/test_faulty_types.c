@@ -5,6 +5,7 @@
 #include <fenv.h>
 
 #include "core/base/fp_mode.h"
+#include "tests/support/compose.h"
 #include "tests/support/sphere_scenes.h"
 
 #include <impinge/baseline.h>

@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/reader/scene_json.h"
+#include "tests/support/compose.h"
 #include "tests/support/scene_text.h"
 
 /* Scenes a mechanism is written in: parents, definitions, groups. */

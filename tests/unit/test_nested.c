@@ -4,6 +4,7 @@
 
 #include "core/surface/surface.h"
 #include "tests/support/built_plugins.h"
+#include "tests/support/compose.h"
 #include "tests/support/instance.h"
 #include "tests/support/judge.h"
 #include "tests/support/sampling.h"

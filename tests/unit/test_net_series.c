@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "core/tree/net_series.h"
+#include "tests/support/compose.h"
 #include "tests/support/judge.h"
 #include "tests/support/netted.h"
 

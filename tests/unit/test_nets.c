@@ -5,6 +5,7 @@
 #include "core/bounds/net_axis.h"
 #include "core/bounds/net_halves.h"
 #include "core/witness/contact_estimate.h"
+#include "tests/support/compose.h"
 #include "tests/support/judge.h"
 #include "tests/support/netted.h"
 #include "tests/support/sphere_scenes.h"

@@ -8,6 +8,7 @@
 #include "core/scene/scene.h"
 #include "core/tree/node.h"
 #include "tests/support/built_plugins.h"
+#include "tests/support/compose.h"
 
 #include <impinge/baseline.h>
 

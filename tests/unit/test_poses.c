@@ -9,6 +9,7 @@
 #include "core/tree/bound_audit.h"
 #include "core/tree/node.h"
 #include "core/tree/pose.h"
+#include "tests/support/compose.h"
 #include "tests/support/judge.h"
 #include "tests/support/suite.h"
 

@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/base/unconst.h"
+#include "tests/support/compose.h"
 #include "tests/support/sphere_scenes.h"
 
 #include <pthread.h>

@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "tests/support/alloc_failure.h"
+#include "tests/support/compose.h"
 #include "tests/support/sphere_scenes.h"
 
 #include <impinge/baseline.h>

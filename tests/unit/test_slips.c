@@ -7,6 +7,7 @@
 
 #include "core/surface/region.h"
 #include "core/surface/surface.h"
+#include "tests/support/compose.h"
 #include "tests/support/suite.h"
 
 /* Surfaces that turn and move along another, nearly as its symmetry permits, under random chains of rigid maps,

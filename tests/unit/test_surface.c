@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/surface/region.h"
+#include "tests/support/compose.h"
 #include "tests/support/suite.h"
 
 /* Compositions of an egg and a swirl, each in two builds: with inclusions, and with rates alone.

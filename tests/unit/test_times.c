@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/scene/scene.h"
+#include "tests/support/compose.h"
 #include "tests/support/query_helpers.h"
 
 /* No answer claims a time that was not examined: what is defined for part of the interval only is
