@@ -51,8 +51,8 @@ IMP_QUAD_INLINE imp_quad quad_padded_upper(imp_quad x, int pad)
 }
 static inline double padded_lower(double x, int pad) { return x - x * (pad * UNIT_ROUNDOFF); }
 
-/* The next double above x, as nextafter gives it, but inline. Doubles of one sign are in the order of their
- * bits. */
+/* The next double above x, as nextafter gives it, but inline. Doubles of one sign are in the order
+ * of their bits. */
 static inline double double_above(double x)
 {
     int64_t bits;

@@ -8,12 +8,13 @@
 
 /* Names and lines of text
  * =======================
- * Names from plugins and files are shown to people and written to JSON, so they have to be legal and
- * printable. */
+ * Names from plugins and files are shown to people and written to JSON, so they have to be legal
+ * and printable. */
 
 #define TEXT_NAME_MAX 63 /* bytes of a type's, parameter's or plugin's name */
 
-/* 1 to 63 letters of ASCII, digits, or characters of `extra`, a letter first. NULL is not a name. */
+/* 1 to 63 letters of ASCII, digits, or characters of `extra`, a letter first. NULL is not a
+ * name. */
 bool text_is_name(const char *s, const char *extra);
 
 bool text_is_utf8(const char *s);

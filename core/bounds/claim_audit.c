@@ -30,14 +30,14 @@ static bool evaluate(const surface *s, const double p[3], place *at)
     return surface_eval(s, 1, p, x, error) == IMP_STATUS_OK && take(at, p, x, error);
 }
 
-/* --- The nearest point of the other surface ---------------------------------------------------------- */
+/* --- The nearest point of the other surface --------------------------------------------------- */
 
 enum { SIDE = 8, GRID = SIDE * SIDE };
 #define STEP_LEAST                                                                                 \
     0x1p-16 /* of the domain's widths: its square is lost in the distance's ninth digit */
 
-/* At least the distance of two exact points. Rounding: differences, squares, sums, root: 5 of it, and 1 of the
- * errors. */
+/* At least the distance of two exact points. Rounding: differences, squares, sums, root: 5 of it,
+ * and 1 of the errors. */
 PAD_COVERS(8, 5);
 static double apart_upper(const place *a, const place *b)
 {
@@ -93,9 +93,10 @@ static void seek_nearest(hunt *h)
     }
 }
 
-/* --- What is claimed --------------------------------------------------------------------------------- */
+/* --- What is claimed -------------------------------------------------------------------------- */
 
-/* Of the polynomial, in units of u of the sum of the terms' sizes: s 2 roundings, twice; products 2; sums 9. */
+/* Of the polynomial, in units of u of the sum of the terms' sizes: s 2 roundings, twice; products
+ * 2; sums 9. */
 enum { CLAIM_ROUNDING = 32 };
 _Static_assert(2 * 2 + 2 + 9 <= CLAIM_ROUNDING, "rounding of a claim");
 
@@ -118,8 +119,8 @@ static double claimed_lower(const imp_model *g, const imp_region *r, const doubl
     return by_polynomial > by_range ? by_polynomial : by_range;
 }
 
-/* Whether the distance alone, asked at that place and time, claims no more than is so: then it is the symmetry
- * that lies. */
+/* Whether the distance alone, asked at that place and time, claims no more than is so: then it is
+ * the symmetry that lies. */
 static bool blames_symmetry(const distance_question *q, const place *at, double apart)
 {
     const surface *b = q->b->surface;
@@ -149,11 +150,12 @@ static imp_code refute(const distance_question *q, const place *at, const hunt *
         x[1], x[2], at->p[2], h->apart, p[0], p[1]);
 }
 
-/* --- Points of the node ------------------------------------------------------------------------------ */
+/* --- Points of the node ----------------------------------------------------------------------- */
 
 enum { POINTS = 6 };
 
-/* Corners, edges, inside; the bits of the region's center are the seed, so that every machine asks the same. */
+/* Corners, edges, inside; the bits of the region's center are the seed, so that every machine asks
+ * the same. */
 static uint64_t seed_of(const imp_region *r, const time_window *when)
 {
     const double from[4] = {r->c[0], r->c[1], when->lo, when->hi};

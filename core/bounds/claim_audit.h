@@ -7,13 +7,14 @@
 
 /* Distances that decided, held against points
  * ===========================================
- * Where a distance has parted two nodes, or cut their window, an audit evaluates points of the node and seeks
- * points of the other surface that are near them at the same time. One pair of points that is nearer than was
- * claimed refutes the claim: of the distance, or of the symmetry by which it was taken to hold at all times. */
+ * Where a distance has parted two nodes, or cut their window, an audit evaluates points of the node
+ * and seeks points of the other surface that are near them at the same time. One pair of points
+ * that is nearer than was claimed refutes the claim: of the distance, or of the symmetry by which
+ * it was taken to hold at all times. */
 
-/* What was asked, and answered: g bounds the distance of points of q->a from the surface of q->b, over the
- * region of q->a, which is no cluster; where distance_slides(q), for all times. `when` are times of both nodes. IMP_ERROR_PLUGIN: it is
- * refuted. */
+/* What was asked, and answered: g bounds the distance of points of q->a from the surface of q->b,
+ * over the region of q->a, which is no cluster; where distance_slides(q), for all times. `when` are
+ * times of both nodes. IMP_ERROR_PLUGIN: it is refuted. */
 imp_code claim_audit_run(const distance_question *q, const imp_model *g, const time_window *when,
                          imp_error *error);
 

@@ -70,13 +70,13 @@ static void slice_clear_third_order(slice *s)
  *   slack                          4          k^2 3, product 1; by 1/2
  *   delta          2                          sums
  *
- * Columns add up to at most THIRD_ROUNDING, which is added to the slack, and to what MOTION_ROUNDING and
- * DIFFERENCE_ROUNDING leave. */
+ * Columns add up to at most THIRD_ROUNDING, which is added to the slack, and to what
+ * MOTION_ROUNDING and DIFFERENCE_ROUNDING leave. */
 enum { THIRD_ROUNDING = 32 };
 _Static_assert(3 + 2 + 3 + 3 + 2 <= THIRD_ROUNDING && 12 + 5 + 4 <= THIRD_ROUNDING, "third order");
 
-/* Takes the terms of third order of a posed node into its slice, and its remainder's edges into r. Answers
- * the rest of the remainder. */
+/* Takes the terms of third order of a posed node into its slice, and its remainder's edges into r.
+ * Answers the rest of the remainder. */
 IMP_QUAD_INLINE imp_quad take_posed_terms(const node *n, difference *r, slice *s, moved *m)
 {
     const double d = n->region.d[PARAMETER_T], c = n->region.c[PARAMETER_T];
@@ -143,9 +143,9 @@ IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, difference *r,
  *   delta       1       1                             1
  *   slack                                             3
  *
- * Columns of the nodes' terms add up to at most MOTION_ROUNDING, which is added to the slack; that of
- * the result is DIFFERENCE_ROUNDING, which users of it count. Large motions and far places thus cost u
- * of themselves, once, before they cancel. */
+ * Columns of the nodes' terms add up to at most MOTION_ROUNDING, which is added to the slack; that
+ * of the result is DIFFERENCE_ROUNDING, which users of it count. Large motions and far places thus
+ * cost u of themselves, once, before they cancel. */
 enum { MOTION_ROUNDING = 16 };
 _Static_assert(4 + 3 + 1 + 2 <= MOTION_ROUNDING, "|bt|");
 _Static_assert(4 + 4 + 2 + 1 + 2 <= MOTION_ROUNDING, "2 |qtt|");

@@ -10,7 +10,7 @@
 #include "core/bounds/quadratic.h"
 #include "core/bounds/tuning.h"
 
-/* --- Asking ------------------------------------------------------------------------------------ */
+/* --- Asking ----------------------------------------------------------------------------------- */
 
 /* About what remains of a node's remainder at one moment. */
 static double remainder_in_place(const node *n)
@@ -65,8 +65,8 @@ static imp_status points_before(const node *a, size_t common, imp_model model[3]
     return IMP_STATUS_OK;
 }
 
-/* As node.nonlinear_extent: terms of second order, and a share of the remainder, by what the polynomial
- * explains least. */
+/* As node.nonlinear_extent: terms of second order, and a share of the remainder, by what the
+ * polynomial explains least. */
 static void bend_of(const imp_model model[3], const imp_region *r, double bend[3])
 {
     memset(bend, 0, 3 * sizeof *bend);
@@ -105,7 +105,8 @@ bool distance_slides(const distance_question *q)
     return q->slip < INFINITY && TUNING_DISTANCE_SLIP * q->slip <= q->gamma_clear;
 }
 
-/* Of the node's points before the maps that both surfaces end with; at the moment, if that will do. */
+/* Of the node's points before the maps that both surfaces end with; at the moment, if that will
+ * do. */
 static imp_status points_of(const distance_question *q, size_t common, imp_model point[3])
 {
     const node *a = q->a;
@@ -149,9 +150,10 @@ static imp_code ask(const distance_question *q, imp_model *g, double bend[3], bo
     return fault(q->b->surface, status, error);
 }
 
-/* --- Judging ----------------------------------------------------------------------------------- */
+/* --- Judging ---------------------------------------------------------------------------------- */
 
-/* Both sides of g over a window: g >= low[0] + drift[0] w - e, and -g >= low[1] + drift[1] w - e. */
+/* Both sides of g over a window: g >= low[0] + drift[0] w - e, and -g >= low[1] + drift[1] w -
+ * e. */
 typedef struct sides {
     double low[2], drift[2];
 } sides;
@@ -169,10 +171,10 @@ static span span_of(const time_window *window)
     return (span){mid, padded_upper(above > below ? above : below, 4)};
 }
 
-/* Lemma. For fixed s_u, s_v the polynomial of g is q_tt s_t^2 and what is linear in s_t. So between two
- * times, s - k and s + k, it lies above its chord, less q_tt k^2 where q_tt > 0. The least value of the
- * chords over s_u, s_v lies above the chord between the least values G0 and G1 at either end. The same
- * holds for -g. So
+/* Lemma. For fixed s_u, s_v the polynomial of g is q_tt s_t^2 and what is linear in s_t. So between
+ * two times, s - k and s + k, it lies above its chord, less q_tt k^2 where q_tt > 0. The least
+ * value of the chords over s_u, s_v lies above the chord between the least values G0 and G1 at
+ * either end. The same holds for -g. So
  *
  *   g >= (G0 + G1) / 2 + w (G1 - G0) / 2 - max(q_tt, 0) k^2 - e,
  *
@@ -225,11 +227,11 @@ static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
     return both;
 }
 
-/* Whether the remainder is what hides that the node is apart: the polynomial alone is, or hardly varies
- * beside the remainder, as where the surfaces are parallel; or the node slides within itself, so that at all
- * times some neighbours are as near. Then halves of the node, whose remainders are a small part of it, are
- * worth more than those of its neighbours. Not of remainders that are mere rounding, nor of nodes so large
- * that these say nothing of the surface. */
+/* Whether the remainder is what hides that the node is apart: the polynomial alone is, or hardly
+ * varies beside the remainder, as where the surfaces are parallel; or the node slides within
+ * itself, so that at all times some neighbours are as near. Then halves of the node, whose
+ * remainders are a small part of it, are worth more than those of its neighbours. Not of remainders
+ * that are mere rounding, nor of nodes so large that these say nothing of the surface. */
 static bool promises(const imp_model *g, const sides *both, const node *n, double gamma_clear,
                      double size, bool within_itself)
 {

@@ -9,10 +9,10 @@
 
 /* One-sided separation: a node's distance from a whole surface
  * ============================================================
- * Where surfaces slide along each other, a node has many neighbours on the other surface, each of which
- * has to be parted from it. The signed distance from the other surface, where its type knows it
- * (imp_surface_type.distance), parts the node from all of them at once: it is a Taylor model over the
- * node, in which what is parallel cancels, however small the gap. */
+ * Where surfaces slide along each other, a node has many neighbours on the other surface, each of
+ * which has to be parted from it. The signed distance from the other surface, where its type knows
+ * it (imp_surface_type.distance), parts the node from all of them at once: it is a Taylor model
+ * over the node, in which what is parallel cancels, however small the gap. */
 
 /* What a node's distance from the surface of another shows over a window. */
 typedef struct distance_view {
@@ -25,12 +25,13 @@ typedef struct distance_view {
 /* Nothing is known yet. */
 distance_view distance_view_none(const node *a);
 
-/* Whether distances of points of a from the surface of b are known, and worth asking for. Where both have maps
- * in common points are included anew: not for nodes that are small, and not parallel. */
+/* Whether distances of points of a from the surface of b are known, and worth asking for. Where
+ * both have maps in common points are included anew: not for nodes that are small, and not
+ * parallel. */
 bool distance_is_known(const node *a, const node *b);
 
-/* What is asked. Where a slides along b within itself, but for `slip`, its points are taken where they are at
- * one moment (surface_slip): then time costs nothing. */
+/* What is asked. Where a slides along b within itself, but for `slip`, its points are taken where
+ * they are at one moment (surface_slip): then time costs nothing. */
 typedef struct distance_question {
     const node *a, *b;
     const surface_plane
@@ -44,14 +45,15 @@ typedef struct distance_question {
 /* Whether a slides along b within itself, but for what is little beside gamma_clear. */
 bool distance_slides(const distance_question *q);
 
-/* Cuts the window, which lies in both nodes' times, to the times at which points of a may be within the
- * gamma_clear of the whole surface of b, or of its plane; empty: *view says so, and the window stays.
- * Preconditions: distance_is_known, or there is a plane and distance_slides; both bounded; no map of b alone turns it further (surface_still_maps), or distance_slides.
- * IMP_ERROR_PLUGIN: the callback breaks the ABI. */
+/* Cuts the window, which lies in both nodes' times, to the times at which points of a may be within
+ * the gamma_clear of the whole surface of b, or of its plane; empty: *view says so, and the window
+ * stays. Preconditions: distance_is_known, or there is a plane and distance_slides; both bounded;
+ * no map of b alone turns it further (surface_still_maps), or distance_slides. IMP_ERROR_PLUGIN:
+ * the callback breaks the ABI. */
 imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
                       imp_error *error);
 
-/* --- Both sides ----------------------------------------------------------------------------------- */
+/* --- Both sides ------------------------------------------------------------------------------- */
 
 /* Two nodes, each of which may be parted from the other's whole surface. */
 typedef struct distance_sides {
@@ -78,8 +80,8 @@ distance_outcome distance_outcome_none(const time_window *window);
 /* Whether one node is flat and the two move along its plane, but for rounding. */
 bool distance_slides_on_face(const node *a, const node *b);
 
-/* Tries node 0, then node 1, until one decides, and adds what they show to *seen. Precondition: both nodes
- * are bounded. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
+/* Tries node 0, then node 1, until one decides, and adds what they show to *seen. Precondition:
+ * both nodes are bounded. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
 imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error);
 

@@ -13,9 +13,9 @@ distance_outcome distance_outcome_none(const time_window *window)
     return (distance_outcome){*window, false, 0, -1, {0, 0, 0}};
 }
 
-/* How far one surface slides along the other over all times of both. `plane`: that of a part of the other, or NULL
- * for the other's symmetry. INFINITY: nothing is known, as of other surfaces of many pieces, of which each has its
- * own. */
+/* How far one surface slides along the other over all times of both. `plane`: that of a part of the
+ * other, or NULL for the other's symmetry. INFINITY: nothing is known, as of other surfaces of many
+ * pieces, of which each has its own. */
 static imp_code find_slip(const node *own, const node *other, const surface_plane *plane,
                           const time_window *times, double moment, double *slip, imp_error *error)
 {
@@ -40,7 +40,8 @@ static bool is_turned(const distance_sides *of, int side)
     return surface_map_count(other) - common > of->still_maps[!side];
 }
 
-/* What is asked of one side. Models of a node that moves uniformly are as good as those of one moment. */
+/* What is asked of one side. Models of a node that moves uniformly are as good as those of one
+ * moment. */
 static imp_code question_of(const distance_sides *of, int side, double gamma_clear,
                             distance_question *q, imp_error *error)
 {
@@ -62,12 +63,13 @@ static imp_code question_of(const distance_sides *of, int side, double gamma_cle
     return IMP_SUCCESS;
 }
 
-/* --- Faces ------------------------------------------------------------------------------------------ */
+/* --- Faces ------------------------------------------------------------------------------------ */
 
 /* Motion along a direction below this part of all motion is rounding. */
 #define ALONG_FACE 0x1p-30
 
-/* Whether the other node is flat and the two move along it: what they move along its normal is mere rounding. */
+/* Whether the other node is flat and the two move along it: what they move along its normal is mere
+ * rounding. */
 static bool may_slide_along(const node *own, const node *other)
 {
     const quadratic3 *f = &own->f, *g = &other->f;
@@ -91,7 +93,8 @@ bool distance_slides_on_face(const node *a, const node *b)
     return may_slide_along(a, b) || may_slide_along(b, a);
 }
 
-/* Asks how far the points of one side are from the plane of the other's node, along which they slide. */
+/* Asks how far the points of one side are from the plane of the other's node, along which they
+ * slide. */
 static imp_code cut_along_face(const distance_sides *of, int side, double gamma_clear,
                                time_window *window, distance_view *view, imp_error *error)
 {
@@ -111,7 +114,7 @@ static imp_code cut_along_face(const distance_sides *of, int side, double gamma_
                                                       : code;
 }
 
-/* --- Both ------------------------------------------------------------------------------------------- */
+/* --- Both ------------------------------------------------------------------------------------- */
 
 static imp_code cut_side(const distance_sides *of, int side, double gamma_clear,
                          time_window *window, distance_view *view, imp_error *error)
@@ -129,9 +132,9 @@ static imp_code cut_side(const distance_sides *of, int side, double gamma_clear,
     return distance_cut(&asked, window, view, error);
 }
 
-/* Lemma. The nodes' points are points of their whole surfaces: the distance of one node's points from all of
- * the other surface, or from the plane of its node, is no greater than that of the two nodes. Each side cuts what
- * the other has left. */
+/* Lemma. The nodes' points are points of their whole surfaces: the distance of one node's points
+ * from all of the other surface, or from the plane of its node, is no greater than that of the two
+ * nodes. Each side cuts what the other has left. */
 imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error)
 {

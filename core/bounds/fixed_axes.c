@@ -93,7 +93,7 @@ IMP_QUAD_INLINE imp_quad min_upper_bound(const forms *f)
     return imp_quad_min(quadratics_corner(&p) + turning(f), imp_quad_all(0));
 }
 
-/* --- What four axes show --------------------------------------------------------------- */
+/* --- What four axes show ---------------------------------------------------------------------- */
 
 /* Of length 1 to 2, pointing from A to B at w. */
 IMP_QUAD_INLINE imp_quad bundle_orient(bundle *n, const difference *r, double w)
@@ -147,8 +147,8 @@ IMP_QUAD_INLINE chord chord_under(const forms *f, const forms *g)
 }
 
 /* Lemma (edges). At w, a remainder sum_k d_k (edge_k + swing_k w), |d_k| <= 1, is along n at most
- * sum_k |n.edge_k + n.swing_k w|, which is convex in w and so at most the chord between its values at the ends.
- * Rounding: EDGE_ROUNDING. */
+ * sum_k |n.edge_k + n.swing_k w|, which is convex in w and so at most the chord between its values
+ * at the ends. Rounding: EDGE_ROUNDING. */
 IMP_QUAD_INLINE imp_quad along_edge(const bundle *n, const double edge[3][4], int k)
 {
     return n->x[0] * imp_quad_all(edge[0][k]) + n->x[1] * imp_quad_all(edge[1][k]) +
@@ -177,11 +177,11 @@ IMP_QUAD_INLINE chord chord_over_edges(const difference *r, const bundle *n)
  *
  *   n.delta + n.drift w + [min Qb - max Qa, max Qb - min Qa],   the forms with their slopes at w,
  *
- * and |n.(y - x)| <= |n| |y - x|. So where the chords less or more sum_i |n_i| slack_i, and that over the
- * edges, leave [-g, g], g = |n| gamma_clear, the nodes are farther apart than gamma_clear. 2^-490
- * outweighs underflow, since every axis has a coordinate of 1. Lanes whose axis or size is out of
- * range are left out: they prove nothing. The far side is computed only where it may end below g.
- * Rounding, in units of u R, R = sum_i |n_i| magnitude_i:
+ * and |n.(y - x)| <= |n| |y - x|. So where the chords less or more sum_i |n_i| slack_i, and that
+ * over the edges, leave [-g, g], g = |n| gamma_clear, the nodes are farther apart than gamma_clear.
+ * 2^-490 outweighs underflow, since every axis has a coordinate of 1. Lanes whose axis or size is
+ * out of range are left out: they prove nothing. The far side is computed only where it may end
+ * below g. Rounding, in units of u R, R = sum_i |n_i| magnitude_i:
  *
  *   difference_at                            DIFFERENCE_ROUNDING
  *   dots n.x                               6: of a form 3, of offset, drift and bend 3
@@ -269,8 +269,8 @@ IMP_QUAD_INLINE bundle bundle_with(const difference *r, vec3 x, vec3 y)
 }
 
 /* Along the axis that is best at the focus, the window's start where that decides when the earliest
- * contact can be; both normals; and the line of centres at the end of the window that is farther from
- * the focus. Where no axis is any good at the focus, along the line of centres there. */
+ * contact can be; both normals; and the line of centres at the end of the window that is farther
+ * from the focus. Where no axis is any good at the focus, along the line of centres there. */
 IMP_QUAD_INLINE bool cut_along_axes(const difference *r, double gamma_clear, w_range *s, vec3 *axis,
                                     gap_lines *lines)
 {

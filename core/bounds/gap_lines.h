@@ -8,8 +8,8 @@
 /* How far apart two nodes stay over a window
  * ==========================================
  * Each separating axis proves a lower bound of the distance that is linear in w (fixed_axes.h,
- * normal_field.h). At every w the greatest of these lines holds: their upper envelope is convex, and
- * its least value over a range of w bounds the distance over that range. */
+ * normal_field.h). At every w the greatest of these lines holds: their upper envelope is convex,
+ * and its least value over a range of w bounds the distance over that range. */
 
 typedef struct gap_line {
     double low, drift; /* the distance at w is at least low + drift w; length, w in [-1, 1] */

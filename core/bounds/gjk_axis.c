@@ -9,18 +9,19 @@
 
 #include <impinge/quad.h>
 
-/* --- The point that lies lowest along a direction ----------------------------------------- */
+/* --- The point that lies lowest along a direction --------------------------------------------- */
 
-/* B - A at a moment: centre, forms of B (0) and of -A (1), and the slack's box; the edges of posed nodes are
- * left out. x, y, z and 0 in lanes; and once more coordinate by coordinate, as (u of B, u of -A, v of B, v of
- * -A). */
+/* B - A at a moment: centre, forms of B (0) and of -A (1), and the slack's box; the edges of posed
+ * nodes are left out. x, y, z and 0 in lanes; and once more coordinate by coordinate, as (u of B, u
+ * of -A, v of B, v of -A). */
 typedef struct shape {
     imp_quad centre, slack;
     imp_quad bu[2], bv[2], quu[2], quv[2], qvv[2];
     imp_quad slope[3], curvature[3], twist[3];
 } shape;
 
-/* `bends`, here and below, is constant where it is compiled: false where curvature is 0, and not set. */
+/* `bends`, here and below, is constant where it is compiled: false where curvature is 0, and not
+ * set. */
 
 IMP_QUAD_INLINE void shape_take(shape *z, int k, const slice *f, double w, imp_quad sign)
 {
@@ -99,7 +100,7 @@ IMP_QUAD_INLINE vec3 shape_lowest(const shape *z, vec3 n, bool bends)
     return (vec3){{x[0], x[1], x[2]}};
 }
 
-/* --- The search ------------------------------------------------------------------------------ */
+/* --- The search ------------------------------------------------------------------------------- */
 
 /* The gap that the axis through the nearest point shows is the lowest point's height along it; it
  * is good enough when it is r->share of what it can be. A NaN ends the search. */

@@ -21,15 +21,17 @@ IMP_QUAD_INLINE imp_quad reach_of(const node *n)
     return slopes + still + turning + imp_quad_load(n->e);
 }
 
-/* B - A over the window t = mid + half w, coordinate by coordinate: delta + drift w, give or take reach. */
+/* B - A over the window t = mid + half w, coordinate by coordinate: delta + drift w, give or take
+ * reach. */
 typedef struct passing {
     imp_quad delta, drift, reach;
 } passing;
 
-/* Lemma. In a node s = s0 + k w, |s| <= 1 as the window lies in its times, so that terms in s reach no farther
- * than their coefficients, but for bt, which delta and drift have. Rounding, in units of u of |apart| + |bt| of
- * both + reach of both: s0 2, k 1 and their products 2; differences and sums 4; of reach 9; low 1, low -+ drift
- * 1, each of two of them at most; and of `size` itself, to first order 0. */
+/* Lemma. In a node s = s0 + k w, |s| <= 1 as the window lies in its times, so that terms in s reach
+ * no farther than their coefficients, but for bt, which delta and drift have. Rounding, in units of
+ * u of |apart| + |bt| of both + reach of both: s0 2, k 1 and their products 2; differences and sums
+ * 4; of reach 9; low 1, low -+ drift 1, each of two of them at most; and of `size` itself, to first
+ * order 0. */
 enum { PASSING_ROUNDING = 32 };
 _Static_assert(2 + 1 + 2 + 4 + 9 + 2 * (1 + 1) <= PASSING_ROUNDING, "rounding along a coordinate");
 

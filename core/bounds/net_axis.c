@@ -9,7 +9,7 @@
 #include "core/bounds/simplex.h"
 #include "core/bounds/tuning.h"
 
-/* --- The search --------------------------------------------------------------------------------- */
+/* --- The search ------------------------------------------------------------------------------- */
 
 typedef struct hulls {
     cloud a, b;
@@ -57,13 +57,14 @@ bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis)
     return imp_quad_is_wide() ? seek_wide(a, b, t, axis) : seek(a, b, t, axis);
 }
 
-/* --- The proof ------------------------------------------------------------------------------------ */
+/* --- The proof -------------------------------------------------------------------------------- */
 
-/* Lemma (one axis). But for the error each surface lies in the hull of its net at every moment, so n.(y -
- * x) is at least the least over pairs of control points. Their motion is linear, so that least is concave
- * in time, and lies above the line between its values at the window's ends. Where the line, less errors and
- * rounding, is above |n| gamma_clear, the nodes are farther apart than gamma_clear. With a coordinate of
- * n equal to 1 nothing that counts underflows; a NaN or infinity cuts nothing. */
+/* Lemma (one axis). But for the error each surface lies in the hull of its net at every moment, so
+ * n.(y - x) is at least the least over pairs of control points. Their motion is linear, so that
+ * least is concave in time, and lies above the line between its values at the window's ends. Where
+ * the line, less errors and rounding, is above |n| gamma_clear, the nodes are farther apart than
+ * gamma_clear. With a coordinate of n equal to 1 nothing that counts underflows; a NaN or infinity
+ * cuts nothing. */
 IMP_QUAD_INLINE bool cut_along(const node *a, const node *b, vec3 axis, double gamma_clear,
                                time_window *window)
 {

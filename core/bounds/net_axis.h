@@ -11,12 +11,13 @@
  * hull is a body of few points that move linearly. Both nodes have a net, which was asked
  * for (node_net). */
 
-/* Turns `axis`, which may be any direction but 0, to one that shows most of the widest gap of the hulls at
- * time t: GJK on their Minkowski difference. False: the hulls meet then; `axis` is as it was. */
+/* Turns `axis`, which may be any direction but 0, to one that shows most of the widest gap of the
+ * hulls at time t: GJK on their Minkowski difference. False: the hulls meet then; `axis` is as it
+ * was. */
 bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 
-/* Cuts the window, which lies in both nodes' times, to the part in which the axis does not show the nodes
- * farther apart than gamma_clear; false: none is left. */
+/* Cuts the window, which lies in both nodes' times, to the part in which the axis does not show the
+ * nodes farther apart than gamma_clear; false: none is left. */
 bool net_axis_cut(const node *a, const node *b, vec3 axis, double gamma_clear, time_window *window);
 
 #endif

@@ -46,15 +46,16 @@ IMP_QUAD_INLINE void heights_take(const node *of, const time_window *w, vec3 axi
     h->off = 0;
 }
 
-/* --- Halves -------------------------------------------------------------------------------------- */
+/* --- Halves ----------------------------------------------------------------------------------- */
 
-/* Lemma. Over the window n.(y - x) of points of a half and of the other node is no less than the least
- * difference of heights of their control points, and that is concave in time: heights are linear, and halving
- * takes fixed means of them. So where it is above the limit at both ends of the window, the half is out of
- * reach. Heights halved k times are those of a patch that is off by the sum of k net_halving_upper: each counts
- * from the numbers that were halved, as rounded. In units of u R (net_hull.h): heights, their places and R
- * itself are GAP_ROUNDING; the limit less the rest rounds twice, both nodes' heights less what halving moved
- * them by once each: slack is counted twice. A NaN excludes nothing. */
+/* Lemma. Over the window n.(y - x) of points of a half and of the other node is no less than the
+ * least difference of heights of their control points, and that is concave in time: heights are
+ * linear, and halving takes fixed means of them. So where it is above the limit at both ends of the
+ * window, the half is out of reach. Heights halved k times are those of a patch that is off by the
+ * sum of k net_halving_upper: each counts from the numbers that were halved, as rounded. In units
+ * of u R (net_hull.h): heights, their places and R itself are GAP_ROUNDING; the limit less the rest
+ * rounds twice, both nodes' heights less what halving moved them by once each: slack is counted
+ * twice. A NaN excludes nothing. */
 _Static_assert(2 + 2 <= GAP_ROUNDING, "rounding of a half's limit");
 PAD_COVERS(64,
            3 + 3 + NET_HALVES_MOST); /* h->most: products and two sums; its own product, the sums */
@@ -114,9 +115,10 @@ static int halve_any_heights(net_heights *h, parameter j, window_ends most)
     return left;
 }
 
-/* Heights of both halves of a bicubic patch. Lemma. Of a rational one, heights times weights and weights are
- * halved like any numbers; their quotients are the heights. In units of u most: the products and their halving
- * n + 1 in all, weights n, quotients 1, less than halving_units (net.c). */
+/* Heights of both halves of a bicubic patch. Lemma. Of a rational one, heights times weights and
+ * weights are halved like any numbers; their quotients are the heights. In units of u most: the
+ * products and their halving n + 1 in all, weights n, quotients 1, less than halving_units
+ * (net.c). */
 IMP_QUAD_INLINE halved_rows halve_heights(const double *x, parameter j, const rows *weights,
                                           const halved_rows *by)
 {
@@ -163,7 +165,7 @@ IMP_QUAD_INLINE int halve_bicubic_heights(net_heights *h, parameter j, window_en
     return left;
 }
 
-/* --- The search ---------------------------------------------------------------------------------- */
+/* --- The search ------------------------------------------------------------------------------- */
 
 /* Bits of the parameters along which a half may be excluded: two corners of the half are above
  * `most`, as far as the window's end tells. */
@@ -244,7 +246,7 @@ void net_halves_find(const node *a, const node *b, vec3 axis, double gamma_clear
         find(a, b, axis, gamma_clear, window, halves);
 }
 
-/* --- Windows of halves --------------------------------------------------------------------------- */
+/* --- Windows of halves ------------------------------------------------------------------------ */
 
 IMP_QUAD_INLINE void bicubic_lows(const net_heights *h, parameter j, bool is_weighted,
                                   window_ends low[2])
@@ -270,8 +272,9 @@ static void any_lows(const net_heights *h, parameter j, window_ends low[2])
     memcpy(low, both.low, sizeof both.low);
 }
 
-/* Lemma. As above, the least difference of heights lies above the line between its values at the window's ends;
- * where that is above the limit the half is out of reach. A value sums three times what the limit rounds. */
+/* Lemma. As above, the least difference of heights lies above the line between its values at the
+ * window's ends; where that is above the limit the half is out of reach. A value sums three times
+ * what the limit rounds. */
 _Static_assert(3 + 2 <= GAP_ROUNDING, "rounding of a half's line");
 
 IMP_QUAD_INLINE void cut_halves(const net_halves *halves, int side, parameter j,

@@ -19,8 +19,8 @@ typedef struct net_half {
 
 enum { NET_HALVES_MOST = 32 };
 
-/* Heights of one net's control points along an axis, without its place: at the window's start, at its end,
- * then the weights. Those of a half take their place. */
+/* Heights of one net's control points along an axis, without its place: at the window's start, at
+ * its end, then the weights. Those of a half take their place. */
 typedef struct net_heights {
     const net *net;
     imp_region region; /* what is left of the node's region */
@@ -47,8 +47,8 @@ typedef struct net_halves {
 void net_halves_find(const node *a, const node *b, vec3 axis, double gamma_clear,
                      const time_window *window, net_halves *halves);
 
-/* Cuts the window for both halves, along u or v, of what is left of one side; near[k]: something is left for
- * half k. False: no heights are known for this window, or these halves; nothing is cut. */
+/* Cuts the window for both halves, along u or v, of what is left of one side; near[k]: something is
+ * left for half k. False: no heights are known for this window, or these halves; nothing is cut. */
 bool net_halves_cut(const net_halves *halves, int side, parameter j, const time_window *window,
                     time_window left[2], bool near[2]);
 

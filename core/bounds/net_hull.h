@@ -14,7 +14,7 @@
 
 enum { QUADS_MAX = (IMP_NET_POINTS + IMP_QUAD - 1) / IMP_QUAD };
 
-/* --- At one time --------------------------------------------------------------------------- */
+/* --- At one time ------------------------------------------------------------------------------ */
 
 /* The control points of a net, without its place. */
 typedef struct cloud {
@@ -74,9 +74,10 @@ IMP_QUAD_INLINE vec3 lowest_of_cloud(const cloud *z, int quads, vec3 n)
     return quads == 4 ? lowest_point(z, 4, n) : lowest_point(z, quads, n);
 }
 
-/* --- Over a window ------------------------------------------------------------------------- */
+/* --- Over a window ---------------------------------------------------------------------------- */
 
-/* The least of n.x over the control points of a net, without its place, at both ends of a window. */
+/* The least of n.x over the control points of a net, without its place, at both ends of a
+ * window. */
 typedef struct window_ends {
     double lo, hi;
 } window_ends;
@@ -120,9 +121,9 @@ IMP_QUAD_INLINE window_ends lowest_heights_of(const net *f, const time_window *w
     return f->stride == 16 ? lowest_heights(f, w, n, 16) : lowest_heights(f, w, n, f->stride);
 }
 
-/* Cuts the window to where the line from g0 at its start to g1 at its end is not above `limit`. In units
- * of u: the two differences and the quotient 3 of what is cut; its product with the length, itself
- * rounded, 2; the sum 1 of |t|. WINDOW_TINY covers what underflows. */
+/* Cuts the window to where the line from g0 at its start to g1 at its end is not above `limit`. In
+ * units of u: the two differences and the quotient 3 of what is cut; its product with the length,
+ * itself rounded, 2; the sum 1 of |t|. WINDOW_TINY covers what underflows. */
 enum { CUT_ROUNDING = 8 };
 _Static_assert(3 + 2 + 1 <= CUT_ROUNDING, "rounding of a cut");
 
@@ -139,7 +140,7 @@ static inline bool line_cut(double g0, double g1, double limit, time_window *w)
     return true;
 }
 
-/* --- Along an axis ------------------------------------------------------------------------------- */
+/* --- Along an axis ---------------------------------------------------------------------------- */
 
 /* Scales n to a longest coordinate of 1, about. False: its length is such that it proves
  * nothing. */
@@ -161,7 +162,7 @@ static inline double net_limit_upper(vec3 n, double gamma_clear, double slack)
     return padded_upper(padded_upper(vec3_norm(n) * gamma_clear, 16) + slack, 4);
 }
 
-/* --- Between two nets --------------------------------------------------------------------------- */
+/* --- Between two nets ------------------------------------------------------------------------- */
 
 /* How far B's place is from A's at time t. */
 IMP_QUAD_INLINE imp_quad places_between(const net *a, const net *b, double t)
@@ -177,8 +178,8 @@ IMP_QUAD_INLINE vec3 places_apart(const net *a, const net *b, double t)
     return (vec3){{x[0], x[1], x[2]}};
 }
 
-/* Lemma (rounding of a gap). n.(y - x) of two control points at time t, in units of u R with R = sum_i |n_i|
- * (most of both + |places apart| + |their motions|):
+/* Lemma (rounding of a gap). n.(y - x) of two control points at time t, in units of u R with R =
+ * sum_i |n_i| (most of both + |places apart| + |their motions|):
  *
  *   t - time, its product with a velocity or drift        2
  *   a point plus that                                      1

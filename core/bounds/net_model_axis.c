@@ -39,10 +39,10 @@ static double model_time(const node *f, double t)
     return d > 0 ? (t - f->region.c[PARAMETER_T]) / d : 0;
 }
 
-/* --- The search --------------------------------------------------------------------------------- */
+/* --- The search ------------------------------------------------------------------------------- */
 
-/* A model at one time, from its centre: lanes x, y, z and 0; and once more coordinate by coordinate, as
- * (slope along u, along v, curvature along u, along v). */
+/* A model at one time, from its centre: lanes x, y, z and 0; and once more coordinate by
+ * coordinate, as (slope along u, along v, curvature along u, along v). */
 typedef struct bowl {
     imp_quad middle, e, bu, bv, quu, quv, qvv;
     imp_quad form[3];
@@ -134,10 +134,10 @@ bool net_model_axis_seek(const node *a, const node *b, double t, vec3 *axis)
     return imp_quad_is_wide() ? net_model_seek_wide(&p, t, axis) : net_model_seek(&p, t, axis);
 }
 
-/* --- The proof ------------------------------------------------------------------------------------ */
+/* --- The proof -------------------------------------------------------------------------------- */
 
-/* Lemma (rounding of a gap). With s = model_time, in units of u R, where R = sum_i |n_i| (most and |place -
- * centre| + |its motion| of the net + |coefficients| of the model):
+/* Lemma (rounding of a gap). With s = model_time, in units of u R, where R = sum_i |n_i| (most and
+ * |place - centre| + |its motion| of the net + |coefficients| of the model):
  *
  *   a control point                         3: t - time, its product, the sum
  *   places: difference, motion, sum         4
@@ -151,7 +151,8 @@ enum { NET_MODEL_ROUNDING = 128 };
 _Static_assert(3 + 4 + 7 + 16 + 3 + QUADRATIC_ROUNDING + 6 + 8 <= NET_MODEL_ROUNDING,
                "rounding of a gap of net and model");
 
-/* The errors along n, and the rounding, for times no farther from the net's than `late`; *size is R. */
+/* The errors along n, and the rounding, for times no farther from the net's than `late`; *size is
+ * R. */
 IMP_QUAD_INLINE double net_model_slack_upper(const net_model *p, vec3 n, double late, double *size)
 {
     const quadratic3 *q = &p->model->f;
@@ -172,12 +173,13 @@ IMP_QUAD_INLINE double net_model_slack_upper(const net_model *p, vec3 n, double 
 
 PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
 
-/* The model's least value along n at both ends of the window, from its centre, less what its acceleration
- * takes off between.
+/* The model's least value along n at both ends of the window, from its centre, less what its
+ * acceleration takes off between.
  *
- * Lemma (bow). For fixed u and v the value is linear in time but for n.qtt s^2. Where n.qtt is negative that
- * is above its chord between the ends; where positive, at most n.qtt ((s1 - s0) / 2)^2 below. The least of
- * what is left, over u and v, is a minimum of linear functions, and above its chord. */
+ * Lemma (bow). For fixed u and v the value is linear in time but for n.qtt s^2. Where n.qtt is
+ * negative that is above its chord between the ends; where positive, at most n.qtt ((s1 - s0) /
+ * 2)^2 below. The least of what is left, over u and v, is a minimum of linear functions, and above
+ * its chord. */
 IMP_QUAD_INLINE window_ends lowest_values(const node *f, const time_window *w, vec3 n)
 {
     const quadratic3 *q = &f->f;
@@ -201,12 +203,13 @@ IMP_QUAD_INLINE window_ends lowest_values(const node *f, const time_window *w, v
     return (window_ends){low[0] - bow, low[1] - bow};
 }
 
-/* Lemma (one axis). At every moment n.(model - net) is at least the least value of the model, less its
- * remainder, less the greatest of the control points, less the net's error. The least of n.(-point) over
- * control points, which move linearly, is above the line between its values at the window's ends, as is
- * that of the model (bow). Where the sum of both lines, less errors and rounding, is above |n| gamma_clear, the
- * nodes are farther apart than gamma_clear. With a coordinate of n equal to 1 nothing that counts
- * underflows; a NaN or a number out of range cuts nothing. */
+/* Lemma (one axis). At every moment n.(model - net) is at least the least value of the model, less
+ * its remainder, less the greatest of the control points, less the net's error. The least of
+ * n.(-point) over control points, which move linearly, is above the line between its values at the
+ * window's ends, as is that of the model (bow). Where the sum of both lines, less errors and
+ * rounding, is above |n| gamma_clear, the nodes are farther apart than gamma_clear. With a
+ * coordinate of n equal to 1 nothing that counts underflows; a NaN or a number out of range cuts
+ * nothing. */
 IMP_QUAD_INLINE bool net_model_cut(const net_model *p, vec3 axis, double gamma_clear,
                                    time_window *window)
 {

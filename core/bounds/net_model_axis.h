@@ -7,8 +7,9 @@
 
 /* Separating axes of a control net and a Taylor model
  * ===================================================
- * One of the two nodes has a net, the other, whose surface is of another kind or turns, none: the hull of
- * the one against the quadratic of the other. Both nodes are bounded. As net_axis.h otherwise. */
+ * One of the two nodes has a net, the other, whose surface is of another kind or turns, none: the
+ * hull of the one against the quadratic of the other. Both nodes are bounded. As net_axis.h
+ * otherwise. */
 
 bool net_model_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 

@@ -234,7 +234,8 @@ IMP_QUAD_INLINE imp_quad along_edges(const double edge[3][4], vec3 n)
            imp_quad_all(n.x[2]) * imp_quad_load(edge[2]);
 }
 
-/* At most, along n: what edges add, and how the terms of second order of both change within the window. */
+/* At most, along n: what edges add, and how the terms of second order of both change within the
+ * window. */
 static double edges_upper(const difference *r, vec3 n)
 {
     imp_quad sum = imp_quad_all(0);
@@ -254,9 +255,9 @@ static double bending_upper(const difference *r, vec3 n)
     return sum;
 }
 
-/* Lemma. Let D = delta + drift w + bend w^2 + (terms of B) - (those of A) + rest, |rest_i| <= slack_i,
- * where the terms of a surface are its slopes l_k s_k, its q_j z_j of second order, z_j being s_u^2,
- * s_u s_v, s_v^2, s_u w or s_v w; and
+/* Lemma. Let D = delta + drift w + bend w^2 + (terms of B) - (those of A) + rest, |rest_i| <=
+ * slack_i, where the terms of a surface are its slopes l_k s_k, its q_j z_j of second order, z_j
+ * being s_u^2, s_u s_v, s_v^2, s_u w or s_v w; and
  *
  *   n = n0 + w m_w + sum_k s_k m_k + sum_j z_j m_j   over the terms of both surfaces, m_k being
  *                                                   m_k1 t1 + m_k2 t2, for any numbers m.
@@ -276,8 +277,8 @@ static double bending_upper(const difference *r, vec3 n)
  *   n.rest                         at most (|n0| + mu1 |t1| + mu2 |t2|).slack
  *
  * where nu_i = sum_j |m_ji| and mu_i = |m_wi| + sum_k |m_ki| + nu_i bound how far the field turns.
- * For fixed s the parts are linear in w. So the least value over s of each is concave in w, and lies
- * above the chord between the ends of the window. And |n.D| <= |n| |D|, where
+ * For fixed s the parts are linear in w. So the least value over s of each is concave in w, and
+ * lies above the chord between the ends of the window. And |n.D| <= |n| |D|, where
  *
  *   |n|^2 <= |n0|^2 + 2 sum_i mu_i |n0.t_i| + (sum_i mu_i |t_i|)^2.
  *
@@ -285,12 +286,13 @@ static double bending_upper(const difference *r, vec3 n)
  * from every point of A. n0, t and m are what they are in double precision: they need not be unit,
  * tangent or accurate.
  *
- * Of posed nodes the rest also has sum_k d_k (edge_k + swing_k w), |d_k| <= 1, which adds |n.edge_k| +
+ * Of posed nodes the rest also has sum_k d_k (edge_k + swing_k w), |d_k| <= 1, which adds
+ * |n.edge_k| +
  * |n.swing_k| to |n.rest|; and the terms w z_i qw_i, z_i being s_u^2, s_u s_v or s_v^2, of which w z_i n0.qw_i
  * belongs to its surface's part, and the remainder is at most (mu1 |t1.qw_i| + mu2 |t2.qw_i|).
  *
- * Rounding, in units of u size, size = |n0|.magnitude + 2 sum_i mu_i |t_i|.magnitude: each magnitude
- * is multiplied by n0 once, and by each m at most once.
+ * Rounding, in units of u size, size = |n0|.magnitude + 2 sum_i mu_i |t_i|.magnitude: each
+ * magnitude is multiplied by n0 once, and by each m at most once.
  *
  *   difference_at                           DIFFERENCE_ROUNDING
  *   coordinates in the frame              3: product, two sums

@@ -40,9 +40,9 @@ IMP_QUAD_INLINE imp_quad quadratics_corner(const quadratics *p)
 }
 
 /* Least of b s + q s^2 over [-1, 1]: at an end, or the vertex -b^2 / 4q where it lies inside;
- * `inverse` is 1 / q. A vertex that is left out because q <= 2^-900 lies below the ends by less than
- * q. Else b inverse is below 2 in size, and the vertex at most |b| / 2 <= S / 2. Rounding of the
- * minimum over the edge, which adds two terms to this, in units of u S; an underflow besides:
+ * `inverse` is 1 / q. A vertex that is left out because q <= 2^-900 lies below the ends by less
+ * than q. Else b inverse is below 2 in size, and the vertex at most |b| / 2 <= S / 2. Rounding of
+ * the minimum over the edge, which adds two terms to this, in units of u S; an underflow besides:
  *
  *   b = bs -+ qsr     1, and moves the least by as much; the choice is exact for b as computed
  *   vertex            inverse 1, two products 2, of S / 2 at most: < 2
@@ -113,8 +113,8 @@ IMP_QUAD_INLINE imp_quad quadratics_inner_lower(const quadratics *p, imp_quad ed
     return imp_quad_pick(on_edge, edge, imp_quad_min(inner, edge));
 }
 
-/* The same as quadratics_lower, for less, where qss and qrr are 0: p is linear in s and in r, and least at a
- * corner. */
+/* The same as quadratics_lower, for less, where qss and qrr are 0: p is linear in s and in r, and
+ * least at a corner. */
 IMP_QUAD_INLINE imp_quad quadratics_bilinear_lower(const quadratics *p)
 {
     const imp_quad ends =
@@ -127,9 +127,9 @@ IMP_QUAD_INLINE imp_quad quadratics_bilinear_lower(const quadratics *p)
 /* A lower bound over the square, exact but for rounding. Lemma (when the edge is enough). Where 4
  * qss qrr is below qsr^2 by a part in 2^28, the form is indefinite beyond rounding. Where |bs|
  * reaches 2 qss + |qsr|, which is two roundings, the slope along s keeps its sign over the square,
- * but for 3 u of its terms, |bs| + 2 |qss| + |qsr| <= 2 S; so over a way of at most 2 the value falls
- * by at most 2 * 3 * 2 u S below the edge's; r alike. Where qss or qrr is not above 0, one of the two
- * holds or there is no minimum inside. */
+ * but for 3 u of its terms, |bs| + 2 |qss| + |qsr| <= 2 S; so over a way of at most 2 the value
+ * falls by at most 2 * 3 * 2 u S below the edge's; r alike. Where qss or qrr is not above 0, one of
+ * the two holds or there is no minimum inside. */
 _Static_assert(2 * 3 * 2 <= QUADRATIC_NO_INNER, "no interior minimum");
 
 IMP_QUAD_INLINE imp_quad quadratics_lower(const quadratics *p)

@@ -28,8 +28,8 @@ static void approach_take(approach *near, const difference *r, const gap_lines *
     near->moment = r->mid + r->half * w;
 }
 
-/* Whether both nodes are nearly flat, so that GJK decides at each moment and only time is left to be
- * searched: halves would learn no more of u and v. */
+/* Whether both nodes are nearly flat, so that GJK decides at each moment and only time is left to
+ * be searched: halves would learn no more of u and v. */
 static bool are_flat(const node *a, const node *b)
 {
     double bent = 0, extent = 0;
@@ -128,7 +128,7 @@ static bool shrink(const node *a, const node *b, double gamma_clear, time_window
     }
 }
 
-/* --- Nets -------------------------------------------------------------------------------------- */
+/* --- Nets ------------------------------------------------------------------------------------- */
 
 /* Whether a net tells more than the quadratic, as it does not for a bilinear patch without
  * remainder. Each pair asks for the net (pair_test.c), so that a test depends on its two nodes
@@ -161,8 +161,8 @@ static bool cut_by_nets(const node *a, const node *b, vec3 axis, double gamma_cl
                                 : net_model_axis_cut(a, b, axis, gamma_clear, window);
 }
 
-/* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls show,
- * or any that can be found where the hulls meet. */
+/* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls
+ * show, or any that can be found where the hulls meet. */
 static bool cut_by_models(const node *a, const node *b, double gamma_clear, time_window *window,
                           vec3 *axis, trial_rate *turning, bool found)
 {
@@ -177,8 +177,8 @@ static bool cut_by_models(const node *a, const node *b, double gamma_clear, time
     return true;
 }
 
-/* Whether quadratics may show more than hulls: a hull leaves its surface by a part of what bends, a quadratic
- * by its remainder. */
+/* Whether quadratics may show more than hulls: a hull leaves its surface by a part of what bends, a
+ * quadratic by its remainder. */
 static bool are_models_closer(const node *a, const node *b)
 {
     double remainder = 0, bend = 0;
@@ -252,7 +252,8 @@ bool separation_approach(const node *a, const node *b, double gamma_clear, time_
 
 /* Boxes and balls. Roundings: difference 1, square 1, sums 2, root, which halves them and counts 1:
  * (2 * 1 + 1 + 2) / 2 + 1 < 4; of balls one more, the last difference, whose rounding is below that
- * of its first term. Written so that a NaN is never apart. A sum that overflows is at least 2^1023. */
+ * of its first term. Written so that a NaN is never apart. A sum that overflows is at least
+ * 2^1023. */
 PAD_COVERS(16, 4 + 1);
 PAD_COVERS(8, 3 + 1 + 1); /* reach: three errors, then the rest summed to a radius; the radii */
 

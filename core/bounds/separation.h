@@ -13,8 +13,8 @@
  * included. A NaN or an infinity anywhere leaves the window as it is. */
 
 /* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. `axis` is as for
- * fixed_axes_cut. `turning`: the candidate pair's chances of axes that turn (normal_field.h) where fixed
- * axes cut the start of the window; NULL: each is taken. */
+ * fixed_axes_cut. `turning`: the candidate pair's chances of axes that turn (normal_field.h) where
+ * fixed axes cut the start of the window; NULL: each is taken. */
 bool separation_window(const node *a, const node *b, double gamma_clear, time_window *window,
                        vec3 *axis, trial_rate *turning);
 
@@ -34,7 +34,8 @@ typedef struct approach {
 } approach;
 
 /* The same, and how near the nodes come: at no time of the window as it was handed over is their
- * distance below `near->lower` and below `gamma_clear`. `near->moment` holds a guess to begin with. */
+ * distance below `near->lower` and below `gamma_clear`. `near->moment` holds a guess to begin
+ * with. */
 bool separation_approach(const node *a, const node *b, double gamma_clear, time_window *window,
                          vec3 *axis, approach *near);
 

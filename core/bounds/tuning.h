@@ -5,11 +5,11 @@
 
 /* Numbers that decide how much work a search takes, never what it proves
  * ===============================================================
- * Below each is what other values do to the pairs of `impinge bench bicubic spikes tori`, in per cent of the
- * 104593 that were tested when they were measured; witness searches, of which there were 381, where they are
- * what the number is about. */
+ * Below each is what other values do to the pairs of `impinge bench bicubic spikes tori`, in per
+ * cent of the 104593 that were tested when they were measured; witness searches, of which there
+ * were 381, where they are what the number is about. */
 
-/* --- What to split (subdivision.c) --- */
+/* --- What to split (subdivision.c) ------------------------------------------------------------ */
 
 /* Time blurs a node from gamma / this on.
  * 32: -0.1, 128: 0.0 */
@@ -17,8 +17,8 @@
 /* And from 1 / this of what place blurs its pair on.
  * 2: +0.5, 8: -0.6 */
 #define TUNING_BLUR_OF_PLACE 4
-/* The same where both nodes have nets, whose hulls do not depend on the nodes' times. Bicubic scenes, rational,
- * triangles: 4: +1.6, 8: -0.5, for 2 % more nodes */
+/* The same where both nodes have nets, whose hulls do not depend on the nodes' times. Bicubic
+ * scenes, rational, triangles: 4: +1.6, 8: -0.5, for 2 % more nodes */
 #define TUNING_BLUR_BESIDE_NETS 6
 /* Weight of what is not linear in time.
  * 1: +1.8, 4: +0.2 */
@@ -32,21 +32,21 @@
 /* And of slopes.
  * 0x1p-6, 0x1p-20: 0.0; of the conformal set 0x1p-6: +11.5 */
 #define TUNING_TANGENT_SLOPE 0x1p-12
-/* Where gamma has a narrow room, motion that bends within the window counts from 1 / this of place on.
- * Pairs of the arm of tools/data with 3 to 20 mm required, 21467 in all: 1: +30, 4: +15,
- * 64: +2, 256: +25 */
+/* Where gamma has a narrow room, motion that bends within the window counts from 1 / this of place
+ * on. Pairs of the arm of tools/data with 3 to 20 mm required, 21467 in all: 1: +30, 4: +15, 64:
+ * +2, 256: +25 */
 #define TUNING_BEND_OF_PLACE 16
 /* u and v are no longer cut: extents below (gamma - gamma_clear) / this.
  * 32, 128: no change */
 #define TUNING_TINY 64
 
-/* --- Which roots are only looked at before they are popped (pair_test.c) --- */
+/* --- Which roots are only looked at before they are popped (pair_test.c) ---------------------- */
 
 /* A candidate pair's bodies have many if the one so many places before or behind has the same
  * bodies. */
 #define TUNING_GLANCES_APART 4
 
-/* --- When to search for a witness (time_of_impact.c) --- */
+/* --- When to search for a witness (time_of_impact.c) ------------------------------------------ */
 
 /* The remainders of the pair are below gamma / this.
  * 1: +0.2, 4: +0.7; searches 1: +169, 4: -66 */
@@ -100,13 +100,13 @@
  * 32, 128: no change */
 #define TUNING_PRECISION_REMAINDER 64
 
-/* --- Nodes without bounds (time_of_impact.c) --- */
+/* --- Nodes without bounds (time_of_impact.c) -------------------------------------------------- */
 
 /* Part of the query's time below which a node without bounds is taken for a moment without any.
  * Types with bounds: no change */
 #define TUNING_MOMENT 0x1p-20
 
-/* --- How far to cut one pair's window (separation.c, gjk_axis.c, normal_field.c) --- */
+/* --- How far to cut one pair's window (separation.c, gjk_axis.c, normal_field.c) -------------- */
 
 /* Centres at most.
  * 1: +0.6, 2: 0.0, 6: 0.0 */
@@ -127,13 +127,15 @@
 #define TUNING_CURVE_ROUNDS 2
 #define TUNING_THIN_ROUNDS 6
 #define TUNING_CURVE_SHRINKS 1.6
-/* Part of the window that hulls of nets have to leave at most, to be sought again at its new start. Pairs
- * of bicubic patches at gamma 1e-6: 0.25: +0.4, 0.75: -0.2 of 81.5, and 1 % more instructions */
+/* Part of the window that hulls of nets have to leave at most, to be sought again at its new start.
+ * Pairs of bicubic patches at gamma 1e-6: 0.25: +0.4, 0.75: -0.2 of 81.5, and 1 % more
+ * instructions */
 #define TUNING_NET_SHRINKS 0.5
 /* The same of flat nets, which come to the first contact itself. */
 #define TUNING_FLAT_NET_ROUNDS 6
 #define TUNING_FLAT_NET_SHRINKS (1 - 0x1p-20)
-/* Straight nodes are tried without nets first, unless remainders are more than this part of them. */
+/* Straight nodes are tried without nets first, unless remainders are more than this part of
+ * them. */
 #define TUNING_STRAIGHT_BLUR 0x1p-3
 /* Two nodes with nets: remainders above 1 / this of what bends are too large for quadratics to
  * show more than hulls. Pairs of bicubic patches, of 68, and instructions: 4: -0.1, +0.7 %; 16: 0,
@@ -146,7 +148,8 @@
  * 0.5: +2.5, 0.9: -1.5 */
 #define TUNING_GJK_GAP 0.7
 /* The same where a lower bound of the distance is sought: the thousandth that is left is what a
- * bracket is narrowed to. Pairs of bicubic patches ended before they meet: 0.7: +70, 0.9: +39, 0.99: +5 */
+ * bracket is narrowed to. Pairs of bicubic patches ended before they meet: 0.7: +70, 0.9: +39,
+ * 0.99: +5 */
 #define TUNING_GJK_GAP_OF_BOUND 0.999
 /* Of normals within 25 degrees, which are nearly tangent.
  * 0.5: 0.0, 0.99: 0.0 */
@@ -171,11 +174,12 @@
 /* Level: the polynomial varies by less than this times the remainder.
  * 4: +8, 64: no change */
 #define TUNING_DISTANCE_LEVEL 16
-/* Two surfaces that turn within themselves are searched at one moment where rounding varies their distance by less
- * than gamma_clear / this. */
+/* Two surfaces that turn within themselves are searched at one moment where rounding varies their
+ * distance by less than gamma_clear / this. */
 #define TUNING_REST_SLIP 0x1p12
 
-/* A surface slides along the other within itself, if it leaves that by less than 1 / this of gamma_clear. */
+/* A surface slides along the other within itself, if it leaves that by less than 1 / this of
+ * gamma_clear. */
 #define TUNING_DISTANCE_SLIP 0x1p12
 /* Where an axis parts nodes whose parents slid: one in SHARE distances has to show more, or WAIT
  * chances are left out before the next. Pairs, and instructions of tori, beside asking for all:
@@ -184,12 +188,12 @@
 #define TUNING_DISTANCE_SHARE 2
 #define TUNING_DISTANCE_WAIT 15
 
-/* --- When the searches for contact and for the distance go on in turn (gamma_clear.c) --- */
+/* --- When the searches for contact and for the distance go on in turn (gamma_clear.c) --------- */
 
 /* After so many pairs, and two more for each candidate pair, without a verdict. */
 #define TUNING_DECIDE_PAIRS 2000
 
-/* --- The search for a witness (witness.c) --- */
+/* --- The search for a witness (witness.c) ----------------------------------------------------- */
 
 /* At most.
  * 12: +0.1, 48: -0.1; searches 12: +7, 48: -5 */

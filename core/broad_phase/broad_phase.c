@@ -36,8 +36,8 @@ static int by_x(const void *p, const void *q) { return by_start(p, q, 0); }
 static int by_y(const void *p, const void *q) { return by_start(p, q, 1); }
 static int by_z(const void *p, const void *q) { return by_start(p, q, 2); }
 
-/* Of how many others a box's span along an axis crosses the start, about, as a part of all: the mean
- * length of the spans that are finite, over the distance from the first to the last. */
+/* Of how many others a box's span along an axis crosses the start, about, as a part of all: the
+ * mean length of the spans that are finite, over the distance from the first to the last. */
 static double crowding(const swept_box *boxes, size_t count, int axis)
 {
     double first = INFINITY, last = -INFINITY, length = 0;
@@ -79,9 +79,10 @@ int broad_phase_sort(swept_box *boxes, size_t count)
     return axis;
 }
 
-/* Lemma. No two boxes of different groups within gamma_clear are left out. A box with a NaN along the axis starts before all
- * others and ends after them, so that the order is one of numbers. A box behind another in it starts no
- * earlier: once one is apart from it along the axis, so are all that follow. */
+/* Lemma. No two boxes of different groups within gamma_clear are left out. A box with a NaN along
+ * the axis starts before all others and ends after them, so that the order is one of numbers. A box
+ * behind another in it starts no earlier: once one is apart from it along the axis, so are all that
+ * follow. */
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
                            double gamma_clear, const broad_phase_visitor *visitor)
 {

@@ -29,8 +29,8 @@ typedef struct broad_phase_visitor {
 bool broad_phase_visit(swept_box *boxes, size_t count, double gamma_clear,
                        const broad_phase_visitor *visitor);
 
-/* The same in two steps, of which the second may be taken by several threads: sorts the boxes along the
- * axis that is answered; */
+/* The same in two steps, of which the second may be taken by several threads: sorts the boxes along
+ * the axis that is answered; */
 int broad_phase_sort(swept_box *boxes, size_t count);
 
 /* and visits the pairs of box k with those behind it. */

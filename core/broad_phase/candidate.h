@@ -32,8 +32,8 @@ static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const ca
     return p->side[0]->body == q->side[0]->body && p->side[1]->body == q->side[1]->body;
 }
 
-/* Measures eval_error, still_maps and moves of both, unless they are known: once for each surface of a query, and
- * only of those whose pairs are followed. */
+/* Measures eval_error, still_maps and moves of both, unless they are known: once for each surface
+ * of a query, and only of those whose pairs are followed. */
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
 
 #endif

@@ -15,7 +15,7 @@
 
 #include <impinge/baseline.h>
 
-/* --- The order of pairs ------------------------------------------------------------------- */
+/* --- The order of pairs ----------------------------------------------------------------------- */
 
 typedef enum sort_key { KEY_SURFACE_B, KEY_SURFACE_A, KEY_BODY_B, KEY_BODY_A, SORT_KEYS } sort_key;
 
@@ -25,8 +25,8 @@ static size_t key_of(const candidate *candidates, const candidate_pair *p, sort_
     return key >= KEY_BODY_B ? c->body : (size_t)(c - candidates);
 }
 
-/* A stable counting sort; `start` has room for all keys and one more. False: all keys are the same, and
- * nothing is moved. */
+/* A stable counting sort; `start` has room for all keys and one more. False: all keys are the same,
+ * and nothing is moved. */
 static bool sort_pass(const candidate_list *list, sort_key key, size_t *start, size_t keys,
                       candidate_pair *to)
 {
@@ -130,7 +130,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
     return code;
 }
 
-/* --- Parts ---------------------------------------------------------------------------------- */
+/* --- Parts ------------------------------------------------------------------------------------ */
 
 /* The candidates of one side of some pairs of the same two bodies: neighbours in the list. */
 typedef struct candidate_span {

@@ -11,9 +11,10 @@
  * all that the surface sweeps. Surfaces of different bodies whose boxes come within gamma_clear
  * of each other, unless their bodies ignore each other, are the candidate pairs.
  *
- * A pair of which each surface turns only within itself, or as the other can be turned within itself, has trees
- * of one moment, the first at which both exist: at any other time the surfaces are as far apart, but for the
- * list's slip. What is proved of the list at a distance of c holds at c - slip. */
+ * A pair of which each surface turns only within itself, or as the other can be turned within
+ * itself, has trees of one moment, the first at which both exist: at any other time the surfaces
+ * are as far apart, but for the list's slip. What is proved of the list at a distance of c holds at
+ * c - slip. */
 
 enum { CANDIDATES_AT_HAND = 3 }; /* that need no memory of their own */
 
@@ -28,25 +29,26 @@ typedef struct candidate_list {
     bool owns_trees; /* else they are the scene's */
 } candidate_list;    /* begins as {0}, and stays where it is once filled; candidates_clear frees */
 
-/* Asked for every few surfaces and boxes: whether a limit of the query is reached, with the bytes that the list
- * and the new trees hold. In between, and by threads that look ahead: whether one is so near that it is to be
- * asked, or that they had better stop, with the bytes and pairs made since. [is_near: any thread] */
+/* Asked for every few surfaces and boxes: whether a limit of the query is reached, with the bytes
+ * that the list and the new trees hold. In between, and by threads that look ahead: whether one is
+ * so near that it is to be asked, or that they had better stop, with the bytes and pairs made
+ * since. [is_near: any thread] */
 typedef struct candidate_limit {
     bool (*is_reached)(void *context, uint64_t bytes, uint64_t pairs);
     bool (*is_near)(void *context, uint64_t bytes, uint64_t pairs);
     void *context;
 } candidate_limit;
 
-/* Fills an empty list; the nodes made for it are added to `stats`. The trees are the scene's. `may_rest`: pairs
- * that turn within themselves may have trees of one moment; false where parts of the times are asked for. Where
- * a limit ends it, the list is empty again and not complete; after that, or a failure, it may be
- * filled again. */
+/* Fills an empty list; the nodes made for it are added to `stats`. The trees are the scene's.
+ * `may_rest`: pairs that turn within themselves may have trees of one moment; false where parts of
+ * the times are asked for. Where a limit ends it, the list is empty again and not complete; after
+ * that, or a failure, it may be filled again. */
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
                          double gamma_clear, bool may_rest, const candidate_limit *limit,
                          imp_stats *stats, imp_error *error);
 
-/* Fills an empty list with `count` pairs of another from `first` on, all of the same two bodies, and
- * trees of its own. `whole` is only read, also by other threads. Bytes are added to `stats`. */
+/* Fills an empty list with `count` pairs of another from `first` on, all of the same two bodies,
+ * and trees of its own. `whole` is only read, also by other threads. Bytes are added to `stats`. */
 imp_code candidates_part(candidate_list *list, const candidate_list *whole, size_t first,
                          size_t count, imp_stats *stats, imp_error *error);
 

@@ -12,19 +12,21 @@
 
 /* Pairs in the frame that both surfaces move in, and at rest where they only turn within themselves
  * =============================================
- * Lemma. Let both surfaces of a pair end with the same maps, each of which is x -> R(t) x + c(t) with an exact
- * rotation R(t). At each time such a map changes the distance of no two points, so two points are as far
- * apart before these maps as after them. All that is proved of the surfaces without these maps (a time before
- * which nothing is near, a gap, a minimum distance) holds for the surfaces under all of their maps, with
- * the same u, v and t. Times at which one of these maps does not exist are in no tree: a tree has the times of
- * the whole surface.
+ * Lemma. Let both surfaces of a pair end with the same maps, each of which is x -> R(t) x + c(t)
+ * with an exact rotation R(t). At each time such a map changes the distance of no two points, so
+ * two points are as far apart before these maps as after them. All that is proved of the surfaces
+ * without these maps (a time before which nothing is near, a gap, a minimum distance) holds for the
+ * surfaces under all of their maps, with the same u, v and t. Times at which one of these maps does
+ * not exist are in no tree: a tree has the times of the whole surface.
  *
- * Parts that a moving body carries are then at rest, and cost as little as bodies at rest. Which maps are the
- * same is seen by their instances: a parent's are shared, and the reader shares equal maps.
+ * Parts that a moving body carries are then at rest, and cost as little as bodies at rest. Which
+ * maps are the same is seen by their instances: a parent's are shared, and the reader shares equal
+ * maps.
  *
- * Lemma. Let the distance of two surfaces at any time differ by at most s from what it is at a moment
- * (surface_pair_slip). If it is above c + s at the moment, it is above c at all times; a contact at the moment,
- * the first of both, is the earliest. So such a pair has trees of that moment alone. */
+ * Lemma. Let the distance of two surfaces at any time differ by at most s from what it is at a
+ * moment (surface_pair_slip). If it is above c + s at the moment, it is above c at all times; a
+ * contact at the moment, the first of both, is the earliest. So such a pair has trees of that
+ * moment alone. */
 
 /* A surface in one frame: candidate `of` as `view` says. */
 typedef struct frame {
@@ -58,7 +60,7 @@ size_t collection_common_motion(const imp_scene *scene)
     return common;
 }
 
-/* --- What a pair needs ------------------------------------------------------------------------- */
+/* --- What a pair needs ------------------------------------------------------------------------ */
 
 static size_t motion_of(const candidate_pair *p)
 {
@@ -88,7 +90,7 @@ static bool any_has_frame(const collection *all)
     return any;
 }
 
-/* --- Frames ---------------------------------------------------------------------------------------- */
+/* --- Frames ----------------------------------------------------------------------------------- */
 
 static bool are_equal(const surface_view *x, const surface_view *y)
 {
@@ -196,8 +198,8 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
     return IMP_SUCCESS;
 }
 
-/* Puts the frames in the place of the candidates, in their order: those of one candidate are neighbours. False:
- * no memory. */
+/* Puts the frames in the place of the candidates, in their order: those of one candidate are
+ * neighbours. False: no memory. */
 static bool take_frames(candidate_list *list, frame_list *frames)
 {
     candidate *made = malloc((frames->count + 1) * sizeof *made);

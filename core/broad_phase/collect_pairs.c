@@ -4,12 +4,13 @@
 
 #include <stdlib.h>
 
-#include "core/common/array.h"
 #include "core/broad_phase/collection.h"
+#include "core/common/array.h"
 
-/* --- Pairs ---------------------------------------------------------------------------------- */
+/* --- Pairs ------------------------------------------------------------------------------------ */
 
-/* Of two surfaces that come near each other, smaller body first; false: they are not to be tested. */
+/* Of two surfaces that come near each other, smaller body first; false: they are not to be
+ * tested. */
 static bool make_pair(const collection *all, size_t first, size_t second, candidate_pair *p)
 {
     candidate *candidates = all->list->candidates;
@@ -76,7 +77,8 @@ static void sweep_boxes(void *of, size_t index)
     task.to->complete = true;
 }
 
-/* The pairs of one task's boxes: those found ahead, if all of them were. False: a limit, or no memory. */
+/* The pairs of one task's boxes: those found ahead, if all of them were. False: a limit, or no
+ * memory. */
 static bool take_boxes(collection *all, const sweep_ahead *found, size_t first)
 {
     const broad_phase_visitor visitor = {NULL, add_pair, all};
@@ -85,8 +87,8 @@ static bool take_boxes(collection *all, const sweep_ahead *found, size_t first)
     for (size_t k = 0; go_on && found->complete && k < found->count; ++k)
         go_on = keep_pair(all, &found->pairs[k]);
     for (size_t k = first; go_on && !found->complete && k < count && k < first + BOXES_A_TASK; ++k)
-        go_on = !collection_must_end(all) && broad_phase_visit_box(all->boxes, count, all->axis, k,
-                                                                all->gamma_clear, &visitor);
+        go_on = !collection_must_end(all) &&
+                broad_phase_visit_box(all->boxes, count, all->axis, k, all->gamma_clear, &visitor);
     return go_on;
 }
 
@@ -129,9 +131,8 @@ static bool go_on(void *context)
 bool collection_add_pairs(collection *all)
 {
     const broad_phase_visitor visitor = {go_on, add_pair, all};
-    const bool done =
-        all->sweep != NULL
-            ? sweep_by_threads(all)
-            : broad_phase_visit(all->boxes, all->list->count, all->gamma_clear, &visitor);
+    const bool done = all->sweep != NULL ? sweep_by_threads(all)
+                                         : broad_phase_visit(all->boxes, all->list->count,
+                                                             all->gamma_clear, &visitor);
     return done && !collection_must_end(all); /* notes what the last pairs take */
 }

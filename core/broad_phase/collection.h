@@ -9,8 +9,9 @@
 #include "core/broad_phase/candidates.h"
 #include "core/broad_phase/parallel.h"
 
-/* What the files of the list of candidates share: candidates.c begins and sorts it, collect_surfaces.c,
- * collect_pairs.c and collect_roots.c fill it, each also with threads that look ahead. */
+/* What the files of the list of candidates share: candidates.c begins and sorts it,
+ * collect_surfaces.c, collect_pairs.c and collect_roots.c fill it, each also with threads that look
+ * ahead. */
 
 /* A surface whose tree is made ahead of its turn, and what that has made. */
 typedef struct surface_ahead {
@@ -38,7 +39,8 @@ enum {
     SURFACES_A_ROUND = SURFACES_A_TASK * TASKS_A_ROUND
 };
 
-/* A limit that is not near is checked after so many surfaces, or so much memory, and so many boxes. */
+/* A limit that is not near is checked after so many surfaces, or so much memory, and so many
+ * boxes. */
 enum { SURFACES_AN_ASK = 8, BYTES_AN_ASK = 1 << 15, BOXES_AN_ASK = 32 };
 
 enum { BOXES_AT_HAND = 4 }; /* so few boxes need no memory of their own */
@@ -73,8 +75,8 @@ typedef struct collection {
     atomic_uint_least64_t bytes_ahead;
 } collection;
 
-/* Whether a limit ends it now; whether one is so near that threads that look ahead stop, with bytes_ahead of
- * trees (pair_size 0) or of pairs of this size. [collection_may_end: any thread] */
+/* Whether a limit ends it now; whether one is so near that threads that look ahead stop, with
+ * bytes_ahead of trees (pair_size 0) or of pairs of this size. [collection_may_end: any thread] */
 static inline bool collection_must_end(const collection *all)
 {
     return all->limit->is_reached(all->limit->context, candidates_bytes(all->list),
@@ -96,7 +98,8 @@ static inline void collection_count(collection *all, const tree_growth *growth)
 /* *done: all surfaces are there; otherwise a limit came first. */
 imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error);
 
-/* Counts the trees that were made, but whose turn does not come: they are the scene's all the same. */
+/* Counts the trees that were made, but whose turn does not come: they are the scene's all the
+ * same. */
 void collection_count_rest(collection *all);
 
 /* False: a limit, or no memory, which all->out_of_memory tells. */
@@ -105,7 +108,8 @@ bool collection_add_pairs(collection *all);
 /* How many of their last maps all surfaces have in common, as surface_common_motion. */
 size_t collection_common_motion(const imp_scene *scene);
 
-/* Gives the surfaces of each pair trees without the motion that both have in common; *done as above. */
+/* Gives the surfaces of each pair trees without the motion that both have in common; *done as
+ * above. */
 imp_code collection_use_frames(collection *all, bool *done, imp_error *error);
 
 /* A surface as a tree is to hold it. */

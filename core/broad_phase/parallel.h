@@ -7,15 +7,15 @@
 
 /* Threads that a program lends to a query (imp_options.parallel)
  * =============================================================
- * They look ahead: what the search will need next is prepared in slots of fixed places, and used in its
- * turn by the one thread that steps the query. A slot that was not prepared, because a limit is reached
- * or something failed, is made in its turn, as all are where there are no threads: so limits, errors
- * and counts are those of one thread. */
+ * They look ahead: what the search will need next is prepared in slots of fixed places, and used in
+ * its turn by the one thread that steps the query. A slot that was not prepared, because a limit is
+ * reached or something failed, is made in its turn, as all are where there are no threads: so
+ * limits, errors and counts are those of one thread. */
 
 static inline bool parallel_is_on(const imp_options *options) { return options->parallel != NULL; }
 
-/* Calls work(of, 0) to work(of, count - 1), each in the library's own floating-point environment, and
- * returns when all have returned. */
+/* Calls work(of, 0) to work(of, count - 1), each in the library's own floating-point environment,
+ * and returns when all have returned. */
 void parallel_run(const imp_options *options, void (*work)(void *of, size_t index), void *of,
                   size_t count);
 

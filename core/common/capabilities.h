@@ -9,9 +9,9 @@
 
 /* What a type may offer beside points and rates
  * =============================================
- * One row for each capability of <impinge/surface.h>. The registry lists the capabilities that a type offers,
- * the check of plugins refuses one without another that it needs, and `impinge check` asks which checks
- * apply. A new capability begins with a row here. */
+ * One row for each capability of <impinge/surface.h>. The registry lists the capabilities that a
+ * type offers, the check of plugins refuses one without another that it needs, and `impinge check`
+ * asks which checks apply. A new capability begins with a row here. */
 
 typedef enum capability {
     CAPABILITY_CORE,

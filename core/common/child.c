@@ -106,8 +106,7 @@ child_fate child_run_heard(child_work *work, void *result, const void *task, dou
     int ends[2];
     size_t length = 0;
     said[0] = '\0';
-    if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0)
-        return child_run(work, result, task, seconds);
+    if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) return child_run(work, result, task, seconds);
     const child_fate fate = run(work, result, task, seconds, ends[1]);
     close(ends[1]);
     while (length + 1 < size) {

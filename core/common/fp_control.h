@@ -10,8 +10,8 @@
 /* The floating-point mode of this thread
  * ======================================
  * The mode is what steers results: rounding, flush-to-zero, denormals-are-zero, exceptions that
- * trap; on x86 also rounding, precision and traps of the x87 unit, in which long double is computed.
- * The sticky exception flags are not part of it. */
+ * trap; on x86 also rounding, precision and traps of the x87 unit, in which long double is
+ * computed. The sticky exception flags are not part of it. */
 
 typedef uint64_t fp_mode;
 

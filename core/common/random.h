@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdint.h>
 
-/* Pseudorandom numbers: splitmix64 (G. Steele, D. Lea, C. Flood, 2014). The state is one number, the
- * seed; the sequence is the same on every machine. */
+/* Pseudorandom numbers: splitmix64 (G. Steele, D. Lea, C. Flood, 2014). The state is one number,
+ * the seed; the sequence is the same on every machine. */
 
 static inline uint64_t random_bits(uint64_t *state)
 {

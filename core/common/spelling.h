@@ -7,9 +7,9 @@
 
 /* Spelling hints: "did you mean 'radius'?"
  * =========================================
- * Begin with {.wanted = what was written}, offer every valid name, read `best`. It stays NULL while no
- * name is near: one edit is allowed for every three letters written, and a name that was renamed is near to
- * what it became. Of equals the first is kept. */
+ * Begin with {.wanted = what was written}, offer every valid name, read `best`. It stays NULL while
+ * no name is near: one edit is allowed for every three letters written, and a name that was renamed
+ * is near to what it became. Of equals the first is kept. */
 
 #define SPELLING_NAME_MAX 63 /* bytes; longer names are near to nothing */
 

@@ -9,11 +9,12 @@
 extern "C" {
 #endif
 
-/* For programs that examine plugins, types and single instances, as `impinge check` and `impinge why` do
+/* For programs that examine plugins, types and single instances, as `impinge check` and `impinge
+ * why` do
  * =======================================================================================================
  * A program that asks about contacts needs none of this. */
 
-/* --- Plugin files ------------------------------------------------------------------------------- */
+/* --- Plugin files ----------------------------------------------------------------------------- */
 
 /* Everything that is checked of a plugin file, in order, each with a verdict: told one by one. What
  * comes after a refusal and depends on it is not reached. Loads the file in a child process
@@ -27,11 +28,11 @@ typedef void (*imp_finding_sink)(void *context, const char *check, imp_finding f
                                  const char *text);
 IMP_EXPORT bool imp_plugin_examine(const char *path, imp_finding_sink tell, void *context);
 
-/* --- Instances ---------------------------------------------------------------------------------- */
+/* --- Instances -------------------------------------------------------------------------------- */
 
 /* One surface or map by itself, for programs that examine a type: its callbacks
- * (<impinge/surface.h>) and what create made. The program calls them itself, in the default floating-point
- * environment (FE_DFL_ENV), without the guards that scenes put around every call. */
+ * (<impinge/surface.h>) and what create made. The program calls them itself, in the default
+ * floating-point environment (FE_DFL_ENV), without the guards that scenes put around every call. */
 typedef struct imp_instance {
     const imp_surface_type *surface; /* NULL: it is a map */
     const imp_map_type *map;         /* NULL: it is a surface */
@@ -42,9 +43,9 @@ typedef struct imp_instance {
 IMP_EXPORT imp_code imp_instance_from_text(imp_registry *registry, imp_type_kind kind,
                                            const char *text, imp_instance *instance,
                                            imp_error *error);
-/* What a stage says, as the JSON object that a scene file would have for it: {"type": TYPE,
- * "name": value, ...}. Values are not compared with the type's parameters, and defaults are not added.
- * NULL on error. The caller frees the text by free(). */
+/* What a stage says, as the JSON object that a scene file would have for it: {"type": TYPE, "name":
+ * value, ...}. Values are not compared with the type's parameters, and defaults are not added. NULL
+ * on error. The caller frees the text by free(). */
 IMP_EXPORT char *imp_stage_to_json(const imp_registry *registry, imp_type_kind kind,
                                    const char *text, imp_error *error);
 

@@ -28,17 +28,17 @@ extern "C" {
  * threads at once: to make scenes, to evaluate, to begin and to step queries. Queries of one scene
  * share its trees, which are locked where they grow, and answer as if each were alone, bit for bit;
  * only what depends on who came first differs, stats.nodes and stats.bytes, and so does where
- * max_seconds or max_bytes end a query. One query of a large scene uses several threads where the program
- * lends it some (imp_options.parallel): for the trees, the broad phase and the first test of each pair of
- * surfaces that come near each other. Its answer and stats but for seconds are the same without, but that
- * stats.bytes depend on who came first until it is decided. A query and a builder belong to one thread
- * at a time. Before something is freed all other threads must be done with it; imp_registry_isolate and
- * imp_registry_add need the registry to themselves. Only imp_query_cancel may be called from anywhere,
- * signal handlers included.
+ * max_seconds or max_bytes end a query. One query of a large scene uses several threads where the
+ * program lends it some (imp_options.parallel): for the trees, the broad phase and the first test
+ * of each pair of surfaces that come near each other. Its answer and stats but for seconds are the
+ * same without, but that stats.bytes depend on who came first until it is decided. A query and a
+ * builder belong to one thread at a time. Before something is freed all other threads must be done
+ * with it; imp_registry_isolate and imp_registry_add need the registry to themselves. Only
+ * imp_query_cancel may be called from anywhere, signal handlers included.
  *
  * Structs that may grow begin with their size as the program was compiled, and grow at the end: the
- * library reads and writes no further. Functions named ..._get_... fill a struct whose struct_size the
- * caller has set; inline functions without get_ set it and answer the struct by value.
+ * library reads and writes no further. Functions named ..._get_... fill a struct whose struct_size
+ * the caller has set; inline functions without get_ set it and answer the struct by value.
  *
  * Nothing here prints, exits, or changes errno's meaning for the caller.
  *
@@ -47,9 +47,10 @@ extern "C" {
  * nearest, subnormals kept, exceptions masked: FE_DFL_ENV) and restores the program's own, sticky
  * flags included. The program's callbacks are called in the default environment. */
 
-/* --- What can go wrong -------------------------------------------------------- */
+/* --- What can go wrong ------------------------------------------------------------------------ */
 
-/* What functions of the library answer. (Callbacks of plugins answer an imp_status: IMP_STATUS_OK, ....) */
+/* What functions of the library answer. (Callbacks of plugins answer an imp_status: IMP_STATUS_OK,
+ * ....) */
 typedef enum imp_code {
     IMP_SUCCESS = 0,
     IMP_ERROR_USAGE,  /* an argument is out of its documented range */
@@ -60,8 +61,8 @@ typedef enum imp_code {
 } imp_code;
 
 /* Misuse: where a function needs an object, a text or a place that is NULL, or an index is out of
- * range, the answer is IMP_ERROR_USAGE, or NULL, 0 or false from functions that answer no code. Free
- * and cancel take NULL. */
+ * range, the answer is IMP_ERROR_USAGE, or NULL, 0 or false from functions that answer no code.
+ * Free and cancel take NULL. */
 
 /* Filled on every answer but IMP_SUCCESS: place, what was found, what is allowed. Owned by the
  * caller; NULL is accepted wherever a pointer to one is asked for. */
@@ -82,16 +83,16 @@ IMP_EXPORT const char *imp_code_text(imp_code code);
  * none. For handlers of SIGSEGV and the like, to say whose fault it is. [async-signal-safe] */
 IMP_EXPORT const char *imp_call_in_progress(const char **callback);
 
-/* The same of another thread, which hangs perhaps: of that which imp_call_of_thread was called in, and
- * which has not ended. [async-signal-safe] */
+/* The same of another thread, which hangs perhaps: of that which imp_call_of_thread was called in,
+ * and which has not ended. [async-signal-safe] */
 typedef struct imp_call imp_call;
 IMP_EXPORT const imp_call *imp_call_of_thread(void);
 IMP_EXPORT const char *imp_call_read(const imp_call *call, const char **callback);
 
-/* The library uses jansson for scenes and parameters, and leaves its allocator (json_set_alloc_funcs)
- * to the program. */
+/* The library uses jansson for scenes and parameters, and leaves its allocator
+ * (json_set_alloc_funcs) to the program. */
 
-/* --- Registry: the types available ---------------------------------------------- */
+/* --- Registry: the types available ------------------------------------------------------------ */
 
 typedef struct imp_registry imp_registry;
 
@@ -100,23 +101,23 @@ typedef struct imp_registry imp_registry;
  * plugin directory, and the installed one. Returns NULL only when memory runs out. */
 IMP_EXPORT imp_registry *imp_registry_new(const char *path);
 
-/* The same with flags: IMP_REGISTRY_SECURE refuses files and directories that others than root and the
- * user could change or replace: on the whole real path, through links, nothing may belong to another
- * user or be writable by everybody (directories above may, if they are sticky). Without it
+/* The same with flags: IMP_REGISTRY_SECURE refuses files and directories that others than root and
+ * the user could change or replace: on the whole real path, through links, nothing may belong to
+ * another user or be writable by everybody (directories above may, if they are sticky). Without it
  * imp_registry_warning reports directories that anyone may write to. A file that was never seen is
  * loaded in a child process first; the outcome is kept in the user's cache
- * ($XDG_CACHE_HOME/impinge/trials). IMP_REGISTRY_ONLY_PATH: the directories of `path` alone, or none,
- * for programs that bring their types along by imp_registry_add. */
+ * ($XDG_CACHE_HOME/impinge/trials). IMP_REGISTRY_ONLY_PATH: the directories of `path` alone, or
+ * none, for programs that bring their types along by imp_registry_add. */
 enum { IMP_REGISTRY_SECURE = 1, IMP_REGISTRY_ONLY_PATH = 2 };
 IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
 
 /* The same of one plugin file alone, taken or refused. */
 IMP_EXPORT imp_registry *imp_registry_from_file(const char *file);
 
-/* Adds the types of a plugin that is linked into the program, after all others; it must stay as long
- * as the registry, which nothing else may use meanwhile. It is compiled with its symbol renamed
- * (IMPINGE_PLUGIN_SYMBOL in <impinge/surface.h>). Its entry and tables are checked as those of a file,
- * and IMP_ERROR_PLUGIN adds nothing. A plugin that is there already is ignored. */
+/* Adds the types of a plugin that is linked into the program, after all others; it must stay as
+ * long as the registry, which nothing else may use meanwhile. It is compiled with its symbol
+ * renamed (IMPINGE_PLUGIN_SYMBOL in <impinge/surface.h>). Its entry and tables are checked as those
+ * of a file, and IMP_ERROR_PLUGIN adds nothing. A plugin that is there already is ignored. */
 IMP_EXPORT imp_code imp_registry_add(imp_registry *registry, const imp_plugin *plugin,
                                      imp_error *error);
 IMP_EXPORT void imp_registry_free(imp_registry *registry);
@@ -162,19 +163,20 @@ IMP_EXPORT bool imp_registry_refusal(const imp_registry *registry, size_t index,
 IMP_EXPORT bool imp_registry_warning(const imp_registry *registry, size_t index,
                                      imp_plugin_refusal *warning);
 
-/* Isolated types whose destroy crashed or did not return, one entry for each type, in the order in which
- * it happened: by then no query is left that could answer with an error. `reason` names the type; an
- * entry for which there is no memory is missing. [any thread] */
+/* Isolated types whose destroy crashed or did not return, one entry for each type, in the order in
+ * which it happened: by then no query is left that could answer with an error. `reason` names the
+ * type; an entry for which there is no memory is missing. [any thread] */
 IMP_EXPORT bool imp_registry_fault(const imp_registry *registry, size_t index,
                                    imp_plugin_refusal *fault);
 
-/* --- Scenes --------------------------------------------------------------------- */
+/* --- Scenes ----------------------------------------------------------------------------------- */
 
 typedef struct imp_scene imp_scene;
 
-/* From the text of a scene file ({"time", "gamma", "define", "bodies", "ignore"}; the manual describes
- * it). `name` stands in error messages for the text ("scene.json", "standard input"). Up to its last
- * '/', it is the folder where relative names of files in parameters begin. NULL on error. */
+/* From the text of a scene file ({"time", "gamma", "define", "bodies", "ignore"}; the manual
+ * describes it). `name` stands in error messages for the text ("scene.json", "standard input"). Up
+ * to its last '/', it is the folder where relative names of files in parameters begin. NULL on
+ * error. */
 IMP_EXPORT imp_scene *imp_scene_from_json(imp_registry *registry, const char *text, size_t length,
                                           const char *name, imp_error *error);
 IMP_EXPORT imp_scene *imp_scene_from_file(imp_registry *registry, const char *path,
@@ -182,14 +184,15 @@ IMP_EXPORT imp_scene *imp_scene_from_file(imp_registry *registry, const char *pa
 /* Bodies "a" and "b" from two pipelines: "TYPE name=value ... ! MAP name=value ...". */
 IMP_EXPORT imp_scene *imp_scene_from_pair(imp_registry *registry, const char *a, const char *b,
                                           imp_error *error);
-/* The text of a scene file that makes the scene of imp_scene_from_pair. Only the pipelines' syntax is
- * checked; values are not compared with the types' parameters. Names of files are copied, and begin where
- * the reader of the text says. NULL on error. The caller frees the text by free(). [any thread] */
+/* The text of a scene file that makes the scene of imp_scene_from_pair. Only the pipelines' syntax
+ * is checked; values are not compared with the types' parameters. Names of files are copied, and
+ * begin where the reader of the text says. NULL on error. The caller frees the text by free(). [any
+ * thread] */
 IMP_EXPORT char *imp_pair_to_json(const imp_registry *registry, const char *a, const char *b,
                                   imp_error *error);
 IMP_EXPORT void imp_scene_free(imp_scene *scene);
 
-/* --- Scenes built without text ------------------------------------------------------ */
+/* --- Scenes built without text ---------------------------------------------------------------- */
 
 /* A parameter's name and value. It never grows. Single values have rank 0 and stand in `single`
  * (numbers, and booleans as 0 or 1) or `text`; arrays, row-major, in `number` or `string`. A table
@@ -252,10 +255,10 @@ static inline imp_argument imp_argument_rows(const char *name, const double *val
     return a;
 }
 
-/* Bodies are put into a builder, which then makes the scene. Errors name the body and the parameter,
- * and a call that fails changes nothing. Types and parameters are those of scene files; relative names
- * of files begin at the working directory. The registry must outlive builder and scene. A builder
- * belongs to one thread at a time. */
+/* Bodies are put into a builder, which then makes the scene. Errors name the body and the
+ * parameter, and a call that fails changes nothing. Types and parameters are those of scene files;
+ * relative names of files begin at the working directory. The registry must outlive builder and
+ * scene. A builder belongs to one thread at a time. */
 typedef struct imp_builder imp_builder;
 IMP_EXPORT imp_builder *imp_builder_new(imp_registry *registry); /* NULL: no memory */
 IMP_EXPORT void imp_builder_free(imp_builder *builder);
@@ -266,13 +269,13 @@ IMP_EXPORT imp_code imp_builder_time(imp_builder *builder, double start, double 
 IMP_EXPORT imp_code imp_builder_gamma(imp_builder *builder, double gamma, double gamma_clear,
                                       imp_error *error);
 
-/* Adds a body, whose index, counted from 0, goes to *body (may be NULL). A name that is NULL becomes
- * "body0", "body1", .... */
+/* Adds a body, whose index, counted from 0, goes to *body (may be NULL). A name that is NULL
+ * becomes "body0", "body1", .... */
 IMP_EXPORT imp_code imp_builder_body(imp_builder *builder, const char *name, size_t *body,
                                      imp_error *error);
 
-/* Adds to a body a surface; a map, after those it has; and to one of its surfaces a map, which comes
- * before those of the body. */
+/* Adds to a body a surface; a map, after those it has; and to one of its surfaces a map, which
+ * comes before those of the body. */
 IMP_EXPORT imp_code imp_builder_surface(imp_builder *builder, size_t body, const char *type,
                                         const imp_argument *arguments, size_t count,
                                         imp_error *error);
@@ -301,8 +304,8 @@ IMP_EXPORT const char *imp_scene_body_name(const imp_scene *scene, size_t body);
 IMP_EXPORT size_t imp_scene_surface_count(const imp_scene *scene, size_t body);
 
 /* Of how many pieces a surface consists, as a mesh of its triangles; 1: it is one. Each has its own
- * domain; imp_scene_eval, _include and _domain are about the first piece, imp_piece_eval, _include and
- * _domain about any. 0: there is no such surface. */
+ * domain; imp_scene_eval, _include and _domain are about the first piece, imp_piece_eval, _include
+ * and _domain about any. 0: there is no such surface. */
 IMP_EXPORT size_t imp_scene_piece_count(const imp_scene *scene, size_t body, size_t surface);
 
 /* n points p[3*k] = (u, v, t) of one surface, maps applied, to x[3*k] and, unless NULL,
@@ -310,8 +313,8 @@ IMP_EXPORT size_t imp_scene_piece_count(const imp_scene *scene, size_t body, siz
 IMP_EXPORT imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t surface, size_t n,
                                    const double *p, double *x, double *error, imp_error *why);
 /* An order-2 inclusion of x, y and z of one surface, maps applied, over the region lo..hi of (u, v,
- * t), finite and inside its domain: model[i] encloses coordinate i, as <impinge/surface.h> says. What
- * is not bounded there is infinite in the model. */
+ * t), finite and inside its domain: model[i] encloses coordinate i, as <impinge/surface.h> says.
+ * What is not bounded there is infinite in the model. */
 IMP_EXPORT imp_code imp_scene_include(const imp_scene *scene, size_t body, size_t surface,
                                       const double lo[3], const double hi[3], imp_model model[3],
                                       imp_error *why);
@@ -338,16 +341,16 @@ typedef struct imp_rigid_motion {
     double turn[3][3], shift[3];
 } imp_rigid_motion;
 
-/* How a surface, or one of its pieces, moves as a whole from one time of its domain to another: where
- * motion->is_known, its point (u, v, to) is turn x + shift of its point x = (u, v, from), for all u and
- * v, to within 1e-9 radians and 1e-9 of the numbers that enter, rounding included. Otherwise it
- * deforms, or is not known to be rigid, and `turn` is the identity. Pieces of one surface are moved by
- * the same maps, so that where it is known of two it is the same motion. For pictures and animations:
- * it is computed, not enclosed. [any thread] */
+/* How a surface, or one of its pieces, moves as a whole from one time of its domain to another:
+ * where motion->is_known, its point (u, v, to) is turn x + shift of its point x = (u, v, from), for
+ * all u and v, to within 1e-9 radians and 1e-9 of the numbers that enter, rounding included.
+ * Otherwise it deforms, or is not known to be rigid, and `turn` is the identity. Pieces of one
+ * surface are moved by the same maps, so that where it is known of two it is the same motion. For
+ * pictures and animations: it is computed, not enclosed. [any thread] */
 IMP_EXPORT imp_code imp_piece_motion(const imp_scene *scene, imp_place at, double from, double to,
                                      imp_rigid_motion *motion, imp_error *why);
 
-/* --- Queries ----------------------------------------------------------------------- */
+/* --- Queries ---------------------------------------------------------------------------------- */
 
 typedef enum imp_verdict {
     IMP_VERDICT_CLEAR,
@@ -368,7 +371,8 @@ typedef enum imp_reason {
     IMP_REASON_DECIDED     /* imp_clearance only: the verdict is known, `decide` was set */
 } imp_reason;
 
-/* How far a query has come. Grows at the end: the library's may be longer than the program knows. */
+/* How far a query has come. Grows at the end: the library's may be longer than the program
+ * knows. */
 typedef struct imp_progress {
     uint32_t struct_size;
     imp_reason reason;   /* RUNNING */
@@ -380,13 +384,13 @@ typedef struct imp_progress {
     double gap;          /* least distance of two points evaluated so far; NAN: none */
 } imp_progress;
 
-/* Called by the thread that steps a query, about ten times a second. Answers whether to go on: false
- * ends the step as imp_query_cancel does. It must not step or free the query. */
+/* Called by the thread that steps a query, about ten times a second. Answers whether to go on:
+ * false ends the step as imp_query_cancel does. It must not step or free the query. */
 typedef bool (*imp_progress_sink)(void *context, const imp_progress *progress);
 
-/* How a program lends threads to a query: called by the thread that steps or divides it, calls work(of, 0)
- * to work(of, count - 1) once each, by any threads and in any order, and returns when all have returned.
- * Work may run code of plugins; it neither calls the program back nor fails. */
+/* How a program lends threads to a query: called by the thread that steps or divides it, calls
+ * work(of, 0) to work(of, count - 1) once each, by any threads and in any order, and returns when
+ * all have returned. Work may run code of plugins; it neither calls the program back nor fails. */
 typedef void (*imp_parallel)(void *context, void (*work)(void *of, size_t index), void *of,
                              size_t count);
 
@@ -409,11 +413,11 @@ typedef struct imp_options {
 } imp_options;
 
 /* The defaults: what the scene asks for, and for the rest the library's own. The caller sets
- * options->struct_size before; IMP_ERROR_USAGE if that is none. A scene that names no times is examined
- * while all of its types and maps are defined: for the span that its tables and keyframes share. Tables
- * that hold at their ends, and surfaces that do not exist at other times, extend it; without any it is from 0 to 1.
- * IMP_ERROR_SCENE: they share no time. *options is filled all the same, t_start and t_end are NAN, and
- * queries answer the error until both are set. */
+ * options->struct_size before; IMP_ERROR_USAGE if that is none. A scene that names no times is
+ * examined while all of its types and maps are defined: for the span that its tables and keyframes
+ * share. Tables that hold at their ends, and surfaces that do not exist at other times, extend it;
+ * without any it is from 0 to 1. IMP_ERROR_SCENE: they share no time. *options is filled all the
+ * same, t_start and t_end are NAN, and queries answer the error until both are set. */
 IMP_EXPORT imp_code imp_options_get_default(const imp_scene *scene, imp_options *options,
                                             imp_error *error);
 
@@ -450,8 +454,9 @@ typedef struct imp_stats {
  *       gamma apart, rounding included, and t == t_lower;
  *   (c) CLEAR: never nearer than gamma_clear in [t_start, t_end]; t_lower == t_end.
  * Surfaces of some types do not exist at all times, and touch nothing when they do not
- * (IMP_FLAG_ABSENT_OUTSIDE_TIMES). t_examined is the part of [t_start, t_end] from the first to the last
- * time at which two surfaces that are tested exist together: all of it where types set no limit. */
+ * (IMP_FLAG_ABSENT_OUTSIDE_TIMES). t_examined is the part of [t_start, t_end] from the first to the
+ * last time at which two surfaces that are tested exist together: all of it where types set no
+ * limit. */
 typedef struct imp_result {
     uint32_t
         struct_size; /* sizeof(imp_result); grows at the end, but imp_side and imp_stats do not */
@@ -497,9 +502,9 @@ static inline imp_result imp_query_result(const imp_query *query)
     return result;
 }
 
-/* Two regions, one of each side's surface, that the search has not parted for good: over u[0]..u[1] and
- * v[0]..v[1] of one piece, or, where `piece` is SIZE_MAX, over several whole pieces, they are proved to stay
- * farther apart than gamma_clear before t_lower. */
+/* Two regions, one of each side's surface, that the search has not parted for good: over u[0]..u[1]
+ * and v[0]..v[1] of one piece, or, where `piece` is SIZE_MAX, over several whole pieces, they are
+ * proved to stay farther apart than gamma_clear before t_lower. */
 typedef struct imp_pending {
     double t_lower;
     struct imp_pending_side {
@@ -510,8 +515,8 @@ typedef struct imp_pending {
 } imp_pending;
 
 /* What waits to be searched, in no order; false past the last. What no pending pair covers is
- * proved to be clear up to the query's end. While stats.pairs is 0 nothing is known: a limit may have
- * ended the query before its first pair. */
+ * proved to be clear up to the query's end. While stats.pairs is 0 nothing is known: a limit may
+ * have ended the query before its first pair. */
 IMP_EXPORT bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pending);
 
 /* Ask again, finer: gamma and gamma_clear (< 0: gamma / 2) no larger than now. Work done so far is
@@ -519,40 +524,43 @@ IMP_EXPORT bool imp_query_pending(const imp_query *query, size_t index, imp_pend
 IMP_EXPORT imp_code imp_query_refine(imp_query *query, double gamma, double gamma_clear,
                                      imp_error *error);
 
-/* Each pair of bodies in turn: after a CONTACT, or UNDECIDED for want of RESOLUTION, excludes the pair of
- * bodies of that answer from the search; step again for the next, which is later or at the same
- * time. CLEAR is then said of all bodies that are left. */
+/* Each pair of bodies in turn: after a CONTACT, or UNDECIDED for want of RESOLUTION, excludes the
+ * pair of bodies of that answer from the search; step again for the next, which is later or at the
+ * same time. CLEAR is then said of all bodies that are left. */
 IMP_EXPORT imp_code imp_query_exclude_pair(imp_query *query, imp_error *error);
 
-/* Each pair of bodies by themselves, perhaps by several threads: divides a query that has not been stepped
- * into *count parts, one for each pair of bodies that come near each other, in the order of the scene. The
- * query itself is then about the bodies that no part is about, and clear. Where a limit comes first
- * there are no parts, and its result says so. Of a clearance (imp_clearance_new, without `each`) there
- * is a part for each pair of bodies that are ever both there, however far apart. */
+/* Each pair of bodies by themselves, perhaps by several threads: divides a query that has not been
+ * stepped into *count parts, one for each pair of bodies that come near each other, in the order of
+ * the scene. The query itself is then about the bodies that no part is about, and clear. Where a
+ * limit comes first there are no parts, and its result says so. Of a clearance (imp_clearance_new,
+ * without `each`) there is a part for each pair of bodies that are ever both there, however far
+ * apart. */
 IMP_EXPORT imp_code imp_query_divide(imp_query *query, size_t *count, imp_error *error);
 
 /* The two bodies of a part, the smaller index first; false past the last. */
 IMP_EXPORT bool imp_query_part_bodies(const imp_query *query, size_t index, size_t body[2]);
 
-/* A query about these two bodies alone, to be stepped, read and freed like any. It has trees of its own,
- * so that answers and stats but for seconds are the same for any number of threads and any order: parts
- * may be made, stepped and freed by different threads at once. The divided query must outlive it.
- * max_pairs and max_bytes hold for each part, max_seconds for all from imp_query_divide on. */
+/* A query about these two bodies alone, to be stepped, read and freed like any. It has trees of its
+ * own, so that answers and stats but for seconds are the same for any number of threads and any
+ * order: parts may be made, stepped and freed by different threads at once. The divided query must
+ * outlive it. max_pairs and max_bytes hold for each part, max_seconds for all from imp_query_divide
+ * on. */
 IMP_EXPORT imp_query *imp_query_part(const imp_query *query, size_t index, imp_error *error);
 
 /* Ends the running step soon, as UNDECIDED, or, when none is running, the next one. [any thread,
  * async-signal-safe] */
 IMP_EXPORT void imp_query_cancel(imp_query *query);
 
-/* The earliest contact in one call: makes a query, steps it to its end, reads its result and frees it. The
- * caller sets result->struct_size before; *result stays as it is on error. */
+/* The earliest contact in one call: makes a query, steps it to its end, reads its result and frees
+ * it. The caller sets result->struct_size before; *result stays as it is on error. */
 IMP_EXPORT imp_code imp_scene_solve(imp_scene *scene, const imp_options *options,
                                     imp_result *result, imp_error *error);
 
-/* --- Clearance: how near do bodies come? --------------------------------------------- */
+/* --- Clearance: how near do bodies come? ------------------------------------------------------ */
 
-/* The minimum distance over an interval of time, as a bracket: it is proved not to be below `lower`,
- * and `upper` is evaluated at a witness. If a distance is required, also whether it is kept. */
+/* The minimum distance over an interval of time, as a bracket: it is proved not to be below
+ * `lower`, and `upper` is evaluated at a witness. If a distance is required, also whether it is
+ * kept. */
 typedef struct imp_clearance_options {
     uint32_t struct_size; /* sizeof(imp_clearance_options); grows at the end */
     bool each;            /* an answer for each pair of bodies that do not ignore each other */
@@ -562,8 +570,8 @@ typedef struct imp_clearance_options {
     bool decide;          /* also done as soon as it is known whether `required` is kept */
 } imp_clearance_options;
 
-/* Sets the defaults: a tolerance of 1e-3, nothing required, one answer, decide false. The caller sets
- * asked->struct_size before. */
+/* Sets the defaults: a tolerance of 1e-3, nothing required, one answer, decide false. The caller
+ * sets asked->struct_size before. */
 IMP_EXPORT imp_code imp_clearance_options_get_default(imp_clearance_options *asked,
                                                       imp_error *error);
 
@@ -615,13 +623,13 @@ typedef struct imp_clearance {
 } imp_clearance;
 
 /* Begins; step, cancel and free it like any query. `asked` NULL: the default. Of `options` gamma is
- * the distance that counts as contact; gamma_clear is not used, and baseline must be 0. What imp_query_get_result tells is the reason, NONE when all answers are there, and
- * the stats. */
+ * the distance that counts as contact; gamma_clear is not used, and baseline must be 0. What
+ * imp_query_get_result tells is the reason, NONE when all answers are there, and the stats. */
 IMP_EXPORT imp_query *imp_clearance_new(imp_scene *scene, const imp_options *options,
                                         const imp_clearance_options *asked, imp_error *error);
 
-/* Number of answers: slices of the first two bodies, of the next two, and so on; they are found in that
- * order, and an answer whose reason is not RUNNING is there. */
+/* Number of answers: slices of the first two bodies, of the next two, and so on; they are found in
+ * that order, and an answer whose reason is not RUNNING is there. */
 IMP_EXPORT size_t imp_clearance_count(const imp_query *query);
 
 /* *answer comes with its struct_size set. */
@@ -629,8 +637,8 @@ IMP_EXPORT imp_code imp_clearance_get(const imp_query *query, size_t index, imp_
                                       imp_error *error);
 
 /* The paper's h(t) = t0 - t: time left from t until the first contact, negative when that is past;
- * INFINITY when there is none in the interval; where it is undecided, the time proved to be left. NAN for
- * a NULL. */
+ * INFINITY when there is none in the interval; where it is undecided, the time proved to be left.
+ * NAN for a NULL. */
 static inline double imp_time_left(const imp_result *result, double t)
 {
     if (result == NULL) return NAN;

@@ -10,10 +10,10 @@
 
 /* The memory that the host shares with a worker
  * =============================================
- * The host writes a request and its number and posts `requested`; the worker works on a copy of its own,
- * writes the reply, copies the number and posts `replied`. Only one of the two uses the channel at a time,
- * also where a callback forks, and its copy goes on to write. A reply counts only if it carries the number
- * of the request that the host waits for. */
+ * The host writes a request and its number and posts `requested`; the worker works on a copy of its
+ * own, writes the reply, copies the number and posts `replied`. Only one of the two uses the
+ * channel at a time, also where a callback forks, and its copy goes on to write. A reply counts
+ * only if it carries the number of the request that the host waits for. */
 
 enum {
     CHANNEL_POINTS = 64,     /* of one REQUEST_EVAL */
@@ -51,10 +51,11 @@ typedef struct channel_work {
     void *self; /* the instance, as the worker knows it: set by REQUEST_CREATE */
     imp_status status;
     imp_create_error why;
-    const void *piece;   /* as the worker knows it: set by REQUEST_PIECE; or NULL */
-    size_t pieces;       /* set by REQUEST_CREATE of a type that has them; else 0 */
-    double lo[3], hi[3]; /* domain, after REQUEST_CREATE and _PIECE; a map: times in [0], span in [1] */
-    size_t n;            /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values */
+    const void *piece; /* as the worker knows it: set by REQUEST_PIECE; or NULL */
+    size_t pieces;     /* set by REQUEST_CREATE of a type that has them; else 0 */
+    double lo[3],
+        hi[3]; /* domain, after REQUEST_CREATE and _PIECE; a map: times in [0], span in [1] */
+    size_t n;  /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values */
     int wants_error;
     double p[4 * CHANNEL_POINTS], x[3 * CHANNEL_POINTS], error[3 * CHANNEL_POINTS];
     imp_region region;

@@ -59,7 +59,7 @@ bool elf_identity_is_at(elf_identity file, const char *path)
     return stat(path, &facts) == 0 && elf_identity_is_same(identity_of(&facts), file);
 }
 
-/* --- The checks, in order ------------------------------------------------------------ */
+/* --- The checks, in order --------------------------------------------------------------------- */
 
 static bool check_file(elf_file *file, elf_probe *probe, elf_check *check)
 {
@@ -164,7 +164,7 @@ static bool check_tables(elf_file *file, elf_probe *probe, elf_check *check)
     return answer(check, good, "%s%s", text, good ? "" : "; " CUT_SHORT);
 }
 
-/* --- The note ------------------------------------------------------------------------ */
+/* --- The note --------------------------------------------------------------------------------- */
 
 #define NOTE_HEAD 8u /* bytes before the strings: abi_major, abi_minor */
 #define NOTE_SIZE (NOTE_HEAD + 2 * (TEXT_NAME_MAX + 1u))
@@ -230,7 +230,7 @@ static bool check_abi(elf_file *file, elf_probe *probe, elf_check *check)
     return elf_probe_abi_fits(probe->abi_major, probe->abi_minor, check->text, sizeof check->text);
 }
 
-/* --- Running them -------------------------------------------------------------------- */
+/* --- Running them ----------------------------------------------------------------------------- */
 
 typedef struct check_row {
     const char *name;

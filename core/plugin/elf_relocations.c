@@ -36,7 +36,7 @@ static bool find_table(const elf_object *o, Elf64_Sxword tag, Elf64_Sxword size_
     return found && *length > 0;
 }
 
-/* --- What is called when the object is loaded and unloaded ------------------------------------- */
+/* --- What is called when the object is loaded and unloaded ------------------------------------ */
 
 static bool check_function(elf_object *o, Elf64_Sxword tag)
 {
@@ -68,7 +68,7 @@ static bool is_called(const elf_object *o, uint64_t address)
     return false;
 }
 
-/* --- Relocations ------------------------------------------------------------------------------- */
+/* --- Relocations ------------------------------------------------------------------------------ */
 
 /* Code too, where the object says so. */
 static Elf64_Word written_flag(const elf_object *o)
@@ -149,8 +149,8 @@ static bool check_word(elf_object *o, uint64_t place)
     return check_place(o, place, sizeof target) && check_target(o, place, target);
 }
 
-/* DT_RELR: an even entry is the address of a word; bit k of an odd one stands for the k-th word after
- * the last one that an entry reached. */
+/* DT_RELR: an even entry is the address of a word; bit k of an odd one stands for the k-th word
+ * after the last one that an entry reached. */
 static bool check_relr(elf_object *o)
 {
     uint64_t at, length, entry, next = 0;

@@ -35,8 +35,8 @@ bool elf_segments_check(elf_file *file, elf_loads *loads, char *text, size_t siz
 /* The part whose memory has all these bytes, or NULL. */
 const Elf64_Phdr *elf_loads_part(const elf_loads *loads, uint64_t address, uint64_t length);
 
-/* Whether the memory that the loader reserves, from the first page of the first part to the last one of
- * the last, has all these bytes; its end counts as inside where there are none. */
+/* Whether the memory that the loader reserves, from the first page of the first part to the last
+ * one of the last, has all these bytes; its end counts as inside where there are none. */
 bool elf_loads_span(const elf_loads *loads, uint64_t address, uint64_t length);
 
 #endif

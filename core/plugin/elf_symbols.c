@@ -4,7 +4,7 @@
 
 #include "core/plugin/elf_tables_internal.h"
 
-/* --- Hashes ------------------------------------------------------------------------------------ */
+/* --- Hashes ----------------------------------------------------------------------------------- */
 
 static bool refuse_hashes(elf_object *o)
 {
@@ -23,10 +23,10 @@ static bool count_by_hash(elf_object *o, uint64_t at)
     return true;
 }
 
-/* DT_GNU_HASH: nbuckets, the first symbol that is hashed, words of a filter, its shift; the filter; the
- * first symbol of each bucket, or 0; for each hashed symbol a word, odd for the last one of a bucket.
- * So where the bucket that begins last ends, all end, and so do the symbols. Where none is hashed,
- * only relocations refer to symbols. */
+/* DT_GNU_HASH: nbuckets, the first symbol that is hashed, words of a filter, its shift; the filter;
+ * the first symbol of each bucket, or 0; for each hashed symbol a word, odd for the last one of a
+ * bucket. So where the bucket that begins last ends, all end, and so do the symbols. Where none is
+ * hashed, only relocations refer to symbols. */
 static bool count_by_gnu_hash(elf_object *o, uint64_t at)
 {
     Elf64_Word head[4], symbol, last = 0, word = 0;
@@ -57,7 +57,7 @@ static bool count_symbols(elf_object *o)
     return o->symbol_count > 0 || elf_refuse(o, "it has no table of hashes");
 }
 
-/* --- Versions ---------------------------------------------------------------------------------- */
+/* --- Versions --------------------------------------------------------------------------------- */
 
 enum { STEPS_MAX = 4096 }; /* of a chain; usual are 1 to 20 */
 
@@ -127,7 +127,7 @@ static bool check_versions(elf_object *o)
     return true;
 }
 
-/* --- Symbols ----------------------------------------------------------------------------------- */
+/* --- Symbols ---------------------------------------------------------------------------------- */
 
 bool elf_symbol_load(elf_object *o, uint64_t k, Elf64_Sym *symbol)
 {

@@ -30,7 +30,7 @@ bool elf_is_code(const elf_object *o, uint64_t address)
     return elf_is_in_part(o, address, 1, PF_X);
 }
 
-/* --- Strings ----------------------------------------------------------------------------------- */
+/* --- Strings ---------------------------------------------------------------------------------- */
 
 bool elf_check_name(elf_object *o, uint64_t name, const char *whose)
 {

@@ -20,8 +20,8 @@
  * What code does is not examined. False: `text` says which table is wrong. */
 bool elf_tables_check(elf_file *file, const elf_loads *loads, char *text, size_t size);
 
-/* The file among those it needs that is the runtime of AddressSanitizer or ThreadSanitizer, as libasan.so.8; empty:
- * none. Of tables that elf_tables_check accepts. */
+/* The file among those it needs that is the runtime of AddressSanitizer or ThreadSanitizer, as
+ * libasan.so.8; empty: none. Of tables that elf_tables_check accepts. */
 typedef struct elf_runtime {
     char name[32];
 } elf_runtime;

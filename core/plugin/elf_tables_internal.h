@@ -5,8 +5,9 @@
 
 #include "core/plugin/elf_dynamic.h"
 
-/* What the files behind elf_tables_check share: elf_tables.c finds the strings, elf_symbols.c counts and
- * checks the symbols, elf_relocations.c checks what refers to them. All answer false after elf_refuse. */
+/* What the files behind elf_tables_check share: elf_tables.c finds the strings, elf_symbols.c
+ * counts and checks the symbols, elf_relocations.c checks what refers to them. All answer false
+ * after elf_refuse. */
 
 typedef struct elf_object {
     elf_dynamic d;

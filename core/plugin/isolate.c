@@ -78,8 +78,8 @@ static imp_status create_pieces(isolated *i)
 /* For messages: the callback that this thread began last is the one that ended the worker. */
 static void name_callback(const isolated *i)
 {
-    static const char *const names[CALLBACK_COUNT] = {"create", "domain", "time_domain",
-                                                      "span", "piece_count", "piece"};
+    static const char *const names[CALLBACK_COUNT] = {"create", "domain",      "time_domain",
+                                                      "span",   "piece_count", "piece"};
     const unsigned last = i->worker != NULL ? atomic_load(&i->worker->channel->callback) : 0;
     const char *type = i->type.surface != NULL ? i->type.surface->name : i->type.map->name;
     active_callback_end(

@@ -7,8 +7,8 @@
 
 /* The inside of an isolated instance
  * ==================================
- * For its two files: isolate.c creates and destroys it; isolate_stand_in.c is what the rest of core takes for
- * its type. */
+ * For its two files: isolate.c creates and destroys it; isolate_stand_in.c is what the rest of core
+ * takes for its type. */
 
 struct isolated {
     worker_type type;

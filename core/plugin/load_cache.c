@@ -17,8 +17,8 @@
 #include <time.h>
 #include <unistd.h>
 
-/* The cache is text, one record a line, fields parted by tabs: code, device, inode, size, seconds and
- * nanoseconds of modification and of change, path, reason. Its first line names the version:
+/* The cache is text, one record a line, fields parted by tabs: code, device, inode, size, seconds
+ * and nanoseconds of modification and of change, path, reason. Its first line names the version:
  * another one's cache is not read. */
 
 typedef struct load_record {
@@ -34,7 +34,8 @@ struct load_cache {
     bool changed;
 };
 
-/* More than anybody has; a longer file is not read, and of more records the oldest are forgotten. */
+/* More than anybody has; a longer file is not read, and of more records the oldest are
+ * forgotten. */
 enum { RECORDS_MAX = 4096, CACHE_BYTES_MAX = 1 << 23 };
 
 #define FIRST_LINE "impinge trials 2 of " PACKAGE_VERSION "\n"

@@ -21,7 +21,7 @@ bool parameters_is_reserved(const char *name)
     return strcmp(name, "type") == 0 || strcmp(name, "maps") == 0;
 }
 
-/* --- One value ----------------------------------------------------------------------- */
+/* --- One value -------------------------------------------------------------------------------- */
 
 /* A value while it is read: arrays that grow as leaves arrive, so that no shape claimed by
  * the text is believed before its elements have been seen. */
@@ -184,7 +184,7 @@ void parameters_clear_value(imp_value *value)
     *value = (imp_value){.count = 0};
 }
 
-/* --- All values ---------------------------------------------------------------------- */
+/* --- All values ------------------------------------------------------------------------------- */
 
 imp_code parameters_read_default(const imp_parameter *row, const place *at, json_t **json,
                                  imp_error *error)

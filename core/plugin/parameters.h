@@ -30,9 +30,9 @@ typedef struct parameter_values {
     json_t *made; /* JSON that is not in the object: presets, names of files made whole */
 } parameter_values;
 
-/* Reads the parameters of the type called `type` from `object`, which is at `at`. Relative names
- * of files (IMP_PARAMETER_FILE) begin at `folder`, which ends in '/', or if it is NULL where the process does.
- * On failure there is nothing to clear. */
+/* Reads the parameters of the type called `type` from `object`, which is at `at`. Relative names of
+ * files (IMP_PARAMETER_FILE) begin at `folder`, which ends in '/', or if it is NULL where the
+ * process does. On failure there is nothing to clear. */
 imp_code parameters_read(const parameter_table *table, const char *type, const json_t *object,
                          const char *folder, const place *at, parameter_values *values,
                          imp_error *error);

@@ -15,9 +15,11 @@
 #define TYPES_MAX 4096u
 #define PARAMETERS_MAX 256u
 
-#define PARAMETER_FLAGS (IMP_PARAMETER_MIN_OPEN | IMP_PARAMETER_MAX_OPEN | IMP_PARAMETER_SCALAR_OK | IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_FILE)
+#define PARAMETER_FLAGS                                                                            \
+    (IMP_PARAMETER_MIN_OPEN | IMP_PARAMETER_MAX_OPEN | IMP_PARAMETER_SCALAR_OK |                   \
+     IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_FILE)
 
-/* --- The entry ----------------------------------------------------------------------- */
+/* --- The entry -------------------------------------------------------------------------------- */
 
 static imp_code fault(imp_error *error, const char *what, const char *allowed)
 {
@@ -100,11 +102,12 @@ imp_code plugin_check_entry(const imp_plugin *entry, const elf_probe *note, imp_
     return code;
 }
 
-/* --- A parameter --------------------------------------------------------------------- */
+/* --- A parameter ------------------------------------------------------------------------------ */
 
 static const char *row_texts_fault(const imp_parameter *row)
 {
-    if (!text_is_name(row->name, "_")) return "name: must be letters, digits and '_', a letter first";
+    if (!text_is_name(row->name, "_"))
+        return "name: must be letters, digits and '_', a letter first";
     if (parameters_is_reserved(row->name)) return "name: is taken by the scene format";
     if (!text_is_line(row->unit)) return "unit: is not a line of text; give \"1\" if it has none";
     if (!text_is_line(row->doc)) return "doc: is not a line of text";
@@ -120,7 +123,8 @@ static const char *row_shape_fault(const imp_parameter *row)
     if (row->flags & IMP_PARAMETER_SCALAR_OK && (row->rank != 1 || row->extent[0] > 1))
         return "flags: IMP_PARAMETER_SCALAR_OK is for rank 1 with extent 0 or 1";
     if (row->flags & IMP_PARAMETER_OPTIONAL && row->default_value != NULL)
-        return "flags: IMP_PARAMETER_OPTIONAL means absent when left out, so default_value must be NULL";
+        return "flags: IMP_PARAMETER_OPTIONAL means absent when left out, so default_value must be "
+               "NULL";
     if (row->flags & IMP_PARAMETER_FILE && (row->kind != IMP_KIND_STRING || row->rank != 0))
         return "flags: IMP_PARAMETER_FILE is for IMP_KIND_STRING of rank 0";
     return NULL;
@@ -166,7 +170,7 @@ static imp_code check_row(const parameter_table *table, size_t index, const plac
     return check_default(row, &at, error);
 }
 
-/* --- A type -------------------------------------------------------------------------- */
+/* --- A type ----------------------------------------------------------------------------------- */
 
 static imp_code check_table(const parameter_table *table, const place *type, imp_error *error)
 {
@@ -192,29 +196,33 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
                                  {"example", view->example},
                                  {"source", view->source != NULL ? view->source : ""}};
     if (!text_is_name(view->name, "_-"))
-        return error_set(error, IMP_ERROR_PLUGIN,
-                         "a type's name is %s; must be 1 to 63 letters, digits, '_' and '-', a letter "
-                         "first",
-                         shown(view->name).at);
+        return error_set(
+            error, IMP_ERROR_PLUGIN,
+            "a type's name is %s; must be 1 to 63 letters, digits, '_' and '-', a letter "
+            "first",
+            shown(view->name).at);
     place type = place_argument(NULL, view->name);
     const text_field *wrong = field_without_line(fields, sizeof fields / sizeof *fields);
     if (wrong != NULL)
         return place_error(&type, error, IMP_ERROR_PLUGIN, "%s is %s; must be a line of text",
                            wrong->name, shown(wrong->text).at);
     if (null_callback != NULL)
-        return place_error(&type, error, IMP_ERROR_PLUGIN,
-                           "%s is NULL; only include, apply, net, rigid, span, distance and symmetry may be",
-                           null_callback);
+        return place_error(
+            &type, error, IMP_ERROR_PLUGIN,
+            "%s is NULL; only include, apply, net, rigid, span, distance and symmetry may be",
+            null_callback);
     return check_table(&view->table, &type, error);
 }
 
-/* `allowed`: all flags that it may have. The name follows the size, and is told where the size holds it. */
+/* `allowed`: all flags that it may have. The name follows the size, and is told where the size
+ * holds it. */
 static imp_code check_size(uint32_t size, size_t least, const char *const *name, uint32_t flags,
                            uint32_t allowed, imp_error *error)
 {
     if (size < least)
         return error_set(error, IMP_ERROR_PLUGIN,
-                         "a type's struct_size is %u, must be >= %zu; rebuild the plugin", size, least);
+                         "a type's struct_size is %u, must be >= %zu; rebuild the plugin", size,
+                         least);
     if ((flags & ~allowed) == 0) return IMP_SUCCESS;
     return error_set(error, IMP_ERROR_PLUGIN,
                      "%s: flags has unknown bits: %#x, allowed are those of %#x", shown(*name).at,
@@ -227,8 +235,8 @@ static imp_code check_size(uint32_t size, size_t least, const char *const *name,
 
 static imp_code check_surface(const imp_surface_type *type, imp_error *error)
 {
-    imp_code code = check_size(type->struct_size, SURFACE_TYPE_FIRST, &type->name,
-                               type->flags, IMP_FLAG_ABSENT_OUTSIDE_TIMES, error);
+    imp_code code = check_size(type->struct_size, SURFACE_TYPE_FIRST, &type->name, type->flags,
+                               IMP_FLAG_ABSENT_OUTSIDE_TIMES, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_surface(type);
     const char *null_callback = type->create == NULL    ? "create"
@@ -249,14 +257,16 @@ static imp_code check_surface(const imp_surface_type *type, imp_error *error)
     }
     if (!IMP_HAS(type, piece) || (type->piece_count == NULL) == (type->piece == NULL))
         return IMP_SUCCESS;
-    return place_error(&at, error, IMP_ERROR_PLUGIN, "%s is NULL; give piece_count and piece, or neither",
+    return place_error(&at, error, IMP_ERROR_PLUGIN,
+                       "%s is NULL; give piece_count and piece, or neither",
                        type->piece == NULL ? "piece" : "piece_count");
 }
 
 static imp_code check_map(const imp_map_type *type, imp_error *error)
 {
     const uint32_t flags = IMP_FLAG_ABSENT_OUTSIDE_TIMES | IMP_FLAG_TURNS_EXACTLY;
-    imp_code code = check_size(type->struct_size, MAP_TYPE_FIRST, &type->name, type->flags, flags, error);
+    imp_code code =
+        check_size(type->struct_size, MAP_TYPE_FIRST, &type->name, type->flags, flags, error);
     if (code != IMP_SUCCESS) return code;
     type_view view = type_view_of_map(type);
     const char *null_callback = type->create == NULL        ? "create"
@@ -268,7 +278,7 @@ static imp_code check_map(const imp_map_type *type, imp_error *error)
     return check_view(&view, null_callback, error);
 }
 
-/* --- The factories ------------------------------------------------------------------- */
+/* --- The factories ---------------------------------------------------------------------------- */
 
 static imp_code check_factory(const char *id, uint32_t size, uint32_t count, const void *types,
                               imp_error *error)

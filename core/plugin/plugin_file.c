@@ -38,10 +38,11 @@ static void step_open(plugin_file *plugin, const char *path, load_outcome *out)
     const char *sanitizer = plugin->facts.sanitizer;
     const fp_mode before = fp_mode_read();
     if (!has_runtime(sanitizer)) {
-        load_outcome_refuse(out, LOAD_OPEN, "load",
-                            "it is compiled with -fsanitize and needs %s, which has to be there first: "
-                            "LD_PRELOAD=$(cc -print-file-name=%.8sso) ASAN_OPTIONS=detect_leaks=0 impinge ...",
-                            sanitizer, sanitizer);
+        load_outcome_refuse(
+            out, LOAD_OPEN, "load",
+            "it is compiled with -fsanitize and needs %s, which has to be there first: "
+            "LD_PRELOAD=$(cc -print-file-name=%.8sso) ASAN_OPTIONS=detect_leaks=0 impinge ...",
+            sanitizer, sanitizer);
         return;
     }
     plugin->handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- Finding ------------------------------------------------------------------------- */
+/* --- Finding ---------------------------------------------------------------------------------- */
 
 const found_type *registry_find(const imp_registry *r, imp_type_kind kind, const char *name)
 {
@@ -86,7 +86,8 @@ worker_pool *registry_isolation(const imp_registry *registry, const char *name)
     return isolates(registry, name) ? registry->workers : NULL;
 }
 
-/* The first name of a list ",a,b," that is not the name of a type, copied to `name`; false: all are. */
+/* The first name of a list ",a,b," that is not the name of a type, copied to `name`; false: all
+ * are. */
 static bool unknown_name(const imp_registry *r, const char *list, char name[TEXT_NAME_MAX + 1])
 {
     for (const char *c = list + 1; *c != '\0'; c += strcspn(c, ",") + 1) {
@@ -193,7 +194,7 @@ bool imp_registry_fault(const imp_registry *registry, size_t index, imp_plugin_r
     return true;
 }
 
-/* --- Creation and destruction ------------------------------------------------------------ */
+/* --- Creation and destruction ----------------------------------------------------------------- */
 
 static void free_plugin(loaded_plugin *plugin)
 {

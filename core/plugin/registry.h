@@ -10,9 +10,9 @@
 
 /* Types by name
  * =============
- * A registry is filled when it is made, and by imp_registry_add; else it is only read. Surfaces and maps are
- * two name spaces; in each the first type of a name is the one that is found, later ones are shadowed.
- * Plugins stay loaded until imp_registry_free. */
+ * A registry is filled when it is made, and by imp_registry_add; else it is only read. Surfaces and
+ * maps are two name spaces; in each the first type of a name is the one that is found, later ones
+ * are shadowed. Plugins stay loaded until imp_registry_free. */
 
 /* As imp_registry_open, from these directories only. NULL: no memory. */
 imp_registry *registry_scan(const search_path *path, unsigned flags);
@@ -21,14 +21,15 @@ imp_registry *registry_scan(const search_path *path, unsigned flags);
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name);
 const imp_map_type *registry_find_map(const imp_registry *registry, const char *name);
 
-/* Path of the plugin that the type of that name comes from, or IMP_LINKED_IN; NULL: unknown type. */
+/* Path of the plugin that the type of that name comes from, or IMP_LINKED_IN; NULL: unknown
+ * type. */
 const char *registry_find_file(const imp_registry *registry, imp_type_kind kind, const char *name);
 
 /* Where instances of that type are isolated; NULL: they are not. */
 worker_pool *registry_isolation(const imp_registry *registry, const char *name);
 
-/* Why a name may be unknown: "; 2 files were left out, such as '/a/b.so': <reason>", or "" if none was.
- * A file called NAME.so comes first. */
+/* Why a name may be unknown: "; 2 files were left out, such as '/a/b.so': <reason>", or "" if none
+ * was. A file called NAME.so comes first. */
 typedef struct registry_text {
     char text[700];
 } registry_text;

@@ -18,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* --- Filling. Each returns false only when memory ran out. -------------------------- */
+/* --- Filling. Each returns false only when memory ran out. ------------------------------------ */
 
 static bool add_remark(remarks *told, const char *file, const char *text)
 {
@@ -183,7 +183,7 @@ static bool scan_directory(imp_registry *r, const search_directory *directory)
     return good;
 }
 
-/* --- Whole registries --------------------------------------------------------------- */
+/* --- Whole registries ------------------------------------------------------------------------- */
 
 FP_APART static imp_registry *scan(const search_path *path, unsigned flags)
 {
@@ -244,7 +244,7 @@ imp_registry *imp_registry_from_file(const char *file)
     return NULL;
 }
 
-/* --- Linked in ------------------------------------------------------------------------ */
+/* --- Linked in -------------------------------------------------------------------------------- */
 
 /* Undoes what add_plugin did of the last plugin before memory ran out. */
 static void forget_from(imp_registry *r, size_t plugins, size_t types)

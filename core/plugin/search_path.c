@@ -14,7 +14,7 @@
 
 #define USER_FOLDER "impinge/" IMP_TEXT_OF(IMP_ABI_MAJOR)
 
-/* --- Directories --------------------------------------------------------------------- */
+/* --- Directories ------------------------------------------------------------------------------ */
 
 /* Takes over `directory`; NULL is memory that ran out before. */
 static bool add_directory(search_path *path, char *directory, bool named)
@@ -76,7 +76,7 @@ void search_path_clear(search_path *path)
     *path = (search_path){.count = 0};
 }
 
-/* --- What is in one ------------------------------------------------------------------ */
+/* --- What is in one --------------------------------------------------------------------------- */
 
 static bool is_plugin_name(const char *name)
 {

@@ -21,7 +21,7 @@
 
 enum { GLANCE_MS = 100 }; /* between looks at whether the worker lives */
 
-/* --- In the new process ------------------------------------------------------------------- */
+/* --- In the new process ----------------------------------------------------------------------- */
 
 /* The kernel sends SIGKILL to the whole group when the other end is closed: unlike a signal at the
  * parent's death (PR_SET_PDEATHSIG) this does not depend on the thread that forked. It may have
@@ -58,7 +58,7 @@ _Noreturn static void run(worker_type type, channel *c, int lifeline)
     worker_serve(c, type);
 }
 
-/* --- In the host: start and end ------------------------------------------------------------- */
+/* --- In the host: start and end --------------------------------------------------------------- */
 
 static channel *channel_new(void)
 {
@@ -144,7 +144,7 @@ void worker_end(worker *w)
     free(w);
 }
 
-/* --- In the host: requests ------------------------------------------------------------------ */
+/* --- In the host: requests -------------------------------------------------------------------- */
 
 static imp_status end_with(worker *w, const void *user, imp_status end)
 {

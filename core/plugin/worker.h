@@ -52,8 +52,8 @@ bool worker_runs(worker *w);
 void worker_end(worker *w);
 
 /* Takes the channel for one request of the instance `user` (an address, for comparison only).
- * IMP_STATUS_OK: fill in the request, call worker_request and read the reply, then worker_leave. Anything
- * else: the channel was not entered. */
+ * IMP_STATUS_OK: fill in the request, call worker_request and read the reply, then worker_leave.
+ * Anything else: the channel was not entered. */
 imp_status worker_enter(worker *w, const void *user);
 imp_status worker_request(worker *w, const void *user, channel_request what);
 void worker_leave(worker *w);

@@ -27,8 +27,8 @@ void worker_pool_return(worker_pool *pool, worker *w);
 /* Keeps how destroy ended a worker of the type: the first of each type, unless memory runs out. */
 void worker_pool_note(worker_pool *pool, worker_type type, imp_status end);
 
-/* What was kept, in order: "destroy of 'x' crashes ..."; the text lives as long as the pool. False: past
- * the last, or in another process than the one that made the pool. */
+/* What was kept, in order: "destroy of 'x' crashes ..."; the text lives as long as the pool. False:
+ * past the last, or in another process than the one that made the pool. */
 bool worker_pool_fault(worker_pool *pool, size_t index, worker_type *type, const char **text);
 
 #endif

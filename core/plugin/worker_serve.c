@@ -14,8 +14,9 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What the worker keeps between requests: the bytes of values that have come so far. And what it works
- * on: a copy made by a callback that forks goes on to write what that callback is to answer. */
+/* What the worker keeps between requests: the bytes of values that have come so far. And what it
+ * works on: a copy made by a callback that forks goes on to write what that callback is to
+ * answer. */
 typedef struct server {
     channel *with;
     channel_work work;

@@ -10,8 +10,8 @@
 #include "core/base/text.h"
 #include "core/plugin/parameters.h"
 
-/* One element of an argument, or its only one: NULL if there is no memory, or if it is a number that
- * is not finite or a text that is not UTF-8, which *bad then says. */
+/* One element of an argument, or its only one: NULL if there is no memory, or if it is a number
+ * that is not finite or a text that is not UTF-8, which *bad then says. */
 static json_t *leaf(const imp_argument *a, size_t k, bool *bad)
 {
     if (a->kind == IMP_KIND_STRING) {
@@ -37,10 +37,8 @@ static imp_code refuse_leaf(const walk *w)
     const imp_argument *a = w->argument;
     if (a->kind == IMP_KIND_STRING)
         return place_error(w->at, w->error, IMP_ERROR_SCENE,
-                           "element %zu is NULL or not UTF-8, must be strings of UTF-8",
-                           w->next);
-    return place_error(w->at, w->error, IMP_ERROR_SCENE,
-                       "got %g at element %zu, must be finite",
+                           "element %zu is NULL or not UTF-8, must be strings of UTF-8", w->next);
+    return place_error(w->at, w->error, IMP_ERROR_SCENE, "got %g at element %zu, must be finite",
                        a->rank == 0 ? a->single : a->number[w->next], w->next);
 }
 

@@ -11,8 +11,8 @@
 #include "core/reader/scene_bodies.h"
 #include "core/scene/tolerances.h"
 
-/* Scenes that a program builds. What it gives goes the way of scene files from the first check on: a
- * type's arguments become the JSON object that a file would have (arguments.h), never text. */
+/* Scenes that a program builds. What it gives goes the way of scene files from the first check on:
+ * a type's arguments become the JSON object that a file would have (arguments.h), never text. */
 
 struct imp_builder {
     const imp_registry *registry;
@@ -20,7 +20,7 @@ struct imp_builder {
     bool finished;
 };
 
-/* --- Creation and destruction ------------------------------------------------------------ */
+/* --- Creation and destruction ----------------------------------------------------------------- */
 
 imp_builder *imp_builder_new(imp_registry *registry)
 {
@@ -82,8 +82,7 @@ imp_code imp_builder_time(imp_builder *b, double start, double end, imp_error *e
     if (code != IMP_SUCCESS) return code;
     if (!(isfinite(start) && isfinite(end) && start <= end))
         return error_set(error, IMP_ERROR_USAGE,
-                         "time: got [%.17g, %.17g], must be finite with start <= end", start,
-                         end);
+                         "time: got [%.17g, %.17g], must be finite with start <= end", start, end);
     scene_settings *s = scene_settings_of(b->bodies.assembly.scene);
     s->t_start = start;
     s->t_end = end;
@@ -101,7 +100,7 @@ imp_code imp_builder_gamma(imp_builder *b, double gamma, double gamma_clear, imp
     return IMP_SUCCESS;
 }
 
-/* --- Bodies ------------------------------------------------------------------------------------- */
+/* --- Bodies ----------------------------------------------------------------------------------- */
 
 imp_code imp_builder_body(imp_builder *b, const char *name, size_t *body, imp_error *error)
 {
@@ -157,9 +156,9 @@ imp_code imp_builder_surface(imp_builder *b, size_t body, const char *type,
 }
 
 /* On top of the maps in the list, which are of what `whose` says. */
-static FP_APART imp_code add_map(imp_builder *b, size_t body, const char *whose, instance_list *maps,
-                                 const char *type, const imp_argument *arguments, size_t count,
-                                 imp_error *error)
+static FP_APART imp_code add_map(imp_builder *b, size_t body, const char *whose,
+                                 instance_list *maps, const char *type,
+                                 const imp_argument *arguments, size_t count, imp_error *error)
 {
     const body_words words = words_of(b, body);
     char map_words[80];
@@ -203,7 +202,7 @@ imp_code imp_builder_surface_map(imp_builder *b, size_t body, size_t index, cons
     return code;
 }
 
-/* --- Relations ------------------------------------------------------------------------------------ */
+/* --- Relations -------------------------------------------------------------------------------- */
 
 imp_code imp_builder_parent(imp_builder *b, size_t body, size_t parent, imp_error *error)
 {
@@ -234,7 +233,7 @@ imp_code imp_builder_ignore(imp_builder *b, const char *x, const char *y, imp_er
     return scene_bodies_ignore(&b->bodies, x, &at, y, &at);
 }
 
-/* --- Done ----------------------------------------------------------------------------------------- */
+/* --- Done ------------------------------------------------------------------------------------- */
 
 /* Every body has a surface, and none is its own ancestor. */
 static imp_code check_all(const imp_builder *b, imp_error *error)

@@ -9,7 +9,7 @@
 
 #include "core/base/unconst.h"
 
-/* --- Descriptions --------------------------------------------------------------------------------- */
+/* --- Descriptions ----------------------------------------------------------------------------- */
 
 /* A surface's own maps are no value of its instance. */
 static bool is_own(const char *key) { return strcmp(key, "maps") != 0; }
@@ -81,7 +81,7 @@ static bool is_kept(imp_type_kind kind, const json_t *from)
     return json_is_object(from) && (kind == IMP_TYPE_MAP || has_text(from));
 }
 
-/* --- The table --------------------------------------------------------------------------------------- */
+/* --- The table -------------------------------------------------------------------------------- */
 
 enum { CAPACITY_FIRST = 16 };
 

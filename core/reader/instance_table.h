@@ -9,13 +9,14 @@
 
 /* Instances made so far, by what they were made from
  * ==================================================
- * A scene may write one map many times. Equal descriptions get one instance, so that the solver sees which motions
- * surfaces have in common, and a file that several bodies name is read once. Maps are kept, and surfaces
- * with a text among their values, such as the name of a file; control points are seldom the same twice. */
+ * A scene may write one map many times. Equal descriptions get one instance, so that the solver
+ * sees which motions surfaces have in common, and a file that several bodies name is read once.
+ * Maps are kept, and surfaces with a text among their values, such as the name of a file; control
+ * points are seldom the same twice. */
 
 typedef struct instance_entry {
     uint64_t hash;
-    json_t *from; /* held */
+    json_t *from;          /* held */
     shared_instance *made; /* held */
 } instance_entry;
 
@@ -25,7 +26,8 @@ typedef struct instance_table {
 } instance_table; /* begins as {0} */
 
 /* The instance that was made from an equal description, or NULL. It stays the table's. */
-shared_instance *instance_table_find(const instance_table *t, imp_type_kind kind, const json_t *from);
+shared_instance *instance_table_find(const instance_table *t, imp_type_kind kind,
+                                     const json_t *from);
 
 /* Keeps an instance, if it is of a kind that is kept. False: no memory. */
 bool instance_table_add(instance_table *t, imp_type_kind kind, json_t *from, shared_instance *made);

@@ -37,7 +37,7 @@ __attribute__((format(printf, 3, 4))) static imp_code fail(const reader *r, cons
     return IMP_ERROR_SCENE;
 }
 
-/* --- Words --------------------------------------------------------------------------- */
+/* --- Words ------------------------------------------------------------------------------------ */
 
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
@@ -86,7 +86,7 @@ static imp_code next_word(reader *r, word *w)
 
 static bool is_bar(word w) { return w.length == 1 && *w.at == '!'; }
 
-/* --- Stages -------------------------------------------------------------------------- */
+/* --- Stages ----------------------------------------------------------------------------------- */
 
 /* The row of a parameter, or NULL if type or parameter is unknown. */
 static const imp_parameter *find_row(const reader *r, const char *type, bool map, const char *name)

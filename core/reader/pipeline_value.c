@@ -35,7 +35,7 @@ static size_t find_comma(const char *text, size_t length)
     return i < length ? i : length;
 }
 
-/* --- Numbers as people type them --------------------------------------------------- */
+/* --- Numbers as people type them -------------------------------------------------------------- */
 
 /* Adds the zeros that JSON wants on both sides of a point, and drops the plus it does not want in
  * front of a number. One character becomes at most three. Answers how many. */
@@ -92,7 +92,7 @@ static imp_code parse(const char *text, size_t length, bool list, json_t **json,
     return IMP_ERROR_SCENE;
 }
 
-/* --- Words --------------------------------------------------------------------------- */
+/* --- Words ------------------------------------------------------------------------------------ */
 
 /* Begins like a word, perhaps behind a sign, and is none of JSON's. */
 static bool is_word(const char *text, size_t length)

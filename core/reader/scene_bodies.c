@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/common/spelling.h"
 
-/* --- Creation and destruction ------------------------------------------------------------ */
+/* --- Creation and destruction ----------------------------------------------------------------- */
 
 imp_code scene_bodies_start(scene_bodies *b, const scene_source *source, imp_error *error)
 {
@@ -44,7 +44,7 @@ imp_scene *scene_bodies_finish(scene_bodies *b, const place *at)
     return scene;
 }
 
-/* --- Names ------------------------------------------------------------------------------ */
+/* --- Names ------------------------------------------------------------------------------------ */
 
 static imp_code keep(const scene_bodies *b, bool kept)
 {
@@ -112,7 +112,7 @@ static imp_code find(const scene_bodies *b, const char *name, bool groups, const
     return IMP_SUCCESS;
 }
 
-/* --- Groups ------------------------------------------------------------------------------ */
+/* --- Groups ----------------------------------------------------------------------------------- */
 
 imp_code scene_bodies_join(scene_bodies *b, size_t body, const char *name, const place *at)
 {
@@ -134,7 +134,7 @@ imp_code scene_bodies_join(scene_bodies *b, size_t body, const char *name, const
     return code == IMP_SUCCESS ? keep(b, scene_join(scene, body, group) == IMP_SUCCESS) : code;
 }
 
-/* --- Parents ------------------------------------------------------------------------------ */
+/* --- Parents ---------------------------------------------------------------------------------- */
 
 imp_code scene_bodies_set_parent(scene_bodies *b, size_t body, const char *parent, const place *at)
 {
@@ -161,7 +161,7 @@ imp_code scene_bodies_refuse_cycle(const scene_bodies *b, size_t body, const pla
                        chain);
 }
 
-/* --- Who ignores whom ---------------------------------------------------------------------- */
+/* --- Who ignores whom ------------------------------------------------------------------------- */
 
 imp_code scene_bodies_ignore(scene_bodies *b, const char *x, const place *at_x, const char *y,
                              const place *at_y)

@@ -15,7 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* --- Which type ---------------------------------------------------------------------- */
+/* --- Which type ------------------------------------------------------------------------------- */
 
 static const char *kind_word(imp_type_kind kind)
 {
@@ -60,7 +60,7 @@ static imp_code read_type(const json_t *object, imp_type_kind kind, const place 
     return IMP_SUCCESS;
 }
 
-/* --- Creating ------------------------------------------------------------------------ */
+/* --- Creating --------------------------------------------------------------------------------- */
 
 static imp_code blame(const char *file, const type_view *view, const char *what, const place *at,
                       imp_error *error)
@@ -199,7 +199,7 @@ imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, co
     return code;
 }
 
-/* --- Putting together ------------------------------------------------------------------- */
+/* --- Putting together ------------------------------------------------------------------------- */
 
 /* As it would stand on a command line; false if it is too long for that. */
 static bool write_value(char *text, size_t size, const json_t *value)

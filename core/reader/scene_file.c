@@ -23,7 +23,7 @@ static const char *const scene_keys[] = {"time",   "gamma",   "gamma_clear", "de
                                          "note",   "gravity", "events",      NULL};
 static const char *const simulated_keys[] = {"gravity", NULL};
 
-/* --- Settings ------------------------------------------------------------------------ */
+/* --- Settings --------------------------------------------------------------------------------- */
 
 /* Rows like those of a type, so that numbers of the scene are read by the same code. */
 static const imp_parameter time_row = {.name = "time",
@@ -75,7 +75,7 @@ static imp_code read_settings(scene_bodies *b, const json_t *root, const place *
     return tolerances_check(s->gamma, s->gamma_clear, at, b->error);
 }
 
-/* --- Scenes -------------------------------------------------------------------------- */
+/* --- Scenes ----------------------------------------------------------------------------------- */
 
 static imp_scene *scene_of(const scene_source *source, json_t *root, const place *at,
                            imp_error *error)

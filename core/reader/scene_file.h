@@ -7,8 +7,8 @@
 
 /* The scene format
  * ================
- * Implements imp_scene_from_json, imp_scene_from_file, imp_scene_from_pair and imp_pair_to_json. One JSON
- * object:
+ * Implements imp_scene_from_json, imp_scene_from_file, imp_scene_from_pair and imp_pair_to_json.
+ * One JSON object:
  *
  *     "time"       [start, end]; start <= end. Preset [0, 1]
  *     "gamma"      tolerance, > 0, length. Preset 1e-6

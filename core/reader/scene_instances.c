@@ -10,7 +10,7 @@
 #include "core/plugin/json_describe.h"
 #include "core/reader/json_keys.h"
 
-/* --- Definitions: which there are ------------------------------------------------------- */
+/* --- Definitions: which there are ------------------------------------------------------------- */
 
 imp_code scene_instances_begin(scene_instances *p, const json_t *root, const place *at)
 {
@@ -71,7 +71,7 @@ static imp_code refuse_name(const scene_instances *p, const char *name, const pl
                        name);
 }
 
-/* --- Definitions: what they hold ---------------------------------------------------------- */
+/* --- Definitions: what they hold -------------------------------------------------------------- */
 
 static const char *kind_words(imp_type_kind kind)
 {
@@ -150,7 +150,7 @@ imp_code scene_instances_finish(scene_instances *p)
     return code;
 }
 
-/* --- Instances --------------------------------------------------------------------------------- */
+/* --- Instances -------------------------------------------------------------------------------- */
 
 imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object,
                               const place *at, shared_instance **made)
@@ -164,7 +164,7 @@ imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *ob
     return error_set_memory(p->error);
 }
 
-/* --- Maps ----------------------------------------------------------------------------------- */
+/* --- Maps ------------------------------------------------------------------------------------- */
 
 static imp_code keep(const scene_instances *p, bool kept)
 {

@@ -14,8 +14,8 @@
  *
  *     "define": {"NAME": [surfaces] or [maps], ...}
  *
- * may use each other. What one holds is created once and shared. Uses within uses are limited, so that
- * no small file stands for a scene without end. */
+ * may use each other. What one holds is created once and shared. Uses within uses are limited, so
+ * that no small file stands for a scene without end. */
 
 #define SCENE_INSTANCES_DEPTH_MAX 32u
 #define SCENE_INSTANCES_SHARED_MAX 4194304u
@@ -51,9 +51,10 @@ typedef struct scene_instances {
 imp_code scene_instances_begin(scene_instances *p, const json_t *root, const place *at);
 void scene_instances_clear(scene_instances *p);
 
-/* The instance that the object describes: an equal one that was made before, or a new one. The caller releases it. */
-imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object, const place *at,
-                          shared_instance **made);
+/* The instance that the object describes: an equal one that was made before, or a new one. The
+ * caller releases it. */
+imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object,
+                              const place *at, shared_instance **made);
 
 /* Adds what the array at `at` asks for; NULL is an empty one. */
 imp_code scene_instances_maps(scene_instances *p, const json_t *array, const place *at,
@@ -62,7 +63,8 @@ imp_code scene_instances_surfaces(scene_instances *p, const json_t *array, const
                                   shape_list *to);
 
 /* Adds one surface under its maps, written as one object. */
-imp_code scene_instances_surface(scene_instances *p, json_t *object, const place *at, shape_list *to);
+imp_code scene_instances_surface(scene_instances *p, json_t *object, const place *at,
+                                 shape_list *to);
 
 /* Reads the definitions that nobody used, for their errors. */
 imp_code scene_instances_finish(scene_instances *p);

@@ -12,10 +12,11 @@ static const char *const body_keys[] = {"name",     "surfaces", "maps",   "paren
                                         "mass",     "inertia",  "center", "friction", "restitution",
                                         "velocity", "spin",     NULL};
 
-/* A motion that is still to be computed is refused: an answer without it would be about another scene. */
+/* A motion that is still to be computed is refused: an answer without it would be about another
+ * scene. */
 static const char *const simulated_keys[] = {"velocity", "spin", NULL};
 
-/* --- Names --------------------------------------------------------------------------------- */
+/* --- Names ------------------------------------------------------------------------------------ */
 
 /* The string at `at`; `allowed` says what it is for. */
 static imp_code read_name(const scene_bodies *b, const json_t *json, const char *allowed,
@@ -27,7 +28,7 @@ static imp_code read_name(const scene_bodies *b, const json_t *json, const char 
                        allowed);
 }
 
-/* --- One body ------------------------------------------------------------------------------ */
+/* --- One body --------------------------------------------------------------------------------- */
 
 static imp_code begin(scene_bodies *b, const json_t *body, const place *at)
 {
@@ -127,7 +128,7 @@ static imp_code add_bodies(scene_bodies *b, const json_t *root, const place *at)
     return code;
 }
 
-/* --- Who ignores whom --------------------------------------------------------------------------- */
+/* --- Who ignores whom ------------------------------------------------------------------------- */
 
 static imp_code ignore_pair(scene_bodies *b, const json_t *pair, const place *at)
 {

@@ -9,7 +9,7 @@
 
 #include "core/common/array.h"
 
-/* --- Shapes ----------------------------------------------------------------------- */
+/* --- Shapes ----------------------------------------------------------------------------------- */
 
 static void shape_clear(shape *s)
 {
@@ -45,7 +45,7 @@ void shape_list_clear(shape_list *list)
     *list = (shape_list){.count = 0};
 }
 
-/* --- Bodies -------------------------------------------------------------------------- */
+/* --- Bodies ----------------------------------------------------------------------------------- */
 
 bool assembly_begin(assembly *a)
 {
@@ -94,8 +94,8 @@ assembly_search assembly_find_cycle(const assembly *a, size_t *body)
     return found ? ASSEMBLY_CYCLE : ASSEMBLY_NO_CYCLE;
 }
 
-/* Each link is shortened to the next ancestor that has maps, and so are those on the way to it, which
- * later bodies then need not walk again. */
+/* Each link is shortened to the next ancestor that has maps, and so are those on the way to it,
+ * which later bodies then need not walk again. */
 void assembly_skip_bare_parents(assembly *a)
 {
     for (size_t k = 0; k < a->count; ++k) {
@@ -124,7 +124,7 @@ bool assembly_is_too_large(const assembly *a)
     return false;
 }
 
-/* --- Composing ------------------------------------------------------------------------- */
+/* --- Composing -------------------------------------------------------------------------------- */
 
 static bool add_parts(surface *s, const instance_list *maps)
 {

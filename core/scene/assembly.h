@@ -57,12 +57,12 @@ typedef enum assembly_search {
 } assembly_search;
 assembly_search assembly_find_cycle(const assembly *a, size_t *body);
 
-/* Leaves out ancestors without maps: they change nothing, and long chains of them are walked through for
- * each body. Precondition: no cycle. */
+/* Leaves out ancestors without maps: they change nothing, and long chains of them are walked
+ * through for each body. Precondition: no cycle. */
 void assembly_skip_bare_parents(assembly *a);
 
-/* Maps put on surfaces in all, and ancestors walked through for it: what a small file of parents and
- * shared lists of maps could otherwise multiply without end. */
+/* Maps put on surfaces in all, and ancestors walked through for it: what a small file of parents
+ * and shared lists of maps could otherwise multiply without end. */
 #define ASSEMBLY_WORK_MAX 4194304u
 bool assembly_is_too_large(const assembly *a);
 

@@ -69,8 +69,8 @@ static imp_code refuse(const imp_scene *scene, const gathered_times *g, imp_erro
 
 static double clip(double t, double lo, double hi) { return t < lo ? lo : t > hi ? hi : t; }
 
-/* Precondition: all is defined from g->from to g->to, which is not empty. Both are finite, or one of
- * them, or neither. */
+/* Precondition: all is defined from g->from to g->to, which is not empty. Both are finite, or one
+ * of them, or neither. */
 static void choose(const gathered_times *g, double time[2])
 {
     const bool both = g->from > -INFINITY && g->to < INFINITY;

@@ -52,7 +52,7 @@ struct imp_scene {
     /* once it is built all but the members' lists of trees is only read */
 };
 
-/* --- Building ------------------------------------------------------------------- */
+/* --- Building --------------------------------------------------------------------------------- */
 
 imp_scene *scene_new(void)
 {
@@ -131,7 +131,7 @@ imp_code scene_add_surface(imp_scene *scene, size_t index, surface *s)
     return IMP_SUCCESS;
 }
 
-/* --- Groups --------------------------------------------------------------------- */
+/* --- Groups ----------------------------------------------------------------------------------- */
 
 imp_code scene_add_group(imp_scene *scene, const char *name)
 {
@@ -163,7 +163,7 @@ imp_code scene_join(imp_scene *scene, size_t index, size_t group)
     return IMP_SUCCESS;
 }
 
-/* --- Who ignores whom ----------------------------------------------------------- */
+/* --- Who ignores whom ------------------------------------------------------------------------- */
 
 /* Bodies have the even keys, groups the odd ones. */
 static size_t key_of(scene_members m) { return 2 * m.index + m.is_group; }
@@ -190,7 +190,7 @@ bool scene_ignores(const imp_scene *scene, size_t a, size_t b)
     return false;
 }
 
-/* --- Memory --------------------------------------------------------------------- */
+/* --- Memory ----------------------------------------------------------------------------------- */
 
 static uint64_t sum_of_bytes(const imp_scene *scene)
 {
@@ -211,7 +211,7 @@ uint64_t scene_bytes(const imp_scene *scene)
     return scene->bytes > 0 ? scene->bytes : sum_of_bytes(scene);
 }
 
-/* --- Once it is built ----------------------------------------------------------- */
+/* --- Once it is built ------------------------------------------------------------------------- */
 
 static void note_times(imp_scene *scene)
 {
@@ -241,7 +241,7 @@ bool scene_is_defined(const imp_scene *scene, double t_start, double t_end)
     return scene->t_from <= t_start && t_end <= scene->t_to;
 }
 
-/* --- Asking ------------------------------------------------------------------------ */
+/* --- Asking ----------------------------------------------------------------------------------- */
 
 scene_settings *scene_settings_of(imp_scene *scene) { return &scene->settings; }
 
@@ -413,10 +413,11 @@ FP_APART static imp_code piece_motion(const imp_scene *scene, imp_place at, doub
     surface_domain(s, lo, hi);
     const double first = from < to ? from : to, last = from < to ? to : from;
     if (!(lo[2] <= first && last <= hi[2] && isfinite(first) && isfinite(last)))
-        return error_set(why, IMP_ERROR_USAGE,
-                         "body %zu, surface %zu: times %g and %g, must be finite and in the domain, "
-                         "from %g to %g",
-                         at.body, at.surface, from, to, lo[2], hi[2]);
+        return error_set(
+            why, IMP_ERROR_USAGE,
+            "body %zu, surface %zu: times %g and %g, must be finite and in the domain, "
+            "from %g to %g",
+            at.body, at.surface, from, to, lo[2], hi[2]);
     surface_motion(s, from, to, motion);
     return IMP_SUCCESS;
 }
@@ -476,7 +477,7 @@ imp_code imp_options_get_default(const imp_scene *scene, imp_options *options, i
     return scene_check_times(scene, own.t_start, own.t_end, error);
 }
 
-/* --- Trees ----------------------------------------------------------------------------- */
+/* --- Trees ------------------------------------------------------------------------------------ */
 
 /* From this one on; NULL: there is none yet. */
 static tree *find_tree(tree *t, const tree_plan *plan)
@@ -485,7 +486,8 @@ static tree *find_tree(tree *t, const tree_plan *plan)
     return t;
 }
 
-/* Keeps the tree, unless another thread's is there already: then that one is answered, and `made` freed. */
+/* Keeps the tree, unless another thread's is there already: then that one is answered, and `made`
+ * freed. */
 static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
 {
     tree *first = atomic_load_explicit(&m->trees, memory_order_acquire);

@@ -13,13 +13,14 @@
 #include "core/solver/contradiction.h"
 #include "core/solver/world.h"
 
-/* --- The minimum distance of a task --------------------------------------------------------- */
+/* --- The minimum distance of a task ----------------------------------------------------------- */
 
 /* Part of what is required that counts as kept: between this and what is required, either answer
  * is right. */
 static double relaxed(const clearance_search *c) { return c->asked.required * (1 - 1e-6); }
 
-/* What the searches have to keep for it: room for the slip of pairs that are taken to be at rest. */
+/* What the searches have to keep for it: room for the slip of pairs that are taken to be at
+ * rest. */
 static double searched(const clearance_search *c)
 {
     return c->list->slip > 0 ? sum_upper(relaxed(c), 2 * c->list->slip) : relaxed(c);
@@ -105,8 +106,8 @@ static bool is_narrow(const clearance_search *c, const imp_clearance *answer)
     return width <= c->asked.tolerance * answer->upper || answer->upper <= c->options.gamma;
 }
 
-/* Lemma. No points are nearer than `lower` before time t, and those of the witness are no farther apart
- * than `upper`, but for what pairs that are taken to be at rest slip. */
+/* Lemma. No points are nearer than `lower` before time t, and those of the witness are no farther
+ * apart than `upper`, but for what pairs that are taken to be at rest slip. */
 static imp_code check_witness(const clearance_search *c, const imp_clearance *answer, double lower,
                               double t, imp_error *error)
 {
@@ -207,7 +208,7 @@ static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_err
     return IMP_SUCCESS;
 }
 
-/* --- The earliest violation, or that there is none ------------------------------------------- */
+/* --- The earliest violation, or that there is none -------------------------------------------- */
 
 static imp_code take_violation(const clearance_search *c, imp_clearance *answer, imp_error *error)
 {
@@ -229,8 +230,8 @@ static imp_code take_violation(const clearance_search *c, imp_clearance *answer,
     return IMP_SUCCESS;
 }
 
-/* Double precision ends the search for contact where a millionth of what is required is too little to be told
- * apart; a witness, or the bracket, may still decide. */
+/* Double precision ends the search for contact where a millionth of what is required is too little
+ * to be told apart; a witness, or the bracket, may still decide. */
 static void go_on_with_distance(clearance_search *c)
 {
     impact_clear(&c->violation);
@@ -300,7 +301,7 @@ static imp_code search_violation(clearance_search *c, imp_reason *reason, imp_er
     return code == IMP_SUCCESS ? conclude_violation(c, state, reason, error) : code;
 }
 
-/* --- All tasks ------------------------------------------------------------------------------- */
+/* --- All tasks -------------------------------------------------------------------------------- */
 
 imp_code clearance_work(clearance_search *c, imp_reason *reason, imp_error *error)
 {

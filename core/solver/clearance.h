@@ -9,8 +9,8 @@
 /* The questions of imp_clearance_new
  * ==================================
  * A clearance is a list of tasks, pairs of bodies by slices of time, each with a minimum distance
- * that is searched for by itself; the trees are shared. Where something is required and violated, or only
- * the verdict is asked for, a search for the earliest violation follows. */
+ * that is searched for by itself; the trees are shared. Where something is required and violated,
+ * or only the verdict is asked for, a search for the earliest violation follows. */
 
 typedef struct clearance_search clearance_search;
 

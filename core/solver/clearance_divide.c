@@ -8,7 +8,7 @@
 
 #include "core/base/status.h"
 
-/* --- What is asked ------------------------------------------------------------------------ */
+/* --- What is asked ---------------------------------------------------------------------------- */
 
 enum { SLICES_MAX = 1000000 };
 
@@ -37,7 +37,8 @@ static size_t body_pair_count(const clearance_search *c)
     return count;
 }
 
-/* The slices of one pair of bodies, from tasks[c->count] on. Neighbours share the moment between. */
+/* The slices of one pair of bodies, from tasks[c->count] on. Neighbours share the moment
+ * between. */
 static void add_slices(clearance_search *c, size_t a, size_t b)
 {
     const double n = (double)c->asked.slices;

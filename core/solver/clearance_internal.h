@@ -6,8 +6,8 @@
 #include "core/solver/clearance.h"
 #include "core/solver/time_of_impact.h"
 
-/* What the files of the clearance share: clearance_divide.c divides what is asked into tasks, clearance.c
- * searches them one after the other. */
+/* What the files of the clearance share: clearance_divide.c divides what is asked into tasks,
+ * clearance.c searches them one after the other. */
 
 /* A pair of bodies, or all, during a slice of time. */
 typedef struct clearance_task {

@@ -9,8 +9,9 @@ imp_code contradiction_fault(const surface *a, const surface *b, double upper, d
 {
     imp_error other = {IMP_SUCCESS, ""};
     surface_fault(b, &other, "are");
-    return surface_fault(a, error,
-                         "and %.400s seen %.10g apart at t = %.10g, but proved to stay %.10g "
-                         "apart; one of these types breaks a promise: `impinge check TYPE` finds it",
-                         other.text, upper, t, lower);
+    return surface_fault(
+        a, error,
+        "and %.400s seen %.10g apart at t = %.10g, but proved to stay %.10g "
+        "apart; one of these types breaks a promise: `impinge check TYPE` finds it",
+        other.text, upper, t, lower);
 }

@@ -15,7 +15,7 @@ static candidate_pair *candidate_pair_of(const impact *im, const pair *p)
     return &im->candidate_pairs[p->candidate_pair];
 }
 
-/* --- Push ------------------------------------------------------------------------- */
+/* --- Push ------------------------------------------------------------------------------------- */
 
 /* p->window holds the parent's window, cut to both nodes' times. */
 static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
@@ -26,7 +26,7 @@ static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
     return code;
 }
 
-/* --- Splitting ---------------------------------------------------------------------------- */
+/* --- Splitting -------------------------------------------------------------------------------- */
 
 /* The same of a pair whose window the hulls have cut already: it is tested when it is popped. */
 static imp_code push_cut(impact *im, const pair *p, imp_error *error)
@@ -79,7 +79,7 @@ static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *
     return code == IMP_SUCCESS ? pair_test_ask_for_nets(im, p, &im->stats->bytes, error) : code;
 }
 
-/* --- Following one pair ------------------------------------------------------------------ */
+/* --- Following one pair ----------------------------------------------------------------------- */
 
 /* What is to be told apart; by default half of gamma. */
 static double room(const impact *im) { return im->gamma - im->gamma_clear; }
@@ -205,9 +205,9 @@ static bool witness_is_likely(const impact *im, const pair *p, const distance_ou
            nodes_have_flat_nets(p->a, p->b) || precision_ends(im, p, TUNING_WITNESS_FLAT);
 }
 
-/* Of the side that is worth halving alone. Not where its remainder does not matter any more: where surfaces
- * come to touch along a curve, it would be halved all along before the other side is small enough for a
- * witness. */
+/* Of the side that is worth halving alone. Not where its remainder does not matter any more: where
+ * surfaces come to touch along a curve, it would be halved all along before the other side is small
+ * enough for a witness. */
 static cut choose_cut_alone(const impact *im, const pair *p, const distance_outcome *seen)
 {
     if (seen->side < 0) return CUT_NONE;
@@ -216,9 +216,9 @@ static cut choose_cut_alone(const impact *im, const pair *p, const distance_outc
     return matters ? cut_alone(p, seen->side, seen->bend, scale(im)) : CUT_NONE;
 }
 
-/* The pairs that hold the points of a contact are near each other for a long time where gamma is wide
- * and its room narrow: how motion bends in that time, not place, is what keeps their starts from being
- * found. What one side's distance shows comes first. */
+/* The pairs that hold the points of a contact are near each other for a long time where gamma is
+ * wide and its room narrow: how motion bends in that time, not place, is what keeps their starts
+ * from being found. What one side's distance shows comes first. */
 static cut choose_cut(const impact *im, const pair *p, const distance_outcome *seen)
 {
     const cut alone = choose_cut_alone(im, p, seen);
@@ -246,8 +246,9 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcom
 }
 
 /* Whether the nodes may slide along each other: no fixed axis parts them from the start of their
- * times on, or their parents slid, or one is flat and they move along it. Where an axis parts them, this is tried
- * as often as it pays. If surfaces approach each other, axes cut the start of the window first. */
+ * times on, or their parents slid, or one is flat and they move along it. Where an axis parts them,
+ * this is tried as often as it pays. If surfaces approach each other, axes cut the start of the
+ * window first. */
 static bool may_slide(const pair *p, bool is_parted, trial_rate *sliding)
 {
     if (!is_parted) return p->slides || !(p->window.lo > pair_times(p->a, p->b).lo);

@@ -13,7 +13,7 @@
 #include "core/bounds/tuning.h"
 #include "core/solver/contradiction.h"
 
-/* --- How near is near enough --------------------------------------------------------------- */
+/* --- How near is near enough ------------------------------------------------------------------ */
 
 /* What is farther apart than this need not be looked at. Lemma. In the end lower is at least
  * (1 - R') upper with R' = R (1 - 2^-20), off by 2 u upper at most; as R >= 2^-30, upper - lower is
@@ -52,7 +52,7 @@ double min_distance_lower(const min_distance *m)
     return lower > m->slip ? difference_lower(lower, m->slip) : 0;
 }
 
-/* --- Beginning ------------------------------------------------------------------------------ */
+/* --- Beginning -------------------------------------------------------------------------------- */
 
 /* Goes down to the smallest node that holds the window. */
 static imp_code descend_in_time(min_distance *m, const candidate_pair *both, pair *p, int side,
@@ -108,7 +108,7 @@ imp_code min_distance_begin(min_distance *m, size_t first, size_t count, imp_err
     return IMP_SUCCESS;
 }
 
-/* --- Test and push -------------------------------------------------------------------------- */
+/* --- Test and push ---------------------------------------------------------------------------- */
 
 /* Lemma. A pair's first key bounds the distance of its points over its window from below, or is
  * `enough` or more; what was cut off the window is no nearer than what was enough then, which is at
@@ -130,7 +130,7 @@ static void test_and_push(min_distance *m, pair p)
     if (m->heap.count > m->stats->peak_heap) m->stats->peak_heap = m->heap.count;
 }
 
-/* --- Following one pair --------------------------------------------------------------------- */
+/* --- Following one pair ----------------------------------------------------------------------- */
 
 static imp_code find_witness(min_distance *m, const pair *p, imp_error *error)
 {
@@ -185,9 +185,10 @@ static cut choose_cut(const min_distance *m, const pair *p, const distance_outco
     return alone.side >= 0 ? alone : cut_by_spread(p, scale(m), false);
 }
 
-/* Of a pair that no axis parts, or whose parents slid along each other: what its nodes' distances from each
- * other's whole surfaces show. Lemma. The times that are cut off p->window are farther apart than what is
- * enough, and over those that are left nothing is nearer than seen->lower, so that p->key[0] stays a bound. */
+/* Of a pair that no axis parts, or whose parents slid along each other: what its nodes' distances
+ * from each other's whole surfaces show. Lemma. The times that are cut off p->window are farther
+ * apart than what is enough, and over those that are left nothing is nearer than seen->lower, so
+ * that p->key[0] stays a bound. */
 static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error *error)
 {
     *seen = distance_outcome_none(&p->window);
@@ -228,7 +229,8 @@ static imp_code take_one(min_distance *m, imp_error *error)
     return code;
 }
 
-/* Follow pushes at most two pairs in place of one; on failure one of them, and the pair goes back. */
+/* Follow pushes at most two pairs in place of one; on failure one of them, and the pair goes
+ * back. */
 imp_code min_distance_advance(min_distance *m, min_distance_state *state, imp_error *error)
 {
     *state = MIN_DISTANCE_NO_MEMORY;

@@ -11,8 +11,8 @@
  * Branch and bound: the pair of least lower bound is divided first, and whatever cannot be nearer
  * than `enough`, a little less than the best witness, is pruned. After every min_distance_advance:
  * (a) no pair of points of the candidates is nearer than min_distance_lower at any time of the
- * window; (b) where upper is finite, the witness's points are no farther apart than that at the time
- * it was found, which lies in the window. */
+ * window; (b) where upper is finite, the witness's points are no farther apart than that at the
+ * time it was found, which lies in the window. */
 
 typedef struct min_distance {
     /* set by the caller; the rest begins as 0, and min_distance_clear frees */
@@ -21,7 +21,7 @@ typedef struct min_distance {
     double gamma;     /* or when upper is no more than this; length */
     double required;  /* or, if > 0, not before upper <= required or lower >= relaxed; length */
     double relaxed;   /* a little below what is required */
-    double slip;      /* what is proved of the candidates holds of the surfaces but for this; length */
+    double slip; /* what is proved of the candidates holds of the surfaces but for this; length */
     candidate_pair *candidates; /* the caller's */
     imp_stats *stats;           /* the caller's; bytes: of the trees, without the heap */
     /* kept */

@@ -28,8 +28,8 @@ bool pair_test_fully(const impact *im, pair *p)
 
 /* --- The first test --------------------------------------------------------------------------- */
 
-/* Hulls part two nodes where one of them gains by its net. Every later test of the pair finds what is found
- * here. */
+/* Hulls part two nodes where one of them gains by its net. Every later test of the pair finds what
+ * is found here. */
 imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[p->candidate_pair];

@@ -25,8 +25,8 @@ imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, im
 /* The first test of the roots of candidate pair `index`: that made ahead, or one made now. */
 imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error *error);
 
-/* Has candidate pairs from `first` on, of `count` in all, tested by the threads of the program, unless
- * that was done. */
+/* Has candidate pairs from `first` on, of `count` in all, tested by the threads of the program,
+ * unless that was done. */
 void pair_test_look_ahead(impact *im, uint32_t first, size_t count, const imp_options *options);
 
 #endif

@@ -17,7 +17,7 @@
 #include "core/scene/tolerances.h"
 #include "core/solver/pair_test.h"
 
-/* --- Creation and destruction ------------------------------------------------------------ */
+/* --- Creation and destruction ----------------------------------------------------------------- */
 
 /* None, or one kind of volume with at most one form of rates. */
 static imp_code check_baseline(uint32_t baseline, imp_error *error)
@@ -113,7 +113,7 @@ void imp_query_cancel(imp_query *query)
     if (query != NULL) atomic_store(&query->cancelled, true);
 }
 
-/* --- Running ------------------------------------------------------------------------------- */
+/* --- Running ---------------------------------------------------------------------------------- */
 
 void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason)
 {
@@ -128,8 +128,8 @@ imp_reason query_reason_of_clear(const imp_query *query)
     return query->examined.lo <= query->examined.hi ? IMP_REASON_NONE : IMP_REASON_NO_TIME;
 }
 
-/* Whether one surface of the contact found stays as it is for all of the query's times. Rates are asked for only
- * where no point of it was seen to move. */
+/* Whether one surface of the contact found stays as it is for all of the query's times. Rates are
+ * asked for only where no point of it was seen to move. */
 static bool is_at_rest(const imp_query *query, int side)
 {
     const candidate *c = query->candidates.pairs[query->impact.found_candidate].side[side];
@@ -266,8 +266,8 @@ typedef struct collecting {
     imp_reason reason;
 } collecting;
 
-/* Each candidate pair is a pair to test: with more of them than max_pairs the search cannot end. In a
- * divided query that limit is each part's own. 0: none. */
+/* Each candidate pair is a pair to test: with more of them than max_pairs the search cannot end. In
+ * a divided query that limit is each part's own. 0: none. */
 static uint64_t most_candidates(const imp_query *query)
 {
     return query->divided > 0 ? 0 : query->options.max_pairs;
@@ -298,7 +298,8 @@ static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
             c->seconds_before + (clock_seconds() - c->start) >= options->max_seconds);
 }
 
-/* Below this nothing is to be missed: what is asked for, and the slip of pairs that are taken to be at rest. */
+/* Below this nothing is to be missed: what is asked for, and the slip of pairs that are taken to be
+ * at rest. */
 static double searched_gamma_clear(const imp_query *query, double gamma_clear)
 {
     const double slip = query->candidates.slip;
@@ -374,7 +375,7 @@ imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error)
     return code;
 }
 
-/* --- Finer ----------------------------------------------------------------------------- */
+/* --- Finer ------------------------------------------------------------------------------------ */
 
 FP_APART static imp_code refine(imp_query *query, double gamma, double gamma_clear,
                                 imp_error *error)
@@ -407,7 +408,7 @@ imp_code imp_query_refine(imp_query *query, double gamma, double gamma_clear, im
     return code;
 }
 
-/* --- Without two bodies ------------------------------------------------------------------- */
+/* --- Without two bodies ----------------------------------------------------------------------- */
 
 imp_code imp_query_exclude_pair(imp_query *query, imp_error *error)
 {

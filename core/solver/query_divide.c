@@ -9,7 +9,7 @@
 #include "core/common/clock.h"
 #include "core/solver/query_internal.h"
 
-/* --- Dividing ------------------------------------------------------------------------------- */
+/* --- Dividing --------------------------------------------------------------------------------- */
 
 /* The list is in the order of the scene, so that the candidates of two bodies stand together. */
 static imp_code find_parts(imp_query *query, imp_error *error)
@@ -73,7 +73,7 @@ imp_code imp_query_divide(imp_query *query, size_t *count, imp_error *error)
     return code;
 }
 
-/* --- Parts ---------------------------------------------------------------------------------- */
+/* --- Parts ------------------------------------------------------------------------------------ */
 
 bool imp_query_part_bodies(const imp_query *query, size_t index, size_t body[2])
 {

@@ -43,8 +43,8 @@ void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason);
 /* What the query answers where nothing comes near anything. */
 imp_reason query_reason_of_clear(const imp_query *query);
 
-/* Fills the list of candidates, unless a limit comes first, which ends the query. `start` is when the
- * step began. */
+/* Fills the list of candidates, unless a limit comes first, which ends the query. `start` is when
+ * the step began. */
 imp_code query_collect(imp_query *query, double start, imp_error *error);
 
 #endif

@@ -7,7 +7,7 @@
 #include "core/bounds/separation.h"
 #include "core/bounds/tuning.h"
 
-/* --- What a pair is like ---------------------------------------------------------------- */
+/* --- What a pair is like ---------------------------------------------------------------------- */
 
 bool pair_has_cluster(const pair *p) { return p->a->many != NULL || p->b->many != NULL; }
 
@@ -62,7 +62,7 @@ bool pair_precision_ends(const pair *p, const candidate_pair *both, double room,
            pair_remainder(p) <= TUNING_PRECISION_REMAINDER * flat * eval_error;
 }
 
-/* --- Where it is cut -------------------------------------------------------------------- */
+/* --- Where it is cut -------------------------------------------------------------------------- */
 
 /* A node without bounds is cut before one that has them, which would gain nothing. */
 static void cut_consider(cut *best, const pair *p, int side, parameter j, double gain)
@@ -130,8 +130,8 @@ static double gain_in_time(const pair *p, const node *n, double bend, const view
     return (of->has_nets ? TUNING_TIME_CUT : TUNING_FREE_TIME_CUT) * bend;
 }
 
-/* Whether no fixed axis parts the nodes, whose surfaces are nearly parallel: only a field of normals
- * will, for which slopes are no obstacle. */
+/* Whether no fixed axis parts the nodes, whose surfaces are nearly parallel: only a field of
+ * normals will, for which slopes are no obstacle. */
 static bool is_tangent(const pair *p)
 {
     const vec3 a = p->a->normal, b = p->b->normal;
@@ -199,7 +199,7 @@ cut cut_in_time(const pair *p)
     return best;
 }
 
-/* --- The halves --------------------------------------------------------------------------- */
+/* --- The halves ------------------------------------------------------------------------------- */
 
 imp_code cut_take(const cut *c, int half, const candidate_pair *both, pair *p, bool *some,
                   imp_stats *stats, imp_error *error)

@@ -33,7 +33,7 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
     return code;
 }
 
-/* --- Finer ---------------------------------------------------------------------------------- */
+/* --- Finer ------------------------------------------------------------------------------------ */
 
 /* The window that is left of the whole of both surfaces; counted as one pair. */
 static time_window window_of_roots(impact *im, uint32_t index)
@@ -45,8 +45,8 @@ static time_window window_of_roots(impact *im, uint32_t index)
     return pair_test_fully(im, &p) ? p.window : (time_window){INFINITY, -INFINITY};
 }
 
-/* Lemma. Everything pruned so far is farther apart than the old gamma_clear, and windows were cut by
- * it; for a smaller one both still hold, so the heap and t_lower carry over. */
+/* Lemma. Everything pruned so far is farther apart than the old gamma_clear, and windows were cut
+ * by it; for a smaller one both still hold, so the heap and t_lower carry over. */
 bool impact_refine(impact *im, double gamma, double gamma_clear, size_t count)
 {
     if (im->roots == NULL && count > 0) {
@@ -74,12 +74,13 @@ static const time_window *roots_of(impact *im, const pair *p)
     return whole;
 }
 
-/* After refining, cuts what is left of a pair by the new gamma_clear; false: it is pruned, or waits for
- * its later start. The window of the roots bounds those of all their descendants. Where it starts as
- * late as any proof can say, descendants that were cut to an earlier start would each prove a start
- * of their own, a little before it, and all that fills a curve of contacts would be searched before a
- * witness of any of it counts. (A sphere that meets a torus took 1467 pairs from 1e-2 to 1e-9, now
- * 118; afresh it takes 110.) Where the roots are of no use the pair itself is tested again, once. */
+/* After refining, cuts what is left of a pair by the new gamma_clear; false: it is pruned, or waits
+ * for its later start. The window of the roots bounds those of all their descendants. Where it
+ * starts as late as any proof can say, descendants that were cut to an earlier start would each
+ * prove a start of their own, a little before it, and all that fills a curve of contacts would be
+ * searched before a witness of any of it counts. (A sphere that meets a torus took 1467 pairs from
+ * 1e-2 to 1e-9, now 118; afresh it takes 110.) Where the roots are of no use the pair itself is
+ * tested again, once. */
 static bool is_still_first(impact *im, pair *p)
 {
     if (im->roots == NULL || im->baseline != IMP_BASELINE_NONE) return true;
@@ -108,7 +109,8 @@ static imp_code ask_before_test(impact *im, pair *p, imp_error *error)
     return code;
 }
 
-/* Completes the test of a pair that was only looked at; false: it is pruned, or waits for its later start. */
+/* Completes the test of a pair that was only looked at; false: it is pruned, or waits for its later
+ * start. */
 static bool is_first_when_tested(impact *im, pair *p)
 {
     if (!p->is_seen_only) return true;
@@ -138,7 +140,7 @@ bool impact_pass(impact *im, size_t count)
     return true;
 }
 
-/* --- An upper time ----------------------------------------------------------------------------- */
+/* --- An upper time ---------------------------------------------------------------------------- */
 
 /* Whether nothing that waits starts before a contact that is known. */
 static bool is_settled(const impact *im)
@@ -203,8 +205,8 @@ enum { ROOM_OF_STEP = 3 };
 /* Lemma. The popped pair's window starts first of all, and outside the windows on the heap no two
  * points are within gamma_clear: so nothing is before that start. Children's windows lie in their
  * parent's, so the bound never falls. A pair that ends the search goes back: finer gamma can go on
- * from it. A contact that is known, no later than the first window, is the answer; it is no earlier than
- * t_lower, since it was followed from a window's start, and no later one is popped since. */
+ * from it. A contact that is known, no later than the first window, is the answer; it is no earlier
+ * than t_lower, since it was followed from a window's start, and no later one is popped since. */
 imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
 {
     const double proved = im->t_lower;

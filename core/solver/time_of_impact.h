@@ -7,8 +7,8 @@
 
 /* The search for the earliest contact: pop, witness, prune, split, push
  * =====================================================================
- * After every impact_advance: (a) no pair of points of the candidates is nearer than `gamma_clear` at
- * any time before t_lower; (b) with IMPACT_CONTACT the witness's gap_upper is at most gamma at
+ * After every impact_advance: (a) no pair of points of the candidates is nearer than `gamma_clear`
+ * at any time before t_lower; (b) with IMPACT_CONTACT the witness's gap_upper is at most gamma at
  * t_lower; (c) with IMPACT_CLEAR there are no such points at all. (a) holds for every answer. */
 
 /* Tests the roots of candidate pair `index` and keeps the pair if they may be near. */

@@ -7,8 +7,8 @@
 #include "core/bounds/tuning.h"
 #include "core/witness/contact_estimate.h"
 
-/* Of gamma: what nearest points are followed to, so that rounding and the net's error have room, and nothing
- * nearer has to be told apart from gamma_clear before it. */
+/* Of gamma: what nearest points are followed to, so that rounding and the net's error have room,
+ * and nothing nearer has to be told apart from gamma_clear before it. */
 #define TOUCHING 0.875
 
 /* Whether the pair holds the points of the contact that is known, which would be found again. */
@@ -35,8 +35,8 @@ static bool is_wanted(upper_time *up, const pair *p)
     return true;
 }
 
-/* The horizon is where the gap would be gone: a smaller gamma is met before it, so that none of what was left
- * out is needed again. */
+/* The horizon is where the gap would be gone: a smaller gamma is met before it, so that none of
+ * what was left out is needed again. */
 static void take(upper_time *up, const pair *p, const contact_estimate *met, const witness *seen)
 {
     const double rest = 2 * seen->gap / met->speed;

@@ -8,9 +8,10 @@
 
 /* A contact that is met before it is proved to be the first
  * =========================================================
- * The nearest points of a pair's surfaces, followed in time, soon touch: then the first contact is no later.
- * Such a time, of which the search learns early, ends the windows of the pairs that are followed, a little
- * behind it; what is left of these windows waits on the heap. Where the search comes to it, it is the answer. */
+ * The nearest points of a pair's surfaces, followed in time, soon touch: then the first contact is
+ * no later. Such a time, of which the search learns early, ends the windows of the pairs that are
+ * followed, a little behind it; what is left of these windows waits on the heap. Where the search
+ * comes to it, it is the answer. */
 
 typedef struct upper_time {
     bool is_known; /* `seen` touches at t; else what follows but for the counters means nothing */
@@ -22,8 +23,8 @@ typedef struct upper_time {
     uint64_t followed, next; /* pairs followed; how many it takes until the next search */
 } upper_time;
 
-/* Counts a pair that is followed, and, when it is time, seeks a contact earlier than t from there; *sought
- * tells whether it did. IMP_ERROR_PLUGIN when an evaluation fails. */
+/* Counts a pair that is followed, and, when it is time, seeks a contact earlier than t from there;
+ * *sought tells whether it did. IMP_ERROR_PLUGIN when an evaluation fails. */
 imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *sought,
                            imp_error *error);
 

@@ -19,8 +19,8 @@ static imp_code fault(const surface *s, imp_status status, double t, imp_error *
     return surface_set_code(status, error);
 }
 
-/* The length of the arrow whose image gives the normal: a power of two beside which the rounding of the points'
- * coordinates is small. */
+/* The length of the arrow whose image gives the normal: a power of two beside which the rounding of
+ * the points' coordinates is small. */
 static double arrow_length(const vec3 *from, const double to[3])
 {
     const vec3 image = {{to[0], to[1], to[2]}};

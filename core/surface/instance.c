@@ -12,7 +12,7 @@
 #include "core/common/array.h"
 #include "core/surface/surface_internal.h"
 
-/* --- Creation and destruction ------------------------------------------------------------ */
+/* --- Creation and destruction ----------------------------------------------------------------- */
 
 /* What destroy does to the floating-point mode is undone. */
 static void destroy(const char *type, void (*destroy_it)(void *), void *self)
@@ -156,7 +156,7 @@ void instance_release(shared_instance *p)
     free(p);
 }
 
-/* --- Labels ------------------------------------------------------------------------- */
+/* --- Labels ----------------------------------------------------------------------------------- */
 
 void instance_label_add(char label[INSTANCE_LABEL_MAX], const char *text)
 {
@@ -184,7 +184,7 @@ const char *instance_label(const shared_instance *p)
     return p->surface != NULL ? p->surface->name : p->map->name;
 }
 
-/* --- Lists ------------------------------------------------------------------------------ */
+/* --- Lists ------------------------------------------------------------------------------------ */
 
 bool instance_list_add(instance_list *list, shared_instance *p)
 {

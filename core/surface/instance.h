@@ -7,8 +7,8 @@
 
 /* Instances of types, shared
  * ==========================
- * An instance is what one call of a type's create made: a surface without maps, or a map. Surfaces are
- * composed of instances; one may be in many of them, and is destroyed with its last holder.
+ * An instance is what one call of a type's create made: a surface without maps, or a map. Surfaces
+ * are composed of instances; one may be in many of them, and is destroyed with its last holder.
  * Immutable once it is in use, but for the count of holders, which belongs to one thread. */
 
 enum { INSTANCE_LABEL_MAX = 240 };
@@ -30,8 +30,8 @@ typedef struct shared_instance {
 } shared_instance;
 
 /* Takes over the instance `self`, and asks for its domain, or those of its pieces, which have their
- * times in common, and of which `lo` and `hi` are the first's; the caller holds the result. NULL: no
- * memory; the instance is destroyed then too. */
+ * times in common, and of which `lo` and `hi` are the first's; the caller holds the result. NULL:
+ * no memory; the instance is destroyed then too. */
 shared_instance *instance_of_surface(const imp_surface_type *type, void *self);
 shared_instance *instance_of_map(const imp_map_type *type, void *self);
 

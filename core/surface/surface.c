@@ -16,7 +16,7 @@
 #include "core/common/array.h"
 #include "core/surface/surface_internal.h"
 
-/* --- Composing -------------------------------------------------------------------- */
+/* --- Composing -------------------------------------------------------------------------------- */
 
 surface *surface_new_of(shared_instance *type)
 {
@@ -166,7 +166,7 @@ void surface_domain(const surface *s, double lo[3], double hi[3])
     memcpy(hi, s->hi, sizeof s->hi);
 }
 
-/* --- Times --------------------------------------------------------------------- */
+/* --- Times ------------------------------------------------------------------------------------ */
 
 bool surface_instance_at(const surface *s, size_t k, surface_instance *found)
 {

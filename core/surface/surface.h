@@ -18,14 +18,14 @@ surface *surface_new_of(shared_instance *type);
 /* Puts a map on top of those already there, and holds it. */
 imp_code surface_add_instance(surface *s, shared_instance *map);
 
-/* The surface under its first `maps` maps alone, divided into pieces where `s` is. It has the times of `s`,
- * which must outlive it. NULL: no memory. */
+/* The surface under its first `maps` maps alone, divided into pieces where `s` is. It has the times
+ * of `s`, which must outlive it. NULL: no memory. */
 surface *surface_new_inner(const surface *s, size_t maps);
 
 void surface_free(surface *s);
 
-/* Where its type's instance consists of pieces: makes a surface of each, under the same maps. No map
- * may be added after that. What is asked of the whole is then answered for its first piece. */
+/* Where its type's instance consists of pieces: makes a surface of each, under the same maps. No
+ * map may be added after that. What is asked of the whole is then answered for its first piece. */
 imp_code surface_divide(surface *s);
 
 /* 0: it is one surface. */
@@ -59,11 +59,12 @@ typedef struct surface_instance {
 /* Instance 0 is the type, instance k the map k - 1; false past the last. */
 bool surface_instance_at(const surface *s, size_t k, surface_instance *found);
 
-/* The times at which the surface exists: all that no instance excludes (IMP_FLAG_ABSENT_OUTSIDE_TIMES).
- * lo > hi: none. */
+/* The times at which the surface exists: all that no instance excludes
+ * (IMP_FLAG_ABSENT_OUTSIDE_TIMES). lo > hi: none. */
 void surface_existence(const surface *s, double *lo, double *hi);
 
-/* The first instance that leaves open what happens at some time from lo to hi; false: there is none. */
+/* The first instance that leaves open what happens at some time from lo to hi; false: there is
+ * none. */
 bool surface_undefined_instance(const surface *s, double lo, double hi, surface_instance *found);
 
 /* Beside the statuses of the ABI. A callback left another floating-point mode behind; it is put
@@ -91,8 +92,8 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 /* What a status other than IMP_STATUS_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
 
-/* The same for what a callback of this thread answered last: where the text leaves open which it was,
- * with its name: "... (rate of 'twist')". To be asked before any other callback is called. */
+/* The same for what a callback of this thread answered last: where the text leaves open which it
+ * was, with its name: "... (rate of 'twist')". To be asked before any other callback is called. */
 typedef struct surface_told {
     char text[400];
 } surface_told;
@@ -112,23 +113,24 @@ imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, 
 /* Rate matrix of the composition (paper, section 5). */
 imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates);
 
-/* The inclusion function of the composition, Taylor models of order 2; boxes from eval and rate where an instance
- * has no better. */
+/* The inclusion function of the composition, Taylor models of order 2; boxes from eval and rate
+ * where an instance has no better. */
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3]);
 
-/* The control net of the composition over a region (imp_net). IMP_STATUS_UNBOUNDED: it has none there, as where
- * the type or a map has none. */
+/* The control net of the composition over a region (imp_net). IMP_STATUS_UNBOUNDED: it has none
+ * there, as where the type or a map has none. */
 imp_status surface_net(const surface *s, const imp_region *region, imp_net *net);
 
 /* Whether the type and all maps can be asked for one; else it has none anywhere. */
 bool surface_offers_net(const surface *s);
 
-/* Whether all of its maps, of which there is one at least, are rigid, so that it may have a pose. */
+/* Whether all of its maps, of which there is one at least, are rigid, so that it may have a
+ * pose. */
 bool surface_is_rigid(const surface *s);
 
-/* The pose that all maps together have over the region's times (imp_pose), but that turn and turn^T turn
- * are off those of a rotation by as much for each map as is allowed for one. IMP_STATUS_UNBOUNDED: there is none.
- * Precondition: surface_is_rigid. */
+/* The pose that all maps together have over the region's times (imp_pose), but that turn and turn^T
+ * turn are off those of a rotation by as much for each map as is allowed for one.
+ * IMP_STATUS_UNBOUNDED: there is none. Precondition: surface_is_rigid. */
 imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose);
 
 /* What imp_piece_motion answers. Times are in the surface's domain. */
@@ -137,30 +139,32 @@ bool surface_motion(const surface *s, double from, double to, imp_rigid_motion *
 /* At least |x'| / |x| for what such a pose makes of a vector x; 1 but for that slack. */
 double surface_pose_norm_upper(const surface *s);
 
-/* Whether distances from the surface may be known: its type knows them, and all of its maps are rigid. */
+/* Whether distances from the surface may be known: its type knows them, and all of its maps are
+ * rigid. */
 bool surface_has_distance(const surface *s);
 
 /* Whether it may be possible, too, to move it within itself. */
 bool surface_has_symmetry(const surface *s);
 
-/* Precondition: surface_has_distance. The distance, as in imp_surface_type, of a point with these models over the region,
- * whose rates are not used, from the whole surface under its first `maps` maps; or less, where the maps after
- * these bring both nearer to each other. IMP_STATUS_UNBOUNDED: nothing is known, as at times at which the surface
- * does not exist. */
+/* Precondition: surface_has_distance. The distance, as in imp_surface_type, of a point with these
+ * models over the region, whose rates are not used, from the whole surface under its first `maps`
+ * maps; or less, where the maps after these bring both nearer to each other. IMP_STATUS_UNBOUNDED:
+ * nothing is known, as at times at which the surface does not exist. */
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance);
 
-/* The same of a point that is within `slip` of one with these models, which are of one moment and do not
- * depend on time; the moment is as in surface_slip. */
+/* The same of a point that is within `slip` of one with these models, which are of one moment and
+ * do not depend on time; the moment is as in surface_slip. */
 imp_status surface_distance_within(const surface *s, const imp_region *region, size_t maps,
                                    const imp_model point[3], double moment, double slip,
                                    imp_model *distance);
 
-/* How far a slides along b, other than within itself. *slip: where b is moved by its first maps alone, but for
- * those that both end with, what its type claims of the distance (surface_distance_within) of all points
- * within *slip of where a point of a is at the moment holds for that point of a at all times of the region,
- * too. INFINITY: nothing is known. The moment is one of these times; `bare`
- * are models of a before its maps, of which the ranges are used; it does not move by itself. */
+/* How far a slides along b, other than within itself. *slip: where b is moved by its first maps
+ * alone, but for those that both end with, what its type claims of the distance
+ * (surface_distance_within) of all points within *slip of where a point of a is at the moment holds
+ * for that point of a at all times of the region, too. INFINITY: nothing is known. The moment is
+ * one of these times; `bare` are models of a before its maps, of which the ranges are used; it does
+ * not move by itself. */
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double *slip);
 
@@ -174,8 +178,8 @@ typedef struct surface_plane {
 /* The plane along which the surface lies in the middle of the region. */
 imp_status surface_plane_of(const surface *s, const imp_region *region, surface_plane *plane);
 
-/* How far a slides along a plane that b's maps carry, other than in the plane: as surface_slip, whose symmetry is
- * that of the plane. The two have no maps in common. */
+/* How far a slides along a plane that b's maps carry, other than in the plane: as surface_slip,
+ * whose symmetry is that of the plane. The two have no maps in common. */
 imp_status surface_slip_along(const surface *a, const surface *b, const surface_plane *plane,
                               const imp_model bare[3], const imp_region *times, double moment,
                               double *slip);
@@ -185,19 +189,19 @@ imp_status surface_height_within(const surface *s, const surface_plane *plane,
                                  const imp_region *region, const imp_model point[3], double moment,
                                  double slip, imp_model *height);
 
-/* How much the distance of two surfaces may differ at other times from what it is at the moment, which is one of
- * the times; INFINITY: nothing is known. It is mere rounding where both turn only within themselves, or as one
- * of them can be turned within itself: rollers, a shaft in its bore. `bare` holds models of all points of each
- * before its maps, of which the ranges are used; neither moves by itself. *asked: whose symmetry was asked for
- * last. */
+/* How much the distance of two surfaces may differ at other times from what it is at the moment,
+ * which is one of the times; INFINITY: nothing is known. It is mere rounding where both turn only
+ * within themselves, or as one of them can be turned within itself: rollers, a shaft in its bore.
+ * `bare` holds models of all points of each before its maps, of which the ranges are used; neither
+ * moves by itself. *asked: whose symmetry was asked for last. */
 imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
                              const imp_region *times, double moment, double *slip, int *asked);
 
 /* How many maps, counted from the last, are the same instances on both. */
 size_t surface_common_maps(const surface *a, const surface *b);
 
-/* How many of these, counted from the last, are rigid in exact arithmetic (IMP_FLAG_TURNS_EXACTLY): the distance of
- * two points is the same before and after them. */
+/* How many of these, counted from the last, are rigid in exact arithmetic (IMP_FLAG_TURNS_EXACTLY):
+ * the distance of two points is the same before and after them. */
 size_t surface_common_motion(const surface *a, const surface *b);
 
 /* What the maps after the first `maps` make of a point at time t, in place. */
@@ -205,8 +209,8 @@ imp_status surface_move_outward(const surface *s, size_t maps, double t, double 
 
 size_t surface_map_count(const surface *s);
 
-/* Precondition: surface_has_distance. How many of its maps, counted from the first, do not turn it further
- * during the region's times. */
+/* Precondition: surface_has_distance. How many of its maps, counted from the first, do not turn it
+ * further during the region's times. */
 imp_status surface_still_maps(const surface *s, const imp_region *region, size_t *count);
 
 /* The inclusion under the first `maps` maps alone. */
@@ -216,9 +220,9 @@ imp_status surface_include_inner(const surface *s, const imp_region *region, siz
 /* The inclusion of the type alone, under none of the maps. */
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3]);
 
-/* What the maps make of anything whose coordinates have the models `model` over the region, replaced
- * by those of its image. Where u or v number the points of a set, a rate is how far apart they may be:
- * 1 counts as the distance of any two. */
+/* What the maps make of anything whose coordinates have the models `model` over the region,
+ * replaced by those of its image. Where u or v number the points of a set, a rate is how far apart
+ * they may be: 1 counts as the distance of any two. */
 imp_status surface_include_image(const surface *s, const imp_region *region, imp_model model[3]);
 
 #endif

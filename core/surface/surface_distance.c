@@ -46,24 +46,25 @@ imp_status surface_still_maps(const surface *s, const imp_region *region, size_t
     return IMP_STATUS_OK;
 }
 
-/* --- How far a pose is from rigid ------------------------------------------------------------------ */
+/* --- How far a pose is from rigid ------------------------------------------------------------- */
 
 /* Of the true rotation R that a pose encloses, D = R^T R - 1. */
 typedef struct deviation {
     double most[3][3]; /* >= |D_ij| at all times */
     double row[3];     /* >= sums of its rows */
-    double norm;       /* >= |D x| / |x|, in the greatest and in the Euclidean norm, as D is symmetric */
+    double norm; /* >= |D x| / |x|, in the greatest and in the Euclidean norm, as D is symmetric */
 } deviation;
 
-/* Lemma. D_ij is the product of the columns i and j of R less that of the identity: in the range of the same
- * of the models, which contain R. And with e = IMP_RIGID_SLACK, each of the K maps alone changes squares of
- * lengths by a factor from 1 - 3 e to 1 + 3 e (surface_pose_norm_upper), all of them together from (1 - 3
- * e)^K to (1 + 3 e)^K, so that
+/* Lemma. D_ij is the product of the columns i and j of R less that of the identity: in the range of
+ * the same of the models, which contain R. And with e = IMP_RIGID_SLACK, each of the K maps alone
+ * changes squares of lengths by a factor from 1 - 3 e to 1 + 3 e (surface_pose_norm_upper), all of
+ * them together from (1 - 3 e)^K to (1 + 3 e)^K, so that
  *
  *   |D_ij| <= |D| = max ||R x|^2 / |x|^2 - 1| <= (1 + 3 e)^K - 1 <= n^2 - 1,   n = (1 + 2 e)^K,
  *
- * since 1 - (1 - x)^K <= (1 + x)^K - 1. (1 + 2 e)^2 exceeds 1 + 3 e by more than e, which outweighs the
- * roundings of n, its square and the difference. A row sums up three entries, by two roundings. */
+ * since 1 - (1 - x)^K <= (1 + x)^K - 1. (1 + 2 e)^2 exceeds 1 + 3 e by more than e, which outweighs
+ * the roundings of n, its square and the difference. A row sums up three entries, by two
+ * roundings. */
 PAD_COVERS(4, 2);
 static deviation deviation_of(const imp_pose *pose, double norm)
 {
@@ -90,28 +91,30 @@ double surface_pose_deviation_upper(const imp_pose *pose)
     return deviation_of(pose, 1 + 2 * IMP_RIGID_SLACK).norm;
 }
 
-/* At most |R x| / |x|, and 1. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root of what is below 1 is above it.
- * Also each map leaves sqrt(1 - 3 e) at least, and (1 + 2 e)^2 (1 - 3 e) > 1 + e / 2, so that 1 / n is less
- * than that of all. */
+/* At most |R x| / |x|, and 1. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root of what is below 1 is
+ * above it. Also each map leaves sqrt(1 - 3 e) at least, and (1 + 2 e)^2 (1 - 3 e) > 1 + e / 2, so
+ * that 1 / n is less than that of all. */
 static double least_stretch(const deviation *d, double norm)
 {
     const double found = difference_lower(1, d->norm);
     return found > 1 / norm ? found : 1 / norm;
 }
 
-/* --- Before the maps ------------------------------------------------------------------------------- */
+/* --- Before the maps -------------------------------------------------------------------------- */
 
-/* Lemma. Let x = T + R (y - p) + r be a point that moves, y any point of the surface before the maps, and
- * z = R^-1 (x - T). Then x - (T + R (y - p)) = R (z + p - y), whose length is at least that of z + p - y times
- * the least stretch of R: the distance of z + p from the surface before the maps says how far x is from it
- * after them. Of z, R^T (x - T) = R^T R z = z + D z is known. Let X_i >= |(R^T (x - T))_i| and d >= |D| in the
- * greatest norm, d < 1. From z = R^T (x - T) - D z,
+/* Lemma. Let x = T + R (y - p) + r be a point that moves, y any point of the surface before the
+ * maps, and z = R^-1 (x - T). Then x - (T + R (y - p)) = R (z + p - y), whose length is at least
+ * that of z + p - y times the least stretch of R: the distance of z + p from the surface before the
+ * maps says how far x is from it after them. Of z, R^T (x - T) = R^T R z = z + D z is known. Let
+ * X_i >= |(R^T (x - T))_i| and d >= |D| in the greatest norm, d < 1. From z = R^T (x - T) - D z,
  *
  *   |z_i| <= X_i + row_i Z,   Z = max X / (1 - d) >= max |z_i|,   |(D z)_i| <= sum_j |D_ij| |z_j|.
  *
- * Roundings: 1 - d, quotient; product, sum; product, two sums. Underflows lose less than PRODUCTS_UNDERFLOW. */
+ * Roundings: 1 - d, quotient; product, sum; product, two sums. Underflows lose less than
+ * PRODUCTS_UNDERFLOW. */
 PAD_COVERS(16, 2 + 2 + 3);
-static bool take_back(const imp_pose *pose, const deviation *d, const imp_model point[3], imp_model at[3])
+static bool take_back(const imp_pose *pose, const deviation *d, const imp_model point[3],
+                      imp_model at[3])
 {
     imp_model way[3];
     double reach[3], most = 0;
@@ -134,7 +137,7 @@ static bool take_back(const imp_pose *pose, const deviation *d, const imp_model 
     return true;
 }
 
-/* --- Asking ---------------------------------------------------------------------------------------- */
+/* --- Asking ----------------------------------------------------------------------------------- */
 
 /* A NaN or an infinity among the coefficients: nothing is known. Nothing is infinitely far away. */
 static imp_status judge(imp_status status, const imp_model *distance)
@@ -157,9 +160,10 @@ static imp_status distance_before_maps(const surface *s, const imp_region *regio
     return judge(surface_call_end(call, status), distance);
 }
 
-/* *stretch: times that of the maps from `first` on, if they are all rigid then. Of maps that turn with time
- * no more is asked than what each may do: the remainders of their models say less. */
-static imp_status stretch_by(const surface *s, size_t first, const imp_region *region, double *stretch)
+/* *stretch: times that of the maps from `first` on, if they are all rigid then. Of maps that turn
+ * with time no more is asked than what each may do: the remainders of their models say less. */
+static imp_status stretch_by(const surface *s, size_t first, const imp_region *region,
+                             double *stretch)
 {
     const double norm = 1 + 2 * IMP_RIGID_SLACK; /* of one; exact */
     for (size_t k = first; k < s->map_count; ++k) {
@@ -189,9 +193,9 @@ static imp_status take_back_before(const surface *s, size_t maps, const imp_regi
     return take_back(&pose, &d, point, at) ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
-/* Lemma. Maps that follow on both, and are rigid, stretch what is between any two points at the same time by
- * their least stretch at least: |g| times that of all maps is no more than the distance after them. imp_scale
- * bounds what it rounds of g, which may depend on anything. */
+/* Lemma. Maps that follow on both, and are rigid, stretch what is between any two points at the
+ * same time by their least stretch at least: |g| times that of all maps is no more than the
+ * distance after them. imp_scale bounds what it rounds of g, which may depend on anything. */
 static imp_status stretched(const surface *s, const imp_region *region, const imp_model at[3],
                             double stretch, imp_model *distance)
 {
@@ -208,7 +212,7 @@ static bool exists_during(const surface *s, const imp_region *region)
     return s->lo[2] <= region->lo[2] && region->hi[2] <= s->hi[2];
 }
 
-/* --- Planes ------------------------------------------------------------------------------------------ */
+/* --- Planes ----------------------------------------------------------------------------------- */
 
 /* n.(x - center) of models of x. */
 static imp_model height_of(const surface_plane *plane, const imp_model x[3])
@@ -243,8 +247,8 @@ imp_status surface_plane_of(const surface *s, const imp_region *region, surface_
     return IMP_STATUS_OK;
 }
 
-/* Lemma. |n| <= 1 + 8 u, as n is a quotient by the root of a sum of squares. With y a point of the part and z one
- * within `slip` of x,
+/* Lemma. |n| <= 1 + 8 u, as n is a quotient by the root of a sum of squares. With y a point of the
+ * part and z one within `slip` of x,
  *
  *   |n.(x - center)| <= |n.(z - y)| + |n.(y - center)| + |n.(x - z)| <= (1 + 8 u) (|z - y| + slip) + off. */
 PAD_COVERS(32, 8);
@@ -286,9 +290,9 @@ imp_status surface_distance(const surface *s, const imp_region *region, size_t m
     return status == IMP_STATUS_OK ? stretched(s, region, at, stretch, distance) : status;
 }
 
-/* Lemma. The point is taken back by the maps of the moment. At every time of the region the claim that is made
- * of it holds for the point of surface_slip as the maps of that time take it back, and each of these leaves of
- * the distance what it stretches by at that time at least. */
+/* Lemma. The point is taken back by the maps of the moment. At every time of the region the claim
+ * that is made of it holds for the point of surface_slip as the maps of that time take it back, and
+ * each of these leaves of the distance what it stretches by at that time at least. */
 imp_status surface_distance_within(const surface *s, const imp_region *region, size_t maps,
                                    const imp_model point[3], double moment, double slip,
                                    imp_model *distance)

@@ -10,9 +10,9 @@
 /* The inside of a surface
  * =======================
  * For surface.c (life, names), surface_rate.c (points and rates) and surface_include.c
- * (inclusions), surface_net.c, surface_pose.c and surface_distance.c. Everything that a callback gives is
- * checked where it comes from, before anything is computed with it: behind a product or a sum a breach might
- * not show. */
+ * (inclusions), surface_net.c, surface_pose.c and surface_distance.c. Everything that a callback
+ * gives is checked where it comes from, before anything is computed with it: behind a product or a
+ * sum a breach might not show. */
 
 typedef struct mapping {
     const imp_map_type *type;
@@ -91,8 +91,8 @@ bool pose_turns(const imp_pose *pose);
 /* At least |(R^T R - 1) x| / |x| for the turn R of one map, at all times of the pose. */
 double surface_pose_deviation_upper(const imp_pose *pose);
 
-/* The pose that the maps from `first` to the one before `end` have together, as surface_pose. Preconditions:
- * first < end <= map_count; all of them are rigid. */
+/* The pose that the maps from `first` to the one before `end` have together, as surface_pose.
+ * Preconditions: first < end <= map_count; all of them are rigid. */
 imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end,
                                 const imp_region *region, imp_pose *pose);
 

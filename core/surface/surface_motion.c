@@ -8,7 +8,7 @@
 #include "core/surface/region.h"
 #include "core/surface/surface_internal.h"
 
-/* --- Which maps are left when what stands still is moved ----------------------------------- */
+/* --- Which maps are left when what stands still is moved -------------------------------------- */
 
 /* The maps from here on are all rigid. */
 static size_t first_rigid(const surface *s)
@@ -32,7 +32,7 @@ static bool stands_still(const surface *s, size_t maps, double from, double to)
     return model[0].rate[2] == 0 && model[1].rate[2] == 0 && model[2].rate[2] == 0;
 }
 
-/* --- Poses of single moments ---------------------------------------------------------------- */
+/* --- Poses of single moments ------------------------------------------------------------------ */
 
 /* x -> turn x + shift. */
 typedef struct placement {
@@ -44,7 +44,8 @@ static const double pose_slack = 1e-9;
 
 static bool is_exact(const imp_model *m, double size) { return m->e <= pose_slack * (1 + size); }
 
-/* shift + turn (x - pivot) as turn x + (shift - turn pivot). False: there is no pose, or a vague one. */
+/* shift + turn (x - pivot) as turn x + (shift - turn pivot). False: there is no pose, or a vague
+ * one. */
 static bool place_at(const surface *s, size_t first, double t, placement *at)
 {
     double lo[3], hi[3];
@@ -66,7 +67,8 @@ static bool place_at(const surface *s, size_t first, double t, placement *at)
     return exact;
 }
 
-/* Rows of the inverse by cross products of columns. It exists: a pose turns, but for IMP_RIGID_SLACK. */
+/* Rows of the inverse by cross products of columns. It exists: a pose turns, but for
+ * IMP_RIGID_SLACK. */
 static void invert(double m[3][3], double inverse[3][3])
 {
     double determinant = 0;

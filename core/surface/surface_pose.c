@@ -14,9 +14,9 @@ bool surface_is_rigid(const surface *s)
     return s->map_count > 0;
 }
 
-/* Lemma. With D = R^T R - 1, |R x|^2 = |x|^2 + x^T D x <= |x|^2 (1 + 3 max |D_ij|), so that one map makes
- * x longer by a factor of 1 + 1.5 IMP_RIGID_SLACK at most; what is left of that slack outweighs a
- * rounding by far. */
+/* Lemma. With D = R^T R - 1, |R x|^2 = |x|^2 + x^T D x <= |x|^2 (1 + 3 max |D_ij|), so that one map
+ * makes x longer by a factor of 1 + 1.5 IMP_RIGID_SLACK at most; what is left of that slack
+ * outweighs a rounding by far. */
 double surface_pose_norm_upper(const surface *s)
 {
     double norm = 1;
@@ -30,8 +30,9 @@ static bool is_sane(const imp_model *m)
     const double *b = m->b, *q = m->q;
     const double still = fabs(b[0]) + fabs(b[1]) + fabs(q[IMP_UU]) + fabs(q[IMP_UV]) +
                          fabs(q[IMP_UT]) + fabs(q[IMP_VV]) + fabs(q[IMP_VT]);
-    const double all = zero_if_finite(m->a) + zero_if_finite(b[2]) + zero_if_finite(q[IMP_TT]) + zero_if_finite(m->e) +
-                       zero_if_finite(m->lo) + zero_if_finite(m->hi) + zero_if_finite(m->rate[2]);
+    const double all = zero_if_finite(m->a) + zero_if_finite(b[2]) + zero_if_finite(q[IMP_TT]) +
+                       zero_if_finite(m->e) + zero_if_finite(m->lo) + zero_if_finite(m->hi) +
+                       zero_if_finite(m->rate[2]);
     return still + all == 0 && m->e >= 0 && m->lo <= m->hi && m->rate[2] >= 0 &&
            (m->depends & 3u) == 0;
 }
@@ -56,8 +57,8 @@ bool pose_turns(const imp_pose *pose)
     return false;
 }
 
-/* Where a pose does not turn, every pivot is as good: that which it moves to the pivot of the next map, in
- * the middle of the times, is better for that. With any p',
+/* Where a pose does not turn, every pivot is as good: that which it moves to the pivot of the next
+ * map, in the middle of the times, is better for that. With any p',
  *
  *   shift + R (x - p) = (shift + R (p' - p)) + R (x - p') */
 static void choose_pivot(const imp_pose *next, imp_pose *pose)
@@ -101,8 +102,8 @@ static void add_pose(imp_pose *next, double norm, imp_pose *pose)
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             const imp_model column[3] = {pose->turn[0][j], pose->turn[1][j], pose->turn[2][j]};
-            all.turn[i][j] = imp_model_within(imp_dot3(next->turn[i], column),
-                                              imp_interval_make(-norm, norm));
+            all.turn[i][j] =
+                imp_model_within(imp_dot3(next->turn[i], column), imp_interval_make(-norm, norm));
         }
         all.shift[i] = imp_add(imp_dot3(next->turn[i], way), next->shift[i]);
     }
@@ -111,8 +112,8 @@ static void add_pose(imp_pose *next, double norm, imp_pose *pose)
     *pose = all;
 }
 
-imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end, const imp_region *region,
-                                imp_pose *pose)
+imp_status surface_pose_of_maps(const surface *s, size_t first, size_t end,
+                                const imp_region *region, imp_pose *pose)
 {
     const imp_model t = surface_time(region);
     const double norm = surface_pose_norm_upper(s);

@@ -34,7 +34,7 @@ imp_status surface_map_rate(const mapping *map, const imp_box4 *box, imp_map_rat
 
 enum { BATCH = 16 }; /* points a call to a map takes at once; keeps buffers on the stack */
 
-/* --- Points ------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 /* Lemma. The map sees x, the exact point is within `inner` of it, coordinate by coordinate;
  * both lie in the box x -+ inner, where |phi_i| changes by at most sum_j P_ij inner_j. Adding
@@ -115,7 +115,7 @@ imp_status surface_move_outward(const surface *s, size_t maps, double t, double 
     return status;
 }
 
-/* --- Rates ---------------------------------------------------------------------- */
+/* --- Rates ------------------------------------------------------------------------------------ */
 
 imp_status surface_box_around(const surface *s, const imp_region *region,
                               const imp_rate_matrix *rates, size_t maps, centred_box *box)

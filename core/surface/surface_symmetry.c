@@ -10,7 +10,7 @@
 #include "core/surface/region.h"
 #include "core/surface/surface_internal.h"
 
-/* --- Asking ---------------------------------------------------------------------------------------- */
+/* --- Asking ----------------------------------------------------------------------------------- */
 
 /* Squares neither underflow nor overflow; 1e-100 and 1e100 are inside. */
 #define AXIS_LEAST 0x1p-340
@@ -45,7 +45,7 @@ static imp_status symmetry_of(const surface *s, imp_symmetry *found)
     return is_sane(found) ? IMP_STATUS_OK : SURFACE_BAD_SYMMETRY;
 }
 
-/* --- Lengths --------------------------------------------------------------------------------------- */
+/* --- Lengths ---------------------------------------------------------------------------------- */
 
 /* >= |w|. Roundings: squares 1, sums 2, halved by the root, root 1. */
 PAD_COVERS(8, 2 + 1);
@@ -65,19 +65,20 @@ static double length_lower(const double x[3])
     return padded_lower(sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]), 8);
 }
 
-/* --- Through one map ------------------------------------------------------------------------------- */
+/* --- Through one map -------------------------------------------------------------------------- */
 
-/* A point, and how far at most it is from where it would be if all maps so far had moved it as rotations do
- * and not nearly so. */
+/* A point, and how far at most it is from where it would be if all maps so far had moved it as
+ * rotations do and not nearly so. */
 typedef struct carried {
     imp_model at[3];
     double off;
 } carried;
 
-/* Takes from `way` what is along the direction f that the pose leaves fixed. Lemma. R f = f, and R^T f = f where R
- * is a rotation; so with w = c f + w', R w = c f + R w', and what is not known of R counts for w' alone: for a
- * direction along the axis of the turn it is 0 but for rounding, however far the pose turns. Any c is right. Of a
- * map that is no rotation in exact arithmetic R^T f is not f: nothing is taken. */
+/* Takes from `way` what is along the direction f that the pose leaves fixed. Lemma. R f = f, and
+ * R^T f = f where R is a rotation; so with w = c f + w', R w = c f + R w', and what is not known of
+ * R counts for w' alone: for a direction along the axis of the turn it is 0 but for rounding,
+ * however far the pose turns. Any c is right. Of a map that is no rotation in exact arithmetic R^T
+ * f is not f: nothing is taken. */
 static void take_along(const imp_pose *pose, imp_model way[3], imp_model along[3])
 {
     imp_model f[3], c = imp_num(0);
@@ -90,8 +91,8 @@ static void take_along(const imp_pose *pose, imp_model way[3], imp_model along[3
     }
 }
 
-/* Lemma. Let R be the turn of a map, R^T R = 1 + D with |D| <= d <= 1/2. Its polar decomposition is U H with a
- * rotation U, H = (1 + D)^(1/2) and |H - 1| <= d, since 1 - (1 - d)^(1/2) <= d. So
+/* Lemma. Let R be the turn of a map, R^T R = 1 + D with |D| <= d <= 1/2. Its polar decomposition is
+ * U H with a rotation U, H = (1 + D)^(1/2) and |H - 1| <= d, since 1 - (1 - d)^(1/2) <= d. So
  *
  *   |R w - U w| = |(H - 1) w| <= d |w|,   |R^T w - U^T w| = |(H - 1) U^T w| <= d |w|,
  *
@@ -118,18 +119,18 @@ static void pull(const imp_pose *pose, double d, carried *x)
     }
 }
 
-/* Of R^-1 instead of R^T. Lemma. |R^-1 w| <= |w| / (1 - d)^(1/2) <= 2 |w|, and R^T w - R^-1 w = D R^-1 w is
- * no longer than 2 d |w|, as is R^-1 w - U^T w. */
+/* Of R^-1 instead of R^T. Lemma. |R^-1 w| <= |w| / (1 - d)^(1/2) <= 2 |w|, and R^T w - R^-1 w = D
+ * R^-1 w is no longer than 2 d |w|, as is R^-1 w - U^T w. */
 static void pull_truly(const imp_pose *pose, double d, carried *x)
 {
     pull(pose, 2 * d, x);
     for (int j = 0; j < 3; ++j) x->at[j] = imp_add(x->at[j], imp_between(-x->off, x->off));
 }
 
-/* --- What is seen at some times -------------------------------------------------------------------- */
+/* --- What is seen at some times --------------------------------------------------------------- */
 
-/* The center, and where the axis from it ends, if it counts, as they are seen from a before its maps; and points
- * of a. */
+/* The center, and where the axis from it ends, if it counts, as they are seen from a before its
+ * maps; and points of a. */
 typedef struct seen {
     carried feature[2];
     double off; /* points of a are off by so much, seen from b before its maps; length */
@@ -218,22 +219,23 @@ static imp_status see(const question *q, const imp_region *times, seen *x)
     return status;
 }
 
-/* --- How far it slides ----------------------------------------------------------------------------- */
+/* --- How far it slides ------------------------------------------------------------------------ */
 
-/* Lemma. Let M(t) be what takes points y of a before its maps to b before its maps, if all maps are rotations
- * indeed; c(t) and the unit vector n(t) the center and the axis of b's symmetry as M(t)^-1 shows them to a. Let
- * a rigid motion F take c(t0) and n(t0) to c(t) and n(t), the first up to what the symmetry permits: any shift
- * along n(t), or across. Then S = M(t) F M(t0)^-1 leaves center and axis where they are, but for that shift:
- * it is one of the motions of the symmetry, and M(t) y = S M(t0) F^-1 y. So the claim of b's type of a point
- * z holds for M(t) y, if z is M(t0) F^-1 y, which is as far from M(t0) y as F^-1 y is from y.
+/* Lemma. Let M(t) be what takes points y of a before its maps to b before its maps, if all maps are
+ * rotations indeed; c(t) and the unit vector n(t) the center and the axis of b's symmetry as
+ * M(t)^-1 shows them to a. Let a rigid motion F take c(t0) and n(t0) to c(t) and n(t), the first up
+ * to what the symmetry permits: any shift along n(t), or across. Then S = M(t) F M(t0)^-1 leaves
+ * center and axis where they are, but for that shift: it is one of the motions of the symmetry, and
+ * M(t) y = S M(t0) F^-1 y. So the claim of b's type of a point z holds for M(t) y, if z is M(t0)
+ * F^-1 y, which is as far from M(t0) y as F^-1 y is from y.
  *
- * F turns n(t0) by the smallest angle, which moves what is r away from c(t) by r |n(t) - n(t0)| at most, and
- * shifts by what is left of v = c(t) - c(t0): all of it; of a shift along the line only what is across it, |v x
- * n|; of a shift across only |v . n|; n = n(t0), for n(t) instead |v| |n(t) - n(t0)| more. The shift that F
- * may add is |v| long at most, and adds that to r.
+ * F turns n(t0) by the smallest angle, which moves what is r away from c(t) by r |n(t) - n(t0)| at
+ * most, and shifts by what is left of v = c(t) - c(t0): all of it; of a shift along the line only
+ * what is across it, |v x n|; of a shift across only |v . n|; n = n(t0), for n(t) instead |v| |n(t)
+ * - n(t0)| more. The shift that F may add is |v| long at most, and adds that to r.
  *
- * In truth points and features are off by what `carried` says, at both times. Rounding of the sum: terms have 4
- * roundings at most, quotient, product, sums; all is positive. */
+ * In truth points and features are off by what `carried` says, at both times. Rounding of the sum:
+ * terms have 4 roundings at most, quotient, product, sums; all is positive. */
 PAD_COVERS(16, 4 + 6);
 static double slip_upper(const imp_symmetry *of, const seen *now, const seen *then)
 {
@@ -264,10 +266,10 @@ static double slip_upper(const imp_symmetry *of, const seen *now, const seen *th
     return padded_upper(shift + turn * (now->far + all) + points, 16);
 }
 
-/* --- Over all times -------------------------------------------------------------------------------- */
+/* --- Over all times --------------------------------------------------------------------------- */
 
-/* Where models of a turn hold poorly over a span, halves of it are tried. What comes of rounding alone is
- * good enough; a motion that is surely none within itself is given up at once. */
+/* Where models of a turn hold poorly over a span, halves of it are tried. What comes of rounding
+ * alone is good enough; a motion that is surely none within itself is given up at once. */
 enum { HALVINGS = 6 };
 #define GOOD_ENOUGH 0x1p-40
 #define GIVEN_UP 0x1p-16
@@ -315,7 +317,8 @@ static imp_status give_up(const question *q, const imp_region *still, const imp_
     return status;
 }
 
-/* *slip as found for the question, whose symmetry is known; INFINITY where the motion is none of its kind. */
+/* *slip as found for the question, whose symmetry is known; INFINITY where the motion is none of
+ * its kind. */
 static imp_status answer(const question *q, const imp_region *times, double *slip)
 {
     question center = *q;
@@ -380,8 +383,8 @@ static double dot(const double x[3], const double y[3])
 
 #define SINGULAR 0x1p-30
 
-/* Every point of a plane may be its center. That which the motion leaves where it is, if there is one, is seen most
- * exactly: the point of least way, which depends linearly on the point. */
+/* Every point of a plane may be its center. That which the motion leaves where it is, if there is
+ * one, is seen most exactly: the point of least way, which depends linearly on the point. */
 static imp_status choose_center(question *q, const imp_region *times)
 {
     const double t = times->lo[2] + 0.375 * (times->hi[2] - times->lo[2]);
@@ -443,7 +446,7 @@ imp_status surface_slip_along(const surface *a, const surface *b, const surface_
     return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
-/* --- Pairs that turn within themselves ------------------------------------------------------------- */
+/* --- Pairs that turn within themselves -------------------------------------------------------- */
 
 /* The rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known. */
 static imp_status closed_symmetry_of(const surface *s, imp_symmetry *found)
@@ -456,10 +459,11 @@ static imp_status closed_symmetry_of(const surface *s, imp_symmetry *found)
     return IMP_STATUS_OK;
 }
 
-/* Lemma. Let P(t) be what the first maps of s do. In the lemma of slip_upper let b be s under these maps, and a
- * what they make of s at the moment, at rest. Then the points of P(t0) s are within `slip` of P(t) s, and those
- * of P(t) s of P(t0) s: F, which takes one center and axis to the other, moves neither
- * farther. So s may stay as it is at the moment under these maps, if `slip` is added to what is proved. */
+/* Lemma. Let P(t) be what the first maps of s do. In the lemma of slip_upper let b be s under these
+ * maps, and a what they make of s at the moment, at rest. Then the points of P(t0) s are within
+ * `slip` of P(t) s, and those of P(t) s of P(t0) s: F, which takes one center and axis to the
+ * other, moves neither farther. So s may stay as it is at the moment under these maps, if `slip` is
+ * added to what is proved. */
 static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetry *found,
                                 const imp_model bare[3], const imp_region *times,
                                 const imp_region *then, double *slip)
@@ -485,8 +489,8 @@ static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetr
     return answer(&q, times, slip);
 }
 
-/* How many of the first maps only turn s within itself, and what that may be off by; what is sought is more than
- * one map only where the first alone is none. */
+/* How many of the first maps only turn s within itself, and what that may be off by; what is sought
+ * is more than one map only where the first alone is none. */
 static imp_status first_maps_within(const surface *s, const imp_model bare[3],
                                     const imp_region *times, const imp_region *then, size_t *maps,
                                     double *slip)

@@ -24,8 +24,8 @@ static double parameter_within(const node *n, const double p[3], int j)
     return n->region.d[j] > 0 ? (p[j] - n->region.c[j]) / n->region.d[j] : 0;
 }
 
-/* The polynomial at p, x, y, z in lanes, and how far off rounding may be, in units of u times the sum
- * of the terms' sizes: s, two factors of at most 2 each; two products; nine sums. */
+/* The polynomial at p, x, y, z in lanes, and how far off rounding may be, in units of u times the
+ * sum of the terms' sizes: s, two factors of at most 2 each; two products; nine sums. */
 enum { POLYNOMIAL_ROUNDING = 32 };
 _Static_assert(2 * 2 + 2 + 9 <= POLYNOMIAL_ROUNDING, "rounding of the polynomial");
 
@@ -56,8 +56,8 @@ IMP_QUAD_INLINE imp_quad polynomial(const node *n, const double p[3], imp_quad *
 enum { POINT_ROUNDING = 8 }; /* units of u of x: 1 in x - polynomial, 1 in x -+ slack */
 PAD_COVERS(8, 2);            /* of e: two sums */
 
-/* The coordinate whose bound x -+ eval_error breaks beyond rounding, or -1. A NaN breaks none: it is
- * caught where points and bounds are made. */
+/* The coordinate whose bound x -+ eval_error breaks beyond rounding, or -1. A NaN breaks none: it
+ * is caught where points and bounds are made. */
 IMP_QUAD_INLINE int outside(const node *n, const double p[3], const double x[3],
                             const double eval_error[3])
 {
@@ -84,8 +84,8 @@ static int coordinate_outside(const node *n, const double p[3], const double x[3
     return imp_quad_is_wide() ? outside_wide(n, p, x, eval_error) : outside(n, p, x, eval_error);
 }
 
-/* Terms of third order at p; *size is the sum of their vectors' sizes. Rounding, in units of u of that: three
- * factors s 2 each, a square less 1/2 1, products 3, sums 4. */
+/* Terms of third order at p; *size is the sum of their vectors' sizes. Rounding, in units of u of
+ * that: three factors s 2 each, a square less 1/2 1, products 3, sums 4. */
 enum { THIRD_ROUNDING = 16 };
 _Static_assert(3 * 2 + 1 + 3 + 4 <= THIRD_ROUNDING, "rounding of terms of third order");
 
@@ -99,12 +99,13 @@ IMP_QUAD_INLINE imp_quad third_order(const posed_terms *x, const double s[3], im
            (t * t - half) * (x->utt * u + x->vtt * v);
 }
 
-/* Of what edges and boxes reach along an axis: dots 3, sums 9; and of the dot with what is off, 3 and 1. */
+/* Of what edges and boxes reach along an axis: dots 3, sums 9; and of the dot with what is off, 3
+ * and 1. */
 enum { OFF_ROUNDING = 8 };
 PAD_COVERS(32, 3 + 9);
 
-/* Whether x leaves what a posed node's remainder reaches along one of the body's axes, as they are then, beyond
- * rounding. */
+/* Whether x leaves what a posed node's remainder reaches along one of the body's axes, as they are
+ * then, beyond rounding. */
 IMP_QUAD_INLINE bool outside_edges(const node *n, const double p[3], const double x[3],
                                    const double eval_error[3])
 {
@@ -151,12 +152,13 @@ static bool leaves_edges(const node *n, const double p[3], const double x[3],
                               : outside_edges(n, p, x, eval_error);
 }
 
-/* Of the box of a net at time t, moved outward for rounding: t - time and its products 2, sums 3 of the
- * sizes below, and as much for those sums themselves. */
+/* Of the box of a net at time t, moved outward for rounding: t - time and its products 2, sums 3 of
+ * the sizes below, and as much for those sums themselves. */
 enum { NET_ROUNDING = 16 };
 _Static_assert(2 * (2 + 3) <= NET_ROUNDING, "rounding of a net's box");
 
-/* The coordinate that leaves the box of the node's net, which holds its hull, beyond rounding, or -1. */
+/* The coordinate that leaves the box of the node's net, which holds its hull, beyond rounding, or
+ * -1. */
 IMP_QUAD_INLINE int off_net(const net *f, double t, const double x[3], const double eval_error[3])
 {
     const double tau = t - f->time;

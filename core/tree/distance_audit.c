@@ -9,8 +9,8 @@
 #include "core/base/rounding.h"
 #include "core/common/random.h"
 
-/* Points beside the surface under its first `maps` maps: each point f(p) of a part of the node, moved by
- * (h + k s_j) n for some vector n and s = (p - c) / d of the part. */
+/* Points beside the surface under its first `maps` maps: each point f(p) of a part of the node,
+ * moved by (h + k s_j) n for some vector n and s = (p - c) / d of the part. */
 typedef struct passage {
     imp_region region;
     size_t maps;
@@ -20,7 +20,7 @@ typedef struct passage {
     imp_model point[3];
 } passage;
 
-/* --- Drawing ------------------------------------------------------------------------------------- */
+/* --- Drawing ---------------------------------------------------------------------------------- */
 
 enum { SHRINK = 8 }; /* parts down to 2^-8 of the node in each parameter */
 
@@ -51,7 +51,8 @@ static vec3 draw_direction(const imp_model model[3], uint64_t *state)
     return n;
 }
 
-/* Models of what is moved. In units of u: a and b are rounded once, ends of the range three times. */
+/* Models of what is moved. In units of u: a and b are rounded once, ends of the range three
+ * times. */
 static void move(passage *w, const vec3 *n, double h, double k)
 {
     for (int i = 0; i < 3; ++i) {
@@ -95,9 +96,10 @@ static bool draw_passage(const node *n, uint64_t *state, passage *w)
     return true;
 }
 
-/* --- Judging ------------------------------------------------------------------------------------- */
+/* --- Judging ---------------------------------------------------------------------------------- */
 
-/* At least the least |g| that is left at s. In units of u of the sizes: terms 2, sums 9, twice that. */
+/* At least the least |g| that is left at s. In units of u of the sizes: terms 2, sums 9, twice
+ * that. */
 enum { CLAIM_ROUNDING = 32 };
 
 static double claimed_at(const imp_model *g, const double s[3])
@@ -127,10 +129,10 @@ static imp_code lie_of_distance(const surface *s, const imp_region *r, double cl
 
 enum { PASSAGES = 8, STEPS = 4 };
 
-/* Lemma. A point that is moved by a vector is no farther from the surface than the vector is long, wherever
- * the surface is, and whatever brings both nearer to each other after that. s is from -1 + 2^-20 to 1 -
- * 2^-20, or 0 where the region has no width, and so stands for a point of it; the vector's length has fewer
- * than 2^10 roundings. */
+/* Lemma. A point that is moved by a vector is no farther from the surface than the vector is long,
+ * wherever the surface is, and whatever brings both nearer to each other after that. s is from -1 +
+ * 2^-20 to 1 - 2^-20, or 0 where the region has no width, and so stands for a point of it; the
+ * vector's length has fewer than 2^10 roundings. */
 static imp_code judge_passage(const node *n, const passage *w, uint64_t *state, imp_error *error)
 {
     imp_model g;

@@ -23,7 +23,7 @@ struct hierarchy {
     size_t used;       /* clusters made */
 };
 
-/* --- The bounds of one piece -------------------------------------------------------------- */
+/* --- The bounds of one piece ------------------------------------------------------------------ */
 
 static void bound_nothing(cluster_bound *b)
 {
@@ -79,7 +79,7 @@ static imp_code take_piece(const hierarchy *h, size_t k, cluster_bound *b, imp_e
     return IMP_SUCCESS;
 }
 
-/* --- The bounds of two together ------------------------------------------------------------- */
+/* --- The bounds of two together --------------------------------------------------------------- */
 
 /* Lemma. With the mean slope b, a part stays within e' = e + |b_part - b| of its a, since |s| <= 1;
  * the middle a of what both cover is e from its ends at most. Roundings: e' 3, its ends 1, their
@@ -103,9 +103,10 @@ static void bound_both(cluster_bound *to, const cluster_bound *x, const cluster_
     if (!is_bound(x) || !is_bound(y) || !is_bound(to)) bound_nothing(to);
 }
 
-/* --- Halving ------------------------------------------------------------------------------------ */
+/* --- Halving ---------------------------------------------------------------------------------- */
 
-/* Where a piece is, for choosing only: x, y, z and its number. Those of a cluster stand together. */
+/* Where a piece is, for choosing only: x, y, z and its number. Those of a cluster stand
+ * together. */
 typedef struct spot {
     double at[4];
 } spot;
@@ -127,8 +128,8 @@ static spot middle_of(const spot *x, const spot *y, const spot *z, int axis)
     return is_before(z, x, axis) ? *x : is_before(z, y, axis) ? *z : *y;
 }
 
-/* Puts the `count` pieces in such an order that none of the first `half` comes after any other, in a
- * total order, so that the answer is the same everywhere (Hoare's selection). */
+/* Puts the `count` pieces in such an order that none of the first `half` comes after any other, in
+ * a total order, so that the answer is the same everywhere (Hoare's selection). */
 static void select_half(spot *spots, size_t count, size_t half, int axis)
 {
     size_t first = 0, last = count - 1;
@@ -166,8 +167,8 @@ static int longest_axis(const spot *spots, size_t count)
     return longest;
 }
 
-/* The cluster of `count` pieces, count >= 2. Halves are equal, so that the depth is the logarithm of their
- * number. */
+/* The cluster of `count` pieces, count >= 2. Halves are equal, so that the depth is the logarithm
+ * of their number. */
 static cluster *build(const building *b, spot *spots, size_t count)
 {
     cluster *made = &b->h->clusters[b->h->used++];
@@ -186,7 +187,7 @@ static cluster *build(const building *b, spot *spots, size_t count)
     return made;
 }
 
-/* --- Hierarchies ------------------------------------------------------------------------------- */
+/* --- Hierarchies ------------------------------------------------------------------------------ */
 
 static imp_code fill(hierarchy *h, cluster_bound *pieces, spot *spots, imp_error *error)
 {
@@ -252,9 +253,9 @@ const surface *hierarchy_sample(const hierarchy *h, size_t k, size_t n)
     return surface_piece(h->surface, h->order[h->count * k / n]);
 }
 
-/* Lemma. t = c' + d' s', so s = (c' - c) / d + (d' / d) s', both at most about 1 in magnitude: a' and b'
- * are off by at most 8 u (|a| + |b|), from five roundings each. Two points of a cluster are no farther
- * apart than 2 e' at any one time, and each moves at its rate. */
+/* Lemma. t = c' + d' s', so s = (c' - c) / d + (d' / d) s', both at most about 1 in magnitude: a'
+ * and b' are off by at most 8 u (|a| + |b|), from five roundings each. Two points of a cluster are
+ * no farther apart than 2 e' at any one time, and each moves at its rate. */
 enum { TIMES_ROUNDING = 8 };
 PAD_COVERS(8, 4);
 void cluster_models(const cluster *c, const imp_region *region, imp_model model[3])

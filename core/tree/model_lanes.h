@@ -11,8 +11,8 @@
 
 /* The models of three coordinates side by side
  * ============================================
- * x, y and z of the same coefficient in one quad, whose fourth lane is 0. For the files that fill nodes,
- * which compile what is here for either width of a register. */
+ * x, y and z of the same coefficient in one quad, whose fourth lane is 0. For the files that fill
+ * nodes, which compile what is here for either width of a register. */
 
 typedef struct model_lanes {
     imp_quad a, b[3], q[6], e, lo, hi, rate[3];

@@ -9,7 +9,7 @@
 #include "core/base/rounding.h"
 #include "core/tree/net_rows.h"
 
-/* --- As a type gives it ------------------------------------------------------------------- */
+/* --- As a type gives it ----------------------------------------------------------------------- */
 
 static int stride_of(int points) { return (points + IMP_QUAD - 1) / IMP_QUAD * IMP_QUAD; }
 
@@ -32,8 +32,9 @@ static double greatest(const double *x, int points)
     return most;
 }
 
-/* Products of two numbers, and of a number and two weights, stay within a double; so do those of an axis,
- * a velocity and a time, and an underflow of the first two times a time is far below 2^-490. */
+/* Products of two numbers, and of a number and two weights, stay within a double; so do those of an
+ * axis, a velocity and a time, and an underflow of the first two times a time is far below
+ * 2^-490. */
 #define NET_LARGE 0x1p300
 
 static bool is_moderate(const imp_net *given, const net *n, const imp_region *region, int points)
@@ -142,8 +143,8 @@ static void halve_weighted(double *x, double *w, int columns, int apart, int n, 
         }
 }
 
-/* The same of a bicubic patch, four lines at a time: the weights of the cubics, of the means of two, of three
- * and of all four points. */
+/* The same of a bicubic patch, four lines at a time: the weights of the cubics, of the means of
+ * two, of three and of all four points. */
 typedef struct row_weights {
     imp_quad point[4], two[3], three[2], all;
 } row_weights;
@@ -195,8 +196,9 @@ IMP_QUAD_WIDE static void halve_bicubic_weighted_wide(double *x, int columns, pa
     halve_bicubic_weighted(x, columns, j, side);
 }
 
-/* Lemma (error). Over the region's times a number is at most M = `most` in size, and so are means of such,
- * but for a factor below 2 that the budgets have room for. Halving goes through n steps. In units of u M:
+/* Lemma (error). Over the region's times a number is at most M = `most` in size, and so are means
+ * of such, but for a factor below 2 that the budgets have room for. Halving goes through n steps.
+ * In units of u M:
  *
  *   without weights   a step rounds the sum                                          1
  *   with weights      a step rounds two products, two sums and the quotient          5
@@ -204,9 +206,9 @@ IMP_QUAD_WIDE static void halve_bicubic_weighted_wide(double *x, int columns, pa
  *                     which moves a mean of points 2 M apart by                    2 n
  *                     and the patch itself, of the half, once more, by             2 n
  *
- * so n, and n (5 + 2 n) + 2 n; twice that is added. A step's two products underflow by 2^-1075 each, over
- * weights that add up to 2^-299 at least: n <= 35 steps by less than 2^-769, of velocities times less than
- * 2^300 (NET_LARGE). */
+ * so n, and n (5 + 2 n) + 2 n; twice that is added. A step's two products underflow by 2^-1075
+ * each, over weights that add up to 2^-299 at least: n <= 35 steps by less than 2^-769, of
+ * velocities times less than 2^300 (NET_LARGE). */
 #define HALVING_UNDERFLOW 0x1p-468
 
 static double halving_units(const net *p, int n)

@@ -9,9 +9,10 @@
 
 /* Control nets of nodes
  * =====================
- * What imp_net says of a region, as a node keeps it: the numbers of one coordinate lie side by side, in
- * whole quads of which the last is filled with copies of the last point. A child's net is made from its
- * parent's by de Casteljau where a region is halved exactly; halves in time share one. */
+ * What imp_net says of a region, as a node keeps it: the numbers of one coordinate lie side by
+ * side, in whole quads of which the last is filled with copies of the last point. A child's net is
+ * made from its parent's by de Casteljau where a region is halved exactly; halves in time share
+ * one. */
 
 typedef struct net {
     int degree[2];
@@ -42,12 +43,13 @@ static inline bool net_is_curved(const net *n)
 /* The surface's largest distance from the patch, about. */
 static inline double net_off(const net *n) { return n->error[0] + n->error[1] + n->error[2]; }
 
-/* Fills n, which has room, from a sane net over a region. False: its numbers are too large or too small
- * to be computed with; n is not filled. */
+/* Fills n, which has room, from a sane net over a region. False: its numbers are too large or too
+ * small to be computed with; n is not filled. */
 bool net_take(net *n, const imp_net *given, const imp_region *region);
 
-/* Whether the halves of a region along j have nets by halving: j is time, or the cut exactly in the middle.
- * Lemma. lo + hi is s + e exactly (D. Knuth), so with e = 0 and s = 2 c the cut is in the middle. */
+/* Whether the halves of a region along j have nets by halving: j is time, or the cut exactly in the
+ * middle. Lemma. lo + hi is s + e exactly (D. Knuth), so with e = 0 and s = 2 c the cut is in the
+ * middle. */
 static inline bool net_can_halve(const imp_region *region, parameter j)
 {
     if (j == PARAMETER_T) return true;
@@ -56,12 +58,13 @@ static inline bool net_can_halve(const imp_region *region, parameter j)
     return e == 0 && s == 2 * region->c[j];
 }
 
-/* Fills `half`, which has room for as much and may be n, with the net of the lower (0) or upper half along u
- * or v. */
+/* Fills `half`, which has room for as much and may be n, with the net of the lower (0) or upper
+ * half along u or v. */
 void net_halve(const net *n, parameter j, int side, net *half);
 
-/* The same of other numbers of its control points, in place: `columns` columns as the net's own, then its
- * weights if it has any. Numbers no larger than `most` are then off by net_halving_upper at most. */
+/* The same of other numbers of its control points, in place: `columns` columns as the net's own,
+ * then its weights if it has any. Numbers no larger than `most` are then off by net_halving_upper
+ * at most. */
 void net_halve_columns(const net *n, parameter j, int side, double *x, int columns);
 double net_halving_upper(const net *n, parameter j, double most);
 

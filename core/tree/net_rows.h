@@ -39,7 +39,8 @@ IMP_QUAD_INLINE rows rows_along(rows r, parameter j)
     return j == PARAMETER_U ? r : rows_turned(r);
 }
 
-/* Both halves of four cubics: the lower has the first four control points, the upper the last four. */
+/* Both halves of four cubics: the lower has the first four control points, the upper the last
+ * four. */
 typedef struct halved_rows {
     imp_quad row[7];
 } halved_rows;

@@ -9,10 +9,10 @@
 
 #define SERIES_UNROLL _Pragma("GCC unroll 4")
 
-/* --- The series -------------------------------------------------------------------------------- */
+/* --- The series ------------------------------------------------------------------------------- */
 
-/* The Chebyshev coefficients of four cubics side by side, of control points p over s in [-1, 1]. With A = p0 +
- * p3, B = p1 + p2, C = p3 - p0, D = p2 - p1:
+/* The Chebyshev coefficients of four cubics side by side, of control points p over s in [-1, 1].
+ * With A = p0 + p3, B = p1 + p2, C = p3 - p0, D = p2 - p1:
  *
  *   c2 = 3 (A - B) / 16,  c0 = A / 2 - c2,  c3 = (C - 3 D) / 32,  c1 = C / 2 - c3,
  *
@@ -46,10 +46,10 @@ IMP_QUAD_INLINE rows row_of_series(const columns *c, int k)
         rows_turned((rows){{c->of[0].row[k], c->of[1].row[k], c->of[2].row[k], imp_quad_all(0)}}));
 }
 
-/* --- The models ---------------------------------------------------------------------------------- */
+/* --- The models ------------------------------------------------------------------------------- */
 
-/* Sums over a series of X + t Y: X here is at the region's middle time, Y times half its length; the size of a
- * coefficient is |X| + |Y|. */
+/* Sums over a series of X + t Y: X here is at the region's middle time, Y times half its length;
+ * the size of a coefficient is |X| + |Y|. */
 typedef struct series_sums {
     imp_quad x[3][3];   /* X_kl, k + l <= 2 */
     imp_quad y[2][2];   /* Y_kl, k + l <= 1 */
@@ -104,16 +104,16 @@ IMP_QUAD_INLINE void sums_take(const net *p, double middle, double half, bool is
     }
 }
 
-/* At least b s + q s^2 on [-1, 1]: its ends, and the vertex -b^2 / 4q, which is inside only if |b| < 2 |q| and
- * then at most |b| / 2 from 0. */
+/* At least b s + q s^2 on [-1, 1]: its ends, and the vertex -b^2 / 4q, which is inside only if |b|
+ * < 2 |q| and then at most |b| / 2 from 0. */
 IMP_QUAD_INLINE imp_quad bow_upper(imp_quad b, imp_quad q)
 {
     return imp_quad_max(q + imp_quad_abs(b), imp_quad_all(0.5) * imp_quad_abs(b));
 }
 
-/* Lemma. T_2 = 2 s^2 - 1, so X_20 T_2 is 2 X_20 s^2 and -X_20 of the constant. All that is left out is within
- * the sum of its sizes, as |T_k| <= 1, and the patch within the net's error of the surface. Rounding, in units
- * of u M, M = `most` >= |X| + |t - time| |Y| of each control point:
+/* Lemma. T_2 = 2 s^2 - 1, so X_20 T_2 is 2 X_20 s^2 and -X_20 of the constant. All that is left out
+ * is within the sum of its sizes, as |T_k| <= 1, and the patch within the net's error of the
+ * surface. Rounding, in units of u M, M = `most` >= |X| + |t - time| |Y| of each control point:
  *
  *   series     each direction: c0 takes 4 roundings, c1 as many, of |A| / 2 + 3 (|A| + |B|) / 16 and so on: of
  *              4 M for all four; both directions 16 M, of which each term has 8 roundings; X + middle Y,
@@ -122,9 +122,10 @@ IMP_QUAD_INLINE imp_quad bow_upper(imp_quad b, imp_quad q)
  *   middle     lo + hi is 2 c, so only d is rounded, up by 7 units at most: s is that of the net but for 7 u
  *              |s|; a cubic within M has a slope of 3 M: both directions 2 * 21
  *
- * Numbers of a net that was halved are within 2 `most` (net.c). Of |place| + |t - time| |drift|: products and
- * sums 8, twice for the range. Each of 16 coefficients passes at most 8 products, which underflow by 2^-1075
- * each, those of velocities times less than 2^301 (NET_LARGE): 2^-767 in all. */
+ * Numbers of a net that was halved are within 2 `most` (net.c). Of |place| + |t - time| |drift|:
+ * products and sums 8, twice for the range. Each of 16 coefficients passes at most 8 products,
+ * which underflow by 2^-1075 each, those of velocities times less than 2^301 (NET_LARGE): 2^-767 in
+ * all. */
 enum { SERIES_ROUNDING = 512, PLACE_ROUNDING = 16 };
 _Static_assert(2 * ((8 + 3 + 1) * 16 + 7 + 4 + 2 * 21) <= SERIES_ROUNDING, "rounding of a series");
 _Static_assert(2 * 8 <= PLACE_ROUNDING, "rounding of its place");

@@ -7,11 +7,12 @@
 
 /* Taylor models of a bicubic net
  * ==============================
- * A net's patch is a polynomial. Its Chebyshev series, cut off after the terms of second order, gives the
- * node's models for less than the type's inclusion of the region costs. */
+ * A net's patch is a polynomial. Its Chebyshev series, cut off after the terms of second order,
+ * gives the node's models for less than the type's inclusion of the region costs. */
 
-/* Fills what node_take_model fills of n, whose region is set, from its net p, over the same region. False: p
- * is not a bicubic patch without weights, or the region's centre is not in the middle; n is unchanged. */
+/* Fills what node_take_model fills of n, whose region is set, from its net p, over the same region.
+ * False: p is not a bicubic patch without weights, or the region's centre is not in the middle; n
+ * is unchanged. */
 bool net_series_take(const net *p, node *n);
 
 #endif

@@ -12,7 +12,7 @@
 #include "core/base/status.h"
 #include "core/tree/tree_internal.h"
 
-/* --- Memory ------------------------------------------------------------------- */
+/* --- Memory ----------------------------------------------------------------------------------- */
 
 /* The next place of the newest chunk; NULL: it has none. */
 static node *next_place(tree *t)
@@ -65,7 +65,7 @@ static void node_give_back(tree *t, node *n)
     pthread_mutex_unlock(&t->lock);
 }
 
-/* --- Making --------------------------------------------------------------------------- */
+/* --- Making ----------------------------------------------------------------------------------- */
 
 /* With the net; unless it has it already, it is made again when it is needed. */
 static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
@@ -81,8 +81,8 @@ static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
     return code;
 }
 
-/* The whole of a surface says it for all parts, so that models depend on the region alone, not on what was asked
- * before. Models of nets are worth the nets only where patches bend. */
+/* The whole of a surface says it for all parts, so that models depend on the region alone, not on
+ * what was asked before. Models of nets are worth the nets only where patches bend. */
 static bool follows_net(const node *n)
 {
     if (!node_is_part(n)) return false;
@@ -90,8 +90,8 @@ static bool follows_net(const node *n)
     return n->many == NULL && node_bends(n->parent) && surface_offers_net(n->surface);
 }
 
-/* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds to the bounds
- * of rates. */
+/* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds
+ * to the bounds of rates. */
 static void node_begin(const tree *t, const node_place *place, node *n)
 {
     const size_t set = t->plan.kind == TREE_MODELS ? offsetof(node, bounded) : 0;
@@ -124,8 +124,8 @@ imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growt
     return code;
 }
 
-/* Puts a reserved node, filled, into the slot. If another thread's is there already, it is given back. Returns
- * the one in the slot. */
+/* Puts a reserved node, filled, into the slot. If another thread's is there already, it is given
+ * back. Returns the one in the slot. */
 static node *node_publish(tree *t, node *n, _Atomic(node *) *slot)
 {
     node *there = NULL;
@@ -151,7 +151,7 @@ static imp_code node_make(tree *t, const node_place *place, _Atomic(node *) *slo
     return IMP_SUCCESS;
 }
 
-/* --- Halves ----------------------------------------------------------------------------- */
+/* --- Halves ----------------------------------------------------------------------------------- */
 
 node_place node_place_of_surface(const surface *s, double t_start, double t_end)
 {

@@ -14,16 +14,16 @@
 /* Nodes: regions of one surface with Taylor models that hold
  * ==========================================================
  * The nodes of a surface form a k-d tree that is made lazily: the halves of a node along a
- * parameter are made on first use, and then serve every pair and every later query.
- * Where the surface consists of pieces, the nodes above them are clusters of pieces (hierarchy.h): u
- * of such a node runs over the pieces, from -1 to 1, and halving it along u gives its two halves.
- * A node may be halved along any of its parameters.
+ * parameter are made on first use, and then serve every pair and every later query. Where the
+ * surface consists of pieces, the nodes above them are clusters of pieces (hierarchy.h): u of such
+ * a node runs over the pieces, from -1 to 1, and halving it along u gives its two halves. A node
+ * may be halved along any of its parameters.
  *
  * Trees may be used from several threads at once. A node is filled by whoever asks for it first,
  * published once, and never changes. Two threads that ask at the same moment fill one each: as both
- * are the same to the last bit, the first that is published serves both, the other is dropped. A node's
- * net comes later, when node_net first asks for it, and is published in the same way; a node that follows its
- * net is filled with it. */
+ * are the same to the last bit, the first that is published serves both, the other is dropped. A
+ * node's net comes later, when node_net first asks for it, and is published in the same way; a node
+ * that follows its net is filled with it. */
 
 /* What a node's inclusion is made from. */
 typedef enum tree_kind {
@@ -83,7 +83,7 @@ typedef struct tree_plan {
     tree_kind kind;
     double t_start, t_end; /* within the surface's domain */
     node_audit audit;      /* may be NULL */
-    size_t left_out;       /* maps of the surface that its nodes are not under, counted from the last */
+    size_t left_out; /* maps of the surface that its nodes are not under, counted from the last */
 } tree_plan;
 
 /* What calls have made, summed up. */
@@ -104,8 +104,8 @@ imp_code tree_new_without_root(const surface *s, const tree_plan *plan, tree **m
 bool tree_has_root(const tree *t);
 imp_code tree_make_root(tree *t, tree_growth *growth, imp_error *error); /* unless it has one */
 
-/* Another tree of the same surface and plan, whose root is a copy, and not counted: for searches whose
- * counts are to be the same whatever other threads do. */
+/* Another tree of the same surface and plan, whose root is a copy, and not counted: for searches
+ * whose counts are to be the same whatever other threads do. */
 imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error);
 void tree_free(tree *t);
 
@@ -120,18 +120,18 @@ bool tree_is_of(const tree *t, const tree_plan *plan);
 bool tree_is_audited(const tree *t);
 
 /* The half of `parent` below (side 0) or above (1) its centre along j. Precondition:
- * region_can_split. What this call makes, if anything, is added to *growth. IMP_ERROR_PLUGIN names the
- * type, the region and what it answered. */
+ * region_can_split. What this call makes, if anything, is added to *growth. IMP_ERROR_PLUGIN names
+ * the type, the region and what it answered. */
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error);
 
-/* The same half along u or v, on the way to a smaller one: unless it is there already it is bare, without
- * models, and not counted as a node. Precondition: `parent` is no cluster. */
+/* The same half along u or v, on the way to a smaller one: unless it is there already it is bare,
+ * without models, and not counted as a node. Precondition: `parent` is no cluster. */
 imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
                          tree_growth *growth, imp_error *error);
 
-/* The control net of the node, made now if it is asked for first; NULL: it has none. What this call makes
- * is added to *growth. IMP_ERROR_PLUGIN as above. */
+/* The control net of the node, made now if it is asked for first; NULL: it has none. What this call
+ * makes is added to *growth. IMP_ERROR_PLUGIN as above. */
 imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error);
 
 /* Whether it was. */
@@ -170,9 +170,9 @@ static inline bool node_gains_by_net(const node *n)
     return node_bends(n) || node_blurs(n, NODE_ROUNDING);
 }
 
-/* Whether both have a net that a pair of them asks for (pair_test.c). Where neither gains it asks for none,
- * and those that other pairs asked for do not count: which there are depends on what else the scene was
- * asked. */
+/* Whether both have a net that a pair of them asks for (pair_test.c). Where neither gains it asks
+ * for none, and those that other pairs asked for do not count: which there are depends on what else
+ * the scene was asked. */
 static inline bool nodes_have_nets(const node *a, const node *b)
 {
     return (node_gains_by_net(a) || node_gains_by_net(b)) && node_net_made(a) != NULL &&

@@ -8,7 +8,7 @@
 #include "core/tree/node_model.h"
 #include "core/tree/tree_internal.h"
 
-/* --- Faults of plugins ---------------------------------------------------------- */
+/* --- Faults of plugins ------------------------------------------------------------------------ */
 
 imp_code node_fault(const node *n, const char *what, imp_error *error)
 {
@@ -24,7 +24,7 @@ imp_code node_status_fault(const node *n, imp_status status, imp_error *error)
     return surface_set_code(status, error);
 }
 
-/* --- Nodes of models -------------------------------------------------------------- */
+/* --- Nodes of models -------------------------------------------------------------------------- */
 
 static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
 {
@@ -39,7 +39,7 @@ static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
     return breach != NULL ? node_fault(n, breach, error) : IMP_SUCCESS;
 }
 
-/* --- Nodes of rates ----------------------------------------------------------------- */
+/* --- Nodes of rates --------------------------------------------------------------------------- */
 
 /* Half-widths and radius from the rate matrix in one of the paper's three forms. Roundings of the
  * longest chain, where a square root halves those of its argument and counts one:
@@ -86,8 +86,9 @@ static void take_infinite(node *n)
     n->bounded = false;
 }
 
-/* A cluster has no rates of its own: its box, and the ball around that. Roundings of the radius: half a
- * side 2, square 1, sums 2, which the root halves, and its own: (2 * 2 + 1 + 2) / 2 + 1 < 8 - 2. */
+/* A cluster has no rates of its own: its box, and the ball around that. Roundings of the radius:
+ * half a side 2, square 1, sums 2, which the root halves, and its own: (2 * 2 + 1 + 2) / 2 + 1 < 8
+ * - 2. */
 PAD_COVERS(8, 5);
 static imp_code fill_from_box(const tree *t, node *n, imp_error *error)
 {

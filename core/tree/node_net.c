@@ -67,16 +67,16 @@ static bool may_have_net(const tree *t, const node *n)
            surface_offers_net(n->surface);
 }
 
-/* Whether the node's net is a half of its parent's, which is `whole`: what has one is of a tree and a surface
- * that may. */
+/* Whether the node's net is a half of its parent's, which is `whole`: what has one is of a tree and
+ * a surface that may. */
 static bool is_half_of(const node *n, const net *whole)
 {
     return whole != NULL && n->along != PARAMETER_T && n->bounded &&
            net_can_halve(&n->parent->region, n->along);
 }
 
-/* The net in the room, or that of the parent itself, which is `whole`; NULL: it has none. From the parent's
- * where that can be halved; it may lie in the room. */
+/* The net in the room, or that of the parent itself, which is `whole`; NULL: it has none. From the
+ * parent's where that can be halved; it may lie in the room. */
 static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buffer *room,
                          const net **made, imp_error *error)
 {
@@ -101,8 +101,8 @@ static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
     return kept != NULL ? memcpy(kept, filled, bytes) : NULL;
 }
 
-/* The net of n: this one, or another thread's that is there already. The room of this one is lost then. NULL:
- * it has none. */
+/* The net of n: this one, or another thread's that is there already. The room of this one is lost
+ * then. NULL: it has none. */
 static const net *net_publish(node *n, const net *made)
 {
     const net *there = NULL;

@@ -7,7 +7,7 @@
 #include "core/tree/model_lanes.h"
 #include "core/tree/posed_terms.h"
 
-/* --- Side by side ---------------------------------------------------------------------------- */
+/* --- Side by side ----------------------------------------------------------------------------- */
 
 static double larger(double x, double y) { return x > y ? x : y; }
 
@@ -59,7 +59,7 @@ bool shape_model_take(shape_model *s, const imp_model model[3])
     return true;
 }
 
-/* --- The product ----------------------------------------------------------------------------- */
+/* --- The product ------------------------------------------------------------------------------ */
 
 IMP_QUAD_INLINE imp_quad size_times(const double column[3][4], const double y[4])
 {
@@ -98,8 +98,8 @@ IMP_QUAD_INLINE relative_shape shape_about(const shape_model *s, const double pi
     return z;
 }
 
-/* Lemma (polynomial). Let R = R0 + R1 s + R2 s^2 + rho and T likewise, |rho_ij| <= E_ij, and z = P + delta,
- * P = A + bu su + bv sv + cuu su^2 + cuv su sv + cvv sv^2, |delta_j| <= e_j. Then
+/* Lemma (polynomial). Let R = R0 + R1 s + R2 s^2 + rho and T likewise, |rho_ij| <= E_ij, and z = P
+ * + delta, P = A + bu su + bv sv + cuu su^2 + cuv su sv + cvv sv^2, |delta_j| <= e_j. Then
  *
  *   x = T + R z = T + (R0 + R1 s + R2 s^2) P + R delta + rho P.
  *
@@ -148,11 +148,11 @@ IMP_QUAD_INLINE imp_quad folded_fourth(const shape_model *s, const pose_lanes *p
     return imp_quad_all(0.5) * size_times(p->turn[2], s->quv) + imp_quad_all(0.25) * quarters;
 }
 
-/* Lemma (rounding). Roundings that a product passes through: of R_k A, in a, bt or qtt: A 1, G 1, the
- * product 1, its sums 2, T 1, the last 1: 6 at most of a, and of bt and qtt. Of others: in H 1, G 1, S 1;
- * product 1, sums 2, T 1: 6 at most; R2 cuu is in a, quu and qtt with the weights 1/4, 1/2 and 1/2, others
- * with less: 7.5. What is folded misses 3 of each, with weights of 1 at most: 10.5 together. T passes
- * through 2. In units of u, with |R| = |R0| + |R1| + |R2|:
+/* Lemma (rounding). Roundings that a product passes through: of R_k A, in a, bt or qtt: A 1, G 1,
+ * the product 1, its sums 2, T 1, the last 1: 6 at most of a, and of bt and qtt. Of others: in H 1,
+ * G 1, S 1; product 1, sums 2, T 1: 6 at most; R2 cuu is in a, quu and qtt with the weights 1/4,
+ * 1/2 and 1/2, others with less: 7.5. What is folded misses 3 of each, with weights of 1 at most:
+ * 10.5 together. T passes through 2. In units of u, with |R| = |R0| + |R1| + |R2|:
  *
  *   |R| (TURNED |A| + OTHERS (|bu| + |bv| + |cuu| + |cuv| + |cvv|)) + MOVED (|T0| + |T1| + |T2|). */
 enum { TURNED = 6, OTHERS = 11, MOVED = 2 };
@@ -175,7 +175,8 @@ IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
 
 /* Lemma (remainder). |R delta| is at most |R| e, coordinate by coordinate, and norm |e| as a whole;
  * |rho P| <= E (|z| + e). Non-negative sums; the longest chain is the rounding's: size 2 + 5, factor 1, sums
- * 1 + 1, product 1, sums 2, T 1, factor 1, and then 4 sums. Underflows lose less than POSE_UNDERFLOW. */
+ * 1 + 1, product 1, sums 2, T 1, factor 1, and then 4 sums. Underflows lose less than
+ * POSE_UNDERFLOW. */
 #define POSE_UNDERFLOW imp_quad_of(0x1p-1000, 0x1p-1000, 0x1p-1000, 0)
 PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5);
 
@@ -205,22 +206,22 @@ IMP_QUAD_INLINE imp_quad posed_rest_upper(const shape_model *s, const pose_lanes
     return quad_padded_upper(all, 32) + POSE_UNDERFLOW;
 }
 
-/* --- The range ---------------------------------------------------------------------------------- */
+/* --- The range -------------------------------------------------------------------------------- */
 
 typedef struct range_lanes {
     imp_quad lo, hi;
 } range_lanes;
 
-/* Bounds of b s + q s^2 over [-1, 1]: q +- b at the ends, 0 at s = 0 and, where |b| < 2 |q|, the vertex,
- * which is nearer to 0 than |b| / 2 is. */
+/* Bounds of b s + q s^2 over [-1, 1]: q +- b at the ends, 0 at s = 0 and, where |b| < 2 |q|, the
+ * vertex, which is nearer to 0 than |b| / 2 is. */
 IMP_QUAD_INLINE range_lanes bow(imp_quad b, imp_quad q)
 {
     const imp_quad size = imp_quad_abs(b), half = imp_quad_all(0.5) * size;
     return (range_lanes){imp_quad_min(q - size, -half), imp_quad_max(q + size, half)};
 }
 
-/* Of polynomial and remainder, as imp_model_poly_range has it: at most 16 roundings of partial sums that
- * `size` and e bound; 32 u of these cover them and the computing of the size. */
+/* Of polynomial and remainder, as imp_model_poly_range has it: at most 16 roundings of partial sums
+ * that `size` and e bound; 32 u of these cover them and the computing of the size. */
 IMP_QUAD_INLINE range_lanes range_of_polynomial(const model_lanes *m)
 {
     const range_lanes u = bow(m->b[0], m->q[IMP_UU]), v = bow(m->b[1], m->q[IMP_VV]),
@@ -239,8 +240,8 @@ IMP_QUAD_INLINE range_lanes range_of_polynomial(const model_lanes *m)
  *
  *   x = T + R (m - p) + R (y - m),   |R (y - m)| <= |R| w,
  *
- * where T + R (m - p) is a quadratic in s within E |m - p| + F. Roundings of it: m - p 1, product 1, sums 2,
- * T 1, bow 1, and three more: 9 < 16 - 2 of |R| |m - p| + |T|. */
+ * where T + R (m - p) is a quadratic in s within E |m - p| + F. Roundings of it: m - p 1, product
+ * 1, sums 2, T 1, bow 1, and three more: 9 < 16 - 2 of |R| |m - p| + |T|. */
 PAD_COVERS(16, 9);
 IMP_QUAD_INLINE range_lanes range_of_box(const shape_model *s, const pose_lanes *p)
 {
@@ -282,7 +283,7 @@ IMP_QUAD_INLINE void take_range(const shape_model *s, const relative_shape *z, c
     m->hi = imp_quad_min(imp_quad_min(x.hi, y.hi), ball.hi);
 }
 
-/* --- The node ------------------------------------------------------------------------------------- */
+/* --- The node --------------------------------------------------------------------------------- */
 
 IMP_QUAD_INLINE bool take(node *n, const shape_model *s, const pose_lanes *p)
 {

@@ -7,10 +7,11 @@
 
 /* Nodes from a shape and a pose
  * =============================
- * A shape is what lies in a part of a surface before its maps, where it does not move by itself: order-2
- * Taylor models in s_u and s_v. A pose is what rigid maps do with it over a span of times, polynomials of
- * degree 2 in s_t. Their product is the node: a twentieth of the work of an inclusion through the maps, and
- * shape and pose each serve many nodes. x, y and z lie side by side; the fourth number of each is 0. */
+ * A shape is what lies in a part of a surface before its maps, where it does not move by itself:
+ * order-2 Taylor models in s_u and s_v. A pose is what rigid maps do with it over a span of times,
+ * polynomials of degree 2 in s_t. Their product is the node: a twentieth of the work of an
+ * inclusion through the maps, and shape and pose each serve many nodes. x, y and z lie side by
+ * side; the fourth number of each is 0. */
 
 typedef struct shape_model {
     double a[4], bu[4], bv[4], quu[4], quv[4], qvv[4]; /* length */
@@ -38,8 +39,9 @@ void pose_take(pose_lanes *p, const imp_pose *given, double norm);
 /* Fills s from finite models. False: they depend on time. */
 bool shape_model_take(shape_model *s, const imp_model model[3]);
 
-/* Fills everything of n but region, origin and children, as node_take_model does, with the image of the
- * shape; n may refer to both. False: that is not bounded, or the models broke a promise, and n is not filled. */
+/* Fills everything of n but region, origin and children, as node_take_model does, with the image of
+ * the shape; n may refer to both. False: that is not bounded, or the models broke a promise, and n
+ * is not filled. */
 bool node_take_posed(node *n, const shape_model *s, const pose_lanes *p);
 
 #endif

@@ -9,10 +9,10 @@
 
 /* Terms of third order, and a remainder that turns
  * ================================================
- * The remainder n->e of a node is a box along x, y and z. Of a posed node more is known: the terms of third
- * order of the product, and that the shape's remainder is a box along the body's axes, which turns with the
- * pose: a parallelepiped in space, narrower than its bounding box along most axes. For the files that work
- * on nodes, compiled for either width of a register.
+ * The remainder n->e of a node is a box along x, y and z. Of a posed node more is known: the terms
+ * of third order of the product, and that the shape's remainder is a box along the body's axes,
+ * which turns with the pose: a parallelepiped in space, narrower than its bounding box along most
+ * axes. For the files that work on nodes, compiled for either width of a register.
  *
  * Lemma. In the lemma of pose.c (polynomial), with f the quadratic that is kept, x is
  *
@@ -20,8 +20,8 @@
  *     + sum_j delta_j / e_j R(s)_j e_j                                         R(s) = R0 + R1 s + R2 s^2
  *     + rest,    uut = R1 cuu, uvt = R1 cuv, vvt = R1 cvv, utt = R2 bu, vtt = R2 bv,
  *
- * and the rest is within n->posed_e: terms of fourth order, rho P, rho delta, the shift's remainder and
- * rounding. Over a window s = s0 + k w, |w| <= 1,
+ * and the rest is within n->posed_e: terms of fourth order, rho P, rho delta, the shift's remainder
+ * and rounding. Over a window s = s0 + k w, |w| <= 1,
  *
  *   R(s)_j e_j = edge_j + swing_j w + R2_j e_j k^2 w^2,
  *   edge_j = (R0 + (R1 + R2 s0) s0)_j e_j,   swing_j = k (R1 + 2 R2 s0)_j e_j,
@@ -42,8 +42,8 @@ IMP_QUAD_INLINE imp_quad pose_times(const double column[3][4], const double y[4]
            imp_quad_load(column[2]) * imp_quad_all(y[2]);
 }
 
-/* What edges and bow may be off by along an axis, in units of u (|R0| + |R1| + |R2|) e; in posed_e. s0 is off
- * by 2 u and k by u; |edge| + |swing| + bow are at most one such size.
+/* What edges and bow may be off by along an axis, in units of u (|R0| + |R1| + |R2|) e; in posed_e.
+ * s0 is off by 2 u and k by u; |edge| + |swing| + bow are at most one such size.
  *
  *   edge     R2 s0 2 + 1, sum 1, times s0 2 + 1, sum 1, times e 1         9
  *   swing    R2 s0 2 + 1, sums 2, times k 1 + 1, times e 1                8

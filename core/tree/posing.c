@@ -23,7 +23,7 @@ typedef struct span {
     _Atomic(struct span *) child[2];
 } span;
 
-/* --- Memory ------------------------------------------------------------------------------------- */
+/* --- Memory ----------------------------------------------------------------------------------- */
 
 typedef struct posing_block {
     struct posing_block *next;
@@ -60,10 +60,10 @@ void posing_clear(posing *g)
     }
 }
 
-/* --- Shapes ---------------------------------------------------------------------------------------- */
+/* --- Shapes ----------------------------------------------------------------------------------- */
 
-/* Over the u and v of a node, at all times of the root. What answers no model is asked again through all
- * maps, which tells what is wrong. */
+/* Over the u and v of a node, at all times of the root. What answers no model is asked again
+ * through all maps, which tells what is wrong. */
 static void shape_fill(shape *s, const node *n, const node *root)
 {
     imp_region region = n->region;
@@ -109,7 +109,7 @@ static shape *shape_in(posing *g, _Atomic(shape *) *slot, const node *n, tree_gr
     return shape_publish(g, &filled, slot, growth);
 }
 
-/* --- Spans ------------------------------------------------------------------------------------------- */
+/* --- Spans ------------------------------------------------------------------------------------ */
 
 static bool is_uniform(const imp_pose *pose)
 {
@@ -165,10 +165,11 @@ static imp_code span_in(posing *g, _Atomic(span *) *slot, const node *n, span **
     return *found != NULL ? IMP_SUCCESS : error_set_memory(error);
 }
 
-/* --- Nodes ------------------------------------------------------------------------------------------- */
+/* --- Nodes ------------------------------------------------------------------------------------ */
 
-/* Those of the tree's root. *s stays NULL where it does not move rigidly, or moves by itself; or uniformly
- * without turning: then the inclusion through the maps is as cheap, and needs no memory beside the node. */
+/* Those of the tree's root. *s stays NULL where it does not move rigidly, or moves by itself; or
+ * uniformly without turning: then the inclusion through the maps is as cheap, and needs no memory
+ * beside the node. */
 static imp_code begin_at_root(posing *g, shape **s, span **t, tree_growth *growth, imp_error *error)
 {
     shape whole = {.moves = true};

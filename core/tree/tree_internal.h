@@ -69,19 +69,21 @@ static inline bool node_is_part(const node *n)
 imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growth,
                    imp_error *error);
 
-/* The bounds of a node that has begun: models, a cluster's box, or rates, as the tree's plan asks for. */
+/* The bounds of a node that has begun: models, a cluster's box, or rates, as the tree's plan asks
+ * for. */
 imp_code node_bounds_find(const tree *t, node *n, imp_error *error);
 
 /* Names the type, the region and what is wrong. */
 imp_code node_fault(const node *n, const char *what, imp_error *error);
 imp_code node_status_fault(const node *n, imp_status status, imp_error *error);
 
-/* The net of n, which was not asked for it: published, if n is to keep it, or in the room, or in the tree; NULL:
- * it has none. Its ancestors come first, from the top. Bare ones keep none. */
+/* The net of n, which was not asked for it: published, if n is to keep it, or in the room, or in
+ * the tree; NULL: it has none. Its ancestors come first, from the top. Bare ones keep none. */
 imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
                        tree_growth *growth, imp_error *error);
 
-/* Fills n, which follows its net, from that. *done: false where it has none, or one that is no bicubic patch. */
+/* Fills n, which follows its net, from that. *done: false where it has none, or one that is no
+ * bicubic patch. */
 imp_code node_fill_from_net(tree *t, node *n, bool *done, tree_growth *growth, imp_error *error);
 
 #endif

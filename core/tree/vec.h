@@ -40,9 +40,9 @@ static inline vec3 vec3_cross(vec3 a, vec3 b)
                    a.x[0] * b.x[1] - a.x[1] * b.x[0]}};
 }
 
-/* Where squares would underflow, |a| 2^600 is computed instead: of components below 2^-449, the largest
- * of which is 2^-1074 at least, the scaled squares are between 2^-948 and 2^302. Unless |a| is below
- * 2^-1022, the scaling is exact. */
+/* Where squares would underflow, |a| 2^600 is computed instead: of components below 2^-449, the
+ * largest of which is 2^-1074 at least, the scaled squares are between 2^-948 and 2^302. Unless |a|
+ * is below 2^-1022, the scaling is exact. */
 static inline double vec3_norm(vec3 a)
 {
     const double square = vec3_dot(a, a);

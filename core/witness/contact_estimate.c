@@ -11,7 +11,7 @@
 #include "core/witness/net_eval.h"
 #include "core/witness/newton.h"
 
-/* --- The distance --------------------------------------------------------------------------------------- */
+/* --- The distance ----------------------------------------------------------------------------- */
 
 typedef struct marcher {
     newton_bounds bounds;
@@ -81,8 +81,8 @@ static double promise(const newton_way *way, const stand *s, const double *next)
 /* What a step promises means nothing where it is damped more. */
 static const double DAMPED = 0x1p-10;
 
-/* One step from s to `to`; *way is left with the derivatives at s. False: no step reduces the gap, or
- * it promises less than `gain` of it. */
+/* One step from s to `to`; *way is left with the derivatives at s. False: no step reduces the gap,
+ * or it promises less than `gain` of it. */
 static bool step_down(const marcher *m, double gain, const stand *s, newton_way *way, stand *to)
 {
     bool is_better = false;
@@ -126,7 +126,7 @@ static void foresee(const stand *s, newton_way *way, vec3 velocity, double wait,
     if (!newton_try(way, s->y, y)) memcpy(y, s->y, sizeof s->y);
 }
 
-/* --- In time -------------------------------------------------------------------------------------------- */
+/* --- In time ---------------------------------------------------------------------------------- */
 
 /* How far the surface extends around a node, in the node's half-widths; `most` at most. */
 static void bounds_of(const node *n, double most, double *lo, double *hi)
@@ -217,8 +217,8 @@ bool contact_estimate_find(const node *a, const node *b, vec3 axis, const time_w
     return false;
 }
 
-/* The surface may leave the net beside the node, as behind a knot: points may leave it by one half-width, so
- * that those of small nodes are near them. */
+/* The surface may leave the net beside the node, as behind a knot: points may leave it by one
+ * half-width, so that those of small nodes are near them. */
 static const double NEAREST_REACH = 2;
 
 void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* --- Bernstein polynomials ------------------------------------------------------------------------ */
+/* --- Bernstein polynomials -------------------------------------------------------------------- */
 
 /* All polynomials of one degree, and their derivatives. */
 typedef struct bernstein {
@@ -64,7 +64,7 @@ static inline void cubics_at(double s, cubics *b)
     }
 }
 
-/* --- Points ------------------------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 static const double *weights_of(const net *f)
 {
@@ -251,7 +251,7 @@ void net_eval_at(const net_points of[2], const double y[4], net_derivatives out[
         jets_at(of, y, out);
 }
 
-/* --- Velocities ----------------------------------------------------------------------------------------- */
+/* --- Velocities ------------------------------------------------------------------------------- */
 
 /* The weighted sum of velocities, and the sum of the weights. */
 static imp_quad bicubic_velocity(const net *f, const double s[2])

@@ -7,7 +7,8 @@
 
 /* Points of a net's patch, and their derivatives
  * ==============================================
- * By Bernstein polynomials, at s in [-1, 1] or beyond. Rounded like any sum: nothing is proved by them. */
+ * By Bernstein polynomials, at s in [-1, 1] or beyond. Rounded like any sum: nothing is proved by
+ * them. */
 
 /* The control points of a net at one time, without its place. If weighted they are multiplied with
  * their weights, which are the fourth coordinate. */

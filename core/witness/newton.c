@@ -102,7 +102,7 @@ static bool step(const newton_way *way, const double *y, double damping, double 
     return true;
 }
 
-/* --- The way --------------------------------------------------------------------------------------- */
+/* --- The way ---------------------------------------------------------------------------------- */
 
 /* Damping at first, and where the search gives up; then the factors by which a step that leads
  * downhill, or does not, changes it. */

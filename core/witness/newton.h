@@ -17,8 +17,8 @@ typedef struct newton_bounds {
     double lo[NEWTON_UNKNOWNS], hi[NEWTON_UNKNOWNS];
 } newton_bounds;
 
-/* Gradient and Hessian of |D|^2 / 2, D = x_b - x_a, from its derivatives and second[side], which are
- * D.x'' of a and of b. */
+/* Gradient and Hessian of |D|^2 / 2, D = x_b - x_a, from its derivatives and second[side], which
+ * are D.x'' of a and of b. */
 void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double second[2][2][2],
                    double gradient[NEWTON_UNKNOWNS],
                    double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]);

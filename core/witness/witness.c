@@ -128,7 +128,7 @@ static imp_code state_at(const search *g, const double *y, state *s, imp_error *
     return IMP_SUCCESS;
 }
 
-/* --- Derivatives ---------------------------------------------------------------------- */
+/* --- Derivatives ------------------------------------------------------------------------------ */
 
 /* Columns of J and, weighted with D, the second derivatives of one side. */
 typedef struct derivatives {
@@ -197,7 +197,7 @@ static imp_code derive(const search *g, const state *s, double gradient[NEWTON_U
     return IMP_SUCCESS;
 }
 
-/* --- Steps -------------------------------------------------------------------------------- */
+/* --- Steps ------------------------------------------------------------------------------------ */
 
 /* Descends from *s as long as that pays: until a step promises no more than rounding, or the gap
  * shrinks by less than TUNING_NEWTON_GAIN of it, or by less than half while it is far above gamma.
@@ -235,9 +235,9 @@ static const double NORMAL_FROM = 64;
 static const double NORMAL_LEAST = 0x1p-1000;
 
 /* Lemma. The exact points are within the two error vectors of those computed, so their distance is
- * at most gap + |error_a|_1 + |error_b|_1. Roundings: of the gap differences 1, squares
- * 1, sums 2 and the root, which halves them and counts 1, (2 * 1 + 1 + 2) / 2 + 1 < 4; of the errors
- * 5 sums; then their sum. A gap below 2^-1022 loses 2^-1075 more (vec3_norm). */
+ * at most gap + |error_a|_1 + |error_b|_1. Roundings: of the gap differences 1, squares 1, sums 2
+ * and the root, which halves them and counts 1, (2 * 1 + 1 + 2) / 2 + 1 < 4; of the errors 5 sums;
+ * then their sum. A gap below 2^-1022 loses 2^-1075 more (vec3_norm). */
 PAD_COVERS(16, 5 + 1);
 static imp_code evaluate_gap(const search *g, const state *s, witness *found, imp_error *error)
 {

@@ -19,9 +19,9 @@ typedef struct witness {
     vec3 normal; /* unit, a to b */
 } witness;
 
-/* Seeks the nearest points of the two surfaces at time t, from the middles of the two nodes, neither of which
- * is a cluster; gives up early where the gap stays far above gamma. IMP_ERROR_PLUGIN when an evaluation
- * fails. */
+/* Seeks the nearest points of the two surfaces at time t, from the middles of the two nodes,
+ * neither of which is a cluster; gives up early where the gap stays far above gamma.
+ * IMP_ERROR_PLUGIN when an evaluation fails. */
 imp_code witness_seek(const node *const nodes[2], double t, double gamma, witness *found,
                       imp_error *error);
 

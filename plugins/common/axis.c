@@ -15,7 +15,7 @@ imp_status axis_check(int row, const double axis[3], imp_create_error *why)
                       axis[0], axis[1], axis[2], AXIS_MIN);
 }
 
-/* --- Constant vectors and matrices --- */
+/* --- Constant vectors and matrices ------------------------------------------------------------ */
 
 static bool near_is_zero(near_constant k) { return k.value == 0 && k.error == 0; }
 
@@ -59,7 +59,7 @@ static imp_interval interval_of(near_constant k)
     return imp_interval_make(imp_sum_down(k.value - k.error), imp_sum_up(k.value + k.error));
 }
 
-/* --- Turning --- */
+/* --- Turning ---------------------------------------------------------------------------------- */
 
 axis_frame axis_frame_of(const double axis[3])
 {
@@ -110,16 +110,18 @@ void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], i
     axis_transform(frame, cosine, sine, w, out);
 }
 
-/* Lemma (a point). Let w = at - center, off by u |w|, and let `trig` bound how far sine and cosine of the exact
- * angle are from those computed: the angle's error, and (L). With E = |along| + |across| + |turned| an entry is
- * off by the errors of its three constants, trig (|across| + |turned|), since |cos|, |sin| <= 1, and rounding;
- * W = sum_j E_ij |w_j| counts that, in units of u:
+/* Lemma (a point). Let w = at - center, off by u |w|, and let `trig` bound how far sine and cosine
+ * of the exact angle are from those computed: the angle's error, and (L). With E = |along| +
+ * |across| + |turned| an entry is off by the errors of its three constants, trig (|across| +
+ * |turned|), since |cos|, |sin| <= 1, and rounding; W = sum_j E_ij |w_j| counts that, in units of
+ * u:
  *
  *   w                      1
  *   entry                  3: product, two sums
  *   product, sums          3
  *
- * and the sum with the center rounds once. Underflow: fewer than 32 products, each multiplied by 1 or |w_j|. */
+ * and the sum with the center rounds once. Underflow: fewer than 32 products, each multiplied by 1
+ * or |w_j|. */
 bool axis_turn_point(const axis_frame *frame, const double center[3], const imp_model *angle,
                      const double at[3], double x[3], double error[3])
 {
@@ -147,9 +149,10 @@ bool axis_turn_point(const axis_frame *frame, const double center[3], const imp_
 
 /* Adds k x, number by number, to what is collected of one entry; x depends on parameter p alone.
  *
- * Lemma. With |K - k| <= kappa, x = P + delta and |x| <= m, K x - k P = K delta + (K - k) P, at most
- * (|k| + kappa) e + kappa (m + e). Each coefficient is a sum of two products, and one constant of a: at most 3
- * roundings of what their sizes add up to. K x lies in k [lo, hi], widened by kappa m. */
+ * Lemma. With |K - k| <= kappa, x = P + delta and |x| <= m, K x - k P = K delta + (K - k) P, at
+ * most (|k| + kappa) e + kappa (m + e). Each coefficient is a sum of two products, and one constant
+ * of a: at most 3 roundings of what their sizes add up to. K x lies in k [lo, hi], widened by kappa
+ * m. */
 static void add_share(near_constant k, const imp_model *x, int p, imp_model *sum, double *size)
 {
     static const int square[3] = {IMP_UU, IMP_VV, IMP_TT};
@@ -169,8 +172,8 @@ static void add_share(near_constant k, const imp_model *x, int p, imp_model *sum
     *size += fabs(a) + fabs(b) + fabs(q);
 }
 
-/* along + cos across + sin turned at once. A column of the matrix is a unit vector, which an angle moves by
- * no more than itself. */
+/* along + cos across + sin turned at once. A column of the matrix is a unit vector, which an angle
+ * moves by no more than itself. */
 static imp_model matrix_entry(const axis_frame *frame, int i, int j, const imp_model *cosine,
                               const imp_model *sine, const imp_model *angle)
 {
@@ -190,8 +193,7 @@ void axis_matrix(const axis_frame *frame, imp_model angle, imp_model turn[3][3])
     imp_model sine, cosine;
     imp_sincos(angle, &sine, &cosine);
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            turn[i][j] = matrix_entry(frame, i, j, &cosine, &sine, &angle);
+        for (int j = 0; j < 3; ++j) turn[i][j] = matrix_entry(frame, i, j, &cosine, &sine, &angle);
 }
 
 void axis_stretch(const axis_frame *frame, imp_model factor, const imp_model w[3], imp_model out[3])
@@ -246,7 +248,7 @@ imp_status axis_turn_rates(const axis_frame *frame, const double center[3],
     return size < INFINITY ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
-/* --- Centres --- */
+/* --- Centres ---------------------------------------------------------------------------------- */
 
 /* w = (x,y,z) - center, and back. */
 void axis_from_center(const double center[3], imp_model x, imp_model y, imp_model z, imp_model w[3])
@@ -261,7 +263,7 @@ void axis_add_center(const double center[3], imp_model out[3])
     for (int i = 0; i < 3; ++i) out[i] = imp_shift(out[i], center[i]);
 }
 
-/* --- A range along an axis --- */
+/* --- A range along an axis -------------------------------------------------------------------- */
 
 #define RANGE_MIN 1e-100
 

@@ -10,7 +10,7 @@
 
 void course_clear(course *c) { free(c->memory); }
 
-/* --- Making one ------------------------------------------------------------------------------ */
+/* --- Making one ------------------------------------------------------------------------------- */
 
 /* What course_read is asked for. */
 typedef struct course_question {
@@ -70,7 +70,7 @@ static imp_status course_read_polynomial(course *c, const course_question *q)
     return IMP_STATUS_OK;
 }
 
-/* --- Tables --------------------------------------------------------------------------------- */
+/* --- Tables ----------------------------------------------------------------------------------- */
 
 /* Rows of a time and some values, and the units of each column: in the table, and in the host. */
 typedef struct course_table {
@@ -237,7 +237,7 @@ imp_status course_read(course *c, const imp_value *values, int first, unit_kind 
     return status;
 }
 
-/* --- Asking --------------------------------------------------------------------------------- */
+/* --- Asking ----------------------------------------------------------------------------------- */
 
 void course_span(const course *c, double *lo, double *hi)
 {

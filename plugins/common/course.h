@@ -10,9 +10,9 @@
 /* A quantity in the course of time
  * ================================
  * An angle, or three lengths, as a polynomial in time (polynomial.h), or from a table of times and
- * values: given as parameters, or as columns of a file (csv.h), converted from their units (units.h).
- * Between the times of a table it is linear, or the cubic of a spline (spline.h). Beyond them it is
- * held, or the map is not defined. */
+ * values: given as parameters, or as columns of a file (csv.h), converted from their units
+ * (units.h). Between the times of a table it is linear, or the cubic of a spline (spline.h). Beyond
+ * them it is held, or the map is not defined. */
 
 /* The rows of a type's table, in this order, from `first` on. */
 enum {
@@ -73,8 +73,8 @@ typedef struct course {
 /* Frees what course_read took. */
 void course_clear(course *c);
 
-/* Reads the rows `first` ... first + COURSE_ROWS - 1 of the table `rows`: an angle, or three lengths. On
- * failure there is nothing to clear. */
+/* Reads the rows `first` ... first + COURSE_ROWS - 1 of the table `rows`: an angle, or three
+ * lengths. On failure there is nothing to clear. */
 imp_status course_read(course *c, const imp_value *values, int first, unit_kind kind,
                        imp_create_error *why, const imp_parameter *rows);
 

@@ -22,9 +22,10 @@ typedef struct csv_reader {
     imp_create_error *why;
 } csv_reader;
 
-/* --- Lines ---------------------------------------------------------------------------------- */
+/* --- Lines ------------------------------------------------------------------------------------ */
 
-/* Reads a line, without its end ("\n", "\r\n" or "\r"); *length is 0 for an empty one. False: none is left. */
+/* Reads a line, without its end ("\n", "\r\n" or "\r"); *length is 0 for an empty one. False: none
+ * is left. */
 static bool csv_read_line(csv_reader *r, size_t *length)
 {
     int c = getc(r->file);
@@ -68,7 +69,7 @@ static imp_status csv_next_line(csv_reader *r, bool *more)
     }
 }
 
-/* --- Heads ---------------------------------------------------------------------------------- */
+/* --- Heads ------------------------------------------------------------------------------------ */
 
 /* Text after a word for its number. */
 static const char *plural(size_t count) { return count == 1 ? "" : "s"; }

@@ -5,7 +5,8 @@
 
 #include <impinge/plugin.h>
 
-/* Keys of a motion: what their lists are checked for. `row`: of the parameter, for the complaint. */
+/* Keys of a motion: what their lists are checked for. `row`: of the parameter, for the
+ * complaint. */
 
 /* Two or more, increasing. */
 imp_status keys_check_times(int row, const imp_value *times, imp_create_error *why);

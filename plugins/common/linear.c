@@ -69,7 +69,7 @@ IMP_QUAD_INLINE imp_quad linear_size(const linear_terms *c, double u, double w, 
            imp_quad_all(w) * part[LINEAR_V] + imp_quad_all(u * w) * part[LINEAR_UV];
 }
 
-/* --- Points --- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 /* One point.
  *
@@ -130,7 +130,7 @@ imp_status linear_eval(const void *self, size_t n, const double *p, double *x, d
                               : points_narrow(self, n, p, x, error);
 }
 
-/* --- Bounds over a region --- */
+/* --- Bounds over a region --------------------------------------------------------------------- */
 
 /* Covers the rounding of everything below but the last sum with K_1: a number there is a sum of
  * terms as above, through at most 12 roundings; four more pay for `size` and second order. */
@@ -144,8 +144,8 @@ IMP_QUAD_INLINE imp_quad linear_noise(const linear *f, const linear_terms *c,
                          imp_quad_all(0));
 }
 
-/* At least |a + b x + c y + d x y| for x in [x_lo, x_hi], y in [y_lo, y_hi], parameters j and k of the
- * region. Six roundings at most reach a corner's value; as many more its coefficients. */
+/* At least |a + b x + c y + d x y| for x in [x_lo, x_hi], y in [y_lo, y_hi], parameters j and k of
+ * the region. Six roundings at most reach a corner's value; as many more its coefficients. */
 IMP_QUAD_INLINE imp_quad linear_most(imp_quad a, imp_quad b, imp_quad c, imp_quad d,
                                      const imp_region *region, int j, int k)
 {
@@ -332,16 +332,17 @@ imp_status linear_include(const void *self, const imp_region *region, imp_model 
     return IMP_STATUS_OK;
 }
 
-/* --- The net over a region --- */
+/* --- The net over a region -------------------------------------------------------------------- */
 
 static double at_corner(const double k[LINEAR_TERMS][4], int i, double u, double w)
 {
     return u * k[LINEAR_U][i] + w * (k[LINEAR_V][i] + u * k[LINEAR_UV][i]);
 }
 
-/* Lemma. Being linear in u and in v, the surface is the bilinear patch of its values at the corners of
- * the region. A number of point + tau velocity is a sum as in linear_at, but that the time is split in two:
- * through at most 12 roundings each, which linear_noise covers. The place is what was given. */
+/* Lemma. Being linear in u and in v, the surface is the bilinear patch of its values at the corners
+ * of the region. A number of point + tau velocity is a sum as in linear_at, but that the time is
+ * split in two: through at most 12 roundings each, which linear_noise covers. The place is what was
+ * given. */
 imp_status linear_net(const void *self, const imp_region *region, imp_net *net)
 {
     const linear *f = self;

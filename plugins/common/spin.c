@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* --- Making one --- */
+/* --- Making one ------------------------------------------------------------------------------- */
 
 typedef struct matrix {
     imp_interval at[3][3];
@@ -115,7 +115,7 @@ spin_turn spin_turn_make(const double spin[3], const double from[4], const doubl
     return r;
 }
 
-/* --- Over times --- */
+/* --- Over times ------------------------------------------------------------------------------- */
 
 /* An entry of R, at most 1 + SPIN_MISMATCH, rates at most `speed`. */
 static imp_model entry(imp_model r, const imp_model *t, double speed)

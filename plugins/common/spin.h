@@ -13,13 +13,13 @@
  *
  *   R(s) = turn(spin, s) M_0 + s D,   D = (M_h - turn(spin, h) M_0) / h,
  *
- * where M_0 and M_h are the rotations at both ends and turn(w, s) that by the angle |w| s about w. The last
- * term makes R(h) = M_h exactly, while doubles hold turn(spin, h) M_0 only nearly. It is refused where it is
- * more than rounding and the like:
+ * where M_0 and M_h are the rotations at both ends and turn(w, s) that by the angle |w| s about w.
+ * The last term makes R(h) = M_h exactly, while doubles hold turn(spin, h) M_0 only nearly. It is
+ * refused where it is more than rounding and the like:
  *
- * Lemma. No entry of h D is above SPIN_MISMATCH, so that no entry of R is beyond 1 + SPIN_MISMATCH, |R x| <=
- * (1 + 3 SPIN_MISMATCH) |x|, and no entry changes faster than |spin| + max |D|: a column of turn M moves
- * like a point at distance 1. */
+ * Lemma. No entry of h D is above SPIN_MISMATCH, so that no entry of R is beyond 1 + SPIN_MISMATCH,
+ * |R x| <= (1 + 3 SPIN_MISMATCH) |x|, and no entry changes faster than |spin| + max |D|: a column
+ * of turn M moves like a point at distance 1. */
 
 #define SPIN_MISMATCH 1e-6
 
@@ -29,9 +29,9 @@ typedef struct spin_turn {
     double spin[3];
 } spin_turn;
 
-/* From the rotation of the quaternion `from` to that of `to`, neither 0, in a time within h > 0; a spin is 0
- * or has a square that is no subnormal. bound[0]: how fast entries change at most, infinite where spin and
- * rotations do not agree; bound[1]: 3 max |D| (1 + |spin| h). */
+/* From the rotation of the quaternion `from` to that of `to`, neither 0, in a time within h > 0; a
+ * spin is 0 or has a square that is no subnormal. bound[0]: how fast entries change at most,
+ * infinite where spin and rotations do not agree; bound[1]: 3 max |D| (1 + |spin| h). */
 spin_turn spin_turn_make(const double spin[3], const double from[4], const double to[4],
                          imp_interval h, imp_interval bound[2]);
 

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* --- Making one ------------------------------------------------------------------ */
+/* --- Making one ------------------------------------------------------------------------------- */
 
 size_t spline_bytes(size_t keys, size_t lanes, size_t further)
 {
@@ -54,8 +54,8 @@ static imp_interval spline_rise(imp_interval a, imp_interval b, double factor, i
     return imp_interval_div(imp_interval_scale(imp_interval_sub(b, a), factor), h);
 }
 
-/* Of a straight piece. The control points between the ends divide the way, so that values stay in the
- * hull of the ends: (2 a + b) / 3 and (a + 2 b) / 3. */
+/* Of a straight piece. The control points between the ends divide the way, so that values stay in
+ * the hull of the ends: (2 a + b) / 3 and (a + 2 b) / 3. */
 static void spline_set_line(const spline *s, const imp_interval *key, size_t piece, spline_cubic *c)
 {
     const imp_interval a = key[piece * s->lanes], b = key[(piece + 1) * s->lanes];
@@ -167,7 +167,7 @@ void spline_grow(const spline *s)
                 spline_hull(spline_node(s, 2 * k)[j], spline_node(s, 2 * k + 1)[j]);
 }
 
-/* --- One time ---------------------------------------------------------------------- */
+/* --- One time --------------------------------------------------------------------------------- */
 
 /* The part of a piece that has passed at t; exactly, it is in [0, 1]. */
 static imp_interval spline_part(const spline *s, size_t piece, double t)
@@ -191,7 +191,7 @@ imp_interval spline_at(const imp_interval *control, int count, imp_interval part
     return x[0];
 }
 
-/* --- Spans --------------------------------------------------------------------------- */
+/* --- Spans ------------------------------------------------------------------------------------ */
 
 /* The last piece that begins at t or before; from `least` on. */
 static size_t spline_find(const spline *s, double t, size_t least)
@@ -276,9 +276,9 @@ static double spline_middle(imp_interval x, double scale, double *e)
     return m;
 }
 
-/* The series of one lane around span->m, and at least its |g'|; g->r is set. `between`: the node of what lies
- * between the first piece and the last, NULL if there is nothing. Within one piece it is the cubic itself;
- * across several, slopes change by at most twice g''/2 per unit of time. */
+/* The series of one lane around span->m, and at least its |g'|; g->r is set. `between`: the node of
+ * what lies between the first piece and the last, NULL if there is nothing. Within one piece it is
+ * the cubic itself; across several, slopes change by at most twice g''/2 per unit of time. */
 static double spline_series(const spline *s, const spline_span *span, size_t lane,
                             const imp_interval *between, imp_series *g)
 {

@@ -51,8 +51,8 @@ typedef struct spline {
 /* What a spline with that many further columns takes in memory. */
 size_t spline_bytes(size_t keys, size_t lanes, size_t further);
 
-/* A spline laid out in spline_bytes of memory, which stays the caller's; its keys, cubics and tree are still
- * to be set. */
+/* A spline laid out in spline_bytes of memory, which stays the caller's; its keys, cubics and tree
+ * are still to be set. */
 spline spline_place(size_t keys, size_t lanes, size_t further, void *memory);
 
 static inline spline_cubic *spline_lane(const spline *s, size_t piece, size_t lane)
@@ -75,8 +75,8 @@ imp_interval spline_hull(imp_interval x, imp_interval y);
  * time is too short for what happens in it, and *piece says which. */
 bool spline_set(const spline *s, const imp_interval *keys, size_t *piece);
 
-/* The same for a curve with kinks whose pieces are parabolas: row i of `accelerations`, a number for
- * each of the first three lanes, is g'' in piece i. NULL: straight lines. */
+/* The same for a curve with kinks whose pieces are parabolas: row i of `accelerations`, a number
+ * for each of the first three lanes, is g'' in piece i. NULL: straight lines. */
 bool spline_set_parabolas(const spline *s, const imp_interval *keys, const double *accelerations,
                           size_t *piece);
 

@@ -7,9 +7,9 @@
 
 /* Distances by their squares
  * ==========================
- * How far a point is from a round surface needs the root of a sum of squares. It is left out: the difference
- * of two squares, times a number, is as sharp a bound near the surface, smooth everywhere, and terms
- * of third order cancel in its sum. */
+ * How far a point is from a round surface needs the root of a sum of squares. It is left out: the
+ * difference of two squares, times a number, is as sharp a bound near the surface, smooth
+ * everywhere, and terms of third order cancel in its sum. */
 
 /* x[0]^2 + ... + x[n-1]^2, n <= 3. */
 static inline imp_model sum_of_squares(const imp_model *x, int n)
@@ -32,9 +32,9 @@ static inline double greatest_root_upper(const imp_model *square)
 /* 1 / x at most, for x > 0. */
 static inline double inverse_lower(double x) { return imp_round_down(1 / x); }
 
-/* From q^2, q >= 0, a g with |g| <= |q - r| and the sign of q - r; r > 0. Lemma. q^2 - r^2 = (q - r)
- * (q + r), and 0 < q + r <= Q + r where q <= Q. A factor that underflows, or is 1 / infinity, is not
- * above 0 and taken as 0. */
+/* From q^2, q >= 0, a g with |g| <= |q - r| and the sign of q - r; r > 0. Lemma. q^2 - r^2 = (q -
+ * r) (q + r), and 0 < q + r <= Q + r where q <= Q. A factor that underflows, or is 1 / infinity, is
+ * not above 0 and taken as 0. */
 static inline imp_model beyond_radius(imp_model square, double r)
 {
     const double factor = inverse_lower(imp_sum_up(greatest_root_upper(&square) + r));

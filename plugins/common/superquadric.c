@@ -46,7 +46,7 @@ superellipse superellipse_of(double exponent)
     return (superellipse){exponent, power, superellipse_dent_upper(power)};
 }
 
-/* --- T = |w|^p --- */
+/* --- T = |w|^p -------------------------------------------------------------------------------- */
 
 static bool superellipse_is_even(const superellipse *s)
 {
@@ -78,7 +78,7 @@ static imp_model superellipse_power(const superellipse *s, imp_model w, imp_inte
     return superellipse_bowl(s, w, range);
 }
 
-/* --- X and Y near an axis --- */
+/* --- X and Y near an axis --------------------------------------------------------------------- */
 
 /* G where |w|^p is smooth enough to be told. */
 static imp_model superellipse_smooth(const superellipse *s, imp_model w, imp_interval range)
@@ -147,7 +147,7 @@ static void superellipse_near_axis(const superellipse *s, imp_model angle, imp_m
     superellipse_limit(y, &angle, y_speed);
 }
 
-/* --- X and Y anywhere --- */
+/* --- X and Y anywhere ------------------------------------------------------------------------- */
 
 /* Lemma. X = r cos a (and Y = r sin a) with 1 / r = (|cos a|^p + |sin a|^p)^(1/p) between the
  * greater of |cos a| and |sin a|, at least 1 / sqrt 2, and |cos a| + |sin a|, at most sqrt 2: so

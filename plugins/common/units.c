@@ -10,7 +10,8 @@ typedef struct named_unit {
     unit unit;
 } named_unit;
 
-/* What else a name may be written as follows it. Whole numbers, so that products of two are exact. */
+/* What else a name may be written as follows it. Whole numbers, so that products of two are
+ * exact. */
 static const named_unit times[] = {{"s", {1, 1, false}},
                                    {"ms", {1, 1000, false}},
                                    {"us", {1, 1000000, false}},

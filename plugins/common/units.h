@@ -9,13 +9,13 @@
 
 /* Units of tables
  * ===============
- * Angles of the host are in rad. Lengths and times have no unit there; a table whose head names one is
- * converted to that of the scene. */
+ * Angles of the host are in rad. Lengths and times have no unit there; a table whose head names one
+ * is converted to that of the scene. */
 
 typedef enum unit_kind { UNIT_TIME, UNIT_LENGTH, UNIT_ANGLE } unit_kind;
 
-/* So many times the first of its kind (s, m, rad): top / bottom, both whole numbers; of degrees, times
- * pi. */
+/* So many times the first of its kind (s, m, rad): top / bottom, both whole numbers; of degrees,
+ * times pi. */
 typedef struct unit {
     double top, bottom;
     bool is_of_pi;

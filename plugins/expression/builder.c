@@ -18,7 +18,7 @@ uint16_t builder_refuse(builder *b, const char *format, ...)
     return 0;
 }
 
-/* --- Equal operations -------------------------------------------------------------------- */
+/* --- Equal operations ------------------------------------------------------------------------- */
 
 static bool is_same(const operation *p, const operation *q)
 {
@@ -70,7 +70,7 @@ static uint16_t find_or_add(builder *b, const operation *o, const imp_model *who
     return (uint16_t)b->count++;
 }
 
-/* --- Constants --------------------------------------------------------------------------- */
+/* --- Constants -------------------------------------------------------------------------------- */
 
 uint16_t builder_constant(builder *b, near_constant k)
 {
@@ -142,7 +142,7 @@ static bool has_constant_operands(const builder *b, const operation *o)
     return true;
 }
 
-/* --- Operations -------------------------------------------------------------------------- */
+/* --- Operations ------------------------------------------------------------------------------- */
 
 void builder_begin(builder *b, const imp_model *whole, size_t count)
 {

@@ -26,7 +26,7 @@ void expression_free(expression_program *program) { free(program); }
 
 size_t expression_length(const expression_program *program) { return program->length; }
 
-/* --- From operations to instructions ----------------------------------------------------- */
+/* --- From operations to instructions ---------------------------------------------------------- */
 
 #define FOREVER UINT16_MAX
 
@@ -99,7 +99,7 @@ static bool write_instructions(const builder *b, const uint16_t out[3], allocati
     return true;
 }
 
-/* --- Compiling --------------------------------------------------------------------------- */
+/* --- Compiling -------------------------------------------------------------------------------- */
 
 static bool read_texts(const expression_scope *scope, const char *const text[3], builder *b,
                        uint16_t out[3], expression_error *error)
@@ -145,7 +145,7 @@ imp_status expression_compile(const expression_scope *scope, const char *const t
     return status;
 }
 
-/* --- Running ----------------------------------------------------------------------------- */
+/* --- Running ---------------------------------------------------------------------------------- */
 
 /* False: undefined, whatever the variables are. */
 static bool run_models(const expression_program *p, imp_model slot[])

@@ -54,8 +54,8 @@ typedef struct expression_error {
 
 typedef struct expression_program expression_program;
 
-/* IMP_STATUS_OK, and then *program is the caller's to free; IMP_STATUS_PARAMETER, and then *error is set; or
- * IMP_STATUS_INTERNAL: no memory. */
+/* IMP_STATUS_OK, and then *program is the caller's to free; IMP_STATUS_PARAMETER, and then *error
+ * is set; or IMP_STATUS_INTERNAL: no memory. */
 imp_status expression_compile(const expression_scope *scope, const char *const text[3],
                               expression_program **program, expression_error *error);
 void expression_free(expression_program *program);
@@ -67,8 +67,8 @@ size_t expression_length(const expression_program *program);
 void expression_models(const expression_program *program, const imp_model *variables,
                        imp_model out[3]);
 
-/* x, y, z and their absolute errors at one point. IMP_STATUS_DOMAIN where they are undefined, or infinite.
- * error may be NULL. */
+/* x, y, z and their absolute errors at one point. IMP_STATUS_DOMAIN where they are undefined, or
+ * infinite. error may be NULL. */
 imp_status expression_point(const expression_program *program, const double *variables, double x[3],
                             double *error);
 

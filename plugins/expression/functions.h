@@ -12,7 +12,7 @@
  * Those with a constant that no double holds, the cube root, distances and the copied sign. Each
  * has its lemma; notation as in <impinge/model.h>. */
 
-/* --- Powers ------------------------------------------------------------------------------ */
+/* --- Powers ----------------------------------------------------------------------------------- */
 
 /* At least the greatest |ln z| z^s for 0 < z in x and s between s0 and s1. Lemma: beyond 1, ln z
  * <= ln x.hi and z^s <= max(1, x.hi^s1). Below 1, |ln z| <= |ln x.lo| and z^s <= max(1, x.lo^s0);
@@ -93,7 +93,7 @@ static inline imp_model cube_root(imp_model x)
     return imp_compose(&x, &s, range, INFINITY);
 }
 
-/* --- Distances --------------------------------------------------------------------------- */
+/* --- Distances -------------------------------------------------------------------------------- */
 
 /* sqrt(x^2 + y^2 + z^2), z may be NULL. Its rates are finite also at 0, where the square root's are
  * not. Lemma (triangle inequality, twice): the length changes by at most the length of the change
@@ -114,7 +114,7 @@ static inline imp_model distance(const imp_model *x, const imp_model *y, const i
     return r;
 }
 
-/* --- The copied sign --------------------------------------------------------------------- */
+/* --- The copied sign -------------------------------------------------------------------------- */
 
 /* |x| where y >= 0, -|x| where y < 0, provided that x is 0 wherever y is. Lemma: let r bound the
  * rates of x, and so of |x|. Between two points where y has one sign, the result changes

@@ -89,7 +89,7 @@ const char *names_refusal(const char *name, size_t length)
     return NULL;
 }
 
-/* --- What was meant ---------------------------------------------------------------------- */
+/* --- What was meant --------------------------------------------------------------------------- */
 
 #define DISTANCE_MAX 32 /* longer names get no suggestion */
 
@@ -168,7 +168,7 @@ void names_hint(const expression_scope *scope, bool function, const char *name, 
     if (!function) list_names(scope, to, size);
 }
 
-/* --- Constants --------------------------------------------------------------------------- */
+/* --- Constants -------------------------------------------------------------------------------- */
 
 static bool is_name(const char *name)
 {

@@ -31,7 +31,7 @@ imp_model near_model(near_constant k)
     return k.error == 0 ? imp_num(k.value) : imp_known(k.value, k.error);
 }
 
-/* --- Models ------------------------------------------------------------------------------ */
+/* --- Models ----------------------------------------------------------------------------------- */
 
 static imp_model function_model(opcode code, const imp_model *x)
 {
@@ -112,7 +112,7 @@ imp_model operation_model(const operation *o, const imp_model *values)
     }
 }
 
-/* --- Points ------------------------------------------------------------------------------ */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 static near_constant nothing_known(void) { return (near_constant){0, INFINITY}; }
 
@@ -252,7 +252,7 @@ near_constant operation_point(const operation *o, const near_constant *values)
     return result.error < INFINITY ? result : other_point(o, values);
 }
 
-/* --- Where they are undefined ------------------------------------------------------------ */
+/* --- Where they are undefined ----------------------------------------------------------------- */
 
 static bool is_zero(const imp_model *x) { return x->lo == 0 && x->hi == 0; }
 

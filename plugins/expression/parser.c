@@ -21,7 +21,7 @@ typedef struct parser {
     expression_error *error;
 } parser;
 
-/* --- Faults ------------------------------------------------------------------------------ */
+/* --- Faults ----------------------------------------------------------------------------------- */
 
 __attribute__((format(printf, 3, 4))) static uint16_t fail(parser *p, size_t at, const char *format,
                                                            ...)
@@ -59,7 +59,7 @@ static shown show(const parser *p, token t)
     return s;
 }
 
-/* --- Tokens ------------------------------------------------------------------------------ */
+/* --- Tokens ----------------------------------------------------------------------------------- */
 
 static bool next_is(const parser *p, char sign)
 {
@@ -118,7 +118,7 @@ static void take_closing(parser *p, size_t open)
         fail_operator(p, expected);
 }
 
-/* --- Values ------------------------------------------------------------------------------ */
+/* --- Values ----------------------------------------------------------------------------------- */
 
 /* The builder's result, or its error, which is reported at the place `at`. */
 static uint16_t checked(parser *p, size_t at, uint16_t value)
@@ -179,7 +179,7 @@ static uint16_t read_name(parser *p, token name)
     return fail_unknown(p, name);
 }
 
-/* --- The grammar ------------------------------------------------------------------------- */
+/* --- The grammar ------------------------------------------------------------------------------ */
 
 static uint16_t read_sum(parser *p);
 static uint16_t read_signed(parser *p);

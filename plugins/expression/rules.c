@@ -28,7 +28,7 @@ static near_constant joined(builder *b, opcode code, near_constant x, near_const
     return at(b, builder_operate(b, code, builder_constant(b, x), builder_constant(b, y), 0))->k;
 }
 
-/* --- Sums -------------------------------------------------------------------------------- */
+/* --- Sums ------------------------------------------------------------------------------------- */
 
 static uint16_t negate(builder *b, uint16_t x)
 {
@@ -71,7 +71,7 @@ static uint16_t subtract(builder *b, uint16_t x, uint16_t y)
     return x == y ? builder_number(b, 0) : add(b, x, negate(b, y));
 }
 
-/* --- Products ---------------------------------------------------------------------------- */
+/* --- Products --------------------------------------------------------------------------------- */
 
 static uint16_t scale(builder *b, uint16_t x, near_constant k)
 {
@@ -130,7 +130,7 @@ static uint16_t divide(builder *b, uint16_t x, uint16_t y)
     return scale(b, x, joined(b, OP_DIVIDE, near_exact(1), at(b, y)->k));
 }
 
-/* --- Powers and roots -------------------------------------------------------------------- */
+/* --- Powers and roots ------------------------------------------------------------------------- */
 
 /* sqrt(x^2) is |x|, and a distance has rates where a square root has none. */
 static uint16_t square_root(builder *b, uint16_t x)
@@ -194,8 +194,8 @@ static uint16_t log_by_base(builder *b, uint16_t x, double base)
     return divide(b, unary(b, OP_LOG, x), unary(b, OP_LOG, builder_number(b, base)));
 }
 
-/* Where y is 0 the result is |x|, so it jumps at the edge of y <= 0 as it does inside, unless x is 0
- * there. */
+/* Where y is 0 the result is |x|, so it jumps at the edge of y <= 0 as it does inside, unless x is
+ * 0 there. */
 static uint16_t copysign_of(builder *b, uint16_t x, uint16_t y)
 {
     if (b->whole[y].lo >= 0) return unary(b, OP_ABS, x);
@@ -205,7 +205,7 @@ static uint16_t copysign_of(builder *b, uint16_t x, uint16_t y)
                              "there, as in copysign(abs(y)^p, y)");
 }
 
-/* --- All of them ------------------------------------------------------------------------- */
+/* --- All of them ------------------------------------------------------------------------------ */
 
 /* op(op(a, b), c) ... */
 static uint16_t in_turn(builder *b, opcode code, const uint16_t *argument, size_t count)

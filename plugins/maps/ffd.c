@@ -28,7 +28,7 @@ static const imp_parameter parameters[] = {
                                "of the control points, which are at `points` at time 0"),
 };
 
-/* --- Making one --- */
+/* --- Making one ------------------------------------------------------------------------------- */
 
 static imp_status check_box(const imp_value *values, imp_create_error *why)
 {
@@ -123,7 +123,7 @@ static imp_status ffd_create(const imp_value *values, void **self, imp_create_er
     return IMP_STATUS_OK;
 }
 
-/* --- Points --- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 /* a, b, c. Lemma: three roundings, so within 4 units of 2^-53 of exact. */
 static void place_in_box(const ffd_instance *s, const double p[3], double at[3])
@@ -179,7 +179,7 @@ static imp_status ffd_eval(const void *self, size_t n, const double *p, double *
     return IMP_STATUS_OK;
 }
 
-/* --- The map --- */
+/* --- The map ---------------------------------------------------------------------------------- */
 
 static void ffd_formula(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
                         imp_model out[3])

@@ -54,7 +54,7 @@ typedef struct keyframes_instance {
     spline_cubic memory[];
 } keyframes_instance;
 
-/* --- Checks --- */
+/* --- Checks ----------------------------------------------------------------------------------- */
 
 /* Least cosine between quaternions of neighbours, which are half as far apart as their
  * orientations: 170 degrees. */
@@ -62,7 +62,8 @@ typedef struct keyframes_instance {
 
 static imp_status check_count(const imp_value *values, int row, imp_create_error *why)
 {
-    if (!imp_is_given(&values[row]) || values[row].extent[0] == values[TIMES].count) return IMP_STATUS_OK;
+    if (!imp_is_given(&values[row]) || values[row].extent[0] == values[TIMES].count)
+        return IMP_STATUS_OK;
     return imp_reject(why, row, -1, "%zu %s for %zu times; there must be one for each",
                       values[row].extent[0], parameters[row].name, values[TIMES].count);
 }
@@ -93,13 +94,12 @@ static imp_status check(const imp_value *values, imp_create_error *why)
                           "neither positions nor rotations are given; one of them is required");
     if (status == IMP_STATUS_OK) status = check_count(values, POSITIONS, why);
     if (status == IMP_STATUS_OK) status = check_count(values, ROTATIONS, why);
-    if (status == IMP_STATUS_OK)
-        status = keys_check_rotations(ROTATIONS, &values[ROTATIONS], why);
+    if (status == IMP_STATUS_OK) status = keys_check_rotations(ROTATIONS, &values[ROTATIONS], why);
     if (status == IMP_STATUS_OK) status = check_rotations(&values[ROTATIONS], why);
     return status;
 }
 
-/* --- Making one --- */
+/* --- Making one ------------------------------------------------------------------------------- */
 
 /* The unit quaternions, with signs that make neighbours near, in the lanes from `key` on. */
 static void set_quaternions(const imp_value *rotations, size_t lanes, imp_interval *key)
@@ -210,7 +210,7 @@ static imp_status keyframes_create(const imp_value *values, void **self, imp_cre
     return status;
 }
 
-/* --- The map --- */
+/* --- The map ---------------------------------------------------------------------------------- */
 
 static void keyframes_time_domain(const void *self, double *lo, double *hi)
 {

@@ -29,8 +29,9 @@
  *
  *   X(m + y) = X(m) + g x X(m) + F,   |F| <= (W V r / 2 + eta) r |x|,
  *
- * where g is the integral of the spin from m on, whose coordinates have slopes between the least and the
- * greatest of those pieces. F depends on time by at most (W V r + eta) |x|, and on x as it depends on
+ * where g is the integral of the spin from m on, whose coordinates have slopes between the least
+ * and the greatest of those pieces. F depends on time by at most (W V r + eta) |x|, and on x as it
+ * depends on
  * |x|, being linear in x. Near a point that touches, g x X(m) is along the surfaces. */
 
 enum { TIMES, POSITIONS, ACCELERATIONS, ROTATIONS, SPINS, CENTER };
@@ -66,7 +67,7 @@ typedef struct trajectory_instance {
     spline_cubic memory[];
 } trajectory_instance;
 
-/* --- Checks --- */
+/* --- Checks ----------------------------------------------------------------------------------- */
 
 /* `less`: by how much there are fewer than keys. */
 static imp_status check_count(const imp_value *values, int row, size_t less, imp_create_error *why)
@@ -105,7 +106,7 @@ static imp_status check(const imp_value *values, imp_create_error *why)
     return status;
 }
 
-/* --- Making one --- */
+/* --- Making one ------------------------------------------------------------------------------- */
 
 static imp_interval exact(double x) { return imp_interval_make(x, x); }
 
@@ -169,7 +170,7 @@ static imp_status trajectory_create(const imp_value *values, void **self, imp_cr
     return status;
 }
 
-/* --- The map --- */
+/* --- The map ---------------------------------------------------------------------------------- */
 
 static void trajectory_time_domain(const void *self, double *lo, double *hi)
 {
@@ -178,7 +179,8 @@ static void trajectory_time_domain(const void *self, double *lo, double *hi)
     *hi = s->path.time[s->path.pieces];
 }
 
-/* Joins the spins of the pieces of a span; as the speed says, where these are too many to ask each. */
+/* Joins the spins of the pieces of a span; as the speed says, where these are too many to ask
+ * each. */
 static void spins_of(const trajectory_instance *s, const spline_span *span, double speed,
                      imp_interval spin[3])
 {
@@ -282,9 +284,9 @@ static imp_status trajectory_apply(const void *self, const imp_model in[4], imp_
     return trajectory_formula_apply(self, in, out);
 }
 
-/* Over times of one piece. The matrix is Q + E, Q a rotation and no entry of E above SPIN_MISMATCH, of which
- * (Q + E)^T (Q + E) - 1 = Q^T E + E^T Q + E^T E; an entry of Q^T E is at most sqrt(3) SPIN_MISMATCH. So the
- * whole is below 4 SPIN_MISMATCH, and IMP_RIGID_SLACK is 15 SPIN_MISMATCH. */
+/* Over times of one piece. The matrix is Q + E, Q a rotation and no entry of E above SPIN_MISMATCH,
+ * of which (Q + E)^T (Q + E) - 1 = Q^T E + E^T Q + E^T E; an entry of Q^T E is at most sqrt(3)
+ * SPIN_MISMATCH. So the whole is below 4 SPIN_MISMATCH, and IMP_RIGID_SLACK is 15 SPIN_MISMATCH. */
 static imp_status trajectory_rigid(const void *self, const imp_model *t, imp_pose *pose)
 {
     const trajectory_instance *s = self;
@@ -298,7 +300,7 @@ static imp_status trajectory_rigid(const void *self, const imp_model *t, imp_pos
     memcpy(pose->pivot, s->center, sizeof pose->pivot);
     if (s->rotation != NULL)
         spin_matrix(&s->rotation[span.at], s->path.time[span.at], *t, node[s->path.width - 2].hi,
-                  pose->turn);
+                    pose->turn);
     return imp_pose_status(pose);
 }
 

@@ -50,7 +50,7 @@ static void translate_time_domain(const void *self, double *lo, double *hi)
 
 static void translate_span(const void *self, double *lo, double *hi) { course_span(self, lo, hi); }
 
-/* --- At constant velocity ------------------------------------------------------------------------ */
+/* --- At constant velocity --------------------------------------------------------------------- */
 
 /* What most translations are: c0 + c1 t, or c0 alone. */
 static bool is_steady(const course *way)
@@ -65,8 +65,8 @@ static double speed_of(const course *way, size_t i)
     return way->polynomial.count > 1 ? way->polynomial.coefficient[2 * i + 1] : 0;
 }
 
-/* x k and x + k as imp_scale and imp_shift have them at points: rounded once, by u of the result, unless
- * exact. */
+/* x k and x + k as imp_scale and imp_shift have them at points: rounded once, by u of the result,
+ * unless exact. */
 static near_constant point_scaled(double x, double k)
 {
     const double a = x * k;
@@ -119,7 +119,7 @@ static imp_status steady_rate(const course *way, imp_map_rates *rates)
     return IMP_STATUS_OK;
 }
 
-/* --- Three models at constant velocity, side by side --------------------------------------------- */
+/* --- Three models at constant velocity, side by side ------------------------------------------ */
 
 typedef struct moved_lanes {
     imp_quad a, slope, e, lo, hi, rate;
@@ -170,8 +170,8 @@ IMP_QUAD_INLINE void clip(moved_lanes *m, const imp_model x[3])
     m->is_told = (m->e <= half * (m->hi - m->lo)) & (hi - lo < infinite);
 }
 
-/* Lemma. Of x + c0 + c1 t, where t = c + d s exactly, the numbers c1 c, c0 + c1 c, c1 d and both sums with
- * what x has in their place are each rounded once, by u of the result. */
+/* Lemma. Of x + c0 + c1 t, where t = c + d s exactly, the numbers c1 c, c0 + c1 c, c1 d and both
+ * sums with what x has in their place are each rounded once, by u of the result. */
 IMP_QUAD_INLINE moved_lanes lanes_moved(const imp_model x[3], const imp_model *t, imp_quad from,
                                         imp_quad speed)
 {
@@ -221,7 +221,7 @@ IMP_QUAD_WIDE static void move_steadily_wide(const course *way, const imp_model 
     move_steadily(way, in, out);
 }
 
-/* --- Any course ---------------------------------------------------------------------------------- */
+/* --- Any course ------------------------------------------------------------------------------- */
 
 static void moved(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
                   imp_model out[3])
@@ -258,8 +258,9 @@ static imp_status translate_apply(const void *self, const imp_model in[4], imp_m
     return imp_models_status(out);
 }
 
-/* Lemma (error). The displacement at the middle time, c0 + c1 c, and its sum with the place: 3 roundings
- * of |place| + |c0| + |c1 c| at most; the drift, c1 added, 1 of its size, for d at most. */
+/* Lemma (error). The displacement at the middle time, c0 + c1 c, and its sum with the place: 3
+ * roundings of |place| + |c0| + |c1 c| at most; the drift, c1 added, 1 of its size, for d at
+ * most. */
 static imp_status translate_net(const void *self, const imp_region *region, imp_net *net)
 {
     const course *way = self;

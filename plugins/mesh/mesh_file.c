@@ -8,8 +8,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-/* The bytes of a byte order mark, which some programs begin text with; a binary STL file may begin with
- * any bytes. */
+/* The bytes of a byte order mark, which some programs begin text with; a binary STL file may begin
+ * with any bytes. */
 static size_t mark_length(mesh_format format, const char *bytes, size_t length)
 {
     static const char mark[] = "\xEF\xBB\xBF", word[] = "solid";

@@ -7,8 +7,8 @@
 
 /* Triangles from files
  * ====================
- * Wavefront OBJ (points and polygons), OFF, and STL, as text and binary. Nothing that a file says of
- * its own size is believed before it is there. Whatever else a file describes that would touch
+ * Wavefront OBJ (points and polygons), OFF, and STL, as text and binary. Nothing that a file says
+ * of its own size is believed before it is there. Whatever else a file describes that would touch
  * something (lines, free-form patches) is refused, not left out. */
 
 typedef enum mesh_format { MESH_OBJ, MESH_OFF, MESH_STL } mesh_format;

@@ -26,14 +26,16 @@ static imp_status read_corner(obj_reader *r, char *word)
     int64_t k;
     word[strcspn(word, "/")] = '\0';
     if (!mesh_text_integer(word, &k) || k == 0)
-        return triangles_refuse(r->fault, r->text.line,
-                                "point %.40s does not exist; points are numbered from 1, or backwards "
-                                "from -1",
-                                word);
+        return triangles_refuse(
+            r->fault, r->text.line,
+            "point %.40s does not exist; points are numbered from 1, or backwards "
+            "from -1",
+            word);
     const int64_t points = (int64_t)r->to->point_count, at = k > 0 ? k - 1 : points + k;
     if (at < 0 || at >= points)
-        return triangles_refuse(r->fault, r->text.line, "point %lld of a face, but only %lld so far",
-                                (long long)k, (long long)points);
+        return triangles_refuse(r->fault, r->text.line,
+                                "point %lld of a face, but only %lld so far", (long long)k,
+                                (long long)points);
     return mesh_corners_add(&r->corners, at) ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }
 
@@ -56,15 +58,16 @@ static bool is_one_of(const char *word, const char *const *list)
 
 static imp_status read_statement(obj_reader *r)
 {
-    static const char *const ignored[] = {"vt",     "vn",       "g",      "o",        "s",
-                                          "usemtl", "mtllib",   "mg",     "bevel",    "c_interp",
+    static const char *const ignored[] = {"vt",     "vn",       "g",      "o",          "s",
+                                          "usemtl", "mtllib",   "mg",     "bevel",      "c_interp",
                                           "lod",    "d_interp", "usemap", "shadow_obj", NULL};
     const char *word = mesh_text_word(&r->text);
     if (strcmp(word, "v") == 0) return read_point(r);
     if (strcmp(word, "f") == 0) return read_face(r);
     if (is_one_of(word, ignored)) return IMP_STATUS_OK;
     return triangles_refuse(r->fault, r->text.line,
-                            "statement '%.40s'; of OBJ only points and faces are read (v, f)", word);
+                            "statement '%.40s'; of OBJ only points and faces are read (v, f)",
+                            word);
 }
 
 imp_status mesh_read_obj(const char *bytes, size_t length, triangles *to, triangles_fault *fault)

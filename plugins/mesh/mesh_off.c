@@ -37,7 +37,8 @@ static imp_status read_head(off_reader *r, int64_t *points, int64_t *faces)
     if (status != IMP_STATUS_OK) return status;
     const char *word = mesh_text_word(&r->text);
     if (strcmp(word, "OFF") != 0 && strcmp(word, "COFF") != 0)
-        return triangles_refuse(r->fault, r->text.line, "'%.40s', must begin with OFF or COFF", word);
+        return triangles_refuse(r->fault, r->text.line, "'%.40s', must begin with OFF or COFF",
+                                word);
     const char *rest = r->text.next;
     if (rest[strspn(rest, " \t\v\f")] == '\0') status = next_line(r, "line", 2, 2);
     if (status == IMP_STATUS_OK) status = read_count(r, points, "points");
@@ -76,8 +77,9 @@ static imp_status read_all(off_reader *r)
         if (status == IMP_STATUS_OK) status = read_face(r);
     }
     if (status == IMP_STATUS_OK && mesh_text_line(&r->text, false))
-        return triangles_refuse(r->fault, r->text.line, "more lines than %lld points and %lld faces",
-                                (long long)points, (long long)faces);
+        return triangles_refuse(r->fault, r->text.line,
+                                "more lines than %lld points and %lld faces", (long long)points,
+                                (long long)faces);
     return status == IMP_STATUS_OK ? mesh_text_status(&r->text) : status;
 }
 

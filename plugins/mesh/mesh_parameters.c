@@ -11,7 +11,8 @@ static imp_status take_points(const imp_value *values, triangles *to, imp_create
     for (size_t k = 0; k < values[MESH_POINTS].extent[0]; ++k) {
         const imp_status status =
             triangles_add_point(to, values[MESH_POINTS].number + 3 * k, 0, &fault);
-        if (status == IMP_STATUS_PARAMETER) imp_reject(why, MESH_POINTS, (int64_t)k, "%s", fault.text);
+        if (status == IMP_STATUS_PARAMETER)
+            imp_reject(why, MESH_POINTS, (int64_t)k, "%s", fault.text);
         if (status != IMP_STATUS_OK) return status;
     }
     return IMP_STATUS_OK;
@@ -27,7 +28,8 @@ static imp_status take_faces(const imp_value *values, triangles *to, imp_create_
         for (size_t j = 0; j < corners; ++j)
             corner[j] = (int64_t)values[MESH_FACES].number[corners * k + j];
         status = triangles_add_face(to, corner, corners, 0, &fault);
-        if (status == IMP_STATUS_PARAMETER) imp_reject(why, MESH_FACES, (int64_t)k, "%s", fault.text);
+        if (status == IMP_STATUS_PARAMETER)
+            imp_reject(why, MESH_FACES, (int64_t)k, "%s", fault.text);
     }
     free(corner);
     return status;
@@ -35,14 +37,16 @@ static imp_status take_faces(const imp_value *values, triangles *to, imp_create_
 
 imp_status mesh_take_shape(const imp_value *values, triangles *to, imp_create_error *why)
 {
-    const bool points = imp_is_given(&values[MESH_POINTS]), faces = imp_is_given(&values[MESH_FACES]);
+    const bool points = imp_is_given(&values[MESH_POINTS]),
+               faces = imp_is_given(&values[MESH_FACES]);
     if (imp_is_given(&values[MESH_FILE]) && (points || faces))
         return imp_reject(why, MESH_FILE, -1, "a file and points or faces are given; give one");
     if (imp_is_given(&values[MESH_FILE]))
         return mesh_read_file(values[MESH_FILE].string[0], MESH_FILE, to, why);
     if (!points || !faces)
-        return imp_reject(why, points ? MESH_FACES : MESH_POINTS, -1,
-                          "must be given, where no file is; a mesh has points and faces, or a file");
+        return imp_reject(
+            why, points ? MESH_FACES : MESH_POINTS, -1,
+            "must be given, where no file is; a mesh has points and faces, or a file");
     const imp_status status = take_points(values, to, why);
     return status == IMP_STATUS_OK ? take_faces(values, to, why) : status;
 }

@@ -5,8 +5,8 @@
 
 #include "plugins/mesh/triangles.h"
 
-/* Points and faces as parameters: a file, or lists. Types that take them begin their tables with these
- * rows, in this order. */
+/* Points and faces as parameters: a file, or lists. Types that take them begin their tables with
+ * these rows, in this order. */
 
 enum { MESH_FILE, MESH_POINTS, MESH_FACES, MESH_VELOCITIES };
 

@@ -4,9 +4,10 @@
 #include "plugins/mesh/mesh_file.h"
 #include "plugins/mesh/mesh_text.h"
 
-/* STL. As text: solid, then for each triangle "facet normal ...", "outer loop", three "vertex x y z",
- * "endloop", "endfacet", at last "endsolid". Binary: 80 bytes, the number of triangles, and 50 bytes
- * for each: normal and three points in single precision, and two bytes more; little-endian. */
+/* STL. As text: solid, then for each triangle "facet normal ...", "outer loop", three "vertex x y
+ * z", "endloop", "endfacet", at last "endsolid". Binary: 80 bytes, the number of triangles, and 50
+ * bytes for each: normal and three points in single precision, and two bytes more;
+ * little-endian. */
 
 enum { HEAD = 84, RECORD = 50 };
 
@@ -53,7 +54,7 @@ static imp_status read_binary(const char *bytes, size_t count, triangles *to,
     return IMP_STATUS_OK;
 }
 
-/* --- Text --------------------------------------------------------------------------------- */
+/* --- Text ------------------------------------------------------------------------------------- */
 
 /* The lines of a triangle, in their order. */
 static const char *const steps[] = {"facet",  "outer",   "vertex",  "vertex",
@@ -64,7 +65,8 @@ static imp_status read_line(mesh_text *text, int *step, double x[3][3], triangle
                             triangles_fault *fault)
 {
     const char *word = mesh_text_word(text);
-    if (*step == 0 && (strcmp(word, "solid") == 0 || strcmp(word, "endsolid") == 0)) return IMP_STATUS_OK;
+    if (*step == 0 && (strcmp(word, "solid") == 0 || strcmp(word, "endsolid") == 0))
+        return IMP_STATUS_OK;
     if (strcmp(word, steps[*step]) != 0)
         return triangles_refuse(fault, text->line, "'%.40s' in place of '%s'", word, steps[*step]);
     imp_status status = IMP_STATUS_OK;
@@ -93,10 +95,12 @@ static imp_status read_text(const char *bytes, size_t length, triangles *to, tri
 imp_status mesh_read_stl(const char *bytes, size_t length, triangles *to, triangles_fault *fault)
 {
     const size_t count = length >= HEAD ? word_at(bytes + HEAD - 4) : 0;
-    if (length >= HEAD && length == HEAD + RECORD * count) return read_binary(bytes, count, to, fault);
+    if (length >= HEAD && length == HEAD + RECORD * count)
+        return read_binary(bytes, count, to, fault);
     if (length >= 5 && memcmp(bytes, "solid", 5) == 0) return read_text(bytes, length, to, fault);
-    return triangles_refuse(fault, 0,
-                            "neither text, which begins with 'solid', nor binary: %zu bytes, and %zu "
-                            "for %zu triangles",
-                            length, HEAD + RECORD * count, count);
+    return triangles_refuse(
+        fault, 0,
+        "neither text, which begins with 'solid', nor binary: %zu bytes, and %zu "
+        "for %zu triangles",
+        length, HEAD + RECORD * count, count);
 }

@@ -11,7 +11,7 @@ static bool is_end(char c) { return c == '\n' || c == '\r'; }
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/* --- Lines --------------------------------------------------------------------------------------- */
+/* --- Lines ------------------------------------------------------------------------------------ */
 
 /* Room for more behind `used` characters. False: no memory. */
 static bool grow(mesh_text *text, size_t used)
@@ -24,7 +24,8 @@ static bool grow(mesh_text *text, size_t used)
     return true;
 }
 
-/* Goes on behind the end of a line, at which, or at the file's, text->at is: "\n", "\r\n" or "\r". */
+/* Goes on behind the end of a line, at which, or at the file's, text->at is: "\n", "\r\n" or
+ * "\r". */
 static void pass_end(mesh_text *text)
 {
     if (text->end - text->at > 1 && text->at[0] == '\r' && text->at[1] == '\n') text->at += 1;
@@ -32,8 +33,8 @@ static void pass_end(mesh_text *text)
     text->line += 1;
 }
 
-/* Appends one line of the file, without comment and end, and leaves room for two more; false: no memory. A
- * NUL ends no line: it makes a word that is none. */
+/* Appends one line of the file, without comment and end, and leaves room for two more; false: no
+ * memory. A NUL ends no line: it makes a word that is none. */
 static bool append_line(mesh_text *text, size_t *used)
 {
     const char *at = text->at, *const end = text->end;
@@ -98,12 +99,13 @@ char *mesh_text_word(mesh_text *text)
     return word;
 }
 
-/* --- Numbers ------------------------------------------------------------------------------------- */
+/* --- Numbers ---------------------------------------------------------------------------------- */
 
 enum { NUMBER_MAX = 100, DIGITS_MAX = 15 };
 
-/* Lemma. 15 digits are below 2^53, and so a double exactly; so is a power of ten up to 10^22: their quotient,
- * rounded once, is the nearest double, as strtod answers it. False: the word is anything else. */
+/* Lemma. 15 digits are below 2^53, and so a double exactly; so is a power of ten up to 10^22: their
+ * quotient, rounded once, is the nearest double, as strtod answers it. False: the word is anything
+ * else. */
 static bool read_short(const char *word, double *x)
 {
     static const double power[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,

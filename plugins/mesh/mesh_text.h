@@ -5,7 +5,8 @@
 
 #include "plugins/mesh/triangles.h"
 
-/* Lines of words: what the formats that are text have in common. A number has a point in every locale. */
+/* Lines of words: what the formats that are text have in common. A number has a point in every
+ * locale. */
 
 typedef struct mesh_text {
     const char *at, *end; /* what is left of the file */

@@ -62,7 +62,7 @@ static imp_status add_triangle(triangles *t, uint32_t a, uint32_t b, uint32_t c,
     return IMP_STATUS_OK;
 }
 
-/* --- Whole faces --------------------------------------------------------------------------- */
+/* --- Whole faces ------------------------------------------------------------------------------ */
 
 /* Room for `more` numbers beside those in use. NULL: no memory; the old ones are still there. */
 static uint32_t *room_for(uint32_t *items, size_t used, size_t more, size_t *capacity)
@@ -78,7 +78,8 @@ static imp_status keep_face(triangles *t, const int64_t *corner, size_t count, s
                             triangles_fault *fault)
 {
     if (t->count >= IMP_PIECES_MAX)
-        return triangles_refuse(fault, line, "more than %zu faces; divide the mesh", IMP_PIECES_MAX);
+        return triangles_refuse(fault, line, "more than %zu faces; divide the mesh",
+                                IMP_PIECES_MAX);
     uint32_t *first = room_for(t->first, t->count, 1, &t->first_capacity);
     if (first == NULL) return IMP_STATUS_INTERNAL;
     t->first = first;
@@ -91,7 +92,7 @@ static imp_status keep_face(triangles *t, const int64_t *corner, size_t count, s
     return IMP_STATUS_OK;
 }
 
-/* --- Polygons ----------------------------------------------------------------------------- */
+/* --- Polygons --------------------------------------------------------------------------------- */
 
 typedef struct polygon {
     const triangles *of;
@@ -114,8 +115,7 @@ static double turn(const polygon *p, const double a[3], const double b[3], const
     double sum = 0;
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        sum += p->normal[i] *
-               ((b[j] - a[j]) * (c[k] - b[k]) - (b[k] - a[k]) * (c[j] - b[j]));
+        sum += p->normal[i] * ((b[j] - a[j]) * (c[k] - b[k]) - (b[k] - a[k]) * (c[j] - b[j]));
     }
     return sum;
 }
@@ -141,7 +141,8 @@ static polygon measure(const triangles *t, const int64_t *corner, size_t count)
     return p;
 }
 
-/* Part of its size by which a corner may be off the plane, and of its area that may be turned over. */
+/* Part of its size by which a corner may be off the plane, and of its area that may be turned
+ * over. */
 #define FLATNESS 1e-3
 
 static bool is_plane(const polygon *p)
@@ -156,7 +157,8 @@ static bool is_plane(const polygon *p)
     return true;
 }
 
-/* No corner turns back, nor does a triangle of the fan, as it would where the polygon winds twice. */
+/* No corner turns back, nor does a triangle of the fan, as it would where the polygon winds
+ * twice. */
 static bool is_convex(const polygon *p)
 {
     const double *n = p->normal, origin[3] = {0, 0, 0};

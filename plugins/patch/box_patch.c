@@ -22,8 +22,8 @@ static void begin(const box_data *data, box_patch *b)
     b->f.degree[0] = b->f.degree[1] = BOX_DEGREE;
 }
 
-/* Lemma. A number is a sum of twelve products; each has 1 rounding of the point, 1 of the entry and 1 of its
- * own, and passes 11 sums: 14 units of the sum of |entries| times `most`. */
+/* Lemma. A number is a sum of twelve products; each has 1 rounding of the point, 1 of the entry and
+ * 1 of its own, and passes 11 sums: 14 units of the sum of |entries| times `most`. */
 enum { TABLE_UNITS = 14 };
 
 IMP_QUAD_INLINE void multiply_groups(const double *table, int groups, const imp_quad *points,
@@ -55,11 +55,12 @@ static void multiply(const double *table, box_patch *b)
         multiply_narrow(table, b);
 }
 
-/* --- Points -------------------------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
-/* Lemma (units of 2^-53). s and w are exact, as is 1 - w for w from 0 to 1 in steps of 2^-52, which a
- * mirrored w has. y = (1 + s) w / 2 is off by 2, so that 1 - s, s - y, y are off by 1, 3, 2 and 1 - y, s,
- * y - s by 3, 0, 3; of a whole triangle 1 - s, s (1 - w), s w by 1, 2, 1. In all 6 at most. */
+/* Lemma (units of 2^-53). s and w are exact, as is 1 - w for w from 0 to 1 in steps of 2^-52, which
+ * a mirrored w has. y = (1 + s) w / 2 is off by 2, so that 1 - s, s - y, y are off by 1, 3, 2 and 1
+ * - y, s, y - s by 3, 0, 3; of a whole triangle 1 - s, s (1 - w), s w by 1, 2, 1. In all 6 at
+ * most. */
 enum { COORDINATE_UNITS = 6 };
 
 static void barycentric(const box_data *data, const double p[3], double at[3])
@@ -78,11 +79,12 @@ static void barycentric(const box_data *data, const double p[3], double at[3])
     }
 }
 
-/* Lemma. As a function of three independent coordinates that are >= 0 and add up to 1, the sum changes by at
- * most 4 `most` for each unit of one: 24. A weight has 4 products (whole factors are exact up to 12, which
- * is one more), a Bezier point 14 as above and a quotient, its product 1, sums 14: 58 in all. A coordinate
- * may come out as low as -4 units; so may a point of the curve between two triangles be taken for one of
- * the other: their polynomials differ by a third power of that, which is nothing. */
+/* Lemma. As a function of three independent coordinates that are >= 0 and add up to 1, the sum
+ * changes by at most 4 `most` for each unit of one: 24. A weight has 4 products (whole factors are
+ * exact up to 12, which is one more), a Bezier point 14 as above and a quotient, its product 1,
+ * sums 14: 58 in all. A coordinate may come out as low as -4 units; so may a point of the curve
+ * between two triangles be taken for one of the other: their polynomials differ by a third power of
+ * that, which is nothing. */
 enum { POINT_UNITS = 4 * COORDINATE_UNITS + 4 + 1 + TABLE_UNITS + 1 + 14 };
 
 static void sum_points(const box_data *data, const box_patch *b, const double p[3],
@@ -130,13 +132,13 @@ void box_point(const box_data *data, const double p[3], double x[3], double erro
     }
 }
 
-/* --- Regions --------------------------------------------------------------------------------------------- */
+/* --- Regions ---------------------------------------------------------------------------------- */
 
-/* Lemma (slopes). Along an edge of the grid, a box spline's derivative is a mean of the differences of
- * control points next to each other in that direction. Seen from the corner that halving approaches, s
- * leads along a mean of two of the triangle's edges, and w, times 1 at most, along the third: for
- * BOX_INNER, s along P_1 - P_0 and P_2 - P_1 and w along P_2 - P_0, else s along P_1 - P_0 and P_2 - P_0
- * and w along P_2 - P_1. */
+/* Lemma (slopes). Along an edge of the grid, a box spline's derivative is a mean of the differences
+ * of control points next to each other in that direction. Seen from the corner that halving
+ * approaches, s leads along a mean of two of the triangle's edges, and w, times 1 at most, along
+ * the third: for BOX_INNER, s along P_1 - P_0 and P_2 - P_1 and w along P_2 - P_0, else s along P_1
+ * - P_0 and P_2 - P_0 and w along P_2 - P_1. */
 static void set_slopes(const box_data *data, patch *f, const imp_quad *points)
 {
     /* from point to point along (1,0), along (0,1), and along (-1,1) */
@@ -184,8 +186,8 @@ static void mirror_series(patch *f)
             series[k * groups + g] = -series[k * groups + g];
 }
 
-/* Radius and slopes are those of the spline over the triangle; the series is held against a region, and the
- * rest of what is said there is true of the polynomial all over it. */
+/* Radius and slopes are those of the spline over the triangle; the series is held against a region,
+ * and the rest of what is said there is true of the polynomial all over it. */
 imp_status box_include(const box_data *data, const imp_region *region, imp_model model[3])
 {
     box_patch b;

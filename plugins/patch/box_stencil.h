@@ -5,7 +5,8 @@
 
 #include "plugins/patch/box_patch.h"
 
-/* 24 times the control points of the triangle as one of Bezier, of degree 4, in the order of triangle.h. */
+/* 24 times the control points of the triangle as one of Bezier, of degree 4, in the order of
+ * triangle.h. */
 
 enum { BOX_BEZIER = (BOX_DEGREE + 1) * (BOX_DEGREE + 2) / 2 };
 

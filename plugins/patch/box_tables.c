@@ -12,8 +12,8 @@
 const int box_place[BOX_POINTS][2] = {{0, 0}, {1, 0},  {0, 1}, {1, 1},  {1, -1}, {-1, 1},
                                       {2, 0}, {2, -1}, {0, 2}, {-1, 2}, {-1, 0}, {0, -1}};
 
-/* They follow from limits of Loop's rules at the fifteen points with fourths as coordinates, of which a
- * quartic polynomial has 15 independent values. Each row adds up to 24. */
+/* They follow from limits of Loop's rules at the fifteen points with fourths as coordinates, of
+ * which a quartic polynomial has 15 independent values. Each row adds up to 24. */
 const signed char box_stencil[BOX_BEZIER][BOX_POINTS] = {
     {12, 2, 2, 0, 2, 2, 0, 0, 0, 0, 2, 2}, {12, 4, 3, 0, 3, 1, 0, 0, 0, 0, 0, 1},
     {12, 3, 4, 0, 1, 3, 0, 0, 0, 0, 1, 0}, {8, 8, 4, 0, 4, 0, 0, 0, 0, 0, 0, 0},
@@ -31,8 +31,8 @@ static const double area_corner[BOX_AREAS][4][3] = {
     [BOX_INNER] = {{1, 0, 0}, {0.5, 0, 0.5}, {1, 1, -1}, {0, 1, 0}},
 };
 
-/* The blossom of a triangle of degree 4 with control points `given`, by de Casteljau: at corner k of the
- * area, times[k] times. */
+/* The blossom of a triangle of degree 4 with control points `given`, by de Casteljau: at corner k
+ * of the area, times[k] times. */
 static double blossom(const double given[BOX_BEZIER], const double corner[4][3], const int times[4])
 {
     double b[BOX_BEZIER];
@@ -47,9 +47,9 @@ static double blossom(const double given[BOX_BEZIER], const double corner[4][3],
     return b[0];
 }
 
-/* 288 times control point i, j of the patch, where `given` are 24 times those of the triangle: the mean of
- * the blossom over all ways to choose, of four places, i where s is 1 and j where w is 1. 288 is 24 times
- * the least common multiple of all choose(4, j). */
+/* 288 times control point i, j of the patch, where `given` are 24 times those of the triangle: the
+ * mean of the blossom over all ways to choose, of four places, i where s is 1 and j where w is 1.
+ * 288 is 24 times the least common multiple of all choose(4, j). */
 static double area_point(const double given[BOX_BEZIER], const double corner[4][3], int i, int j)
 {
     const int n = BOX_DEGREE;
@@ -76,9 +76,9 @@ static void to_series(const double net[BOX_NUMBERS], const double beta[BOX_NUMBE
         }
 }
 
-/* Lemma. Up to the last quotient all is exact: corners are multiples of 1/2, so blossoms are of 2^-4, and
- * beta, of degree 4, of 2^-7; no sum of |terms| is above 288 * 3^4 * 2^8 < 2^23. So each entry is rounded
- * once. */
+/* Lemma. Up to the last quotient all is exact: corners are multiples of 1/2, so blossoms are of
+ * 2^-4, and beta, of degree 4, of 2^-7; no sum of |terms| is above 288 * 3^4 * 2^8 < 2^23. So each
+ * entry is rounded once. */
 static void fill_area(box_area area, const double beta[BOX_NUMBERS], box_tables *to)
 {
     for (int p = 0; p < BOX_POINTS; ++p) {

@@ -9,14 +9,14 @@
 #include <impinge/quad.h>
 #include <string.h>
 
-/* --- From Chebyshev to Bernstein ---------------------------------------------------------------- */
+/* --- From Chebyshev to Bernstein -------------------------------------------------------------- */
 
-/* T_k of degree k has the Bernstein coefficients (-1)^(k-j) choose(2k, 2j) / choose(k, j), because T_k(cos
- * x) is the real part of (cos x/2 + i sin x/2)^2k; raised to degree n, coefficient i is
+/* T_k of degree k has the Bernstein coefficients (-1)^(k-j) choose(2k, 2j) / choose(k, j), because
+ * T_k(cos x) is the real part of (cos x/2 + i sin x/2)^2k; raised to degree n, coefficient i is
  * sum_j (-1)^(k-j) choose(2k, 2j) choose(n-k, i-j) / choose(n, i).
  *
- * Lemma. The sum's terms are whole numbers of at most 2^(n + k) in sum, so that up to n = 20 all is exact but
- * the quotient: one rounding. */
+ * Lemma. The sum's terms are whole numbers of at most 2^(n + k) in sum, so that up to n = 20 all is
+ * exact but the quotient: one rounding. */
 static double bernstein_of_chebyshev(int n, int k, int i)
 {
     double sum = 0;
@@ -40,18 +40,18 @@ static void fill_matrix(int n, double *matrix, double *greatest)
         }
 }
 
-/* --- The net without place ------------------------------------------------------------------------ */
+/* --- The net without place -------------------------------------------------------------------- */
 
-/* The numbers of a patch over a region: of each control point, lane by lane; what they are off by; and
- * how large they can be. */
+/* The numbers of a patch over a region: of each control point, lane by lane; what they are off by;
+ * and how large they can be. */
 typedef struct local_net {
     double number[IMP_NET_POINTS * PATCH_LANES_MAX];
     double error[PATCH_LANES_MAX], size[PATCH_LANES_MAX];
 } local_net;
 
-/* Lemma (error of a number). The series is off by its noise, as a function. Entries of both matrices have
- * one rounding each, products with them two, sums n and m: n + m + 4 units of what the terms add up to,
- * which is at most `size`. */
+/* Lemma (error of a number). The series is off by its noise, as a function. Entries of both
+ * matrices have one rounding each, products with them two, sums n and m: n + m + 4 units of what
+ * the terms add up to, which is at most `size`. */
 static void set_local_net(const patch *f, const imp_region *region, local_net *to)
 {
     const int n = f->degree[0], m = f->degree[1], lanes = f->lanes, row = (m + 1) * lanes;
@@ -78,13 +78,15 @@ static void set_local_net(const patch *f, const imp_region *region, local_net *t
     }
 }
 
-/* --- The net of a region ---------------------------------------------------------------------------- */
+/* --- The net of a region ---------------------------------------------------------------------- */
 
-/* Lemma (error). As for a whole patch (patch_net.c), with W' the computed weights, all >= `weight`, and
- * E what a number of X + t Y is off by, 3 roundings of S = size X + late size Y for c Y, the sum and the
- * quotient included: |X' / W' - X / W| <= (E + |X / W| error W) / weight, where |X / W| is at most the radius
- * of points and velocities. Rounding of the place: 3 (|place| + late |drift|). */
-static double net_error(const patch *f, const local_net *local, int axis, double late, double weight)
+/* Lemma (error). As for a whole patch (patch_net.c), with W' the computed weights, all >= `weight`,
+ * and E what a number of X + t Y is off by, 3 roundings of S = size X + late size Y for c Y, the
+ * sum and the quotient included: |X' / W' - X / W| <= (E + |X / W| error W) / weight, where |X / W|
+ * is at most the radius of points and velocities. Rounding of the place: 3 (|place| + late
+ * |drift|). */
+static double net_error(const patch *f, const local_net *local, int axis, double late,
+                        double weight)
 {
     const double size = local->size[axis] + late * local->size[4 + axis];
     const double off = local->error[axis] + late * local->error[4 + axis] + 3 * ROUNDING * size;
@@ -105,7 +107,8 @@ static double take_weights(const patch *f, const local_net *local, imp_net *net)
     return least;
 }
 
-static void take_points(const patch *f, const local_net *local, double middle, int axis, imp_net *net)
+static void take_points(const patch *f, const local_net *local, double middle, int axis,
+                        imp_net *net)
 {
     for (size_t k = 0; k < patch_points(f->degree); ++k) {
         const double *group = local->number + k * (size_t)f->lanes;
@@ -116,8 +119,9 @@ static void take_points(const patch *f, const local_net *local, double middle, i
     }
 }
 
-/* Lemma. In one parameter the net stands for x' = c' + d' (2 s - 1), where s runs from 0 at lo to 1 at hi, and
- * the surface has x = (u - k) / h. Their difference is linear in u, so greatest at an end. */
+/* Lemma. In one parameter the net stands for x' = c' + d' (2 s - 1), where s runs from 0 at lo to 1
+ * at hi, and the surface has x = (u - k) / h. Their difference is linear in u, so greatest at an
+ * end. */
 static double shift_at_ends(const knots *k, size_t span, const imp_region *region,
                             const imp_region *local, int side)
 {

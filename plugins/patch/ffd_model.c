@@ -3,7 +3,7 @@
 
 #include "plugins/patch/ffd_model.h"
 
-/* --- Models --- */
+/* --- Models ----------------------------------------------------------------------------------- */
 
 /* a limited to [0, 1]; da/dx is 0 outside the box. */
 static imp_model ffd_coordinate(const ffd_instance *s, int j, imp_model x, imp_interval *stretch)
@@ -142,7 +142,7 @@ imp_model ffd_image(const ffd_instance *s, const ffd_place *place, int axis, con
         sum, imp_interval_add(imp_interval_make(at.lo, at.hi), ffd_range(s, place, axis, terms)));
 }
 
-/* --- Rates --- */
+/* --- Rates ------------------------------------------------------------------------------------ */
 
 static imp_interval ffd_widened(double x, double more)
 {

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- What is given --- */
+/* --- What is given ---------------------------------------------------------------------------- */
 
 static int64_t knot_element(const knot_row *row, size_t k)
 {
@@ -62,7 +62,7 @@ imp_status knots_check(const knot_row *row, int degree, imp_create_error *why)
     return knots_check_multiplicity(row, p, why);
 }
 
-/* --- Making --- */
+/* --- Making ----------------------------------------------------------------------------------- */
 
 void knots_free(knots *k)
 {
@@ -90,7 +90,7 @@ bool knots_make(knots *k, const knot_row *row, int degree)
     return true;
 }
 
-/* --- Asking --- */
+/* --- Asking ----------------------------------------------------------------------------------- */
 
 size_t knots_span(const knots *k, double u)
 {
@@ -111,7 +111,7 @@ size_t knots_last_span(const knots *k, double hi, size_t first)
     return last > first && k->ends[last] == hi ? last - 1 : last;
 }
 
-/* --- Basis --- */
+/* --- Basis ------------------------------------------------------------------------------------ */
 
 /* The p + 1 basis functions at u that are not 0 in a span, within 6 p units of themselves.
  *

@@ -37,7 +37,7 @@ static void lattice_contract(const lattice *f, int axis, const double *matrix, i
         }
 }
 
-/* --- Once -------------------------------------------------------------------------- */
+/* --- Once ------------------------------------------------------------------------------------- */
 
 /* R from the net; answers beta. `work` has room for another net. */
 static double lattice_set_series(const lattice *f, lattice_lane *lane, double *work)
@@ -101,7 +101,7 @@ void lattice_set(const lattice *f, lattice_lane *lane, double *work)
     lane->noise = (units * 0x1p-53 + lane->slip) * LATTICE_SLACK + IMP_TINY;
 }
 
-/* --- A point ------------------------------------------------------------------------- */
+/* --- A point ---------------------------------------------------------------------------------- */
 
 void lattice_weigh(const lattice *f, const double at[3], lattice_weights *weights)
 {
@@ -130,7 +130,7 @@ double lattice_at(const lattice *f, const lattice_lane *lane, const lattice_weig
     return sum;
 }
 
-/* --- A box --------------------------------------------------------------------------- */
+/* --- A box ------------------------------------------------------------------------------------ */
 
 /* Coordinates centre[j] -+ half[j], inside [0, 1] but for rounding. */
 void lattice_enter(const lattice *f, const double centre[3], const double half[3], lattice_box *box)

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- Making cells --- */
+/* --- Making cells ----------------------------------------------------------------------------- */
 
 /* Room for one cell's control points, in the order of a patch. */
 typedef struct cell_data {
@@ -45,9 +45,10 @@ static void cell_gather(const nurbs_instance *f, size_t i, size_t j, cell_data *
         }
 }
 
-/* From the spline's control points to the patch's, by the matrices of the spans. Lemma (units): a number of
- * the net has 2 roundings to begin with, 5 p and 5 q in the matrices' entries, and passes a product and at
- * most p + 1 or q + 1 sums twice; all relative to `most`, as each row of a matrix adds up to 1. */
+/* From the spline's control points to the patch's, by the matrices of the spans. Lemma (units): a
+ * number of the net has 2 roundings to begin with, 5 p and 5 q in the matrices' entries, and passes
+ * a product and at most p + 1 or q + 1 sums twice; all relative to `most`, as each row of a matrix
+ * adds up to 1. */
 static void cell_set_net(patch *f, const cell_data *from, const double *along_v)
 {
     const int p = f->degree[0], q = f->degree[1], row = (q + 1) * f->lanes;
@@ -127,7 +128,7 @@ bool nurbs_make_cells(const nurbs_instance *f)
     return ready;
 }
 
-/* --- Inside one cell --- */
+/* --- Inside one cell -------------------------------------------------------------------------- */
 
 double cell_localize(const knots *k, size_t span, const imp_region *region, int side,
                      imp_region *local)
@@ -176,7 +177,7 @@ imp_status cell_include(const nurbs_instance *f, size_t i, size_t j, const imp_r
     return status;
 }
 
-/* --- Across cells --- */
+/* --- Across cells ----------------------------------------------------------------------------- */
 
 cell_range nurbs_cells_of(const nurbs_instance *f, const imp_region *region)
 {

@@ -52,8 +52,8 @@ bool nurbs_make_cells(const nurbs_instance *f);
 double cell_localize(const knots *k, size_t span, const imp_region *region, int side,
                      imp_region *local);
 
-/* Where both x' and x are in the cell, f differs by at most the gauge times their distance: at least that,
- * in one coordinate, for |t| <= late. */
+/* Where both x' and x are in the cell, f differs by at most the gauge times their distance: at
+ * least that, in one coordinate, for |t| <= late. */
 double cell_slip(const cell *c, int axis, double late, const double shift[2]);
 
 /* As imp_surface_type.include, for a region inside cell i, j. */

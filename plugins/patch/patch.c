@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- Making one --- */
+/* --- Making one ------------------------------------------------------------------------------- */
 
 static double *patch_groups(double **memory, size_t count, int lanes)
 {
@@ -106,7 +106,7 @@ void patch_set_differences(patch *f, int side)
             2 * f->units * f->degree[side] * ROUNDING * f->most[lane] * SLACK;
 }
 
-/* --- Points --- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 /* sum_ij B_i(u) B_j(v) net_ij, per lane; 0 in lanes that are not there. */
 static void patch_sums(const patch *f, double u, double v, double sum[PATCH_LANES_MAX])

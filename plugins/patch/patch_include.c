@@ -223,7 +223,8 @@ static imp_model patch_quotient(const patch *f, int axis, const imp_region *regi
     return imp_model_finish(g);
 }
 
-/* What the quotients are made of: numerators x, y, z and W as models, and the c0 and c1 taken off. */
+/* What the quotients are made of: numerators x, y, z and W as models, and the c0 and c1 taken
+ * off. */
 typedef struct patch_fractions {
     imp_model x[4];
     double off[3][2];
@@ -293,7 +294,7 @@ imp_status patch_include(const patch *f, const imp_region *region, imp_model mod
     return IMP_STATUS_OK;
 }
 
-/* --- A whole patch --- */
+/* --- A whole patch ---------------------------------------------------------------------------- */
 
 bool patch_finish(patch *f)
 {

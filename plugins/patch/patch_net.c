@@ -7,9 +7,9 @@
 #include <string.h>
 
 /* The control points of the part from lo to hi of a curve of degree n, in place; x[0], x[step], ...
- * are the numbers. Point k of the part is the blossom of n - k times lo and k times hi. Lemma. Each of
- * the n steps of de Casteljau is a mean of two numbers with three roundings, so it adds 3 ROUNDING
- * times the greatest of all, which means do not exceed but for SLACK. */
+ * are the numbers. Point k of the part is the blossom of n - k times lo and k times hi. Lemma. Each
+ * of the n steps of de Casteljau is a mean of two numbers with three roundings, so it adds 3
+ * ROUNDING times the greatest of all, which means do not exceed but for SLACK. */
 enum { STEP_ROUNDING = 3 };
 
 static void curve_part(int n, double lo, double hi, double *x, int step)
@@ -36,13 +36,13 @@ static void lane_part(const patch *f, int lane, const imp_region *region, double
     for (int i = 0; i <= n; ++i) curve_part(m, region->lo[1], region->hi[1], x + i * (m + 1), 1);
 }
 
-/* Lemma (error). With place_c = place + c drift, X_c = X + c Y at the region's middle time c, and late
- * >= |t| there,
+/* Lemma (error). With place_c = place + c drift, X_c = X + c Y at the region's middle time c, and
+ * late >= |t| there,
  *
  *   f = place_c + tau drift + (X_c + tau Y) / W.
  *
- * Let S = most X + late most Y >= |X + t Y|, and K count the roundings of a number of X or Y, in units of
- * ROUNDING most: the net's own and STEP_ROUNDING in each of n + m steps.
+ * Let S = most X + late most Y >= |X + t Y|, and K count the roundings of a number of X or Y, in
+ * units of ROUNDING most: the net's own and STEP_ROUNDING in each of n + m steps.
  *
  *   X_c and tau Y        K S, and 2 S for X + c Y
  *   place_c, tau drift   3 (|place| + late |drift|)

@@ -15,7 +15,7 @@
  * because |T_k| <= 1 and sum_k |w_ik| <= reach_i. The derivative with respect to s of a polynomial
  * of degree n is at most n^2 times its bound (Markov), so noise costs a rate n^2 noise. */
 
-/* --- Once: the series --- */
+/* --- Once: the series ------------------------------------------------------------------------- */
 
 void patch_multiply(int size, const double *matrix, const double *in, double *out, int width)
 {
@@ -63,4 +63,4 @@ void patch_set_series(patch *f, double *work)
     }
 }
 
-/* --- Per region: C --- */
+/* --- Per region: C ---------------------------------------------------------------------------- */

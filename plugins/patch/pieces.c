@@ -3,7 +3,7 @@
 
 #include "plugins/patch/pieces.h"
 
-/* --- A quadratic through points --- */
+/* --- A quadratic through points --------------------------------------------------------------- */
 
 /* Where Chebyshev's quadratic interpolation looks: 0 and +- sqrt(3)/2. */
 #define PIECES_OFF 0.8660254037844386
@@ -55,7 +55,7 @@ imp_status pieces_sample(pieces_eval *eval, const void *self, const imp_region *
     return status;
 }
 
-/* --- Its distance from a piece --- */
+/* --- Its distance from a piece ---------------------------------------------------------------- */
 
 /* Which parameters the coefficient q[k] multiplies. */
 static const int pieces_first[6] = {0, 0, 0, 1, 1, 2}, pieces_second[6] = {0, 1, 2, 1, 2, 2};
@@ -105,7 +105,7 @@ static double pieces_distance_upper(const imp_model *whole, const imp_model *g,
     return imp_interval_mag(imp_model_poly_range(&apart)) * IMP_SLACK;
 }
 
-/* --- Together --- */
+/* --- Together --------------------------------------------------------------------------------- */
 
 void pieces_begin(imp_model *whole)
 {

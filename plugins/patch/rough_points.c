@@ -6,7 +6,8 @@
 #include <impinge/interval.h>
 #include <string.h>
 
-/* The middle of the numbers, how far they are from it, and what is left of them: one rounding each. */
+/* The middle of the numbers, how far they are from it, and what is left of them: one rounding
+ * each. */
 static void set_group(const imp_quad *in, int count, int groups, double middle[4], double radius[4],
                       double most[4], imp_quad *net)
 {

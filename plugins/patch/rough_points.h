@@ -10,9 +10,9 @@
 /* Control points of a spline that are known but for a slip
  * =========================================================
  * From them a patch is made on the stack each time that something is asked of it: a uniform bicubic
- * B-spline (spline_patch.h) or a quartic box spline (box_patch.h). Both are means of their control points,
- * so what holds of the spline of these points holds of all whose points are within `slip` and
- * `slip_motion` of them, once it is widened by as much. */
+ * B-spline (spline_patch.h) or a quartic box spline (box_patch.h). Both are means of their control
+ * points, so what holds of the spline of these points holds of all whose points are within `slip`
+ * and `slip_motion` of them, once it is widened by as much. */
 
 enum { ROUGH_POINTS_MAX = 16 };
 
@@ -23,21 +23,22 @@ typedef struct rough_points {
     double slip[3], slip_motion[3];
 } rough_points;
 
-/* Differences of control points next to each other, which a derivative is a mean of, are off by so many
- * slips at most. Beyond a border points are p + q - r of others: along it, a difference is one of four
- * points and of two more. */
+/* Differences of control points next to each other, which a derivative is a mean of, are off by so
+ * many slips at most. Beyond a border points are p + q - r of others: along it, a difference is one
+ * of four points and of two more. */
 enum { ROUGH_SLOPE = 6 };
 
-/* Sets all of a patch but degrees, net and what comes of these: lanes, place, drift, their radii and `most`
- * are of the first `count` points, units is 2. `net` gets the points less their middle, of all lanes. A
- * point may itself be the difference of two, which the caller counts. */
+/* Sets all of a patch but degrees, net and what comes of these: lanes, place, drift, their radii
+ * and `most` are of the first `count` points, units is 2. `net` gets the points less their middle,
+ * of all lanes. A point may itself be the difference of two, which the caller counts. */
 void rough_begin(const rough_points *data, int count, patch *f, imp_quad *net);
 
-/* At least |exact - patch| where |t| <= late: the points' slip, and the rounding of place and drift. */
+/* At least |exact - patch| where |t| <= late: the points' slip, and the rounding of place and
+ * drift. */
 double rough_slip_upper(const rough_points *data, const patch *f, int axis, double late);
 
-/* Of one lane group: at least the greatest slope of the splines whose points are meant, from that of the
- * points as they are. */
+/* Of one lane group: at least the greatest slope of the splines whose points are meant, from that
+ * of the points as they are. */
 imp_quad rough_slope_upper(const rough_points *data, const patch *f, int group, imp_quad slope);
 
 /* Makes bounds of the patch such of the splines that are meant. */

@@ -47,17 +47,17 @@ static const double to_bernstein[SPLINE_POINTS] = {1, 0, 0, 0, 4, 4, 2, 1, 1, 2,
 
 /* Of Chebyshev polynomials in x = 2u - 1: N_r(u) = sum_i m_ri T_i(x) / 192. For (1 - u)^3 / 6 =
  * (1 - x)^3 / 48 with x^2 = (1 + T_2) / 2, x^3 = (3 T_1 + T_3) / 4; the others likewise. */
-static const double to_chebyshev[SPLINE_POINTS] = {10, -15, 6, -1, 86, -51, -6, 3,
-                                                   86, 51, -6, -3, 10, 15,  6,  1};
+static const double to_chebyshev[SPLINE_POINTS] = {10, -15, 6,  -1, 86, -51, -6, 3,
+                                                   86, 51,  -6, -3, 10, 15,  6,  1};
 
-/* Lemma. The entries are whole numbers, so an entry of the result passes, in each of two steps, a product
- * and at most three sums, at last the quotient, which has 3: 11 roundings, each of a number at most the
- * sum of |m| over a column, over the scale, times `most` per step: 1 for Bezier points, which are means;
- * (192 + 132 + 24 + 8) / 192 < 1.86 in all for Chebyshev polynomials. */
+/* Lemma. The entries are whole numbers, so an entry of the result passes, in each of two steps, a
+ * product and at most three sums, at last the quotient, which has 3: 11 roundings, each of a number
+ * at most the sum of |m| over a column, over the scale, times `most` per step: 1 for Bezier points,
+ * which are means; (192 + 132 + 24 + 8) / 192 < 1.86 in all for Chebyshev polynomials. */
 enum { BASIS_ROUNDINGS = 11 };
 #define CHEBYSHEV_SIZE (1.86 * 1.86)
 
-/* --- The patch ----------------------------------------------------------------------------------- */
+/* --- The patch -------------------------------------------------------------------------------- */
 
 static void begin(const rough_points *data, spline_patch *s)
 {
@@ -113,10 +113,11 @@ static void set_noise(patch *f)
     }
 }
 
-/* --- Points ----------------------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
-/* The four B-splines at u. Lemma. With v = 1 - u rounded once, 4 + u^2 (3u - 6) is off by 22 units at
- * most: 4 of its own, 3 of the product, 6 of u^2, 9 of 3u - 6; so each is within 6 units, v's included. */
+/* The four B-splines at u. Lemma. With v = 1 - u rounded once, 4 + u^2 (3u - 6) is off by 22 units
+ * at most: 4 of its own, 3 of the product, 6 of u^2, 9 of 3u - 6; so each is within 6 units, v's
+ * included. */
 static void splines(double u, double n[SPLINE_SIDE])
 {
     const double v = 1 - u;
@@ -126,8 +127,8 @@ static void splines(double u, double n[SPLINE_SIDE])
     n[3] = u * u * u / 6;
 }
 
-/* Lemma. sum_ij N_i N_j p_ij, |p_ij| <= most: weights are off by 6 N_i + 6 N_j + N_i N_j units, 49 in all;
- * products and sums add 16, and the differences p_ij one: POINT_UNITS. */
+/* Lemma. sum_ij N_i N_j p_ij, |p_ij| <= most: weights are off by 6 N_i + 6 N_j + N_i N_j units, 49
+ * in all; products and sums add 16, and the differences p_ij one: POINT_UNITS. */
 enum { POINT_UNITS = 49 + 16 + 1 };
 
 static void sum_points(const spline_patch *s, const double p[3], double sum[PATCH_LANES_MAX])

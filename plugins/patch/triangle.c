@@ -46,9 +46,10 @@ static bool triangle_is_rational(const triangle_rows *rows, size_t count)
 /* Raises the degree of a curve from k to n, in place: point i becomes
  * sum_j choose(k, j) choose(n-k, i-j) / choose(n, i) P_j.
  *
- * Lemma (units). The sum of these weights is 1 and each is >= 0. Up to n = 10 binomials and their products
- * are exact; the quotient, its product with a number and at most k sums are k + 2 roundings. In row 0 and
- * at both ends the only weight is 1, so corners and the edge u = 0 are exact. */
+ * Lemma (units). The sum of these weights is 1 and each is >= 0. Up to n = 10 binomials and their
+ * products are exact; the quotient, its product with a number and at most k sums are k + 2
+ * roundings. In row 0 and at both ends the only weight is 1, so corners and the edge u = 0 are
+ * exact. */
 static void curve_raise(double *row, int k, int n, int lanes)
 {
     double raised[TRIANGLE_SIDE_MAX * PATCH_LANES_MAX] = {0};

@@ -7,19 +7,20 @@
 
 /* A Bezier triangle as a patch
  * ============================
- * With barycentric coordinates a + b + c = 1 and control points P_kj, j <= k <= n, a triangle of degree
- * n is
+ * With barycentric coordinates a + b + c = 1 and control points P_kj, j <= k <= n, a triangle of
+ * degree n is
  *
  *   f = sum_kj n! / ((n-k)! (k-j)! j!) a^(n-k) b^(k-j) c^j P_kj,
  *
- * P_00, P_n0 and P_nn being its corners. As that number is choose(n, k) choose(k, j), with a = 1 - u, b =
- * u (1 - v) and c = u v
+ * P_00, P_n0 and P_nn being its corners. As that number is choose(n, k) choose(k, j), with a = 1 -
+ * u, b = u (1 - v) and c = u v
  *
  *   f = sum_k B_k(u) C_k(v),   C_k(v) = sum_j choose(k, j) (1-v)^(k-j) v^j P_kj.
  *
- * That is a patch of degrees n and n: row k of its net is the curve C_k, its degree raised from k to n.
- * The edge u = 0 is the corner P_00, and a region that begins there is a triangle; f is a polynomial
- * there as anywhere, so each bound of a patch holds, and its rates along v fall to 0 with u. */
+ * That is a patch of degrees n and n: row k of its net is the curve C_k, its degree raised from k
+ * to n. The edge u = 0 is the corner P_00, and a region that begins there is a triangle; f is a
+ * polynomial there as anywhere, so each bound of a patch holds, and its rates along v fall to 0
+ * with u. */
 
 enum { TRIANGLE_DEGREE_MAX = 10 };
 

@@ -21,7 +21,7 @@ void control_settle(control_mesh *m)
     m->fan = NULL;
 }
 
-/* --- Half-edges by the point where they begin -------------------------------------------------- */
+/* --- Half-edges by the point where they begin ------------------------------------------------- */
 
 /* Those of point p are order[from[p]] to order[from[p + 1] - 1]. */
 typedef struct outgoing {
@@ -41,7 +41,8 @@ static bool outgoing_make(const control_mesh *m, outgoing *o)
     if (o->from == NULL || o->order == NULL) return false;
     for (size_t h = 0; h < m->corner_count; ++h) o->from[m->corner[h] + 2] += 1;
     for (size_t p = 0; p < m->point_count; ++p) o->from[p + 2] += o->from[p + 1];
-    for (size_t h = 0; h < m->corner_count; ++h) o->order[o->from[m->corner[h] + 1]++] = (uint32_t)h;
+    for (size_t h = 0; h < m->corner_count; ++h)
+        o->order[o->from[m->corner[h] + 1]++] = (uint32_t)h;
     return true;
 }
 
@@ -54,7 +55,7 @@ static uint32_t outgoing_find(const control_mesh *m, const outgoing *o, uint32_t
     return CONTROL_NONE;
 }
 
-/* --- What may be wrong with faces -------------------------------------------------------------- */
+/* --- What may be wrong with faces ------------------------------------------------------------- */
 
 /* A point that a face has twice; CONTROL_NONE: none. */
 static uint32_t repeated_corner(const control_mesh *m, uint32_t f)
@@ -73,15 +74,16 @@ static imp_status check_faces(const control_mesh *m, triangles_fault *fault)
             return triangles_refuse(fault, 0, "face %u has %u corners, may have %d; divide it", f,
                                     corners, CONTROL_VALENCE_MAX);
         if (m->loop != NULL && corners != 3)
-            return triangles_refuse(fault, 0,
-                                    "face %u has %u corners, Loop's scheme takes triangles; divide it "
-                                    "into such, or take scheme=catmull-clark",
-                                    f, corners);
+            return triangles_refuse(
+                fault, 0,
+                "face %u has %u corners, Loop's scheme takes triangles; divide it "
+                "into such, or take scheme=catmull-clark",
+                f, corners);
         const uint32_t twice = repeated_corner(m, f);
         if (twice != CONTROL_NONE)
             return triangles_refuse(fault, 0,
-                                    "face %u has point %u twice; leave one out, or divide the face", f,
-                                    twice);
+                                    "face %u has point %u twice; leave one out, or divide the face",
+                                    f, twice);
     }
     return IMP_STATUS_OK;
 }
@@ -90,8 +92,9 @@ static imp_status check_valences(const control_mesh *m, const outgoing *o, trian
 {
     for (uint32_t p = 0; p < m->point_count; ++p)
         if (o->from[p + 1] - o->from[p] > CONTROL_VALENCE_MAX)
-            return triangles_refuse(fault, 0, "%u faces at point %u (face %u is one), may be %d; divide "
-                                              "the mesh there",
+            return triangles_refuse(fault, 0,
+                                    "%u faces at point %u (face %u is one), may be %d; divide "
+                                    "the mesh there",
                                     o->from[p + 1] - o->from[p], p, m->face[o->order[o->from[p]]],
                                     CONTROL_VALENCE_MAX);
     return IMP_STATUS_OK;
@@ -103,15 +106,16 @@ static imp_status check_edges(const control_mesh *m, const outgoing *o, triangle
         const uint32_t a = m->corner[h], b = control_end(m, h);
         const uint32_t other = outgoing_find(m, o, a, b, h);
         if (other != CONTROL_NONE)
-            return triangles_refuse(fault, 0,
-                                    "faces %u and %u both go from point %u to point %u; turn one of "
-                                    "them round, or separate them where more than two meet",
-                                    m->face[h], m->face[other], a, b);
+            return triangles_refuse(
+                fault, 0,
+                "faces %u and %u both go from point %u to point %u; turn one of "
+                "them round, or separate them where more than two meet",
+                m->face[h], m->face[other], a, b);
     }
     return IMP_STATUS_OK;
 }
 
-/* --- Twins and fans ------------------------------------------------------------------------------ */
+/* --- Twins and fans --------------------------------------------------------------------------- */
 
 static void set_twins(control_mesh *m, const outgoing *o)
 {
@@ -137,8 +141,8 @@ static void set_fans(control_mesh *m, const outgoing *o)
 {
     for (uint32_t p = 0; p < m->point_count; ++p) {
         const bool is_used = o->from[p] < o->from[p + 1];
-        m->fan[p] = is_used ? fan_of(m, o->order[o->from[p]])
-                            : (control_point){CONTROL_NONE, 0, false};
+        m->fan[p] =
+            is_used ? fan_of(m, o->order[o->from[p]]) : (control_point){CONTROL_NONE, 0, false};
     }
 }
 
@@ -157,30 +161,32 @@ static imp_status check_fans(const control_mesh *m, const outgoing *o, triangles
         uint32_t k = o->from[p];
         while (is_in_fan(m, &m->fan[p], o->order[k])) ++k;
         const uint32_t f = m->face[m->fan[p].start], other = m->face[o->order[k]];
-        return triangles_refuse(fault, 0,
-                                "faces %u and %u meet at point %u alone, in two fans; give one of the "
-                                "fans a point of its own",
-                                f < other ? f : other, f < other ? other : f, p);
+        return triangles_refuse(
+            fault, 0,
+            "faces %u and %u meet at point %u alone, in two fans; give one of the "
+            "fans a point of its own",
+            f < other ? f : other, f < other ? other : f, p);
     }
     return IMP_STATUS_OK;
 }
 
-/* Two triangles between the same points have all edges in common, and so would all that a step makes of
- * them: no points tell which. Elsewhere two faces have one edge in common at most. */
+/* Two triangles between the same points have all edges in common, and so would all that a step
+ * makes of them: no points tell which. Elsewhere two faces have one edge in common at most. */
 static imp_status check_pairs(const control_mesh *m, triangles_fault *fault)
 {
     for (uint32_t p = 0; m->loop != NULL && p < m->point_count; ++p) {
         const control_point *at = &m->fan[p];
         if (at->start == CONTROL_NONE || at->is_border || at->faces > 2) continue;
-        return triangles_refuse(fault, 0,
-                                "faces %u and %u are all around point %u, Loop's scheme takes three or "
-                                "more; leave one out, or divide them",
-                                m->face[at->start], m->face[control_turn_left(m, at->start)], p);
+        return triangles_refuse(
+            fault, 0,
+            "faces %u and %u are all around point %u, Loop's scheme takes three or "
+            "more; leave one out, or divide them",
+            m->face[at->start], m->face[control_turn_left(m, at->start)], p);
     }
     return IMP_STATUS_OK;
 }
 
-/* --- Building --------------------------------------------------------------------------------------- */
+/* --- Building --------------------------------------------------------------------------------- */
 
 static bool make_room(control_mesh *m)
 {

@@ -8,13 +8,14 @@
 
 /* Control meshes of Catmull and Clark, and of Loop
  * ================================================
- * Faces of any number of corners, each of which begins a half-edge: from its point to that of the next
- * corner of the face. The same edge in the face beyond is its twin. All faces go round the same way, at
- * most two meet at an edge, and those at a point form one fan, which is closed or ends at the border.
+ * Faces of any number of corners, each of which begins a half-edge: from its point to that of the
+ * next corner of the face. The same edge in the face beyond is its twin. All faces go round the
+ * same way, at most two meet at an edge, and those at a point form one fan, which is closed or ends
+ * at the border.
  *
- * One step of Catmull and Clark divides a face of n corners into n quads. With F the mean of a face's points,
- * F' that of the faces at a point and Q' that of its n neighbours along edges, the points of the finer mesh
- * are
+ * One step of Catmull and Clark divides a face of n corners into n quads. With F the mean of a
+ * face's points, F' that of the faces at a point and Q' that of its n neighbours along edges, the
+ * points of the finer mesh are
  *
  *   of a face      F
  *   of an edge     the mean of its ends and both F; at the border the mean of its ends
@@ -36,22 +37,24 @@ enum { CONTROL_VALENCE_MAX = 256 };
 
 /* What is known of a point. */
 typedef struct control_point {
-    uint32_t start; /* a half-edge that begins there, the first one where the fan ends; CONTROL_NONE: none */
+    uint32_t
+        start; /* a half-edge that begins there, the first one where the fan ends; CONTROL_NONE: none */
     uint16_t faces;
     bool is_border;
 } control_point;
 
 typedef struct control_mesh {
-    const box_tables *loop; /* what its patches are made with, not owned; NULL: of Catmull and Clark */
+    const box_tables
+        *loop; /* what its patches are made with, not owned; NULL: of Catmull and Clark */
     size_t point_count, face_count, corner_count;
-    double *point;       /* x, y, z of each */
-    double *velocity;    /* the same; NULL: at rest */
-    uint32_t *first;     /* half-edge of each face, and at last corner_count */
-    uint32_t *corner;    /* of each half-edge: the point where it begins */
-    uint32_t *face;      /* its face */
-    uint32_t *twin;      /* CONTROL_NONE: it is at the border */
-    control_point *fan;  /* of each point */
-    double slip[3];      /* at least |point - exact|, of x, y, z */
+    double *point;      /* x, y, z of each */
+    double *velocity;   /* the same; NULL: at rest */
+    uint32_t *first;    /* half-edge of each face, and at last corner_count */
+    uint32_t *corner;   /* of each half-edge: the point where it begins */
+    uint32_t *face;     /* its face */
+    uint32_t *twin;     /* CONTROL_NONE: it is at the border */
+    control_point *fan; /* of each point */
+    double slip[3];     /* at least |point - exact|, of x, y, z */
     double slip_motion[3];
 } control_mesh; /* begins as {0}; control_clear frees */
 
@@ -97,14 +100,16 @@ static inline bool control_is_quad(const control_mesh *m, uint32_t f)
 /* Neighbours of a point with n faces around it count as much in Loop's scheme: within 2^-50. */
 double control_loop_share(int n);
 
-/* Takes points and faces over from `from`, and `velocity`; all are freed with the mesh, also when this fails.
- * `loop`: as above. IMP_STATUS_PARAMETER: a face or a point is not as above; *fault says which and what may be done. */
+/* Takes points and faces over from `from`, and `velocity`; all are freed with the mesh, also when
+ * this fails. `loop`: as above. IMP_STATUS_PARAMETER: a face or a point is not as above; *fault
+ * says which and what may be done. */
 imp_status control_begin(control_mesh *m, triangles *from, double *velocity, const box_tables *loop,
                          triangles_fault *fault);
 
 /* The mesh after one step, of the faces that are `wanted` and of those that share a point with one.
- * (*wanted_fine)[f]: whether face f of the finer mesh comes of a wanted one. Points farther off are there,
- * but not where the whole mesh would have them. *wanted_fine: for free(). IMP_STATUS_INTERNAL: no memory. */
+ * (*wanted_fine)[f]: whether face f of the finer mesh comes of a wanted one. Points farther off are
+ * there, but not where the whole mesh would have them. *wanted_fine: for free().
+ * IMP_STATUS_INTERNAL: no memory. */
 imp_status control_refine(const control_mesh *m, const bool *wanted, control_mesh *fine,
                           bool **wanted_fine);
 

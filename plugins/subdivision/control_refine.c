@@ -3,7 +3,7 @@
 
 #include "plugins/subdivision/control_build.h"
 
-/* --- The part of a mesh that a step needs --------------------------------------------------------- */
+/* --- The part of a mesh that a step needs ----------------------------------------------------- */
 
 /* Faces that share a point with a wanted one, and their points; CONTROL_NONE: left out. */
 typedef struct selection {
@@ -57,7 +57,9 @@ static double *part_of(const double *list, const control_mesh *m, const selectio
 
 static imp_status cut(const control_mesh *m, const selection *s, control_mesh *part)
 {
-    *part = (control_mesh){.loop = m->loop, .point_count = s->points, .face_count = s->faces,
+    *part = (control_mesh){.loop = m->loop,
+                           .point_count = s->points,
+                           .face_count = s->faces,
                            .corner_count = s->corners};
     part->point = part_of(m->point, m, s);
     part->velocity = m->velocity != NULL ? part_of(m->velocity, m, s) : NULL;
@@ -79,10 +81,10 @@ static imp_status cut(const control_mesh *m, const selection *s, control_mesh *p
     return control_connect(part, NULL);
 }
 
-/* --- Topology -------------------------------------------------------------------------------------- */
+/* --- Topology --------------------------------------------------------------------------------- */
 
-/* The points of the finer mesh are those of the points, of the faces (not of triangles of Loop's), and of
- * the edges, which have the numbers of their first half-edge: edge[h]. */
+/* The points of the finer mesh are those of the points, of the faces (not of triangles of Loop's),
+ * and of the edges, which have the numbers of their first half-edge: edge[h]. */
 static uint32_t *number_edges(const control_mesh *m, size_t *points)
 {
     uint32_t *edge = malloc(m->corner_count * sizeof *edge);
@@ -108,8 +110,8 @@ static void set_quads(const control_mesh *m, const uint32_t *edge, control_mesh 
     fine->first[m->corner_count] = 4 * (uint32_t)m->corner_count;
 }
 
-/* Half-edge h gives the triangle of its point, its edge and the edge before it; those of the edges are the
- * face's fourth. */
+/* Half-edge h gives the triangle of its point, its edge and the edge before it; those of the edges
+ * are the face's fourth. */
 static void set_triangles(const control_mesh *m, const uint32_t *edge, control_mesh *fine)
 {
     for (uint32_t f = 0; f < m->face_count; ++f)

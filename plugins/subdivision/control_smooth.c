@@ -56,8 +56,8 @@ static void set_edge_points(const control_mesh *m, const uint32_t *edge, const d
     }
 }
 
-/* The neighbours of a border point along the border: the end of the first half-edge of its fan, and the
- * beginning of the last one's predecessor. */
+/* The neighbours of a border point along the border: the end of the first half-edge of its fan, and
+ * the beginning of the last one's predecessor. */
 static void smooth_border(const control_mesh *m, const control_point *p, const double *from,
                           double x[3])
 {
@@ -120,12 +120,12 @@ static void set_points(const control_mesh *m, const uint32_t *edge, const double
     }
 }
 
-/* Lemma. All points are means of coarser ones, of which none is greater than `most`. Roundings, in units
- * of 2^-53 most: a face's n - 1 sums and a quotient n; an edge's 3 sums more; of a point with n faces,
- * the 2 n sums of means (each at most n most, later divided by n) 2 n beside those of the faces, and 5
- * more: together below n_face + 2 n + 8. Of Loop's, an edge's products and sums 5; of a point, n sums and
- * 7, and 16 for the share, which is off by 2^-50 and multiplies at most 2 most: below n + 24. What the
- * coarser points were off counts once, as weights add up to 1. */
+/* Lemma. All points are means of coarser ones, of which none is greater than `most`. Roundings, in
+ * units of 2^-53 most: a face's n - 1 sums and a quotient n; an edge's 3 sums more; of a point with
+ * n faces, the 2 n sums of means (each at most n most, later divided by n) 2 n beside those of the
+ * faces, and 5 more: together below n_face + 2 n + 8. Of Loop's, an edge's products and sums 5; of
+ * a point, n sums and 7, and 16 for the share, which is off by 2^-50 and multiplies at most 2 most:
+ * below n + 24. What the coarser points were off counts once, as weights add up to 1. */
 static void add_slip(const control_mesh *m, const double *list, double slip[3])
 {
     uint32_t corners = 0, faces = 0;
@@ -148,9 +148,10 @@ void control_smooth(const control_mesh *m, const uint32_t *edge, const double *f
     add_slip(m, from, slip);
 }
 
-/* Lemma, in units of 2^-52. Let x = 3/8 + cos(2 pi / n) / 4, at most 5/8. The angle, at most 3.2, is off by
- * two roundings, 3.2; its cosine by that and 4; a quarter of these and a sum's rounding, 0.25, make 2.05
- * of x. Its square is off by 2 x 2.05 and 0.25, and 5/8 - x^2 by 0.25 more: 3.1 < 4. 3 and 6 are exact. */
+/* Lemma, in units of 2^-52. Let x = 3/8 + cos(2 pi / n) / 4, at most 5/8. The angle, at most 3.2,
+ * is off by two roundings, 3.2; its cosine by that and 4; a quarter of these and a sum's rounding,
+ * 0.25, make 2.05 of x. Its square is off by 2 x 2.05 and 0.25, and 5/8 - x^2 by 0.25 more: 3.1 <
+ * 4. 3 and 6 are exact. */
 double control_loop_share(int n)
 {
     if (n == 3) return 0.5625;

@@ -5,7 +5,7 @@
 
 #include <impinge/interval.h>
 
-/* --- Finding the points --------------------------------------------------------------------------- */
+/* --- Finding the points ----------------------------------------------------------------------- */
 
 static void find_fan(const control_mesh *m, uint32_t h, corner_points *to)
 {
@@ -42,17 +42,17 @@ void corner_find(const control_mesh *m, uint32_t h, corner_points *to)
         quad_find(m, h, to);
 }
 
-/* --- Where the corner lies ---------------------------------------------------------------------------- */
+/* --- Where the corner lies -------------------------------------------------------------------- */
 
 /* The limit of one coordinate. With n faces, N = n (n + 5), all of
  *
  *   (n^2 c + 4 sum_k e_k + sum_k d_k) / N,   at a border (e_first + 4 c + e_last) / 6
  *   of Loop's c + sum_k (e_k - c) / N,   N = n + 3 n / (8 share)
  *
- * are written as c and a mean of differences to c. Lemma. Those, at most `most`, are rounded once, their
- * sum at most 2 n times, product and quotient 3; the last sum once. The share, from 0.23 to 0.61, is off by
- * 2^-50; n / N = 1 / (1 + 3 / (8 share)) has the derivative 3/8 / (share + 3/8)^2 <= 1.03 by it, which makes
- * 9 units, and N has 4 roundings. */
+ * are written as c and a mean of differences to c. Lemma. Those, at most `most`, are rounded once,
+ * their sum at most 2 n times, product and quotient 3; the last sum once. The share, from 0.23 to
+ * 0.61, is off by 2^-50; n / N = 1 / (1 + 3 / (8 share)) has the derivative 3/8 / (share + 3/8)^2
+ * <= 1.03 by it, which makes 9 units, and N has 4 roundings. */
 static double limit_of(const corner_points *of, const double *list, size_t axis, double *error)
 {
     const double c = list[3 * (size_t)of->grid[1][1] + axis], n = of->faces;
@@ -88,7 +88,7 @@ void corner_limit(const corner_points *of, const control_mesh *m, corner_frame *
     }
 }
 
-/* --- Taking points --------------------------------------------------------------------------------------- */
+/* --- Taking points ---------------------------------------------------------------------------- */
 
 static void take_most(corner_net *n, int side)
 {
@@ -96,7 +96,8 @@ static void take_most(corner_net *n, int side)
         imp_quad most = imp_quad_abs(n->centre[g]);
         for (int x = 0; x < side; ++x)
             for (int y = 0; y < side; ++y)
-                if (x + y > 0 || n->faces == 0) most = imp_quad_max(imp_quad_abs(n->grid[x][y][g]), most);
+                if (x + y > 0 || n->faces == 0)
+                    most = imp_quad_max(imp_quad_abs(n->grid[x][y][g]), most);
         for (int k = 0; k < n->edges; ++k) most = imp_quad_max(imp_quad_abs(n->edge[k][g]), most);
         for (int k = 0; k < n->faces && !n->is_loop; ++k)
             most = imp_quad_max(imp_quad_abs(n->diagonal[k][g]), most);
@@ -153,7 +154,7 @@ void corner_take(const corner_points *of, const control_mesh *m, const corner_fr
     take_slip(m, frame, to);
 }
 
-/* --- One step ---------------------------------------------------------------------------------------------- */
+/* --- One step --------------------------------------------------------------------------------- */
 
 void corner_step(const corner_net *from, corner_net *to)
 {
@@ -168,8 +169,8 @@ void corner_step(const corner_net *from, corner_net *to)
         quad_step(from, to);
     take_most(to, CORNER_FINE);
     for (int lane = 0; lane < from->groups * IMP_QUAD; ++lane)
-        to->slip[lane] = (from->slip[lane] + ((from->faces + CORNER_STEP_UNITS) * 0x1p-53 +
-                                              CORNER_REFLECTION) *
-                                                 from->most[lane]) *
-                         (1 + 0x1p-40);
+        to->slip[lane] =
+            (from->slip[lane] +
+             ((from->faces + CORNER_STEP_UNITS) * 0x1p-53 + CORNER_REFLECTION) * from->most[lane]) *
+            (1 + 0x1p-40);
 }

@@ -3,10 +3,10 @@
 
 #include "plugins/subdivision/corner_build.h"
 
-/* --- Finding the points --------------------------------------------------------------------------- */
+/* --- Finding the points ----------------------------------------------------------------------- */
 
-/* Where the corners of the quad are, and the neighbours beyond each side: those next to its beginning, to
- * its end, and beyond its end. */
+/* Where the corners of the quad are, and the neighbours beyond each side: those next to its
+ * beginning, to its end, and beyond its end. */
 static const int side_from[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 static const int side_out[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
 
@@ -15,8 +15,8 @@ static uint32_t *grid_at(corner_points *to, const int from[2], const int out[2])
     return &to->grid[from[0] + out[0] + 1][from[1] + out[1] + 1];
 }
 
-/* The face beyond side k, half-edge h, and the one beyond that at the end of the side. Without a face
- * beyond a side, the points there are not there. */
+/* The face beyond side k, half-edge h, and the one beyond that at the end of the side. Without a
+ * face beyond a side, the points there are not there. */
 static void find_beyond(const control_mesh *m, uint32_t h, int k, corner_points *to)
 {
     const int *a = side_from[k], *b = side_from[(k + 1) % 4], *out = side_out[k];
@@ -39,7 +39,7 @@ void quad_find(const control_mesh *m, uint32_t h, corner_points *to)
     }
 }
 
-/* --- Rows beyond a border ------------------------------------------------------------------------------ */
+/* --- Rows beyond a border --------------------------------------------------------------------- */
 
 /* A row (x fixed) or column (y fixed) of the grid: twice the one at the border less the next. */
 static void reflect_along(corner_net *n, int out, int inner, int next, bool is_row)
@@ -63,7 +63,7 @@ void quad_reflect(corner_net *n, int side)
     if (n->is_border[1]) reflect_along(n, last, last - 1, last - 2, true);
 }
 
-/* --- One step ---------------------------------------------------------------------------------------------- */
+/* --- One step --------------------------------------------------------------------------------- */
 
 /* Numbers at -1 to 2 become those at -1/2, 0, 1/2, 1, 3/2: cubic B-splines by halves. */
 IMP_QUAD_INLINE void halve(const imp_quad in[CORNER_SIDE], imp_quad out[CORNER_FINE])
@@ -126,11 +126,12 @@ static void join_fan(corner_net *to)
     }
 }
 
-/* Lemma (slip). All points but those beyond a border are means of such points: with a row there put as
- * 2 p_0 - p_1, (p_-1 + 6 p_0 + p_1) / 8 is p_0 and (p_-1 + p_0) / 2 is not needed but for the new such
- * row, which is set anew. So what points are off does not grow, and a step adds its own roundings: 3 for
- * each direction of the grid; 4 and 8 of the fan's means; n + 5 of its centre's; and what the rows beyond a
- * border are off: less than n + CORNER_STEP_UNITS and CORNER_REFLECTION. */
+/* Lemma (slip). All points but those beyond a border are means of such points: with a row there put
+ * as 2 p_0 - p_1, (p_-1 + 6 p_0 + p_1) / 8 is p_0 and (p_-1 + p_0) / 2 is not needed but for the
+ * new such row, which is set anew. So what points are off does not grow, and a step adds its own
+ * roundings: 3 for each direction of the grid; 4 and 8 of the fan's means; n + 5 of its centre's;
+ * and what the rows beyond a border are off: less than n + CORNER_STEP_UNITS and
+ * CORNER_REFLECTION. */
 void quad_step(const corner_net *from, corner_net *to)
 {
     for (int g = 0; g < from->groups; ++g) {

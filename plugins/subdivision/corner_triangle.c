@@ -3,8 +3,8 @@
 
 #include "plugins/subdivision/corner_build.h"
 
-/* Neighbours on the grid, counterclockwise; and the corners of the triangle with the first of its sides that
- * begins there. */
+/* Neighbours on the grid, counterclockwise; and the corners of the triangle with the first of its
+ * sides that begins there. */
 enum { DIRECTIONS = 6 };
 static const int direction[DIRECTIONS][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
 static const int corner_at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
@@ -12,7 +12,7 @@ static const int side_along[3] = {0, 2, 4};
 
 static int turned(int d) { return (d + DIRECTIONS) % DIRECTIONS; }
 
-/* --- Finding the points --------------------------------------------------------------------------- */
+/* --- Finding the points ----------------------------------------------------------------------- */
 
 /* All around corner k, where half-edge h begins; it is regular. */
 static void find_ring(const control_mesh *m, uint32_t h, int k, corner_points *to)
@@ -47,7 +47,7 @@ void triangle_find(const control_mesh *m, uint32_t h, corner_points *to)
     }
 }
 
-/* --- Points beyond a border ------------------------------------------------------------------------ */
+/* --- Points beyond a border ------------------------------------------------------------------- */
 
 static imp_quad *neighbour(corner_net *n, const int at[2], int d, int g)
 {
@@ -55,8 +55,8 @@ static imp_quad *neighbour(corner_net *n, const int at[2], int d, int g)
     return &n->grid[at[0] + out[0] + 1][at[1] + out[1] + 1][g];
 }
 
-/* Two or four neighbours in a row, half of them from each side: p + q - r, where r p and r q are the sides of
- * a triangle and p q is beyond it. */
+/* Two or four neighbours in a row, half of them from each side: p + q - r, where r p and r q are
+ * the sides of a triangle and p q is beyond it. */
 static void reflect_ring(corner_net *n, const int at[2], unsigned missing)
 {
     if (missing == 0) return;
@@ -78,8 +78,8 @@ static void reflect_ring(corner_net *n, const int at[2], unsigned missing)
     }
 }
 
-/* A corner P_k of the triangle, or what a step makes of it, at twice its place: its neighbours in the same
- * directions are missing. */
+/* A corner P_k of the triangle, or what a step makes of it, at twice its place: its neighbours in
+ * the same directions are missing. */
 void triangle_reflect(corner_net *n, int side)
 {
     const int scale = side == CORNER_FINE ? 2 : 1;
@@ -88,7 +88,7 @@ void triangle_reflect(corner_net *n, int side)
                      n->missing[k]);
 }
 
-/* --- One step ---------------------------------------------------------------------------------------------- */
+/* --- One step --------------------------------------------------------------------------------- */
 
 static imp_quad at_grid(const corner_net *n, int x, int y, int g)
 {
@@ -123,7 +123,8 @@ static imp_quad fine_point(const corner_net *n, int x, int y, int g)
     return corner_point(n, x / 2, y / 2, g);
 }
 
-/* All that the children but the first depend on; that of the first around its corner is the fan's. */
+/* All that the children but the first depend on; that of the first around its corner is the
+ * fan's. */
 static void halve_grid(const corner_net *from, int g, corner_net *to)
 {
     for (int x = -1; x <= 3; ++x)
@@ -166,11 +167,11 @@ static void join_fan(corner_net *to)
     }
 }
 
-/* Lemma (slip). All points but those beyond a border are means of such points: with p + q - r beyond an edge
- * p q the masks of the inside give those of the border. So what points are off does not grow, and a step
- * adds less than n + CORNER_STEP_UNITS units of 2^-53 `most` and CORNER_REFLECTION: the corner's mean n + 7,
- * and 16 for its share (control_smooth.c); another corner's 9, an edge's 5, and a quarter at most of what
- * points beyond a border are off. */
+/* Lemma (slip). All points but those beyond a border are means of such points: with p + q - r
+ * beyond an edge p q the masks of the inside give those of the border. So what points are off does
+ * not grow, and a step adds less than n + CORNER_STEP_UNITS units of 2^-53 `most` and
+ * CORNER_REFLECTION: the corner's mean n + 7, and 16 for its share (control_smooth.c); another
+ * corner's 9, an edge's 5, and a quarter at most of what points beyond a border are off. */
 void triangle_step(const corner_net *from, corner_net *to)
 {
     for (int g = 0; g < from->groups; ++g) {

@@ -8,7 +8,7 @@
 /* Levels of rings that a region may reach into beside the first before the rest counts as a box. */
 enum { RINGS = 4 };
 
-/* --- Points ----------------------------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 static bool has_point(const double *p)
 {
@@ -21,8 +21,8 @@ static bool is_corner(const walk *w, const double p[3])
     return p[0] == 0 && (p[1] == 0 || w->points.is_loop);
 }
 
-/* A point of the last square, where the surface is within `most` of the limit; the limit point itself at
- * the corner. Two sums and a product are rounded. */
+/* A point of the last square, where the surface is within `most` of the limit; the limit point
+ * itself at the corner. Two sums and a product are rounded. */
 static void point_of_limit(const walk *w, const double p[3], double x[3], double error[3])
 {
     const bool is_limit = is_corner(w, p);
@@ -70,10 +70,10 @@ imp_status face_eval(const void *self, size_t n, const double *p, double *x, dou
     return IMP_STATUS_OK;
 }
 
-/* --- Regions ------------------------------------------------------------------------------------------------ */
+/* --- Regions ---------------------------------------------------------------------------------- */
 
-/* Steps to the first level of which the region reaches into more than the corner's quarter. False: it is
- * inside the last square. */
+/* Steps to the first level of which the region reaches into more than the corner's quarter. False:
+ * it is inside the last square. */
 static bool walk_to(const face *q, const imp_region *region, walk *w, int *u, int *v)
 {
     *u = *v = NEAR;
@@ -85,11 +85,14 @@ static bool walk_to(const face *q, const imp_region *region, walk *w, int *u, in
     return *u != NEAR || *v != NEAR;
 }
 
-/* The box of the control points, at any time t = c + d s of the region: |f - (place + t drift)| <= most +
+/* The box of the control points, at any time t = c + d s of the region: |f - (place + t drift)| <=
+ * most +
  * |t| most of the velocities. Six roundings at most are of numbers no greater than `far`. Points of this and
- * all finer levels lie there, but p + q - r beyond a border: differences are at most 6 times as large, and
+ * all finer levels lie there, but p + q - r beyond a border: differences are at most 6 times as
+ * large, and
  * |df/dv| of a triangle twice these (gauge.c). */
-static void include_square(const face *q, const walk *w, const imp_region *region, imp_model model[3])
+static void include_square(const face *q, const walk *w, const imp_region *region,
+                           imp_model model[3])
 {
     const double c = region->c[2], d = region->d[2], late = fabs(c) + d;
     const corner_net *n = w->now;
@@ -118,8 +121,8 @@ static void include_square(const face *q, const walk *w, const imp_region *regio
 }
 
 /* The parts but the corner's. */
-static imp_status add_quarters(const walk *w, const imp_region *region, const imp_region *rest, int u,
-                               int v, imp_model whole[3])
+static imp_status add_quarters(const walk *w, const imp_region *region, const imp_region *rest,
+                               int u, int v, imp_model whole[3])
 {
     imp_status status = IMP_STATUS_OK;
     for (int a = NEAR; a <= FAR; ++a)

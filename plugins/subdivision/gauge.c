@@ -27,8 +27,9 @@ static void quad_steps(const corner_net *n, int side, double steps[CORNER_LANES]
     }
 }
 
-/* Of a triangle, between points that are used for its children: along u in the directions of two sides from
- * the corner; along v in that of the third, times up to 2, as u 2^level runs from 1 to 2. */
+/* Of a triangle, between points that are used for its children: along u in the directions of two
+ * sides from the corner; along v in that of the third, times up to 2, as u 2^level runs from 1 to
+ * 2. */
 static void triangle_steps(const corner_net *n, int side, double steps[CORNER_LANES])
 {
     static const int along[3][2] = {{1, 0}, {0, 1}, {-1, 1}};
@@ -53,9 +54,9 @@ static bool is_small(const corner_net *n, const corner_net *first)
     return true;
 }
 
-/* Bounds of |df/du| or |df/dv| over the ring of a level. Its grid spans cells of side 2^-level, in which
- * splines change by no more than their control points do from one to the next; but v of a triangle does
- * not shrink with the level. */
+/* Bounds of |df/du| or |df/dv| over the ring of a level. Its grid spans cells of side 2^-level, in
+ * which splines change by no more than their control points do from one to the next; but v of a
+ * triangle does not shrink with the level. */
 static void ring_rates(const walk *w, int side, double rates[CORNER_LANES])
 {
     if (w->now->is_loop)
@@ -66,11 +67,11 @@ static void ring_rates(const walk *w, int side, double rates[CORNER_LANES])
         rates[lane] = ldexp(rates[lane] + IMP_TINY, w->level); /* what underflowed, too */
 }
 
-/* Lemma (the last square). Let w = max(u, v), h its side, q(u, v) the surface on w = h less the limit
- * point, |q| <= r. There the surface is replaced by limit + (w / h) q(u h / w, v h / w). Where u >= v its
- * derivative by v is that of q along the border u = h, and by u it is q / h - (v / u) times that: at most
- * r / h + rate_v. Likewise where v >= u. Of a triangle it is limit + (u / h) q(h, v), whose derivatives are
- * q / h and (u / h) times that of q. */
+/* Lemma (the last square). Let w = max(u, v), h its side, q(u, v) the surface on w = h less the
+ * limit point, |q| <= r. There the surface is replaced by limit + (w / h) q(u h / w, v h / w).
+ * Where u >= v its derivative by v is that of q along the border u = h, and by u it is q / h - (v /
+ * u) times that: at most r / h + rate_v. Likewise where v >= u. Of a triangle it is limit + (u / h)
+ * q(h, v), whose derivatives are q / h and (u / h) times that of q. */
 static double with_last_square(const walk *w, int side, const double own[2], double r)
 {
     double last = ldexp(r + IMP_TINY, w->level) + own[!side];

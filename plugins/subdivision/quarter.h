@@ -7,15 +7,16 @@
 
 #include "plugins/patch/pieces.h"
 
-/* The surface over a part of a level (walk.h) that is not the corner's; at level 0, over all of a regular
- * face. Points and regions are the face's own, and lie in the part. */
+/* The surface over a part of a level (walk.h) that is not the corner's; at level 0, over all of a
+ * regular face. Points and regions are the face's own, and lie in the part. */
 typedef struct quarter_type {
     /* error may not be NULL */
     void (*point)(const walk *w, int u, int v, const double p[3], double x[3], double error[3]);
 
     /* Whether one polynomial is the surface all over the region; `include` takes such only. */
     bool (*is_one)(const walk *w, const imp_region *region, int u, int v);
-    imp_status (*include)(const walk *w, const imp_region *region, int u, int v, imp_model model[3]);
+    imp_status (*include)(const walk *w, const imp_region *region, int u, int v,
+                          imp_model model[3]);
 
     /* Adds bounds over `part` to those over a whole region (pieces.h). */
     imp_status (*add)(const walk *w, const imp_region *whole, const imp_region *part, int u, int v,

@@ -5,11 +5,11 @@
 
 #include "plugins/patch/box_patch.h"
 
-/* A ring, 1 <= u 2^level <= 2, has two halves, v up to 1/2 and from there; each has a triangle at the outer
- * side and one that reaches to the inner (box_patch.h). The upper half is the lower one with x and y of the
- * grid exchanged. */
+/* A ring, 1 <= u 2^level <= 2, has two halves, v up to 1/2 and from there; each has a triangle at
+ * the outer side and one that reaches to the inner (box_patch.h). The upper half is the lower one
+ * with x and y of the grid exchanged. */
 
-/* --- The control points ---------------------------------------------------------------------------------- */
+/* --- The control points ----------------------------------------------------------------------- */
 
 /* Where P_0 of an area lies on the grid, and the edges to P_1 and P_2. */
 static const int area_frame[BOX_AREAS][3][2] = {
@@ -37,7 +37,7 @@ static void take_points(const walk *w, box_area area, bool is_mirrored, box_data
     walk_place(w, &to->points);
 }
 
-/* --- Points -------------------------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 /* v of a half, as w from 0 to 1: exact. */
 static double across_half(double v, bool is_upper) { return is_upper ? 2 * v - 1 : 2 * v; }
@@ -59,7 +59,7 @@ static void box_at(const walk *w, int u, int v, const double p[3], double x[3], 
     box_point(&data, local, x, error);
 }
 
-/* --- Which triangles a region reaches into ------------------------------------------------------------ */
+/* --- Which triangles a region reaches into ---------------------------------------------------- */
 
 /* A box that holds the region's share of a triangle. */
 typedef struct share {
@@ -75,13 +75,13 @@ typedef struct half_box {
     double y[2], w[2];
 } half_box;
 
-/* Pads for rounding: y w and 2 (y - 1) have one, 2 / (2 - w) two; 2 - 2 / y is off by 2^-52, and 1 - w / 2 by
- * 2^-54. */
+/* Pads for rounding: y w and 2 (y - 1) have one, 2 / (2 - w) two; 2 - 2 / y is off by 2^-52, and 1
+ * - w / 2 by 2^-54. */
 #define SHARE_PAD 0x1p-49
 
-/* Lemma. A point is in the outer triangle where y w <= 2 (y - 1), which grows less true with w and more with
- * y; so the box has points of it if its corner (y[1], w[0]) is one, and such have w <= 2 - 2 / y[1] and
- * y >= 2 / (2 - w[0]). */
+/* Lemma. A point is in the outer triangle where y w <= 2 (y - 1), which grows less true with w and
+ * more with y; so the box has points of it if its corner (y[1], w[0]) is one, and such have w <= 2
+ * - 2 / y[1] and y >= 2 / (2 - w[0]). */
 static bool outer_share(const half_box *b, half_box *to)
 {
     if (b->y[1] * b->w[0] * (1 - SHARE_PAD) > 2 * (b->y[1] - 1)) return false;
@@ -147,7 +147,7 @@ static bool is_one(const walk *w, const imp_region *region, int u, int v)
     return u == NEAR || (u == FAR && shares_of(w, region, shares) == 1);
 }
 
-/* --- Bounds ---------------------------------------------------------------------------------------------- */
+/* --- Bounds ----------------------------------------------------------------------------------- */
 
 /* As one of s and w: exact. */
 static imp_region region_in_half(const walk *w, const imp_region *region, bool is_upper)
@@ -203,8 +203,8 @@ static imp_status add(const walk *w, const imp_region *whole, const imp_region *
     return status;
 }
 
-/* Where several triangles meet, a net of one of them, with how far the others are from it as its error, is
- * of no more use than the quadratics: it took as many pairs or a few more. */
+/* Where several triangles meet, a net of one of them, with how far the others are from it as its
+ * error, is of no more use than the quadratics: it took as many pairs or a few more. */
 static imp_status net_of(const walk *w, const imp_region *region, int u, int v, imp_net *net)
 {
     share shares[SHARES_MAX];

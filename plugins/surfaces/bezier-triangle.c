@@ -10,8 +10,8 @@
 
 #include <impinge/plugin.h>
 
-/* Bezier triangles whose control points move linearly: one, or many that share points. Each is a piece;
- * all of its mathematics is in triangle.h and in what that says of patches. */
+/* Bezier triangles whose control points move linearly: one, or many that share points. Each is a
+ * piece; all of its mathematics is in triangle.h and in what that says of patches. */
 
 enum { DEGREE, POINTS, WEIGHTS, VELOCITIES, FACES };
 
@@ -22,15 +22,16 @@ static const imp_parameter parameters[] = {
     [DEGREE] = IMP_ROW_OF(IMP_KIND_INTEGER, "degree", "1", "2", 0, 0, 0, 0, 1, TRIANGLE_DEGREE_MAX,
                           "polynomial degree n"),
     [POINTS] = ROW_PATCH_POINTS(
-        "points", "length",
-        "[[0,0,0],[0.5,0,0.3],[0,0.5,0.3],[1,0,0],[0.5,0.5,0.3],[0,1,0]]", 3, 0,
+        "points", "length", "[[0,0,0],[0.5,0,0.3],[0,0.5,0.3],[1,0,0],[0.5,0.5,0.3],[0,1,0]]", 3, 0,
         "control points [x,y,z], row by row from the first corner to the opposite edge: point j of "
         "row k, j <= k <= n, is at index k*(k+1)/2+j"),
-    [WEIGHTS] = ROW_PATCH_WEIGHTS("weights", "one per point, for rational triangles; default: all 1"),
+    [WEIGHTS] =
+        ROW_PATCH_WEIGHTS("weights", "one per point, for rational triangles; default: all 1"),
     [VELOCITIES] = ROW_PATCH_VELOCITIES,
-    [FACES] = IMP_ROW_OF(IMP_KIND_INTEGER, "faces", "1", NULL, IMP_PARAMETER_OPTIONAL, 2, 0, 0, 0, 0x1p32,
-                         "of many triangles: the (n+1)*(n+2)/2 control points of each, by number of "
-                         "the point, from 0; left out: one triangle"),
+    [FACES] =
+        IMP_ROW_OF(IMP_KIND_INTEGER, "faces", "1", NULL, IMP_PARAMETER_OPTIONAL, 2, 0, 0, 0, 0x1p32,
+                   "of many triangles: the (n+1)*(n+2)/2 control points of each, by number of "
+                   "the point, from 0; left out: one triangle"),
 };
 
 typedef struct triangles {
@@ -39,17 +40,18 @@ typedef struct triangles {
     patch *piece[];
 } triangles;
 
-/* --- Creation ------------------------------------------------------------------------------- */
+/* --- Creation --------------------------------------------------------------------------------- */
 
 static imp_status check_points(const imp_value *values, size_t each, imp_create_error *why)
 {
     const size_t points = values[POINTS].extent[0];
     const double n = values[DEGREE].number[0];
     if (!imp_is_given(&values[FACES]) && points != each)
-        return imp_reject(why, POINTS, -1,
-                          "%zu given, but a triangle of degree %g has (%g+1)*(%g+2)/2 = %zu control "
-                          "points; give faces for more triangles",
-                          points, n, n, n, each);
+        return imp_reject(
+            why, POINTS, -1,
+            "%zu given, but a triangle of degree %g has (%g+1)*(%g+2)/2 = %zu control "
+            "points; give faces for more triangles",
+            points, n, n, n, each);
     for (int parameter = WEIGHTS; parameter <= VELOCITIES; ++parameter) {
         const size_t found = values[parameter].extent[0];
         if (imp_is_given(&values[parameter]) && found != points)
@@ -88,7 +90,8 @@ static imp_status check_size(const imp_value *values, size_t count, imp_create_e
     return imp_reject(why, FACES, -1,
                       "%zu triangles of degree %g would take %.0f MiB, must be at most %.0f MiB: "
                       "divide the surface",
-                      count, values[DEGREE].number[0], ceil(bytes * 0x1p-20), TRIANGLES_MAX * 0x1p-20);
+                      count, values[DEGREE].number[0], ceil(bytes * 0x1p-20),
+                      TRIANGLES_MAX * 0x1p-20);
 }
 
 static void triangles_destroy(void *self)
@@ -185,9 +188,10 @@ static const imp_surface_type bezier_triangle = {
     .piece_count = triangles_piece_count,
     .piece = triangles_piece,
     .summary = "Bezier triangles of any degree up to 10, polynomial or rational, moving linearly",
-    .equation = "sum_kj B_kj w_kj (points_kj + t velocities_kj) / sum_kj B_kj w_kj, B_kj = "
-                "n!/((n-k)! (k-j)! j!) a^(n-k) b^(k-j) c^j, a = 1-u, b = u(1-v), c = u v, u and v in "
-                "[0,1]",
+    .equation =
+        "sum_kj B_kj w_kj (points_kj + t velocities_kj) / sum_kj B_kj w_kj, B_kj = "
+        "n!/((n-k)! (k-j)! j!) a^(n-k) b^(k-j) c^j, a = 1-u, b = u(1-v), c = u v, u and v in "
+        "[0,1]",
     .source = "G. Farin, Curves and Surfaces for CAGD",
     .example = "bezier-triangle degree=2 "
                "points=[[0,0,0],[0.5,0,0.2],[0,0.5,0.2],[1,0,0],[0.7,0.7,0.2],[0,1,0]]",

@@ -54,8 +54,9 @@ static void cone_formula(const void *self, imp_model u, imp_model v, imp_model t
 }
 IMP_SURFACE_FORMULA(cone_formula)
 
-/* Lemma. Let points of space have cylindrical coordinates (q, phi, z), q >= 0, z from the base, and let
- * y = (h - z) sign h. Those of the cone lie on the line |h| q = r y, y >= 0, from which (q, y) is
+/* Lemma. Let points of space have cylindrical coordinates (q, phi, z), q >= 0, z from the base, and
+ * let y = (h - z) sign h. Those of the cone lie on the line |h| q = r y, y >= 0, from which (q, y)
+ * is
  *
  *   ||h| q - r y| / L >= ||h| q - r |y|| / L,   L = (h^2 + r^2)^(1/2),
  *

@@ -59,11 +59,12 @@ static double off_upper(const imp_model *square)
     return imp_larger(above, below);
 }
 
-/* A factor that makes |q| - 1 a distance, q = D^-1 x, D = diag(radii), x from the centre. Lemma. |q| - 1 is 0
- * on the surface, and |grad |q|| = |D^-1 q| / |q|, which is at most 1 / b, b the least radius: the factor may
- * be b. Let d be how far x is from the surface, y the nearest point of it, and a the greatest radius. x / |q|
- * lies on the surface, so that d <= a ||q| - 1|. From x to y, q changes by d / b at most, and D^-1 q by d /
- * b^2. With |q| >= least, |D^-1 q| <= steep and ||q| - 1| <= off for all points, the gradient is at most
+/* A factor that makes |q| - 1 a distance, q = D^-1 x, D = diag(radii), x from the centre. Lemma.
+ * |q| - 1 is 0 on the surface, and |grad |q|| = |D^-1 q| / |q|, which is at most 1 / b, b the least
+ * radius: the factor may be b. Let d be how far x is from the surface, y the nearest point of it,
+ * and a the greatest radius. x / |q| lies on the surface, so that d <= a ||q| - 1|. From x to y, q
+ * changes by d / b at most, and D^-1 q by d / b^2. With |q| >= least, |D^-1 q| <= steep and ||q| -
+ * 1| <= off for all points, the gradient is at most
  *
  *   S = (steep + a off / b^2) / (least - a off / b)
  *

@@ -5,8 +5,8 @@
 #include "plugins/common/publish.h"
 #include "plugins/mesh/mesh_parameters.h"
 
-/* Each triangle is a piece: that of the type for single triangles, made of the points when it is asked
- * for something. */
+/* Each triangle is a piece: that of the type for single triangles, made of the points when it is
+ * asked for something. */
 
 static const imp_parameter parameters[] = {
     [MESH_FILE] = ROW_MESH_FILE("triangles or polygons: .obj, .off, or .stl (text or binary)"),
@@ -40,7 +40,7 @@ static void mesh_destroy(void *self)
     free(m);
 }
 
-/* --- Creation ------------------------------------------------------------------------------- */
+/* --- Creation --------------------------------------------------------------------------------- */
 
 static imp_status make_pieces(mesh *m)
 {

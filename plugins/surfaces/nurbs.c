@@ -35,7 +35,7 @@ static const imp_parameter parameters[] = {
     [VELOCITIES] = ROW_PATCH_VELOCITIES,
 };
 
-/* --- Creation --- */
+/* --- Creation --------------------------------------------------------------------------------- */
 
 static knot_row row_of(const imp_value *values, int side)
 {
@@ -176,7 +176,7 @@ static void nurbs_domain(const void *self, double lo[3], double hi[3])
                    knots_hi(&f->side[1]));
 }
 
-/* --- Points --- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 static bool nurbs_has(const nurbs_instance *f, const double *p)
 {
@@ -248,7 +248,7 @@ static imp_status nurbs_eval(const void *self, size_t n, const double *p, double
     return IMP_STATUS_OK;
 }
 
-/* --- Regions --- */
+/* --- Regions ---------------------------------------------------------------------------------- */
 
 static imp_status nurbs_include(const void *self, const imp_region *region, imp_model model[3])
 {

@@ -53,8 +53,8 @@ static imp_status check_edges(const imp_value *values, imp_create_error *why)
                       v[0], v[1], v[2], u[0], u[1], u[2]);
 }
 
-/* a times a power of two, so that its greatest component is from 1/2 to 1, and b alike; components that
- * underflow are negligible, as the normal need not be accurate. */
+/* a times a power of two, so that its greatest component is from 1/2 to 1, and b alike; components
+ * that underflow are negligible, as the normal need not be accurate. */
 static void normal_across(const double a[3], const double b[3], double n[3])
 {
     int of_a, of_b;
@@ -66,8 +66,9 @@ static void normal_across(const double a[3], const double b[3], double n[3])
     }
 }
 
-/* Lemma (length). |n| as computed is within 4 roundings, each quotient within one more: so each component
- * is at most 1 + 8 u times that of a unit vector, and (1 - 2^-48), rounded, takes off 30 u. */
+/* Lemma (length). |n| as computed is within 4 roundings, each quotient within one more: so each
+ * component is at most 1 + 8 u times that of a unit vector, and (1 - 2^-48), rounded, takes off 30
+ * u. */
 static void set_normal(plane_instance *s, const double u[3], const double v[3])
 {
     double n[3], along[2] = {0, 0}, size = 0;
@@ -100,8 +101,9 @@ static imp_status plane_create(const imp_value *values, void **self, imp_create_
     return IMP_STATUS_OK;
 }
 
-/* n.(x - origin), the distance from the endless plane. Lemma. Let |n| <= 1 and y = origin + u edge_u + v
- * edge_v, u and v in [0, 1]. Then |x - y| >= |n.(x - origin) - n.(y - origin)|, and the last is at most
+/* n.(x - origin), the distance from the endless plane. Lemma. Let |n| <= 1 and y = origin + u
+ * edge_u + v edge_v, u and v in [0, 1]. Then |x - y| >= |n.(x - origin) - n.(y - origin)|, and the
+ * last is at most
  * |n.edge_u| + |n.edge_v| <= flatness, in which 2^-48 is 32 u of the terms' size: products and sums
  * round 4 times, those of flatness itself 3. So n need not be accurate. */
 static imp_model plane_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
@@ -116,7 +118,8 @@ static imp_model plane_gap(const void *self, imp_model x, imp_model y, imp_model
 }
 IMP_DISTANCE_FORMULA(plane_gap)
 
-/* n.(x - origin) does not change where x turns about the line through origin along n, or moves across it. */
+/* n.(x - origin) does not change where x turns about the line through origin along n, or moves
+ * across it. */
 static imp_status plane_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const plane_instance *s = self;

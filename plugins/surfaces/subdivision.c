@@ -5,21 +5,23 @@
 #include "plugins/mesh/mesh_parameters.h"
 #include "plugins/subdivision/face.h"
 
-/* A quad between quads, of whose corners one at most is extraordinary, is a piece. Other faces are divided
- * by steps of subdivision until they are such quads: two steps at most, as the first leaves only quads,
- * and the second one extraordinary corner each. So is a triangle of Loop's scheme, for which one step is
- * enough. */
+/* A quad between quads, of whose corners one at most is extraordinary, is a piece. Other faces are
+ * divided by steps of subdivision until they are such quads: two steps at most, as the first leaves
+ * only quads, and the second one extraordinary corner each. So is a triangle of Loop's scheme, for
+ * which one step is enough. */
 
 enum { SCHEME = MESH_VELOCITIES + 1 };
 
 static const imp_parameter parameters[] = {
     [MESH_FILE] = ROW_MESH_FILE("control mesh: .obj or .off"),
     [MESH_POINTS] = ROW_MESH_POINTS,
-    [MESH_FACES] = ROW_MESH_FACES("corners of each face, by number of the point, from 0; all faces go "
-                                  "round the same way"),
+    [MESH_FACES] =
+        ROW_MESH_FACES("corners of each face, by number of the point, from 0; all faces go "
+                       "round the same way"),
     [MESH_VELOCITIES] = ROW_MESH_VELOCITIES,
-    [SCHEME] = IMP_ROW_OF(IMP_KIND_STRING, "scheme", "1", "\"catmull-clark\"", 0, 0, 0, 0, -INFINITY, INFINITY,
-                          "rules of subdivision: catmull-clark, or loop, for triangles"),
+    [SCHEME] =
+        IMP_ROW_OF(IMP_KIND_STRING, "scheme", "1", "\"catmull-clark\"", 0, 0, 0, 0, -INFINITY,
+                   INFINITY, "rules of subdivision: catmull-clark, or loop, for triangles"),
 };
 
 enum { LEVELS = 3 };
@@ -44,7 +46,7 @@ static void subdivision_destroy(void *self)
     free(s);
 }
 
-/* --- Pieces ------------------------------------------------------------------------------------ */
+/* --- Pieces ----------------------------------------------------------------------------------- */
 
 /* Whether all faces at a point are quads, or Loop's triangles. */
 static bool is_among_alike(const control_mesh *m, uint32_t h)
@@ -57,7 +59,8 @@ static bool is_among_alike(const control_mesh *m, uint32_t h)
     return true;
 }
 
-/* Whether a face is a piece; *start is then its half-edge from the extraordinary corner, or its first. */
+/* Whether a face is a piece; *start is then its half-edge from the extraordinary corner, or its
+ * first. */
 static bool is_piece(const control_mesh *m, uint32_t f, uint32_t *start, bool *is_regular)
 {
     *start = m->first[f];
@@ -88,8 +91,8 @@ static bool add_piece(subdivision *s, face piece)
 /* A gauge that is not there yet, for pieces that will have one. */
 static const face_gauge to_be_measured;
 
-/* Makes pieces of the wanted faces of a level; those that are none stay wanted. *left: how many faces
- * these become, at least. */
+/* Makes pieces of the wanted faces of a level; those that are none stay wanted. *left: how many
+ * faces these become, at least. */
 static imp_status take_level(subdivision *s, const control_mesh *m, bool *wanted, size_t *left)
 {
     *left = 0;
@@ -121,7 +124,8 @@ static imp_status divide(subdivision *s, imp_create_error *why)
         if (s->count + left > IMP_PIECES_MAX)
             status = imp_reject(why, -1, -1, "more than %zu faces after %d steps; divide the mesh",
                                 IMP_PIECES_MAX, k);
-        if (status == IMP_STATUS_OK) status = control_refine(&s->level[k - 1], wanted, &s->level[k], &finer);
+        if (status == IMP_STATUS_OK)
+            status = control_refine(&s->level[k - 1], wanted, &s->level[k], &finer);
         free(wanted);
         wanted = finer;
         if (status == IMP_STATUS_OK) status = take_level(s, &s->level[k], wanted, &left);
@@ -144,7 +148,7 @@ static imp_status measure(subdivision *s)
     return IMP_STATUS_OK;
 }
 
-/* --- Creation ----------------------------------------------------------------------------------- */
+/* --- Creation --------------------------------------------------------------------------------- */
 
 static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_error *why)
 {
@@ -152,7 +156,8 @@ static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_
     triangles_fault fault = {0, ""};
     double *velocity = NULL;
     imp_status status = mesh_take_shape(values, &given, why);
-    if (status == IMP_STATUS_OK) status = mesh_take_velocities(values, given.point_count, &velocity, why);
+    if (status == IMP_STATUS_OK)
+        status = mesh_take_velocities(values, given.point_count, &velocity, why);
     if (status != IMP_STATUS_OK) {
         triangles_clear(&given);
         return status;
@@ -171,7 +176,8 @@ static imp_status take_scheme(subdivision *s, const imp_value *values, imp_creat
     const char *name = values[SCHEME].string[0];
     if (strcmp(name, "catmull-clark") == 0) return IMP_STATUS_OK;
     if (strcmp(name, "loop") != 0)
-        return imp_reject(why, SCHEME, -1, "'%.60s' is not a scheme; catmull-clark and loop are", name);
+        return imp_reject(why, SCHEME, -1, "'%.60s' is not a scheme; catmull-clark and loop are",
+                          name);
     s->loop = malloc(sizeof *s->loop);
     if (s->loop == NULL) return IMP_STATUS_INTERNAL;
     box_make_tables(s->loop);
@@ -196,14 +202,17 @@ static imp_status subdivision_create(const imp_value *values, void **self, imp_c
     return status;
 }
 
-static size_t subdivision_piece_count(const void *self) { return ((const subdivision *)self)->count; }
+static size_t subdivision_piece_count(const void *self)
+{
+    return ((const subdivision *)self)->count;
+}
 
 static const void *subdivision_piece(const void *self, size_t k)
 {
     return &((const subdivision *)self)->pieces[k];
 }
 
-/* --- One piece ------------------------------------------------------------------------------------ */
+/* --- One piece -------------------------------------------------------------------------------- */
 
 static void subdivision_domain(const void *self, double lo[3], double hi[3])
 {
@@ -211,12 +220,14 @@ static void subdivision_domain(const void *self, double lo[3], double hi[3])
     imp_set_domain(lo, hi, 0, 1, 0, 1);
 }
 
-static imp_status subdivision_include(const void *self, const imp_region *region, imp_model model[3])
+static imp_status subdivision_include(const void *self, const imp_region *region,
+                                      imp_model model[3])
 {
     return face_include(self, region, model);
 }
 
-static imp_status subdivision_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
+static imp_status subdivision_rate(const void *self, const imp_region *region,
+                                   imp_rate_matrix *rates)
 {
     imp_model model[3];
     const imp_status status = face_include(self, region, model);
@@ -241,11 +252,13 @@ static const imp_surface_type subdivision_type = {
     .piece = subdivision_piece,
     .summary = "Catmull-Clark surface of a control mesh of any polygons, or Loop surface of one of "
                "triangles; points may move linearly",
-    .equation = "limit of subdivision, points_k + t velocities_k; at a border: of its cubic B-spline, "
-                "which ends at corners; each quad: u and v in [0,1]; each triangle: as bezier-triangle",
-    .source = "E. Catmull, J. Clark, Recursively generated B-spline surfaces, Computer-Aided Design "
-              "1978; C. Loop, Smooth subdivision surfaces based on triangles, 1987; J. Stam, SIGGRAPH "
-              "1998 and 1999",
+    .equation =
+        "limit of subdivision, points_k + t velocities_k; at a border: of its cubic B-spline, "
+        "which ends at corners; each quad: u and v in [0,1]; each triangle: as bezier-triangle",
+    .source =
+        "E. Catmull, J. Clark, Recursively generated B-spline surfaces, Computer-Aided Design "
+        "1978; C. Loop, Smooth subdivision surfaces based on triangles, 1987; J. Stam, SIGGRAPH "
+        "1998 and 1999",
     .example = "subdivision points=[[-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],"
                "[-1,1,1],[1,1,1]] "
                "faces=[[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]",

@@ -8,8 +8,8 @@
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
 
-/* Only the flanks, without end discs. The radius follows the phase, starts u - 2 pi z / pitch, z from the
- * centre: a screw motion by starts * pitch a turn takes the endless thread into itself. */
+/* Only the flanks, without end discs. The radius follows the phase, starts u - 2 pi z / pitch, z
+ * from the centre: a screw motion by starts * pitch a turn takes the endless thread into itself. */
 
 enum { RADIUS, PROFILE, PITCH, STARTS, HEIGHT, CENTER };
 enum { HARMONICS_MAX = 32, STARTS_MAX = 1000 };
@@ -116,22 +116,24 @@ static void thread_formula(const void *self, imp_model u, imp_model v, imp_model
 }
 IMP_SURFACE_FORMULA(thread_formula)
 
-/* --- Distance ---------------------------------------------------------------------------------------
+/* --- Distance
+ * ---------------------------------------------------------------------------------------
  *
- * Let a point have cylindrical coordinates (q, theta, z) about the axis, phase phi = starts theta - 2 pi z /
- * pitch, and F = q - R(phi), which is 0 on the endless thread. At q > 0
+ * Let a point have cylindrical coordinates (q, theta, z) about the axis, phase phi = starts theta -
+ * 2 pi z / pitch, and F = q - R(phi), which is 0 on the endless thread. At q > 0
  *
  *   |grad F|^2 = 1 + R'(phi)^2 |grad phi|^2,   |grad phi|^2 = (2 pi / pitch)^2 + (starts / q)^2.
  *
- * Lemma (way). Let p be a point, y the nearest to it of the endless thread, d how far apart they are, and m >
- * 0 at most the least radius. Since the point of the thread that lies radially from p is |F(p)| away, d <=
+ * Lemma (way). Let p be a point, y the nearest to it of the endless thread, d how far apart they
+ * are, and m > 0 at most the least radius. Since the point of the thread that lies radially from p
+ * is |F(p)| away, d <=
  * |F(p)|. The points between p and y are s from p and d - s from y, s in [0, d], so that their q is at least
  * q_p - s and m - (d - s): at least the mean of both,
  *
  *   q >= (q_p + m - d) / 2,   and   q >= m - d.
  *
- * There phi is no farther from that of p than d times the greatest |grad phi|. So where S >= |grad F| all the
- * way, |F(p)| = |F(p) - F(y)| <= S d. */
+ * There phi is no farther from that of p than d times the greatest |grad phi|. So where S >= |grad
+ * F| all the way, |F(p)| = |F(p) - F(y)| <= S d. */
 
 /* At most R' where the phase is within the range. */
 static double slope_upper(const thread_instance *s, imp_interval phase)
@@ -151,7 +153,8 @@ static double hypot_upper(double x, double y)
     return imp_round_up(sqrt(imp_sum_up(imp_round_up(x * x) + imp_round_up(y * y))));
 }
 
-/* S at most, for ways no longer than `way` from points with these phases, on which q >= least > 0. */
+/* S at most, for ways no longer than `way` from points with these phases, on which q >= least >
+ * 0. */
 static double steepness_upper(const thread_instance *s, imp_interval phase, double way,
                               double least)
 {
@@ -162,9 +165,9 @@ static double steepness_upper(const thread_instance *s, imp_interval phase, doub
     return hypot_upper(1, imp_round_up(slope_upper(s, near) * twist));
 }
 
-/* A factor that makes F a distance. Lemma. Let |F| <= most and q >= nearest for all points p, and h = m / 2.
- * With q >= (nearest + m - most) / 2 all the way the factor may be 1 / S. And where d <= h, q >= h all the way;
- * where d > h, a factor of h / most or less leaves |F| below d. */
+/* A factor that makes F a distance. Lemma. Let |F| <= most and q >= nearest for all points p, and h
+ * = m / 2. With q >= (nearest + m - most) / 2 all the way the factor may be 1 / S. And where d <=
+ * h, q >= h all the way; where d > h, a factor of h / most or less leaves |F| below d. */
 static double factor_lower(const thread_instance *s, imp_interval phase, double most,
                            double nearest)
 {
@@ -177,8 +180,8 @@ static double factor_lower(const thread_instance *s, imp_interval phase, double 
     return imp_larger(limited, open);
 }
 
-/* The angle about the axis, off by whole turns. Lemma. With (c, r) any vector but 0, (x', y') = (x c + y r,
- * y c - x r) has the angle of (x, y) less that of (c, r), and |(c, r)| q as its length. */
+/* The angle about the axis, off by whole turns. Lemma. With (c, r) any vector but 0, (x', y') = (x
+ * c + y r, y c - x r) has the angle of (x, y) less that of (c, r), and |(c, r)| q as its length. */
 static imp_model angle_of(const imp_model m[2], imp_model q)
 {
     const double size = imp_larger(fabs(m[0].a), fabs(m[1].a));

@@ -54,10 +54,10 @@ static void torus_formula(const void *self, imp_model u, imp_model v, imp_model 
 }
 IMP_SURFACE_FORMULA(torus_formula)
 
-/* From the middle of the tube, less its radius. Lemma. Let points of space have cylindrical coordinates
- * (q, phi, z), q >= 0. Two of them are at least as far apart as their (q, z) are. Where minor <= major,
- * those of the torus are the circle of that radius around (major, 0); it intersects itself otherwise,
- * and that circle is not all. */
+/* From the middle of the tube, less its radius. Lemma. Let points of space have cylindrical
+ * coordinates (q, phi, z), q >= 0. Two of them are at least as far apart as their (q, z) are. Where
+ * minor <= major, those of the torus are the circle of that radius around (major, 0); it intersects
+ * itself otherwise, and that circle is not all. */
 static imp_model torus_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     const torus_instance *s = self;

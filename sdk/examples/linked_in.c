@@ -3,8 +3,9 @@
 #include <impinge/impinge.h>
 #include <stdio.h>
 
-/* A program that brings its types along: no folder is searched, no file loaded. Each plugin is compiled
- * with a name of its own for its one symbol, and all is linked with the archive libimpinge.a:
+/* A program that brings its types along: no folder is searched, no file loaded. Each plugin is
+ * compiled with a name of its own for its one symbol, and all is linked with the archive
+ * libimpinge.a:
  *
  *     for name in seashell twirl hand_rates; do
  *         cc -c -O2 -ffp-contract=off -DIMPINGE_PLUGIN_SYMBOL=${name}_plugin $name.c \

@@ -1,8 +1,8 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: MIT */
 
-/* A type of a class, in C++17. Operators let the formula read like mathematics, the tables are compile-time
- * constants, and what a constructor throws rejects the parameters.
+/* A type of a class, in C++17. Operators let the formula read like mathematics, the tables are
+ * compile-time constants, and what a constructor throws rejects the parameters.
  *
  * A puddle after a drop has fallen into it: rings run outward and decay with the distance. */
 

@@ -3,10 +3,10 @@
 #include <impinge/impinge.h>
 #include <stdio.h>
 
-/* A loop of fixed steps that never tunnels. A ball flies between two walls, so fast that one step takes
- * it farther than the room is wide: tests made at the steps alone would see it inside, or outside,
- * without any contact between. Here each flight is asked about once, and h(t) = t0 - t, the time left
- * until contact, says of each step whether it may be taken whole.
+/* A loop of fixed steps that never tunnels. A ball flies between two walls, so fast that one step
+ * takes it farther than the room is wide: tests made at the steps alone would see it inside, or
+ * outside, without any contact between. Here each flight is asked about once, and h(t) = t0 - t,
+ * the time left until contact, says of each step whether it may be taken whole.
  *
  *     cc steps.c $(pkg-config --cflags --libs impinge) -o steps && ./steps */
 
@@ -45,8 +45,8 @@ static imp_code add_ball(imp_builder *b, const ball *now, imp_error *error)
     return code != IMP_SUCCESS ? code : imp_builder_map(b, body, "translate", &motion, 1, error);
 }
 
-/* The ball's flight from now on. The wall that it leaves is still within gamma, and is ignored: a ball
- * cannot come back to a flat wall without meeting another. */
+/* The ball's flight from now on. The wall that it leaves is still within gamma, and is ignored: a
+ * ball cannot come back to a flat wall without meeting another. */
 static imp_code ask(imp_registry *registry, const ball *now, imp_result *next, imp_error *error)
 {
     imp_builder *b = imp_builder_new(registry);

@@ -24,8 +24,9 @@ constexpr auto shape = [](const double *p, const impinge::model &u, const imping
 };
 
 constexpr imp_surface_type waves = impinge::surface_from<shape, where>(
-    rows, {"waves", "waves that run across a square",
-           "(u, v, height sin(waves (u + v/2) - speed t)), u and v in [-1, 1]", "waves height=0.2"});
+    rows,
+    {"waves", "waves that run across a square",
+     "(u, v, height sin(waves (u + v/2) - speed t)), u and v in [-1, 1]", "waves height=0.2"});
 
 } // namespace
 

@@ -34,7 +34,8 @@ extern "C" {
  *
  * It defines swing_pose_eval, swing_pose_rate, swing_pose_apply and swing_pose_rigid.
  *
- * The optional distance of a point from the surface (imp_surface_type.distance) can be a formula too:
+ * The optional distance of a point from the surface (imp_surface_type.distance) can be a formula
+ * too:
  *
  *   static imp_model ball_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t);
  *   IMP_DISTANCE_FORMULA(ball_gap)
@@ -59,7 +60,8 @@ static inline imp_status imp_formula_point_(const imp_model out[3], double *x, d
     return IMP_STATUS_OK;
 }
 
-/* What include and apply return for these models: IMP_STATUS_UNBOUNDED where anything is infinite, else IMP_STATUS_OK. */
+/* What include and apply return for these models: IMP_STATUS_UNBOUNDED where anything is infinite,
+ * else IMP_STATUS_OK. */
 static inline imp_status imp_models_status(const imp_model out[3])
 {
     imp_status status = IMP_STATUS_OK;
@@ -218,7 +220,7 @@ static inline imp_status imp_map_formula_rate_(imp_map_formula f, const void *se
         return imp_map_formula_apply_(FORMULA, self, in, out);                                     \
     }
 
-/* --- Rigid maps ------------------------------------------------------------------------------ */
+/* --- Rigid maps ------------------------------------------------------------------------------- */
 
 /* The pose of a map that moves nothing; what turns or moves is set after it. */
 static inline void imp_pose_at_rest(imp_pose *pose)

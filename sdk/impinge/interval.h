@@ -41,7 +41,7 @@ typedef struct imp_interval {
     double lo, hi;
 } imp_interval;
 
-/* --- Rounding outward ---------------------------------------------------------------------- */
+/* --- Rounding outward ------------------------------------------------------------------------- */
 
 /* At least every z with (R). Lemma: |x| 2^-52 >= ulp(x) for normal x, and IMP_TINY covers the rest,
  * so the sum in exact arithmetic is >= the double above x, and fl is monotone. z itself lies below
@@ -68,7 +68,7 @@ static inline double imp_larger(double a, double b) { return a > b ? a : b; }
 
 static inline double imp_smaller(double a, double b) { return a < b ? a : b; }
 
-/* --- Construction and queries -------------------------------------------------------------- */
+/* --- Construction and queries ----------------------------------------------------------------- */
 
 /* [lo, hi]; a NaN end becomes infinite. */
 static inline imp_interval imp_interval_make(double lo, double hi)
@@ -117,7 +117,7 @@ static inline imp_interval imp_interval_intersect(imp_interval x, imp_interval y
     return imp_interval_make(imp_larger(x.lo, y.lo), imp_smaller(x.hi, y.hi));
 }
 
-/* --- Arithmetic ---------------------------------------------------------------------------- */
+/* --- Arithmetic ------------------------------------------------------------------------------- */
 
 static inline imp_interval imp_interval_neg(imp_interval x)
 {
@@ -220,7 +220,7 @@ static inline imp_interval imp_interval_sqrt(imp_interval x)
     return imp_interval_make(imp_larger(lo, 0), imp_round_up(sqrt(x.hi)));
 }
 
-/* --- Elementary functions ------------------------------------------------------------------ */
+/* --- Elementary functions --------------------------------------------------------------------- */
 
 /* The doubles next to pi, and those above pi/2 and 2 pi: ends of domains that contain a whole turn.
  */

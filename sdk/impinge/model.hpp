@@ -12,7 +12,8 @@
 /* Surface types in C++17
  * ======================
  *
- * A class with a formula becomes a type. Its constructor reads the values, and may throw impinge::rejected.
+ * A class with a formula becomes a type. Its constructor reads the values, and may throw
+ * impinge::rejected.
  *
  *   class ball
  *   {
@@ -32,19 +33,21 @@
  *       rows, {"ball", "a tube that rises", "(radius cos u, radius sin u, v + t/2)", "ball radius=2"});
  *   IMPINGE_SURFACE_PLUGIN("ball", "1.0", "MIT", "your name", type);
  *
- * A lambda is enough where all parameters are single numbers: impinge::surface_from<shape, where>(rows, texts),
- * with constexpr lambdas shape(const double *numbers, model u, model v, model t) -> point and
- * where(const double *numbers) -> domain.
+ * A lambda is enough where all parameters are single numbers: impinge::surface_from<shape,
+ * where>(rows, texts), with constexpr lambdas shape(const double *numbers, model u, model v, model
+ * t) -> point and where(const double *numbers) -> domain.
  *
- * Instances are deleted by the host's call of destroy. No exception leaves a callback: one that is thrown in create
- * rejects the parameters with its text, any other is IMP_STATUS_INTERNAL. [thread-safe], as in <impinge/surface.h>. */
+ * Instances are deleted by the host's call of destroy. No exception leaves a callback: one that is
+ * thrown in create rejects the parameters with its text, any other is IMP_STATUS_INTERNAL.
+ * [thread-safe], as in <impinge/surface.h>. */
 
 namespace impinge
 {
 
-/* --- Models with operators --------------------------------------------------------------------- */
+/* --- Models with operators -------------------------------------------------------------------- */
 
-/* A value of <impinge/model.h>. Numbers convert to it; operations with a number cost less than with a model. */
+/* A value of <impinge/model.h>. Numbers convert to it; operations with a number cost less than with
+ * a model. */
 class model
 {
   public:
@@ -100,7 +103,8 @@ struct domain {
     double u_lo, u_hi, v_lo, v_hi, t_lo = -INFINITY, t_hi = INFINITY;
 };
 
-/* What a constructor throws: which parameter (row; -1: the type as a whole) is wrong, and a sentence that lives on. */
+/* What a constructor throws: which parameter (row; -1: the type as a whole) is wrong, and a
+ * sentence that lives on. */
 struct rejected {
     int parameter;
     const char *text;
@@ -110,7 +114,7 @@ struct texts {
     const char *name, *summary, *equation, *example;
 };
 
-/* --- Callbacks ---------------------------------------------------------------------------------- */
+/* --- Callbacks -------------------------------------------------------------------------------- */
 
 /* For a class T as above. */
 template <class T> struct callbacks {
@@ -179,8 +183,7 @@ template <class T> struct callbacks {
         return guarded([=] { return imp_surface_formula_rate_(formula, self, region, rates); });
     }
 
-    static imp_status include(const void *self, const imp_region *region,
-                              imp_model out[3]) noexcept
+    static imp_status include(const void *self, const imp_region *region, imp_model out[3]) noexcept
     {
         return guarded([=] { return imp_surface_formula_include_(formula, self, region, out); });
     }

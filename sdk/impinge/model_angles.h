@@ -15,7 +15,7 @@ extern "C" {
  * As in <impinge/model_functions.h>: x = m + y, |y| <= r, t_k Taylor coefficients at m,
  * slope >= |g'| over the range of x. */
 
-/* --- Circular functions -------------------------------------------------------------------- */
+/* --- Circular functions ----------------------------------------------------------------------- */
 
 /* A function with the value f and the derivative g at m, and -f as its second derivative, and so
  * on: f + g y - f y^2 / 2 - g y^3 / 6 + f y^4 / 24 within r^5 / 120. Its slope is at most |g| + |f|
@@ -78,7 +78,7 @@ static inline imp_model imp_tan(imp_model x)
     return imp_compose(&x, &s, range, slope);
 }
 
-/* --- Inverse circular functions ------------------------------------------------------------ */
+/* --- Inverse circular functions --------------------------------------------------------------- */
 
 /* With w = 1 / (1 + m^2): t_1 = w, t_2 = -m w^2, t_3 = (3 m^2 - 1) w^3 / 3, t_4 = m (1 - m^2) w^4;
  * the next is at most w^(5/2) / 5 in magnitude, w being largest where |x| is least. t_3 and t_4
@@ -157,7 +157,7 @@ static inline imp_model imp_acos(imp_model x)
     return imp_compose(&x, &s, range, slope);
 }
 
-/* --- Hyperbolic functions ------------------------------------------------------------------ */
+/* --- Hyperbolic functions --------------------------------------------------------------------- */
 
 /* sinh and cosh are their own second derivatives; cosh at the far end bounds the fifth. At a point,
  * within 2^-30 |x| < 10^-6 of the exact x, slopes differ by less than 1 in 1000. */
@@ -208,7 +208,7 @@ static inline imp_model imp_tanh(imp_model x)
     return imp_compose(&x, &s, range, slope);
 }
 
-/* --- The angle of a point ------------------------------------------------------------------ */
+/* --- The angle of a point --------------------------------------------------------------------- */
 
 /* All angles, at any rate: where (x, y) may cross the cut or be the origin. */
 static inline imp_model imp_any_angle_(uint32_t depends)

@@ -27,7 +27,7 @@ extern "C" {
 #define IMP_U 0x1p-53
 #define IMP_SLACK (1 + 0x1p-46)
 
-/* --- Constants and parameters -------------------------------------------------------------- */
+/* --- Constants and parameters ----------------------------------------------------------------- */
 
 static inline imp_model imp_model_zero(void)
 {
@@ -123,7 +123,7 @@ static inline imp_model imp_const_pi(void)
     return r;
 }
 
-/* --- Queries and finishing ----------------------------------------------------------------- */
+/* --- Queries and finishing -------------------------------------------------------------------- */
 
 static inline imp_interval imp_model_range(const imp_model *x)
 {
@@ -242,7 +242,7 @@ static inline imp_model imp_model_box(double a, double a_error, const double rat
     return r;
 }
 
-/* --- Sums ---------------------------------------------------------------------------------- */
+/* --- Sums ------------------------------------------------------------------------------------- */
 
 static inline imp_model imp_neg(imp_model x)
 {
@@ -311,7 +311,7 @@ static inline imp_model imp_add(imp_model x, imp_model y)
 
 static inline imp_model imp_sub(imp_model x, imp_model y) { return imp_add(x, imp_neg(y)); }
 
-/* --- Products ------------------------------------------------------------------------------ */
+/* --- Products --------------------------------------------------------------------------------- */
 
 /* x k at a point. */
 static inline imp_model imp_scale_point_(double a, double k, double error)

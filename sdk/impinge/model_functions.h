@@ -15,7 +15,7 @@ extern "C" {
  * In each lemma, x is the argument, m + y with |y| <= r over its range; t_k are Taylor coefficients
  * at m. slope is an upper bound of |g'| over the range of x; the rates follow from it. */
 
-/* --- Polynomials --------------------------------------------------------------------------- */
+/* --- Polynomials ------------------------------------------------------------------------------ */
 
 /* x^2 = m^2 + 2 m y + y^2, exactly but for the rounding of m^2. */
 static inline imp_model imp_sqr(imp_model x)
@@ -154,7 +154,7 @@ static inline imp_model imp_powi_positive_(imp_model x, int n)
     return imp_compose(&x, &s, imp_interval_powi(range, n), imp_round_up(top * n));
 }
 
-/* --- Quotients ----------------------------------------------------------------------------- */
+/* --- Quotients -------------------------------------------------------------------------------- */
 
 /* x / y at a point: |x / y - a / a'| <= (e + |a / a'| e') / min |y|. A product that underflows is
  * within IMP_TINY, which `least` may enlarge. */
@@ -261,7 +261,7 @@ static inline imp_model imp_powi(imp_model x, int n)
     return n < 0 ? imp_div(imp_num(1), r) : r;
 }
 
-/* --- Exponential and logarithm ------------------------------------------------------------- */
+/* --- Exponential and logarithm ---------------------------------------------------------------- */
 
 /* At least e^r, for a factor: below 5/4, e^r <= 1 + 2 r. */
 static inline double imp_growth_upper_(double r)
@@ -305,7 +305,7 @@ static inline imp_model imp_log(imp_model x)
     return imp_compose(&x, &s, range, slope);
 }
 
-/* --- Real powers --------------------------------------------------------------------------- */
+/* --- Real powers ------------------------------------------------------------------------------ */
 
 /* Series of (m + y)^p, m > 0, in z = y / m: value sum C(p, k) z^k with value = m^p, within (L).
  * From k = 5 on a term is the one before times |p - k| / (k + 1) |z| <= g |z| with g = max(1, (|p|
@@ -371,7 +371,7 @@ static inline imp_model imp_pow_model(imp_model x, imp_model y)
     return imp_exp(imp_mul(y, imp_log(x)));
 }
 
-/* --- Kinks --------------------------------------------------------------------------------- */
+/* --- Kinks ------------------------------------------------------------------------------------ */
 
 /* |x|. If x has one sign: x or -x. Otherwise, with R = max |x|, on [-R, R]: z^2 / R <= |z| <= z^2 /
  * R + R / 4; or, when one side is short, |z| is z or -z within twice that side. */

@@ -95,7 +95,7 @@ static inline int imp_series_is_sharp_(const imp_series *s)
     return s->e + imp_series_bend_(s) <= 0x1p-8 * slant * s->r && 4 * fabs(s->c[2]) * s->r <= slant;
 }
 
-/* --- Substitution -------------------------------------------------------------------------- */
+/* --- Substitution ----------------------------------------------------------------------------- */
 
 /* With p = P - m = A + L + Q, x = m + p + delta and y = p + delta, |y| <= r:
  *
@@ -161,7 +161,8 @@ static inline double imp_substitute_error_(const imp_model *x, const imp_series 
 }
 
 /* Where Q is 0 and L has but one parameter p, most of what follows is 0. */
-static inline void imp_substitute_line_(const imp_model *x, const imp_series *s, int p, imp_model *r)
+static inline void imp_substitute_line_(const imp_model *x, const imp_series *s, int p,
+                                        imp_model *r)
 {
     static const int square[3] = {IMP_UU, IMP_VV, IMP_TT};
     double a = x->a - s->m, b = x->b[p], slant = imp_series_slant_(s), c2 = s->c[2];

@@ -38,13 +38,14 @@ extern "C" {
  *   };
  *   IMPINGE_SURFACE_PLUGIN("ball", "1.0", "MIT", "your name", ball);
  *
- * In C++17 everything but IMP_..._FIELDS works alike; IMP_SURFACE_VALUE and IMP_MAP_VALUE stand in for
- * those. <impinge/model.hpp> makes a type of a class or of a lambda. */
+ * In C++17 everything but IMP_..._FIELDS works alike; IMP_SURFACE_VALUE and IMP_MAP_VALUE stand in
+ * for those. <impinge/model.hpp> makes a type of a class or of a lambda. */
 
 /* --- Rows of a parameter table ---------------------------------------------------------------
  *
  * NAME, UNIT, DOC: as in imp_parameter. DEFAULT: JSON text, or NULL for a parameter that must be
- * given. FLAGS: 0, or IMP_PARAMETER_OPTIONAL with a DEFAULT of NULL, or others of IMP_PARAMETER_MIN_OPEN ... */
+ * given. FLAGS: 0, or IMP_PARAMETER_OPTIONAL with a DEFAULT of NULL, or others of
+ * IMP_PARAMETER_MIN_OPEN ... */
 
 /* Any row, and any row of numbers: RANK and EXTENT as in imp_parameter, each number between MIN and
  * MAX. */
@@ -80,7 +81,7 @@ extern "C" {
 #define IMP_ROW_BOOLEAN(NAME, DEFAULT, DOC)                                                        \
     IMP_ROW_OF(IMP_KIND_BOOLEAN, NAME, "1", DEFAULT, 0, 0, 0, 0, -INFINITY, INFINITY, DOC)
 
-/* --- In create ------------------------------------------------------------------------------- */
+/* --- In create -------------------------------------------------------------------------------- */
 
 /* Was the value of a row with IMP_PARAMETER_OPTIONAL given? */
 static inline bool imp_is_given(const imp_value *value) { return value->count > 0; }
@@ -91,8 +92,8 @@ static inline void imp_copy_vector(double to[3], const imp_value *value)
 }
 
 /* Reports an error in one element of a parameter. -1 for `element` means the whole parameter, and
- * -1 for both means the type. Returns IMP_STATUS_PARAMETER, which create returns in turn. The text is one
- * sentence, formatted as by printf: what was got, and what is allowed. */
+ * -1 for both means the type. Returns IMP_STATUS_PARAMETER, which create returns in turn. The text
+ * is one sentence, formatted as by printf: what was got, and what is allowed. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5), unused))
 #endif
@@ -108,7 +109,7 @@ imp_reject(imp_create_error *why, int parameter, int64_t element, const char *fo
     return IMP_STATUS_PARAMETER;
 }
 
-/* --- Domains --------------------------------------------------------------------------------- */
+/* --- Domains ---------------------------------------------------------------------------------- */
 
 /* u and v as given, at all times. Angles up to IMP_TWO_PI_UPPER cover the full turn, so that
  * rounding leaves no gap. */
@@ -166,8 +167,8 @@ static inline void imp_set_domain(double lo[3], double hi[3], double u_lo, doubl
 #else
 }
 
-/* C++ wants designated initializers in the order of the fields. Here the same macros, with VALUE for FIELDS,
- * are a value that a lambda completes:
+/* C++ wants designated initializers in the order of the fields. Here the same macros, with VALUE
+ * for FIELDS, are a value that a lambda completes:
  *
  *   constexpr imp_surface_type ball = [] {
  *       imp_surface_type type = IMP_SURFACE_VALUE(ball, ball_formula);

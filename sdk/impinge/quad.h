@@ -112,8 +112,8 @@ IMP_QUAD_INLINE bool imp_quad_any(imp_quad_mask m)
     return (half[0][0] | half[0][1]) != 0;
 }
 
-/* A shuffle of two quads: lanes 0 to 3 are those of x, 4 to 7 those of y. With the builtin, gcc transposes four
- * rows in 8 instructions; with an initialiser of single lanes it takes 20. */
+/* A shuffle of two quads: lanes 0 to 3 are those of x, 4 to 7 those of y. With the builtin, gcc
+ * transposes four rows in 8 instructions; with an initialiser of single lanes it takes 20. */
 #if defined(__has_builtin)
 #if __has_builtin(__builtin_shufflevector)
 #define IMP_QUAD_SHUFFLE(x, y, i, j, k, l) __builtin_shufflevector(x, y, i, j, k, l)

@@ -67,17 +67,17 @@ extern "C" {
 #define IMP_EXPORT
 #endif
 
-/* Whether the struct that p points to, which begins with its struct_size, has a field: structs of a plugin that
- * was built with an older header end before fields that were appended since. And whether it has a callback
- * there that is not NULL. */
+/* Whether the struct that p points to, which begins with its struct_size, has a field: structs of a
+ * plugin that was built with an older header end before fields that were appended since. And
+ * whether it has a callback there that is not NULL. */
 #define IMP_HAS(p, field)                                                                          \
     ((size_t)((const char *)(&(p)->field + 1) - (const char *)(p)) <= (p)->struct_size)
 #define IMP_OFFERS(p, callback) (IMP_HAS(p, callback) && (p)->callback != NULL)
 
-/* --- Status -------------------------------------------------------------- */
+/* --- Status ----------------------------------------------------------------------------------- */
 
-/* What a callback returns. Errors are return values, not exceptions: set no errno. (Functions of libimpinge
- * return an imp_code: IMP_SUCCESS, IMP_ERROR_....) */
+/* What a callback returns. Errors are return values, not exceptions: set no errno. (Functions of
+ * libimpinge return an imp_code: IMP_SUCCESS, IMP_ERROR_....) */
 typedef int32_t imp_status;
 enum {
     IMP_STATUS_OK = 0,
@@ -88,7 +88,7 @@ enum {
     IMP_STATUS_INTERNAL = 4   /* anything else, memory included; the query ends with an error */
 };
 
-/* --- Parameters of a type ------------------------------------------------- */
+/* --- Parameters of a type --------------------------------------------------------------------- */
 
 typedef uint32_t imp_kind;
 enum {
@@ -133,9 +133,9 @@ typedef struct imp_value {
     const char *const *string;   /* STRING, TABLE (the names): count */
 } imp_value;
 
-/* How create reports what is wrong, if it returns IMP_STATUS_PARAMETER. The host has set struct_size,
- * parameter = -1, element = -1, text = "". State what was got and what is allowed; the host adds
- * the place (file, line, JSON pointer). */
+/* How create reports what is wrong, if it returns IMP_STATUS_PARAMETER. The host has set
+ * struct_size, parameter = -1, element = -1, text = "". State what was got and what is allowed; the
+ * host adds the place (file, line, JSON pointer). */
 typedef struct imp_create_error {
     uint32_t struct_size;
     int32_t parameter; /* row of the wrong parameter, or -1 for the type as a whole */
@@ -143,7 +143,7 @@ typedef struct imp_create_error {
     char text[240];    /* NUL-terminated, one sentence */
 } imp_create_error;
 
-/* --- Regions, rates, models ------------------------------------------------ */
+/* --- Regions, rates, models ------------------------------------------------------------------- */
 
 /* A box in p = (u, v, t). Guaranteed: lo <= c <= hi, all finite; c - d <= lo and
  * hi <= c + d in exact arithmetic; d == 0 exactly where lo == hi. Inside a region,
@@ -180,9 +180,9 @@ enum { IMP_UU = 0, IMP_UV = 1, IMP_UT = 2, IMP_VV = 3, IMP_VT = 4, IMP_TT = 5 };
  *   lo <= g(p) <= hi
  *
  * and |g(p) - g(p')| <= sum_j rate_j |p_j - p'_j| inside the region. All finite, e >= 0, lo <= hi,
- * rate >= 0, unless the callback returns IMP_STATUS_UNBOUNDED: then rate may be INFINITY, lo -INFINITY, hi
- * and e INFINITY, and every bound that is finite still holds. A model can be made of a point and the
- * rates alone: a = g(c), b = q = 0, e = sum_j M_ij d_j. */
+ * rate >= 0, unless the callback returns IMP_STATUS_UNBOUNDED: then rate may be INFINITY, lo
+ * -INFINITY, hi and e INFINITY, and every bound that is finite still holds. A model can be made of
+ * a point and the rates alone: a = g(c), b = q = 0, e = sum_j M_ij d_j. */
 typedef struct imp_model {
     double a;          /* length */
     double b[3];       /* length, per unit of s */
@@ -198,16 +198,18 @@ typedef struct imp_model {
 /* The most control points of a net. */
 enum { IMP_NET_POINTS = 36 };
 
-/* A control net over a region: a moving Bezier patch of degrees n and m that the surface follows. For
- * every (u, v, t) in the region, with s = (p - lo) / (hi - lo) for u and v (0 where lo == hi), the
- * Bernstein polynomials B of degrees n and m, tau = t - c[2], and each coordinate f of the surface,
+/* A control net over a region: a moving Bezier patch of degrees n and m that the surface follows.
+ * For every (u, v, t) in the region, with s = (p - lo) / (hi - lo) for u and v (0 where lo == hi),
+ * the Bernstein polynomials B of degrees n and m, tau = t - c[2], and each coordinate f of the
+ * surface,
  *
  *   | f - (place + tau drift + sum_ij b_ij (point_k + tau velocity_k)) | <= error,
  *   b_ij = w_k B_i(s_u) B_j(s_v) / sum of all of these,   k = i (m + 1) + j,   i <= n, j <= m.
  *
  * So the convex hull of the control points holds the surface at each moment, but for the error. The
- * host has set all to 0, and reads the first (n + 1) (m + 1) points, IMP_NET_POINTS at most. Far from
- * the origin, place and drift keep points and velocities small. All finite, error >= 0, weights > 0. */
+ * host has set all to 0, and reads the first (n + 1) (m + 1) points, IMP_NET_POINTS at most. Far
+ * from the origin, place and drift keep points and velocities small. All finite, error >= 0,
+ * weights > 0. */
 typedef struct imp_net {
     uint32_t degree[2];                 /* n along u, m along v */
     uint32_t is_moving;                 /* 0: velocities are all 0 */
@@ -219,17 +221,18 @@ typedef struct imp_net {
     double weight[IMP_NET_POINTS];      /* 1; only their ratios matter */
 } imp_net;
 
-/* The pose of a rigid map over a span of times: for every point x of space and every time t of them,
+/* The pose of a rigid map over a span of times: for every point x of space and every time t of
+ * them,
  *
  *   phi(x, t) = shift(t) + turn(t) (x - pivot)
  *
  * turn(t) is a rotation: no entry of turn^T turn - 1 is beyond IMP_RIGID_SLACK in size, and its
- * determinant is positive. The entries are models of functions of t alone, whose s_2 is that of t; the
- * pivot is exact. Any pivot is right; best is one about which the map turns, because what is not known
- * of a rotation moves a point the farther, the farther it is from the pivot. All finite.
+ * determinant is positive. The entries are models of functions of t alone, whose s_2 is that of t;
+ * the pivot is exact. Any pivot is right; best is one about which the map turns, because what is
+ * not known of a rotation moves a point the farther, the farther it is from the pivot. All finite.
  *
- * `fixed` is a direction that turn(t) leaves as it is at all times, in exact arithmetic: that of a constant axis. 0:
- * none is known. Some component is from 1e-100 to 1e100, none is larger. */
+ * `fixed` is a direction that turn(t) leaves as it is at all times, in exact arithmetic: that of a
+ * constant axis. 0: none is known. Some component is from 1e-100 to 1e100, none is larger. */
 #define IMP_RIGID_SLACK 0x1p-16
 
 typedef struct imp_pose {
@@ -239,11 +242,12 @@ typedef struct imp_pose {
     double fixed[3];      /* any unit */
 } imp_pose;
 
-/* --- How a surface can be moved within itself ------------------------------------- */
+/* --- How a surface can be moved within itself ------------------------------------------------- */
 
-/* Which rigid motions map the surface, or the larger one from which its `distance` measures, onto itself, at
- * any time: those of a sphere, of a surface of revolution, of an endless cylinder or of an endless plane. The line goes through the center along
- * the axis, whose length does not matter. Center and axis are exact. */
+/* Which rigid motions map the surface, or the larger one from which its `distance` measures, onto
+ * itself, at any time: those of a sphere, of a surface of revolution, of an endless cylinder or of
+ * an endless plane. The line goes through the center along the axis, whose length does not matter.
+ * Center and axis are exact. */
 enum {
     IMP_SYMMETRY_ABOUT_POINT = 1, /* every rotation about the center; the axis is not read */
     IMP_SYMMETRY_ABOUT_LINE = 2,  /* every rotation about the line */
@@ -251,9 +255,9 @@ enum {
     IMP_SYMMETRY_ACROSS_LINE = 4  /* these rotations, and translations perpendicular to the line */
 };
 
-/* is_closed claims more: each rotation of the kind takes the surface itself, all u and v of its domain, to
- * itself. A cylinder all around is closed, one half of it is not (a full turn needs IMP_TWO_PI_UPPER). Two
- * bodies that only turn so are as far apart at one time as at another. */
+/* is_closed claims more: each rotation of the kind takes the surface itself, all u and v of its
+ * domain, to itself. A cylinder all around is closed, one half of it is not (a full turn needs
+ * IMP_TWO_PI_UPPER). Two bodies that only turn so are as far apart at one time as at another. */
 typedef struct imp_symmetry {
     uint32_t kind;      /* IMP_SYMMETRY_... */
     uint32_t is_closed; /* 0 or 1 */
@@ -261,18 +265,18 @@ typedef struct imp_symmetry {
     double axis[3];     /* some component from 1e-100 to 1e100 */
 } imp_symmetry;
 
-/* --- Types ------------------------------------------------------------------------ */
+/* --- Types ------------------------------------------------------------------------------------ */
 
-/* In `flags` of a surface type or map that is defined for some times only: at other times the surface does
- * not exist, and touches nothing. Without the flag the host knows nothing about other times, and rejects a
- * query that needs them. */
+/* In `flags` of a surface type or map that is defined for some times only: at other times the
+ * surface does not exist, and touches nothing. Without the flag the host knows nothing about other
+ * times, and rejects a query that needs them. */
 enum { IMP_FLAG_ABSENT_OUTSIDE_TIMES = 1u << 0 };
 
-/* In `flags` of a map with the capability `rigid`: turn(t) of its pose is a rotation in exact arithmetic, not
- * only within IMP_RIGID_SLACK. */
+/* In `flags` of a map with the capability `rigid`: turn(t) of its pose is a rotation in exact
+ * arithmetic, not only within IMP_RIGID_SLACK. */
 enum { IMP_FLAG_TURNS_EXACTLY = 1u << 1 };
 
-/* --- Surface types ----------------------------------------------------------- */
+/* --- Surface types ---------------------------------------------------------------------------- */
 
 /* [thread-safe] means: called from any thread, many at once, on one instance. */
 typedef struct imp_surface_type {
@@ -287,9 +291,9 @@ typedef struct imp_surface_type {
     const char *example;     /* a surface as on the command line: "sphere radius=2" */
     const imp_parameter *parameters;
 
-    /* Makes an instance from one value per row of the table, in its order. On IMP_STATUS_OK sets *self
-     * (never NULL) and the host calls destroy once later; on any other status *self is ignored and
-     * the plugin must have freed everything. [main-thread] */
+    /* Makes an instance from one value per row of the table, in its order. On IMP_STATUS_OK sets
+     * *self (never NULL) and the host calls destroy once later; on any other status *self is
+     * ignored and the plugin must have freed everything. [main-thread] */
     imp_status (*create)(const imp_value *values, void **self, imp_create_error *why);
     void (*destroy)(void *self); /* [main-thread] */
 
@@ -307,14 +311,14 @@ typedef struct imp_surface_type {
     /* Rate matrix over a region inside the domain. [thread-safe] */
     imp_status (*rate)(const void *self, const imp_region *region, imp_rate_matrix *rates);
 
-    /* Capability `order-2`. Models of x, y and z over a region inside the domain. May be NULL: the host then
-     * makes models of eval at the region's centre and of rate. [thread-safe] */
+    /* Capability `order-2`. Models of x, y and z over a region inside the domain. May be NULL: the
+     * host then makes models of eval at the region's centre and of rate. [thread-safe] */
     imp_status (*include)(const void *self, const imp_region *region, imp_model model[3]);
 
-    /* Capability `net`. A control net over a region inside the domain, where the surface is, or nearly is, a
-     * polynomial or rational of low degree there: its hull lies closer to the surface than a model does.
-     * IMP_STATUS_UNBOUNDED: there is none over this region, and *net is ignored; smaller regions may have
-     * one. May be NULL: there is none at all. [thread-safe] */
+    /* Capability `net`. A control net over a region inside the domain, where the surface is, or
+     * nearly is, a polynomial or rational of low degree there: its hull lies closer to the surface
+     * than a model does. IMP_STATUS_UNBOUNDED: there is none over this region, and *net is ignored;
+     * smaller regions may have one. May be NULL: there is none at all. [thread-safe] */
     imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
 
     /* Capability `pieces`; both or neither, and a struct_size that ends before them means neither.
@@ -331,35 +335,38 @@ typedef struct imp_surface_type {
 
     /* Capability `distance`; NULL, or a struct_size that ends before it: there is none.
      *
-     * How far moving points stay from the whole surface. `point` holds models over one region of the x, y and
-     * z of a point that depends on the region's parameters, anywhere in space, and of t, at times of the
-     * domain; their rates are not known and may be infinite. *distance becomes a model (a, b, q, e, lo, hi,
-     * as in imp_model; rates are ignored) of any g with
+     * How far moving points stay from the whole surface. `point` holds models over one region of
+     * the x, y and z of a point that depends on the region's parameters, anywhere in space, and of
+     * t, at times of the domain; their rates are not known and may be infinite. *distance becomes a
+     * model (a, b, q, e, lo, hi, as in imp_model; rates are ignored) of any g with
      *
      *   |g(p)| <= |(x, y, z)(p) - f(u, v, t(p))|   for every p of the region, all u and v of the domain
      *
-     * for every point that the models allow. The best g is the signed distance, negative on one side,
-     * or a number near it that is smooth at the surface. The host uses it to prove that two surfaces stay
-     * apart that slide along each other. The distance from a larger surface that holds this one, such as
-     * an endless cylinder, will do. IMP_STATUS_UNBOUNDED: nothing is known there. [thread-safe] */
+     * for every point that the models allow. The best g is the signed distance, negative on one
+     * side, or a number near it that is smooth at the surface. The host uses it to prove that two
+     * surfaces stay apart that slide along each other. The distance from a larger surface that
+     * holds this one, such as an endless cylinder, will do. IMP_STATUS_UNBOUNDED: nothing is known
+     * there. [thread-safe] */
     imp_status (*distance)(const void *self, const imp_model point[4], imp_model *distance);
 
-    /* Capability `symmetry`; NULL, or a struct_size that ends before it: there is none. Not without `distance`.
+    /* Capability `symmetry`; NULL, or a struct_size that ends before it: there is none. Not without
+     * `distance`.
      *
-     * Which rigid motions change no distance from the surface. For every such motion S, the g that `distance`
-     * gives for models of a point bounds the distance of the moved point, too,
+     * Which rigid motions change no distance from the surface. For every such motion S, the g that
+     * `distance` gives for models of a point bounds the distance of the moved point, too,
      *
      *   |g(p)| <= |S((x, y, z)(p)) - f(u, v, t(p))|   for every p of the region, all u and v of the domain,
      *
-     * and S may be another motion for each p. So a surface that turns about an axis of this one stays as far
-     * from it as it is at one moment, which spares the host from dividing time. The host has set *symmetry to
-     * 0. IMP_STATUS_UNBOUNDED: there is no symmetry with these parameters. [thread-safe] */
+     * and S may be another motion for each p. So a surface that turns about an axis of this one
+     * stays as far from it as it is at one moment, which spares the host from dividing time. The
+     * host has set *symmetry to 0. IMP_STATUS_UNBOUNDED: there is no symmetry with these
+     * parameters. [thread-safe] */
     imp_status (*symmetry)(const void *self, imp_symmetry *symmetry);
 } imp_surface_type;
 
 #define IMP_PIECES_MAX ((size_t)1 << 24)
 
-/* --- Maps -------------------------------------------------------------------- */
+/* --- Maps ------------------------------------------------------------------------------------- */
 
 /* A map moves or deforms any surface: g(u,v,t) = phi(f(u,v,t), t). Fields shared
  * with imp_surface_type mean the same. */
@@ -378,8 +385,8 @@ typedef struct imp_map_type {
     void (*destroy)(void *self);
 
     /* The times the map is defined for; -INFINITY and INFINITY if always. A map should be defined
-     * at all times, or have IMP_FLAG_ABSENT_OUTSIDE_TIMES. Space is not restricted: every (x, y, z) must
-     * have an image. [thread-safe] */
+     * at all times, or have IMP_FLAG_ABSENT_OUTSIDE_TIMES. Space is not restricted: every (x, y, z)
+     * must have an image. [thread-safe] */
     void (*time_domain)(const void *self, double *lo, double *hi);
 
     /* n points p[4*k] = (x, y, z, t) to x[3*k], and errors as for a surface: the map's own,
@@ -389,33 +396,35 @@ typedef struct imp_map_type {
     /* Rates over a box of (x, y, z, t). [thread-safe] */
     imp_status (*rate)(const void *self, const imp_box4 *box, imp_map_rates *rates);
 
-    /* Capability `order-2`. From models of x, y, z and t over one region of a surface's parameters to models
-     * of phi over it. `in` and `out` do not overlap. May be NULL: the host then uses rate and the chain
-     * rule (paper, section 5: M_g[:,j] = P M_f[:,j], + p_t for j = t). [thread-safe] */
+    /* Capability `order-2`. From models of x, y, z and t over one region of a surface's parameters
+     * to models of phi over it. `in` and `out` do not overlap. May be NULL: the host then uses rate
+     * and the chain rule (paper, section 5: M_g[:,j] = P M_f[:,j], + p_t for j = t).
+     * [thread-safe] */
     imp_status (*apply)(const void *self, const imp_model in[4], imp_model out[3]);
 
-    /* Capability `net`. Turns the net of a surface over a region into the net of its image, in place: for
-     * maps that are affine in space and leave motions linear in time. IMP_STATUS_UNBOUNDED: the image has
-     * none over this region. May be NULL: it never has one. [thread-safe] */
+    /* Capability `net`. Turns the net of a surface over a region into the net of its image, in
+     * place: for maps that are affine in space and leave motions linear in time.
+     * IMP_STATUS_UNBOUNDED: the image has none over this region. May be NULL: it never has one.
+     * [thread-safe] */
     imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
 
     /* Capability `rigid`; a struct_size that ends before it means NULL: the map is not rigid.
      *
-     * The pose over the times of the model *t, which depends on t alone, or is constant. With it the host
-     * bounds a surface that does not move by itself once, before the map, instead of anew for each span of
-     * times. IMP_STATUS_UNBOUNDED: there is no pose over these times, and *pose is ignored; shorter spans may
-     * have one. The host has set all to 0. [thread-safe] */
+     * The pose over the times of the model *t, which depends on t alone, or is constant. With it
+     * the host bounds a surface that does not move by itself once, before the map, instead of anew
+     * for each span of times. IMP_STATUS_UNBOUNDED: there is no pose over these times, and *pose is
+     * ignored; shorter spans may have one. The host has set all to 0. [thread-safe] */
     imp_status (*rigid)(const void *self, const imp_model *t, imp_pose *pose);
 
     /* Capability `span`; NULL, or a struct_size that ends before it: the span is the time domain.
      *
-     * The times that the map is made for, where it is defined at others, too: those of a table whose
-     * ends hold before and after it. A host that is not told which times to examine examines these.
-     * -INFINITY and INFINITY: none before others. [thread-safe] */
+     * The times that the map is made for, where it is defined at others, too: those of a table
+     * whose ends hold before and after it. A host that is not told which times to examine examines
+     * these. -INFINITY and INFINITY: none before others. [thread-safe] */
     void (*span)(const void *self, double *lo, double *hi);
 } imp_map_type;
 
-/* --- The plugin ---------------------------------------------------------------- */
+/* --- The plugin ------------------------------------------------------------------------------- */
 
 #define IMP_SURFACE_FACTORY "impinge.surface/1"
 #define IMP_MAP_FACTORY "impinge.map/1"
@@ -432,7 +441,8 @@ typedef struct imp_map_factory {
     const imp_map_type *const *types;
 } imp_map_factory;
 
-/* How a plugin was compiled; IMPINGE_PLUGIN answers it. Optional, and told to authors by `impinge check`. */
+/* How a plugin was compiled; IMPINGE_PLUGIN answers it. Optional, and told to authors by `impinge
+ * check`. */
 #define IMP_BUILD_FACTORY "impinge.build/1"
 
 typedef struct imp_build {
@@ -467,9 +477,9 @@ typedef struct imp_plugin {
     const void *(*get_factory)(const char *id);
 } imp_plugin;
 
-/* The one symbol a plugin exports; IMPINGE_PLUGIN defines it. Plugins that are linked into a program,
- * which hands them to imp_registry_add, are each compiled with a name of their own for it, as by
- * -DIMPINGE_PLUGIN_SYMBOL=seashell_plugin. */
+/* The one symbol a plugin exports; IMPINGE_PLUGIN defines it. Plugins that are linked into a
+ * program, which hands them to imp_registry_add, are each compiled with a name of their own for it,
+ * as by -DIMPINGE_PLUGIN_SYMBOL=seashell_plugin. */
 #ifdef IMPINGE_PLUGIN_SYMBOL
 #define IMP_LINKED_IN_
 #else
@@ -537,7 +547,7 @@ extern IMP_EXPORT const imp_plugin IMPINGE_PLUGIN_SYMBOL;
 #define IMPINGE_MAP_PLUGIN(NAME, VERSION, LICENSE, AUTHOR, TYPE)                                   \
     IMP_SINGLE_PLUGIN_(imp_map, IMP_MAP_FACTORY, NAME, VERSION, LICENSE, AUTHOR, TYPE)
 
-/* --- Layout, frozen for version 1 on 64-bit machines --------------------------- */
+/* --- Layout, frozen for version 1 on 64-bit machines ------------------------------------------ */
 
 #ifdef __cplusplus
 #define IMP_LAYOUT(cond) static_assert(cond, "layout of the surface ABI, version 1")

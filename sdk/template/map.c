@@ -7,7 +7,7 @@
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
 
-/* --- Parameters ------------------------------------------------------------------- */
+/* --- Parameters ------------------------------------------------------------------------------- */
 
 enum { SLOPE, RATE };
 
@@ -33,7 +33,7 @@ static imp_status sway_create(const imp_value *values, void **self, imp_create_e
     return IMP_STATUS_OK;
 }
 
-/* --- The map ---------------------------------------------------------------------- */
+/* --- The map ---------------------------------------------------------------------------------- */
 
 /* Space is never restricted: every point has an image. */
 IMP_MAP_AT_ALL_TIMES(sway)
@@ -51,7 +51,7 @@ static void sway_formula(const void *self, imp_model x, imp_model y, imp_model z
 }
 IMP_MAP_FORMULA(sway_formula)
 
-/* --- The plugin -------------------------------------------------------- */
+/* --- The plugin ------------------------------------------------------------------------------- */
 
 static const imp_map_type type = {
     IMP_MAP_FIELDS_OF("@name@", sway, sway_formula, free, sway_formula_rate),

@@ -7,7 +7,7 @@
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
 
-/* --- Parameters ------------------------------------------------------------------- */
+/* --- Parameters ------------------------------------------------------------------------------- */
 
 enum { HEIGHT, RATE };
 
@@ -33,7 +33,7 @@ static imp_status drum_create(const imp_value *values, void **self, imp_create_e
     return IMP_STATUS_OK;
 }
 
-/* --- The surface ------------------------------------------------------------------ */
+/* --- The surface ------------------------------------------------------------------------------ */
 
 /* -1 <= u, v <= 1, at any time. */
 static void drum_domain(const void *self, double lo[3], double hi[3])
@@ -56,7 +56,7 @@ static void drum_formula(const void *self, imp_model u, imp_model v, imp_model t
 }
 IMP_SURFACE_FORMULA(drum_formula)
 
-/* --- The plugin -------------------------------------------------------- */
+/* --- The plugin ------------------------------------------------------------------------------- */
 
 static const imp_surface_type type = {
     IMP_SURFACE_FIELDS_OF("@name@", drum, drum_formula, free),

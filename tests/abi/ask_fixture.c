@@ -25,7 +25,7 @@ static void print(const char *name, const double *x, size_t n)
     putchar('\n');
 }
 
-/* --- Through the host ----------------------------------------------------------------- */
+/* --- Through the host ------------------------------------------------------------------------- */
 
 static void ask_host(imp_registry *registry, const char *pipeline)
 {
@@ -47,7 +47,7 @@ static void ask_host(imp_registry *registry, const char *pipeline)
     imp_scene_free(scene);
 }
 
-/* --- As the header says --------------------------------------------------------------- */
+/* --- As the header says ----------------------------------------------------------------------- */
 
 static void print_models(const imp_model model[3])
 {
@@ -64,8 +64,8 @@ static void print_models(const imp_model model[3])
 static void print_net(const imp_net *net)
 {
     const size_t points = (net->degree[0] + 1) * (net->degree[1] + 1);
-    printf("  degrees %u %u moving %u weighted %u\n", net->degree[0], net->degree[1], net->is_moving,
-           net->is_weighted);
+    printf("  degrees %u %u moving %u weighted %u\n", net->degree[0], net->degree[1],
+           net->is_moving, net->is_weighted);
     print("place", net->place, 3);
     print("drift", net->drift, 3);
     print("error", net->error, 3);
@@ -73,7 +73,8 @@ static void print_net(const imp_net *net)
     for (int i = 0; i < 3; ++i) print("velocities", net->velocity[i], points);
 }
 
-static void ask_surface(const imp_surface_type *type, const imp_model in[4], const imp_region *region)
+static void ask_surface(const imp_surface_type *type, const imp_model in[4],
+                        const imp_region *region)
 {
     void *self;
     imp_rate_matrix rates;

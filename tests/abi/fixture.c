@@ -2,9 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The source of fixture_1_0.so, a plugin built when the ABI was 1.0, which every later release must
- * load and ask with the same answers (tests/cli/sdk.bats). It uses all that the ABI has: every kind of
- * parameter, types with and without include, maps with and without apply, both with and without net, a map with a
- * pose, a surface with distances. No libm, whose answers might change. README beside this file says how it was built. */
+ * load and ask with the same answers (tests/cli/sdk.bats). It uses all that the ABI has: every kind
+ * of parameter, types with and without include, maps with and without apply, both with and without
+ * net, a map with a pose, a surface with distances. No libm, whose answers might change. README
+ * beside this file says how it was built. */
 
 #include <impinge/formula.h>
 #include <stdlib.h>
@@ -31,7 +32,7 @@ static void unit_square(const void *self, double lo[3], double hi[3])
     lo[2] = -INFINITY, hi[2] = INFINITY;
 }
 
-/* --- Every kind of parameter: the square, moved by what was given -------------------- */
+/* --- Every kind of parameter: the square, moved by what was given ----------------------------- */
 
 enum { NUMBER, INTEGER, BOOLEAN, STRING, TABLE, VECTOR, POINTS, LIST, ABSENT };
 
@@ -185,7 +186,7 @@ static const imp_surface_type kinds = {
     .rate = kinds_rate,
 };
 
-/* --- A formula, with include ---------------------------------------------------------- */
+/* --- A formula, with include ------------------------------------------------------------------ */
 
 static void sheet_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
 {
@@ -212,7 +213,7 @@ static const imp_surface_type sheet = {
     .include = sheet_formula_include,
 };
 
-/* --- Rates alone, and a time that ends ------------------------------------------------ */
+/* --- Rates alone, and a time that ends -------------------------------------------------------- */
 
 static void bare_domain(const void *self, double lo[3], double hi[3])
 {
@@ -279,7 +280,7 @@ static const imp_surface_type bare = {
     .distance = bare_gap_distance,
 };
 
-/* --- Maps, with and without apply ----------------------------------------------------- */
+/* --- Maps, with and without apply ------------------------------------------------------------- */
 
 static void always(const void *self, double *lo, double *hi)
 {
@@ -358,7 +359,7 @@ static const imp_map_type rise = {
     .rigid = rise_rigid,
 };
 
-/* --- The plugin ----------------------------------------------------------------------- */
+/* --- The plugin ------------------------------------------------------------------------------- */
 
 static const imp_surface_type *const surfaces[] = {&kinds, &sheet, &bare};
 static const imp_map_type *const maps[] = {&lean, &rise};

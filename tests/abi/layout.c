@@ -29,7 +29,8 @@ static void numbers(void)
     NUMBER(IMP_STATUS_PARAMETER), NUMBER(IMP_STATUS_INTERNAL);
     NUMBER(IMP_KIND_NUMBER), NUMBER(IMP_KIND_INTEGER), NUMBER(IMP_KIND_BOOLEAN);
     NUMBER(IMP_KIND_STRING), NUMBER(IMP_KIND_TABLE);
-    NUMBER(IMP_PARAMETER_MIN_OPEN), NUMBER(IMP_PARAMETER_MAX_OPEN), NUMBER(IMP_PARAMETER_SCALAR_OK), NUMBER(IMP_PARAMETER_OPTIONAL);
+    NUMBER(IMP_PARAMETER_MIN_OPEN), NUMBER(IMP_PARAMETER_MAX_OPEN), NUMBER(IMP_PARAMETER_SCALAR_OK),
+        NUMBER(IMP_PARAMETER_OPTIONAL);
     NUMBER(IMP_FLAG_ABSENT_OUTSIDE_TIMES), NUMBER(IMP_FLAG_TURNS_EXACTLY);
     NUMBER(IMP_RANK_MAX);
     NUMBER(IMP_UU), NUMBER(IMP_UV), NUMBER(IMP_UT), NUMBER(IMP_VV), NUMBER(IMP_VT), NUMBER(IMP_TT);
@@ -92,7 +93,7 @@ static void regions(void)
     FIELD(TYPE, flags), FIELD(TYPE, name), FIELD(TYPE, summary), FIELD(TYPE, equation);            \
     FIELD(TYPE, source), FIELD(TYPE, example), FIELD(TYPE, parameters);                            \
     FIELD(TYPE, create), FIELD(TYPE, destroy);                                                     \
-    CALL(TYPE, create, imp_status (*)(const imp_value *, void **, imp_create_error *));               \
+    CALL(TYPE, create, imp_status (*)(const imp_value *, void **, imp_create_error *));            \
     CALL(TYPE, destroy, void (*)(void *));                                                         \
     CALL(TYPE, eval, imp_status (*)(const void *, size_t, const double *, double *, double *))
 
@@ -104,11 +105,10 @@ static void types(void)
     FIELD(imp_surface_type, rate), FIELD(imp_surface_type, include);
     FIELD(imp_surface_type, net);
     FIELD(imp_surface_type, piece_count), FIELD(imp_surface_type, piece);
-    CALL(imp_surface_type, piece_count, size_t (*)(const void *));
+    CALL(imp_surface_type, piece_count, size_t(*)(const void *));
     CALL(imp_surface_type, piece, const void *(*)(const void *, size_t));
     FIELD(imp_surface_type, distance);
-    CALL(imp_surface_type, distance,
-         imp_status(*)(const void *, const imp_model *, imp_model *));
+    CALL(imp_surface_type, distance, imp_status(*)(const void *, const imp_model *, imp_model *));
     FIELD(imp_surface_type, symmetry);
     CALL(imp_surface_type, symmetry, imp_status(*)(const void *, imp_symmetry *));
     CALL(imp_surface_type, domain, void (*)(const void *, double *, double *));

@@ -8,8 +8,9 @@
 #include <impinge/impinge.h>
 #include <math.h>
 
-/* Any sequence of calls that the header allows is answered, whatever came before it: queries are begun,
- * stepped, refined, divided, read and freed in any order. Each two bytes are a call and its argument. */
+/* Any sequence of calls that the header allows is answered, whatever came before it: queries are
+ * begun, stepped, refined, divided, read and freed in any order. Each two bytes are a call and its
+ * argument. */
 
 const char fuzz_target[] = "api";
 
@@ -25,7 +26,7 @@ typedef struct session {
     held_query at[QUERIES];
 } session;
 
-/* --- Answers -------------------------------------------------------------------------------------- */
+/* --- Answers ---------------------------------------------------------------------------------- */
 
 static void judge_error(imp_code code, const imp_error *error)
 {
@@ -52,7 +53,7 @@ static void judge_distance(const imp_query *query, size_t index)
     if (code == IMP_SUCCESS) FUZZ_REQUIRE(answer.lower <= answer.upper);
 }
 
-/* --- Calls ---------------------------------------------------------------------------------------- */
+/* --- Calls ------------------------------------------------------------------------------------ */
 
 /* Parts go before the query that was divided. */
 static void drop(session *s, int place)
@@ -148,7 +149,7 @@ static void call(session *s, unsigned what, int place, unsigned argument)
     }
 }
 
-/* --- Sessions ------------------------------------------------------------------------------------- */
+/* --- Sessions --------------------------------------------------------------------------------- */
 
 static void make_scenes(imp_registry *registry, imp_scene *scenes[SCENES])
 {

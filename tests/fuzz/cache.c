@@ -11,10 +11,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Whatever the user's cache of first loads holds, it is read; what was found in it, and what is added,
- * is found again after it was written back, and nothing of another file. The input is the cache from
- * its second line on, since one with another first line is not read; or, with a first byte below
- * 0x09, which is left out, all of it. */
+/* Whatever the user's cache of first loads holds, it is read; what was found in it, and what is
+ * added, is found again after it was written back, and nothing of another file. The input is the
+ * cache from its second line on, since one with another first line is not read; or, with a first
+ * byte below 0x09, which is left out, all of it. */
 
 const char fuzz_target[] = "cache";
 

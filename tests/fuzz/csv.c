@@ -10,9 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Whatever bytes a file of numbers holds, it is read or refused with a reason. What was read is finite,
- * and the same to the last bit when it is written out and read again. The input's first byte says
- * how many columns are asked for, and whether by name; the names are "x", "2" and "angle". */
+/* Whatever bytes a file of numbers holds, it is read or refused with a reason. What was read is
+ * finite, and the same to the last bit when it is written out and read again. The input's first
+ * byte says how many columns are asked for, and whether by name; the names are "x", "2" and
+ * "angle". */
 
 const char fuzz_target[] = "csv";
 
@@ -56,7 +57,8 @@ static bool read_numbers(const char *const *names, csv_numbers *to)
     return false;
 }
 
-/* Lines behind a byte order mark that are not empty and no comment: one of them may be a header, the others are rows. */
+/* Lines behind a byte order mark that are not empty and no comment: one of them may be a header,
+ * the others are rows. */
 static size_t count_lines(const unsigned char *bytes, size_t length)
 {
     const bool mark = length >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0;

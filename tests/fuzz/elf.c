@@ -15,10 +15,10 @@
 
 #include <impinge/examine.h>
 
-/* Plugin files with some of their fields changed, before and behind a good one in one folder. Each is
- * refused with a reason or taken, by all that read it alike; a registry of the folder still has the
- * good one's type, and the host is alive. The input is a list of changes (elf_changes.h), or, from
- * 0x7f on, the first file itself. */
+/* Plugin files with some of their fields changed, before and behind a good one in one folder. Each
+ * is refused with a reason or taken, by all that read it alike; a registry of the folder still has
+ * the good one's type, and the host is alive. The input is a list of changes (elf_changes.h), or,
+ * from 0x7f on, the first file itself. */
 
 const char fuzz_target[] = "elf";
 
@@ -32,7 +32,8 @@ static void path_of(char path[256], const char *name)
     snprintf(path, 256, "%s/%s", folder, name);
 }
 
-/* Plugins without the instrumentation of a search, which they do not survive being unloaded with. */
+/* Plugins without the instrumentation of a search, which they do not survive being unloaded
+ * with. */
 static elf_image read_plugin(const char *name)
 {
     char below[128], path[4096];
@@ -95,8 +96,8 @@ static void allow_leaks(bool allow)
     if (change != NULL) change();
 }
 
-/* A file whose handle is lost asks for the exit handlers of the whole program when it is unloaded. The
- * command then ends and names the file; a search goes on. */
+/* A file whose handle is lost asks for the exit handlers of the whole program when it is unloaded.
+ * The command then ends and names the file; a search goes on. */
 __attribute__((visibility("default"))) void __cxa_finalize(void *handle);
 void __cxa_finalize(void *handle)
 {

@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* --- Fields ----------------------------------------------------------------------------- */
+/* --- Fields ----------------------------------------------------------------------------------- */
 
 typedef struct field {
     uint8_t offset, size; /* bytes, in the entry */
@@ -56,7 +56,7 @@ static const field symbol_fields[] = {
 };
 static const field word_field[] = {{0, 4}};
 
-/* --- Tables ----------------------------------------------------------------------------- */
+/* --- Tables ----------------------------------------------------------------------------------- */
 
 typedef struct table {
     const field *fields;
@@ -123,7 +123,7 @@ static table table_of(elf_image image, change_part part)
     }
 }
 
-/* --- Changes ---------------------------------------------------------------------------- */
+/* --- Changes ---------------------------------------------------------------------------------- */
 
 static uint64_t value_in(const unsigned char *change)
 {
@@ -178,7 +178,7 @@ elf_image elf_changed(elf_image original, unsigned file, const unsigned char *by
     return image;
 }
 
-/* --- Mutation --------------------------------------------------------------------------- */
+/* --- Mutation --------------------------------------------------------------------------------- */
 
 static unsigned draw(unsigned *state)
 {

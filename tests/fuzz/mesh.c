@@ -9,10 +9,11 @@
 
 #include <string.h>
 
-/* Whatever bytes a file of triangles holds, it is read or refused with a reason. What was read has triangles,
- * corners that are there and coordinates within limits, and is the same to the last bit when it is written
- * out as OFF and read again. With faces kept whole, a control mesh is made of them or refused; its half-edges
- * are each other's twins, also after a step. The input's first byte says which format it is in. */
+/* Whatever bytes a file of triangles holds, it is read or refused with a reason. What was read has
+ * triangles, corners that are there and coordinates within limits, and is the same to the last bit
+ * when it is written out as OFF and read again. With faces kept whole, a control mesh is made of
+ * them or refused; its half-edges are each other's twins, also after a step. The input's first byte
+ * says which format it is in. */
 
 const char fuzz_target[] = "mesh";
 
@@ -23,7 +24,8 @@ static bool read_bytes(mesh_format format, const char *bytes, size_t length, tri
     triangles_fault fault = {0, ""};
     const imp_status status = mesh_read_bytes(format, bytes, length, to, &fault);
     if (status == IMP_STATUS_OK) return true;
-    FUZZ_REQUIRE(status == IMP_STATUS_INTERNAL || (status == IMP_STATUS_PARAMETER && fault.text[0] != '\0'));
+    FUZZ_REQUIRE(status == IMP_STATUS_INTERNAL ||
+                 (status == IMP_STATUS_PARAMETER && fault.text[0] != '\0'));
     FUZZ_REQUIRE(fault.line <= length + 1);
     return false;
 }
@@ -32,7 +34,8 @@ static void judge(const triangles *t)
 {
     FUZZ_REQUIRE(t->count > 0 && t->point_count > 0);
     for (size_t k = 0; k < 3 * t->count; ++k) FUZZ_REQUIRE(t->corner[k] < t->point_count);
-    for (size_t k = 0; k < 3 * t->point_count; ++k) FUZZ_REQUIRE(fabs(t->point[k]) <= TRIANGLES_FAR);
+    for (size_t k = 0; k < 3 * t->point_count; ++k)
+        FUZZ_REQUIRE(fabs(t->point[k]) <= TRIANGLES_FAR);
 }
 
 static char *write_off(const triangles *t, size_t *length)
@@ -70,7 +73,8 @@ static void judge_control_mesh(mesh_format format, const char *bytes, size_t len
     bool *wanted_fine = NULL;
     if (read_bytes(format, bytes, length, &faces)) {
         const imp_status status = control_begin(&coarse, &faces, NULL, loop, &fault);
-        FUZZ_REQUIRE(status == IMP_STATUS_OK || (status == IMP_STATUS_PARAMETER && fault.text[0] != '\0'));
+        FUZZ_REQUIRE(status == IMP_STATUS_OK ||
+                     (status == IMP_STATUS_PARAMETER && fault.text[0] != '\0'));
         if (status == IMP_STATUS_OK) {
             bool *wanted = calloc(coarse.face_count, sizeof *wanted);
             FUZZ_REQUIRE(wanted != NULL);
@@ -101,7 +105,8 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
         char *text = write_off(&first, &written);
         FUZZ_REQUIRE(read_bytes(MESH_OFF, text, written, &second));
         FUZZ_REQUIRE(second.point_count == first.point_count && second.count == first.count);
-        FUZZ_REQUIRE(memcmp(second.point, first.point, 3 * first.point_count * sizeof(double)) == 0);
+        FUZZ_REQUIRE(memcmp(second.point, first.point, 3 * first.point_count * sizeof(double)) ==
+                     0);
         FUZZ_REQUIRE(memcmp(second.corner, first.corner, 3 * first.count * sizeof(uint32_t)) == 0);
         free(text);
     }

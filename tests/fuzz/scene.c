@@ -39,7 +39,8 @@ static bool has_huge_number(const char *text)
     return false;
 }
 
-/* Our own types keep their promises; but a formula may be undefined where its domain says otherwise. */
+/* Our own types keep their promises; but a formula may be undefined where its domain says
+ * otherwise. */
 static void judge_error(imp_code code, const imp_error *error, const char *input)
 {
     FUZZ_REQUIRE(text_is_line(error->text) && error->text[0] != '\0');

@@ -19,7 +19,7 @@ static double draw(double lo, double hi)
     return x >= lo && x <= hi ? x : lo; /* also for infinite widths */
 }
 
-/* --- Points ----------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 typedef struct point {
     double u, v, x[3], error; /* the exact point is no farther from x than error */
@@ -53,7 +53,7 @@ static double distance_upper(const point *a, const point *b)
     return d + 0x1p-48 * d + a->error + b->error;
 }
 
-/* --- The witness ------------------------------------------------------------------------ */
+/* --- The witness ------------------------------------------------------------------------------ */
 
 static point judge_side(const imp_scene *scene, const imp_side *side, double t)
 {
@@ -90,7 +90,7 @@ static void judge_witness(const imp_scene *scene, const imp_result *r)
     if (r->has_normal) judge_normal(r);
 }
 
-/* --- Samples ---------------------------------------------------------------------------- */
+/* --- Samples ---------------------------------------------------------------------------------- */
 
 static bool sample(const imp_scene *scene, size_t body, double t, point *out)
 {
@@ -151,7 +151,7 @@ static void judge_samples(const imp_scene *scene, const imp_result *r)
     if (nearest < INFINITY) approach(scene, r, t_nearest, best_a, best_b);
 }
 
-/* --- Answers ---------------------------------------------------------------------------- */
+/* --- Answers ---------------------------------------------------------------------------------- */
 
 static void judge_verdict(const imp_options *options, const imp_result *r)
 {

@@ -126,7 +126,8 @@ static void limit(int what, rlim_t to)
 static void close_descriptors(bool reuse)
 {
     for (int k = 3; k < 256; ++k) close(k);
-    for (int k = 3; reuse && k < 256; ++k) (void)!open("stolen", O_CREAT | O_WRONLY | O_APPEND, 0666);
+    for (int k = 3; reuse && k < 256; ++k)
+        (void)!open("stolen", O_CREAT | O_WRONLY | O_APPEND, 0666);
 }
 
 /* To a frame that has returned. */
@@ -203,7 +204,8 @@ static void commit(const char *sin)
 static void confess(const char *wanted)
 {
     const char *file = getenv("HOSTILE_CONFESSIONS");
-    const int error = errno, to = file != NULL ? open(file, O_CREAT | O_WRONLY | O_APPEND, 0666) : -1;
+    const int error = errno,
+              to = file != NULL ? open(file, O_CREAT | O_WRONLY | O_APPEND, 0666) : -1;
     if (to >= 0) dprintf(to, "%s\n", wanted);
     if (to >= 0) close(to);
     errno = error;
@@ -384,7 +386,7 @@ static imp_status rigid(const void *self, const imp_model *t, imp_pose *pose)
 static const imp_map_type map_type = HOSTILE_MAP("hostile-map", .source = NULL);
 static const imp_map_type rigid_type = HOSTILE_MAP("hostile-rigid", .rigid = rigid);
 
-/* --- The file ----------------------------------------------------------------------------------- */
+/* --- The file --------------------------------------------------------------------------------- */
 
 static const imp_surface_type *const surface_types[] = {&surface_type, &net_type, &distance_type,
                                                         &symmetry_type, &pieces_type};

@@ -143,7 +143,7 @@ static const imp_surface_type kit_type = {
     .rate = tiny_rate,
 };
 
-/* --- The map: (x, y, z) + by ------------------------------------------------------- */
+/* --- The map: (x, y, z) + by ------------------------------------------------------------------ */
 
 static const imp_parameter map_table[] = {
     {.name = "by",

@@ -89,7 +89,7 @@ static inline void liar_times(const void *self, double *lo, double *hi)
 #define LIAR_INCLUDE(NAME, INCLUDE)                                                                \
     LIAR_SURFACE(NAME, tiny_create, tiny_destroy, wavy_formula_eval, wavy_formula_rate, INCLUDE)
 
-/* --- Rates taken from points of a region instead of all of it ----------------------- */
+/* --- Rates taken from points of a region instead of all of it --------------------------------- */
 
 /* The largest rates at n x n x n points, spread from end to end. */
 static inline imp_status rate_of_grid(const void *self, const imp_region *region, int n,

@@ -124,7 +124,7 @@ static inline void tube_slopes(const tube *a, const double p[3], double m[3][3])
     memcpy(m, slopes, sizeof slopes);
 }
 
-/* --- Types ------------------------------------------------------------------------------------- */
+/* --- Types ------------------------------------------------------------------------------------ */
 
 #define MISTAKE(NAME, CREATE, DESTROY, DOMAIN, EVAL, RATE, INCLUDE)                                \
     static const imp_surface_type NAME##_type = {                                                  \

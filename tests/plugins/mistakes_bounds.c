@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "mistakes.h"
 
-/* --- Rates ------------------------------------------------------------------------------------- */
+/* --- Rates ------------------------------------------------------------------------------------ */
 
 static imp_status no_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
@@ -98,7 +98,7 @@ static imp_status signed_rate(const void *self, const imp_region *r, imp_rate_ma
 }
 MISTAKE_RATE(rate_with_sign, signed_rate);
 
-/* --- Models ------------------------------------------------------------------------------------ */
+/* --- Models ----------------------------------------------------------------------------------- */
 
 static imp_status no_model(const void *self, const imp_region *r, imp_model model[3])
 {
@@ -182,7 +182,7 @@ static imp_status free_model(const void *self, const imp_region *r, imp_model mo
 }
 MISTAKE_INCLUDE(model_forgets_dependence, free_model);
 
-/* --- Late and early times ------------------------------------------------------------------------- */
+/* --- Late and early times --------------------------------------------------------------------- */
 
 /* A tenth too small from t = 50 on. */
 static imp_status late_rate(const void *self, const imp_region *r, imp_rate_matrix *rates)
@@ -202,7 +202,7 @@ static imp_status early_model(const void *self, const imp_region *r, imp_model m
 }
 MISTAKE_INCLUDE(model_sure_early, early_model);
 
-/* --- Errors of points ---------------------------------------------------------------------------- */
+/* --- Errors of points ------------------------------------------------------------------------- */
 
 static imp_status exact_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {

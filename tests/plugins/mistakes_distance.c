@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "pipe.h"
 
-/* The pipe of pipe.h, once with its true distance and symmetry, and with lies about them that show in few
- * places: far away, late, in a narrow spot, along an axis. */
+/* The pipe of pipe.h, once with its true distance and symmetry, and with lies about them that show
+ * in few places: far away, late, in a narrow spot, along an axis. */
 
 static bool is_beyond(const imp_model point[4], double radius)
 {
@@ -91,8 +91,8 @@ static imp_status leaning_symmetry(const void *self, imp_symmetry *found)
     return IMP_STATUS_OK;
 }
 
-/* Far from the axis the true distance from the pipe, which ends: less is known beside it than beyond its ends,
- * and so nothing moves along the axis. */
+/* Far from the axis the true distance from the pipe, which ends: less is known beside it than
+ * beyond its ends, and so nothing moves along the axis. */
 static imp_status ended_distance(const void *self, const imp_model point[4], imp_model *g)
 {
     if (point[2].a < 100) return pipe_gap_distance(self, point, g);
@@ -100,7 +100,8 @@ static imp_status ended_distance(const void *self, const imp_model point[4], imp
     return IMP_STATUS_OK;
 }
 
-/* Half of the pipe, y >= 0, and its true distance, that from its edges where y < 0. It says that it can be turned. */
+/* Half of the pipe, y >= 0, and its true distance, that from its edges where y < 0. It says that it
+ * can be turned. */
 static void half_domain(const void *self, double lo[3], double hi[3])
 {
     pipe_domain(self, lo, hi);

@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "mistakes.h"
 
-/* --- Create and destroy ------------------------------------------------------------------------- */
+/* --- Create and destroy ----------------------------------------------------------------------- */
 
 /* One coefficient more than there are. */
 static imp_status overread(const imp_value *values, void **self, imp_create_error *why)
@@ -85,7 +85,7 @@ MISTAKE_CREATE(destroy_frees_twice, tube_create, free_twice);
 static void keep(void *self) { (void)self; }
 MISTAKE_CREATE(destroy_does_nothing, tube_create, keep);
 
-/* --- Eval's arrays -------------------------------------------------------------------------------- */
+/* --- Eval's arrays ---------------------------------------------------------------------------- */
 
 static imp_status first_only(const void *self, size_t n, const double *p, double *x, double *error)
 {
@@ -125,7 +125,7 @@ static imp_status always(const void *self, size_t n, const double *p, double *x,
 }
 MISTAKE_EVAL(error_written_when_null, always);
 
-/* --- Where the domain ends, and inside of it --------------------------------------------------------- */
+/* --- Where the domain ends, and inside of it -------------------------------------------------- */
 
 static imp_status half_open(const void *self, size_t n, const double *p, double *x, double *error)
 {
@@ -169,7 +169,7 @@ static void swapped(const void *self, double lo[3], double hi[3])
 }
 MISTAKE_DOMAIN(domain_swapped, swapped);
 
-/* --- State ------------------------------------------------------------------------------------------ */
+/* --- State ------------------------------------------------------------------------------------ */
 
 /* The sine of the last angle, as points often share one. */
 static double last_u = 1e300, last_radius;
@@ -227,7 +227,7 @@ static imp_status drifting(const void *self, size_t n, const double *p, double *
 }
 MISTAKE_EVAL(answer_drifts, drifting);
 
-/* --- Memory ------------------------------------------------------------------------------------------ */
+/* --- Memory ----------------------------------------------------------------------------------- */
 
 static imp_status on_the_heap(const void *self, size_t n, const double *p, double *x, double *error)
 {

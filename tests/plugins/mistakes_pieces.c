@@ -5,9 +5,10 @@
 
 #include "stack.h"
 
-/* The three slabs of stack.h, whose pieces are wrong only after many calls, or whose whole has no shape. */
+/* The three slabs of stack.h, whose pieces are wrong only after many calls, or whose whole has no
+ * shape. */
 
-/* --- After 40 calls ------------------------------------------------------------------------------- */
+/* --- After 40 calls --------------------------------------------------------------------------- */
 
 static const void *swapped_piece(const void *self, size_t k)
 {
@@ -23,7 +24,7 @@ static size_t shrinking_count(const void *self)
     return ++calls > 40 ? 2 : 3;
 }
 
-/* --- After 1000 calls of eval -------------------------------------------------------------------- */
+/* --- After 1000 calls of eval ----------------------------------------------------------------- */
 
 static int evaluated;
 
@@ -40,7 +41,7 @@ static const void *used_piece(const void *self, size_t k)
     return &stack_slabs[evaluated > 1000 ? 0 : k];
 }
 
-/* --- A whole without a shape ---------------------------------------------------------------------- */
+/* --- A whole without a shape ------------------------------------------------------------------ */
 
 typedef struct whole {
     uint32_t mark;

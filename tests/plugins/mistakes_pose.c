@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A turn about the line x = 1, y = 2 that rises, all in order, and maps whose poses make one mistake each. */
+/* A turn about the line x = 1, y = 2 that rises, all in order, and maps whose poses make one
+ * mistake each. */
 
 static imp_status turn_create(const imp_value *values, void **self, imp_create_error *why)
 {
@@ -50,7 +51,8 @@ static void swell(const void *self, imp_model t, imp_pose *pose)
 }
 IMP_RIGID_FORMULA(swell)
 
-/* The turn and a wave, which its pose leaves out: at the pivot, and 2 from it along y, there is none. */
+/* The turn and a wave, which its pose leaves out: at the pivot, and 2 from it along y, there is
+ * none. */
 static void wave(const void *self, imp_model x, imp_model y, imp_model z, imp_model t,
                  imp_model out[3])
 {
@@ -150,7 +152,7 @@ MISTAKE(pose_swells, swell, swell_rigid);
 MISTAKE(pose_no_mistake, turn, turn_rigid);
 
 static const imp_map_type *const maps[] = {
-    &pose_remainder_halved_type, &pose_rate_halved_type,   &pose_range_halved_type,
+    &pose_remainder_halved_type, &pose_rate_halved_type,    &pose_range_halved_type,
     &pose_of_one_moment_type,    &pose_turns_backward_type, &pose_without_pivot_type,
     &pose_depends_on_u_type,     &pose_mirrors_type,        &pose_swells_type,
     &pose_of_a_wave_type,        &pose_remembers_type,      &pose_no_mistake_type};

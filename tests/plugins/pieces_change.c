@@ -14,6 +14,5 @@ static const void *piece(const void *self, size_t k)
     return copy;
 }
 
-static const imp_surface_type type =
-    STACK_TYPE("pieces_change", slab_domain, stack_count, piece);
+static const imp_surface_type type = STACK_TYPE("pieces_change", slab_domain, stack_count, piece);
 SLAB_PLUGIN("pieces_change", type);

@@ -9,6 +9,5 @@ static size_t count(const void *self)
     return SIZE_MAX;
 }
 
-static const imp_surface_type type =
-    STACK_TYPE("pieces_many", slab_domain, count, stack_piece);
+static const imp_surface_type type = STACK_TYPE("pieces_many", slab_domain, count, stack_piece);
 SLAB_PLUGIN("pieces_many", type);

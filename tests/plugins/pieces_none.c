@@ -9,6 +9,5 @@ static size_t count(const void *self)
     return 0;
 }
 
-static const imp_surface_type type =
-    STACK_TYPE("pieces_none", slab_domain, count, stack_piece);
+static const imp_surface_type type = STACK_TYPE("pieces_none", slab_domain, count, stack_piece);
 SLAB_PLUGIN("pieces_none", type);

@@ -9,6 +9,5 @@ static const void *piece(const void *self, size_t k)
     return k == 1 ? NULL : &stack_slabs[k];
 }
 
-static const imp_surface_type type =
-    STACK_TYPE("pieces_null", slab_domain, stack_count, piece);
+static const imp_surface_type type = STACK_TYPE("pieces_null", slab_domain, stack_count, piece);
 SLAB_PLUGIN("pieces_null", type);

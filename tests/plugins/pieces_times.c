@@ -9,6 +9,5 @@ static void domain(const void *self, double lo[3], double hi[3])
     if (self == &stack_slabs[2]) hi[2] = 5;
 }
 
-static const imp_surface_type type =
-    STACK_TYPE("pieces_times", domain, stack_count, stack_piece);
+static const imp_surface_type type = STACK_TYPE("pieces_times", domain, stack_count, stack_piece);
 SLAB_PLUGIN("pieces_times", type);

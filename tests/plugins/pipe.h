@@ -5,8 +5,8 @@
 
 #include "liar.h"
 
-/* A cylinder of radius 1, (cos u, sin u, v), v in [0, 2], and distances from it: for plugins beside this
- * file to lie about. */
+/* A cylinder of radius 1, (cos u, sin u, v), v in [0, 2], and distances from it: for plugins beside
+ * this file to lie about. */
 
 static inline void pipe_domain(const void *self, double lo[3], double hi[3])
 {

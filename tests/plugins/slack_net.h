@@ -5,9 +5,9 @@
 
 #include "liar.h"
 
-/* A true net of the liars' surface, though it is no Bezier patch: one point, the middle of the range
- * that rates leave, and an error as large as half of it. Over tiny regions the surface comes near both
- * ends. */
+/* A true net of the liars' surface, though it is no Bezier patch: one point, the middle of the
+ * range that rates leave, and an error as large as half of it. Over tiny regions the surface comes
+ * near both ends. */
 static inline imp_status slack_net(const void *self, const imp_region *region, imp_net *out)
 {
     imp_model model[3];

@@ -5,8 +5,8 @@
 
 #include "slab.h"
 
-/* Three slabs one above the other, at 0, 1 and 2, as the pieces of one instance. Each plugin beside this
- * file takes it and commits one sin. */
+/* Three slabs one above the other, at 0, 1 and 2, as the pieces of one instance. Each plugin beside
+ * this file takes it and commits one sin. */
 
 static const slab stack_slabs[3] = {{0}, {1}, {2}};
 

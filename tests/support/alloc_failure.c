@@ -32,7 +32,7 @@ static bool is_this_one(void)
     return true;
 }
 
-/* --- Blocks alive: open addressing; a block freed that is not ours is somebody else's -- */
+/* --- Blocks alive: open addressing; a block freed that is not ours is somebody else's --------- */
 
 #define SLOTS ((size_t)1 << 16)
 #define GONE ((void *)&calls) /* a slot once used, so that searches go on behind it */
@@ -71,7 +71,7 @@ static void forget(const void *block)
     }
 }
 
-/* --- What the linker puts in place ------------------------------------------------- */
+/* --- What the linker puts in place ------------------------------------------------------------ */
 
 void *__wrap_malloc(size_t size) { return is_this_one() ? NULL : remember(__real_malloc(size)); }
 
@@ -107,7 +107,7 @@ char *__wrap_strndup(const char *text, size_t length)
 
 char *__wrap_strdup(const char *text) { return __wrap_strndup(text, strlen(text)); }
 
-/* --- The interface ----------------------------------------------------------------- */
+/* --- The interface ---------------------------------------------------------------------------- */
 
 void alloc_failure_begin(size_t n)
 {

@@ -26,7 +26,8 @@ static inline bool comma_locale_make(const sandbox *box)
 /* Whether it can; also outside of tests. */
 static inline bool comma_locale_can(void)
 {
-    return system("folder=$(mktemp -d) && { \"${top_srcdir:-.}\"/tests/support/comma_locale \"$folder\";"
+    return system("folder=$(mktemp -d) && { \"${top_srcdir:-.}\"/tests/support/comma_locale "
+                  "\"$folder\";"
                   " made=$?; rm -r \"$folder\"; exit $made; }") == 0;
 }
 

@@ -9,8 +9,8 @@
 
 /* Surfaces, scenes and regions made by hand, without a reader. */
 
-/* A surface of an instance that nothing else holds, and a map on top of it; both take over `self`, also when
- * memory runs out. */
+/* A surface of an instance that nothing else holds, and a map on top of it; both take over `self`,
+ * also when memory runs out. */
 static inline surface *surface_new(const imp_surface_type *type, void *self)
 {
     shared_instance *p = instance_of_surface(type, self);

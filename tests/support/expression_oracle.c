@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- Functions --------------------------------------------------------------------------- */
+/* --- Functions -------------------------------------------------------------------------------- */
 
 /* The hull of both, or NaN. */
 static number hull(number x, number y)
@@ -117,7 +117,7 @@ static number call(const char *name, const number *x, size_t count)
     return other_call(name, x);
 }
 
-/* --- Two stacks -------------------------------------------------------------------------- */
+/* --- Two stacks ------------------------------------------------------------------------------- */
 
 enum { STACK = 1000, NAME = 32 };
 

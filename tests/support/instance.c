@@ -8,7 +8,7 @@
 #include "tests/support/instance.h"
 #include "tests/support/suite.h"
 
-/* --- Templates --- */
+/* --- Templates -------------------------------------------------------------------------------- */
 
 /* Length of what '@' repeats: an array with all inside it, or one character. */
 static size_t item_length(const char *text)
@@ -59,7 +59,7 @@ char *template_draw(const char *template, uint64_t *random)
     return text;
 }
 
-/* --- Instances --- */
+/* --- Instances -------------------------------------------------------------------------------- */
 
 static void find(instance *made, const imp_registry *registry, const char *type)
 {
@@ -80,7 +80,8 @@ instance instance_make(const imp_registry *registry, const char *type, const cha
     find(&made, registry, type);
     made.json = json_loads(made.text, PARAMETERS_JSON_FLAGS, NULL);
     ck_assert_msg(made.json != NULL, "%s: not JSON: %s", type, made.text);
-    imp_code code = parameters_read(&made.view.table, type, made.json, NULL, &at, &made.values, &error);
+    imp_code code =
+        parameters_read(&made.view.table, type, made.json, NULL, &at, &made.values, &error);
     ck_assert_msg(code == IMP_SUCCESS, "%s %s: %s", type, made.text, error.text);
     imp_status status = made.view.create(made.values.value, &made.self, &why);
     ck_assert_msg(status == IMP_STATUS_OK, "%s %s: %s", type, made.text, why.text);

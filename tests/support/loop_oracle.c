@@ -7,9 +7,9 @@
 
 #include <stdlib.h>
 
-/* A surface of Loop's by its definition: the triangles around the point's own are subdivided by the rules of
- * 1987, until its own is regular, and then by the twelve basis functions of Stam's course notes of 1999, or
- * until nothing is left of it. */
+/* A surface of Loop's by its definition: the triangles around the point's own are subdivided by the
+ * rules of 1987, until its own is regular, and then by the twelve basis functions of Stam's course
+ * notes of 1999, or until nothing is left of it. */
 
 enum { LEVELS_MAX = 140, BASIS = 12, TERMS = 15, RING = 6 };
 
@@ -19,7 +19,7 @@ static bool is_regular(const polygons *m, size_t p)
     return polygons_is_border(m, p) ? n == 1 || n == 3 : n == 6;
 }
 
-/* --- One step --------------------------------------------------------------------------------------- */
+/* --- One step --------------------------------------------------------------------------------- */
 
 /* P + share (Q - P), Q the mean of the neighbours. */
 static void smooth_inside(const polygons *m, size_t p, polygons *to, size_t at)
@@ -58,8 +58,9 @@ static size_t edge_point(const polygons *m, size_t a, size_t b, bool all, polygo
     return p;
 }
 
-/* Face f gives four: of its corners, each first of its own, and of its edges. `all`: else only what lies
- * around the first face's four is in its place: what corners of that face and edges from them become. */
+/* Face f gives four: of its corners, each first of its own, and of its edges. `all`: else only what
+ * lies around the first face's four is in its place: what corners of that face and edges from them
+ * become. */
 static void step(const polygons *m, bool all, polygons *to)
 {
     size_t ends[POLYGONS_POINTS][2];
@@ -88,7 +89,7 @@ static void step(const polygons *m, bool all, polygons *to)
     }
 }
 
-/* --- The first piece ----------------------------------------------------------------------------------- */
+/* --- The first piece -------------------------------------------------------------------------- */
 
 static bool is_piece(const polygons *m, size_t f, size_t *first)
 {
@@ -114,10 +115,10 @@ static void take_first(const type_arguments *arguments, number t, polygons *to)
     abort();
 }
 
-/* --- A regular triangle --------------------------------------------------------------------------------- */
+/* --- A regular triangle ----------------------------------------------------------------------- */
 
-/* The neighbours of corner k of the first face, counterclockwise from the next corner; beyond a border edge p
- * q of a face p q r is p + q - r. */
+/* The neighbours of corner k of the first face, counterclockwise from the next corner; beyond a
+ * border edge p q of a face p q r is p + q - r. */
 static void ring_of(const polygons *m, size_t k, int axis, number ring[RING])
 {
     const size_t p = polygons_corner(m, 0, k);
@@ -193,7 +194,7 @@ static void regular_point(const polygons *m, const number at[3], number x[3])
     for (int axis = 0; axis < 3; ++axis) x[axis] = num_div(x[axis], num(12));
 }
 
-/* --- A point ------------------------------------------------------------------------------------------- */
+/* --- A point ---------------------------------------------------------------------------------- */
 
 static bool is_flat(const polygons *m)
 {

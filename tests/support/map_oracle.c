@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- Vectors ------------------------------------------------------------------------------ */
+/* --- Vectors ---------------------------------------------------------------------------------- */
 
 static void vector(const type_arguments *arguments, const char *name, number v[3])
 {
@@ -77,7 +77,7 @@ static number in_time(const type_arguments *arguments, const char *name, number 
     return num_poly(all->number, all->count, 1, t);
 }
 
-/* --- Maps by one formula ------------------------------------------------------------------- */
+/* --- Maps by one formula ---------------------------------------------------------------------- */
 
 void scale_oracle(const type_arguments *arguments, const number p[4], number x[3])
 {
@@ -168,7 +168,7 @@ void wave_oracle(const type_arguments *arguments, const number p[4], number x[3]
     }
 }
 
-/* --- Keyframes: Hermite's basis, quaternion products ---------------------------------------- */
+/* --- Keyframes: Hermite's basis, quaternion products ------------------------------------------ */
 
 typedef struct track {
     const double *time;
@@ -359,7 +359,7 @@ void trajectory_oracle(const type_arguments *arguments, const number p[4], numbe
     }
 }
 
-/* --- Free-form deformation: the control points themselves ------------------------------------ */
+/* --- Free-form deformation: the control points themselves ------------------------------------- */
 
 static number bernstein(unsigned n, unsigned i, number u)
 {

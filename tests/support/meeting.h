@@ -6,10 +6,11 @@
 #include "core/bounds/difference.h"
 #include "tests/support/suite.h"
 
-/* What tests of pairs of made-up nodes share that meet at a chosen moment of a window: no cut may lose it. */
+/* What tests of pairs of made-up nodes share that meet at a chosen moment of a window: no cut may
+ * lose it. */
 
-/* A window in [0, 1] whose length may be 2^least of what is left of it, and a moment of it: an end as often as
- * one inside. */
+/* A window in [0, 1] whose length may be 2^least of what is left of it, and a moment of it: an end
+ * as often as one inside. */
 static inline double draw_moment(uint64_t *state, double least, time_window *window)
 {
     window->lo = random_between(state, 0, 0.9);

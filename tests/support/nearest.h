@@ -5,8 +5,8 @@
 
 #include "tests/support/type_oracle.h"
 
-/* Distances of points from surfaces that have no closed form: from the nearest point that a search finds. It
- * is a point of the surface, and so no nearer than the nearest. */
+/* Distances of points from surfaces that have no closed form: from the nearest point that a search
+ * finds. It is a point of the surface, and so no nearer than the nearest. */
 number nearest_of_thread(const type_arguments *arguments, const number x[3]); /* endless */
 number nearest_of_ellipsoid(const type_arguments *arguments, const number x[3]);
 

@@ -6,7 +6,7 @@
 
 #include "tests/support/suite.h"
 
-/* --- Random numbers -------------------------------------------------------------------- */
+/* --- Random numbers --------------------------------------------------------------------------- */
 
 double oracle_magnitude(uint64_t *state, double least, double most)
 {
@@ -22,7 +22,7 @@ uint64_t oracle_seed(int trial)
     return random_bits(&state);
 }
 
-/* --- Operations: what the models do ------------------------------------------------ */
+/* --- Operations: what the models do ----------------------------------------------------------- */
 
 #define UNARY_MODEL(NAME)                                                                          \
     static imp_model model_##NAME(imp_model x, imp_model y, double k)                              \
@@ -189,7 +189,7 @@ static imp_interval interval_powi(imp_interval x, imp_interval y, double k)
     return imp_interval_powi(x, (int)k);
 }
 
-/* --- Operations: what they mean ------------------------------------------------------- */
+/* --- Operations: what they mean --------------------------------------------------------------- */
 
 static bool exact_log(mpfi_ptr r, mpfi_srcptr x, mpfi_srcptr y, double k)
 {
@@ -317,7 +317,7 @@ static bool exact_poly(mpfi_ptr r, mpfi_srcptr x, mpfi_srcptr y, double k)
     return true;
 }
 
-/* --- Operations: the table ---------------------------------------------------------------- */
+/* --- Operations: the table -------------------------------------------------------------------- */
 
 static const double shifts[] = {0, 1, -0.1, 1e8, -1e300, 5e-324, 0x1p-1022, NAN};
 static const double factors[] = {0, 1, -1, 0.1, 1e8, -1e300, 1e-300, 5e-324, NAN};
@@ -379,7 +379,7 @@ double operation_constant(const operation *op, uint64_t *state)
     return n > 0 ? op->constants[oracle_below(state, n)] : 0;
 }
 
-/* --- Points and quadratics ------------------------------------------------------------------- */
+/* --- Points and quadratics -------------------------------------------------------------------- */
 
 void oracle_place(uint64_t *state, double s[3])
 {
@@ -410,7 +410,7 @@ void oracle_quadratic(mpfi_ptr value, const imp_model *m, const mpfi_t s[3])
     mpfi_clear(term);
 }
 
-/* --- Claims ------------------------------------------------------------------------- */
+/* --- Claims ----------------------------------------------------------------------------------- */
 
 static bool depends_is_kept(const imp_model *m)
 {

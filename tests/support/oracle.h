@@ -19,7 +19,7 @@
 
 #define ORACLE_BITS 240
 
-/* --- Random numbers, beside those of suite.h ------------------------------------ */
+/* --- Random numbers, beside those of suite.h -------------------------------------------------- */
 
 double oracle_magnitude(uint64_t *state, double least, double most); /* +-2^k, k uniform */
 unsigned oracle_below(uint64_t *state, unsigned n);                  /* 0 ... n - 1 */
@@ -27,7 +27,7 @@ unsigned oracle_below(uint64_t *state, unsigned n);                  /* 0 ... n 
 /* What trial number `trial` starts from. */
 uint64_t oracle_seed(int trial);
 
-/* --- Operations ------------------------------------------------------------------ */
+/* --- Operations ------------------------------------------------------------------------------- */
 
 /* r = op(x, y; k), or false where op is undefined at (some point of) x, y. */
 typedef bool (*oracle_exact)(mpfi_ptr r, mpfi_srcptr x, mpfi_srcptr y, double k);
@@ -46,7 +46,7 @@ extern const int operation_count;
 
 double operation_constant(const operation *op, uint64_t *state); /* one of its k */
 
-/* --- Exact points of a region, exact values of a quadratic ------------------------- */
+/* --- Exact points of a region, exact values of a quadratic ------------------------------------ */
 
 /* s in [-1, 1]^3, doubles: corners, centres of sides, and anything else. */
 void oracle_place(uint64_t *state, double s[3]);
@@ -54,7 +54,7 @@ void oracle_place(uint64_t *state, double s[3]);
 /* The quadratic part of m at s. */
 void oracle_quadratic(mpfi_ptr value, const imp_model *m, const mpfi_t s[3]);
 
-/* --- Claims ---------------------------------------------------------------------------- */
+/* --- Claims ----------------------------------------------------------------------------------- */
 
 /* Finite where it has to be, ordered, no NaN, zero where it does not depend. */
 bool model_is_well_formed(const imp_model *m);

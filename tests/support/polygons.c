@@ -43,7 +43,7 @@ void polygons_divide(polygons *m, size_t p, double by)
     for (int i = 0; i < 3; ++i) mpfi_div_d(m->x[p][i], m->x[p][i], by);
 }
 
-/* --- Neighbours ---------------------------------------------------------------------------------- */
+/* --- Neighbours ------------------------------------------------------------------------------- */
 
 size_t polygons_corner(const polygons *m, size_t f, size_t k)
 {
@@ -55,7 +55,8 @@ bool polygons_find_edge(const polygons *m, size_t a, size_t b, size_t *face, siz
 {
     for (*face = 0; *face < m->faces; ++*face)
         for (*k = 0; *k < m->corners[*face]; ++*k)
-            if (polygons_corner(m, *face, *k) == a && polygons_corner(m, *face, *k + 1) == b) return true;
+            if (polygons_corner(m, *face, *k) == a && polygons_corner(m, *face, *k + 1) == b)
+                return true;
     return false;
 }
 
@@ -101,7 +102,8 @@ void polygons_smooth_border(const polygons *m, size_t p, polygons *to, size_t at
         }
 }
 
-/* The faces that share a point with f, which becomes the first of them and begins at its corner `first`. */
+/* The faces that share a point with f, which becomes the first of them and begins at its corner
+ * `first`. */
 void polygons_take_around(const polygons *m, size_t f, size_t first, polygons *to)
 {
     size_t taken[POLYGONS_POINTS];

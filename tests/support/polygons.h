@@ -39,7 +39,8 @@ bool polygons_is_border(const polygons *m, size_t p);
 /* Adds to point `at` of another what a step makes of border point p. */
 void polygons_smooth_border(const polygons *m, size_t p, polygons *to, size_t at);
 
-/* The faces that share a point with f, which becomes the first of them and begins at its corner `first`. */
+/* The faces that share a point with f, which becomes the first of them and begins at its corner
+ * `first`. */
 void polygons_take_around(const polygons *m, size_t f, size_t first, polygons *to);
 
 /* The hull of all points. */

@@ -13,7 +13,7 @@ static int one_of(uint64_t *random, int kinds)
 
 static double clamp(double x, double lo, double hi) { return x < lo ? lo : x > hi ? hi : x; }
 
-/* --- Regions --- */
+/* --- Regions ---------------------------------------------------------------------------------- */
 
 static void draw_interval(uint64_t *random, double lo, double hi, double *from, double *to)
 {
@@ -81,7 +81,7 @@ imp_box4 sample_box(uint64_t *random, double t_lo, double t_hi)
     return box;
 }
 
-/* --- Points --- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 /* Remainders of quadratics are greatest near these. */
 static double draw_extreme(uint64_t *random)
@@ -122,7 +122,7 @@ void sample_normalized(const imp_region *region, const double p[3], number s[3])
     }
 }
 
-/* --- Arguments of maps --- */
+/* --- Arguments of maps ------------------------------------------------------------------------ */
 
 /* Which s the coefficient q[k] multiplies. */
 static const int first[6] = {0, 0, 0, 1, 1, 2}, second[6] = {0, 1, 2, 1, 2, 2};

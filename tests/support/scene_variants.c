@@ -4,7 +4,7 @@
 
 #include "tests/support/scene_variants.h"
 
-/* --- Scenes, told in other units ---------------------------------------------------------- */
+/* --- Scenes, told in other units -------------------------------------------------------------- */
 
 static void write_vector(FILE *out, const double x[3], double by)
 {
@@ -180,7 +180,7 @@ imp_scene *scene_told(imp_registry *registry, const setting *s)
     return scene;
 }
 
-/* --- Questions, and the ladder ------------------------------------------------------------ */
+/* --- Questions, and the ladder ---------------------------------------------------------------- */
 
 double rung_gamma(const setting *s, const frame *f, int rung)
 {

@@ -15,12 +15,12 @@
  *   Proof. At t_Y the gap is at most gamma_Y < clearance_X (G2), and before t_lower of X, or in the
  *   whole interval if X is clear, it is nowhere below clearance_X (G1, G3).
  *
- * So each scene is asked on a ladder of tolerances, gamma_k = gamma 4^-k with gamma_clear gamma_k / 2
- * > gamma_(k+1), and a variant Y asked on rung 1 must answer within [t_lower of rung 0, t of rung
+ * So each scene is asked on a ladder of tolerances, gamma_k = gamma 4^-k with gamma_clear gamma_k /
+ * 2 > gamma_(k+1), and a variant Y asked on rung 1 must answer within [t_lower of rung 0, t of rung
  * 2]. Both bounds are sharp to a few gamma over the closing speed. Rounding in a variant moves
  * points by 1e-15 or so, against differences of gamma / 4 between rungs. */
 
-/* --- Scenes, told in other units ---------------------------------------------------------- */
+/* --- Scenes, told in other units -------------------------------------------------------------- */
 
 /* Lengths are multiplied by `size`; the scene's own time is rate t + clock. */
 typedef struct frame {
@@ -51,7 +51,7 @@ telling carry(const telling *told, const char *maps);
 /* The scene in the plain frame. */
 imp_scene *scene_told(imp_registry *registry, const setting *s);
 
-/* --- The patches of the setting of that name ---------------------------------------------- */
+/* --- The patches of the setting of that name -------------------------------------------------- */
 
 typedef struct control {
     double point[3], velocity[3];
@@ -65,7 +65,7 @@ void draw_patch(int side, control patch[POINTS]);
 char *patch_pipeline(const control patch[POINTS]);
 void write_patch_json(FILE *out, const control patch[POINTS]);
 
-/* --- Questions, and the ladder ------------------------------------------------------------ */
+/* --- Questions, and the ladder ---------------------------------------------------------------- */
 
 double rung_gamma(const setting *s, const frame *f, int rung);
 question question_of(const setting *s, const frame *f, const telling *told, int rung);

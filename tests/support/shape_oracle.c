@@ -21,7 +21,7 @@ static void scale_by(const type_arguments *arguments, const char *name, number x
     for (size_t i = 0; i < 3; ++i) x[i] = num_mul(x[i], argument_at(arguments, name, i));
 }
 
-/* --- Round -------------------------------------------------------------------------------- */
+/* --- Round ------------------------------------------------------------------------------------ */
 
 void ellipsoid_oracle(const type_arguments *arguments, const number p[3], number x[3])
 {
@@ -81,7 +81,7 @@ void ripple_oracle(const type_arguments *arguments, const number p[3], number x[
     add_center(arguments, x);
 }
 
-/* --- Straight ----------------------------------------------------------------------------- */
+/* --- Straight --------------------------------------------------------------------------------- */
 
 void plane_oracle(const type_arguments *arguments, const number p[3], number x[3])
 {
@@ -181,7 +181,7 @@ void bezier_triangle_oracle(const type_arguments *arguments, const number p[3], 
     for (int axis = 0; axis < 3; ++axis) x[axis] = num_div(sum[axis], total);
 }
 
-/* --- Superquadric ------------------------------------------------------------------------- */
+/* --- Superquadric ----------------------------------------------------------------------------- */
 
 /* |s|^p with |s| <= 1, p = 2 / exponent. */
 static number magnitude_power(number s, number exponent)
@@ -228,7 +228,7 @@ void supertoroid_oracle(const type_arguments *arguments, const number p[3], numb
     add_center(arguments, x);
 }
 
-/* --- Swept -------------------------------------------------------------------------------- */
+/* --- Swept ------------------------------------------------------------------------------------ */
 
 static number bernstein(unsigned n, unsigned i, number u)
 {
@@ -282,7 +282,7 @@ void product_oracle(const type_arguments *arguments, const number p[3], number x
     add_center(arguments, x);
 }
 
-/* --- NURBS -------------------------------------------------------------------------------- */
+/* --- NURBS ------------------------------------------------------------------------------------ */
 
 /* One direction's knots. */
 typedef struct knot_list {

@@ -8,23 +8,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A Catmull-Clark surface by its definition: the faces around the point's own are subdivided by the rules
- * of 1978, as a list of polygons that is searched for neighbours, until the point's face is regular, and
- * then a uniform bicubic B-spline, or until nothing is left of it. */
+/* A Catmull-Clark surface by its definition: the faces around the point's own are subdivided by the
+ * rules of 1978, as a list of polygons that is searched for neighbours, until the point's face is
+ * regular, and then a uniform bicubic B-spline, or until nothing is left of it. */
 
 enum { LEVELS_MAX = 140 };
 
-/* --- Regular corners --------------------------------------------------------------------------------- */
+/* --- Regular corners -------------------------------------------------------------------------- */
 
 static bool is_regular(const polygons *m, size_t p)
 {
     return polygons_is_border(m, p) ? polygons_faces_at(m, p) <= 2 : polygons_faces_at(m, p) == 4;
 }
 
-/* --- One step --------------------------------------------------------------------------------------- */
+/* --- One step --------------------------------------------------------------------------------- */
 
 /* (F + 2 R + (n - 3) P) / n, R the mean of the edges' middles. */
-static void smooth_inside(const polygons *m, size_t p, const polygons *finer, polygons *to, size_t at)
+static void smooth_inside(const polygons *m, size_t p, const polygons *finer, polygons *to,
+                          size_t at)
 {
     const double n = (double)polygons_faces_at(m, p);
     for (size_t f = 0; f < m->faces; ++f)
@@ -91,7 +92,7 @@ static void step(const polygons *m, polygons *to)
         }
 }
 
-/* --- Of what the first piece is made ------------------------------------------------------------------- */
+/* --- Of what the first piece is made ---------------------------------------------------------- */
 
 /* Whether face f is a quad among quads with one extraordinary corner at most, which *first says. */
 static bool is_piece(const polygons *m, size_t f, size_t *first)
@@ -124,7 +125,7 @@ static void take_first(const type_arguments *arguments, number t, polygons *to)
     abort();
 }
 
-/* --- A point ------------------------------------------------------------------------------------------- */
+/* --- A point ---------------------------------------------------------------------------------- */
 
 /* Numbers of the 4 by 4 points around the first face; SIZE_MAX where none is. */
 static void find_grid(const polygons *m, size_t grid[4][4])
@@ -134,7 +135,8 @@ static void find_grid(const polygons *m, size_t grid[4][4])
     for (int k = 0; k < 16; ++k) grid[k / 4][k % 4] = SIZE_MAX;
     for (int side = 0; side < 4; ++side) {
         const int *a = at[side], *b = at[side + 1], *o = out[side], *turned = out[side + 1];
-        const size_t p = polygons_corner(m, 0, (size_t)side), q = polygons_corner(m, 0, (size_t)side + 1);
+        const size_t p = polygons_corner(m, 0, (size_t)side),
+                     q = polygons_corner(m, 0, (size_t)side + 1);
         size_t f, k;
         grid[a[0] + 1][a[1] + 1] = p;
         if (!polygons_find_edge(m, q, p, &f, &k)) continue;
@@ -142,7 +144,8 @@ static void find_grid(const polygons *m, size_t grid[4][4])
         grid[a[0] + o[0] + 1][a[1] + o[1] + 1] = polygons_corner(m, f, k + 2);
         grid[b[0] + o[0] + 1][b[1] + o[1] + 1] = near;
         if (polygons_find_edge(m, q, near, &f, &k))
-            grid[b[0] + o[0] + turned[0] + 1][b[1] + o[1] + turned[1] + 1] = polygons_corner(m, f, k + 2);
+            grid[b[0] + o[0] + turned[0] + 1][b[1] + o[1] + turned[1] + 1] =
+                polygons_corner(m, f, k + 2);
     }
 }
 
@@ -183,7 +186,8 @@ static void spline_of(const polygons *m, number u, number v, number x[3])
         if (grid[3][1] == SIZE_MAX) reflect(value, 3, 2, 1, true);
         x[i] = num(0);
         for (int k = 0; k < 16; ++k)
-            x[i] = num_add(x[i], num_mul(num_mul(along_u[k / 4], along_v[k % 4]), value[k / 4][k % 4]));
+            x[i] = num_add(x[i],
+                           num_mul(num_mul(along_u[k / 4], along_v[k % 4]), value[k / 4][k % 4]));
     }
 }
 
@@ -194,8 +198,8 @@ static bool is_flat(const polygons *m)
     return true;
 }
 
-/* A face's quads follow each other; that of corner k lies, seen from (0,0), k quarters round: it begins at
- * its corner 4 - k. */
+/* A face's quads follow each other; that of corner k lies, seen from (0,0), k quarters round: it
+ * begins at its corner 4 - k. */
 void subdivision_oracle(const type_arguments *arguments, const number p[3], number x[3])
 {
     if (strcmp(argument(arguments, "scheme")->string[0], "loop") == 0) {

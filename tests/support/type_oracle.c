@@ -41,7 +41,7 @@ static void polar(number radius, number u, number v, number x[3])
     x[2] = num_mul(radius, num_sin(v));
 }
 
-/* --- Surfaces ---------------------------------------------------------------------------- */
+/* --- Surfaces --------------------------------------------------------------------------------- */
 
 static void sphere(const type_arguments *arguments, const number p[3], number x[3])
 {
@@ -99,7 +99,7 @@ static void bezier(const type_arguments *arguments, const number p[3], number x[
     patch_oracle(arguments, along, p[2], x);
 }
 
-/* --- Maps ---------------------------------------------------------------------------------- */
+/* --- Maps ------------------------------------------------------------------------------------- */
 
 /* Component i of a polynomial given by all coefficients or by its rate of change. */
 static number polynomial(const type_arguments *arguments, const char *rate,
@@ -147,7 +147,7 @@ static void rotate(const type_arguments *arguments, const number p[4], number x[
     add_center(arguments, x);
 }
 
-/* --- Texts of formulas -------------------------------------------------------------------- */
+/* --- Texts of formulas ------------------------------------------------------------------------ */
 
 enum { NAMES = 20 };
 
@@ -183,7 +183,7 @@ static void map_formula(const type_arguments *arguments, const number p[4], numb
     texts(arguments, variable, p, 4, x);
 }
 
-/* --- The table ------------------------------------------------------------------------------ */
+/* --- The table -------------------------------------------------------------------------------- */
 
 const type_oracle oracles[] = {
     {.type = "sphere",
@@ -248,11 +248,12 @@ const type_oracle oracles[] = {
                    "{\"radius\": 1e-3, \"height\": -1e3, \"center\": [1e8,0,-1e8]}"}},
     {.type = "thread",
      .surface = thread_oracle,
-     .instances = {"{}", "{\"radius\": +, \"pitch\": +, \"height\": +, \"center\": [?,?,?]}",
-                   "{\"radius\": 4, \"profile\": [@3?], \"pitch\": -1.5, \"starts\": 3}",
-                   "{\"radius\": 1e6, \"profile\": 1e5, \"pitch\": 1e-3, \"height\": 1}",
-                   "{\"radius\": 1e-3, \"profile\": [-5e-4,0,4e-4], \"pitch\": 1e6, \"height\": 1e6,"
-                   " \"starts\": 7, \"center\": [1e8,0,-1e8]}"}},
+     .instances =
+         {"{}", "{\"radius\": +, \"pitch\": +, \"height\": +, \"center\": [?,?,?]}",
+          "{\"radius\": 4, \"profile\": [@3?], \"pitch\": -1.5, \"starts\": 3}",
+          "{\"radius\": 1e6, \"profile\": 1e5, \"pitch\": 1e-3, \"height\": 1}",
+          "{\"radius\": 1e-3, \"profile\": [-5e-4,0,4e-4], \"pitch\": 1e6, \"height\": 1e6,"
+          " \"starts\": 7, \"center\": [1e8,0,-1e8]}"}},
     {.type = "plane",
      .surface = plane_oracle,
      .instances = {"{}", "{\"origin\": [?,?,?], \"edge_u\": [?,?,?], \"edge_v\": [?,?,?]}",
@@ -273,54 +274,61 @@ const type_oracle oracles[] = {
                    "{\"points\": [@3[?,?,1]]}"}},
     {.type = "mesh", /* its first piece */
      .surface = mesh_oracle,
-     .instances = {"{\"points\": [@3[?,?,?]], \"faces\": [[0,1,2]]}",
-                   "{\"points\": [@5[?,?,?]], \"faces\": [[4,1,3],[0,1,2]], \"velocities\": [@5[?,?,?]]}",
-                   "{\"points\": [@2[1e8,?,?],[?,-1e8,1e-9]], \"faces\": [[2,0,1]],"
-                   " \"velocities\": [@3[?,1e6,0]]}",
-                   "{\"points\": [[0,0,?],[1,0,0],[2,3,?]], \"faces\": [[1,2,0]]}"}},
+     .instances =
+         {"{\"points\": [@3[?,?,?]], \"faces\": [[0,1,2]]}",
+          "{\"points\": [@5[?,?,?]], \"faces\": [[4,1,3],[0,1,2]], \"velocities\": [@5[?,?,?]]}",
+          "{\"points\": [@2[1e8,?,?],[?,-1e8,1e-9]], \"faces\": [[2,0,1]],"
+          " \"velocities\": [@3[?,1e6,0]]}",
+          "{\"points\": [[0,0,?],[1,0,0],[2,3,?]], \"faces\": [[1,2,0]]}"}},
     {.type = "subdivision", /* its first piece */
      .surface = subdivision_oracle,
-     .instances = {
-         /* a cube, and one that moves; a tetrahedron, whose second step leaves quads */
-         "{\"points\": [[-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],[-1,1,1],[1,1,1]],"
-         " \"faces\": [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]}",
-         "{\"points\": [@8[?,?,?]], \"velocities\": [@8[?,?,?]],"
-         " \"faces\": [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]}",
-         "{\"points\": [@4[?,?,?]], \"faces\": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}",
-         /* regular: inside, and with a border on two sides, and on four */
-         "{\"points\": [@16[?,?,?]], \"velocities\": [@16[?,?,?]],"
-         " \"faces\": [[5,9,10,6],[0,4,5,1],[1,5,6,2],[2,6,7,3],[4,8,9,5],[6,10,11,7],[8,12,13,9],"
-         "[9,13,14,10],[10,14,15,11]]}",
-         "{\"points\": [@9[1e8,?,?]],"
-         " \"faces\": [[0,3,4,1],[1,4,5,2],[3,6,7,4],[4,7,8,5]]}",
-         "{\"points\": [@4[?,?,?]], \"velocities\": [@4[?,1e3,?]], \"faces\": [[0,1,2,3]]}",
-         /* five faces at a point inside, and at the border three */
-         "{\"points\": [@11[?,?,?]], \"velocities\": [@11[?,?,?]],"
-         " \"faces\": [[0,1,2,3],[0,3,4,5],[0,5,6,7],[0,7,8,9],[0,9,10,1]]}",
-         "{\"points\": [@8[?,?,0.25]], \"velocities\": [@8[?,?,0]],"
-         " \"faces\": [[2,3,0,1],[0,3,4,5],[7,0,5,6]]}"}},
+     .instances =
+         {/* a cube, and one that moves; a tetrahedron, whose second step leaves quads */
+          "{\"points\": "
+          "[[-1,-1,-1],[1,-1,-1],[-1,1,-1],[1,1,-1],[-1,-1,1],[1,-1,1],[-1,1,1],[1,1,1]],"
+          " \"faces\": [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]}",
+          "{\"points\": [@8[?,?,?]], \"velocities\": [@8[?,?,?]],"
+          " \"faces\": [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]]}",
+          "{\"points\": [@4[?,?,?]], \"faces\": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}",
+          /* regular: inside, and with a border on two sides, and on four */
+          "{\"points\": [@16[?,?,?]], \"velocities\": [@16[?,?,?]],"
+          " \"faces\": [[5,9,10,6],[0,4,5,1],[1,5,6,2],[2,6,7,3],[4,8,9,5],[6,10,11,7],[8,12,13,9],"
+          "[9,13,14,10],[10,14,15,11]]}",
+          "{\"points\": [@9[1e8,?,?]],"
+          " \"faces\": [[0,3,4,1],[1,4,5,2],[3,6,7,4],[4,7,8,5]]}",
+          "{\"points\": [@4[?,?,?]], \"velocities\": [@4[?,1e3,?]], \"faces\": [[0,1,2,3]]}",
+          /* five faces at a point inside, and at the border three */
+          "{\"points\": [@11[?,?,?]], \"velocities\": [@11[?,?,?]],"
+          " \"faces\": [[0,1,2,3],[0,3,4,5],[0,5,6,7],[0,7,8,9],[0,9,10,1]]}",
+          "{\"points\": [@8[?,?,0.25]], \"velocities\": [@8[?,?,0]],"
+          " \"faces\": [[2,3,0,1],[0,3,4,5],[7,0,5,6]]}"}},
     {.type = "subdivision", /* Loop's */
      .surface = subdivision_oracle,
-     .instances = {
-         /* an octahedron, and a tetrahedron that moves */
-         "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"faces\": [[0,1,2],[0,2,3],[0,3,4],[0,4,1],"
-         "[5,2,1],[5,3,2],[5,4,3],[5,1,4]]}",
-         "{\"scheme\": \"loop\", \"points\": [@4[?,?,?]], \"velocities\": [@4[?,?,?]],"
-         " \"faces\": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}",
-         /* regular: inside, at the border, and at a corner of it */
-         "{\"scheme\": \"loop\", \"points\": [@12[?,?,?]], \"velocities\": [@12[?,?,?]],"
-         " \"faces\": [[0,1,2],[1,3,2],[0,4,1],[0,2,5],[1,4,7],[1,7,6],[1,6,3],[2,3,8],[2,8,9],[2,9,5],"
-         "[0,5,10],[0,10,11],[0,11,4]]}",
-         "{\"scheme\": \"loop\", \"points\": [@6[1e8,?,?]], \"faces\": [[1,4,3],[0,1,3],[1,2,4],[3,4,5]]}",
-         "{\"scheme\": \"loop\", \"points\": [@3[?,?,?]], \"velocities\": [@3[?,1e3,?]],"
-         " \"faces\": [[0,1,2]]}",
-         /* seven faces at a point inside, and at the border two, with a border on one side and both */
-         "{\"scheme\": \"loop\", \"points\": [@9[?,?,?]], \"faces\": [[0,1,2],[0,2,3],[0,3,4],[0,4,5],"
-         "[0,5,6],[0,6,7],[0,7,1],[8,2,1],[8,3,2],[8,4,3],[8,5,4],[8,6,5],[8,7,6],[8,1,7]]}",
-         "{\"scheme\": \"loop\", \"points\": [@4[?,?,0.25]], \"velocities\": [@4[?,?,0]],"
-         " \"faces\": [[0,1,2],[0,2,3]]}",
-         "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"velocities\": [@6[?,?,?]],"
-         " \"faces\": [[0,1,2],[0,2,3],[0,3,4],[0,4,5]]}"}},
+     .instances =
+         {/* an octahedron, and a tetrahedron that moves */
+          "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"faces\": "
+          "[[0,1,2],[0,2,3],[0,3,4],[0,4,1],"
+          "[5,2,1],[5,3,2],[5,4,3],[5,1,4]]}",
+          "{\"scheme\": \"loop\", \"points\": [@4[?,?,?]], \"velocities\": [@4[?,?,?]],"
+          " \"faces\": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}",
+          /* regular: inside, at the border, and at a corner of it */
+          "{\"scheme\": \"loop\", \"points\": [@12[?,?,?]], \"velocities\": [@12[?,?,?]],"
+          " \"faces\": "
+          "[[0,1,2],[1,3,2],[0,4,1],[0,2,5],[1,4,7],[1,7,6],[1,6,3],[2,3,8],[2,8,9],[2,9,5],"
+          "[0,5,10],[0,10,11],[0,11,4]]}",
+          "{\"scheme\": \"loop\", \"points\": [@6[1e8,?,?]], \"faces\": "
+          "[[1,4,3],[0,1,3],[1,2,4],[3,4,5]]}",
+          "{\"scheme\": \"loop\", \"points\": [@3[?,?,?]], \"velocities\": [@3[?,1e3,?]],"
+          " \"faces\": [[0,1,2]]}",
+          /* seven faces at a point inside, and at the border two, with a border on one side and
+          * both */
+          "{\"scheme\": \"loop\", \"points\": [@9[?,?,?]], \"faces\": "
+          "[[0,1,2],[0,2,3],[0,3,4],[0,4,5],"
+          "[0,5,6],[0,6,7],[0,7,1],[8,2,1],[8,3,2],[8,4,3],[8,5,4],[8,6,5],[8,7,6],[8,1,7]]}",
+          "{\"scheme\": \"loop\", \"points\": [@4[?,?,0.25]], \"velocities\": [@4[?,?,0]],"
+          " \"faces\": [[0,1,2],[0,2,3]]}",
+          "{\"scheme\": \"loop\", \"points\": [@6[?,?,?]], \"velocities\": [@6[?,?,?]],"
+          " \"faces\": [[0,1,2],[0,2,3],[0,3,4],[0,4,5]]}"}},
     {.type = "ripple",
      .surface = ripple_oracle,
      .instances = {"{}",

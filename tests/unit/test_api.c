@@ -8,10 +8,11 @@
 #include "tests/support/sphere_scenes.h"
 #include "tests/support/suite.h"
 
-/* Every public function is called with every combination of missing objects, missing places, wild indices and
- * numbers that are none. The table is made from the header (tests/support/api_table.awk), so that a new
- * function is tested as soon as it is declared, and a parameter of a new type does not compile before it
- * has values below. Each function has a process of its own. */
+/* Every public function is called with every combination of missing objects, missing places, wild
+ * indices and numbers that are none. The table is made from the header
+ * (tests/support/api_table.awk), so that a new function is tested as soon as it is declared, and a
+ * parameter of a new type does not compile before it has values below. Each function has a process
+ * of its own. */
 
 /* --- Values of each type ---------------------------------------------------------------------- */
 
@@ -81,7 +82,7 @@ static const imp_type_kind of_imp_type_kind[] = {IMP_TYPE_SURFACE, IMP_TYPE_MAP,
 #define API_VALUE(TYPE, PICK) (of_##TYPE[PICK])
 #define API_COUNT(TYPE) (sizeof of_##TYPE / sizeof *of_##TYPE)
 
-/* --- Whether the answer says that something is missing ---------------------------------------------- */
+/* --- Whether the answer says that something is missing ---------------------------------------- */
 
 static bool drop_registry(imp_registry *made) { return imp_registry_free(made), made == NULL; }
 static bool drop_scene(imp_scene *made) { return imp_scene_free(made), made == NULL; }
@@ -166,7 +167,7 @@ static void make_objects(void)
     of_imp_call_p[1] = imp_call_of_thread();
 }
 
-/* --- Calls -------------------------------------------------------------------------------------- */
+/* --- Calls ------------------------------------------------------------------------------------ */
 
 static bool is_object(const char *type)
 {
@@ -223,7 +224,8 @@ START_TEST(no_function_is_harmed_by_what_is_missing_or_wild)
         make_places();
         const bool refused = f->call(pick);
         const bool lacks_object = f->parameters > 0 && is_object(f->type[0]) && pick[0] == 0;
-        ck_assert_msg(refused || !lacks_object, "%s takes a NULL for a good %s", f->name, f->type[0]);
+        ck_assert_msg(refused || !lacks_object, "%s takes a NULL for a good %s", f->name,
+                      f->type[0]);
     } while (next(f, pick));
 }
 END_TEST

@@ -8,8 +8,8 @@
 #include "core/broad_phase/broad_phase.h"
 #include "tests/support/suite.h"
 
-/* The sweep visits each pair of boxes of different groups that are near each other, whichever axis it runs along,
- * once. */
+/* The sweep visits each pair of boxes of different groups that are near each other, whichever axis
+ * it runs along, once. */
 
 enum { BOXES = 60 };
 
@@ -36,7 +36,8 @@ static bool apart(const swept_box *a, const swept_box *b, double gamma_clear)
     return false;
 }
 
-/* Boxes of sides up to 0.2 in a room of that width along `crowded`, and of 5 else; some without bounds. */
+/* Boxes of sides up to 0.2 in a room of that width along `crowded`, and of 5 else; some without
+ * bounds. */
 static void draw(swept_box *boxes, int crowded, uint64_t groups, uint64_t *state)
 {
     const double odd[] = {NAN, INFINITY, -INFINITY, 0};
@@ -77,7 +78,8 @@ START_TEST(each_two_near_boxes_are_visited_once_along_any_axis)
 }
 END_TEST
 
-/* Each box starts where the one before ends along one axis, and all lie upon each other along the others. */
+/* Each box starts where the one before ends along one axis, and all lie upon each other along the
+ * others. */
 START_TEST(the_sweep_runs_along_the_axis_that_is_not_crowded)
 {
     const broad_phase_visitor visitor = {go_on, note, NULL};

@@ -12,7 +12,7 @@
 /* Whatever floating-point mode the embedding program has set: the same answers, bit for bit, as
  * under the default, and the program's mode is its own again after every call. */
 
-/* --- Modes ------------------------------------------------------------------------------ */
+/* --- Modes ------------------------------------------------------------------------------------ */
 
 static void set_control(unsigned sse, int rounding)
 {
@@ -76,7 +76,7 @@ static control control_now(void)
                       (mode)->name, #call);                                                        \
     } while (0)
 
-/* --- Answers ------------------------------------------------------------------------------ */
+/* --- Answers ---------------------------------------------------------------------------------- */
 
 /* Tight ones: parameters that no double holds, touchings, kinks, values near the subnormals. */
 static const question questions[] = {
@@ -239,7 +239,7 @@ START_TEST(threads_started_in_any_mode_answer_alike)
 }
 END_TEST
 
-/* --- Points --------------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 START_TEST(points_and_their_errors_do_not_depend_on_the_callers_mode)
 {

@@ -12,7 +12,7 @@
 /* The arithmetic by which the checker proves: spans and jets of formulas hold what 200 bits make of
  * the same texts, and branch and bound tells what is true from what is nearly so. */
 
-/* --- Formulas and what they are -------------------------------------------------------------- */
+/* --- Formulas and what they are --------------------------------------------------------------- */
 
 static const char *const names[] = {"u", "v", "t", "a"};
 static const double a_value = 0.1;
@@ -94,7 +94,7 @@ static bool holds(ld_interval x, number exact)
     return mpfr_cmp_ld(&exact->right, x.lo) >= 0 && mpfr_cmp_ld(&exact->left, x.hi) <= 0;
 }
 
-/* --- Boxes -------------------------------------------------------------------------- */
+/* --- Boxes ------------------------------------------------------------------------------------ */
 
 /* Of any size, in [0.25, 1.75]^3, now and then with single values. */
 static void draw_where(uint64_t *random, ld_interval where[3])
@@ -131,7 +131,7 @@ static void for_all_texts(judge_jet *judge, int times)
     }
 }
 
-/* --- Jets --------------------------------------------------------------------------- */
+/* --- Jets ------------------------------------------------------------------------------------- */
 
 static void judge_value(const char *text, formula *f, const ld_interval where[3], uint64_t *random)
 {
@@ -234,7 +234,7 @@ START_TEST(values_and_slopes_over_a_box_are_held_by_what_its_middle_tells)
 }
 END_TEST
 
-/* --- Reading ------------------------------------------------------------------------ */
+/* --- Reading ---------------------------------------------------------------------------------- */
 
 START_TEST(a_text_that_is_no_formula_is_refused_with_its_place)
 {
@@ -280,7 +280,7 @@ START_TEST(no_text_harms_the_reader)
 }
 END_TEST
 
-/* --- Waves ---------------------------------------------------------------------------------- */
+/* --- Waves ------------------------------------------------------------------------------------ */
 
 /* An arc that barely holds an extreme, or ends a little before it. */
 START_TEST(an_arc_that_holds_a_top_reaches_it)
@@ -303,7 +303,7 @@ START_TEST(an_arc_that_holds_a_top_reaches_it)
 }
 END_TEST
 
-/* --- Branch and bound --------------------------------------------------------------- */
+/* --- Branch and bound ------------------------------------------------------------------------- */
 
 static void formula_field(void *f, const jet p[], const jet s[], jet out[3])
 {

@@ -8,7 +8,7 @@
 
 /* Minimum distances: closed forms, points sampled, and what the search for contact says. */
 
-/* --- Asking ----------------------------------------------------------------------------- */
+/* --- Asking ----------------------------------------------------------------------------------- */
 
 static imp_clearance read_answer(const imp_query *query, size_t index)
 {
@@ -98,7 +98,7 @@ static imp_clearance measure_pair(imp_registry *registry, const char *a, const c
     return answer;
 }
 
-/* --- Closed forms ------------------------------------------------------------------------- */
+/* --- Closed forms ----------------------------------------------------------------------------- */
 
 typedef struct closed_form {
     const char *a, *b;
@@ -120,7 +120,8 @@ static const closed_form closed_forms[] = {
     {"segment points=[[-1,0,0],[1,0,0]]", "segment points=[[0,-1,0.125],[0,1,0.125]]", 0.125, -1,
      1e-9},
     {"point position=0,0,2", "cylinder radius=0.5 height=6", 0.5, -1, 1e-6},
-    /* along areas: a shaft in its bore, one off its axis, a piston, a ball in its socket and one in a race */
+    /* along areas: a shaft in its bore, one off its axis, a piston, a ball in its socket and one in
+     * a race */
     {"cylinder radius=0.99 ! rotate rate=3", "cylinder", 0.01, -1, 1e-2},
     {"cylinder radius=0.98 center=0.01,0,0 ! rotate rate=3", "cylinder", 0.01, -1, 1e-4},
     {"cylinder radius=0.99 height=1 ! translate velocity=0,0,0.5",
@@ -169,7 +170,7 @@ START_TEST(what_meets_is_no_farther_apart_than_gamma)
 }
 END_TEST
 
-/* --- Points sampled, and contact ------------------------------------------------------------ */
+/* --- Points sampled, and contact -------------------------------------------------------------- */
 
 enum { SIDE = 10, TIMES = 7 };
 
@@ -251,7 +252,7 @@ static void compare_with_contact(imp_registry *registry, const ladder *l)
 START_TEST(contact_at_other_distances_agrees) { for_each_setting(compare_with_contact); }
 END_TEST
 
-/* --- Something is required ------------------------------------------------------------------- */
+/* --- Something is required -------------------------------------------------------------------- */
 
 /* Centres (3 - 6 t, 2): the gap is sqrt((3 - 6 t)^2 + 4) - 1.5, at least 0.5. */
 static const char *const still = "sphere",
@@ -332,7 +333,7 @@ START_TEST(contact_violates_what_is_smaller_than_gamma)
 }
 END_TEST
 
-/* --- The search ends as soon as it is decided ------------------------------------------------ */
+/* --- The search ends as soon as it is decided ------------------------------------------------- */
 
 START_TEST(what_is_decided_is_what_a_narrow_bracket_decides)
 {
@@ -383,12 +384,12 @@ static void decide_beside(imp_registry *registry, const ladder *l)
 START_TEST(every_shape_is_decided_the_same_way) { for_each_setting(decide_beside); }
 END_TEST
 
-/* Where surfaces slide close to what is required the earliest time takes long, the verdict does not. */
+/* Where surfaces slide close to what is required the earliest time takes long, the verdict does
+ * not. */
 START_TEST(a_budget_that_a_narrow_bracket_fits_in_is_enough_to_decide)
 {
     imp_registry *registry = query_registry();
-    imp_scene *scene = scene_of(registry,
-                                "cylinder radius=1 height=2 ! translate velocity=0,0,0.5",
+    imp_scene *scene = scene_of(registry, "cylinder radius=1 height=2 ! translate velocity=0,0,0.5",
                                 "cylinder radius=1.01 height=2 ! taper start=1 end=[1,-0.0003]");
     imp_options options = imp_options_default(scene);
     imp_clearance_options asked = imp_clearance_options_default();
@@ -405,7 +406,8 @@ START_TEST(a_budget_that_a_narrow_bracket_fits_in_is_enough_to_decide)
 }
 END_TEST
 
-/* A millionth of it is less than double precision tells apart: no earliest time, but the same verdict. */
+/* A millionth of it is less than double precision tells apart: no earliest time, but the same
+ * verdict. */
 START_TEST(contact_decides_what_is_too_small_to_be_timed)
 {
     static const char through[] = "sphere center=3,0,0 ! translate velocity=-4,0,0";
@@ -444,9 +446,9 @@ START_TEST(programs_that_know_nothing_of_deciding_get_a_narrow_bracket)
 }
 END_TEST
 
-/* --- Slices, and each pair of bodies ---------------------------------------------------------------- */
+/* --- Slices, and each pair of bodies ---------------------------------------------------------- */
 
-/* --- What was asked before ------------------------------------------------------------------- */
+/* --- What was asked before -------------------------------------------------------------------- */
 
 enum { TEXT = 4000 };
 
@@ -455,11 +457,10 @@ static size_t add_vectors(uint64_t *state, char *text, double spread, double z, 
 {
     size_t used = 0;
     for (int k = 0; k < 9; ++k)
-        used += (size_t)snprintf(text + used, TEXT / 2 - used, "%s[%.3f,%.3f,%.3f]",
-                                 k > 0 ? "," : "",
-                                 spread * (k / 3) + random_between(state, -by, by),
-                                 spread * (k % 3) + random_between(state, -by, by),
-                                 z + random_between(state, -by, by));
+        used += (size_t)snprintf(
+            text + used, TEXT / 2 - used, "%s[%.3f,%.3f,%.3f]", k > 0 ? "," : "",
+            spread * (k / 3) + random_between(state, -by, by),
+            spread * (k % 3) + random_between(state, -by, by), z + random_between(state, -by, by));
     return used;
 }
 
@@ -607,7 +608,7 @@ START_TEST(where_nobody_meets_anybody_the_distance_is_infinite)
 }
 END_TEST
 
-/* --- Steps and budgets ------------------------------------------------------------------------- */
+/* --- Steps and budgets ------------------------------------------------------------------------ */
 
 static void check_same(const imp_clearance *x, const imp_clearance *y)
 {
@@ -711,7 +712,7 @@ START_TEST(cancelled_or_ended_by_progress_it_goes_on_when_asked)
 }
 END_TEST
 
-/* --- What cannot be asked ------------------------------------------------------------------------ */
+/* --- What cannot be asked --------------------------------------------------------------------- */
 
 START_TEST(wrong_questions_are_refused_by_name)
 {
@@ -765,8 +766,8 @@ SUITE_MAIN("clearance", closed_forms_lie_within_the_bracket,
            a_budget_that_a_narrow_bracket_fits_in_is_enough_to_decide,
            contact_decides_what_is_too_small_to_be_timed,
            programs_that_know_nothing_of_deciding_get_a_narrow_bracket,
-           nets_that_others_made_change_no_minimum_distance,
-           slices_have_brackets_of_their_own, each_two_bodies_have_a_bracket_of_their_own,
+           nets_that_others_made_change_no_minimum_distance, slices_have_brackets_of_their_own,
+           each_two_bodies_have_a_bracket_of_their_own,
            where_nobody_meets_anybody_the_distance_is_infinite,
            steps_of_any_size_lead_to_the_same_bits, a_budget_that_ends_leaves_a_true_bracket,
            cancelled_or_ended_by_progress_it_goes_on_when_asked,

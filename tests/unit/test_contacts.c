@@ -60,7 +60,7 @@ MEET(a_bullet_at_a_million_goes_through_no_plate,
 MEET(a_triangle_collapsed_to_a_point_is_met, "triangle points=[[0,0,0],[0,0,0],[0,0,0]]",
      "sphere center=2,0,0 ! translate velocity=-1,0,0", 0, 2, 1e-7, 1, 1.1e-7)
 
-/* --- Round with round --------------------------------------------------------------- */
+/* --- Round with round ------------------------------------------------------------------------- */
 
 MEET(a_sphere_meets_another_at_its_pole, "sphere",
      "sphere center=0,0,3 ! translate velocity=0,0,-1", 0, 2, 1e-7, 1, 1.1e-7)
@@ -104,7 +104,7 @@ MEET(a_paddle_swings_round_and_hits_a_ball,
      "plane origin=0,0,-1 edge_u=2,0,0 edge_v=0,0,2 ! rotate axis=0,0,1 rate=1",
      "sphere radius=0.5 center=0,1,0", 0, 2, 1e-6, 1.0471975511965976, 2e-6)
 
-/* --- Orbits, screws, waves ---------------------------------------------------------- */
+/* --- Orbits, screws, waves -------------------------------------------------------------------- */
 
 MEET(a_ball_on_an_orbit_comes_round, "sphere radius=0.5 center=2,0,0 ! rotate axis=0,0,1 rate=1",
      "sphere radius=0.5 center=0,2,0", 0, 2, 1e-7, 1.0654358165107394, 2e-7)
@@ -119,7 +119,7 @@ MEET(a_crest_arrives_under_a_point, "ripple size=4,4 amplitude=0.5 wavelength=2 
 MEET(a_sheet_is_lifted_to_a_ball, "formula x=u y=v z=t*exp(-u^2-v^2) domain=[[-2,2],[-2,2]]",
      "sphere radius=0.5 center=0,0,1.25", 0, 1, 1e-6, 0.75, 1.1e-6)
 
-/* --- Hard ones ---------------------------------------------------------------------- */
+/* --- Hard ones -------------------------------------------------------------------------------- */
 
 MEET(a_needle_found_by_its_bound_not_by_luck,
      "spike radius=1 height=0.5 width=0.002 spikes=[[3.14159,0.3]]",

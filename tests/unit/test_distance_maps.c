@@ -9,19 +9,21 @@
 #include "tests/support/compose.h"
 #include "tests/support/suite.h"
 
-/* Distances of random moving points from a ball under chains of rigid maps, some as far from rigid as they may
- * be: no more is claimed than a point of the ball under the maps shows, found in long double. */
+/* Distances of random moving points from a ball under chains of rigid maps, some as far from rigid
+ * as they may be: no more is claimed than a point of the ball under the maps shows, found in long
+ * double. */
 
 enum { CASES = 4000, POINTS = 6, MAPS = 3 };
 
-/* --- A ball --------------------------------------------------------------------------------------- */
+/* --- A ball ----------------------------------------------------------------------------------- */
 
 static const double center[3] = {1, 0.5, -0.25}, radius = 2;
 
 static imp_model gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     (void)self, (void)t;
-    const imp_model to[3] = {imp_shift(x, -center[0]), imp_shift(y, -center[1]), imp_shift(z, -center[2])};
+    const imp_model to[3] = {imp_shift(x, -center[0]), imp_shift(y, -center[1]),
+                             imp_shift(z, -center[2])};
     return imp_shift(imp_sqrt(imp_dot3(to, to)), -radius);
 }
 IMP_DISTANCE_FORMULA(gap)
@@ -40,7 +42,7 @@ static const imp_surface_type ball = {.struct_size = sizeof(imp_surface_type),
                                       .destroy = keep,
                                       .distance = gap_distance};
 
-/* --- Maps ------------------------------------------------------------------------------------------- */
+/* --- Maps ------------------------------------------------------------------------------------- */
 
 /* x -> shift + rise t^2 + turn (x - pivot), where a pose knows the turn within `error` only. */
 typedef struct motion {
@@ -119,7 +121,8 @@ static void apply(const motion *m, double t, long double x[3])
     for (int i = 0; i < 3; ++i) x[i] = y[i];
 }
 
-/* The point that the turn takes to x: its transpose is nearly its inverse, and the rest shrinks in each step. */
+/* The point that the turn takes to x: its transpose is nearly its inverse, and the rest shrinks in
+ * each step. */
 static void undo(const motion *m, double t, long double x[3])
 {
     long double aim[3], found[3] = {0, 0, 0};
@@ -136,7 +139,7 @@ static void undo(const motion *m, double t, long double x[3])
     for (int j = 0; j < 3; ++j) x[j] = m->pivot[j] + found[j];
 }
 
-/* --- Points ------------------------------------------------------------------------------------------ */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 typedef struct trial {
     motion motion[MAPS];
@@ -155,7 +158,8 @@ static void draw_point(uint64_t *random, trial *y)
     for (size_t k = 0; k < y->own; ++k) apply(&y->motion[k], t, x);
     for (int i = 0; i < 3; ++i) {
         imp_model *m = &y->point[i];
-        *m = (imp_model){.a = (double)x[i], .e = width * random_power(random, -12, -2), .depends = 7};
+        *m = (imp_model){
+            .a = (double)x[i], .e = width * random_power(random, -12, -2), .depends = 7};
         double reach = m->e;
         for (int j = 0; j < 3; ++j) {
             m->b[j] = width * random_between(random, -1, 1);
@@ -180,7 +184,8 @@ static trial draw_trial(uint64_t *random)
     return y;
 }
 
-/* How far the point is from a point of the ball, or a little more, once all maps have moved both. */
+/* How far the point is from a point of the ball, or a little more, once all maps have moved
+ * both. */
 static long double shown(const trial *y, double t, const long double at[3])
 {
     long double x[3], on[3], length = 0, apart = 0;
@@ -208,7 +213,7 @@ static long double claimed(const imp_model *g, const double s[3])
     return by_polynomial > by_range ? by_polynomial : by_range;
 }
 
-/* --- Judging ----------------------------------------------------------------------------------------- */
+/* --- Judging ---------------------------------------------------------------------------------- */
 
 typedef struct tally {
     int judged, refuted;
@@ -326,5 +331,4 @@ END_TEST
 
 SUITE_MAIN("distance maps", no_distance_under_maps_is_claimed_that_a_point_refutes,
            distances_that_forget_how_maps_shorten_are_found, maps_are_still_until_one_spins,
-           maps_that_bend_leave_no_distance,
-           maps_are_common_that_are_the_same_instances_at_the_end)
+           maps_that_bend_leave_no_distance, maps_are_common_that_are_the_same_instances_at_the_end)

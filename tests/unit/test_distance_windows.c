@@ -9,13 +9,13 @@
 #include "tests/support/compose.h"
 #include "tests/support/suite.h"
 
-/* Windows that random distances cut: at the times that are cut off, and at all where nodes are said to be
- * apart, the polynomial less its remainder is beyond gamma_clear everywhere; and nowhere in the window is
- * it below the bound of the distance. */
+/* Windows that random distances cut: at the times that are cut off, and at all where nodes are said
+ * to be apart, the polynomial less its remainder is beyond gamma_clear everywhere; and nowhere in
+ * the window is it below the bound of the distance. */
 
 enum { CASES = 20000, PLACES = 128, MOMENTS = 8 };
 
-/* --- A type whose distance is what is put here ----------------------------------------------------- */
+/* --- A type whose distance is what is put here ------------------------------------------------ */
 
 static imp_model claimed;
 
@@ -40,7 +40,7 @@ static const imp_surface_type claiming = {.struct_size = sizeof(imp_surface_type
                                           .destroy = leave,
                                           .distance = claim};
 
-/* --- Cases -------------------------------------------------------------------------------------------- */
+/* --- Cases ------------------------------------------------------------------------------------ */
 
 typedef struct place {
     long double s[2];
@@ -142,8 +142,8 @@ static void draw_trial(const surface *s, uint64_t *random, trial *y)
     y->gamma_clear = least > 0 ? (double)least * (1 + near) : 0;
 }
 
-/* Whether anything is nearer than `distance` at a time, surely; `more` is added to the remainder, in parts of
- * the size. */
+/* Whether anything is nearer than `distance` at a time, surely; `more` is added to the remainder,
+ * in parts of the size. */
 static bool is_near_at(const trial *y, double distance, double t, double more)
 {
     const long double s = normalized(&y->own.region, t), slack = 2048 * LDBL_EPSILON * y->size;

@@ -11,8 +11,8 @@
 #include "tests/support/sampling.h"
 #include "tests/support/suite.h"
 
-/* Distances of the built types from random moving points against the exact ones in numbers of 200 bits: from
- * whole cylinders, cones, planes and threads, which are no nearer than their parts. */
+/* Distances of the built types from random moving points against the exact ones in numbers of 200
+ * bits: from whole cylinders, cones, planes and threads, which are no nearer than their parts. */
 
 enum { REGIONS = 400, POINTS = 6, PATIENCE = 20 };
 
@@ -194,7 +194,7 @@ START_TEST(distances_that_are_too_large_are_found)
 }
 END_TEST
 
-/* --- Points beside surfaces whose distance has no closed form --------------------------------------- */
+/* --- Points beside surfaces whose distance has no closed form --------------------------------- */
 
 enum { BESIDE = 4000 };
 

@@ -8,8 +8,8 @@
 
 #include <elf.h>
 
-/* A good plugin whose tables are changed so that a loader would be led out of it. Tables of a plugin that
- * are only read lie in its first part, where addresses are offsets in the file. */
+/* A good plugin whose tables are changed so that a loader would be led out of it. Tables of a
+ * plugin that are only read lie in its first part, where addresses are offsets in the file. */
 
 static sandbox_bytes plugin;
 
@@ -165,8 +165,8 @@ START_TEST(relocations_must_stay_inside)
 }
 END_TEST
 
-/* As `-z pack-relative-relocs` makes them: their table lies over the unwinding table, which the probe
- * does not read; two entries that a plugin can do without point to it. */
+/* As `-z pack-relative-relocs` makes them: their table lies over the unwinding table, which the
+ * probe does not read; two entries that a plugin can do without point to it. */
 START_TEST(packed_relocations_must_stay_inside)
 {
     const Elf64_Phdr unwinding = segment_of(PT_GNU_EH_FRAME), dynamic = segment_of(PT_DYNAMIC);

@@ -13,7 +13,7 @@
 /* The language of formulas: what texts mean. What is said of wrong ones: test_expression_faults.c.
  * Bounds: test_expression_bounds.c. */
 
-/* --- Meaning ----------------------------------------------------------------------------- */
+/* --- Meaning ---------------------------------------------------------------------------------- */
 
 #define E 2.718281828459045
 #define PI 3.141592653589793
@@ -150,7 +150,7 @@ START_TEST(numbers_are_read_alike_in_every_locale)
 }
 END_TEST
 
-/* --- Compiled form ----------------------------------------------------------------------- */
+/* --- Compiled form ---------------------------------------------------------------------------- */
 
 static const struct compiled_length {
     const char *text;
@@ -170,7 +170,7 @@ START_TEST(what_formulas_have_in_common_is_computed_once)
 }
 END_TEST
 
-/* --- Where formulas are undefined -------------------------------------------------------- */
+/* --- Where formulas are undefined ------------------------------------------------------------- */
 
 static const struct point {
     const char *text;
@@ -306,7 +306,7 @@ START_TEST(a_copied_sign_is_lipschitz_where_it_is_taken)
 }
 END_TEST
 
-/* --- Running ----------------------------------------------------------------------------- */
+/* --- Running ---------------------------------------------------------------------------------- */
 
 START_TEST(running_changes_nothing_and_always_answers_alike)
 {

@@ -14,7 +14,7 @@
 /* Random formulas, compiled, against the same texts read by expression_oracle.c: points with their
  * errors, models, and rates. */
 
-/* --- Formulas ---------------------------------------------------------------------------- */
+/* --- Formulas --------------------------------------------------------------------------------- */
 
 #define TEXT_MAX 4000
 
@@ -136,7 +136,7 @@ static void write_formula(author *a, int depth)
         write_form(a, forms[below(a, below(a, 6) ? count - 5 : count)], depth);
 }
 
-/* --- Trials ------------------------------------------------------------------------------ */
+/* --- Trials ----------------------------------------------------------------------------------- */
 
 enum { TEXTS = 3, FORMULA_REGIONS = 4, FORMULA_POINTS = 4 };
 
@@ -237,7 +237,7 @@ static bool is_bounded(const imp_model out[3])
     return true;
 }
 
-/* --- Surfaces ---------------------------------------------------------------------------- */
+/* --- Surfaces --------------------------------------------------------------------------------- */
 
 static const double domain_lo[] = {-1, -2, -INFINITY}, domain_hi[] = {1, 2, INFINITY};
 
@@ -297,7 +297,7 @@ START_TEST(points_models_and_rates_of_random_surfaces_hold)
 }
 END_TEST
 
-/* --- Maps -------------------------------------------------------------------------------- */
+/* --- Maps ------------------------------------------------------------------------------------- */
 
 static void try_arguments(trial *t, const sample_models *models, tally *sum)
 {

@@ -6,7 +6,7 @@
 
 /* What is said of formulas that are wrong or too large, and that nothing else happens. */
 
-/* --- Faults ------------------------------------------------------------------------------ */
+/* --- Faults ----------------------------------------------------------------------------------- */
 
 #define OPERAND "expected a number, a name or '(', got "
 #define OPERATOR "expected an operator or the end, got "
@@ -199,7 +199,7 @@ START_TEST(an_unknown_name_is_compared_with_the_constants)
 }
 END_TEST
 
-/* --- Limits ------------------------------------------------------------------------------ */
+/* --- Limits ----------------------------------------------------------------------------------- */
 
 /* `count` times `piece`, between `before` and `after`; the caller owns it. */
 static char *repeated(const char *before, const char *piece, size_t count, const char *after)
@@ -311,7 +311,7 @@ START_TEST(all_slots_can_be_used)
 }
 END_TEST
 
-/* --- Damage ------------------------------------------------------------------------------ */
+/* --- Damage ----------------------------------------------------------------------------------- */
 
 static void try_any(const char *text)
 {

@@ -101,7 +101,7 @@ static void is_caught(const imp_surface_type *type, const liar *l, uint32_t base
     ck_assert_ptr_nonnull(strstr(error.text, "u "));
 }
 
-/* --- Models ------------------------------------------------------------------------------- */
+/* --- Models ----------------------------------------------------------------------------------- */
 
 #define LIAR(EVAL, RATE, INCLUDE)                                                                  \
     {                                                                                              \
@@ -198,7 +198,7 @@ START_TEST(points_that_are_none_are_caught)
 }
 END_TEST
 
-/* --- The floating-point mode ---------------------------------------------------------------- */
+/* --- The floating-point mode ------------------------------------------------------------------ */
 
 static void round_upward(void) { fesetround(FE_UPWARD); }
 
@@ -313,7 +313,8 @@ static const imp_map_type honest_map = {.name = "third",
                                         .rate = map_vandal_rate,
                                         .apply = map_vandal_apply};
 
-/* The vandal, as the ball or as the map, among honest parts: found, named, and its mode put back. */
+/* The vandal, as the ball or as the map, among honest parts: found, named, and its mode put
+ * back. */
 static void is_found(const vandal *l, bool as_map, uint32_t baseline)
 {
     const ball still = {.radius = 1};
@@ -360,7 +361,7 @@ START_TEST(a_changed_mode_is_put_back_at_once_and_its_callback_named)
 }
 END_TEST
 
-/* --- No bounds ---------------------------------------------------------------------------- */
+/* --- No bounds -------------------------------------------------------------------------------- */
 
 /* A ball without bounds over every region that holds `at` in the parameters of the set. */
 typedef struct gap {

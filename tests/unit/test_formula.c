@@ -13,7 +13,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/suite.h"
 
-/* --- Random formulas ---------------------------------------------------------------- */
+/* --- Random formulas -------------------------------------------------------------------------- */
 
 enum { NODES_MAX = 64, PARAMETER = -1, NUMBER = -2, SOME_NUMBER = -3, PI = -4 };
 
@@ -130,7 +130,7 @@ static void tree_print(const tree *t)
     }
 }
 
-/* --- Random regions and their points -------------------------------------------------- */
+/* --- Random regions and their points ---------------------------------------------------------- */
 
 static imp_region random_region(uint64_t *state)
 {
@@ -174,7 +174,7 @@ static void place_in_region(const imp_region *region, const mpfi_t p[3], mpfi_t 
     }
 }
 
-/* --- One trial --------------------------------------------------------------------------- */
+/* --- One trial -------------------------------------------------------------------------------- */
 
 typedef struct trial {
     uint64_t seed, state;

@@ -10,7 +10,7 @@
 #include "tests/support/model_value.h"
 #include "tests/support/suite.h"
 
-/* --- Formulas ------------------------------------------------------------------------ */
+/* --- Formulas --------------------------------------------------------------------------------- */
 
 typedef struct ball {
     double radius;
@@ -57,7 +57,7 @@ static imp_region region_of(double u, double v, double t, double half)
     return imp_region_between(lo, hi);
 }
 
-/* --- Points ------------------------------------------------------------------------------ */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 START_TEST(points_come_with_their_errors)
 {
@@ -109,7 +109,7 @@ START_TEST(a_point_without_a_value_is_outside_the_domain)
 }
 END_TEST
 
-/* --- Regions ------------------------------------------------------------------------------- */
+/* --- Regions ---------------------------------------------------------------------------------- */
 
 START_TEST(the_model_of_a_region_follows_its_points)
 {
@@ -180,7 +180,7 @@ START_TEST(regions_made_from_bounds_keep_what_regions_promise)
 }
 END_TEST
 
-/* --- Maps ------------------------------------------------------------------------------------ */
+/* --- Maps ------------------------------------------------------------------------------------- */
 
 START_TEST(a_map_answers_for_points_boxes_and_models)
 {
@@ -211,7 +211,7 @@ START_TEST(rates_of_a_map_cover_space_and_time)
 }
 END_TEST
 
-/* --- Known models ------------------------------------------------------------------- */
+/* --- Known models ----------------------------------------------------------------------------- */
 
 START_TEST(a_parameter_is_its_own_model)
 {

@@ -57,7 +57,7 @@ static bool is_same(const imp_result *x, const imp_result *y)
            x->b.v == y->b.v && x->stats.pairs == y->stats.pairs;
 }
 
-/* --- Threads -------------------------------------------------------------------------------- */
+/* --- Threads ---------------------------------------------------------------------------------- */
 
 typedef struct job {
     pthread_t thread;
@@ -142,7 +142,7 @@ START_TEST(threads_that_share_an_isolated_registry_make_scenes_at_once)
 }
 END_TEST
 
-/* --- Copies of the process ---------------------------------------------------------------------- */
+/* --- Copies of the process -------------------------------------------------------------------- */
 
 /* Ends with 0 if the copy was refused, and could free all that it has. */
 _Noreturn static void be_a_copy(imp_registry *registry, imp_scene *scene)
@@ -197,7 +197,7 @@ START_TEST(a_thread_that_queries_is_not_disturbed_by_a_fork_in_another)
 }
 END_TEST
 
-/* --- Cancelling ---------------------------------------------------------------------------------- */
+/* --- Cancelling ------------------------------------------------------------------------------- */
 
 static void *cancel(void *context)
 {

@@ -11,7 +11,7 @@
 
 /* Plugins that are linked into the program, and handed to a registry. */
 
-/* --- The plugin: a sphere that grows ------------------------------------------------------------- */
+/* --- The plugin: a sphere that grows ---------------------------------------------------------- */
 
 static const imp_parameter parameters[] = {
     IMP_ROW_POSITIVE("radius", "length", "1", "at t = 0"),
@@ -51,7 +51,7 @@ static const imp_surface_type blob = {
 };
 IMPINGE_SURFACE_PLUGIN("blob", "1.0", "MIT", "The Impinge authors", blob);
 
-/* --- Tests ------------------------------------------------------------------------------------------ */
+/* --- Tests ------------------------------------------------------------------------------------ */
 
 static imp_error error;
 

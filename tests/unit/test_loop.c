@@ -16,11 +16,12 @@ static imp_registry *registry;
 static void open_registry(void) { registry = built_registry(); }
 static void close_registry(void) { imp_registry_free(registry); }
 
-/* --- Triangles, subdivided in the simplest way ------------------------------------------------------- */
+/* --- Triangles, subdivided in the simplest way ------------------------------------------------ */
 
 enum { POINTS = 20000, FACES = 20000 };
 
-/* Each corner of a face also has barycentric coordinates in one of the faces `of` which the mesh came. */
+/* Each corner of a face also has barycentric coordinates in one of the faces `of` which the mesh
+ * came. */
 typedef struct triangle_list {
     int points, faces;
     double x[POINTS][3];
@@ -141,7 +142,7 @@ static triangle_list *step(const triangle_list *m)
     return to;
 }
 
-/* --- Meshes ---------------------------------------------------------------------------------------------- */
+/* --- Meshes ----------------------------------------------------------------------------------- */
 
 static void set_corners(triangle_list *m, int a, int b, int c)
 {
@@ -199,7 +200,7 @@ static void point_of(const instance *made, int piece, double u, double v, double
     for (int i = 0; i < 3; ++i) ck_assert_double_le(error[i], 1e-12);
 }
 
-/* --- What the surface is ------------------------------------------------------------------------------- */
+/* --- What the surface is ---------------------------------------------------------------------- */
 
 /* Of a mesh whose faces are the pieces in their order, each with its first corner at (0, 0). */
 static void check_limits(const triangle_list *pieces, const instance *made, int steps)
@@ -224,7 +225,8 @@ static void check_limits(const triangle_list *pieces, const instance *made, int 
     free(m);
 }
 
-/* A mesh of which each face has two extraordinary corners or more is subdivided once by the plugin. */
+/* A mesh of which each face has two extraordinary corners or more is subdivided once by the
+ * plugin. */
 static void check_mesh(triangle_list *m, int steps)
 {
     uint64_t random = suite_seed() + (uint64_t)m->faces;
@@ -261,7 +263,8 @@ END_TEST
 
 enum { SIDE = 6 };
 
-/* Points (i, j) of a grid of triangles; x^2 has the control values i^2 - 1/3, and x y has i j + 1/6. */
+/* Points (i, j) of a grid of triangles; x^2 has the control values i^2 - 1/3, and x y has i j +
+ * 1/6. */
 static triangle_list *grid(void)
 {
     triangle_list *m = list_new();
@@ -317,13 +320,14 @@ START_TEST(the_border_does_not_depend_on_the_inside)
 }
 END_TEST
 
-/* --- Contacts --------------------------------------------------------------------------------------------- */
+/* --- Contacts --------------------------------------------------------------------------------- */
 
 #define OCTAHEDRON                                                                                 \
     "subdivision scheme=loop points=[[1,0,0],[-1,0,0],[0,1,0],[0,-1,0],[0,0,1],[0,0,-1]] "         \
     "faces=[[0,2,4],[2,1,4],[1,3,4],[3,0,4],[2,0,5],[1,2,5],[3,1,5],[0,3,5]]"
 
-/* With n = 4 the share is 5/8 - 9/64 = 31/64, so the limit of (1,0,0) is 1 - 1 / (1 + 24/31) = 24/55. */
+/* With n = 4 the share is 5/8 - 9/64 = 31/64, so the limit of (1,0,0) is 1 - 1 / (1 + 24/31) =
+ * 24/55. */
 START_TEST(contact_at_an_extraordinary_point_comes_at_its_time)
 {
     imp_result r = query_audited(OCTAHEDRON, "point position=2,0,0 velocity=-2,0,0");

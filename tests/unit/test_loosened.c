@@ -8,10 +8,10 @@
 
 /* Bounds may be loose: that costs pairs and changes no verdict. The same ball under five types,
  * from models to rates twice as large as they need be, must meet within the ladder that
- * tests/support/scene_variants.h derives: later than t_lower at a coarser gamma, no later than the contact at a
- * finer one. */
+ * tests/support/scene_variants.h derives: later than t_lower at a coarser gamma, no later than the
+ * contact at a finer one. */
 
-/* --- Looser types ------------------------------------------------------------------------- */
+/* --- Looser types ----------------------------------------------------------------------------- */
 
 static imp_status double_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
@@ -64,7 +64,7 @@ static const imp_surface_type types[] = {
 };
 enum { TYPES = sizeof types / sizeof *types };
 
-/* --- Flights ------------------------------------------------------------------------------ */
+/* --- Flights ---------------------------------------------------------------------------------- */
 
 static const ball at_rest = {.radius = 1};
 static const ball hits = {.radius = 0.5, .centre = {2, 1.5, -1}, .velocity = {-2, -2, 1.2}};

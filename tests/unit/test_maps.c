@@ -118,7 +118,7 @@ START_TEST(points_turned_out_of_range_are_undefined)
 }
 END_TEST
 
-/* --- Deformations ------------------------------------------------------------------- */
+/* --- Deformations ----------------------------------------------------------------------------- */
 
 START_TEST(a_taper_is_linear_within_its_range_and_constant_beyond)
 {
@@ -201,7 +201,7 @@ START_TEST(a_lattice_moves_space_outside_along_with_its_faces)
 }
 END_TEST
 
-/* --- Tightness ---------------------------------------------------------------------- */
+/* --- Tightness -------------------------------------------------------------------------------- */
 
 enum { GRID = 9, REGIONS = 30 };
 
@@ -302,9 +302,10 @@ START_TEST(remainders_are_not_much_wider_than_what_they_bound)
 }
 END_TEST
 
-/* --- Tables --------------------------------------------------------------------------------- */
+/* --- Tables ----------------------------------------------------------------------------------- */
 
-/* Points within their errors, beside long doubles, and as the formula of any polynomial has them. */
+/* Points within their errors, beside long doubles, and as the formula of any polynomial has
+ * them. */
 START_TEST(translations_at_constant_velocity_are_exact_but_for_rounding)
 {
     uint64_t state = suite_seed();

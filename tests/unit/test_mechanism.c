@@ -14,7 +14,7 @@
 #define LINK(NAME, MORE) "{'name':'" NAME "','surfaces':[" AT(0, 0, 0) "]" MORE "}"
 #define BODIES(...) "{'bodies':[" __VA_ARGS__ "]}"
 
-/* --- Parents --------------------------------------------------------------------------------- */
+/* --- Parents ---------------------------------------------------------------------------------- */
 
 START_TEST(a_child_moves_with_its_parent_and_that_with_its_own)
 {
@@ -62,7 +62,7 @@ START_TEST(circles_of_parents_are_refused_and_told)
 }
 END_TEST
 
-/* --- Definitions ------------------------------------------------------------------------------- */
+/* --- Definitions ------------------------------------------------------------------------------ */
 
 START_TEST(definitions_stand_for_what_they_hold)
 {
@@ -248,7 +248,7 @@ START_TEST(long_chains_are_composed_or_refused)
 }
 END_TEST
 
-/* --- Groups ------------------------------------------------------------------------------------- */
+/* --- Groups ----------------------------------------------------------------------------------- */
 
 START_TEST(groups_are_ignored_among_themselves_and_with_others)
 {

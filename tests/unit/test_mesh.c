@@ -149,7 +149,7 @@ START_TEST(cells_out_of_focus_stay_coarse)
 }
 END_TEST
 
-/* --- What is rigid, and what is flat ------------------------------------------------------------- */
+/* --- What is rigid, and what is flat ---------------------------------------------------------- */
 
 START_TEST(what_is_rigid_is_evaluated_once_and_moved)
 {

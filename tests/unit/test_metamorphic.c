@@ -4,7 +4,7 @@
 
 #include "tests/support/scene_variants.h"
 
-/* --- Space -------------------------------------------------------------------------------- */
+/* --- Space ------------------------------------------------------------------------------------ */
 
 static void swap(imp_registry *registry, const ladder *l)
 {
@@ -92,7 +92,7 @@ START_TEST(scaling_space_and_gamma_by_anything_does_not_matter)
 }
 END_TEST
 
-/* --- Time --------------------------------------------------------------------------------- */
+/* --- Time ------------------------------------------------------------------------------------- */
 
 static void tell_time_otherwise(imp_registry *registry, const ladder *l)
 {
@@ -122,8 +122,8 @@ static imp_result ask_between(imp_registry *registry, const ladder *l, double st
     return r;
 }
 
-/* Before t_lower of rung 0 gaps are at least its gamma_clear, above rung 1's gamma; at the contact of
- * rung 2 they are below rung 1's gamma_clear. */
+/* Before t_lower of rung 0 gaps are at least its gamma_clear, above rung 1's gamma; at the contact
+ * of rung 2 they are below rung 1's gamma_clear. */
 static void shrink_interval(imp_registry *registry, const ladder *l)
 {
     if (!l->about->meets) {
@@ -154,7 +154,7 @@ START_TEST(a_shorter_interval_tells_the_part_of_the_story_it_holds)
 }
 END_TEST
 
-/* --- Parameters --------------------------------------------------------------------------- */
+/* --- Parameters ------------------------------------------------------------------------------- */
 
 /* Where control point (i, j) of the variant comes from. */
 typedef int permutation(int i, int j);

@@ -9,7 +9,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/suite.h"
 
-/* --- Hostile operands ------------------------------------------------------------ */
+/* --- Hostile operands ------------------------------------------------------------------------- */
 
 /* Where operands lie: around kinks, poles, ends of domains, extrema; far out, deep down. */
 static double hostile_centre(uint64_t *state)
@@ -134,7 +134,7 @@ static void hostile_value(uint64_t *state, mpfi_ptr value, const mpfi_t window)
     }
 }
 
-/* --- One trial -------------------------------------------------------------------------- */
+/* --- One trial -------------------------------------------------------------------------------- */
 
 typedef struct trial {
     const operation *op;
@@ -211,7 +211,7 @@ START_TEST(every_value_that_the_operands_allow_is_covered)
 }
 END_TEST
 
-/* --- The range of a quadratic --------------------------------------------------------------- */
+/* --- The range of a quadratic ----------------------------------------------------------------- */
 
 START_TEST(the_range_of_a_quadratic_covers_it)
 {
@@ -230,7 +230,7 @@ START_TEST(the_range_of_a_quadratic_covers_it)
 }
 END_TEST
 
-/* --- Rates --------------------------------------------------------------------------------- */
+/* --- Rates ------------------------------------------------------------------------------------ */
 
 /* p becomes p + rate step, or p - rate step; false if that is not allowed. */
 static bool move(uint64_t *state, mpfi_ptr p, const mpfi_t window, double rate, mpfi_srcptr step)
@@ -275,7 +275,7 @@ START_TEST(rates_hold_for_operands_that_change_as_fast_as_theirs_allow)
 }
 END_TEST
 
-/* --- What cannot be bounded ------------------------------------------------------------------ */
+/* --- What cannot be bounded ------------------------------------------------------------------- */
 
 /* Ranges open on one side or both, at the limits of double, overflowing quadratics. */
 static imp_model boundless_model(uint64_t *state)
@@ -314,7 +314,7 @@ START_TEST(no_answer_holds_a_nan)
 }
 END_TEST
 
-/* --- What overflows -------------------------------------------------------------------------- */
+/* --- What overflows --------------------------------------------------------------------------- */
 
 /* u over [x, x + width], or the number x. */
 static imp_model steep_argument(double x, double width)
@@ -358,8 +358,8 @@ START_TEST(what_overflows_is_known_to_be_large_and_its_inverse_to_be_small)
 }
 END_TEST
 
-/* 2^-1074 over y = 1e-150 (1 + 1e-10 s): the product of quotient and error, or rate, underflows, but
- * divided by y it counts. */
+/* 2^-1074 over y = 1e-150 (1 + 1e-10 s): the product of quotient and error, or rate, underflows,
+ * but divided by y it counts. */
 START_TEST(errors_and_rates_that_underflow_before_they_are_divided_are_kept)
 {
     const imp_model least = imp_num(0x1p-1074), point = imp_known(1e-150, 1e-160);
@@ -373,7 +373,7 @@ START_TEST(errors_and_rates_that_underflow_before_they_are_divided_are_kept)
 }
 END_TEST
 
-/* --- Intervals ---------------------------------------------------------------------- */
+/* --- Intervals -------------------------------------------------------------------------------- */
 
 /* Somewhere in [lo, hi], the ends above all. */
 static double hostile_point(uint64_t *state, double lo, double hi)

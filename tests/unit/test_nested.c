@@ -11,8 +11,8 @@
 #include "tests/support/suite.h"
 
 /* Random surfaces under two or three random maps: points, rates and models of the composition
- * against the oracles of its parts, one applied to the other in numbers of 200 bits. Only types that
- * the build directory has are drawn, so that a few, compiled otherwise, can be tried alone. */
+ * against the oracles of its parts, one applied to the other in numbers of 200 bits. Only types
+ * that the build directory has are drawn, so that a few, compiled otherwise, can be tried alone. */
 
 enum { PARTS = 4, REGIONS = 5, POINTS = 3 };
 
@@ -39,7 +39,7 @@ static void open_registry(void) { registry = built_registry(); }
 
 static void close_registry(void) { imp_registry_free(registry); }
 
-/* --- Composing ---------------------------------------------------------------------------- */
+/* --- Composing -------------------------------------------------------------------------------- */
 
 static void keep(void *self) { (void)self; }
 
@@ -90,7 +90,7 @@ static void take_apart(chain *c)
     for (int k = 0; k < c->count; ++k) instance_free(&c->part[k].made);
 }
 
-/* --- Judging ------------------------------------------------------------------------------ */
+/* --- Judging ---------------------------------------------------------------------------------- */
 
 static void exact(const chain *c, const double p[3], number x[3])
 {

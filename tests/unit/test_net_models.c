@@ -8,8 +8,8 @@
 #include "tests/support/judge.h"
 #include "tests/support/netted.h"
 
-/* Axes of a net and a model: windows against exact distances, and the axis that is found against many
- * others. */
+/* Axes of a net and a model: windows against exact distances, and the axis that is found against
+ * many others. */
 
 static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
 
@@ -18,7 +18,8 @@ static double random_coefficient(uint64_t *state, double most)
     return most * random_between(state, -1, 1);
 }
 
-/* A random quadratic with remainders over u, v and t in [0, 1], that a type without a net might answer. */
+/* A random quadratic with remainders over u, v and t in [0, 1], that a type without a net might
+ * answer. */
 static node draw_model(uint64_t *state, double far)
 {
     node n = {.region = region_make(zero, one), .bounded = true};
@@ -48,9 +49,8 @@ static void model_value(const node *n, const double p[3], number x[3])
     for (int i = 0; i < 3; ++i) {
         const quadratic3 *f = &n->f;
         const double linear[3] = {f->bu[i], f->bv[i], f->bt[i]};
-        const double square[3][3] = {{f->quu[i], f->quv[i], f->qut[i]},
-                                     {0, f->qvv[i], f->qvt[i]},
-                                     {0, 0, f->qtt[i]}};
+        const double square[3][3] = {
+            {f->quu[i], f->quv[i], f->qut[i]}, {0, f->qvv[i], f->qvt[i]}, {0, 0, f->qtt[i]}};
         x[i] = num(f->a[i]);
         for (int j = 0; j < 3; ++j) {
             x[i] = num_add(x[i], num_mul(num(linear[j]), s[j]));
@@ -60,9 +60,10 @@ static void model_value(const node *n, const double p[3], number x[3])
     }
 }
 
-/* A surely smaller distance than gamma_clear at time t: the model's point moved towards the net's as far as
- * its remainder allows. */
-static bool surely_near(uint64_t *state, const netted *a, const node *b, double t, double gamma_clear)
+/* A surely smaller distance than gamma_clear at time t: the model's point moved towards the net's
+ * as far as its remainder allows. */
+static bool surely_near(uint64_t *state, const netted *a, const node *b, double t,
+                        double gamma_clear)
 {
     number x[3], y[3], sum = num(0);
     const double p[3] = {random_fraction(state), random_fraction(state), t};
@@ -120,8 +121,8 @@ START_TEST(nothing_is_near_outside_of_the_window_that_an_axis_leaves)
 }
 END_TEST
 
-/* A point of a net at rest and one of a model, which falls along a parabola from 1 to `end` with a bow: windows
- * start when the chord says, and never later than the parabola itself. */
+/* A point of a net at rest and one of a model, which falls along a parabola from 1 to `end` with a
+ * bow: windows start when the chord says, and never later than the parabola itself. */
 START_TEST(acceleration_is_seen_along_the_axis)
 {
     for (int k = -4; k <= 4; ++k) {

@@ -35,8 +35,8 @@ static place draw_place(uint64_t *state)
     return at;
 }
 
-/* Points that are quadratic along u and v, so that nothing but rounding is left out: of integers that fill a
- * double. */
+/* Points that are quadratic along u and v, so that nothing but rounding is left out: of integers
+ * that fill a double. */
 static void make_quadratic(uint64_t *state, double column[16])
 {
     int64_t by[3][3];
@@ -96,7 +96,8 @@ static double draw_end_or_inside(uint64_t *state, double lo, double hi)
     return x < lo ? lo : x > hi ? hi : x;
 }
 
-/* Whether the models hold for a surface that leaves the patch of `given` by its error, to one side. */
+/* Whether the models hold for a surface that leaves the patch of `given` by its error, to one
+ * side. */
 static bool hold_at(const imp_model model[3], const imp_net *given, const place *at,
                     const double p[3], double side, fault *why)
 {

@@ -11,12 +11,12 @@
 #include "tests/support/sphere_scenes.h"
 #include "tests/support/suite.h"
 
-/* Nets of nodes and their axes: halves against exact patches, windows against exact distances, the axis
- * that is found against many others. */
+/* Nets of nodes and their axes: halves against exact patches, windows against exact distances, the
+ * axis that is found against many others. */
 
 static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
 
-/* --- Halves -------------------------------------------------------------------------------------- */
+/* --- Halves ----------------------------------------------------------------------------------- */
 
 /* So that products of numbers and weights underflow. */
 static void make_tiny(uint64_t *state, imp_net *g)
@@ -114,7 +114,7 @@ START_TEST(numbers_too_large_or_small_make_no_net)
 }
 END_TEST
 
-/* --- Windows ----------------------------------------------------------------------------------------- */
+/* --- Windows ---------------------------------------------------------------------------------- */
 
 /* The squared distance of points of two nets. */
 static number square_between(const netted *const both[2], const double p[2][3])
@@ -210,10 +210,10 @@ START_TEST(an_error_of_the_nets_counts_along_the_axis)
 }
 END_TEST
 
-/* --- Halves that an axis excludes ------------------------------------------------------------------- */
+/* --- Halves that an axis excludes ------------------------------------------------------------- */
 
-/* A random point of what was excluded last, of what the halves before it had left; of any where nothing is
- * left. */
+/* A random point of what was excluded last, of what the halves before it had left; of any where
+ * nothing is left. */
 static void draw_excluded(uint64_t *state, const net_half *halves, int count, double p[2][3])
 {
     double lo[2][2] = {{0, 0}, {0, 0}}, hi[2][2] = {{1, 1}, {1, 1}};
@@ -264,7 +264,8 @@ START_TEST(nothing_of_a_half_that_an_axis_excludes_is_near)
 }
 END_TEST
 
-/* A point, and a line of which the upper half lies from 1 on at the start, from `end` at the end. */
+/* A point, and a line of which the upper half lies from 1 on at the start, from `end` at the
+ * end. */
 static bool upper_half_is_excluded(double gamma_clear, double end, double error)
 {
     netted a = {.given = {.degree = {0, 0}}}, b = {.given = {.degree = {1, 0}}};
@@ -385,7 +386,7 @@ START_TEST(windows_of_halves_are_those_that_their_hulls_leave)
 }
 END_TEST
 
-/* --- Upper times ----------------------------------------------------------------------------------------- */
+/* --- Upper times ------------------------------------------------------------------------------ */
 
 START_TEST(two_nets_followed_in_time_are_as_near_as_asked_for)
 {
@@ -422,7 +423,7 @@ START_TEST(two_nets_followed_in_time_are_as_near_as_asked_for)
 }
 END_TEST
 
-/* --- Axes ---------------------------------------------------------------------------------------------- */
+/* --- Axes ------------------------------------------------------------------------------------- */
 
 /* The least of n.(y - x) over all pairs of control points at time t, for n of length 1. */
 static double brute_gap(const netted *a, const netted *b, double t, vec3 n)
@@ -474,7 +475,7 @@ START_TEST(the_axis_found_shows_most_of_what_any_axis_shows)
 }
 END_TEST
 
-/* --- Who is asked for one ------------------------------------------------------------------------ */
+/* --- Who is asked for one --------------------------------------------------------------------- */
 
 static int asked;
 
@@ -498,8 +499,8 @@ IMP_SURFACE_FORMULA(tile_formula)
 /* Models that bend, that are remainders alone, as there are no inclusions, and that are flat. */
 typedef enum model_kind { BENT, BLURRED, FLAT } model_kind;
 
-/* How often types of which the first `offering` of two have the callback are asked for nets, by a query
- * for the first contact or the minimum distance. */
+/* How often types of which the first `offering` of two have the callback are asked for nets, by a
+ * query for the first contact or the minimum distance. */
 static int times_asked(int offering, model_kind kind, bool minimum)
 {
     static const ball a = {.radius = 1},
@@ -540,9 +541,10 @@ START_TEST(a_net_is_asked_for_where_it_may_say_more_than_a_model_of_the_pair)
 }
 END_TEST
 
-/* --- Nets that are rough --------------------------------------------------------------------------- */
+/* --- Nets that are rough ---------------------------------------------------------------------- */
 
-/* The quadratic of a region of the ball's that is not too large, with its remainder; halves of it have the same. */
+/* The quadratic of a region of the ball's that is not too large, with its remainder; halves of it
+ * have the same. */
 static imp_status rough_net(const void *self, const imp_region *region, imp_net *to)
 {
     static const double s[3] = {-1, 0, 1},

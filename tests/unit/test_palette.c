@@ -36,7 +36,8 @@ START_TEST(neighbours_differ_however_many_there_are)
 }
 END_TEST
 
-/* Distances that B. Ottosson's page on Oklab gives the coordinates of: white is (1, 0, 0), black 0. */
+/* Distances that B. Ottosson's page on Oklab gives the coordinates of: white is (1, 0, 0), black
+ * 0. */
 START_TEST(the_distance_is_that_of_oklab)
 {
     const colour white = {1, 1, 1}, black = {0, 0, 0}, red = {1, 0, 0};

@@ -75,7 +75,7 @@ static void by_threads(void *context, void (*call)(void *of, size_t index), void
     for (int k = 0; k < THREADS; ++k) pthread_join(threads[k], NULL);
 }
 
-/* --- Answers ------------------------------------------------------------------------------------ */
+/* --- Answers ---------------------------------------------------------------------------------- */
 
 static imp_options lend(const imp_scene *scene, host *h)
 {
@@ -241,7 +241,7 @@ START_TEST(a_query_that_is_cancelled_while_threads_work_for_it_goes_on_to_the_sa
 }
 END_TEST
 
-/* --- Refinement, and hosts that do not help ------------------------------------------------------ */
+/* --- Refinement, and hosts that do not help --------------------------------------------------- */
 
 /* Refined while candidate pairs that were tested ahead have not had their turn. */
 static imp_result refined(host *h)

@@ -14,15 +14,15 @@
 
 #include <impinge/examine.h>
 
-/* Bodies of many surfaces: what holds of a cluster of pieces, and that a mesh answers as its triangles
- * do one by one. */
+/* Bodies of many surfaces: what holds of a cluster of pieces, and that a mesh answers as its
+ * triangles do one by one. */
 
 static imp_registry *registry;
 
 static void open_registry(void) { registry = built_registry(); }
 static void close_registry(void) { imp_registry_free(registry); }
 
-/* --- Meshes --------------------------------------------------------------------------------- */
+/* --- Meshes ----------------------------------------------------------------------------------- */
 
 enum { SIDE = 7, POINTS = SIDE * SIDE, FACES = 2 * (SIDE - 1) * (SIDE - 1), TEXT = 1 << 16 };
 
@@ -41,7 +41,7 @@ static sheet rough_sheet(uint64_t *random, double z, double speed)
         s.point[k][2] = z + random_between(random, -0.2, 0.2);
         for (int i = 0; i < 3; ++i) s.velocity[k][i] = speed * random_between(random, -1, 1);
     }
-    int (*f)[3] = s.face;
+    int(*f)[3] = s.face;
     for (int j = 0; j + 1 < SIDE; ++j)
         for (int i = 0; i + 1 < SIDE; ++i) {
             const int a = SIDE * j + i, b = a + 1, c = a + SIDE, d = c + 1;
@@ -109,7 +109,7 @@ static imp_scene *scene_of(sheet sheets[2], const char *motion, bool whole)
     return scene;
 }
 
-/* --- Clusters ------------------------------------------------------------------------------- */
+/* --- Clusters --------------------------------------------------------------------------------- */
 
 typedef struct visit {
     uint64_t random;
@@ -129,8 +129,8 @@ static void expect_inside(visit *v, const node *n, const surface *piece)
     for (int i = 0; i < 3; ++i) {
         const double middle = n->f.a[i] + n->f.bt[i] * s + n->f.qtt[i] * s * s;
         const double slack = error[i] + 1e-14 * (1 + fabs(x[i]));
-        ck_assert_msg(fabs(x[i] - middle) <= n->e[i] + slack, "coordinate %d: %g off, %g allowed", i,
-                      fabs(x[i] - middle), n->e[i]);
+        ck_assert_msg(fabs(x[i] - middle) <= n->e[i] + slack, "coordinate %d: %g off, %g allowed",
+                      i, fabs(x[i] - middle), n->e[i]);
         ck_assert(x[i] >= n->lo[i] - slack && x[i] <= n->hi[i] + slack);
     }
     v->points += 1;
@@ -155,8 +155,10 @@ static void visit_clusters(visit *v, tree *t, node *n)
     for (int side = 0; side < 2; ++side) {
         node *half = n, *child;
         if (random_between(&v->random, 0, 1) < 0.5 && region_can_split(&n->region, PARAMETER_T))
-            ck_assert_int_eq(node_child(t, n, PARAMETER_T, side, &half, &growth, NULL), IMP_SUCCESS);
-        ck_assert_int_eq(node_child(t, half, PARAMETER_U, side, &child, &growth, NULL), IMP_SUCCESS);
+            ck_assert_int_eq(node_child(t, n, PARAMETER_T, side, &half, &growth, NULL),
+                             IMP_SUCCESS);
+        ck_assert_int_eq(node_child(t, half, PARAMETER_U, side, &child, &growth, NULL),
+                         IMP_SUCCESS);
         visit_clusters(v, t, child);
     }
 }
@@ -195,9 +197,9 @@ END_TEST
 START_TEST(a_map_without_models_bounds_the_box_of_a_cluster)
 {
     imp_instance map;
-    ck_assert_int_eq(imp_instance_from_text(registry, IMP_TYPE_MAP, "rotate axis=1,1,0 rate=2", &map,
-                                            NULL),
-                     IMP_SUCCESS);
+    ck_assert_int_eq(
+        imp_instance_from_text(registry, IMP_TYPE_MAP, "rotate axis=1,1,0 rate=2", &map, NULL),
+        IMP_SUCCESS);
     imp_map_type rates_alone = *map.map;
     rates_alone.apply = NULL;
     const char *text = "mesh points=[[0,0,0],[1,0,0],[0,1,0],[0,0,1]] "
@@ -214,7 +216,7 @@ START_TEST(a_map_without_models_bounds_the_box_of_a_cluster)
 }
 END_TEST
 
-/* --- Answers -------------------------------------------------------------------------------- */
+/* --- Answers ---------------------------------------------------------------------------------- */
 
 static imp_result solve(imp_scene *scene, uint32_t baseline)
 {
@@ -317,7 +319,7 @@ START_TEST(finer_answers_of_a_mesh_agree_with_those_found_afresh)
 }
 END_TEST
 
-/* --- What may be asked ---------------------------------------------------------------------- */
+/* --- What may be asked ------------------------------------------------------------------------ */
 
 START_TEST(pieces_are_counted_and_asked_one_by_one)
 {

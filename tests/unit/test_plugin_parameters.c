@@ -60,7 +60,7 @@ START_TEST(every_type_says_what_it_is)
 }
 END_TEST
 
-/* --- Refusals ----------------------------------------------------------------------------- */
+/* --- Refusals --------------------------------------------------------------------------------- */
 
 static const struct refusal {
     const char *text;  /* a stage of a pipeline */

@@ -76,7 +76,7 @@ static void exact(const instance *made, const double *p, int dimensions, number 
         row->map(&made->arguments, at, x);
 }
 
-/* --- Properties of one surface ------------------------------------------------------------- */
+/* --- Properties of one surface ---------------------------------------------------------------- */
 
 static void try_surface_point(trial *t)
 {
@@ -168,7 +168,7 @@ static void try_surface(trial *t)
     }
 }
 
-/* --- Properties of one map ------------------------------------------------------------------ */
+/* --- Properties of one map -------------------------------------------------------------------- */
 
 static void try_map_box(trial *t, const imp_box4 *box)
 {
@@ -254,8 +254,8 @@ static void try_map_net(trial *t, const imp_region *region)
     }
 }
 
-/* Column j of a pose at time t as the map's equation has it: the shift for j = 3, else how a point at the
- * distance 1 from the pivot is turned. */
+/* Column j of a pose at time t as the map's equation has it: the shift for j = 3, else how a point
+ * at the distance 1 from the pivot is turned. */
 static void exact_column(const instance *made, const imp_pose *pose, int j, double t, number x[3])
 {
     const type_oracle *row = oracles;

@@ -11,8 +11,9 @@
 #include "core/tree/pose.h"
 #include "tests/support/meeting.h"
 
-/* Pairs of images of shapes under poses, brought together exactly within gamma_clear at a chosen moment, at
- * points where remainders reach farthest toward each other: no cut may lose that moment. In long double. */
+/* Pairs of images of shapes under poses, brought together exactly within gamma_clear at a chosen
+ * moment, at points where remainders reach farthest toward each other: no cut may lose that moment.
+ * In long double. */
 
 typedef struct image {
     imp_model shape[3];
@@ -92,8 +93,8 @@ static void draw_image(uint64_t *state, image *x)
     }
 }
 
-/* The other image, but for a little of it, and perhaps turning otherwise: so that normals are nearly parallel
- * for some time. */
+/* The other image, but for a little of it, and perhaps turning otherwise: so that normals are
+ * nearly parallel for some time. */
 static void draw_alike(uint64_t *state, const image *of, image *x)
 {
     const double little = random_power(state, -20, -4);
@@ -185,8 +186,8 @@ static void draw_meeting(uint64_t *state, meeting *m, bool alike)
     m->along = vec3_scale(m->along, 1 / vec3_norm(m->along));
 }
 
-/* Moves B so that its lowest point is above A's highest by gamma_clear times `share`. What the mean of the
- * places is rounded by is far less than what 1e-9 leaves. */
+/* Moves B so that its lowest point is above A's highest by gamma_clear times `share`. What the mean
+ * of the places is rounded by is far less than what 1e-9 leaves. */
 static void bring_together(uint64_t *state, meeting *m, double share)
 {
     long double pa[3], pb[3];

@@ -13,10 +13,10 @@
 #include "tests/support/judge.h"
 #include "tests/support/suite.h"
 
-/* Nodes of rigidly moved surfaces: the product of shape and pose against exact numbers, and trees under
- * chains of rigid maps against points of the surface. */
+/* Nodes of rigidly moved surfaces: the product of shape and pose against exact numbers, and trees
+ * under chains of rigid maps against points of the surface. */
 
-/* --- The product ----------------------------------------------------------------------------------- */
+/* --- The product ------------------------------------------------------------------------------ */
 
 static double draw(uint64_t *state, double most) { return most * random_between(state, -1, 1); }
 
@@ -163,7 +163,7 @@ START_TEST(what_is_not_finite_has_to_be_filled_otherwise)
 }
 END_TEST
 
-/* --- Trees ------------------------------------------------------------------------------------------ */
+/* --- Trees ------------------------------------------------------------------------------------ */
 
 static void keep(void *self) { (void)self; }
 
@@ -310,7 +310,8 @@ START_TEST(nodes_under_chains_of_rigid_maps_hold_their_points)
 }
 END_TEST
 
-/* Points leave a turning remainder that is less than it has to be, though they lie in the node's box. */
+/* Points leave a turning remainder that is less than it has to be, though they lie in the node's
+ * box. */
 START_TEST(points_are_held_against_remainders_that_turn)
 {
     uint64_t state = suite_seed();

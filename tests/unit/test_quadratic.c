@@ -148,7 +148,7 @@ START_TEST(the_spans_of_textbook_quadratics_are_exact)
 }
 END_TEST
 
-/* --- Outward rounding --- */
+/* --- Outward rounding ------------------------------------------------------------------------- */
 
 static void check_neighbours(double x)
 {

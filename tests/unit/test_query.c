@@ -54,7 +54,7 @@ static imp_result solve(imp_scene *scene, double gamma)
     return r;
 }
 
-/* --- Options ------------------------------------------------------------------------------ */
+/* --- Options ---------------------------------------------------------------------------------- */
 
 typedef struct wrong {
     const char *word; /* that the complaint begins with */
@@ -135,7 +135,7 @@ START_TEST(the_tolerances_in_force_are_told)
 }
 END_TEST
 
-/* --- Life --------------------------------------------------------------------------------- */
+/* --- Life ------------------------------------------------------------------------------------- */
 
 START_TEST(a_query_that_never_stepped_knows_nothing_and_is_freed)
 {
@@ -227,7 +227,7 @@ START_TEST(a_contact_made_finer_runs_again_and_clear_stays_clear)
 }
 END_TEST
 
-/* --- Trees are shared --------------------------------------------------------------------- */
+/* --- Trees are shared ------------------------------------------------------------------------- */
 
 START_TEST(a_second_query_makes_no_node_that_the_first_has_made)
 {
@@ -284,7 +284,7 @@ START_TEST(other_times_and_methods_have_trees_of_their_own)
 }
 END_TEST
 
-/* --- Scenes of many ----------------------------------------------------------------------- */
+/* --- Scenes of many --------------------------------------------------------------------------- */
 
 /* A ball that reaches the one of radius 1 at the origin at time t, from direction n. */
 static ball arriving(const double n[3], double t)
@@ -397,7 +397,7 @@ START_TEST(a_body_that_is_alone_is_clear_for_that_reason)
 }
 END_TEST
 
-/* --- Times of existence ------------------------------------------------------------------- */
+/* --- Times of existence ----------------------------------------------------------------------- */
 
 START_TEST(bodies_that_never_exist_together_are_clear_for_that_reason)
 {
@@ -449,7 +449,7 @@ START_TEST(a_body_that_ends_before_the_other_arrives_is_clear)
 }
 END_TEST
 
-/* --- Cancelling --------------------------------------------------------------------------- */
+/* --- Cancelling ------------------------------------------------------------------------------- */
 
 static imp_query *_Atomic to_cancel;
 
@@ -574,7 +574,7 @@ START_TEST(programs_newer_than_the_library_run_and_are_told_what_it_does_not_kno
 }
 END_TEST
 
-/* --- Progress ----------------------------------------------------------------------------- */
+/* --- Progress --------------------------------------------------------------------------------- */
 
 typedef struct reports {
     uint64_t count, allowed;

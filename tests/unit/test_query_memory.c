@@ -144,7 +144,7 @@ START_TEST(solving_at_once_tells_of_memory_too)
 }
 END_TEST
 
-/* --- Clearance ---------------------------------------------------------------------------- */
+/* --- Clearance -------------------------------------------------------------------------------- */
 
 /* Up to t = 0.25 the first two bodies come as near as 0.75, and nearer than 1 from 1 / 6 on. */
 static imp_query *begin_clearance(imp_scene *scene, const imp_clearance_options *asked,

@@ -6,8 +6,8 @@
 
 #include "tests/support/built_plugins.h"
 
-/* imp_piece_motion: where it is known, it moves every point as the surface itself does; where a surface
- * deforms, it is not known. */
+/* imp_piece_motion: where it is known, it moves every point as the surface itself does; where a
+ * surface deforms, it is not known. */
 
 static imp_registry *registry;
 

@@ -128,8 +128,9 @@ START_TEST(properties_of_bodies_are_ignored_and_motions_to_compute_refused)
     assert_wrong("{'bodies':[{'surfaces':[" KIT "],'mass':1,'velocity':[1,0,0]}]}",
                  "s.json: /bodies/0/velocity: velocity needs `impinge simulate` first; pass its "
                  "output here");
-    assert_wrong("{'bodies':[{'surfaces':[" KIT "],'spin':[1,0,0]}]}",
-                 "s.json: /bodies/0/spin: spin needs `impinge simulate` first; pass its output here");
+    assert_wrong(
+        "{'bodies':[{'surfaces':[" KIT "],'spin':[1,0,0]}]}",
+        "s.json: /bodies/0/spin: spin needs `impinge simulate` first; pass its output here");
     assert_wrong(SCENE(",'gravity':[0,0,-1]"),
                  "s.json: /gravity: gravity needs `impinge simulate` first; pass its output here");
     imp_scene *scene =

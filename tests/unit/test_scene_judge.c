@@ -8,8 +8,8 @@
 
 #include <signal.h>
 
-/* The judge of the fuzz target `scene` ends the process when an answer is false: each false answer here
- * does, the true ones do not. */
+/* The judge of the fuzz target `scene` ends the process when an answer is false: each false answer
+ * here does, the true ones do not. */
 
 static const char *const ball = "sphere radius=0.5 ! translate velocity=1,0,0";
 static const char *const wall = "sphere radius=0.5 center=1.5,0,0";

@@ -252,8 +252,8 @@ static void lead(node *n, double sign, double w)
     }
 }
 
-/* Two corners as far out as their boxes, at an end of the window, and a gap along one coordinate alone. Both may
- * be carried along so fast that the rounding of that motion counts. */
+/* Two corners as far out as their boxes, at an end of the window, and a gap along one coordinate
+ * alone. Both may be carried along so fast that the rounding of that motion counts. */
 static void meet_with_corners(uint64_t *state, meeting *m)
 {
     const double corner[2] = {1, 1}, w = random_bits(state) % 2 ? 1 : -1;
@@ -299,8 +299,8 @@ static long double gap_of(const meeting *m)
     return sqrtl(m->gap[0] * m->gap[0] + m->gap[1] * m->gap[1] + m->gap[2] * m->gap[2]);
 }
 
-/* Whatever is enough, and whatever moment the axes are chosen for. Where the whole window is kept, the
- * bound is now and then more than half of the gap. */
+/* Whatever is enough, and whatever moment the axes are chosen for. Where the whole window is kept,
+ * the bound is now and then more than half of the gap. */
 START_TEST(no_gap_is_below_the_lower_bound_of_the_distance)
 {
     uint64_t state = suite_seed() + 4;

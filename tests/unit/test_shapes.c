@@ -32,7 +32,7 @@ static void models_of(const instance *made, const double lo[3], const double hi[
     ck_assert_int_eq(made->surface->include(made->self, &region, model), IMP_STATUS_OK);
 }
 
-/* --- Straight ----------------------------------------------------------------------------- */
+/* --- Straight --------------------------------------------------------------------------------- */
 
 static void expect_remainders(const char *type, const char *parameters, double most)
 {
@@ -109,12 +109,13 @@ START_TEST(a_bezier_triangle_of_degree_1_is_a_triangle)
 }
 END_TEST
 
-/* The polar form of x^2 + y^2 is the dot product: control points above corners and edges' middles. */
+/* The polar form of x^2 + y^2 is the dot product: control points above corners and edges'
+ * middles. */
 START_TEST(a_quadratic_triangle_holds_a_paraboloid)
 {
-    instance made =
-        shape("bezier-triangle",
-              "{\"degree\": 2, \"points\": [[-1,-1,2],[0,-0.5,-1],[-0.5,1,-3],[1,0,1],[0.5,1.5,0],[0,3,9]]}");
+    instance made = shape("bezier-triangle",
+                          "{\"degree\": 2, \"points\": "
+                          "[[-1,-1,2],[0,-0.5,-1],[-0.5,1,-3],[1,0,1],[0.5,1.5,0],[0,3,9]]}");
     for (int k = 0; k <= 100; ++k) {
         double x[3];
         point_of(&made, k % 11 / 10., k / 11 / 10., 0, x);
@@ -124,8 +125,8 @@ START_TEST(a_quadratic_triangle_holds_a_paraboloid)
 }
 END_TEST
 
-/* G. Farin, B. Piper, A. Worsey, The octant of a sphere as a non-degenerate triangular Bezier patch, 1987.
- * As JSON, or as a pipeline. */
+/* G. Farin, B. Piper, A. Worsey, The octant of a sphere as a non-degenerate triangular Bezier
+ * patch, 1987. As JSON, or as a pipeline. */
 static const char *octant_text(bool as_pipeline)
 {
     static char text[1200];
@@ -162,12 +163,11 @@ END_TEST
 
 START_TEST(each_face_is_a_triangle_of_its_own_points)
 {
-    instance many = shape("bezier-triangle",
-                          "{\"degree\": 1, \"points\": [[0,0,0],[1,0,0],[0,1,0],[5,5,5]],"
-                          " \"velocities\": [@4[0,0,1]], \"faces\": [[0,1,2],[1,3,2]]}");
-    instance one = shape("bezier-triangle",
-                         "{\"degree\": 1, \"points\": [[1,0,0],[5,5,5],[0,1,0]],"
-                         " \"velocities\": [@3[0,0,1]]}");
+    instance many =
+        shape("bezier-triangle", "{\"degree\": 1, \"points\": [[0,0,0],[1,0,0],[0,1,0],[5,5,5]],"
+                                 " \"velocities\": [@4[0,0,1]], \"faces\": [[0,1,2],[1,3,2]]}");
+    instance one = shape("bezier-triangle", "{\"degree\": 1, \"points\": [[1,0,0],[5,5,5],[0,1,0]],"
+                                            " \"velocities\": [@3[0,0,1]]}");
     ck_assert_uint_eq(many.surface->piece_count(many.self), 2);
     ck_assert_uint_eq(one.surface->piece_count(one.self), 1);
     for (int k = 0; k <= 100; ++k) {
@@ -183,8 +183,8 @@ START_TEST(each_face_is_a_triangle_of_its_own_points)
 }
 END_TEST
 
-/* Halved toward the corner into which u = 0 collapses, a triangle loses seven eighths of its remainder
- * each time, and its net follows it. */
+/* Halved toward the corner into which u = 0 collapses, a triangle loses seven eighths of its
+ * remainder each time, and its net follows it. */
 START_TEST(bounds_shrink_at_the_collapsed_corner_as_anywhere)
 {
     instance made = shape("bezier-triangle", "{\"degree\": 3, \"points\": [@10[?,?,?]]}");
@@ -192,8 +192,7 @@ START_TEST(bounds_shrink_at_the_collapsed_corner_as_anywhere)
     for (double size = 0x1p-6; size > 0x1p-10; size /= 2) {
         imp_model model[3];
         imp_net net = {.degree = {0, 0}};
-        const imp_region region =
-            region_make((double[3]){0, 0, 0}, (double[3]){size, 1, 0});
+        const imp_region region = region_make((double[3]){0, 0, 0}, (double[3]){size, 1, 0});
         models_of(&made, region.lo, region.hi, model);
         const double e = fmax(model[0].e, fmax(model[1].e, model[2].e));
         ck_assert(last == 0 || e < 0.3 * last);
@@ -206,7 +205,7 @@ START_TEST(bounds_shrink_at_the_collapsed_corner_as_anywhere)
 }
 END_TEST
 
-/* --- Superquadrics -------------------------------------------------------------------------- */
+/* --- Superquadrics ---------------------------------------------------------------------------- */
 
 static double superellipsoid_equation(const double x[3], const double exponents[2])
 {
@@ -303,7 +302,7 @@ START_TEST(a_sweep_is_the_sum_of_its_curves)
 }
 END_TEST
 
-/* --- NURBS -------------------------------------------------------------------------- */
+/* --- NURBS ------------------------------------------------------------------------------------ */
 
 START_TEST(a_nurbs_without_inner_knots_is_a_bezier_patch)
 {
@@ -346,10 +345,12 @@ START_TEST(a_rational_circle_of_four_arcs_is_round)
 }
 END_TEST
 
-/* A region inside a cell has the net that a Bezier patch has there; one that a knot crosses has none. */
+/* A region inside a cell has the net that a Bezier patch has there; one that a knot crosses has
+ * none. */
 START_TEST(a_nurbs_has_nets_between_its_knots)
 {
-    const char *points = "\"points\": [@12[?,?,?]], \"weights\": [@12+], \"velocities\": [@12[?,?,?]]";
+    const char *points =
+        "\"points\": [@12[?,?,?]], \"weights\": [@12+], \"velocities\": [@12[?,?,?]]";
     char text[300];
     snprintf(text, sizeof text, "{\"degree\": [3,2], %s}", points);
     instance bezier = shape("bezier", text);
@@ -443,7 +444,7 @@ START_TEST(a_surface_of_many_knots_is_bounded_as_a_whole_and_in_the_small)
 }
 END_TEST
 
-/* --- Earliest contacts -------------------------------------------------------------- */
+/* --- Earliest contacts ------------------------------------------------------------------------ */
 
 static void expect_contact(const char *a, const char *b, double time, double early)
 {
@@ -513,14 +514,16 @@ START_TEST(triangles_of_a_paraboloid_and_of_a_sphere_are_met_where_these_are)
 }
 END_TEST
 
-/* The corner u = 0 of both, the degenerate one, meets a corner: they move along the line between. */
+/* The corner u = 0 of both, the degenerate one, meets a corner: they move along the line
+ * between. */
 START_TEST(collapsed_corners_meet)
 {
-    expect_contact("bezier-triangle degree=3 points=[[0,0,0],[1,0,-1],[0,1,-1],[2,0,-2],[1,1,-2],[0,2,-2],"
-                   "[3,0,-2],[2,1,-2],[1,2,-2],[0,3,-2]]",
-                   "bezier-triangle points=[[0,0,2],[-1,0,2.5],[0,-1,2.5],[-2,0,3],[-1,-1,3],[0,-2,3]] ! "
-                   "translate velocity=0,0,-4",
-                   0.5, 1e-6);
+    expect_contact(
+        "bezier-triangle degree=3 points=[[0,0,0],[1,0,-1],[0,1,-1],[2,0,-2],[1,1,-2],[0,2,-2],"
+        "[3,0,-2],[2,1,-2],[1,2,-2],[0,3,-2]]",
+        "bezier-triangle points=[[0,0,2],[-1,0,2.5],[0,-1,2.5],[-2,0,3],[-1,-1,3],[0,-2,3]] ! "
+        "translate velocity=0,0,-4",
+        0.5, 1e-6);
 }
 END_TEST
 
@@ -532,22 +535,21 @@ START_TEST(the_bevel_of_a_superellipsoid_is_met_where_it_is)
 }
 END_TEST
 
-SUITE_MAIN("shapes", moving_points_segments_and_planes_are_followed_exactly,
-           a_triangle_whose_corners_part_is_followed_but_for_one_cubic_term,
-           a_collapsed_edge_is_one_point, a_bezier_triangle_of_degree_1_is_a_triangle,
-           a_quadratic_triangle_holds_a_paraboloid,
-           a_rational_quartic_triangle_is_an_octant_of_a_sphere,
-           each_face_is_a_triangle_of_its_own_points,
-           bounds_shrink_at_the_collapsed_corner_as_anywhere, superellipsoids_satisfy_their_implicit_equation,
-           superquadrics_move_at_most_at_speed_two_for_every_exponent,
-           exponents_beyond_two_are_refused_with_the_reason,
-           a_rational_quarter_of_a_circle_turns_into_half_a_sphere,
-           a_sweep_is_the_sum_of_its_curves, a_nurbs_without_inner_knots_is_a_bezier_patch,
-           a_rational_circle_of_four_arcs_is_round, a_nurbs_has_nets_between_its_knots,
-           bounds_across_a_knot_tighten_as_fast_as_the_surface_is_smooth,
-           a_surface_of_many_knots_is_bounded_as_a_whole_and_in_the_small,
-           a_falling_vertex_meets_a_face, an_edge_meets_an_edge,
-           a_bullet_does_not_pass_through_a_plate, a_turning_ellipsoid_reaches_a_plane,
-           a_wave_rises_to_a_point, the_apex_of_a_cone_pierces,
-           the_bevel_of_a_superellipsoid_is_met_where_it_is,
-           triangles_of_a_paraboloid_and_of_a_sphere_are_met_where_these_are, collapsed_corners_meet)
+SUITE_MAIN(
+    "shapes", moving_points_segments_and_planes_are_followed_exactly,
+    a_triangle_whose_corners_part_is_followed_but_for_one_cubic_term, a_collapsed_edge_is_one_point,
+    a_bezier_triangle_of_degree_1_is_a_triangle, a_quadratic_triangle_holds_a_paraboloid,
+    a_rational_quartic_triangle_is_an_octant_of_a_sphere, each_face_is_a_triangle_of_its_own_points,
+    bounds_shrink_at_the_collapsed_corner_as_anywhere,
+    superellipsoids_satisfy_their_implicit_equation,
+    superquadrics_move_at_most_at_speed_two_for_every_exponent,
+    exponents_beyond_two_are_refused_with_the_reason,
+    a_rational_quarter_of_a_circle_turns_into_half_a_sphere, a_sweep_is_the_sum_of_its_curves,
+    a_nurbs_without_inner_knots_is_a_bezier_patch, a_rational_circle_of_four_arcs_is_round,
+    a_nurbs_has_nets_between_its_knots,
+    bounds_across_a_knot_tighten_as_fast_as_the_surface_is_smooth,
+    a_surface_of_many_knots_is_bounded_as_a_whole_and_in_the_small, a_falling_vertex_meets_a_face,
+    an_edge_meets_an_edge, a_bullet_does_not_pass_through_a_plate,
+    a_turning_ellipsoid_reaches_a_plane, a_wave_rises_to_a_point, the_apex_of_a_cone_pierces,
+    the_bevel_of_a_superellipsoid_is_met_where_it_is,
+    triangles_of_a_paraboloid_and_of_a_sphere_are_met_where_these_are, collapsed_corners_meet)

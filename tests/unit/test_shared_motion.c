@@ -6,8 +6,8 @@
 
 #include "tests/support/query_helpers.h"
 
-/* Bodies that move together are searched in the frame that moves with them, and bodies that only turn within
- * themselves at one moment. */
+/* Bodies that move together are searched in the frame that moves with them, and bodies that only
+ * turn within themselves at one moment. */
 
 #define BOX(X, Y, Z, H)                                                                            \
     "{'type':'mesh','points':[[" #X "," #Y "," #Z "],[" #X "," #Y "," H "],[" #X ",1," #Z "],[" #X \
@@ -62,7 +62,8 @@ static imp_clearance clearance(imp_scene *scene)
     return found;
 }
 
-/* Two boxes 0.001 apart, the upper one carried by the lower one, and the same maps written twice. */
+/* Two boxes 0.001 apart, the upper one carried by the lower one, and the same maps written
+ * twice. */
 static const char *const carried[] = {
     "{'bodies':[{'name':'hand','surfaces':[" BOX(
         -1, -1, -1, "0") "],'maps':[" TUMBLE "]},"
@@ -88,7 +89,8 @@ START_TEST(parts_that_are_carried_cost_what_they_cost_at_rest)
 }
 END_TEST
 
-/* The points told are those of the surfaces in the world, and the normal points from one to the other. */
+/* The points told are those of the surfaces in the world, and the normal points from one to the
+ * other. */
 static void assert_in_world(const imp_scene *scene, const imp_side *a, const imp_side *b, double t,
                             double gap, const double normal[3])
 {
@@ -172,7 +174,8 @@ START_TEST(one_surface_may_be_in_several_frames)
 }
 END_TEST
 
-/* While hand and part meet in their own frame, contact with what stands still is found in the world. */
+/* While hand and part meet in their own frame, contact with what stands still is found in the
+ * world. */
 START_TEST(the_earliest_contact_of_several_frames_is_told)
 {
     imp_scene *scene = scene_of(
@@ -187,7 +190,7 @@ START_TEST(the_earliest_contact_of_several_frames_is_told)
 }
 END_TEST
 
-/* --- Turning within themselves ---------------------------------------------------------------------- */
+/* --- Turning within themselves ---------------------------------------------------------------- */
 
 typedef struct turning {
     const char *a, *b;
@@ -283,9 +286,10 @@ START_TEST(what_touches_while_it_turns_touches_at_the_start)
 }
 END_TEST
 
-/* --- Sliding along faces ------------------------------------------------------------------------------ */
+/* --- Sliding along faces ---------------------------------------------------------------------- */
 
-/* The x, y and z axes of a table that is inclined, in whole numbers: (2,-1,2), (2,2,-1), (-1,2,2), a third each. */
+/* The x, y and z axes of a table that is inclined, in whole numbers: (2,-1,2), (2,2,-1), (-1,2,2),
+ * a third each. */
 static void inclined(const double p[3], double x[3])
 {
     static const double axis[3][3] = {{2, -1, 2}, {2, 2, -1}, {-1, 2, 2}};

@@ -7,9 +7,9 @@
 #include "core/surface/surface_internal.h"
 #include "tests/support/query_helpers.h"
 
-/* Round surfaces that turn and drift inside and outside of each other, hardly apart along whole areas; at rest
- * somewhere, or carried away together. Their distance at each moment is known: what a query answers is held
- * against it at many. */
+/* Round surfaces that turn and drift inside and outside of each other, hardly apart along whole
+ * areas; at rest somewhere, or carried away together. Their distance at each moment is known: what
+ * a query answers is held against it at many. */
 
 enum { SCENES = 18, MOMENTS = 2000, TEXT = 400 };
 
@@ -56,7 +56,7 @@ static double draw_radius(uint64_t *random, double c, slide *s, int axis)
     return r;
 }
 
-/* --- Spheres ------------------------------------------------------------------------------------- */
+/* --- Spheres ---------------------------------------------------------------------------------- */
 
 static void draw_spheres(uint64_t *random, double c, slide *s)
 {
@@ -77,7 +77,7 @@ static double of_spheres(const slide *s, const double at[3])
     return between_round(s->size[0], sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]));
 }
 
-/* --- Cylinders ------------------------------------------------------------------------------------ */
+/* --- Cylinders -------------------------------------------------------------------------------- */
 
 static void draw_cylinders(uint64_t *random, double c, slide *s)
 {
@@ -94,7 +94,7 @@ static double of_cylinders(const slide *s, const double at[3])
     return between_round(s->size[0], sqrt(at[0] * at[0] + at[1] * at[1]));
 }
 
-/* --- A sphere in a ring, a funnel, and above a table ----------------------------------------------- */
+/* --- A sphere in a ring, a funnel, and above a table ------------------------------------------ */
 
 static void draw_in_torus(uint64_t *random, double c, slide *s)
 {
@@ -143,7 +143,7 @@ static double of_plane(const slide *s, const double at[3])
     return beyond(fabs(at[2]), s->size[0]);
 }
 
-/* --- Rings and cones in each other ----------------------------------------------------------------- */
+/* --- Rings and cones in each other ------------------------------------------------------------ */
 
 static void draw_tori(uint64_t *random, double c, slide *s)
 {
@@ -182,7 +182,7 @@ static const kind kinds[] = {
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-/* --- Judging ----------------------------------------------------------------------------------- */
+/* --- Judging ---------------------------------------------------------------------------------- */
 
 static double distance_at(const kind *k, const slide *s, double t)
 {
@@ -194,8 +194,8 @@ static double distance_at(const kind *k, const slide *s, double t)
 static void judge(const kind *k, const slide *s, const question *q, const imp_result *r)
 {
     const double gamma_clear = 0.5 * q->gamma, rounding = 1e-12;
-    ck_assert_msg(r->verdict != IMP_VERDICT_UNDECIDED, "%s | %s: undecided after %g pairs", q->a, q->b,
-                  (double)r->stats.pairs);
+    ck_assert_msg(r->verdict != IMP_VERDICT_UNDECIDED, "%s | %s: undecided after %g pairs", q->a,
+                  q->b, (double)r->stats.pairs);
     for (int m = 0; m <= MOMENTS; ++m) {
         const double t = (double)m / MOMENTS;
         if (t >= r->t_lower && r->verdict == IMP_VERDICT_CONTACT) break;
@@ -208,7 +208,7 @@ static void judge(const kind *k, const slide *s, const question *q, const imp_re
                   k->name, q->a, q->b, distance_at(k, s, r->t), r->t);
 }
 
-/* --- Placed and carried ---------------------------------------------------------------------------- */
+/* --- Placed and carried ----------------------------------------------------------------------- */
 
 /* Rigid maps that put both somewhere else; over time, if they `move`. */
 static void draw_carrier(uint64_t *random, bool moves, char text[TEXT])
@@ -262,7 +262,7 @@ static imp_result ask_placed(const question *q, const char *place)
     return ask_in(registry, &placed);
 }
 
-/* --- Slides ------------------------------------------------------------------------------------------ */
+/* --- Slides ----------------------------------------------------------------------------------- */
 
 typedef enum setting { FREE, PLACED, CARRIED, SETTINGS } setting;
 
@@ -274,10 +274,9 @@ static imp_verdict try_slide(const kind *k, setting where, uint64_t *random)
     char text[2 * TEXT], maps[TEXT];
     k->draw(random, c, &s);
     const bool spins = strncmp(s.moving, "sphere", 6) == 0;
-    snprintf(text, sizeof text,
-             "%s%s ! translate offset=[[%.17g,%.17g,%.17g],[%.17g,%.17g,%.17g]]", s.moving,
-             spins ? " ! rotate axis=1,2,3 rate=1.5" : "", s.start[0], s.start[1], s.start[2],
-             s.way[0], s.way[1], s.way[2]);
+    snprintf(text, sizeof text, "%s%s ! translate offset=[[%.17g,%.17g,%.17g],[%.17g,%.17g,%.17g]]",
+             s.moving, spins ? " ! rotate axis=1,2,3 rate=1.5" : "", s.start[0], s.start[1],
+             s.start[2], s.way[0], s.way[1], s.way[2]);
     const bool first = random_bits(random) % 2;
     const question q = {.a = first ? text : s.fixed,
                         .b = first ? s.fixed : text,
@@ -297,8 +296,9 @@ START_TEST(what_slides_is_answered_as_its_distance_at_each_moment_demands)
         int seen[3] = {0, 0, 0};
         for (int n = 0; n < suite_times_at_least(SCENES); ++n)
             seen[try_slide(&kinds[k], (setting)(n % SETTINGS), &random)] += 1;
-        ck_assert_msg(seen[IMP_VERDICT_CONTACT] > 0 && seen[IMP_VERDICT_CLEAR] > 0, "%s: %d contacts, %d clear",
-                      kinds[k].name, seen[IMP_VERDICT_CONTACT], seen[IMP_VERDICT_CLEAR]);
+        ck_assert_msg(seen[IMP_VERDICT_CONTACT] > 0 && seen[IMP_VERDICT_CLEAR] > 0,
+                      "%s: %d contacts, %d clear", kinds[k].name, seen[IMP_VERDICT_CONTACT],
+                      seen[IMP_VERDICT_CLEAR]);
     }
 }
 END_TEST
@@ -360,8 +360,11 @@ END_TEST
 /* One contact is enough: no side is halved down to gamma first. */
 START_TEST(what_touches_all_over_at_one_instant_is_found_at_once)
 {
-    const question q = {.a = "sphere radius=2", .b = "sphere ! scale factors=[[1],[1]]",
-                        .t_start = 1, .t_end = 1, .gamma = 1e-6};
+    const question q = {.a = "sphere radius=2",
+                        .b = "sphere ! scale factors=[[1],[1]]",
+                        .t_start = 1,
+                        .t_end = 1,
+                        .gamma = 1e-6};
     const imp_result r = ask_in(registry, &q);
     ck_assert_int_eq(r.verdict, IMP_VERDICT_CONTACT);
     ck_assert_msg(r.stats.pairs <= 200, "%g pairs", (double)r.stats.pairs);

@@ -10,15 +10,17 @@
 #include "tests/support/compose.h"
 #include "tests/support/suite.h"
 
-/* Surfaces that turn and move along another, nearly as its symmetry permits, under random chains of rigid maps,
- * some as far from rigid as they may be: a point is no farther than the slip from where it was, but for a
- * motion of the symmetry, and no nearer to the other than is claimed; found in long double. */
+/* Surfaces that turn and move along another, nearly as its symmetry permits, under random chains of
+ * rigid maps, some as far from rigid as they may be: a point is no farther than the slip from where
+ * it was, but for a motion of the symmetry, and no nearer to the other than is claimed; found in
+ * long double. */
 
 enum { CASES = 3000, POINTS = 6, MAPS = 3 };
 
-/* --- Maps ------------------------------------------------------------------------------------------- */
+/* --- Maps ------------------------------------------------------------------------------------- */
 
-/* x -> shift + way t + stretch(t) place spin(t) (x - pivot), spin by rate t about z, stretch(t) = 1 + swell t^2. */
+/* x -> shift + way t + stretch(t) place spin(t) (x - pivot), spin by rate t about z, stretch(t) = 1
+ * + swell t^2. */
 typedef struct motion {
     double place[3][3]; /* a rotation, nearly */
     double rate, swell; /* rate: rad / time */
@@ -73,7 +75,8 @@ static void apply(const motion *m, long double t, long double x[3])
     for (int i = 0; i < 3; ++i) x[i] = m->shift[i] + m->way[i] * t + y[i];
 }
 
-/* The inverse: as the turn is nearly a rotation, its transpose leaves a rest that shrinks in each step. */
+/* The inverse: as the turn is nearly a rotation, its transpose leaves a rest that shrinks in each
+ * step. */
 static void undo(const motion *m, long double t, long double x[3])
 {
     const long double c = cosl(m->rate * t), s = sinl(m->rate * t);
@@ -96,7 +99,7 @@ static void undo(const motion *m, long double t, long double x[3])
     for (int j = 0; j < 3; ++j) x[j] = m->pivot[j] + found[j];
 }
 
-/* --- Types ------------------------------------------------------------------------------------------- */
+/* --- Types ------------------------------------------------------------------------------------ */
 
 /* A ball, a torus, a cylinder and a plane, of radius 1 where they have one; the line is along z. */
 static imp_model gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
@@ -158,7 +161,7 @@ static const imp_map_type exactly = {.struct_size = sizeof(imp_map_type),
                                      .destroy = keep,
                                      .rigid = pose_of};
 
-/* --- Trials ------------------------------------------------------------------------------------------ */
+/* --- Trials ----------------------------------------------------------------------------------- */
 
 typedef struct trial {
     imp_symmetry symmetry;
@@ -208,8 +211,8 @@ static void tilt(const trial *y, double angle, motion *m)
     for (int i = 0; i < 3; ++i) m->pivot[i] = m->shift[i] = y->symmetry.center[i];
 }
 
-/* The own maps: a spin about a line along z that is off the symmetry's by as much as comes out, and tilted by
- * as much. */
+/* The own maps: a spin about a line along z that is off the symmetry's by as much as comes out, and
+ * tilted by as much. */
 static trial draw_trial(uint64_t *random)
 {
     const double lo[3] = {0, 0, random_between(random, -1, 0)};
@@ -303,7 +306,7 @@ static long double off(const imp_symmetry *of, const orbit *x)
     return fabsl(x->across - 1);
 }
 
-/* --- Judging ----------------------------------------------------------------------------------------- */
+/* --- Judging ---------------------------------------------------------------------------------- */
 
 typedef struct tally {
     int judged, refuted, known, exact;

@@ -7,7 +7,7 @@
 /* A search taken apart: made finer, cut into steps, ended by a budget. Whatever is done to it, its
  * answers fit those of a search that ran through. */
 
-/* --- Finer --------------------------------------------------------------------------- */
+/* --- Finer ------------------------------------------------------------------------------------ */
 
 static imp_result step(imp_query *query, uint64_t pairs)
 {
@@ -73,7 +73,7 @@ START_TEST(a_coarse_answer_made_finer_is_as_good_as_one_asked_afresh)
 }
 END_TEST
 
-/* --- Steps and budgets -------------------------------------------------------------------- */
+/* --- Steps and budgets ------------------------------------------------------------------------ */
 
 static void check_same(const imp_result *x, const imp_result *y)
 {

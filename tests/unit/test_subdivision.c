@@ -9,8 +9,9 @@
 #include "tests/support/instance.h"
 #include "tests/support/query_helpers.h"
 
-/* Catmull-Clark surfaces whose points are known, and what holds of all pieces of any, of Loop's as well. That
- * the first piece's bounds hold against an oracle is tested with all other types in test_plugins.c. */
+/* Catmull-Clark surfaces whose points are known, and what holds of all pieces of any, of Loop's as
+ * well. That the first piece's bounds hold against an oracle is tested with all other types in
+ * test_plugins.c. */
 
 static imp_registry *registry;
 
@@ -41,12 +42,12 @@ static void point_of(const instance *made, size_t piece, double u, double v, dou
     ck_assert_int_eq(made->surface->eval(piece_of(made, piece), 1, p, x, error), IMP_STATUS_OK);
 }
 
-/* --- Surfaces that are known ------------------------------------------------------------------------ */
+/* --- Surfaces that are known ------------------------------------------------------------------ */
 
 enum { SIDE = 7 };
 
-/* Points (i, j, i^2 + i j - 1/3 - i), i and j from 0: B-splines make (x, y, x^2 + x y - x) of them, as the
- * square of the spline's parameter has the control values i^2 - 1/3. */
+/* Points (i, j, i^2 + i j - 1/3 - i), i and j from 0: B-splines make (x, y, x^2 + x y - x) of them,
+ * as the square of the spline's parameter has the control values i^2 - 1/3. */
 static char *parabola_text(void)
 {
     char *text = NULL;
@@ -133,8 +134,8 @@ START_TEST(a_cube_has_its_known_limit_points)
 }
 END_TEST
 
-/* Six triangles around a point: of the three quads of each, that in the middle has two extraordinary
- * corners, and is divided again. */
+/* Six triangles around a point: of the three quads of each, that in the middle has two
+ * extraordinary corners, and is divided again. */
 START_TEST(a_plane_mesh_stays_in_its_plane)
 {
     instance made = made_of("{\"points\": [@4[?,?,0.25],[0,0,0.25],@3[?,?,0.25]],"
@@ -153,7 +154,7 @@ START_TEST(a_plane_mesh_stays_in_its_plane)
 }
 END_TEST
 
-/* --- All pieces ---------------------------------------------------------------------------------------- */
+/* --- All pieces ------------------------------------------------------------------------------- */
 
 static const char *const meshes[] = {
     "{" CUBE ", \"velocities\": [@8[?,?,?]]}",
@@ -295,7 +296,8 @@ static void soil_stack(void)
     for (size_t k = 0; k < sizeof filler / sizeof *filler; ++k) filler[k] = 1e30;
 }
 
-/* lambda is 0.41, 0.55 and 0.58 for 3, 5 and 6 faces, and 0.5 at a border; of Loop's up to 0.625. */
+/* lambda is 0.41, 0.55 and 0.58 for 3, 5 and 6 faces, and 0.5 at a border; of Loop's up to
+ * 0.625. */
 START_TEST(bounds_shrink_toward_an_extraordinary_corner)
 {
     for (int m = 0; m < REGULAR; ++m) {
@@ -321,7 +323,7 @@ START_TEST(bounds_shrink_toward_an_extraordinary_corner)
 }
 END_TEST
 
-/* --- Contacts --------------------------------------------------------------------------------------------- */
+/* --- Contacts --------------------------------------------------------------------------------- */
 
 #define CUBE_SURFACE "subdivision points=" CUBE_POINTS " faces=" CUBE_FACES
 

@@ -31,7 +31,7 @@ static imp_scene *scene_of(imp_registry *registry, const char *const texts[2])
     return scene;
 }
 
-/* --- One thread's questions ----------------------------------------------------------------- */
+/* --- One thread's questions ------------------------------------------------------------------- */
 
 typedef struct answers {
     imp_result contact[QUESTIONS];
@@ -139,11 +139,8 @@ static void all_at_once(imp_registry *registry, const char *const texts[2], imp_
     pthread_barrier_t start;
     pthread_barrier_init(&start, NULL, THREADS);
     for (int k = 0; k < THREADS; ++k) {
-        workers[k] = (worker){.start = &start,
-                              .registry = registry,
-                              .texts = texts,
-                              .scene = scene,
-                              .number = k};
+        workers[k] = (worker){
+            .start = &start, .registry = registry, .texts = texts, .scene = scene, .number = k};
         ck_assert_int_eq(pthread_create(&workers[k].thread, NULL, run, &workers[k]), 0);
     }
     for (int k = 0; k < THREADS; ++k) pthread_join(workers[k].thread, NULL);
@@ -189,7 +186,7 @@ START_TEST(threads_that_share_a_registry_make_scenes_at_once)
 }
 END_TEST
 
-/* --- Cancelling ---------------------------------------------------------------------------------- */
+/* --- Cancelling ------------------------------------------------------------------------------- */
 
 static void *cancel(void *context)
 {

@@ -121,7 +121,7 @@ START_TEST(a_contact_and_an_undecided_answer_say_what_was_examined)
 }
 END_TEST
 
-/* --- Scenes ------------------------------------------------------------------------------- */
+/* --- Scenes ----------------------------------------------------------------------------------- */
 
 static imp_code solve_text(const char *text, imp_result *result, imp_error *error)
 {
@@ -160,11 +160,13 @@ START_TEST(a_body_that_is_tested_with_none_may_be_defined_for_any_times)
 {
     imp_result r = {.struct_size = sizeof r};
     imp_error error = {IMP_SUCCESS, ""};
-    static const char tested[] = "{\"time\": [0,1], \"bodies\": [" BODY("a", "\"sphere\"", SHORT_TRACK) "," BODY(
-        "b", "\"sphere\"", "") "," BODY("c", "\"sphere\", \"center\": [4,0,0]", "") "]}";
-    static const char ignored[] = "{\"time\": [0,1], \"bodies\": [" BODY("a", "\"sphere\"", SHORT_TRACK) "," BODY(
-        "b", "\"sphere\"", "") "," BODY("c", "\"sphere\", \"center\": [4,0,0]",
-                                        "") "], \"ignore\": [[\"a\",\"b\"],[\"a\",\"c\"]]}";
+    static const char tested[] =
+        "{\"time\": [0,1], \"bodies\": [" BODY("a", "\"sphere\"", SHORT_TRACK) "," BODY(
+            "b", "\"sphere\"", "") "," BODY("c", "\"sphere\", \"center\": [4,0,0]", "") "]}";
+    static const char ignored[] =
+        "{\"time\": [0,1], \"bodies\": [" BODY("a", "\"sphere\"", SHORT_TRACK) "," BODY(
+            "b", "\"sphere\"", "") "," BODY("c", "\"sphere\", \"center\": [4,0,0]",
+                                            "") "], \"ignore\": [[\"a\",\"b\"],[\"a\",\"c\"]]}";
     ck_assert_int_eq(solve_text(tested, &r, &error), IMP_ERROR_SCENE);
     ck_assert_ptr_nonnull(strstr(error.text, "body 'a', surface 0"));
     ck_assert_int_eq(solve_text(ignored, &r, &error), IMP_SUCCESS);
@@ -172,17 +174,16 @@ START_TEST(a_body_that_is_tested_with_none_may_be_defined_for_any_times)
 }
 END_TEST
 
-/* --- Where nobody says which times ----------------------------------------------------------------- */
+/* --- Where nobody says which times ------------------------------------------------------------ */
 
 START_TEST(a_scene_whose_tables_share_no_time_is_refused_until_somebody_says)
 {
     imp_result r = {.struct_size = sizeof r};
     imp_error error = {IMP_SUCCESS, ""};
     imp_registry *registry = query_registry();
-    imp_scene *scene =
-        imp_scene_from_pair(registry, track,
-                            "sphere center=9,0,0 ! keyframes times=2,3 positions=[[0,0,0],[1,0,0]]",
-                            &error);
+    imp_scene *scene = imp_scene_from_pair(
+        registry, track, "sphere center=9,0,0 ! keyframes times=2,3 positions=[[0,0,0],[1,0,0]]",
+        &error);
     imp_options options = {.struct_size = sizeof options};
     ck_assert_int_eq(imp_options_get_default(scene, &options, &error), IMP_ERROR_SCENE);
     ck_assert_ptr_nonnull(strstr(error.text, "up to t = 1;"));
@@ -245,8 +246,8 @@ START_TEST(domains_without_an_end_leave_the_interval_where_it_is_if_that_is_poss
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
         for (int swap = 0; swap < 2; ++swap) {
-            const imp_options o = swap ? times_of(cases[k].b, cases[k].a)
-                                       : times_of(cases[k].a, cases[k].b);
+            const imp_options o =
+                swap ? times_of(cases[k].b, cases[k].a) : times_of(cases[k].a, cases[k].b);
             ck_assert_msg(o.t_start == cases[k].expected.start && o.t_end == cases[k].expected.end,
                           "case %zu: [%g, %g]", k, o.t_start, o.t_end);
         }

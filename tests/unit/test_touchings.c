@@ -22,7 +22,7 @@ typedef struct touching {
 #define CORNER "plane edge_u=-2,0,0 edge_v=0,-2,0" /* edges along x and y, the body below them */
 
 static const touching touchings[] = {
-    /* --- Corners and edges ------------------------------------------------------------------ */
+    /* --- Corners and edges -------------------------------------------------------------------- */
     {"point", "point position=3,4,0 velocity=-3,-4,0", 5, 5, 1e-6},
     {"plane", "point position=0.25,0.75,1 velocity=0,0,-1", 1, 1, 1e-6},
     {"plane", "point position=-1,0.5,0 velocity=1,0,0", 1, 1, 1e-6}, /* in the plane, to an edge */
@@ -43,7 +43,7 @@ static const touching touchings[] = {
     {"segment points=[[0,0,0],[2,0,0]] ! rotate axis=0,0,1 rate=1",        /* sin(1 - t) */
      "point position=0.54030230586813977,0.8414709848078965,0", 0.84, 1, 1e-6},
 
-    /* --- Round ------------------------------------------------------------------------------ */
+    /* --- Round -------------------------------------------------------------------------------- */
     {"sphere", "sphere" FALLING("3"), 1, 1, 1e-6}, /* pole to pole */
     {"sphere", "sphere" COMING_FROM("3"), 1, 1, 1e-6},
     {"sphere", "sphere radius=12 center=3,4,12 ! translate offset=[[3,4,12],[-3,-4,-12]]", 13, 13,
@@ -63,7 +63,7 @@ static const touching touchings[] = {
     {FLOOR, "ellipsoid radii=3,2,1" FALLING("2"), 1, 1, 1e-5},
     {FLOOR, "superellipsoid radii=1,1,1 exponents=2,2" FALLING("2"), 1, 1, 1e-5},
 
-    /* --- Kinks ------------------------------------------------------------------------------ */
+    /* --- Kinks -------------------------------------------------------------------------------- */
     {FLOOR, "formula x=u y=v z=abs(u)+abs(v)+1-t domain=[[-1,1],[-1,1]]", 1, 1, 1e-6},
     {FLOOR, "formula x=u y=v z=abs(u)+1-t domain=[[-1,1],[-1,1]]", 1, 1, 1e-3}, /* a ridge */
     {FLOOR, "sphere ! translate times=0,1,2 positions=[[0,0,2],[0,0,1],[0,0,3]]", 1, 1, 1e-6},
@@ -74,7 +74,7 @@ static const touching touchings[] = {
 };
 enum { TOUCHINGS = sizeof touchings / sizeof *touchings };
 
-/* --- Asking ------------------------------------------------------------------------------- */
+/* --- Asking ----------------------------------------------------------------------------------- */
 
 /* Coordinates are below 32, and evaluated to some of their ulps. */
 static const double rounding = 1e-13;
@@ -92,8 +92,8 @@ static void check_touch(const touching *k, const question *q, const imp_result *
                   (int)r->reason, r->t_lower, earliest, latest);
 }
 
-/* A witness says that at its time the surfaces are no farther apart than its gap. Asked again with a
- * gamma_clear just above that, t_lower is no later, and clear no answer. */
+/* A witness says that at its time the surfaces are no farther apart than its gap. Asked again with
+ * a gamma_clear just above that, t_lower is no later, and clear no answer. */
 static void ask_sharper(imp_registry *registry, const question *q, const imp_result *seen)
 {
     question sharper = *q;
@@ -156,7 +156,7 @@ START_TEST(a_touch_is_found_when_it_happens_and_no_sharper_question_denies_it)
 }
 END_TEST
 
-/* --- The same touch, asked otherwise -------------------------------------------------------- */
+/* --- The same touch, asked otherwise ---------------------------------------------------------- */
 
 static question question_of_touch(const touching *k)
 {
@@ -196,8 +196,8 @@ static void ask_moved(imp_registry *registry, const touching *k)
 START_TEST(moving_and_mirroring_both_bodies_does_not_matter) { for_each_touching(ask_moved); }
 END_TEST
 
-/* What distances between slowest (1 - t) and fastest (1 - t) decide at the end of the interval, where
- * they are least. */
+/* What distances between slowest (1 - t) and fastest (1 - t) decide at the end of the interval,
+ * where they are least. */
 static void check_before(const touching *k, const question *q, const imp_result *r)
 {
     const double left = 1 - q->t_end;

@@ -5,8 +5,8 @@
 #include "core/common/random.h"
 #include "tests/support/query_helpers.h"
 
-/* Contacts of patches, which the search meets before it has proved them to be the first: what it puts off
- * until then is neither lost to smaller gammas nor to what waits. */
+/* Contacts of patches, which the search meets before it has proved them to be the first: what it
+ * puts off until then is neither lost to smaller gammas nor to what waits. */
 
 enum { TEXT = 4000 };
 
@@ -16,8 +16,8 @@ static size_t add_point(char *text, size_t room, int k, double x, double y, doub
     return (size_t)snprintf(text, room, "%s[%.3f,%.3f,%.3f]", k > 0 ? "," : "", x, y, z);
 }
 
-/* A patch of degrees 2 and 2 that bends and deforms, over the unit square around (0, 0, z), at speed w along
- * z. */
+/* A patch of degrees 2 and 2 that bends and deforms, over the unit square around (0, 0, z), at
+ * speed w along z. */
 static void draw_patch(uint64_t *state, double z, double w, char text[TEXT])
 {
     size_t used = (size_t)snprintf(text, TEXT, "bezier degree=2,2 points=[");
@@ -135,7 +135,8 @@ START_TEST(what_is_put_off_until_the_contact_waits)
 }
 END_TEST
 
-/* Nets of halves that were made without models are held against points with the nodes that they end in. */
+/* Nets of halves that were made without models are held against points with the nodes that they end
+ * in. */
 START_TEST(bounds_of_what_is_left_of_patches_hold_their_points)
 {
     uint64_t state = suite_seed();
@@ -206,8 +207,9 @@ START_TEST(what_was_asked_before_changes_no_answer)
 }
 END_TEST
 
-/* Roofs whose creases lie on knots, behind which the net of a node goes on as the surface does not. Points that
- * are sought on nets are points of the surface even where next to nothing is left between gamma_clear and gamma. */
+/* Roofs whose creases lie on knots, behind which the net of a node goes on as the surface does not.
+ * Points that are sought on nets are points of the surface even where next to nothing is left
+ * between gamma_clear and gamma. */
 START_TEST(a_crease_is_met_that_nets_do_not_follow)
 {
     uint64_t state = suite_seed();

@@ -22,7 +22,7 @@
  * Scenes come from fixed seeds without a call to libm but sqrt, so that all counters are the same
  * in every run and on every machine. Seconds alone are not. */
 
-/* --- What is asked ------------------------------------------------------------------------ */
+/* --- What is asked ---------------------------------------------------------------------------- */
 
 /* One scene, and when its bodies first touch, where that is known. */
 typedef struct bench_scene {
@@ -61,7 +61,7 @@ char *bench_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 void bench_cases_free(bench_cases *list);
 
-/* --- Methods and sets --------------------------------------------------------------------- */
+/* --- Methods and sets ------------------------------------------------------------------------- */
 
 typedef enum bench_question {
     BENCH_CONTACT,   /* when do they first touch? */
@@ -115,7 +115,8 @@ typedef struct bench_row {
 
 enum { BENCH_ROWS_MAX = 8, BENCH_FINDINGS_MAX = 4 };
 
-/* All methods on one case, and the row that ratios are against: the paper's, BENCH_PROOF, or NULL. */
+/* All methods on one case, and the row that ratios are against: the paper's, BENCH_PROOF, or
+ * NULL. */
 typedef struct bench_result {
     const bench_case *about;
     bench_row rows[BENCH_ROWS_MAX];
@@ -135,8 +136,8 @@ typedef struct bench_set {
     const char *about;                  /* lines for people */
     const bench_method *const *methods; /* NULL-terminated */
     exit_status (*build)(bench_cases *list, const bench_request *request);
-    /* Draws up to BENCH_FINDINGS_MAX findings from the results of all cases, whose first rows are the
-     * default method's, and answers how many; NULL: none ever. */
+    /* Draws up to BENCH_FINDINGS_MAX findings from the results of all cases, whose first rows are
+     * the default method's, and answers how many; NULL: none ever. */
     size_t (*find)(const bench_result *results, size_t count, bench_finding *findings);
 } bench_set;
 
@@ -144,8 +145,8 @@ typedef struct bench_set {
 const bench_set *const *bench_sets_all(void);
 const bench_set *bench_set_find(const char *name);
 
-/* Machine parts that slide in each other; scenes of many bodies; meshes of many triangles; streams of
- * scenes. */
+/* Machine parts that slide in each other; scenes of many bodies; meshes of many triangles; streams
+ * of scenes. */
 extern const bench_set bench_conformal, bench_bodies, bench_surfaces, bench_batch;
 
 /* Whether the request measures any method of the set. */
@@ -154,7 +155,7 @@ bool bench_set_is_measured(const bench_set *set, const bench_request *request);
 /* What building a set answers once its cases are added. */
 exit_status bench_built(const bench_cases *list, const bench_request *request);
 
-/* --- Random scenes ------------------------------------------------------------------------ */
+/* --- Random scenes ---------------------------------------------------------------------------- */
 
 /* A direction of unit length, uniform on the sphere. */
 void bench_direction(uint64_t *state, double n[3]);
@@ -164,7 +165,7 @@ void bench_direction(uint64_t *state, double n[3]);
 void bench_add_patches(bench_cases *list, uint64_t seed, uint64_t count);
 exit_status bench_add_file(bench_cases *list, const char *verb);
 
-/* --- Measuring and telling ---------------------------------------------------------------- */
+/* --- Measuring and telling -------------------------------------------------------------------- */
 
 /* Everything about one method on one case. Errors are the library's. */
 imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_method *m,

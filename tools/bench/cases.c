@@ -11,7 +11,7 @@
 
 #include "core/common/array.h"
 
-/* --- Lists of cases ----------------------------------------------------------------------- */
+/* --- Lists of cases --------------------------------------------------------------------------- */
 
 void bench_begin(bench_cases *list, double gamma, double gamma_clear, const char *format, ...)
 {
@@ -85,7 +85,7 @@ exit_status bench_built(const bench_cases *list, const bench_request *request)
     return list->no_memory ? complain_of_memory(request->verb) : EXIT_ANSWERED;
 }
 
-/* --- Random numbers ----------------------------------------------------------------------- */
+/* --- Random numbers --------------------------------------------------------------------------- */
 
 void bench_direction(uint64_t *state, double n[3])
 {

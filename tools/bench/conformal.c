@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Machine parts that slide in each other, c apart along a whole area: the inner one, where # stands before
- * what is less by c; the outer one; and the maps that move one of both. */
+/* Machine parts that slide in each other, c apart along a whole area: the inner one, where # stands
+ * before what is less by c; the outer one; and the maps that move one of both. */
 typedef struct parts {
     const char *name, *inner, *outer, *inner_maps, *outer_maps;
 } parts;
@@ -37,8 +37,8 @@ static const parts all[] = {{"shaft", "\"type\":\"cylinder\",\"radius\":#1",
                             {"thread by formula", FORMULA "[-2,2]],\"constants\":{\"r\":#1}",
                              FORMULA "[-0.5,0.5]],\"constants\":{\"r\":1}", "", SCREW}};
 
-/* Where the parts are: as they are; each placed elsewhere; or the one that rests in a fast tumble, and the
- * other one moving with it. */
+/* Where the parts are: as they are; each placed elsewhere; or the one that rests in a fast tumble,
+ * and the other one moving with it. */
 enum { AS_THEY_ARE, PLACED, CARRIED, PLACINGS };
 static const char *const placing_names[PLACINGS] = {"", "placed, ", "carried, "};
 static const char *const placing_maps[PLACINGS] = {

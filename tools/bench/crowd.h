@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A scene file's text, on one line: `count` bodies, half of them deforming, that begin apart from each
- * other, one in each cell of a cube, and drift in all directions. The same for a seed on every
+/* A scene file's text, on one line: `count` bodies, half of them deforming, that begin apart from
+ * each other, one in each cell of a cube, and drift in all directions. The same for a seed on every
  * machine. NULL: no memory. The caller frees it. */
 char *crowd_text(size_t count, uint64_t seed);
 

@@ -31,8 +31,8 @@ const bench_set bench_bodies = {
 
 /* --- surfaces: meshes ------------------------------------------------------------------------- */
 
-/* A point of the unit circle, from its start at 0 once around at 1, at an uneven speed, by the tangents of
- * half the angles. */
+/* A point of the unit circle, from its start at 0 once around at 1, at an uneven speed, by the
+ * tangents of half the angles. */
 static void circle(double part, double *x, double *y)
 {
     const int quarter = (int)(4 * part);

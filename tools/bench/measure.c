@@ -8,7 +8,7 @@
 #include <string.h>
 #include <time.h>
 
-/* --- One scene ---------------------------------------------------------------------------- */
+/* --- One scene -------------------------------------------------------------------------------- */
 
 /* What this thread has computed so far: other processes of a busy machine do not count. */
 static double seconds_computed(void)
@@ -135,7 +135,7 @@ static imp_code solve_once(imp_registry *registry, const bench_scene *s, const b
     return code;
 }
 
-/* --- One case ----------------------------------------------------------------------------- */
+/* --- One case --------------------------------------------------------------------------------- */
 
 /* Timed `repeats` times, unless once takes long enough to be told exactly. */
 static imp_code solve(imp_registry *registry, const bench_scene *s, const bench_case *c,

@@ -17,7 +17,7 @@
  * shifted by -n and the second's by n, a random direction of unit length; velocities uniform in
  * [-1,1]^3, shifted the other way. */
 
-/* --- Drawing ------------------------------------------------------------------------------ */
+/* --- Drawing ---------------------------------------------------------------------------------- */
 
 static void write_vectors(FILE *out, uint64_t *state, const double n[3], double side)
 {
@@ -62,7 +62,7 @@ void bench_add_patches(bench_cases *list, uint64_t seed, uint64_t count)
     for (uint64_t k = 0; k < count && !list->no_memory; ++k) bench_add_text(list, draw(&seed));
 }
 
-/* --- The file ----------------------------------------------------------------------------- */
+/* --- The file --------------------------------------------------------------------------------- */
 
 /* {"reference": {"verdict": "contact", "t": ...}}, as another solver answered. */
 static void take_reference(bench_scene *scene)

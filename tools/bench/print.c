@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* --- Numbers as words --------------------------------------------------------------------- */
+/* --- Numbers as words ------------------------------------------------------------------------- */
 
 typedef struct cell {
     char text[40];
@@ -57,7 +57,7 @@ static cell cell_ratio(double x, const bench_tally *tally, double y, const bench
     return c;
 }
 
-/* --- Tables ------------------------------------------------------------------------------- */
+/* --- Tables ----------------------------------------------------------------------------------- */
 
 void bench_print_request(const bench_request *request)
 {

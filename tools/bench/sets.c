@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* --- Methods ------------------------------------------------------------------------------ */
+/* --- Methods ---------------------------------------------------------------------------------- */
 
 #define PAPER(ID, NAME, BASELINE)                                                                  \
     static const bench_method ID = {                                                               \
@@ -21,18 +21,16 @@ PAPER(balls, ", spheres", SPHERES);
 PAPER(balls_column, ", spheres, column", SPHERES | IMP_BASELINE_COLUMN_RATES);
 PAPER(balls_constant, ", spheres, constant", SPHERES | IMP_BASELINE_CONSTANT_RATES);
 
-static const bench_method clearance_method = {
-    .name = "clearance", .question = BENCH_CLEARANCE};
-static const bench_method decision_method = {
-    .name = "require 0.99 of it", .question = BENCH_DECISION};
-static const bench_method proof_method = {
-    .name = "solve, 0.99 of it", .question = BENCH_PROOF};
+static const bench_method clearance_method = {.name = "clearance", .question = BENCH_CLEARANCE};
+static const bench_method decision_method = {.name = "require 0.99 of it",
+                                             .question = BENCH_DECISION};
+static const bench_method proof_method = {.name = "solve, 0.99 of it", .question = BENCH_PROOF};
 
 static const bench_method *const usual[] = {&models, &boxes, &balls, NULL};
 static const bench_method *const all_rates[] = {
     &models, &boxes, &boxes_column, &boxes_constant, &balls, &balls_column, &balls_constant, NULL};
 
-/* --- Words -------------------------------------------------------------------------------- */
+/* --- Words ------------------------------------------------------------------------------------ */
 
 /* A vector as pipelines take it. */
 typedef struct vector_text {
@@ -58,7 +56,7 @@ static double growth(const bench_result *results, size_t end, size_t step)
     return (last - middle) / (middle - first);
 }
 
-/* --- figure7: two spheres ----------------------------------------------------------------- */
+/* --- figure7: two spheres --------------------------------------------------------------------- */
 
 static const double gaps[] = {2, 1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
 enum { GAPS = sizeof gaps / sizeof *gaps, DIRECTIONS = 20 };
@@ -107,7 +105,7 @@ static const bench_set figure7 = {
     "along x, and along 20 random directions. After the paper's figure 7.",
     usual, build_figure7, find_figure7};
 
-/* --- bicubic: random moving patches ------------------------------------------------------- */
+/* --- bicubic: random moving patches ----------------------------------------------------------- */
 
 static exit_status build_bicubic(bench_cases *list, const bench_request *request)
 {
@@ -130,7 +128,7 @@ static const bench_set bicubic = {
     "answers of another solver, good to about 1e-6 in time (Chen et al., SIGGRAPH Asia 2024).",
     usual, build_bicubic, NULL};
 
-/* --- spikes ------------------------------------------------------------------------------- */
+/* --- spikes ----------------------------------------------------------------------------------- */
 
 static const double widths[] = {0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
 enum { WIDTHS = sizeof widths / sizeof *widths };
@@ -203,7 +201,7 @@ static const bench_set spikes = {"spikes",
                                  "flank; gamma 1e-6. After the paper's figure 8.",
                                  usual, build_spikes, find_spikes};
 
-/* --- tori: rotating ----------------------------------------------------------------------- */
+/* --- tori: rotating --------------------------------------------------------------------------- */
 
 static const struct {
     const char *name, *a, *b;
@@ -239,7 +237,7 @@ static const bench_set tori = {
     "tori", "Two tori that turn and drift: in flight, in a fast tumble, linked like a chain.",
     usual, build_tori, NULL};
 
-/* --- moving: spheres in flight ------------------------------------------------------------ */
+/* --- moving: spheres in flight ---------------------------------------------------------------- */
 
 /* First t with |c + v t| = reach; |c| > reach, and the flight passes nearer. */
 static double flight_time(const double c[3], const double v[3], double reach)
@@ -288,7 +286,7 @@ static const bench_set moving = {
     "A sphere flies at another from 20 random directions; the reference is the closed form.", usual,
     build_moving, NULL};
 
-/* --- rates: bounds side by side ----------------------------------------------------------- */
+/* --- rates: bounds side by side --------------------------------------------------------------- */
 
 static exit_status build_rates(bench_cases *list, const bench_request *request)
 {
@@ -313,7 +311,7 @@ static const bench_set rates = {"rates",
                                 "from one constant (the paper's section 5).",
                                 all_rates, build_rates, NULL};
 
-/* --- clearance: least distances ----------------------------------------------------------------- */
+/* --- clearance: least distances --------------------------------------------------------------- */
 
 static const bench_method *const distances[] = {&clearance_method, &decision_method, &proof_method,
                                                 NULL};
@@ -366,22 +364,25 @@ static exit_status build_clearance(bench_cases *list, const bench_request *reque
 
 static const bench_set clearance_set = {
     "clearance",
-    "How near bodies come, to a thousandth; whether they keep 0.99 of that; and a search for contact\n"
+    "How near bodies come, to a thousandth; whether they keep 0.99 of that; and a search for "
+    "contact\n"
     "that proves as much, which ratios are against. Intervals end before the first contact.",
     distances, build_clearance, NULL};
 
-/* --- All ---------------------------------------------------------------------------------- */
+/* --- All -------------------------------------------------------------------------------------- */
 
 static const bench_set *const all[] = {
-    &figure7,         &bicubic,      &spikes,         &tori,        &rates, &moving, &clearance_set,
-    &bench_conformal, &bench_bodies, &bench_surfaces, &bench_batch, NULL};
+    &figure7,       &bicubic,         &spikes,       &tori,           &rates,       &moving,
+    &clearance_set, &bench_conformal, &bench_bodies, &bench_surfaces, &bench_batch, NULL};
 
 const bench_set *const *bench_sets_all(void) { return all; }
 
 bool bench_set_is_measured(const bench_set *set, const bench_request *request)
 {
     const bench_method *const *m = set->methods;
-    while (request->only && *m != NULL && ((*m)->baseline != IMP_BASELINE_NONE) != request->is_paper) ++m;
+    while (request->only && *m != NULL &&
+           ((*m)->baseline != IMP_BASELINE_NONE) != request->is_paper)
+        ++m;
     return *m != NULL;
 }
 

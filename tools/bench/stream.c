@@ -16,7 +16,7 @@
 
 /* Streams of scenes: what `impinge batch` costs beside solving alone, and what threads win. */
 
-/* --- Runs ----------------------------------------------------------------------------------------- */
+/* --- Runs ------------------------------------------------------------------------------------- */
 
 /* One pass over the scenes of a case. */
 typedef struct stream {
@@ -42,8 +42,8 @@ static imp_code solve_all(stream *s, imp_error *error)
     imp_code code = IMP_SUCCESS;
     for (size_t k = 0; code == IMP_SUCCESS && k < s->of->count; ++k) {
         const char *text = s->of->scenes[k].a;
-        imp_scene *scene = imp_scene_from_json(s->registry, text, strlen(text),
-                                               "a scene of the benchmark", error);
+        imp_scene *scene =
+            imp_scene_from_json(s->registry, text, strlen(text), "a scene of the benchmark", error);
         if (scene == NULL) return error->code;
         const imp_options options = imp_options_default(scene);
         s->results[k].struct_size = sizeof s->results[k];
@@ -92,7 +92,7 @@ static imp_code answer_all(stream *s, size_t threads, imp_error *error)
     return IMP_SUCCESS;
 }
 
-/* --- What was answered ---------------------------------------------------------------------------- */
+/* --- What was answered ------------------------------------------------------------------------ */
 
 static uint64_t count_of(const json_t *stats, const char *key)
 {
@@ -136,7 +136,7 @@ static imp_code read_answers(stream *s, imp_error *error)
     return code;
 }
 
-/* --- One method ----------------------------------------------------------------------------------- */
+/* --- One method ------------------------------------------------------------------------------- */
 
 static imp_code run_once(stream *s, size_t threads, imp_error *error)
 {
@@ -198,16 +198,13 @@ imp_code bench_measure_stream(imp_registry *registry, const bench_case *c, const
     return code;
 }
 
-/* --- batch ------------------------------------------------------------------------------------------ */
+/* --- batch ------------------------------------------------------------------------------------ */
 
-static const bench_method one_by_one = {
-    .name = "solve, one by one", .question = BENCH_STREAM};
-static const bench_method one_thread = {.name = "batch, 1 thread",
-                                        .question = BENCH_STREAM,
-                                        .threads = 1};
-static const bench_method two_threads = {.name = "batch, 2 threads",
-                                         .question = BENCH_STREAM,
-                                         .threads = 2};
+static const bench_method one_by_one = {.name = "solve, one by one", .question = BENCH_STREAM};
+static const bench_method one_thread = {
+    .name = "batch, 1 thread", .question = BENCH_STREAM, .threads = 1};
+static const bench_method two_threads = {
+    .name = "batch, 2 threads", .question = BENCH_STREAM, .threads = 2};
 static const bench_method *const methods[] = {&one_by_one, &one_thread, &two_threads, NULL};
 enum { ONE_BY_ONE, ONE_THREAD, TWO_THREADS };
 
@@ -215,9 +212,10 @@ enum { ONE_BY_ONE, ONE_THREAD, TWO_THREADS };
 static void add_spheres(bench_cases *list, size_t count)
 {
     for (size_t k = 0; k < count; ++k)
-        bench_add_text(list, bench_text("{\"bodies\":[{\"surfaces\":[{\"type\":\"sphere\"}]},"
-                                        "{\"surfaces\":[{\"type\":\"sphere\",\"center\":[%zu,3,0]}]}]}",
-                                        k));
+        bench_add_text(list,
+                       bench_text("{\"bodies\":[{\"surfaces\":[{\"type\":\"sphere\"}]},"
+                                  "{\"surfaces\":[{\"type\":\"sphere\",\"center\":[%zu,3,0]}]}]}",
+                                  k));
 }
 
 static exit_status build(bench_cases *list, const bench_request *request)
@@ -239,7 +237,8 @@ static size_t find(const bench_result *results, size_t count, bench_finding *fin
         1e6 * (spheres[ONE_THREAD].tally.processor - spheres[ONE_BY_ONE].tally.processor);
     const double ratio =
         patches[ONE_THREAD].tally.seconds.mean / patches[TWO_THREADS].tally.seconds.mean;
-    const double processor = patches[TWO_THREADS].tally.processor / patches[ONE_THREAD].tally.processor;
+    const double processor =
+        patches[TWO_THREADS].tally.processor / patches[ONE_THREAD].tally.processor;
     findings[0] = (bench_finding){.key = "overhead_us", .value = overhead};
     findings[1] = (bench_finding){.key = "two_threads_faster", .value = ratio};
     findings[2] = (bench_finding){.key = "two_threads_processor", .value = processor};
@@ -252,9 +251,10 @@ static size_t find(const bench_result *results, size_t count, bench_finding *fin
     return 3;
 }
 
-const bench_set bench_batch = {
-    "batch",
-    "Streams of scenes, one a line: read and solved one by one, and answered as `impinge batch` does "
-    "by one\nthread and by two. Times are a scene's share, by the clock, reading included. Memory is "
-    "a scene's,\nby the library's own count.",
-    methods, build, find};
+const bench_set bench_batch = {"batch",
+                               "Streams of scenes, one a line: read and solved one by one, and "
+                               "answered as `impinge batch` does "
+                               "by one\nthread and by two. Times are a scene's share, by the "
+                               "clock, reading included. Memory is "
+                               "a scene's,\nby the library's own count.",
+                               methods, build, find};

@@ -20,7 +20,7 @@ typedef struct bench {
     json_t *sets; /* --json: what is done so far, else NULL */
 } bench;
 
-/* --- What is asked ------------------------------------------------------------------------ */
+/* --- What is asked ---------------------------------------------------------------------------- */
 
 static exit_status read_request(const arguments *args, bench_request *request)
 {
@@ -58,7 +58,7 @@ static exit_status unknown_set(const char *speaker, const char *name)
     return complain(EXIT_USAGE, speaker, "unknown set '%s'; there are %s", name, all);
 }
 
-/* --- Running ------------------------------------------------------------------------------ */
+/* --- Running ---------------------------------------------------------------------------------- */
 
 static exit_status run_method(bench *b, const bench_method *m, bench_result *result)
 {
@@ -69,7 +69,8 @@ static exit_status run_method(bench *b, const bench_method *m, bench_result *res
     const imp_code code =
         bench_measure(b->registry, result->about, m, &b->request, &row->tally, &error);
     if (code != IMP_SUCCESS) return complain_of(&error, b->request.verb);
-    if ((m->baseline != IMP_BASELINE_NONE || m->question == BENCH_PROOF) && result->baseline == NULL)
+    if ((m->baseline != IMP_BASELINE_NONE || m->question == BENCH_PROOF) &&
+        result->baseline == NULL)
         result->baseline = row;
     return EXIT_ANSWERED;
 }
@@ -80,7 +81,8 @@ static exit_status run_case(bench *b, const bench_set *set, const bench_case *c,
 {
     *result = (bench_result){.about = c};
     for (const bench_method *const *m = set->methods; *m != NULL; ++m) {
-        if (b->request.only && ((*m)->baseline != IMP_BASELINE_NONE) != b->request.is_paper) continue;
+        if (b->request.only && ((*m)->baseline != IMP_BASELINE_NONE) != b->request.is_paper)
+            continue;
         const exit_status status = run_method(b, *m, result);
         if (status != EXIT_ANSWERED) return status;
     }
@@ -98,8 +100,7 @@ static exit_status conclude(bench *b, const bench_set *set, const bench_result *
                             size_t count, json_t *results)
 {
     bench_finding findings[BENCH_FINDINGS_MAX];
-    const bool found =
-        set->find != NULL && !(b->request.only && b->request.is_paper);
+    const bool found = set->find != NULL && !(b->request.only && b->request.is_paper);
     const size_t n = found ? set->find(measured, count, findings) : 0;
     if (results == NULL) {
         bench_print_findings(findings, n);
@@ -225,24 +226,24 @@ const verb verb_bench = {
     .name = "bench",
     .operands = "[SET]...",
     .summary = "Measure the methods side by side",
-    .details =
-        "Each SET of scenes (all, if none is named) is answered by the default method and, but for the "
-        "last\n"
-        "five, by the paper's, each scene afresh:\n"
-        "\n"
-        "  figure7  two spheres, ever nearer, proved not to touch\n"
-        "  bicubic  100 pairs of random moving patches, with reference answers\n"
-        "  spikes   spheres with ever narrower spikes that meet\n"
-        "  tori     tori that turn and drift\n"
-        "  rates    boxes and spheres from rates of three forms\n"
-        "  moving   spheres in flight, at ever smaller gamma\n"
-        "  clearance  least distances, and whether 0.99 of them is kept\n"
-        "  conformal  machine parts that slide in each other, ever tighter\n"
-        "  bodies   100 to 100,000 bodies that drift\n"
-        "  surfaces  two meshes of 100 to 20,000 triangles each\n"
-        "  batch    streams of scenes, by one thread and by two\n"
-        "\n"
-        "Counters are the same in every run; only times differ.\n",
+    .details = "Each SET of scenes (all, if none is named) is answered by the default method and, "
+               "but for the "
+               "last\n"
+               "five, by the paper's, each scene afresh:\n"
+               "\n"
+               "  figure7  two spheres, ever nearer, proved not to touch\n"
+               "  bicubic  100 pairs of random moving patches, with reference answers\n"
+               "  spikes   spheres with ever narrower spikes that meet\n"
+               "  tori     tori that turn and drift\n"
+               "  rates    boxes and spheres from rates of three forms\n"
+               "  moving   spheres in flight, at ever smaller gamma\n"
+               "  clearance  least distances, and whether 0.99 of them is kept\n"
+               "  conformal  machine parts that slide in each other, ever tighter\n"
+               "  bodies   100 to 100,000 bodies that drift\n"
+               "  surfaces  two meshes of 100 to 20,000 triangles each\n"
+               "  batch    streams of scenes, by one thread and by two\n"
+               "\n"
+               "Counters are the same in every run; only times differ.\n",
     .example = "impinge bench moving --method models",
     .operand_max = 64,
     .options = tables,

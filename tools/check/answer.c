@@ -88,7 +88,7 @@ bool answer_fail_for(check_answer *answer, unsigned faults, const char *format, 
     return false;
 }
 
-/* --- Calls -------------------------------------------------------------------------------------- */
+/* --- Calls ------------------------------------------------------------------------------------ */
 
 /* A process that is traced has a tracer other than 0. */
 static bool is_traced(void)

@@ -56,8 +56,8 @@ typedef struct check_answer {
     double rate_ratio[CHECK_SCALES], range_ratio[CHECK_SCALES]; /* bound / observed, medians */
     double remainder_ratio[CHECK_SCALES]; /* remainder / what a quadratic needs, medians */
     double distance_ratio; /* of a tenth of the surface's size away / what is claimed, median */
-    double eval_ns, rate_ns, include_ns;                        /* per point, per region */
-    double pairs[2]; /* tested with a plane 1e-3 and 1e-6 of the size away */
+    double eval_ns, rate_ns, include_ns; /* per point, per region */
+    double pairs[2];                     /* tested with a plane 1e-3 and 1e-6 of the size away */
 
     check_proof proof; /* filled by `proof` */
 

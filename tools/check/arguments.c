@@ -13,7 +13,7 @@
 
 #include <impinge/examine.h>
 
-/* --- Values ------------------------------------------------------------------------------------ */
+/* --- Values ----------------------------------------------------------------------------------- */
 
 /* One parameter's value: its arrays, each in pages of their own. */
 typedef struct argument {
@@ -156,7 +156,7 @@ static void list_free(arguments_list *list)
     free(list->each);
 }
 
-/* --- The check --------------------------------------------------------------------------------- */
+/* --- The check -------------------------------------------------------------------------------- */
 
 enum { POINTS = 32 };
 
@@ -171,8 +171,8 @@ static imp_status create_from(const arguments_list *list, const imp_instance *li
                                  : like->map->create(values, &made->self, &why);
 }
 
-/* The instance from guarded arguments gives the same results as the host's; where they consist of pieces,
- * their first. */
+/* The instance from guarded arguments gives the same results as the host's; where they consist of
+ * pieces, their first. */
 static bool answers_alike(const subject *host, const imp_instance *made, const char *hint)
 {
     subject s;

@@ -10,7 +10,7 @@
 
 #include "tools/check/guard.h"
 
-/* --- Canaries ----------------------------------------------------------------------------- */
+/* --- Canaries --------------------------------------------------------------------------------- */
 
 enum { POINTS = 48, BOXES = 32 };
 
@@ -99,7 +99,7 @@ static bool bounds_keep_buffers(const subject *s, const box *where)
     return true;
 }
 
-/* --- Ends of memory ------------------------------------------------------------------------------ */
+/* --- Ends of memory --------------------------------------------------------------------------- */
 
 #define HINT "whose arrays end where readable memory ends: it goes past the end of one"
 
@@ -167,7 +167,7 @@ static void bounds_at_end(const subject *s, pages *g, const box *where)
     ++s->answer->tests;
 }
 
-/* ------------------------------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------------------------------- */
 
 void buffers_check(const subject *s, uint64_t *random, double effort)
 {

@@ -7,8 +7,8 @@
 
 /* One call of each pure callback
  * ==============================
- * With arguments drawn at random, and results thrown away: for checks of what calls do besides. A callback
- * that the type lacks is not called. */
+ * With arguments drawn at random, and results thrown away: for checks of what calls do besides. A
+ * callback that the type lacks is not called. */
 
 enum { PURE_CALLS = 7 };
 

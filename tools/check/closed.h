@@ -5,9 +5,9 @@
 
 #include "tools/check/subject.h"
 
-/* That rotations of a symmetry with is_closed take points of the surface to points of it. A claim is refuted by a
- * point that is taken away from the surface: boxes around all parts of the surface, by its own bounds,
- * show that. False: it is refuted. */
+/* That rotations of a symmetry with is_closed take points of the surface to points of it. A claim
+ * is refuted by a point that is taken away from the surface: boxes around all parts of the surface,
+ * by its own bounds, show that. False: it is refuted. */
 bool closed_check(const subject *s, uint64_t *random, const imp_symmetry *of);
 
 #endif

@@ -16,7 +16,7 @@
 #include "tools/check/pair.h"
 #include "tools/check/remainders.h"
 
-/* --- Tightness --------------------------------------------------------------------------- */
+/* --- Tightness -------------------------------------------------------------------------------- */
 
 enum { BOXES = 48, LINES = 16, MOST = BOXES * 3 * BOX_DIMS };
 
@@ -147,10 +147,13 @@ static const char *advice(const subject *s)
     const double *ratio = s->answer->remainder_ratio;
     if (s->n != 3 || !(ratio[0] > 4)) return "";
     if (s->instance->surface->include == NULL)
-        return ". There is no include: remainders are those of rates and shrink like a region's width, not like "
-               "its cube; where surfaces come near each other this takes thousands of times the pairs. Write "
+        return ". There is no include: remainders are those of rates and shrink like a region's "
+               "width, not like "
+               "its cube; where surfaces come near each other this takes thousands of times the "
+               "pairs. Write "
                "include, or a formula";
-    return ". The remainder of include is far wider than needed, and decides what a search costs: bound terms of "
+    return ". The remainder of include is far wider than needed, and decides what a search costs: "
+           "bound terms of "
            "third order over the region instead of its ends, and write each variable once";
 }
 
@@ -174,7 +177,7 @@ void tightness_check(const subject *s, uint64_t *random, double effort)
                     slopes.text, spans.text, rests.text, gaps.text, advice(s));
 }
 
-/* --- Cost ------------------------------------------------------------------------------- */
+/* --- Cost ------------------------------------------------------------------------------------- */
 
 enum { BATCH = 64 };
 #define MEASURED_SECONDS 0.01 /* per call: enough for two digits */

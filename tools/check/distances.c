@@ -24,7 +24,7 @@ enum { DECADES_DOWN = -30, DECADES_UP = 20 };
 /* Times of a surface without end: up to 2^14 after its first ones, or before its last. */
 enum { LATE = 14 };
 
-/* --- Where points are drawn ---------------------------------------------------------------------- */
+/* --- Where points are drawn ------------------------------------------------------------------- */
 
 typedef struct hunt {
     const subject *s;
@@ -84,8 +84,8 @@ static void draw_direction(const hunt *h, double n[3])
         n[i] = kind == 2 ? axis[i] / most : n[i] - dot / square * (axis[i] / most);
 }
 
-/* Times of sixteenths, so that those of the steps -1, -1/2 ... 1 are exact; or one moment. Early ones, or late
- * ones where the surface lasts. */
+/* Times of sixteenths, so that those of the steps -1, -1/2 ... 1 are exact; or one moment. Early
+ * ones, or late ones where the surface lasts. */
 static imp_region draw_region(const hunt *h)
 {
     const subject *s = h->s;
@@ -104,7 +104,7 @@ static imp_region draw_region(const hunt *h)
     return imp_region_between((double[3]){-1, -1, from}, (double[3]){1, 1, end < to ? end : to});
 }
 
-/* --- Judging ----------------------------------------------------------------------------------- */
+/* --- Judging ---------------------------------------------------------------------------------- */
 
 static bool judge_symmetry(const subject *s, const imp_symmetry *found)
 {
@@ -177,7 +177,8 @@ static bool judge_motion(const subject *s, const passage *way, const motion *m,
         spot_apart_upper(&way->nearest, way->x), subject_point_text(3, way->nearest.p).text);
 }
 
-/* Some of the surface's points at the time of `at`, and places of the region that differ in u and v. */
+/* Some of the surface's points at the time of `at`, and places of the region that differ in u and
+ * v. */
 static bool judge_others(const hunt *h, const passage *way)
 {
     for (int k = 0; k < OTHERS; ++k) {
@@ -246,8 +247,8 @@ static bool ask(const subject *s, passage *way)
     return distance_has_form(s, &way->g);
 }
 
-/* Also of a point that a motion of the symmetry has moved: a fault there is the distance's own, if the moved
- * point is nearer than claimed, and else the symmetry's. */
+/* Also of a point that a motion of the symmetry has moved: a fault there is the distance's own, if
+ * the moved point is nearer than claimed, and else the symmetry's. */
 static bool judge_passage(const hunt *h, bool is_near, uint64_t k)
 {
     const subject *s = h->s;

@@ -10,7 +10,7 @@
 
 #include "tools/check/stated_formula.h"
 
-/* --- The stated domain --------------------------------------------------------------------------- */
+/* --- The stated domain ------------------------------------------------------------------------ */
 
 /* Ends are computed in double precision: a stated end may differ by this many doubles. */
 #define END_ULPS 4
@@ -41,7 +41,7 @@ static bool is_as_stated(const subject *s)
     return true;
 }
 
-/* --- Seams --------------------------------------------------------------------------------------- */
+/* --- Seams ------------------------------------------------------------------------------------ */
 
 enum { LINES = 48, STEPS = 16 };
 

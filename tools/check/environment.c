@@ -22,7 +22,7 @@
 #include "core/common/fp_control.h"
 #include "tools/check/calls.h"
 
-/* --- What is compared ---------------------------------------------------------------------- */
+/* --- What is compared ------------------------------------------------------------------------- */
 
 typedef struct environment {
     int error, rounding;

@@ -15,7 +15,7 @@
 
 #include <impinge/surface.h>
 
-/* --- Exports ----------------------------------------------------------------------------- */
+/* --- Exports ---------------------------------------------------------------------------------- */
 
 /* The file in memory. Its offsets and sizes are checked against its length. */
 typedef struct image {
@@ -123,7 +123,7 @@ void exports_check(const char *file, check_answer *answer)
     free(m.byte);
 }
 
-/* --- How it was compiled -------------------------------------------------------------------- */
+/* --- How it was compiled ---------------------------------------------------------------------- */
 
 void build_check(const char *file, check_answer *answer)
 {
@@ -140,14 +140,15 @@ void build_check(const char *file, check_answer *answer)
     if (build == NULL || build->struct_size < sizeof *build)
         answer_skip(answer, "the plugin does not say how it was compiled");
     else if (build->is_contracted)
-        answer_note(answer, "compiled so that a * b + c is rounded once: bounds written by hand that count "
-                            "two roundings, or compare such sums, may fail; add -ffp-contract=off, as "
-                            "`pkg-config --cflags impinge-sdk` does");
+        answer_note(answer,
+                    "compiled so that a * b + c is rounded once: bounds written by hand that count "
+                    "two roundings, or compare such sums, may fail; add -ffp-contract=off, as "
+                    "`pkg-config --cflags impinge-sdk` does");
     else
         answer_pass(answer, "a * b + c is rounded twice, as written");
 }
 
-/* --- Factories --------------------------------------------------------------------------- */
+/* --- Factories -------------------------------------------------------------------------------- */
 
 void factories_check(const char *file, check_answer *answer)
 {

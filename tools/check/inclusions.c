@@ -30,7 +30,7 @@ typedef struct sample {
     evaluated at; /* p = (u, v, t), and the value there */
 } sample;
 
-/* --- Form ------------------------------------------------------------------------------ */
+/* --- Form ------------------------------------------------------------------------------------- */
 
 static subject_text region_text(const included *n)
 {
@@ -78,7 +78,7 @@ static bool judge_status(included *n, imp_status status)
     return true;
 }
 
-/* --- Points ---------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 /* The point at s, and its exact s rounded to long double. */
 static bool evaluate(const included *n, sample *x)
@@ -155,7 +155,7 @@ static bool judge_sample(const included *n, const sample *x)
     return true;
 }
 
-/* --- Climbing --------------------------------------------------------------------------- */
+/* --- Climbing --------------------------------------------------------------------------------- */
 
 /* How near a coordinate is to a violation: distance from the quadratic in remainders. */
 static double strain(const included *n, int i, const sample *x)
@@ -181,7 +181,7 @@ static bool climb(const included *n, int i, sample from)
     return true;
 }
 
-/* --- One region --------------------------------------------------------------------------- */
+/* --- One region ------------------------------------------------------------------------------- */
 
 static bool judge_points(const included *n, uint64_t *random, bool climbs)
 {
@@ -241,7 +241,7 @@ static bool judge_region(const subject *s, uint64_t *random, const double shift[
     return judge_points(&n, random, k % CLIMB_EVERY == 0);
 }
 
-/* ------------------------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------------------------------- */
 
 void inclusions_check(const subject *s, uint64_t *random, double effort)
 {

@@ -57,7 +57,10 @@ static const check all[] = {
     {.name = "pieces", .of_stage = pieces_check},
     {.name = "rates", .of_subject = rates_check, .of_bounds = true, .is_repeated_late = true},
     {.name = "errors", .of_subject = errors_check, .of_bounds = true, .is_repeated_late = true},
-    {.name = "inclusions", .of_subject = inclusions_check, .of_bounds = true, .is_repeated_late = true},
+    {.name = "inclusions",
+     .of_subject = inclusions_check,
+     .of_bounds = true,
+     .is_repeated_late = true},
     {.name = "nets", .of_subject = nets_check, .of_bounds = true, .is_repeated_late = true},
     {.name = "poses", .of_subject = poses_check, .of_bounds = true, .is_repeated_late = true},
     {.name = "distances", .of_subject = distances_check, .of_bounds = true},
@@ -66,10 +69,10 @@ static const check all[] = {
     {.name = "cost", .of_subject = cost_check},
 };
 const char *const check_names[] = {
-    "exports",   "factories",   "build",       "parameters", "arguments",   "memory",      "finite", "domain",
-    "determinism", "state",     "allocations", "environment", "buffers",    "pieces", "rates",
-    "errors",    "inclusions",  "nets",       "poses",       "distances",   "proof",  "tightness",
-    "cost",      NULL};
+    "exports", "factories", "build",       "parameters", "arguments",   "memory",
+    "finite",  "domain",    "determinism", "state",      "allocations", "environment",
+    "buffers", "pieces",    "rates",       "errors",     "inclusions",  "nets",
+    "poses",   "distances", "proof",       "tightness",  "cost",        NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");
@@ -80,7 +83,7 @@ bool check_is_of_bounds(size_t index) { return all[index].of_bounds; }
 
 #define LATE_EFFORT 0.125
 
-/* --- In the child ------------------------------------------------------------------------- */
+/* --- In the child ----------------------------------------------------------------------------- */
 
 static bool find_type(const imp_registry *registry, const check_task *task, imp_type_info *info)
 {
@@ -89,8 +92,8 @@ static bool find_type(const imp_registry *registry, const check_task *task, imp_
     return false;
 }
 
-/* Over four units of time, 64 to 1024 after the time 0, or before it. A type whose numbers overflow there is not
- * blamed for that. */
+/* Over four units of time, 64 to 1024 after the time 0, or before it. A type whose numbers overflow
+ * there is not blamed for that. */
 static void check_late(const check *c, const subject *as_usual, uint64_t *random, double effort,
                        bool is_before)
 {
@@ -101,7 +104,8 @@ static void check_late(const check *c, const subject *as_usual, uint64_t *random
     s.domain.hi[s.n - 1] = is_before ? -time : time + 4;
     const check_answer before = *s.answer;
     c->of_subject(&s, random, LATE_EFFORT * effort);
-    if (s.answer->verdict == CHECK_FAIL && (s.answer->faults & (FAULT_VALUE | FAULT_UNBOUNDED)) != 0)
+    if (s.answer->verdict == CHECK_FAIL &&
+        (s.answer->faults & (FAULT_VALUE | FAULT_UNBOUNDED)) != 0)
         *s.answer = before;
 }
 
@@ -186,7 +190,7 @@ static void work(void *result, const void *data)
         answer_pass(answer, "%llu comparisons", (unsigned long long)answer->tests);
 }
 
-/* --- Outside -------------------------------------------------------------------------------- */
+/* --- Outside ---------------------------------------------------------------------------------- */
 
 child_fate check_run(const check_task *task, double seconds, check_answer *shared)
 {
@@ -207,7 +211,7 @@ child_fate check_run(const check_task *task, double seconds, check_answer *share
     return fate;
 }
 
-/* --- The request -------------------------------------------------------------------- */
+/* --- The request ------------------------------------------------------------------------------ */
 
 static void try_type(const check_task *task, imp_registry *registry, const imp_type_info *info,
                      check_misreading *m)
@@ -244,7 +248,7 @@ void check_try(const check_task *task, double seconds, check_misreading *shared)
     child_run(try_work, shared, task, seconds); /* if the plugin fails here, its checks report it */
 }
 
-/* --- Survey --------------------------------------------------------------------------------- */
+/* --- Survey ----------------------------------------------------------------------------------- */
 
 static void survey_work(void *result, const void *data)
 {
@@ -273,21 +277,21 @@ typedef struct defaults {
     size_t type; /* index in the survey */
 } defaults;
 
-/* Whether create takes the stage; else *fault says why. Without memory or a registry it is left to the checks. */
+/* Whether create takes the stage; else *fault says why. Without memory or a registry it is left to
+ * the checks. */
 static bool works(const defaults *d, imp_type_kind kind, const char *stage, imp_error *fault)
 {
     imp_instance made = {NULL, NULL, NULL};
     imp_registry *registry = imp_registry_from_file(d->file);
-    const bool made_one =
-        registry == NULL ||
-        imp_instance_from_text(registry, kind, stage, &made, fault) == IMP_SUCCESS;
+    const bool made_one = registry == NULL || imp_instance_from_text(registry, kind, stage, &made,
+                                                                     fault) == IMP_SUCCESS;
     imp_instance_free(&made);
     imp_registry_free(registry);
     return made_one;
 }
 
-/* Removes the stages that create rejects: the type's name alone, if parameters are required; its example, if
- * that is wrong. */
+/* Removes the stages that create rejects: the type's name alone, if parameters are required; its
+ * example, if that is wrong. */
 static void defaults_work(void *result, const void *data)
 {
     const defaults *d = data;

@@ -23,8 +23,8 @@ typedef struct check_task {
     const char *formula;             /* "X; Y; Z" the stated formula, or NULL */
     const char *domain;              /* "0,1; 0,1" the stated domain, or NULL */
     uint64_t seed;
-    double effort; /* 1: as usual */
-    size_t check;  /* index */
+    double effort;    /* 1: as usual */
+    size_t check;     /* index */
     bool in_process;  /* run it in this process, which ends where the plugin crashes */
     uint64_t stop_at; /* tell a debugger before this call into the plugin; 0: never */
 } check_task;
@@ -38,7 +38,8 @@ bool check_is_of_file(size_t check);
 /* Whether it tries to refute bounds, so that its comparisons count for the type's label. */
 bool check_is_of_bounds(size_t check);
 
-/* Runs it in a child process with that time limit in seconds, or in this one. *shared is from child_memory. */
+/* Runs it in a child process with that time limit in seconds, or in this one. *shared is from
+ * child_memory. */
 child_fate check_run(const check_task *task, double seconds, check_answer *shared);
 
 /* --- The request ------------------------------------------------------------------------------ */
@@ -49,7 +50,8 @@ typedef struct check_misreading {
 } check_misreading;
 
 /* Tries, in a child, the parameters in the task's first stage (NULL: none were given) and its
- * formula and domain, of the type of that name, or of all in the file. *shared is from child_memory. */
+ * formula and domain, of the type of that name, or of all in the file. *shared is from
+ * child_memory. */
 void check_try(const check_task *task, double seconds, check_misreading *shared);
 
 /* --- The content of a file -------------------------------------------------------------------- */

@@ -13,7 +13,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* --- Replacements ------------------------------------------------------------------------------ */
+/* --- Replacements ----------------------------------------------------------------------------- */
 
 static _Thread_local bool is_watching;
 static _Thread_local const char *first_call;
@@ -84,7 +84,7 @@ static function *replacement_of(const char *name)
     return NULL;
 }
 
-/* --- Tables of a loaded object ------------------------------------------------------------------ */
+/* --- Tables of a loaded object ---------------------------------------------------------------- */
 
 typedef struct tables {
     ElfW(Addr) base;
@@ -160,7 +160,7 @@ static int replace_all(struct dl_phdr_info *object, size_t size, void *data)
     return 0;
 }
 
-/* --- Watching ------------------------------------------------------------------------------------ */
+/* --- Watching --------------------------------------------------------------------------------- */
 
 bool malloc_watch_begin(void)
 {

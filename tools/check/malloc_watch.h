@@ -7,10 +7,11 @@
 
 /* Calls of malloc, free and their kin by shared objects
  * =====================================================
- * A shared object calls malloc through an address that the loader has written into its tables. Here these
- * addresses are replaced, in all objects that are loaded except the command itself: in the plugin, and in
- * libc and libstdc++, so that strdup, qsort and operator new are seen too. The replacements do what they
- * replace. This cannot be undone, and is meant for a child process that ends soon. */
+ * A shared object calls malloc through an address that the loader has written into its tables. Here
+ * these addresses are replaced, in all objects that are loaded except the command itself: in the
+ * plugin, and in libc and libstdc++, so that strdup, qsort and operator new are seen too. The
+ * replacements do what they replace. This cannot be undone, and is meant for a child process that
+ * ends soon. */
 
 /* False: no object has such an address. Objects that are loaded later are not watched. */
 bool malloc_watch_begin(void);

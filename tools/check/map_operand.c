@@ -27,7 +27,7 @@ long double under_quadratic(const imp_model *g, const long double s[3], long dou
     return sum;
 }
 
-/* --- The region ------------------------------------------------------------------------ */
+/* --- The region ------------------------------------------------------------------------------- */
 
 /* An interval of [lo, hi] with its middle a multiple of 2^-12 and its half-width a power of two
  * from 2^-12 on, or a single such value; a single value also if no interval fits. */
@@ -42,7 +42,7 @@ static void draw_short_interval(uint64_t *random, imp_region *r, int j, double l
     r->hi[j] = c + d;
 }
 
-/* --- The models ------------------------------------------------------------------------- */
+/* --- The models ------------------------------------------------------------------------------- */
 
 /* size in [-1, 1], times a multiple of 2^-12. */
 static double draw_coefficient(uint64_t *random, double size)

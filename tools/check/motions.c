@@ -39,7 +39,8 @@ motion motion_draw(uint64_t *random, const imp_symmetry *of, double size)
     return m;
 }
 
-/* Rodrigues' formula. The axis is a unit vector but for 2^-52; the image follows within 2^-50 of x - center. */
+/* Rodrigues' formula. The axis is a unit vector but for 2^-52; the image follows within 2^-50 of x
+ * - center. */
 void motion_apply(const motion *m, double x[3])
 {
     long double w[3], along = 0;

@@ -8,9 +8,10 @@
 #include <impinge/formula.h>
 #include <math.h>
 
-/* --- A point that moves ------------------------------------------------------------------------ */
+/* --- A point that moves ----------------------------------------------------------------------- */
 
-/* Polynomial of a model at s, in long double: 20 roundings at most, each of a partial sum below the size. */
+/* Polynomial of a model at s, in long double: 20 roundings at most, each of a partial sum below the
+ * size. */
 long double model_value(const imp_model *m, const double s[3])
 {
     const long double u = s[0], v = s[1], t = s[2];
@@ -19,8 +20,8 @@ long double model_value(const imp_model *m, const double s[3])
            (m->q[IMP_VV] * v * v + m->q[IMP_VT] * v * t + m->q[IMP_TT] * t * t);
 }
 
-/* Of a polynomial through `x` at s, whose reach is of any scale up to twice the size; the point is up to `off`
- * from it there. */
+/* Of a polynomial through `x` at s, whose reach is of any scale up to twice the size; the point is
+ * up to `off` from it there. */
 imp_model model_through(uint64_t *random, double x, double size, const double s[3])
 {
     imp_model m = {.rate = {INFINITY, INFINITY, INFINITY}, .depends = 7};
@@ -37,7 +38,7 @@ imp_model model_through(uint64_t *random, double x, double size, const double s[
     return m;
 }
 
-/* --- Judging ----------------------------------------------------------------------------------- */
+/* --- Judging ---------------------------------------------------------------------------------- */
 
 bool distance_has_form(const subject *s, const imp_model *g)
 {

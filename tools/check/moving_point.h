@@ -11,14 +11,15 @@
 /* The polynomial of a model at s. */
 long double model_value(const imp_model *m, const double s[3]);
 
-/* A model of a coordinate that is x at s. Its reach is of any scale up to twice the size; length. */
+/* A model of a coordinate that is x at s. Its reach is of any scale up to twice the size;
+ * length. */
 imp_model model_through(uint64_t *random, double x, double size, const double s[3]);
 
 /* False, and the check fails, if the model of a distance has a NaN or is inverted. */
 bool distance_has_form(const subject *s, const imp_model *g);
 
-/* What a model claims of the distance at s: the least |g| that polynomial and range leave, INFINITY if they
- * leave none. */
+/* What a model claims of the distance at s: the least |g| that polynomial and range leave, INFINITY
+ * if they leave none. */
 long double distance_claimed(const imp_model *g, const double s[3]);
 
 #endif

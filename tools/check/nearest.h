@@ -20,12 +20,12 @@ bool spot_evaluate(const subject *s, spot *at);
 /* At least the distance of x from the exact point of the spot. */
 long double spot_apart_upper(const spot *at, const double x[3]);
 
-/* The nearest point at time t that a grid and a pattern search find; the nearest point of all may be
- * elsewhere. False, without a failure, if there is none. */
+/* The nearest point at time t that a grid and a pattern search find; the nearest point of all may
+ * be elsewhere. False, without a failure, if there is none. */
 bool spot_nearest(const subject *s, const double x[3], double t, spot *at);
 
-/* The middle of the surface at time t and half the diagonal of its box, as a grid shows them. False,
- * without a failure, if it has no points then. */
+/* The middle of the surface at time t and half the diagonal of its box, as a grid shows them.
+ * False, without a failure, if it has no points then. */
 bool spot_extent(const subject *s, double t, double middle[3], double *radius);
 
 #endif

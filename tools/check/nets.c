@@ -11,7 +11,7 @@
 
 enum { REGIONS = 2000, POINTS = 10 };
 
-/* --- Form ------------------------------------------------------------------------------------ */
+/* --- Form ------------------------------------------------------------------------------------- */
 
 static bool has_sane_numbers(const imp_net *net, uint32_t points)
 {
@@ -30,8 +30,8 @@ static bool judge_form(const subject *s, const imp_region *region, const imp_net
     const char *fault = NULL;
     bool errors = true, weights = true;
     if (n >= IMP_NET_POINTS || m >= IMP_NET_POINTS || (n + 1) * (m + 1) > IMP_NET_POINTS)
-        return answer_fail(s->answer, "the net has degrees %u and %u over %s, more than %d points", n,
-                           m, subject_box_text(3, region->lo, region->hi).text, IMP_NET_POINTS);
+        return answer_fail(s->answer, "the net has degrees %u and %u over %s, more than %d points",
+                           n, m, subject_box_text(3, region->lo, region->hi).text, IMP_NET_POINTS);
     for (int i = 0; i < 3; ++i) errors = errors && net->error[i] >= 0 && isfinite(net->error[i]);
     for (uint32_t k = 0; k < (n + 1) * (m + 1) && net->is_weighted; ++k)
         weights = weights && net->weight[k] > 0 && isfinite(net->weight[k]);
@@ -45,7 +45,7 @@ static bool judge_form(const subject *s, const imp_region *region, const imp_net
                                         subject_box_text(3, region->lo, region->hi).text, fault);
 }
 
-/* --- The patch of a net -------------------------------------------------------------------------- */
+/* --- The patch of a net ----------------------------------------------------------------------- */
 
 static void bernstein(uint32_t n, long double s, long double *b)
 {
@@ -61,8 +61,8 @@ typedef struct judged {
     long double value, size; /* sum of magnitudes */
 } judged;
 
-/* Coordinate i at s, tau: in long double, whose roundings stay below 256 LDBL_EPSILON of the size: at most
- * 35 in each factor of a weight, 36 sums and the quotient. */
+/* Coordinate i at s, tau: in long double, whose roundings stay below 256 LDBL_EPSILON of the size:
+ * at most 35 in each factor of a weight, 36 sums and the quotient. */
 static judged patch_at(const imp_net *net, int i, const long double s[2], long double tau)
 {
     long double b[2][IMP_NET_POINTS], sum = 0, size = 0, weights = 0;
@@ -80,8 +80,8 @@ static judged patch_at(const imp_net *net, int i, const long double s[2], long d
     return (judged){base + way + sum / weights, fabsl(base) + fabsl(way) + size / weights};
 }
 
-static bool judge_point(const subject *s, const imp_region *r, const imp_net *net, const double p[3],
-                        const double x[3], const double error[3])
+static bool judge_point(const subject *s, const imp_region *r, const imp_net *net,
+                        const double p[3], const double x[3], const double error[3])
 {
     long double at[2];
     for (int j = 0; j < 2; ++j)
@@ -93,16 +93,16 @@ static bool judge_point(const subject *s, const imp_region *r, const imp_net *ne
         const long double off = fabsl(x[i] - on.value) - error[i] - 256 * LDBL_EPSILON * on.size;
         ++s->answer->tests;
         if (off > net->error[i])
-            return answer_fail_for(
-                s->answer, FAULT_REMAINDER | FAULT_ERROR,
-                "%c is %.17g (error %g) at %s, %.9Lg off the control net, whose error is %.9g over %s",
-                "xyz"[i], x[i], error[i], subject_point_text(3, p).text, off, net->error[i],
-                subject_box_text(3, r->lo, r->hi).text);
+            return answer_fail_for(s->answer, FAULT_REMAINDER | FAULT_ERROR,
+                                   "%c is %.17g (error %g) at %s, %.9Lg off the control net, whose "
+                                   "error is %.9g over %s",
+                                   "xyz"[i], x[i], error[i], subject_point_text(3, p).text, off,
+                                   net->error[i], subject_box_text(3, r->lo, r->hi).text);
     }
     return true;
 }
 
-/* --- Surfaces ---------------------------------------------------------------------------------- */
+/* --- Surfaces --------------------------------------------------------------------------------- */
 
 static bool judge_surface(const subject *s, uint64_t *random)
 {
@@ -127,11 +127,12 @@ static bool judge_surface(const subject *s, uint64_t *random)
     return true;
 }
 
-/* --- Maps ---------------------------------------------------------------------------------------- */
+/* --- Maps ------------------------------------------------------------------------------------- */
 
 static double sixteenths(uint64_t *random) { return (double)draw_index(random, 65) / 16 - 2; }
 
-/* A moving bilinear patch over u and v in [0, 1] and some time, whose points at quarters are exact. */
+/* A moving bilinear patch over u and v in [0, 1] and some time, whose points at quarters are
+ * exact. */
 static imp_net draw_net(uint64_t *random)
 {
     imp_net net = {.degree = {1, 1}, .is_moving = 1};
@@ -153,8 +154,7 @@ static bool judge_map(const subject *s, uint64_t *random)
     const double *lo = s->domain.lo, *hi = s->domain.hi;
     const double from = ceil(16 * lo[3]) / 16, to = floor(16 * hi[3]) / 16;
     const double t0 = from < to ? from : lo[3], t1 = from < to ? to : lo[3];
-    const imp_region region =
-        imp_region_between((double[3]){0, 0, t0}, (double[3]){1, 1, t1});
+    const imp_region region = imp_region_between((double[3]){0, 0, t0}, (double[3]){1, 1, t1});
     const imp_net given = draw_net(random);
     imp_net net = given;
     const imp_status status = subject_map_net(s, &region, &net);

@@ -25,8 +25,8 @@ typedef struct operand_type {
     char name[80];
 } operand_type;
 
-/* Looks the type up in a child, since other plugins are loaded on the way. *l is from child_memory. Complains
- * of names that are unknown. */
+/* Looks the type up in a child, since other plugins are loaded on the way. *l is from child_memory.
+ * Complains of names that are unknown. */
 exit_status operand_find_type(const arguments *args, const operand_type *w, double seconds,
                               operand_file *l);
 

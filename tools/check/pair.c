@@ -51,7 +51,8 @@ double pair_judge(const subject *s, const box *where, double rate[3][BOX_DIMS], 
         const double ratio = pair_ratio(s->n, i, rate[i], a, b);
         if (ratio > largest) largest = ratio;
         if (!(ratio > worst->ratio)) continue;
-        *worst = (pair_finding){.ratio = ratio, .coordinate = i, .where = *where, .a = *a, .b = *b, .call = call};
+        *worst = (pair_finding){
+            .ratio = ratio, .coordinate = i, .where = *where, .a = *a, .b = *b, .call = call};
         memcpy(worst->rate, rate[i], sizeof worst->rate);
     }
     ++s->answer->tests;

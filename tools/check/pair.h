@@ -32,8 +32,8 @@ typedef struct pair_finding {
     uint64_t call; /* that made the claim */
 } pair_finding;
 
-/* Compares two points of a region with all three rows of its rates, which that call gave. Returns the largest
- * ratio. */
+/* Compares two points of a region with all three rows of its rates, which that call gave. Returns
+ * the largest ratio. */
 double pair_judge(const subject *s, const box *where, double rate[3][BOX_DIMS], uint64_t call,
                   const evaluated *a, const evaluated *b, pair_finding *worst);
 

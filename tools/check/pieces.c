@@ -59,7 +59,8 @@ static bool is_count_kept(const visit *v)
 static bool use(const visit *v, uint64_t *random)
 {
     subject s;
-    if (!subject_make(&s, v->whole, v->whole, draw_index(random, v->count), v->answer)) return false;
+    if (!subject_make(&s, v->whole, v->whole, draw_index(random, v->count), v->answer))
+        return false;
     for (size_t which = 0; which < PURE_CALLS; ++which) pure_call(&s, which, random);
     return true;
 }
@@ -96,8 +97,7 @@ void pieces_check(imp_registry *registry, const imp_type_info *type, const char 
     else if (has) {
         v.pieces = malloc(v.count * sizeof *v.pieces);
         if (v.pieces != NULL) visit_all(&v);
-    }
-    else
+    } else
         answer_skip(answer, "the type has no pieces");
     free(v.pieces);
     subject_destroy(&made, stage, answer);

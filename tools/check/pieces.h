@@ -5,8 +5,8 @@
 
 #include "tools/check/subject.h"
 
-/* Instances of many surfaces: piece_count and piece answer, within limits, and the same each time, also
- * after the pieces were asked; all pieces have the same times. Types without pieces pass. */
+/* Instances of many surfaces: piece_count and piece answer, within limits, and the same each time,
+ * also after the pieces were asked; all pieces have the same times. Types without pieces pass. */
 void pieces_check(imp_registry *registry, const imp_type_info *type, const char *stage,
                   check_answer *answer);
 

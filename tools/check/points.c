@@ -11,7 +11,7 @@
 
 #include "tools/check/pair.h"
 
-/* --- Finite ---------------------------------------------------------------------------- */
+/* --- Finite ----------------------------------------------------------------------------------- */
 
 static bool is_sane_at(const subject *s, const double *p)
 {
@@ -46,7 +46,7 @@ static bool corners_are_sane(const subject *s)
     return true;
 }
 
-/* --- Holes -------------------------------------------------------------------------------- */
+/* --- Holes ------------------------------------------------------------------------------------ */
 
 enum { BATCH = 64, DESCENTS = 12 };
 
@@ -104,7 +104,7 @@ static void seek_holes(const subject *s, uint64_t *random)
         if (!descend(s, random)) return;
 }
 
-/* ------------------------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------------------------------- */
 
 void finite_check(const subject *s, uint64_t *random, double effort)
 {
@@ -121,7 +121,7 @@ void finite_check(const subject *s, uint64_t *random, double effort)
     }
 }
 
-/* --- Errors ---------------------------------------------------------------------------- */
+/* --- Errors ----------------------------------------------------------------------------------- */
 
 enum { CLUSTERS = 600, NEIGHBOURS = 12 };
 
@@ -164,7 +164,8 @@ static bool judge_cluster(const subject *s, uint64_t *random)
     if (!subject_rate_sane(s, &around, rate) || !pair_evaluate(s, NEIGHBOURS, points))
         return s->answer->verdict != CHECK_FAIL;
     for (int k = 0; k < NEIGHBOURS; ++k)
-        for (int l = 0; l < k; ++l) pair_judge(s, &around, rate, s->answer->rate_call, &points[k], &points[l], &worst);
+        for (int l = 0; l < k; ++l)
+            pair_judge(s, &around, rate, s->answer->rate_call, &points[k], &points[l], &worst);
     return pair_conclude(s, &worst, "between neighbouring doubles, eval's errors or the rates",
                          FAULT_RATE | FAULT_ERROR | FAULT_RANGE);
 }

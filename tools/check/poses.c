@@ -34,7 +34,7 @@ static subject_text times_text(const imp_region *span)
     return text;
 }
 
-/* --- Form ------------------------------------------------------------------------------------ */
+/* --- Form ------------------------------------------------------------------------------------- */
 
 static const char *fault_of_form(const imp_model *m)
 {
@@ -46,7 +46,8 @@ static const char *fault_of_form(const imp_model *m)
     if (!(m->e >= 0 && m->e < INFINITY)) return "has a remainder that is negative or not finite";
     if (!(m->lo <= m->hi && m->lo > -INFINITY && m->hi < INFINITY))
         return "has a range that is inverted or not finite";
-    if (!(m->rate[2] >= 0 && m->rate[2] < INFINITY)) return "has a rate that is negative or not finite";
+    if (!(m->rate[2] >= 0 && m->rate[2] < INFINITY))
+        return "has a rate that is negative or not finite";
     return NULL;
 }
 
@@ -64,7 +65,7 @@ static bool judge_form(const subject *s, const imp_region *span, const imp_pose 
     return true;
 }
 
-/* --- Rotations ---------------------------------------------------------------------------------- */
+/* --- Rotations -------------------------------------------------------------------------------- */
 
 /* The polynomial of an entry; sizes of its terms bound its rounding by 8 LDBL_EPSILON of them. */
 static long double value_at(const imp_model *m, long double at)
@@ -85,11 +86,12 @@ static bool judge_fixed(const subject *s, const imp_region *span, const imp_pose
         }
         ++s->answer->tests;
         if (fabsl(sum) > e + 64 * LDBL_EPSILON * size)
-            return answer_fail(s->answer,
-                               "the pose over %s says that it leaves the direction %.9g, %.9g, %.9g "
-                               "fixed; at t = %.17g it turns it by %.3Lg in %c",
-                               times_text(span).text, pose->fixed[0], pose->fixed[1],
-                               pose->fixed[2], t, sum, "xyz"[i]);
+            return answer_fail(
+                s->answer,
+                "the pose over %s says that it leaves the direction %.9g, %.9g, %.9g "
+                "fixed; at t = %.17g it turns it by %.3Lg in %c",
+                times_text(span).text, pose->fixed[0], pose->fixed[1], pose->fixed[2], t, sum,
+                "xyz"[i]);
     }
     return true;
 }
@@ -99,17 +101,18 @@ static bool refute_rotation(const subject *s, const imp_region *span, int j, int
                             long double slack)
 {
     const char *what = j == k ? "the square of a column's length" : "the product of two columns";
-    return answer_fail_for(s->answer, FAULT_VALUE,
-                           "turn is no rotation over %s: %s (%d, %d) is off %d by %.9Lg, and allowed is "
-                           "%s",
-                           times_text(span).text, what, j, k, j == k, off,
-                           slack > 0 ? "IMP_RIGID_SLACK, 2^-16"
-                                     : "nothing but rounding, for the flag IMP_FLAG_TURNS_EXACTLY claims an "
-                                       "exact one");
+    return answer_fail_for(
+        s->answer, FAULT_VALUE,
+        "turn is no rotation over %s: %s (%d, %d) is off %d by %.9Lg, and allowed is "
+        "%s",
+        times_text(span).text, what, j, k, j == k, off,
+        slack > 0 ? "IMP_RIGID_SLACK, 2^-16"
+                  : "nothing but rounding, for the flag IMP_FLAG_TURNS_EXACTLY claims an "
+                    "exact one");
 }
 
-/* With entries r, each within e of the truth, the rows' products are within sum_k (|r| e' + |r'| e + e e')
- * of the true ones; likewise the determinant, whose terms are products of three. */
+/* With entries r, each within e of the truth, the rows' products are within sum_k (|r| e' + |r'| e
+ * + e e') of the true ones; likewise the determinant, whose terms are products of three. */
 static bool judge_rotation(const subject *s, const imp_region *span, const imp_pose *pose,
                            long double at)
 {
@@ -128,8 +131,7 @@ static bool judge_rotation(const subject *s, const imp_region *span, const imp_p
         for (int k = 0; k < 3; ++k) {
             const long double product =
                 r[0][j] * r[0][k] + r[1][j] * r[1][k] + r[2][j] * r[2][k] - (j == k);
-            if (fabsl(product) > slack + off)
-                return refute_rotation(s, span, j, k, product, slack);
+            if (fabsl(product) > slack + off) return refute_rotation(s, span, j, k, product, slack);
         }
     const long double det = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
                             r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
@@ -141,7 +143,7 @@ static bool judge_rotation(const subject *s, const imp_region *span, const imp_p
     return true;
 }
 
-/* --- Entries ------------------------------------------------------------------------------------- */
+/* --- Entries ---------------------------------------------------------------------------------- */
 
 /* The entries of a pose as images show them, each within `error`. */
 typedef struct seen_pose {
@@ -176,8 +178,8 @@ static bool see(const subject *s, const imp_pose *pose, double t, seen_pose *see
     return true;
 }
 
-static bool judge_entry(const subject *s, const imp_region *span, const imp_pose *pose, int i, int j,
-                        const seen_pose *seen, const seen_pose *other)
+static bool judge_entry(const subject *s, const imp_region *span, const imp_pose *pose, int i,
+                        int j, const seen_pose *seen, const seen_pose *other)
 {
     const imp_model *m = entry_of(pose, i, j);
     const long double d = span->d[2], at = d > 0 ? (seen->t - (long double)span->c[2]) / d : 0;
@@ -188,25 +190,27 @@ static bool judge_entry(const subject *s, const imp_region *span, const imp_pose
     const long double may = m->rate[2] * fabsl((long double)seen->t - other->t);
     s->answer->tests += 3;
     if (off > m->e)
-        return answer_fail_for(s->answer, FAULT_REMAINDER | FAULT_ERROR,
-                               "%s is %.17Lg at t=%.17g, %.9Lg off the pose, whose remainder is %.9g "
-                               "over %s",
-                               name_of(i, j).text, is, seen->t, off, m->e, times_text(span).text);
+        return answer_fail_for(
+            s->answer, FAULT_REMAINDER | FAULT_ERROR,
+            "%s is %.17Lg at t=%.17g, %.9Lg off the pose, whose remainder is %.9g "
+            "over %s",
+            name_of(i, j).text, is, seen->t, off, m->e, times_text(span).text);
     if (is + slack < m->lo || is - slack > m->hi)
-        return answer_fail_for(s->answer, FAULT_REMAINDER | FAULT_ERROR,
-                               "%s is %.17Lg at t=%.17g, outside of the range [%.17g, %.17g] that the "
-                               "pose has over %s",
-                               name_of(i, j).text, is, seen->t, m->lo, m->hi,
-                               times_text(span).text);
+        return answer_fail_for(
+            s->answer, FAULT_REMAINDER | FAULT_ERROR,
+            "%s is %.17Lg at t=%.17g, outside of the range [%.17g, %.17g] that the "
+            "pose has over %s",
+            name_of(i, j).text, is, seen->t, m->lo, m->hi, times_text(span).text);
     if (moved > may * (1 + 8 * LDBL_EPSILON))
-        return answer_fail_for(s->answer, FAULT_RATE | FAULT_ERROR,
-                               "%s changes by %.9Lg from t=%.17g to t=%.17g, and the pose's rate %.9g "
-                               "allows %.9Lg",
-                               name_of(i, j).text, moved, seen->t, other->t, m->rate[2], may);
+        return answer_fail_for(
+            s->answer, FAULT_RATE | FAULT_ERROR,
+            "%s changes by %.9Lg from t=%.17g to t=%.17g, and the pose's rate %.9g "
+            "allows %.9Lg",
+            name_of(i, j).text, moved, seen->t, other->t, m->rate[2], may);
     return true;
 }
 
-/* --- Points --------------------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 /* The image of any point lies where the pose puts it. */
 static bool judge_image(const subject *s, uint64_t *random, const imp_region *span,
@@ -228,16 +232,16 @@ static bool judge_image(const subject *s, uint64_t *random, const imp_region *sp
         const long double off = fabsl(x[i] - sum) - error[i] - 64 * LDBL_EPSILON * size;
         ++s->answer->tests;
         if (off > e)
-            return answer_fail_for(s->answer, FAULT_REMAINDER | FAULT_ERROR | FAULT_VALUE,
-                                   "%c is %.17g at %s, %.9Lg off the place where the pose over %s puts "
-                                   "it, within %.9Lg",
-                                   "xyz"[i], x[i], subject_point_text(4, p).text, off,
-                                   times_text(span).text, e);
+            return answer_fail_for(
+                s->answer, FAULT_REMAINDER | FAULT_ERROR | FAULT_VALUE,
+                "%c is %.17g at %s, %.9Lg off the place where the pose over %s puts "
+                "it, within %.9Lg",
+                "xyz"[i], x[i], subject_point_text(4, p).text, off, times_text(span).text, e);
     }
     return true;
 }
 
-/* --- The check --------------------------------------------------------------------------------------- */
+/* --- The check -------------------------------------------------------------------------------- */
 
 static bool judge_span(const subject *s, uint64_t *random)
 {
@@ -257,8 +261,7 @@ static bool judge_span(const subject *s, uint64_t *random)
             const double at = span.c[2] + span.d[2] * draw_normalized(random);
             time[n] = at < span.lo[2] ? span.lo[2] : at > span.hi[2] ? span.hi[2] : at;
         }
-        const long double at =
-            span.d[2] > 0 ? ((long double)time[0] - span.c[2]) / span.d[2] : 0;
+        const long double at = span.d[2] > 0 ? ((long double)time[0] - span.c[2]) / span.d[2] : 0;
         if (!judge_rotation(s, &span, &pose, at)) return false;
         if (!see(s, &pose, time[0], &seen[0]) || !see(s, &pose, time[1], &seen[1]))
             return s->answer->verdict != CHECK_FAIL;

@@ -28,7 +28,7 @@ typedef struct proof {
     under below;   /* maps only */
 } proof;
 
-/* --- The bounded functions ------------------------------------------------------------------ */
+/* --- The bounded functions -------------------------------------------------------------------- */
 
 /* The formula of the variables themselves. */
 static void plain_jets(void *context, const jet p[], const jet s[], jet out[3])
@@ -49,7 +49,7 @@ static void mapped_jets(void *context, const jet p[], const jet s[], jet out[3])
     formula_jets(now->f, variables, out);
 }
 
-/* --- The results ---------------------------------------------------------------------------- */
+/* --- The results ------------------------------------------------------------------------------ */
 
 /* "the rate of x by u, 2, over u in ..." */
 typedef struct claim_text {
@@ -102,7 +102,8 @@ static bool refute(const proof *p, const branch_field *field, const branch_claim
                                        "the distance from the quadratic"};
     double at[BOX_DIMS];
     for (int j = 0; j < BOX_DIMS; ++j) at[j] = (double)o->p[j];
-    if (o->kind == BRANCH_RATE && field->n == p->s->n) p->s->answer->blamed = p->s->answer->rate_call;
+    if (o->kind == BRANCH_RATE && field->n == p->s->n)
+        p->s->answer->blamed = p->s->answer->rate_call;
     static const unsigned faults[] = {FAULT_RATE, FAULT_RANGE, FAULT_REMAINDER};
     return answer_fail_for(p->s->answer, faults[o->kind],
                            "%s: by the formula %s at %s is surely in [%.20Lg, %.20Lg]%s",
@@ -135,7 +136,7 @@ static bool settle(proof *p, const branch_field *field, const branch_claims *c)
     return !o.refuted || refute(p, field, c, &o);
 }
 
-/* --- Claims --------------------------------------------------------------------------------- */
+/* --- Claims ----------------------------------------------------------------------------------- */
 
 static branch_claims no_claims(const box *where, const imp_region *region)
 {
@@ -195,7 +196,7 @@ static bool settle_mapped(proof *p, uint64_t *random)
     return settle(p, &field, &c);
 }
 
-/* --- Points --------------------------------------------------------------------------------- */
+/* --- Points ----------------------------------------------------------------------------------- */
 
 /* |x - f(p)| <= error, for a point that is exactly known. */
 static bool settle_point(const proof *p, const box *where, uint64_t *random)
@@ -226,7 +227,7 @@ static bool settle_point(const proof *p, const box *where, uint64_t *random)
     return true;
 }
 
-/* --- The whole check ---------------------------------------------------------------- */
+/* --- The whole check -------------------------------------------------------------------------- */
 
 /* Region k >= 1 of those that halving makes, along each variable in turn: k's halves are 2 k and
  * 2 k + 1. */

@@ -10,7 +10,7 @@
 #include <pthread.h>
 #include <string.h>
 
-/* --- All results of a type for some points and regions ------------------------------------- */
+/* --- All results of a type for some points and regions ---------------------------------------- */
 
 enum { POINTS = 96, BOXES = 32, THREADS = 4 };
 
@@ -48,7 +48,7 @@ static void ask(const subject *s, const questions *q, answers *a)
     }
 }
 
-/* --- Determinism ------------------------------------------------------------------------- */
+/* --- Determinism ------------------------------------------------------------------------------ */
 
 static bool same(const subject *s, const answers *a, const answers *b, const char *when)
 {

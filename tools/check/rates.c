@@ -36,7 +36,7 @@ static bool goes_on(const search *r)
     return r->s->answer->verdict != CHECK_FAIL && !(r->worst.ratio > 1);
 }
 
-/* --- One region: its centre line along each dimension, and two diagonals ------------------- */
+/* --- One region: its centre line along each dimension, and two diagonals ---------------------- */
 
 static double judge_region(search *r, const box *where)
 {
@@ -61,13 +61,14 @@ static double judge_region(search *r, const box *where)
     }
     if (!pair_evaluate(s, count, points)) return 0;
     for (size_t k = 0; k < count; k += 2) {
-        const double ratio = pair_judge(s, where, rate, call, &points[k], &points[k + 1], &r->worst);
+        const double ratio =
+            pair_judge(s, where, rate, call, &points[k], &points[k + 1], &r->worst);
         if (ratio > largest) largest = ratio;
     }
     return largest;
 }
 
-/* --- Tiny regions, and climbing from the tightest ------------------------------------------- */
+/* --- Tiny regions, and climbing from the tightest --------------------------------------------- */
 
 typedef struct place {
     double at[BOX_DIMS], ratio; /* `at` in [0, 1], across the domain */
@@ -168,7 +169,7 @@ static void search_lines(search *r, double effort)
     }
 }
 
-/* --- Regions: where is the rate's maximum? ------------------------------------------ */
+/* --- Regions: where is the rate's maximum? ---------------------------------------------------- */
 
 typedef struct hunt {
     box root;

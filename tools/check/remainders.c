@@ -23,8 +23,8 @@ static void terms_at(const double s[3], double term[TERMS])
         for (int l = j; l < 3; ++l) term[k++] = s[j] * s[l];
 }
 
-/* Gauss-Jordan elimination of the normal equations; a parameter without width makes pivots of 0, whose terms
- * are left out. */
+/* Gauss-Jordan elimination of the normal equations; a parameter without width makes pivots of 0,
+ * whose terms are left out. */
 static void solve(double matrix[TERMS][TERMS + 1], double x[TERMS])
 {
     bool used[TERMS] = {false};

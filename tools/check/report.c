@@ -63,7 +63,7 @@ void report_type(check_report *r, imp_type_kind kind, const char *name,
     json_array_append_new(r->types, r->type);
 }
 
-/* --- One check ---------------------------------------------------------------------- */
+/* --- One check -------------------------------------------------------------------------------- */
 
 static json_t *ratios_json(const double ratio[CHECK_SCALES])
 {
@@ -189,7 +189,7 @@ void report_add(check_report *r, const char *check, bool of_bounds, const check_
     if (c.debug[0] != '\0') print_line("        debug: ", "", c.debug);
 }
 
-/* --- Totals ------------------------------------------------------------------------- */
+/* --- Totals ----------------------------------------------------------------------------------- */
 
 static const char *type_label(const check_report *r)
 {

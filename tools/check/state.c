@@ -15,7 +15,7 @@
 
 #include "tools/check/calls.h"
 
-/* --- Ranges of memory, and copies of them -------------------------------------------------------- */
+/* --- Ranges of memory, and copies of them ----------------------------------------------------- */
 
 enum { RANGES = 32 };
 
@@ -146,7 +146,7 @@ static void forget(watch *w)
     for (size_t k = 0; k < w->count; ++k) munmap(w->range[k].copy, w->range[k].size);
 }
 
-/* --- Calls --------------------------------------------------------------------------------------- */
+/* --- Calls ------------------------------------------------------------------------------------ */
 
 enum { CALLS = 24, WARM_UPS = 4, ROUNDS = 3 };
 

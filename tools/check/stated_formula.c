@@ -22,7 +22,7 @@ typedef struct stated {
     double value[CONSTANTS_MAX];
 } stated;
 
-/* --- Parameters ----------------------------------------------------------------------------- */
+/* --- Parameters ------------------------------------------------------------------------------- */
 
 static void add_constant(stated *s, const char *name, const json_t *value)
 {
@@ -63,7 +63,7 @@ static void add_parameter(stated *s, const imp_parameter *row, json_t *value)
     }
 }
 
-/* --- Texts ---------------------------------------------------------------------------------- */
+/* --- Texts ------------------------------------------------------------------------------------ */
 
 /* "X; Y; Z". False: not three of them. */
 static bool take_given(stated *s, const char *given)
@@ -123,7 +123,7 @@ formula *stated_formula(const imp_registry *registry, const imp_type_info *type,
     return f;
 }
 
-/* --- Domains -------------------------------------------------------------------------------- */
+/* --- Domains ---------------------------------------------------------------------------------- */
 
 /* One end, without variables. */
 static bool read_end(stated *s, const char *text, size_t length, ld_interval *end, char *fault,

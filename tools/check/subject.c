@@ -13,7 +13,7 @@
 
 #include "core/common/capabilities.h"
 
-/* --- Text ---------------------------------------------------------------------------- */
+/* --- Text ------------------------------------------------------------------------------------- */
 
 static char letter(int n, int j) { return n == 3 ? "uvt"[j] : "xyzt"[j]; }
 
@@ -67,7 +67,7 @@ const char *subject_status_name(imp_status status)
     return status >= 0 && status <= 4 ? names[status] : "an unknown status";
 }
 
-/* --- Calls --------------------------------------------------------------------------- */
+/* --- Calls ------------------------------------------------------------------------------------ */
 
 void subject_note_stage(check_answer *answer, const char *name, const char *stage)
 {
@@ -257,7 +257,7 @@ imp_status subject_model(const subject *s, box where, imp_model model[3])
     return s->instance->map->apply != NULL ? subject_apply(s, in, model) : IMP_STATUS_OK;
 }
 
-/* --- Direct checks of each result ----------------------------------------------------- */
+/* --- Direct checks of each result ------------------------------------------------------------- */
 
 static bool judge_point(const subject *s, const double *p, const double *x, const double *error)
 {
@@ -307,7 +307,7 @@ static void name_call(check_answer *answer, const char *name)
     subject_note_call(answer, name, answer->call.hint);
 }
 
-/* --- Domains ------------------------------------------------------------------------- */
+/* --- Domains ---------------------------------------------------------------------------------- */
 
 static void cut_times(double *lo, double *hi)
 {

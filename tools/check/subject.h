@@ -31,8 +31,8 @@ typedef struct subject {
     double ends[2]; /* of its times, as it states them: may be infinite */
 } subject;
 
-/* False, and the check fails, if the domain is invalid. Where instances consist of pieces, their k-th;
- * it must not be copied then. */
+/* False, and the check fails, if the domain is invalid. Where instances consist of pieces, their
+ * k-th; it must not be copied then. */
 bool subject_make(subject *s, const imp_instance *instance, const imp_instance *twin, size_t k,
                   check_answer *answer);
 
@@ -44,7 +44,8 @@ imp_code subject_create(imp_registry *registry, imp_type_kind kind, const char *
                         imp_instance *made, imp_error *error, check_answer *answer);
 void subject_destroy(imp_instance *made, const char *stage, check_answer *answer);
 
-/* Records that a call without numbers is in progress; NULL: it has returned. `hint`: as in check_call. */
+/* Records that a call without numbers is in progress; NULL: it has returned. `hint`: as in
+ * check_call. */
 void subject_note_call(check_answer *answer, const char *name, const char *hint);
 
 /* Records that one of the two is in progress. NULL: it has returned. */
@@ -65,7 +66,8 @@ imp_status subject_apply(const subject *s, const imp_model in[4], imp_model out[
 imp_status subject_net(const subject *s, const imp_region *region, imp_net *net);
 imp_status subject_map_net(const subject *s, const imp_region *region, imp_net *net);
 
-/* Whether it is a map that has poses; that over the times of a box. IMP_STATUS_OK with zeros: it has none. */
+/* Whether it is a map that has poses; that over the times of a box. IMP_STATUS_OK with zeros: it
+ * has none. */
 bool subject_is_rigid(const subject *s);
 imp_status subject_pose(const subject *s, const imp_region *span, imp_pose *pose);
 

@@ -15,7 +15,7 @@
 #include "tools/check/values.h"
 #include "tools/cli/catalogue.h"
 
-/* --- Trying values ------------------------------------------------------------------------- */
+/* --- Trying values ---------------------------------------------------------------------------- */
 
 typedef struct trial {
     imp_registry *registry;
@@ -86,7 +86,7 @@ static bool is_refused(const trial *t, const char *parameter, const char *value)
     return answer_fail(t->answer, "%s=%.80s: %s", parameter, value, error.text);
 }
 
-/* --- Values as text -------------------------------------------------------------------------- */
+/* --- Values as text --------------------------------------------------------------------------- */
 
 enum { VALUE_TEXT = 4096 };
 
@@ -123,7 +123,7 @@ static bool try_number(const trial *t, const imp_parameter *p, double number, ju
     return try_text(t, p, text, judge);
 }
 
-/* --- Rows ------------------------------------------------------------------------------------ */
+/* --- Rows ------------------------------------------------------------------------------------- */
 
 /* The last number on this side of the row's range, and the first beyond it. */
 static bool try_end(const trial *t, const imp_parameter *p, double end, bool open, double outwards)
@@ -161,7 +161,8 @@ void parameters_check(imp_registry *registry, const imp_type_info *type, const c
         return;
     }
     t.tries_points = has_points(&t, text);
-    if (answer->verdict == CHECK_FAIL) answer_forget(answer); /* the check of that name reports it */
+    if (answer->verdict == CHECK_FAIL)
+        answer_forget(answer); /* the check of that name reports it */
     if (!is_refused(&t, "no_such_parameter", "1")) return;
     for (size_t k = 0; k < type->parameter_count; ++k)
         if (!try_row(&t, catalogue_parameter(type, k))) return;
@@ -170,7 +171,7 @@ void parameters_check(imp_registry *registry, const imp_type_info *type, const c
                 type->parameter_count == 1 ? "" : "s");
 }
 
-/* --- Memory ------------------------------------------------------------------------- */
+/* --- Memory ----------------------------------------------------------------------------------- */
 
 #if defined(__GLIBC__) && defined(__GLIBC_PREREQ)
 #if __GLIBC_PREREQ(2, 33)
@@ -238,7 +239,7 @@ static double growth_lower(const trial *t, life *live, int rounds)
     return least > 0 ? least : 0;
 }
 
-/* --- Memory of rejected values -------------------------------------------------------------- */
+/* --- Memory of rejected values ---------------------------------------------------------------- */
 
 /* False, and the answer fails, if creates of the stage with that value leave memory behind. create
  * may reject what the table allows. */

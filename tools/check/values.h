@@ -14,8 +14,8 @@ json_t *stage_values(const imp_registry *registry, imp_type_kind kind, const cha
 /* A parameter's value among them, or the table's default. NULL: absent, or no memory. */
 json_t *stage_value(const json_t *values, const imp_parameter *row);
 
-/* The stage with the parameter's value, text, replaced or added. Free it. NULL: it cannot be read, or
- * no memory. */
+/* The stage with the parameter's value, text, replaced or added. Free it. NULL: it cannot be read,
+ * or no memory. */
 char *stage_with(const imp_registry *registry, imp_type_kind kind, const char *stage,
                  const char *parameter, const char *value);
 

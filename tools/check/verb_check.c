@@ -15,7 +15,7 @@
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
 
-/* --- How ---------------------------------------------------------------------------- */
+/* --- How -------------------------------------------------------------------------------------- */
 
 typedef struct job {
     const arguments *args;
@@ -82,7 +82,7 @@ static bool is_wanted(const job *j, size_t check)
     return j->only == NULL || strcmp(check_names[check], check_names[j->only->choice]) == 0;
 }
 
-/* --- Running ------------------------------------------------------------------------ */
+/* --- Running ---------------------------------------------------------------------------------- */
 
 /* False after a hang, or a crash in create or destroy: every further check would fail too. */
 static bool run_check(job *j, check_task *task, size_t check)
@@ -238,7 +238,7 @@ static exit_status run(const arguments *args)
     return status;
 }
 
-/* --- Options ------------------------------------------------------------------------ */
+/* --- Options ---------------------------------------------------------------------------------- */
 
 static const option options_check[] = {
     {.name = "seed",

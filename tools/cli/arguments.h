@@ -28,7 +28,8 @@ typedef struct arguments {
  * --help or --version is among the options). Strings stay argv's. Call arguments_free in any case.
  */
 exit_status arguments_read(arguments *args, int argc, const char *const *argv);
-/* Whether --json is among the words, also behind one that is wrong, where arguments_read did not come. */
+/* Whether --json is among the words, also behind one that is wrong, where arguments_read did not
+ * come. */
 bool arguments_ask_for_json(int argc, const char *const *argv);
 
 void arguments_free(arguments *args);

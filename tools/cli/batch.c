@@ -19,7 +19,7 @@ void batch_keep_worst(batch *b, exit_status status)
     if (status > b->worst) b->worst = status;
 }
 
-/* --- One line; on any thread ------------------------------------------------------------------- */
+/* --- One line; on any thread ------------------------------------------------------------------ */
 
 /* One line of the id and, behind it, what `rest` holds, which has a key. Takes over both; NULL: no
  * memory. */
@@ -90,7 +90,7 @@ void batch_count(batch *b, const batch_item *item)
     batch_keep_worst(b, item->status);
 }
 
-/* --- The stream --------------------------------------------------------------------------------- */
+/* --- The stream ------------------------------------------------------------------------------- */
 
 static bool is_blank(const input_text *line)
 {
@@ -148,7 +148,7 @@ uint64_t batch_scene_count(const batch *b)
     return (count + b->shard.count - 1 - b->shard.index) / b->shard.count;
 }
 
-/* --- From start to end ---------------------------------------------------------------------------- */
+/* --- From start to end ------------------------------------------------------------------------ */
 
 exit_status batch_begin(batch *b, const arguments *args)
 {
@@ -174,7 +174,8 @@ void batch_sum_up(batch *b)
     const char *speaker = b->args->verb->name;
     if (b->input_failed) batch_keep_worst(b, EXIT_DATA);
     if (b->failures > 0)
-        remark(speaker, "%s: %zu of %zu lines could not be answered; their errors are in their places",
+        remark(speaker,
+               "%s: %zu of %zu lines could not be answered; their errors are in their places",
                b->name, b->failures, b->line);
     if (interrupt_came())
         batch_keep_worst(b, complain(EXIT_UNDECIDED, speaker, "%s: interrupted after line %zu",

@@ -49,8 +49,8 @@ void batch_end(batch *b);
 /* How many scenes of the input are ours; 0: unknown, or nobody is to be told. */
 uint64_t batch_scene_count(const batch *b);
 
-/* Reads on to the next scene of ours that has no answer yet. False: there is none, the input cannot be
- * read, the output that is resumed does not fit it, or a signal came. */
+/* Reads on to the next scene of ours that has no answer yet. False: there is none, the input cannot
+ * be read, the output that is resumed does not fit it, or a signal came. */
 bool batch_next_line(batch *b, batch_item *item);
 
 /* Solves the line. [any thread] */

@@ -40,7 +40,7 @@ static json_t *record_json(const arguments *args)
     return json_pack("{s:o}", "options", options);
 }
 
-/* --- Against what is asked now ------------------------------------------------------------------- */
+/* --- Against what is asked now ---------------------------------------------------------------- */
 
 /* Complains of an option that was given with another value, or in only one of the two runs. */
 static exit_status complain_of_option(const batch_record *record, const char *out, const char *name,
@@ -103,7 +103,7 @@ static exit_status judge(batch_record *record, const char *out, const arguments 
     return status;
 }
 
-/* --- The file ------------------------------------------------------------------------------------ */
+/* --- The file --------------------------------------------------------------------------------- */
 
 exit_status batch_record_open(batch_record *record, const char *out, const arguments *args)
 {

@@ -7,10 +7,10 @@
 
 /* OUT.options: what the answers in OUT were asked with
  * ====================================================
- * One line of JSON beside the output of `batch --resume OUT`: the options that change what is asked,
- * such as --gamma; not limits, threads and the like. It is locked while OUT is written, so that of two
- * runs on one output the second is refused. OUT itself cannot be: an MPI library opens and closes
- * it, which would end the lock. */
+ * One line of JSON beside the output of `batch --resume OUT`: the options that change what is
+ * asked, such as --gamma; not limits, threads and the like. It is locked while OUT is written, so
+ * that of two runs on one output the second is refused. OUT itself cannot be: an MPI library opens
+ * and closes it, which would end the lock. */
 
 typedef struct batch_record {
     int descriptor; /* -1: none */
@@ -19,7 +19,8 @@ typedef struct batch_record {
 } batch_record;
 
 /* Opens and locks the record of the output `out`. Complains, and answers the status, if another
- * process has it, or the answers were asked for with other options. batch_record_close in any case. */
+ * process has it, or the answers were asked for with other options. batch_record_close in any
+ * case. */
 exit_status batch_record_open(batch_record *record, const char *out, const arguments *args);
 
 /* Writes it, unless it is known. */

@@ -23,9 +23,10 @@ static exit_status fail(const batch_resume *resume, const char *what)
     return complain(EXIT_DATA, verb_of(resume), "%s: %s", resume->path, what);
 }
 
-/* --- Opening ------------------------------------------------------------------------------------- */
+/* --- Opening ---------------------------------------------------------------------------------- */
 
-/* What is left of an answer that was cut: the beginning of one, or a place that was never written. */
+/* What is left of an answer that was cut: the beginning of one, or a place that was never
+ * written. */
 static bool is_torn_answer(const input_text *line)
 {
     static const char beginning[] = "{\"id\":";
@@ -101,7 +102,7 @@ exit_status batch_resume_close(batch_resume *resume)
     return output_flush(speaker);
 }
 
-/* --- Answers that are there -------------------------------------------------------------------------- */
+/* --- Answers that are there ------------------------------------------------------------------- */
 
 /* What an answer of an earlier run adds to the exit status. */
 static answered_line judge(const batch_resume *resume, const json_t *answer)

@@ -8,9 +8,9 @@
 
 /* --resume OUT: a batch goes on behind the answers that an earlier run left
  * ==========================================================================
- * Scenes that have answers are passed over, a torn last line is cut off, and the rest goes behind. The
- * file is not changed before all its answers were found to be those of the input's scenes, asked with
- * the same options. */
+ * Scenes that have answers are passed over, a torn last line is cut off, and the rest goes behind.
+ * The file is not changed before all its answers were found to be those of the input's scenes,
+ * asked with the same options. */
 
 typedef struct batch_resume {
     FILE *file; /* NULL: not resumed */

@@ -27,7 +27,7 @@ exit_status batch_shard_read(const arguments *args, batch_shard *shard)
                     value->text);
 }
 
-/* --- Ids ---------------------------------------------------------------------------------------- */
+/* --- Ids -------------------------------------------------------------------------------------- */
 
 /* Behind the JSON string that begins at `at`; NULL: it does not end. *plain: without escapes. */
 static const char *behind_string(const char *at, const char *end, bool *plain)

@@ -110,12 +110,13 @@ static json_t *parameter_json(const imp_parameter *p)
 {
     return json_pack("{s:o, s:s, s:o, s:b, s:b, s:o, s:o, s:b, s:o, s:b, s:o, s:o}", "name",
                      output_json_text(p->name), "kind", kind_name(p->kind), "shape",
-                     extents_json(p), "scalar_ok", (p->flags & IMP_PARAMETER_SCALAR_OK) != 0, "required",
-                     p->default_value == NULL && (p->flags & IMP_PARAMETER_OPTIONAL) == 0, "default",
-                     default_json(p), "min", output_json_number(p->min), "min_open",
-                     (p->flags & IMP_PARAMETER_MIN_OPEN) != 0, "max", output_json_number(p->max), "max_open",
-                     (p->flags & IMP_PARAMETER_MAX_OPEN) != 0, "unit", output_json_text(p->unit), "doc",
-                     output_json_text(p->doc));
+                     extents_json(p), "scalar_ok", (p->flags & IMP_PARAMETER_SCALAR_OK) != 0,
+                     "required",
+                     p->default_value == NULL && (p->flags & IMP_PARAMETER_OPTIONAL) == 0,
+                     "default", default_json(p), "min", output_json_number(p->min), "min_open",
+                     (p->flags & IMP_PARAMETER_MIN_OPEN) != 0, "max", output_json_number(p->max),
+                     "max_open", (p->flags & IMP_PARAMETER_MAX_OPEN) != 0, "unit",
+                     output_json_text(p->unit), "doc", output_json_text(p->doc));
 }
 
 static json_t *parameters_json(const imp_type_info *info)
@@ -144,11 +145,12 @@ json_t *catalogue_full_json(const imp_type_info *info)
 {
     json_t *type = catalogue_short_json(info);
     json_t *more = json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equation", output_json_text(info->equation),
-        "source", output_json_text(info->source), "parameters", parameters_json(info), "example",
-        output_json_text(info->example), "plugin", output_json_text(info->plugin), "version",
-        output_json_text(info->version), "license", output_json_text(info->license), "author",
-        output_json_text(info->author), "capabilities", capabilities_json(info));
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equation",
+        output_json_text(info->equation), "source", output_json_text(info->source), "parameters",
+        parameters_json(info), "example", output_json_text(info->example), "plugin",
+        output_json_text(info->plugin), "version", output_json_text(info->version), "license",
+        output_json_text(info->license), "author", output_json_text(info->author), "capabilities",
+        capabilities_json(info));
     if (type == NULL || more == NULL || json_object_update(type, more) != 0) {
         json_decref(type);
         type = NULL;

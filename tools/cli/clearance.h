@@ -29,9 +29,10 @@ typedef struct clearance_each {
 typedef struct clearance_answers {
     imp_clearance *list; /* in the order of the scene; the caller frees it */
     size_t count;
-    size_t not_examined; /* pairs of bodies, because of a limit or a signal; if > 0, list[count], beyond the
+    size_t
+        not_examined; /* pairs of bodies, because of a limit or a signal; if > 0, list[count], beyond the
                             others, stands for all of them */
-    imp_stats stats;     /* of all together */
+    imp_stats stats; /* of all together */
 } clearance_answers;
 
 /* Measures each pair. found->list is freed after an error, too. */
@@ -50,8 +51,8 @@ bool clearance_is_ended(imp_reason reason);
 /* By what is proved: the least lower bound first, then in the order of the scene. */
 void clearance_sort(imp_clearance *answers, size_t count);
 
-/* Lines to standard output, verdict first. Bounds are rounded to the side that claims less. Without a
- * requirement, what comes within gamma is said to touch. */
+/* Lines to standard output, verdict first. Bounds are rounded to the side that claims less. Without
+ * a requirement, what comes within gamma is said to touch. */
 void clearance_print(const imp_scene *scene, const imp_clearance *answer, double gamma);
 /* One line a pair of bodies, under a line of heads. count > 0. */
 void clearance_print_pairs(const clearance_table *table);
@@ -62,9 +63,9 @@ void clearance_print_csv(const imp_clearance *slice);
 
 json_t *clearance_json(const imp_scene *scene, const imp_clearance *answer);
 json_t *clearance_slice_json(const imp_clearance *slice);
-/* Prints the object, which is taken over, on one line, with the answers as its last key: "slices", or
- * "pairs" of bodies. They are made and printed one by one: all at once they would take kilobytes each. A signal
- * ends the list. */
+/* Prints the object, which is taken over, on one line, with the answers as its last key: "slices",
+ * or "pairs" of bodies. They are made and printed one by one: all at once they would take kilobytes
+ * each. A signal ends the list. */
 exit_status clearance_print_json(json_t *object, const clearance_table *table, bool slices,
                                  const char *verb);
 

@@ -27,7 +27,8 @@ static void take(void *context, size_t index, imp_query *part)
     atomic_fetch_add(&f->bytes, sizeof *answer);
 }
 
-/* The memory of answers counts, too: they are sorted, so that all are there before the first is printed. */
+/* The memory of answers counts, too: they are sorted, so that all are there before the first is
+ * printed. */
 static bool is_over(void *context)
 {
     filling *f = context;
@@ -112,7 +113,8 @@ static imp_code add_absent(const clearance_each *of, size_t parts, clearance_ans
     return IMP_SUCCESS;
 }
 
-/* What is known when no more parts are measured: where a limit came, one answer stands for the rest. */
+/* What is known when no more parts are measured: where a limit came, one answer stands for the
+ * rest. */
 static imp_code conclude(filling *f, size_t parts, clearance_answers *found)
 {
     const imp_result whole = imp_query_result(f->of->query);

@@ -11,7 +11,7 @@
 
 #include "tools/cli/output.h"
 
-/* --- Pairs of bodies ------------------------------------------------------------------------ */
+/* --- Pairs of bodies -------------------------------------------------------------------------- */
 
 static int by_proof(const void *x, const void *y)
 {
@@ -115,7 +115,8 @@ static int weight(imp_reason reason)
     return reason == IMP_REASON_NONE ? 1 : 0;
 }
 
-/* Lemma. What holds of each part holds of all: the least of the lower bounds, and any upper bound. */
+/* Lemma. What holds of each part holds of all: the least of the lower bounds, and any upper
+ * bound. */
 static imp_clearance join_brackets(const clearance_table *table)
 {
     imp_clearance all = table->answers[0];

@@ -50,7 +50,7 @@ static bool touches(const imp_clearance *r, double gamma)
     return r->verdict == IMP_REQUIREMENT_NONE && r->has_witness && r->upper <= gamma;
 }
 
-/* --- The first line ----------------------------------------------------------------------- */
+/* --- The first line --------------------------------------------------------------------------- */
 
 static void print_nearest(const imp_scene *scene, const imp_clearance *r)
 {

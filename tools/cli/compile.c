@@ -33,7 +33,7 @@ static const language *language_of(const char *source)
 
 bool compile_knows(const char *source) { return language_of(source) != NULL; }
 
-/* --- The command line ------------------------------------------------------------- */
+/* --- The command line ------------------------------------------------------------------------- */
 
 #define WORDS_MAX 250
 
@@ -105,7 +105,7 @@ static void clear(command *c)
     free(c->include);
 }
 
-/* --- What the compiler says ------------------------------------------------------- */
+/* --- What the compiler says ------------------------------------------------------------------- */
 
 /* The line that holds `mark`, or the first line if mark is NULL. Cuts `said` there. */
 static const char *line_with(char *said, const char *mark)

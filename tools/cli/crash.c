@@ -28,7 +28,7 @@ _Noreturn static void leave(int status)
     for (;;) syscall(SYS_exit_group, status);
 }
 
-/* --- What is said; only calls that are safe in a signal handler --------------------------------- */
+/* --- What is said; only calls that are safe in a signal handler ------------------------------- */
 
 typedef struct line {
     char text[1 << 13];
@@ -77,7 +77,7 @@ _Noreturn static void end_with(const line *what)
     leave(EXIT_PLUGIN);
 }
 
-/* --- Whose fault it is ---------------------------------------------------------------------------- */
+/* --- Whose fault it is ------------------------------------------------------------------------ */
 
 /* While a plugin is loaded or unloaded its path stands for the type. */
 static bool is_path(const char *type) { return type[0] == '/'; }
@@ -154,9 +154,9 @@ static const char *plugin_at(void *address)
     return info.dli_fname;
 }
 
-/* Code of a plugin also runs outside of its callbacks: in threads that it has left, in destructors of
- * thread-local data, in handlers. Looking at the stack is not safe in a handler, but the process is lost
- * anyway; should the look hang, the alarm ends it. */
+/* Code of a plugin also runs outside of its callbacks: in threads that it has left, in destructors
+ * of thread-local data, in handlers. Looking at the stack is not safe in a handler, but the process
+ * is lost anyway; should the look hang, the alarm ends it. */
 static void blame_if_on_stack(void)
 {
     enum { FRAMES = 64, SECONDS = 5 };

@@ -6,12 +6,13 @@
 #include <stdbool.h>
 
 /* When a plugin crashes, also in a thread that it has left, or exits in the middle of its work, the
- * command says which one and in what callback, and ends with EXIT_PLUGIN; with `json` also by an object
- * {"error": text} on standard output. A crash anywhere else ends the process by its signal. */
+ * command says which one and in what callback, and ends with EXIT_PLUGIN; with `json` also by an
+ * object {"error": text} on standard output. A crash anywhere else ends the process by its
+ * signal. */
 void crash_prepare(bool json);
 
-/* A handler for signals by which the user ends the command: says in whose callbacks the threads are, in
- * case one hangs, and lets the signal end the process. SIGQUIT has it from the beginning,
+/* A handler for signals by which the user ends the command: says in whose callbacks the threads
+ * are, in case one hangs, and lets the signal end the process. SIGQUIT has it from the beginning,
  * unless it is ignored. */
 void crash_interrupted(int number);
 

@@ -5,8 +5,8 @@
 
 #include <stddef.h>
 
-/* Threads that the command lends to a query (imp_options.parallel): they and the thread that calls take
- * one piece of work after the other. Where no thread can be started the caller does all. */
+/* Threads that the command lends to a query (imp_options.parallel): they and the thread that calls
+ * take one piece of work after the other. Where no thread can be started the caller does all. */
 
 typedef struct crew {
     size_t threads; /* the caller's included */

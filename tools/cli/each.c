@@ -67,8 +67,8 @@ typedef struct timed {
     size_t part;
 } timed;
 
-/* While lines are printed. What stays clear without a search has the same line for any two bodies but
- * for their names: it is made once, in two halves. */
+/* While lines are printed. What stays clear without a search has the same line for any two bodies
+ * but for their names: it is made once, in two halves. */
 struct printing {
     each *e;
     bool json;
@@ -180,8 +180,8 @@ static bool advance(void *context, double t_lower)
     return p->status == EXIT_ANSWERED;
 }
 
-/* Whether lines are left out: with hundreds of millions of them output would take longer than the search.
- * The clock is read now and then. */
+/* Whether lines are left out: with hundreds of millions of them output would take longer than the
+ * search. The clock is read now and then. */
 static bool is_cut(printing *p)
 {
     enum { LINES_TO_LOOK = 256 };

@@ -10,9 +10,9 @@
 /* solve --each: the first contact of each pair of bodies
  * ==================================================
  * What is not clear comes in order of time, then by the bodies' places in the scene; what is clear
- * follows in the order of the scene. Bodies that the broad phase parts have the answer of the divided
- * query. Pairs of bodies that were not examined, or not listed, when a limit or a signal came are counted in
- * one last line. */
+ * follows in the order of the scene. Bodies that the broad phase parts have the answer of the
+ * divided query. Pairs of bodies that were not examined, or not listed, when a limit or a signal
+ * came are counted in one last line. */
 
 typedef struct printing printing;
 
@@ -26,8 +26,8 @@ typedef struct each {
     printing *printing;  /* while it lasts */
 } each;
 
-/* Divides the scene by so many threads; its parts may then be solved, by as many (parts.h). The struct
- * stays where it is until each_end. Complains of what is wrong. */
+/* Divides the scene by so many threads; its parts may then be solved, by as many (parts.h). The
+ * struct stays where it is until each_end. Complains of what is wrong. */
 exit_status each_begin(each *e, imp_scene *scene, const arguments *args, size_t threads);
 
 /* Prints all answers, those of the parts being there. The exit status is that of the worst. */

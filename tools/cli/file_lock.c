@@ -42,8 +42,8 @@ static exit_status take(const file_lock *lock, int fd)
     }
 }
 
-/* Whether the open file has that name still: who had it locked before us may have renamed or removed
- * it. */
+/* Whether the open file has that name still: who had it locked before us may have renamed or
+ * removed it. */
 static bool has_name(const struct stat *is, const char *name)
 {
     struct stat named;

@@ -8,8 +8,8 @@
 /* SIGINT and SIGTERM end a search, not its answer
  * ===============================================
  * Queries ask interrupt_came about ten times a second (imp_options.progress) and end with what is
- * proved so far. A second signal of the same kind ends the process as usual, and a message names the
- * callback that may hang. */
+ * proved so far. A second signal of the same kind ends the process as usual, and a message names
+ * the callback that may hang. */
 
 /* From now on signals are taken. Before, they end the process: nothing is proved yet. */
 void interrupt_prepare(void);

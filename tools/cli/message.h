@@ -26,8 +26,8 @@ typedef enum exit_status {
 } exit_status;
 
 /* A text with its control characters, C1 included, and bytes that are no UTF-8 written as \x1b, so
- * that names of files neither forge lines nor steer a terminal; a line break is \n. What does not fit
- * is cut. [async-signal-safe] */
+ * that names of files neither forge lines nor steer a terminal; a line break is \n. What does not
+ * fit is cut. [async-signal-safe] */
 typedef struct message_text {
     char text[4096];
 } message_text;
@@ -36,7 +36,8 @@ message_text message_shown(const char *text);
 /* The status for an error the library returned. */
 exit_status status_of_code(imp_code code);
 
-/* Of several processes that find the same fault one complains; the others only answer the status. */
+/* Of several processes that find the same fault one complains; the others only answer the
+ * status. */
 void complain_aloud(bool aloud);
 
 /* Writes "impinge: VERB: text" (or "impinge: text" where verb is NULL) and returns `status`.
@@ -47,8 +48,8 @@ exit_status complain(exit_status status, const char *verb, const char *format, .
 /* Writes a line like those of complain about what is no error of the command. */
 void remark(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The text of the first complaint with the status of an error (2 or from 4 on), or NULL: with --json it
- * becomes the object {"error": text} (output_finish). */
+/* The text of the first complaint with the status of an error (2 or from 4 on), or NULL: with
+ * --json it becomes the object {"error": text} (output_finish). */
 const char *complain_first(void);
 
 /* Its text, or that of its code. */

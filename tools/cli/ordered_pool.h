@@ -10,7 +10,8 @@
  * ================================================================================
  * One thread, the owner, fills items and submits them; workers work on them in any order; each item
  * is finished in the order of submission, one at a time, as soon as those before it are. The number
- * of items is fixed, so that an endless stream runs in constant memory: the owner waits for room. */
+ * of items is fixed, so that an endless stream runs in constant memory: the owner waits for
+ * room. */
 
 typedef struct ordered_pool_plan {
     size_t threads; /* >= 1 */

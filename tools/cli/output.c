@@ -33,7 +33,8 @@ static exit_status complain_of_output(const char *verb)
 {
     const int error = errno;
     static bool complained;
-    if (error == EPIPE || complained) return EXIT_DATA; /* EPIPE: nobody reads, as behind `| head` */
+    if (error == EPIPE || complained)
+        return EXIT_DATA; /* EPIPE: nobody reads, as behind `| head` */
     complained = true;
     return complain(EXIT_DATA, verb, "standard output: %s", system_error_text(error));
 }
@@ -89,8 +90,8 @@ const char *output_colour(output_tint tint)
 static size_t number_length(const char *text) { return strspn(text, "+-.0123456789eE"); }
 
 /* The number that `from` begins with to `to`, in the fewest digits that read back exactly. Answers
- * the characters written: at most those read. A text of up to 15 characters is one of 15 digits already,
- * perhaps with a ".0" that Jansson adds to whole numbers. */
+ * the characters written: at most those read. A text of up to 15 characters is one of 15 digits
+ * already, perhaps with a ".0" that Jansson adds to whole numbers. */
 static size_t write_shortest(const char *from, char *to)
 {
     const size_t length = number_length(from);
@@ -130,8 +131,8 @@ static void shorten_numbers(char *text)
     *to = '\0';
 }
 
-/* The next character that steers a terminal and that Jansson writes as it is: DEL, or one of C1 (U+0080 to
- * U+009F), which is two bytes in UTF-8. NULL: there is none. */
+/* The next character that steers a terminal and that Jansson writes as it is: DEL, or one of C1
+ * (U+0080 to U+009F), which is two bytes in UTF-8. NULL: there is none. */
 static const char *next_control(const char *text)
 {
     while ((text = strpbrk(text, "\x7f\xc2")) != NULL && *text == '\xc2' &&

@@ -9,8 +9,9 @@
 
 /* Standard output, with nothing lost in silence
  * =============================================
- * A full disk is an error of the command, told; a pipe whose reader has left ends it quietly. Print with
- * stdio as usual; call output_finish before exit, or output_flush after each line of a stream. */
+ * A full disk is an error of the command, told; a pipe whose reader has left ends it quietly. Print
+ * with stdio as usual; call output_finish before exit, or output_flush after each line of a
+ * stream. */
 
 /* To be called first of all: closed standard streams are opened so that no file of ours lands on
  * their numbers while writing to them still fails, and a closed pipe is an error, not a signal.
@@ -39,8 +40,8 @@ typedef enum output_tint {
 } output_tint;
 const char *output_colour(output_tint tint);
 
-/* Prints the object on one line, numbers with 17 digits and all control characters escaped, and drops the
- * reference. NULL: memory ran out when it was made. */
+/* Prints the object on one line, numbers with 17 digits and all control characters escaped, and
+ * drops the reference. NULL: memory ran out when it was made. */
 exit_status output_json(json_t *object, const char *verb);
 
 /* The same line as text, which the caller frees; [any thread]. NULL: no memory. */

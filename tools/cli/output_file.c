@@ -37,7 +37,7 @@ static exit_status fail(output_file *out, int error)
     return status;
 }
 
-/* --- Writing ------------------------------------------------------------------------------------- */
+/* --- Writing ---------------------------------------------------------------------------------- */
 
 /* Called by stdio, which keeps only the fact that a write failed. */
 static ssize_t write_some(void *cookie, const char *text, size_t length)
@@ -66,7 +66,7 @@ static exit_status begin_file(output_file *out, int fd)
     return out->file != NULL ? EXIT_ANSWERED : fail(out, ENOMEM);
 }
 
-/* --- Drafts -------------------------------------------------------------------------------------- */
+/* --- Drafts ----------------------------------------------------------------------------------- */
 
 /* The file that is replaced hands on its mode and, if root replaces it, its owner. */
 static void copy_mode(int fd, const struct stat *there)
@@ -100,7 +100,7 @@ static exit_status begin_draft(output_file *out, const output_target *target)
     return EXIT_ANSWERED;
 }
 
-/* --- Both ---------------------------------------------------------------------------------------- */
+/* --- Both ------------------------------------------------------------------------------------- */
 
 /* Descriptors of our own are closed on exec; those that the caller handed down are not. */
 static int copy_descriptor(int number)

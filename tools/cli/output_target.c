@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* --- Names of descriptors ------------------------------------------------------------------------ */
+/* --- Names of descriptors --------------------------------------------------------------------- */
 
 /* The descriptor that the name stands for, or -1. These names are links that lead nowhere, or to a
  * file that must not be replaced, so they are known by their spelling. */
@@ -31,9 +31,10 @@ static int descriptor_of(const char *path)
     return -1;
 }
 
-/* --- Links --------------------------------------------------------------------------------------- */
+/* --- Links ------------------------------------------------------------------------------------ */
 
-/* Where the link leads, relative to the folder it is in; NULL: no link (errno EINVAL), or an error. */
+/* Where the link leads, relative to the folder it is in; NULL: no link (errno EINVAL), or an
+ * error. */
 static char *read_link(const char *path)
 {
     char text[PATH_MAX], *to;
@@ -61,7 +62,7 @@ static char *follow_links(const char *path)
     return NULL;
 }
 
-/* --- What is there --------------------------------------------------------------------------------- */
+/* --- What is there ---------------------------------------------------------------------------- */
 
 static output_target refused(int error)
 {

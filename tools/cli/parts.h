@@ -18,11 +18,11 @@ typedef struct parts_plan {
     size_t count;     /* of its parts */
     size_t threads;
     void (*take)(void *context, size_t index, imp_query *part); /* [any of the threads] */
-    /* Called as the search goes on, no take being under way: parts whose answers are not taken yet are
-     * proved clear before t_lower. False: stop. May be NULL. [one thread] */
+    /* Called as the search goes on, no take being under way: parts whose answers are not taken yet
+     * are proved clear before t_lower. False: stop. May be NULL. [one thread] */
     bool (*advance)(void *context, double t_lower);
-    /* Whether parts that have not begun are left out from now on, without an answer: a limit of all parts is
-     * reached. May be NULL. [any of the threads] */
+    /* Whether parts that have not begun are left out from now on, without an answer: a limit of all
+     * parts is reached. May be NULL. [any of the threads] */
     bool (*is_over)(void *context);
     void *context;
 } parts_plan;
@@ -30,9 +30,9 @@ typedef struct parts_plan {
 /* Solves part `index` and has its answer taken. [any thread] */
 imp_code parts_solve(const parts_plan *plan, size_t index, imp_error *error);
 
-/* Solves all parts. With `advance` they take turns, a slice of pairs each, so that a hard part does not
- * delay the answers of the others. The error is that of the first part that fails, by turns and in the
- * order of the scene. */
+/* Solves all parts. With `advance` they take turns, a slice of pairs each, so that a hard part does
+ * not delay the answers of the others. The error is that of the first part that fails, by turns and
+ * in the order of the scene. */
 imp_code parts_run(const parts_plan *plan, imp_error *error);
 
 #endif

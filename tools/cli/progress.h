@@ -7,9 +7,10 @@
 
 /* How far a long answer has come, on standard error
  * =================================================
- * For people: one line that is written over, from the command's second second on, where standard error
- * is a terminal. For programs (--progress=json): one JSON object a line, the first at once, then at
- * most two a second, and the last count at the end. Functions that show may be called by any thread. */
+ * For people: one line that is written over, from the command's second second on, where standard
+ * error is a terminal. For programs (--progress=json): one JSON object a line, the first at once,
+ * then at most two a second, and the last count at the end. Functions that show may be called by
+ * any thread. */
 
 typedef enum progress_mode { PROGRESS_AUTO, PROGRESS_JSON, PROGRESS_NONE } progress_mode;
 
@@ -23,11 +24,12 @@ bool progress_is_wanted(void);
 /* Any text; for people alone. */
 void progress_show(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* One search: pairs tested and waiting, and what is proved or found so far. Nothing while answers are
- * counted. */
+/* One search: pairs tested and waiting, and what is proved or found so far. Nothing while answers
+ * are counted. */
 void progress_search(const imp_progress *progress);
 
-/* Answers are counted from now on; `done` of them were there before. total 0: unknown. `noun` is kept. */
+/* Answers are counted from now on; `done` of them were there before. total 0: unknown. `noun` is
+ * kept. */
 void progress_count_from(uint64_t done, uint64_t total, const char *noun);
 void progress_count(uint64_t done);
 

@@ -16,7 +16,7 @@
 #include "core/common/system_error.h"
 #include "tools/cli/input.h"
 
-/* --- Texts ------------------------------------------------------------------------ */
+/* --- Texts ------------------------------------------------------------------------------------ */
 
 /* The row whose @word@ the text begins with, or NULL. */
 static const project_word *word_at(const char *text, const project_word *words)
@@ -75,7 +75,7 @@ static char *text_of(const char *template, const project_word *words, const char
     return text;
 }
 
-/* --- The folder ------------------------------------------------------------------- */
+/* --- The folder ------------------------------------------------------------------------------- */
 
 static bool is_empty(DIR *directory)
 {
@@ -108,7 +108,7 @@ static exit_status open_folder(const char *folder, bool *made, int *at, const ch
     return status;
 }
 
-/* --- The files -------------------------------------------------------------------- */
+/* --- The files -------------------------------------------------------------------------------- */
 
 /* The folder part of a path in the project, or "" for none. */
 static void folder_of(const char *path, char folder[64])

@@ -4,10 +4,10 @@
 
 #include "tools/cli/query.h"
 
+#include <math.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <math.h>
 #include <string.h>
 
 #include "tools/cli/build_tree.h"
@@ -223,7 +223,8 @@ static exit_status answer(imp_scene *scene, const arguments *args)
     imp_options options = query_options(scene, args);
     crew threads = {query_threads_asked(args)};
     query_lend_threads(&options, &threads);
-    if (solve(scene, &options, &result, &error) != IMP_SUCCESS) return complain_of(&error, args->verb->name);
+    if (solve(scene, &options, &result, &error) != IMP_SUCCESS)
+        return complain_of(&error, args->verb->name);
     const exit_status printed = query_print(scene, &result, args);
     return printed != EXIT_ANSWERED ? printed : query_status(&result, args);
 }

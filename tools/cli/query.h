@@ -14,18 +14,19 @@
  * should not be trusted; complains and answers NULL when memory runs out. */
 imp_registry *query_registry(const arguments *args);
 
-/* Frees it and warns of isolated types whose destroy crashed or did not return. NULL is accepted. */
+/* Frees it and warns of isolated types whose destroy crashed or did not return. NULL is
+ * accepted. */
 void query_registry_free(imp_registry *registry);
 
-/* As query_registry, with `path` (colon-separated directories, may be NULL) in place of --plugin-path, and
- * the flags of imp_registry_open. */
+/* As query_registry, with `path` (colon-separated directories, may be NULL) in place of
+ * --plugin-path, and the flags of imp_registry_open. */
 imp_registry *query_registry_first(const char *path, unsigned flags, const char *verb);
 
 /* Checks of the options that concern more than one of them. */
 exit_status query_check(const arguments *args);
 
-/* What the scene asks for, overridden by what the command line says. Times that neither names and the
- * scene does not have are NAN, which queries refuse. */
+/* What the scene asks for, overridden by what the command line says. Times that neither names and
+ * the scene does not have are NAN, which queries refuse. */
 imp_options query_options(const imp_scene *scene, const arguments *args);
 
 /* Complains of such times, for verbs that need them before they ask anything. */
@@ -46,7 +47,8 @@ size_t query_threads(const arguments *args);
 /* The same, but 1 without --threads. */
 size_t query_threads_asked(const arguments *args);
 
-/* Has a query use the threads of the crew, if it has more than one; the crew must outlive the query. */
+/* Has a query use the threads of the crew, if it has more than one; the crew must outlive the
+ * query. */
 void query_lend_threads(imp_options *options, crew *c);
 
 /* The exit status a result stands for. */
@@ -62,8 +64,8 @@ exit_status query_answer(imp_scene *scene, const imp_error *error, const argumen
 /* The same for a scene file. */
 exit_status query_answer_file(imp_registry *registry, const char *path, const arguments *args);
 
-/* The scene that the operands name: a file, '-' for standard input, or two pipelines. NULL: *complained
- * tells whether the user knows why already, or `error` does. */
+/* The scene that the operands name: a file, '-' for standard input, or two pipelines. NULL:
+ * *complained tells whether the user knows why already, or `error` does. */
 imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *complained,
                        imp_error *error);
 

@@ -18,7 +18,7 @@ json_t *result_json(const imp_scene *scene, const imp_result *result);
 /* "clear", "contact", "undecided". */
 const char *result_verdict_name(imp_verdict verdict);
 
-/* --- Parts of both, for other answers ----------------------------------------------------- */
+/* --- Parts of both, for other answers --------------------------------------------------------- */
 
 /* Lines behind the first begin with a label. */
 void result_print_label(const char *label);

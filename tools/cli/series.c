@@ -26,7 +26,7 @@ const option options_series[] = {
      .help = "answer at each of these ever smaller gammas, from one search"},
     {.name = NULL}};
 
-/* --- Gammas --------------------------------------------------------------------------------- */
+/* --- Gammas ----------------------------------------------------------------------------------- */
 
 /* The number at *text, which is moved behind it and a comma; NAN: there is none that is allowed. */
 static double next_gamma(const char **text, double before)

@@ -16,7 +16,8 @@
 /* One for the process, as stdout is. */
 static struct {
     int descriptor;
-    struct stat file; /* what the descriptor was opened on: a plugin may close it, or open another */
+    struct stat
+        file; /* what the descriptor was opened on: a plugin may close it, or open another */
     pid_t owner;
     bool is_terminal, is_replaced;
     int error; /* errno of a write that failed and was not reported yet; 0: none */
@@ -104,8 +105,9 @@ static ssize_t take(void *unused, const char *text, size_t length)
 
 static bool open_stream(void);
 
-/* Only a plugin closes the stream (fclose, freopen): then there is a new one, and what the plugin prints
- * into the old one is lost. Where there is no memory for it, the answer is, which is told. */
+/* Only a plugin closes the stream (fclose, freopen): then there is a new one, and what the plugin
+ * prints into the old one is lost. Where there is no memory for it, the answer is, which is
+ * told. */
 static int reopen(void *unused)
 {
     (void)unused;

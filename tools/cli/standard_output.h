@@ -27,8 +27,8 @@ bool standard_output_flush(void);
 /* Whether standard_output_replace was called: the text goes to a file of the user's. */
 bool standard_output_is_replaced(void);
 
-/* Writes the text at once, and drops what has been collected: a process that crashes prints no more.
- * [async-signal-safe] */
+/* Writes the text at once, and drops what has been collected: a process that crashes prints no
+ * more. [async-signal-safe] */
 void standard_output_write_at_crash(const char *text, size_t length);
 
 bool standard_output_is_terminal(void);

@@ -40,7 +40,7 @@ static bool join(char *path, size_t size, const char *folder, const char *name)
     return length > 0 && (size_t)length < size;
 }
 
-/* --- Where it goes ---------------------------------------------------------------- */
+/* --- Where it goes ---------------------------------------------------------------------------- */
 
 /* As core/plugin/search_path.h has it. */
 static bool user_folder(char *folder, size_t size)
@@ -105,7 +105,7 @@ static exit_status make_trial(building *b)
     return complain(EXIT_DATA, b->verb, "%s: %s", b->folder, system_error_text(errno));
 }
 
-/* --- Does the loader take it? ----------------------------------------------------- */
+/* --- Does the loader take it? ----------------------------------------------------------------- */
 
 /* A reason may name the file that it speaks of; in `trial` nobody will find it. */
 static exit_status refused_for(const char *reason, const building *b)
@@ -171,7 +171,7 @@ static exit_status try_plugin(const building *b, const char *file, const char *t
     return status;
 }
 
-/* --- All of it -------------------------------------------------------------------- */
+/* --- All of it -------------------------------------------------------------------------------- */
 
 static exit_status build_in_trial(const building *b, const char *file, const char *target)
 {

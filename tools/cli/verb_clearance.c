@@ -29,7 +29,7 @@ typedef struct measuring {
     size_t count, told;  /* how many there are, and how many slices have been printed */
 } measuring;
 
-/* --- What is asked ------------------------------------------------------------------------ */
+/* --- What is asked ---------------------------------------------------------------------------- */
 
 /* Two operands are surfaces; a file beside something else is often a forgotten "--require". */
 static exit_status check_operands(const arguments *args)
@@ -70,7 +70,7 @@ static imp_clearance_options asked_for(const arguments *args)
     return asked;
 }
 
-/* --- While it runs -------------------------------------------------------------------------- */
+/* --- While it runs ---------------------------------------------------------------------------- */
 
 static exit_status tell_slice(const measuring *m, const imp_clearance *slice)
 {

@@ -47,7 +47,7 @@ static size_t refusal_count(const imp_registry *registry)
     return count;
 }
 
-/* --- For people ------------------------------------------------------------------ */
+/* --- For people ------------------------------------------------------------------------------- */
 
 static int longer(int width, const char *text)
 {
@@ -121,7 +121,7 @@ static void print_refusals(const imp_registry *registry)
     if (refusal_count(registry) == 0) puts("Nothing was rejected.");
 }
 
-/* --- For programs ------------------------------------------------------------------ */
+/* --- For programs ----------------------------------------------------------------------------- */
 
 static json_t *types_json(const type_list *list)
 {

@@ -41,7 +41,7 @@ static const project_kind map_project = {
     "sphere radius=0.5 center=4,0,2 ! translate velocity=-4,0,0",
     "x+slope*z*sin(rate*t); y; z"};
 
-/* --- May it be called that? ------------------------------------------------------- */
+/* --- May it be called that? ------------------------------------------------------------------- */
 
 static exit_status check_name(const char *name, const char *speaker)
 {
@@ -77,7 +77,7 @@ static exit_status check_is_free(const project_kind *kind, const arguments *args
     return status;
 }
 
-/* --- Words of the project --------------------------------------------------------- */
+/* --- Words of the project --------------------------------------------------------------------- */
 
 /* The full name of whoever asks, as far as it can stand in a comment and in a string of C. */
 static void find_author(char author[128])
@@ -120,7 +120,7 @@ static exit_status write_project(const project_kind *kind, const char *folder, c
     return project_write(folder, files, words, args->verb->name);
 }
 
-/* --- What to do with it ----------------------------------------------------------- */
+/* --- What to do with it ----------------------------------------------------------------------- */
 
 /* How a shell finds this command: by its name if PATH leads to it, else by its path. */
 static char *command_word(void)
@@ -171,8 +171,8 @@ static exit_status print_commands(const project_kind *kind, const char *folder, 
                "  %s check %s\n"
                "  %s pair %s %s\n\n"
                "Its mathematics is in %s.c. The guide: " SDKDOCDIR "/README\n",
-               message_shown(folder).text, kind->called, at, rest, command, args->operands[0], command, word_a, word_b,
-               args->operands[0]);
+               message_shown(folder).text, kind->called, at, rest, command, args->operands[0],
+               command, word_a, word_b, args->operands[0]);
     if (build_tree_data() != NULL)
         puts("First install Impinge itself: this command runs from the folder it was built in.");
     free(at), free(command), free(rest), free(word_a), free(word_b);

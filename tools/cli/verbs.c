@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/cli/verbs.h"
 #include "core/common/spelling.h"
+#include "tools/cli/verbs.h"
 
 #include <string.h>
 

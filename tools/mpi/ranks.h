@@ -9,9 +9,10 @@
 
 /* impinge-mpi: batch and solve --each by the processes (ranks) of an MPI run
  * ==========================================================================
- * Work is numbered; each rank takes the next number from a counter on rank 0 when it is done with the one
- * before (one-sided), so that a slow scene holds up nobody. Answers are those of `impinge`, byte for
- * byte but for seconds. Functions here are called by all ranks together, unless they say otherwise. */
+ * Work is numbered; each rank takes the next number from a counter on rank 0 when it is done with
+ * the one before (one-sided), so that a slow scene holds up nobody. Answers are those of `impinge`,
+ * byte for byte but for seconds. Functions here are called by all ranks together, unless they say
+ * otherwise. */
 
 enum { FIRST_RANK = 0 };
 
@@ -21,7 +22,7 @@ int ranks_count(void);
 /* The greatest of all ranks' statuses. */
 exit_status ranks_worst(exit_status status);
 
-/* --- The counter ------------------------------------------------------------------------------- */
+/* --- The counter ------------------------------------------------------------------------------ */
 
 typedef struct ranks_counter {
     MPI_Win window;
@@ -34,7 +35,7 @@ void ranks_counter_close(ranks_counter *counter);
 /* The next number. [by one rank alone] */
 int64_t ranks_counter_next(ranks_counter *counter);
 
-/* --- Verbs ------------------------------------------------------------------------------------- */
+/* --- Verbs ------------------------------------------------------------------------------------ */
 
 /* Each answers the exit status of the whole on the first rank. */
 exit_status ranks_batch(const arguments *args);

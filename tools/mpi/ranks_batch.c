@@ -12,11 +12,11 @@
 #include "tools/cli/verbs.h"
 #include "tools/mpi/ranks.h"
 
-/* Scenes that have no answer yet are numbered from 0, and taken from the counter. Every rank reads the
- * whole input, and solves what it takes. Answers go to the file block by block: when a block's scenes
- * are all solved, their lengths tell each rank where its own answers stand. So the file always holds all
- * answers up to some scene, and perhaps, when a rank has died, places of the next block that were
- * never written, which --resume takes for torn. */
+/* Scenes that have no answer yet are numbered from 0, and taken from the counter. Every rank reads
+ * the whole input, and solves what it takes. Answers go to the file block by block: when a block's
+ * scenes are all solved, their lengths tell each rank where its own answers stand. So the file
+ * always holds all answers up to some scene, and perhaps, when a rank has died, places of the next
+ * block that were never written, which --resume takes for torn. */
 
 enum { BLOCK_PER_RANK = 64 };
 
@@ -139,13 +139,12 @@ static exit_status do_blocks(ranked_batch *r)
 
 /* --- The output ------------------------------------------------------------------------------- */
 
-/* The first rank locks the output, compares ids when it reads the input, and then cuts off what is torn; the others pass
- * over as many scenes as there are answers. */
+/* The first rank locks the output, compares ids when it reads the input, and then cuts off what is
+ * torn; the others pass over as many scenes as there are answers. */
 static exit_status open_output(ranked_batch *r, const char *path)
 {
     exit_status status = EXIT_ANSWERED;
-    if (ranks_own() == FIRST_RANK)
-        status = batch_resume_open(&r->b.resume, path, r->b.args, false);
+    if (ranks_own() == FIRST_RANK) status = batch_resume_open(&r->b.resume, path, r->b.args, false);
     status = ranks_worst(status);
     if (status != EXIT_ANSWERED) return status;
     int64_t known[2] = {(int64_t)r->b.resume.end, (int64_t)r->b.resume.answers};

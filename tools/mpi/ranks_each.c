@@ -12,8 +12,8 @@
 
 /* --- Parts ------------------------------------------------------------------------------------ */
 
-/* Takes parts until there are none. Answers the number of the first that failed here, with its error,
- * or the count. */
+/* Takes parts until there are none. Answers the number of the first that failed here, with its
+ * error, or the count. */
 static int64_t solve_parts(const each *e, ranks_counter *counter, imp_error *error)
 {
     const int64_t count = (int64_t)e->plan.count;

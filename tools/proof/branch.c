@@ -52,7 +52,7 @@ static int count_bits(uint32_t mask)
     return count;
 }
 
-/* --- One box -------------------------------------------------------------------------------- */
+/* --- One box ---------------------------------------------------------------------------------- */
 
 static bool is_outside(ld_interval x, ld_interval limits)
 {

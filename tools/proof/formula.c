@@ -27,7 +27,7 @@ void formula_free(formula *f)
     free(f);
 }
 
-/* --- Computing ------------------------------------------------------------------------------ */
+/* --- Computing -------------------------------------------------------------------------------- */
 
 static jet joined(const step *s, const jet *x, const jet *y)
 {

@@ -15,7 +15,7 @@ jet jet_variable(int n, int j, ld_interval where)
     return x;
 }
 
-/* --- Sums and products ---------------------------------------------------------------------- */
+/* --- Sums and products ------------------------------------------------------------------------ */
 
 jet jet_neg(const jet *x)
 {
@@ -73,7 +73,7 @@ jet jet_mul(const jet *x, const jet *y)
     return r;
 }
 
-/* --- Functions of one number ---------------------------------------------------------------- */
+/* --- Functions of one number ------------------------------------------------------------------ */
 
 /* g(x)'' = g'' x' x' + g' x''. What x does not depend on stays 0, however steep g is. */
 static jet composed(const jet *x, const ld_interval g[3])
@@ -98,7 +98,7 @@ jet jet_apply(jet_function *g, const jet *x)
     return composed(x, values);
 }
 
-/* --- Functions of several ------------------------------------------------------------------- */
+/* --- Functions of several --------------------------------------------------------------------- */
 
 static void inverse_(ld_interval x, ld_interval g[3])
 {
@@ -168,8 +168,8 @@ static jet fixed_power(const jet *x, ld_interval k)
     return composed(x, (ld_interval[3]){ld_interval_power(x->v, k), slope, bend});
 }
 
-/* An exponent known with an error, or one that varies, may be whole, and then negative numbers have a power
- * too. */
+/* An exponent known with an error, or one that varies, may be whole, and then negative numbers have
+ * a power too. */
 static bool may_be_whole(ld_interval k) { return floorl(k.hi) >= k.lo; }
 
 /* x^k for fixed k, whole or not; else exp(y log x). */
@@ -244,7 +244,7 @@ jet jet_copysign(const jet *x, const jet *y)
     return r;
 }
 
-/* --- Over a box ----------------------------------------------------------------------------- */
+/* --- Over a box ------------------------------------------------------------------------------- */
 
 /* At least a x + b x^2 for |x| <= r. Lemma: it is at most |a| |x| + b.hi x^2, which grows with |x|
  * if b.hi >= 0 or 2 |b.hi| r <= |a|, and else is greatest at |x| = |a| / (2 |b.hi|). */

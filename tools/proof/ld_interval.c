@@ -10,8 +10,9 @@
 /* --- Rounding outward -----------------------------------------------------------------------
  *
  * Lemma. Let x be the long double nearest to z: |z - x| <= 1/2 LDBL_EPSILON |x|, or LDBL_MIN where
- * it underflows. x - LDBL_EPSILON |x| - LDBL_MIN, itself rounded by no more than another
- * 1/2 LDBL_EPSILON |x|, is no greater than z. Infinity less infinity is NaN, which ld_interval_make opens.
+ * it underflows. x - LDBL_EPSILON |x| - LDBL_MIN, itself rounded by no more than another 1/2
+ * LDBL_EPSILON |x|, is no greater than z. Infinity less infinity is NaN, which ld_interval_make
+ * opens.
  *
  * What libm computes is trusted to 8 units in the last place, 8 LDBL_EPSILON |x|; glibc's are
  * within 4. The code uses twice the trusted value. */
@@ -77,7 +78,7 @@ static long double product_up(long double a, long double b)
     return product_error(a, b, a * b) <= 0 ? a * b : up(a * b);
 }
 
-/* --- Construction and queries ---------------------------------------------------------------- */
+/* --- Construction and queries ----------------------------------------------------------------- */
 
 ld_interval ld_interval_make(long double lo, long double hi)
 {
@@ -129,7 +130,7 @@ ld_interval ld_interval_intersect(ld_interval x, ld_interval y)
 
 ld_interval ld_interval_plus_minus(long double size) { return ld_interval_make(-size, size); }
 
-/* --- Arithmetic ----------------------------------------------------------------------------- */
+/* --- Arithmetic ------------------------------------------------------------------------------- */
 
 ld_interval ld_interval_neg(ld_interval x) { return (ld_interval){-x.hi, -x.lo}; }
 
@@ -217,7 +218,7 @@ ld_interval ld_interval_max(ld_interval x, ld_interval y)
     return ld_interval_make(larger(x.lo, y.lo), larger(x.hi, y.hi));
 }
 
-/* --- Functions that grow -------------------------------------------------------------------- */
+/* --- Functions that grow ---------------------------------------------------------------------- */
 
 static ld_interval growing(ld_interval x, long double (*g)(long double))
 {
@@ -269,7 +270,7 @@ ld_interval ld_interval_cosh(ld_interval x)
 
 ld_interval ld_interval_tanh(ld_interval x) { return within(growing(x, tanhl), -1, 1); }
 
-/* --- Waves ---------------------------------------------------------------------------------- */
+/* --- Waves ------------------------------------------------------------------------------------ */
 
 #define TURN 6.28318530717958647692528676655900577L
 #define ANGLE_MAX 0x1p40L /* beyond it, the phase is not computed */
@@ -308,7 +309,7 @@ ld_interval ld_interval_tan(ld_interval x)
     return pole ? ld_interval_entire() : growing(x, tanl);
 }
 
-/* --- Powers --------------------------------------------------------------------------------- */
+/* --- Powers ----------------------------------------------------------------------------------- */
 
 static ld_interval odd_power(ld_interval x, int n)
 {

@@ -8,7 +8,7 @@
 
 #include "tools/proof/polynomial.h"
 
-/* --- The region ----------------------------------------------------------------------------- */
+/* --- The region ------------------------------------------------------------------------------- */
 
 /* [-1, 1] where that is exact; else (lo - c) / d to (hi - c) / d, rounded outward. */
 static void find_whole(frame *f, int j)
@@ -32,7 +32,7 @@ frame frame_make(const branch_field *field, const branch_claims *claims)
     return f;
 }
 
-/* --- Views ---------------------------------------------------------------------------------- */
+/* --- Views ------------------------------------------------------------------------------------ */
 
 /* p = c + d s, and the region's: s may lie beyond it, by the rounding of its ends, where nothing is
  * claimed. `point` is one of the region near s. The result contains it, so that the lines from

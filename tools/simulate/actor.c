@@ -17,7 +17,7 @@ void actor_strip(json_t *body)
     for (const char *const *key = actor_keys; *key != NULL; ++key) json_object_del(body, *key);
 }
 
-/* --- Mass properties ------------------------------------------------------------------------- */
+/* --- Mass properties -------------------------------------------------------------------------- */
 
 static exit_status refuse_shape(value_place at, shape_verdict verdict, vec where,
                                 const imp_error *error)

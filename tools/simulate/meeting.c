@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- The scene of two bodies ----------------------------------------------------------------- */
+/* --- The scene of two bodies ------------------------------------------------------------------ */
 
 /* A copy of the body under its path. NULL: no memory. */
 static json_t *body_json(const searching *s, size_t body)
@@ -79,7 +79,7 @@ imp_code meeting_make_scene(searching *s, meeting *m)
     return m->scene != NULL ? IMP_SUCCESS : s->error.code;
 }
 
-/* --- Searches ---------------------------------------------------------------------------------- */
+/* --- Searches --------------------------------------------------------------------------------- */
 
 /* What is left of the budgets goes to each search. */
 static imp_code solve(searching *s, const meeting *m, double from, double to, double gamma,

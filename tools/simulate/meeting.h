@@ -7,27 +7,28 @@
 
 /* When two bodies meet next, with proof
  * =====================================
- * The promise: no two bodies are ever nearer than Gc, gamma_clear, and what is reported as contact is
- * no farther apart than G, gamma. After a contact the two are within G of each other, so that a
- * search with the same numbers would end where it begins. Hence a ladder of levels between Gc and G:
+ * The promise: no two bodies are ever nearer than Gc, gamma_clear, and what is reported as contact
+ * is no farther apart than G, gamma. After a contact the two are within G of each other, so that a
+ * search with the same numbers would end where it begins. Hence a ladder of levels between Gc and
+ * G:
  *
  *     h_k = (G - Gc) / 2^k,   gamma_k = Gc + h_k,   clear_k = Gc + 3/4 h_k
  *
- * A search at level k looks for gaps up to gamma_k and proves that no gap is below clear_k >= Gc. So
- * whatever the levels, searches that cover all times prove the promise. Lemma: when a search at level k
- * ends with a contact at t, the bodies are at least clear_k apart then (they were at all times before,
- * and move continuously), and clear_k = Gc + 3/2 h_(k+1) is above gamma_(k+1): the next search,
- * from t on at level k + 1, begins with no contact, and has h_(k+1) / 4 to prove it with. Whether a
- * level may begin at some time is itself asked of the library, for that moment alone, so it
- * rests on no memory: `meeting_level`.
+ * A search at level k looks for gaps up to gamma_k and proves that no gap is below clear_k >= Gc.
+ * So whatever the levels, searches that cover all times prove the promise. Lemma: when a search at
+ * level k ends with a contact at t, the bodies are at least clear_k apart then (they were at all
+ * times before, and move continuously), and clear_k = Gc + 3/2 h_(k+1) is above gamma_(k+1): the
+ * next search, from t on at level k + 1, begins with no contact, and has h_(k+1) / 4 to prove it
+ * with. Whether a level may begin at some time is itself asked of the library, for that moment
+ * alone, so it rests on no memory: `meeting_level`.
  *
- * Once the bodies have parted by more than G, the search goes on at level 0: at the middle of the time
- * until the contact at level k, if they are apart enough then. Up to there the search at level k has
- * proved its gamma_clear, from there on that of level 0 has.
+ * Once the bodies have parted by more than G, the search goes on at level 0: at the middle of the
+ * time until the contact at level k, if they are apart enough then. Up to there the search at level
+ * k has proved its gamma_clear, from there on that of level 0 has.
  *
- * Level LEVEL_LASTING is reached by bodies that met so often without parting by more than G. LEVEL_MAX
- * is the end: the margin clear_k - Gc, which also covers what rounding does to a trajectory when it is cut at
- * an event, is then (G - Gc) / 2^20. */
+ * Level LEVEL_LASTING is reached by bodies that met so often without parting by more than G.
+ * LEVEL_MAX is the end: the margin clear_k - Gc, which also covers what rounding does to a
+ * trajectory when it is cut at an event, is then (G - Gc) / 2^20. */
 
 enum { LEVEL_LASTING = 8, LEVEL_MAX = 20, LEVEL_NONE = LEVEL_MAX + 1 };
 
@@ -61,9 +62,9 @@ typedef struct searching {
 /* Makes the scene, unless it is made and not stale. Codes of the library; `error` says more. */
 imp_code meeting_make_scene(searching *s, meeting *m);
 
-/* The least level, from `least` on, at which a search may begin at t; LEVEL_NONE: the bodies are nearer
- * than all of them. *now: CONTACT with the two sides if the bodies are within the gap of a level tried,
- * UNDECIDED if a budget ended it, and then *level says nothing. The scene is made. */
+/* The least level, from `least` on, at which a search may begin at t; LEVEL_NONE: the bodies are
+ * nearer than all of them. *now: CONTACT with the two sides if the bodies are within the gap of a
+ * level tried, UNDECIDED if a budget ended it, and then *level says nothing. The scene is made. */
 imp_code meeting_level(searching *s, const meeting *m, double t, int least, int *level,
                        meeting *now);
 

@@ -8,15 +8,15 @@
 
 /* A rigid body between impacts
  * ============================
- * Its centre of mass follows a parabola. Its angular momentum is constant. Where the angular velocity
- * is along it (a principal axis, or equal moments of inertia), the spin is constant too; otherwise
- * the body turns in sub-steps of constant spin: orientations at their ends come from a
+ * Its centre of mass follows a parabola. Its angular momentum is constant. Where the angular
+ * velocity is along it (a principal axis, or equal moments of inertia), the spin is constant too;
+ * otherwise the body turns in sub-steps of constant spin: orientations at their ends come from a
  * Runge-Kutta method with steps an eighth as long, and between them the spin is that which leads
- * from one to the next. So the orientation shown differs from the computed one within sub-steps only,
- * by about |d spin / dt| h^2 / 8; the largest such angle is the sub-step error. */
+ * from one to the next. So the orientation shown differs from the computed one within sub-steps
+ * only, by about |d spin / dt| h^2 / 8; the largest such angle is the sub-step error. */
 
-/* Rounding of an angle grows with it: at more radians in one path the keys of a trajectory no longer
- * agree with its spins. */
+/* Rounding of an angle grows with it: at more radians in one path the keys of a trajectory no
+ * longer agree with its spins. */
 #define TURN_MAX 1e8
 
 /* From t on, until the next key: a parabola and a constant spin. */
@@ -51,12 +51,14 @@ typedef struct mover {
     double substep_error; /* radians, so far */
 } mover;
 
-/* At the start. Only actors that move have a mover. Answers false when memory runs out, as all here. */
+/* At the start. Only actors that move have a mover. Answers false when memory runs out, as all
+ * here. */
 bool mover_begin(mover *m, const actor *a, vec gravity, double start, double end);
 void mover_free(mover *m);
 
-/* The time at which a key of the path from now on leaves what can be computed with: places, velocities
- * and momenta up to VALUE_MAX, a turn of the path's spin by TURN_MAX. NAN: there is none. */
+/* The time at which a key of the path from now on leaves what can be computed with: places,
+ * velocities and momenta up to VALUE_MAX, a turn of the path's spin by TURN_MAX. NAN: there is
+ * none. */
 double mover_overflow(const mover *m);
 
 /* At a time from now to the end. */

@@ -10,7 +10,7 @@
 #include "tools/cli/output.h"
 #include "tools/cli/output_file.h"
 
-/* --- The scene ------------------------------------------------------------------------------- */
+/* --- The scene -------------------------------------------------------------------------------- */
 
 /* What the maps say now goes; what the bodies are stays. */
 static int record_body(const simulation *s, size_t i, json_t *body)
@@ -29,8 +29,9 @@ static int record_body(const simulation *s, size_t i, json_t *body)
         maps, mover_trajectory(&s->movers[i], s->t > start ? s->t : s->search.end));
 }
 
-/* Asked with twice gamma, and gamma as gamma_clear, the scene answers with its first event: there the
- * bodies are within gamma. With the numbers of the simulation contact and clear would both be right. */
+/* Asked with twice gamma, and gamma as gamma_clear, the scene answers with its first event: there
+ * the bodies are within gamma. With the numbers of the simulation contact and clear would both be
+ * right. */
 static json_t *scene_json(const simulation *s)
 {
     json_t *root = json_deep_copy(s->setup->root);
@@ -63,7 +64,7 @@ exit_status record_write(const simulation *s, const char *path)
     return status;
 }
 
-/* --- Energy and momentum ----------------------------------------------------------------------- */
+/* --- Energy and momentum ---------------------------------------------------------------------- */
 
 /* What neither events nor gravity explain. */
 static double energy_drift(const simulation *s)
@@ -108,7 +109,8 @@ void record_print(const simulation *s, const char *path)
         printf("orientations within %.3g rad of torque-free motion's\n", error);
     }
     print_label("cost");
-    printf("%ju searches, %ju pairs\n", (uintmax_t)s->search.searches, (uintmax_t)s->search.limits.pairs);
+    printf("%ju searches, %ju pairs\n", (uintmax_t)s->search.searches,
+           (uintmax_t)s->search.limits.pairs);
     print_label("written");
     printf("%s\n", path);
 }

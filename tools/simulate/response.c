@@ -4,7 +4,7 @@
 
 #include "tools/simulate/response.h"
 
-/* --- Two bodies ------------------------------------------------------------------------------ */
+/* --- Two bodies ------------------------------------------------------------------------------- */
 
 static bool yields(const instant *now, size_t body)
 {
@@ -75,7 +75,7 @@ static void push(instant *now, contact *c, vec impulse)
     c->impulse = vec_add(c->impulse, impulse);
 }
 
-/* --- One impulse ------------------------------------------------------------------------------- */
+/* --- One impulse ------------------------------------------------------------------------------ */
 
 /* Kinetic energy that an impulse J adds to the two: J.u + J.K J / 2, for bodies without drift. */
 static double energy_gain(const mat3 *k, vec u, vec impulse)
@@ -120,7 +120,7 @@ static void strike(instant *now, contact *c, double restitution)
     push(now, c, impulse_for(c, &k, u, fmax(back, wanted_speed(now, c))));
 }
 
-/* --- Contacts that last ------------------------------------------------------------------------ */
+/* --- Contacts that last ----------------------------------------------------------------------- */
 
 /* Whether the body stands on something that does not move. */
 static bool is_support(const instant *now, size_t body)
@@ -156,9 +156,10 @@ static void judge_rest(instant *now, const contact *c)
     }
 }
 
-/* --- All of them ------------------------------------------------------------------------------- */
+/* --- All of them ------------------------------------------------------------------------------ */
 
-/* The contact that lacks most of the speed it must open with, and more than rounding; NULL: none. */
+/* The contact that lacks most of the speed it must open with, and more than rounding; NULL:
+ * none. */
 static contact *fastest(const instant *now, contact *contacts, size_t count)
 {
     contact *found = NULL;

@@ -85,7 +85,7 @@ static inline mat3 mat3_inverse(const mat3 *a)
     return r;
 }
 
-/* --- Quaternions (w, x, y, z) --- */
+/* --- Quaternions (w, x, y, z) ----------------------------------------------------------------- */
 
 typedef struct quat {
     double w;

@@ -24,8 +24,8 @@ static exit_status begin(simulation *s, const setup *what, const arguments *args
                       .max_events = arguments_count(args, "max-events", 10000),
                       .t = o->t_start,
                       .log = json_array()};
-    s->search = (searching){
-        .setup = what, .movers = s->movers, .end = o->t_end, .limits = what->limits};
+    s->search =
+        (searching){.setup = what, .movers = s->movers, .end = o->t_end, .limits = what->limits};
     if (s->movers == NULL || s->meetings == NULL || s->rests == NULL || s->held_now == NULL ||
         s->log == NULL)
         return complain_of_memory(speaker);

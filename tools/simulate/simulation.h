@@ -7,9 +7,9 @@
 
 /* From event to event
  * ===================
- * Each pair of bodies of which one moves have a meeting: the next contact, found once and kept until one
- * of the two changes its path. The earliest of all is the next event. Its time, and all before it, is
- * covered by the proofs of all meetings. */
+ * Each pair of bodies of which one moves have a meeting: the next contact, found once and kept
+ * until one of the two changes its path. The earliest of all is the next event. Its time, and all
+ * before it, is covered by the proofs of all meetings. */
 
 typedef struct sums {
     double energy;         /* kinetic and potential, of the bodies that move */
@@ -33,8 +33,8 @@ typedef struct simulation {
     vec from_gravity;
 } simulation;
 
-/* Runs to the end, or until a budget or a signal ends it. Complains of errors. Call simulation_free in
- * any case. */
+/* Runs to the end, or until a budget or a signal ends it. Complains of errors. Call simulation_free
+ * in any case. */
 exit_status simulation_run(simulation *s, const setup *what, const arguments *args);
 void simulation_free(simulation *s);
 

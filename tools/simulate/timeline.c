@@ -6,7 +6,7 @@
 
 static const char speaker[] = "simulate";
 
-/* --- States and sums ---------------------------------------------------------------------------- */
+/* --- States and sums -------------------------------------------------------------------------- */
 
 sums timeline_sums(const simulation *s, const mover_state *state)
 {
@@ -72,7 +72,7 @@ exit_status timeline_check(const simulation *s, size_t body)
                         s->setup->actors[body].name, t, VALUE_MAX, TURN_MAX);
 }
 
-/* --- Meetings ---------------------------------------------------------------------------------- */
+/* --- Meetings --------------------------------------------------------------------------------- */
 
 /* Neither of the two moves before it is hit. */
 static bool is_asleep(const simulation *s, const meeting *m)

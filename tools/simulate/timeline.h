@@ -5,7 +5,8 @@
 
 #include "tools/simulate/simulation.h"
 
-/* The course of a simulation: where its bodies are, what they have in sum, and when two meet next. */
+/* The course of a simulation: where its bodies are, what they have in sum, and when two meet
+ * next. */
 
 /* Of all bodies that move. */
 void timeline_states(const simulation *s, double t, mover_state *state);
@@ -14,7 +15,8 @@ sums timeline_sums(const simulation *s, const mover_state *state);
 /* Goes on to t, with what the bodies get from gravity up to then. */
 void timeline_advance(simulation *s, double t);
 
-/* Finds the next meeting of two bodies from t on, at level `least` or above. Complains of errors. */
+/* Finds the next meeting of two bodies from t on, at level `least` or above. Complains of
+ * errors. */
 exit_status timeline_predict(simulation *s, meeting *m, double t, int least);
 
 /* The same of all, from the start. Complains of bodies that are too near to each other there. */

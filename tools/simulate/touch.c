@@ -36,7 +36,8 @@ static double difference(const side *s, int k)
     return way > AT_END * width ? fmin(STEP * width, way / 2) : STEP * width;
 }
 
-/* From nine points around one that keeps away from the domain's ends: the quadratic through them. */
+/* From nine points around one that keeps away from the domain's ends: the quadratic through
+ * them. */
 static imp_code jet_at(const side *s, jet *j, imp_error *error)
 {
     double h[2], c[2];
@@ -89,8 +90,8 @@ static void form_system(const jet j[2], double g[UNKNOWNS], double h[UNKNOWNS][U
     }
 }
 
-/* Solves (H + damping diag) d = -g over the unknowns that are free, by elimination without exchange:
- * a pivot that is not positive asks for more damping. */
+/* Solves (H + damping diag) d = -g over the unknowns that are free, by elimination without
+ * exchange: a pivot that is not positive asks for more damping. */
 static bool solve_system(const double g[UNKNOWNS], double h[UNKNOWNS][UNKNOWNS],
                          const bool free[UNKNOWNS], double damping, double d[UNKNOWNS])
 {
@@ -167,9 +168,9 @@ static double step_size(const side from[2], const side to[2])
     return most > 0x1p-50 ? most : 0;
 }
 
-/* Newton steps, with more damping where they do not succeed. Of all four unknowns: the distance changes
- * little where both points move alike, and much where they part, so every step is followed by one
- * search for the nearest point of the second surface alone (`nested`). */
+/* Newton steps, with more damping where they do not succeed. Of all four unknowns: the distance
+ * changes little where both points move alike, and much where they part, so every step is followed
+ * by one search for the nearest point of the second surface alone (`nested`). */
 static imp_code minimize(side s[2], jet j[2], bool nested, imp_error *error)
 {
     double damping = 0, g[UNKNOWNS], h[UNKNOWNS][UNKNOWNS], d[UNKNOWNS];
@@ -259,8 +260,8 @@ static double curvature(const jet *j, vec normal)
     return most;
 }
 
-/* The direction between the nearest points; where one surface is much flatter than the other, its own
- * normal, which changes less with what the search left of the way. */
+/* The direction between the nearest points; where one surface is much flatter than the other, its
+ * own normal, which changes less with what the search left of the way. */
 static vec normal_of(const jet j[2])
 {
     const vec along = vec_unit(vec_sub(j[1].x, j[0].x));

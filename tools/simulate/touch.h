@@ -7,10 +7,10 @@
 
 /* Where two bodies touch, for the response
  * ========================================
- * A contact's witness is two points no farther apart than gamma, not the nearest two: the direction from one to
- * the other may be far from the normal. So the distance is minimized from there, by Newton's
- * method on both surfaces' parameters; the normal is the direction between the nearest points,
- * which is right at edges and corners too. Nothing of this is part of the promise. */
+ * A contact's witness is two points no farther apart than gamma, not the nearest two: the direction
+ * from one to the other may be far from the normal. So the distance is minimized from there, by
+ * Newton's method on both surfaces' parameters; the normal is the direction between the nearest
+ * points, which is right at edges and corners too. Nothing of this is part of the promise. */
 
 typedef struct touching {
     vec point;    /* halfway */

@@ -13,8 +13,8 @@
 
 #include "core/common/clock.h"
 
-/* Seconds between two looks at the memory held: at 2 GB a second, what is written meanwhile is a tenth
- * of 100 MB. A look costs some microseconds. */
+/* Seconds between two looks at the memory held: at 2 GB a second, what is written meanwhile is a
+ * tenth of 100 MB. A look costs some microseconds. */
 static const double look_interval = 5e-3;
 
 /* Bytes in memory now; 0: not known. */
@@ -93,7 +93,7 @@ void allowance_begin_drawing(allowance *l)
     l->heard = l->interrupted != NULL && l->interrupted();
 }
 
-/* --- Reading ------------------------------------------------------------------------------------- */
+/* --- Reading ---------------------------------------------------------------------------------- */
 
 static char told[256];
 

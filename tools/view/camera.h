@@ -22,8 +22,8 @@ static inline vec camera_see(const camera *c, vec p)
                   c->middle[1] - c->scale * vec_dot(d, c->up), c->scale * vec_dot(d, c->toward)}};
 }
 
-/* Looks from that azimuth (from +x toward +y) and elevation (above the xy plane), in degrees, at the
- * origin, which is seen at pixel 0,0, one pixel a length. */
+/* Looks from that azimuth (from +x toward +y) and elevation (above the xy plane), in degrees, at
+ * the origin, which is seen at pixel 0,0, one pixel a length. */
 static inline camera camera_toward(double azimuth, double elevation)
 {
     const double a = azimuth * (3.14159265358979323846 / 180);

@@ -8,7 +8,7 @@
 
 #include "tools/view/stroke_font.h"
 
-/* --- SVG -------------------------------------------------------------------------------- */
+/* --- SVG -------------------------------------------------------------------------------------- */
 
 canvas canvas_svg_begin(FILE *file, double width, double height)
 {
@@ -57,7 +57,8 @@ static void svg_escaped(const canvas *c, const char *text)
     }
 }
 
-/* Sizes of letters are those of strokes, of which a line is higher than the letters of a typeface. */
+/* Sizes of letters are those of strokes, of which a line is higher than the letters of a
+ * typeface. */
 static const double svg_letters = 0.8;
 
 /* `length`: the letters are spread or pressed to this many pixels; 0: as they are. */
@@ -77,7 +78,7 @@ static void svg_text(canvas *c, double x, double y, double size, canvas_anchor a
     fputs("</text>\n", c->file);
 }
 
-/* --- Either ----------------------------------------------------------------------------- */
+/* --- Either ----------------------------------------------------------------------------------- */
 
 /* Far outside of every picture, and where a number has no place on it. */
 static bool are_places(const double *xy, size_t n)
@@ -125,7 +126,7 @@ void canvas_disc(canvas *c, double x, double y, double radius, colour fill)
     canvas_shape(c, xy, CORNERS, fill);
 }
 
-/* --- Words --------------------------------------------------------------------------------------- */
+/* --- Words ------------------------------------------------------------------------------------ */
 
 /* Bytes of the character that begins here. */
 static size_t character_bytes(const char *text)

@@ -14,7 +14,7 @@ void cloud_free(cloud *c)
     *c = (cloud){.point = NULL};
 }
 
-/* --- Points that lie far out --------------------------------------------------------------------- */
+/* --- Points that lie far out ------------------------------------------------------------------ */
 
 enum { DIRECTIONS = 128 };
 
@@ -57,9 +57,10 @@ static bool add_points(cloud *c, const vec *point, size_t count)
     return true;
 }
 
-/* --- Coarse grids ----------------------------------------------------------------------------------- */
+/* --- Coarse grids ----------------------------------------------------------------------------- */
 
-/* Points along a side: enough to see the size of what is curved; of many pieces corners and middle. */
+/* Points along a side: enough to see the size of what is curved; of many pieces corners and
+ * middle. */
 enum { COARSE = 9, COARSE_OF_MANY = 3, MANY = 100 };
 
 imp_code cloud_add(cloud *c, const imp_scene *scene, size_t body, size_t surface,

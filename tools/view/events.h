@@ -8,7 +8,8 @@
 
 #include "tools/cli/vec.h"
 
-/* The events that `impinge simulate` wrote into a scene, "events": what touched what, when and where. */
+/* The events that `impinge simulate` wrote into a scene, "events": what touched what, when and
+ * where. */
 
 typedef struct event {
     double t;

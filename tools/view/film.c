@@ -10,7 +10,7 @@
 
 #include "tools/view/storyboard.h"
 
-/* --- Which frames -------------------------------------------------------------------------- */
+/* --- Which frames ----------------------------------------------------------------------------- */
 
 static int by_value(const void *a, const void *b)
 {
@@ -55,7 +55,7 @@ static size_t frame_of(const film *f, const stage_spot *spot)
     return SIZE_MAX;
 }
 
-/* --- Poses ----------------------------------------------------------------------------------- */
+/* --- Poses ------------------------------------------------------------------------------------ */
 
 /* By the largest of the four squares, so that nothing is divided by what is small. */
 static void quaternion(const double r[3][3], double q[4])
@@ -98,7 +98,7 @@ static pose pose_between(const imp_rigid_motion *first, const imp_rigid_motion *
     return p;
 }
 
-/* --- Tracks ------------------------------------------------------------------------------------ */
+/* --- Tracks ----------------------------------------------------------------------------------- */
 
 static double clamped_time(const stage *s, const mesh *m, double t)
 {

@@ -7,10 +7,11 @@
 #include "tools/view/subject.h"
 
 /* A scene in motion: the meshes' points at each of some frames. The times of the contact, or of the
- * nearest approach, and of events are frames. A surface that does not exist at a frame stands there as at
- * the nearest moment at which it does. */
+ * nearest approach, and of events are frames. A surface that does not exist at a frame stands there
+ * as at the nearest moment at which it does. */
 
-/* Where a rigid body is, as against frame 0: x -> turn(x) + shift; turn: unit quaternion x,y,z,w. */
+/* Where a rigid body is, as against frame 0: x -> turn(x) + shift; turn: unit quaternion
+ * x,y,z,w. */
 typedef struct pose {
     double turn[4];
     vec shift;

@@ -8,7 +8,8 @@
 #include "tools/view/stage.h"
 
 /* The distance between bodies over time, as proved brackets: in slice k, from t[k] to t[k + 1], the
- * least distance is not below lower[k] (proved) and not above upper[k] (evaluated at two points). */
+ * least distance is not below lower[k] (proved) and not above upper[k] (evaluated at two
+ * points). */
 typedef struct gap_profile {
     double *t; /* count + 1 */
     double *lower, *upper;
@@ -22,8 +23,8 @@ typedef struct gap_profile {
 imp_code gap_measure(imp_scene *scene, const imp_options *options, size_t count, double width,
                      gap_profile *gap, imp_error *error);
 
-/* At single moments: lower[k] and upper[k] are those of time t[k]; t has no number more. Free in any
- * case. */
+/* At single moments: lower[k] and upper[k] are those of time t[k]; t has no number more. Free in
+ * any case. */
 imp_code gap_at_moments(imp_scene *scene, const imp_options *options, allowance *l, const double *t,
                         size_t count, gap_profile *gap, imp_error *error);
 void gap_free(gap_profile *gap);

@@ -121,7 +121,7 @@ static int add_triangles(glb *g, const mesh *m)
                         "SCALAR");
 }
 
-/* --- Animation ---------------------------------------------------------------------------------- */
+/* --- Animation -------------------------------------------------------------------------------- */
 
 static void add_channel(glb *g, int node, const char *path, const char *interpolation, int output)
 {
@@ -189,7 +189,7 @@ static void animate_presence(glb *g, int node, const bool *there)
     free(scales);
 }
 
-/* --- Meshes and nodes ---------------------------------------------------------------------------- */
+/* --- Meshes and nodes ------------------------------------------------------------------------- */
 
 static int add_material(glb *g, colour c)
 {
@@ -241,7 +241,7 @@ static void add_track(glb *g, const track *t)
     if (!t->always_there) animate_presence(g, node, t->there);
 }
 
-/* --- The file --------------------------------------------------------------------------------------- */
+/* --- The file --------------------------------------------------------------------------------- */
 
 static json_t *document(glb *g)
 {

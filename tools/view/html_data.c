@@ -68,10 +68,10 @@ static json_t *numbers_json(const double *x, size_t count)
 
 static json_t *vector_json(vec v) { return numbers_json(v.x, 3); }
 
-/* --- Places ------------------------------------------------------------------------------------ */
+/* --- Places ----------------------------------------------------------------------------------- */
 
-/* The page's numbers have 32 bits: its origin is the middle of the scene, its unit the scene's size, so
- * that neither large nor far away scenes lose anything that shows. */
+/* The page's numbers have 32 bits: its origin is the middle of the scene, its unit the scene's
+ * size, so that neither large nor far away scenes lose anything that shows. */
 typedef struct frame {
     vec centre;
     double unit; /* 1 / length */
@@ -97,7 +97,7 @@ static json_t *places_json(const frame *f, const vec *x, size_t count)
     return packed_json(&p);
 }
 
-/* --- One surface --------------------------------------------------------------------------------- */
+/* --- One surface ------------------------------------------------------------------------------ */
 
 static void put_corners(void *context, const mesh *m, const size_t c[3], size_t cell)
 {
@@ -184,7 +184,7 @@ static json_t *surface_json(const html_page *page, const frame *f, size_t index)
                      presence_json(t, frames), "proved", proved_json(page, index));
 }
 
-/* --- The whole ----------------------------------------------------------------------------------- */
+/* --- The whole -------------------------------------------------------------------------------- */
 
 static json_t *surfaces_json(const html_page *page, const frame *f)
 {

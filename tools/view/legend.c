@@ -10,7 +10,8 @@
 
 static const colour ink = {0.13f, 0.15f, 0.18f};
 
-/* Pixels: margin at both sides, from dot to name, between entries, height of a row and of letters. */
+/* Pixels: margin at both sides, from dot to name, between entries, height of a row and of
+ * letters. */
 static const double margin = 12, to_name = 18, between = 24, row_height = 22, text_size = 15;
 
 /* A place for the next entry. */
@@ -70,7 +71,8 @@ static void draw_entry(canvas *c, double x, double y, size_t body, const char *n
     canvas_text_fixed(c, x + to_name, y, text_size, ink, name);
 }
 
-/* Lays everything out, and draws it where `rows`, the number of rows, is not 0. Answers that number. */
+/* Lays everything out, and draws it where `rows`, the number of rows, is not 0. Answers that
+ * number. */
 static size_t lay_out(const stage *s, canvas *c, const char *note, size_t rows)
 {
     flow f = flow_begin(c);

@@ -38,7 +38,7 @@ bool mesh_exists(const imp_scene *scene, const mesh *m, double t)
     return lo[2] <= t && t <= hi[2];
 }
 
-/* --- Patches ----------------------------------------------------------------------------------- */
+/* --- Patches ---------------------------------------------------------------------------------- */
 
 static bool reserve_lines(mesh *m, size_t more, size_t *room)
 {
@@ -91,7 +91,7 @@ static imp_code make_patches(const imp_scene *scene, mesh *m, const mesh_plan *p
     return code;
 }
 
-/* --- What stays as it is ------------------------------------------------------------------------- */
+/* --- What stays as it is ---------------------------------------------------------------------- */
 
 /* A patch lies in a plane if its points do, but for this part of its size. */
 static const double plane_slack = 1e-9;
@@ -116,8 +116,8 @@ static bool is_plane(const vec *point, size_t count)
 
 static bool coincide(vec a, vec b) { return memcmp(&a, &b, sizeof a) == 0; }
 
-/* A triangle's grid has one cell, of which the corners at the ends of one side are one point. Answers
- * whether another time might refute what was found. */
+/* A triangle's grid has one cell, of which the corners at the ends of one side are one point.
+ * Answers whether another time might refute what was found. */
 static bool look_at_patches(mesh *m, bool is_first)
 {
     bool open = false;

@@ -10,12 +10,13 @@
 
 /* A surface as triangles, with a known error
  * ==========================================
- * Each piece of the surface is a patch: a grid of lines of constant u and v, as dense as the surface's
- * own Taylor models ask for, so that neighbouring cells of a patch share whole edges. Cell (i,j) is two
- * triangles, cut from corner (i,j) to corner (i+1,j+1). A flat triangle or quadrilateral is one cell.
+ * Each piece of the surface is a patch: a grid of lines of constant u and v, as dense as the
+ * surface's own Taylor models ask for, so that neighbouring cells of a patch share whole edges.
+ * Cell (i,j) is two triangles, cut from corner (i,j) to corner (i+1,j+1). A flat triangle or
+ * quadrilateral is one cell.
  *
- * The grids are made once; points and normals are those of one time. A surface that moves rigidly is
- * evaluated once, at its home time, and then moved. */
+ * The grids are made once; points and normals are those of one time. A surface that moves rigidly
+ * is evaluated once, at its home time, and then moved. */
 
 typedef struct mesh_patch {
     size_t piece;
@@ -84,8 +85,8 @@ typedef struct mesh_plan {
     allowance *allowance; /* NULL: none */
 } mesh_plan;
 
-/* Makes the grids, and evaluates a surface that is rigid; points and normals are those of no time yet.
- * To be freed in any case. */
+/* Makes the grids, and evaluates a surface that is rigid; points and normals are those of no time
+ * yet. To be freed in any case. */
 imp_code mesh_make(const imp_scene *scene, size_t body, size_t surface, const mesh_plan *plan,
                    mesh *made, imp_error *error);
 void mesh_free(mesh *m);
@@ -110,8 +111,8 @@ typedef void (*mesh_visitor)(void *context, const mesh *m, const size_t corner[3
 void mesh_triangles(const mesh *m, mesh_visitor visit, void *context);
 void mesh_patch_triangles(const mesh *m, const mesh_patch *p, mesh_visitor visit, void *context);
 
-/* Finds the steps of the meshes of one body together, where they stand now: an edge is where no other
- * patch of the body goes on. `size` is that of all there is, a length. */
+/* Finds the steps of the meshes of one body together, where they stand now: an edge is where no
+ * other patch of the body goes on. `size` is that of all there is, a length. */
 imp_code mesh_find_steps(mesh *meshes, size_t count, double size, imp_error *error);
 
 /* Sets *error to memory that ran out, and answers the code. */

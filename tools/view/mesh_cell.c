@@ -6,31 +6,32 @@
 
 #include <math.h>
 
-/* At a fixed time coordinate i of a cell is a + b_u s + b_v r + q_uu s^2 + q_uv s r + q_vv r^2 within e,
- * for s, r in [-1,1]. The corners' own rounding, some 1e-16 of the coordinates, is left out of both
- * bounds: no picture shows it. */
+/* At a fixed time coordinate i of a cell is a + b_u s + b_v r + q_uu s^2 + q_uv s r + q_vv r^2
+ * within e, for s, r in [-1,1]. The corners' own rounding, some 1e-16 of the coordinates, is left
+ * out of both bounds: no picture shows it. */
 
-/* --- Point by point ---------------------------------------------------------------------------- */
+/* --- Point by point --------------------------------------------------------------------------- */
 
-/* What bends the coordinate along u and v, but for q_uv. Lemma. The function linear in s, linear in r,
- * that agrees at the four corners differs from the coordinate by q_uu (s^2 - 1) + q_vv (r^2 - 1), at
- * most |q_uu| + |q_vv|, and by e once at the point and once at the corners, of which it is a mean. */
+/* What bends the coordinate along u and v, but for q_uv. Lemma. The function linear in s, linear in
+ * r, that agrees at the four corners differs from the coordinate by q_uu (s^2 - 1) + q_vv (r^2 -
+ * 1), at most |q_uu| + |q_vv|, and by e once at the point and once at the corners, of which it is a
+ * mean. */
 static double bend(const imp_model *m)
 {
     return fabs(m->q[IMP_UU]) + fabs(m->q[IMP_VV]) + 2 * m->e;
 }
 
 /* Lemma. The triangles are linear and agree with the coordinate at three corners each. What is left
- * beside `bend` is q_uv: on the triangle s >= r, s r - (r - s + 1) = (s - 1)(r + 1) is in [-1, 0], on
- * the other (s + 1)(r - 1), likewise. Both points also lie in [lo, hi], so no coordinate differs by
- * more than that is wide. */
+ * beside `bend` is q_uv: on the triangle s >= r, s r - (r - s + 1) = (s - 1)(r + 1) is in [-1, 0],
+ * on the other (s + 1)(r - 1), likewise. Both points also lie in [lo, hi], so no coordinate differs
+ * by more than that is wide. */
 static double coordinate_error(const imp_model *m)
 {
     const double bent = bend(m) + fabs(m->q[IMP_UV]), wide = m->hi - m->lo;
     return bent < wide ? bent : wide;
 }
 
-/* --- As sets ------------------------------------------------------------------------------------ */
+/* --- As sets ---------------------------------------------------------------------------------- */
 
 static vec coefficient(const imp_model m[3], bool of_b, int k)
 {
@@ -43,13 +44,13 @@ static const double cross_slack = 1e-12;
 
 /* How far the image of the cell is from the two triangles as a set, whichever point lies where.
  *
- * Lemma. Let B = a + b_u s + b_v r + q s r be linear in s and in r, n the unit normal of b_u and b_v, and
- * q = q_t + n (n.q). Without the last term B lies in the plane through a, and its Jacobian
- * n.(b_u x b_v) + s n.(b_u x q_t) + r n.(q_t x b_v) is linear in s and r: if it is nowhere negative, the
- * four corners form a convex quadrilateral, of which a corner may coincide with the next, and B covers
- * just that, as do the two triangles. The term shifts points of B, and those of the triangles, by |n.q|
- * at most. The surface is within `bend` of the B of its own corners. A Jacobian that is negative by
- * rounding alone turns a corner inward by that part of the sides. */
+ * Lemma. Let B = a + b_u s + b_v r + q s r be linear in s and in r, n the unit normal of b_u and
+ * b_v, and q = q_t + n (n.q). Without the last term B lies in the plane through a, and its Jacobian
+ * n.(b_u x b_v) + s n.(b_u x q_t) + r n.(q_t x b_v) is linear in s and r: if it is nowhere
+ * negative, the four corners form a convex quadrilateral, of which a corner may coincide with the
+ * next, and B covers just that, as do the two triangles. The term shifts points of B, and those of
+ * the triangles, by |n.q| at most. The surface is within `bend` of the B of its own corners. A
+ * Jacobian that is negative by rounding alone turns a corner inward by that part of the sides. */
 static double set_error(const imp_model m[3])
 {
     const vec bu = coefficient(m, true, 0), bv = coefficient(m, true, 1);
@@ -66,7 +67,7 @@ static double set_error(const imp_model m[3])
            4 * cross_slack * (vec_length(bu) + vec_length(bv) + vec_length(q));
 }
 
-/* --- Cells --------------------------------------------------------------------------------------- */
+/* --- Cells ------------------------------------------------------------------------------------ */
 
 static void take_shares(cell_error *cell, const imp_model *m)
 {

@@ -8,7 +8,7 @@
 
 #include "tools/view/mesh_cell.h"
 
-/* --- Lines ---------------------------------------------------------------------------------------- */
+/* --- Lines ------------------------------------------------------------------------------------ */
 
 static bool lines_reserve(grid_lines *l, size_t room)
 {
@@ -35,7 +35,8 @@ static bool lines_begin(grid_lines *l, double lo, double hi, size_t steps)
     return true;
 }
 
-/* Puts a line into the middle of each step to be split. *more: how many there were. False: no memory. */
+/* Puts a line into the middle of each step to be split. *more: how many there were. False: no
+ * memory. */
 static bool lines_split(grid_lines *l, size_t *more)
 {
     *more = 0;
@@ -69,7 +70,7 @@ void grid_free(grid *g)
     *g = (grid){.is_flat = false};
 }
 
-/* --- Which cells are too coarse --------------------------------------------------------------------- */
+/* --- Which cells are too coarse --------------------------------------------------------------- */
 
 static bool exists_at(const double lo[3], const double hi[3], double t)
 {
@@ -131,7 +132,8 @@ static imp_code refine(const imp_scene *scene, imp_place at, const mesh_plan *pl
     return IMP_SUCCESS;
 }
 
-/* A piece is flat if it is this part of its own size off a plane, and within the tolerance, at all times. */
+/* A piece is flat if it is this part of its own size off a plane, and within the tolerance, at all
+ * times. */
 static const double flat_share = 1e-6;
 
 static imp_code find_flat(const imp_scene *scene, imp_place at, const mesh_plan *plan,

@@ -27,10 +27,10 @@ void mesh_triangles(const mesh *m, mesh_visitor visit, void *context)
         mesh_patch_triangles(m, &m->patches[k], visit, context);
 }
 
-/* --- Points and normals of curved patches -------------------------------------------------------- */
+/* --- Points and normals of curved patches ----------------------------------------------------- */
 
-/* Steps for a difference quotient: 2^-20 of the domain, so that neither curvature nor rounding shows in
- * a normal. */
+/* Steps for a difference quotient: 2^-20 of the domain, so that neither curvature nor rounding
+ * shows in a normal. */
 typedef struct offsets {
     double hi[2], h[2];
 } offsets;
@@ -67,8 +67,8 @@ typedef struct facets {
     size_t first;
 } facets;
 
-/* Where the surface has no normal of its own, as at a pole, it gets the mean of those of the triangles
- * around it, each weighed by its area. */
+/* Where the surface has no normal of its own, as at a pole, it gets the mean of those of the
+ * triangles around it, each weighed by its area. */
 static void add_facet(void *context, const mesh *m, const size_t c[3], size_t cell)
 {
     const facets *f = context;
@@ -131,7 +131,7 @@ static imp_code evaluate_curved(const imp_scene *scene, mesh *m, const mesh_patc
     return code;
 }
 
-/* --- All patches ----------------------------------------------------------------------------------- */
+/* --- All patches ------------------------------------------------------------------------------ */
 
 /* Four corners, which have one normal. */
 static imp_code evaluate_flat(const imp_scene *scene, mesh *m, const mesh_patch *p, double t,
@@ -183,7 +183,7 @@ static imp_code evaluate(const imp_scene *scene, mesh *m, double t, allowance *l
     return code;
 }
 
-/* --- Moving ------------------------------------------------------------------------------------------ */
+/* --- Moving ----------------------------------------------------------------------------------- */
 
 static vec turned(const imp_rigid_motion *motion, vec x)
 {
@@ -214,7 +214,7 @@ imp_code mesh_move(const imp_scene *scene, mesh *m, double t, allowance *l, imp_
     return allowance_check(l, "points were moved", error);
 }
 
-/* --- Error ------------------------------------------------------------------------------------------- */
+/* --- Error ------------------------------------------------------------------------------------ */
 
 /* A motion lengthens by less than this: IMP_RIGID_SLACK for each of a hundred maps. */
 static const double stretch_upper = 1.002;

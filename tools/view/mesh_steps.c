@@ -10,11 +10,11 @@
 
 /* Where patches join
  * ==================
- * Each patch has four sides. Two sides of patches of one body are one line in space if both ends and the
- * middle coincide; then the patches join there, smoothly or at an angle. Sides are found by a hash table
- * of their middles. */
+ * Each patch has four sides. Two sides of patches of one body are one line in space if both ends
+ * and the middle coincide; then the patches join there, smoothly or at an angle. Sides are found by
+ * a hash table of their middles. */
 
-/* --- Sides ----------------------------------------------------------------------------------------- */
+/* --- Sides ------------------------------------------------------------------------------------ */
 
 typedef enum join {
     JOIN_ALONE,  /* no other patch goes on */
@@ -104,7 +104,7 @@ static join join_of(const side_shape *a, const side_shape *b)
     return cosine >= smooth_cosine ? JOIN_SMOOTH : cosine >= fold_cosine ? JOIN_FOLD : JOIN_CREASE;
 }
 
-/* --- Which sides are one ------------------------------------------------------------------------------ */
+/* --- Which sides are one ---------------------------------------------------------------------- */
 
 typedef struct joiner {
     const mesh *meshes;
@@ -192,7 +192,7 @@ static bool joiner_begin(joiner *j, size_t count)
     return true;
 }
 
-/* --- Steps ---------------------------------------------------------------------------------------------- */
+/* --- Steps ------------------------------------------------------------------------------------ */
 
 static bool add_step(mesh *m, size_t from, size_t to, mesh_step_kind kind)
 {

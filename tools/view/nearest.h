@@ -6,8 +6,8 @@
 #include "tools/view/stage.h"
 
 /* Where bodies come nearest to each other in the times of the options: *spot, with the distance to
- * within a thousandth of it. Where a limit ends the search, it is the nearest found so far, if any. It is
- * not known where nothing comes near anything. */
+ * within a thousandth of it. Where a limit ends the search, it is the nearest found so far, if any.
+ * It is not known where nothing comes near anything. */
 imp_code nearest_find(imp_scene *scene, const imp_options *options, stage_spot *spot,
                       imp_error *error);
 

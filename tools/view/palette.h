@@ -9,9 +9,10 @@
 
 /* Colours that can be told apart
  * ==============================
- * Colours are compared in Oklab (B. Ottosson, 2020), where a distance of some 0.02 is just seen. Any two
- * of the first 16 are at least PALETTE_FAR apart, any two of all at least PALETTE_NEAR, and after the
- * last the first comes again. All are as far from the red of marks, from black and from white. */
+ * Colours are compared in Oklab (B. Ottosson, 2020), where a distance of some 0.02 is just seen.
+ * Any two of the first 16 are at least PALETTE_FAR apart, any two of all at least PALETTE_NEAR, and
+ * after the last the first comes again. All are as far from the red of marks, from black and from
+ * white. */
 
 enum { PALETTE_COUNT = 24, PALETTE_FIRST = 16 };
 #define PALETTE_FAR 0.11

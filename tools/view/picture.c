@@ -39,7 +39,7 @@ void picture_frame(camera *c, const raster_window *w, const stage *s)
     c->middle[1] = w->y + 0.5 * (w->height + TITLE) - (extends ? 0.5 * scale * (lo[1] + hi[1]) : 0);
 }
 
-/* --- What hides the spot ------------------------------------------------------------------------- */
+/* --- What hides the spot ---------------------------------------------------------------------- */
 
 /* Pixels in front of the spot, at least, from which on the bodies that hide it are transparent. */
 static const double veil_pixels = 2;
@@ -62,7 +62,7 @@ static imp_code veil_begin(veil *v, const stage *s, const panel *p, imp_error *e
 
 static bool is_veiled(const veil *v, size_t body) { return v->hides != NULL && v->hides[body]; }
 
-/* --- Surfaces ----------------------------------------------------------------------------- */
+/* --- Surfaces --------------------------------------------------------------------------------- */
 
 typedef struct painter {
     const camera *camera;
@@ -129,7 +129,7 @@ static imp_code paint_surfaces(const stage *s, const camera *c, const veil *v, r
     return code;
 }
 
-/* --- As lines ------------------------------------------------------------------------------- */
+/* --- As lines --------------------------------------------------------------------------------- */
 
 /* Depths of the panel, to tell what is hidden. */
 typedef struct outliner {
@@ -187,7 +187,7 @@ static imp_code outline_surfaces(const stage *s, const panel *p, const veil *v, 
     return code;
 }
 
-/* --- Marks ---------------------------------------------------------------------------------- */
+/* --- Marks ------------------------------------------------------------------------------------ */
 
 static void arrow(canvas *c, const double from[2], const double to[2])
 {

@@ -45,8 +45,8 @@ typedef struct plot {
 plot_series *plot_add(plot *p, const char *name, plot_kind kind, size_t count);
 void plot_free(plot *p);
 
-/* The ends of the two scales: [0] x, [1] y; powers of ten where they are logarithmic. A plot without
- * a number goes from 0 to 1. */
+/* The ends of the two scales: [0] x, [1] y; powers of ten where they are logarithmic. A plot
+ * without a number goes from 0 to 1. */
 typedef struct plot_scale {
     double lo[2], hi[2];
 } plot_scale;

@@ -11,12 +11,12 @@
 
 /* What is plotted: distance over time, or the pairs that benchmarks took. */
 
-/* The brackets as a band. The contact is marked, or else the nearest approach, and what is required; 0: a
- * distance is not required. False: no memory. */
+/* The brackets as a band. The contact is marked, or else the nearest approach, and what is
+ * required; 0: a distance is not required. False: no memory. */
 bool plot_of_gap(plot *p, const gap_profile *gap, const subject *what, double required);
 
-/* One set of what `bench --json` printed: mean pairs of each method over what the names of the cases
- * end with. Complains. */
+/* One set of what `bench --json` printed: mean pairs of each method over what the names of the
+ * cases end with. Complains. */
 exit_status plot_of_bench(plot *p, const json_t *set, const char *name, const char *verb);
 
 #endif

@@ -49,7 +49,8 @@ size_t raster_bytes(double width, double height);
 bool raster_begin(raster *r, size_t width, size_t height, colour background);
 void raster_free(raster *r);
 
-/* From here on, what is nearer than `depth` goes into a veil; INFINITY: nothing does. False: no memory. */
+/* From here on, what is nearer than `depth` goes into a veil; INFINITY: nothing does. False: no
+ * memory. */
 bool raster_veil(raster *r, double depth);
 
 /* Lays the veil over the window, and clears it. */

@@ -8,8 +8,8 @@
 #include "tools/cli/message.h"
 #include "tools/view/stage.h"
 
-/* A result that `solve --json`, `pair --json` or `clearance --json` printed, read back. It names its
- * scene: the file, or the two surfaces. */
+/* A result that `solve --json`, `pair --json` or `clearance --json` printed, read back. It names
+ * its scene: the file, or the two surfaces. */
 
 typedef enum recorded_kind {
     RECORDED_NOTHING, /* it is taken for a scene, and the rest is empty */

@@ -35,8 +35,8 @@ static size_t pieces_of(const stage *s, size_t body)
     return count;
 }
 
-/* Marked lines: some 16 across a body of one piece, fewer across each of many; an even number of steps,
- * so that one line is in the middle, by which patches that join are known. */
+/* Marked lines: some 16 across a body of one piece, fewer across each of many; an even number of
+ * steps, so that one line is in the middle, by which patches that join are known. */
 static size_t lines_across(const stage *s, size_t body)
 {
     const double n = 8 / sqrt((double)pieces_of(s, body));

@@ -54,8 +54,8 @@ typedef struct stage_detail {
     double focus_radius; /* about the spot; INFINITY: everywhere */
 } stage_detail;
 
-/* Makes meshes for s->moments, and s->cloud. The caller has set scene, allowance, times, contact, spot,
- * body_count, moments (allocated; stage_free frees them) and moment_count. */
+/* Makes meshes for s->moments, and s->cloud. The caller has set scene, allowance, times, contact,
+ * spot, body_count, moments (allocated; stage_free frees them) and moment_count. */
 imp_code stage_make(stage *s, const stage_detail *detail, imp_error *error);
 void stage_free(stage *s);
 

@@ -32,7 +32,7 @@ imp_code storyboard_stage(subject *what, const view_request *request, double *mo
     return stage_make(s, &detail, error);
 }
 
-/* --- Which moments ------------------------------------------------------------------------ */
+/* --- Which moments ---------------------------------------------------------------------------- */
 
 enum { MOMENTS = 4 };
 
@@ -121,7 +121,7 @@ static story plan(const subject *what, const view_request *request)
     return tale;
 }
 
-/* --- Panels --------------------------------------------------------------------------------- */
+/* --- Panels ----------------------------------------------------------------------------------- */
 
 /* What all panels of a picture share. */
 typedef struct board {
@@ -249,7 +249,7 @@ static imp_code draw_close_up(const board *b, double *error_upper, imp_error *er
     return code;
 }
 
-/* --- All ------------------------------------------------------------------------------------- */
+/* --- All -------------------------------------------------------------------------------------- */
 
 static const char note_format[] = "surfaces drawn to within %.2g";
 

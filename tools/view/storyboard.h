@@ -7,8 +7,8 @@
 #include "tools/view/request.h"
 #include "tools/view/subject.h"
 
-/* The scene in panels: start, contact, end, and the contact from near; without a contact the nearest
- * approach in its place. With --at, that moment alone. */
+/* The scene in panels: start, contact, end, and the contact from near; without a contact the
+ * nearest approach in its place. With --at, that moment alone. */
 
 /* Draws it all. *error_upper: how far any surface is from what stands for it, length. */
 imp_code storyboard_draw(subject *what, const view_request *request, canvas *c, double *error_upper,

@@ -17,7 +17,7 @@
 
 #include <impinge/baseline.h>
 
-/* --- Solving ------------------------------------------------------------------------------------- */
+/* --- Solving ---------------------------------------------------------------------------------- */
 
 static void take_result(subject *s, const imp_result *r)
 {
@@ -64,7 +64,7 @@ imp_code subject_find_nearest(subject *s, imp_error *error)
     return nearest_find(s->scene, &options, &s->spot, error);
 }
 
-/* --- Reading --------------------------------------------------------------------------------------- */
+/* --- Reading ---------------------------------------------------------------------------------- */
 
 static void begin(subject *s, const arguments *args)
 {

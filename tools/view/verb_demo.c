@@ -22,7 +22,7 @@ static void show_command(const char *name, const char *path, const char *rest)
     free(word);
 }
 
-/* --- The teapot --------------------------------------------------------------------------- */
+/* --- The teapot ------------------------------------------------------------------------------- */
 
 static exit_status show_teapot(imp_registry *registry, const char *path, const arguments *args)
 {
@@ -40,7 +40,7 @@ static exit_status show_teapot(imp_registry *registry, const char *path, const a
     return status;
 }
 
-/* --- The blade: frames ---------------------------------------------------------------------- */
+/* --- The blade: frames ------------------------------------------------------------------------ */
 
 enum { FRAMES_A_SECOND = 60 };
 
@@ -115,7 +115,7 @@ static exit_status tell_gap(const subject *what, const gap_profile *f, const cha
     return status == EXIT_ANSWERED ? output_flush(speaker) : status;
 }
 
-/* --- The blade: what is written ----------------------------------------------------------------- */
+/* --- The blade: what is written --------------------------------------------------------------- */
 
 enum { FRAMES_OF_PAGE = 26 }; /* a hundredth of a second apart; more would take longer to make */
 
@@ -181,7 +181,7 @@ static exit_status demonstrate(imp_registry *registry, const char *path, const a
     return status;
 }
 
-/* --- Which ---------------------------------------------------------------------------------------- */
+/* --- Which ------------------------------------------------------------------------------------ */
 
 typedef struct demonstration {
     const char *name, *file;

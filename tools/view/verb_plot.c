@@ -19,7 +19,7 @@
 
 #include <impinge/baseline.h>
 
-/* --- Where it goes --------------------------------------------------------------------------- */
+/* --- Where it goes ---------------------------------------------------------------------------- */
 
 enum { WIDTH = 960, HEIGHT = 480, COLUMNS = 79, ROWS = 24 }; /* pixels; characters */
 
@@ -103,7 +103,7 @@ static exit_status show(const plot *p, const arguments *args)
     return output_flush(args->verb->name);
 }
 
-/* --- Distance over time ------------------------------------------------------------------------ */
+/* --- Distance over time ----------------------------------------------------------------------- */
 
 static exit_status measure(subject *what, size_t slices, const arguments *args, gap_profile *gap)
 {
@@ -138,7 +138,7 @@ static exit_status plot_scene(const arguments *args)
     return status;
 }
 
-/* --- Benchmarks ----------------------------------------------------------------------------------- */
+/* --- Benchmarks ------------------------------------------------------------------------------- */
 
 static exit_status show_bench(const char *text, size_t length, const char *name,
                               const arguments *args)

@@ -15,7 +15,7 @@
 #include "tools/view/storyboard.h"
 #include "tools/view/view_film.h"
 
-/* --- Pictures ------------------------------------------------------------------------------------ */
+/* --- Pictures --------------------------------------------------------------------------------- */
 
 static void tell_picture(const view_request *request, written *w)
 {
@@ -50,7 +50,7 @@ static imp_code write_svg(subject *what, const view_request *request, FILE *file
     return code;
 }
 
-/* --- Formats --------------------------------------------------------------------------------------- */
+/* --- Formats ---------------------------------------------------------------------------------- */
 
 typedef struct format {
     const char *ending;
@@ -135,7 +135,7 @@ exit_status view_write(subject *what, const view_request *request, written *w)
     return told != EXIT_ANSWERED ? told : EXIT_UNDECIDED;
 }
 
-/* --- What is told ------------------------------------------------------------------------------------ */
+/* --- What is told ----------------------------------------------------------------------------- */
 
 static json_t *written_json(const view_request *request, const written *w)
 {

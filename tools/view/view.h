@@ -6,7 +6,8 @@
 #include "tools/view/request.h"
 #include "tools/view/subject.h"
 
-/* From a subject to a file: the format is what the file's name ends with, in letters of either case. */
+/* From a subject to a file: the format is what the file's name ends with, in letters of either
+ * case. */
 
 /* Whether files with this ending can be written. */
 bool view_has(const char *ending);

@@ -56,7 +56,7 @@ imp_code view_write_obj(subject *what, const view_request *request, FILE *file, 
     return write_film(what, &still, file, w, error, animation_obj);
 }
 
-/* --- VTK ---------------------------------------------------------------------------------------- */
+/* --- VTK -------------------------------------------------------------------------------------- */
 
 static imp_code first_vtu(const film *f, FILE *file, imp_error *error)
 {
@@ -105,7 +105,7 @@ imp_code view_write_pvd(subject *what, const view_request *request, FILE *file, 
     return code;
 }
 
-/* --- A page --------------------------------------------------------------------------------------- */
+/* --- A page ----------------------------------------------------------------------------------- */
 
 /* From where the spot is seen. */
 static imp_code look(film *f, const view_request *request, vec *toward, imp_error *error)

@@ -14,7 +14,7 @@ static const double slack_share = 0.02;
 
 double visibility_slack(const stage *s) { return slack_share * stage_size(s); }
 
-/* --- Rays ---------------------------------------------------------------------------------------- */
+/* --- Rays ------------------------------------------------------------------------------------- */
 
 /* Rays from one point; each body that one meets beyond the slack is noted. */
 typedef struct rays {
@@ -26,8 +26,8 @@ typedef struct rays {
     size_t bodies;
 } rays;
 
-/* The triangle a, b, c as seen from the ray's beginning: the ray meets it where all three of a, b, c lie
- * on the same side of the planes through the ray and the others. */
+/* The triangle a, b, c as seen from the ray's beginning: the ray meets it where all three of a, b,
+ * c lie on the same side of the planes through the ray and the others. */
 static bool meets(vec toward, double slack, vec a, vec b, vec c)
 {
     const double ab = vec_dot(toward, vec_cross(a, b)), bc = vec_dot(toward, vec_cross(b, c));
@@ -67,7 +67,7 @@ imp_code visibility_hiding(const stage *s, vec toward, bool *hides, imp_error *e
     return s->spot.is_known ? cast_all(s, &r, error) : IMP_SUCCESS;
 }
 
-/* --- What is seen of the two bodies ------------------------------------------------------------------ */
+/* --- What is seen of the two bodies ----------------------------------------------------------- */
 
 enum { SAMPLES = 12 }; /* points of each of the two bodies, at most */
 
@@ -155,7 +155,7 @@ static double share_seen(const samples *from, bool blocked[2][SAMPLES])
     return least;
 }
 
-/* --- Directions ------------------------------------------------------------------------------------ */
+/* --- Directions ------------------------------------------------------------------------------- */
 
 static const direction usual = {-55, 25};
 

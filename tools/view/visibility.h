@@ -15,11 +15,12 @@ typedef struct direction {
     double azimuth, elevation;
 } direction;
 
-/* Of many directions that in which least hides the spot, its normal is seen from the side, and little
- * else is strange. Without a spot, the usual one. */
+/* Of many directions that in which least hides the spot, its normal is seen from the side, and
+ * little else is strange. Without a spot, the usual one. */
 imp_code visibility_choose(const stage *s, direction *chosen, imp_error *error);
 
-/* Sets hides[b] for each body of the stage that hides the spot from the direction; toward: unit length. */
+/* Sets hides[b] for each body of the stage that hides the spot from the direction; toward: unit
+ * length. */
 imp_code visibility_hiding(const stage *s, vec toward, bool *hides, imp_error *error);
 
 /* Length that counts as nothing before the spot. */
