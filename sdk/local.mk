@@ -87,10 +87,9 @@ sdk/python/_installed.py: Makefile
 	$(AM_V_GEN)$(MKDIR_P) sdk/python && echo 'LIBRARY = "$(libdir)/libimpinge.so.0"' >$@
 CLEANFILES += sdk/python/_installed.py
 uninstall_python = uninstall-pycache
+sdk_folders += $(pythonrobotdir) $(pythonmoduledir)
 uninstall-pycache:
 	rm -rf "$(DESTDIR)$(pythonmoduledir)/__pycache__" "$(DESTDIR)$(pythonrobotdir)/__pycache__"
-	-rmdir "$(DESTDIR)$(pythonrobotdir)" 2>/dev/null
-	-rmdir "$(DESTDIR)$(pythonmoduledir)" 2>/dev/null
 endif
 
 # Programs that use the library, beside the plugins that the guide builds.

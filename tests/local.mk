@@ -660,6 +660,10 @@ AM_TESTS_ENVIRONMENT = \
     XDG_CACHE_HOME='$(abs_top_builddir)/tests/cache'; export XDG_CACHE_HOME; \
     unset IMPINGE_PLUGIN_PATH;
 
+# What suites leave behind in the folders that the environment names.
+clean-local:
+	rm -rf tests/cache tests/no-user-data
+
 EXTRA_DIST += \
     tests/python/support.py \
     tests/python/test_hostile.py \

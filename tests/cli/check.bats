@@ -410,7 +410,7 @@ shows() {
 }
 
 @test "a long check shows on a terminal what it is at, and nowhere else" {
-    command -v script >/dev/null || skip 'no script'
+    needs_terminal
     export IMPINGE
     run script -qec '"$IMPINGE" check torus --effort 4' /dev/null
     [[ $output == *$'\r'[1-9]*' s: torus: '*$'\e[K'* ]]
@@ -493,7 +493,7 @@ missed() {
 @test "none of our types is accused" {
     local so seed=11
     for so in "$top_builddir"/plugins/.libs/*.so; do
-        run "$IMPINGE" check "$so" --seed $((seed++)) --effort 0.1
+        run "$IMPINGE" check "$so" --seed $((seed++)) --effort "$(scaled 0.1)"
         [ "$status" -eq 0 ] || { echo "$output" && false; }
     done
 }

@@ -255,7 +255,7 @@ verbs() { "$IMPINGE" help | sed -n 's/^  \([a-z]*\) .*/\1/p'; }
 }
 
 @test "a long search shows on a terminal how far it came, and nowhere else" {
-    command -v script >/dev/null || skip 'no script'
+    needs_terminal
     run --separate-stderr "$IMPINGE" pair "${endless[@]}" --max-seconds 1.3
     [ -z "$stderr" ]
     export IMPINGE near

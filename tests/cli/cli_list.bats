@@ -29,7 +29,7 @@ load ../support/cli_helper
 }
 
 @test "colour is for terminals alone, and may be refused" {
-    command -v script >/dev/null || skip 'no script'
+    needs_terminal
     on_terminal() { TERM=xterm script -qec "$IMPINGE list $1" /dev/null; }
     run -0 "$IMPINGE" list
     [[ $output != *$'\e['* ]]

@@ -158,8 +158,8 @@ endless_scene() {
 }
 
 @test "help and version come once" {
-    run -0 ranks 2 "$mpi" --version
+    run -0 --separate-stderr ranks 2 "$mpi" --version
     [[ ${#lines[@]} -eq 1 && $output == 'impinge-mpi '* ]]
-    run -0 ranks 2 "$mpi" --help
+    run -0 --separate-stderr ranks 2 "$mpi" --help
     [ "$(grep -c '^Usage: mpirun' <<<"$output")" = 1 ]
 }

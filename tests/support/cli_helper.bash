@@ -31,6 +31,15 @@ has_sanitizers() {
     nm -D "$top_builddir/.libs/libimpinge.so" | grep -q __asan_init
 }
 
+# scaled NUMBER: by IMPINGE_TEST_MULTIPLIER, as suites of Check scale how often they draw.
+scaled() { awk -v n="$1" -v by="${IMPINGE_TEST_MULTIPLIER-1}" 'BEGIN { print n * by }'; }
+
+# Tests of what a terminal shows need a pseudo-terminal, which chroots and containers may lack.
+needs_terminal() {
+    command -v script >/dev/null || skip 'no script (bsdutils)'
+    script -qec true /dev/null >/dev/null 2>&1 || skip 'no pseudo-terminal here'
+}
+
 # fails STATUS TEXT COMMAND...: that status, nothing on standard output, and one line on standard
 # error that begins with "impinge: " and holds the text.
 fails() {

@@ -36,9 +36,12 @@ static imp_options options_of(const imp_scene *scene, const bench_case *c, const
     return o;
 }
 
-/* Answers `query`, and frees it; *seconds is the search alone. */
+/* Answers `query`, and frees it; *seconds is the search alone. After an error
+ * the result is zero. */
 static imp_code run(imp_query *query, imp_result *result, double *seconds, imp_error *error)
 {
+    *result = (imp_result){0};
+    *seconds = 0;
     if (query == NULL) return error->code;
     const double start = seconds_computed();
     const imp_code code = imp_query_step(query, 0, error);
