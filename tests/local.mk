@@ -192,6 +192,9 @@ bats_suites = \
     tests/cli/view.bats \
     tests/cli/why.bats
 
+# Tests of the release, which take as long as all others and are run by check-all only.
+release_suites = tests/cli/release.bats
+
 # Tests of the sources, the scripts and the installation.
 script_suites = \
     tests/cli/install.bats \
@@ -646,11 +649,19 @@ check-local:
 	@for suite in $(without_mpfi); do echo "SKIP: $$suite (MPFI not found)"; done
 	@for suite in $(without_bats); do echo "SKIP: $$suite (bats or jq not found)"; done
 
-# IMPINGE is the command to test. The user's own plugins stay out of it.
+# IMPINGE is the command to test: the program itself, which starts in a tenth of the time of libtool's script
+# before it. The user's own plugins stay out of it. Property tests draw a quarter of what check-all draws.
 TEST_EXTENSIONS = .bats
-BATS_LOG_COMPILER = $(BATS) --tap
+suite_timed = $(top_srcdir)/tests/support/timed
+LOG_COMPILER = $(suite_timed)
+BATS_LOG_COMPILER = $(suite_timed) $(BATS) --tap
 AM_TESTS_ENVIRONMENT = \
-    IMPINGE='$(abs_top_builddir)/tools/impinge'; export IMPINGE; \
+    IMPINGE='$(abs_top_builddir)/tools/impinge'; \
+    if test -x '$(abs_top_builddir)/tools/.libs/impinge'; then \
+      IMPINGE='$(abs_top_builddir)/tools/.libs/impinge'; \
+      LD_LIBRARY_PATH='$(abs_top_builddir)/.libs'; export LD_LIBRARY_PATH; \
+    fi; export IMPINGE; \
+    IMPINGE_TEST_MULTIPLIER="$${IMPINGE_TEST_MULTIPLIER-0.25}"; export IMPINGE_TEST_MULTIPLIER; \
     top_srcdir='$(abs_top_srcdir)'; export top_srcdir; \
     top_builddir='$(abs_top_builddir)'; export top_builddir; \
     CC='$(CC)'; export CC; \
@@ -658,11 +669,28 @@ AM_TESTS_ENVIRONMENT = \
     PYTHON3='$(PYTHON3)'; export PYTHON3; \
     XDG_DATA_HOME='$(abs_top_builddir)/tests/no-user-data'; export XDG_DATA_HOME; \
     XDG_CACHE_HOME='$(abs_top_builddir)/tests/cache'; export XDG_CACHE_HOME; \
+    NODE_PATH="$${NODE_PATH-$(abs_top_srcdir)/build/npm/node_modules}"; export NODE_PATH; \
     unset IMPINGE_PLUGIN_PATH;
 
-# What suites leave behind in the folders that the environment names.
+# Impinge as its users have it, for suites that use it from elsewhere: configured for a prefix of its own,
+# built without optimization, which halves the time, and installed. `files` lists what is installed. Where
+# the source folder is configured itself, a copy of it is built.
+installed = tests/installed
+tests/cli/install.log tests/cli/release.log tests/cli/sdk.log: $(installed)/files
+.PHONY: $(installed)/files
+$(installed)/files:
+	$(AM_V_GEN)unset DESTDIR; source='$(abs_top_srcdir)'; $(MKDIR_P) $(installed)/build && \
+	  if test -f "$$source/config.status"; then \
+	    source='$(abs_top_builddir)/$(installed)/source' && $(MAKE) -s distdir distdir="$$source"; \
+	  fi && cd $(installed)/build && \
+	  { test -f config.status || "$$source/configure" -q -C \
+	      --prefix='$(abs_top_builddir)/$(installed)/prefix' CC='$(CC)' CFLAGS=-O0; } && \
+	  rm -rf ../prefix && $(MAKE) -s install && cd ../prefix && find . | sort >../files
+
+# What suites leave behind.
 clean-local:
-	rm -rf tests/cache tests/no-user-data
+	test ! -d $(installed) || chmod -R u+w $(installed)
+	rm -rf $(installed) tests/cache tests/no-user-data
 
 EXTRA_DIST += \
     tests/python/support.py \
@@ -672,7 +700,9 @@ EXTRA_DIST += \
     tests/python/test_robot.py \
     tests/python/test_text.py \
     tests/python/typed.py
-EXTRA_DIST += $(bats_suites) $(script_suites) tests/support/include_order tests/support/cli_helper.bash \
+EXTRA_DIST += tests/distributions tests/support/timed
+EXTRA_DIST += $(bats_suites) $(script_suites) $(release_suites) tests/support/include_order \
+    tests/support/cli_helper.bash \
     tests/support/comma_locale \
     tests/support/simulate_helper.bash \
     tests/support/page.js \
@@ -690,13 +720,30 @@ EXTRA_DIST += \
     tests/abi/libimpinge \
     tests/abi/libimpinge_0.abi
 
-# With sanitizers a second full run is slow and shows nothing new of scripts and installation; and
-# AddressSanitizer handles stack overflows and ends of threads itself, before the command can. Draws of
-# property tests show nothing new either: a quarter of them.
-.PHONY: check-sanitized check-threads
+# The parts of tools/test --all: all draws of property tests and the release in the first; what a second run
+# of scripts and installation would show is nothing new. AddressSanitizer handles stack overflows and ends
+# of threads itself, before the command can.
+all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
+clang_suites = $(filter-out $(script_suites),$(TESTS))
+sanitized_suites = $(filter-out tests/cli/hostile.bats,$(clang_suites))
+.PHONY: check-all check-clang check-sanitized check-threads
+check-all:
+	IMPINGE_TEST_MULTIPLIER=$${IMPINGE_TEST_MULTIPLIER-1} $(MAKE) check TESTS='$(all_suites)'
+check-clang:
+	$(MAKE) check TESTS='$(clang_suites)'
 check-sanitized:
-	IMPINGE_TEST_MULTIPLIER=$${IMPINGE_TEST_MULTIPLIER-0.25} \
-	  $(MAKE) check TESTS='$(filter-out $(script_suites) tests/cli/hostile.bats,$(TESTS))'
+	$(MAKE) check TESTS='$(sanitized_suites)'
+
+# How many suites each of these runs, for tools/test.
+.PHONY: count-check count-check-all count-check-clang count-check-sanitized
+count-check:
+	@echo $(words $(TESTS))
+count-check-all:
+	@echo $(words $(all_suites))
+count-check-clang:
+	@echo $(words $(clang_suites))
+count-check-sanitized:
+	@echo $(words $(sanitized_suites))
 
 # With configure --enable-sanitizers=thread: what threads share. Only what these suites need is made. A
 # copy made by fork leaves threads unjoined, which are its original's.

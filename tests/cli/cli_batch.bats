@@ -242,10 +242,12 @@ without_seconds() { jq -c 'if .stats then del(.stats.seconds) else . end'; }
 @test "an endless input is answered in constant memory" {
     bash -c 'ulimit -v 600000; "$IMPINGE" --version' || skip 'sanitizers need more of it'
     mkfifo scenes
-    { for k in {1..40}; do many 100; done >scenes; } &
+    local hundreds
+    hundreds=$(scaled 40) && hundreds=${hundreds%.*}
+    { for ((k = 0; k < hundreds; ++k)); do many 100; done >scenes; } &
     run -4 --separate-stderr bash -c 'ulimit -v 600000; "$IMPINGE" batch scenes --threads 2 | wc -l;
         exit "${PIPESTATUS[0]}"'
-    [ "$output" -eq 4000 ]
+    [ "$output" -eq "${hundreds}00" ]
 }
 
 @test "a plugin that crashes in a thread of the pool is named" {

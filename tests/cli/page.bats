@@ -54,10 +54,9 @@ data() { sed -n 's/.*<script type="application\/json" id="data">\(.*\)<\/script>
 
 # Has a browser use page.html; what it saw is in output.
 browse() {
-    local browser modules=$top_builddir/tests/node_modules
+    local browser
     browser=$(command -v chromium || command -v chromium-browser) || skip 'no chromium'
-    NODE_PATH=$modules node -e 'require("playwright-core")' 2>/dev/null || skip 'no playwright-core (npm)'
-    export NODE_PATH=$modules
+    node -e 'require("playwright-core")' 2>/dev/null || skip 'no playwright-core (npm)'
     run -0 --separate-stderr timeout 240 node "$top_srcdir/tests/support/page.js" "$browser" "$PWD/page.html" "$PWD/profile"
     json '.errors == [] and .asked == 1'
     [ "$(jq -r .state <<<"$output")" = ready ] || skip 'no WebGL in this browser'

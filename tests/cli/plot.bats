@@ -69,9 +69,11 @@ has_png() { grep -q '^#define HAVE_LIBPNG 1' "$top_builddir/config.h"; }
 }
 
 @test "figure 7 is plotted from a run of the benchmark, or from what it printed" {
-    run -0 "$IMPINGE" plot figure7
+    local budget
+    budget=$(scaled 100000) # of pairs, for the paper's method
+    run -0 "$IMPINGE" plot figure7 --max-pairs "$budget"
     [[ $output == 'impinge bench figure7'*'S'*'axis, models'*'oblique, paper, spheres'* ]]
-    "$IMPINGE" bench figure7 --json >bench.json
+    "$IMPINGE" bench figure7 --max-pairs "$budget" --json >bench.json
     run -0 "$IMPINGE" plot bench.json -o bench.svg
     [ "$(grep -c '>oblique, ' bench.svg)" -eq 3 ]
     # A dot for each mean above 0, and one for each of six methods in the legend.

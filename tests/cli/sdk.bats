@@ -8,12 +8,9 @@
 bats_require_minimum_version 1.5.0
 
 setup_file() {
-    unset MAKEFLAGS MFLAGS DESTDIR IMPINGE XDG_DATA_HOME CPPFLAGS CFLAGS CXXFLAGS LDFLAGS
-    export prefix=$BATS_FILE_TMPDIR/prefix HOME=$BATS_FILE_TMPDIR/home
-    mkdir "$HOME" "$BATS_FILE_TMPDIR/build"
-    cd "$BATS_FILE_TMPDIR/build"
-    "$top_srcdir"/configure -q -C --prefix="$prefix" CC="$CC" CFLAGS=-O0
-    make -s -j2 install plugin_LTLIBRARIES="$(echo plugins/{sphere,plane,cylinder,translate,rotate}.la)"
+    unset MAKEFLAGS MFLAGS DESTDIR IMPINGE XDG_DATA_HOME CPPFLAGS CFLAGS CXXFLAGS LDFLAGS LD_LIBRARY_PATH
+    export prefix=$top_builddir/tests/installed/prefix HOME=$BATS_FILE_TMPDIR/home
+    mkdir "$HOME"
     export PATH=$prefix/bin:$PATH PKG_CONFIG_PATH=$prefix/lib/pkgconfig
     export ACLOCAL_PATH=$prefix/share/aclocal
 
