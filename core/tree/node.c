@@ -6,7 +6,6 @@
 
 #include <assert.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/status.h"
@@ -14,45 +13,21 @@
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
-/* The next place of the newest chunk; NULL: it has none. */
-static node *next_place(tree *t)
-{
-    chunk *c = atomic_load_explicit(&t->chunks, memory_order_acquire);
-    if (c == NULL) return NULL;
-    const size_t at = atomic_fetch_add_explicit(&c->used, 1, memory_order_relaxed);
-    return at < c->capacity ? &c->nodes[at] : NULL;
-}
-
-/* The first place of another chunk. NULL: no memory. */
-static node *place_of_new_chunk(tree *t, tree_growth *growth)
-{
-    chunk *const last = atomic_load_explicit(&t->chunks, memory_order_relaxed);
-    const size_t wanted = last == NULL ? CHUNK_GROWTH : CHUNK_GROWTH * last->capacity;
-    const size_t capacity = wanted < CHUNK_NODES_MAX ? wanted : CHUNK_NODES_MAX;
-    const size_t bytes = sizeof(chunk) + capacity * sizeof(node);
-    chunk *fresh = malloc(bytes);
-    if (fresh == NULL) return NULL;
-    fresh->next = last;
-    fresh->capacity = capacity;
-    atomic_init(&fresh->used, 1);
-    atomic_store_explicit(&t->chunks, fresh, memory_order_release);
-    growth->bytes += bytes;
-    return &fresh->nodes[0];
-}
+static const arena_growth node_growth = {4 * sizeof(node), 4, 64 * sizeof(node)};
 
 /* Room for a node, which is then published or given back; NULL: no memory. */
 static node *node_reserve(tree *t, tree_growth *growth)
 {
     node *n = NULL;
-    if (atomic_load_explicit(&t->spare, memory_order_relaxed) == NULL) n = next_place(t);
+    if (atomic_load_explicit(&t->spare, memory_order_relaxed) == NULL)
+        n = arena_next(&t->nodes, sizeof *n);
     if (n != NULL) return n;
     pthread_mutex_lock(&t->lock);
     n = atomic_load_explicit(&t->spare, memory_order_relaxed);
     if (n != NULL)
         atomic_store_explicit(&t->spare, n->parent, memory_order_relaxed);
     else
-        n = next_place(t);
-    if (n == NULL) n = place_of_new_chunk(t, growth);
+        n = arena_take(&t->nodes, &node_growth, sizeof *n, &growth->bytes);
     pthread_mutex_unlock(&t->lock);
     return n;
 }

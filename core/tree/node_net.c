@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/status.h"
@@ -11,40 +10,14 @@
 
 const net net_none;
 
-/* The next room of the newest arena; NULL: it has none. */
-static net *next_room(tree *t, size_t bytes)
-{
-    arena *a = atomic_load_explicit(&t->nets, memory_order_acquire);
-    if (a == NULL) return NULL;
-    const size_t at = atomic_fetch_add_explicit(&a->used, bytes, memory_order_relaxed);
-    return at + bytes <= a->capacity ? (net *)(void *)((char *)a->memory + at) : NULL;
-}
-
-/* The first room of another arena. NULL: no memory. */
-static net *room_of_new_arena(tree *t, size_t bytes, tree_growth *growth)
-{
-    arena *const last = atomic_load_explicit(&t->nets, memory_order_relaxed);
-    const size_t wanted = last == NULL ? bytes : CHUNK_GROWTH * last->capacity;
-    const size_t most = CHUNK_NODES_MAX * bytes;
-    const size_t capacity = wanted < bytes ? bytes : wanted < most ? wanted : most;
-    arena *fresh = malloc(sizeof *fresh + capacity);
-    if (fresh == NULL) return NULL;
-    fresh->next = last;
-    fresh->capacity = capacity;
-    atomic_init(&fresh->used, bytes);
-    atomic_store_explicit(&t->nets, fresh, memory_order_release);
-    growth->bytes += sizeof *fresh + capacity;
-    return (net *)(void *)fresh->memory;
-}
-
 /* Room for a net; NULL: no memory. */
 static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
 {
-    net *n = next_room(t, bytes);
+    const arena_growth sizes = {bytes, 4, 64 * bytes};
+    net *n = arena_next(&t->nets, bytes);
     if (n != NULL) return n;
     pthread_mutex_lock(&t->lock);
-    n = next_room(t, bytes);
-    if (n == NULL) n = room_of_new_arena(t, bytes, growth);
+    n = arena_take(&t->nets, &sizes, bytes, &growth->bytes);
     pthread_mutex_unlock(&t->lock);
     return n;
 }

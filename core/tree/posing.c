@@ -4,7 +4,6 @@
 
 #include "core/tree/posing.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/base/status.h"
@@ -25,40 +24,8 @@ typedef struct span {
 
 /* --- Memory ----------------------------------------------------------------------------------- */
 
-typedef struct posing_block {
-    struct posing_block *next;
-    size_t used, capacity; /* bytes */
-    double memory[];
-} posing_block;
-
 /* Blocks of 2, 4 and 8 KiB, and more of these. */
-enum { BLOCK_FIRST = 2048, BLOCK_GROWTH = 2, BLOCK_MOST = 8192 };
-_Static_assert(sizeof(span) <= BLOCK_FIRST && sizeof(shape) <= BLOCK_FIRST, "each fits");
-
-static void *allocate(posing *g, size_t bytes, tree_growth *growth)
-{
-    if (g->blocks == NULL || g->blocks->capacity - g->blocks->used < bytes) {
-        const size_t wanted = g->blocks == NULL ? BLOCK_FIRST : BLOCK_GROWTH * g->blocks->capacity;
-        const size_t capacity = wanted < BLOCK_MOST ? wanted : BLOCK_MOST;
-        posing_block *fresh = malloc(sizeof *fresh + capacity);
-        if (fresh == NULL) return NULL;
-        *fresh = (posing_block){.next = g->blocks, .capacity = capacity};
-        g->blocks = fresh;
-        growth->bytes += sizeof *fresh + capacity;
-    }
-    void *room = (char *)g->blocks->memory + g->blocks->used;
-    g->blocks->used += bytes;
-    return room;
-}
-
-void posing_clear(posing *g)
-{
-    while (g->blocks != NULL) {
-        posing_block *next = g->blocks->next;
-        free(g->blocks);
-        g->blocks = next;
-    }
-}
+static const arena_growth posing_growth = {2048, 2, 8192};
 
 /* --- Shapes ----------------------------------------------------------------------------------- */
 
@@ -89,7 +56,7 @@ static shape *shape_publish(posing *g, const shape *filled, _Atomic(shape *) *sl
     pthread_mutex_lock(g->lock);
     shape *s = atomic_load_explicit(slot, memory_order_relaxed);
     if (s == NULL) {
-        s = allocate(g, sizeof *s, growth);
+        s = arena_take(&g->memory, &posing_growth, sizeof *s, &growth->bytes);
         if (s != NULL) {
             memcpy(s, filled, sizeof *s);
             atomic_store_explicit(slot, s, memory_order_release);
@@ -142,7 +109,7 @@ static span *span_publish(posing *g, const span *filled, _Atomic(span *) *slot, 
     pthread_mutex_lock(g->lock);
     span *s = atomic_load_explicit(slot, memory_order_relaxed);
     if (s == NULL) {
-        s = allocate(g, sizeof *s, growth);
+        s = arena_take(&g->memory, &posing_growth, sizeof *s, &growth->bytes);
         if (s != NULL) {
             memcpy(s, filled, sizeof *s);
             atomic_store_explicit(slot, s, memory_order_release);

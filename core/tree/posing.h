@@ -5,6 +5,7 @@
 
 #include <pthread.h>
 
+#include "core/base/arena.h"
 #include "core/tree/pose.h"
 
 /* Shapes and spans of a tree
@@ -21,7 +22,7 @@ typedef struct posing {
     _Atomic bool is_idle;          /* nodes of this surface are not posed */
     _Atomic(struct shape *) shape; /* of the root; NULL: not made yet */
     _Atomic(struct span *) span;
-    struct posing_block *blocks;
+    arena memory; /* of shapes and spans */
 } posing;
 
 /* Sets shape and span of n, which is half of its parent and has nothing else yet but its place,
@@ -30,7 +31,5 @@ imp_code posing_begin(posing *g, node *n, tree_growth *growth, imp_error *error)
 
 /* Fills n from its shape and its span. False: it has to be filled otherwise. */
 bool posing_fill(node *n);
-
-void posing_clear(posing *g);
 
 #endif

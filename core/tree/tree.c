@@ -147,20 +147,10 @@ imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp
 void tree_free(tree *t)
 {
     if (t == NULL) return;
-    chunk *nodes = atomic_load_explicit(&t->chunks, memory_order_relaxed);
-    while (nodes != NULL) {
-        chunk *next = nodes->next;
-        free(nodes);
-        nodes = next;
-    }
+    arena_clear(&t->nodes);
     hierarchy_free(t->pieces);
-    arena *nets = atomic_load_explicit(&t->nets, memory_order_relaxed);
-    while (nets != NULL) {
-        arena *next = nets->next;
-        free(nets);
-        nets = next;
-    }
-    posing_clear(&t->posing);
+    arena_clear(&t->nets);
+    arena_clear(&t->posing.memory);
     pthread_mutex_destroy(&t->lock);
     if (!t->begins_with_root) free(atomic_load_explicit(&t->root, memory_order_relaxed));
     free(t);

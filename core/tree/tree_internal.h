@@ -5,29 +5,11 @@
 
 #include <pthread.h>
 
+#include "core/base/arena.h"
 #include "core/tree/node.h"
 #include "core/tree/posing.h"
 
 /* What the files of a tree share: tree.c, node.c, node_bounds.c, node_net.c. */
-
-/* Chunks of 4, 16, 64, 64, ... nodes beside the root. */
-enum { CHUNK_GROWTH = 4, CHUNK_NODES_MAX = 64 };
-
-/* Places are taken by counting, without the lock: what goes beyond the capacity is no place. */
-typedef struct chunk {
-    struct chunk *next;
-    _Atomic(size_t) used;
-    size_t capacity;
-    node nodes[];
-} chunk;
-
-/* Blocks of nets: room for 1, 4, 16, 64, 64, ... as the chunks. */
-typedef struct arena {
-    struct arena *next;
-    _Atomic(size_t) used; /* bytes */
-    size_t capacity;      /* the same */
-    double memory[];
-} arena;
 
 struct tree {
     const surface *surface;
@@ -35,11 +17,11 @@ struct tree {
     tree *next;
     _Atomic(node *) root; /* NULL: not made yet */
     bool begins_with_root;
-    pthread_mutex_t lock; /* of changes to the lists of blocks and spare nodes, and of the root */
-    _Atomic(chunk *) chunks;
+    pthread_mutex_t lock;  /* of changes to the lists of blocks and spare nodes, and of the root */
+    arena nodes;           /* beside the root */
     _Atomic(node *) spare; /* reserved, but not published; each one's parent is the next */
     hierarchy *pieces;     /* NULL: it is one surface */
-    _Atomic(arena *) nets;
+    arena nets;
     posing posing;
     double rest[]; /* the root, if the tree begins with it; else the root's box */
 };

@@ -1,0 +1,48 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_BASE_ARENA_H
+#define CORE_BASE_ARENA_H
+
+#include <stdatomic.h>
+#include <stddef.h>
+
+/* Arenas: rooms of memory that are freed all together
+ * ===================================================
+ * Rooms are taken from the newest block by counting, without a lock; what goes beyond the block's
+ * capacity is no room. A new block is made under a lock of the caller's. An arena begins zeroed. */
+
+typedef struct arena_block {
+    struct arena_block *next;
+    _Atomic(size_t) used; /* bytes; more than the capacity where rooms were refused */
+    size_t capacity;      /* bytes */
+    double memory[];
+} arena_block;
+
+typedef struct arena {
+    _Atomic(arena_block *) newest; /* NULL: there is none yet */
+} arena;
+
+/* Capacities of an arena's blocks: the first one's, the factor from one to the next, and the
+ * greatest. */
+typedef struct arena_growth {
+    size_t first, factor, most; /* bytes, 1, bytes */
+} arena_growth;
+
+/* Room of `bytes`, a multiple of 8, in the newest block; NULL: that has too little left. May be
+ * called by several threads at once. */
+static inline void *arena_next(arena *a, size_t bytes)
+{
+    arena_block *newest = atomic_load_explicit(&a->newest, memory_order_acquire);
+    if (newest == NULL) return NULL;
+    const size_t at = atomic_fetch_add_explicit(&newest->used, bytes, memory_order_relaxed);
+    return at + bytes <= newest->capacity ? (char *)newest->memory + at : NULL;
+}
+
+/* Room of `bytes` in the newest block, or in a new one, whose size is added to *made; NULL: no
+ * memory. Only one thread at a time may call it; others may call arena_next meanwhile. */
+void *arena_take(arena *a, const arena_growth *growth, size_t bytes, size_t *made);
+
+/* Frees all blocks. */
+void arena_clear(arena *a);
+
+#endif
