@@ -99,6 +99,7 @@ core_bounds = \
     core/bounds/distance_sides.c \
     core/bounds/fixed_axes.c core/bounds/fixed_axes.h \
     core/bounds/gap_lines.c core/bounds/gap_lines.h \
+    core/bounds/gjk.h \
     core/bounds/gjk_axis.c core/bounds/gjk_axis.h \
     core/bounds/moving_boxes.c core/bounds/moving_boxes.h \
     core/bounds/net_axis.c core/bounds/net_axis.h \
@@ -108,7 +109,6 @@ core_bounds = \
     core/bounds/normal_field.c core/bounds/normal_field.h \
     core/bounds/quadratic.h \
     core/bounds/separation.c core/bounds/separation.h \
-    core/bounds/simplex.h \
     core/bounds/time_window.c core/bounds/time_window.h \
     core/bounds/trial_rate.h \
     core/bounds/tuning.h \

@@ -4,8 +4,7 @@
 
 #include "core/bounds/gjk_axis.h"
 
-#include "core/bounds/simplex.h"
-#include "core/bounds/tuning.h"
+#include "core/bounds/gjk.h"
 
 #include <impinge/quad.h>
 
@@ -102,22 +101,18 @@ IMP_QUAD_INLINE vec3 shape_lowest(const shape *z, vec3 n, bool bends)
 
 /* --- The search ------------------------------------------------------------------------------- */
 
-/* The gap that the axis through the nearest point shows is the lowest point's height along it; it
- * is good enough when it is r->share of what it can be. A NaN ends the search. */
+IMP_QUAD_INLINE vec3 lowest_curved(const void *set, vec3 n) { return shape_lowest(set, n, true); }
+
+IMP_QUAD_INLINE vec3 lowest_bilinear(const void *set, vec3 n)
+{
+    return shape_lowest(set, n, false);
+}
+
 IMP_QUAD_INLINE bool search(const difference *r, double w, vec3 *axis, bool bends)
 {
     const shape z = shape_at(r, w, bends);
-    simplex s = on_point(shape_lowest(&z, *axis, bends));
-    for (int k = 0; k < TUNING_GJK_STEPS; ++k) {
-        const vec3 lowest = shape_lowest(&z, s.nearest, bends);
-        if (!(vec3_dot(s.nearest, lowest) < r->share * s.square)) break;
-        const simplex next = simplex_add(&s, lowest);
-        if (next.count == 0) return false;
-        if (!(next.square < s.square)) break;
-        s = next;
-    }
-    *axis = s.nearest;
-    return true;
+    return bends ? gjk_search(lowest_curved, &z, r->share, axis)
+                 : gjk_search(lowest_bilinear, &z, r->share, axis);
 }
 
 IMP_QUAD_WIDE static bool search_wide(const difference *r, double w, vec3 *axis)

@@ -7,11 +7,8 @@
 
 /* The separating axis along which two nodes are farthest apart: GJK
  * =================================================================
- * At one moment of the window, B - A and the box of its slack fill a set. The axis through the
- * point of its convex hull that is nearest to the origin shows the widest gap of all. It is
- * found as E. Gilbert, D. Johnson and S. Keerthi do ("A fast procedure for computing the distance
- * between complex objects in three-dimensional space", 1988), and no nearer than pays. Nothing is
- * proved by it: fixed_axes.h proves what the axis shows. */
+ * At one moment of the window, B - A and the box of its slack fill a set, whose convex hull is
+ * searched (gjk.h). fixed_axes.h proves what the axis shows. */
 
 /* Turns `axis`, which may be any direction but 0, to that for the moment w. False: the hulls meet
  * then, so that no axis shows a gap; `axis` is as it was. */

@@ -5,9 +5,8 @@
 #include "core/bounds/net_axis.h"
 
 #include "core/base/rounding.h"
+#include "core/bounds/gjk.h"
 #include "core/bounds/net_hull.h"
-#include "core/bounds/simplex.h"
-#include "core/bounds/tuning.h"
 
 /* --- The search ------------------------------------------------------------------------------- */
 
@@ -17,14 +16,14 @@ typedef struct hulls {
     vec3 apart;
 } hulls;
 
-IMP_QUAD_INLINE vec3 lowest_of(const hulls *h, vec3 n)
+IMP_QUAD_INLINE vec3 lowest_of(const void *set, vec3 n)
 {
+    const hulls *h = set;
     const vec3 p = lowest_of_cloud(&h->b, h->quads_b, n);
     const vec3 q = lowest_of_cloud(&h->a, h->quads_a, vec3_scale(n, -1));
     return vec3_add(vec3_sub(p, q), h->apart);
 }
 
-/* As gjk_axis.c does it, on points. */
 IMP_QUAD_INLINE bool seek(const node *a, const node *b, double t, vec3 *axis)
 {
     const net *f = node_net_made(a), *g = node_net_made(b);
@@ -34,17 +33,7 @@ IMP_QUAD_INLINE bool seek(const node *a, const node *b, double t, vec3 *axis)
     h.apart = places_apart(f, g, t);
     cloud_at(f, t, &h.a);
     cloud_at(g, t, &h.b);
-    simplex s = on_point(lowest_of(&h, *axis));
-    for (int k = 0; k < TUNING_GJK_STEPS; ++k) {
-        const vec3 lowest = lowest_of(&h, s.nearest);
-        if (!(vec3_dot(s.nearest, lowest) < TUNING_GJK_GAP * s.square)) break;
-        const simplex next = simplex_add(&s, lowest);
-        if (next.count == 0) return false;
-        if (!(next.square < s.square)) break;
-        s = next;
-    }
-    *axis = s.nearest;
-    return true;
+    return gjk_search(lowest_of, &h, TUNING_GJK_GAP, axis);
 }
 
 IMP_QUAD_WIDE static bool seek_wide(const node *a, const node *b, double t, vec3 *axis)

@@ -5,10 +5,9 @@
 #include "core/bounds/net_model_axis.h"
 
 #include "core/base/rounding.h"
+#include "core/bounds/gjk.h"
 #include "core/bounds/net_hull.h"
 #include "core/bounds/quadratic.h"
-#include "core/bounds/simplex.h"
-#include "core/bounds/tuning.h"
 
 /* The pair from the side of the net: `way` is 1 where the model is B, -1 where it is A. */
 typedef struct net_model {
@@ -94,15 +93,15 @@ typedef struct net_and_bowl {
     vec3 apart;
 } net_and_bowl;
 
-/* Of model - net. */
-IMP_QUAD_INLINE vec3 net_model_lowest(const net_and_bowl *h, vec3 n)
+/* The support function of model - net. */
+IMP_QUAD_INLINE vec3 net_model_lowest(const void *set, vec3 n)
 {
+    const net_and_bowl *h = set;
     const vec3 p = lowest_of_bowl(&h->bowl, n);
     const vec3 q = lowest_of_cloud(&h->net, h->quads, vec3_scale(n, -1));
     return vec3_add(vec3_sub(p, q), h->apart);
 }
 
-/* As gjk_axis.c does it. */
 IMP_QUAD_INLINE bool net_model_seek(const net_model *p, double t, vec3 *axis)
 {
     net_and_bowl h;
@@ -110,16 +109,9 @@ IMP_QUAD_INLINE bool net_model_seek(const net_model *p, double t, vec3 *axis)
     h.apart = centre_apart(p, t);
     h.bowl = bowl_at(p->model, t);
     cloud_at(p->net, t, &h.net);
-    simplex s = on_point(net_model_lowest(&h, vec3_scale(*axis, p->way)));
-    for (int k = 0; k < TUNING_GJK_STEPS; ++k) {
-        const vec3 lowest = net_model_lowest(&h, s.nearest);
-        if (!(vec3_dot(s.nearest, lowest) < TUNING_GJK_GAP * s.square)) break;
-        const simplex next = simplex_add(&s, lowest);
-        if (next.count == 0) return false;
-        if (!(next.square < s.square)) break;
-        s = next;
-    }
-    *axis = vec3_scale(s.nearest, p->way);
+    vec3 n = vec3_scale(*axis, p->way);
+    if (!gjk_search(net_model_lowest, &h, TUNING_GJK_GAP, &n)) return false;
+    *axis = vec3_scale(n, p->way);
     return true;
 }
 

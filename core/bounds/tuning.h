@@ -106,7 +106,7 @@
  * Types with bounds: no change */
 #define TUNING_MOMENT 0x1p-20
 
-/* --- How far to cut one pair's window (separation.c, gjk_axis.c, normal_field.c) -------------- */
+/* --- How far to cut one pair's window (separation.c, gjk.h, normal_field.c) -------------- */
 
 /* Centres at most.
  * 1: +0.6, 2: 0.0, 6: 0.0 */

@@ -1,15 +1,24 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef CORE_BOUNDS_SIMPLEX_H
-#define CORE_BOUNDS_SIMPLEX_H
+#ifndef CORE_BOUNDS_GJK_H
+#define CORE_BOUNDS_GJK_H
 
+#include "core/bounds/tuning.h"
 #include "core/tree/vec.h"
 
 #include <impinge/quad.h>
 
-/* The point of a simplex that is nearest to the origin
- * ====================================================
- * For the searches for axes, whose results decide only how much an axis shows. */
+/* The axis along which a convex set lies farthest from the origin: GJK
+ * ====================================================================
+ * The axis through the set's point that is nearest to the origin shows the widest gap of all. The
+ * point is sought by the method of E. Gilbert, D. Johnson and S. Keerthi ("A fast procedure for
+ * computing the distance between complex objects in three-dimensional space", 1988), and no nearer
+ * than pays. The set is known by its support function alone. Two nodes' set is a Minkowski
+ * difference B - A: of their Taylor models (gjk_axis.c), of the hulls of their control nets
+ * (net_axis.c), of a model and a hull (net_model_axis.c). Nothing is proved here: what an axis
+ * shows is proved afterwards. */
+
+/* --- The nearest point of a simplex ----------------------------------------------------------- */
 
 /* A point, segment or triangle, and its point that is nearest, which lies inside it. */
 typedef struct simplex {
@@ -69,6 +78,30 @@ IMP_QUAD_INLINE simplex simplex_add(const simplex *s, vec3 a)
     if (s->count == 1) return on_segment(a, s->p[0]);
     if (s->count == 2) return on_triangle(a, s->p[0], s->p[1]);
     return on_tetrahedron(a, s->p[0], s->p[1], s->p[2]);
+}
+
+/* --- The search ------------------------------------------------------------------------------- */
+
+/* The support function: the point of the set that lies lowest along n, or nearly. It is inlined
+ * where each caller names its own. */
+typedef vec3 (*gjk_support)(const void *set, vec3 n);
+
+/* Turns `axis`, which may be any direction but 0, to one that shows at least `share` of the widest
+ * gap: the gap along the axis to a point that is reached is the lowest point's height along it.
+ * False: the set holds the origin; `axis` is as it was. A NaN ends the search. */
+IMP_QUAD_INLINE bool gjk_search(gjk_support lowest, const void *set, double share, vec3 *axis)
+{
+    simplex s = on_point(lowest(set, *axis));
+    for (int k = 0; k < TUNING_GJK_STEPS; ++k) {
+        const vec3 low = lowest(set, s.nearest);
+        if (!(vec3_dot(s.nearest, low) < share * s.square)) break;
+        const simplex next = simplex_add(&s, low);
+        if (next.count == 0) return false;
+        if (!(next.square < s.square)) break;
+        s = next;
+    }
+    *axis = s.nearest;
+    return true;
 }
 
 #endif
