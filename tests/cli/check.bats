@@ -352,7 +352,10 @@ shows() {
 
 @test "a callback that allocates is exposed, also where a function that it calls does" {
     shows allocations manners eval_allocates 'eval calls malloc: it must not allocate'
-    shows allocations manners include_copies_text 'include calls malloc: it must not allocate'
+    # AddressSanitizer has a strdup of its own, which calls no malloc that could be seen.
+    local call=malloc
+    ! has_sanitizers || call=free
+    shows allocations manners include_copies_text "include calls $call: it must not allocate"
 }
 
 @test "values that create takes, and that make nonsense, are exposed" {

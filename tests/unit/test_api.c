@@ -89,6 +89,9 @@ static bool drop_scene(imp_scene *made) { return imp_scene_free(made), made == N
 static bool drop_query(imp_query *made) { return imp_query_free(made), made == NULL; }
 static bool drop_builder(imp_builder *made) { return imp_builder_free(made), made == NULL; }
 
+static bool drop_text(char *made) { return free(made), made == NULL; }
+static bool is_none(const char *answer) { return answer == NULL; }
+
 /* So that the compiler does not leave out a call whose answer nobody needs. */
 static void *volatile kept;
 
@@ -97,7 +100,8 @@ static void *volatile kept;
 #define API_REFUSED_imp_code(ANSWER) ((ANSWER) == IMP_ERROR_USAGE)
 #define API_REFUSED_bool(ANSWER) (!(ANSWER))
 #define API_REFUSED_size_t(ANSWER) ((ANSWER) == 0)
-#define API_REFUSED_char_p(ANSWER) ((ANSWER) == NULL)
+/* The caller frees a char *; a const char * is the library's. */
+#define API_REFUSED_char_p(ANSWER) _Generic((ANSWER), char * : drop_text, default : is_none)(ANSWER)
 #define API_REFUSED_imp_call_p(ANSWER) ((ANSWER) == NULL)
 #define API_REFUSED_imp_registry_p(ANSWER) drop_registry(ANSWER)
 #define API_REFUSED_imp_scene_p(ANSWER) drop_scene(ANSWER)

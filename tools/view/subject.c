@@ -35,7 +35,8 @@ static void take_result(subject *s, const imp_result *r)
     s->spot.has_normal = r->has_normal, s->spot.normal = vec_of(r->normal);
 }
 
-/* Shares of the time that is left, of search and nearest approach. */
+/* Shares of the time that is left, of search and nearest approach; the picture is made in the
+ * rest. */
 static const double share_of_search = 0.5, share_of_nearest = 0.5;
 
 static exit_status solve(subject *s, const arguments *args)
@@ -60,6 +61,7 @@ imp_code subject_find_nearest(subject *s, imp_error *error)
     if (s->spot.is_known || s->has_looked) return IMP_SUCCESS;
     s->has_looked = true;
     options.max_seconds = allowance_left(&s->allowance, share_of_nearest);
+    options.max_bytes /= 4; /* 0, which is no limit, stays; the rest is the picture's */
     options.baseline = IMP_BASELINE_NONE;
     return nearest_find(s->scene, &options, &s->spot, error);
 }
