@@ -14,7 +14,8 @@ core_common = \
     core/common/fp_control.h \
     core/common/spelling.c core/common/spelling.h \
     core/common/random.h \
-    core/common/system_error.h
+    core/common/system_error.h \
+    core/common/tunable.h
 
 core_base = \
     core/impinge/baseline.h core/impinge/examine.h core/impinge/impinge.h \

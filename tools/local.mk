@@ -66,12 +66,14 @@ tools_bench = \
     tools/bench/conformal.c \
     tools/bench/crowd.c tools/bench/crowd.h \
     tools/bench/crowds.c \
+    tools/bench/instructions.c tools/bench/instructions.h \
     tools/bench/json.c \
     tools/bench/measure.c \
     tools/bench/patches.c \
     tools/bench/print.c \
     tools/bench/sets.c \
     tools/bench/stream.c \
+    tools/bench/tune.c tools/bench/tune.h \
     tools/bench/verb_bench.c
 
 tools_cli = \
@@ -198,6 +200,17 @@ tools_libs = tools/libtools.a tools/libproof.la core/libcommon.la libimpinge.la 
 bin_PROGRAMS += tools/impinge
 tools_impinge_SOURCES = tools/cli/main.c
 tools_impinge_LDADD = $(tools_libs)
+
+# The command for `bench --tune`: the library linked in, its tuning constants as variables. Built by
+# name only.
+EXTRA_PROGRAMS = tools/impinge-tunable
+CLEANFILES += tools/impinge-tunable
+tools_impinge_tunable_SOURCES = $(tools_impinge_SOURCES) $(tools_libtools_a_SOURCES) \
+    $(core_common) $(core_libcore_la_SOURCES) core/bounds/tuning.c
+tools_impinge_tunable_CPPFLAGS = $(AM_CPPFLAGS) -DIMP_TUNABLE
+# Positive variables stand for constants there, so that changes of sign are harmless.
+tools_impinge_tunable_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS) -Wno-sign-conversion -Wno-sign-compare
+tools_impinge_tunable_LDADD = tools/libproof.la $(JANSSON_LIBS) $(LIBPNG_LIBS) -lm
 
 # batch and solve --each for clusters, where there is MPI.
 if HAVE_MPI

@@ -1,211 +1,181 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
+/* No include guard for the body: core/bounds/tuning.c reads the constants again with other
+ * definitions of the two macros. */
+#ifndef TUNING_INTEGER
+#ifdef IMP_TUNABLE /* tools/impinge-tunable: `impinge bench --tune NAME` changes them */
+#define TUNING_INTEGER(name, value) extern int name
+#define TUNING_NUMBER(name, value) extern double name
+#else
+#define TUNING_INTEGER(name, value) enum { name = value }
+#define TUNING_NUMBER(name, value) static const double name = value
+#endif
+#endif
+
 #ifndef CORE_BOUNDS_TUNING_H
 #define CORE_BOUNDS_TUNING_H
 
-/* Numbers that decide how much work a search takes, never what it proves
- * ===============================================================
- * Below each is what other values do to the pairs of `impinge bench bicubic spikes tori`, in per
- * cent of the 104593 that were tested when they were measured; witness searches, of which there
- * were 381, where they are what the number is about. */
+/* Tuning constants: how much work a search takes, never what it proves
+ * ====================================================================
+ * Any positive value is sound. `impinge bench --tune NAME` (see core/MEASUREMENTS.md) runs the
+ * benchmark sets with several values of one constant, and prints pairs and instructions for
+ * each. Numbers without a unit are ratios. */
 
 /* --- What to split (subdivision.c) ------------------------------------------------------------ */
 
-/* Time blurs a node from gamma / this on.
- * 32: -0.1, 128: 0.0 */
-#define TUNING_BLUR_OF_GAMMA 64
-/* And from 1 / this of what place blurs its pair on.
- * 2: +0.5, 8: -0.6 */
-#define TUNING_BLUR_OF_PLACE 4
-/* The same where both nodes have nets, whose hulls do not depend on the nodes' times. Bicubic
- * scenes, rational, triangles: 4: +1.6, 8: -0.5, for 2 % more nodes */
-#define TUNING_BLUR_BESIDE_NETS 6
-/* Weight of what is not linear in time.
- * 1: +1.8, 4: +0.2 */
-#define TUNING_TIME_CUT 2
-/* The same where one half is enough, unless both nodes have nets.
- * 4: +2.6, 16: -1.2 */
-#define TUNING_FREE_TIME_CUT 8
-/* Weight of what is not linear in place, of tangent nodes.
- * 2: -0.1, 8: 0.0; of the conformal set 2: +1.1, 8: +5.5 */
-#define TUNING_TANGENT_CUT 4
-/* And of slopes.
- * 0x1p-6, 0x1p-20: 0.0; of the conformal set 0x1p-6: +11.5 */
-#define TUNING_TANGENT_SLOPE 0x1p-12
-/* Where gamma has a narrow room, motion that bends within the window counts from 1 / this of place
- * on. Pairs of the arm of tools/data with 3 to 20 mm required, 21467 in all: 1: +30, 4: +15, 64:
- * +2, 256: +25 */
-#define TUNING_BEND_OF_PLACE 16
-/* u and v are no longer cut: extents below (gamma - gamma_clear) / this.
- * 32, 128: no change */
-#define TUNING_TINY 64
+/* Split time once it adds more than gamma / this to a node's remainder. */
+TUNING_INTEGER(TUNING_BLUR_OF_GAMMA, 64);
+/* Split time only if its part of the remainder is also more than 1 / this of what u and v add.
+ * Smaller: fewer nodes split in time, more pairs. */
+TUNING_INTEGER(TUNING_BLUR_OF_PLACE, 4);
+/* Replaces TUNING_BLUR_OF_PLACE where both nodes have control nets, since the hull of a net does
+ * not depend on the node's times. */
+TUNING_INTEGER(TUNING_BLUR_BESIDE_NETS, 6);
+/* Weight of a node's nonlinear motion in time when the parameter to split is chosen. */
+TUNING_INTEGER(TUNING_TIME_CUT, 2);
+/* Weight of nonlinear motion where the window lies in one half of the node's time, so that the
+ * cut makes one child. Not used if both nodes have nets. */
+TUNING_INTEGER(TUNING_FREE_TIME_CUT, 8);
+/* Weight of curvature in u and v for nodes with nearly parallel normals (set: conformal). */
+TUNING_INTEGER(TUNING_TANGENT_CUT, 4);
+/* Weight of extent in u and v for nodes with nearly parallel normals (set: conformal). */
+TUNING_NUMBER(TUNING_TANGENT_SLOPE, 0x1p-12);
+/* Where gamma - gamma_clear is small against gamma_clear, time is split once the motion's bend
+ * within the window exceeds 1 / this of the extents in u and v (`impinge clearance` of
+ * tools/data/arm.json with --require 4). */
+TUNING_INTEGER(TUNING_BEND_OF_PLACE, 16);
+/* u and v are not split once the pair's extents are below (gamma - gamma_clear) / this. */
+TUNING_INTEGER(TUNING_TINY, 64);
 
-/* --- Which roots are only looked at before they are popped (pair_test.c) ---------------------- */
+/* --- Which roots are tested by their boxes before they are popped (pair_test.c) --------------- */
 
-/* A candidate pair's bodies have many if the one so many places before or behind has the same
- * bodies. */
-#define TUNING_GLANCES_APART 4
+/* The bodies of a candidate pair have many pairs if the candidate pair this many places before or
+ * after it in the list is of the same two bodies. */
+TUNING_INTEGER(TUNING_GLANCES_APART, 4);
 
-/* --- When to search for a witness (time_of_impact.c) ------------------------------------------ */
+/* --- When to search for a witness (expand_pair.c) --------------------------------------------- */
 
-/* The remainders of the pair are below gamma / this.
- * 1: +0.2, 4: +0.7; searches 1: +169, 4: -66 */
-#define TUNING_WITNESS_GAMMA 2
-/* Or above this times its extents.
- * 2, 8: no change */
-#define TUNING_WITNESS_EXTENT 4
-/* Or precision ends, flat as this times the evaluation error.
- * 8, 32: no change */
-#define TUNING_WITNESS_FLAT 16
-/* Generations between searches: the four sides halve about once.
- * 2: -0.4, 10: +0.6; searches 2: +62, 10: -28 */
-#define TUNING_WITNESS_WAIT 5
+/* A witness is sought once the remainders of the pair are below gamma / this. */
+TUNING_INTEGER(TUNING_WITNESS_GAMMA, 2);
+/* A witness is also sought once the remainders are above this times the pair's extents. */
+TUNING_INTEGER(TUNING_WITNESS_EXTENT, 4);
+/* A witness is also sought once the pair's curvature is below this times the evaluation error. */
+TUNING_INTEGER(TUNING_WITNESS_FLAT, 16);
+/* Generations of splits between two witness searches: each of the four sides halves about once. */
+TUNING_INTEGER(TUNING_WITNESS_WAIT, 5);
+/* Points of two nets nearer than this part of gamma are evaluated on the surfaces. */
+TUNING_NUMBER(TUNING_WITNESS_NEAR, 0.5);
 
-/* Points of two nets this part of gamma apart are near enough to be evaluated.
- * Bicubic patches at gamma 1e-6, 0, 0.875: no change */
-#define TUNING_WITNESS_NEAR 0.5
+/* --- When to look for an upper time (upper_time.c), and how (contact_estimate.c) -------------- */
 
-/* --- When to look for an upper time (upper_time.c), and how (contact_estimate.c) ---
- *
- * Changes of the pairs of the 100 bicubic scenes at gamma 1e-6, which are 79, and of their
- * instructions in per cent. */
+/* Pairs followed before the first search. */
+TUNING_INTEGER(TUNING_UPPER_FIRST, 8);
+/* Each further search waits until 1 / this more pairs have been followed. */
+TUNING_INTEGER(TUNING_UPPER_SHARE, 3);
+/* Most steps in time of one search. */
+TUNING_INTEGER(TUNING_MARCH_STEPS, 12);
+/* Nearest points are refined only roughly while the gap is above this times the gap sought. */
+TUNING_INTEGER(TUNING_MARCH_NEAR, 64);
+/* While the gap is that large, Newton steps that promise less than this part of it are left
+ * out. */
+TUNING_NUMBER(TUNING_MARCH_GAIN, 0x1p-6);
+/* Fraction of the predicted time to contact by which one step advances. Must be below 1. */
+TUNING_NUMBER(TUNING_MARCH_STRIDE, 0.9);
 
-/* Pairs followed before the first search.
- * 4: -2.3, +3 %; 16: +8, 0 % */
-#define TUNING_UPPER_FIRST 8
-/* And before the next: 1 / this as many more.
- * 2: +3.2, 0 %; 4: -0.2, +1.5 % */
-#define TUNING_UPPER_SHARE 3
-/* Steps in time at most.
- * 20: 0 */
-#define TUNING_MARCH_STEPS 12
-/* From this many times the gap sought on, nearest points are only sought roughly.
- * 16: 0, 0 %; 1024: -0.1, -0.3 % */
-#define TUNING_MARCH_NEAR 64
-/* From there on a Newton step that promises less than this part of the gap is left out.
- * 2^-4: +0.8, +0.3 %; 2^-9: -0.5, +0.1 % */
-#define TUNING_MARCH_GAIN 0x1p-6
-/* And the time goes on by this part of what would close the gap.
- * 0.8: -0.7, +0.3 %; 0.95: +0.4, +0.8 % */
-#define TUNING_MARCH_STRIDE 0.9
+/* --- When double precision ends (subdivision.c), in units of the evaluation error ------------- */
 
-/* --- When precision ends (subdivision.c): in units of the evaluation error ---
- *
- * No scene of the sets comes to that. */
+/* Precision may end a search once gamma - gamma_clear is below this. */
+TUNING_INTEGER(TUNING_PRECISION_ROOM, 16);
+/* Precision ends it if the remainders are below this, too, where curvatures are below 1. */
+TUNING_INTEGER(TUNING_PRECISION_REMAINDER, 64);
 
-/* gamma - gamma_clear is below this.
- * 8, 32: no change */
-#define TUNING_PRECISION_ROOM 16
-/* And remainders are, where curvatures are below 1.
- * 32, 128: no change */
-#define TUNING_PRECISION_REMAINDER 64
+/* --- Nodes without bounds (expand_pair.c) ----------------------------------------------------- */
 
-/* --- Nodes without bounds (time_of_impact.c) -------------------------------------------------- */
+/* A node without bounds whose time is below this part of the query's time counts as one moment. */
+TUNING_NUMBER(TUNING_MOMENT, 0x1p-20);
 
-/* Part of the query's time below which a node without bounds is taken for a moment without any.
- * Types with bounds: no change */
-#define TUNING_MOMENT 0x1p-20
+/* --- How often to cut one pair's window (separation.c, gjk.h, normal_field.c) ----------------- */
 
-/* --- How far to cut one pair's window (separation.c, gjk.h, normal_field.c) -------------- */
+/* Most moments of the window at which an axis is sought. */
+TUNING_INTEGER(TUNING_WINDOW_ROUNDS, 3);
+/* Another moment is tried once less than this is left of the window's width in w, which is 2. */
+TUNING_NUMBER(TUNING_WINDOW_SHRINKS, 0.5);
+/* Nodes are nearly flat if their curvature is below 1 / this of their extents. */
+TUNING_INTEGER(TUNING_FLAT, 64);
+/* Most moments for nodes that are nearly flat. */
+TUNING_INTEGER(TUNING_FLAT_ROUNDS, 4);
+/* Nodes without normals (curves, points): rounds along the axes that need no search, before one
+ * with a search. */
+TUNING_INTEGER(TUNING_CURVE_ROUNDS, 2);
+/* Replaces TUNING_CURVE_ROUNDS for points and straight curves. */
+TUNING_INTEGER(TUNING_THIN_ROUNDS, 6);
+/* These rounds go on while less than this is left of the window's width, which is 2. */
+TUNING_NUMBER(TUNING_CURVE_SHRINKS, 1.6);
+/* The hulls of two nets are searched again at the window's new start if at most this part of the
+ * window is left. */
+TUNING_NUMBER(TUNING_NET_SHRINKS, 0.5);
+/* Replaces TUNING_WINDOW_ROUNDS for two flat nets, whose cuts lead to the first contact itself. */
+TUNING_INTEGER(TUNING_FLAT_NET_ROUNDS, 6);
+/* Replaces TUNING_NET_SHRINKS for two flat nets. Must be below 1. */
+TUNING_NUMBER(TUNING_FLAT_NET_SHRINKS, 1 - 0x1p-20);
+/* Straight nodes are tested without nets first, unless their remainders exceed this part of their
+ * extents. */
+TUNING_NUMBER(TUNING_STRAIGHT_BLUR, 0x1p-3);
+/* Two nodes with nets are tested by hulls alone where remainders exceed 1 / this of the
+ * curvature, since quadratics would hardly show more. */
+TUNING_INTEGER(TUNING_NET_BEND, 8);
+/* Most steps of GJK; six are usual. */
+TUNING_INTEGER(TUNING_GJK_STEPS, 20);
+/* GJK stops at an axis that shows this part of the widest gap. Larger: fewer pairs, more
+ * instructions for each. Must be below 1. */
+TUNING_NUMBER(TUNING_GJK_GAP, 0.7);
+/* Replaces TUNING_GJK_GAP in a search for the minimum distance: what the axis does not show is
+ * missing from the bracket (set: clearance). Must be below 1. */
+TUNING_NUMBER(TUNING_GJK_GAP_OF_BOUND, 0.999);
+/* Normals are nearly parallel if the cosine of their angle exceeds this: 25 degrees. Must be
+ * below 1. */
+TUNING_NUMBER(TUNING_FIELD_COSINE, 0.9);
+/* A turning axis is tried beside fixed axes while one trial in this many cuts more than they
+ * do. */
+TUNING_INTEGER(TUNING_FIELD_SHARE, 8);
+/* Chances left out between two trials of a turning axis that does not pay. */
+TUNING_INTEGER(TUNING_FIELD_WAIT, 7);
 
-/* Centres at most.
- * 1: +0.6, 2: 0.0, 6: 0.0 */
-#define TUNING_WINDOW_ROUNDS 3
-/* Width in w, of 2, below which a new centre is worth it.
- * 0.25: +0.3, 1: -1.0 */
-#define TUNING_WINDOW_SHRINKS 0.5
-/* Nodes are nearly flat: what bends is below 1 / this of their extents.
- * 16: -0.1, 256: 0.0 */
-#define TUNING_FLAT 64
-/* Centres at most, of flat nodes.
- * 3, 8: 0.0 */
-#define TUNING_FLAT_ROUNDS 4
-/* Nodes without normals: rounds along axes that need no search, before one with a search, as long
- * as the range of w, of 2, shrinks below this. Points and straight curves (thin) get one search
- * after them. Instructions of edges, thin rounds 4: +2.5 %, 5: +2 %, 8: 0.0 %; 2, and then as many
- * searches as for other flat nodes: +4.5 % */
-#define TUNING_CURVE_ROUNDS 2
-#define TUNING_THIN_ROUNDS 6
-#define TUNING_CURVE_SHRINKS 1.6
-/* Part of the window that hulls of nets have to leave at most, to be sought again at its new start.
- * Pairs of bicubic patches at gamma 1e-6: 0.25: +0.4, 0.75: -0.2 of 81.5, and 1 % more
- * instructions */
-#define TUNING_NET_SHRINKS 0.5
-/* The same of flat nets, which come to the first contact itself. */
-#define TUNING_FLAT_NET_ROUNDS 6
-#define TUNING_FLAT_NET_SHRINKS (1 - 0x1p-20)
-/* Straight nodes are tried without nets first, unless remainders are more than this part of
- * them. */
-#define TUNING_STRAIGHT_BLUR 0x1p-3
-/* Two nodes with nets: remainders above 1 / this of what bends are too large for quadratics to
- * show more than hulls. Pairs of bicubic patches, of 68, and instructions: 4: -0.1, +0.7 %; 16: 0,
- * -0.8 %, but proofs of 0.99 of a distance, half-way to contact, take 43 instead of 34 pairs */
-#define TUNING_NET_BEND 8
-/* At most; six are usual.
- * 6: +1.0, 10: +0.1, 40: 0.0 */
-#define TUNING_GJK_STEPS 20
-/* Part of the widest gap that is good enough; each step costs instructions.
- * 0.5: +2.5, 0.9: -1.5 */
-#define TUNING_GJK_GAP 0.7
-/* The same where a lower bound of the distance is sought: the thousandth that is left is what a
- * bracket is narrowed to. Pairs of bicubic patches ended before they meet: 0.7: +70, 0.9: +39,
- * 0.99: +5 */
-#define TUNING_GJK_GAP_OF_BOUND 0.999
-/* Of normals within 25 degrees, which are nearly tangent.
- * 0.5: 0.0, 0.99: 0.0 */
-#define TUNING_FIELD_COSINE 0.9
-/* Where fixed axes cut the start of the window: one in SHARE axes that turn has to cut more, or
- * WAIT chances are left out before the next. Pairs of a thread by formula, and instructions of
- * tori, beside trying all: +0.8 %, -4.8 %; the last 64 counted instead of 1024: +3.1 %; none
- * tried: +56 %, -5.7 % */
-#define TUNING_FIELD_SHARE 8
-#define TUNING_FIELD_WAIT 7
+/* --- Distances from a surface (distance.c); sets: conformal, tori ----------------------------- */
 
-/* --- Distances from a surface (distance.c) ---
- *
- * Per cent of the pairs of the conformal set without its threads. */
-
-/* Remainder beside the distance's size from which on it is not only rounding.
- * 0x1p-30, 0x1p-48: no change */
-#define TUNING_DISTANCE_ROUNDING 0x1p-40
-/* A node is too large from this part of its extents on.
- * 0.25: +230, 1: -8, but linked tori 1: +10 */
-#define TUNING_DISTANCE_EXTENT 0.5
-/* Level: the polynomial varies by less than this times the remainder.
- * 4: +8, 64: no change */
-#define TUNING_DISTANCE_LEVEL 16
-/* Two surfaces that turn within themselves are searched at one moment where rounding varies their
+/* A remainder above this part of the distance's size is more than rounding. */
+TUNING_NUMBER(TUNING_DISTANCE_ROUNDING, 0x1p-40);
+/* A node is too large for distances if its remainder exceeds this part of its extents. */
+TUNING_NUMBER(TUNING_DISTANCE_EXTENT, 0.5);
+/* A distance is level if its polynomial varies by less than this times its remainder: the
+ * remainder hides the gap. */
+TUNING_INTEGER(TUNING_DISTANCE_LEVEL, 16);
+/* Two surfaces that turn within themselves are searched at one moment if rounding varies their
  * distance by less than gamma_clear / this. */
-#define TUNING_REST_SLIP 0x1p12
+TUNING_NUMBER(TUNING_REST_SLIP, 0x1p12);
+/* A surface slides along the other within itself if its slip is below gamma_clear / this. */
+TUNING_NUMBER(TUNING_DISTANCE_SLIP, 0x1p12);
+/* Nodes that an axis parts, and whose parents slid: distances are tried while one trial in this
+ * many shows more. */
+TUNING_INTEGER(TUNING_DISTANCE_SHARE, 2);
+/* Chances left out between two trials of distances that do not pay. */
+TUNING_INTEGER(TUNING_DISTANCE_WAIT, 15);
 
-/* A surface slides along the other within itself, if it leaves that by less than 1 / this of
- * gamma_clear. */
-#define TUNING_DISTANCE_SLIP 0x1p12
-/* Where an axis parts nodes whose parents slid: one in SHARE distances has to show more, or WAIT
- * chances are left out before the next. Pairs, and instructions of tori, beside asking for all:
- * +0.1 %, -8.7 %; 4 and 7: 0.0 %, -6.2 %; counted along the line of ancestors instead: threads +2
- * to +80 % */
-#define TUNING_DISTANCE_SHARE 2
-#define TUNING_DISTANCE_WAIT 15
+/* --- When the searches for contact and for the distance alternate (clearance.c) --------------- */
 
-/* --- When the searches for contact and for the distance go on in turn (gamma_clear.c) --------- */
-
-/* After so many pairs, and two more for each candidate pair, without a verdict. */
-#define TUNING_DECIDE_PAIRS 2000
+/* Pairs without a verdict, beside two for each candidate pair, after which they alternate. */
+TUNING_INTEGER(TUNING_DECIDE_PAIRS, 2000);
 
 /* --- The search for a witness (witness.c) ----------------------------------------------------- */
 
-/* At most.
- * 12: +0.1, 48: -0.1; searches 12: +7, 48: -5 */
-#define TUNING_NEWTON_STEPS 24
-/* Gammas from which on a step has to halve the gap.
- * 4: +0.1, 16: -0.1; searches 4: +11, 16: -12 */
-#define TUNING_NEWTON_FAR 8
-/* The last step gains less than this of the gap.
- * 1e-3, 1e-5: no change */
-#define TUNING_NEWTON_GAIN 1e-4
-/* A step that promises to change the gap's square by less than twice this is not tried.
- * 1e-10: edges take 0.03 % more instructions, faces 1 % */
-#define TUNING_NEWTON_PROMISE 1e-8
+/* Most Newton steps. */
+TUNING_INTEGER(TUNING_NEWTON_STEPS, 24);
+/* While the gap is above this times gamma, a step has to halve it. */
+TUNING_INTEGER(TUNING_NEWTON_FAR, 8);
+/* The search ends with a step that gains less than this part of the gap. */
+TUNING_NUMBER(TUNING_NEWTON_GAIN, 1e-4);
+/* A step that promises to change the square of the gap by less than twice this part is left
+ * out. */
+TUNING_NUMBER(TUNING_NEWTON_PROMISE, 1e-8);
 
 #endif

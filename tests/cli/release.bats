@@ -35,3 +35,28 @@ teardown_file() {
     cat missing
     [ ! -s missing ]
 }
+
+@test "bench --tune tells what other values of a constant cost" {
+    make -s -C "$build" tools/impinge-tunable >log 2>&1 || { tail -n 15 log; false; }
+    local tunable=$build/tools/impinge-tunable
+    "$tunable" bench tori --tune TUNING_GJK_GAP >table 2>/dev/null
+    # The usual value, which takes as many pairs as the installed command, half of it, half-way to 1.
+    [ "$(awk '$1 == "tori" { print $2 }' table | paste -sd,)" = 0.7,0.35,0.85 ]
+    pairs=$("$IMPINGE" bench tori --method models --repeat 1 --json |
+        jq '[.sets[].cases[] | .scenes * .methods[0].pairs.mean] | add')
+    [ "$(awk '$2 == 0.7 { print $3 }' table)" = "$pairs" ]
+    [ "$(awk '$2 == 0.35 { print $3 }' table)" -gt "$pairs" ]
+
+    "$tunable" bench tori --tune TUNING_GJK_STEPS=20,1 >table 2>/dev/null
+    [ "$(awk '$2 == 20 { print $3 }' table)" = "$pairs" ]
+    [ "$(awk '$2 == 1 { print $3 }' table)" -gt "$pairs" ]
+    run -2 "$tunable" bench --tune TUNING_GJK_STEP
+    [[ $output == *"did you mean 'TUNING_GJK_STEPS'?"* ]]
+    local value
+    for value in 0 -1 1.5 nan 1e10 x 1,,2; do
+        run -2 "$tunable" bench tori --tune "TUNING_GJK_STEPS=$value"
+        [[ $output == *"must be whole numbers from 1 to"* ]]
+    done
+    run -2 "$tunable" bench tori --tune TUNING_GJK_GAP=0
+    [[ $output == *"must be numbers above 0 and up to"* ]]
+}

@@ -8,6 +8,7 @@
 
 #include "core/common/spelling.h"
 #include "tools/bench/bench.h"
+#include "tools/bench/tune.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/query.h"
@@ -40,6 +41,11 @@ static exit_status read_request(const arguments *args, bench_request *request)
     if (request->up_to < BENCH_SIZE_LEAST)
         return complain(EXIT_USAGE, request->verb, "--up-to must be at least %d, not '%s'",
                         BENCH_SIZE_LEAST, arguments_option(args, "up-to")->text);
+    if (arguments_option(args, "tune") != NULL &&
+        (request->only || arguments_option(args, "json") != NULL))
+        return complain(EXIT_USAGE, request->verb,
+                        "--tune measures the default method and prints a table: leave out "
+                        "--method and --json");
     return EXIT_ANSWERED;
 }
 
@@ -172,6 +178,20 @@ static exit_status run_and_print(bench *b)
     return status;
 }
 
+/* --- Tuning ----------------------------------------------------------------------------------- */
+
+/* Sweeps one constant over the sets named, or over those that show most of them. */
+static exit_status tune(bench *b)
+{
+    static const char *const usual[] = {"bicubic", "spikes", "tori"};
+    const bench_set *sets[65] = {NULL};
+    const size_t named = b->args->operand_count;
+    for (size_t k = 0; k < (named > 0 ? named : sizeof usual / sizeof *usual); ++k)
+        sets[k] = bench_set_find(named > 0 ? b->args->operands[k] : usual[k]);
+    b->request.repeats = 1; /* only counters are told */
+    return bench_tune(b->registry, &b->request, arguments_option(b->args, "tune")->text, sets);
+}
+
 static exit_status run(const arguments *args)
 {
     bench b = {.args = args};
@@ -187,7 +207,7 @@ static exit_status run(const arguments *args)
     if (status != EXIT_ANSWERED) return status;
     b.registry = query_registry(args);
     if (b.registry == NULL) return EXIT_DATA;
-    status = run_and_print(&b);
+    status = arguments_option(args, "tune") != NULL ? tune(&b) : run_and_print(&b);
     imp_registry_free(b.registry);
     return status;
 }
@@ -217,7 +237,14 @@ static const option bench_options[] = {
      .kind = OPTION_COUNT,
      .argument = "N",
      .help = "bodies, surfaces, batch: leave out cases of more than N bodies, triangles, scenes"},
-    {.name = "seed", .kind = OPTION_COUNT, .argument = "N", .help = "of these random scenes (1)"},
+    {.name = "seed",
+     .kind = OPTION_COUNT,
+     .argument = "N",
+     .help = "seed of these random scenes (1)"},
+    {.name = "tune",
+     .kind = OPTION_TEXT,
+     .argument = "NAME[=V,...]",
+     .help = "of tools/impinge-tunable: try other values of a constant of core/bounds/tuning.h"},
     {.name = NULL}};
 
 static const option *const tables[] = {bench_options, options_registry, options_always, NULL};

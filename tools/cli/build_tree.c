@@ -19,12 +19,15 @@ static bool cut_last(char *path, const char *name)
     return true;
 }
 
+/* libtool puts programs that are linked with libimpinge.so into tools/.libs, others into tools. */
 static bool find_top(char *top, size_t size)
 {
     ssize_t length = readlink("/proc/self/exe", top, size - 1);
     if (length <= 0) return false;
     top[length] = '\0';
-    return cut_last(top, NULL) && cut_last(top, ".libs") && cut_last(top, "tools");
+    if (!cut_last(top, NULL)) return false;
+    cut_last(top, ".libs");
+    return cut_last(top, "tools");
 }
 
 static bool join(char *path, size_t size, const char *top, const char *rest)
