@@ -19,8 +19,7 @@ typedef struct slice {
 
 /* B - A over the window: offset delta + drift * w + bend * w^2, plus slice b, minus slice a, give
  * or take slack, and plus, for each posed node i, the sum over k = 0, 1, 2 of d_k (edge[i].k +
- * swing[i].k w), any
- * |d_k| <= 1; edge[i][j][k] is coordinate j of edge k. */
+ * swing[i].k w), any |d_k| <= 1; edge[i][j][k] is coordinate j of edge k. */
 typedef struct difference {
     slice a, b;
     double delta[4], drift[4], bend[4];

@@ -182,7 +182,8 @@ static span span_of(const time_window *window)
  * gamma_clear on either side, the node is farther away than it.
  * Rounding, in units of u S, S = |a| + sum |b| + sum |q|, |s_t| <= 1 but for rounding:
  *
- *   s_t = s +- k at the ends  8: differences, quotients, sum: 4 of |b_t| + 2 |q_tt| + |q_ut| + |q_vt|
+ *   s_t = s +- k at the ends  8: differences, quotients, sum: 4 of |b_t| + 2 |q_tt| + |q_ut| +
+ *                                |q_vt|
  *   value in the middle       4: product, sum, product, sum
  *   slopes at the ends        2: product, sum
  *   least values              QUADRATIC_ROUNDING

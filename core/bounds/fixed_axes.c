@@ -188,7 +188,8 @@ IMP_QUAD_INLINE chord chord_over_edges(const difference *r, const bundle *n)
  *   form at the ends                       2: product, sum
  *   least values of both forms             2 QUADRATIC_ROUNDING
  *   chord, low +- drift, limit - low      16: sums of at most 4 R
- *   slack and R themselves                12: product 1, sums 2, two more of the slack, four of posed nodes */
+ *   slack and R themselves                12: product 1, sums 2, two more of the slack, four of
+ *                                             posed nodes */
 enum { AXIS_ROUNDING = 256 };
 _Static_assert(DIFFERENCE_ROUNDING + 6 + 2 + 2 * QUADRATIC_ROUNDING + 16 + 12 <= AXIS_ROUNDING,
                "rounding along one axis");

@@ -134,7 +134,8 @@ bool net_model_axis_seek(const node *a, const node *b, double t, vec3 *axis)
  *   a control point                         3: t - time, its product, the sum
  *   places: difference, motion, sum         4
  *   slopes at s, and motion (bt + qtt s) s  7: s 2 and 2, two products, a sum
- *   bow: n.qtt and a square of half of      16: the differences of s are off by 4, twice; products, quotient
+ *   bow: n.qtt and a square of half of      16: the differences of s are off by 4, twice; products,
+ *                                               quotient
  *   dots with n                             3
  *   the least value of the form            QUADRATIC_ROUNDING
  *   sums of the parts                       6

@@ -286,10 +286,10 @@ static double bending_upper(const difference *r, vec3 n)
  * from every point of A. n0, t and m are what they are in double precision: they need not be unit,
  * tangent or accurate.
  *
- * Of posed nodes the rest also has sum_k d_k (edge_k + swing_k w), |d_k| <= 1, which adds
- * |n.edge_k| +
- * |n.swing_k| to |n.rest|; and the terms w z_i qw_i, z_i being s_u^2, s_u s_v or s_v^2, of which w z_i n0.qw_i
- * belongs to its surface's part, and the remainder is at most (mu1 |t1.qw_i| + mu2 |t2.qw_i|).
+ * The rest of posed nodes also has sum_k d_k (edge_k + swing_k w), |d_k| <= 1, which adds
+ * |n.edge_k| + |n.swing_k| to |n.rest|; and the terms w z_i qw_i, z_i being s_u^2, s_u s_v or
+ * s_v^2, of which w z_i n0.qw_i belongs to its surface's part, and the remainder is at most
+ * (mu1 |t1.qw_i| + mu2 |t2.qw_i|).
  *
  * Rounding, in units of u size, size = |n0|.magnitude + 2 sum_i mu_i |t_i|.magnitude: each
  * magnitude is multiplied by n0 once, and by each m at most once.

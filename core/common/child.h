@@ -14,9 +14,9 @@
 typedef void child_work(void *result, const void *task);
 
 typedef enum child_end {
-    CHILD_DONE,   /* work returned */
-    CHILD_KILLED, /* by the signal `number` */
-    CHILD_EXITED, /* with the status `number`; -1: unknown, since the program has others wait for it */
+    CHILD_DONE,    /* work returned */
+    CHILD_KILLED,  /* by the signal `number` */
+    CHILD_EXITED,  /* with the status `number`; -1: unknown, the program has others wait for it */
     CHILD_LATE,    /* killed at the deadline */
     CHILD_STOPPED, /* the same, and until then stopped from outside by the signal `number` */
     CHILD_NOT_RUN  /* no process or pipe: `number` is the errno */

@@ -9,10 +9,10 @@
 extern "C" {
 #endif
 
-/* For programs that examine plugins, types and single instances, as `impinge check` and `impinge
- * why` do
- * =======================================================================================================
- * A program that asks about contacts needs none of this. */
+/* Examining plugins, types and single instances
+ * =============================================
+ * `impinge check` and `impinge why` are made with these functions. A program that asks about
+ * contacts needs none of this. */
 
 /* --- Plugin files ----------------------------------------------------------------------------- */
 

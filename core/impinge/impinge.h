@@ -146,7 +146,8 @@ typedef struct imp_type_info {
     const char
         *capabilities; /* what this host uses of it, names with blanks between: "core", always;
                                  "order-2": the callback include (surfaces) or apply (maps);
-                                 the callbacks "net", "pieces", "rigid", "span", "distance", "symmetry" */
+                                 the callbacks "net", "pieces", "rigid", "span", "distance",
+                                 "symmetry" */
 } imp_type_info;
 
 /* Types in the order found, shadowed ones included. Returns false past the last. */
@@ -601,8 +602,8 @@ typedef enum imp_requirement {
  *       RESOLUTION: double precision resolves no more;
  *       DECIDED: `decide` was set and the verdict is known, the bracket is as it was then;
  *       RUNNING, or why the query was ended: the bracket as it is;
- *   (d) t_violated is not NaN: the points of a_violated and b_violated are no farther than D apart at
- *       that time, and before it no two are nearer than D (1 - 1e-6). */
+ *   (d) t_violated is not NaN: the points of a_violated and b_violated are no farther than D apart
+ *       at that time, and before it no two are nearer than D (1 - 1e-6). */
 typedef struct imp_clearance {
     uint32_t struct_size; /* sizeof(imp_clearance); grows at the end */
     imp_reason reason;

@@ -250,7 +250,8 @@ imp_status surface_plane_of(const surface *s, const imp_region *region, surface_
 /* Lemma. |n| <= 1 + 8 u, as n is a quotient by the root of a sum of squares. With y a point of the
  * part and z one within `slip` of x,
  *
- *   |n.(x - center)| <= |n.(z - y)| + |n.(y - center)| + |n.(x - z)| <= (1 + 8 u) (|z - y| + slip) + off. */
+ *   |n.(x - center)| <= |n.(z - y)| + |n.(y - center)| + |n.(x - z)|
+ *                    <= (1 + 8 u) (|z - y| + slip) + off. */
 PAD_COVERS(32, 8);
 static imp_model lowered(const surface_plane *plane, double slip, double stretch, imp_model height)
 {

@@ -154,7 +154,8 @@ IMP_QUAD_INLINE imp_quad folded_fourth(const shape_model *s, const pose_lanes *p
  * 1/2 and 1/2, others with less: 7.5. What is folded misses 3 of each, with weights of 1 at most:
  * 10.5 together. T passes through 2. In units of u, with |R| = |R0| + |R1| + |R2|:
  *
- *   |R| (TURNED |A| + OTHERS (|bu| + |bv| + |cuu| + |cuv| + |cvv|)) + MOVED (|T0| + |T1| + |T2|). */
+ *   |R| (TURNED |A| + OTHERS (|bu| + |bv| + |cuu| + |cuv| + |cvv|)) + MOVED (|T0| + |T1| + |T2|)
+ */
 enum { TURNED = 6, OTHERS = 11, MOVED = 2 };
 _Static_assert(1 + 1 + 1 + 2 + 1 <= TURNED && 4 * 6 + 6 + 4 * 3 <= 4 * OTHERS,
                "rounding of a pose");
@@ -174,9 +175,9 @@ IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
 }
 
 /* Lemma (remainder). |R delta| is at most |R| e, coordinate by coordinate, and norm |e| as a whole;
- * |rho P| <= E (|z| + e). Non-negative sums; the longest chain is the rounding's: size 2 + 5, factor 1, sums
- * 1 + 1, product 1, sums 2, T 1, factor 1, and then 4 sums. Underflows lose less than
- * POSE_UNDERFLOW. */
+ * |rho P| <= E (|z| + e). All sums are non-negative; the longest chain is the rounding's: size 2 +
+ * 5, factor 1, sums 1 + 1, product 1, sums 2, T 1, factor 1, and then 4 sums. Underflows lose less
+ * than POSE_UNDERFLOW. */
 #define POSE_UNDERFLOW imp_quad_of(0x1p-1000, 0x1p-1000, 0x1p-1000, 0)
 PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5);
 

@@ -17,8 +17,10 @@
  * Lemma. In the lemma of pose.c (polynomial), with f the quadratic that is kept, x is
  *
  *   f + uut s (su^2 - 1/2) + uvt s su sv + vvt s (sv^2 - 1/2) + (s^2 - 1/2) (utt su + vtt sv)
- *     + sum_j delta_j / e_j R(s)_j e_j                                         R(s) = R0 + R1 s + R2 s^2
- *     + rest,    uut = R1 cuu, uvt = R1 cuv, vvt = R1 cvv, utt = R2 bu, vtt = R2 bv,
+ *     + sum_j delta_j / e_j R(s)_j e_j + rest,
+ *
+ *   R(s) = R0 + R1 s + R2 s^2,
+ *   uut = R1 cuu, uvt = R1 cuv, vvt = R1 cvv, utt = R2 bu, vtt = R2 bv,
  *
  * and the rest is within n->posed_e: terms of fourth order, rho P, rho delta, the shift's remainder
  * and rounding. Over a window s = s0 + k w, |w| <= 1,

@@ -12,8 +12,7 @@
  * Rounding, in units of 2^-53: sin and cos are within 8 (4 ulp, of numbers up to 1), f has two
  * roundings more, of a difference of at most 2 and of a quotient of at most 1; and every step adds
  * to k times the error of the one before the roundings of a product, a difference and a quotient: f
- * 8
- * + 3, f' 8 + 11 + 3, f'' 8 + 44 + 5, f''' 8 + 171 + 5. */
+ * 8 + 3, f' 8 + 11 + 3, f'' 8 + 44 + 5, f''' 8 + 171 + 5. */
 static void sinc_far(double x, const double c[4], double f[4])
 {
     f[0] = c[0] / x;

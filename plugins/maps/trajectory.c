@@ -23,16 +23,16 @@
  * formula above; of the position across several pieces spline.h says what is known.
  *
  * Lemma. Over several pieces, with W at least all speeds of that lemma and eta at least all 3 max
- * |D_i| (1 + |spin_i| h), X = R x moves by dX/dt = spin x X + E, |E| <= eta |x|: in one piece spin x X
- * = spin x (turn M x + s D x), and s |spin| |D x| and |D x| are the difference. So |dX/dt| <= V |x|
- * with V = W (1 + 4 SPIN_MISMATCH) + eta, and from the middle m of the span, |y| <= r,
+ * |D_i| (1 + |spin_i| h), X = R x moves by dX/dt = spin x X + E, |E| <= eta |x|: in one piece
+ * spin x X = spin x (turn M x + s D x), and s |spin| |D x| and |D x| are the difference. So
+ * |dX/dt| <= V |x| with V = W (1 + 4 SPIN_MISMATCH) + eta, and from the middle m of the span, |y|
+ * <= r,
  *
  *   X(m + y) = X(m) + g x X(m) + F,   |F| <= (W V r / 2 + eta) r |x|,
  *
  * where g is the integral of the spin from m on, whose coordinates have slopes between the least
  * and the greatest of those pieces. F depends on time by at most (W V r + eta) |x|, and on x as it
- * depends on
- * |x|, being linear in x. Near a point that touches, g x X(m) is along the surfaces. */
+ * depends on |x|, being linear in x. Near a point that touches, g x X(m) is along the surfaces. */
 
 enum { TIMES, POSITIONS, ACCELERATIONS, ROTATIONS, SPINS, CENTER };
 

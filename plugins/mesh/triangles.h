@@ -17,10 +17,9 @@ typedef struct triangles {
     uint32_t *
         corner; /* three points of each triangle; or those of each face, one face after the other */
     size_t count, capacity;
-    size_t faces; /* added, of any number of corners */
-    bool
-        keeps_faces; /* set before the first: `count` faces of any number of corners, not triangles */
-    uint32_t *first; /* of each face kept: where its corners begin */
+    size_t faces;     /* added, of any number of corners */
+    bool keeps_faces; /* set before the first: keep `count` faces of any size, not triangles */
+    uint32_t *first;  /* of each face kept: where its corners begin */
     size_t first_capacity, corner_count;
 } triangles; /* begins as {0}, or with keeps_faces set; triangles_clear frees */
 

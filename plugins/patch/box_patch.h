@@ -16,12 +16,12 @@
  * It is asked for over one of three areas, of which each is a square in s and w. A quartic
  * polynomial of what is bilinear in s and w is a patch of degrees 4 and 4:
  *
- *   BOX_WHOLE  the triangle, from its corner (0,0), with barycentric coordinates 1 - s, s (1 - w), s w as
- *              in triangle.h
- *   BOX_OUTER  the triangle P_0 P_1 P_2 as it lies in half a trapezoid: P_0 P_1 is its side w = 0 and P_2
- *              is at (1,1). At (0,1) is P_0 + (P_2 - P_1) / 2, beyond the triangle.
- *   BOX_INNER  the other triangle of the same half: P_0 at (0,0), P_1 at (1,1), and (0,1) is in the middle
- *              of P_0 P_2. At (1,0) is P_0 + P_1 - P_2, beyond the triangle.
+ *   BOX_WHOLE  the triangle, from its corner (0,0), with barycentric coordinates 1 - s, s (1 - w),
+ *              s w as in triangle.h
+ *   BOX_OUTER  the triangle P_0 P_1 P_2 as it lies in half a trapezoid: P_0 P_1 is its side w = 0
+ *              and P_2 is at (1,1). At (0,1) is P_0 + (P_2 - P_1) / 2, beyond the triangle.
+ *   BOX_INNER  the other triangle of the same half: P_0 at (0,0), P_1 at (1,1), and (0,1) is in the
+ *              middle of P_0 P_2. At (1,0) is P_0 + P_1 - P_2, beyond the triangle.
  *
  * A triangle A B C halved has children at B and at C and one between; with the corner (u, v) = (0,
  * 0) at A, s = 2u - 1 and w = 2v, these two cover u >= 1/2, v <= 1/2, and meet in the curve (1 + s)

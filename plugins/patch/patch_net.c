@@ -47,8 +47,9 @@ static void lane_part(const patch *f, int lane, const imp_region *region, double
  *   X_c and tau Y        K S, and 2 S for X + c Y
  *   place_c, tau drift   3 (|place| + late |drift|)
  *   divided by W         1 of a point w P: together K + 3 of S / least weight
- *   weights              off by a factor of 1 + K at most, all positive: |X + t Y| / W, which is at most
- *                        the radius of points and velocities, times K once below and once above */
+ *   weights              off by a factor of 1 + K at most, all positive: |X + t Y| / W, which is at
+ *                        most the radius of points and velocities, times K once below and once
+ *                        above */
 static double net_error(const patch *f, int axis, const imp_region *region)
 {
     const double middle = fabs(region->c[2]), late = middle + region->d[2];

@@ -19,8 +19,8 @@
  *
  *   of a face      F
  *   of an edge     the mean of its ends and both F; at the border the mean of its ends
- *   of a point P   (F' + Q' + (n - 2) P) / n; at the border (P_before + 6 P + P_after) / 8, along it;
- *                  at a corner of the border, where only one face is, P
+ *   of a point P   (F' + Q' + (n - 2) P) / n; at the border (P_before + 6 P + P_after) / 8, along
+ *                  it; at a corner of the border, where only one face is, P
  *
  * A mesh of Loop's has triangles, which one step divides into four. Its new points are
  *
@@ -37,8 +37,7 @@ enum { CONTROL_VALENCE_MAX = 256 };
 
 /* What is known of a point. */
 typedef struct control_point {
-    uint32_t
-        start; /* a half-edge that begins there, the first one where the fan ends; CONTROL_NONE: none */
+    uint32_t start; /* a half-edge that begins there, the first if the fan ends; or CONTROL_NONE */
     uint16_t faces;
     bool is_border;
 } control_point;

@@ -86,11 +86,9 @@ static bool walk_to(const face *q, const imp_region *region, walk *w, int *u, in
 }
 
 /* The box of the control points, at any time t = c + d s of the region: |f - (place + t drift)| <=
- * most +
- * |t| most of the velocities. Six roundings at most are of numbers no greater than `far`. Points of this and
- * all finer levels lie there, but p + q - r beyond a border: differences are at most 6 times as
- * large, and
- * |df/dv| of a triangle twice these (gauge.c). */
+ * most + |t| most of the velocities. Six roundings at most are of numbers no greater than `far`.
+ * Points of this and all finer levels lie there, but p + q - r beyond a border: differences are at
+ * most 6 times as large, and |df/dv| of a triangle twice these (gauge.c). */
 static void include_square(const face *q, const walk *w, const imp_region *region,
                            imp_model model[3])
 {

@@ -103,9 +103,8 @@ static imp_status plane_create(const imp_value *values, void **self, imp_create_
 
 /* n.(x - origin), the distance from the endless plane. Lemma. Let |n| <= 1 and y = origin + u
  * edge_u + v edge_v, u and v in [0, 1]. Then |x - y| >= |n.(x - origin) - n.(y - origin)|, and the
- * last is at most
- * |n.edge_u| + |n.edge_v| <= flatness, in which 2^-48 is 32 u of the terms' size: products and sums
- * round 4 times, those of flatness itself 3. So n need not be accurate. */
+ * last is at most |n.edge_u| + |n.edge_v| <= flatness, in which 2^-48 is 32 u of the terms' size:
+ * products and sums round 4 times, those of flatness itself 3. So n need not be accurate. */
 static imp_model plane_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     const plane_instance *s = self;

@@ -126,9 +126,8 @@ IMP_SURFACE_FORMULA(thread_formula)
  *
  * Lemma (way). Let p be a point, y the nearest to it of the endless thread, d how far apart they
  * are, and m > 0 at most the least radius. Since the point of the thread that lies radially from p
- * is |F(p)| away, d <=
- * |F(p)|. The points between p and y are s from p and d - s from y, s in [0, d], so that their q is at least
- * q_p - s and m - (d - s): at least the mean of both,
+ * is |F(p)| away, d <= |F(p)|. The points between p and y are s from p and d - s from y, s in
+ * [0, d], so that their q is at least q_p - s and m - (d - s): at least the mean of both,
  *
  *   q >= (q_p + m - d) / 2,   and   q >= m - d.
  *

@@ -37,7 +37,8 @@ extern "C" {
  * The optional distance of a point from the surface (imp_surface_type.distance) can be a formula
  * too:
  *
- *   static imp_model ball_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t);
+ *   static imp_model ball_gap(const void *self, imp_model x, imp_model y, imp_model z,
+ *                             imp_model t);
  *   IMP_DISTANCE_FORMULA(ball_gap)
  *
  * defines ball_gap_distance. */

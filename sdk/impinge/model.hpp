@@ -30,7 +30,8 @@
  *   };
  *   constexpr imp_parameter rows[] = {IMP_ROW_POSITIVE("radius", "length", "1", "radius")};
  *   constexpr imp_surface_type type = impinge::surface_of<ball>(
- *       rows, {"ball", "a tube that rises", "(radius cos u, radius sin u, v + t/2)", "ball radius=2"});
+ *       rows, {"ball", "a tube that rises", "(radius cos u, radius sin u, v + t/2)",
+ *              "ball radius=2"});
  *   IMPINGE_SURFACE_PLUGIN("ball", "1.0", "MIT", "your name", type);
  *
  * A lambda is enough where all parameters are single numbers: impinge::surface_from<shape,

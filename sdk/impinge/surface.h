@@ -46,8 +46,8 @@ extern "C" {
  *     host reads no further than that size.
  *   - The caller owns every output buffer. Nothing is freed across the boundary.
  *   - Tables, names and texts live as long as the shared object is loaded.
- *   - After create, an instance never changes. eval, rate, include, apply, net, rigid, distance and symmetry
- *     are pure: no allocation, no errno, no change of rounding mode or of any other
+ *   - After create, an instance never changes. eval, rate, include, apply, net, rigid, distance and
+ *     symmetry are pure: no allocation, no errno, no change of rounding mode or of any other
  *     floating-point setting, same answer every time, safe from many threads at
  *     once [thread-safe]. create and destroy are called by one thread at a time
  *     [main-thread].
@@ -340,7 +340,7 @@ typedef struct imp_surface_type {
      * t, at times of the domain; their rates are not known and may be infinite. *distance becomes a
      * model (a, b, q, e, lo, hi, as in imp_model; rates are ignored) of any g with
      *
-     *   |g(p)| <= |(x, y, z)(p) - f(u, v, t(p))|   for every p of the region, all u and v of the domain
+     *   |g(p)| <= |(x, y, z)(p) - f(u, v, t(p))|   for all p of the region, all u, v of the domain
      *
      * for every point that the models allow. The best g is the signed distance, negative on one
      * side, or a number near it that is smooth at the surface. The host uses it to prove that two
@@ -355,7 +355,8 @@ typedef struct imp_surface_type {
      * Which rigid motions change no distance from the surface. For every such motion S, the g that
      * `distance` gives for models of a point bounds the distance of the moved point, too,
      *
-     *   |g(p)| <= |S((x, y, z)(p)) - f(u, v, t(p))|   for every p of the region, all u and v of the domain,
+     *   |g(p)| <= |S((x, y, z)(p)) - f(u, v, t(p))|   for every p of the region, all u, v of the
+     *                                                 domain,
      *
      * and S may be another motion for each p. So a surface that turns about an axis of this one
      * stays as far from it as it is at one moment, which spares the host from dividing time. The

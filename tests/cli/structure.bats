@@ -279,6 +279,61 @@ first_includes() { # SOURCES
     [ "$output" = core/base/status.c ]
 }
 
+# --- Form of the sources ---------------------------------------------------------------------------
+
+# C and C++ sources below a folder, without those that a build makes there.
+c_sources() { # FOLDER
+    (cd "$1" && find core plugins sdk tests tools -name '*.[ch]' ! -name api_table.h \
+        -o -name '*.cc' -o -name '*.hpp' | sort)
+}
+
+# Other versions format otherwise, so one is pinned: that of Debian 12.
+clang_format_14() {
+    local name
+    for name in clang-format-14 clang-format; do
+        [[ $("$name" --version 2>/dev/null) == *"version 14."* ]] && echo "$name" && return
+    done
+    return 1
+}
+
+unformatted() { # FOLDER
+    local format
+    format=$(clang_format_14)
+    (cd "$1" && c_sources . | xargs "$format" --style=file:"$top_srcdir/.clang-format" -n 2>&1 |
+        sed -n 's/^\(\.\/\)\{0,1\}\([^:]*\):.*clang-format-violations.*/\2/p' | sort -u)
+}
+
+@test "clang-format would change no source" {
+    clang_format_14 || skip "clang-format 14 not found"
+    run unformatted "$top_srcdir"
+    [ -z "$output" ]
+}
+
+@test "a source that clang-format would change is found" {
+    clang_format_14 || skip "clang-format 14 not found"
+    copy_sources
+    echo 'static int  spread ( void )  { return 0;}' >>"$copy/core/base/status.c"
+    run unformatted "$copy"
+    [ "$output" = core/base/status.c ]
+}
+
+long_lines() { # FOLDER
+    (cd "$1" && c_sources . | xargs awk 'length > 100 { print FILENAME ":" FNR }')
+}
+
+@test "no line of a source is longer than 100 columns" {
+    [ "$(c_sources "$top_srcdir" | wc -l)" -ge 500 ]
+    run long_lines "$top_srcdir"
+    [ -z "$output" ]
+}
+
+@test "a line longer than 100 columns is found" {
+    copy_sources
+    printf '/* %098d */\n' 0 >>"$copy/sdk/examples/puddle.cc"
+    run long_lines "$copy"
+    [[ $output == sdk/examples/puddle.cc:* ]]
+}
+
 # --- Arithmetic as written ------------------------------------------------------------------------
 
 # A plugin's author may contract products and sums: bounds leave room for either rounding.

@@ -10,10 +10,10 @@
  * Whatever is done to a scene that does not change when its bodies touch, the answers must fit
  * together. What that means is exact, for two questions X and Y about the same motion:
  *
- *   Lemma. If Y answers contact at t_Y with a gamma_Y below X's gamma_clear, then t_lower of X is at
- *   most t_Y, and X is not clear unless t_Y is its very end.
- *   Proof. At t_Y the gap is at most gamma_Y < clearance_X (G2), and before t_lower of X, or in the
- *   whole interval if X is clear, it is nowhere below clearance_X (G1, G3).
+ *   Lemma. If Y answers contact at t_Y with a gamma_Y below X's gamma_clear, then t_lower of X is
+ *   at most t_Y, and X is not clear unless t_Y is its very end.
+ *   Proof. At t_Y the gap is at most gamma_Y < gamma_clear of X (G2), and before t_lower of X, or
+ *   in the whole interval if X is clear, it is nowhere below X's gamma_clear (G1, G3).
  *
  * So each scene is asked on a ladder of tolerances, gamma_k = gamma 4^-k with gamma_clear gamma_k /
  * 2 > gamma_(k+1), and a variant Y asked on rung 1 must answer within [t_lower of rung 0, t of rung

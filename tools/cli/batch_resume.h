@@ -37,7 +37,7 @@ exit_status batch_resume_close(batch_resume *resume);
 typedef enum resume_state {
     RESUME_NEW,      /* no answer yet; the file is ready for it */
     RESUME_ANSWERED, /* the file has one */
-    RESUME_REFUSED /* the file has the answer to something else, or cannot be written: complained of */
+    RESUME_REFUSED   /* complained: the file answers something else, or cannot be written */
 } resume_state;
 
 typedef struct answered_line {

@@ -29,10 +29,9 @@ typedef struct clearance_each {
 typedef struct clearance_answers {
     imp_clearance *list; /* in the order of the scene; the caller frees it */
     size_t count;
-    size_t
-        not_examined; /* pairs of bodies, because of a limit or a signal; if > 0, list[count], beyond the
-                            others, stands for all of them */
-    imp_stats stats; /* of all together */
+    size_t not_examined; /* pairs of bodies left out by a limit or a signal; if > 0, list[count],
+                            beyond the others, stands for all of them */
+    imp_stats stats;     /* of all together */
 } clearance_answers;
 
 /* Measures each pair. found->list is freed after an error, too. */

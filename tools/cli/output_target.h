@@ -13,7 +13,7 @@
 
 typedef enum output_kind {
     OUTPUT_STANDARD,   /* "-", /dev/stdout, /dev/fd/1: our standard output */
-    OUTPUT_DESCRIPTOR, /* /dev/stderr, /dev/fd/N: descriptor `number`, if the caller handed it down */
+    OUTPUT_DESCRIPTOR, /* /dev/stderr, /dev/fd/N: descriptor `number`, if the caller has it open */
     OUTPUT_STREAM,     /* a device, a pipe, or an open file without a name */
     OUTPUT_NEW,        /* no file is there */
     OUTPUT_FILE,       /* a regular file, described by `there` */
