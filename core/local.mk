@@ -110,6 +110,7 @@ core_bounds = \
     core/bounds/normal_field.c core/bounds/normal_field.h \
     core/bounds/quadratic.h \
     core/bounds/separation.c core/bounds/separation.h \
+    core/bounds/strategy.c core/bounds/strategy.h \
     core/bounds/time_window.c core/bounds/time_window.h \
     core/bounds/trial_rate.h \
     core/bounds/tuning.h \

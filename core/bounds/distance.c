@@ -8,35 +8,15 @@
 
 #include "core/bounds/claim_audit.h"
 #include "core/bounds/quadratic.h"
+#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 
 /* --- Asking ----------------------------------------------------------------------------------- */
 
-/* About what remains of a node's remainder at one moment. */
-static double remainder_in_place(const node *n)
-{
-    return n->e[0] + n->e[1] + n->e[2] - n->time_remainder;
-}
-
-/* So small that its remainder says something of the surface. */
-static bool is_small(const node *n)
-{
-    const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
-    return remainder_in_place(n) < TUNING_DISTANCE_EXTENT * extent;
-}
-
-static bool is_nearly_parallel(const node *a, const node *b)
-{
-    const double cosine = vec3_dot(a->normal, b->normal), least = TUNING_FIELD_COSINE;
-    return cosine * cosine >
-           least * least * vec3_dot(a->normal, a->normal) * vec3_dot(b->normal, b->normal);
-}
-
 bool distance_is_known(const node *a, const node *b)
 {
-    if (b->many != NULL || !surface_has_distance(b->surface)) return false;
-    const size_t common = surface_common_maps(a->surface, b->surface);
-    return common == 0 || !is_small(a) || !is_small(b) || is_nearly_parallel(a, b);
+    return b->many == NULL && surface_has_distance(b->surface) &&
+           strategy_distance_pays(a, b, surface_common_maps(a->surface, b->surface));
 }
 
 /* The models of a node's points. A node keeps no rates. */

@@ -25,9 +25,8 @@ typedef struct distance_view {
 /* Nothing is known yet. */
 distance_view distance_view_none(const node *a);
 
-/* Whether distances of points of a from the surface of b are known, and worth asking for. Where
- * both have maps in common points are included anew: not for nodes that are small, and not
- * parallel. */
+/* Whether distances of points of a from the surface of b are known, and worth asking for
+ * (strategy_distance_pays). */
 bool distance_is_known(const node *a, const node *b);
 
 /* What is asked. Where a slides along b within itself, but for `slip`, its points are taken where
@@ -76,9 +75,6 @@ typedef struct distance_outcome {
 
 /* Nothing is known yet. */
 distance_outcome distance_outcome_none(const time_window *window);
-
-/* Whether one node is flat and the two move along its plane, but for rounding. */
-bool distance_slides_on_face(const node *a, const node *b);
 
 /* Tries node 0, then node 1, until one decides, and adds what they show to *seen. Precondition:
  * both nodes are bounded. IMP_ERROR_PLUGIN: a callback breaks the ABI. */

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 
 distance_outcome distance_outcome_none(const time_window *window)
@@ -65,34 +66,6 @@ static imp_code question_of(const distance_sides *of, int side, double gamma_cle
 
 /* --- Faces ------------------------------------------------------------------------------------ */
 
-/* Motion along a direction below this part of all motion is rounding. */
-#define ALONG_FACE 0x1p-30
-
-/* Whether the other node is flat and the two move along it: what they move along its normal is mere
- * rounding. */
-static bool may_slide_along(const node *own, const node *other)
-{
-    const quadratic3 *f = &own->f, *g = &other->f;
-    const vec3 n = other->normal;
-    double along = 0, all = 0;
-    if (other->many != NULL || !(vec3_norm1(n) > 0) || node_bends(other)) return false;
-    double bt = 0, ut = 0, vt = 0, tt = 0;
-    for (int i = 0; i < 3; ++i) {
-        bt += n.x[i] * (f->bt[i] - g->bt[i]);
-        ut += n.x[i] * f->qut[i];
-        vt += n.x[i] * f->qvt[i];
-        tt += n.x[i] * (f->qtt[i] - g->qtt[i]);
-        all += own->motion[i] + other->motion[i];
-    }
-    along = fabs(bt) + fabs(ut) + fabs(vt) + fabs(tt);
-    return all > 0 && along <= ALONG_FACE * all * vec3_norm1(n);
-}
-
-bool distance_slides_on_face(const node *a, const node *b)
-{
-    return may_slide_along(a, b) || may_slide_along(b, a);
-}
-
 /* Asks how far the points of one side are from the plane of the other's node, along which they
  * slide. */
 static imp_code cut_along_face(const distance_sides *of, int side, double gamma_clear,
@@ -123,7 +96,7 @@ static imp_code cut_side(const distance_sides *of, int side, double gamma_clear,
     distance_question asked;
     *view = distance_view_none(own);
     if (!distance_is_known(own, other)) {
-        if (!may_slide_along(own, other)) return IMP_SUCCESS;
+        if (!strategy_slides_on_face(own, other)) return IMP_SUCCESS;
         return cut_along_face(of, side, gamma_clear, window, view, error);
     }
     const imp_code code = question_of(of, side, gamma_clear, &asked, error);

@@ -9,6 +9,7 @@
 #include "core/bounds/net_axis.h"
 #include "core/bounds/net_model_axis.h"
 #include "core/bounds/normal_field.h"
+#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 
 /* The w of `moment`, kept within the window. */
@@ -28,21 +29,6 @@ static void approach_take(approach *near, const difference *r, const gap_lines *
     near->moment = r->mid + r->half * w;
 }
 
-/* Whether both nodes are nearly flat, so that GJK decides at each moment and only time is left to
- * be searched: halves would learn no more of u and v. */
-static bool are_flat(const node *a, const node *b)
-{
-    double bent = 0, extent = 0;
-    const node *both[2] = {a, b};
-    for (int k = 0; k < 2; ++k) {
-        const quadratic3 *f = &both[k]->f;
-        for (int i = 0; i < 3; ++i)
-            bent += both[k]->e[i] + fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]);
-        extent += both[k]->extent[PARAMETER_U] + both[k]->extent[PARAMETER_V];
-    }
-    return TUNING_FLAT * bent < extent;
-}
-
 /* The axis that is best at the end of what is left: once two edges have crossed, the axis that was
  * best before is the wrong one. */
 static bool cut_at_end(const node *a, const node *b, double gamma_clear, time_window *window)
@@ -55,14 +41,6 @@ static bool cut_at_end(const node *a, const node *b, double gamma_clear, time_wi
     if (!fixed_axes_cut(&r, gamma_clear, &s, &axis, NULL)) return false;
     window_cut(window, r.mid, r.half, &s);
     return true;
-}
-
-static bool has_normal(const node *n) { return vec3_norm1(n->normal) > 0; }
-
-/* A point, or a curve that is nearly straight. */
-static bool is_thin(const node *n)
-{
-    return !has_normal(n) && n->many == NULL && !node_blurs(n, TUNING_STRAIGHT_BLUR);
 }
 
 /* Cuts the window of two nodes without normals along axes that need no search: perpendicular to
@@ -82,28 +60,24 @@ static bool cut_across(const node *a, const node *b, double gamma_clear, time_wi
     return true;
 }
 
-/* Cuts by an axis that turns. It shows more only where one surface lies in the other's concave
- * side, or nearly; there fixed axes seldom cut the start of a window. */
 static bool cut_by_turning(const difference *r, double gamma_clear, w_range *s, trial_rate *turning,
                            gap_lines *lines)
 {
     const w_range before = *s;
-    const bool is_chance = s->lo > -1;
-    if (is_chance && !trial_rate_take(turning, TUNING_FIELD_SHARE, TUNING_FIELD_WAIT)) return true;
+    if (!strategy_takes_turning(&before, turning)) return true;
     const bool some = normal_field_cut(r, gamma_clear, s, lines);
-    const bool pays = !some || s->lo > before.lo || s->hi < before.hi;
-    if (is_chance) trial_rate_note(turning, pays);
+    strategy_note_turning(&before, s, some, turning);
     return some;
 }
 
-/* `near` is NULL where only the window matters. */
+/* Cuts by quadratics alone. `near` is NULL where only the window matters. */
 static bool shrink(const node *a, const node *b, double gamma_clear, time_window *window,
                    vec3 *axis, trial_rate *turning, approach *near)
 {
-    const bool across = near == NULL && !has_normal(a) && !has_normal(b);
-    const bool thin = across && is_thin(a) && is_thin(b);
-    const int rounds = thin ? TUNING_THIN_ROUNDS : TUNING_CURVE_ROUNDS;
-    if (across && !cut_across(a, b, gamma_clear, window, rounds)) return false;
+    const strategy_goal goal = near == NULL ? GOAL_CONTACT : GOAL_DISTANCE;
+    const quadratic_plan plan = strategy_of_quadratics(a, b, goal);
+    search_plan more;
+    if (!cut_across(a, b, gamma_clear, window, plan.rounds_across)) return false;
     for (int round = 1;; ++round) {
         difference r;
         gap_lines lines;
@@ -119,46 +93,26 @@ static bool shrink(const node *a, const node *b, double gamma_clear, time_window
         if (!cut_by_turning(&r, gamma_clear, &s, turning, kept)) return false;
         window_cut(window, r.mid, r.half, &s);
         if (near != NULL) approach_take(near, &r, &lines, s);
-        if (!(s.hi - s.lo < 2) || thin) return true;
-        const bool flat = are_flat(a, b);
-        if (flat && near == NULL && s.lo > -1 && !cut_at_end(a, b, gamma_clear, window))
-            return false;
-        if (round == (flat ? TUNING_FLAT_ROUNDS : TUNING_WINDOW_ROUNDS)) return true;
-        if (!flat && !(s.hi - s.lo < TUNING_WINDOW_SHRINKS)) return true;
+        if (!(s.hi - s.lo < 2) || plan.is_thin) return true;
+        if (round == 1) more = strategy_of_searches(a, b, goal);
+        if (more.cuts_at_end && s.lo > -1 && !cut_at_end(a, b, gamma_clear, window)) return false;
+        if (round == more.rounds || !(s.hi - s.lo < more.shrinks)) return true;
     }
 }
 
 /* --- Nets ------------------------------------------------------------------------------------- */
 
-/* Whether a net tells more than the quadratic, as it does not for a bilinear patch without
- * remainder. Each pair asks for the net (pair_test.c), so that a test depends on its two nodes
- * alone. */
-static bool has_useful_net(const node *n)
+static bool seek_by_hulls(strategy_hulls hulls, const node *a, const node *b, double t, vec3 *axis)
 {
-    return node_net_made(n) != NULL && node_gains_by_net(n);
+    return hulls == HULLS_OF_ONE ? net_model_axis_seek(a, b, t, axis)
+                                 : net_axis_seek(a, b, t, axis);
 }
 
-/* Whether one of them has a useful net, which is enough. */
-static bool have_nets(const node *a, const node *b)
+static bool cut_by_hulls(strategy_hulls hulls, const node *a, const node *b, vec3 axis,
+                         double gamma_clear, time_window *window)
 {
-    return a->bounded && b->bounded && (has_useful_net(a) || has_useful_net(b));
-}
-
-static bool have_both_nets(const node *a, const node *b)
-{
-    return node_net_made(a) != NULL && node_net_made(b) != NULL;
-}
-
-static bool seek_by_nets(const node *a, const node *b, double t, vec3 *axis)
-{
-    return have_both_nets(a, b) ? net_axis_seek(a, b, t, axis) : net_model_axis_seek(a, b, t, axis);
-}
-
-static bool cut_by_nets(const node *a, const node *b, vec3 axis, double gamma_clear,
-                        time_window *window)
-{
-    return have_both_nets(a, b) ? net_axis_cut(a, b, axis, gamma_clear, window)
-                                : net_model_axis_cut(a, b, axis, gamma_clear, window);
+    return hulls == HULLS_OF_ONE ? net_model_axis_cut(a, b, axis, gamma_clear, window)
+                                 : net_axis_cut(a, b, axis, gamma_clear, window);
 }
 
 /* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls
@@ -177,44 +131,30 @@ static bool cut_by_models(const node *a, const node *b, double gamma_clear, time
     return true;
 }
 
-/* Whether quadratics may show more than hulls: a hull leaves its surface by a part of what bends, a
- * quadratic by its remainder. */
-static bool are_models_closer(const node *a, const node *b)
+/* Cuts by hulls at the start of the window as long as that pays, then by quadratics. */
+static bool shrink_by_hulls(strategy_hulls hulls, const node *a, const node *b, double gamma_clear,
+                            time_window *window, vec3 *axis, trial_rate *turning)
 {
-    double remainder = 0, bend = 0;
-    const node *both[2] = {a, b};
-    if (!have_both_nets(a, b)) return true;
-    for (int k = 0; k < 2; ++k) {
-        const quadratic3 *f = &both[k]->f;
-        for (int i = 0; i < 3; ++i) {
-            remainder += both[k]->e[i];
-            bend += fabs(f->quu[i]) + fabs(f->quv[i]) + fabs(f->qvv[i]);
-        }
+    const hull_plan plan = strategy_of_hulls(hulls);
+    bool found = true, pays = true;
+    if (!(vec3_norm1(*axis) > 0)) *axis = vec3_sub(vec3_from(b->f.a), vec3_from(a->f.a));
+    for (int round = 0; round < plan.rounds && found && pays; ++round) {
+        const double length = window->hi - window->lo;
+        found = seek_by_hulls(hulls, a, b, window->lo, axis);
+        if (found && !cut_by_hulls(hulls, a, b, *axis, gamma_clear, window)) return false;
+        pays = window->hi - window->lo < plan.shrinks * length;
     }
-    return TUNING_NET_BEND * remainder < bend;
+    switch (strategy_after(hulls, a, b, found)) {
+    case AFTER_HULLS_QUADRATICS:
+        return shrink(a, b, gamma_clear, window, axis, turning, NULL);
+    case AFTER_HULLS_ONE_CUT:
+        return cut_by_models(a, b, gamma_clear, window, axis, turning, found);
+    default:
+        return true;
+    }
 }
 
-/* Cuts by hulls at the start of the window as long as that pays, then by quadratics. Flat nodes of
- * which one has no net get the full search, others one cut where quadratics may show more. */
-static bool shrink_by_nets(const node *a, const node *b, double gamma_clear, time_window *window,
-                           vec3 *axis, trial_rate *turning)
-{
-    bool found = true, pays = true;
-    const bool flat = nodes_have_flat_nets(a, b);
-    const int rounds = flat ? TUNING_FLAT_NET_ROUNDS : TUNING_WINDOW_ROUNDS;
-    const double shrinks = flat ? TUNING_FLAT_NET_SHRINKS : TUNING_NET_SHRINKS;
-    if (!(vec3_norm1(*axis) > 0)) *axis = vec3_sub(vec3_from(b->f.a), vec3_from(a->f.a));
-    for (int round = 0; round < rounds && found && pays; ++round) {
-        const double length = window->hi - window->lo;
-        found = seek_by_nets(a, b, window->lo, axis);
-        if (found && !cut_by_nets(a, b, *axis, gamma_clear, window)) return false;
-        pays = window->hi - window->lo < shrinks * length;
-    }
-    if (!have_both_nets(a, b) && are_flat(a, b))
-        return shrink(a, b, gamma_clear, window, axis, turning, NULL);
-    return (found && !are_models_closer(a, b)) ||
-           cut_by_models(a, b, gamma_clear, window, axis, turning, found);
-}
+/* --- Tests ------------------------------------------------------------------------------------ */
 
 bool separation_without_nets(const node *a, const node *b, double gamma_clear, time_window *window,
                              vec3 *axis, trial_rate *turning)
@@ -227,16 +167,20 @@ bool separation_without_nets(const node *a, const node *b, double gamma_clear, t
 bool separation_window(const node *a, const node *b, double gamma_clear, time_window *window,
                        vec3 *axis, trial_rate *turning)
 {
-    if (!have_nets(a, b)) return separation_without_nets(a, b, gamma_clear, window, axis, turning);
+    const strategy_hulls hulls = strategy_hulls_of(a, b);
+    if (hulls == HULLS_NONE)
+        return separation_without_nets(a, b, gamma_clear, window, axis, turning);
+    if (!a->bounded || !b->bounded) return true;
     return !separation_of_boxes(a, b, gamma_clear) &&
-           shrink_by_nets(a, b, gamma_clear, window, axis, turning);
+           shrink_by_hulls(hulls, a, b, gamma_clear, window, axis, turning);
 }
 
 bool separation_first_look(const node *a, const node *b, double gamma_clear, time_window *window,
                            vec3 *axis, trial_rate *turning, bool *more)
 {
-    *more = have_nets(a, b) && vec3_norm1(*axis) > 0;
-    return *more ? cut_by_nets(a, b, *axis, gamma_clear, window)
+    const strategy_hulls hulls = vec3_norm1(*axis) > 0 ? strategy_hulls_of(a, b) : HULLS_NONE;
+    *more = hulls != HULLS_NONE && a->bounded && b->bounded;
+    return *more ? cut_by_hulls(hulls, a, b, *axis, gamma_clear, window)
                  : separation_window(a, b, gamma_clear, window, axis, turning);
 }
 

@@ -94,7 +94,7 @@ TUNING_INTEGER(TUNING_PRECISION_REMAINDER, 64);
 /* A node without bounds whose time is below this part of the query's time counts as one moment. */
 TUNING_NUMBER(TUNING_MOMENT, 0x1p-20);
 
-/* --- How often to cut one pair's window (separation.c, gjk.h, normal_field.c) ----------------- */
+/* --- How often to cut one pair's window (strategy.c, gjk.h, normal_field.c) ------------------- */
 
 /* Most moments of the window at which an axis is sought. */
 TUNING_INTEGER(TUNING_WINDOW_ROUNDS, 3);
@@ -141,7 +141,7 @@ TUNING_INTEGER(TUNING_FIELD_SHARE, 8);
 /* Chances left out between two trials of a turning axis that does not pay. */
 TUNING_INTEGER(TUNING_FIELD_WAIT, 7);
 
-/* --- Distances from a surface (distance.c); sets: conformal, tori ----------------------------- */
+/* --- Distances from a surface (strategy.c, distance.c); sets: conformal, tori ----------------- */
 
 /* A remainder above this part of the distance's size is more than rounding. */
 TUNING_NUMBER(TUNING_DISTANCE_ROUNDING, 0x1p-40);

@@ -6,6 +6,7 @@
 
 #include "core/bounds/distance.h"
 #include "core/bounds/separation.h"
+#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 #include "core/witness/contact_estimate.h"
 #include "core/witness/newton.h"
@@ -69,7 +70,7 @@ static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *
     const candidate_pair *both = candidate_pair_of(im, p);
     halves->has_heights = false;
     *some = true;
-    if (!nodes_have_nets(p->a, p->b)) return IMP_SUCCESS;
+    if (!strategy_has_both_hulls(p->a, p->b)) return IMP_SUCCESS;
     net_halves_find(p->a, p->b, p->axis, im->gamma_clear, &p->window, halves);
     const int count = halves->count;
     *some = count == 0 || halves->found[count - 1].half >= 0;
@@ -84,21 +85,15 @@ static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *
 /* What is to be told apart; by default half of gamma. */
 static double room(const impact *im) { return im->gamma - im->gamma_clear; }
 
-/* Whether both have nets so close to the surfaces that the nets' nearest points are within gamma
- * where the surfaces come within gamma_clear. */
-static bool have_close_nets(const impact *im, const pair *p)
-{
-    return nodes_have_nets(p->a, p->b) &&
-           4 * (net_off(node_net_made(p->a)) + net_off(node_net_made(p->b))) <= room(im);
-}
-
-/* With such nets the nearest points are sought on them, and only those found are evaluated. */
+/* Where nets are close to the surfaces, nearest points are sought on them, and only those found are
+ * evaluated. */
 static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp_error *error)
 {
     const node *const nodes[2] = {p->a, p->b};
     const double t = p->window.lo, part = 0.25 * room(im) / im->gamma;
     double y[NEWTON_UNKNOWNS];
-    if (!have_close_nets(im, p)) return witness_seek(nodes, t, im->gamma, seen, error);
+    if (!strategy_has_close_nets(p->a, p->b, room(im)))
+        return witness_seek(nodes, t, im->gamma, seen, error);
     net_nearest(nodes, p->axis, t, TUNING_WITNESS_NEAR * im->gamma,
                 part < TUNING_NEWTON_GAIN ? part : TUNING_NEWTON_GAIN, y);
     return witness_at(nodes, t, y, seen, error);
@@ -202,7 +197,8 @@ static bool witness_is_likely(const impact *im, const pair *p, const distance_ou
     const double remainder = pair_remainder(p);
     return TUNING_WITNESS_GAMMA * remainder <= scale(im) ||
            TUNING_WITNESS_EXTENT * pair_extent(p) <= remainder ||
-           nodes_have_flat_nets(p->a, p->b) || precision_ends(im, p, TUNING_WITNESS_FLAT);
+           strategy_hulls_of(p->a, p->b) == HULLS_FLAT ||
+           precision_ends(im, p, TUNING_WITNESS_FLAT);
 }
 
 /* Of the side that is worth halving alone. Not where its remainder does not matter any more: where
@@ -225,7 +221,7 @@ static cut choose_cut(const impact *im, const pair *p, const distance_outcome *s
     if (alone.side >= 0) return alone;
     const cut bend = scale(im) < im->gamma ? cut_by_bend(p, scale(im)) : CUT_NONE;
     if (bend.side >= 0) return bend;
-    return cut_by_spread(p, scale(im), nodes_have_nets(p->a, p->b));
+    return cut_by_spread(p, scale(im), strategy_has_both_hulls(p->a, p->b));
 }
 
 /* Chooses a cut. A cut in time of which one half holds the whole window is made at once, without
@@ -245,27 +241,19 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcom
     return code;
 }
 
-/* Whether the nodes may slide along each other: no fixed axis parts them from the start of their
- * times on, or their parents slid, or one is flat and they move along it. Where an axis parts them,
- * this is tried as often as it pays. If surfaces approach each other, axes cut the start of the
- * window first. */
-static bool may_slide(const pair *p, bool is_parted, trial_rate *sliding)
-{
-    if (!is_parted) return p->slides || !(p->window.lo > pair_times(p->a, p->b).lo);
-    return (p->slides || distance_slides_on_face(p->a, p->b)) &&
-           trial_rate_take(sliding, TUNING_DISTANCE_SHARE, TUNING_DISTANCE_WAIT);
-}
-
 /* What the nodes' distances from each other's whole surfaces show, where that has a chance. */
 static imp_code look(const impact *im, const pair *p, distance_outcome *seen, imp_error *error)
 {
-    const bool is_parted = vec3_norm1(p->axis) > 0;
-    trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
+    const slide_signs signs = {
+        .start = p->window.lo,
+        .is_parted = vec3_norm1(p->axis) > 0,
+        .slides = p->slides,
+        .sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL};
     *seen = distance_outcome_none(&p->window);
-    if (!may_slide(p, is_parted, sliding)) return IMP_SUCCESS;
+    if (!strategy_takes_distances(p->a, p->b, &signs, GOAL_CONTACT)) return IMP_SUCCESS;
     const distance_sides both = pair_sides(p, candidate_pair_of(im, p));
     const imp_code code = distance_cut_sides(&both, im->gamma_clear, seen, error);
-    if (is_parted) trial_rate_note(sliding, seen->is_apart || seen->side >= 0);
+    strategy_note_distances(&signs, seen->is_apart || seen->side >= 0);
     return code;
 }
 

@@ -10,6 +10,7 @@
 #include "core/base/status.h"
 #include "core/bounds/distance.h"
 #include "core/bounds/separation.h"
+#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 #include "core/solver/contradiction.h"
 
@@ -193,7 +194,9 @@ static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error
 {
     *seen = distance_outcome_none(&p->window);
     if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return IMP_SUCCESS;
-    if (!p->slides && vec3_norm1(p->axis) > 0) return IMP_SUCCESS;
+    const slide_signs signs = {
+        .start = p->window.lo, .is_parted = vec3_norm1(p->axis) > 0, .slides = p->slides};
+    if (!strategy_takes_distances(p->a, p->b, &signs, GOAL_DISTANCE)) return IMP_SUCCESS;
     const distance_sides both = pair_sides(p, &m->candidates[p->candidate_pair]);
     const imp_code code = distance_cut_sides(&both, enough(m), seen, error);
     p->window = seen->left;

@@ -8,6 +8,7 @@
 
 #include "core/bounds/moving_boxes.h"
 #include "core/bounds/separation.h"
+#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 #include "core/broad_phase/parallel.h"
 
@@ -28,50 +29,31 @@ bool pair_test_fully(const impact *im, pair *p)
 
 /* --- The first test --------------------------------------------------------------------------- */
 
-/* Hulls part two nodes where one of them gains by its net. Every later test of the pair finds what
- * is found here. */
+/* Every later test of the pair finds what is found here. */
 imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[p->candidate_pair];
     node *const nodes[2] = {p->a, p->b};
-    bool offers[2], useful = false;
     tree_growth growth = {0};
     imp_code code = IMP_SUCCESS;
     if (im->baseline != IMP_BASELINE_NONE) return IMP_SUCCESS;
     if (node_net_is_asked(p->a) && node_net_is_asked(p->b)) return IMP_SUCCESS;
-    for (int side = 0; side < 2; ++side) {
-        offers[side] = surface_offers_net(nodes[side]->surface);
-        if (offers[side] && !useful) useful = node_gains_by_net(nodes[side]);
-    }
-    for (int side = 0; side < 2 && useful && code == IMP_SUCCESS; ++side) {
+    if (!strategy_wants_nets(p->a, p->b)) return IMP_SUCCESS;
+    for (int side = 0; side < 2 && code == IMP_SUCCESS; ++side) {
         const net *found;
-        if (offers[side])
+        if (surface_offers_net(nodes[side]->surface))
             code = node_net(both->side[side]->tree, nodes[side], &found, &growth, error);
     }
     *bytes += growth.bytes;
     return code;
 }
 
-/* Whether both nodes are straight but for a small remainder. Quadratics part most such pairs, and
- * cost less than asking for nets. */
-static bool waits_for_nets(const impact *im, const pair *p)
-{
-    if (im->baseline != IMP_BASELINE_NONE || vec3_norm1(p->axis) > 0) return false;
-    const node *const nodes[2] = {p->a, p->b};
-    bool blurs = false;
-    for (int side = 0; side < 2; ++side) {
-        const node *n = nodes[side];
-        if (node_bends(n) || node_blurs(n, TUNING_STRAIGHT_BLUR)) return false;
-        if (!surface_offers_net(n->surface)) return false;
-        blurs = blurs || node_blurs(n, NODE_ROUNDING);
-    }
-    return blurs;
-}
-
 imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, imp_error *error)
 {
     pair *p = &t->p;
-    if (waits_for_nets(im, p)) {
+    const bool waits = im->baseline == IMP_BASELINE_NONE && !(vec3_norm1(p->axis) > 0) &&
+                       strategy_waits_for_nets(p->a, p->b);
+    if (waits) {
         p->is_seen_only = p->lacks_nets = true;
         t->near =
             separation_without_nets(p->a, p->b, im->gamma_clear, &p->window, &p->axis, turning);

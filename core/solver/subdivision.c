@@ -5,6 +5,7 @@
 #include "core/solver/subdivision.h"
 
 #include "core/bounds/separation.h"
+#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 
 /* --- What a pair is like ---------------------------------------------------------------------- */
@@ -108,7 +109,7 @@ bool cut_is_free(const cut *c, const pair *p, int *half)
 /* What the worth of cuts depends on beside the node. */
 typedef struct view {
     double scale;
-    bool is_tangent;
+    bool is_tangent; /* no fixed axis parts the nodes, whose surfaces are nearly parallel */
     bool has_nets;
 } view;
 
@@ -130,16 +131,6 @@ static double gain_in_time(const pair *p, const node *n, double bend, const view
     return (of->has_nets ? TUNING_TIME_CUT : TUNING_FREE_TIME_CUT) * bend;
 }
 
-/* Whether no fixed axis parts the nodes, whose surfaces are nearly parallel: only a field of
- * normals will, for which slopes are no obstacle. */
-static bool is_tangent(const pair *p)
-{
-    const vec3 a = p->a->normal, b = p->b->normal;
-    const double cosine = vec3_dot(a, b), least = TUNING_FIELD_COSINE;
-    return !(vec3_norm1(p->axis) > 0) &&
-           cosine * cosine > least * least * vec3_dot(a, a) * vec3_dot(b, b);
-}
-
 /* What a cut along u or v is worth. Of tangent nodes only what bends counts: a cylinder that is too
  * wide for the field is not cut in length. The slopes decide where nothing bends. */
 static double gain_in_place(const node *n, parameter j, double bend, bool tangent)
@@ -157,7 +148,8 @@ static void consider_side(cut *best, const pair *p, int side, const double bend[
 
 cut cut_by_spread(const pair *p, double scale, bool has_nets)
 {
-    const view of = {scale, is_tangent(p), has_nets};
+    const bool is_parted = vec3_norm1(p->axis) > 0;
+    const view of = {scale, !is_parted && strategy_is_tangent(p->a, p->b), has_nets};
     cut best = CUT_NONE;
     for (int side = 0; side < 2; ++side)
         consider_side(&best, p, side, side_of(p, side)->nonlinear_extent, &of);

@@ -4,6 +4,7 @@
 
 #include "core/solver/upper_time.h"
 
+#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 #include "core/witness/contact_estimate.h"
 
@@ -27,7 +28,7 @@ static bool holds_contact(const upper_time *up, const pair *p)
 
 static bool is_wanted(upper_time *up, const pair *p)
 {
-    if (!nodes_have_nets(p->a, p->b)) return false;
+    if (!strategy_has_both_hulls(p->a, p->b)) return false;
     up->followed += 1;
     if (up->next == 0) up->next = TUNING_UPPER_FIRST;
     if (up->followed < up->next || holds_contact(up, p)) return false;

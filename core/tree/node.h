@@ -147,6 +147,8 @@ static inline const net *node_net_made(const node *n)
     return made != &net_none ? made : NULL;
 }
 
+static inline bool node_has_normal(const node *n) { return vec3_norm1(n->normal) > 0; }
+
 /* Whether its quadratic bends along u or v. */
 static inline bool node_bends(const node *n)
 {
@@ -160,31 +162,6 @@ static inline bool node_blurs(const node *n, double part)
 {
     const double least = part * (n->extent[PARAMETER_U] + n->extent[PARAMETER_V]);
     return least > 0 && (n->e[0] > least || n->e[1] > least || n->e[2] > least);
-}
-
-#define NODE_ROUNDING 0x1p-24 /* remainders below this part are rounding, and no net says more */
-
-/* Whether a net may say more than its quadratic. */
-static inline bool node_gains_by_net(const node *n)
-{
-    return node_bends(n) || node_blurs(n, NODE_ROUNDING);
-}
-
-/* Whether both have a net that a pair of them asks for (pair_test.c). Where neither gains it asks
- * for none, and those that other pairs asked for do not count: which there are depends on what else
- * the scene was asked. */
-static inline bool nodes_have_nets(const node *a, const node *b)
-{
-    return (node_gains_by_net(a) || node_gains_by_net(b)) && node_net_made(a) != NULL &&
-           node_net_made(b) != NULL;
-}
-
-/* The same for nodes whose hulls are the surfaces, or nearly so: bilinear patches, triangles,
- * edges, points. */
-static inline bool nodes_have_flat_nets(const node *a, const node *b)
-{
-    return nodes_have_nets(a, b) && !net_is_curved(node_net_made(a)) &&
-           !net_is_curved(node_net_made(b));
 }
 
 /* Models of all points of the node before any map. False: it moves by itself, or has no bounds. */

@@ -69,8 +69,9 @@ static void derive(const stand *s, newton_way *way)
     newton_of_gap(s->apart, by, second, way->gradient, way->hessian);
 }
 
-/* By how much the step to `next` would reduce half the squared gap, about: half of what its slope
- * promises. */
+/* Predicted reduction of half the squared gap by the step to `next`: half of what its slope
+ * promises. Patches are cheap to evaluate, so this suffices; newton_promise, which weighs the whole
+ * Hessian, takes 1 % more instructions of a bicubic scene and no fewer pairs. */
 static double promise(const newton_way *way, const stand *s, const double *next)
 {
     double slope = 0;
@@ -78,7 +79,7 @@ static double promise(const newton_way *way, const stand *s, const double *next)
     return 0.5 * slope;
 }
 
-/* What a step promises means nothing where it is damped more. */
+/* Above this damping, the predicted reduction is unreliable. */
 static const double DAMPED = 0x1p-10;
 
 /* One step from s to `to`; *way is left with the derivatives at s. False: no step reduces the gap,

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/base/rounding.h"
+#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 #include "core/tree/bound_audit.h"
 #include "core/witness/newton.h"
@@ -35,7 +36,7 @@ typedef struct state {
  * is not a curve that is nearly straight. */
 static bool node_is_vague(const node *n)
 {
-    return !(vec3_norm1(n->normal) > 0) && node_blurs(n, TUNING_STRAIGHT_BLUR);
+    return !node_has_normal(n) && node_blurs(n, TUNING_STRAIGHT_BLUR);
 }
 
 /* y may leave the node by one half-width, not the surface. */
@@ -205,8 +206,9 @@ static imp_code derive(const search *g, const state *s, double gradient[NEWTON_U
 static imp_code descend(const search *g, double gamma, state *s, imp_error *error)
 {
     newton_way way = newton_begin(&g->y);
-    const double far =
-        nodes_have_flat_nets(g->nodes[0], g->nodes[1]) ? INFINITY : TUNING_NEWTON_FAR * gamma;
+    const double far = strategy_hulls_of(g->nodes[0], g->nodes[1]) == HULLS_FLAT
+                           ? INFINITY
+                           : TUNING_NEWTON_FAR * gamma;
     while (way.steps < TUNING_NEWTON_STEPS && s->gap > 0) {
         imp_code code = derive(g, s, way.gradient, way.hessian, error);
         if (code != IMP_SUCCESS) return code;
