@@ -5,8 +5,8 @@
 
 #include <stdint.h>
 
-/* The same address without const, for functions that do not declare what they leave unchanged:
- * free() of memory that we own, and the iterators of jansson. Writing there is a bug. */
+/* Casts const away, for functions that do not declare what they leave unchanged: free() of memory
+ * that we own, and the iterators of jansson. Writing there is a bug. */
 static inline void *unconst(const void *address) { return (void *)(uintptr_t)address; }
 
 #endif

@@ -36,8 +36,8 @@ static int by_x(const void *p, const void *q) { return by_start(p, q, 0); }
 static int by_y(const void *p, const void *q) { return by_start(p, q, 1); }
 static int by_z(const void *p, const void *q) { return by_start(p, q, 2); }
 
-/* Of how many others a box's span along an axis crosses the start, about, as a part of all: the
- * mean length of the spans that are finite, over the distance from the first to the last. */
+/* Estimates which part of all other boxes' starts a box's span along the axis crosses: the mean
+ * length of the spans that are finite, over the distance from the first to the last. */
 static double crowding(const swept_box *boxes, size_t count, int axis)
 {
     double first = INFINITY, last = -INFINITY, length = 0;

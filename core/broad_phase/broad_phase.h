@@ -29,11 +29,11 @@ typedef struct broad_phase_visitor {
 bool broad_phase_visit(swept_box *boxes, size_t count, double gamma_clear,
                        const broad_phase_visitor *visitor);
 
-/* The same in two steps, of which the second may be taken by several threads: sorts the boxes along
- * the axis that is answered; */
+/* Do what broad_phase_visit does in two steps, of which several threads may take the second. The
+ * first sorts the boxes along the axis that it answers; */
 int broad_phase_sort(swept_box *boxes, size_t count);
 
-/* and visits the pairs of box k with those behind it. */
+/* the second visits the pairs of box k with those behind it. */
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
                            double gamma_clear, const broad_phase_visitor *visitor);
 

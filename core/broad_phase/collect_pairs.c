@@ -9,8 +9,8 @@
 
 /* --- Pairs ------------------------------------------------------------------------------------ */
 
-/* Of two surfaces that come near each other, smaller body first; false: they are not to be
- * tested. */
+/* Makes the candidate pair of two surfaces that come near each other, the smaller body first.
+ * False: they are not to be tested. */
 static bool make_pair(const collection *all, size_t first, size_t second, candidate_pair *p)
 {
     candidate *candidates = all->list->candidates;

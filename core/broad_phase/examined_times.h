@@ -18,8 +18,8 @@ typedef struct examined_times {
                       never within the query's times */
 } examined_times;
 
-/* Of a query from t_start to t_end. IMP_ERROR_SCENE names the body, the type or map, and its
- * times, where it needs times that these do not cover. */
+/* Finds the times that a query from t_start to t_end examines. IMP_ERROR_SCENE names the body, the
+ * type or map, and its times, where it needs times that these do not cover. */
 imp_code examined_times_find(const imp_scene *scene, double t_start, double t_end,
                              examined_times *found, imp_error *error);
 

@@ -33,7 +33,7 @@ void child_memory_free(void *memory, size_t size);
 
 child_fate child_run(child_work *work, void *result, const void *task, double seconds);
 
-/* As child_run; what the work writes to standard error first is put into said[size],
+/* Does what child_run does; what the work writes to standard error first is put into said[size],
  * NUL-terminated. More than a pipe holds is lost, and writing it does not wait. */
 child_fate child_run_heard(child_work *work, void *result, const void *task, double seconds,
                            char *said, size_t size);

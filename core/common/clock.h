@@ -13,7 +13,7 @@ static inline struct timespec clock_now(void)
     return t;
 }
 
-/* The same in seconds. */
+/* Reads the monotonic clock in seconds. */
 static inline double clock_seconds(void)
 {
     const struct timespec t = clock_now();

@@ -83,8 +83,9 @@ IMP_EXPORT const char *imp_code_text(imp_code code);
  * none. For handlers of SIGSEGV and the like, to say whose fault it is. [async-signal-safe] */
 IMP_EXPORT const char *imp_call_in_progress(const char **callback);
 
-/* The same of another thread, which hangs perhaps: of that which imp_call_of_thread was called in,
- * and which has not ended. [async-signal-safe] */
+/* Like imp_call_in_progress, for another thread, which may hang: imp_call_of_thread answers a
+ * handle of the calling thread, imp_call_read what that thread is in. The handle is valid until its
+ * thread ends. [async-signal-safe] */
 typedef struct imp_call imp_call;
 IMP_EXPORT const imp_call *imp_call_of_thread(void);
 IMP_EXPORT const char *imp_call_read(const imp_call *call, const char **callback);
@@ -101,17 +102,18 @@ typedef struct imp_registry imp_registry;
  * plugin directory, and the installed one. Returns NULL only when memory runs out. */
 IMP_EXPORT imp_registry *imp_registry_new(const char *path);
 
-/* The same with flags: IMP_REGISTRY_SECURE refuses files and directories that others than root and
- * the user could change or replace: on the whole real path, through links, nothing may belong to
- * another user or be writable by everybody (directories above may, if they are sticky). Without it
- * imp_registry_warning reports directories that anyone may write to. A file that was never seen is
- * loaded in a child process first; the outcome is kept in the user's cache
+/* Like imp_registry_new, with flags. IMP_REGISTRY_SECURE refuses files and directories that others
+ * than root and the user could change or replace: on the whole real path, through links, nothing
+ * may belong to another user or be writable by everybody (directories above may, if they are
+ * sticky). Without it imp_registry_warning reports directories that anyone may write to. A file
+ * that was never seen is loaded in a child process first; the outcome is kept in the user's cache
  * ($XDG_CACHE_HOME/impinge/trials). IMP_REGISTRY_ONLY_PATH: the directories of `path` alone, or
  * none, for programs that bring their types along by imp_registry_add. */
 enum { IMP_REGISTRY_SECURE = 1, IMP_REGISTRY_ONLY_PATH = 2 };
 IMP_EXPORT imp_registry *imp_registry_open(const char *path, unsigned flags);
 
-/* The same of one plugin file alone, taken or refused. */
+/* Makes a registry of one plugin file alone, which is taken or refused (imp_registry_refusal).
+ * NULL: no memory. The caller frees it. */
 IMP_EXPORT imp_registry *imp_registry_from_file(const char *file);
 
 /* Adds the types of a plugin that is linked into the program, after all others; it must stay as
@@ -304,9 +306,9 @@ IMP_EXPORT bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b);
 IMP_EXPORT const char *imp_scene_body_name(const imp_scene *scene, size_t body);
 IMP_EXPORT size_t imp_scene_surface_count(const imp_scene *scene, size_t body);
 
-/* Of how many pieces a surface consists, as a mesh of its triangles; 1: it is one. Each has its own
- * domain; imp_scene_eval, _include and _domain are about the first piece, imp_piece_eval, _include
- * and _domain about any. 0: there is no such surface. */
+/* The number of pieces of a surface: of a mesh, its triangles; 1 for a surface that is not divided,
+ * 0 if there is no such surface. Each piece has a domain of its own; imp_scene_eval, _include and
+ * _domain are about the first piece, imp_piece_eval, _include and _domain about any. */
 IMP_EXPORT size_t imp_scene_piece_count(const imp_scene *scene, size_t body, size_t surface);
 
 /* n points p[3*k] = (u, v, t) of one surface, maps applied, to x[3*k] and, unless NULL,
@@ -329,7 +331,7 @@ typedef struct imp_place {
     size_t body, surface, piece;
 } imp_place;
 
-/* The same of one piece. */
+/* Like imp_scene_eval, _include and _domain, for one piece. */
 IMP_EXPORT imp_code imp_piece_eval(const imp_scene *scene, imp_place at, size_t n, const double *p,
                                    double *x, double *error, imp_error *why);
 IMP_EXPORT imp_code imp_piece_include(const imp_scene *scene, imp_place at, const double lo[3],

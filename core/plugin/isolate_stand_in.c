@@ -83,7 +83,7 @@ static imp_status surface_include_of(const void *self, const imp_region *region,
     return status;
 }
 
-/* Of a surface or a map. */
+/* Asks the worker for a net of a surface or a map. */
 static imp_status net_of(const void *self, const imp_region *region, imp_net *net)
 {
     isolated *i = stand_in_of(self);

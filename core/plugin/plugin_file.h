@@ -28,7 +28,8 @@ typedef struct plugin_file {
 imp_code plugin_file_open(plugin_file *plugin, const char *path, load_cache *cache,
                           imp_error *error);
 
-/* The same of a plugin that is linked into the program: its entry and tables are checked. */
+/* Checks entry and tables of a plugin that is linked into the program. It fails as plugin_file_open
+ * does. */
 imp_code plugin_file_link(plugin_file *plugin, const imp_plugin *entry, imp_error *error);
 
 /* Nothing of the plugin may be used any more. */

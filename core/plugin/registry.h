@@ -14,7 +14,7 @@
  * maps are two name spaces; in each the first type of a name is the one that is found, later ones
  * are shadowed. Plugins stay loaded until imp_registry_free. */
 
-/* As imp_registry_open, from these directories only. NULL: no memory. */
+/* Makes a registry as imp_registry_open does, from these directories only. NULL: no memory. */
 imp_registry *registry_scan(const search_path *path, unsigned flags);
 
 /* NULL: not found. */

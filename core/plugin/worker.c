@@ -122,7 +122,7 @@ static bool find_end(const worker *w, int states, siginfo_t *end)
     return waitid(P_PID, (id_t)w->process, end, states | WNOHANG | WNOWAIT) == 0;
 }
 
-/* As long as the process is ours to reap, its number is not used again. */
+/* Ends the process. Its number is not used again while it is ours to reap. */
 static void kill_process(worker *w)
 {
     siginfo_t end;

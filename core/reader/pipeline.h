@@ -25,7 +25,7 @@
 json_t *pipeline_read(const imp_registry *registry, const char *who, const char *line,
                       imp_error *error);
 
-/* The same for a line of one stage: a surface without maps, or a map by itself. */
+/* Reads a line of one stage like pipeline_read: a surface without maps, or a map by itself. */
 json_t *pipeline_read_stage(const imp_registry *registry, imp_type_kind kind, const char *who,
                             const char *line, imp_error *error);
 

@@ -201,7 +201,7 @@ imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, co
 
 /* --- Putting together ------------------------------------------------------------------------- */
 
-/* As it would stand on a command line; false if it is too long for that. */
+/* Writes the value as it would stand on a command line. False: it is too long for that. */
 static bool write_value(char *text, size_t size, const json_t *value)
 {
     int length = -1;
@@ -214,7 +214,8 @@ static bool write_value(char *text, size_t size, const json_t *value)
     return length >= 0 && (size_t)length < size;
 }
 
-/* The same of a short list: 1,0,0. */
+/* Writes a short list as it would stand on a command line: 1,0,0. False: it is too long for
+ * that. */
 static bool write_list(char *text, size_t size, const json_t *list)
 {
     size_t used = 0;
@@ -253,7 +254,7 @@ static bool label_part(shared_instance *p, const json_t *object)
     return instance_set_label(p, label);
 }
 
-/* Of the numbers and texts in it. */
+/* Counts the bytes of the numbers and texts in the value. */
 static size_t bytes_given(const json_t *value)
 {
     size_t bytes = json_is_string(value) ? json_string_length(value) : 0, i;

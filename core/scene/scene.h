@@ -33,7 +33,7 @@ typedef struct scene_members {
 imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y);
 bool scene_ignores(const imp_scene *scene, size_t a, size_t b);
 
-/* As imp_scene_body_count and imp_scene_surface_count; body < scene_body_count. */
+/* Answer what imp_scene_body_count and imp_scene_surface_count do; body < scene_body_count. */
 size_t scene_body_count(const imp_scene *scene);
 size_t scene_surface_count(const imp_scene *scene, size_t body);
 

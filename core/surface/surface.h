@@ -92,14 +92,15 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 /* What a status other than IMP_STATUS_OK means here, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
 
-/* The same for what a callback of this thread answered last: where the text leaves open which it
- * was, with its name: "... (rate of 'twist')". To be asked before any other callback is called. */
+/* The text for what a callback of this thread answered last. Where surface_status_text leaves open
+ * which callback it was, the text ends with its name: "... (rate of 'twist')". Ask before any other
+ * callback is called. */
 typedef struct surface_told {
     char text[400];
 } surface_told;
 surface_told surface_status_of_last(imp_status status);
 
-/* The same for an answer of a surface; also under maps, since its label names all. */
+/* The text for a status that a surface answered, maps included, since its label names them all. */
 surface_told surface_status_told(const surface *s, imp_status status);
 
 /* Replaces the code of an error by that of the status that caused it, and answers it:
@@ -107,7 +108,8 @@ surface_told surface_status_told(const surface *s, imp_status status);
  * IMP_ERROR_PLUGIN. */
 imp_code surface_set_code(imp_status status, imp_error *error);
 
-/* As imp_surface_type.eval, maps applied. error may be NULL. */
+/* Evaluates n points, maps applied, with the contract of imp_surface_type.eval. error may be
+ * NULL. */
 imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, double *error);
 
 /* Rate matrix of the composition (paper, section 5). */
@@ -153,8 +155,8 @@ bool surface_has_symmetry(const surface *s);
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance);
 
-/* The same of a point that is within `slip` of one with these models, which are of one moment and
- * do not depend on time; the moment is as in surface_slip. */
+/* Like surface_distance, for points within `slip` of these models, which are of one moment and do
+ * not depend on time; the moment is as in surface_slip. */
 imp_status surface_distance_within(const surface *s, const imp_region *region, size_t maps,
                                    const imp_model point[3], double moment, double slip,
                                    imp_model *distance);
@@ -184,7 +186,8 @@ imp_status surface_slip_along(const surface *a, const surface *b, const surface_
                               const imp_model bare[3], const imp_region *times, double moment,
                               double *slip);
 
-/* As surface_distance_within under all maps of s, of the part of s that lies along the plane. */
+/* Like surface_distance_within under all maps of s, for the distance from the part of s that lies
+ * along the plane. */
 imp_status surface_height_within(const surface *s, const surface_plane *plane,
                                  const imp_region *region, const imp_model point[3], double moment,
                                  double slip, imp_model *height);

@@ -48,7 +48,7 @@ imp_status surface_still_maps(const surface *s, const imp_region *region, size_t
 
 /* --- How far a pose is from rigid ------------------------------------------------------------- */
 
-/* Of the true rotation R that a pose encloses, D = R^T R - 1. */
+/* Bounds of D = R^T R - 1, R being the true rotation that a pose encloses. */
 typedef struct deviation {
     double most[3][3]; /* >= |D_ij| at all times */
     double row[3];     /* >= sums of its rows */

@@ -24,7 +24,7 @@ double surface_pose_norm_upper(const surface *s)
     return norm;
 }
 
-/* Of a function of time alone. */
+/* Whether the model is finite and that of a function of time alone. */
 static bool is_sane(const imp_model *m)
 {
     const double *b = m->b, *q = m->q;

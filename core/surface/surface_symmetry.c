@@ -119,8 +119,8 @@ static void pull(const imp_pose *pose, double d, carried *x)
     }
 }
 
-/* Of R^-1 instead of R^T. Lemma. |R^-1 w| <= |w| / (1 - d)^(1/2) <= 2 |w|, and R^T w - R^-1 w = D
- * R^-1 w is no longer than 2 d |w|, as is R^-1 w - U^T w. */
+/* Pulls back by R^-1 instead of R^T. Lemma. |R^-1 w| <= |w| / (1 - d)^(1/2) <= 2 |w|, and R^T w -
+ * R^-1 w = D R^-1 w is no longer than 2 d |w|, as is R^-1 w - U^T w. */
 static void pull_truly(const imp_pose *pose, double d, carried *x)
 {
     pull(pose, 2 * d, x);
@@ -170,7 +170,7 @@ static imp_status pose_of_b(const question *q, size_t k, const imp_region *times
     return pose_of(q->b, k, k < q->b_still ? &q->then : times, pose, d);
 }
 
-/* But for what points are off by. */
+/* Sees the symmetry's center and axis at these times. What points are off by is not counted. */
 static imp_status see_features(const question *q, const imp_region *times, seen *x)
 {
     const int features = q->found.kind == IMP_SYMMETRY_ABOUT_POINT ? 1 : 2;

@@ -99,8 +99,8 @@ IMP_QUAD_INLINE imp_quad third_order(const posed_terms *x, const double s[3], im
            (t * t - half) * (x->utt * u + x->vtt * v);
 }
 
-/* Of what edges and boxes reach along an axis: dots 3, sums 9; and of the dot with what is off, 3
- * and 1. */
+/* Roundings of what edges and boxes reach along an axis: dots 3, sums 9; the dot with what is off:
+ * 3 and 1. */
 enum { OFF_ROUNDING = 8 };
 PAD_COVERS(32, 3 + 9);
 
@@ -152,8 +152,8 @@ static bool leaves_edges(const node *n, const double p[3], const double x[3],
                               : outside_edges(n, p, x, eval_error);
 }
 
-/* Of the box of a net at time t, moved outward for rounding: t - time and its products 2, sums 3 of
- * the sizes below, and as much for those sums themselves. */
+/* Rounding of the box of a net at time t, by which it is moved outward: t - time and its products
+ * 2, sums 3 of the sizes below, and as much for those sums themselves. */
 enum { NET_ROUNDING = 16 };
 _Static_assert(2 * (2 + 3) <= NET_ROUNDING, "rounding of a net's box");
 
@@ -268,7 +268,8 @@ imp_code bound_audit_holds_at(const surface *s, const node *n, const double p[3]
 
 enum { AUDIT_POINTS = 8 };
 
-/* The same points for the same region on every machine: the bits of its centre are the seed. */
+/* Draws a point of the region. The bits of the region's centre are the seed, so that every machine
+ * draws the same. */
 static void audit_point(const imp_region *r, uint64_t *state, double p[3])
 {
     for (int j = 0; j < 3; ++j) {

@@ -18,8 +18,8 @@
 imp_code bound_audit_holds_at(const surface *s, const node *n, const double p[3], const double x[3],
                               imp_error *error);
 
-/* The same at a few points of the region, chosen by its own numbers: corners, edges, inside; and of
- * distances from the surface (distance_audit.h). */
+/* Holds the node against a few points of its region, chosen by the region's numbers: corners,
+ * edges, inside; and distances from the surface against points beside it (distance_audit.h). */
 imp_code bound_audit_run(const surface *s, const node *n, imp_error *error);
 
 #endif

@@ -91,7 +91,7 @@ static void halve_plain(double *x, int n, int step, int side)
                 x[i * step] = 0.5 * (x[i * step] + x[(i + 1) * step]);
 }
 
-/* The same of a bicubic patch, column after column, of x to `half`, which may be x. */
+/* Halves the columns x of a bicubic patch, one after the other, into `half`, which may be x. */
 IMP_QUAD_INLINE void halve_bicubic_along(const double *x, int columns, parameter j, int side,
                                          double *half)
 {
@@ -127,7 +127,7 @@ static void halve_plain_bicubic(const double *x, int columns, parameter j, int s
 /* The mean of two numbers by their weights. */
 static double mean(double x, double w, double y, double z) { return (w * x + z * y) / (w + z); }
 
-/* The same in `columns` columns, `apart` from each other, by the weights w. */
+/* Halves `columns` columns that are `apart` from each other, by the weights w. */
 static void halve_weighted(double *x, double *w, int columns, int apart, int n, int step, int side)
 {
     for (int used = 1; used <= n; ++used)
@@ -143,8 +143,8 @@ static void halve_weighted(double *x, double *w, int columns, int apart, int n, 
         }
 }
 
-/* The same of a bicubic patch, four lines at a time: the weights of the cubics, of the means of
- * two, of three and of all four points. */
+/* The weights of a rational bicubic patch, four lines at a time: the weights of the cubics, of the
+ * means of two, of three and of all four points. */
 typedef struct row_weights {
     imp_quad point[4], two[3], three[2], all;
 } row_weights;

@@ -62,9 +62,9 @@ static inline bool net_can_halve(const imp_region *region, parameter j)
  * half along u or v. */
 void net_halve(const net *n, parameter j, int side, net *half);
 
-/* The same of other numbers of its control points, in place: `columns` columns as the net's own,
- * then its weights if it has any. Numbers no larger than `most` are then off by net_halving_upper
- * at most. */
+/* Halves other numbers of the net's control points in place: `columns` columns laid out as the
+ * net's own, then its weights if it has any. Numbers no larger than `most` are then off by
+ * net_halving_upper at most. */
 void net_halve_columns(const net *n, parameter j, int side, double *x, int columns);
 double net_halving_upper(const net *n, parameter j, double most);
 

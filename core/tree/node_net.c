@@ -97,7 +97,7 @@ static bool net_keep(tree *t, node *n, const net **made, const net_buffer *room,
     return true;
 }
 
-/* The same of half a net, made where it is kept. False: no memory. */
+/* Makes half a net where it is kept. False: no memory. */
 static bool net_keep_half(tree *t, node *n, const net *whole, const net **made, tree_growth *growth)
 {
     net *half = net_alloc(t, net_bytes(whole), growth);

@@ -181,7 +181,7 @@ IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
 #define POSE_UNDERFLOW imp_quad_of(0x1p-1000, 0x1p-1000, 0x1p-1000, 0)
 PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5);
 
-/* But for third order and R delta: what is left of the remainder of posed terms. */
+/* What is left of the remainder of posed terms beside third order and R delta. */
 IMP_QUAD_INLINE imp_quad rest(const shape_model *s, const relative_shape *z, const pose_lanes *p)
 {
     double far[4];
@@ -221,8 +221,8 @@ IMP_QUAD_INLINE range_lanes bow(imp_quad b, imp_quad q)
     return (range_lanes){imp_quad_min(q - size, -half), imp_quad_max(q + size, half)};
 }
 
-/* Of polynomial and remainder, as imp_model_poly_range has it: at most 16 roundings of partial sums
- * that `size` and e bound; 32 u of these cover them and the computing of the size. */
+/* The range of polynomial and remainder, as imp_model_poly_range has it: at most 16 roundings of
+ * partial sums that `size` and e bound; 32 u of these cover them and the computing of the size. */
 IMP_QUAD_INLINE range_lanes range_of_polynomial(const model_lanes *m)
 {
     const range_lanes u = bow(m->b[0], m->q[IMP_UU]), v = bow(m->b[1], m->q[IMP_VV]),

@@ -19,7 +19,7 @@ static node *own_root(tree *t)
     return (node *)(void *)t->rest;
 }
 
-/* Of the pieces, if there are several. */
+/* Makes the hierarchy of the pieces, if there are several. */
 static imp_code make_hierarchy(tree *t, tree_growth *growth, imp_error *error)
 {
     if (surface_piece_count(t->surface) <= 1 || t->pieces != NULL) return IMP_SUCCESS;

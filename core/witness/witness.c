@@ -98,8 +98,8 @@ static imp_code point_at(const surface *s, const double *p, vec3 *x, double eval
     return point_check(s, p, *x, eval_error, error);
 }
 
-/* The same for n points. If they cannot be evaluated together, the error names the first that
- * cannot be evaluated by itself, or else the first of all. */
+/* Evaluates n points with their errors. If they cannot be evaluated together, the error names the
+ * first that cannot be evaluated by itself, or else the first of all. */
 static imp_code points_at(const surface *s, size_t n, const double (*p)[3], vec3 *x,
                           double (*eval_error)[3], imp_error *error)
 {

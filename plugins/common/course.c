@@ -110,7 +110,7 @@ static imp_status refuse_unit(const course_question *q, const course_table *t, s
                       t->numbers.place[k] + 1, t->numbers.unit[k], unit_names(kind));
 }
 
-/* Of column k > 0, whose head says one, or none. */
+/* Finds the unit of column k > 0, whose head says one, or none. */
 static imp_status course_find_unit(const course_question *q, course_table *t, size_t k)
 {
     const imp_value *u = &q->v[COURSE_UNIT];

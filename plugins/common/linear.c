@@ -185,7 +185,7 @@ static bool linear_is_late(const imp_region *region)
     return !(region->lo[2] >= -LINEAR_LATE && region->hi[2] <= LINEAR_LATE);
 }
 
-/* As imp_surface_type.rate. */
+/* Implements imp_surface_type.rate. */
 imp_status linear_rate(const void *self, const imp_region *region, imp_rate_matrix *rates)
 {
     const linear *f = self;
@@ -226,7 +226,8 @@ IMP_QUAD_INLINE void linear_range(const linear_terms *c, const imp_region *regio
     g->hi = c->k[LINEAR_1] + (hi + noise);
 }
 
-/* The same without products, from the model: `noise` and e have room for its three sums. */
+/* Bounds the range of models without products, from the model: `noise` and e have room for its
+ * three sums. */
 IMP_QUAD_INLINE void linear_affine_range(imp_quad noise, imp_quad_mask affine, linear_lanes *g)
 {
     const imp_quad reach =
@@ -317,7 +318,7 @@ IMP_QUAD_WIDE static void models_wide(const linear *f, const imp_region *region,
     linear_models(f, region, model);
 }
 
-/* As imp_surface_type.include. */
+/* Implements imp_surface_type.include. */
 imp_status linear_include(const void *self, const imp_region *region, imp_model model[3])
 {
     const linear *f = self;

@@ -45,16 +45,16 @@ typedef struct linear {
 /* Completes f once its coefficients are set, fourth numbers included. */
 void linear_finish(linear *f);
 
-/* As imp_surface_type.eval. */
+/* Implements imp_surface_type.eval. */
 imp_status linear_eval(const void *self, size_t n, const double *p, double *x, double *error);
 
-/* As imp_surface_type.rate. */
+/* Implements imp_surface_type.rate. */
 imp_status linear_rate(const void *self, const imp_region *region, imp_rate_matrix *rates);
 
-/* As imp_surface_type.include. */
+/* Implements imp_surface_type.include. */
 imp_status linear_include(const void *self, const imp_region *region, imp_model model[3]);
 
-/* As imp_surface_type.net: the values at the region's corners. */
+/* Implements imp_surface_type.net: the values at the region's corners. */
 imp_status linear_net(const void *self, const imp_region *region, imp_net *net);
 
 #endif

@@ -49,7 +49,7 @@ static inline polynomial polynomial_read(const imp_value *rate, const imp_value 
     return p;
 }
 
-/* The same for a parameter that has only coefficients, as rows of `width` numbers. */
+/* Reads a polynomial from a parameter that has only coefficients, as rows of `width` numbers. */
 static inline polynomial polynomial_copy(const imp_value *coefficients, size_t width, double *out)
 {
     const imp_value rate = {0};

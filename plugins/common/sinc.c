@@ -19,8 +19,8 @@ static void sinc_far(double x, const double c[4], double f[4])
     for (int k = 1; k < 4; ++k) f[k] = (c[k] - k * f[k - 1]) / x;
 }
 
-/* The same for |x| <= 1, from f = sum_n c_n x^n, |c_n| = 1 / (n+1)!, of alternating signs: sinc has
- * the even n, cosc the odd ones.
+/* f and three derivatives for |x| <= 1, from f = sum_n c_n x^n, |c_n| = 1 / (n+1)!, of alternating
+ * signs: sinc has the even n, cosc the odd ones.
  *
  * What follows n = 19 is below 2 / 21!, and at most 21^3 times that in the derivatives, below
  * 2^-50. Rounding: Horner's rule has the sum from n on, at most 2 / (n+1)!, and rounds twice and

@@ -54,8 +54,8 @@ static imp_interval spline_rise(imp_interval a, imp_interval b, double factor, i
     return imp_interval_div(imp_interval_scale(imp_interval_sub(b, a), factor), h);
 }
 
-/* Of a straight piece. The control points between the ends divide the way, so that values stay in
- * the hull of the ends: (2 a + b) / 3 and (a + 2 b) / 3. */
+/* Sets the cubic of a straight piece. The control points between the ends divide the way, so that
+ * values stay in the hull of the ends: (2 a + b) / 3 and (a + 2 b) / 3. */
 static void spline_set_line(const spline *s, const imp_interval *key, size_t piece, spline_cubic *c)
 {
     const imp_interval a = key[piece * s->lanes], b = key[(piece + 1) * s->lanes];
@@ -302,7 +302,8 @@ static double spline_series(const spline *s, const spline_span *span, size_t lan
     return imp_interval_mag(imp_interval_add(slope, rise));
 }
 
-/* The same of a curve with kinks across several pieces with those slopes. */
+/* Makes the series of a curve with kinks across several pieces with those slopes, and answers its
+ * greatest slope. */
 static double spline_fan(const spline *s, const spline_span *span, size_t lane, imp_interval slopes,
                          imp_series *g)
 {

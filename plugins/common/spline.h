@@ -75,8 +75,9 @@ imp_interval spline_hull(imp_interval x, imp_interval y);
  * time is too short for what happens in it, and *piece says which. */
 bool spline_set(const spline *s, const imp_interval *keys, size_t *piece);
 
-/* The same for a curve with kinks whose pieces are parabolas: row i of `accelerations`, a number
- * for each of the first three lanes, is g'' in piece i. NULL: straight lines. */
+/* Fills cubics and leaves of a curve with kinks whose pieces are parabolas: row i of
+ * `accelerations`, a number for each of the first three lanes, is g'' in piece i. NULL: straight
+ * lines. */
 bool spline_set_parabolas(const spline *s, const imp_interval *keys, const double *accelerations,
                           size_t *piece);
 

@@ -151,7 +151,7 @@ static void bound_part(const keyframes_instance *s, size_t piece, int part, imp_
     *speed = imp_interval_scale(imp_interval_sqrt(imp_interval_div(slopes, *square)), 2);
 }
 
-/* The same for the whole piece. False: the speed is not finite. */
+/* Bounds |q|^2 and the angular speed over the whole piece. False: the speed is not finite. */
 static bool bound_piece(keyframes_instance *s, size_t piece)
 {
     const spline *path = &s->path;

@@ -17,7 +17,8 @@ typedef enum mesh_format { MESH_OBJ, MESH_OFF, MESH_STL } mesh_format;
 imp_status mesh_read_bytes(mesh_format format, const char *bytes, size_t length, triangles *to,
                            triangles_fault *fault);
 
-/* The same of a file; the end of its name says its format. `row`: the parameter with the path. */
+/* Adds the points and triangles of a file; the end of its name says its format. `row`: the
+ * parameter with the path. */
 imp_status mesh_read_file(const char *path, int row, triangles *to, imp_create_error *why);
 
 /* One per format; for mesh_read_bytes. */

@@ -19,7 +19,7 @@ static void set_face_points(const control_mesh *m, const double *from, double *t
     }
 }
 
-/* Of Loop's. */
+/* Sets the points of edges by Loop's rule. */
 static void set_edge_means(const control_mesh *m, const uint32_t *edge, const double *from,
                            double *to)
 {
@@ -86,7 +86,7 @@ static void smooth_point(const control_mesh *m, const control_point *p, const do
         x[i] = (around[i] / n + (n - 2) * from[3 * (size_t)m->corner[h] + i]) / n;
 }
 
-/* Of Loop's. */
+/* Smooths a point among triangles by Loop's rule. */
 static void smooth_among_triangles(const control_mesh *m, const control_point *p,
                                    const double *from, double x[3])
 {

@@ -27,7 +27,7 @@
 
 enum { FACE_DEPTH_MAX = 100 };
 
-/* Of a face with an extraordinary corner, for all of it. */
+/* Bounds for the whole of a face with an extraordinary corner. */
 typedef struct face_gauge {
     double rate[2][3],
         rate_motion[2][3]; /* at least |df/du|, |df/dv| at t = 0, and of its velocity */
@@ -43,7 +43,7 @@ typedef struct face {
 /* Fills the gauge of a face; its corner (0,0) is extraordinary. */
 void face_measure(const face *q, face_gauge *gauge);
 
-/* As imp_surface_type's; `self` is a face. */
+/* Implement the callbacks of imp_surface_type; `self` is a face. */
 imp_status face_eval(const void *self, size_t n, const double *p, double *x, double *error);
 imp_status face_include(const face *q, const imp_region *region, imp_model model[3]);
 imp_status face_net(const face *q, const imp_region *region, imp_net *net);

@@ -27,9 +27,9 @@ static void quad_steps(const corner_net *n, int side, double steps[CORNER_LANES]
     }
 }
 
-/* Of a triangle, between points that are used for its children: along u in the directions of two
- * sides from the corner; along v in that of the third, times up to 2, as u 2^level runs from 1 to
- * 2. */
+/* Steps of a triangle's net between points that are used for its children: along u in the
+ * directions of two sides from the corner; along v in that of the third, times up to 2, as u
+ * 2^level runs from 1 to 2. */
 static void triangle_steps(const corner_net *n, int side, double steps[CORNER_LANES])
 {
     static const int along[3][2] = {{1, 0}, {0, 1}, {-1, 1}};

@@ -22,7 +22,7 @@ typedef struct quarter_type {
     imp_status (*add)(const walk *w, const imp_region *whole, const imp_region *part, int u, int v,
                       imp_model sum[3]);
 
-    /* As imp_surface_type.net; u and v may be NEAR | FAR. */
+    /* Implements imp_surface_type.net; u and v may be NEAR | FAR. */
     imp_status (*net)(const walk *w, const imp_region *region, int u, int v, imp_net *net);
 } quarter_type;
 

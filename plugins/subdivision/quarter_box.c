@@ -70,7 +70,7 @@ typedef struct share {
 
 enum { SHARES_MAX = 4 };
 
-/* Of one half: y = u 2^level, from 1 to 2, and w from the side v = 0 or v = 1. */
+/* Parameters of one half: y = u 2^level, from 1 to 2, and w from the side v = 0 or v = 1. */
 typedef struct half_box {
     double y[2], w[2];
 } half_box;
@@ -119,7 +119,7 @@ static imp_region region_of(const walk *w, const imp_region *region, const half_
     return imp_region_between(lo, hi);
 }
 
-/* Of a region in the ring. */
+/* Finds the shares of a region in the ring and answers how many there are. */
 static int shares_of(const walk *w, const imp_region *region, share shares[SHARES_MAX])
 {
     int count = 0;
@@ -149,7 +149,7 @@ static bool is_one(const walk *w, const imp_region *region, int u, int v)
 
 /* --- Bounds ----------------------------------------------------------------------------------- */
 
-/* As one of s and w: exact. */
+/* The region in the half's parameters s and w, exactly. */
 static imp_region region_in_half(const walk *w, const imp_region *region, bool is_upper)
 {
     imp_region local = *region;

@@ -98,7 +98,7 @@ static imp_model ellipsoid_gap(const void *self, imp_model x, imp_model y, imp_m
 }
 IMP_DISTANCE_FORMULA(ellipsoid_gap)
 
-/* Of a ball, or of revolution, where radii are equal. */
+/* Names the symmetry of a ball, or of revolution, where radii are equal. */
 static imp_status ellipsoid_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const ellipsoid_instance *s = self;

@@ -46,7 +46,7 @@ static knot_row row_of(const imp_value *values, int side)
     return (knot_row){both->number + (size_t)side * length, length, KNOTS, side};
 }
 
-/* As many as control points, if given at all. */
+/* Checks that there are as many as control points, if any are given. */
 static imp_status check_count(const imp_value *values, int parameter, const size_t count[2],
                               imp_create_error *why)
 {

@@ -73,7 +73,7 @@ static void fly(ball *b, double time)
     b->t += time;
 }
 
-/* As far as to the next contact: the velocity is reflected there. */
+/* Flies to the next contact and reflects the velocity there. */
 static void bounce(ball *b, double time)
 {
     fly(b, time);

@@ -51,14 +51,14 @@ static inline double imp_round_up(double x) { return x + (fabs(x) * 0x1p-52 + IM
 
 static inline double imp_round_down(double x) { return x - (fabs(x) * 0x1p-52 + IMP_TINY); }
 
-/* The same for sums and differences, which are exact where they would underflow:
- * no IMP_TINY, so 0 stays 0. */
+/* At least and at most every number that rounds to the sum or difference x. These are exact where
+ * they would underflow: no IMP_TINY is added, and 0 stays 0. */
 static inline double imp_sum_up(double x) { return x + fabs(x) * 0x1p-52; }
 
 static inline double imp_sum_down(double x) { return x - fabs(x) * 0x1p-52; }
 
-/* The same for what libm computes. Lemma: by (L) z <= x + 5 * 2^-52 |x| + 2^-1072; the sixth unit
- * covers the rounding of the sum. */
+/* At least and at most the number that libm computed as x. Lemma: by (L) z <= x + 5 * 2^-52 |x| +
+ * 2^-1072; the sixth unit covers the rounding of the sum. */
 static inline double imp_libm_up(double x) { return x + (fabs(x) * 0x1.8p-50 + IMP_TINY); }
 
 static inline double imp_libm_down(double x) { return x - (fabs(x) * 0x1.8p-50 + IMP_TINY); }

@@ -215,7 +215,7 @@ static inline imp_model imp_model_finish(imp_model x)
     return x;
 }
 
-/* The same, knowing also that g lies in the range. */
+/* Finishes a model whose function is known to lie in the range, too. */
 static inline imp_model imp_model_within(imp_model g, imp_interval range)
 {
     g.lo = imp_larger(g.lo, range.lo);

@@ -238,7 +238,7 @@ static inline imp_model imp_point_(const imp_model *x, double y, double slope)
     return imp_known(y, (fabs(y) * IMP_LIBM + inherited + IMP_TINY) * IMP_SLACK);
 }
 
-/* The same, where lo <= g <= hi always holds. */
+/* Like imp_point_, where lo <= g <= hi always holds. */
 static inline imp_model imp_point_within(const imp_model *x, double y, double slope, double lo,
                                          double hi)
 {
