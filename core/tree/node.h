@@ -97,8 +97,8 @@ typedef struct tree_growth {
 imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
                   imp_error *error);
 
-/* The same, but only the root's box is kept until the root is made: most surfaces of a large scene
- * meet no other. */
+/* Makes a tree that keeps only its root's box until the root is made: most surfaces of a large
+ * scene meet no other. */
 imp_code tree_new_without_root(const surface *s, const tree_plan *plan, tree **made,
                                tree_growth *growth, imp_error *error);
 bool tree_has_root(const tree *t);
@@ -125,8 +125,9 @@ bool tree_is_audited(const tree *t);
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error);
 
-/* The same half along u or v, on the way to a smaller one: unless it is there already it is bare,
- * without models, and not counted as a node. Precondition: `parent` is no cluster. */
+/* The half that node_child answers, along u or v, on the way to a smaller one: unless it is there
+ * already it is bare, without models, and not counted as a node. Precondition: `parent` is no
+ * cluster. */
 imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
                          tree_growth *growth, imp_error *error);
 
@@ -140,7 +141,7 @@ static inline bool node_net_is_asked(const node *n)
     return atomic_load_explicit(&n->net, memory_order_acquire) != NULL;
 }
 
-/* The same of a node that was asked for it; NULL of any other. */
+/* The control net of a node that was asked for it; NULL for any other. */
 static inline const net *node_net_made(const node *n)
 {
     const net *made = atomic_load_explicit(&n->net, memory_order_acquire);

@@ -113,7 +113,7 @@ static void sum_points(const box_data *data, const box_patch *b, const double p[
     for (int g = 0; g < 2; ++g) imp_quad_store(sum + g * IMP_QUAD, all[g]);
 }
 
-/* As patch_point. */
+/* Evaluates one point with the error bound of patch_point. */
 void box_point(const box_data *data, const double p[3], double x[3], double error[3])
 {
     box_patch b;
@@ -162,7 +162,8 @@ static void set_slopes(const box_data *data, patch *f, const imp_quad *points)
     }
 }
 
-/* As patch_set_series, whose net and basis are one table here. */
+/* Sets the noise of the series by the lemma of patch_set_series; net and basis are one table
+ * here. */
 static void set_noise(const box_data *data, patch *f)
 {
     const int groups = f->lanes / IMP_QUAD;

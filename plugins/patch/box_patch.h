@@ -58,12 +58,12 @@ typedef struct box_data {
     rough_points points;
 } box_data;
 
-/* Of p = (s, w, t), as imp_surface_type.eval, for one point in the triangle; error may not be
- * NULL. */
+/* Evaluates one point p = (s, w, t) in the triangle with the contract of imp_surface_type.eval;
+ * error may not be NULL. */
 void box_point(const box_data *data, const double p[3], double x[3], double error[3]);
 
-/* As imp_surface_type.include and .net. Bounds over a region that reaches beyond the triangle hold
- * for the part that does not; a net's region must not reach beyond it. */
+/* Implement imp_surface_type.include and .net. Bounds over a region that reaches beyond the
+ * triangle hold for the part that does not; a net's region must not reach beyond it. */
 imp_status box_include(const box_data *data, const imp_region *region, imp_model model[3]);
 imp_status box_net(const box_data *data, const imp_region *region, imp_net *net);
 

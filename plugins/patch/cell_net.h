@@ -14,8 +14,8 @@
  *
  * its control points are sum_kl bernstein_ik bernstein_jl C_kl. */
 
-/* As imp_surface_type.net. IMP_STATUS_UNBOUNDED where a knot crosses the region, or the patches
- * have more than IMP_NET_POINTS points. */
+/* Implements imp_surface_type.net. IMP_STATUS_UNBOUNDED where a knot crosses the region, or the
+ * patches have more than IMP_NET_POINTS points. */
 imp_status nurbs_cell_net(const nurbs_instance *f, const imp_region *region, imp_net *net);
 
 #endif

@@ -39,7 +39,7 @@ static void curve_at_number(const patch *f, double s, imp_model out[3])
     for (int i = 0; i < 3; ++i) out[i] = imp_known(x[i], error[i]);
 }
 
-/* The same model with u in the place of parameter j. */
+/* Writes the model with u in the place of parameter j. */
 static imp_model curve_of_parameter(const imp_model *x, int j)
 {
     static const int square[3] = {IMP_UU, IMP_VV, IMP_TT};

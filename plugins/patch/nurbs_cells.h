@@ -56,7 +56,7 @@ double cell_localize(const knots *k, size_t span, const imp_region *region, int 
  * least that, in one coordinate, for |t| <= late. */
 double cell_slip(const cell *c, int axis, double late, const double shift[2]);
 
-/* As imp_surface_type.include, for a region inside cell i, j. */
+/* Implements imp_surface_type.include for a region inside cell i, j. */
 imp_status cell_include(const nurbs_instance *f, size_t i, size_t j, const imp_region *region,
                         imp_model model[3]);
 

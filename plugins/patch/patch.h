@@ -84,7 +84,7 @@ void patch_set_differences(patch *f, int side);
 /* One point, p = (u, v, t) in the domain, and its error. */
 void patch_point(const patch *f, const double p[3], double x[3], double error[3]);
 
-/* As imp_surface_type.eval. */
+/* Implements imp_surface_type.eval. */
 imp_status patch_eval(const patch *f, size_t count, const double *p, double *x, double *error);
 
 /* Whether rate and include can answer for a region. */

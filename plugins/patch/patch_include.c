@@ -157,7 +157,7 @@ IMP_QUAD_INLINE void patch_polynomial(const patch *f, int n, int m, int lanes,
     patch_models(f, n, m, lanes, region, c, 3, model);
 }
 
-/* The same for any degrees; fast for bicubic ones. */
+/* Makes the models of a patch of any degrees; fast for bicubic ones. */
 IMP_QUAD_INLINE void patch_polynomial_of(const patch *f, const imp_region *region,
                                          imp_model model[3])
 {
@@ -247,7 +247,7 @@ IMP_QUAD_INLINE void patch_fractions_at(const patch *f, int n, int m, int lanes,
     patch_models(&shifted, n, m, lanes, region, c, 4, to->x);
 }
 
-/* The same for any degrees; fast for bicubic ones. */
+/* Makes the fractions of a patch of any degrees; fast for bicubic ones. */
 IMP_QUAD_INLINE void patch_fractions_of(const patch *f, const imp_region *region,
                                         patch_fractions *to)
 {

@@ -15,7 +15,7 @@
  * are quadratic, the others go to the remainder. |T_k'| <= k^2 gives the rates:
  * |dF/ds_u| <= sum_kl k^2 |C_kl|. */
 
-/* As imp_surface_type.include. */
+/* Implements imp_surface_type.include. */
 imp_status patch_include(const patch *f, const imp_region *region, imp_model model[3]);
 
 /* Differences and series, from the net. False: no memory. */

@@ -5,7 +5,7 @@
 
 #include "plugins/patch/patch.h"
 
-/* As imp_surface_type.net: the control points of the part of a patch over a region.
+/* Implements imp_surface_type.net: the control points of the part of a patch over a region.
  * IMP_STATUS_UNBOUNDED for a patch of more than IMP_NET_POINTS points. */
 imp_status patch_net(const patch *f, const imp_region *region, imp_net *net);
 

@@ -16,7 +16,7 @@
  *
  * for either end of time. c and r come from the control points (X_i + t Y_i) / W_i. */
 
-/* As imp_surface_type.rate. */
+/* Implements imp_surface_type.rate. */
 imp_status patch_rate(const patch *f, const imp_region *region, imp_rate_matrix *rates);
 
 #endif

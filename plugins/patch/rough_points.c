@@ -26,7 +26,7 @@ static void set_group(const imp_quad *in, int count, int groups, double middle[4
     imp_quad_store(most, greatest);
 }
 
-/* As patch_set_net. What adding the places rounds is left to rough_slip_upper. */
+/* Sets the net as patch_set_net does. What adding the places rounds is left to rough_slip_upper. */
 void rough_begin(const rough_points *data, int count, patch *f, imp_quad *net)
 {
     const int groups = data->moves ? 2 : 1;

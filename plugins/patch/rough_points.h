@@ -37,7 +37,7 @@ void rough_begin(const rough_points *data, int count, patch *f, imp_quad *net);
  * drift. */
 double rough_slip_upper(const rough_points *data, const patch *f, int axis, double late);
 
-/* Of one lane group: at least the greatest slope of the splines whose points are meant, from that
+/* At least, for one lane group, the greatest slope of the splines whose points are meant, from that
  * of the points as they are. */
 imp_quad rough_slope_upper(const rough_points *data, const patch *f, int group, imp_quad slope);
 

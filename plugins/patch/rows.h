@@ -30,7 +30,7 @@ IMP_QUAD_INLINE void patch_rows_of(int n, const double *w, bool triangular, cons
     }
 }
 
-/* The same, for any n < 32; fast for low ones. */
+/* Combines rows for any n < 32; fast for low ones. */
 IMP_QUAD_INLINE void patch_rows(int n, const double *w, bool triangular, const imp_quad *in,
                                 imp_quad *out, int width)
 {

@@ -42,11 +42,12 @@ static void change_basis(const double m[SPLINE_POINTS], double scale, int lanes,
             }
 }
 
-/* Of Bezier points: N_r(u) = sum_i m_ri B_i(u) / 6. */
+/* B-spline basis in Bernstein polynomials: N_r(u) = sum_i m_ri B_i(u) / 6. */
 static const double to_bernstein[SPLINE_POINTS] = {1, 0, 0, 0, 4, 4, 2, 1, 1, 2, 4, 4, 0, 0, 0, 1};
 
-/* Of Chebyshev polynomials in x = 2u - 1: N_r(u) = sum_i m_ri T_i(x) / 192. For (1 - u)^3 / 6 =
- * (1 - x)^3 / 48 with x^2 = (1 + T_2) / 2, x^3 = (3 T_1 + T_3) / 4; the others likewise. */
+/* B-spline basis in Chebyshev polynomials of x = 2u - 1: N_r(u) = sum_i m_ri T_i(x) / 192. For (1 -
+ * u)^3 / 6 = (1 - x)^3 / 48 with x^2 = (1 + T_2) / 2, x^3 = (3 T_1 + T_3) / 4; the others
+ * likewise. */
 static const double to_chebyshev[SPLINE_POINTS] = {10, -15, 6,  -1, 86, -51, -6, 3,
                                                    86, 51,  -6, -3, 10, 15,  6,  1};
 
@@ -93,8 +94,8 @@ static void set_slopes(const rough_points *data, patch *f)
         }
 }
 
-/* As patch_set_series, with the terms of its lemma for n = m = 3: reach_i = sqrt(2i + 1) and
- * error_i = chebyshev_shift_error(i), rounded up. */
+/* Sets the noise of the series as patch_set_series does, with the terms of its lemma for n = m = 3:
+ * reach_i = sqrt(2i + 1) and error_i = chebyshev_shift_error(i), rounded up. */
 static void set_noise(patch *f)
 {
     static const double reach[SPLINE_SIDE] = {1, 1.7321, 2.2361, 2.6458};
@@ -146,7 +147,7 @@ static void sum_points(const spline_patch *s, const double p[3], double sum[PATC
     }
 }
 
-/* As patch_point. */
+/* Evaluates one point with the error bound of patch_point. */
 void spline_point(const rough_points *data, const double p[3], double x[3], double error[3])
 {
     spline_patch s;

@@ -15,10 +15,10 @@
 
 enum { SPLINE_SIDE = 4, SPLINE_POINTS = SPLINE_SIDE * SPLINE_SIDE };
 
-/* As imp_surface_type.eval, for one point; error may not be NULL. */
+/* Evaluates one point with the contract of imp_surface_type.eval; error may not be NULL. */
 void spline_point(const rough_points *data, const double p[3], double x[3], double error[3]);
 
-/* As imp_surface_type.include, and .net. */
+/* Implement imp_surface_type.include and .net. */
 imp_status spline_include(const rough_points *data, const imp_region *region, imp_model model[3]);
 imp_status spline_net(const rough_points *data, const imp_region *region, imp_net *net);
 

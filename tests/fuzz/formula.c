@@ -76,7 +76,7 @@ static void judge(const expression_program *program, const double ends[3][2])
         for (int j = 0; j < 3; ++j) {
             p[j] = region.c[j] + region.d[j] * draw_s();
             if (!(p[j] >= region.lo[j] && p[j] <= region.hi[j])) p[j] = region.c[j];
-            /* Of p as it was rounded: in a narrow box that shifts s by more than 2^-45. */
+            /* Take s from p as it was rounded: in a narrow box that shifts s by more than 2^-45. */
             s[j] = region.d[j] > 0 ? (p[j] - region.c[j]) / region.d[j] : 0;
         }
         if (expression_point(program, p, x, error) != IMP_STATUS_OK) continue;

@@ -212,7 +212,7 @@ static imp_status exact_eval(const void *self, size_t n, const double *p, double
 }
 MISTAKE_EVAL(error_zero, exact_eval);
 
-/* Of the last rounding only. */
+/* Claims the error of the last rounding only. */
 static imp_status last_eval(const void *self, size_t n, const double *p, double *x, double *error)
 {
     for (size_t k = 0; k < n; ++k) tube_point(self, p + 3 * k, x + 3 * k);

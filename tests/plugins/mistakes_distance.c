@@ -73,7 +73,7 @@ static imp_status symmetry(const void *self, imp_symmetry *found)
     return IMP_STATUS_OK;
 }
 
-/* As if the pipe were a flat plate: it can be moved across its axis. */
+/* Claims that the pipe can be moved across its axis, like a flat plate. */
 static imp_status plate_symmetry(const void *self, imp_symmetry *found)
 {
     (void)self;
@@ -116,7 +116,7 @@ static imp_status half_distance(const void *self, const imp_model point[4], imp_
     return g->e < INFINITY ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
-/* Of a pipe that goes three quarters around: that its rotations take it to itself. */
+/* Claims of a pipe that goes three quarters around that its rotations take it to itself. */
 static void open_domain(const void *self, double lo[3], double hi[3])
 {
     pipe_domain(self, lo, hi);

@@ -51,7 +51,7 @@ static imp_status leak(const imp_value *values, void **self, imp_create_error *w
 }
 MISTAKE_CREATE(refusal_leaks, leak, tube_destroy);
 
-/* As many samples as the wave is high; nobody thought of a negative one. */
+/* Allocates as many samples as the wave is high; nobody thought of a negative one. */
 static imp_status sample(const imp_value *values, void **self, imp_create_error *why)
 {
     volatile size_t count = (size_t)(ptrdiff_t)(16 + 16 * values[WAVE].number[0]);
@@ -144,7 +144,7 @@ static imp_status hole(const void *self, size_t n, const double *p, double *x, d
 }
 MISTAKE_EVAL(nan_inside, hole);
 
-/* The same in the operations of models, at a place that nobody would think of. */
+/* Has a hole in the operations of models, at a place that nobody would think of. */
 static void hole_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
 {
     const imp_model w = imp_shift(u, -1.2345678), one = imp_div(w, w);

@@ -72,7 +72,7 @@ static imp_status fixed_rate(const void *self, const imp_box4 *box, imp_map_rate
 }
 MISTAKE(map_rate_without_size, skew_eval, fixed_rate, skew_apply);
 
-/* As if the surface below were its quadratic. */
+/* Takes the surface below for its quadratic. */
 static imp_status certain(const void *self, const imp_model in[4], imp_model out[3])
 {
     imp_model sure[4];

@@ -162,7 +162,7 @@ static const int basis[BASIS][TERMS] = {
     {0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1},
 };
 
-/* Of one coordinate: the control points around the first face, in the order of `basis`. */
+/* Collects one coordinate of the control points around the first face, in the order of `basis`. */
 static void values_of(const polygons *m, int axis, number value[BASIS])
 {
     static const int from[BASIS][2] = {{1, 1}, {0, 0}, {0, 1}, {0, 5}, {1, 5}, {2, 5},

@@ -30,7 +30,7 @@ static inline void check_window_left(const time_window *window, double t, bool s
                   window->lo, window->hi, left->lo, left->hi);
 }
 
-/* The same in w. */
+/* Checks the share that is left in w. */
 static inline void check_share_left(const difference *r, double t, bool some, const w_range *left,
                                     int number)
 {

@@ -5,7 +5,7 @@
 
 #include "tests/support/query_helpers.h"
 
-/* The same scene told differently: what metamorphic tests share
+/* One scene told in several ways: what metamorphic tests share
  * =============================================================
  * Whatever is done to a scene that does not change when its bodies touch, the answers must fit
  * together. What that means is exact, for two questions X and Y about the same motion:

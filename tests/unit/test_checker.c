@@ -96,7 +96,7 @@ static bool holds(ld_interval x, number exact)
 
 /* --- Boxes ------------------------------------------------------------------------------------ */
 
-/* Of any size, in [0.25, 1.75]^3, now and then with single values. */
+/* Draws a box of any size in [0.25, 1.75]^3, now and then with single values. */
 static void draw_where(uint64_t *random, ld_interval where[3])
 {
     for (int j = 0; j < 3; ++j) {

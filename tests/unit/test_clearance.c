@@ -289,7 +289,7 @@ START_TEST(a_violation_is_the_earliest)
 }
 END_TEST
 
-/* The same question with and without a bracket as narrow as the tolerance. */
+/* Asks one question with and without a bracket as narrow as the tolerance. */
 static void decide(imp_scene *scene, const imp_options *options, double required,
                    imp_clearance *narrow, imp_clearance *decided)
 {

@@ -77,7 +77,8 @@ static const imp_map_type moves = {.struct_size = sizeof(imp_map_type),
 static const imp_map_type bends = {
     .struct_size = sizeof(imp_map_type), .name = "bends", .time_domain = always, .destroy = keep};
 
-/* Of a quaternion, lengthened or shortened by as much as the slack permits, or hardly at all. */
+/* Draws the turn of a quaternion that is lengthened or shortened by as much as the slack permits,
+ * or hardly at all. */
 static void draw_turn(uint64_t *random, motion *m)
 {
     double q[4], square = 0;
@@ -309,7 +310,7 @@ START_TEST(maps_that_bend_leave_no_distance)
 }
 END_TEST
 
-/* Of the two, only the outer map is the same instance. */
+/* Only the outer of the two maps is the same instance. */
 START_TEST(maps_are_common_that_are_the_same_instances_at_the_end)
 {
     motion m = {.error = 0};

@@ -165,8 +165,8 @@ START_TEST(relocations_must_stay_inside)
 }
 END_TEST
 
-/* As `-z pack-relative-relocs` makes them: their table lies over the unwinding table, which the
- * probe does not read; two entries that a plugin can do without point to it. */
+/* Relocations are packed as by `-z pack-relative-relocs`: their table lies over the unwinding
+ * table, which the probe does not read; two entries that a plugin can do without point to it. */
 START_TEST(packed_relocations_must_stay_inside)
 {
     const Elf64_Phdr unwinding = segment_of(PT_GNU_EH_FRAME), dynamic = segment_of(PT_DYNAMIC);

@@ -294,7 +294,7 @@ START_TEST(too_many_values_at_once_are_refused)
 }
 END_TEST
 
-/* As many values at once as there may be: slots are used to the last, and again. */
+/* There are as many values at once as there may be: slots are used to the last, and again. */
 START_TEST(all_slots_can_be_used)
 {
     char *sum = sum_of_sines("", "+", 500), *product = sum_of_sines("2*", "*", 500);

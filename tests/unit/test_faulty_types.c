@@ -217,7 +217,7 @@ static void set_x87(unsigned short word) { __asm__ volatile("fldcw %0" : : "m"(w
 static void x87_single(void) { set_x87(0x007F); }
 static void x87_upward(void) { set_x87(0x0B7F); }
 
-/* Also with an exception pending, which the next x87 instruction would raise. */
+/* Leaves an exception pending, too, which the next x87 instruction would raise. */
 static void x87_trapping(void)
 {
     volatile long double third = 3;

@@ -114,7 +114,7 @@ static void add_face(const triangle_list *m, int f, triangle_list *to, const int
     to->of[g] = m->of[f];
 }
 
-/* As the plugin numbers them: each face's corners, then its middle. */
+/* Numbers points as the plugin does: each face's corners, then its middle. */
 static triangle_list *step(const triangle_list *m)
 {
     triangle_list *to = list_new();
@@ -202,7 +202,8 @@ static void point_of(const instance *made, int piece, double u, double v, double
 
 /* --- What the surface is ---------------------------------------------------------------------- */
 
-/* Of a mesh whose faces are the pieces in their order, each with its first corner at (0, 0). */
+/* Checks limit points of a mesh whose faces are the pieces in their order, each with its first
+ * corner at (0, 0). */
 static void check_limits(const triangle_list *pieces, const instance *made, int steps)
 {
     triangle_list *m = list_new();

@@ -183,7 +183,7 @@ static void try_regions(chain *c)
     }
 }
 
-/* Of many chains; the counts of what was judged, and of what was refuted. */
+/* Tries many chains, and counts what was judged and what was refuted. */
 static void try_chains(double lowered, size_t *judged, size_t *refuted)
 {
     *judged = *refuted = 0;

@@ -139,7 +139,7 @@ START_TEST(models_of_bicubic_nets_hold)
 }
 END_TEST
 
-/* Of halves: numbers as rounded, errors as they grow. */
+/* Halves have numbers as rounded, and errors as they grow. */
 START_TEST(models_of_nets_halved_hold)
 {
     uint64_t state = suite_seed();

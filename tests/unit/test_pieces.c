@@ -145,7 +145,7 @@ static void visit_pieces(visit *v, const node *n, const cluster *c)
             expect_inside(v, n, surface_piece(n->surface, c->piece[side]));
 }
 
-/* Of a cluster and, at half its times, of its halves. */
+/* Visits a cluster and, at half its times, its halves. */
 static void visit_clusters(visit *v, tree *t, node *n)
 {
     tree_growth growth = {0};
@@ -193,7 +193,7 @@ START_TEST(every_point_of_every_piece_lies_in_all_clusters_above_it)
 }
 END_TEST
 
-/* The same under a map that has rates alone. */
+/* A map that has rates alone bounds the cluster's box, too. */
 START_TEST(a_map_without_models_bounds_the_box_of_a_cluster)
 {
     imp_instance map;

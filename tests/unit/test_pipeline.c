@@ -41,7 +41,7 @@ static void assert_wrong(const char *line, const char *message)
     ck_assert_str_eq(error.text, message);
 }
 
-/* As assert_wrong, for what is found out only when the scene is built. */
+/* Like assert_wrong, for what is found out only when the scene is built. */
 static void assert_pair_wrong(const char *a, const char *b, const char *message)
 {
     if (registry == NULL) registry = kit_registry();

@@ -258,7 +258,7 @@ static bool is_parted(const node *a, const node *b, const meeting *m)
     return !separation_window(a, b, m->gamma_clear, &left, &axis, NULL);
 }
 
-/* Of those that a box hardly parts. */
+/* Counts the pairs that a box hardly parts. */
 START_TEST(turning_remainders_part_more_than_boxes_do)
 {
     uint64_t state = suite_seed() + 3;

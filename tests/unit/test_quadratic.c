@@ -105,8 +105,8 @@ START_TEST(no_value_of_a_nearly_singular_quadratic_is_outside_its_span)
 }
 END_TEST
 
-/* The same with a slope that cancels at a point of the square: a valley, whose place along itself
- * the rounding of its coefficients decides. */
+/* The slope cancels at a point of the square: a valley, whose place along itself the rounding of
+ * its coefficients decides. */
 START_TEST(no_value_of_a_valley_is_outside_its_span)
 {
     uint64_t state = suite_seed() + 1;

@@ -348,7 +348,7 @@ END_TEST
 
 enum { FAR_AWAY = 600 };
 
-/* Of those far away neither nodes nor a kilobyte each. */
+/* Bodies far away cost neither nodes nor a kilobyte each. */
 START_TEST(bodies_that_meet_none_cost_little_and_change_nothing)
 {
     static ball others[FAR_AWAY];
@@ -540,7 +540,7 @@ START_TEST(structs_of_no_size_are_refused)
 }
 END_TEST
 
-/* As a header of later times would have it. */
+/* The struct that a later header would have. */
 typedef struct later_options {
     imp_options now;
     uint64_t later;

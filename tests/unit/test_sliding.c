@@ -66,7 +66,7 @@ static void draw_spheres(uint64_t *random, double c, slide *s)
     snprintf(s->fixed, TEXT, "sphere");
 }
 
-/* Of two circles or spheres of radii r and 1. */
+/* The distance of two circles or spheres of radii r and 1. */
 static double between_round(double r, double apart)
 {
     return apart > 1 ? beyond(apart, 1 + r) : beyond(1 - r, apart);
@@ -325,7 +325,8 @@ START_TEST(a_distance_spares_the_neighbours)
 }
 END_TEST
 
-/* As many pairs as without the maps, but that a remainder is turned into another box. */
+/* There are as many pairs as without the maps, but for remainders that are turned into other
+ * boxes. */
 START_TEST(a_distance_spares_the_neighbours_where_both_are_placed)
 {
     const char *place = " ! rotate axis=1,2,3 angle=0.7 ! translate offset=[[1,2,3]]";

@@ -171,7 +171,7 @@ exit_status bench_add_file(bench_cases *list, const char *verb);
 imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_method *m,
                        const bench_request *request, bench_tally *tally, imp_error *error);
 
-/* The same of BENCH_STREAM. Times are the median of `repeats` runs. */
+/* Measures a method of BENCH_STREAM on one case. Times are the median of `repeats` runs. */
 imp_code bench_measure_stream(imp_registry *registry, const bench_case *c, const bench_method *m,
                               const bench_request *request, bench_tally *tally, imp_error *error);
 
@@ -181,8 +181,8 @@ void bench_print_head(const bench_set *set, const bench_request *request);
 void bench_print_result(const bench_result *result);
 void bench_print_findings(const bench_finding *findings, size_t count);
 
-/* The same as parts of what tools/schema/bench.schema.json describes; takes over `results`. NULL:
- * no memory. */
+/* Results as parts of what tools/schema/bench.schema.json describes; takes over `results`. NULL: no
+ * memory. */
 json_t *bench_result_json(const bench_result *result);
 json_t *bench_set_json(const bench_set *set, json_t *results, const bench_finding *findings,
                        size_t count);

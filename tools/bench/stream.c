@@ -67,7 +67,7 @@ static bool keep_answer(void *context, void *of)
     return item->answer != NULL && !item->failed;
 }
 
-/* As verb_batch.c does it, without files. */
+/* Answers all scenes as verb_batch.c does, without files. */
 static imp_code answer_all(stream *s, size_t threads, imp_error *error)
 {
     const arguments none = {.verb = verb_find("batch")};

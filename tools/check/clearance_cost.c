@@ -51,8 +51,8 @@ static double model_reach(const imp_model *g, int i, double sign)
     return fmin(polynomial, sign > 0 ? m->hi : -m->lo);
 }
 
-/* The same of a region; NAN: no bound. *here is the value at its middle, *widest the variable with
- * the largest change. */
+/* Upper bound of sign * coordinate i over a region; NAN: no bound. *here is the value at its
+ * middle, *widest the variable with the largest change. */
 static double reach(const subject *s, const box *where, int i, double sign, double *here,
                     int *widest)
 {

@@ -247,8 +247,9 @@ static bool ask(const subject *s, passage *way)
     return distance_has_form(s, &way->g);
 }
 
-/* Also of a point that a motion of the symmetry has moved: a fault there is the distance's own, if
- * the moved point is nearer than claimed, and else the symmetry's. */
+/* Judges the claim about one point, or about a point that a motion of the symmetry has moved: a
+ * fault there is the distance's own, if the moved point is nearer than claimed, and else the
+ * symmetry's. */
 static bool judge_passage(const hunt *h, bool is_near, uint64_t k)
 {
     const subject *s = h->s;

@@ -127,7 +127,7 @@ static void check_piece(const check *c, const check_task *task, const imp_regist
             check_late(c, &s, &random, task->effort, is_before);
 }
 
-/* Of many pieces the first, that in the middle, and the last. */
+/* Checks the instance itself, or the first, middle and last of its pieces. */
 static void check_instances(const check *c, const check_task *task, const imp_registry *registry,
                             const imp_type_info *info, const char *stage, const imp_instance *one,
                             const imp_instance *twin, check_answer *answer)

@@ -20,8 +20,8 @@ long double model_value(const imp_model *m, const double s[3])
            (m->q[IMP_VV] * v * v + m->q[IMP_VT] * v * t + m->q[IMP_TT] * t * t);
 }
 
-/* Of a polynomial through `x` at s, whose reach is of any scale up to twice the size; the point is
- * up to `off` from it there. */
+/* Draws a model of a polynomial through `x` at s, whose reach is of any scale up to twice the size;
+ * the point is up to `off` from it there. */
 imp_model model_through(uint64_t *random, double x, double size, const double s[3])
 {
     imp_model m = {.rate = {INFINITY, INFINITY, INFINITY}, .depends = 7};

@@ -10,7 +10,7 @@
 
 enum { SIDE = 8, GRID = SIDE * SIDE };
 
-/* Of the domain's widths: a step whose square is lost in a distance's 12th digit. */
+/* Least step, as a part of the domain's widths: its square is lost in a distance's 12th digit. */
 #define STEP_LEAST 0x1p-20
 
 static bool take(spot *at, const double p[3], const double x[3], const double error[3])

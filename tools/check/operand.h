@@ -30,7 +30,7 @@ typedef struct operand_type {
 exit_status operand_find_type(const arguments *args, const operand_type *w, double seconds,
                               operand_file *l);
 
-/* The same of a path. Complains of what cannot be read. */
+/* Looks at the plugin at a path. Complains of what cannot be read. */
 exit_status operand_find_file(const arguments *args, const char *path, operand_file *l);
 
 #endif

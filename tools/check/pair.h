@@ -19,7 +19,7 @@ typedef struct evaluated {
 double pair_ratio(int n, int coordinate, const double rate[BOX_DIMS], const evaluated *a,
                   const evaluated *b);
 
-/* The same of a slope: a lower bound of |f(p) - f(q)| / |p_j - q_j|. */
+/* A lower bound of the slope |f(p) - f(q)| / |p_j - q_j|. */
 double pair_slope(int coordinate, int j, const evaluated *a, const evaluated *b);
 
 /* The worst pair so far, and the claim it was compared with. */

@@ -12,9 +12,9 @@
 /* Numbers at effort 1. N evenly spread tiny regions hit every box with a fraction V of the domain
  * if N is a few times 1/V: 12000 find a box of 0.04 %. */
 enum { TINY = 12000, TOP = 8, CLIMBS = 48, LINES = 96, REGIONS = 160, EXPANSIONS = 24 };
-/* Of the domain's. Rates hardly change over the wider one, and rounding is not seen; over the
- * narrower one slopes are as good as constant: what is 1e-6 low shows unless eval's errors hide
- * it. */
+/* Widths of tiny regions as parts of the domain's. Rates hardly change over the wider one, and
+ * rounding is not seen; over the narrower one slopes are as good as constant: what is 1e-6 low
+ * shows unless eval's errors hide it. */
 static const double tiny_widths[2] = {1e-5, 3e-8};
 
 typedef struct search {
@@ -135,7 +135,8 @@ static void search_tiny(search *r, double effort)
 
 /* --- Lines, halved towards the steeper half --------------------------------------------------- */
 
-/* Of the two halves of a pair, one changes at least half as much: the slope never falls. */
+/* Halves the pair towards the steeper half. One half changes at least half as much, so that the
+ * slope never falls. */
 static void halve(search *r, evaluated a, evaluated b, double rate[3][BOX_DIMS], uint64_t call)
 {
     const subject *s = r->s;

@@ -57,7 +57,7 @@ static double residual(const double term[POINTS][TERMS], const double x[3 * POIN
     return most;
 }
 
-/* Of include; of rates, as the host makes it where there is none. */
+/* The remainders that include claims, or that the host makes of rates where there is no include. */
 static bool claimed_over(const subject *s, const box *where, double claimed[3])
 {
     const imp_region region = imp_region_between(where->lo, where->hi);

@@ -19,8 +19,8 @@
 formula *stated_formula(const imp_registry *registry, const imp_type_info *type, const char *stage,
                         const char *given, char *fault, size_t size);
 
-/* The same of the domain, "LO,HI; LO,HI" for u and v, and perhaps "; LO,HI" for t; of a map, for t
- * alone. Ends are formulas without variables: "0,2*pi; -pi/2,pi/2". */
+/* Reads the domain that was stated: "LO,HI; LO,HI" for u and v, and perhaps "; LO,HI" for t; for a
+ * map, t alone. Ends are formulas without variables: "0,2*pi; -pi/2,pi/2". */
 typedef struct said_domain {
     int count;
     ld_interval lo[3], hi[3];

@@ -36,7 +36,7 @@ typedef struct subject {
 bool subject_make(subject *s, const imp_instance *instance, const imp_instance *twin, size_t k,
                   check_answer *answer);
 
-/* Of how many pieces an instance consists; 0: it is one surface, or a map. */
+/* The number of an instance's pieces; 0: it is one surface, or a map. */
 size_t subject_piece_count(const imp_instance *instance, check_answer *answer);
 
 /* From a stage, "sphere radius=2", and back. */
@@ -78,7 +78,7 @@ imp_region subject_span(const box *where);
 bool subject_has_distance(const subject *s);
 imp_status subject_distance(const subject *s, const imp_model point[4], imp_model *distance);
 
-/* Also how it can be moved within itself. IMP_STATUS_UNBOUNDED: it cannot. */
+/* Tells how the surface can be moved within itself. IMP_STATUS_UNBOUNDED: it cannot. */
 imp_status subject_symmetry(const subject *s, imp_symmetry *symmetry);
 
 /* include or apply, whichever it has, over a box; a map's operands are x, y, z themselves, as if
@@ -88,8 +88,8 @@ imp_status subject_model(const subject *s, box where, imp_model model[3]);
 /* The operands of that. */
 void subject_operands(const box *where, imp_model in[4]);
 
-/* The same, and the check fails if a result is directly seen to be wrong. True if the results can
- * be used; false without a failure if the type returns that it has no bound there. */
+/* Call the subject, and fail the check if a result is directly seen to be wrong. True if the
+ * results can be used; false without a failure if the type returns that it has no bound there. */
 bool subject_eval_sane(const subject *s, size_t count, const double *p, double *x, double *error);
 bool subject_rate_sane(const subject *s, const box *where, double rate[3][BOX_DIMS]);
 

@@ -41,7 +41,8 @@ static bool is_over(void *context)
     return reason != IMP_REASON_NONE;
 }
 
-/* Of two bodies that are never both there; or, ended by `reason`, of any that were not examined. */
+/* The answer for two bodies that are never both there or, where `reason` ended the search, for any
+ * that were not examined. */
 static imp_clearance answer_of_none(const clearance_each *of, imp_reason reason, size_t a, size_t b)
 {
     const imp_result whole = imp_query_result(of->query);
@@ -70,7 +71,7 @@ static size_t pair_count(const imp_scene *scene)
     return count;
 }
 
-/* Of all answers together. */
+/* Sums up the counters of all answers. */
 static imp_stats sum(const imp_clearance *answers, size_t count, imp_stats all)
 {
     for (size_t k = 0; k < count; ++k) {

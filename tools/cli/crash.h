@@ -16,8 +16,9 @@ void crash_prepare(bool json);
  * unless it is ignored. */
 void crash_interrupted(int number);
 
-/* The same for a thread of our own: its stack for signals (NULL: no memory, and a plugin that uses
- * up the thread's stack ends the process without a message), to be handed to crash_thread_end. */
+/* Prepares a thread of our own for crashes: answers its stack for signals (NULL: no memory, and a
+ * plugin that uses up the thread's stack ends the process without a message), to be handed to
+ * crash_thread_end. */
 void *crash_thread_begin(void);
 void crash_thread_end(void *stack);
 

@@ -36,8 +36,8 @@ message_text message_shown(const char *text);
 /* The status for an error the library returned. */
 exit_status status_of_code(imp_code code);
 
-/* Of several processes that find the same fault one complains; the others only answer the
- * status. */
+/* Switches complaints off and on: where several processes find one fault, one complains and the
+ * others only answer the status. */
 void complain_aloud(bool aloud);
 
 /* Writes "impinge: VERB: text" (or "impinge: text" where verb is NULL) and returns `status`.
@@ -55,10 +55,10 @@ const char *complain_first(void);
 /* Its text, or that of its code. */
 const char *message_of(const imp_error *error);
 
-/* The same for an error of the library. */
+/* Complains of an error of the library and returns its status. */
 exit_status complain_of(const imp_error *error, const char *verb);
 
-/* The same for memory that ran out in the command itself. */
+/* Complains of memory that ran out in the command itself, and returns EXIT_DATA. */
 exit_status complain_of_memory(const char *verb);
 
 #endif

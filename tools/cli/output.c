@@ -141,7 +141,7 @@ static const char *next_control(const char *text)
     return text;
 }
 
-/* The same text with these as \u009b, in memory of its own; NULL: no memory. */
+/* Copies the text with such characters written as \u009b; NULL: no memory. */
 static char *escape_controls(const char *text)
 {
     char *escaped = NULL;
@@ -211,7 +211,7 @@ static bool is_plain_word(const char *text)
                              "0123456789+,-./:=@_")] == '\0';
 }
 
-/* As $'...', which bash, ksh and zsh read. */
+/* Writes the text as $'...', which bash, ksh and zsh read. */
 static char *escaped_word(const char *text)
 {
     char *word = malloc(4 * strlen(text) + 4), *out = word;

@@ -44,7 +44,8 @@ const char *output_colour(output_tint tint);
  * drops the reference. NULL: memory ran out when it was made. */
 exit_status output_json(json_t *object, const char *verb);
 
-/* The same line as text, which the caller frees; [any thread]. NULL: no memory. */
+/* The line that output_json prints, as text, which the caller frees; [any thread]. NULL: no
+ * memory. */
 char *output_json_line(json_t *object);
 
 /* Prints such a line and frees it. NULL: memory ran out when it was made. */

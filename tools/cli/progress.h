@@ -36,7 +36,7 @@ void progress_count(uint64_t done);
 /* Takes the line away, so that what comes stands at its own beginning. */
 void progress_wipe(void);
 
-/* The same, at the command's end. */
+/* Takes the line away at the command's end. */
 void progress_end(void);
 
 #endif

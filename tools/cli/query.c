@@ -74,7 +74,7 @@ void query_registry_free(imp_registry *registry)
     imp_registry_free(registry);
 }
 
-/* Of --method, in the order of its choices. */
+/* Methods, in the order of the choices of --method. */
 enum { METHOD_MODELS, METHOD_PAPER };
 
 exit_status query_check(const arguments *args)

@@ -18,8 +18,8 @@ imp_registry *query_registry(const arguments *args);
  * accepted. */
 void query_registry_free(imp_registry *registry);
 
-/* As query_registry, with `path` (colon-separated directories, may be NULL) in place of
- * --plugin-path, and the flags of imp_registry_open. */
+/* Makes a registry as query_registry does, with `path` (colon-separated directories, may be NULL)
+ * in place of --plugin-path, and the flags of imp_registry_open. */
 imp_registry *query_registry_first(const char *path, unsigned flags, const char *verb);
 
 /* Checks of the options that concern more than one of them. */
@@ -44,7 +44,7 @@ imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result
  * this process may use. */
 size_t query_threads(const arguments *args);
 
-/* The same, but 1 without --threads. */
+/* How many threads --threads asks for; 1 without it. */
 size_t query_threads_asked(const arguments *args);
 
 /* Has a query use the threads of the crew, if it has more than one; the crew must outlive the
@@ -61,7 +61,7 @@ exit_status query_print(const imp_scene *scene, const imp_result *result, const 
  * it is NULL, complains of `error`. */
 exit_status query_answer(imp_scene *scene, const imp_error *error, const arguments *args);
 
-/* The same for a scene file. */
+/* Solves a scene file, prints the result as text or JSON, and answers the exit status. */
 exit_status query_answer_file(imp_registry *registry, const char *path, const arguments *args);
 
 /* The scene that the operands name: a file, '-' for standard input, or two pipelines. NULL:

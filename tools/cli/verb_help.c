@@ -13,7 +13,7 @@
 
 enum { HELP_INDENT = 27, HELP_WIDTH = 80, HELP_WIDTH_MIN = 60 };
 
-/* As COLUMNS says, from 60 on; else 80. */
+/* The width that COLUMNS says, from 60 on; else 80. */
 static size_t line_width(void)
 {
     const char *columns = getenv("COLUMNS");

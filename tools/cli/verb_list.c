@@ -134,7 +134,7 @@ static json_t *types_json(const type_list *list)
     return types;
 }
 
-/* Of refusals or warnings, as `next` tells them. */
+/* Lists refusals or warnings, as `next` tells them. */
 static json_t *remarks_json(const imp_registry *registry,
                             bool (*next)(const imp_registry *, size_t, imp_plugin_refusal *))
 {

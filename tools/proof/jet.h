@@ -44,7 +44,7 @@ jet_function jet_sqr_, jet_abs_, jet_sqrt_, jet_cbrt_, jet_exp_, jet_log_, jet_s
  * size of the box. */
 ld_interval jet_values(const jet *box, const jet *centre, const ld_interval offset[BOX_DIMS]);
 
-/* The same of its derivative by variable j, with two bounds. */
+/* Range of the function's derivative by variable j, the intersection of two bounds. */
 ld_interval jet_slopes(const jet *box, const jet *centre, const ld_interval offset[BOX_DIMS],
                        int j);
 

@@ -16,8 +16,8 @@ typedef struct integrals {
     vec origin;                               /* what they are about */
 } integrals;
 
-/* Of each shell, with its first patch's normals outward; `cells`, of the finest grid, is a power of
- * 2, at least 4. */
+/* Finds the integrals of each shell, with its first patch's normals outward; `cells`, of the finest
+ * grid, is a power of 2, at least 4. */
 shape_verdict integrals_find(const patches *p, const shells *s, int cells, integrals *each,
                              imp_error *why);
 

@@ -23,7 +23,7 @@ static int record_body(const simulation *s, size_t i, json_t *body)
     }
     json_object_del(body, "velocity");
     json_object_del(body, "spin");
-    /* Of no time at all a trajectory has no pieces: then the one that was begun. */
+    /* A trajectory over no time at all has no pieces: then write the one that was begun. */
     const double start = s->setup->options.t_start;
     return json_array_append_new(
         maps, mover_trajectory(&s->movers[i], s->t > start ? s->t : s->search.end));

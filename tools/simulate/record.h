@@ -13,7 +13,7 @@ exit_status record_write(const simulation *s, const char *path);
 /* Where it ended, energy and momentum, for people. */
 void record_print(const simulation *s, const char *path);
 
-/* The same as tools/schema/simulate.schema.json says. */
+/* What record_print tells, as tools/schema/simulate.schema.json says. NULL: no memory. */
 json_t *record_json(const simulation *s, const char *path);
 
 #endif

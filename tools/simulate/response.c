@@ -24,7 +24,7 @@ static vec velocity_of(const instant *now, const contact *c, int k)
     return vec_add(vec_add(s->velocity, c->at.drift[k]), vec_cross(s->spin, arm_of(now, c, k)));
 }
 
-/* Of the second against the first. */
+/* Velocity of the second body against the first, at the contact. */
 static vec relative_velocity(const instant *now, const contact *c)
 {
     return vec_sub(velocity_of(now, c, 1), velocity_of(now, c, 0));

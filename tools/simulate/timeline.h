@@ -8,7 +8,7 @@
 /* The course of a simulation: where its bodies are, what they have in sum, and when two meet
  * next. */
 
-/* Of all bodies that move. */
+/* States, and sums of energy and momentum, of all bodies that move. */
 void timeline_states(const simulation *s, double t, mover_state *state);
 sums timeline_sums(const simulation *s, const mover_state *state);
 
@@ -19,7 +19,8 @@ void timeline_advance(simulation *s, double t);
  * errors. */
 exit_status timeline_predict(simulation *s, meeting *m, double t, int least);
 
-/* The same of all, from the start. Complains of bodies that are too near to each other there. */
+/* Predicts the meetings of all pairs from the start. Complains of bodies that are too near to each
+ * other there. */
 exit_status timeline_predict_all(simulation *s);
 
 /* The earliest of those found; NULL: there is none up to the end. */

@@ -239,7 +239,7 @@ static imp_code look_around(side s[2], jet j[2], imp_error *error)
     return code;
 }
 
-/* Of the surface, unit length; 0 where it has none. */
+/* The surface's normal, of unit length; 0 where it has none. */
 static vec surface_normal(const jet *j)
 {
     const vec n = vec_cross(j->by[0], j->by[1]);

@@ -23,7 +23,8 @@ typedef struct event_list {
     size_t count;
 } event_list;
 
-/* Of a scene's JSON, perhaps NULL; what is there and is no event is left out. False: no memory. */
+/* Reads the events of a scene's JSON, which may be NULL; what is there and is no event is left out.
+ * False: no memory. */
 bool events_read(const json_t *scene, event_list *list);
 void events_free(event_list *list);
 

@@ -48,10 +48,10 @@ imp_code gap_measure(imp_scene *scene, const imp_options *options, size_t count,
     return code;
 }
 
-/* Of the distance at a moment: three digits are shown. */
+/* Tolerance of the distance at a moment, as a part of it: three digits are shown. */
 static const double moment_tolerance = 1e-3;
 
-/* Of the time left, for each moment at most. */
+/* Most time for one moment, as a part of the time left. */
 static const double moment_share = 0.3;
 
 static imp_code measure_moment(imp_scene *scene, const imp_options *options, allowance *l,

@@ -16,9 +16,10 @@ typedef struct gap_profile {
     size_t count;
 } gap_profile;
 
-/* Of the times of `options`, in `count` equal slices; each bracket is at most a fraction `width` of
- * its upper end wide, unless the distance is below gamma, or a budget ends or a signal comes: then
- * the rest is as wide as it was. Without anything to be near to, all is infinite. Free in any case.
+/* Measures the distance over the times of `options`, in `count` equal slices; each bracket is at
+ * most a fraction `width` of its upper end wide, unless the distance is below gamma, or a budget
+ * ends or a signal comes: then the rest is as wide as it was. Without anything to be near to, all
+ * is infinite. Free in any case.
  */
 imp_code gap_measure(imp_scene *scene, const imp_options *options, size_t count, double width,
                      gap_profile *gap, imp_error *error);

@@ -6,7 +6,7 @@
 
 #include "tools/cli/query.h"
 
-/* Of the distance: three digits are shown. */
+/* Tolerance of the distance, as a part of it: three digits are shown. */
 static const double tolerance = 1e-3;
 
 stage_spot nearest_of(const imp_clearance *answer, double gamma)

@@ -21,7 +21,7 @@ enum { PALETTE_COUNT = 24, PALETTE_FIRST = 16 };
 /* The colour of body or curve number k. */
 colour palette_colour(size_t k);
 
-/* Of contacts and marks. */
+/* The colour of contacts and marks. */
 extern const colour palette_mark;
 
 /* Distance in Oklab. */

@@ -144,7 +144,8 @@ static bool is_inside(const raster_window *w, const double *p)
     return p[0] >= w->x && p[0] <= w->x + w->width && p[1] >= w->y && p[1] <= w->y + w->height;
 }
 
-/* Of the two kinds of step, the hidden or the others; a veiled one is drawn as if hidden. */
+/* Draws a step if it is of the kind that is asked for, hidden or not; a veiled one is drawn as if
+ * hidden. */
 static void outline_step(const outliner *o, const mesh *m, const mesh_step *s, bool faint)
 {
     const camera *cam = &o->panel->camera;

@@ -11,7 +11,7 @@
 #include "tools/view/legend.h"
 #include "tools/view/picture.h"
 
-/* Of all surfaces together: 3 seconds of work, and a picture's pixels. */
+/* Most cells of all surfaces together: 3 seconds of work, and a picture's pixels. */
 enum { MAX_CELLS = 400000 };
 
 imp_code storyboard_stage(subject *what, const view_request *request, double *moments, size_t count,

@@ -143,7 +143,7 @@ static void block(void *context, const mesh *m, const size_t corner[3], size_t c
         }
 }
 
-/* Of the samples of that one of the two bodies of which less is seen. */
+/* The share of samples that are seen, of that body of the two of which less is seen. */
 static double share_seen(const samples *from, bool blocked[2][SAMPLES])
 {
     double least = 1;

@@ -15,8 +15,8 @@ typedef struct direction {
     double azimuth, elevation;
 } direction;
 
-/* Of many directions that in which least hides the spot, its normal is seen from the side, and
- * little else is strange. Without a spot, the usual one. */
+/* Chooses the direction in which least hides the spot, its normal is seen from the side, and little
+ * else is strange. Without a spot, the usual one. */
 imp_code visibility_choose(const stage *s, direction *chosen, imp_error *error);
 
 /* Sets hides[b] for each body of the stage that hides the spot from the direction; toward: unit
