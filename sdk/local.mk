@@ -53,6 +53,7 @@ python_module = \
     sdk/python/impinge/__init__.py \
     sdk/python/impinge/_arguments.py \
     sdk/python/impinge/_command.py \
+    sdk/python/impinge/_crew.py \
     sdk/python/impinge/_document.py \
     sdk/python/impinge/_files.py \
     sdk/python/impinge/_find.py \

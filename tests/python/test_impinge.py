@@ -4,6 +4,7 @@
 """The Python module, over the library and plugins of the build tree."""
 
 import ctypes
+import dataclasses
 import pathlib
 import signal
 import threading
@@ -73,6 +74,40 @@ def test_a_batch_keeps_its_order_on_any_number_of_threads():
     times = [[r.t for r in impinge.batch((flying(s).build() for s in speeds), threads=n)]
              for n in (1, 4)]
     assert times[0] == times[1] and times[0] == sorted(times[0], reverse=True)
+
+
+def test_threads_that_a_question_borrows_change_no_answer():
+    builder = impinge.Builder()
+    for k in range(200):
+        builder.body(f"b{k}").surface("sphere", radius=0.4, center=[k % 20, k // 20, 0]).map(
+            "rotate", axis=[0, 0, 1], rate=0.01 * k)
+    scene = builder.build()
+    for ask in (scene.solve, scene.clearance):
+        answers = [dataclasses.replace(ask(threads=threads), **{"seconds": 0.0} if ask == scene.solve else {})
+                   for threads in (None, 1, 3)]
+        assert answers[0] == answers[1] == answers[2]
+
+
+def test_times_that_are_given_are_judged_instead_of_defaults():
+    builder = impinge.Builder()
+    for name, times in (("early", [0, 1]), ("late", [2, 3])):
+        builder.body(name).surface("sphere").map("keyframes", times=times, positions=[[0, 0, 0], [1, 0, 0]])
+    scene = builder.build()
+    with pytest.raises(impinge.SceneError, match="early.*up to t = 1"):
+        scene.solve()
+    with pytest.raises(impinge.SceneError, match="from t = 2 to 3 only") as refused:
+        scene.solve(time=(0.25, 0.5))
+    assert "early" not in str(refused.value)
+
+
+def test_a_builder_without_time_has_the_span_of_its_tables():
+    builder = impinge.Builder()
+    builder.body("a").surface("sphere").map("keyframes", times=[2, 4], positions=[[0, 0, 0], [1, 0, 0]])
+    builder.body("b").surface("sphere", center=[9, 0, 0])
+    scene = builder.build()
+    assert (scene.solve().t_start, scene.solve().t_end) == (2, 4)
+    again = impinge.Scene.from_json(scene.to_json())
+    assert (again.solve().t_start, again.solve().t_end) == (2, 4)
 
 
 def test_one_scene_may_be_asked_by_many_threads():

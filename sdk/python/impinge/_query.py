@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from . import _library as lib
 from . import _values as values
+from ._crew import Crew
 from ._handle import Handle
 from .errors import check
 from .results import Progress, progress_of
@@ -34,6 +35,7 @@ class Settings(NamedTuple):
     max_bytes: Optional[int] = None
     audit: Optional[bool] = None
     progress: Optional[ProgressSink] = None
+    threads: Optional[int] = None  # None: the caller's alone
 
     def write(self, options: lib.Options) -> None:
         """Checks them, and puts those that are given into the struct."""
@@ -82,8 +84,13 @@ class Query:
 
     def __init__(self, scene: Handle, settings: Settings, wanted: Optional[Wanted] = None):
         options, error = lib.Options(struct_size=c.sizeof(lib.Options)), lib.Error()
-        check(lib.library.imp_options_get_default(scene.address, c.byref(options), c.byref(error)), error)
+        code = lib.library.imp_options_get_default(scene.address, c.byref(options), c.byref(error))
+        if settings.time is None:
+            check(code, error)
         settings.write(options)
+        if settings.threads is not None:
+            self._crew = Crew(values.threads(settings.threads))
+            options.parallel = c.cast(self._crew.function, c.c_void_p)
         if wanted is None:
             made = lib.library.imp_query_new(scene.address, c.byref(options), c.byref(error))
         else:

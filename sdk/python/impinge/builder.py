@@ -60,24 +60,27 @@ def _stage(stage: Any) -> Tuple[str, Dict[str, Any]]:
 class Builder:
     """Builds a scene: bodies, their surfaces and maps, parents, groups, who ignores whom. Parameters
     are numbers, strings, booleans, dicts of numbers, sequences and NumPy arrays, which go by pointer. Names
-    of files begin at the working directory. What is nearer than `gamma_clear` (half of gamma) is never
-    missed. Several threads may use one builder, one after the other."""
+    of files begin at the working directory. Without `time` a scene is examined for the span that its tables
+    and keyframes share, from 0 to 1 if it has none. What is nearer than `gamma_clear` (half of gamma) is
+    never missed. Several threads may use one builder, one after the other."""
 
-    def __init__(self, *, time: Sequence[float] = (0, 1), gamma: float = 1e-6,
+    def __init__(self, *, time: Optional[Sequence[float]] = None, gamma: float = 1e-6,
                  gamma_clear: Optional[float] = None):
         self._lock = threading.RLock()
         self._handle = lib.library.imp_builder_new(Registry.handle())
         if not self._handle:
             raise MemoryError("out of memory")
         weakref.finalize(self, lib.library.imp_builder_free, self._handle).atexit = False
-        start, end = values.interval("time", time)
         gamma = values.number("gamma", gamma)
         clear = -1 if gamma_clear is None else values.number("gamma_clear", gamma_clear)
         if gamma_clear is not None and clear < 0:
             raise values.refuse("gamma_clear", gamma_clear, "a number from 0 to below gamma")
-        self._call(lib.library.imp_builder_time, start, end)
+        self._document: document.Document = {"gamma": gamma, "bodies": []}
+        if time is not None:
+            start, end = values.interval("time", time)
+            self._call(lib.library.imp_builder_time, start, end)
+            self._document["time"] = [start, end]
         self._call(lib.library.imp_builder_gamma, gamma, clear)
-        self._document: document.Document = {"time": [start, end], "gamma": gamma, "bodies": []}
         if gamma_clear is not None:
             self._document["gamma_clear"] = clear
 

@@ -175,10 +175,13 @@ class Scene:
     def solve(self, *, time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
               gamma_clear: Optional[float] = None, max_pairs: Optional[int] = None,
               max_seconds: Optional[float] = None, max_bytes: Optional[int] = None,
-              audit: Optional[bool] = None, progress: Optional[ProgressSink] = None) -> Result:
+              audit: Optional[bool] = None, progress: Optional[ProgressSink] = None,
+              threads: Optional[int] = None) -> Result:
         """The earliest contact over the scene's time, or `time`: two points no farther apart than `gamma`.
-        Nothing nearer than `gamma_clear` is missed."""
-        settings = Settings(time, gamma, gamma_clear, max_pairs, max_seconds, max_bytes, audit, progress)
+        Nothing nearer than `gamma_clear` is missed. Trees of surfaces are built, and bodies sorted out, by
+        so many threads (one); the answer is the same."""
+        settings = Settings(time, gamma, gamma_clear, max_pairs, max_seconds, max_bytes, audit, progress,
+                            threads)
         with Query(self._handle, settings) as query:
             return result_of(self.bodies, query.step())
 
@@ -241,11 +244,14 @@ class Scene:
                   time: Optional[Sequence[float]] = None, gamma: Optional[float] = None,
                   max_pairs: Optional[int] = None, max_seconds: Optional[float] = None,
                   max_bytes: Optional[int] = None, audit: Optional[bool] = None,
-                  progress: Optional[ProgressSink] = None) -> Clearance:
+                  progress: Optional[ProgressSink] = None,
+                  threads: Optional[int] = None) -> Clearance:
         """The minimum distance of all bodies over the interval; is the `required` one kept? With
         `required` and no `tolerance` the search ends as soon as that is known. Without, it ends when
-        upper - lower is at most `tolerance` (1e-3) times upper. At `gamma` bodies touch."""
-        settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress)
+        upper - lower is at most `tolerance` (1e-3) times upper. At `gamma` bodies touch. Trees of
+        surfaces are built, and bodies sorted out, by so many threads (one); the answer is the same."""
+        settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress,
+                            threads)
         with Query(self._handle, settings, Wanted(required, tolerance)) as query:
             query.step()
             return clearance_of(self.bodies, query.clearance(0))
