@@ -202,7 +202,8 @@ END
 
 @test "slices of time as CSV and as JSON lines, and all of them in the last line" {
     run -1 "$IMPINGE" clearance "${passing[@]}" --profile 4 --require 1.2
-    [ "${lines[0]}" = "t0,t1,lower,upper,t,verdict" ]
+    [ "${lines[0]}" = "t0,t1,lower,upper,t,verdict,a,b" ]
+    [[ ${lines[2]} == *,violated,a,b ]]
     [ "$(printf '%s\n' "${lines[@]}" | awk -F, 'NR > 1 && $3 <= $4 { print $1, $2, $6 }')" = \
         $'0 0.25 holds\n0.25 0.5 violated\n0.5 0.75 violated\n0.75 1 holds' ]
     run -0 "$IMPINGE" clearance "${passing[@]}" --profile 4 --json
@@ -210,7 +211,14 @@ END
     [ "${#lines[@]}" -eq 5 ]
     [ "$(head -4 <<<"$output" | jq -s -c .)" = "$(tail -1 <<<"$output" | jq -c .slices)" ]
     tail -1 <<<"$output" | jq -e '.lower == ([.slices[].lower] | min) and
-        .upper == ([.slices[].upper] | min) and .slices[3].t1 == 1'
+        .upper == ([.slices[].upper] | min) and .slices[3].t1 == 1 and .slices[1].bodies == ["a", "b"]'
+}
+
+@test "names with commas and quotes are quoted in CSV" {
+    jq -nc '{bodies: [{name: "a, \"1\"", surfaces: [{type: "sphere"}]},
+        {name: "b", surfaces: [{type: "sphere", center: [4, 0, 0]}]}]}' >names.json
+    run -0 "$IMPINGE" clearance names.json --profile 1
+    [[ ${lines[1]} == *',,"a, ""1""",b' ]]
 }
 
 @test "slices in which a surface does not exist leave the answer of the others as it is" {

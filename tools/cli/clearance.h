@@ -58,10 +58,10 @@ void clearance_print_pairs(const clearance_table *table);
 
 /* CSV: the head, and one line a slice. */
 void clearance_print_csv_head(void);
-void clearance_print_csv(const imp_clearance *slice);
+void clearance_print_csv(const imp_scene *scene, const imp_clearance *slice);
 
 json_t *clearance_json(const imp_scene *scene, const imp_clearance *answer);
-json_t *clearance_slice_json(const imp_clearance *slice);
+json_t *clearance_slice_json(const imp_scene *scene, const imp_clearance *slice);
 /* Prints the object, which is taken over, on one line, with the answers as its last key: "slices",
  * or "pairs" of bodies. They are made and printed one by one: all at once they would take kilobytes
  * each. A signal ends the list. */

@@ -78,14 +78,19 @@ json_t *clearance_json(const imp_scene *scene, const imp_clearance *r)
     return checked(object, failed);
 }
 
-json_t *clearance_slice_json(const imp_clearance *r)
+json_t *clearance_slice_json(const imp_scene *scene, const imp_clearance *r)
 {
     json_t *object =
         json_pack("{s:o, s:o, s:o, s:o, s:o}", "t0", output_json_number(r->t_start), "t1",
                   output_json_number(r->t_end), "lower", output_json_number(r->lower), "upper",
                   output_json_number(r->upper), "t", output_json_number(r->t));
-    if (object == NULL || r->verdict == IMP_REQUIREMENT_NONE) return object;
-    return checked(object, set(object, "verdict", json_string(clearance_verdict_name(r->verdict))));
+    if (object == NULL) return NULL;
+    int failed = 0;
+    if (r->verdict != IMP_REQUIREMENT_NONE)
+        failed |= set(object, "verdict", json_string(clearance_verdict_name(r->verdict)));
+    if (r->has_witness)
+        failed |= set(object, "bodies", pair_json(scene, (size_t[]){r->a.body, r->b.body}));
+    return checked(object, failed);
 }
 
 exit_status clearance_print_json(json_t *object, const clearance_table *table, bool slices,
@@ -96,7 +101,7 @@ exit_status clearance_print_json(json_t *object, const clearance_table *table, b
     printf("%.*s,\"%s\":[", (int)strlen(line) - 1, line, slices ? "slices" : "pairs");
     free(line);
     for (size_t k = 0; k < table->count && !interrupt_came(); ++k) {
-        line = output_json_line(slices ? clearance_slice_json(&table->answers[k])
+        line = output_json_line(slices ? clearance_slice_json(table->scene, &table->answers[k])
                                        : clearance_json(table->scene, &table->answers[k]));
         if (line == NULL) return output_line(line, verb);
         printf("%s%s", k > 0 ? "," : "", line);

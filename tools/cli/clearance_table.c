@@ -81,7 +81,7 @@ void clearance_print_pairs(const clearance_table *table)
     }
 }
 
-void clearance_print_csv_head(void) { puts("t0,t1,lower,upper,t,verdict"); }
+void clearance_print_csv_head(void) { puts("t0,t1,lower,upper,t,verdict,a,b"); }
 
 /* An empty field for what is not there. */
 static void print_field(double number)
@@ -90,12 +90,31 @@ static void print_field(double number)
     putchar(',');
 }
 
-void clearance_print_csv(const imp_clearance *r)
+/* RFC 4180: in quotes where it has a comma, a quote or the end of a line; quotes are doubled. */
+static void print_name(const char *name)
+{
+    putchar(',');
+    if (strpbrk(name, ",\"\r\n") == NULL) {
+        fputs(name, stdout);
+        return;
+    }
+    putchar('"');
+    for (; *name != '\0'; ++name) {
+        if (*name == '"') putchar('"');
+        putchar(*name);
+    }
+    putchar('"');
+}
+
+void clearance_print_csv(const imp_scene *scene, const imp_clearance *r)
 {
     const double field[] = {r->t_start, r->t_end, r->lower, r->upper, r->t};
     for (int k = 0; k < 5; ++k) print_field(field[k]);
     const char *verdict = clearance_verdict_name(r->verdict);
-    puts(verdict != NULL ? verdict : "");
+    fputs(verdict != NULL ? verdict : "", stdout);
+    print_name(r->has_witness ? imp_scene_body_name(scene, r->a.body) : "");
+    print_name(r->has_witness ? imp_scene_body_name(scene, r->b.body) : "");
+    putchar('\n');
 }
 
 /* --- All in one ------------------------------------------------------------------------------- */

@@ -74,8 +74,8 @@ static imp_clearance_options asked_for(const arguments *args)
 
 static exit_status tell_slice(const measuring *m, const imp_clearance *slice)
 {
-    if (m->json) return output_json(clearance_slice_json(slice), m->args->verb->name);
-    clearance_print_csv(slice);
+    if (m->json) return output_json(clearance_slice_json(m->scene, slice), m->args->verb->name);
+    clearance_print_csv(m->scene, slice);
     return output_flush(m->args->verb->name);
 }
 
