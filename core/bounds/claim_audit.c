@@ -95,8 +95,8 @@ static void seek_nearest(hunt *h)
 
 /* --- What is claimed -------------------------------------------------------------------------- */
 
-/* Of the polynomial, in units of u of the sum of the terms' sizes: s 2 roundings, twice; products
- * 2; sums 9. */
+/* Rounding of the polynomial, in units of u of the sum of the terms' sizes: s 2 roundings, twice;
+ * products 2; sums 9. */
 enum { CLAIM_ROUNDING = 32 };
 _Static_assert(2 * 2 + 2 + 9 <= CLAIM_ROUNDING, "rounding of a claim");
 

@@ -35,7 +35,7 @@ static void point_models(const node *n, imp_model model[3])
                         .depends = 7};
 }
 
-/* Of the node's points before the maps that both surfaces end with. */
+/* Models of the node's points before the maps that both surfaces end with. */
 static imp_status points_before(const node *a, size_t common, imp_model model[3])
 {
     const surface *s = a->surface;
@@ -45,8 +45,8 @@ static imp_status points_before(const node *a, size_t common, imp_model model[3]
     return IMP_STATUS_OK;
 }
 
-/* As node.nonlinear_extent: terms of second order, and a share of the remainder, by what the
- * polynomial explains least. */
+/* Computes what node.nonlinear_extent is of a node: terms of second order, and a share of the
+ * remainder, by what the polynomial explains least. */
 static void bend_of(const imp_model model[3], const imp_region *r, double bend[3])
 {
     memset(bend, 0, 3 * sizeof *bend);
@@ -85,8 +85,8 @@ bool distance_slides(const distance_question *q)
     return q->slip < INFINITY && TUNING_DISTANCE_SLIP * q->slip <= q->gamma_clear;
 }
 
-/* Of the node's points before the maps that both surfaces end with; at the moment, if that will
- * do. */
+/* Models of the node's points before the maps that both surfaces end with, at one moment where the
+ * node slides. */
 static imp_status points_of(const distance_question *q, size_t common, imp_model point[3])
 {
     const node *a = q->a;
@@ -244,7 +244,8 @@ distance_view distance_view_none(const node *a)
     return view;
 }
 
-/* Also of a pair of one moment, which stands for all times. */
+/* Whether a slides along b within itself, or the pair is of one moment, which stands for all
+ * times. */
 static bool is_within_itself(const distance_question *q)
 {
     return distance_slides(q) || q->a->region.lo[PARAMETER_T] == q->a->region.hi[PARAMETER_T];

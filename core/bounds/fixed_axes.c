@@ -95,7 +95,7 @@ IMP_QUAD_INLINE imp_quad min_upper_bound(const forms *f)
 
 /* --- What four axes show ---------------------------------------------------------------------- */
 
-/* Of length 1 to 2, pointing from A to B at w. */
+/* Scales the axes to a length of 1 to 2 and points them from A to B at w. */
 IMP_QUAD_INLINE imp_quad bundle_orient(bundle *n, const difference *r, double w)
 {
     const imp_quad longest = imp_quad_max(
@@ -284,7 +284,7 @@ IMP_QUAD_INLINE bool cut_along_axes(const difference *r, double gamma_clear, w_r
     return bundle_cut(r, &n, gamma_clear, s, lines);
 }
 
-/* The same with an axis that is known; nothing is searched for. */
+/* Cuts along an axis that is known; nothing is searched for. */
 IMP_QUAD_INLINE bool cut_along_given(const difference *r, double gamma_clear, w_range *s, vec3 axis)
 {
     const vec3 end = vec3_add(vec3_from(r->delta), vec3_from(r->drift));

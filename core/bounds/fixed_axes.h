@@ -17,7 +17,8 @@
 bool fixed_axes_cut(const difference *r, double gamma_clear, w_range *s, vec3 *axis,
                     gap_lines *lines);
 
-/* The same along an axis that was found elsewhere, both normals and the line of centres. */
+/* Like fixed_axes_cut, along an axis that was found elsewhere, both normals and the line of
+ * centres. */
 bool fixed_axes_cut_along(const difference *r, double gamma_clear, w_range *s, vec3 axis);
 
 #endif

@@ -138,8 +138,8 @@ IMP_QUAD_INLINE void least_of_halves(const halved_rows *x, double least[2])
     least[1] = least_of(upper);
 }
 
-/* As halve_any_heights. More is near at the window's end than at its start, as a rule: where both
- * halves are near at the end, the start is not needed. */
+/* Does what halve_any_heights does, for bicubic nets. More is near at the window's end than at its
+ * start, as a rule: where both halves are near at the end, the start is not needed. */
 IMP_QUAD_INLINE int halve_bicubic_heights(net_heights *h, parameter j, window_ends most,
                                           bool is_weighted)
 {

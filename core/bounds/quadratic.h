@@ -113,8 +113,8 @@ IMP_QUAD_INLINE imp_quad quadratics_inner_lower(const quadratics *p, imp_quad ed
     return imp_quad_pick(on_edge, edge, imp_quad_min(inner, edge));
 }
 
-/* The same as quadratics_lower, for less, where qss and qrr are 0: p is linear in s and in r, and
- * least at a corner. */
+/* Answers what quadratics_lower does, with fewer instructions, where qss and qrr are 0: p is linear
+ * in s and in r, and least at a corner. */
 IMP_QUAD_INLINE imp_quad quadratics_bilinear_lower(const quadratics *p)
 {
     const imp_quad ends =

@@ -18,12 +18,12 @@
 bool separation_window(const node *a, const node *b, double gamma_clear, time_window *window,
                        vec3 *axis, trial_rate *turning);
 
-/* The same by the quadratics alone. */
+/* Like separation_window, by the quadratics alone. */
 bool separation_without_nets(const node *a, const node *b, double gamma_clear, time_window *window,
                              vec3 *axis, trial_rate *turning);
 
-/* As the first; but where both nodes have control nets and the axis is not 0, only the nets are
- * tried, along that axis. `more`: whether separation_window may leave less. */
+/* Like separation_window, but where both nodes have control nets and the axis is not 0, only the
+ * nets are tried, along that axis. `more`: whether separation_window may leave less. */
 bool separation_first_look(const node *a, const node *b, double gamma_clear, time_window *window,
                            vec3 *axis, trial_rate *turning, bool *more);
 
@@ -33,9 +33,9 @@ typedef struct approach {
     double moment; /* where in the window it is lowest, about; axes are chosen for it */
 } approach;
 
-/* The same, and how near the nodes come: at no time of the window as it was handed over is their
- * distance below `near->lower` and below `gamma_clear`. `near->moment` holds a guess to begin
- * with. */
+/* Like separation_window, and tells how near the nodes come: at no time of the window as it was
+ * handed over is their distance below `near->lower` and below `gamma_clear`. `near->moment` holds a
+ * guess to begin with. */
 bool separation_approach(const node *a, const node *b, double gamma_clear, time_window *window,
                          vec3 *axis, approach *near);
 

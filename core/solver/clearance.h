@@ -18,7 +18,7 @@ typedef struct clearance_search clearance_search;
 imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options *options,
                        const imp_clearance_options *asked, clearance_search **made,
                        imp_error *error);
-/* The same question about two bodies alone. `whole` is only read. */
+/* Asks the question of `whole` about two bodies alone. `whole` is only read. */
 imp_code clearance_part(const clearance_search *whole, const size_t body[2],
                         clearance_search **made, imp_error *error);
 bool clearance_is_each(const clearance_search *c);
@@ -31,7 +31,7 @@ void clearance_begin(clearance_search *c, const candidate_list *list, imp_stats 
 /* One unit of work. *reason: RUNNING, NONE when all tasks are done, or why it cannot go on. */
 imp_code clearance_work(clearance_search *c, imp_reason *reason, imp_error *error);
 
-/* Of the task that is searched now, for progress and budgets. */
+/* State of the task that is searched now, for progress and budgets. */
 typedef struct clearance_state {
     double lower, upper; /* length */
     double t_lower;      /* no violation before; NAN while it is not searched for */

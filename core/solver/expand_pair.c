@@ -29,7 +29,7 @@ static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
 
 /* --- Splitting -------------------------------------------------------------------------------- */
 
-/* The same of a pair whose window the hulls have cut already: it is tested when it is popped. */
+/* Pushes a pair whose window the hulls have cut already: it is tested when it is popped. */
 static imp_code push_cut(impact *im, const pair *p, imp_error *error)
 {
     pair_test t = {.p = *p, .near = true};
@@ -126,10 +126,10 @@ static imp_code has_bounded_half(impact *im, const pair *p, const cut *c, bool *
     return IMP_SUCCESS;
 }
 
-/* Of a node without bounds: time, if that leaves one half with bounds, so that a moment without
- * bounds is closed in on before u and v are cut: pairs of different starts are not followed one
- * after the other. Also where so little time is left that there must have been such a moment. Else
- * the largest. */
+/* Chooses the cut of a node without bounds. It cuts time if that leaves one half with bounds, so
+ * that a moment without bounds is closed in on before u and v are cut; else pairs of different
+ * starts would be followed one after the other. It also cuts time where so little is left that
+ * there must have been such a moment. Otherwise it cuts what contributes most. */
 static imp_code cut_unbounded(impact *im, const pair *p, int side, cut *best, imp_error *error)
 {
     const imp_region *region = side == 0 ? &p->a->region : &p->b->region;
@@ -201,9 +201,9 @@ static bool witness_is_likely(const impact *im, const pair *p, const distance_ou
            precision_ends(im, p, TUNING_WITNESS_FLAT);
 }
 
-/* Of the side that is worth halving alone. Not where its remainder does not matter any more: where
- * surfaces come to touch along a curve, it would be halved all along before the other side is small
- * enough for a witness. */
+/* Chooses the cut of the side that is worth halving alone; none where its remainder does not matter
+ * any more: where surfaces come to touch along a curve, it would be halved all along before the
+ * other side is small enough for a witness. */
 static cut choose_cut_alone(const impact *im, const pair *p, const distance_outcome *seen)
 {
     if (seen->side < 0) return CUT_NONE;

@@ -186,10 +186,10 @@ static cut choose_cut(const min_distance *m, const pair *p, const distance_outco
     return alone.side >= 0 ? alone : cut_by_spread(p, scale(m), false);
 }
 
-/* Of a pair that no axis parts, or whose parents slid along each other: what its nodes' distances
- * from each other's whole surfaces show. Lemma. The times that are cut off p->window are farther
- * apart than what is enough, and over those that are left nothing is nearer than seen->lower, so
- * that p->key[0] stays a bound. */
+/* Asks what the nodes' distances from each other's whole surfaces show, where no axis parts the
+ * pair or its parents slid along each other. Lemma. The times that are cut off p->window are
+ * farther apart than what is enough, and over those that are left nothing is nearer than
+ * seen->lower, so that p->key[0] stays a bound. */
 static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error *error)
 {
     *seen = distance_outcome_none(&p->window);

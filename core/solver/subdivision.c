@@ -24,7 +24,7 @@ distance_sides pair_sides(const pair *p, candidate_pair *both)
 
 static const node *side_of(const pair *p, int side) { return side == 0 ? p->a : p->b; }
 
-/* Of both surfaces, at any one time. */
+/* Curvature of both surfaces at any one time. */
 static double pair_curvature(const pair *p)
 {
     double sum = 0;

@@ -13,7 +13,7 @@
  * Branch and bound halves one node of a pair along one parameter: that which blurs the pair most.
  * Shared by all searches. Choices cost pairs, never soundness. */
 
-/* Of both nodes: remainders, and how much u and v move points across them; length, about. */
+/* Remainders of both nodes, and how much u and v move points across them; length, about. */
 double pair_remainder(const pair *p);
 double pair_extent(const pair *p);
 
@@ -52,7 +52,7 @@ cut cut_by_contribution(const pair *p);
  * of a search that asks for none false, whatever others have made. */
 cut cut_by_spread(const pair *p, double scale, bool has_nets);
 
-/* The same of one side alone, whose points u, v and t bend by `bend`, lengths; CUT_NONE: nothing is
+/* The cut of one side alone, whose points u, v and t bend by `bend`, lengths; CUT_NONE: nothing is
  * left to split of it. */
 cut cut_alone(const pair *p, int side, const double bend[3], double scale);
 

@@ -10,7 +10,8 @@
 #include "core/solver/contradiction.h"
 #include "core/solver/expand_pair.h"
 
-/* Of many candidate pairs most are pushed: room for half of those to come is made at once. */
+/* Reserve heap space for half of the remaining candidate pairs, but at most this many: most are
+ * pushed. */
 enum { ROOM_MOST = 512 };
 
 static bool reserve_for_candidate(impact *im, uint32_t index)
@@ -199,7 +200,8 @@ static bool reserve_chances(impact *im)
     return im->trials != NULL;
 }
 
-/* Of the heap: for the pair popped, twice for what is postponed of it, and one more half. */
+/* Heap space that one step needs: for the pair popped, twice for what is postponed of it, and one
+ * more half. */
 enum { ROOM_OF_STEP = 3 };
 
 /* Lemma. The popped pair's window starts first of all, and outside the windows on the heap no two

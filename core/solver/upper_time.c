@@ -8,8 +8,8 @@
 #include "core/bounds/tuning.h"
 #include "core/witness/contact_estimate.h"
 
-/* Of gamma: what nearest points are followed to, so that rounding and the net's error have room,
- * and nothing nearer has to be told apart from gamma_clear before it. */
+/* Nearest points are followed to this part of gamma, so that rounding and the net's error have
+ * room, and nothing nearer has to be told apart from gamma_clear before it. */
 #define TOUCHING 0.875
 
 /* Whether the pair holds the points of the contact that is known, which would be found again. */

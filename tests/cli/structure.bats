@@ -334,6 +334,24 @@ long_lines() { # FOLDER
     [[ $output == sdk/examples/puddle.cc:* ]]
 }
 
+# A comment that begins so sends the reader back to the one before it, and has no subject.
+dangling_comments() { # FOLDER
+    (cd "$1" && c_sources . | xargs grep -nE '(/\*|//) *(The same|As|Of|But|Also)\b' |
+        cut -d: -f1,2)
+}
+
+@test "no comment begins with a word that needs the comment before" {
+    run dangling_comments "$top_srcdir"
+    [ -z "$output" ]
+}
+
+@test "such a comment is found" {
+    copy_sources
+    printf '%s\n' '/* The same for a cone. */' '/* A cone. */' 'int x; /* As above. */' >"$copy/core/base/status.h"
+    run dangling_comments "$copy"
+    [ "$output" = $'core/base/status.h:1\ncore/base/status.h:3' ]
+}
+
 # --- Arithmetic as written ------------------------------------------------------------------------
 
 # A plugin's author may contract products and sums: bounds leave room for either rounding.
