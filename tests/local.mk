@@ -32,6 +32,7 @@ check_suites = \
     tests/unit/test_faulty_types \
     tests/unit/test_formula_answers \
     tests/unit/test_guarantees \
+    tests/unit/test_impacts \
     tests/unit/test_lanes \
     tests/unit/test_limits \
     tests/unit/test_locale \
@@ -183,6 +184,7 @@ bats_suites = \
     tests/cli/page.bats \
     tests/cli/series.bats \
     tests/cli/simulate.bats \
+    tests/cli/simulate_rest.bats \
     tests/cli/simulate_scenes.bats \
     tests/cli/subdivision.bats \
     tests/cli/tables.bats \
@@ -418,6 +420,7 @@ tests_unit_test_query_memory_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_expression_SOURCES = tests/unit/test_expression.c tests/support/expression_kit.h \
     tests/support/alloc_failure.c
 tests_unit_test_expression_LDFLAGS = $(alloc_failure_ldflags)
+tests_unit_test_impacts_LDADD = tools/libtools.a $(LDADD)
 tests_unit_test_lanes_LDADD = plugins/libpatch.la $(LDADD)
 tests_unit_test_mesh_text_LDADD = plugins/libmesh.la $(LDADD)
 tests_unit_test_expression_LDADD = plugins/libexpression.la $(LDADD)

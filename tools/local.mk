@@ -170,21 +170,35 @@ tools_view = \
 
 tools_simulate = \
     tools/simulate/actor.c tools/simulate/actor.h \
+    tools/simulate/balance.c tools/simulate/balance.h \
+    tools/simulate/chart.c tools/simulate/chart.h \
+    tools/simulate/coulomb.c tools/simulate/coulomb.h \
+    tools/simulate/drift.c tools/simulate/drift.h \
     tools/simulate/edges.c tools/simulate/edges.h \
     tools/simulate/event.c tools/simulate/event.h \
+    tools/simulate/footprint.c tools/simulate/footprint.h \
+    tools/simulate/gather.c tools/simulate/gather.h \
+    tools/simulate/impact.c tools/simulate/impact.h \
     tools/simulate/integrals.c tools/simulate/integrals.h \
     tools/simulate/limits.c tools/simulate/limits.h \
     tools/simulate/mass.c tools/simulate/mass.h \
     tools/simulate/meeting.c tools/simulate/meeting.h \
     tools/simulate/mover.c tools/simulate/mover.h \
+    tools/simulate/nearest.c tools/simulate/nearest.h \
     tools/simulate/nesting.c tools/simulate/nesting.h \
+    tools/simulate/outline.c tools/simulate/outline.h \
     tools/simulate/patches.c tools/simulate/patches.h \
+    tools/simulate/placed.c tools/simulate/placed.h \
+    tools/simulate/polygon.c tools/simulate/polygon.h \
     tools/simulate/record.c tools/simulate/record.h \
     tools/simulate/response.c tools/simulate/response.h \
+    tools/simulate/rest.c tools/simulate/rest.h \
     tools/simulate/rigid.h \
     tools/simulate/setup.c tools/simulate/setup.h \
     tools/simulate/shells.c tools/simulate/shells.h \
     tools/simulate/simulation.c tools/simulate/simulation.h \
+    tools/simulate/smooth.c tools/simulate/smooth.h \
+    tools/simulate/strike.c \
     tools/simulate/timeline.c tools/simulate/timeline.h \
     tools/simulate/touch.c tools/simulate/touch.h \
     tools/simulate/values.c tools/simulate/values.h \

@@ -7,109 +7,178 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/simulate/gather.h"
+#include "tools/simulate/response.h"
 #include "tools/simulate/timeline.h"
 
 static const char speaker[] = "simulate";
 
-/* Meetings as late as that count as one event: some roundings of the time. */
-static double same_time(const simulation *s, double t)
-{
-    return t + 1e-14 * fmax(fabs(t), s->search.end - s->setup->options.t_start);
-}
+/* --- The instant
+ * ---------------------------------------------------------------------------------- */
 
+/* The bodies and contacts as the laws of impact take them, and the states the bodies come with. */
 typedef struct event {
     instant now;
-    contact *contacts;
-    size_t *meeting; /* of each contact */
-    size_t count;
-    imp_reason cut; /* why not all contacts are known; NONE: they are */
+    mover_state *state; /* of each body of the instant */
+    double energy;      /* kinetic, of these before */
 } event;
 
-static bool is_gathered(const event *e, size_t index)
+static bool make_room(event *e, const gathered *g)
 {
-    for (size_t i = 0; i < e->count; ++i)
-        if (e->meeting[i] == index) return true;
-    return false;
+    const size_t bodies = 2 * g->count + 1, contacts = g->count + 1;
+    instant *now = &e->now;
+    now->who = calloc(bodies, sizeof *now->who);
+    now->bodies = calloc(bodies, sizeof *now->bodies);
+    for (int k = 0; k < 3; ++k) now->spare[k] = calloc(bodies, sizeof *now->spare[k]);
+    now->contacts = calloc(contacts, sizeof *now->contacts);
+    now->kept = calloc(contacts, sizeof *now->kept);
+    now->about = calloc(contacts, sizeof *now->about);
+    e->state = calloc(bodies, sizeof *e->state);
+    return now->who != NULL && now->bodies != NULL && now->spare[0] != NULL &&
+           now->spare[1] != NULL && now->spare[2] != NULL && now->contacts != NULL &&
+           now->kept != NULL && now->about != NULL && e->state != NULL;
 }
 
-static exit_status add_contact(simulation *s, event *e, size_t index, const meeting *at, int level)
+static void event_free(event *e)
 {
-    const meeting *m = &s->meetings[index];
-    contact c = {.body = {m->body[0], m->body[1]}};
-    if (touching_find(&s->search, m, at, &c.at) != IMP_SUCCESS) return timeline_complain(s);
-    const actor *a = &s->setup->actors[m->body[0]], *b = &s->setup->actors[m->body[1]];
-    c.restitution = fmin(a->restitution, b->restitution);
-    c.friction = fmax(a->friction, b->friction);
-    const double speed = contact_speed(&e->now, &c);
-    c.lasting = level >= LEVEL_LASTING || (speed < 0 && speed >= -e->now.slow);
-    e->contacts[e->count] = c;
-    e->meeting[e->count++] = index;
-    return EXIT_ANSWERED;
+    free(e->now.who);
+    free(e->now.bodies);
+    for (int k = 0; k < 3; ++k) free(e->now.spare[k]);
+    free(e->now.contacts);
+    free(e->now.kept);
+    free(e->now.about);
+    free(e->state);
 }
 
-/* Adds the meeting if the two touch at t, or cuts the event where that cannot be found out. */
-static exit_status add_touching(simulation *s, event *e, size_t index, double t)
+/* The number of a body in the instant, which it joins. */
+static size_t join(simulation *s, event *e, size_t body, double t)
 {
-    meeting *m = &s->meetings[index], now;
-    int level;
-    imp_code code = meeting_make_scene(&s->search, m);
-    if (code == IMP_SUCCESS) code = meeting_level(&s->search, m, t, 0, &level, &now);
-    if (code != IMP_SUCCESS) return timeline_complain(s);
-    if (now.kind == MEETING_UNDECIDED) e->cut = now.reason;
-    return now.kind == MEETING_CONTACT ? add_contact(s, e, index, &now, level - 1) : EXIT_ANSWERED;
+    instant *now = &e->now;
+    for (size_t b = 0; b < now->body_count; ++b)
+        if (now->who[b].body == body) return b;
+    const actor *a = &s->setup->actors[body];
+    const size_t b = now->body_count++;
+    now->who[b] = (participant){.body = body,
+                                .moves = a->moves,
+                                .fixed = !a->moves && !a->varies,
+                                .rested = s->rests[body],
+                                .memory = &s->memory[body]};
+    if (!a->moves) return b;
+    const mover_state state = mover_at(&s->movers[body], t);
+    e->state[b] = state;
+    now->bodies[b] = (impact_body){.yields = true,
+                                   .mass = a->mass,
+                                   .inverse = mover_inverse_inertia(&s->movers[body], &state),
+                                   .position = state.position,
+                                   .velocity = state.velocity,
+                                   .momentum = state.momentum,
+                                   .spin = state.spin};
+    return b;
 }
 
-static bool has_mover_of(const simulation *s, const meeting *m, const contact *c)
+static void add_contact(simulation *s, event *e, const gathered *g, const gathered_contact *from)
 {
-    for (int k = 0; k < 2; ++k)
-        for (int j = 0; j < 2; ++j)
-            if (m->body[j] == c->body[k] && s->setup->actors[c->body[k]].moves) return true;
-    return false;
-}
-
-/* Contacts that are due; then what touches the bodies of these, and so on. */
-static exit_status gather(simulation *s, event *e, double t)
-{
-    exit_status status = EXIT_ANSWERED;
-    for (size_t i = 0; i < s->meeting_count && status == EXIT_ANSWERED; ++i) {
-        const meeting *m = &s->meetings[i];
-        if (m->kind == MEETING_CONTACT && m->t <= same_time(s, t))
-            status = add_contact(s, e, i, m, m->level);
+    instant *now = &e->now;
+    const size_t *body = s->meetings[from->meeting].body;
+    const actor *a = &s->setup->actors[body[0]], *b = &s->setup->actors[body[1]];
+    impact_contact *c = &now->contacts[now->count];
+    *c = (impact_contact){.body = {join(s, e, body[0], g->t), join(s, e, body[1], g->t)},
+                          .normal = from->at.normal,
+                          .restitution = fmin(a->restitution, b->restitution),
+                          .friction = fmax(a->friction, b->friction),
+                          .count = from->at.count};
+    for (size_t i = 0; i < c->count; ++i) {
+        c->point[i].at = from->at.corner[i];
+        c->point[i].drift = from->at.drift[i];
     }
-    for (size_t done = 0; done < e->count && status == EXIT_ANSWERED; ++done)
-        for (size_t i = 0; i < s->meeting_count && status == EXIT_ANSWERED; ++i)
-            if (has_mover_of(s, &s->meetings[i], &e->contacts[done]) && !is_gathered(e, i))
-                status = add_touching(s, e, i, t);
-    return status;
+    const double closing = impact_closing(now->bodies, c);
+    now->about[now->count++] =
+        (contact){.meeting = from->meeting,
+                  .level = from->level,
+                  .middle = from->at.point,
+                  .driven = a->varies || b->varies,
+                  .resting = from->level >= LEVEL_LASTING || (closing > 0 && closing <= now->slow)};
 }
+
+/* --- The log
+ * -------------------------------------------------------------------------------------- */
 
 static json_t *vector_json(vec v) { return json_pack("[f,f,f]", v.x[0], v.x[1], v.x[2]); }
 
-/* Contacts without an impulse are no events. */
-static bool log_contact(simulation *s, const contact *c, double t)
+/* The sum of a contact's impulses, and the mean of its points with their normal parts as weights.
+ */
+static vec impulse_of(const impact_contact *c, vec *point)
 {
-    if (!(vec_length(c->impulse) > 0)) return true;
+    vec sum = {{0, 0, 0}}, moment = {{0, 0, 0}};
+    double weight = 0;
+    for (size_t i = 0; i < c->count; ++i) {
+        const double part = fmax(0, vec_dot(c->point[i].impulse, c->normal));
+        sum = vec_add(sum, c->point[i].impulse);
+        moment = vec_along(moment, part, c->point[i].at);
+        weight += part;
+    }
+    if (c->count > 1 && weight > 0) *point = vec_scale(1 / weight, moment);
+    return sum;
+}
+
+static json_t *manifold_json(const impact_contact *c)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < c->count; ++i) json_array_append_new(list, vector_json(c->point[i].at));
+    return list;
+}
+
+/* Contacts without an impulse are no events. */
+static bool log_contact(simulation *s, const event *e, size_t index, double t)
+{
+    const impact_contact *c = &e->now.contacts[index];
+    const contact *about = &e->now.about[index];
+    vec point = about->middle;
+    const vec impulse = impulse_of(c, &point);
+    if (!(vec_length(impulse) > 0)) return true;
+    const participant *who[2] = {&e->now.who[c->body[0]], &e->now.who[c->body[1]]};
     json_t *entry =
-        json_pack("{s:f, s:s, s:s, s:o, s:o, s:o, s:s}", "t", t, "a",
-                  s->setup->actors[c->body[0]].name, "b", s->setup->actors[c->body[1]].name,
-                  "point", vector_json(c->at.point), "normal", vector_json(c->at.normal), "impulse",
-                  vector_json(c->impulse), "kind", c->lasting ? "resting" : "impact");
+        json_pack("{s:f, s:s, s:s, s:o, s:o, s:o, s:s, s:[f,f], s:o}", "t", t, "a",
+                  s->setup->actors[who[0]->body].name, "b", s->setup->actors[who[1]->body].name,
+                  "point", vector_json(point), "normal", vector_json(c->normal), "impulse",
+                  vector_json(impulse), "kind", about->struck ? "impact" : "resting", "energy",
+                  e->energy, response_energy(&e->now), "manifold", manifold_json(c));
     s->events += 1;
-    s->impacts += !c->lasting;
+    s->impacts += about->struck;
     if (entry == NULL) return false;
-    for (int k = 0; k < 2; ++k)
-        if (s->held_now[c->body[k]])
-            json_object_set_new(entry, "held", json_string(s->setup->actors[c->body[k]].name));
+    for (int k = 0; k < 2; ++k) {
+        if (!s->held_now[who[k]->body]) continue;
+        json_object_set_new(entry, "held", json_string(s->setup->actors[who[k]->body].name));
+        s->held_now[who[k]->body] = false;
+        break;
+    }
     return json_array_append_new(s->log, entry) == 0;
 }
 
-/* New paths for all that changed. */
-static exit_status turn_movers(simulation *s, const event *e, double t)
+/* --- What follows
+ * --------------------------------------------------------------------------------- */
+
+static bool has_changed(const event *e, size_t b)
 {
-    for (size_t i = 0; i < s->setup->count; ++i) {
-        if (!e->now.changed[i]) continue;
+    const participant *p = &e->now.who[b];
+    const impact_body *body = &e->now.bodies[b];
+    if (!p->moves || (p->rested && p->rests)) return false;
+    return p->rested != p->rests ||
+           memcmp(&body->velocity, &e->state[b].velocity, sizeof body->velocity) != 0 ||
+           memcmp(&body->momentum, &e->state[b].momentum, sizeof body->momentum) != 0;
+}
+
+/* New paths for all that changed. */
+static exit_status turn_movers(simulation *s, event *e, double t)
+{
+    for (size_t b = 0; b < e->now.body_count; ++b) {
+        const size_t i = e->now.who[b].body;
+        if (!has_changed(e, b)) continue;
+        const impact_body *body = &e->now.bodies[b];
+        mover_state state = e->state[b];
+        state.velocity = body->velocity, state.momentum = body->momentum, state.spin = body->spin;
         const vec pull = s->rests[i] ? (vec){{0, 0, 0}} : s->setup->gravity;
-        if (!mover_turn(&s->movers[i], t, &e->now.state[i], pull, s->search.end))
+        if (!mover_turn(&s->movers[i], t, &state, pull, s->search.end))
             return complain_of_memory(speaker);
         const exit_status status = timeline_check(s, i);
         if (status != EXIT_ANSWERED) return status;
@@ -120,12 +189,14 @@ static exit_status turn_movers(simulation *s, const event *e, double t)
     return EXIT_ANSWERED;
 }
 
-static exit_status predict_again(simulation *s, const event *e, double t)
+static exit_status predict_again(simulation *s, const gathered *g)
 {
     exit_status status = EXIT_ANSWERED;
+    const double t = g->t;
     for (size_t i = 0; i < s->meeting_count && status == EXIT_ANSWERED; ++i) {
         meeting *m = &s->meetings[i];
-        const bool due = is_gathered(e, i) && m->kind == MEETING_CONTACT && m->t <= same_time(s, t);
+        const bool due =
+            gather_has(g, i) && m->kind == MEETING_CONTACT && m->t <= gather_limit(s, t);
         if (due)
             status = timeline_predict(s, m, t, m->t <= t ? m->level + 1 : 0);
         else if (m->stale)
@@ -134,54 +205,48 @@ static exit_status predict_again(simulation *s, const event *e, double t)
     return status;
 }
 
-static exit_status respond(simulation *s, event *e, double t)
+/* Momentum that fixed bodies gave, and which bodies rest from now on. */
+static void take_over(simulation *s, const event *e)
 {
-    timeline_states(s, t, e->now.state);
-    exit_status status = gather(s, e, t);
-    if (status != EXIT_ANSWERED) return status;
-    if (e->cut != IMP_REASON_NONE) {
-        timeline_cut(s, t, e->cut);
-        return status;
+    for (size_t b = 0; b < e->now.body_count; ++b) {
+        const participant *p = &e->now.who[b];
+        if (!p->moves) continue;
+        const vec change = vec_sub(e->now.bodies[b].velocity, e->state[b].velocity);
+        s->from_fixed = vec_along(s->from_fixed, e->now.bodies[b].mass, change);
+        s->held_now[p->body] = p->rests && !p->rested;
+        s->held += s->held_now[p->body];
+        s->rests[p->body] = p->rests;
     }
-    const double before = timeline_sums(s, e->now.state).energy;
-    memcpy(e->now.rests, s->rests, s->setup->count * sizeof *s->rests);
-    response_resolve(&e->now, e->contacts, e->count);
-    s->energy_lost += before - timeline_sums(s, e->now.state).energy;
-    s->from_fixed = vec_sub(s->from_fixed, e->now.to_fixed);
-    timeline_advance(s, t);
-    for (size_t i = 0; i < s->setup->count; ++i) {
-        s->held_now[i] = e->now.rests[i] && !s->rests[i];
-        s->held += s->held_now[i];
-        s->rests[i] = e->now.rests[i];
-    }
-    for (size_t i = 0; i < e->count; ++i)
-        if (!log_contact(s, &e->contacts[i], t)) return complain_of_memory(speaker);
-    const exit_status turned = turn_movers(s, e, t);
-    return turned == EXIT_ANSWERED ? predict_again(s, e, t) : turned;
+}
+
+static exit_status respond(simulation *s, event *e, const gathered *g)
+{
+    e->now.gravity = s->setup->gravity;
+    e->now.lift = s->lift;
+    e->now.slow = 2 * s->lift;
+    for (size_t i = 0; i < g->count; ++i) add_contact(s, e, g, &g->contact[i]);
+    e->energy = response_energy(&e->now);
+    response_resolve(&e->now);
+    s->energy_lost += e->energy - response_energy(&e->now);
+    timeline_advance(s, g->t);
+    take_over(s, e);
+    for (size_t i = 0; i < e->now.count; ++i)
+        if (!log_contact(s, e, i, g->t)) return complain_of_memory(speaker);
+    const exit_status status = turn_movers(s, e, g->t);
+    return status == EXIT_ANSWERED ? predict_again(s, g) : status;
 }
 
 exit_status event_handle(simulation *s, double t)
 {
-    const size_t bodies = s->setup->count, meetings = s->meeting_count;
-    const imp_options *o = &s->setup->options;
-    const double span = o->t_end - o->t_start;
-    const double fall_rate = vec_length(s->setup->gravity) + o->gamma / (span * span);
-    event e = {.contacts = calloc(meetings, sizeof *e.contacts),
-               .meeting = calloc(meetings, sizeof *e.meeting)};
-    e.now = (instant){.setup = s->setup,
-                      .movers = s->movers,
-                      .state = calloc(bodies, sizeof *e.now.state),
-                      .changed = calloc(bodies, sizeof *e.now.changed),
-                      .rests = calloc(bodies, sizeof *e.now.rests),
-                      .lift = sqrt(8 * o->gamma * fall_rate),
-                      .slow = 2 * sqrt(8 * o->gamma * fall_rate)};
-    const bool room = e.contacts != NULL && e.meeting != NULL && e.now.state != NULL &&
-                      e.now.changed != NULL && e.now.rests != NULL;
-    const exit_status status = room ? respond(s, &e, t) : complain_of_memory(speaker);
-    free(e.contacts);
-    free(e.meeting);
-    free(e.now.state);
-    free(e.now.changed);
-    free(e.now.rests);
+    gathered g;
+    event e = {.energy = 0};
+    exit_status status = gather_all(s, t, &g);
+    if (status == EXIT_ANSWERED && g.cut != IMP_REASON_NONE) {
+        timeline_cut(s, t, g.cut, NULL);
+    } else if (status == EXIT_ANSWERED) {
+        status = make_room(&e, &g) ? respond(s, &e, &g) : complain_of_memory(speaker);
+    }
+    event_free(&e);
+    gather_free(&g);
     return status;
 }

@@ -79,7 +79,8 @@ imp_code meeting_make_scene(searching *s, meeting *m)
     return m->scene != NULL ? IMP_SUCCESS : s->error.code;
 }
 
-/* --- Searches --------------------------------------------------------------------------------- */
+/* --- Searches ----------------------------------------------------------------------------------
+ */
 
 /* What is left of the budgets goes to each search. */
 static imp_code solve(searching *s, const meeting *m, double from, double to, double gamma,
@@ -145,31 +146,54 @@ imp_code meeting_level(searching *s, const meeting *m, double t, int least, int 
     return IMP_SUCCESS;
 }
 
-/* The search at one level. */
-static imp_code find_at(searching *s, meeting *m, double t, int level)
+/* Of windows in time, each this much longer than the one before. */
+#define WINDOW_GROWTH 8
+
+/* The search at one level over one window. */
+static imp_code find_at(searching *s, meeting *m, double t, int level, double window)
 {
     const step at = step_of(s, level);
     imp_result r;
-    const imp_code code = solve(s, m, t, s->end, at.gamma, at.gamma_clear, &r);
+    const double to = t + window > t && t + window < s->end ? t + window : s->end;
+    const imp_code code = solve(s, m, t, to, at.gamma, at.gamma_clear, &r);
     if (code != IMP_SUCCESS) return code;
     m->level = level;
-    m->kind = MEETING_NEVER;
-    m->t = s->end;
+    m->kind = to < s->end ? MEETING_OPEN : MEETING_NEVER;
+    m->t = to;
+    m->window = window * WINDOW_GROWTH;
     if (r.verdict == IMP_VERDICT_CONTACT) set_contact(m, &r);
     if (r.verdict == IMP_VERDICT_UNDECIDED) set_undecided(m, &r);
     return IMP_SUCCESS;
 }
 
-imp_code meeting_find(searching *s, meeting *m, double t, int level)
+/* The search at a level below, if the bodies are apart enough for that at t. */
+static imp_code restart_lower(searching *s, meeting *m, double t, double window)
 {
     meeting now;
-    imp_code code = find_at(s, m, t, level);
-    if (code != IMP_SUCCESS || level == 0 || m->kind != MEETING_CONTACT) return code;
-    const double middle = t + 0.5 * (m->t - t);
-    if (!(middle > t)) return code;
     int apart;
-    code = meeting_level(s, m, middle, 0, &apart, &now);
+    const imp_code code = meeting_level(s, m, t, 0, &apart, &now);
     if (code != IMP_SUCCESS) return code;
     if (now.kind == MEETING_UNDECIDED) *m = now;
-    return now.kind == MEETING_NEVER && apart == 0 ? find_at(s, m, middle, 0) : code;
+    return now.kind != MEETING_UNDECIDED && apart < m->level ? find_at(s, m, t, apart, window)
+                                                             : code;
+}
+
+imp_code meeting_find(searching *s, meeting *m, double t, int level)
+{
+    const double window = m->place_count > 0 || level > 0 ? s->window : INFINITY;
+    const imp_code code = find_at(s, m, t, level, window);
+    if (code != IMP_SUCCESS || level == 0 || m->kind != MEETING_CONTACT) return code;
+    const double middle = t + 0.5 * (m->t - t);
+    return middle > t ? restart_lower(s, m, middle, window) : code;
+}
+
+imp_code meeting_continue(searching *s, meeting *m)
+{
+    const double t = m->t, window = m->window;
+    imp_code code = meeting_make_scene(s, m);
+    if (code == IMP_SUCCESS && m->level > 0) {
+        code = restart_lower(s, m, t, window);
+        if (code != IMP_SUCCESS || m->kind != MEETING_OPEN || m->t > t) return code;
+    }
+    return code == IMP_SUCCESS ? find_at(s, m, t, m->level, window) : code;
 }

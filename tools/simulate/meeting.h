@@ -4,13 +4,14 @@
 #define TOOLS_SIMULATE_MEETING_H
 
 #include "tools/simulate/mover.h"
+#include "tools/simulate/touch.h"
 
 /* When two bodies meet next, with proof
  * =====================================
- * The promise: no two bodies are ever nearer than Gc, gamma_clear, and what is reported as contact
- * is no farther apart than G, gamma. After a contact the two are within G of each other, so that a
- * search with the same numbers would end where it begins. Hence a ladder of levels between Gc and
- * G:
+ * The promise: no two bodies are ever nearer than Gc, gamma_clear, and what is reported as
+ * contact is no farther apart than G, gamma. After a contact the two are within G of each other, so
+ * that a search with the same numbers would end where it begins. Hence a ladder of levels between
+ * Gc and G:
  *
  *     h_k = (G - Gc) / 2^k,   gamma_k = Gc + h_k,   clear_k = Gc + 3/4 h_k
  *
@@ -32,9 +33,12 @@
 
 enum { LEVEL_LASTING = 8, LEVEL_MAX = 20, LEVEL_NONE = LEVEL_MAX + 1 };
 
+enum { MEETING_PLACES = 3 };
+
 typedef enum meeting_kind {
     MEETING_NEVER,    /* not before the end */
     MEETING_CONTACT,  /* at t */
+    MEETING_OPEN,     /* not before t; how it goes on is not searched yet */
     MEETING_UNDECIDED /* a budget ended the search: clear until t */
 } meeting_kind;
 
@@ -44,9 +48,12 @@ typedef struct meeting {
     meeting_kind kind;
     imp_reason reason; /* of UNDECIDED */
     double t;
+    double window; /* of OPEN: how long a time is searched next */
     int level;
-    imp_side side[2]; /* of the contact; their bodies are 0 and 1 */
-    bool stale;       /* a body has another path */
+    imp_side side[2];               /* of the contact; their bodies are 0 and 1 */
+    bool stale;                     /* a body has another path */
+    witness places[MEETING_PLACES]; /* where the two touched last, the latest first */
+    size_t place_count;
 } meeting;
 
 /* What all searches share: limits, and what has been spent. */
@@ -54,6 +61,7 @@ typedef struct searching {
     const setup *setup;
     const mover *movers; /* by body; those that move */
     double end;
+    double window; /* time for which a path may last where bodies touch, about */
     limits limits;
     uint64_t searches;
     imp_error error;
@@ -68,7 +76,12 @@ imp_code meeting_make_scene(searching *s, meeting *m);
 imp_code meeting_level(searching *s, const meeting *m, double t, int least, int *level,
                        meeting *now);
 
-/* Finds the next meeting from t on, at that level. The scene is made. */
+/* Searches for the next meeting from t on, at that level. Bodies that have touched may move along
+ * each other, which is hard to search over a long time, and soon change their paths: for them the
+ * search covers a first window in time and leaves the meeting open. The scene is made. */
 imp_code meeting_find(searching *s, meeting *m, double t, int level);
+
+/* Searches the next window of an open meeting, at a lower level if the bodies have parted. */
+imp_code meeting_continue(searching *s, meeting *m);
 
 #endif

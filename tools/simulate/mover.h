@@ -41,7 +41,6 @@ typedef struct mover_keys {
 
 typedef struct mover {
     const actor *actor;
-    unsigned slow;        /* slow lasting contacts in a row */
     vec acceleration;     /* now */
     vec momentum;         /* angular, now */
     mat3 inverse;         /* of the inertia, in the axes of the start */

@@ -64,7 +64,8 @@ exit_status record_write(const simulation *s, const char *path)
     return status;
 }
 
-/* --- Energy and momentum ---------------------------------------------------------------------- */
+/* --- Energy and momentum -----------------------------------------------------------------------
+ */
 
 /* What neither events nor gravity explain. */
 static double energy_drift(const simulation *s)
@@ -91,7 +92,8 @@ void record_print(const simulation *s, const char *path)
            s->t, s->impacts, s->impacts == 1 ? "" : "s", s->events - s->impacts, s->held);
     if (s->reason != NULL) {
         print_label("because");
-        printf("%s: nothing is known of times after %.9g\n", s->reason, s->t);
+        printf("%s: nothing is known of times after %.9g", s->reason, s->t);
+        printf("%s%s\n", s->hint[0] != '\0' ? "; " : "", s->hint);
     }
     print_label("proved");
     printf("never nearer than %.9g\n", o->gamma_clear);
@@ -153,13 +155,14 @@ json_t *record_json(const simulation *s, const char *path)
                                 vector_json(s->end.angular));
     json_t *stats = json_pack("{s:I, s:I}", "searches", (json_int_t)s->search.searches, "pairs",
                               (json_int_t)s->search.limits.pairs);
-    return json_pack("{s:o, s:o, s:[f,f], s:s?, s:I, s:I, s:I, s:f, s:f, s:o, s:o, s:o, s:f, s:o, "
-                     "s:O, s:o}",
-                     "scene", output_json_text(s->setup->name), "out", output_json_text(path),
-                     "time", o->t_start, s->t, "reason", s->reason, "impacts",
-                     (json_int_t)s->impacts, "resting", (json_int_t)(s->events - s->impacts),
-                     "held", (json_int_t)s->held, "gamma", o->gamma, "gamma_clear", o->gamma_clear,
-                     "energy", energy, "momentum", momentum, "angular_momentum", angular,
-                     "substep_error", simulation_substep_error(s), "bodies", bodies_json(s),
-                     "events", s->log, "stats", stats);
+    return json_pack(
+        "{s:o, s:o, s:[f,f], s:s?, s:o, s:I, s:I, s:I, s:f, s:f, s:o, s:o, s:o, s:f, s:o, "
+        "s:O, s:o}",
+        "scene", output_json_text(s->setup->name), "out", output_json_text(path), "time",
+        o->t_start, s->t, "reason", s->reason, "hint",
+        output_json_text(s->hint[0] != '\0' ? s->hint : NULL), "impacts", (json_int_t)s->impacts,
+        "resting", (json_int_t)(s->events - s->impacts), "held", (json_int_t)s->held, "gamma",
+        o->gamma, "gamma_clear", o->gamma_clear, "energy", energy, "momentum", momentum,
+        "angular_momentum", angular, "substep_error", simulation_substep_error(s), "bodies",
+        bodies_json(s), "events", s->log, "stats", stats);
 }

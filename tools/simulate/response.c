@@ -4,191 +4,264 @@
 
 #include "tools/simulate/response.h"
 
-/* --- Two bodies ------------------------------------------------------------------------------- */
+#include <stdint.h>
+#include <string.h>
 
-static bool yields(const instant *now, size_t body)
+#include "tools/simulate/rest.h"
+
+static const vec zero = {{0, 0, 0}};
+
+static double energy_of(const instant *now, const impact_body *bodies)
 {
-    return now->setup->actors[body].moves && !now->rests[body];
+    double sum = 0;
+    for (size_t b = 0; b < now->body_count; ++b) sum += impact_energy(&bodies[b]);
+    return sum;
 }
 
-static vec arm_of(const instant *now, const contact *c, int k)
+double response_energy(const instant *now) { return energy_of(now, now->bodies); }
+
+static void copy_bodies(const instant *now, impact_body *to, const impact_body *from)
 {
-    return vec_sub(c->at.point, now->state[c->body[k]].position);
+    memcpy(to, from, now->body_count * sizeof *to);
 }
 
-static vec velocity_of(const instant *now, const contact *c, int k)
+/* --- Impacts ---------------------------------------------------------------------------------- */
+
+static bool may_change(const instant *now, const impact_contact *c)
 {
-    const size_t body = c->body[k];
-    if (!yields(now, body)) return c->at.drift[k];
-    const mover_state *s = &now->state[body];
-    return vec_add(vec_add(s->velocity, c->at.drift[k]), vec_cross(s->spin, arm_of(now, c, k)));
+    return now->bodies[c->body[0]].yields || now->bodies[c->body[1]].yields;
 }
 
-/* Velocity of the second body against the first, at the contact. */
-static vec relative_velocity(const instant *now, const contact *c)
+/* The contact that closes fastest, and faster than `slow`, of impacts or of all; SIZE_MAX: none
+ * does. */
+static size_t fastest(const instant *now, double slow, bool of_all)
 {
-    return vec_sub(velocity_of(now, c, 1), velocity_of(now, c, 0));
-}
-
-double contact_speed(const instant *now, const contact *c)
-{
-    return vec_dot(relative_velocity(now, c), c->at.normal);
-}
-
-/* K with (change of the relative velocity) = K impulse: for each body that yields
- * 1/m - [r] I^-1 [r]. */
-static mat3 compliance(const instant *now, const contact *c)
-{
-    mat3 k = mat3_diagonal(0);
-    for (int i = 0; i < 2; ++i) {
-        const size_t body = c->body[i];
-        if (!yields(now, body)) continue;
-        const mover *m = &now->movers[body];
-        const mat3 inverse = mover_inverse_inertia(m, &now->state[body]);
-        const vec r = arm_of(now, c, i);
-        for (int j = 0; j < 3; ++j) {
-            vec unit = {{j == 0, j == 1, j == 2}};
-            const vec turned = vec_cross(mat3_apply(&inverse, vec_cross(r, unit)), r);
-            for (int l = 0; l < 3; ++l) k.m[l][j] += turned.x[l];
-        }
-        const mat3 straight = mat3_diagonal(1 / m->actor->mass);
-        k = mat3_add(&k, 1, &straight);
-    }
-    return k;
-}
-
-static void push(instant *now, contact *c, vec impulse)
-{
-    for (int i = 0; i < 2; ++i) {
-        const size_t body = c->body[i];
-        const vec one = vec_scale(i == 0 ? -1 : 1, impulse);
-        if (!yields(now, body)) {
-            now->to_fixed = vec_add(now->to_fixed, one);
-            continue;
-        }
-        mover_state *s = &now->state[body];
-        s->momentum = vec_add(s->momentum, vec_cross(arm_of(now, c, i), one));
-        s->velocity = vec_along(s->velocity, 1 / now->movers[body].actor->mass, one);
-        mover_spin_update(&now->movers[body], s);
-        now->changed[body] = true;
-    }
-    c->impulse = vec_add(c->impulse, impulse);
-}
-
-/* --- One impulse ------------------------------------------------------------------------------ */
-
-/* Kinetic energy that an impulse J adds to the two: J.u + J.K J / 2, for bodies without drift. */
-static double energy_gain(const mat3 *k, vec u, vec impulse)
-{
-    return vec_dot(impulse, u) + 0.5 * vec_dot(impulse, mat3_apply(k, impulse));
-}
-
-/* The impulse after which the normal speed is `target`, with friction. */
-static vec impulse_for(const contact *c, const mat3 *k, vec u, double target)
-{
-    const vec n = c->at.normal;
-    const double speed = vec_dot(u, n), wanted = target - speed;
-    const vec smooth = vec_scale(wanted / vec_dot(n, mat3_apply(k, n)), n);
-    const vec sliding = vec_along(u, -speed, n);
-    if (!(c->friction > 0)) return smooth;
-    const mat3 inverse = mat3_inverse(k);
-    const vec sticking = mat3_apply(&inverse, vec_sub(vec_scale(wanted, n), sliding));
-    const double normal = vec_dot(sticking, n);
-    const double across = vec_length(vec_along(sticking, -normal, n));
-    vec chosen = sticking;
-    if (!(normal > 0 && across <= c->friction * normal)) {
-        const vec way = vec_along(n, -c->friction, vec_unit(sliding));
-        const double yield = vec_dot(n, mat3_apply(k, way));
-        if (!(yield > 0)) return smooth;
-        chosen = vec_scale(wanted / yield, way);
-    }
-    const double slack = 1e-12 * fabs(vec_dot(chosen, u));
-    return energy_gain(k, u, chosen) <= slack || target > 0 ? chosen : smooth;
-}
-
-/* How fast the contact must open, at least. */
-static double wanted_speed(const instant *now, const contact *c)
-{
-    return c->lasting ? now->lift : 0;
-}
-
-static void strike(instant *now, contact *c, double restitution)
-{
-    const mat3 k = compliance(now, c);
-    const vec u = relative_velocity(now, c);
-    const double back = -restitution * vec_dot(u, c->at.normal);
-    push(now, c, impulse_for(c, &k, u, fmax(back, wanted_speed(now, c))));
-}
-
-/* --- Contacts that last ----------------------------------------------------------------------- */
-
-/* Whether the body stands on something that does not move. */
-static bool is_support(const instant *now, size_t body)
-{
-    const actor *a = &now->setup->actors[body];
-    return a->moves ? now->rests[body] : !a->varies;
-}
-
-static bool is_slow(const instant *now, const contact *c, int k)
-{
-    const mover_state *s = &now->state[c->body[k]];
-    return vec_length(s->velocity) <= now->slow &&
-           vec_length(s->spin) * vec_length(arm_of(now, c, k)) <= now->slow;
-}
-
-static void stop(instant *now, size_t body)
-{
-    mover_state *s = &now->state[body];
-    now->to_fixed = vec_along(now->to_fixed, now->movers[body].actor->mass, s->velocity);
-    s->velocity = s->momentum = s->spin = (vec){{0, 0, 0}};
-    now->rests[body] = now->changed[body] = true;
-}
-
-/* Counts slow lasting contacts; the last one holds the body. */
-static void judge_rest(instant *now, const contact *c)
-{
-    for (int k = 0; k < 2; ++k) {
-        const size_t body = c->body[k];
-        if (!yields(now, body) || !is_support(now, c->body[1 - k])) continue;
-        mover *m = &now->movers[body];
-        m->slow = is_slow(now, c, k) ? m->slow + 1 : 0;
-        if (m->slow >= SLOW_MAX) stop(now, body);
-    }
-}
-
-/* --- All of them ------------------------------------------------------------------------------ */
-
-/* The contact that lacks most of the speed it must open with, and more than rounding; NULL:
- * none. */
-static contact *fastest(const instant *now, contact *contacts, size_t count)
-{
-    contact *found = NULL;
-    double most = 0;
-    for (size_t i = 0; i < count; ++i) {
-        contact *c = &contacts[i];
-        if (!yields(now, c->body[0]) && !yields(now, c->body[1])) continue;
-        const double lack = wanted_speed(now, c) - contact_speed(now, c);
-        const double size = vec_length(velocity_of(now, c, 0)) + vec_length(velocity_of(now, c, 1));
-        if (lack > 1e-12 * (size + now->lift) && lack > most) most = lack, found = c;
+    size_t found = SIZE_MAX;
+    double most = slow;
+    for (size_t i = 0; i < now->count; ++i) {
+        if ((now->about[i].resting && !of_all) || !may_change(now, &now->contacts[i])) continue;
+        const double speed = impact_closing(now->bodies, &now->contacts[i]);
+        if (speed > most) most = speed, found = i;
     }
     return found;
 }
 
-void response_resolve(instant *now, contact *contacts, size_t count)
+/* Rounds without end are left to be settled. */
+static void strike_all(instant *now)
 {
-    for (size_t i = 0; i < count; ++i) /* what is hit hard rests no longer */
-        for (int k = 0; k < 2; ++k)
-            if (!contacts[i].lasting && contact_speed(now, &contacts[i]) < -now->slow) {
-                const size_t body = contacts[i].body[k];
-                if (!now->setup->actors[body].moves) continue;
-                now->changed[body] |= now->rests[body];
-                now->rests[body] = false;
-            }
-    contact *c;
-    for (size_t round = 0; (c = fastest(now, contacts, count)) != NULL; ++round) {
-        if (round >= (ROUNDS + 1024) * count) break;
-        strike(now, c, c->lasting || round >= ROUNDS * count ? 0 : c->restitution);
+    for (size_t round = 0; round < ROUNDS * now->count; ++round) {
+        const size_t i = fastest(now, now->slow, false);
+        if (i == SIZE_MAX) break;
+        impact_strike(now->bodies, &now->contacts[i], now->contacts[i].restitution);
+        now->about[i].struck = true;
     }
-    for (size_t i = 0; i < count; ++i)
-        if (contacts[i].lasting) judge_rest(now, &contacts[i]);
+}
+
+/* Without loss: bodies that only touch each other would otherwise meet again and again, ever
+ * slower. */
+static void bounce_all(instant *now)
+{
+    for (size_t round = 0; round < ROUNDS * now->count; ++round) {
+        const size_t i = fastest(now, 1e-9 * now->slow, true);
+        if (i == SIZE_MAX) break;
+        impact_strike(now->bodies, &now->contacts[i], 1);
+    }
+}
+
+/* --- Resting contacts ------------------------------------------------------------------------- */
+
+static bool is_hopping(const instant *now, size_t i)
+{
+    return now->about[i].pressed && !now->about[i].struck;
+}
+
+static void clear_targets(instant *now)
+{
+    for (size_t i = 0; i < now->count; ++i)
+        for (size_t k = 0; k < now->contacts[i].count; ++k) now->contacts[i].point[k].target = 0;
+}
+
+/* A hop begins at no more than this part of V, so that it does not end faster than V even if the
+ * bodies meet at a smaller gap. */
+#define HOP_MOST 0.75
+
+/* Resting contacts open as fast as they close, within limits. */
+static void set_targets(instant *now)
+{
+    for (size_t i = 0; i < now->count; ++i) {
+        impact_contact *c = &now->contacts[i];
+        const double least = now->lift * exp2(0.5 * now->about[i].level);
+        for (size_t k = 0; k < c->count; ++k) {
+            const double closing = -vec_dot(impact_velocity(now->bodies, c, k), c->normal);
+            const double up = fmax(least, fmin(closing, HOP_MOST * now->slow));
+            c->point[k].target = is_hopping(now, i) ? up : 0;
+        }
+    }
+}
+
+/* All contacts together. Without friction if there is no solution with it, or if it gains energy
+ * where none may be gained. */
+static void solve_all(instant *now, impact_body *bodies, bool may_gain)
+{
+    double gain;
+    impact_body *before = now->spare[1];
+    copy_bodies(now, before, bodies);
+    if (impact_solve(bodies, now->contacts, now->count, true, &gain) && (may_gain || gain <= 0))
+        return;
+    copy_bodies(now, bodies, before);
+    impact_solve(bodies, now->contacts, now->count, false, &gain);
+}
+
+/* Whether a contact closes by more than rounding. */
+static bool closes(const instant *now)
+{
+    for (size_t i = 0; i < now->count; ++i) {
+        const impact_contact *c = &now->contacts[i];
+        double size = now->slow;
+        for (size_t k = 0; k < c->count; ++k)
+            size += vec_length(impact_velocity(now->bodies, c, k));
+        if (may_change(now, c) && impact_closing(now->bodies, c) > 1e-12 * size) return true;
+    }
+    return false;
+}
+
+/* Which contacts carry something in the last solution. */
+static void note_pressed(instant *now)
+{
+    for (size_t i = 0; i < now->count; ++i) {
+        const impact_contact *c = &now->contacts[i];
+        double sum = 0;
+        for (size_t k = 0; k < c->count; ++k) sum += vec_dot(c->point[k].solving.change, c->normal);
+        now->about[i].pressed = sum > 0;
+    }
+}
+
+/* How bodies would be after all contacts are settled. Those that rest have been pulled at by
+ * gravity for as long as a hop takes, so that what they stand on holds them against what leans on
+ * them. */
+static void settle_on_trial(instant *now, impact_body *bodies)
+{
+    const double size = vec_length(now->gravity);
+    copy_bodies(now, bodies, now->bodies);
+    for (size_t b = 0; b < now->body_count && size > 0; ++b)
+        if (now->who[b].rested)
+            bodies[b].velocity = vec_along(bodies[b].velocity, now->slow / size, now->gravity);
+    clear_targets(now);
+    solve_all(now, bodies, false);
+}
+
+/* --- Rest ------------------------------------------------------------------------------------- */
+
+static bool touches_support(const instant *now, size_t body)
+{
+    for (size_t i = 0; i < now->count; ++i)
+        for (int k = 0; k < 2; ++k) {
+            const size_t other = now->contacts[i].body[1 - k];
+            if (now->contacts[i].body[k] == body &&
+                (now->who[other].fixed || now->who[other].rests))
+                return true;
+        }
+    return false;
+}
+
+/* What is slow again and again, without falling over or sliding away, comes to rest, too. */
+static void lose_patience(instant *now, const impact_body *settled)
+{
+    for (size_t b = 0; b < now->body_count; ++b) {
+        participant *p = &now->who[b];
+        if (!p->moves) continue;
+        p->memory->speed = rest_speed(now, settled, b);
+        p->memory->times = p->memory->speed <= now->slow && !p->rests ? p->memory->times + 1 : 0;
+        if (p->memory->times >= SLOW_MAX && touches_support(now, b)) p->rests = true;
+        if (p->rests) *p->memory = (remembered){0, 0};
+    }
+}
+
+static void stop(instant *now)
+{
+    for (size_t b = 0; b < now->body_count; ++b) {
+        impact_body *one = &now->bodies[b];
+        if (!now->who[b].rests) continue;
+        one->velocity = one->momentum = one->spin = zero;
+        one->yields = false;
+    }
+}
+
+/* --- Hops ------------------------------------------------------------------------------------- */
+
+/* Whether fixed things may take momentum from bodies without doing work. */
+static bool has_support(const instant *now)
+{
+    bool fixed = false;
+    for (size_t i = 0; i < now->count; ++i) {
+        if (now->about[i].driven) return false;
+        for (int k = 0; k < 2; ++k) {
+            const participant *p = &now->who[now->contacts[i].body[k]];
+            fixed |= p->fixed || p->rests;
+        }
+    }
+    return fixed;
+}
+
+static void slow_down(instant *now, double factor)
+{
+    for (size_t b = 0; b < now->body_count; ++b) {
+        impact_body *one = &now->bodies[b];
+        if (!one->yields) continue;
+        one->velocity = vec_scale(factor, one->velocity);
+        one->momentum = vec_scale(factor, one->momentum);
+        one->spin = vec_scale(factor, one->spin);
+    }
+}
+
+/* Whether there is nothing to do after the impacts. */
+static bool is_settled(const instant *now)
+{
+    for (size_t i = 0; i < now->count; ++i)
+        if (is_hopping(now, i) && may_change(now, &now->contacts[i])) return false;
+    return !closes(now);
+}
+
+/* `most`: the energy that may not be exceeded. */
+static void hop(instant *now, double most)
+{
+    impact_body *plain = now->spare[0];
+    copy_bodies(now, plain, now->bodies);
+    if (has_support(now)) {
+        set_targets(now);
+        solve_all(now, now->bodies, true);
+        const double energy = energy_of(now, now->bodies);
+        if (energy > most) slow_down(now, sqrt(most / energy));
+        if (isfinite(energy)) return;
+        copy_bodies(now, now->bodies, plain);
+    }
+    bounce_all(now);
+    clear_targets(now);
+    solve_all(now, now->bodies, false);
+}
+
+/* --- All of them -------------------------------------------------------------------------------
+ */
+
+/* Of contacts between bodies that rest, and fixed ones, the impulses are those of the trial. */
+static void keep_of_resting(instant *now)
+{
+    for (size_t i = 0; i < now->count; ++i)
+        if (!may_change(now, &now->contacts[i])) impact_keep(&now->contacts[i], 1);
+}
+
+void response_resolve(instant *now)
+{
+    const double before = response_energy(now);
+    impact_body *settled = now->spare[0];
+    strike_all(now);
+    settle_on_trial(now, settled);
+    note_pressed(now);
+    rest_find(now, settled);
+    lose_patience(now, settled);
+    stop(now);
+    keep_of_resting(now);
+    if (is_settled(now)) return;
+    hop(now, before);
+    impact_keep(now->contacts, now->count);
 }

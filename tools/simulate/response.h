@@ -3,53 +3,76 @@
 #ifndef TOOLS_SIMULATE_RESPONSE_H
 #define TOOLS_SIMULATE_RESPONSE_H
 
-#include "tools/simulate/touch.h"
+#include "tools/simulate/impact.h"
 
-/* Impulses at one instant
- * =======================
- * All contacts of one instant are resolved together, one impulse after another: always the contact
- * that closes fastest, until none closes (sequential impulses; through a row of equal balls that
- * touch, one impulse travels to its end). Restitution is Newton's: the normal speed is turned round
- * and multiplied by e. Friction is Coulomb's: the impulse that stops sliding, if it lies in the
- * cone of friction, else mu times the normal impulse against the sliding. Should the two laws
- * together raise the energy, which they can, the impulse is taken without friction.
+/* What bodies do that touch at one instant
+ * ========================================
+ * a = |gravity| + gamma / (time asked about)^2, L = sqrt(2 gamma a) and V = 2 L: a body thrown up
+ * at the speed L rises by gamma. A contact that closes faster than V is an impact; one that closes
+ * slower, or whose bodies met LEVEL_LASTING times without parting by more than gamma, is resting.
  *
- * Rounds without end, as with e < 1 in a row of touching bodies, are cut: after ROUNDS for
- * each contact restitution counts as 0.
+ * 1. Impacts strike one after another, always the contact that closes fastest, until none closes
+ * faster than V: so one impulse travels through a row of balls that touch. Rounds without end, as
+ * with e < 1 in a row of bodies, are cut after ROUNDS for each contact.
+ * 2. All contacts are settled together, without restitution.
+ * 3. Bodies that are then slower than V, and that what they stand on can hold against gravity, come
+ * to rest (rest.h): their velocity is 0 from now on, until something moves them. So do those that
+ *    were slow SLOW_MAX times in a row.
+ * 4. If others are left, 2. is taken back for these: resting contacts open as fast as they closed,
+ * but at least at the speed L and at most at 3/2 L, so that bodies slide, roll and tip by hops of
+ * one to two gamma. At a level k of the ladder (meeting.h), where earlier hops did not part the
+ * bodies, the least speed is L 2^(k/2).
  *
- * Lasting contacts. A contact lasts if it closes slower than V = 2 L with L^2 = 8 gamma a, a =
- * |gravity| + gamma / (time asked about)^2, or if the two met LEVEL_LASTING times without parting
- * by more than gamma. It has no restitution, and is left opening at the speed L, which carries a
- * body no farther than 4 gamma against gravity: so bodies slide and roll, by small hops. A body
- * which is slow (its centre, and its spin times the arm, below V) after SLOW_MAX lasting contacts
- * in a row with bodies that are fixed or rest, comes to rest: it is held until something hits it
- * faster than V. */
+ * No instant gains energy: 1. and 2. by the lemma of impact.h; should 4. gain some, the velocities
+ * are made smaller by the factor that brings the energy back to what it was, as rolling resistance
+ * would. Where no fixed body is there to take the momentum, resting contacts bounce without loss
+ * instead. Driven bodies do work: with them energy may be gained. */
 
-enum { ROUNDS = 64, SLOW_MAX = 8 };
+enum { ROUNDS = 64, SLOW_MAX = 256 };
 
 typedef struct contact {
-    size_t body[2];
-    touching at;
-    double restitution, friction;
-    bool lasting;
-    vec impulse; /* on the second body, in sum */
+    size_t meeting; /* of which pair of bodies */
+    int level;      /* of the ladder, at which they met */
+    vec middle;     /* halfway between the nearest points */
+    bool resting;   /* not by an impact */
+    bool struck;    /* by an impact */
+    bool driven;    /* a surface moves beyond the motion of the bodies */
+    bool pressed;   /* it carries something when all is settled */
 } contact;
 
-/* The bodies at one instant, as they are changed. */
+/* What is remembered of a body from one instant to the next. */
+typedef struct remembered {
+    double speed;   /* when all was settled; INFINITY: it was in no contact yet */
+    unsigned times; /* in a row that it was slow and did not come to rest */
+} remembered;
+
+/* A body in a contact. */
+typedef struct participant {
+    size_t body; /* of the setup */
+    bool moves;
+    bool fixed;  /* it has no mass and no motion of its own */
+    bool rested; /* it was at rest */
+    bool rests;  /* it is now */
+    remembered *memory;
+} participant;
+
+/* The bodies and contacts at one instant, as they are changed. Bodies of contacts are numbers in
+ * `who` and `bodies`. */
 typedef struct instant {
-    const setup *setup;
-    mover *movers;      /* by body */
-    mover_state *state; /* by body; of those that move */
-    bool *changed;      /* by body */
-    bool *rests;        /* by body: held, or comes to rest now */
-    vec to_fixed;       /* impulses on what does not move, in sum */
-    double lift, slow;  /* L and V */
+    vec gravity;
+    double lift, slow; /* L and V */
+    participant *who;
+    impact_body *bodies, *spare[3]; /* spare: as many, of no meaning between calls */
+    size_t body_count, body_capacity;
+    impact_contact *contacts, *kept; /* kept: as many, of no meaning between calls */
+    contact *about;                  /* of each contact */
+    size_t count, capacity;
 } instant;
 
-/* How fast a contact opens along its normal, negative: closes. */
-double contact_speed(const instant *now, const contact *c);
+/* Gives impulses to the bodies, and says which rest. */
+void response_resolve(instant *now);
 
-/* Applies impulses to the state. */
-void response_resolve(instant *now, contact *contacts, size_t count);
+/* The kinetic energy of all bodies at the instant. */
+double response_energy(const instant *now);
 
 #endif

@@ -9,6 +9,16 @@
 
 /* Matrices, and rotations as unit quaternions, for rigid bodies. */
 
+/* A unit vector normal to another one. */
+static inline vec vec_normal_to(vec n)
+{
+    int least = 0;
+    for (int i = 1; i < 3; ++i)
+        if (fabs(n.x[i]) < fabs(n.x[least])) least = i;
+    const vec axis = {{least == 0, least == 1, least == 2}};
+    return vec_unit(vec_cross(n, axis));
+}
+
 typedef struct mat3 {
     double m[3][3];
 } mat3;

@@ -4,6 +4,7 @@
 
 #include "tools/simulate/simulation.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "tools/cli/progress.h"
@@ -12,6 +13,16 @@
 
 static const char speaker[] = "simulate";
 
+/* L of response.h, and the time that a hop lasts. */
+static void set_speeds(simulation *s)
+{
+    const imp_options *o = &s->setup->options;
+    const double span = o->t_end - o->t_start;
+    const double fall = vec_length(s->setup->gravity) + o->gamma / (span * span);
+    s->lift = sqrt(2 * o->gamma * fall);
+    s->search.window = 4 * s->lift / fall;
+}
+
 static exit_status begin(simulation *s, const setup *what, const arguments *args)
 {
     const size_t n = what->count;
@@ -19,6 +30,8 @@ static exit_status begin(simulation *s, const setup *what, const arguments *args
     *s = (simulation){.setup = what,
                       .movers = calloc(n, sizeof *s->movers),
                       .meetings = calloc(n * (n - 1) / 2 + 1, sizeof *s->meetings),
+                      .outlines = calloc(n, sizeof *s->outlines),
+                      .memory = calloc(n, sizeof *s->memory),
                       .rests = calloc(n, sizeof *s->rests),
                       .held_now = calloc(n, sizeof *s->held_now),
                       .max_events = arguments_count(args, "max-events", 10000),
@@ -26,10 +39,13 @@ static exit_status begin(simulation *s, const setup *what, const arguments *args
                       .log = json_array()};
     s->search =
         (searching){.setup = what, .movers = s->movers, .end = o->t_end, .limits = what->limits};
-    if (s->movers == NULL || s->meetings == NULL || s->rests == NULL || s->held_now == NULL ||
-        s->log == NULL)
+    set_speeds(s);
+    if (s->movers == NULL || s->outlines == NULL || s->memory == NULL || s->meetings == NULL ||
+        s->rests == NULL || s->held_now == NULL || s->log == NULL)
         return complain_of_memory(speaker);
     for (size_t i = 0; i < n; ++i) {
+        if (!outline_read(&s->outlines[i], what, i)) return complain_of_memory(speaker);
+        s->memory[i].speed = INFINITY;
         if (!what->actors[i].moves) continue;
         if (!mover_begin(&s->movers[i], &what->actors[i], what->gravity, o->t_start, o->t_end))
             return complain_of_memory(speaker);
@@ -49,20 +65,23 @@ static exit_status run(simulation *s)
 {
     const imp_reason limit = limits_reached(&s->search.limits);
     if (limit != IMP_REASON_NONE) {
-        timeline_cut(s, s->t, limit);
+        timeline_cut(s, s->t, limit, NULL);
         return EXIT_ANSWERED;
     }
     exit_status status = timeline_predict_all(s);
     bool done = false;
     while (status == EXIT_ANSWERED && s->reason == NULL && !done) {
-        const meeting *first = timeline_earliest(s);
+        meeting *first = timeline_earliest(s);
         if (first == NULL) {
             timeline_advance(s, s->search.end);
             done = true;
+        } else if (first->kind == MEETING_OPEN) {
+            status = timeline_continue(s, first);
         } else if (first->kind == MEETING_UNDECIDED) {
-            timeline_cut(s, first->t, first->reason);
+            timeline_cut(s, first->t, first->reason, first);
         } else if (s->events >= s->max_events) {
             s->reason = "max-events";
+            snprintf(s->hint, sizeof s->hint, "a greater --max-events goes on");
             timeline_advance(s, first->t);
         } else {
             progress_show("t = %.6g, %zu events", first->t, s->events);
@@ -93,7 +112,11 @@ void simulation_free(simulation *s)
     for (size_t i = 0; i < s->meeting_count; ++i) imp_scene_free(s->meetings[i].scene);
     for (size_t i = 0; s->movers != NULL && i < s->setup->count; ++i)
         if (s->setup->actors[i].moves) mover_free(&s->movers[i]);
+    for (size_t i = 0; s->outlines != NULL && i < s->setup->count; ++i)
+        outline_free(&s->outlines[i]);
     free(s->movers);
+    free(s->outlines);
+    free(s->memory);
     free(s->meetings);
     free(s->rests);
     free(s->held_now);

@@ -3,6 +3,7 @@
 #ifndef TOOLS_SIMULATE_SIMULATION_H
 #define TOOLS_SIMULATE_SIMULATION_H
 
+#include "tools/simulate/meeting.h"
 #include "tools/simulate/response.h"
 
 /* From event to event
@@ -19,13 +20,17 @@ typedef struct sums {
 typedef struct simulation {
     const setup *setup;
     searching search;
-    mover *movers; /* by body */
+    mover *movers;      /* by body */
+    outline *outlines;  /* by body */
+    remembered *memory; /* by body */
+    double lift;        /* L of response.h */
     meeting *meetings;
     size_t meeting_count;
     bool *rests, *held_now; /* by body; the latter at the last event */
     size_t max_events, events, impacts, held;
     double t;           /* how far it came */
     const char *reason; /* why it ended before the end; NULL: it did not */
+    char hint[320];     /* what helps against that; "": nothing in particular */
     json_t *log;        /* the events */
     sums start, end;
     double energy_lost; /* in events, in sum */

@@ -4,9 +4,12 @@
 
 #include "tools/simulate/timeline.h"
 
+#include <stdio.h>
+
 static const char speaker[] = "simulate";
 
-/* --- States and sums -------------------------------------------------------------------------- */
+/* --- States and sums ----------------------------------------------------------------------------
+ */
 
 sums timeline_sums(const simulation *s, const mover_state *state)
 {
@@ -55,9 +58,17 @@ static const char *name_of(imp_reason reason)
     }
 }
 
-void timeline_cut(simulation *s, double t, imp_reason reason)
+void timeline_cut(simulation *s, double t, imp_reason reason, const meeting *m)
 {
     s->reason = name_of(reason);
+    if (reason == IMP_REASON_RESOLUTION && m != NULL)
+        snprintf(s->hint, sizeof s->hint,
+                 "'%.80s' and '%.80s' keep touching, at gaps that rounding cannot tell from the "
+                 "gamma_clear, %g; a greater --gamma helps",
+                 s->setup->actors[m->body[0]].name, s->setup->actors[m->body[1]].name,
+                 s->setup->options.gamma_clear);
+    else if (reason != IMP_REASON_CANCELLED)
+        snprintf(s->hint, sizeof s->hint, "a greater --%s goes on", s->reason);
     timeline_advance(s, t);
 }
 
@@ -72,7 +83,8 @@ exit_status timeline_check(const simulation *s, size_t body)
                         s->setup->actors[body].name, t, VALUE_MAX, TURN_MAX);
 }
 
-/* --- Meetings --------------------------------------------------------------------------------- */
+/* --- Meetings ----------------------------------------------------------------------------------
+ */
 
 /* Neither of the two moves before it is hit. */
 static bool is_asleep(const simulation *s, const meeting *m)
@@ -119,6 +131,16 @@ exit_status timeline_predict(simulation *s, meeting *m, double t, int least)
     } else if (meeting_find(&s->search, m, t, level) != IMP_SUCCESS) {
         return timeline_complain(s);
     }
+    return EXIT_ANSWERED;
+}
+
+exit_status timeline_continue(simulation *s, meeting *m)
+{
+    const imp_reason end = limits_reached(&s->search.limits);
+    if (end != IMP_REASON_NONE)
+        set_undecided(m, m->t, end);
+    else if (meeting_continue(&s->search, m) != IMP_SUCCESS)
+        return timeline_complain(s);
     return EXIT_ANSWERED;
 }
 

@@ -4,321 +4,214 @@
 
 #include "tools/simulate/touch.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-/* A point of a surface and its derivatives by u and v. */
-typedef struct jet {
-    vec x, by[2], second[3]; /* uu, uv, vv */
-} jet;
+#include "tools/simulate/drift.h"
+#include "tools/simulate/footprint.h"
 
-/* One side of the search. */
-typedef struct side {
-    const imp_scene *scene;
-    size_t body, surface;
-    double t, lo[3], hi[3], p[2];
-} side;
+/* --- The nearest points
+ * --------------------------------------------------------------------------- */
 
-static imp_code point_at(const side *s, double u, double v, double t, vec *x, imp_error *error)
+/* Patches of one body near a point, and their points nearest to it. */
+enum { AROUND_MAX = 8 };
+typedef struct around {
+    imp_place place[AROUND_MAX];
+    double p[AROUND_MAX][2];
+    size_t count;
+} around;
+
+static bool is_same_place(imp_place a, imp_place b)
 {
-    const double p[3] = {u, v, t};
-    return imp_scene_eval(s->scene, s->body, s->surface, 1, p, x->x, NULL, error);
+    return a.surface == b.surface && a.piece == b.piece;
 }
 
-/* Steps of differences, in parts of the domain: second derivatives lose 2^-52 / STEP^2 of the size.
- * Near an end, which may be a pole, they are half the way to it; at it, whole again. */
-#define STEP 1e-4
-#define AT_END 1e-7
-
-static double difference(const side *s, int k)
+static bool is_near(const vec_box *box, vec x, double distance)
 {
-    const double width = s->hi[k] - s->lo[k];
-    const double way = fmin(s->p[k] - s->lo[k], s->hi[k] - s->p[k]);
-    return way > AT_END * width ? fmin(STEP * width, way / 2) : STEP * width;
-}
-
-/* From nine points around one that keeps away from the domain's ends: the quadratic through
- * them. */
-static imp_code jet_at(const side *s, jet *j, imp_error *error)
-{
-    double h[2], c[2];
-    vec grid[3][3];
-    for (int k = 0; k < 2; ++k) {
-        h[k] = difference(s, k);
-        c[k] = fmin(fmax(s->p[k], s->lo[k] + h[k]), s->hi[k] - h[k]);
-    }
-    for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b) {
-            const imp_code code =
-                point_at(s, c[0] + (a - 1) * h[0], c[1] + (b - 1) * h[1], s->t, &grid[a][b], error);
-            if (code != IMP_SUCCESS) return code;
-        }
-    const double du = s->p[0] - c[0], dv = s->p[1] - c[1];
-    for (int i = 0; i < 3; ++i) {
-        const double mid = grid[1][1].x[i];
-        const double uu =
-            h[0] > 0 ? ((grid[2][1].x[i] - mid) - (mid - grid[0][1].x[i])) / (h[0] * h[0]) : 0;
-        const double vv =
-            h[1] > 0 ? ((grid[1][2].x[i] - mid) - (mid - grid[1][0].x[i])) / (h[1] * h[1]) : 0;
-        const double uv =
-            h[0] > 0 && h[1] > 0
-                ? ((grid[2][2].x[i] - grid[2][0].x[i]) - (grid[0][2].x[i] - grid[0][0].x[i])) /
-                      (4 * h[0] * h[1])
-                : 0;
-        const double u = h[0] > 0 ? (grid[2][1].x[i] - grid[0][1].x[i]) / (2 * h[0]) : 0;
-        const double v = h[1] > 0 ? (grid[1][2].x[i] - grid[1][0].x[i]) / (2 * h[1]) : 0;
-        j->by[0].x[i] = u + uu * du + uv * dv;
-        j->by[1].x[i] = v + vv * dv + uv * du;
-        j->second[0].x[i] = uu, j->second[1].x[i] = uv, j->second[2].x[i] = vv;
-    }
-    return point_at(s, s->p[0], s->p[1], s->t, &j->x, error);
-}
-
-enum { UNKNOWNS = 4, STEPS = 40 };
-
-/* Gradient and Hessian of |x_b - x_a|^2 / 2 by (u_a, v_a, u_b, v_b). */
-static void form_system(const jet j[2], double g[UNKNOWNS], double h[UNKNOWNS][UNKNOWNS])
-{
-    const vec r = vec_sub(j[1].x, j[0].x);
-    for (int a = 0; a < UNKNOWNS; ++a) {
-        const double sign_a = a < 2 ? -1 : 1;
-        g[a] = sign_a * vec_dot(j[a / 2].by[a % 2], r);
-        for (int b = 0; b < UNKNOWNS; ++b) {
-            const double sign = a / 2 == b / 2 ? 1 : -1;
-            h[a][b] = sign * vec_dot(j[a / 2].by[a % 2], j[b / 2].by[b % 2]);
-            if (a / 2 == b / 2) h[a][b] += sign_a * vec_dot(j[a / 2].second[a % 2 + b % 2], r);
-        }
-    }
-}
-
-/* Solves (H + damping diag) d = -g over the unknowns that are free, by elimination without
- * exchange: a pivot that is not positive asks for more damping. */
-static bool solve_system(const double g[UNKNOWNS], double h[UNKNOWNS][UNKNOWNS],
-                         const bool free[UNKNOWNS], double damping, double d[UNKNOWNS])
-{
-    double m[UNKNOWNS][UNKNOWNS + 1];
-    for (int i = 0; i < UNKNOWNS; ++i) {
-        const bool on = free[i] && h[i][i] != 0;
-        for (int j = 0; j < UNKNOWNS; ++j) m[i][j] = on && free[j] ? h[i][j] : 0;
-        m[i][UNKNOWNS] = on ? -g[i] : 0;
-        m[i][i] = on ? h[i][i] + damping * fabs(h[i][i]) : 1;
-    }
-    for (int i = 0; i < UNKNOWNS; ++i) {
-        if (!(m[i][i] > 1e-13 * fabs(h[i][i]))) return false;
-        for (int k = i + 1; k < UNKNOWNS; ++k) {
-            const double factor = m[k][i] / m[i][i];
-            for (int j = i; j <= UNKNOWNS; ++j) m[k][j] -= factor * m[i][j];
-        }
-    }
-    for (int i = UNKNOWNS - 1; i >= 0; --i) {
-        d[i] = m[i][UNKNOWNS];
-        for (int j = i + 1; j < UNKNOWNS; ++j) d[i] -= m[i][j] * d[j];
-        d[i] /= m[i][i];
-    }
+    for (int i = 0; i < 3; ++i)
+        if (x.x[i] < box->lo.x[i] - distance || x.x[i] > box->hi.x[i] + distance) return false;
     return true;
 }
 
-/* Moves both points along the step, until one of them comes to an end of its domain. */
-static void move(side s[2], const double d[UNKNOWNS])
+/* The middle of a grid over the patch that is nearest to x, to start from. */
+static imp_code start_on(const chart *c, vec x, double p[2], imp_error *why)
 {
-    double part = 1;
-    for (int a = 0; a < UNKNOWNS; ++a) {
-        const side *one = &s[a / 2];
-        const double at = one->p[a % 2], end = d[a] > 0 ? one->hi[a % 2] : one->lo[a % 2];
-        if (fabs(d[a]) > fabs(end - at)) part = fmin(part, (end - at) / d[a]);
-    }
-    for (int a = 0; a < UNKNOWNS; ++a) {
-        side *one = &s[a / 2];
-        const int k = a % 2;
-        const double end = d[a] > 0 ? one->hi[k] : one->lo[k];
-        const bool arrives = part < 1 && fabs(d[a]) * part >= fabs(end - one->p[k]) * (1 - 1e-9);
-        one->p[k] = arrives ? end : fmin(fmax(one->p[k] + part * d[a], one->lo[k]), one->hi[k]);
-        const double slack = AT_END * (one->hi[k] - one->lo[k]);
-        if (one->p[k] - one->lo[k] < slack) one->p[k] = one->lo[k];
-        if (one->hi[k] - one->p[k] < slack) one->p[k] = one->hi[k];
-    }
-}
-
-static imp_code jets_at(const side s[2], jet j[2], imp_error *error)
-{
-    const imp_code code = jet_at(&s[0], &j[0], error);
-    return code == IMP_SUCCESS ? jet_at(&s[1], &j[1], error) : code;
-}
-
-/* An unknown at an end of its domain from which the gradient pushes outward stays there. */
-static void find_free(const side s[2], const double g[UNKNOWNS], bool free[UNKNOWNS])
-{
-    for (int a = 0; a < UNKNOWNS; ++a) {
-        const side *one = &s[a / 2];
-        const int k = a % 2;
-        free[a] = !((one->p[k] <= one->lo[k] && g[a] > 0) || (one->p[k] >= one->hi[k] && g[a] < 0));
-    }
-}
-
-static double gap_of(const jet j[2]) { return vec_length(vec_sub(j[1].x, j[0].x)); }
-
-/* 0: the step changes nothing, or less than 2^-50 of the domains. */
-static double step_size(const side from[2], const side to[2])
-{
-    double most = 0;
-    for (int a = 0; a < UNKNOWNS; ++a) {
-        const side *x = &from[a / 2], *y = &to[a / 2];
-        const double width = x->hi[a % 2] - x->lo[a % 2];
-        if (width > 0) most = fmax(most, fabs(y->p[a % 2] - x->p[a % 2]) / width);
-    }
-    return most > 0x1p-50 ? most : 0;
-}
-
-/* Newton steps, with more damping where they do not succeed. Of all four unknowns: the distance
- * changes little where both points move alike, and much where they part, so every step is followed
- * by one search for the nearest point of the second surface alone (`nested`). */
-static imp_code minimize(side s[2], jet j[2], bool nested, imp_error *error)
-{
-    double damping = 0, g[UNKNOWNS], h[UNKNOWNS][UNKNOWNS], d[UNKNOWNS];
-    bool free[UNKNOWNS];
-    imp_code code = jets_at(s, j, error);
-    for (int n = 0; n < STEPS && code == IMP_SUCCESS && damping < 1e6; ++n) {
-        form_system(j, g, h);
-        find_free(s, g, free);
-        if (!nested) free[0] = free[1] = false;
-        if (solve_system(g, h, free, damping, d)) {
-            side to[2] = {s[0], s[1]};
-            jet there[2];
-            move(to, d);
-            const bool moved = step_size(s, to) > 0;
-            if (!moved && damping == 0) break;
-            code = nested ? minimize(to, there, false, error) : jets_at(to, there, error);
-            if (code == IMP_SUCCESS && moved && gap_of(there) <= gap_of(j)) {
-                memcpy(s, to, sizeof to);
-                memcpy(j, there, sizeof there);
-                damping = damping > 1e-9 ? damping / 10 : 0;
-                continue;
+    enum { CELLS = 8 };
+    double least = INFINITY;
+    for (int i = 0; i <= CELLS; ++i) {
+        double uv[CELLS + 1][2];
+        vec y[CELLS + 1];
+        for (int j = 0; j <= CELLS; ++j) {
+            uv[j][0] = c->lo[0] + (c->hi[0] - c->lo[0]) * i / CELLS;
+            uv[j][1] = c->lo[1] + (c->hi[1] - c->lo[1]) * j / CELLS;
+        }
+        const imp_code code =
+            placed_eval(c->at, c->place, CELLS + 1, (const double(*)[2])uv, y, why);
+        if (code != IMP_SUCCESS) return code;
+        for (int j = 0; j <= CELLS; ++j)
+            if (vec_length(vec_sub(y[j], x)) < least) {
+                least = vec_length(vec_sub(y[j], x));
+                memcpy(p, uv[j], sizeof uv[j]);
             }
-        }
-        damping = damping > 0 ? 10 * damping : 1e-6;
     }
-    return code;
+    return IMP_SUCCESS;
 }
 
-/* Another name of the same place may lead on: the opposite end of a full turn, or a pole seen from
- * another side. From each of them the search goes on, and the nearest points count. */
-static imp_code try_from(const side from[2], side best[2], jet j[2], imp_error *error)
+/* The patch of the witness, and others of the body that come as near to x as `distance`. */
+static imp_code look_around(const placed *at, const outline *o, imp_place own, const double p[2],
+                            vec x, double distance, around *out, imp_error *why)
 {
-    side s[2] = {from[0], from[1]};
-    jet there[2];
-    const imp_code code = minimize(s, there, true, error);
-    if (code == IMP_SUCCESS && gap_of(there) < gap_of(j)) {
-        memcpy(best, s, sizeof s);
-        memcpy(j, there, sizeof there);
+    *out = (around){.place = {own}, .p = {{p[0], p[1]}}, .count = 1};
+    const vec inner = placed_inward(at, x);
+    for (size_t i = 0; i < o->count && out->count < AROUND_MAX; ++i) {
+        const outline_patch *patch = &o->patch[i];
+        double uv[2];
+        vec found;
+        chart c;
+        if (is_same_place(patch->place, own) || !is_near(&patch->box, inner, distance)) continue;
+        imp_code code = chart_make(&c, at, patch->place, why);
+        if (code == IMP_SUCCESS) code = start_on(&c, x, uv, why);
+        if (code == IMP_SUCCESS) code = nearest_project(&c, uv, x, &found, why);
+        if (code != IMP_SUCCESS) return code;
+        if (!(vec_length(vec_sub(found, x)) <= distance)) continue;
+        out->place[out->count] = patch->place;
+        memcpy(out->p[out->count++], uv, sizeof uv);
     }
-    return code;
+    return IMP_SUCCESS;
 }
 
-static imp_code look_around(side s[2], jet j[2], imp_error *error)
+/* Of all patches around the witness. */
+static imp_code find_nearest(const touch_pair *pair, const witness *from, nearest *out,
+                             imp_error *why)
 {
-    enum { VIEWS = 8 };
-    const side found[2] = {s[0], s[1]};
-    imp_code code = IMP_SUCCESS;
-    for (int a = 0; a < UNKNOWNS && code == IMP_SUCCESS; ++a) {
-        const int k = a % 2;
-        const side *one = &found[a / 2];
-        if (one->p[k] != one->lo[k] && one->p[k] != one->hi[k]) continue;
-        for (int view = 0; view <= VIEWS && code == IMP_SUCCESS; ++view) {
-            side other[2] = {found[0], found[1]};
-            double *p = other[a / 2].p;
-            if (view == VIEWS)
-                p[k] = p[k] == one->lo[k] ? one->hi[k] : one->lo[k];
-            else
-                p[1 - k] = one->lo[1 - k] + (one->hi[1 - k] - one->lo[1 - k]) * view / VIEWS;
-            vec here, there;
-            code = point_at(one, one->p[0], one->p[1], one->t, &here, error);
-            if (code == IMP_SUCCESS) code = point_at(one, p[0], p[1], one->t, &there, error);
-            if (code == IMP_SUCCESS && vec_length(vec_sub(here, there)) <= gap_of(j))
-                code = try_from(other, s, j, error);
-        }
-    }
-    return code;
-}
-
-/* The surface's normal, of unit length; 0 where it has none. */
-static vec surface_normal(const jet *j)
-{
-    const vec n = vec_cross(j->by[0], j->by[1]);
-    const double size = vec_length(j->by[0]) * vec_length(j->by[1]);
-    return vec_length(n) > 1e-6 * size ? vec_unit(n) : (vec){{0, 0, 0}};
-}
-
-/* The greatest curvature along u or v; infinite where the surface has no normal. */
-static double curvature(const jet *j, vec normal)
-{
-    double most = 0;
-    if (!(vec_length(normal) > 0)) return INFINITY;
-    for (int k = 0; k < 2; ++k) {
-        const double square = vec_dot(j->by[k], j->by[k]);
-        const double bend = fabs(vec_dot(j->second[2 * k], normal));
-        if (square > 0) most = fmax(most, bend / square);
-    }
-    return most;
-}
-
-/* The direction between the nearest points; where one surface is much flatter than the other, its
- * own normal, which changes less with what the search left of the way. */
-static vec normal_of(const jet j[2])
-{
-    const vec along = vec_unit(vec_sub(j[1].x, j[0].x));
-    const vec n[2] = {surface_normal(&j[0]), surface_normal(&j[1])};
-    const double bent[2] = {curvature(&j[0], n[0]), curvature(&j[1], n[1])};
-    for (int k = 0; k < 2; ++k) {
-        const double cosine = vec_dot(n[k], along);
-        if (bent[k] < 0.1 * bent[1 - k] && fabs(cosine) > 0.9)
-            return vec_scale(cosine > 0 ? 1 : -1, n[k]);
-    }
-    return along;
-}
-
-/* --- Motion beyond the rigid one -------------------------------------------------------------- */
-
-/* By a central difference over some 1e-5 of the time asked about, within the times that exist. */
-static imp_code drift_of(const searching *s, size_t body, const side *at, vec *drift,
-                         imp_error *error)
-{
-    const actor *a = &s->setup->actors[body];
-    *drift = (vec){{0, 0, 0}};
-    if (!a->varies) return IMP_SUCCESS;
-    side still = {.scene = s->setup->still, .body = body, .surface = at->surface};
-    imp_scene_domain(still.scene, body, at->surface, still.lo, still.hi);
-    const double h = 1e-5 * (s->setup->options.t_end - s->setup->options.t_start);
-    const double from = fmax(at->t - h, still.lo[2]), to = fmin(at->t + h, still.hi[2]);
-    vec x, y;
-    if (!(to > from)) return IMP_SUCCESS;
-    imp_code code = point_at(&still, at->p[0], at->p[1], from, &x, error);
-    if (code == IMP_SUCCESS) code = point_at(&still, at->p[0], at->p[1], to, &y, error);
-    if (code != IMP_SUCCESS) return code;
-    *drift = vec_scale(1 / (to - from), vec_sub(y, x));
-    if (!a->moves) return code;
-    const mover_state now = mover_at(&s->movers[body], at->t);
-    const mat3 axes = mover_axes(&now);
-    *drift = mat3_apply(&axes, *drift);
-    return code;
-}
-
-imp_code touching_find(searching *s, const meeting *m, const meeting *at, touching *out)
-{
-    side sides[2];
-    jet j[2];
-    for (int k = 0; k < 2; ++k) {
-        sides[k] = (side){.scene = m->scene,
-                          .body = (size_t)k,
-                          .surface = at->side[k].surface,
-                          .t = at->t,
-                          .p = {at->side[k].u, at->side[k].v}};
-        imp_scene_domain(m->scene, (size_t)k, sides[k].surface, sides[k].lo, sides[k].hi);
-    }
-    imp_code code = minimize(sides, j, true, &s->error);
-    if (code == IMP_SUCCESS) code = look_around(sides, j, &s->error);
-    if (code != IMP_SUCCESS) return code;
-    out->point = vec_scale(0.5, vec_add(j[0].x, j[1].x));
-    out->normal = normal_of(j);
+    around side[2];
+    imp_code code = nearest_find(out, pair->at, from->place, from->p, why);
+    const vec middle = vec_scale(0.5, vec_add(out->jet[0].x, out->jet[1].x));
+    const double distance = nearest_gap(out) / 2 + pair->slack;
     for (int k = 0; k < 2 && code == IMP_SUCCESS; ++k)
-        code = drift_of(s, m->body[k], &sides[k], &out->drift[k], &s->error);
+        code = look_around(&pair->at[k], pair->outline[k], from->place[k], out->spot[k].p, middle,
+                           distance, &side[k], why);
+    if (code != IMP_SUCCESS) return code;
+    for (size_t n = 1; n < side[0].count * side[1].count; ++n) {
+        const size_t i = n / side[1].count, j = n % side[1].count;
+        const imp_place place[2] = {side[0].place[i], side[1].place[j]};
+        const double p[2][2] = {{side[0].p[i][0], side[0].p[i][1]},
+                                {side[1].p[j][0], side[1].p[j][1]}};
+        nearest other;
+        code = nearest_find(&other, pair->at, place, p, why);
+        if (code != IMP_SUCCESS) return code;
+        if (nearest_gap(&other) < nearest_gap(out)) *out = other;
+    }
+    return IMP_SUCCESS;
+}
+
+/* --- The manifold
+ * --------------------------------------------------------------------------------- */
+
+/* So much of the slack, to all sides, points and segments are taken for polygons. */
+#define THICKNESS 0.0025
+
+/* What each pair of parts has in common. */
+static point2 *intersect(const footprint *a, const footprint *b, double thick, size_t *count)
+{
+    *count = 0;
+    point2 *all = malloc((a->count * b->count * POLYGON_MAX + 1) * sizeof *all);
+    for (size_t i = 0; all != NULL && i < a->count; ++i) {
+        const polygon wide = polygon_grow(&a->part[i], thick);
+        for (size_t j = 0; j < b->count; ++j) {
+            const polygon other = polygon_grow(&b->part[j], thick);
+            const polygon common = polygon_intersect(&wide, &other);
+            memcpy(all + *count, common.at, common.count * sizeof *all);
+            *count += common.count;
+        }
+    }
+    return all;
+}
+
+/* One part: the hull of all. */
+static bool merge(footprint *f)
+{
+    point2 *all = malloc((f->count * POLYGON_MAX + 1) * sizeof *all);
+    size_t count = 0;
+    if (all == NULL) return false;
+    for (size_t i = 0; i < f->count; ++i) {
+        memcpy(all + count, f->part[i].at, f->part[i].count * sizeof *all);
+        count += f->part[i].count;
+    }
+    f->part[0] = polygon_hull(all, count);
+    f->count = 1;
+    free(all);
+    return true;
+}
+
+static imp_code find_corners(footprint f[2], const contact_plane *plane, touching *out)
+{
+    enum { PAIRS_MAX = 4096 };
+    size_t count;
+    for (int k = 0; k < 2; ++k)
+        if (f[0].count * f[1].count > PAIRS_MAX && !merge(&f[k])) return IMP_ERROR_MEMORY;
+    point2 *common = intersect(&f[0], &f[1], THICKNESS * plane->slack, &count);
+    if (common == NULL) return IMP_ERROR_MEMORY;
+    polygon p = polygon_hull(common, count);
+    free(common);
+    polygon_simplify(&p, plane->slack);
+    polygon_reduce(&p, CONTACT_POINTS);
+    out->count = p.count;
+    for (size_t i = 0; i < p.count; ++i) out->corner[i] = plane_outward(plane, p.at[i]);
+    if (p.count > 1) return IMP_SUCCESS;
+    out->count = 1;
+    out->corner[0] = out->point;
+    return IMP_SUCCESS;
+}
+
+static imp_code find_manifold(const touch_pair *pair, const nearest *n, touching *out,
+                              imp_error *why)
+{
+    footprint f[2] = {{0}, {0}};
+    imp_code code = IMP_SUCCESS;
+    contact_plane plane = {.normal = out->normal, .slack = pair->slack};
+    plane.tangent[0] = vec_normal_to(plane.normal);
+    plane.tangent[1] = vec_cross(plane.normal, plane.tangent[0]);
+    for (int k = 0; k < 2 && code == IMP_SUCCESS; ++k) {
+        const placed *other = &pair->at[1 - k];
+        const vec middle = other->moves ? other->position : out->point;
+        const double reach =
+            other->moves ? outline_reach(pair->outline[1 - k], other->center) : INFINITY;
+        point2 own;
+        plane.origin = n->jet[k].x;
+        own = plane_inward(&plane, out->point);
+        if (!footprint_add(&f[k], &own, 1)) code = IMP_ERROR_MEMORY;
+        const bool round = nearest_is_round(n, k, plane.slack);
+        if (code == IMP_SUCCESS)
+            code = footprint_find(&f[k], &pair->at[k], pair->outline[k], &plane, k == 0 ? 1 : -1,
+                                  middle, reach, round ? &n->chart[k].place : NULL, why);
+    }
+    plane.origin = out->point;
+    if (code == IMP_SUCCESS) code = find_corners(f, &plane, out);
+    for (int k = 0; k < 2; ++k) footprint_free(&f[k]);
+    return code;
+}
+
+/* --- All
+ * ------------------------------------------------------------------------------------------ */
+
+imp_code touching_find(const touch_pair *pair, const witness *from, touching *out, imp_error *why)
+{
+    nearest n;
+    drift d[2];
+    imp_code code = find_nearest(pair, from, &n, why);
+    if (code != IMP_SUCCESS) return code;
+    *out = (touching){.point = vec_scale(0.5, vec_add(n.jet[0].x, n.jet[1].x)),
+                      .normal = nearest_normal(&n),
+                      .gap = nearest_gap(&n)};
+    for (int k = 0; k < 2; ++k) {
+        out->nearest.place[k] = n.chart[k].place;
+        memcpy(out->nearest.p[k], n.spot[k].p, sizeof n.spot[k].p);
+        code = drift_find(pair->setup, &n, k, pair->t, &d[k], why);
+        if (code != IMP_SUCCESS) return code;
+    }
+    code = find_manifold(pair, &n, out, why);
+    for (size_t i = 0; i < out->count; ++i)
+        out->drift[i] = vec_sub(drift_at(&d[1], out->corner[i]), drift_at(&d[0], out->corner[i]));
     return code;
 }

@@ -1,0 +1,32 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_SIMULATE_OUTLINE_H
+#define TOOLS_SIMULATE_OUTLINE_H
+
+#include "tools/simulate/setup.h"
+
+/* Where the patches of a body are
+ * ===============================
+ * Boxes that are proved to hold them at all times asked about, as the body's own maps leave them:
+ * from inclusions over their whole domains. Infinite where a type gives no bound. */
+
+typedef struct outline_patch {
+    imp_place place;
+    vec_box box;
+} outline_patch;
+
+typedef struct outline {
+    outline_patch *patch;
+    size_t count;
+    vec_box box; /* of all */
+    bool varies; /* a patch depends on time */
+} outline;
+
+/* False: no memory. Where a limit comes first, the boxes that are missing are infinite. */
+bool outline_read(outline *o, const setup *s, size_t body);
+void outline_free(outline *o);
+
+/* No point of the body is farther than this from x; rounded up. */
+double outline_reach(const outline *o, vec x);
+
+#endif
