@@ -9,8 +9,7 @@
 /* The law of impacts: what it promises of any two bodies, whatever their masses, inertia, motion,
  * restitution, friction and points of contact. */
 
-/* --- Random impacts -----------------------------------------------------------------------------
- */
+/* --- Random impacts --------------------------------------------------------------------------- */
 
 static vec random_vector(uint64_t *state, double size)
 {

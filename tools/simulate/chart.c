@@ -6,8 +6,7 @@
 
 #include <string.h>
 
-/* --- The domain ---------------------------------------------------------------------------------
- */
+/* --- The domain ------------------------------------------------------------------------------- */
 
 enum { SAMPLES = 5 };
 #define SAME 1e-9 /* part of the patch's size within which points are the same */
@@ -59,8 +58,7 @@ imp_code chart_make(chart *c, const placed *at, imp_place place, imp_error *why)
     return IMP_SUCCESS;
 }
 
-/* --- Coordinates --------------------------------------------------------------------------------
- */
+/* --- Coordinates ------------------------------------------------------------------------------ */
 
 #define TURN (2 * 3.141592653589793)
 #define POLAR_PART 0.25 /* of a parameter's width, from the pole on */
@@ -117,8 +115,7 @@ double chart_width(const chart *c, const spot *s, int k)
     return width_of(c, s->polar >= 0 ? s->polar : k);
 }
 
-/* --- Derivatives --------------------------------------------------------------------------------
- */
+/* --- Derivatives ------------------------------------------------------------------------------ */
 
 /* Steps of differences, in parts of the width: second derivatives lose 2^-52 / STEP^2 of the size.
  * Near an end they are half the way to it; at it, whole again. */

@@ -29,7 +29,7 @@ static imp_code velocities(const setup *s, const placed *at, imp_place place, do
 imp_code drift_find(const setup *s, const nearest *n, int k, double t, drift *out, imp_error *why)
 {
     const chart *c = &n->chart[k];
-    *out = (drift){.at = n->jet[k].x, .any = s->actors[c->at->body].varies};
+    *out = (drift){.at = n->jet[k].x, .any = s->actors[c->at->body].outline.varies};
     if (!out->any) return IMP_SUCCESS;
     double uv[3][2];
     vec velocity[3], x[3];

@@ -13,8 +13,7 @@
 
 static const char speaker[] = "simulate";
 
-/* --- The instant
- * ---------------------------------------------------------------------------------- */
+/* --- The instant ------------------------------------------------------------------------------ */
 
 /* The bodies and contacts as the laws of impact take them, and the states the bodies come with. */
 typedef struct event {
@@ -60,7 +59,7 @@ static size_t join(simulation *s, event *e, size_t body, double t)
     const size_t b = now->body_count++;
     now->who[b] = (participant){.body = body,
                                 .moves = a->moves,
-                                .fixed = !a->moves && !a->varies,
+                                .fixed = !a->moves && !a->outline.varies,
                                 .rested = s->rests[body],
                                 .memory = &s->memory[body]};
     if (!a->moves) return b;
@@ -96,12 +95,11 @@ static void add_contact(simulation *s, event *e, const gathered *g, const gather
         (contact){.meeting = from->meeting,
                   .level = from->level,
                   .middle = from->at.point,
-                  .driven = a->varies || b->varies,
+                  .driven = a->outline.varies || b->outline.varies,
                   .resting = from->level >= LEVEL_LASTING || (closing > 0 && closing <= now->slow)};
 }
 
-/* --- The log
- * -------------------------------------------------------------------------------------- */
+/* --- The log ---------------------------------------------------------------------------------- */
 
 static json_t *vector_json(vec v) { return json_pack("[f,f,f]", v.x[0], v.x[1], v.x[2]); }
 
@@ -155,8 +153,7 @@ static bool log_contact(simulation *s, const event *e, size_t index, double t)
     return json_array_append_new(s->log, entry) == 0;
 }
 
-/* --- What follows
- * --------------------------------------------------------------------------------- */
+/* --- What follows ----------------------------------------------------------------------------- */
 
 static bool has_changed(const event *e, size_t b)
 {

@@ -29,8 +29,7 @@ bool gather_has(const gathered *g, size_t index)
 
 void gather_free(gathered *g) { free(g->contact); }
 
-/* --- One pair of bodies
- * --------------------------------------------------------------------------- */
+/* --- One pair of bodies ----------------------------------------------------------------------- */
 
 static touch_pair pair_at(const simulation *s, const meeting *m, double t)
 {
@@ -40,7 +39,7 @@ static touch_pair pair_at(const simulation *s, const meeting *m, double t)
         const size_t body = m->body[k];
         mover_state state = {0};
         if (s->setup->actors[body].moves) state = mover_at(&s->movers[body], t);
-        pair.outline[k] = &s->outlines[body];
+        pair.outline[k] = &s->setup->actors[body].outline;
         pair.at[k] = placed_at(s->setup, body, t, &state);
     }
     return pair;
@@ -118,8 +117,7 @@ static exit_status add_touching(simulation *s, gathered *g, size_t index)
     return add_contacts(s, g, index, now.side, level - 1);
 }
 
-/* --- All
- * ------------------------------------------------------------------------------------------ */
+/* --- All -------------------------------------------------------------------------------------- */
 
 /* Whether a body that moves is in both meetings. */
 static bool share_mover(const simulation *s, const meeting *a, const meeting *b)

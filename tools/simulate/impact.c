@@ -6,8 +6,7 @@
 
 #include "tools/simulate/coulomb.h"
 
-/* --- Bodies -------------------------------------------------------------------------------------
- */
+/* --- Bodies ----------------------------------------------------------------------------------- */
 
 static vec velocity_of(const impact_body *b, vec at)
 {
@@ -52,8 +51,7 @@ static void apply(impact_body *bodies, impact_contact *c, size_t point, vec impu
     p->solving.change = vec_add(p->solving.change, impulse);
 }
 
-/* --- One point ----------------------------------------------------------------------------------
- */
+/* --- One point -------------------------------------------------------------------------------- */
 
 /* K with (change of the relative velocity at a point) = K (impulse there): for each body that
  * yields 1/m - [r] I^-1 [r]. */
@@ -107,8 +105,7 @@ static double step_point(impact_body *bodies, impact_contact *c, size_t i, bool 
     return vec_length(mat3_apply(&s->k, step));
 }
 
-/* --- Solutions
- * ------------------------------------------------------------------------------------ */
+/* --- Solutions -------------------------------------------------------------------------------- */
 
 /* Sweeps over all points end when one changes no velocity by more than this part of the velocities.
  * A row of n bodies takes some n^2 sweeps. */

@@ -79,8 +79,7 @@ imp_code meeting_make_scene(searching *s, meeting *m)
     return m->scene != NULL ? IMP_SUCCESS : s->error.code;
 }
 
-/* --- Searches ----------------------------------------------------------------------------------
- */
+/* --- Searches --------------------------------------------------------------------------------- */
 
 /* What is left of the budgets goes to each search. */
 static imp_code solve(searching *s, const meeting *m, double from, double to, double gamma,

@@ -33,8 +33,7 @@ static const mover_key *key_before(const mover_keys *k, double t)
     return &k->key[lo];
 }
 
-/* --- Turning -----------------------------------------------------------------------------------
- */
+/* --- Turning ---------------------------------------------------------------------------------- */
 
 static vec spin_of(const mover *m, quat rotation, vec momentum)
 {
@@ -75,8 +74,8 @@ static vec turn_between(quat p, quat q)
 #define SUBSTEP_PARTS 8
 #define PRINCIPAL_SLACK 1e-9
 
-/* How long a sub-step may be; at most `span`. The spin changes at most by |spin|^2 a unit of time.
- */
+/* How long a sub-step may be; at most `span`. The spin changes at most by |spin|^2 a unit of
+ * time. */
 static double substep(const mover *m, vec momentum, quat rotation, double span)
 {
     const vec spin = spin_of(m, rotation, momentum);

@@ -9,10 +9,10 @@
 enum { CELLS = 8, ROW = CELLS + 1, POINTS = ROW * ROW };
 
 /* A shell in short. */
-typedef struct outline {
+typedef struct shell_extent {
     vec_box box;
     vec point; /* one of its points */
-} outline;
+} shell_extent;
 
 static bool is_in_box(const vec_box *box, vec x)
 {
@@ -21,7 +21,8 @@ static bool is_in_box(const vec_box *box, vec x)
     return true;
 }
 
-static shape_verdict read_outlines(const patches *p, const shells *s, outline *each, imp_error *why)
+static shape_verdict read_extents(const patches *p, const shells *s, shell_extent *each,
+                                  imp_error *why)
 {
     vec at[POINTS];
     for (size_t k = 0; k < s->count; ++k) each[k].box = vec_box_empty();
@@ -29,7 +30,7 @@ static shape_verdict read_outlines(const patches *p, const shells *s, outline *e
         if (limits_reached(p->limits) != IMP_REASON_NONE) return SHAPE_STOPPED;
         const shape_verdict verdict = patch_grid(p, i, CELLS, at, why);
         if (verdict != SHAPE_FOUND) return verdict;
-        outline *o = &each[s->of[i]];
+        shell_extent *o = &each[s->of[i]];
         for (int k = 0; k < POINTS; ++k) vec_box_add(&o->box, at[k]);
         o->point = at[POINTS / 2];
     }
@@ -70,9 +71,9 @@ shape_verdict nesting_find(const patches *p, const shells *s, double *sign, imp_
 {
     for (size_t k = 0; k < s->count; ++k) sign[k] = 1;
     if (s->count < 2) return SHAPE_FOUND;
-    outline *each = malloc(s->count * sizeof *each);
+    shell_extent *each = malloc(s->count * sizeof *each);
     if (each == NULL) return SHAPE_NO_MEMORY;
-    shape_verdict verdict = read_outlines(p, s, each, why);
+    shape_verdict verdict = read_extents(p, s, each, why);
     for (size_t k = 0; k < s->count && verdict == SHAPE_FOUND; ++k) {
         if (limits_reached(p->limits) != IMP_REASON_NONE) verdict = SHAPE_STOPPED;
         for (size_t other = 0; other < s->count && verdict == SHAPE_FOUND; ++other) {

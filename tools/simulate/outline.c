@@ -10,15 +10,15 @@ static const vec_box everything = {{{-INFINITY, -INFINITY, -INFINITY}},
                                    {{INFINITY, INFINITY, INFINITY}}};
 
 /* Includes a patch over all its domain and all times asked about. */
-static void include(const setup *s, outline_patch *p, bool *varies)
+static void include(const imp_scene *still, const imp_options *options, outline_patch *p,
+                    bool *varies)
 {
     double lo[3], hi[3];
     imp_model model[3];
-    p->box = everything;
-    imp_piece_domain(s->still, p->place, lo, hi);
-    lo[2] = fmax(lo[2], s->options.t_start);
-    hi[2] = fmin(hi[2], s->options.t_end);
-    if (imp_piece_include(s->still, p->place, lo, hi, model, NULL) != IMP_SUCCESS) {
+    imp_piece_domain(still, p->place, lo, hi);
+    lo[2] = fmax(lo[2], options->t_start);
+    hi[2] = fmin(hi[2], options->t_end);
+    if (imp_piece_include(still, p->place, lo, hi, model, NULL) != IMP_SUCCESS) {
         *varies = true;
         return;
     }
@@ -38,18 +38,22 @@ static size_t count_patches(const imp_scene *scene, size_t body)
     return count;
 }
 
-bool outline_read(outline *o, const setup *s, size_t body)
+bool outline_read(outline *o, const imp_scene *still, const imp_options *options, const limits *l,
+                  size_t body)
 {
     *o = (outline){.box = vec_box_empty()};
-    o->patch = calloc(count_patches(s->still, body) + 1, sizeof *o->patch);
+    o->patch = calloc(count_patches(still, body) + 1, sizeof *o->patch);
     if (o->patch == NULL) return false;
     bool stopped = false;
-    for (size_t k = 0; k < imp_scene_surface_count(s->still, body); ++k)
-        for (size_t n = 0; n < imp_scene_piece_count(s->still, body, k); ++n) {
+    for (size_t k = 0; k < imp_scene_surface_count(still, body); ++k)
+        for (size_t n = 0; n < imp_scene_piece_count(still, body, k); ++n) {
             outline_patch *p = &o->patch[o->count++];
             *p = (outline_patch){{body, k, n}, everything};
-            if (o->count % 256 == 1) stopped = limits_reached(&s->limits) != IMP_REASON_NONE;
-            if (!stopped) include(s, p, &o->varies);
+            if (o->count % 256 == 1) stopped = limits_reached(l) != IMP_REASON_NONE;
+            if (stopped)
+                o->varies = true;
+            else
+                include(still, options, p, &o->varies);
             vec_box_add(&o->box, p->box.lo);
             vec_box_add(&o->box, p->box.hi);
         }

@@ -3,7 +3,10 @@
 #ifndef TOOLS_SIMULATE_OUTLINE_H
 #define TOOLS_SIMULATE_OUTLINE_H
 
-#include "tools/simulate/setup.h"
+#include <stdbool.h>
+
+#include "tools/simulate/limits.h"
+#include "tools/simulate/rigid.h"
 
 /* Where the patches of a body are
  * ===============================
@@ -19,11 +22,13 @@ typedef struct outline {
     outline_patch *patch;
     size_t count;
     vec_box box; /* of all */
-    bool varies; /* a patch depends on time */
+    bool varies; /* a patch depends on time, as far as the rates of its inclusion tell */
 } outline;
 
-/* False: no memory. Where a limit comes first, the boxes that are missing are infinite. */
-bool outline_read(outline *o, const setup *s, size_t body);
+/* False: no memory. `still` and `options` are the scene and its times. Where a limit comes first,
+ * the boxes that are missing are infinite, and the body counts as one that varies. */
+bool outline_read(outline *o, const imp_scene *still, const imp_options *options, const limits *l,
+                  size_t body);
 void outline_free(outline *o);
 
 /* No point of the body is farther than this from x; rounded up. */

@@ -9,7 +9,7 @@ placed placed_at(const setup *s, size_t body, double t, const mover_state *state
     const actor *a = &s->actors[body];
     placed p = {.still = s->still,
                 .body = body,
-                .t = a->varies ? t : s->options.t_start,
+                .t = a->outline.varies ? t : s->options.t_start,
                 .moves = a->moves};
     if (!a->moves) return p;
     p.turn = mover_axes(state);

@@ -64,8 +64,7 @@ exit_status record_write(const simulation *s, const char *path)
     return status;
 }
 
-/* --- Energy and momentum -----------------------------------------------------------------------
- */
+/* --- Energy and momentum ---------------------------------------------------------------------- */
 
 /* What neither events nor gravity explain. */
 static double energy_drift(const simulation *s)

@@ -240,8 +240,7 @@ static void hop(instant *now, double most)
     solve_all(now, now->bodies, false);
 }
 
-/* --- All of them -------------------------------------------------------------------------------
- */
+/* --- All of them ------------------------------------------------------------------------------ */
 
 /* Of contacts between bodies that rest, and fixed ones, the impulses are those of the trial. */
 static void keep_of_resting(instant *now)

@@ -24,31 +24,6 @@ size_t setup_find(const setup *s, const char *name)
     return SIZE_MAX;
 }
 
-static bool patch_varies(const setup *s, imp_place place)
-{
-    double lo[3], hi[3];
-    imp_model model[3];
-    imp_piece_domain(s->still, place, lo, hi);
-    lo[2] = fmax(lo[2], s->options.t_start);
-    hi[2] = fmin(hi[2], s->options.t_end);
-    if (imp_piece_include(s->still, place, lo, hi, model, NULL) != IMP_SUCCESS) return true;
-    for (int i = 0; i < 3; ++i)
-        if (!(model[i].rate[2] == 0)) return true;
-    return false;
-}
-
-/* Whether a surface of the body depends on time: the rates of its inclusion over all of it say.
- * Where a limit comes first nothing moves any more, and the answer does not matter. */
-static bool depends_on_time(const setup *s, size_t body)
-{
-    for (size_t k = 0; k < imp_scene_surface_count(s->still, body); ++k)
-        for (size_t p = 0; p < imp_scene_piece_count(s->still, body, k); ++p) {
-            if (p % 256 == 0 && limits_reached(&s->limits) != IMP_REASON_NONE) return true;
-            if (patch_varies(s, (imp_place){body, k, p})) return true;
-        }
-    return false;
-}
-
 static exit_status read_actors(setup *s)
 {
     const json_t *stripped = json_object_get(s->stripped, "bodies");
@@ -64,8 +39,9 @@ static exit_status read_actors(setup *s)
     bool moves = false;
     for (size_t i = 0; i < s->count && status == EXIT_ANSWERED; ++i) {
         status = actor_read(s, i);
-        s->actors[i].varies = depends_on_time(s, i);
         moves |= s->actors[i].moves;
+        if (!outline_read(&s->actors[i].outline, s->still, &s->options, &s->limits, i))
+            return complain_of_memory(speaker);
     }
     if (status == EXIT_ANSWERED && !moves)
         return complain(EXIT_DATA, speaker,
@@ -154,6 +130,7 @@ exit_status setup_read(setup *s, const arguments *args)
 
 void setup_free(setup *s)
 {
+    for (size_t i = 0; s->actors != NULL && i < s->count; ++i) outline_free(&s->actors[i].outline);
     free(s->actors);
     imp_scene_free(s->still);
     query_registry_free(s->registry);

@@ -6,8 +6,7 @@
 #include <jansson.h>
 
 #include "tools/cli/arguments.h"
-#include "tools/simulate/limits.h"
-#include "tools/simulate/rigid.h"
+#include "tools/simulate/outline.h"
 
 /* The scene of a simulation
  * =========================
@@ -17,9 +16,9 @@
 
 typedef struct actor {
     const char *name;
-    json_t *json; /* the body without the keys of a simulation; borrowed */
-    bool moves;   /* it has a mass */
-    bool varies;  /* its surfaces depend on time: without a mass it is driven, else it deforms */
+    json_t *json;    /* the body without the keys of a simulation; borrowed */
+    bool moves;      /* it has a mass */
+    outline outline; /* where it varies, it is driven, or, with a mass, it deforms */
     double mass, restitution, friction;
     vec center;                /* of mass, at the start */
     mat3 inertia;              /* about the center, in the axes of the start */

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/common/array.h"
 #include "tools/cli/progress.h"
 #include "tools/simulate/event.h"
 #include "tools/simulate/timeline.h"
@@ -29,8 +30,6 @@ static exit_status begin(simulation *s, const setup *what, const arguments *args
     const imp_options *o = &what->options;
     *s = (simulation){.setup = what,
                       .movers = calloc(n, sizeof *s->movers),
-                      .meetings = calloc(n * (n - 1) / 2 + 1, sizeof *s->meetings),
-                      .outlines = calloc(n, sizeof *s->outlines),
                       .memory = calloc(n, sizeof *s->memory),
                       .rests = calloc(n, sizeof *s->rests),
                       .held_now = calloc(n, sizeof *s->held_now),
@@ -40,11 +39,10 @@ static exit_status begin(simulation *s, const setup *what, const arguments *args
     s->search =
         (searching){.setup = what, .movers = s->movers, .end = o->t_end, .limits = what->limits};
     set_speeds(s);
-    if (s->movers == NULL || s->outlines == NULL || s->memory == NULL || s->meetings == NULL ||
-        s->rests == NULL || s->held_now == NULL || s->log == NULL)
+    if (s->movers == NULL || s->memory == NULL || s->rests == NULL || s->held_now == NULL ||
+        s->log == NULL)
         return complain_of_memory(speaker);
     for (size_t i = 0; i < n; ++i) {
-        if (!outline_read(&s->outlines[i], what, i)) return complain_of_memory(speaker);
         s->memory[i].speed = INFINITY;
         if (!what->actors[i].moves) continue;
         if (!mover_begin(&s->movers[i], &what->actors[i], what->gravity, o->t_start, o->t_end))
@@ -52,23 +50,44 @@ static exit_status begin(simulation *s, const setup *what, const arguments *args
         const exit_status status = timeline_check(s, i);
         if (status != EXIT_ANSWERED) return status;
     }
-    for (size_t i = 0; i < n; ++i)
-        for (size_t j = i + 1; j < n; ++j) {
+    return EXIT_ANSWERED;
+}
+
+/* The time may be up, or the meetings may need more memory than is allowed. */
+static imp_reason list_limit(const simulation *s)
+{
+    const uint64_t allowed = s->setup->options.max_bytes;
+    if (allowed > 0 && s->meeting_count > allowed / sizeof *s->meetings) return IMP_REASON_MEMORY;
+    return limits_reached(&s->search.limits);
+}
+
+/* One meeting of each two bodies of which one moves. Of tens of thousands of bodies there are so
+ * many pairs that the limits hold here, too; *limit says whether one came first. */
+static exit_status list_meetings(simulation *s, imp_reason *limit)
+{
+    const setup *what = s->setup;
+    size_t capacity = 0;
+    for (size_t i = 0; i < what->count; ++i) {
+        *limit = list_limit(s);
+        if (*limit != IMP_REASON_NONE) return EXIT_ANSWERED;
+        for (size_t j = i + 1; j < what->count; ++j) {
             if (!what->actors[i].moves && !what->actors[j].moves) continue;
             if (imp_scene_ignores(what->still, i, j)) continue;
+            meeting *grown = array_reserve(s->meetings, s->meeting_count, &capacity, sizeof *grown);
+            if (grown == NULL) return complain_of_memory(speaker);
+            s->meetings = grown;
             s->meetings[s->meeting_count++] = (meeting){.body = {i, j}};
         }
+    }
     return EXIT_ANSWERED;
 }
 
 static exit_status run(simulation *s)
 {
-    const imp_reason limit = limits_reached(&s->search.limits);
-    if (limit != IMP_REASON_NONE) {
-        timeline_cut(s, s->t, limit, NULL);
-        return EXIT_ANSWERED;
-    }
-    exit_status status = timeline_predict_all(s);
+    imp_reason limit;
+    exit_status status = list_meetings(s, &limit);
+    if (status == EXIT_ANSWERED && limit != IMP_REASON_NONE) timeline_cut(s, s->t, limit, NULL);
+    if (status == EXIT_ANSWERED && s->reason == NULL) status = timeline_predict_all(s);
     bool done = false;
     while (status == EXIT_ANSWERED && s->reason == NULL && !done) {
         meeting *first = timeline_earliest(s);
@@ -112,10 +131,7 @@ void simulation_free(simulation *s)
     for (size_t i = 0; i < s->meeting_count; ++i) imp_scene_free(s->meetings[i].scene);
     for (size_t i = 0; s->movers != NULL && i < s->setup->count; ++i)
         if (s->setup->actors[i].moves) mover_free(&s->movers[i]);
-    for (size_t i = 0; s->outlines != NULL && i < s->setup->count; ++i)
-        outline_free(&s->outlines[i]);
     free(s->movers);
-    free(s->outlines);
     free(s->memory);
     free(s->meetings);
     free(s->rests);

@@ -21,7 +21,6 @@ typedef struct simulation {
     const setup *setup;
     searching search;
     mover *movers;      /* by body */
-    outline *outlines;  /* by body */
     remembered *memory; /* by body */
     double lift;        /* L of response.h */
     meeting *meetings;

@@ -8,8 +8,7 @@
 
 static const char speaker[] = "simulate";
 
-/* --- States and sums ----------------------------------------------------------------------------
- */
+/* --- States and sums -------------------------------------------------------------------------- */
 
 sums timeline_sums(const simulation *s, const mover_state *state)
 {
@@ -83,15 +82,14 @@ exit_status timeline_check(const simulation *s, size_t body)
                         s->setup->actors[body].name, t, VALUE_MAX, TURN_MAX);
 }
 
-/* --- Meetings ----------------------------------------------------------------------------------
- */
+/* --- Meetings --------------------------------------------------------------------------------- */
 
 /* Neither of the two moves before it is hit. */
 static bool is_asleep(const simulation *s, const meeting *m)
 {
     for (int k = 0; k < 2; ++k) {
         const actor *a = &s->setup->actors[m->body[k]];
-        if (a->moves ? !s->rests[m->body[k]] : a->varies) return false;
+        if (a->moves ? !s->rests[m->body[k]] : a->outline.varies) return false;
     }
     return true;
 }

@@ -10,8 +10,7 @@
 #include "tools/simulate/drift.h"
 #include "tools/simulate/footprint.h"
 
-/* --- The nearest points
- * --------------------------------------------------------------------------- */
+/* --- The nearest points ----------------------------------------------------------------------- */
 
 /* Patches of one body near a point, and their points nearest to it. */
 enum { AROUND_MAX = 8 };
@@ -105,8 +104,7 @@ static imp_code find_nearest(const touch_pair *pair, const witness *from, neares
     return IMP_SUCCESS;
 }
 
-/* --- The manifold
- * --------------------------------------------------------------------------------- */
+/* --- The manifold ----------------------------------------------------------------------------- */
 
 /* So much of the slack, to all sides, points and segments are taken for polygons. */
 #define THICKNESS 0.0025
@@ -192,8 +190,7 @@ static imp_code find_manifold(const touch_pair *pair, const nearest *n, touching
     return code;
 }
 
-/* --- All
- * ------------------------------------------------------------------------------------------ */
+/* --- All -------------------------------------------------------------------------------------- */
 
 imp_code touching_find(const touch_pair *pair, const witness *from, touching *out, imp_error *why)
 {
