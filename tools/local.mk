@@ -184,7 +184,7 @@ tools_simulate = \
     tools/simulate/mass.c tools/simulate/mass.h \
     tools/simulate/meeting.c tools/simulate/meeting.h \
     tools/simulate/mover.c tools/simulate/mover.h \
-    tools/simulate/nearest.c tools/simulate/nearest.h \
+    tools/simulate/closest.c tools/simulate/closest.h \
     tools/simulate/nesting.c tools/simulate/nesting.h \
     tools/simulate/outline.c tools/simulate/outline.h \
     tools/simulate/patches.c tools/simulate/patches.h \

@@ -26,7 +26,7 @@ static imp_code velocities(const setup *s, const placed *at, imp_place place, do
     return code;
 }
 
-imp_code drift_find(const setup *s, const nearest *n, int k, double t, drift *out, imp_error *why)
+imp_code drift_find(const setup *s, const closest *n, int k, double t, drift *out, imp_error *why)
 {
     const chart *c = &n->chart[k];
     *out = (drift){.at = n->jet[k].x, .any = s->actors[c->at->body].outline.varies};

@@ -3,7 +3,7 @@
 #ifndef TOOLS_SIMULATE_DRIFT_H
 #define TOOLS_SIMULATE_DRIFT_H
 
-#include "tools/simulate/nearest.h"
+#include "tools/simulate/closest.h"
 
 /* How a surface moves beyond the rigid motion of its body
  * =======================================================
@@ -19,7 +19,7 @@ typedef struct drift {
 } drift;
 
 /* At the nearest point of side k. */
-imp_code drift_find(const setup *s, const nearest *n, int k, double t, drift *out, imp_error *why);
+imp_code drift_find(const setup *s, const closest *n, int k, double t, drift *out, imp_error *why);
 
 vec drift_at(const drift *d, vec x);
 

@@ -70,7 +70,7 @@ static imp_code look_around(const placed *at, const outline *o, imp_place own, c
         if (is_same_place(patch->place, own) || !is_near(&patch->box, inner, distance)) continue;
         imp_code code = chart_make(&c, at, patch->place, why);
         if (code == IMP_SUCCESS) code = start_on(&c, x, uv, why);
-        if (code == IMP_SUCCESS) code = nearest_project(&c, uv, x, &found, why);
+        if (code == IMP_SUCCESS) code = closest_project(&c, uv, x, &found, why);
         if (code != IMP_SUCCESS) return code;
         if (!(vec_length(vec_sub(found, x)) <= distance)) continue;
         out->place[out->count] = patch->place;
@@ -80,13 +80,13 @@ static imp_code look_around(const placed *at, const outline *o, imp_place own, c
 }
 
 /* Of all patches around the witness. */
-static imp_code find_nearest(const touch_pair *pair, const witness *from, nearest *out,
+static imp_code find_nearest(const touch_pair *pair, const witness *from, closest *out,
                              imp_error *why)
 {
     around side[2];
-    imp_code code = nearest_find(out, pair->at, from->place, from->p, why);
+    imp_code code = closest_find(out, pair->at, from->place, from->p, why);
     const vec middle = vec_scale(0.5, vec_add(out->jet[0].x, out->jet[1].x));
-    const double distance = nearest_gap(out) / 2 + pair->slack;
+    const double distance = closest_gap(out) / 2 + pair->slack;
     for (int k = 0; k < 2 && code == IMP_SUCCESS; ++k)
         code = look_around(&pair->at[k], pair->outline[k], from->place[k], out->spot[k].p, middle,
                            distance, &side[k], why);
@@ -96,10 +96,10 @@ static imp_code find_nearest(const touch_pair *pair, const witness *from, neares
         const imp_place place[2] = {side[0].place[i], side[1].place[j]};
         const double p[2][2] = {{side[0].p[i][0], side[0].p[i][1]},
                                 {side[1].p[j][0], side[1].p[j][1]}};
-        nearest other;
-        code = nearest_find(&other, pair->at, place, p, why);
+        closest other;
+        code = closest_find(&other, pair->at, place, p, why);
         if (code != IMP_SUCCESS) return code;
-        if (nearest_gap(&other) < nearest_gap(out)) *out = other;
+        if (closest_gap(&other) < closest_gap(out)) *out = other;
     }
     return IMP_SUCCESS;
 }
@@ -162,7 +162,7 @@ static imp_code find_corners(footprint f[2], const contact_plane *plane, touchin
     return IMP_SUCCESS;
 }
 
-static imp_code find_manifold(const touch_pair *pair, const nearest *n, touching *out,
+static imp_code find_manifold(const touch_pair *pair, const closest *n, touching *out,
                               imp_error *why)
 {
     footprint f[2] = {{0}, {0}};
@@ -179,7 +179,7 @@ static imp_code find_manifold(const touch_pair *pair, const nearest *n, touching
         plane.origin = n->jet[k].x;
         own = plane_inward(&plane, out->point);
         if (!footprint_add(&f[k], &own, 1)) code = IMP_ERROR_MEMORY;
-        const bool round = nearest_is_round(n, k, plane.slack);
+        const bool round = closest_is_round(n, k, plane.slack);
         if (code == IMP_SUCCESS)
             code = footprint_find(&f[k], &pair->at[k], pair->outline[k], &plane, k == 0 ? 1 : -1,
                                   middle, reach, round ? &n->chart[k].place : NULL, why);
@@ -194,13 +194,13 @@ static imp_code find_manifold(const touch_pair *pair, const nearest *n, touching
 
 imp_code touching_find(const touch_pair *pair, const witness *from, touching *out, imp_error *why)
 {
-    nearest n;
+    closest n;
     drift d[2];
     imp_code code = find_nearest(pair, from, &n, why);
     if (code != IMP_SUCCESS) return code;
     *out = (touching){.point = vec_scale(0.5, vec_add(n.jet[0].x, n.jet[1].x)),
-                      .normal = nearest_normal(&n),
-                      .gap = nearest_gap(&n)};
+                      .normal = closest_normal(&n),
+                      .gap = closest_gap(&n)};
     for (int k = 0; k < 2; ++k) {
         out->nearest.place[k] = n.chart[k].place;
         memcpy(out->nearest.p[k], n.spot[k].p, sizeof n.spot[k].p);

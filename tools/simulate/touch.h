@@ -11,7 +11,7 @@
  * ======================
  * A witness of contact is two points no farther apart than gamma, not the nearest two: the
  * direction from one to the other may be far from the normal. So the nearest points of all patches
- * around the witness are searched (nearest.h). Through the middle between them, normal to their
+ * around the witness are searched (closest.h). Through the middle between them, normal to their
  * line, goes the plane of contact; what the footprints of both bodies on it have in common is the
  * contact's manifold: a point, a segment, or a polygon of up to CONTACT_POINTS corners. Nothing of
  * this is part of what is promised. */

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/simulate/nearest.h"
+#include "tools/simulate/closest.h"
 
 #include <string.h>
 
@@ -130,7 +130,7 @@ static double rounding_of(const jet j[2])
 /* Below this, cosines are rounding. */
 static double slope_slack(const jet j[2]) { return fmin(1e-3, 1e-11 + rounding_of(j) / gap_of(j)); }
 
-static void form_free(const nearest *n, bool alone, newton *system)
+static void form_free(const closest *n, bool alone, newton *system)
 {
     form(n->jet, system);
     find_free(n->chart, n->spot, system);
@@ -139,7 +139,7 @@ static void form_free(const nearest *n, bool alone, newton *system)
 
 /* Whether a step led to a smaller distance, or, as far as rounding tells, to the same one at a
  * place where the surfaces are more normal to it. */
-static bool is_better(const nearest *next, const nearest *n, bool alone, double slope)
+static bool is_better(const closest *next, const closest *n, bool alone, double slope)
 {
     newton system;
     const double was = gap_of(n->jet), is = gap_of(next->jet);
@@ -151,9 +151,9 @@ static bool is_better(const nearest *next, const nearest *n, bool alone, double 
 
 /* One step, then the second point to where it is nearest to the first. `alone`: the second point
  * only. */
-static imp_code minimize(nearest *n, bool alone, imp_error *why);
+static imp_code minimize(closest *n, bool alone, imp_error *why);
 
-static imp_code take_step(nearest *n, const double d[UNKNOWNS], bool alone, imp_error *why)
+static imp_code take_step(closest *n, const double d[UNKNOWNS], bool alone, imp_error *why)
 {
     spot to[2];
     move(n->chart, n->spot, d, to);
@@ -166,13 +166,13 @@ static imp_code take_step(nearest *n, const double d[UNKNOWNS], bool alone, imp_
 }
 
 /* Newton's method with damping where the distance would grow. */
-static imp_code minimize(nearest *n, bool alone, imp_error *why)
+static imp_code minimize(closest *n, bool alone, imp_error *why)
 {
     const int steps = alone ? 8 : 40;
     double damping = 0, d[UNKNOWNS];
     for (int k = 0; k < steps && damping < 1e3; ++k) {
         newton system;
-        nearest next = *n;
+        closest next = *n;
         form_free(n, alone, &system);
         const double slope = slope_of(&system, n->jet);
         if (slope <= slope_slack(n->jet)) break;
@@ -188,7 +188,7 @@ static imp_code minimize(nearest *n, bool alone, imp_error *why)
     return IMP_SUCCESS;
 }
 
-imp_code nearest_find(nearest *out, const placed at[2], const imp_place place[2],
+imp_code closest_find(closest *out, const placed at[2], const imp_place place[2],
                       const double p[2][2], imp_error *why)
 {
     for (int k = 0; k < 2; ++k) {
@@ -201,11 +201,11 @@ imp_code nearest_find(nearest *out, const placed at[2], const imp_place place[2]
     return minimize(out, false, why);
 }
 
-double nearest_gap(const nearest *n) { return gap_of(n->jet); }
+double closest_gap(const closest *n) { return gap_of(n->jet); }
 
-imp_code nearest_project(const chart *c, double p[2], vec x, vec *found, imp_error *why)
+imp_code closest_project(const chart *c, double p[2], vec x, vec *found, imp_error *why)
 {
-    nearest n = {.chart = {*c, *c}, .jet = {{.x = x}}};
+    closest n = {.chart = {*c, *c}, .jet = {{.x = x}}};
     n.spot[0] = n.spot[1] = chart_spot(c, p);
     imp_code code = chart_jet(c, &n.spot[1], &n.jet[1], why);
     if (code == IMP_SUCCESS) code = minimize(&n, true, why);
@@ -238,7 +238,7 @@ static double curvature(const jet *j, vec normal)
 }
 
 /* Whether the point is inside of its patch, where another patch cannot be nearer by an edge. */
-static bool is_inside(const nearest *n, int k)
+static bool is_inside(const closest *n, int k)
 {
     for (int i = 0; i < 2; ++i) {
         double lo, hi;
@@ -249,7 +249,7 @@ static bool is_inside(const nearest *n, int k)
 }
 
 /* The length of the patch, about. */
-static double patch_size(const nearest *n, int k)
+static double patch_size(const closest *n, int k)
 {
     double size = 0;
     for (int i = 0; i < 2; ++i)
@@ -257,7 +257,7 @@ static double patch_size(const nearest *n, int k)
     return size;
 }
 
-vec nearest_normal(const nearest *n)
+vec closest_normal(const closest *n)
 {
     const vec along = vec_unit(vec_sub(n->jet[1].x, n->jet[0].x));
     const vec normal[2] = {surface_normal(&n->jet[0]), surface_normal(&n->jet[1])};
@@ -283,7 +283,7 @@ static double least_curvature(const jet *j, vec normal)
     return gauss > 0 ? fabs(mean) - sqrt(fmax(0, mean * mean - gauss)) : 0;
 }
 
-bool nearest_is_round(const nearest *n, int k, double sag)
+bool closest_is_round(const closest *n, int k, double sag)
 {
     const vec normal = surface_normal(&n->jet[k]);
     const double way = patch_size(n, k) / 16;
