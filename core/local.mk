@@ -143,6 +143,7 @@ core_solver = \
     core/solver/impact.c core/solver/impact.h \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
+    core/solver/pair_step.c core/solver/pair_step.h \
     core/solver/pair_test.c core/solver/pair_test.h \
     core/solver/query.c \
     core/solver/query_answer.c \

@@ -4,10 +4,9 @@
 
 #include "core/solver/expand_pair.h"
 
-#include "core/bounds/distance.h"
 #include "core/bounds/separation.h"
-#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
+#include "core/solver/pair_step.h"
 #include "core/witness/contact_estimate.h"
 #include "core/witness/newton.h"
 
@@ -82,17 +81,16 @@ static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *
 
 /* --- Following one pair ----------------------------------------------------------------------- */
 
-/* What is to be told apart; by default half of gamma. */
-static double room(const impact *im) { return im->gamma - im->gamma_clear; }
+static resolution resolved(const impact *im) { return resolution_of(im->gamma, im->gamma_clear); }
 
 /* Where nets are close to the surfaces, nearest points are sought on them, and only those found are
  * evaluated. */
 static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp_error *error)
 {
     const node *const nodes[2] = {p->a, p->b};
-    const double t = p->window.lo, part = 0.25 * room(im) / im->gamma;
+    const double t = p->window.lo, room = resolved(im).room, part = 0.25 * room / im->gamma;
     double y[NEWTON_UNKNOWNS];
-    if (!strategy_has_close_nets(p->a, p->b, room(im)))
+    if (!strategy_has_close_nets(p->a, p->b, room))
         return witness_seek(nodes, t, im->gamma, seen, error);
     net_nearest(nodes, p->axis, t, TUNING_WITNESS_NEAR * im->gamma,
                 part < TUNING_NEWTON_GAIN ? part : TUNING_NEWTON_GAIN, y);
@@ -176,15 +174,9 @@ static imp_code expand_by_paper(impact *im, const pair *p, impact_state *state, 
     return IMP_SUCCESS;
 }
 
-/* What is smaller does not matter: gamma, or less where the room is less than half of it. */
-static double scale(const impact *im)
-{
-    return 2 * room(im) < im->gamma ? 2 * room(im) : im->gamma;
-}
-
 static bool precision_ends(const impact *im, const pair *p, double flat)
 {
-    return pair_precision_ends(p, candidate_pair_of(im, p), room(im), flat);
+    return pair_precision_ends(p, candidate_pair_of(im, p), resolved(im).room, flat);
 }
 
 /* Whether a search may pay: the polynomials are good enough for gamma, or will never be better, or
@@ -195,21 +187,10 @@ static bool witness_is_likely(const impact *im, const pair *p, const distance_ou
     if (p->wait > 0) return false;
     if (seen->side >= 0 && !(p->window.lo < p->window.hi)) return true;
     const double remainder = pair_remainder(p);
-    return TUNING_WITNESS_GAMMA * remainder <= scale(im) ||
+    return TUNING_WITNESS_GAMMA * remainder <= resolved(im).scale ||
            TUNING_WITNESS_EXTENT * pair_extent(p) <= remainder ||
            strategy_hulls_of(p->a, p->b) == HULLS_FLAT ||
            precision_ends(im, p, TUNING_WITNESS_FLAT);
-}
-
-/* Chooses the cut of the side that is worth halving alone; none where its remainder does not matter
- * any more: where surfaces come to touch along a curve, it would be halved all along before the
- * other side is small enough for a witness. */
-static cut choose_cut_alone(const impact *im, const pair *p, const distance_outcome *seen)
-{
-    if (seen->side < 0) return CUT_NONE;
-    const node *n = seen->side == 0 ? p->a : p->b;
-    const bool matters = n->e[0] + n->e[1] + n->e[2] > scale(im);
-    return matters ? cut_alone(p, seen->side, seen->bend, scale(im)) : CUT_NONE;
 }
 
 /* The pairs that hold the points of a contact are near each other for a long time where gamma is
@@ -217,11 +198,12 @@ static cut choose_cut_alone(const impact *im, const pair *p, const distance_outc
  * from being found. What one side's distance shows comes first. */
 static cut choose_cut(const impact *im, const pair *p, const distance_outcome *seen)
 {
-    const cut alone = choose_cut_alone(im, p, seen);
+    const double scale = resolved(im).scale;
+    const cut alone = pair_cut_alone(p, seen, scale);
     if (alone.side >= 0) return alone;
-    const cut bend = scale(im) < im->gamma ? cut_by_bend(p, scale(im)) : CUT_NONE;
+    const cut bend = scale < im->gamma ? cut_by_bend(p, scale) : CUT_NONE;
     if (bend.side >= 0) return bend;
-    return cut_by_spread(p, scale(im), strategy_has_both_hulls(p->a, p->b));
+    return cut_by_spread(p, scale, strategy_has_both_hulls(p->a, p->b));
 }
 
 /* Chooses a cut. A cut in time of which one half holds the whole window is made at once, without
@@ -241,28 +223,14 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcom
     return code;
 }
 
-/* What the nodes' distances from each other's whole surfaces show, where that has a chance. */
-static imp_code look(const impact *im, const pair *p, distance_outcome *seen, imp_error *error)
-{
-    const slide_signs signs = {
-        .start = p->window.lo,
-        .is_parted = vec3_norm1(p->axis) > 0,
-        .slides = p->slides,
-        .sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL};
-    *seen = distance_outcome_none(&p->window);
-    if (!strategy_takes_distances(p->a, p->b, &signs, GOAL_CONTACT)) return IMP_SUCCESS;
-    const distance_sides both = pair_sides(p, candidate_pair_of(im, p));
-    const imp_code code = distance_cut_sides(&both, im->gamma_clear, seen, error);
-    strategy_note_distances(&signs, seen->is_apart || seen->side >= 0);
-    return code;
-}
-
 static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
     if (pair_has_cluster(p))
         return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
     distance_outcome from_each;
-    imp_code code = look(im, p, &from_each, error);
+    trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
+    imp_code code = pair_look(p, candidate_pair_of(im, p), im->gamma_clear, GOAL_CONTACT, sliding,
+                              &from_each, error);
     if (code != IMP_SUCCESS || from_each.is_apart) return code;
     if (witness_is_likely(im, p, &from_each)) {
         witness seen;
@@ -284,7 +252,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     net_halves halves;
     code = leave_out_halves(im, p, &halves, &some, error);
     if (code == IMP_SUCCESS && !some) return IMP_SUCCESS;
-    if (code == IMP_SUCCESS && TUNING_TINY * pair_extent(p) <= room(im))
+    if (code == IMP_SUCCESS && TUNING_TINY * pair_extent(p) <= resolved(im).room)
         c = cut_in_time(p);
     else if (code == IMP_SUCCESS)
         code = choose_cut_after_free(im, p, &from_each, &c, error);

@@ -4,17 +4,16 @@
 
 #include "core/solver/impact.h"
 
+#include "core/solver/pair_step.h"
+
 void impact_push(impact *im, pair_test *t)
 {
     im->stats->pairs += 1;
     im->stats->bytes += t->bytes;
     if (!t->near) return;
     pair *p = &t->p;
-    p->serial = im->serial++;
     p->key[0] = p->window.lo;
-    p->key[1] = pair_order(p, p->window.lo);
-    pair_heap_push(&im->heap, p);
-    if (im->heap.count > im->stats->peak_heap) im->stats->peak_heap = im->heap.count;
+    pair_push(&im->heap, p, p->window.lo, &im->serial, im->stats);
 }
 
 void impact_note_gap(impact *im, const witness *seen)

@@ -8,11 +8,10 @@
 
 #include "core/base/rounding.h"
 #include "core/base/status.h"
-#include "core/bounds/distance.h"
 #include "core/bounds/separation.h"
-#include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 #include "core/solver/contradiction.h"
+#include "core/solver/pair_step.h"
 
 /* --- How near is near enough ------------------------------------------------------------------ */
 
@@ -26,10 +25,7 @@ static double enough(const min_distance *m)
     return m->upper > m->required && part < m->relaxed ? m->relaxed : part;
 }
 
-/* What is to be told apart: `scale` is to it as gamma is to gamma - gamma_clear by default. */
-static double room(const min_distance *m) { return m->upper - enough(m); }
-
-static double scale(const min_distance *m) { return 2 * room(m); }
+static resolution resolved(const min_distance *m) { return resolution_of(m->upper, enough(m)); }
 
 /* Everything that was left aside is no nearer than this. */
 static double settled(const min_distance *m)
@@ -125,10 +121,7 @@ static void test_and_push(min_distance *m, pair p)
                                            : near.moment;
     if (near.lower > p.key[0]) p.key[0] = near.lower;
     if (p.key[0] > enough(m)) return;
-    p.serial = m->serial++;
-    p.key[1] = pair_order(&p, p.moment);
-    pair_heap_push(&m->heap, &p);
-    if (m->heap.count > m->stats->peak_heap) m->stats->peak_heap = m->heap.count;
+    pair_push(&m->heap, &p, p.moment, &m->serial, m->stats);
 }
 
 /* --- Following one pair ----------------------------------------------------------------------- */
@@ -179,26 +172,21 @@ static imp_code split(min_distance *m, const pair *p, cut c, imp_error *error)
 
 static cut choose_cut(const min_distance *m, const pair *p, const distance_outcome *seen)
 {
-    if (pair_has_cluster(p)) return cut_by_spread(p, scale(m), false);
-    if (pair_precision_ends(p, &m->candidates[p->candidate_pair], room(m), 1)) return CUT_NONE;
-    if (TUNING_TINY * pair_extent(p) <= room(m)) return cut_in_time(p);
-    const cut alone = seen->side >= 0 ? cut_alone(p, seen->side, seen->bend, scale(m)) : CUT_NONE;
-    return alone.side >= 0 ? alone : cut_by_spread(p, scale(m), false);
+    const resolution r = resolved(m);
+    if (pair_has_cluster(p)) return cut_by_spread(p, r.scale, false);
+    if (pair_precision_ends(p, &m->candidates[p->candidate_pair], r.room, 1)) return CUT_NONE;
+    if (TUNING_TINY * pair_extent(p) <= r.room) return cut_in_time(p);
+    const cut alone = pair_cut_alone(p, seen, r.scale);
+    return alone.side >= 0 ? alone : cut_by_spread(p, r.scale, false);
 }
 
-/* Asks what the nodes' distances from each other's whole surfaces show, where no axis parts the
- * pair or its parents slid along each other. Lemma. The times that are cut off p->window are
- * farther apart than what is enough, and over those that are left nothing is nearer than
- * seen->lower, so that p->key[0] stays a bound. */
+/* Lemma. The times that one-sided distances cut off p->window are farther apart than what is
+ * enough, and over those that are left nothing is nearer than seen->lower, so that p->key[0] stays
+ * a bound. */
 static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error *error)
 {
-    *seen = distance_outcome_none(&p->window);
-    if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return IMP_SUCCESS;
-    const slide_signs signs = {
-        .start = p->window.lo, .is_parted = vec3_norm1(p->axis) > 0, .slides = p->slides};
-    if (!strategy_takes_distances(p->a, p->b, &signs, GOAL_DISTANCE)) return IMP_SUCCESS;
-    const distance_sides both = pair_sides(p, &m->candidates[p->candidate_pair]);
-    const imp_code code = distance_cut_sides(&both, enough(m), seen, error);
+    const imp_code code = pair_look(p, &m->candidates[p->candidate_pair], enough(m), GOAL_DISTANCE,
+                                    NULL, seen, error);
     p->window = seen->left;
     p->slides = p->slides || seen->side >= 0;
     if (seen->lower > p->key[0]) p->key[0] = seen->lower;

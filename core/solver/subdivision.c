@@ -12,16 +12,6 @@
 
 bool pair_has_cluster(const pair *p) { return p->a->many != NULL || p->b->many != NULL; }
 
-distance_sides pair_sides(const pair *p, candidate_pair *both)
-{
-    const candidate *a = both->side[0], *b = both->side[1];
-    return (distance_sides){.node = {p->a, p->b},
-                            .root = {tree_root(a->tree), tree_root(b->tree)},
-                            .still_maps = {a->still_maps, b->still_maps},
-                            .slip = both->slip,
-                            .is_audited = tree_is_audited(a->tree)};
-}
-
 static const node *side_of(const pair *p, int side) { return side == 0 ? p->a : p->b; }
 
 /* Curvature of both surfaces at any one time. */

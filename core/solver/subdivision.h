@@ -21,9 +21,6 @@ double pair_extent(const pair *p);
  * halved further whatever its size. */
 bool pair_has_cluster(const pair *p);
 
-/* The pair's nodes for distance_cut_sides; the slips are those of the candidate pair. */
-distance_sides pair_sides(const pair *p, candidate_pair *both);
-
 /* Goes down to one piece each, always to the half whose box is nearer. */
 imp_code pair_descend(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error);
 

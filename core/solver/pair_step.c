@@ -1,0 +1,47 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solver/pair_step.h"
+
+/* The pair's nodes for distance_cut_sides; the slips are those of the candidate pair. */
+static distance_sides sides_of(const pair *p, candidate_pair *both)
+{
+    const candidate *a = both->side[0], *b = both->side[1];
+    return (distance_sides){.node = {p->a, p->b},
+                            .root = {tree_root(a->tree), tree_root(b->tree)},
+                            .still_maps = {a->still_maps, b->still_maps},
+                            .slip = both->slip,
+                            .is_audited = tree_is_audited(a->tree)};
+}
+
+imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
+                   trial_rate *sliding, distance_outcome *seen, imp_error *error)
+{
+    const slide_signs signs = {p->window.lo, vec3_norm1(p->axis) > 0, p->slides, sliding};
+    *seen = distance_outcome_none(&p->window);
+    if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return IMP_SUCCESS;
+    if (!strategy_takes_distances(p->a, p->b, &signs, goal)) return IMP_SUCCESS;
+    const distance_sides sides = sides_of(p, both);
+    const imp_code code = distance_cut_sides(&sides, limit, seen, error);
+    strategy_note_distances(&signs, seen->is_apart || seen->side >= 0);
+    return code;
+}
+
+/* Where surfaces come to touch along a curve, a side whose remainder does not matter any more would
+ * be halved all along before the other is small enough for a witness. */
+cut pair_cut_alone(const pair *p, const distance_outcome *seen, double scale)
+{
+    if (seen->side < 0) return CUT_NONE;
+    const node *n = seen->side == 0 ? p->a : p->b;
+    const bool matters = n->e[0] + n->e[1] + n->e[2] > scale;
+    return matters ? cut_alone(p, seen->side, seen->bend, scale) : CUT_NONE;
+}
+
+void pair_push(pair_heap *heap, pair *p, double t, uint64_t *serial, imp_stats *stats)
+{
+    p->serial = (*serial)++;
+    p->key[1] = pair_order(p, t);
+    pair_heap_push(heap, p);
+    if (heap->count > stats->peak_heap) stats->peak_heap = heap->count;
+}
