@@ -90,6 +90,7 @@ core_scene = \
     core/scene/default_times.c core/scene/default_times.h \
     core/scene/key_pairs.c core/scene/key_pairs.h \
     core/scene/scene.c core/scene/scene.h \
+    core/scene/scene_remarks.c core/scene/scene_remarks.h \
     core/scene/scene_trees.h \
     core/scene/tolerances.c core/scene/tolerances.h
 

@@ -199,14 +199,23 @@ plugins_sweep_la_LIBADD = plugins/libpatch.la
 # Files of triangles and polygons.
 noinst_LTLIBRARIES += plugins/libmesh.la
 plugins_libmesh_la_SOURCES = \
+    plugins/mesh/mesh_bytes.c plugins/mesh/mesh_bytes.h \
     plugins/mesh/mesh_file.c plugins/mesh/mesh_file.h \
+    plugins/mesh/mesh_gltf.c \
+    plugins/mesh/mesh_gltf_data.c plugins/mesh/mesh_gltf_data.h \
+    plugins/mesh/mesh_gltf_place.c plugins/mesh/mesh_gltf_place.h \
     plugins/mesh/mesh_obj.c \
     plugins/mesh/mesh_off.c \
     plugins/mesh/mesh_parameters.c plugins/mesh/mesh_parameters.h \
+    plugins/mesh/mesh_ply.c \
+    plugins/mesh/mesh_ply_head.c plugins/mesh/mesh_ply_head.h \
+    plugins/mesh/mesh_scalar.c plugins/mesh/mesh_scalar.h \
     plugins/mesh/mesh_stl.c \
     plugins/mesh/mesh_text.c plugins/mesh/mesh_text.h \
+    plugins/mesh/polygon.c plugins/mesh/polygon.h \
     plugins/mesh/triangles.c plugins/mesh/triangles.h
 plugins_libmesh_la_LDFLAGS =
+plugins_libmesh_la_LIBADD = $(JANSSON_LIBS)
 plugins_mesh_la_LIBADD = plugins/libmesh.la plugins/libcommon.la
 
 # Control meshes, and the surfaces over their quads.
@@ -246,7 +255,8 @@ plugins_libexpression_la_LDFLAGS =
 plugins_formula_la_LIBADD = plugins/libexpression.la
 plugins_map_formula_la_LIBADD = plugins/libexpression.la
 
-# They link with libm and nothing else, whatever configure found for the host.
+# They link with libm, and those that read JSON with jansson (plugins/libmesh.la), whatever configure
+# found for the host.
 $(plugin_LTLIBRARIES): LIBS = -lm
 
 # Hosts load the .so itself; a .la beside it would only mislead.

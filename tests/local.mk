@@ -41,6 +41,7 @@ check_suites = \
     tests/unit/test_loosened \
     tests/unit/test_mechanism \
     tests/unit/test_mesh \
+    tests/unit/test_mesh_files \
     tests/unit/test_mesh_text \
     tests/unit/test_metamorphic \
     tests/unit/test_misuse \
@@ -422,6 +423,7 @@ tests_unit_test_expression_SOURCES = tests/unit/test_expression.c tests/support/
 tests_unit_test_expression_LDFLAGS = $(alloc_failure_ldflags)
 tests_unit_test_impacts_LDADD = tools/libtools.a $(LDADD)
 tests_unit_test_lanes_LDADD = plugins/libpatch.la $(LDADD)
+tests_unit_test_mesh_files_LDADD = plugins/libmesh.la $(LDADD)
 tests_unit_test_mesh_text_LDADD = plugins/libmesh.la $(LDADD)
 tests_unit_test_expression_LDADD = plugins/libexpression.la $(LDADD)
 tests_unit_test_expression_faults_LDADD = plugins/libexpression.la $(LDADD)
@@ -546,12 +548,16 @@ EXTRA_DIST += \
     tests/fuzz/formula.d/zero.txt \
     tests/fuzz/formula.dict \
     tests/fuzz/mesh.d/empty \
+    tests/fuzz/mesh.d/glb_plain \
+    tests/fuzz/mesh.d/gltf_cycle \
+    tests/fuzz/mesh.d/gltf_text \
     tests/fuzz/mesh.d/obj_back \
     tests/fuzz/mesh.d/obj_bent \
     tests/fuzz/mesh.d/obj_beyond \
     tests/fuzz/mesh.d/obj_concave \
     tests/fuzz/mesh.d/obj_continued \
     tests/fuzz/mesh.d/obj_cube \
+    tests/fuzz/mesh.d/obj_ears \
     tests/fuzz/mesh.d/obj_huge_index \
     tests/fuzz/mesh.d/obj_nan \
     tests/fuzz/mesh.d/obj_nul \
@@ -565,6 +571,10 @@ EXTRA_DIST += \
     tests/fuzz/mesh.d/off_more \
     tests/fuzz/mesh.d/off_one_line_head \
     tests/fuzz/mesh.d/off_plain \
+    tests/fuzz/mesh.d/ply_big \
+    tests/fuzz/mesh.d/ply_huge_list \
+    tests/fuzz/mesh.d/ply_little \
+    tests/fuzz/mesh.d/ply_text \
     tests/fuzz/mesh.d/stl_binary \
     tests/fuzz/mesh.d/stl_binary_count \
     tests/fuzz/mesh.d/stl_binary_cut \

@@ -306,6 +306,23 @@ IMP_EXPORT bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b);
 IMP_EXPORT const char *imp_scene_body_name(const imp_scene *scene, size_t body);
 IMP_EXPORT size_t imp_scene_surface_count(const imp_scene *scene, size_t body);
 
+/* What a type left out, or read otherwise than the author of a file may expect, when an instance
+ * was made: statements of a mesh that are no faces, for instance. It was no error. */
+typedef struct imp_remark {
+    uint32_t struct_size;
+    uint32_t reserved;
+    size_t body, surface; /* where the instance stands first */
+    size_t map;           /* which of its maps, from 0, its own first; SIZE_MAX: the surface */
+    const char *type;     /* name of the type */
+    uint64_t count;       /* how many things */
+    const char *text;     /* which, in one sentence that begins with the parameter's name */
+} imp_remark;
+
+/* The remarks on a scene in the order of its surfaces, one for each instance; the texts live as
+ * long as the scene. The caller sets remark->struct_size. False past the last, or if `remark` is
+ * NULL or its size is not set. [any thread] */
+IMP_EXPORT bool imp_scene_remark(const imp_scene *scene, size_t index, imp_remark *remark);
+
 /* The number of pieces of a surface: of a mesh, its triangles; 1 for a surface that is not divided,
  * 0 if there is no such surface. Each piece has a domain of its own; imp_scene_eval, _include and
  * _domain are about the first piece, imp_piece_eval, _include and _domain about any. */

@@ -23,7 +23,7 @@ FP_APART static imp_code from_text(imp_registry *registry, imp_type_kind kind, c
     if (stage == NULL) return why->code;
     place at = place_argument(NULL, who);
     const scene_source source = {.registry = registry};
-    imp_code code = scene_build_instance(&source, kind, stage, &at, instance, why);
+    imp_code code = scene_build_instance(&source, kind, stage, &at, instance, NULL, why);
     json_decref(stage);
     return code;
 }

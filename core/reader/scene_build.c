@@ -121,10 +121,23 @@ static bool is_whole(const guarded_error *g)
     return true;
 }
 
+/* Takes a note over; texts of plugins are not trusted. */
+static void take_note(const parameter_table *table, const imp_create_error *why,
+                      scene_build_note *note)
+{
+    const bool has_row = why->note_parameter >= 0 && (size_t)why->note_parameter < table->count;
+    note->count = why->note_count;
+    snprintf(note->text, sizeof note->text, "%.64s%s%.*s",
+             has_row ? parameter_table_row(table, (size_t)why->note_parameter)->name : "",
+             has_row ? ": " : "", (int)sizeof why->note - 1, why->note);
+    for (char *c = note->text; *c != '\0'; ++c)
+        if ((unsigned char)*c < ' ') *c = ' ';
+}
+
 /* Runs the plugin's create and judges its answer. */
 static imp_code run_create(const type_view *view, isolated *stand_in, const char *file,
                            const parameter_values *values, const place *at, void **self,
-                           imp_error *error)
+                           scene_build_note *note, imp_error *error)
 {
     guarded_error g;
     guard(&g);
@@ -141,6 +154,7 @@ static imp_code run_create(const type_view *view, isolated *stand_in, const char
         return judge_failure(status, view, file, values, &g.why, at, error);
     if (*self == NULL)
         return blame(file, view, "create returned IMP_STATUS_OK without an instance", at, error);
+    if (note != NULL && g.why.note_count > 0) take_note(&view->table, &g.why, note);
     if (kept) return IMP_SUCCESS;
     view->destroy(*self);
     fp_mode_kept(before);
@@ -149,12 +163,12 @@ static imp_code run_create(const type_view *view, isolated *stand_in, const char
 
 static imp_code create(const type_view *view, isolated *stand_in, const char *file,
                        const char *folder, const json_t *object, const place *at, void **self,
-                       imp_error *error)
+                       scene_build_note *note, imp_error *error)
 {
     parameter_values values;
     imp_code code = parameters_read(&view->table, view->name, object, folder, at, &values, error);
     if (code != IMP_SUCCESS) return code;
-    code = run_create(view, stand_in, file, &values, at, self, error);
+    code = run_create(view, stand_in, file, &values, at, self, note, error);
     parameters_clear(&values);
     return code;
 }
@@ -173,7 +187,8 @@ static bool isolate(worker_pool *workers, imp_instance *i, isolated **stand_in)
 }
 
 imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,
-                              const place *at, imp_instance *instance, imp_error *error)
+                              const place *at, imp_instance *instance, scene_build_note *note,
+                              imp_error *error)
 {
     const imp_registry *registry = source->registry;
     const char *name = NULL;
@@ -191,7 +206,7 @@ imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, co
     isolated *stand_in = NULL;
     worker_pool *workers = registry_isolation(registry, name);
     if (workers != NULL && !isolate(workers, &i, &stand_in)) return error_set_memory(error);
-    code = create(&view, stand_in, file, source->folder, object, at, &i.self, error);
+    code = create(&view, stand_in, file, source->folder, object, at, &i.self, note, error);
     if (code == IMP_SUCCESS)
         *instance = i;
     else
@@ -269,13 +284,15 @@ imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, cons
                             const place *at, shared_instance **made, imp_error *error)
 {
     imp_instance i;
-    imp_code code = scene_build_instance(source, kind, object, at, &i, error);
+    scene_build_note note = {.count = 0};
+    imp_code code = scene_build_instance(source, kind, object, at, &i, &note, error);
     if (code != IMP_SUCCESS) return code;
     shared_instance *p = kind == IMP_TYPE_SURFACE ? instance_of_surface(i.surface, i.self)
                                                   : instance_of_map(i.map, i.self);
     if (p == NULL) return error_set_memory(error);
     p->given = bytes_given(object);
-    if (p->breach == IMP_STATUS_OK && label_part(p, object)) {
+    const bool noted = note.count == 0 || instance_set_note(p, note.count, note.text);
+    if (noted && p->breach == IMP_STATUS_OK && label_part(p, object)) {
         *made = p;
         return IMP_SUCCESS;
     }

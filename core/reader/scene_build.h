@@ -27,8 +27,16 @@ typedef struct scene_source {
 imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
                             const place *at, shared_instance **made, imp_error *error);
 
-/* What it begins with: the type and what its create made. The caller owns *instance. */
+/* What create noted without failing (imp_note). */
+typedef struct scene_build_note {
+    uint64_t count; /* 0: nothing */
+    char text[340]; /* one line, with the parameter's name in front */
+} scene_build_note;
+
+/* What it begins with: the type and what its create made. The caller owns *instance. `note` may be
+ * NULL. */
 imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,
-                              const place *at, imp_instance *instance, imp_error *error);
+                              const place *at, imp_instance *instance, scene_build_note *note,
+                              imp_error *error);
 
 #endif

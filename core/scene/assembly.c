@@ -157,6 +157,7 @@ imp_scene *assembly_finish(assembly *a)
     imp_scene *scene = a->scene;
     a->scene = NULL;
     assembly_clear(a);
-    scene_complete(scene);
-    return scene;
+    if (scene_complete(scene) == IMP_SUCCESS) return scene;
+    imp_scene_free(scene);
+    return NULL;
 }

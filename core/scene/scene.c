@@ -16,6 +16,7 @@
 #include "core/common/array.h"
 #include "core/scene/default_times.h"
 #include "core/scene/key_pairs.h"
+#include "core/scene/scene_remarks.h"
 #include "core/scene/scene_trees.h"
 
 /* A surface without its last maps, for trees in a frame that moves with these. */
@@ -49,6 +50,7 @@ struct imp_scene {
     scene_settings settings;
     uint64_t bytes;      /* 0: not summed up yet */
     double t_from, t_to; /* when all surfaces are defined; not known yet: never */
+    scene_remarks remarks;
     /* once it is built all but the members' lists of trees is only read */
 };
 
@@ -95,8 +97,18 @@ void imp_scene_free(imp_scene *scene)
     for (size_t g = 0; g < scene->group_count; ++g) free(scene->groups[g]);
     free(scene->groups);
     free(scene->bodies);
+    scene_remarks_clear(&scene->remarks);
     key_pairs_clear(&scene->ignored);
     free(scene);
+}
+
+static bool note_remarks(imp_scene *scene)
+{
+    bool kept = true;
+    for (size_t b = 0; b < scene->count && kept; ++b)
+        for (size_t k = 0; k < scene->bodies[b].count && kept; ++k)
+            kept = scene_remarks_add(&scene->remarks, scene->bodies[b].members[k].surface, b, k);
+    return kept;
 }
 
 imp_code scene_add_body(imp_scene *scene, const char *name)
@@ -225,15 +237,22 @@ static void note_times(imp_scene *scene)
         }
 }
 
-void scene_complete(imp_scene *scene)
+imp_code scene_complete(imp_scene *scene)
 {
     scene_settings *set = &scene->settings;
     double time[2];
     scene->bytes = sum_of_bytes(scene);
     note_times(scene);
-    if (!isnan(set->t_start) || default_times(scene, time, NULL) != IMP_SUCCESS) return;
+    if (!note_remarks(scene)) return IMP_ERROR_MEMORY;
+    if (!isnan(set->t_start) || default_times(scene, time, NULL) != IMP_SUCCESS) return IMP_SUCCESS;
     set->t_start = time[0];
     set->t_end = time[1];
+    return IMP_SUCCESS;
+}
+
+bool imp_scene_remark(const imp_scene *scene, size_t index, imp_remark *remark)
+{
+    return scene != NULL && scene_remarks_tell(&scene->remarks, index, remark);
 }
 
 bool scene_is_defined(const imp_scene *scene, double t_start, double t_end)

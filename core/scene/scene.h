@@ -43,9 +43,9 @@ const surface *scene_surface(const imp_scene *scene, size_t body, size_t index);
 /* What its bodies and surfaces hold, about, without their trees. */
 uint64_t scene_bytes(const imp_scene *scene);
 
-/* Once all is added: notes what it holds and when all of it is defined, since each query asks for
- * these. */
-void scene_complete(imp_scene *scene);
+/* Once all is added: notes what it holds, when all of it is defined, since each query asks for
+ * these, and what types remarked. IMP_ERROR_MEMORY, or IMP_SUCCESS. */
+imp_code scene_complete(imp_scene *scene);
 
 /* Whether all types and maps are known to be defined from t_start to t_end. */
 bool scene_is_defined(const imp_scene *scene, double t_start, double t_end);

@@ -153,6 +153,7 @@ void instance_release(shared_instance *p)
         destroy(p->map->name, p->map->destroy, p->self);
     free(p->pieces);
     free(p->label);
+    free(p->note);
     free(p);
 }
 
@@ -182,6 +183,16 @@ const char *instance_label(const shared_instance *p)
 {
     if (p->label != NULL) return p->label;
     return p->surface != NULL ? p->surface->name : p->map->name;
+}
+
+/* --- Notes ------------------------------------------------------------------------------------ */
+
+bool instance_set_note(shared_instance *p, uint64_t count, const char *text)
+{
+    p->note = strdup(text);
+    if (p->note == NULL) return false;
+    p->note_count = count;
+    return true;
 }
 
 /* --- Lists ------------------------------------------------------------------------------------ */

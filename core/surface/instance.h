@@ -26,7 +26,9 @@ typedef struct shared_instance {
                                    then the instance may only be released */
     size_t given;      /* bytes of the values it was made from: about what the instance keeps */
     char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
-    size_t label_size; /* bytes of it, its end included */
+    size_t label_size;   /* bytes of it, its end included */
+    uint64_t note_count; /* things that create left out or read otherwise; 0: no note */
+    char *note;          /* which ones, with the parameter's name; NULL: none */
 } shared_instance;
 
 /* Takes over the instance `self`, and asks for its domain, or those of its pieces, which have their
@@ -45,6 +47,9 @@ void instance_label_add(char label[INSTANCE_LABEL_MAX], const char *text);
 /* Copies the label, once. False: no memory. */
 bool instance_set_label(shared_instance *p, const char label[INSTANCE_LABEL_MAX]);
 const char *instance_label(const shared_instance *p);
+
+/* Copies a note of create, once: `count` things, told by the text. False: no memory. */
+bool instance_set_note(shared_instance *p, uint64_t count, const char *text);
 
 /* Bytes that it and what create made hold, about: each block with what the allocator adds. */
 enum { INSTANCE_BLOCK = 16 }; /* bytes */

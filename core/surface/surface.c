@@ -112,6 +112,12 @@ size_t surface_bytes(const surface *s)
     return bytes;
 }
 
+const shared_instance *surface_origin(const surface *s, size_t k)
+{
+    assert(k <= s->map_count);
+    return k == 0 ? s->origin : s->maps[k - 1].origin;
+}
+
 size_t surface_piece_count(const surface *s) { return s->piece_count; }
 
 const surface *surface_piece(const surface *s, size_t k)

@@ -212,6 +212,10 @@ imp_status surface_move_outward(const surface *s, size_t maps, double t, double 
 
 size_t surface_map_count(const surface *s);
 
+/* What the surface is composed of: its type's instance (0), then its maps'. k <=
+ * surface_map_count. */
+const shared_instance *surface_origin(const surface *s, size_t k);
+
 /* Precondition: surface_has_distance. How many of its maps, counted from the first, do not turn it
  * further during the region's times. */
 imp_status surface_still_maps(const surface *s, const imp_region *region, size_t *count);

@@ -3,10 +3,9 @@
 
 #include "plugins/mesh/mesh_file.h"
 
-#include <stdio.h>
-#include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
+
+#include "plugins/mesh/mesh_bytes.h"
 
 /* The bytes of a byte order mark, which some programs begin text with; a binary STL file may begin
  * with any bytes. */
@@ -20,75 +19,84 @@ static size_t mark_length(mesh_format format, const char *bytes, size_t length)
     return is_text ? of_mark : 0;
 }
 
-imp_status mesh_read_bytes(mesh_format format, const char *bytes, size_t length, triangles *to,
-                           triangles_fault *fault)
+imp_status mesh_read_bytes(mesh_format format, const char *bytes, size_t length, const char *folder,
+                           triangles *to, triangles_fault *fault)
 {
-    imp_status (*const read[])(const char *, size_t, triangles *, triangles_fault *) = {
-        [MESH_OBJ] = mesh_read_obj, [MESH_OFF] = mesh_read_off, [MESH_STL] = mesh_read_stl};
+    imp_status (*const read[])(const char *, size_t, triangles *,
+                               triangles_fault *) = {[MESH_OBJ] = mesh_read_obj,
+                                                     [MESH_OFF] = mesh_read_off,
+                                                     [MESH_STL] = mesh_read_stl,
+                                                     [MESH_PLY] = mesh_read_ply};
     const size_t mark = mark_length(format, bytes, length);
-    const imp_status status = read[format](bytes + mark, length - mark, to, fault);
+    const imp_status status = format == MESH_GLTF
+                                  ? mesh_read_gltf(bytes, length, folder, to, fault)
+                                  : read[format](bytes + mark, length - mark, to, fault);
     if (status != IMP_STATUS_OK || to->count > 0) return status;
     return triangles_refuse(fault, 0, "no faces in it; a mesh needs one at least");
 }
 
 static bool find_format(const char *path, mesh_format *format)
 {
-    static const char *const ends[] = {
-        [MESH_OBJ] = ".obj", [MESH_OFF] = ".off", [MESH_STL] = ".stl"};
+    static const struct {
+        const char *end;
+        mesh_format format;
+    } ends[] = {{".obj", MESH_OBJ}, {".off", MESH_OFF},   {".stl", MESH_STL},
+                {".ply", MESH_PLY}, {".gltf", MESH_GLTF}, {".glb", MESH_GLTF}};
     const size_t length = strlen(path);
-    for (int k = 0; k < 3; ++k)
-        if (length > 4 && strcasecmp(path + length - 4, ends[k]) == 0) {
-            *format = (mesh_format)k;
-            return true;
-        }
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; ++k) {
+        const size_t of_end = strlen(ends[k].end);
+        if (length <= of_end || strcasecmp(path + length - of_end, ends[k].end) != 0) continue;
+        *format = ends[k].format;
+        return true;
+    }
     return false;
 }
 
-enum { BYTES_MAX = 1 << 30 };
-
-/* Only files: a pipe or a device might never end. At most as much as the file was long when it was
- * opened; NULL: it cannot be read, or no memory (*status). */
-static char *read_whole(const char *path, int row, size_t *length, imp_status *status,
-                        imp_create_error *why)
+static imp_status complain(const char *path, int row, const triangles_fault *fault,
+                           imp_create_error *why)
 {
-    struct stat facts;
-    *status = imp_reject(why, row, -1, "'%.180s' cannot be read", path);
-    if (stat(path, &facts) != 0 || !S_ISREG(facts.st_mode)) return NULL;
-    if (facts.st_size > BYTES_MAX) {
-        imp_reject(why, row, -1, "'%.140s' has %lld bytes, may have 2^30; divide the mesh", path,
-                   (long long)facts.st_size);
-        return NULL;
-    }
-    FILE *file = fopen(path, "rbe");
-    if (file == NULL) return NULL;
-    char *bytes = malloc((size_t)facts.st_size + 1);
-    if (bytes != NULL) *length = fread(bytes, 1, (size_t)facts.st_size, file);
-    *status = bytes == NULL ? IMP_STATUS_INTERNAL : ferror(file) ? *status : IMP_STATUS_OK;
-    fclose(file);
-    if (*status == IMP_STATUS_OK) return bytes;
-    free(bytes);
-    return NULL;
+    if (fault->line > 0)
+        return imp_reject(why, row, -1, "'%.80s', line %zu: %s", path, fault->line, fault->text);
+    if (fault->byte > 0)
+        return imp_reject(why, row, -1, "'%.80s', byte %zu: %s", path, fault->byte - 1,
+                          fault->text);
+    return imp_reject(why, row, -1, "'%.80s': %s", path, fault->text);
+}
+
+/* With the '/' at its end; "" where the process is. NULL: no memory. */
+static char *folder_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t length = slash != NULL ? (size_t)(slash - path) + 1 : 0;
+    char *folder = malloc(length + 1);
+    if (folder == NULL) return NULL;
+    memcpy(folder, path, length);
+    folder[length] = '\0';
+    return folder;
 }
 
 imp_status mesh_read_file(const char *path, int row, triangles *to, imp_create_error *why)
 {
     mesh_format format;
     size_t length = 0;
-    imp_status status;
-    triangles_fault fault = {0, ""};
+    char *bytes = NULL;
+    triangles_fault fault = {0, "", 0};
     if (!find_format(path, &format))
-        return imp_reject(why, row, -1, "'%.160s' ends in none of .obj, .off, .stl", path);
-    if (to->keeps_faces && format == MESH_STL)
         return imp_reject(why, row, -1,
-                          "'%.120s': triangles of an STL file share no points; write it as .obj or "
-                          ".off",
+                          "'%.140s' ends in none of .obj, .off, .stl, .ply, .gltf, .glb", path);
+    if (to->keeps_faces && (format == MESH_STL || format == MESH_GLTF))
+        return imp_reject(why, row, -1,
+                          "'%.100s': triangles of such a file share no points; write it as .obj, "
+                          ".off or .ply",
                           path);
-    char *bytes = read_whole(path, row, &length, &status, why);
-    if (bytes == NULL) return status;
-    status = mesh_read_bytes(format, bytes, length, to, &fault);
+    imp_status status = mesh_read_whole(path, &bytes, &length, &fault);
+    if (status == IMP_STATUS_PARAMETER) return imp_reject(why, row, -1, "%s", fault.text);
+    char *folder = status == IMP_STATUS_OK ? folder_of(path) : NULL;
+    if (folder != NULL)
+        status = mesh_read_bytes(format, bytes, length, folder, to, &fault);
+    else
+        status = IMP_STATUS_INTERNAL;
+    free(folder);
     free(bytes);
-    if (status != IMP_STATUS_PARAMETER) return status;
-    if (fault.line > 0)
-        return imp_reject(why, row, -1, "'%.80s', line %zu: %s", path, fault.line, fault.text);
-    return imp_reject(why, row, -1, "'%.80s': %s", path, fault.text);
+    return status == IMP_STATUS_PARAMETER ? complain(path, row, &fault, why) : status;
 }

@@ -7,15 +7,17 @@
 
 /* Triangles from files
  * ====================
- * Wavefront OBJ (points and polygons), OFF, and STL, as text and binary. Nothing that a file says
- * of its own size is believed before it is there. Whatever else a file describes that would touch
- * something (lines, free-form patches) is refused, not left out. */
+ * Wavefront OBJ, OFF, STL (text and binary), PLY (text and binary) and glTF 2.0 (.gltf and .glb).
+ * Nothing that a file says of its own size is believed before it is there. What a file describes
+ * beside its faces is left out and counted (to->left_out). */
 
-typedef enum mesh_format { MESH_OBJ, MESH_OFF, MESH_STL } mesh_format;
+typedef enum mesh_format { MESH_OBJ, MESH_OFF, MESH_STL, MESH_PLY, MESH_GLTF } mesh_format;
 
-/* Adds the points and triangles of a whole file of `length` bytes. */
-imp_status mesh_read_bytes(mesh_format format, const char *bytes, size_t length, triangles *to,
-                           triangles_fault *fault);
+/* Adds the points and triangles of a whole file of `length` bytes. A glTF document may name files
+ * in `folder`, which ends in '/' or is empty; NULL: such files are refused. IMP_STATUS_PARAMETER:
+ * it cannot be read, and the fault says where. */
+imp_status mesh_read_bytes(mesh_format format, const char *bytes, size_t length, const char *folder,
+                           triangles *to, triangles_fault *fault);
 
 /* Adds the points and triangles of a file; the end of its name says its format. `row`: the
  * parameter with the path. */
@@ -25,5 +27,8 @@ imp_status mesh_read_file(const char *path, int row, triangles *to, imp_create_e
 imp_status mesh_read_obj(const char *bytes, size_t length, triangles *to, triangles_fault *fault);
 imp_status mesh_read_off(const char *bytes, size_t length, triangles *to, triangles_fault *fault);
 imp_status mesh_read_stl(const char *bytes, size_t length, triangles *to, triangles_fault *fault);
+imp_status mesh_read_ply(const char *bytes, size_t length, triangles *to, triangles_fault *fault);
+imp_status mesh_read_gltf(const char *bytes, size_t length, const char *folder, triangles *to,
+                          triangles_fault *fault);
 
 #endif

@@ -5,7 +5,8 @@
 #include "plugins/mesh/mesh_text.h"
 
 /* Wavefront OBJ: "v x y z" are points, numbered from 1, "f a b c ..." polygons of them; a corner is
- * "point/texture/normal", and -1 the last point so far. */
+ * "point/texture/normal", and -1 the last point so far. What follows the coordinates of a point (a
+ * weight, a colour) means nothing to a polygon. */
 
 typedef struct obj_reader {
     mesh_text text;
@@ -56,18 +57,18 @@ static bool is_one_of(const char *word, const char *const *list)
     return *list != NULL;
 }
 
+/* What follows may touch something (lines, points, curves, free-form surfaces) or is unknown: it is
+ * left out and counted. Names, materials, normals and the like are no things in space. */
 static imp_status read_statement(obj_reader *r)
 {
-    static const char *const ignored[] = {"vt",     "vn",       "g",      "o",          "s",
-                                          "usemtl", "mtllib",   "mg",     "bevel",      "c_interp",
-                                          "lod",    "d_interp", "usemap", "shadow_obj", NULL};
+    static const char *const silent[] = {"vt",     "vn",       "g",      "o",          "s",
+                                         "usemtl", "mtllib",   "mg",     "bevel",      "c_interp",
+                                         "lod",    "d_interp", "usemap", "shadow_obj", NULL};
     const char *word = mesh_text_word(&r->text);
     if (strcmp(word, "v") == 0) return read_point(r);
-    if (strcmp(word, "f") == 0) return read_face(r);
-    if (is_one_of(word, ignored)) return IMP_STATUS_OK;
-    return triangles_refuse(r->fault, r->text.line,
-                            "statement '%.40s'; of OBJ only points and faces are read (v, f)",
-                            word);
+    if (strcmp(word, "f") == 0 || strcmp(word, "fo") == 0) return read_face(r);
+    if (!is_one_of(word, silent)) triangles_note(&r->to->left_out, r->text.line);
+    return IMP_STATUS_OK;
 }
 
 imp_status mesh_read_obj(const char *bytes, size_t length, triangles *to, triangles_fault *fault)

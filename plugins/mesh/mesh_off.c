@@ -5,7 +5,7 @@
 #include "plugins/mesh/mesh_text.h"
 
 /* OFF: the word OFF, the numbers of points, faces and edges, a line for each point and each face:
- * "x y z" and "3 a b c", from 0. COFF has a colour behind each point; what follows is ignored. */
+ * "x y z" and "3 a b c", from 0. What follows in these lines (colours, normals) is ignored. */
 
 typedef struct off_reader {
     mesh_text text;
@@ -31,14 +31,23 @@ static imp_status read_count(off_reader *r, int64_t *count, const char *what)
                             word != NULL ? word : "", what);
 }
 
+/* With ST, C and N a point has more behind its coordinates: texture, colour, normal. */
+static bool is_head(const char *word)
+{
+    if (strncmp(word, "ST", 2) == 0) word += 2;
+    if (*word == 'C') word += 1;
+    if (*word == 'N') word += 1;
+    return strcmp(word, "OFF") == 0;
+}
+
 static imp_status read_head(off_reader *r, int64_t *points, int64_t *faces)
 {
     imp_status status = next_line(r, "line", 1, 2);
     if (status != IMP_STATUS_OK) return status;
     const char *word = mesh_text_word(&r->text);
-    if (strcmp(word, "OFF") != 0 && strcmp(word, "COFF") != 0)
-        return triangles_refuse(r->fault, r->text.line, "'%.40s', must begin with OFF or COFF",
-                                word);
+    if (!is_head(word))
+        return triangles_refuse(r->fault, r->text.line,
+                                "'%.40s', must begin with OFF, COFF, NOFF, CNOFF, or STOFF", word);
     const char *rest = r->text.next;
     if (rest[strspn(rest, " \t\v\f")] == '\0') status = next_line(r, "line", 2, 2);
     if (status == IMP_STATUS_OK) status = read_count(r, points, "points");

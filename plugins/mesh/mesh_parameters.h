@@ -8,7 +8,7 @@
 /* Points and faces as parameters: a file, or lists. Types that take them begin their tables with
  * these rows, in this order. */
 
-enum { MESH_FILE, MESH_POINTS, MESH_FACES, MESH_VELOCITIES };
+enum { MESH_FILE, MESH_POINTS, MESH_FACES, MESH_VELOCITIES, MESH_SCALE, MESH_ROWS };
 
 #define ROW_MESH_FILE(DOC)                                                                         \
     IMP_ROW_OF(IMP_KIND_STRING, "file", "1", NULL, IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_FILE, 0, \
@@ -23,7 +23,13 @@ enum { MESH_FILE, MESH_POINTS, MESH_FACES, MESH_VELOCITIES };
     IMP_ROW("velocities", "length/time", NULL, IMP_PARAMETER_OPTIONAL, 2, 0, 3, -TRIANGLES_FAR,    \
             TRIANGLES_FAR, "velocity of each point; default: at rest")
 
-/* Adds the points and faces of the file or of the lists. */
+#define ROW_MESH_SCALE                                                                             \
+    IMP_ROW(                                                                                       \
+        "scale", "1", "1", IMP_PARAMETER_SCALAR_OK, 1, 0, 0, -TRIANGLES_FAR, TRIANGLES_FAR,        \
+        "factor of all points, or one each of x, y and z, as from a file's unit to the scene's")
+
+/* Adds the points and faces of the file or of the lists, scaled; what was left out or changed
+ * becomes a note. */
 imp_status mesh_take_shape(const imp_value *values, triangles *to, imp_create_error *why);
 
 /* The velocities of that many points, for free(); NULL: they are at rest. */

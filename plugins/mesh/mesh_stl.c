@@ -2,7 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "plugins/mesh/mesh_file.h"
+#include "plugins/mesh/mesh_scalar.h"
 #include "plugins/mesh/mesh_text.h"
+
+#include <strings.h>
 
 /* STL. As text: solid, then for each triangle "facet normal ...", "outer loop", three "vertex x y
  * z", "endloop", "endfacet", at last "endsolid". Binary: 80 bytes, the number of triangles, and 50
@@ -10,20 +13,6 @@
  * little-endian. */
 
 enum { HEAD = 84, RECORD = 50 };
-
-static uint32_t word_at(const char *bytes)
-{
-    const unsigned char *b = (const unsigned char *)bytes;
-    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
-}
-
-static double single_at(const char *bytes)
-{
-    const uint32_t word = word_at(bytes);
-    float x;
-    memcpy(&x, &word, sizeof x);
-    return x;
-}
 
 /* Three points and the triangle between them. */
 static imp_status add_triangle(triangles *to, double x[3][3], size_t line, triangles_fault *fault)
@@ -43,10 +32,11 @@ static imp_status read_binary(const char *bytes, size_t count, triangles *to,
         double x[3][3];
         const char *record = bytes + HEAD + RECORD * k;
         for (size_t i = 0; i < 9; ++i) {
-            x[i / 3][i % 3] = single_at(record + 12 + 4 * i);
+            x[i / 3][i % 3] = mesh_scalar_at(SCALAR_FLOAT32, false, record + 12 + 4 * i);
             if (!isfinite(x[i / 3][i % 3]))
-                return triangles_refuse(fault, 0, "triangle %zu (from 0): coordinate %g", k,
-                                        x[i / 3][i % 3]);
+                return triangles_refuse_byte(fault, HEAD + RECORD * k + 12 + 4 * i,
+                                             "triangle %zu (from 0): coordinate %g", k,
+                                             x[i / 3][i % 3]);
         }
         const imp_status status = add_triangle(to, x, 0, fault);
         if (status != IMP_STATUS_OK) return status;
@@ -65,12 +55,13 @@ static imp_status read_line(mesh_text *text, int *step, double x[3][3], triangle
                             triangles_fault *fault)
 {
     const char *word = mesh_text_word(text);
-    if (*step == 0 && (strcmp(word, "solid") == 0 || strcmp(word, "endsolid") == 0))
+    if (*step == 0 && (strcasecmp(word, "solid") == 0 || strcasecmp(word, "endsolid") == 0))
         return IMP_STATUS_OK;
-    if (strcmp(word, steps[*step]) != 0)
+    if (strcasecmp(word, steps[*step]) != 0)
         return triangles_refuse(fault, text->line, "'%.40s' in place of '%s'", word, steps[*step]);
     imp_status status = IMP_STATUS_OK;
-    if (strcmp(word, "vertex") == 0) status = mesh_text_point(text, x[*step - FIRST_VERTEX], fault);
+    if (strcmp(steps[*step], "vertex") == 0)
+        status = mesh_text_point(text, x[*step - FIRST_VERTEX], fault);
     *step = (*step + 1) % STEPS;
     if (status == IMP_STATUS_OK && *step == 0) status = add_triangle(to, x, text->line, fault);
     return status;
@@ -91,13 +82,23 @@ static imp_status read_text(const char *bytes, size_t length, triangles *to, tri
     return status;
 }
 
+/* After blanks and empty lines, in capital letters or not. */
+static bool begins_with_solid(const char *bytes, size_t length)
+{
+    static const char word[] = "solid";
+    const size_t of_word = sizeof word - 1;
+    while (length > 0 && strchr(" \t\r\n", *bytes) != NULL && *bytes != '\0') ++bytes, --length;
+    return length >= of_word && strncasecmp(bytes, word, of_word) == 0;
+}
+
 /* The length decides: text may begin with any 84 bytes, and a binary file with "solid". */
 imp_status mesh_read_stl(const char *bytes, size_t length, triangles *to, triangles_fault *fault)
 {
-    const size_t count = length >= HEAD ? word_at(bytes + HEAD - 4) : 0;
+    const size_t count =
+        length >= HEAD ? (size_t)mesh_scalar_at(SCALAR_UINT32, false, bytes + HEAD - 4) : 0;
     if (length >= HEAD && length == HEAD + RECORD * count)
         return read_binary(bytes, count, to, fault);
-    if (length >= 5 && memcmp(bytes, "solid", 5) == 0) return read_text(bytes, length, to, fault);
+    if (begins_with_solid(bytes, length)) return read_text(bytes, length, to, fault);
     return triangles_refuse(
         fault, 0,
         "neither text, which begins with 'solid', nor binary: %zu bytes, and %zu "

@@ -5,6 +5,8 @@
 
 #include <stdarg.h>
 
+#include "plugins/mesh/polygon.h"
+
 void triangles_clear(triangles *t)
 {
     free(t->point);
@@ -20,6 +22,17 @@ imp_status triangles_refuse(triangles_fault *fault, size_t line, const char *for
     vsnprintf(fault->text, sizeof fault->text, format, arguments);
     va_end(arguments);
     fault->line = line;
+    return IMP_STATUS_PARAMETER;
+}
+
+imp_status triangles_refuse_byte(triangles_fault *fault, size_t byte, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(fault->text, sizeof fault->text, format, arguments);
+    va_end(arguments);
+    fault->line = 0;
+    fault->byte = byte + 1;
     return IMP_STATUS_PARAMETER;
 }
 
@@ -94,83 +107,40 @@ static imp_status keep_face(triangles *t, const int64_t *corner, size_t count, s
 
 /* --- Polygons --------------------------------------------------------------------------------- */
 
-typedef struct polygon {
-    const triangles *of;
-    const int64_t *corner;
-    size_t count;
-    double origin[3], size; /* its first corner; the greatest difference to that of a coordinate */
-    double normal[3];       /* Newell's: twice the area, in units of size^2 */
-} polygon;
-
-/* Corner k, from the first, in units of the size. */
-static void corner_at(const polygon *p, size_t k, double x[3])
+static imp_status add_fan(triangles *t, const int64_t *corner, size_t count, size_t line,
+                          triangles_fault *fault)
 {
-    const double *at = p->of->point + 3 * p->corner[k % p->count];
-    for (int i = 0; i < 3; ++i) x[i] = (at[i] - p->origin[i]) / p->size;
+    imp_status status = IMP_STATUS_OK;
+    for (size_t k = 2; k < count && status == IMP_STATUS_OK; ++k)
+        status = add_triangle(t, (uint32_t)corner[0], (uint32_t)corner[k - 1], (uint32_t)corner[k],
+                              line, fault);
+    return status;
 }
 
-/* How much (b - a) x (c - b) points the way of the normal. */
-static double turn(const polygon *p, const double a[3], const double b[3], const double c[3])
+/* A polygon that a fan does not cover, cut by its ears. */
+static imp_status add_cut(triangles *t, const int64_t *corner, size_t count, size_t line,
+                          triangles_fault *fault)
 {
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        sum += p->normal[i] * ((b[j] - a[j]) * (c[k] - b[k]) - (b[k] - a[k]) * (c[j] - b[j]));
-    }
-    return sum;
-}
-
-static polygon measure(const triangles *t, const int64_t *corner, size_t count)
-{
-    polygon p = {.of = t, .corner = corner, .count = count};
-    memcpy(p.origin, t->point + 3 * corner[0], sizeof p.origin);
-    for (size_t k = 1; k < count; ++k)
-        for (int i = 0; i < 3; ++i) {
-            const double off = fabs(t->point[3 * corner[k] + i] - p.origin[i]);
-            if (off > p.size) p.size = off;
-        }
-    for (size_t k = 0; k < count && p.size > 0; ++k) {
-        double a[3], b[3];
-        corner_at(&p, k, a);
-        corner_at(&p, k + 1, b);
-        for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3, l = (i + 2) % 3;
-            p.normal[i] += a[j] * b[l] - a[l] * b[j];
-        }
-    }
-    return p;
-}
-
-/* Part of its size by which a corner may be off the plane, and of its area that may be turned
- * over. */
-#define FLATNESS 1e-3
-
-static bool is_plane(const polygon *p)
-{
-    const double *n = p->normal;
-    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (size_t k = 1; k < p->count; ++k) {
-        double x[3];
-        corner_at(p, k, x);
-        if (fabs(n[0] * x[0] + n[1] * x[1] + n[2] * x[2]) > FLATNESS * length) return false;
-    }
-    return true;
-}
-
-/* No corner turns back, nor does a triangle of the fan, as it would where the polygon winds
- * twice. */
-static bool is_convex(const polygon *p)
-{
-    const double *n = p->normal, origin[3] = {0, 0, 0};
-    const double least = -FLATNESS * (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (size_t k = 0; k < p->count; ++k) {
-        double a[3], b[3], c[3];
-        corner_at(p, k, a);
-        corner_at(p, k + 1, b);
-        corner_at(p, k + 2, c);
-        if (turn(p, a, b, c) < least || turn(p, origin, a, b) < least) return false;
-    }
-    return true;
+    if (count > POLYGON_CUT_MAX)
+        return triangles_refuse(fault, line,
+                                "face %zu is not plane and convex and has %zu corners, may have "
+                                "%d; divide it",
+                                t->faces, count, POLYGON_CUT_MAX);
+    uint32_t *cut = malloc(3 * (count - 2) * sizeof *cut);
+    if (cut == NULL) return IMP_STATUS_INTERNAL;
+    bool is_simple = false;
+    imp_status status = polygon_cut(t->point, corner, count, cut, &is_simple);
+    if (status == IMP_STATUS_OK && !is_simple)
+        status = triangles_refuse(fault, line,
+                                  "face %zu of %zu corners crosses itself; divide it into "
+                                  "triangles",
+                                  t->faces, count);
+    for (size_t k = 0; k < count - 2 && status == IMP_STATUS_OK; ++k)
+        status = add_triangle(t, (uint32_t)corner[cut[3 * k]], (uint32_t)corner[cut[3 * k + 1]],
+                              (uint32_t)corner[cut[3 * k + 2]], line, fault);
+    free(cut);
+    if (status == IMP_STATUS_OK) triangles_note(&t->cut, line);
+    return status;
 }
 
 imp_status triangles_add_face(triangles *t, const int64_t *corner, size_t count, size_t line,
@@ -184,17 +154,58 @@ imp_status triangles_add_face(triangles *t, const int64_t *corner, size_t count,
                                     "corner %zu of face %zu is point %lld of %zu (from 0)", k,
                                     t->faces, (long long)corner[k], t->point_count);
     if (t->keeps_faces) return keep_face(t, corner, count, line, fault);
-    if (count > 3) {
-        const polygon p = measure(t, corner, count);
-        if (p.size > 0 && (!is_plane(&p) || !is_convex(&p)))
-            return triangles_refuse(fault, line,
-                                    "face %zu of %zu corners is not %s; divide it into triangles",
-                                    t->faces, count, is_plane(&p) ? "convex" : "plane");
-    }
+    const imp_status status = count == 3 || polygon_is_fan(t->point, corner, count)
+                                  ? add_fan(t, corner, count, line, fault)
+                                  : add_cut(t, corner, count, line, fault);
     t->faces += 1;
-    imp_status status = IMP_STATUS_OK;
-    for (size_t k = 2; k < count && status == IMP_STATUS_OK; ++k)
-        status = add_triangle(t, (uint32_t)corner[0], (uint32_t)corner[k - 1], (uint32_t)corner[k],
-                              line, fault);
     return status;
+}
+
+/* --- Notes ------------------------------------------------------------------------------------ */
+
+void triangles_note(triangles_count *count, size_t line)
+{
+    if (count->count++ == 0) count->line = line;
+}
+
+/* Whether the corners lie on a line, or are one point. */
+static bool is_thin(const double *a, const double *b, const double *c)
+{
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        if ((b[j] - a[j]) * (c[k] - a[k]) != (b[k] - a[k]) * (c[j] - a[j])) return false;
+    }
+    return true;
+}
+
+static size_t count_thin(const triangles *t)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < t->count && !t->keeps_faces; ++k) {
+        const uint32_t *corner = t->corner + 3 * k;
+        count += is_thin(t->point + 3 * (size_t)corner[0], t->point + 3 * (size_t)corner[1],
+                         t->point + 3 * (size_t)corner[2]);
+    }
+    return count;
+}
+
+/* Appends "; TEXT: 3, the first in line 7". */
+static void tell(char *text, size_t size, const triangles_count *count, const char *what)
+{
+    const size_t used = strlen(text);
+    char where[48] = "";
+    if (count->count == 0) return;
+    if (count->line > 0) snprintf(where, sizeof where, ", the first in line %zu", count->line);
+    snprintf(text + used, size - used, "%s%s: %zu%s", used > 0 ? "; " : "", what, count->count,
+             where);
+}
+
+size_t triangles_tell(const triangles *t, char *text, size_t size)
+{
+    const triangles_count thin = {.count = count_thin(t)};
+    text[0] = '\0';
+    tell(text, size, &t->left_out, "statements that are no faces, left out");
+    tell(text, size, &t->cut, "faces not plane and convex, cut into triangles");
+    tell(text, size, &thin, "triangles without area, taken as segments");
+    return t->left_out.count + t->cut.count + thin.count;
 }

@@ -9,11 +9,12 @@
  * asked for something. */
 
 static const imp_parameter parameters[] = {
-    [MESH_FILE] = ROW_MESH_FILE("triangles or polygons: .obj, .off, or .stl (text or binary)"),
+    [MESH_FILE] = ROW_MESH_FILE("triangles or polygons: .obj, .off, .stl, .ply, .gltf, .glb"),
     [MESH_POINTS] = ROW_MESH_POINTS,
     [MESH_FACES] = ROW_MESH_FACES("corners of each face, by number of the point, from 0; polygons "
-                                  "are plane and convex"),
+                                  "that are not plane and convex are cut by their ears"),
     [MESH_VELOCITIES] = ROW_MESH_VELOCITIES,
+    [MESH_SCALE] = ROW_MESH_SCALE,
 };
 
 typedef struct mesh mesh;
@@ -141,9 +142,8 @@ static const imp_surface_type mesh_type = {
     .piece_count = mesh_piece_count,
     .piece = mesh_piece,
     .summary = "triangles and polygons from a file or a list, whose points may move linearly",
-    .equation =
-        "each triangle: p_0(t) + u (p_1(t) - p_0(t) + v (p_2(t) - p_1(t))), p_k(t) = points_k "
-        "+ t velocities_k, u and v in [0,1]",
+    .equation = "each triangle: p_0(t) + u (p_1(t) - p_0(t) + v (p_2(t) - p_1(t))), p_k(t) = "
+                "scale points_k + t velocities_k, u and v in [0,1]",
     .source = NULL,
     .example = "mesh points=[[0,0,0],[1,0,0],[0,1,0],[0,0,1]] "
                "faces=[[0,2,1],[0,1,3],[0,3,2],[1,2,3]]",

@@ -10,15 +10,16 @@
  * only quads, and the second one extraordinary corner each. So is a triangle of Loop's scheme, for
  * which one step is enough. */
 
-enum { SCHEME = MESH_VELOCITIES + 1 };
+enum { SCHEME = MESH_ROWS };
 
 static const imp_parameter parameters[] = {
-    [MESH_FILE] = ROW_MESH_FILE("control mesh: .obj or .off"),
+    [MESH_FILE] = ROW_MESH_FILE("control mesh: .obj, .off or .ply"),
     [MESH_POINTS] = ROW_MESH_POINTS,
     [MESH_FACES] =
         ROW_MESH_FACES("corners of each face, by number of the point, from 0; all faces go "
                        "round the same way"),
     [MESH_VELOCITIES] = ROW_MESH_VELOCITIES,
+    [MESH_SCALE] = ROW_MESH_SCALE,
     [SCHEME] =
         IMP_ROW_OF(IMP_KIND_STRING, "scheme", "1", "\"catmull-clark\"", 0, 0, 0, 0, -INFINITY,
                    INFINITY, "rules of subdivision: catmull-clark, or loop, for triangles"),
@@ -153,7 +154,7 @@ static imp_status measure(subdivision *s)
 static imp_status take_mesh(subdivision *s, const imp_value *values, imp_create_error *why)
 {
     triangles given = {.keeps_faces = true};
-    triangles_fault fault = {0, ""};
+    triangles_fault fault = {0, "", 0};
     double *velocity = NULL;
     imp_status status = mesh_take_shape(values, &given, why);
     if (status == IMP_STATUS_OK)

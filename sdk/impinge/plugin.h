@@ -109,6 +109,23 @@ imp_reject(imp_create_error *why, int parameter, int64_t element, const char *fo
     return IMP_STATUS_PARAMETER;
 }
 
+/* Tells the user of `count` things that create left out, or read otherwise than expected; the text
+ * says which, in one sentence. create then succeeds all the same. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5), unused))
+#endif
+static void
+imp_note(imp_create_error *why, int parameter, uint64_t count, const char *format, ...)
+{
+    va_list arguments;
+    if (!IMP_HAS(why, note)) return;
+    why->note_count = count;
+    why->note_parameter = parameter;
+    va_start(arguments, format);
+    vsnprintf(why->note, sizeof why->note, format, arguments);
+    va_end(arguments);
+}
+
 /* --- Domains ---------------------------------------------------------------------------------- */
 
 /* u and v as given, at all times. Angles up to IMP_TWO_PI_UPPER cover the full turn, so that

@@ -141,6 +141,12 @@ typedef struct imp_create_error {
     int32_t parameter; /* row of the wrong parameter, or -1 for the type as a whole */
     int64_t element;   /* index along its first extent, or -1 */
     char text[240];    /* NUL-terminated, one sentence */
+    /* Set with IMP_STATUS_OK too: what was left out or read otherwise than its author may expect.
+     * The host has set note_count = 0, note = "", and shows the note as a warning if the count is
+     * not 0. Use imp_note, which leaves hosts alone that are older than these fields. */
+    uint64_t note_count;    /* how many things the note counts */
+    int32_t note_parameter; /* row, or -1 for the type as a whole */
+    char note[244];         /* NUL-terminated, one sentence */
 } imp_create_error;
 
 /* --- Regions, rates, models ------------------------------------------------------------------- */
@@ -559,7 +565,9 @@ IMP_LAYOUT(sizeof(double) == 8 && sizeof(void *) == 8 && sizeof(size_t) == 8);
 IMP_LAYOUT(sizeof(imp_parameter) == 72 && offsetof(imp_parameter, kind) == 32);
 IMP_LAYOUT(offsetof(imp_parameter, extent) == 44 && offsetof(imp_parameter, min) == 56);
 IMP_LAYOUT(sizeof(imp_value) == 48 && offsetof(imp_value, number) == 32);
-IMP_LAYOUT(sizeof(imp_create_error) == 256 && offsetof(imp_create_error, text) == 16);
+IMP_LAYOUT(sizeof(imp_create_error) == 512 && offsetof(imp_create_error, text) == 16);
+IMP_LAYOUT(offsetof(imp_create_error, note_count) == 256 &&
+           offsetof(imp_create_error, note) == 268);
 IMP_LAYOUT(sizeof(imp_region) == 96 && offsetof(imp_region, c) == 48);
 IMP_LAYOUT(sizeof(imp_box4) == 64);
 IMP_LAYOUT(sizeof(imp_rate_matrix) == 72 && sizeof(imp_map_rates) == 96);

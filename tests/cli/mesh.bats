@@ -49,12 +49,14 @@ END
     refused bad.obj "', line 3: 'x' is not a finite number"
     printf 'v 0 0 0\nf 1 2 3\n' >index.obj
     refused index.obj "', line 2: point 2 of a face, but only 1 so far"
-    printf 'v 0 0 0\nv 2 0 0\nv .1 .1 0\nv 0 2 0\n\nf 1 2 3 4\n' >dent.obj
-    refused dent.obj "', line 6: face 0 of 4 corners is not convex; divide it into triangles"
-    printf 'v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nf 1 2 3 4\n' >bent.obj
-    refused bent.obj 'is not plane; divide it into triangles'
-    printf 'v 0 0 0\nv 1 0 0\nl 1 2\n' >line.obj
-    refused line.obj "statement 'l'; of OBJ only points and faces are read"
+    printf 'v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 2 0\n\nf 1 2 3 4\n' >crossed.obj
+    refused crossed.obj "', line 6: face 0 of 4 corners crosses itself; divide it into triangles"
+    printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\n' >half.ply
+    refused half.ply "', line 4: 'half' is no type of a property"
+    printf 'glTF\2\0\0\0\100\0\0\0\100\0\0\0JSON{}' >cut.glb
+    refused cut.glb "', byte 12: a chunk of 64 bytes, but only 2 are left"
+    printf '{"asset": {"version": "2.0"},\n "nodes": [}' >bad.gltf
+    refused bad.gltf "', line 2: JSON: "
     printf 'OFF\n999999999999999 1 0\n0 0 0\n' >huge.off
     refused huge.off 'the file ends before point 1 of 999999999999999'
     head -n 7 parts/square.stl >cut.stl
@@ -65,14 +67,80 @@ END
     refused empty.obj 'no faces in it'
 }
 
+@test "what a file has beside its faces is left out, counted, and told to programs" {
+    printf 'v 0 0 0\nv 2 0 0\nv .1 .1 0\nv 0 2 0\nl 1 2\np 3\nf 1 2 3 4\nf 1 1 2\n' >robot.obj
+    run -0 --separate-stderr "$IMPINGE" pair 'mesh file=robot.obj' 'sphere radius=0.1 center=1,1,5' --json
+    jq -e '.warnings | length == 1 and .[0].count == 4 and .[0].type == "mesh" and .[0].body == "a"' <<<"$output"
+    [[ $stderr == *"warning: body 'a', mesh, file: statements that are no faces, left out: 2, the first in line 5; "* ]]
+    [[ $stderr == *"faces not plane and convex, cut into triangles: 1, the first in line 7; triangles without area"* ]]
+    # the dent is empty, and the segment is there
+    run -0 --separate-stderr "$IMPINGE" pair 'mesh file=robot.obj' 'sphere radius=0.1 center=1,1,0' --json
+    json '.verdict == "clear"'
+    run -0 --separate-stderr "$IMPINGE" pair 'mesh file=robot.obj' 'sphere radius=0.1 center=1,0,0' --json
+    json '.verdict == "contact"'
+    local body='{"surfaces": [{"type": "mesh", "file": "robot.obj"}]}'
+    echo "{\"bodies\": [$body, {\"surfaces\": [{\"type\": \"mesh\", \"file\": \"robot.obj\"}, {\"type\": \"sphere\"}]}]}" >two.json
+    run -0 --separate-stderr "$IMPINGE" solve two.json --json
+    jq -e '.warnings | length == 1' <<<"$output"
+    run -0 --separate-stderr "$IMPINGE" clearance two.json --json
+    jq -e '.warnings[0].count == 4' <<<"$output"
+    run -0 --separate-stderr "$IMPINGE" batch two.json
+    jq -e '.warnings[0].surface == 0' <<<"$output"
+}
+
+@test "PLY and glTF, in all their forms, answer as OBJ does" {
+    write_squares
+    cat >parts/square.ply <<'END'
+ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+4 0 1 2 3
+END
+    # points and indices of the square as bytes, beside the document
+    {
+        for x in 0 0 0 1 0 0 1 1 0 0 1 0; do
+            if [ $x = 1 ]; then printf '\0\0\200\77'; else printf '\0\0\0\0'; fi
+        done
+        printf '\0\1\2\0\2\3'
+    } >'parts/a square.bin'
+    cat >parts/square.gltf <<'END'
+{"asset": {"version": "2.0"}, "buffers": [{"byteLength": 54, "uri": "a%20square.bin"}],
+ "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 6}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+               {"bufferView": 1, "componentType": 5121, "count": 6, "type": "SCALAR"}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}], "nodes": [{"mesh": 0}]}
+END
+    local format
+    for format in obj ply gltf; do
+        run -0 "$IMPINGE" pair "mesh file=parts/square.$format scale=2,2,1" \
+            'sphere radius=0.25 center=0.5,1.5,1 ! translate velocity=0,0,-1' --json
+        jq -e '.verdict == "contact" and (.t - 0.75 | fabs) < 1e-5 and .a.piece == 1' <<<"$output"
+    done
+    rm 'parts/a square.bin'
+    refused parts/square.gltf "a square.bin' cannot be read"
+    fails 4 'scale: 2 factors, must be 1, or 3 for x, y and z' \
+        "$IMPINGE" pair 'mesh file=parts/square.obj scale=1,2' sphere
+    fails 4 'scale: a factor of 0, must not be 0' "$IMPINGE" pair 'mesh file=parts/square.obj scale=0' sphere
+}
+
 @test "what is no file, or of another kind, is refused at once" {
     mkdir folder.obj
     refused folder.obj 'cannot be read'
     refused nowhere.off 'cannot be read'
     ln -s /dev/zero endless.stl
     refused endless.stl 'cannot be read'
-    echo >cube.ply
-    refused cube.ply 'ends in none of .obj, .off, .stl'
+    echo >cube.step
+    refused cube.step 'ends in none of .obj, .off, .stl, .ply, .gltf, .glb'
 }
 
 @test "points and faces in the scene are checked too" {

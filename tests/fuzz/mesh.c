@@ -21,12 +21,12 @@ FUZZ_MUTATE_TEXT
 
 static bool read_bytes(mesh_format format, const char *bytes, size_t length, triangles *to)
 {
-    triangles_fault fault = {0, ""};
-    const imp_status status = mesh_read_bytes(format, bytes, length, to, &fault);
+    triangles_fault fault = {0, "", 0};
+    const imp_status status = mesh_read_bytes(format, bytes, length, NULL, to, &fault);
     if (status == IMP_STATUS_OK) return true;
     FUZZ_REQUIRE(status == IMP_STATUS_INTERNAL ||
                  (status == IMP_STATUS_PARAMETER && fault.text[0] != '\0'));
-    FUZZ_REQUIRE(fault.line <= length + 1);
+    FUZZ_REQUIRE(fault.line <= length + 1 && fault.byte <= length + 1);
     return false;
 }
 
@@ -68,7 +68,7 @@ static void judge_control_mesh(mesh_format format, const char *bytes, size_t len
                                const box_tables *loop)
 {
     triangles faces = {.keeps_faces = true};
-    triangles_fault fault = {0, ""};
+    triangles_fault fault = {0, "", 0};
     control_mesh coarse = {0}, fine = {0};
     bool *wanted_fine = NULL;
     if (read_bytes(format, bytes, length, &faces)) {
@@ -93,13 +93,15 @@ static void judge_control_mesh(mesh_format format, const char *bytes, size_t len
 
 int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
 {
-    static const mesh_format formats[] = {MESH_OBJ, MESH_OFF, MESH_STL};
+    static const mesh_format formats[] = {MESH_OBJ, MESH_OFF, MESH_STL, MESH_PLY, MESH_GLTF};
+    enum { FORMATS = sizeof formats / sizeof *formats };
     triangles first = {0}, second = {0};
     if (length == 0) return 0;
-    judge_control_mesh(formats[bytes[0] % 3], (const char *)bytes + 1, length - 1, NULL);
+    const mesh_format format = formats[(unsigned char)(bytes[0] - '0') % FORMATS];
+    judge_control_mesh(format, (const char *)bytes + 1, length - 1, NULL);
     static const box_tables tables; /* steps only pass them on */
-    judge_control_mesh(formats[bytes[0] % 3], (const char *)bytes + 1, length - 1, &tables);
-    if (read_bytes(formats[bytes[0] % 3], (const char *)bytes + 1, length - 1, &first)) {
+    judge_control_mesh(format, (const char *)bytes + 1, length - 1, &tables);
+    if (read_bytes(format, (const char *)bytes + 1, length - 1, &first)) {
         judge(&first);
         size_t written = 0;
         char *text = write_off(&first, &written);

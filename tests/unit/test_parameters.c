@@ -245,15 +245,22 @@ static void assert_complaint(imp_create_error why, const char *message)
 
 START_TEST(complaints_of_a_type_get_their_place)
 {
-    assert_complaint((imp_create_error){0, 0, 1, "got a knot"}, "s: /points/1: got a knot");
-    assert_complaint((imp_create_error){0, 0, -1, "got a knot"}, "s: /points: got a knot");
-    assert_complaint((imp_create_error){0, 0, 2, "got a knot"}, "s: /points: got a knot");
-    assert_complaint((imp_create_error){0, -1, -1, "got a knot"}, "s: got a knot");
-    assert_complaint((imp_create_error){0, 1, 1, "got a knot"}, "s: got a knot");
-    assert_complaint((imp_create_error){0, INT32_MIN, INT64_MIN, "\x1B[31m\xFF"}, "s: ?[31m?");
-    assert_complaint((imp_create_error){0, 0, -1, ""},
+    assert_complaint((imp_create_error){.parameter = 0, .element = 1, .text = "got a knot"},
+                     "s: /points/1: got a knot");
+    assert_complaint((imp_create_error){.parameter = 0, .element = -1, .text = "got a knot"},
+                     "s: /points: got a knot");
+    assert_complaint((imp_create_error){.parameter = 0, .element = 2, .text = "got a knot"},
+                     "s: /points: got a knot");
+    assert_complaint((imp_create_error){.parameter = -1, .element = -1, .text = "got a knot"},
+                     "s: got a knot");
+    assert_complaint((imp_create_error){.parameter = 1, .element = 1, .text = "got a knot"},
+                     "s: got a knot");
+    assert_complaint(
+        (imp_create_error){.parameter = INT32_MIN, .element = INT64_MIN, .text = "\x1B[31m\xFF"},
+        "s: ?[31m?");
+    assert_complaint((imp_create_error){.parameter = 0, .element = -1, .text = ""},
                      "s: /points: refused, and the plugin does not say why");
-    imp_create_error endless = {0, -1, -1, ""};
+    imp_create_error endless = {.parameter = -1, .element = -1};
     memset(endless.text, 'x', sizeof endless.text);
     char expected[260] = "s: ";
     memset(expected + 3, 'x', sizeof endless.text - 1);

@@ -59,6 +59,10 @@ static json_t *solve_line(const batch *b, batch_item *item)
         item->status = query_status(&result, b->args);
         item->interrupted = result.reason == IMP_REASON_CANCELLED;
         answer = result_json(scene, &result);
+        if (answer != NULL && !result_set_warnings(answer, scene)) {
+            json_decref(answer);
+            answer = NULL;
+        }
     }
     imp_scene_free(scene);
     return answer;

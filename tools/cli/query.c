@@ -202,7 +202,8 @@ json_t *query_scene_json(const arguments *args)
 static json_t *answer_json(const imp_scene *scene, const imp_result *result, const arguments *args)
 {
     json_t *object = result_json(scene, result);
-    if (object == NULL || json_object_set_new(object, "scene", query_scene_json(args)) == 0)
+    if (object == NULL || (json_object_set_new(object, "scene", query_scene_json(args)) == 0 &&
+                           result_set_warnings(object, scene)))
         return object;
     json_decref(object);
     return NULL;
@@ -251,8 +252,16 @@ static imp_scene *scene_of_standard_input(imp_registry *registry, const argument
     return scene;
 }
 
-imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *complained,
-                       imp_error *error)
+void query_warn(const imp_scene *scene, const arguments *args)
+{
+    imp_remark found = {.struct_size = (uint32_t)sizeof found};
+    for (size_t k = 0; imp_scene_remark(scene, k, &found); ++k)
+        remark(args->verb->name, "warning: body '%s', %s, %s",
+               imp_scene_body_name(scene, found.body), found.type, found.text);
+}
+
+static imp_scene *read_scene(imp_registry *registry, const arguments *args, bool *complained,
+                             imp_error *error)
 {
     *complained = false;
     if (args->operand_count == 2)
@@ -260,6 +269,14 @@ imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *comp
     return strcmp(args->operands[0], "-") == 0
                ? scene_of_standard_input(registry, args, complained, error)
                : imp_scene_from_file(registry, args->operands[0], error);
+}
+
+imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *complained,
+                       imp_error *error)
+{
+    imp_scene *scene = read_scene(registry, args, complained, error);
+    query_warn(scene, args);
+    return scene;
 }
 
 exit_status query_answer_file(imp_registry *registry, const char *path, const arguments *args)

@@ -69,6 +69,10 @@ exit_status query_answer_file(imp_registry *registry, const char *path, const ar
 imp_scene *query_scene(imp_registry *registry, const arguments *args, bool *complained,
                        imp_error *error);
 
+/* Says on standard error what types left out of files, or read otherwise than one may expect. NULL:
+ * nothing. */
+void query_warn(const imp_scene *scene, const arguments *args);
+
 /* What the operands name, as JSON: a string, two, or null for standard input. */
 json_t *query_scene_json(const arguments *args);
 

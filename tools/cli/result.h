@@ -15,6 +15,10 @@ void result_print(const imp_scene *scene, const imp_result *result);
 /* One object, as tools/schema/result.schema.json says. NULL: no memory. */
 json_t *result_json(const imp_scene *scene, const imp_result *result);
 
+/* Adds "warnings", what types remarked on (imp_scene_remark), if there are any. False: no
+ * memory. */
+bool result_set_warnings(json_t *object, const imp_scene *scene);
+
 /* "clear", "contact", "undecided". */
 const char *result_verdict_name(imp_verdict verdict);
 

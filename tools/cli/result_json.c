@@ -76,6 +76,28 @@ json_t *result_stats_json(const imp_stats *stats)
                      (json_int_t)stats->bytes);
 }
 
+static json_t *remark_json(const imp_scene *scene, const imp_remark *r)
+{
+    return json_pack("{s:o, s:I, s:o*, s:s, s:I, s:o}", "body",
+                     output_json_text(imp_scene_body_name(scene, r->body)), "surface",
+                     (json_int_t)r->surface, "map",
+                     r->map != SIZE_MAX ? json_integer((json_int_t)r->map) : NULL, "type", r->type,
+                     "count", (json_int_t)r->count, "text", output_json_text(r->text));
+}
+
+bool result_set_warnings(json_t *object, const imp_scene *scene)
+{
+    imp_remark r = {.struct_size = (uint32_t)sizeof r};
+    if (!imp_scene_remark(scene, 0, &r)) return true;
+    json_t *list = json_array();
+    bool kept = list != NULL;
+    for (size_t k = 0; kept && imp_scene_remark(scene, k, &r); ++k)
+        kept = json_array_append_new(list, remark_json(scene, &r)) == 0;
+    if (kept) return json_object_set_new(object, "warnings", list) == 0;
+    json_decref(list);
+    return false;
+}
+
 /* json_pack with "o" takes NULL for an error and frees the rest. */
 json_t *result_json(const imp_scene *scene, const imp_result *r)
 {

@@ -12,6 +12,7 @@
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/query.h"
+#include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
 
 /* Pairs between two looks at what is done: some milliseconds. */
@@ -133,6 +134,7 @@ static json_t *whole_json(const measuring *m, const imp_clearance *all)
     if (m->not_examined > 0)
         failed |=
             json_object_set_new(object, "not_examined", json_integer((json_int_t)m->not_examined));
+    if (object != NULL) failed |= !result_set_warnings(object, m->scene);
     if (!failed) return object;
     json_decref(object);
     return NULL;

@@ -13,6 +13,7 @@ static exit_status run(const arguments *args)
     if (registry == NULL) return EXIT_DATA;
     imp_error error = {0};
     imp_scene *scene = imp_scene_from_pair(registry, args->operands[0], args->operands[1], &error);
+    query_warn(scene, args);
     const exit_status status = query_answer(scene, &error, args);
     query_registry_free(registry);
     return status;
