@@ -32,6 +32,12 @@ static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const ca
     return p->side[0]->body == q->side[0]->body && p->side[1]->body == q->side[1]->body;
 }
 
+/* Whether pair k of a list in the order of the scene is the first of its two bodies. */
+static inline bool candidate_pair_is_first(const candidate_pair *pairs, size_t k)
+{
+    return k == 0 || !candidate_pairs_same_bodies(&pairs[k - 1], &pairs[k]);
+}
+
 /* Measures eval_error, still_maps and moves of both, unless they are known: once for each surface
  * of a query, and only of those whose pairs are followed. */
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);

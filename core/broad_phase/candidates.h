@@ -47,8 +47,9 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
                          double gamma_clear, bool may_rest, const candidate_limit *limit,
                          imp_stats *stats, imp_error *error);
 
-/* Fills an empty list with `count` pairs of another from `first` on, all of the same two bodies,
- * and trees of its own. `whole` is only read, also by other threads. Bytes are added to `stats`. */
+/* Fills an empty list with `count` pairs of another from `first` on and trees of its own, one for
+ * each side on which a surface is. `whole` is only read, also by other threads. Bytes are added to
+ * `stats`. */
 imp_code candidates_part(candidate_list *list, const candidate_list *whole, size_t first,
                          size_t count, imp_stats *stats, imp_error *error);
 

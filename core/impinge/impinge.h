@@ -388,7 +388,8 @@ typedef enum imp_reason {
     IMP_REASON_CANCELLED,  /* undecided: imp_query_cancel */
     IMP_REASON_RESOLUTION, /* undecided: gamma is below what double precision resolves here */
     IMP_REASON_RUNNING,    /* undecided: not finished yet */
-    IMP_REASON_DECIDED     /* imp_clearance only: the verdict is known, `decide` was set */
+    IMP_REASON_DECIDED /* imp_clearance only: `decide` was set and the verdict is known, or nothing
+                              comes within `within` */
 } imp_reason;
 
 /* How far a query has come. Grows at the end: the library's may be longer than the program
@@ -588,10 +589,11 @@ typedef struct imp_clearance_options {
     double required;      /* D > 0, length; 0: nothing is required */
     uint64_t slices;      /* from 1 to 1000000: an answer for each of so many equal parts of time */
     bool decide;          /* also done as soon as it is known whether `required` is kept */
+    double within; /* W >= D, length: bodies that never come nearer need not be measured; 0: all */
 } imp_clearance_options;
 
-/* Sets the defaults: a tolerance of 1e-3, nothing required, one answer, decide false. The caller
- * sets asked->struct_size before. */
+/* Sets the defaults: a tolerance of 1e-3, nothing required, one answer, decide false, any distance.
+ * The caller sets asked->struct_size before. */
 IMP_EXPORT imp_code imp_clearance_options_get_default(imp_clearance_options *asked,
                                                       imp_error *error);
 
@@ -619,7 +621,8 @@ typedef enum imp_requirement {
  *   (c) reason NONE: upper - lower <= R upper, or upper <= gamma, which is contact;
  *       NO_PAIRS, NO_TIME: nothing comes near anything, lower and upper are infinite;
  *       RESOLUTION: double precision resolves no more;
- *       DECIDED: `decide` was set and the verdict is known, the bracket is as it was then;
+ *       DECIDED: `decide` was set and the verdict is known, the bracket is as it was then; or
+ *       nothing comes nearer than `within`, which `lower` then is: it is never more;
  *       RUNNING, or why the query was ended: the bracket as it is;
  *   (d) t_violated is not NaN: the points of a_violated and b_violated are no farther than D apart
  *       at that time, and before it no two are nearer than D (1 - 1e-6). */
@@ -649,7 +652,9 @@ IMP_EXPORT imp_query *imp_clearance_new(imp_scene *scene, const imp_options *opt
                                         const imp_clearance_options *asked, imp_error *error);
 
 /* Number of answers: slices of the first two bodies, of the next two, and so on; they are found in
- * that order, and an answer whose reason is not RUNNING is there. */
+ * that order, and an answer whose reason is not RUNNING is there. With `each` and `within`, only
+ * bodies that may come so near have answers, and their number is 0 until the first step, or some
+ * more where limits end them, has found which; when divided, only these have a part. */
 IMP_EXPORT size_t imp_clearance_count(const imp_query *query);
 
 /* *answer comes with its struct_size set. */

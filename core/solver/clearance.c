@@ -7,8 +7,10 @@
 #include <string.h>
 
 #include "core/base/rounding.h"
+#include "core/base/status.h"
 #include "core/bounds/separation.h"
 #include "core/bounds/tuning.h"
+#include "core/common/array.h"
 #include "core/common/clock.h"
 #include "core/solver/contradiction.h"
 #include "core/solver/world.h"
@@ -26,15 +28,50 @@ static double searched(const clearance_search *c)
     return c->list->slip > 0 ? sum_upper(relaxed(c), 2 * c->list->slip) : relaxed(c);
 }
 
+static const clearance_group *group_of(const clearance_search *c)
+{
+    return &c->groups[c->current / c->asked.slices];
+}
+
+/* Bytes of nodes before trees begin anew. Less costs time; without it, 1000000 slices of two
+ * spheres would take 80 GB. */
+#define SLICES_BYTES ((uint64_t)4 << 20)
+
+/* A slice needs few of the nodes that the slices before it have left. When these are many it gets
+ * trees that begin with the same roots; nodes depend on their regions alone, so that no answer
+ * changes. */
+static imp_code renew_trees(clearance_search *c, imp_error *error)
+{
+    const uint64_t fresh = c->fresh_bytes - c->shared_bytes;
+    if (c->asked.slices == 1 || c->stats->bytes - c->fresh_bytes <= SLICES_BYTES + fresh)
+        return IMP_SUCCESS;
+    if (c->own.complete)
+        c->stats->bytes = c->shared_bytes;
+    else
+        c->shared_bytes = c->stats->bytes;
+    candidates_clear(&c->own);
+    const imp_code code =
+        candidates_part(&c->own, c->whole, 0, c->whole->pair_count, c->stats, error);
+    c->fresh_bytes = c->stats->bytes;
+    c->list = code == IMP_SUCCESS ? &c->own : c->whole;
+    return code;
+}
+
 static imp_code begin_task(clearance_search *c, imp_error *error)
 {
-    const clearance_task *p = &c->tasks[c->current];
+    if (renew_trees(c, error) != IMP_SUCCESS) return error->code;
+    const clearance_group *group = group_of(c);
     const double required = c->asked.required;
+    imp_clearance *grown =
+        array_reserve(c->answers, c->current, &c->answer_capacity, sizeof *c->answers);
+    if (grown == NULL) return error_set_memory(error);
+    c->answers = grown;
+    c->answer = clearance_blank_answer(c, c->current);
     c->before = *c->stats;
     c->before.seconds = clock_seconds();
     c->unresolved = c->takes_turns = false;
     c->distance = (min_distance){
-        .window = {p->answer.t_start, p->answer.t_end},
+        .window = {c->answer.t_start, c->answer.t_end},
         .tolerance = c->asked.tolerance,
         .gamma = required > 0 && required < c->options.gamma ? required : c->options.gamma,
         .required = required,
@@ -42,12 +79,26 @@ static imp_code begin_task(clearance_search *c, imp_error *error)
         .slip = c->list->slip,
         .candidates = c->list->pairs,
         .stats = c->stats};
-    const imp_code code = min_distance_begin(&c->distance, p->first, p->count, error);
+    const imp_code code = min_distance_begin(&c->distance, group->first, group->count, error);
     if (code == IMP_SUCCESS)
         c->stage = STAGE_DISTANCE;
     else
         min_distance_clear(&c->distance);
     return code;
+}
+
+/* What is proved of the current task. Lemma. Candidates are all surfaces that come within
+ * asked.within, so that the others, too, are never nearer. */
+static double lower_of(const clearance_search *c)
+{
+    const double lower = min_distance_lower(&c->distance), near = clearance_near(c);
+    return lower < near ? lower : near;
+}
+
+/* Whether bodies are known to be so far apart that they need not be measured. */
+static bool is_beyond(const clearance_search *c)
+{
+    return c->asked.within > 0 && lower_of(c) >= c->asked.within;
 }
 
 static imp_requirement requirement_of(const clearance_search *c, double lower, double upper)
@@ -79,7 +130,7 @@ static imp_code take_witness(const clearance_search *c, uint32_t k, const witnes
 static imp_code take_bracket(const clearance_search *c, imp_clearance *answer, imp_error *error)
 {
     const min_distance *m = &c->distance;
-    answer->lower = min_distance_lower(m);
+    answer->lower = lower_of(c);
     answer->upper = m->upper;
     answer->verdict = requirement_of(c, answer->lower, answer->upper);
     if (!(m->upper < INFINITY)) return IMP_SUCCESS;
@@ -120,12 +171,11 @@ static imp_code check_witness(const clearance_search *c, const imp_clearance *an
 
 static void finish_task(clearance_search *c, imp_reason reason)
 {
-    clearance_task *p = &c->tasks[c->current++];
-    if (reason == IMP_REASON_NONE && decides(c) && !is_narrow(c, &p->answer))
+    if (reason == IMP_REASON_NONE && (decides(c) || is_beyond(c)) && !is_narrow(c, &c->answer))
         reason = IMP_REASON_DECIDED;
-    p->answer.reason = reason;
-    p->answer.stats = cost(c);
-    p->done = true;
+    c->answer.reason = reason;
+    c->answer.stats = cost(c);
+    c->answers[c->current++] = c->answer;
     min_distance_clear(&c->distance);
     impact_clear(&c->violation);
     c->stage = STAGE_NEXT;
@@ -134,12 +184,13 @@ static void finish_task(clearance_search *c, imp_reason reason)
 /* A task without a witness has no candidates. */
 static imp_reason reason_of_none(const clearance_search *c)
 {
+    if (c->any_pair && c->asked.within > 0) return IMP_REASON_DECIDED;
     return c->any_pair ? IMP_REASON_NO_TIME : IMP_REASON_NO_PAIRS;
 }
 
 static void begin_violation(clearance_search *c)
 {
-    const imp_clearance *answer = &c->tasks[c->current].answer;
+    const imp_clearance *answer = &c->answer;
     c->violation = (impact){.gamma = c->asked.required,
                             .gamma_clear = searched(c),
                             .window = {answer->t_start, answer->t_end},
@@ -149,7 +200,7 @@ static void begin_violation(clearance_search *c)
                             .t_lower = answer->t_start};
     c->tested = 0;
     c->turn_from = c->stats->pairs;
-    c->turn = TUNING_DECIDE_PAIRS + 2 * (uint64_t)c->tasks[c->current].count;
+    c->turn = TUNING_DECIDE_PAIRS + 2 * (uint64_t)group_of(c)->count;
     c->stage = STAGE_VIOLATION;
 }
 
@@ -159,9 +210,10 @@ static void begin_violation(clearance_search *c)
 static bool ends_early(const clearance_search *c)
 {
     const min_distance *m = &c->distance;
+    if (is_beyond(c)) return true;
     if (!decides(c) || !(m->upper < INFINITY)) return false;
     return !(c->unresolved || c->takes_turns) ||
-           requirement_of(c, min_distance_lower(m), m->upper) != IMP_REQUIREMENT_UNDECIDED;
+           requirement_of(c, lower_of(c), m->upper) != IMP_REQUIREMENT_UNDECIDED;
 }
 
 /* Where the search for contact takes long, a narrow bracket may be known before. Then both go on
@@ -177,7 +229,6 @@ static bool turn_ends(clearance_search *c)
 
 static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_error *error)
 {
-    clearance_task *p = &c->tasks[c->current];
     min_distance_state state;
     imp_code code = min_distance_advance(&c->distance, &state, error);
     if (code != IMP_SUCCESS) return code;
@@ -185,26 +236,26 @@ static imp_code search_distance(clearance_search *c, imp_reason *reason, imp_err
     if (running && !ends_early(c)) {
         if (!c->takes_turns || c->unresolved || !turn_ends(c)) return IMP_SUCCESS;
         c->stage = STAGE_VIOLATION;
-        return take_bracket(c, &p->answer, error);
+        return take_bracket(c, &c->answer, error);
     }
     if (state == MIN_DISTANCE_NO_MEMORY) {
         *reason = IMP_REASON_MEMORY;
         return IMP_SUCCESS;
     }
-    code = take_bracket(c, &p->answer, error);
+    code = take_bracket(c, &c->answer, error);
     if (code != IMP_SUCCESS) return code;
-    p->answer.reason = state == MIN_DISTANCE_RESOLUTION ? IMP_REASON_RESOLUTION
-                       : p->answer.has_witness          ? IMP_REASON_NONE
+    c->answer.reason = state == MIN_DISTANCE_RESOLUTION ? IMP_REASON_RESOLUTION
+                       : c->answer.has_witness          ? IMP_REASON_NONE
                                                         : reason_of_none(c);
-    const bool violated = p->answer.verdict == IMP_REQUIREMENT_VIOLATED && c->asked.slices == 1;
+    const bool violated = c->answer.verdict == IMP_REQUIREMENT_VIOLATED && c->asked.slices == 1;
     if (c->unresolved)
-        finish_task(c, violated ? IMP_REASON_RESOLUTION : p->answer.reason);
+        finish_task(c, violated ? IMP_REASON_RESOLUTION : c->answer.reason);
     else if (violated && c->takes_turns)
         c->stage = STAGE_VIOLATION;
-    else if (violated || (running && p->answer.verdict == IMP_REQUIREMENT_UNDECIDED))
+    else if (violated || (running && c->answer.verdict == IMP_REQUIREMENT_UNDECIDED))
         begin_violation(c);
     else
-        finish_task(c, p->answer.reason);
+        finish_task(c, c->answer.reason);
     return IMP_SUCCESS;
 }
 
@@ -242,7 +293,7 @@ static imp_code conclude_violation(clearance_search *c, impact_state state, imp_
                                    imp_error *error)
 {
     imp_code code = IMP_SUCCESS;
-    imp_clearance *answer = &c->tasks[c->current].answer;
+    imp_clearance *answer = &c->answer;
     switch (state) {
     case IMPACT_RUNNING:
         if (answer->verdict != IMP_REQUIREMENT_UNDECIDED || !turn_ends(c)) return code;
@@ -285,15 +336,16 @@ static bool is_far(const clearance_search *c, size_t k)
 
 static imp_code search_violation(clearance_search *c, imp_reason *reason, imp_error *error)
 {
-    const clearance_task *p = &c->tasks[c->current];
+    const clearance_group *group = group_of(c);
     impact_state state = IMPACT_RUNNING;
     imp_code code;
-    if (c->tested < p->count && is_far(c, p->first + c->tested)) {
+    if (c->tested < group->count && is_far(c, group->first + c->tested)) {
         c->tested += 1;
         return IMP_SUCCESS;
     }
-    if (c->tested < p->count) {
-        code = impact_add_candidate(&c->violation, (uint32_t)(p->first + c->tested), &state, error);
+    if (c->tested < group->count) {
+        code = impact_add_candidate(&c->violation, (uint32_t)(group->first + c->tested), &state,
+                                    error);
         if (state == IMPACT_RUNNING) c->tested += 1;
     } else {
         code = impact_advance(&c->violation, &state, error);
@@ -314,7 +366,7 @@ imp_code clearance_work(clearance_search *c, imp_reason *reason, imp_error *erro
     case STAGE_NEXT:
         break;
     }
-    if (c->current < c->count) return begin_task(c, error);
+    if (c->current < clearance_count(c)) return begin_task(c, error);
     *reason = IMP_REASON_NONE;
     return IMP_SUCCESS;
 }
@@ -328,19 +380,21 @@ clearance_state clearance_look(const clearance_search *c)
         .upper = searched ? m->upper : NAN,
         .t_lower = c->stage == STAGE_VIOLATION ? c->violation.t_lower : NAN,
         .heap = searched ? m->heap.count + m->start_count : c->violation.heap.count,
-        .bytes = sizeof *c + c->count * sizeof *c->tasks + m->start_capacity * sizeof(pair) +
+        .bytes = sizeof *c + c->group_count * sizeof *c->groups + c->current * sizeof *c->answers +
+                 candidates_bytes(&c->own) + m->start_capacity * sizeof(pair) +
                  (m->heap.capacity + c->violation.heap.capacity) * PAIR_HEAP_BYTES};
 }
-
-size_t clearance_count(const clearance_search *c) { return c->count; }
 
 imp_code clearance_answer(const clearance_search *c, size_t index, imp_reason reason,
                           imp_clearance *answer, imp_error *error)
 {
     const bool is_current = index == c->current && c->stage != STAGE_NEXT;
     imp_code code = IMP_SUCCESS;
-    *answer = c->tasks[index].answer;
-    if (c->tasks[index].done) return code;
+    if (index < c->current) {
+        *answer = c->answers[index];
+        return code;
+    }
+    *answer = is_current ? c->answer : clearance_blank_answer(c, index);
     if (is_current && c->stage == STAGE_DISTANCE) code = take_bracket(c, answer, error);
     if (is_current) answer->stats = cost(c);
     if (c->asked.required > 0 && answer->verdict == IMP_REQUIREMENT_NONE)

@@ -22,11 +22,13 @@ imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options 
 imp_code clearance_part(const clearance_search *whole, const size_t body[2],
                         clearance_search **made, imp_error *error);
 bool clearance_is_each(const clearance_search *c);
+double clearance_near(const clearance_search *c); /* surfaces farther apart do not count; length */
 bool clearance_is_of_all_times(const clearance_search *c); /* not of slices */
 void clearance_free(clearance_search *c);
 
 /* Divides the candidates, which must outlive it like `stats`, into tasks. */
-void clearance_begin(clearance_search *c, const candidate_list *list, imp_stats *stats);
+imp_code clearance_begin(clearance_search *c, const candidate_list *list, imp_stats *stats,
+                         imp_error *error);
 
 /* One unit of work. *reason: RUNNING, NONE when all tasks are done, or why it cannot go on. */
 imp_code clearance_work(clearance_search *c, imp_reason *reason, imp_error *error);
@@ -39,6 +41,7 @@ typedef struct clearance_state {
 } clearance_state;
 clearance_state clearance_look(const clearance_search *c);
 
+/* With `each` and `within`: 0 before clearance_begin. */
 size_t clearance_count(const clearance_search *c);
 
 /* `reason` is given to tasks that are not done. */

@@ -24,52 +24,47 @@ static imp_code check(const imp_clearance_options *asked, imp_error *error)
     if (asked->slices < 1 || asked->slices > SLICES_MAX)
         return error_set(error, IMP_ERROR_USAGE, "slices: got %llu, must be from 1 to %d",
                          (unsigned long long)asked->slices, SLICES_MAX);
+    if (!(asked->within >= 0 && asked->within < INFINITY))
+        return error_set(error, IMP_ERROR_USAGE,
+                         "within: got %g, must be > 0 and finite, or 0 for any distance",
+                         asked->within);
+    if (asked->within > 0 && asked->within < asked->required)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "within: got %g, must be at least what is required, %g", asked->within,
+                         asked->required);
     return IMP_SUCCESS;
 }
 
-static size_t body_pair_count(const clearance_search *c)
+static size_t body_pair_count(const imp_scene *scene)
 {
-    if (!c->asked.each) return 1;
-    const size_t n = imp_scene_body_count(c->scene);
+    const size_t n = imp_scene_body_count(scene);
     size_t count = 0;
     for (size_t a = 0; a < n; ++a)
-        for (size_t b = a + 1; b < n; ++b) count += !scene_ignores(c->scene, a, b);
+        for (size_t b = a + 1; b < n; ++b) count += !scene_ignores(scene, a, b);
     return count;
 }
 
-/* The slices of one pair of bodies, from tasks[c->count] on. Neighbours share the moment
- * between. */
-static void add_slices(clearance_search *c, size_t a, size_t b)
+static void add_group(clearance_search *c, size_t a, size_t b)
 {
-    const double n = (double)c->asked.slices;
-    double start = c->options.t_start;
-    for (uint64_t k = 1; k <= c->asked.slices; ++k) {
-        const double share = (double)k / n;
-        const double end = k == c->asked.slices
-                               ? c->options.t_end
-                               : (1 - share) * c->options.t_start + share * c->options.t_end;
-        imp_clearance *answer = &c->tasks[c->count++].answer;
-        *answer = (imp_clearance){.struct_size = (uint32_t)sizeof *answer,
-                                  .t_start = start,
-                                  .t_end = end,
-                                  .body = {a, b},
-                                  .required = c->asked.required,
-                                  .upper = INFINITY,
-                                  .t = NAN,
-                                  .t_violated = NAN};
-        start = end;
-    }
+    c->groups[c->group_count++] = (clearance_group){.body = {a, b}};
 }
 
-static imp_code add_tasks(clearance_search *c, imp_error *error)
+/* Which pairs of bodies may come within asked.within is known when the candidates are. */
+static bool awaits_candidates(const clearance_search *c)
+{
+    return c->asked.each && c->asked.within > 0;
+}
+
+static imp_code add_groups(clearance_search *c, imp_error *error)
 {
     const size_t n = imp_scene_body_count(c->scene);
-    c->tasks = calloc(body_pair_count(c) * c->asked.slices + 1, sizeof *c->tasks);
-    if (c->tasks == NULL) return error_set_memory(error);
-    if (!c->asked.each) add_slices(c, SIZE_MAX, SIZE_MAX);
+    if (awaits_candidates(c)) return IMP_SUCCESS;
+    c->groups = malloc((c->asked.each ? body_pair_count(c->scene) + 1 : 1) * sizeof *c->groups);
+    if (c->groups == NULL) return error_set_memory(error);
+    if (!c->asked.each) add_group(c, SIZE_MAX, SIZE_MAX);
     for (size_t a = 0; c->asked.each && a < n; ++a)
         for (size_t b = a + 1; b < n; ++b)
-            if (!scene_ignores(c->scene, a, b)) add_slices(c, a, b);
+            if (!scene_ignores(c->scene, a, b)) add_group(c, a, b);
     return IMP_SUCCESS;
 }
 
@@ -87,7 +82,7 @@ imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options 
     c->any_pair = any_pair;
     c->options = *options;
     c->asked = *asked;
-    const imp_code code = add_tasks(c, error);
+    const imp_code code = add_groups(c, error);
     if (code == IMP_SUCCESS)
         *made = c;
     else
@@ -104,17 +99,22 @@ imp_code clearance_part(const clearance_search *whole, const size_t body[2],
                             .any_pair = true,
                             .options = whole->options,
                             .asked = whole->asked,
-                            .tasks = calloc(whole->asked.slices, sizeof *c->tasks)};
-    if (c->tasks == NULL) {
+                            .groups = malloc(sizeof *c->groups)};
+    if (c->groups == NULL) {
         clearance_free(c);
         return error_set_memory(error);
     }
-    add_slices(c, body[0], body[1]);
+    add_group(c, body[0], body[1]);
     *made = c;
     return IMP_SUCCESS;
 }
 
 bool clearance_is_each(const clearance_search *c) { return c->asked.each; }
+
+double clearance_near(const clearance_search *c)
+{
+    return c->asked.within > 0 ? c->asked.within : INFINITY;
+}
 
 bool clearance_is_of_all_times(const clearance_search *c) { return c->asked.slices == 1; }
 
@@ -123,8 +123,40 @@ void clearance_free(clearance_search *c)
     if (c == NULL) return;
     min_distance_clear(&c->distance);
     impact_clear(&c->violation);
-    free(c->tasks);
+    candidates_clear(&c->own);
+    free(c->answers);
+    free(c->groups);
     free(c);
+}
+
+/* --- Tasks ------------------------------------------------------------------------------------ */
+
+size_t clearance_count(const clearance_search *c)
+{
+    return c->group_count * (size_t)c->asked.slices;
+}
+
+/* When slice k begins; neighbours share the moment between. */
+static double slice_start(const clearance_search *c, uint64_t k)
+{
+    const double share = (double)k / (double)c->asked.slices;
+    if (k == 0) return c->options.t_start;
+    if (k == c->asked.slices) return c->options.t_end;
+    return (1 - share) * c->options.t_start + share * c->options.t_end;
+}
+
+imp_clearance clearance_blank_answer(const clearance_search *c, size_t index)
+{
+    const clearance_group *group = &c->groups[index / c->asked.slices];
+    const uint64_t k = index % c->asked.slices;
+    return (imp_clearance){.struct_size = (uint32_t)sizeof(imp_clearance),
+                           .t_start = slice_start(c, k),
+                           .t_end = slice_start(c, k + 1),
+                           .body = {group->body[0], group->body[1]},
+                           .required = c->asked.required,
+                           .upper = INFINITY,
+                           .t = NAN,
+                           .t_violated = NAN};
 }
 
 static bool is_of(const candidate_pair *both, const size_t body[2])
@@ -132,30 +164,37 @@ static bool is_of(const candidate_pair *both, const size_t body[2])
     return both->side[0]->body == body[0] && both->side[1]->body == body[1];
 }
 
-/* The list is in the order of the scene, so that the candidates of two bodies stand together. */
-static void find_candidates(const candidate_list *list, clearance_task *p)
+static imp_code add_candidate_groups(clearance_search *c, const candidate_list *list,
+                                     imp_error *error)
 {
-    const size_t *body = p->answer.body;
-    size_t first = 0, end = list->pair_count;
-    if (body[0] != SIZE_MAX) {
-        while (first < list->pair_count && !is_of(&list->pairs[first], body)) ++first;
-        for (end = first; end < list->pair_count && is_of(&list->pairs[end], body);) ++end;
-    }
-    p->first = first;
-    p->count = end - first;
+    size_t count = 0;
+    for (size_t k = 0; k < list->pair_count; ++k) count += candidate_pair_is_first(list->pairs, k);
+    c->groups = malloc((count + 1) * sizeof *c->groups);
+    if (c->groups == NULL) return error_set_memory(error);
+    for (size_t k = 0; k < list->pair_count; ++k)
+        if (candidate_pair_is_first(list->pairs, k))
+            add_group(c, list->pairs[k].side[0]->body, list->pairs[k].side[1]->body);
+    return IMP_SUCCESS;
 }
 
-void clearance_begin(clearance_search *c, const candidate_list *list, imp_stats *stats)
+/* The list and the groups are in the order of the scene: candidates of two bodies stand
+ * together. */
+imp_code clearance_begin(clearance_search *c, const candidate_list *list, imp_stats *stats,
+                         imp_error *error)
 {
-    c->list = list;
+    size_t next = 0;
+    c->whole = c->list = list;
     c->stats = stats;
-    for (size_t k = 0; k < c->count; ++k) {
-        clearance_task *p = &c->tasks[k];
-        if (k % c->asked.slices == 0) {
-            find_candidates(list, p);
-        } else {
-            p->first = p[-1].first;
-            p->count = p[-1].count;
-        }
+    c->shared_bytes = c->fresh_bytes = stats->bytes;
+    if (c->groups == NULL && add_candidate_groups(c, list, error) != IMP_SUCCESS)
+        return error->code;
+    for (size_t k = 0; k < c->group_count; ++k) {
+        clearance_group *group = &c->groups[k];
+        const bool is_all = group->body[0] == SIZE_MAX;
+        group->first = next;
+        while (next < list->pair_count && (is_all || is_of(&list->pairs[next], group->body)))
+            ++next;
+        group->count = next - group->first;
     }
+    return IMP_SUCCESS;
 }

@@ -9,12 +9,11 @@
 /* What the files of the clearance share: clearance_divide.c divides what is asked into tasks,
  * clearance.c searches them one after the other. */
 
-/* A pair of bodies, or all, during a slice of time. */
-typedef struct clearance_task {
-    imp_clearance answer;
+/* A pair of bodies, or all: each of its slices of time is a task. */
+typedef struct clearance_group {
+    size_t body[2];      /* SIZE_MAX: all bodies */
     size_t first, count; /* its candidates in the list */
-    bool done;
-} clearance_task;
+} clearance_group;
 
 typedef enum stage { STAGE_NEXT, STAGE_DISTANCE, STAGE_VIOLATION } stage;
 
@@ -23,10 +22,18 @@ struct clearance_search {
     bool any_pair;
     imp_options options;
     imp_clearance_options asked;
-    clearance_task *tasks;
-    size_t count, current;
+    clearance_group *groups;
+    size_t group_count;
+    size_t current;         /* index of the task that is searched: as many are done */
+    imp_clearance *answers; /* of the tasks that are done */
+    size_t answer_capacity;
+    imp_clearance answer; /* of the current task, from its beginning on */
     stage stage;
-    const candidate_list *list;
+    const candidate_list *whole;
+    const candidate_list *list; /* the whole one, or */
+    candidate_list own;         /* its pairs with trees that only slices since then have used */
+    uint64_t shared_bytes;      /* stats->bytes without the own trees, */
+    uint64_t fresh_bytes;       /* and with them when they were new */
     imp_stats *stats;
     imp_stats before; /* when the current task began; seconds: of the clock */
     min_distance distance;
@@ -36,5 +43,8 @@ struct clearance_search {
     bool takes_turns; /* that search took long: it and the search for the distance go on in turn */
     bool unresolved;  /* double precision ended that search: the distance is to decide */
 };
+
+/* What is known of a task before it begins. */
+imp_clearance clearance_blank_answer(const clearance_search *c, size_t index);
 
 #endif

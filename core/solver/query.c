@@ -306,11 +306,12 @@ static double searched_gamma_clear(const imp_query *query, double gamma_clear)
     return slip > 0 ? sum_upper(gamma_clear, slip) : gamma_clear;
 }
 
-/* What a limit ends begins anew with the next step. Where the minimum distance is asked for, all
- * surfaces count, however far apart. */
+/* What a limit ends begins anew with the next step. Where the minimum distance is asked for without
+ * `within`, all surfaces count, however far apart. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
 {
-    const double near = query->clearance == NULL ? query->impact.gamma_clear : INFINITY;
+    const double near =
+        query->clearance == NULL ? query->impact.gamma_clear : clearance_near(query->clearance);
     collecting c = {query, query->stats.seconds, start, IMP_REASON_NONE};
     const candidate_limit limit = {limit_is_reached, limit_is_near, &c};
     const bool may_rest = query->clearance == NULL || clearance_is_of_all_times(query->clearance);
@@ -326,9 +327,9 @@ imp_code query_collect(imp_query *query, double start, imp_error *error)
 
 static imp_code begin(imp_query *query, double start, imp_error *error)
 {
-    const imp_code code = query_collect(query, start, error);
+    imp_code code = query_collect(query, start, error);
     if (query->candidates.complete && query->clearance != NULL)
-        clearance_begin(query->clearance, &query->candidates, &query->stats);
+        code = clearance_begin(query->clearance, &query->candidates, &query->stats, error);
     return code;
 }
 

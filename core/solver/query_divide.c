@@ -16,14 +16,12 @@ static imp_code find_parts(imp_query *query, imp_error *error)
 {
     const candidate_list *list = &query->candidates;
     size_t count = 0;
-    for (size_t k = 0; k < list->pair_count; ++k)
-        count += k == 0 || !candidate_pairs_same_bodies(&list->pairs[k - 1], &list->pairs[k]);
+    for (size_t k = 0; k < list->pair_count; ++k) count += candidate_pair_is_first(list->pairs, k);
     query->parts = malloc((count + 1) * sizeof *query->parts);
     if (query->parts == NULL) return error_set_memory(error);
     query->part_count = 0;
     for (size_t k = 0; k < list->pair_count; ++k)
-        if (k == 0 || !candidate_pairs_same_bodies(&list->pairs[k - 1], &list->pairs[k]))
-            query->parts[query->part_count++] = k;
+        if (candidate_pair_is_first(list->pairs, k)) query->parts[query->part_count++] = k;
     query->parts[count] = list->pair_count;
     return IMP_SUCCESS;
 }
@@ -37,7 +35,7 @@ static imp_code conclude(imp_query *query, imp_error *error)
     query->candidates_tested = query->candidates.pair_count;
     query_finish(query, IMP_VERDICT_CLEAR, query_reason_of_clear(query));
     if (query->clearance == NULL) return IMP_SUCCESS;
-    clearance_begin(query->clearance, &none, &query->stats);
+    code = clearance_begin(query->clearance, &none, &query->stats, error);
     while (code == IMP_SUCCESS && reason == IMP_REASON_RUNNING)
         code = clearance_work(query->clearance, &reason, error);
     return code;
@@ -133,11 +131,9 @@ FP_APART static imp_query *part_of(const imp_query *whole, size_t index, imp_err
     query->impact.candidate_pair_count = query->candidates.pair_count;
     if (code == IMP_SUCCESS && whole->clearance != NULL)
         code = clearance_part(whole->clearance, body, &query->clearance, error);
-    if (code == IMP_SUCCESS) {
-        if (query->clearance != NULL)
-            clearance_begin(query->clearance, &query->candidates, &query->stats);
-        return query;
-    }
+    if (code == IMP_SUCCESS && query->clearance != NULL)
+        code = clearance_begin(query->clearance, &query->candidates, &query->stats, error);
+    if (code == IMP_SUCCESS) return query;
     imp_query_free(query);
     return NULL;
 }

@@ -292,6 +292,61 @@ END
     jq -en --argjson used "$used" '$used < 2' # 14 s were used
 }
 
+# grid N: N cubed unit spheres 3 apart, which drift apart.
+grid() {
+    jq -nc --argjson n "$1" '{bodies: [range($n * $n * $n) | [., ./$n, ./$n/$n | floor % $n] |
+        {surfaces: [{type: "sphere", center: [3 * .[0], 3 * .[1], 3 * .[2]]}],
+         maps: [{type: "translate", velocity: [.[0], 0, 0]}]}]}'
+}
+
+@test "pairs of bodies that never come within a distance are counted, and the others as ever" {
+    grid 3 >grid.json
+    run -0 "$IMPINGE" clearance grid.json --each --json
+    local all=$output
+    run -0 "$IMPINGE" clearance grid.json --each --within 2 --json
+    valid clearance
+    json '.beyond == 351 - (.pairs | length) and (.pairs | length) == 54 and .lower > 0.99'
+    jq -e --slurpfile all <(cat <<<"$all") '[.pairs[].lower] == [$all[0].pairs[].lower | select(. < 2)] and
+        .lower == $all[0].lower and .upper == $all[0].upper' <<<"$output"
+    run -0 "$IMPINGE" clearance grid.json --each --within 2
+    [[ ${lines[-1]} == "never within 2: 297 pairs of bodies" ]]
+    run -0 "$IMPINGE" clearance grid.json --each --within 0.5 --require 0.5 --json
+    valid clearance
+    json '.lower == 0.5 and .verdict == "holds" and .beyond == 351 and .pairs == [] and .upper == null'
+    run -0 "$IMPINGE" clearance grid.json --each --within 0.5 --require 0.5
+    [[ ${lines[0]} == "holds: no two bodies ever come so near" ]]
+    fails 2 "--within belongs to --each" "$IMPINGE" clearance grid.json --within 1
+    fails 2 "--within must be at least what --require asks for, 2, not 1" \
+        "$IMPINGE" clearance grid.json --each --within 1 --require 2
+}
+
+@test "many thousands of bodies are measured where they come near, in little memory" {
+    # 10,648 bodies, 56,684,628 pairs of them, two by two 0.6 apart at first, all others 1
+    grid 22 | jq -c '(.bodies[].surfaces[0].center | select(.[0] % 2 == 1)[0]) -= 0.4' >grid.json
+    run -0 "$IMPINGE" clearance grid.json --each --within 0.9 --max-bytes 64M --json
+    json '.lower > 0.59 and .upper < 0.61 and .beyond + (.pairs | length) == 56684628'
+    json '(.pairs | length) == 22 * 22 * 11 and .stats.bytes < 64e6'
+}
+
+@test "a million slices end at a limit, in one line for the time that is left" {
+    run -3 "$IMPINGE" clearance "${passing[@]}" --profile 1000000 --max-bytes 8M
+    [[ ${lines[-1]} == 0.0*,1,0,,,* ]] && [ "${#lines[@]}" -lt 100000 ]
+    run -3 "$IMPINGE" clearance "${passing[@]}" --profile 1000000 --max-seconds 0.5 --require 1.1 --json
+    valid clearance
+    jq -se 'last.slices == .[:-1] and last.reason == "max-seconds" and last.verdict == "undecided" and
+        (.[-2] | .t1 == 1 and .lower == 0 and .verdict == "undecided") and
+        ([.[:-1][].t1][:-1] == [.[:-1][].t0][1:])' <<<"$output"
+}
+
+@test "slices leave nothing behind: memory does not grow with their number" {
+    run -0 "$IMPINGE" clearance "${passing[@]}" --profile 4000 --max-bytes 16M --json
+    jq -se 'length == 4001 and last.stats.bytes < 16e6 and last.slices == .[:-1]' <<<"$output"
+    jq -se 'all(.[:-1][]; (if .t1 <= 0.5 then .t1 else .t0 end) as $t |
+        (((3 - 6 * $t) * (3 - 6 * $t) + 9 | sqrt) - 2) as $d |
+        .lower <= $d * (1 + 1e-15) and .upper >= $d * (1 - 1e-15) and .upper - .lower <= 1e-3 * .upper)' \
+        <<<"$output"
+}
+
 @test "a type that breaks its promises where it shows is an error, not an answer" {
     local lies="$top_builddir/tests/plugins/.libs"
     fails 5 "but proved to stay 4.04" "$IMPINGE" clearance liar_distance 'cylinder radius=5' \

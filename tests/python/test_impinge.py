@@ -8,6 +8,7 @@ import dataclasses
 import pathlib
 import signal
 import threading
+import time
 
 import impinge
 import numpy
@@ -67,6 +68,44 @@ def test_each_is_sorted_by_tightness():
         builder.body(f"b{k}").surface("sphere", center=[x, 0, 0])
     pairs = builder.build().each()
     assert [pair.bodies for pair in pairs] == [("b0", "b1"), ("b1", "b2"), ("b0", "b2")]
+
+
+def row(count):
+    builder = impinge.Builder()
+    for k in range(count):
+        builder.body(f"b{k}").surface("sphere", center=[3 * k, 0, 0])
+    return builder.build()
+
+
+def test_each_leaves_out_what_never_comes_within_a_distance():
+    scene = row(2000)  # 1,999,000 pairs of bodies, of which neighbours are 1 apart and others 4
+    pairs = scene.each(within=2, max_bytes=50_000_000)
+    assert len(pairs) == 1999 and all(0.99 < pair.lower <= 1 <= pair.upper < 1.01 for pair in pairs)
+    assert pairs == scene.each(within=2, threads=1)
+    assert scene.each(within=0.5) == []
+    whole = row(4).each()
+    assert [pair for pair in whole if pair.lower < 2] == row(4).each(within=2)
+    with pytest.raises(impinge.UsageError, match="within: got 1, must be at least what is required, 2"):
+        scene.each(within=1, required=2)
+
+
+def test_pairs_that_a_limit_leaves_out_are_one_answer():
+    start = time.process_time()
+    pairs = row(2000).each(max_seconds=0.5, threads=1)
+    assert time.process_time() - start < 5
+    assert pairs[-1].bodies is None and pairs[-1].reason == "seconds" and pairs[-1].lower == 0
+    assert len(pairs) < 1_000_000 and all(pair.bodies for pair in pairs[:-1])
+
+
+def test_slices_that_a_limit_leaves_out_are_one_element():
+    start = time.process_time()
+    profile = flying().build().profile(1_000_000, max_seconds=0.5, required=0.1)
+    assert time.process_time() - start < 3
+    assert 1 < len(profile) < 1_000_000 and profile.t1[-1] == 1 and profile.lower[-1] == 0
+    assert profile.verdict[-1] == "undecided" and profile.bodies[-1] is None
+    assert (profile.t1[:-1] == profile.t0[1:]).all()
+    small = flying().build().profile(1_000_000, max_bytes=20_000_000)
+    assert 1 < len(small) < 1_000_000 and small.t1[-1] == 1 and small.verdict[-1] is None
 
 
 def test_a_batch_keeps_its_order_on_any_number_of_threads():

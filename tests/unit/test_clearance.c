@@ -712,6 +712,45 @@ START_TEST(cancelled_or_ended_by_progress_it_goes_on_when_asked)
 }
 END_TEST
 
+/* Bodies a and b, b and c, and b and d come as near as 1, 1 and sqrt(9.25) - 2, which is
+ * 1.04. */
+START_TEST(what_never_comes_within_a_distance_is_not_measured)
+{
+    const size_t body[][2] = {{0, 1}, {1, 2}, {1, 3}};
+    imp_registry *registry = query_registry();
+    imp_scene *scene = scene_of_three(registry);
+    const imp_options options = imp_options_default(scene);
+    imp_clearance_options asked = imp_clearance_options_default();
+    asked.each = true;
+    asked.within = 1.5;
+    imp_query *query = begin(scene, &options, &asked);
+    ck_assert_uint_eq(imp_clearance_count(query), 0);
+    ck_assert_int_eq(step(query, 0), IMP_REASON_NONE);
+    ck_assert_uint_eq(imp_clearance_count(query), 3);
+    for (size_t k = 0; k < 3; ++k) {
+        const imp_clearance r = read_answer(query, k);
+        ck_assert(r.body[0] == body[k][0] && r.body[1] == body[k][1]);
+        ck_assert(r.reason == IMP_REASON_NONE && r.lower > 0.999 && r.upper < 1.05);
+    }
+    imp_query_free(query);
+    asked.each = false;
+    const double within[] = {0.5, 0.9999, 1.0001, 9};
+    for (int k = 0; k < 4; ++k) {
+        asked.within = within[k];
+        asked.required = asked.within < 1 ? within[k] : 0;
+        query = begin(scene, &options, &asked);
+        step(query, 0);
+        const imp_clearance r = read_answer(query, 0);
+        ck_assert_int_eq(r.reason, within[k] < 1 ? IMP_REASON_DECIDED : IMP_REASON_NONE);
+        ck_assert(within[k] < 1 ? r.lower == within[k] : r.lower > 0.999 && r.lower <= 1);
+        if (within[k] < 1) ck_assert_int_eq(r.verdict, IMP_REQUIREMENT_HOLDS);
+        imp_query_free(query);
+    }
+    imp_scene_free(scene);
+    imp_registry_free(registry);
+}
+END_TEST
+
 /* --- What cannot be asked --------------------------------------------------------------------- */
 
 START_TEST(wrong_questions_are_refused_by_name)
@@ -722,10 +761,14 @@ START_TEST(wrong_questions_are_refused_by_name)
         double tolerance, required;
         uint64_t slices;
         const char *name;
-    } wrong[] = {
-        {0, 0, 1, "tolerance"},     {1e-10, 0, 1, "tolerance"}, {1, 0, 1, "tolerance"},
-        {NAN, 0, 1, "tolerance"},   {1e-3, -1, 1, "required"},  {1e-3, INFINITY, 1, "required"},
-        {1e-3, NAN, 1, "required"}, {1e-3, 0, 0, "slices"},     {1e-3, 0, 1000001, "slices"}};
+        double within;
+    } wrong[] = {{0, 0, 1, "tolerance", 0},       {1e-10, 0, 1, "tolerance", 0},
+                 {1, 0, 1, "tolerance", 0},       {NAN, 0, 1, "tolerance", 0},
+                 {1e-3, -1, 1, "required", 0},    {1e-3, INFINITY, 1, "required", 0},
+                 {1e-3, NAN, 1, "required", 0},   {1e-3, 0, 0, "slices", 0},
+                 {1e-3, 0, 1000001, "slices", 0}, {1e-3, 0, 1, "within", -1},
+                 {1e-3, 0, 1, "within", NAN},     {1e-3, 0, 1, "within", INFINITY},
+                 {1e-3, 2, 1, "within", 1}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
         imp_clearance_options asked = imp_clearance_options_default();
         imp_options options = imp_options_default(scene);
@@ -733,6 +776,7 @@ START_TEST(wrong_questions_are_refused_by_name)
         asked.tolerance = wrong[k].tolerance;
         asked.required = wrong[k].required;
         asked.slices = wrong[k].slices;
+        asked.within = wrong[k].within;
         ck_assert_ptr_null(imp_clearance_new(scene, &options, &asked, &error));
         ck_assert_int_eq(error.code, IMP_ERROR_USAGE);
         ck_assert_ptr_nonnull(strstr(error.text, wrong[k].name));
@@ -771,4 +815,4 @@ SUITE_MAIN("clearance", closed_forms_lie_within_the_bracket,
            where_nobody_meets_anybody_the_distance_is_infinite,
            steps_of_any_size_lead_to_the_same_bits, a_budget_that_ends_leaves_a_true_bracket,
            cancelled_or_ended_by_progress_it_goes_on_when_asked,
-           wrong_questions_are_refused_by_name)
+           what_never_comes_within_a_distance_is_not_measured, wrong_questions_are_refused_by_name)

@@ -10,27 +10,37 @@
 
 /* Minimum distances, for people and for programs: tools/schema/clearance.schema.json. */
 
+/* Answers of one kind: slices, or pairs of bodies; or one. */
 typedef struct clearance_table {
     const imp_scene *scene;
-    const imp_clearance *answers; /* of one kind: slices, or pairs of bodies; or one */
+    const imp_clearance *answers; /* NULL: they are read from */
+    const imp_query *query;       /* this, */
+    imp_reason ended;             /* the reason of answers that run; RUNNING: they go on */
     size_t count;
+    bool has_rest;      /* then the last answer is */
+    imp_clearance rest; /* this, which stands for slices that were not begun */
 } clearance_table;
+
+/* Answer k, below the count. */
+imp_clearance clearance_table_get(const clearance_table *table, size_t k);
 
 /* --each: an answer for each pair of bodies that do not ignore each other, by several threads. */
 typedef struct clearance_each {
     const imp_scene *scene;
     imp_query *query; /* of the whole scene; is divided */
     double required;
+    double within; /* pairs of bodies that never come nearer are counted only; 0: none */
     size_t threads;
-    uint64_t max_bytes; /* of the answers; 0: no limit */
+    uint64_t max_bytes; /* of the divided query and the answers; 0: no limit */
     double until;       /* seconds of the clock: the limit of time; INFINITY: none */
 } clearance_each;
 
 typedef struct clearance_answers {
-    imp_clearance *list; /* in the order of the scene; the caller frees it */
+    imp_clearance *list; /* in any order; the caller frees it */
     size_t count;
-    size_t not_examined; /* pairs of bodies left out by a limit or a signal; if > 0, list[count],
-                            beyond the others, stands for all of them */
+    size_t beyond;       /* pairs of bodies that never come within `within` */
+    size_t not_examined; /* pairs of bodies, because of a limit or a signal */
+    bool has_rest;       /* list[count] stands for those that are not listed */
     imp_stats stats;     /* of all together */
 } clearance_answers;
 

@@ -3,9 +3,11 @@
 #include <config.h>
 
 #include <math.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
+#include "core/common/array.h"
 #include "core/common/clock.h"
 #include "tools/cli/clearance.h"
 #include "tools/cli/interrupt.h"
@@ -13,18 +15,51 @@
 
 typedef struct filling {
     const clearance_each *of;
-    imp_clearance *answers;   /* of the parts; all bytes 0: not there yet */
-    atomic_size_t bytes;      /* of those that are there */
+    clearance_answers *found; /* in any order; changed with the lock held */
+    size_t capacity;          /* of its list */
+    pthread_mutex_t lock;
+    uint64_t bytes_before;    /* of the divided query */
+    atomic_size_t bytes;      /* of the answers that are there */
     _Atomic imp_reason ended; /* why parts were left out; NONE: none was */
 } filling;
+
+static void add_stats(imp_stats *all, const imp_stats *s)
+{
+    all->seconds += s->seconds;
+    all->pairs += s->pairs;
+    all->nodes += s->nodes;
+    all->witness_searches += s->witness_searches;
+    if (s->peak_heap > all->peak_heap) all->peak_heap = s->peak_heap;
+    if (s->bytes > all->bytes) all->bytes = s->bytes;
+}
+
+/* Adds an answer to the list; false: no memory. */
+static bool add(filling *f, const imp_clearance *answer)
+{
+    clearance_answers *found = f->found;
+    imp_clearance *grown = array_reserve(found->list, found->count, &f->capacity, sizeof *grown);
+    if (grown == NULL) return false;
+    found->list = grown;
+    found->list[found->count++] = *answer;
+    return true;
+}
 
 static void take(void *context, size_t index, imp_query *part)
 {
     filling *f = context;
-    imp_clearance *answer = &f->answers[index];
-    answer->struct_size = (uint32_t)sizeof *answer;
-    imp_clearance_get(part, 0, answer, NULL);
-    atomic_fetch_add(&f->bytes, sizeof *answer);
+    imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
+    (void)index;
+    imp_clearance_get(part, 0, &answer, NULL);
+    const bool is_beyond = f->of->within > 0 && answer.lower >= f->of->within;
+    pthread_mutex_lock(&f->lock);
+    add_stats(&f->found->stats, &answer.stats);
+    if (is_beyond)
+        f->found->beyond += 1;
+    else if (add(f, &answer))
+        atomic_fetch_add(&f->bytes, sizeof answer);
+    else
+        atomic_store(&f->ended, IMP_REASON_MEMORY);
+    pthread_mutex_unlock(&f->lock);
 }
 
 /* The memory of answers counts, too: they are sorted, so that all are there before the first is
@@ -34,19 +69,23 @@ static bool is_over(void *context)
     filling *f = context;
     const clearance_each *of = f->of;
     imp_reason reason = IMP_REASON_NONE;
-    if (of->max_bytes > 0 && atomic_load(&f->bytes) > of->max_bytes) reason = IMP_REASON_MEMORY;
+    if (of->max_bytes > 0 && f->bytes_before + atomic_load(&f->bytes) > of->max_bytes)
+        reason = IMP_REASON_MEMORY;
     if (clock_seconds() >= of->until) reason = IMP_REASON_SECONDS;
     if (interrupt_came()) reason = IMP_REASON_CANCELLED;
-    if (reason != IMP_REASON_NONE) atomic_store(&f->ended, reason);
-    return reason != IMP_REASON_NONE;
+    if (reason == IMP_REASON_NONE) return atomic_load(&f->ended) != IMP_REASON_NONE;
+    atomic_store(&f->ended, reason);
+    return true;
 }
 
-/* The answer for two bodies that are never both there or, where `reason` ended the search, for any
- * that were not examined. */
+/* The answer for two bodies that are never both there; for any that are beyond `within`, where
+ * `reason` is DECIDED; or, where another reason ended the search, for any that were not
+ * examined. */
 static imp_clearance answer_of_none(const clearance_each *of, imp_reason reason, size_t a, size_t b)
 {
     const imp_result whole = imp_query_result(of->query);
-    const bool ended = reason != IMP_REASON_NO_TIME;
+    const bool is_beyond = reason == IMP_REASON_DECIDED;
+    const bool ended = reason != IMP_REASON_NO_TIME && !is_beyond;
     return (imp_clearance){.struct_size = (uint32_t)sizeof(imp_clearance),
                            .reason = reason,
                            .verdict = !(of->required > 0) ? IMP_REQUIREMENT_NONE
@@ -55,7 +94,9 @@ static imp_clearance answer_of_none(const clearance_each *of, imp_reason reason,
                            .t_start = whole.t_start,
                            .t_end = whole.t_end,
                            .body = {a, b},
-                           .lower = ended ? 0 : INFINITY,
+                           .lower = ended       ? 0
+                                    : is_beyond ? of->within
+                                                : INFINITY,
                            .upper = INFINITY,
                            .t = NAN,
                            .required = of->required,
@@ -71,72 +112,57 @@ static size_t pair_count(const imp_scene *scene)
     return count;
 }
 
-/* Sums up the counters of all answers. */
-static imp_stats sum(const imp_clearance *answers, size_t count, imp_stats all)
-{
-    for (size_t k = 0; k < count; ++k) {
-        const imp_stats *s = &answers[k].stats;
-        all.seconds += s->seconds;
-        all.pairs += s->pairs;
-        all.nodes += s->nodes;
-        all.witness_searches += s->witness_searches;
-        if (s->peak_heap > all.peak_heap) all.peak_heap = s->peak_heap;
-        if (s->bytes > all.bytes) all.bytes = s->bytes;
-    }
-    return all;
-}
-
-/* Closes the gaps of parts without an answer. */
-static void keep_answers(const filling *f, size_t parts, clearance_answers *found)
-{
-    for (size_t k = 0; k < parts; ++k)
-        if (f->answers[k].struct_size != 0) found->list[found->count++] = f->answers[k];
-}
-
 /* Pairs of bodies that are never both there have no part. */
-static imp_code add_absent(const clearance_each *of, size_t parts, clearance_answers *found)
+static bool add_absent(filling *f)
 {
-    const size_t bodies = imp_scene_body_count(of->scene), pairs = pair_count(of->scene);
+    const clearance_each *of = f->of;
+    const size_t bodies = imp_scene_body_count(of->scene);
     size_t part = 0, body[2];
-    if (pairs == parts) return IMP_SUCCESS;
-    imp_clearance *grown =
-        realloc(found->list, (found->count + pairs - parts + 1) * sizeof *found->list);
-    if (grown == NULL) return IMP_ERROR_MEMORY;
-    found->list = grown;
     for (size_t a = 0; a < bodies; ++a)
         for (size_t b = a + 1; b < bodies; ++b) {
             if (imp_scene_ignores(of->scene, a, b)) continue;
-            if (imp_query_part_bodies(of->query, part, body) && body[0] == a && body[1] == b)
-                part += 1;
-            else
-                found->list[found->count++] = answer_of_none(of, IMP_REASON_NO_TIME, a, b);
+            const bool is_part =
+                imp_query_part_bodies(of->query, part, body) && body[0] == a && body[1] == b;
+            const imp_clearance none = answer_of_none(of, IMP_REASON_NO_TIME, a, b);
+            part += is_part;
+            if (!is_part && !add(f, &none)) return false;
         }
-    return IMP_SUCCESS;
+    return true;
 }
 
-/* What is known when no more parts are measured: where a limit came, one answer stands for the
- * rest. */
-static imp_code conclude(filling *f, size_t parts, clearance_answers *found)
+/* Counts the pairs of bodies that are not listed; one answer stands for them where it says more
+ * than those listed do. */
+static bool count_rest(filling *f, size_t parts, imp_reason ended)
+{
+    clearance_answers *found = f->found;
+    const size_t pairs = pair_count(f->of->scene);
+    const bool is_divided = imp_query_result(f->of->query).verdict != IMP_VERDICT_UNDECIDED;
+    if (f->of->within > 0 && is_divided) found->beyond += pairs - parts;
+    found->not_examined = pairs - found->count - found->beyond;
+    found->has_rest = found->not_examined > 0 || (found->count == 0 && found->beyond > 0);
+    if (!found->has_rest) return true;
+    const imp_reason reason = found->not_examined > 0 ? ended : IMP_REASON_DECIDED;
+    const imp_clearance rest = answer_of_none(f->of, reason, SIZE_MAX, SIZE_MAX);
+    if (!add(f, &rest)) return false;
+    found->count -= 1;
+    return true;
+}
+
+/* What is known when no more parts are measured. */
+static imp_code conclude(filling *f, size_t parts)
 {
     const imp_result whole = imp_query_result(f->of->query);
     const imp_reason ended =
         whole.verdict == IMP_VERDICT_UNDECIDED ? whole.reason : atomic_load(&f->ended);
-    imp_code code = IMP_SUCCESS;
-    found->list = f->answers;
-    keep_answers(f, parts, found);
-    found->stats = sum(found->list, found->count, whole.stats);
-    if (ended == IMP_REASON_NONE)
-        code = add_absent(f->of, parts, found);
-    else
-        found->not_examined = pair_count(f->of->scene) - found->count;
-    if (found->not_examined > 0)
-        found->list[found->count] = answer_of_none(f->of, ended, SIZE_MAX, SIZE_MAX);
-    return code;
+    const bool listed = ended == IMP_REASON_NONE && !(f->of->within > 0);
+    const bool done = listed ? add_absent(f) : count_rest(f, parts, ended);
+    return done ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 
 imp_code clearance_each_run(const clearance_each *of, clearance_answers *found, imp_error *error)
 {
-    filling f = {.of = of, .ended = IMP_REASON_NONE};
+    filling f = {
+        .of = of, .found = found, .lock = PTHREAD_MUTEX_INITIALIZER, .ended = IMP_REASON_NONE};
     parts_plan plan = {.whole = of->query,
                        .threads = of->threads,
                        .take = take,
@@ -145,10 +171,9 @@ imp_code clearance_each_run(const clearance_each *of, clearance_answers *found, 
     *found = (clearance_answers){.list = NULL};
     imp_code code = imp_query_divide(of->query, &plan.count, error);
     if (code != IMP_SUCCESS) return code;
-    f.answers = calloc(plan.count + 1, sizeof *f.answers); /* takes memory as it is filled */
-    if (f.answers == NULL) return error->code = IMP_ERROR_MEMORY;
+    found->stats = imp_query_result(of->query).stats;
+    f.bytes_before = found->stats.bytes;
     code = parts_run(&plan, error);
-    found->list = f.answers;
-    if (code == IMP_SUCCESS) code = error->code = conclude(&f, plan.count, found);
+    if (code == IMP_SUCCESS) code = error->code = conclude(&f, plan.count);
     return code;
 }

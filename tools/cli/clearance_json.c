@@ -96,16 +96,20 @@ json_t *clearance_slice_json(const imp_scene *scene, const imp_clearance *r)
 exit_status clearance_print_json(json_t *object, const clearance_table *table, bool slices,
                                  const char *verb)
 {
+    enum { ANSWERS_TO_FLUSH = 1024 };
     char *line = output_json_line(object);
     if (line == NULL) return output_line(line, verb);
     printf("%.*s,\"%s\":[", (int)strlen(line) - 1, line, slices ? "slices" : "pairs");
     free(line);
     for (size_t k = 0; k < table->count && !interrupt_came(); ++k) {
-        line = output_json_line(slices ? clearance_slice_json(table->scene, &table->answers[k])
-                                       : clearance_json(table->scene, &table->answers[k]));
+        const imp_clearance answer = clearance_table_get(table, k);
+        line = output_json_line(slices ? clearance_slice_json(table->scene, &answer)
+                                       : clearance_json(table->scene, &answer));
         if (line == NULL) return output_line(line, verb);
         printf("%s%s", k > 0 ? "," : "", line);
         free(line);
+        if (k % ANSWERS_TO_FLUSH == ANSWERS_TO_FLUSH - 1 && output_flush(verb) != EXIT_ANSWERED)
+            return EXIT_DATA;
     }
     puts("]}");
     return output_flush(verb);

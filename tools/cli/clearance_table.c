@@ -11,6 +11,16 @@
 
 #include "tools/cli/output.h"
 
+imp_clearance clearance_table_get(const clearance_table *table, size_t k)
+{
+    if (table->answers != NULL) return table->answers[k];
+    if (table->has_rest && k + 1 == table->count) return table->rest;
+    imp_clearance answer = {.struct_size = (uint32_t)sizeof answer};
+    imp_clearance_get(table->query, k, &answer, NULL);
+    if (answer.reason == IMP_REASON_RUNNING) answer.reason = table->ended;
+    return answer;
+}
+
 /* --- Pairs of bodies -------------------------------------------------------------------------- */
 
 static int by_proof(const void *x, const void *y)
@@ -138,13 +148,13 @@ static int weight(imp_reason reason)
  * bound. */
 static imp_clearance join_brackets(const clearance_table *table)
 {
-    imp_clearance all = table->answers[0];
+    imp_clearance all = clearance_table_get(table, 0);
     for (size_t k = 1; k < table->count; ++k) {
-        const imp_clearance *r = &table->answers[k];
-        const imp_requirement verdict = worse(all.verdict, r->verdict);
-        const imp_reason reason = weight(all.reason) < weight(r->reason) ? r->reason : all.reason;
-        const double lower = r->lower < all.lower ? r->lower : all.lower;
-        if (r->upper < all.upper) all = *r;
+        const imp_clearance r = clearance_table_get(table, k);
+        const imp_requirement verdict = worse(all.verdict, r.verdict);
+        const imp_reason reason = weight(all.reason) < weight(r.reason) ? r.reason : all.reason;
+        const double lower = r.lower < all.lower ? r.lower : all.lower;
+        if (r.upper < all.upper) all = r;
         all.verdict = verdict;
         all.reason = reason;
         all.lower = lower;
@@ -161,31 +171,33 @@ static bool may_be_violated_before(const imp_clearance *r, double t)
 
 /* Lemma. The least time of the violations known is the first of all unless an answer that has none,
  * and does not hold, begins before it. */
-static const imp_clearance *first_violation(const clearance_table *table)
+static bool first_violation(const clearance_table *table, imp_clearance *first)
 {
-    const imp_clearance *first = NULL;
+    bool found = false;
     for (size_t k = 0; k < table->count; ++k) {
-        const imp_clearance *r = &table->answers[k];
-        if (isnan(r->t_violated)) continue;
-        if (first == NULL || r->t_violated < first->t_violated) first = r;
+        const imp_clearance r = clearance_table_get(table, k);
+        if (isnan(r.t_violated)) continue;
+        if (!found || r.t_violated < first->t_violated) *first = r;
+        found = true;
     }
-    for (size_t k = 0; first != NULL && k < table->count; ++k)
-        if (may_be_violated_before(&table->answers[k], first->t_violated)) first = NULL;
-    return first;
+    for (size_t k = 0; found && k < table->count; ++k) {
+        const imp_clearance r = clearance_table_get(table, k);
+        found = !may_be_violated_before(&r, first->t_violated);
+    }
+    return found;
 }
 
 imp_clearance clearance_summary(const clearance_table *table)
 {
-    imp_clearance all = join_brackets(table);
-    const imp_clearance *first = first_violation(table);
-    all.t_start = table->answers[0].t_start;
-    all.t_end = table->answers[table->count - 1].t_end;
+    imp_clearance all = join_brackets(table), first = all;
+    all.t_start = clearance_table_get(table, 0).t_start;
+    all.t_end = clearance_table_get(table, table->count - 1).t_end;
     all.body[0] = all.body[1] = SIZE_MAX;
     all.t_violated = NAN;
-    if (first == NULL) return all;
-    all.t_violated = first->t_violated;
-    all.gap_violated = first->gap_violated;
-    all.a_violated = first->a_violated;
-    all.b_violated = first->b_violated;
+    if (!first_violation(table, &first)) return all;
+    all.t_violated = first.t_violated;
+    all.gap_violated = first.gap_violated;
+    all.a_violated = first.a_violated;
+    all.b_violated = first.b_violated;
     return all;
 }

@@ -63,6 +63,7 @@ static void print_nearest(const imp_scene *scene, const imp_clearance *r)
 static const char *reason_of_none(const imp_clearance *r)
 {
     const char *why = result_reason_of_none(r->reason);
+    if (is_decided_only(r)) return "no two bodies ever come so near";
     return why != NULL ? why : result_excuse(r->reason).why;
 }
 

@@ -23,11 +23,13 @@ typedef struct measuring {
     const imp_scene *scene;
     imp_query *query;
     imp_options options;
+    imp_clearance_options asked;
     bool json, each, profile;
-    imp_clearance *answers;
+    double until;    /* seconds of the clock: the limit of time; INFINITY: none */
+    double printing; /* seconds that slices have taken to print */
+    clearance_table table;
+    size_t beyond, not_examined; /* pairs of bodies of --each */
     imp_stats stats;
-    size_t not_examined; /* pairs of bodies of --each */
-    size_t count, told;  /* how many there are, and how many slices have been printed */
 } measuring;
 
 /* --- What is asked ---------------------------------------------------------------------------- */
@@ -42,6 +44,8 @@ static exit_status check_operands(const arguments *args)
                     args->operands[0], args->operands[1]);
 }
 
+static double required_of(const arguments *args) { return arguments_number(args, "require", 0); }
+
 static exit_status check(const arguments *args)
 {
     const exit_status operands = check_operands(args);
@@ -54,10 +58,14 @@ static exit_status check(const arguments *args)
         return complain(EXIT_USAGE, args->verb->name, "--each and --profile exclude each other");
     if (arguments_option(args, "threads") != NULL && arguments_option(args, "each") == NULL)
         return complain(EXIT_USAGE, args->verb->name, "--threads belongs to --each");
+    if (arguments_option(args, "within") != NULL && arguments_option(args, "each") == NULL)
+        return complain(EXIT_USAGE, args->verb->name, "--within belongs to --each");
+    if (arguments_number(args, "within", INFINITY) < required_of(args))
+        return complain(EXIT_USAGE, args->verb->name,
+                        "--within must be at least what --require asks for, %.10g, not %.10g",
+                        required_of(args), arguments_number(args, "within", 0));
     return EXIT_ANSWERED;
 }
-
-static double required_of(const arguments *args) { return arguments_number(args, "require", 0); }
 
 static imp_clearance_options asked_for(const arguments *args)
 {
@@ -68,6 +76,7 @@ static imp_clearance_options asked_for(const arguments *args)
     asked.required = required_of(args);
     asked.decide = tolerance == NULL && profile == NULL;
     if (profile != NULL) asked.slices = profile->count;
+    asked.within = arguments_number(args, "within", 0);
     return asked;
 }
 
@@ -77,22 +86,71 @@ static exit_status tell_slice(const measuring *m, const imp_clearance *slice)
 {
     if (m->json) return output_json(clearance_slice_json(m->scene, slice), m->args->verb->name);
     clearance_print_csv(m->scene, slice);
-    return output_flush(m->args->verb->name);
+    return EXIT_ANSWERED;
 }
 
-/* Reads all answers; prints the slices that are new among those done, in any case at the end. */
-static exit_status take_answers(measuring *m, bool ended)
+/* Adds the next answer to the table. */
+static exit_status take_answer(measuring *m)
 {
-    for (size_t k = m->told; k < m->count; ++k) {
-        m->answers[k].struct_size = (uint32_t)sizeof *m->answers;
-        imp_clearance_get(m->query, k, &m->answers[k], NULL);
-        if (!ended && m->answers[k].reason == IMP_REASON_RUNNING) return EXIT_ANSWERED;
-        if (m->answers[k].reason == IMP_REASON_RUNNING) m->answers[k].reason = IMP_REASON_CANCELLED;
-        const exit_status status = m->profile ? tell_slice(m, &m->answers[k]) : EXIT_ANSWERED;
-        if (status != EXIT_ANSWERED) return status;
-        m->told = k + 1;
+    m->table.count += 1;
+    const imp_clearance answer = clearance_table_get(&m->table, m->table.count - 1);
+    return m->profile ? tell_slice(m, &answer) : EXIT_ANSWERED;
+}
+
+/* Whether the answer is there: no limit has ended it, and it does not run. */
+static bool is_there(const imp_clearance *answer)
+{
+    return answer->reason != IMP_REASON_RUNNING &&
+           (answer->reason == IMP_REASON_RESOLUTION || !clearance_is_ended(answer->reason));
+}
+
+/* Slices that are printed as JSON are printed once more at the end. */
+static bool is_over(const measuring *m)
+{
+    return interrupt_came() || clock_seconds() + (m->json ? m->printing : 0) >= m->until;
+}
+
+/* Takes the answers that are there, as long as there is time. */
+static exit_status take_answers(measuring *m)
+{
+    enum { ANSWERS_A_LOOK = 64 };
+    const double start = clock_seconds() - m->printing;
+    const size_t count = imp_clearance_count(m->query);
+    exit_status status = EXIT_ANSWERED;
+    while (status == EXIT_ANSWERED && m->table.count < count) {
+        const imp_clearance next = clearance_table_get(&m->table, m->table.count);
+        if (!is_there(&next)) break;
+        if (m->table.count % ANSWERS_A_LOOK == ANSWERS_A_LOOK - 1 && is_over(m)) break;
+        status = take_answer(m);
+        m->printing = clock_seconds() - start;
     }
-    return EXIT_ANSWERED;
+    return status == EXIT_ANSWERED ? output_flush(m->args->verb->name) : status;
+}
+
+/* Takes what is left where a limit or a signal came: the answer that was searched for, and one that
+ * stands for all that follow. */
+static exit_status take_rest(measuring *m)
+{
+    const size_t count = imp_clearance_count(m->query);
+    exit_status status = EXIT_ANSWERED;
+    if (m->table.count == count) return EXIT_ANSWERED;
+    imp_clearance next = clearance_table_get(&m->table, m->table.count);
+    if (next.stats.pairs > 0 || next.lower > 0) status = take_answer(m);
+    if (status != EXIT_ANSWERED || m->table.count == count) return status;
+    next = clearance_table_get(&m->table, m->table.count);
+    const double required = required_of(m->args);
+    m->table.has_rest = true;
+    m->table.rest =
+        (imp_clearance){.reason = m->table.ended,
+                        .verdict = required > 0 ? IMP_REQUIREMENT_UNDECIDED : IMP_REQUIREMENT_NONE,
+                        .t_start = next.t_start,
+                        .t_end = m->options.t_end,
+                        .required = required,
+                        .body = {SIZE_MAX, SIZE_MAX},
+                        .upper = INFINITY,
+                        .t = NAN,
+                        .t_violated = NAN};
+    return take_answer(m);
 }
 
 static exit_status run_query(measuring *m)
@@ -100,13 +158,17 @@ static exit_status run_query(measuring *m)
     imp_error error = {0};
     imp_reason reason = IMP_REASON_RUNNING;
     exit_status status = EXIT_ANSWERED;
-    while (reason == IMP_REASON_RUNNING && status == EXIT_ANSWERED && !interrupt_came()) {
+    while (reason == IMP_REASON_RUNNING && status == EXIT_ANSWERED && !is_over(m)) {
         if (imp_query_step(m->query, STEP_PAIRS, &error) != IMP_SUCCESS)
             return complain_of(&error, m->args->verb->name);
         reason = imp_query_result(m->query).reason;
-        status = take_answers(m, reason != IMP_REASON_RUNNING);
+        status = take_answers(m);
     }
-    return status == EXIT_ANSWERED ? take_answers(m, true) : status;
+    const bool is_ended = reason != IMP_REASON_RUNNING && reason != IMP_REASON_NONE;
+    m->table.ended = interrupt_came() ? IMP_REASON_CANCELLED
+                     : is_ended       ? reason
+                                      : IMP_REASON_SECONDS;
+    return status == EXIT_ANSWERED ? take_rest(m) : status;
 }
 
 /* --- At the end ------------------------------------------------------------------------------- */
@@ -131,6 +193,8 @@ static json_t *whole_json(const measuring *m, const imp_clearance *all)
 {
     json_t *object = clearance_json(m->scene, all);
     int failed = json_object_set_new(object, "scene", query_scene_json(m->args));
+    if (arguments_option(m->args, "within") != NULL)
+        failed |= json_object_set_new(object, "beyond", json_integer((json_int_t)m->beyond));
     if (m->not_examined > 0)
         failed |=
             json_object_set_new(object, "not_examined", json_integer((json_int_t)m->not_examined));
@@ -157,27 +221,27 @@ static exit_status status_of(const imp_clearance *all)
     return answered ? EXIT_ANSWERED : EXIT_UNDECIDED;
 }
 
-static exit_status print(const measuring *m, const clearance_table *table, const imp_clearance *all)
+static exit_status print(const measuring *m, const imp_clearance *all)
 {
     const char *speaker = m->args->verb->name;
     if (m->json && (m->profile || m->each))
-        return clearance_print_json(whole_json(m, all), table, m->profile, speaker);
+        return clearance_print_json(whole_json(m, all), &m->table, m->profile, speaker);
     if (m->json) return output_json(whole_json(m, all), speaker);
     if (m->profile) return EXIT_ANSWERED;
     clearance_print(m->scene, all, m->options.gamma);
-    if (m->each && m->count > 0) clearance_print_pairs(table);
+    if (m->each && m->table.count > 0) clearance_print_pairs(&m->table);
+    if (m->beyond > 0)
+        printf("never within %.10g: %zu pairs of bodies\n", m->asked.within, m->beyond);
     if (m->not_examined > 0) printf("not examined: %zu pairs of bodies\n", m->not_examined);
     return output_flush(speaker);
 }
 
-static exit_status conclude(measuring *m)
+/* `told` is the table, or has an answer more that stands for what is not listed. */
+static exit_status conclude(const measuring *m, const clearance_table *told)
 {
-    if (m->each) clearance_sort(m->answers, m->count);
-    const clearance_table table = {m->scene, m->answers, m->count};
-    const clearance_table with_rest = {m->scene, m->answers, m->count + (m->not_examined > 0)};
-    imp_clearance all = with_rest.count > 0 ? clearance_summary(&with_rest) : nothing(m);
+    imp_clearance all = told->count > 0 ? clearance_summary(told) : nothing(m);
     all.stats = m->stats;
-    const exit_status status = print(m, &table, &all);
+    const exit_status status = print(m, &all);
     return status != EXIT_ANSWERED ? status : status_of(&all);
 }
 
@@ -185,50 +249,50 @@ static exit_status measure_each(measuring *m)
 {
     imp_error error = {0};
     json_object_seed(0); /* before there are threads */
-    const imp_options *o = &m->options;
     const clearance_each of = {.scene = m->scene,
                                .query = m->query,
-                               .required = required_of(m->args),
+                               .required = m->asked.required,
+                               .within = m->asked.within,
                                .threads = query_threads(m->args),
-                               .max_bytes = o->max_bytes,
-                               .until = o->max_seconds > 0 ? clock_seconds() + o->max_seconds
-                                                           : INFINITY};
+                               .max_bytes = m->options.max_bytes,
+                               .until = m->until};
     clearance_answers found;
     const imp_code code = clearance_each_run(&of, &found, &error);
-    m->answers = found.list, m->count = found.count;
-    m->not_examined = found.not_examined, m->stats = found.stats;
+    m->beyond = found.beyond, m->not_examined = found.not_examined, m->stats = found.stats;
+    clearance_sort(found.list, found.count);
+    m->table.answers = found.list, m->table.count = found.count;
+    clearance_table told = m->table;
+    told.count += found.has_rest;
     const exit_status status =
-        code == IMP_SUCCESS ? conclude(m) : complain_of(&error, m->args->verb->name);
+        code == IMP_SUCCESS ? conclude(m, &told) : complain_of(&error, m->args->verb->name);
     free(found.list);
     return status;
 }
 
 static exit_status measure(measuring *m)
 {
-    m->count = imp_clearance_count(m->query);
-    m->answers = calloc(m->count + 1, sizeof *m->answers);
-    if (m->answers == NULL) return complain_of_memory(m->args->verb->name);
     if (m->profile && !m->json) clearance_print_csv_head();
     exit_status status = run_query(m);
     m->stats = imp_query_result(m->query).stats;
-    if (status == EXIT_ANSWERED) status = conclude(m);
-    free(m->answers);
-    return status;
+    return status == EXIT_ANSWERED ? conclude(m, &m->table) : status;
 }
 
 static exit_status measure_scene(imp_scene *scene, const arguments *args)
 {
     imp_error error = {0};
     const imp_options options = query_options(scene, args);
-    const imp_clearance_options asked = asked_for(args);
     measuring m = {.args = args,
                    .scene = scene,
                    .options = options,
+                   .asked = asked_for(args),
+                   .until =
+                       options.max_seconds > 0 ? clock_seconds() + options.max_seconds : INFINITY,
                    .json = arguments_option(args, "json") != NULL,
                    .each = arguments_option(args, "each") != NULL,
                    .profile = arguments_option(args, "profile") != NULL};
-    m.query = imp_clearance_new(scene, &options, &asked, &error);
+    m.query = imp_clearance_new(scene, &options, &m.asked, &error);
     if (m.query == NULL) return complain_of(&error, args->verb->name);
+    m.table = (clearance_table){.scene = scene, .query = m.query, .ended = IMP_REASON_RUNNING};
     const exit_status status = m.each ? measure_each(&m) : measure(&m);
     imp_query_free(m.query);
     return status;
@@ -266,6 +330,11 @@ static const option clearance_options[] = {
      .min_open = true,
      .help = "say whether bodies always stay so far apart; exit 0, 1 or 3"},
     {.name = "each", .help = "measure each pair of bodies that do not ignore each other"},
+    {.name = "within",
+     .kind = OPTION_NUMBER,
+     .argument = "DISTANCE",
+     .min_open = true,
+     .help = "with --each: only count the pairs of bodies that never come nearer than this"},
     {.name = "threads",
      .kind = OPTION_COUNT,
      .argument = "N",

@@ -104,6 +104,7 @@ class ClearanceOptions(c.Structure):
         ("required", c.c_double),
         ("slices", c.c_uint64),
         ("decide", c.c_bool),
+        ("within", c.c_double),
     ]
 
 
@@ -178,8 +179,10 @@ class TypeInfo(c.Structure):
     ]
 
 
-CLEAR, CONTACT = 0, 1  # imp_verdict
+CLEAR, CONTACT, UNDECIDED = 0, 1, 2  # imp_verdict
 RESOLUTION, RUNNING = 7, 8  # imp_reason
+LIMITS = (3, 4, 5, 6, RUNNING)  # imp_reason: of what has not been answered
+REQUIREMENT_NONE, REQUIREMENT_UNDECIDED = 0, 3  # imp_requirement
 PARAMETER_FILE = 1 << 4  # IMP_PARAMETER_FILE
 
 _P, _S, _D, _N = c.c_void_p, c.c_char_p, c.c_double, c.c_size_t

@@ -10,7 +10,7 @@ from typing import Dict, Iterable, List, Optional, Tuple
 
 from . import _library as lib
 from ._query import ProgressSink, Query
-from .results import Clearance, Progress, clearance_of, clearance_without_part
+from .results import Clearance, Progress, Reason, clearance_of, clearance_without_part, reason_of
 
 _WAIT = 0.1  # seconds between calls of a progress sink
 
@@ -22,19 +22,30 @@ class Parts:
     answered of a part does not depend on the others, and so not on the number of threads."""
 
     def __init__(self, whole: Query, names: Tuple[str, ...], required: Optional[float],
-                 progress: Optional[ProgressSink]):
+                 within: Optional[float], progress: Optional[ProgressSink]):
         self._whole, self._names, self._progress = whole, names, progress
-        self._required = required
+        self._required, self._within = required, within
         self._found: Dict[Pair, Clearance] = {}
-        self._cancelled = False  # the parts that are left end as undecided
+        self._cancelled = False  # parts that are begun end as undecided, others are not begun
+        self._ended: Optional[Reason] = None  # why parts were not begun
         self._failure: Optional[BaseException] = None  # the parts that are left are dropped
 
     def answers(self, pairs: Iterable[Pair], threads: int) -> List[Clearance]:
-        """One for each pair of bodies, in the order of `pairs`."""
+        """One for each of `pairs`, but for those beyond `within`, by `lower`, then in their order. Where not
+        all were examined, the last one is for the others."""
         self._run(self._whole.divide(), threads)
         whole = self._whole.result()
-        return [self._found.get(pair) or clearance_without_part(self._names, whole, pair, self._required)
-                for pair in pairs]
+        ended = reason_of(whole) if whole.verdict == lib.UNDECIDED else self._ended
+        if ended is None and self._within is None:
+            found = [self._found.get(pair) or
+                     clearance_without_part(self._names, whole, pair, self._required) for pair in pairs]
+        else:
+            found = [answer for _, answer in sorted(self._found.items())
+                     if self._within is None or answer.lower < self._within]
+        found.sort(key=lambda answer: answer.lower)
+        if ended is not None:
+            found.append(clearance_without_part(self._names, whole, None, self._required, ended))
+        return found
 
     def _run(self, count: int, threads: int) -> None:
         start, indices = monotonic(), itertools.count()
@@ -61,14 +72,15 @@ class Parts:
             for index in indices:
                 if index >= count or self._failure is not None:
                     return
+                if self._cancelled or monotonic() >= self._whole.until:
+                    self._ended = "cancelled" if self._cancelled else "seconds"
+                    return
                 self._answer(index)
         except BaseException as failure:
             self._failure = self._failure or failure
 
     def _answer(self, index: int) -> None:
         with self._whole.part(index) as part:
-            if self._cancelled:
-                part.cancel()
             while part.step_once().reason == lib.RUNNING and self._failure is None:
                 if self._cancelled:
                     part.cancel()

@@ -63,15 +63,18 @@ class Wanted(NamedTuple):
     required: Optional[float] = None
     tolerance: Optional[float] = None
     slices: Optional[int] = None
+    within: Optional[float] = None
 
     def write(self, options: lib.ClearanceOptions) -> None:
         """Checks it, and puts what is given into the struct. A verdict alone ends a search if neither a
         bracket nor slices are asked for."""
-        if self.required is not None:
-            required = values.number("required", self.required, "a number > 0")
-            if not 0 < required < float("inf"):
-                raise values.refuse("required", self.required, "a number > 0")
-            options.required = required
+        for name in ("required", "within"):
+            given = getattr(self, name)
+            if given is not None:
+                length = values.number(name, given, "a number > 0")
+                if not 0 < length < float("inf"):
+                    raise values.refuse(name, given, "a number > 0")
+                setattr(options, name, length)
         if self.tolerance is not None:
             options.tolerance = values.number("tolerance", self.tolerance)
         if self.slices is not None:
@@ -91,6 +94,8 @@ class Query:
         if settings.threads is not None:
             self._crew = Crew(values.threads(settings.threads))
             options.parallel = c.cast(self._crew.function, c.c_void_p)
+        limit = options.max_seconds
+        self.until = monotonic() + limit if limit > 0 else float("inf")  # when its time is over
         if wanted is None:
             made = lib.library.imp_query_new(scene.address, c.byref(options), c.byref(error))
         else:
@@ -191,17 +196,36 @@ class Query:
         return answer
 
     def chunks(self) -> Iterator["NDArray[numpy.void]"]:
-        """All answers to a question of clearance, as structured arrays of some thousands each."""
+        """All answers to a question of clearance, as structured arrays of some thousands each. Where a
+        limit came the last one stands for all that were not begun."""
         count = lib.library.imp_clearance_count(self._address)
         read, size, error = lib.library.imp_clearance_get, c.sizeof(lib.Clearance), lib.Error()
         for first in range(0, count, _CHUNK):
+            if first > 0 and monotonic() >= self.until:
+                yield self._rest(first, count)
+                return
             answers = (lib.Clearance * min(_CHUNK, count - first))()
             chunk = numpy.frombuffer(answers, dtype=lib.Clearance)
             chunk["struct_size"] = size
             for k in range(len(answers)):  # there may be a million
                 place = c.byref(answers, k * size)
                 check(read(self._address, first + k, place, c.byref(error)), error)
-            yield chunk
+            left = numpy.isin(chunk["reason"], lib.LIMITS)
+            left &= (chunk["stats"]["pairs"] == 0) & (chunk["lower"] == 0)
+            begun = int(numpy.argmax(left)) if left.any() else len(chunk)
+            yield chunk[:begun]
+            if begun < len(chunk):
+                yield self._rest(first + begun, count)
+                return
+
+    def _rest(self, index: int, count: int) -> "NDArray[numpy.void]":
+        """One answer for all slices from `index` on, of which nothing is known."""
+        rest = self.clearance(index)
+        rest.t_end = self.clearance(count - 1).t_end
+        rest.lower, rest.upper, rest.t, rest.has_witness = 0.0, float("inf"), float("nan"), False
+        rest.verdict = lib.REQUIREMENT_UNDECIDED if rest.required > 0 else lib.REQUIREMENT_NONE
+        chunk: "NDArray[numpy.void]" = numpy.frombuffer(bytes(rest), dtype=lib.Clearance)
+        return chunk
 
     def divide(self) -> int:
         """Divides a question of clearance into parts, one for each pair of bodies; how many."""

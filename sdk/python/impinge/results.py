@@ -111,7 +111,8 @@ class Clearance:
 class Profile:
     """Clearance over slices of time, one element for each slice: it begins at `t0` and ends at `t1`; the
     bracket `lower`, `upper`; the time `t` of the witness (NaN: none) and its two bodies (None: none); the
-    verdict about a required distance."""
+    verdict about a required distance. Where a limit ends the search the last element, with `lower` 0, is for
+    all of the time that is left."""
 
     t0: Floats
     t1: Floats
@@ -176,6 +177,12 @@ def result_of(names: Tuple[str, ...], r: lib.Result,
         bodies=(names[pair[0]], names[pair[1]]) if pair is not None else None)
 
 
+def reason_of(r: lib.Result) -> Optional[Reason]:
+    """Why the query that the C struct is of has ended."""
+    reason: Optional[Reason] = _REASONS[r.reason]
+    return reason
+
+
 def clearance_of(names: Tuple[str, ...], k: lib.Clearance) -> Clearance:
     """From the C struct; `names` are those of the bodies."""
     violated = k.t_violated == k.t_violated
@@ -219,15 +226,14 @@ def profile_of(names: Tuple[str, ...], chunks: Iterable["NDArray[numpy.void]"]) 
     return Profile(t0, t1, lower, upper, t, tuple(bodies), tuple(verdicts))
 
 
-def clearance_without_part(names: Tuple[str, ...], whole: lib.Result, pair: Tuple[int, int],
-                           required: Optional[float]) -> Clearance:
-    """Of two bodies that are never both there; or, where a limit came before anything was searched, of
-    any two. `whole` is what is known of the divided question."""
-    ended = whole.verdict not in (lib.CLEAR, lib.CONTACT)
-    verdict: Requirement = "undecided" if ended else "holds"
+def clearance_without_part(names: Tuple[str, ...], whole: lib.Result, pair: Optional[Tuple[int, int]],
+                           required: Optional[float], ended: Optional[Reason] = None) -> Clearance:
+    """Of two bodies that are never both there; or, `ended` by a limit, of all pairs of bodies that were not
+    examined. `whole` is what is known of the divided question."""
+    verdict: Requirement = "holds" if ended is None else "undecided"
     return Clearance(
-        lower=0.0 if ended else float("inf"), upper=float("inf"), t=None, a=None, b=None, normal=None,
+        lower=float("inf") if ended is None else 0.0, upper=float("inf"), t=None, a=None, b=None, normal=None,
         verdict=verdict if required is not None else None, required=required,
         t_violated=None, t_start=whole.t_start, t_end=whole.t_end,
-        bodies=(names[pair[0]], names[pair[1]]), reason=_REASONS[whole.reason] if ended else "no-time",
-        pairs=0)
+        bodies=(names[pair[0]], names[pair[1]]) if pair is not None else None,
+        reason="no-time" if ended is None else ended, pairs=0)

@@ -261,22 +261,25 @@ class Scene:
              max_pairs: Optional[int] = None, max_seconds: Optional[float] = None,
              max_bytes: Optional[int] = None, audit: Optional[bool] = None,
              progress: Optional[ProgressSink] = None,
-             threads: Optional[int] = None) -> List[Clearance]:
+             threads: Optional[int] = None, within: Optional[float] = None) -> List[Clearance]:
         """The clearance of every two bodies that do not ignore each other, the least `lower` first, found
-        by so many threads (all processors); the answers are the same for any number. `max_pairs` and
-        `max_bytes` hold for each pair of bodies, `max_seconds` for all."""
+        by so many threads (all processors); the answers are the same for any number. With `within`, bodies
+        that never come nearer than this length are left out, and cost next to nothing. `max_pairs` and
+        `max_bytes` hold for each pair of bodies, `max_seconds` for all; where a limit or the progress sink
+        ends the search, a last answer whose `bodies` are None stands for the pairs that were not
+        examined."""
         settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress)
-        with Query(self._handle, settings, Wanted(required, tolerance)) as query:
-            parts = Parts(query, self.bodies, required, progress)
-            answers = parts.answers(self._pairs(), values.threads(threads))
-        return sorted(answers, key=lambda answer: answer.lower)
+        with Query(self._handle, settings, Wanted(required, tolerance, None, within)) as query:
+            parts = Parts(query, self.bodies, required, within, progress)
+            return parts.answers(self._pairs(), values.threads(threads))
 
     def profile(self, slices: int, *, required: Optional[float] = None,
                 tolerance: Optional[float] = None, time: Optional[Sequence[float]] = None,
                 gamma: Optional[float] = None, max_pairs: Optional[int] = None,
                 max_seconds: Optional[float] = None, max_bytes: Optional[int] = None,
                 audit: Optional[bool] = None, progress: Optional[ProgressSink] = None) -> Profile:
-        """The clearance in each of so many equal slices of time."""
+        """The clearance in each of so many equal slices of time; where a limit ends the search, one last
+        element is for all that were not begun."""
         settings = Settings(time, gamma, None, max_pairs, max_seconds, max_bytes, audit, progress)
         with Query(self._handle, settings, Wanted(required, tolerance, slices)) as query:
             query.step()
