@@ -10,6 +10,7 @@
 #include "core/bounds/quadratic.h"
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
+#include "core/tree/model_lanes.h"
 
 /* --- Asking ----------------------------------------------------------------------------------- */
 
@@ -45,26 +46,13 @@ static imp_status points_before(const node *a, size_t common, imp_model model[3]
     return IMP_STATUS_OK;
 }
 
-/* Computes what node.nonlinear_extent is of a node: terms of second order, and a share of the
- * remainder, by what the polynomial explains least. */
+/* Computes what node.nonlinear_extent is of a node over the region. */
 static void bend_of(const imp_model model[3], const imp_region *r, double bend[3])
 {
-    memset(bend, 0, 3 * sizeof *bend);
-    for (int i = 0; i < 3; ++i) {
-        const imp_model *m = &model[i];
-        const double uv = 0.5 * fabs(m->q[IMP_UV]), ut = 0.5 * fabs(m->q[IMP_UT]);
-        const double vt = 0.5 * fabs(m->q[IMP_VT]);
-        const double curved[3] = {fabs(m->q[IMP_UU]) + uv + ut, fabs(m->q[IMP_VV]) + uv + vt,
-                                  2 * fabs(m->q[IMP_TT]) + ut + vt};
-        double unexplained[3], sum = 0;
-        for (int j = 0; j < 3; ++j) {
-            const double beyond = m->rate[j] * r->d[j] - fabs(m->b[j]);
-            sum += unexplained[j] = curved[j] + (beyond > 0 ? beyond : 0);
-        }
-        const bool is_blamed = sum > 0 && sum < INFINITY;
-        for (int j = 0; j < 3; ++j)
-            bend[j] += curved[j] + (is_blamed ? m->e * (unexplained[j] / sum) : 0);
-    }
+    model_lanes m;
+    lanes_gather(model, &m);
+    const lanes_spread s = lanes_spread_of(&m, r->d);
+    for (int j = 0; j < 3; ++j) bend[j] = lanes_sum(s.curved[j] + s.blame[j]);
 }
 
 static imp_code fault(const surface *s, imp_status status, imp_error *error)

@@ -4,6 +4,7 @@
 #define CORE_TREE_MODEL_LANES_H
 
 #include <impinge/quad.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "core/base/rounding.h"
@@ -12,48 +13,82 @@
 /* The models of three coordinates side by side
  * ============================================
  * x, y and z of the same coefficient in one quad, whose fourth lane is 0. For the files that fill
- * nodes, which compile what is here for either width of a register. */
+ * nodes, which compile what is here for either width of a register; distance.c uses the narrow
+ * one. */
 
 typedef struct model_lanes {
     imp_quad a, b[3], q[6], e, lo, hi, rate[3];
 } model_lanes;
 
+IMP_QUAD_INLINE imp_quad lanes_gather_one(const imp_model m[3], size_t offset)
+{
+    const double *x = (const double *)((const char *)m + offset);
+    const size_t step = sizeof *m / sizeof *x;
+    return (imp_quad){x[0], x[step], x[2 * step], 0};
+}
+
+IMP_QUAD_INLINE void lanes_gather(const imp_model m[3], model_lanes *all)
+{
+    all->a = lanes_gather_one(m, offsetof(imp_model, a));
+    all->e = lanes_gather_one(m, offsetof(imp_model, e));
+    all->lo = lanes_gather_one(m, offsetof(imp_model, lo));
+    all->hi = lanes_gather_one(m, offsetof(imp_model, hi));
+    for (size_t j = 0; j < 3; ++j) all->b[j] = lanes_gather_one(m, offsetof(imp_model, b) + 8 * j);
+    for (size_t j = 0; j < 3; ++j)
+        all->rate[j] = lanes_gather_one(m, offsetof(imp_model, rate) + 8 * j);
+    for (size_t k = 0; k < 6; ++k) all->q[k] = lanes_gather_one(m, offsetof(imp_model, q) + 8 * k);
+}
+
 IMP_QUAD_INLINE double lanes_sum(imp_quad x) { return x[0] + x[1] + x[2]; }
 
-/* How far u, v and t move each coordinate across the region, and how much of that is not linear.
- * The remainder is distributed over them in proportion to what is unexplained of each: the curved
- * part, and what the rate allows beyond the slope. Decides only what to split. A way through space
- * counts by its length, about LENGTH_OF_SUM of the sum of its coordinates; the remainder, a box,
- * counts in full; the weight of acceleration is measured. */
-static const double LENGTH_OF_SUM = 0.6;
+/* What a region's models say of how its points depend on each of u, v and t, coordinate by
+ * coordinate: what is curved along it, and its share of the remainder. The remainder is distributed
+ * over them in proportion to what is unexplained of each: the curved part, and what the rate allows
+ * beyond the slope. Decides only what to split. */
+typedef struct lanes_spread {
+    imp_quad curved[3], blame[3];
+} lanes_spread;
 
-IMP_QUAD_INLINE void lanes_take_spread(node *n, const model_lanes *m)
+/* `d`: half-widths of the region. */
+IMP_QUAD_INLINE lanes_spread lanes_spread_of(const model_lanes *m, const double d[3])
 {
     const imp_quad none = imp_quad_all(0), half = imp_quad_all(0.5),
                    infinite = imp_quad_all(INFINITY);
     const imp_quad uv = half * imp_quad_abs(m->q[IMP_UV]), ut = half * imp_quad_abs(m->q[IMP_UT]);
     const imp_quad vt = half * imp_quad_abs(m->q[IMP_VT]);
-    const imp_quad curved[3] = {imp_quad_abs(m->q[IMP_UU]) + uv + ut,
-                                imp_quad_abs(m->q[IMP_VV]) + uv + vt,
-                                imp_quad_all(2) * imp_quad_abs(m->q[IMP_TT]) + ut + vt};
+    lanes_spread s = {.curved = {imp_quad_abs(m->q[IMP_UU]) + uv + ut,
+                                 imp_quad_abs(m->q[IMP_VV]) + uv + vt,
+                                 imp_quad_all(2) * imp_quad_abs(m->q[IMP_TT]) + ut + vt}};
     imp_quad unexplained[3], sum = none;
     for (int j = 0; j < 3; ++j) {
-        const double d = n->region.d[j];
         const imp_quad beyond =
-            imp_quad_max(m->rate[j] * imp_quad_all(d) - imp_quad_abs(m->b[j]), none);
-        unexplained[j] = imp_quad_pick(m->rate[j] < infinite, curved[j] + beyond,
-                                       imp_quad_all(d > 0 ? 0x1p500 : 0));
+            imp_quad_max(m->rate[j] * imp_quad_all(d[j]) - imp_quad_abs(m->b[j]), none);
+        unexplained[j] = imp_quad_pick(m->rate[j] < infinite, s.curved[j] + beyond,
+                                       imp_quad_all(d[j] > 0 ? 0x1p500 : 0));
         sum += unexplained[j];
     }
     const imp_quad_mask blamed = (sum > none) & (m->e < infinite);
+    for (int j = 0; j < 3; ++j)
+        s.blame[j] = imp_quad_pick(blamed, m->e * (unexplained[j] / sum), none);
+    return s;
+}
+
+/* How far u, v and t move a point across the region, and how much of that is not linear. A way
+ * through space counts by its length, about LENGTH_OF_SUM of the sum of its coordinates; the
+ * remainder, a box, counts in full; the weight of acceleration is measured. */
+static const double LENGTH_OF_SUM = 0.6;
+
+IMP_QUAD_INLINE void lanes_take_spread(node *n, const model_lanes *m)
+{
+    const imp_quad none = imp_quad_all(0), infinite = imp_quad_all(INFINITY);
+    const lanes_spread s = lanes_spread_of(m, n->region.d);
     for (int j = 0; j < 3; ++j) {
-        const imp_quad blame = imp_quad_pick(blamed, m->e * (unexplained[j] / sum), none);
-        const imp_quad bend = curved[j] + blame;
+        const imp_quad bend = s.curved[j] + s.blame[j];
         n->nonlinear_extent[j] = lanes_sum(bend);
-        n->extent[j] =
-            lanes_sum(imp_quad_all(LENGTH_OF_SUM) * (imp_quad_abs(m->b[j]) + curved[j]) + blame);
+        n->extent[j] = lanes_sum(
+            imp_quad_all(LENGTH_OF_SUM) * (imp_quad_abs(m->b[j]) + s.curved[j]) + s.blame[j]);
         if (j == PARAMETER_T)
-            n->time_remainder = lanes_sum(imp_quad_pick(m->rate[j] < infinite, blame, none));
+            n->time_remainder = lanes_sum(imp_quad_pick(m->rate[j] < infinite, s.blame[j], none));
     }
 }
 

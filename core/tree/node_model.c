@@ -4,8 +4,6 @@
 
 #include "core/tree/node_model.h"
 
-#include <stddef.h>
-
 #include "core/tree/model_lanes.h"
 
 /* The first promise of imp_model that a coordinate breaks, or NULL. Infinite values come only with
@@ -33,28 +31,10 @@ static const char *first_breach(const imp_model model[3], bool may_be_infinite)
     return breach;
 }
 
-IMP_QUAD_INLINE imp_quad gather(const imp_model m[3], size_t offset)
-{
-    const double *x = (const double *)((const char *)m + offset);
-    const size_t step = sizeof *m / sizeof *x;
-    return (imp_quad){x[0], x[step], x[2 * step], 0};
-}
-
-IMP_QUAD_INLINE void side_by_side(const imp_model m[3], model_lanes *all)
-{
-    all->a = gather(m, offsetof(imp_model, a));
-    all->e = gather(m, offsetof(imp_model, e));
-    all->lo = gather(m, offsetof(imp_model, lo));
-    all->hi = gather(m, offsetof(imp_model, hi));
-    for (size_t j = 0; j < 3; ++j) all->b[j] = gather(m, offsetof(imp_model, b) + 8 * j);
-    for (size_t j = 0; j < 3; ++j) all->rate[j] = gather(m, offsetof(imp_model, rate) + 8 * j);
-    for (size_t k = 0; k < 6; ++k) all->q[k] = gather(m, offsetof(imp_model, q) + 8 * k);
-}
-
 IMP_QUAD_INLINE const char *take(node *n, const imp_model model[3], bool may_be_infinite)
 {
     model_lanes m;
-    side_by_side(model, &m);
+    lanes_gather(model, &m);
     const bool bounded = lanes_are_bounded(&m);
     if (!bounded || !lanes_are_sound(&m)) {
         const char *breach = first_breach(model, may_be_infinite);
