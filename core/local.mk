@@ -215,4 +215,4 @@ core_include_HEADERS = core/impinge/baseline.h core/impinge/examine.h core/impin
 
 pkgconfig_DATA += core/impinge.pc
 
-EXTRA_DIST += core/README core/libimpinge.map
+EXTRA_DIST += core/MEASUREMENTS.md core/PROOF.md core/README core/libimpinge.map
