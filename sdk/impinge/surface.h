@@ -67,9 +67,9 @@ extern "C" {
 #define IMP_EXPORT
 #endif
 
-/* Whether the struct that p points to, which begins with its struct_size, has a field: structs of a
- * plugin that was built with an older header end before fields that were appended since. And
- * whether it has a callback there that is not NULL. */
+/* IMP_HAS tells whether the struct that p points to, which begins with its struct_size, has a
+ * field: structs of a plugin that was built with an older header end before fields that were
+ * appended later. IMP_OFFERS tells whether it has a callback there that is not NULL. */
 #define IMP_HAS(p, field)                                                                          \
     ((size_t)((const char *)(&(p)->field + 1) - (const char *)(p)) <= (p)->struct_size)
 #define IMP_OFFERS(p, callback) (IMP_HAS(p, callback) && (p)->callback != NULL)
@@ -133,9 +133,9 @@ typedef struct imp_value {
     const char *const *string;   /* STRING, TABLE (the names): count */
 } imp_value;
 
-/* How create reports what is wrong, if it returns IMP_STATUS_PARAMETER. The host has set
- * struct_size, parameter = -1, element = -1, text = "". State what was got and what is allowed; the
- * host adds the place (file, line, JSON pointer). */
+/* What create fills before it returns IMP_STATUS_PARAMETER. The host has set struct_size, parameter
+ * = -1, element = -1, text = "". State what was found and what is allowed; the host adds the place
+ * (file, line, JSON pointer). */
 typedef struct imp_create_error {
     uint32_t struct_size;
     int32_t parameter; /* row of the wrong parameter, or -1 for the type as a whole */
@@ -201,7 +201,7 @@ typedef struct imp_model {
     uint32_t reserved; /* 0 */
 } imp_model;
 
-/* The most control points of a net. */
+/* Most control points of a net. */
 enum { IMP_NET_POINTS = 36 };
 
 /* A control net over a region: a moving Bezier patch of degrees n and m that the surface follows.
@@ -227,8 +227,8 @@ typedef struct imp_net {
     double weight[IMP_NET_POINTS];      /* 1; only their ratios matter */
 } imp_net;
 
-/* The pose of a rigid map over a span of times: for every point x of space and every time t of
- * them,
+/* The pose of a rigid map over a span of times: for every point x of space and every time t of the
+ * span,
  *
  *   phi(x, t) = shift(t) + turn(t) (x - pivot)
  *
@@ -250,10 +250,10 @@ typedef struct imp_pose {
 
 /* --- How a surface can be moved within itself ------------------------------------------------- */
 
-/* Which rigid motions map the surface, or the larger one from which its `distance` measures, onto
- * itself, at any time: those of a sphere, of a surface of revolution, of an endless cylinder or of
- * an endless plane. The line goes through the center along the axis, whose length does not matter.
- * Center and axis are exact. */
+/* The rigid motions that map the surface onto itself at any time: those of a sphere, of a surface
+ * of revolution, of an endless cylinder or of an endless plane. If `distance` measures from a
+ * larger surface that holds this one, they are the motions of the larger surface. The line goes
+ * through the center along the axis, whose length does not matter. Center and axis are exact. */
 enum {
     IMP_SYMMETRY_ABOUT_POINT = 1, /* every rotation about the center; the axis is not read */
     IMP_SYMMETRY_ABOUT_LINE = 2,  /* every rotation about the line */
@@ -261,9 +261,10 @@ enum {
     IMP_SYMMETRY_ACROSS_LINE = 4  /* these rotations, and translations perpendicular to the line */
 };
 
-/* is_closed claims more: each rotation of the kind takes the surface itself, all u and v of its
- * domain, to itself. A cylinder all around is closed, one half of it is not (a full turn needs
- * IMP_TWO_PI_UPPER). Two bodies that only turn so are as far apart at one time as at another. */
+/* A symmetry. is_closed claims more: each rotation of the kind maps the surface itself, over all u
+ * and v of its domain, onto itself. A whole cylinder is closed, half a cylinder is not (a full turn
+ * needs IMP_TWO_PI_UPPER). The distance of two bodies that only turn about closed axes never
+ * changes. */
 typedef struct imp_symmetry {
     uint32_t kind;      /* IMP_SYMMETRY_... */
     uint32_t is_closed; /* 0 or 1 */
@@ -273,13 +274,13 @@ typedef struct imp_symmetry {
 
 /* --- Types ------------------------------------------------------------------------------------ */
 
-/* In `flags` of a surface type or map that is defined for some times only: at other times the
- * surface does not exist, and touches nothing. Without the flag the host knows nothing about other
+/* Set in `flags` of a surface type or map that is defined for some times only: at other times the
+ * surface does not exist and touches nothing. Without the flag the host knows nothing about other
  * times, and rejects a query that needs them. */
 enum { IMP_FLAG_ABSENT_OUTSIDE_TIMES = 1u << 0 };
 
-/* In `flags` of a map with the capability `rigid`: turn(t) of its pose is a rotation in exact
- * arithmetic, not only within IMP_RIGID_SLACK. */
+/* Set in `flags` of a map with the capability `rigid`, if turn(t) of its pose is a rotation in
+ * exact arithmetic, not only within IMP_RIGID_SLACK. */
 enum { IMP_FLAG_TURNS_EXACTLY = 1u << 1 };
 
 /* --- Surface types ---------------------------------------------------------------------------- */
@@ -314,17 +315,18 @@ typedef struct imp_surface_type {
      * arithmetic. error may be NULL: not wanted. [thread-safe] */
     imp_status (*eval)(const void *self, size_t n, const double *p, double *x, double *error);
 
-    /* Rate matrix over a region inside the domain. [thread-safe] */
+    /* Computes the rate matrix over a region inside the domain. [thread-safe] */
     imp_status (*rate)(const void *self, const imp_region *region, imp_rate_matrix *rates);
 
-    /* Capability `order-2`. Models of x, y and z over a region inside the domain. May be NULL: the
-     * host then makes models of eval at the region's centre and of rate. [thread-safe] */
+    /* Capability `order-2`. Computes models of x, y and z over a region inside the domain. May be
+     * NULL: the host then makes models of eval at the region's centre and of rate. [thread-safe] */
     imp_status (*include)(const void *self, const imp_region *region, imp_model model[3]);
 
-    /* Capability `net`. A control net over a region inside the domain, where the surface is, or
-     * nearly is, a polynomial or rational of low degree there: its hull lies closer to the surface
-     * than a model does. IMP_STATUS_UNBOUNDED: there is none over this region, and *net is ignored;
-     * smaller regions may have one. May be NULL: there is none at all. [thread-safe] */
+    /* Capability `net`. Computes a control net over a region inside the domain. A net is useful
+     * where the surface is, or nearly is, polynomial or rational of low degree: its hull lies
+     * closer to the surface than a model does. IMP_STATUS_UNBOUNDED: there is none over this
+     * region, and *net is ignored; smaller regions may have one. May be NULL: there is none at all.
+     * [thread-safe] */
     imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
 
     /* Capability `pieces`; both or neither, and a struct_size that ends before them means neither.
@@ -341,10 +343,11 @@ typedef struct imp_surface_type {
 
     /* Capability `distance`; NULL, or a struct_size that ends before it: there is none.
      *
-     * How far moving points stay from the whole surface. `point` holds models over one region of
-     * the x, y and z of a point that depends on the region's parameters, anywhere in space, and of
-     * t, at times of the domain; their rates are not known and may be infinite. *distance becomes a
-     * model (a, b, q, e, lo, hi, as in imp_model; rates are ignored) of any g with
+     * Bounds how far moving points stay from the whole surface. `point` holds models over one
+     * region: of the x, y and z of a point anywhere in space that depends on the region's
+     * parameters, and of t, at times of the domain. Their rates are not known and may be infinite.
+     * *distance becomes a model (a, b, q, e, lo, hi, as in imp_model; rates are ignored) of any g
+     * with
      *
      *   |g(p)| <= |(x, y, z)(p) - f(u, v, t(p))|   for all p of the region, all u, v of the domain
      *
@@ -358,8 +361,8 @@ typedef struct imp_surface_type {
     /* Capability `symmetry`; NULL, or a struct_size that ends before it: there is none. Not without
      * `distance`.
      *
-     * Which rigid motions change no distance from the surface. For every such motion S, the g that
-     * `distance` gives for models of a point bounds the distance of the moved point, too,
+     * Names rigid motions that change no distance from the surface. For every such motion S, the g
+     * that `distance` gives for models of a point bounds the distance of the moved point, too,
      *
      *   |g(p)| <= |S((x, y, z)(p)) - f(u, v, t(p))|   for every p of the region, all u, v of the
      *                                                 domain,
@@ -400,34 +403,33 @@ typedef struct imp_map_type {
      * for exactly the given point. [thread-safe] */
     imp_status (*eval)(const void *self, size_t n, const double *p, double *x, double *error);
 
-    /* Rates over a box of (x, y, z, t). [thread-safe] */
+    /* Computes the rates over a box of (x, y, z, t). [thread-safe] */
     imp_status (*rate)(const void *self, const imp_box4 *box, imp_map_rates *rates);
 
-    /* Capability `order-2`. From models of x, y, z and t over one region of a surface's parameters
-     * to models of phi over it. `in` and `out` do not overlap. May be NULL: the host then uses rate
+    /* Capability `order-2`. Computes models of phi from models of x, y, z and t over one region of
+     * a surface's parameters. `in` and `out` do not overlap. May be NULL: the host then uses rate
      * and the chain rule (paper, section 5: M_g[:,j] = P M_f[:,j], + p_t for j = t).
      * [thread-safe] */
     imp_status (*apply)(const void *self, const imp_model in[4], imp_model out[3]);
 
-    /* Capability `net`. Turns the net of a surface over a region into the net of its image, in
-     * place: for maps that are affine in space and leave motions linear in time.
-     * IMP_STATUS_UNBOUNDED: the image has none over this region. May be NULL: it never has one.
-     * [thread-safe] */
+    /* Capability `net`. Replaces the net of a surface over a region by the net of its image: for
+     * maps that are affine in space and keep motions linear in time. IMP_STATUS_UNBOUNDED: the
+     * image has none over this region. May be NULL: it never has one. [thread-safe] */
     imp_status (*net)(const void *self, const imp_region *region, imp_net *net);
 
     /* Capability `rigid`; a struct_size that ends before it means NULL: the map is not rigid.
      *
-     * The pose over the times of the model *t, which depends on t alone, or is constant. With it
-     * the host bounds a surface that does not move by itself once, before the map, instead of anew
-     * for each span of times. IMP_STATUS_UNBOUNDED: there is no pose over these times, and *pose is
+     * Computes the pose over the times of the model *t, which depends on t alone, or is constant.
+     * With it the host bounds a surface that does not move by itself once, before the map, instead
+     * of anew for each span of times. IMP_STATUS_UNBOUNDED: there is no pose over these times, and *pose is
      * ignored; shorter spans may have one. The host has set all to 0. [thread-safe] */
     imp_status (*rigid)(const void *self, const imp_model *t, imp_pose *pose);
 
     /* Capability `span`; NULL, or a struct_size that ends before it: the span is the time domain.
      *
-     * The times that the map is made for, where it is defined at others, too: those of a table
-     * whose ends hold before and after it. A host that is not told which times to examine examines
-     * these. -INFINITY and INFINITY: none before others. [thread-safe] */
+     * Tells the times that the map is made for, if it is defined at others, too: the times of a
+     * table whose ends hold before and after it. A host that is not told which times to examine
+     * examines these. -INFINITY and INFINITY: no times are preferred. [thread-safe] */
     void (*span)(const void *self, double *lo, double *hi);
 } imp_map_type;
 
@@ -448,8 +450,8 @@ typedef struct imp_map_factory {
     const imp_map_type *const *types;
 } imp_map_factory;
 
-/* How a plugin was compiled; IMPINGE_PLUGIN answers it. Optional, and told to authors by `impinge
- * check`. */
+/* How a plugin was compiled. IMPINGE_PLUGIN offers it; it is optional, and `impinge check` reports
+ * it to authors. */
 #define IMP_BUILD_FACTORY "impinge.build/1"
 
 typedef struct imp_build {
@@ -457,7 +459,8 @@ typedef struct imp_build {
     uint32_t is_contracted; /* 1: a * b + c is rounded once, not twice (-ffp-contract) */
 } imp_build;
 
-/* 0 as a product and a sum; -2^-60 as one operation. */
+/* Tells whether products and sums are contracted: x * y + z is 0 as two operations and -2^-60 as
+ * one. */
 static inline const void *imp_build_facts_(void)
 {
     static const imp_build facts[2] = {{sizeof(imp_build), 0}, {sizeof(imp_build), 1}};
@@ -480,7 +483,7 @@ typedef struct imp_plugin {
     const char *version; /* of the plugin */
     const char *license; /* SPDX expression */
     const char *author;
-    /* The factory of that id, or NULL for ids the plugin does not know. [main-thread] */
+    /* Returns the factory of that id, or NULL for ids the plugin does not know. [main-thread] */
     const void *(*get_factory)(const char *id);
 } imp_plugin;
 
@@ -494,10 +497,9 @@ typedef struct imp_plugin {
 #endif
 extern IMP_EXPORT const imp_plugin IMPINGE_PLUGIN_SYMBOL;
 
-/* What imp_plugin says, for a host that has not run any code of the plugin yet: an ELF note, owner
- * "Impinge", type 1, descriptor: abi_major, abi_minor (32 bits each), then name and
- * version, NUL-terminated. Written by the assembler because compilers give the section
- * the wrong type. */
+/* The facts of imp_plugin for a host that has not run any code of the plugin yet: an ELF note,
+ * owner "Impinge", type 1, descriptor: abi_major, abi_minor (32 bits each), then name and version,
+ * NUL-terminated. Written by the assembler because compilers give the section the wrong type. */
 #define IMP_NOTE_OWNER "Impinge"
 #define IMP_NOTE_TYPE 1
 #define IMP_TEXT_OF_(x) #x
