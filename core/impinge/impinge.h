@@ -49,8 +49,7 @@ extern "C" {
 
 /* --- What can go wrong ------------------------------------------------------------------------ */
 
-/* What functions of the library answer. (Callbacks of plugins answer an imp_status: IMP_STATUS_OK,
- * ....) */
+/* The codes that functions of the library return. (Callbacks of plugins return an imp_status.) */
 typedef enum imp_code {
     IMP_SUCCESS = 0,
     IMP_ERROR_USAGE,  /* an argument is out of its documented range */
@@ -64,23 +63,25 @@ typedef enum imp_code {
  * range, the answer is IMP_ERROR_USAGE, or NULL, 0 or false from functions that answer no code.
  * Free and cancel take NULL. */
 
-/* Filled on every answer but IMP_SUCCESS: place, what was found, what is allowed. Owned by the
- * caller; NULL is accepted wherever a pointer to one is asked for. */
+/* Describes a failure: the place, what was found, what is allowed. Functions fill it whenever they
+ * do not return IMP_SUCCESS. The caller owns it, and may pass NULL instead of one. */
 typedef struct imp_error {
     imp_code code;
     char text[1000];
 } imp_error;
 
-/* "libimpinge x.y.z" of the library that runs, which may be newer than this header. */
+/* Returns "libimpinge x.y.z", the version of the library that runs, which may be newer than this
+ * header. */
 IMP_EXPORT const char *imp_version(void);
 
-/* One English phrase for a code. */
+/* Returns one English phrase for a code. The text is static. */
 IMP_EXPORT const char *imp_code_text(imp_code code);
 
-/* The name of the type whose plugin this thread is in, and the callback ("eval", ...); while a
- * plugin is loaded or unloaded the absolute path of its file, and "constructor", "get_factory",
- * "destructor", or "impinge_plugin" while its entry is read; NULL: in
- * none. For handlers of SIGSEGV and the like, to say whose fault it is. [async-signal-safe] */
+/* Returns the name of the type whose plugin this thread is in, and sets *callback to the callback's
+ * name ("eval", ...). While a plugin is loaded or unloaded it returns the absolute path of its
+ * file, and *callback is "constructor", "get_factory", "destructor", or "impinge_plugin" while its
+ * entry is read. NULL: the thread is in no plugin. A handler of SIGSEGV and the like can so say
+ * whose fault it is. [async-signal-safe] */
 IMP_EXPORT const char *imp_call_in_progress(const char **callback);
 
 /* Like imp_call_in_progress, for another thread, which may hang: imp_call_of_thread answers a
@@ -152,10 +153,12 @@ typedef struct imp_type_info {
                                  "symmetry" */
 } imp_type_info;
 
-/* Types in the order found, shadowed ones included. Returns false past the last. */
+/* Fills *info for type `index`, in the order found, shadowed types included. Returns false past the
+ * last. */
 IMP_EXPORT bool imp_registry_type(const imp_registry *registry, size_t index, imp_type_info *info);
 
-/* Files that were not taken, and why; directories that cannot be read. */
+/* A file that was not taken, or a directory that cannot be read, and why. The strings live as long
+ * as the registry. Each of the three functions below returns false past the last. */
 typedef struct imp_plugin_refusal {
     const char *file, *reason;
 } imp_plugin_refusal;
@@ -166,9 +169,9 @@ IMP_EXPORT bool imp_registry_refusal(const imp_registry *registry, size_t index,
 IMP_EXPORT bool imp_registry_warning(const imp_registry *registry, size_t index,
                                      imp_plugin_refusal *warning);
 
-/* Isolated types whose destroy crashed or did not return, one entry for each type, in the order in
- * which it happened: by then no query is left that could answer with an error. `reason` names the
- * type; an entry for which there is no memory is missing. [any thread] */
+/* Isolated types whose destroy crashed or did not return, one entry for each type, in order of
+ * time. No query is left then that could return an error. `reason` names the type. An entry for
+ * which there is no memory is missing. [any thread] */
 IMP_EXPORT bool imp_registry_fault(const imp_registry *registry, size_t index,
                                    imp_plugin_refusal *fault);
 
@@ -176,21 +179,21 @@ IMP_EXPORT bool imp_registry_fault(const imp_registry *registry, size_t index,
 
 typedef struct imp_scene imp_scene;
 
-/* From the text of a scene file ({"time", "gamma", "define", "bodies", "ignore"}; the manual
- * describes it). `name` stands in error messages for the text ("scene.json", "standard input"). Up
- * to its last '/', it is the folder where relative names of files in parameters begin. NULL on
- * error. */
+/* Makes a scene from the text of a scene file, which the manual describes ({"time", "gamma",
+ * "define", "bodies", "ignore"}). `name` stands for the text in error messages ("scene.json",
+ * "standard input"); its part up to the last '/' is the folder where relative file names in
+ * parameters begin. NULL on error. The caller frees the scene; the registry must outlive it. */
 IMP_EXPORT imp_scene *imp_scene_from_json(imp_registry *registry, const char *text, size_t length,
                                           const char *name, imp_error *error);
 IMP_EXPORT imp_scene *imp_scene_from_file(imp_registry *registry, const char *path,
                                           imp_error *error);
-/* Bodies "a" and "b" from two pipelines: "TYPE name=value ... ! MAP name=value ...". */
+/* Makes a scene of two bodies, "a" and "b", from two pipelines: "TYPE name=value ... ! MAP
+ * name=value ...". */
 IMP_EXPORT imp_scene *imp_scene_from_pair(imp_registry *registry, const char *a, const char *b,
                                           imp_error *error);
-/* The text of a scene file that makes the scene of imp_scene_from_pair. Only the pipelines' syntax
- * is checked; values are not compared with the types' parameters. Names of files are copied, and
- * begin where the reader of the text says. NULL on error. The caller frees the text by free(). [any
- * thread] */
+/* Returns the text of a scene file that makes the scene of imp_scene_from_pair. Only the pipelines'
+ * syntax is checked, not the values. File names are copied as they are. NULL on error. The caller
+ * frees the text by free(). [any thread] */
 IMP_EXPORT char *imp_pair_to_json(const imp_registry *registry, const char *a, const char *b,
                                   imp_error *error);
 IMP_EXPORT void imp_scene_free(imp_scene *scene);
@@ -258,10 +261,10 @@ static inline imp_argument imp_argument_rows(const char *name, const double *val
     return a;
 }
 
-/* Bodies are put into a builder, which then makes the scene. Errors name the body and the
- * parameter, and a call that fails changes nothing. Types and parameters are those of scene files;
- * relative names of files begin at the working directory. The registry must outlive builder and
- * scene. A builder belongs to one thread at a time. */
+/* A builder collects bodies and then makes a scene of them. Types and parameters are those of scene
+ * files; relative file names begin at the working directory. Errors name the body and the
+ * parameter, and a call that fails changes nothing. The registry must outlive builder and scene. A
+ * builder belongs to one thread at a time. */
 typedef struct imp_builder imp_builder;
 IMP_EXPORT imp_builder *imp_builder_new(imp_registry *registry); /* NULL: no memory */
 IMP_EXPORT void imp_builder_free(imp_builder *builder);
@@ -277,8 +280,9 @@ IMP_EXPORT imp_code imp_builder_gamma(imp_builder *builder, double gamma, double
 IMP_EXPORT imp_code imp_builder_body(imp_builder *builder, const char *name, size_t *body,
                                      imp_error *error);
 
-/* Adds to a body a surface; a map, after those it has; and to one of its surfaces a map, which
- * comes before those of the body. */
+/* Adds a surface to a body; a map to a body, after those it has; a map to one surface of a body,
+ * which is applied before those of the body. `arguments` has `count` entries, and nothing of it is
+ * kept. */
 IMP_EXPORT imp_code imp_builder_surface(imp_builder *builder, size_t body, const char *type,
                                         const imp_argument *arguments, size_t count,
                                         imp_error *error);
@@ -293,11 +297,13 @@ IMP_EXPORT imp_code imp_builder_parent(imp_builder *builder, size_t body, size_t
                                        imp_error *error);
 IMP_EXPORT imp_code imp_builder_group(imp_builder *builder, size_t body, const char *group,
                                       imp_error *error);
-/* Names of bodies or groups; a group with itself: its bodies among themselves. */
+/* Pairs of bodies of x and y are never tested. Both are names of bodies or groups; a group with
+ * itself means its bodies among themselves. */
 IMP_EXPORT imp_code imp_builder_ignore(imp_builder *builder, const char *x, const char *y,
                                        imp_error *error);
 
-/* The scene; then the builder may only be freed. NULL on error. */
+/* Makes the scene, which the caller frees. After that the builder may only be freed. NULL on
+ * error. */
 IMP_EXPORT imp_scene *imp_builder_finish(imp_builder *builder, imp_error *error);
 
 IMP_EXPORT size_t imp_scene_body_count(const imp_scene *scene);
@@ -328,18 +334,19 @@ IMP_EXPORT bool imp_scene_remark(const imp_scene *scene, size_t index, imp_remar
  * _domain are about the first piece, imp_piece_eval, _include and _domain about any. */
 IMP_EXPORT size_t imp_scene_piece_count(const imp_scene *scene, size_t body, size_t surface);
 
-/* n points p[3*k] = (u, v, t) of one surface, maps applied, to x[3*k] and, unless NULL,
- * error[3*k]. */
+/* Evaluates n points of one surface, maps applied: p holds n triples (u, v, t), x takes n triples
+ * (x, y, z) in world space, and `error`, unless NULL, takes a bound of each coordinate's rounding
+ * error; lengths. The arrays are the caller's, of 3 n numbers each. */
 IMP_EXPORT imp_code imp_scene_eval(const imp_scene *scene, size_t body, size_t surface, size_t n,
                                    const double *p, double *x, double *error, imp_error *why);
-/* An order-2 inclusion of x, y and z of one surface, maps applied, over the region lo..hi of (u, v,
- * t), finite and inside its domain: model[i] encloses coordinate i, as <impinge/surface.h> says.
- * What is not bounded there is infinite in the model. */
+/* Computes an order-2 inclusion of x, y and z of one surface, maps applied, over the region lo..hi
+ * of (u, v, t), which is finite and lies in the domain: model[i] encloses coordinate i, as
+ * <impinge/surface.h> says. What is not bounded there is infinite in the model. */
 IMP_EXPORT imp_code imp_scene_include(const imp_scene *scene, size_t body, size_t surface,
                                       const double lo[3], const double hi[3], imp_model model[3],
                                       imp_error *why);
-/* The surface's domain; times are those common to it and its maps, perhaps infinite or,
- * when they have none in common, lo[2] > hi[2]. */
+/* Tells the surface's domain of (u, v, t). Its times are those at which type and maps are all
+ * defined; they may be infinite, and lo[2] > hi[2] if there are none. */
 IMP_EXPORT void imp_scene_domain(const imp_scene *scene, size_t body, size_t surface, double lo[3],
                                  double hi[3]);
 
@@ -361,12 +368,12 @@ typedef struct imp_rigid_motion {
     double turn[3][3], shift[3];
 } imp_rigid_motion;
 
-/* How a surface, or one of its pieces, moves as a whole from one time of its domain to another:
- * where motion->is_known, its point (u, v, to) is turn x + shift of its point x = (u, v, from), for
- * all u and v, to within 1e-9 radians and 1e-9 of the numbers that enter, rounding included.
- * Otherwise it deforms, or is not known to be rigid, and `turn` is the identity. Pieces of one
- * surface are moved by the same maps, so that where it is known of two it is the same motion. For
- * pictures and animations: it is computed, not enclosed. [any thread] */
+/* Tells how a surface, or one of its pieces, moves as a whole from one time of its domain to
+ * another. If motion->is_known, the point at (u, v, to) is turn x + shift, x being the point at (u,
+ * v, from), for all u and v, to within 1e-9 radians and 1e-9 of the numbers that enter. Otherwise
+ * the surface deforms, or is not known to be rigid, and `turn` is the identity. Pieces of one
+ * surface have the same maps, so known motions of two pieces are equal. The motion is computed, not
+ * enclosed: use it for pictures, not for proofs. [any thread] */
 IMP_EXPORT imp_code imp_piece_motion(const imp_scene *scene, imp_place at, double from, double to,
                                      imp_rigid_motion *motion, imp_error *why);
 
@@ -392,8 +399,8 @@ typedef enum imp_reason {
                               comes within `within` */
 } imp_reason;
 
-/* How far a query has come. Grows at the end: the library's may be longer than the program
- * knows. */
+/* How far a query has come. It grows at the end: the library's struct may be longer than the
+ * program's. */
 typedef struct imp_progress {
     uint32_t struct_size;
     imp_reason reason;   /* RUNNING */
@@ -409,9 +416,10 @@ typedef struct imp_progress {
  * false ends the step as imp_query_cancel does. It must not step or free the query. */
 typedef bool (*imp_progress_sink)(void *context, const imp_progress *progress);
 
-/* How a program lends threads to a query: called by the thread that steps or divides it, calls
- * work(of, 0) to work(of, count - 1) once each, by any threads and in any order, and returns when
- * all have returned. Work may run code of plugins; it neither calls the program back nor fails. */
+/* Lends threads of the program to a query. The thread that steps or divides the query calls it; it
+ * calls work(of, 0) to work(of, count - 1) once each, on any threads and in any order, and returns
+ * when all of them have returned. Work may run code of plugins; it neither calls the program back
+ * nor fails. */
 typedef void (*imp_parallel)(void *context, void (*work)(void *of, size_t index), void *of,
                              size_t count);
 
@@ -433,12 +441,13 @@ typedef struct imp_options {
     void *parallel_context;     /* handed to it */
 } imp_options;
 
-/* The defaults: what the scene asks for, and for the rest the library's own. The caller sets
- * options->struct_size before; IMP_ERROR_USAGE if that is none. A scene that names no times is
- * examined while all of its types and maps are defined: for the span that its tables and keyframes
- * share. Tables that hold at their ends, and surfaces that do not exist at other times, extend it;
- * without any it is from 0 to 1. IMP_ERROR_SCENE: they share no time. *options is filled all the
- * same, t_start and t_end are NAN, and queries answer the error until both are set. */
+/* Fills *options with what the scene asks for and, for the rest, the library's defaults. The caller
+ * sets options->struct_size before; IMP_ERROR_USAGE if it is no valid size. A scene that names no
+ * times is examined while all of its types and maps are defined: over the span that its tables and
+ * keyframes share. Tables that hold at their ends, and surfaces that do not exist at other times,
+ * extend the span; without any of these it is [0, 1]. IMP_ERROR_SCENE: they share no time. *options
+ * is filled all the same, with NAN in t_start and t_end; queries return the error until both are
+ * set. */
 IMP_EXPORT imp_code imp_options_get_default(const imp_scene *scene, imp_options *options,
                                             imp_error *error);
 
@@ -498,9 +507,10 @@ typedef struct imp_result {
 
 typedef struct imp_query imp_query;
 
-/* Begins; nothing is tested yet. The scene must outlive the query, and is shared by it: trees made
- * by one query serve the next over the same times. NULL on error (options, plugin, memory).
- * IMP_ERROR_SCENE: the query needs times for which a type or map is not defined. */
+/* Makes a query for the earliest contact; nothing is tested yet. The scene must outlive it. Queries
+ * of a scene share its trees: those that one query made serve the next over the same times. NULL on
+ * error (options, plugin, memory). IMP_ERROR_SCENE: the query needs times at which a type or map is
+ * not defined. The caller frees it. */
 IMP_EXPORT imp_query *imp_query_new(imp_scene *scene, const imp_options *options, imp_error *error);
 IMP_EXPORT void imp_query_free(imp_query *query);
 
@@ -508,7 +518,8 @@ IMP_EXPORT void imp_query_free(imp_query *query);
  * After any success imp_query_result tells how far it came; done when its reason is not RUNNING. */
 IMP_EXPORT imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error);
 
-/* *result comes with its struct_size set; IMP_ERROR_USAGE if that is none. */
+/* Fills *result. The caller sets result->struct_size before; IMP_ERROR_USAGE if it is no valid
+ * size. */
 IMP_EXPORT imp_code imp_query_get_result(const imp_query *query, imp_result *result,
                                          imp_error *error);
 
@@ -523,9 +534,9 @@ static inline imp_result imp_query_result(const imp_query *query)
     return result;
 }
 
-/* Two regions, one of each side's surface, that the search has not parted for good: over u[0]..u[1]
- * and v[0]..v[1] of one piece, or, where `piece` is SIZE_MAX, over several whole pieces, they are
- * proved to stay farther apart than gamma_clear before t_lower. */
+/* Two regions, one of each side's surface, that the search has not yet proved apart to the end.
+ * They are proved to stay farther apart than gamma_clear before t_lower. A region is u[0]..u[1] and
+ * v[0]..v[1] of one piece or, where `piece` is SIZE_MAX, several whole pieces. */
 typedef struct imp_pending {
     double t_lower;
     struct imp_pending_side {
@@ -535,40 +546,40 @@ typedef struct imp_pending {
     } a, b;
 } imp_pending;
 
-/* What waits to be searched, in no order; false past the last. What no pending pair covers is
- * proved to be clear up to the query's end. While stats.pairs is 0 nothing is known: a limit may
- * have ended the query before its first pair. */
+/* Fills *pending with a pair that waits to be searched, in no particular order. Returns false past
+ * the last. What no pending pair covers is proved to be clear up to the query's end. While
+ * stats.pairs is 0 nothing is known: a limit may have ended the query before its first pair. */
 IMP_EXPORT bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pending);
 
-/* Ask again, finer: gamma and gamma_clear (< 0: gamma / 2) no larger than now. Work done so far is
- * kept; continue with imp_query_step. */
+/* Makes the tolerances finer: gamma and gamma_clear (< 0: gamma / 2) may not be larger than now.
+ * The work done so far is kept; continue with imp_query_step. */
 IMP_EXPORT imp_code imp_query_refine(imp_query *query, double gamma, double gamma_clear,
                                      imp_error *error);
 
-/* Each pair of bodies in turn: after a CONTACT, or UNDECIDED for want of RESOLUTION, excludes the
- * pair of bodies of that answer from the search; step again for the next, which is later or at the
- * same time. CLEAR is then said of all bodies that are left. */
+/* After a CONTACT, or UNDECIDED for lack of RESOLUTION, excludes that answer's pair of bodies from
+ * the search. Step again for the next pair of bodies, which is later or at the same time. CLEAR
+ * then holds for all pairs of bodies that are left. */
 IMP_EXPORT imp_code imp_query_exclude_pair(imp_query *query, imp_error *error);
 
-/* Each pair of bodies by themselves, perhaps by several threads: divides a query that has not been
- * stepped into *count parts, one for each pair of bodies that come near each other, in the order of
- * the scene. The query itself is then about the bodies that no part is about, and clear. Where a
- * limit comes first there are no parts, and its result says so. Of a clearance (imp_clearance_new,
- * without `each`) there is a part for each pair of bodies that are ever both there, however far
- * apart. */
+/* Divides a query that has not been stepped into *count parts, one for each pair of bodies that
+ * come near each other, in the order of the scene; several threads may then answer them. The query
+ * itself is clear: it is left with the pairs of bodies that no part has. If a limit is reached
+ * first there are no parts, and the query's result says so. A query for a clearance
+ * (imp_clearance_new, without `each`) has a part for each pair of bodies that ever exist together,
+ * however far apart. */
 IMP_EXPORT imp_code imp_query_divide(imp_query *query, size_t *count, imp_error *error);
 
-/* The two bodies of a part, the smaller index first; false past the last. */
+/* Tells the two bodies of a part, the smaller index first. Returns false past the last. */
 IMP_EXPORT bool imp_query_part_bodies(const imp_query *query, size_t index, size_t body[2]);
 
-/* A query about these two bodies alone, to be stepped, read and freed like any. It has trees of its
- * own, so that answers and stats but for seconds are the same for any number of threads and any
- * order: parts may be made, stepped and freed by different threads at once. The divided query must
- * outlive it. max_pairs and max_bytes hold for each part, max_seconds for all from imp_query_divide
- * on. */
+/* Makes the query of one part, to be stepped, read and freed like any other. It has trees of its
+ * own, so that answers, and stats but for seconds, do not depend on the number of threads or the
+ * order; different threads may make, step and free parts at once. The divided query must outlive
+ * it. max_pairs and max_bytes hold for each part, max_seconds for all together from
+ * imp_query_divide on. */
 IMP_EXPORT imp_query *imp_query_part(const imp_query *query, size_t index, imp_error *error);
 
-/* Ends the running step soon, as UNDECIDED, or, when none is running, the next one. [any thread,
+/* Ends the running step soon, as UNDECIDED; if none is running, the next one. [any thread,
  * async-signal-safe] */
 IMP_EXPORT void imp_query_cancel(imp_query *query);
 
@@ -579,9 +590,9 @@ IMP_EXPORT imp_code imp_scene_solve(imp_scene *scene, const imp_options *options
 
 /* --- Clearance: how near do bodies come? ------------------------------------------------------ */
 
-/* The minimum distance over an interval of time, as a bracket: it is proved not to be below
- * `lower`, and `upper` is evaluated at a witness. If a distance is required, also whether it is
- * kept. */
+/* A clearance is the minimum distance over an interval of time, given as a bracket: the distance is
+ * proved not to be below `lower`, and two evaluated points are `upper` apart. If a distance is
+ * required, the answer also tells whether it is kept. */
 typedef struct imp_clearance_options {
     uint32_t struct_size; /* sizeof(imp_clearance_options); grows at the end */
     bool each;            /* an answer for each pair of bodies that do not ignore each other */
@@ -645,25 +656,27 @@ typedef struct imp_clearance {
         stats; /* seconds, pairs, nodes and witness_searches: of this answer; the rest: so far */
 } imp_clearance;
 
-/* Begins; step, cancel and free it like any query. `asked` NULL: the default. Of `options` gamma is
- * the distance that counts as contact; gamma_clear is not used, and baseline must be 0. What
- * imp_query_get_result tells is the reason, NONE when all answers are there, and the stats. */
+/* Makes a query for a clearance, to be stepped, cancelled and freed like any other. `asked` may be
+ * NULL, for the defaults. options->gamma is the distance that counts as contact, gamma_clear is not
+ * used, and baseline must be 0. imp_query_get_result tells the stats and the reason, which is NONE
+ * when all answers are there. */
 IMP_EXPORT imp_query *imp_clearance_new(imp_scene *scene, const imp_options *options,
                                         const imp_clearance_options *asked, imp_error *error);
 
-/* Number of answers: slices of the first two bodies, of the next two, and so on; they are found in
- * that order, and an answer whose reason is not RUNNING is there. With `each` and `within`, only
- * bodies that may come so near have answers, and their number is 0 until the first step, or some
- * more where limits end them, has found which; when divided, only these have a part. */
+/* Returns the number of answers: the slices of the first pair of bodies, then of the next pair, and
+ * so on. They are found in that order; an answer is complete once its reason is not RUNNING. With
+ * `each` and `within`, only bodies that may come so near have answers, and their number is 0 until
+ * the first step, or some more where limits end them, has found which; when divided, only these
+ * have a part. */
 IMP_EXPORT size_t imp_clearance_count(const imp_query *query);
 
-/* *answer comes with its struct_size set. */
+/* Fills *answer. The caller sets answer->struct_size before. */
 IMP_EXPORT imp_code imp_clearance_get(const imp_query *query, size_t index, imp_clearance *answer,
                                       imp_error *error);
 
-/* The paper's h(t) = t0 - t: time left from t until the first contact, negative when that is past;
- * INFINITY when there is none in the interval; where it is undecided, the time proved to be left.
- * NAN for a NULL. */
+/* Returns the time left from t until the first contact, the paper's h(t) = t0 - t. It is negative
+ * when the contact is past, and INFINITY when there is none in the interval; where the result is
+ * undecided it is the time proved to be left. NAN if result is NULL. */
 static inline double imp_time_left(const imp_result *result, double t)
 {
     if (result == NULL) return NAN;
