@@ -92,6 +92,17 @@ passing=('sphere ! translate velocity=2,0,0' 'sphere center=1,3,0')
     cmp pair.svg both.svg
 }
 
+@test "the answer of clearance is shown at its nearest approach, whole, by pairs and by slices" {
+    scene >scene.json
+    local form
+    for form in '' --each '--profile 2'; do
+        # shellcheck disable=SC2086 # words
+        "$IMPINGE" clearance scene.json --time 0,0.25 --json $form | tail -n 1 >answer.json
+        "$IMPINGE" view answer.json -o answer.svg --max-pairs 1
+        grep -q 'nearest: t = 0.25, left and right' answer.svg
+    done
+}
+
 @test "a result without its scene, or of another, is refused" {
     scene | "$IMPINGE" solve - --json >result.json
     fails 4 'result.json: /scene: this result does not name its scene' \
