@@ -39,20 +39,43 @@ static void take_result(subject *s, const imp_result *r)
  * rest. */
 static const double share_of_search = 0.5, share_of_nearest = 0.5;
 
-static exit_status solve(subject *s, const arguments *args)
+/* Searches from t_start to `end`, in place of any search before. */
+static exit_status search_until(subject *s, double end, const char *speaker, imp_result *result)
 {
     imp_error error = {0};
-    imp_result result;
-    s->options = query_options(s->scene, args);
     imp_options search = s->options;
+    search.t_end = end;
     search.max_seconds = allowance_left(&s->allowance, share_of_search);
+    imp_query_free(s->query);
     s->query = imp_query_new(s->scene, &search, &error);
-    if (s->query == NULL) return complain_of(&error, args->verb->name);
+    if (s->query == NULL) return complain_of(&error, speaker);
+    const imp_code code = query_run(s->query, result, &error);
+    return code == IMP_SUCCESS ? EXIT_ANSWERED : complain_of(&error, speaker);
+}
+
+/* The first event of a simulation within the time, or the end. The motion has a kink there; where
+ * flat faces meet, a search across it divides them all before it divides time. */
+static double first_event(const subject *s)
+{
+    const imp_options *o = &s->options;
+    for (size_t k = 0; k < s->events.count; ++k)
+        if (s->events.event[k].t > o->t_start && s->events.event[k].t < o->t_end)
+            return s->events.event[k].t;
+    return o->t_end;
+}
+
+static exit_status solve(subject *s, const arguments *args)
+{
+    imp_result result;
+    const char *speaker = args->verb->name;
+    s->options = query_options(s->scene, args);
     interrupt_prepare();
-    if (query_run(s->query, &result, &error) != IMP_SUCCESS)
-        return complain_of(&error, args->verb->name);
-    take_result(s, &result);
-    return EXIT_ANSWERED;
+    const double first = first_event(s);
+    exit_status status = search_until(s, first, speaker, &result);
+    if (status == EXIT_ANSWERED && result.verdict == IMP_VERDICT_CLEAR && first < s->options.t_end)
+        status = search_until(s, s->options.t_end, speaker, &result);
+    if (status == EXIT_ANSWERED) take_result(s, &result);
+    return status;
 }
 
 imp_code subject_find_nearest(subject *s, imp_error *error)
