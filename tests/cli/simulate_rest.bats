@@ -28,7 +28,7 @@ all_rest() { json '.reason == null and (.bodies | all(.rests)) and .momentum.end
 no_gain() {
     json '.events | length > 0 and all(.energy[1] <= .energy[0] * (1 + 1e-12))
         and (group_by(.t) | all(map(.energy) | unique | length == 1))'
-    json '(.energy.start + 1) * (1e-9 + .substep_error) as $rounding
+    json '((.energy.start + 1) * (1e-9 + .substep_error)) as $rounding
         | .energy | .lost >= 0 and (.drift | fabs) <= $rounding and .end <= .start + $rounding'
 }
 
