@@ -46,10 +46,10 @@ typedef struct assembly {
 bool assembly_begin(assembly *a); /* false: no memory; clear it all the same */
 void assembly_clear(assembly *a);
 
-/* A body of that name, which is copied: the last of a->bodies. False: no memory. */
+/* Adds a body of that name, which is copied, at the end of a->bodies. False: no memory. */
 bool assembly_add_body(assembly *a, const char *name);
 
-/* A body that is its own ancestor, in *body. */
+/* Finds a body that is its own ancestor, in *body. False: there is none. */
 typedef enum assembly_search {
     ASSEMBLY_NO_CYCLE,
     ASSEMBLY_CYCLE,
@@ -61,12 +61,13 @@ assembly_search assembly_find_cycle(const assembly *a, size_t *body);
  * through for each body. Precondition: no cycle. */
 void assembly_skip_bare_parents(assembly *a);
 
-/* Maps put on surfaces in all, and ancestors walked through for it: what a small file of parents
- * and shared lists of maps could otherwise multiply without end. */
+/* Limits of the maps put on all surfaces together, and of the ancestors walked through for it: a
+ * small file of parents and shared lists of maps could otherwise multiply them without end. */
 #define ASSEMBLY_WORK_MAX 4194304u
 bool assembly_is_too_large(const assembly *a);
 
-/* The scene, which is the caller's then. Precondition: no cycle, not too large. NULL: no memory. */
+/* Makes the scene, which the caller owns. Precondition: no cycle, not too large. NULL: no
+ * memory. */
 imp_scene *assembly_finish(assembly *a);
 
 #endif

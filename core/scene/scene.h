@@ -16,8 +16,8 @@ imp_code scene_add_body(imp_scene *scene, const char *name);
 /* Takes over `s`, also when it fails. */
 imp_code scene_add_surface(imp_scene *scene, size_t body, surface *s);
 
-/* Groups: bodies by a common name, which is copied. Its index is the count before; the name beyond
- * the last is NULL. */
+/* Adds a group: a common name of bodies, which is copied. Its index is the count of groups before;
+ * the name beyond the last is NULL. */
 imp_code scene_add_group(imp_scene *scene, const char *name);
 size_t scene_group_count(const imp_scene *scene);
 const char *scene_group_name(const imp_scene *scene, size_t group);
@@ -40,17 +40,18 @@ size_t scene_surface_count(const imp_scene *scene, size_t body);
 /* NULL: there is none. */
 const surface *scene_surface(const imp_scene *scene, size_t body, size_t index);
 
-/* What its bodies and surfaces hold, about, without their trees. */
+/* Estimates the bytes that its bodies and surfaces hold, without their trees. */
 uint64_t scene_bytes(const imp_scene *scene);
 
-/* Once all is added: notes what it holds, when all of it is defined, since each query asks for
- * these, and what types remarked. IMP_ERROR_MEMORY, or IMP_SUCCESS. */
+/* Completes a scene once everything is added: notes what each query asks for, which is its bytes
+ * and the times at which all of it is defined, and what types remarked. IMP_ERROR_MEMORY, or
+ * IMP_SUCCESS. */
 imp_code scene_complete(imp_scene *scene);
 
 /* Whether all types and maps are known to be defined from t_start to t_end. */
 bool scene_is_defined(const imp_scene *scene, double t_start, double t_end);
 
-/* What the scene file asks for; the defaults of imp_options_default. Preset: NAN, NAN, 1e-6, -1.
+/* Sets what the scene file asks for, which imp_options_default answers. Preset: NAN, NAN, 1e-6, -1.
  * Times that nobody has set are chosen by scene_complete (default_times), and stay NAN where there
  * are none. */
 typedef struct scene_settings {

@@ -31,17 +31,17 @@ typedef struct shared_instance {
     char *note;          /* which ones, with the parameter's name; NULL: none */
 } shared_instance;
 
-/* Takes over the instance `self`, and asks for its domain, or those of its pieces, which have their
- * times in common, and of which `lo` and `hi` are the first's; the caller holds the result. NULL:
- * no memory; the instance is destroyed then too. */
+/* Takes over the instance `self` and asks for its domain, or for those of its pieces, which have
+ * the same times; `lo` and `hi` are then the first piece's. The caller holds the result. NULL: no
+ * memory, and the instance is destroyed. */
 shared_instance *instance_of_surface(const imp_surface_type *type, void *self);
 shared_instance *instance_of_map(const imp_map_type *type, void *self);
 
-/* The domain of an instance; IMP_STATUS_OK, or how it breaks the ABI. */
+/* Asks for the domain of an instance. Returns IMP_STATUS_OK, or how the domain breaks the ABI. */
 imp_status instance_domain(const imp_surface_type *type, const void *self, double lo[3],
                            double hi[3]);
 
-/* Appends to a label, or dots in its place: at the end of a label that is full. */
+/* Appends text to a label, or dots where the label is full. */
 void instance_label_add(char label[INSTANCE_LABEL_MAX], const char *text);
 
 /* Copies the label, once. False: no memory. */
@@ -51,14 +51,15 @@ const char *instance_label(const shared_instance *p);
 /* Copies a note of create, once: `count` things, told by the text. False: no memory. */
 bool instance_set_note(shared_instance *p, uint64_t count, const char *text);
 
-/* Bytes that it and what create made hold, about: each block with what the allocator adds. */
+/* Estimates the bytes that it and what create made hold, with what the allocator adds to each
+ * block. */
 enum { INSTANCE_BLOCK = 16 }; /* bytes */
 size_t instance_bytes(const shared_instance *p);
 
 shared_instance *instance_hold(shared_instance *p);
 void instance_release(shared_instance *p); /* NULL is no shared_instance */
 
-/* Instances in order, each held once for every time it stands there. */
+/* A list of instances in order. It holds an instance once for each place where it stands. */
 typedef struct instance_list {
     shared_instance **at;
     size_t count, capacity;

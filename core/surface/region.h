@@ -11,7 +11,7 @@
 
 typedef enum parameter { PARAMETER_U, PARAMETER_V, PARAMETER_T } parameter;
 
-/* The region lo..hi; lo <= hi, finite. */
+/* Makes the region lo..hi; lo <= hi, finite. */
 void region_set(imp_region *region, const double lo[3], const double hi[3]);
 imp_region region_make(const double lo[3], const double hi[3]);
 
@@ -22,7 +22,8 @@ bool region_can_split(const imp_region *region, parameter j);
  * share the identical split value. Precondition: region_can_split. */
 void region_set_half(imp_region *half, const imp_region *region, parameter j, int side);
 
-/* sum_j rate_j d_j, rounded up: how far one coordinate can be from its value at the centre. */
+/* Returns sum_j rate_j d_j, rounded up: how far one coordinate can be from its value at the
+ * centre. */
 double region_reach_upper(const imp_region *region, const double rate[3]);
 
 #endif

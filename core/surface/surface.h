@@ -12,30 +12,31 @@
 
 typedef struct surface surface;
 
-/* A surface of one instance, which it holds. NULL: no memory. */
+/* Makes a surface of one instance, which it holds. NULL: no memory. */
 surface *surface_new_of(shared_instance *type);
 
 /* Puts a map on top of those already there, and holds it. */
 imp_code surface_add_instance(surface *s, shared_instance *map);
 
-/* The surface under its first `maps` maps alone, divided into pieces where `s` is. It has the times
- * of `s`, which must outlive it. NULL: no memory. */
+/* Makes the surface under its first `maps` maps alone, divided into pieces if `s` is. It has the
+ * times of `s`, which must outlive it. NULL: no memory. */
 surface *surface_new_inner(const surface *s, size_t maps);
 
 void surface_free(surface *s);
 
-/* Where its type's instance consists of pieces: makes a surface of each, under the same maps. No
- * map may be added after that. What is asked of the whole is then answered for its first piece. */
+/* Makes a surface of each piece, under the same maps, if the type's instance consists of pieces. No
+ * map may be added after that. Questions about the whole are then answered for the first piece. */
 imp_code surface_divide(surface *s);
 
 /* 0: it is one surface. */
 size_t surface_piece_count(const surface *s);
 const surface *surface_piece(const surface *s, size_t k); /* k < surface_piece_count */
 
-/* Its number among the pieces of a surface; 0 for what is none. */
+/* Returns the piece's number among the pieces of its surface; 0 if s is no piece. */
 size_t surface_piece_index(const surface *s);
 
-/* What it holds, about: its pieces, and its share of what it has in common with other surfaces. */
+/* Estimates the bytes it holds: its pieces, and its share of what it has in common with other
+ * surfaces. */
 size_t surface_bytes(const surface *s);
 
 /* Tells messages whose it is; the text must outlive the surface. */
@@ -45,7 +46,8 @@ void surface_set_body(surface *s, const char *body, size_t index);
 imp_code surface_fault(const surface *s, imp_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Domain; time is what the type and all maps have in common: lo[2] > hi[2] if nothing. */
+/* Tells the domain. Its times are those at which the type and all maps are defined: lo[2] > hi[2]
+ * if there are none. */
 void surface_domain(const surface *s, double lo[3], double hi[3]);
 
 /* The type or one of the maps: the times it is defined for, and those it is made for. */
@@ -59,17 +61,17 @@ typedef struct surface_instance {
 /* Instance 0 is the type, instance k the map k - 1; false past the last. */
 bool surface_instance_at(const surface *s, size_t k, surface_instance *found);
 
-/* The times at which the surface exists: all that no instance excludes
- * (IMP_FLAG_ABSENT_OUTSIDE_TIMES). lo > hi: none. */
+/* Tells the times at which the surface exists: those that no instance excludes
+ * (IMP_FLAG_ABSENT_OUTSIDE_TIMES). lo > hi: there are none. */
 void surface_existence(const surface *s, double *lo, double *hi);
 
-/* The first instance that leaves open what happens at some time from lo to hi; false: there is
- * none. */
+/* Finds the first instance that is not known to be defined at all times from lo to hi. False: there
+ * is none. */
 bool surface_undefined_instance(const surface *s, double lo, double hi, surface_instance *found);
 
-/* Beside the statuses of the ABI. A callback left another floating-point mode behind; it is put
- * back. Or the process of an isolated instance ended, or was ended because it did not answer. Or
- * what a callback gave breaks the ABI. */
+/* Statuses beside those of the ABI: a callback left another floating-point mode behind, which was
+ * put back; the process of an isolated instance ended, or was ended because it did not answer; what
+ * a callback returned breaks the ABI. */
 #define SURFACE_CHANGED_MODE 1000
 #define SURFACE_CRASHED 1001
 #define SURFACE_HUNG 1002
@@ -89,7 +91,7 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 #define SURFACE_BAD_SYMMETRY 1016
 #define SURFACE_BAD_SPAN 1017
 
-/* What a status other than IMP_STATUS_OK means here, as the end of "type 'x' ...: ". */
+/* The text for a status other than IMP_STATUS_OK, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
 
 /* The text for what a callback of this thread answered last. Where surface_status_text leaves open
@@ -112,46 +114,46 @@ imp_code surface_set_code(imp_status status, imp_error *error);
  * NULL. */
 imp_status surface_eval(const surface *s, size_t n, const double *p, double *x, double *error);
 
-/* Rate matrix of the composition (paper, section 5). */
+/* Computes the rate matrix of the composition (paper, section 5). */
 imp_status surface_rate(const surface *s, const imp_region *region, imp_rate_matrix *rates);
 
-/* The inclusion function of the composition, Taylor models of order 2; boxes from eval and rate
- * where an instance has no better. */
+/* Computes the inclusion of the composition, Taylor models of order 2; boxes from eval and rate
+ * where an instance has no include or apply. */
 imp_status surface_include(const surface *s, const imp_region *region, imp_model model[3]);
 
-/* The control net of the composition over a region (imp_net). IMP_STATUS_UNBOUNDED: it has none
- * there, as where the type or a map has none. */
+/* Computes the control net of the composition over a region (imp_net). IMP_STATUS_UNBOUNDED: there
+ * is none, for instance because the type or a map has none. */
 imp_status surface_net(const surface *s, const imp_region *region, imp_net *net);
 
-/* Whether the type and all maps can be asked for one; else it has none anywhere. */
+/* Whether the type and all maps offer nets. If not, there is no net over any region. */
 bool surface_offers_net(const surface *s);
 
-/* Whether all of its maps, of which there is one at least, are rigid, so that it may have a
- * pose. */
+/* Whether it has maps and all of them are rigid, so that it may have a pose. */
 bool surface_is_rigid(const surface *s);
 
-/* The pose that all maps together have over the region's times (imp_pose), but that turn and turn^T
- * turn are off those of a rotation by as much for each map as is allowed for one.
- * IMP_STATUS_UNBOUNDED: there is none. Precondition: surface_is_rigid. */
+/* Computes the pose of all maps together over the region's times (imp_pose). Its turn differs from
+ * a rotation by up to IMP_RIGID_SLACK for each map. IMP_STATUS_UNBOUNDED: there is none.
+ * Precondition: surface_is_rigid. */
 imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose);
 
-/* What imp_piece_motion answers. Times are in the surface's domain. */
+/* Answers imp_piece_motion. Times are in the surface's domain. */
 bool surface_motion(const surface *s, double from, double to, imp_rigid_motion *motion);
 
-/* At least |x'| / |x| for what such a pose makes of a vector x; 1 but for that slack. */
+/* Bounds the factor by which surface_pose lengthens vectors from above: 1 but for the slack. */
 double surface_pose_norm_upper(const surface *s);
 
 /* Whether distances from the surface may be known: its type knows them, and all of its maps are
  * rigid. */
 bool surface_has_distance(const surface *s);
 
-/* Whether it may be possible, too, to move it within itself. */
+/* Whether distances may be known and the type offers a symmetry. */
 bool surface_has_symmetry(const surface *s);
 
-/* Precondition: surface_has_distance. The distance, as in imp_surface_type, of a point with these
- * models over the region, whose rates are not used, from the whole surface under its first `maps`
- * maps; or less, where the maps after these bring both nearer to each other. IMP_STATUS_UNBOUNDED:
- * nothing is known, as at times at which the surface does not exist. */
+/* Bounds the distance, as in imp_surface_type, of a point with these models over the region from
+ * the whole surface under its first `maps` maps. The models' rates are not used. The bound also
+ * holds under all maps, which may bring both nearer to each other. IMP_STATUS_UNBOUNDED: nothing is
+ * known, for instance at times at which the surface does not exist. Precondition:
+ * surface_has_distance. */
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance);
 
@@ -161,27 +163,28 @@ imp_status surface_distance_within(const surface *s, const imp_region *region, s
                                    const imp_model point[3], double moment, double slip,
                                    imp_model *distance);
 
-/* How far a slides along b, other than within itself. *slip: where b is moved by its first maps
- * alone, but for those that both end with, what its type claims of the distance
- * (surface_distance_within) of all points within *slip of where a point of a is at the moment holds
- * for that point of a at all times of the region, too. INFINITY: nothing is known. The moment is
- * one of these times; `bare` are models of a before its maps, of which the ranges are used; it does
- * not move by itself. */
+/* Bounds the motion of a relative to b, modulo b's symmetry. Let b be under its own maps without
+ * those that both surfaces end with. A distance that b's type claims for all points within *slip of
+ * where a point of a is at `moment` (surface_distance_within) then holds for that point of a at all
+ * times of the region. INFINITY: nothing is known. `moment` is one of these times. `bare` holds
+ * models of a before its maps, of which only the ranges are used; a does not move by itself. */
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double *slip);
 
-/* A plane, and how far at most points of a part of a surface are from it, before its maps. */
+/* A plane, and an upper bound of the distance from it of the points of a part of a surface, before
+ * its maps. */
 typedef struct surface_plane {
     double center[3]; /* length */
     double axis[3];   /* unit, but for rounding; 0: the part has no plane */
     double off;       /* length */
 } surface_plane;
 
-/* The plane along which the surface lies in the middle of the region. */
+/* Finds the tangent plane in the middle of the region, and how far the part of the surface over the
+ * region is from it, before the maps. IMP_STATUS_UNBOUNDED: there is none. */
 imp_status surface_plane_of(const surface *s, const imp_region *region, surface_plane *plane);
 
-/* How far a slides along a plane that b's maps carry, other than in the plane: as surface_slip,
- * whose symmetry is that of the plane. The two have no maps in common. */
+/* Like surface_slip, with the symmetry of a plane that b's maps carry. The two surfaces have no
+ * maps in common. */
 imp_status surface_slip_along(const surface *a, const surface *b, const surface_plane *plane,
                               const imp_model bare[3], const imp_region *times, double moment,
                               double *slip);
@@ -192,44 +195,44 @@ imp_status surface_height_within(const surface *s, const surface_plane *plane,
                                  const imp_region *region, const imp_model point[3], double moment,
                                  double slip, imp_model *height);
 
-/* How much the distance of two surfaces may differ at other times from what it is at the moment,
- * which is one of the times; INFINITY: nothing is known. It is mere rounding where both turn only
- * within themselves, or as one of them can be turned within itself: rollers, a shaft in its bore.
- * `bare` holds models of all points of each before its maps, of which the ranges are used; neither
- * moves by itself. *asked: whose symmetry was asked for last. */
+/* Bounds how much the distance of two surfaces differs at any time from what it is at `moment`, one
+ * of the times. INFINITY: nothing is known. *slip is mere rounding where both turn only within
+ * themselves, or as one of them can be turned within itself: rollers, a shaft in its bore. `bare`
+ * holds models of all points of each surface before its maps, of which only the ranges are used;
+ * neither moves by itself. *asked becomes the side whose symmetry was asked for last. */
 imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
                              const imp_region *times, double moment, double *slip, int *asked);
 
-/* How many maps, counted from the last, are the same instances on both. */
+/* Counts the maps, from the last one back, that are the same instances on both surfaces. */
 size_t surface_common_maps(const surface *a, const surface *b);
 
-/* How many of these, counted from the last, are rigid in exact arithmetic (IMP_FLAG_TURNS_EXACTLY):
- * the distance of two points is the same before and after them. */
+/* Counts those of them, from the last one back, that are rigid in exact arithmetic
+ * (IMP_FLAG_TURNS_EXACTLY) and so change the distance of no two points. */
 size_t surface_common_motion(const surface *a, const surface *b);
 
-/* What the maps after the first `maps` make of a point at time t, in place. */
+/* Applies the maps after the first `maps` to a point at time t, in place. */
 imp_status surface_move_outward(const surface *s, size_t maps, double t, double x[3]);
 
 size_t surface_map_count(const surface *s);
 
-/* What the surface is composed of: its type's instance (0), then its maps'. k <=
+/* Returns what the surface is composed of: its type's instance (k = 0), then its maps'. k <=
  * surface_map_count. */
 const shared_instance *surface_origin(const surface *s, size_t k);
 
-/* Precondition: surface_has_distance. How many of its maps, counted from the first, do not turn it
- * further during the region's times. */
+/* Counts the maps, from the first one on, that do not turn the surface further during the region's
+ * times. Precondition: surface_has_distance. */
 imp_status surface_still_maps(const surface *s, const imp_region *region, size_t *count);
 
-/* The inclusion under the first `maps` maps alone. */
+/* Computes the inclusion under the first `maps` maps alone. */
 imp_status surface_include_inner(const surface *s, const imp_region *region, size_t maps,
                                  imp_model model[3]);
 
-/* The inclusion of the type alone, under none of the maps. */
+/* Computes the inclusion of the type alone, under none of the maps. */
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3]);
 
-/* What the maps make of anything whose coordinates have the models `model` over the region,
- * replaced by those of its image. Where u or v number the points of a set, a rate is how far apart
- * they may be: 1 counts as the distance of any two. */
+/* Applies the maps to anything whose coordinates have the models `model` over the region, and
+ * replaces these by the models of its image. Where u or v number the points of a set, any two count
+ * as 1 apart, so that a rate is how far apart points may be. */
 imp_status surface_include_image(const surface *s, const imp_region *region, imp_model model[3]);
 
 #endif

@@ -38,9 +38,9 @@ struct surface {
 /* 0 for a finite x, else NaN: a sum of these is 0 only if all are finite, and costs no branches. */
 static inline double zero_if_finite(double x) { return x - x; }
 
-/* A callback is called between these two. What it computed is thrown away if it changed the mode,
- * which is put back before anything else is computed: an exception that it lets trap would else be
- * raised in the callback after it, or by the host. */
+/* Every callback is called between these two. If it changed the floating-point mode, the mode is
+ * put back at once and what it computed is thrown away: an exception that it lets trap would
+ * otherwise be raised in the next callback, or by the host. */
 typedef struct surface_call {
     imp_call *of_thread;
     fp_mode before;
@@ -70,8 +70,8 @@ typedef struct centred_box {
     double centre[3], reach[3];
 } centred_box;
 
-/* Around the surface under its first `maps` maps, over the region: f(c) with its error, give or
- * take M d, where M bounds the rates there. */
+/* A box around the surface under its first `maps` maps over the region: f(c) with its error, plus
+ * and minus M d, where M bounds the rates there. */
 imp_status surface_box_around(const surface *s, const imp_region *region,
                               const imp_rate_matrix *rates, size_t maps, centred_box *box);
 
@@ -88,7 +88,7 @@ static inline bool map_turns_exactly(const mapping *map)
 /* Whether its rotation depends on time. */
 bool pose_turns(const imp_pose *pose);
 
-/* At least |(R^T R - 1) x| / |x| for the turn R of one map, at all times of the pose. */
+/* An upper bound of |(R^T R - 1) x| / |x| for the turn R of one map, at all times of the pose. */
 double surface_pose_deviation_upper(const imp_pose *pose);
 
 /* The pose that the maps from `first` to the one before `end` have together, as surface_pose.

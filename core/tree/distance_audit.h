@@ -5,9 +5,9 @@
 
 #include "core/tree/node.h"
 
-/* IMP_ERROR_PLUGIN if the type of n's surface claims too large a distance of points that are as far
- * off the node as they are made to be, in a few parts of its region, drawn from *state. Nothing is
- * known of a surface without distances (surface_has_distance): IMP_SUCCESS. */
+/* Holds the distances that the type of n's surface claims against points at known distances from
+ * the node, in a few parts of its region, drawn from *state. IMP_ERROR_PLUGIN: a claim is too
+ * large. A surface without distances (surface_has_distance) passes. */
 imp_code distance_audit_run(const node *n, uint64_t *state, imp_error *error);
 
 #endif

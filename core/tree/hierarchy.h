@@ -28,8 +28,8 @@ typedef struct cluster {
     uint32_t piece[2];              /* this one */
 } cluster;
 
-/* Over the times t_start..t_end, finite and within the domain. Precondition: `s` has two pieces or
- * more. Fails as node_child does. */
+/* Makes the hierarchy over the times t_start..t_end, finite and within the domain. Precondition:
+ * `s` has two pieces or more. Fails as node_child does. */
 imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy **made,
                        imp_error *error);
 void hierarchy_free(hierarchy *h); /* NULL is none */
@@ -38,11 +38,11 @@ const cluster *hierarchy_root(const hierarchy *h);
 const surface *hierarchy_surface(const hierarchy *h);
 size_t hierarchy_bytes(const hierarchy *h);
 
-/* The k-th of n pieces that are spread over all of it. */
+/* Returns the k-th of n pieces that are spread over the whole hierarchy. */
 const surface *hierarchy_sample(const hierarchy *h, size_t k, size_t n);
 
-/* Models of a cluster over a region whose times are part of the hierarchy's, before any map. Its u
- * stands for which point of the cluster is meant. */
+/* Makes models of a cluster, before any map, over a region whose times are part of the hierarchy's.
+ * The region's u stands for the points of the cluster. */
 void cluster_models(const cluster *c, const imp_region *region, imp_model model[3]);
 
 #endif

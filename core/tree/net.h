@@ -40,11 +40,11 @@ static inline bool net_is_curved(const net *n)
     return n->degree[0] > 1 || n->degree[1] > 1 || n->is_weighted;
 }
 
-/* The surface's largest distance from the patch, about. */
+/* Estimates the surface's largest distance from the patch. */
 static inline double net_off(const net *n) { return n->error[0] + n->error[1] + n->error[2]; }
 
-/* Fills n, which has room, from a sane net over a region. False: its numbers are too large or too
- * small to be computed with; n is not filled. */
+/* Fills n, which has room, from a net over a region that keeps the ABI. False: its numbers are too
+ * large or too small to compute with; n is not filled. */
 bool net_take(net *n, const imp_net *given, const imp_region *region);
 
 /* Whether the halves of a region along j have nets by halving: j is time, or the cut exactly in the

@@ -26,7 +26,7 @@ IMP_QUAD_INLINE void rows_store(double *x, rows r)
     for (int k = 0; k < 4; ++k) imp_quad_store(x + 4 * k, r.row[k]);
 }
 
-/* The transposed matrix. */
+/* Transposes a matrix of four rows. */
 IMP_QUAD_INLINE rows rows_turned(rows r)
 {
     imp_quad_transpose(r.row);

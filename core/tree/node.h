@@ -41,7 +41,7 @@ typedef struct quadratic3 {
     double quu[4], quv[4], qut[4], qvv[4], qvt[4], qtt[4];
 } quadratic3;
 
-/* Stands for a net where it is known that there is none. Never read. */
+/* Marks a node that is known to have no net. Its fields are never read. */
 extern const net net_none;
 
 typedef struct node {
@@ -78,7 +78,7 @@ typedef struct tree tree;
 /* Called with each node made, before it is used; IMP_ERROR_PLUGIN refuses it. */
 typedef imp_code (*node_audit)(const surface *s, const node *n, imp_error *error);
 
-/* What one tree of a surface differs in from another. */
+/* The choices in which trees of one surface differ. */
 typedef struct tree_plan {
     tree_kind kind;
     double t_start, t_end; /* within the surface's domain */
@@ -86,14 +86,14 @@ typedef struct tree_plan {
     size_t left_out; /* maps of the surface that its nodes are not under, counted from the last */
 } tree_plan;
 
-/* What calls have made, summed up. */
+/* Sums of what calls have made. */
 typedef struct tree_growth {
     uint64_t nodes;
     size_t bytes;
 } tree_growth;
 
-/* A tree over the surface's whole (u, v) and [t_start, t_end]; the root is made at once.
- * `s` must outlive it. */
+/* Makes a tree over the surface's whole (u, v) and [t_start, t_end], with its root. `s` must
+ * outlive it. */
 imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
                   imp_error *error);
 
@@ -104,8 +104,8 @@ imp_code tree_new_without_root(const surface *s, const tree_plan *plan, tree **m
 bool tree_has_root(const tree *t);
 imp_code tree_make_root(tree *t, tree_growth *growth, imp_error *error); /* unless it has one */
 
-/* Another tree of the same surface and plan, whose root is a copy, and not counted: for searches
- * whose counts are to be the same whatever other threads do. */
+/* Makes another tree of that surface and plan, whose root is a copy and not counted: for searches
+ * whose counts must not depend on other threads. */
 imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error);
 void tree_free(tree *t);
 
@@ -119,9 +119,9 @@ const surface *tree_surface(const tree *t);
 bool tree_is_of(const tree *t, const tree_plan *plan);
 bool tree_is_audited(const tree *t);
 
-/* The half of `parent` below (side 0) or above (1) its centre along j. Precondition:
- * region_can_split. What this call makes, if anything, is added to *growth. IMP_ERROR_PLUGIN names
- * the type, the region and what it answered. */
+/* Returns in *child the half of `parent` below (side 0) or above (1) its centre along j, made now
+ * if it is not there. What this call makes is added to *growth. IMP_ERROR_PLUGIN names the type,
+ * the region and what the type answered. Precondition: region_can_split. */
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error);
 
@@ -131,11 +131,11 @@ imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, 
 imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
                          tree_growth *growth, imp_error *error);
 
-/* The control net of the node, made now if it is asked for first; NULL: it has none. What this call
- * makes is added to *growth. IMP_ERROR_PLUGIN as above. */
+/* Returns in *found the control net of the node, made now if it is asked for first; NULL: it has
+ * none. What this call makes is added to *growth. It fails as node_child does. */
 imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error);
 
-/* Whether it was. */
+/* Whether the node was asked for its net. */
 static inline bool node_net_is_asked(const node *n)
 {
     return atomic_load_explicit(&n->net, memory_order_acquire) != NULL;
@@ -168,8 +168,8 @@ static inline bool node_blurs(const node *n, double part)
 /* Models of all points of the node before any map. False: it moves by itself, or has no bounds. */
 bool node_bare_models(const node *n, imp_model bare[3]);
 
-/* Why there is no going on at a node without bounds that cannot be halved: IMP_ERROR_PLUGIN names
- * the type, and the place where it is undefined or the region over which it has no bounds. */
+/* Sets the error for a node without bounds that cannot be halved: IMP_ERROR_PLUGIN names the type,
+ * and the place where it is undefined or the region over which it has no bounds. */
 imp_code node_unbounded_fault(const tree *t, const node *n, imp_error *error);
 
 #endif

@@ -6,8 +6,8 @@
 #include "core/tree/node.h"
 
 /* Fills everything of `n` but its region, which is set, and its children from what an inclusion
- * answered. NULL, or which promise of imp_model it breaks; infinite values are none if
- * `may_be_infinite`. */
+ * answered. Returns NULL, or the promise of imp_model that the answer breaks; infinite values break
+ * none if `may_be_infinite`. */
 const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite);
 
 #endif

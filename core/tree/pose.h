@@ -33,15 +33,15 @@ typedef struct pose_lanes {
     double norm;                         /* >= |turn x| / |x| */
 } pose_lanes;
 
-/* Fills p from a pose as the surface has it, and the norm of that. */
+/* Fills p from a pose of the surface and its norm (surface_pose_norm_upper). */
 void pose_take(pose_lanes *p, const imp_pose *given, double norm);
 
 /* Fills s from finite models. False: they depend on time. */
 bool shape_model_take(shape_model *s, const imp_model model[3]);
 
 /* Fills everything of n but region, origin and children, as node_take_model does, with the image of
- * the shape; n may refer to both. False: that is not bounded, or the models broke a promise, and n
- * is not filled. */
+ * the shape under the pose; n may refer to both. False: the image is not bounded, or the models
+ * broke a promise, and n is not filled. */
 bool node_take_posed(node *n, const shape_model *s, const pose_lanes *p);
 
 #endif

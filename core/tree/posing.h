@@ -29,7 +29,7 @@ typedef struct posing {
  * where the surface moves rigidly and not by itself. Fails as node_child does. */
 imp_code posing_begin(posing *g, node *n, tree_growth *growth, imp_error *error);
 
-/* Fills n from its shape and its span. False: it has to be filled otherwise. */
+/* Fills n from its shape and its span. False: n has to be filled from an inclusion. */
 bool posing_fill(node *n);
 
 #endif
