@@ -14,32 +14,38 @@
  * trials of the same candidate pair decide, too (trial_rate.h). tuning.h has the numbers.
  *
  *   mechanism               tried                                   because
- *   ----------------------  --------------------------------------  ---------------------------------
+ *   ----------------------  --------------------------------------  -------------------------------
  *   boxes                   always, first                           a box costs next to nothing
  *   moving boxes alone      roots of bodies with many candidate     few of them are ever popped
  *                           pairs (pair_test.c)
- *   nets asked for          a node that offers one gains by it;     hulls touch their surfaces at
- *                           of straight nodes with a remainder,     corners, where most contacts are;
- *                           once the pair is popped                 quadratics part most straight ones
- *   hull against hull       both nets are there, one node gains     a box around a remainder does not
- *                                                                   vanish at a corner
+ *   nets asked for          a node that offers one gains by it; of  hulls touch their surfaces at
+ *                           straight nodes with a remainder, once   corners, where most contacts
+ *                           the pair is popped                      are; quadratics part most
+ *                                                                   straight ones
+ *   hull against hull       both nets are there, one node gains     a box around a remainder does
+ *                                                                   not vanish at a corner
  *   hull against quadratic  one net is there, and its node gains    either shows more than its box
  *   quadratics after hulls  remainders are small beside what        a hull is off by a part of what
- *                           bends; hulls meet; one net is missing   bends, a quadratic by its remainder
- *   quadratics, fixed axes  no hull is tried; also where all are    bilinear nodes have no remainder;
- *                           flat and one net is missing             GJK finds the best axis
- *   axes that need no       before quadratics, contact only:        vectors across both curves cut the
- *   search                  neither node has a normal               window again and again
- *   axis of the end         after quadratics, contact only: both    once edges have crossed, the axis
- *                           are nearly flat, the start was cut      that was best before is wrong
- *   turning field           fixed axes leave the window's start;    it shows more only where one lies
- *                           else as often as it pays                in the other's concave side
+ *                           bends; hulls meet; one net is missing   bends, a quadratic by its
+ *                                                                   remainder
+ *   quadratics, fixed axes  no hull is tried; also where all are    bilinear nodes have no
+ *                           flat and one net is missing             remainder; GJK finds the best
+ *                                                                   axis
+ *   axes that need no       before quadratics, contact only:        vectors across both curves cut
+ *   search                  neither node has a normal               the window again and again
+ *   axis of the end         after quadratics, contact only: both    once edges have crossed, the
+ *                           are nearly flat, the start was cut      axis that was best before is
+ *                                                                   wrong
+ *   turning field           fixed axes leave the window's start;    it shows more only where one
+ *                           else as often as it pays                lies in the other's concave
+ *                                                                   side
  *   one-sided distance      no axis parts the pair from the start   what slides along a surface has
  *                           of its nodes' times; its parents slid   many neighbours there, and the
  *                           (while it pays); motion along a face    distance parts it from all
- *   halves left out         both nets are there, one node gains     heights of halves cost a tenth of
- *                           (net_halves.h)                          a test
- *   witness on nets         nets are off by little beside gamma     no surface is evaluated on the way
+ *   halves left out         both nets are there, one node gains     heights of halves cost a tenth
+ *                           (net_halves.h)                          of a test
+ *   witness on nets         nets are off by little beside gamma     no surface is evaluated on the
+ *                                                                   way
  *
  * A search for the minimum distance takes boxes, quadratics on fixed axes, the turning field and
  * one-sided distances: it needs bounds of the gap, which hulls do not give. */

@@ -421,8 +421,8 @@ typedef struct imp_map_type {
      *
      * Computes the pose over the times of the model *t, which depends on t alone, or is constant.
      * With it the host bounds a surface that does not move by itself once, before the map, instead
-     * of anew for each span of times. IMP_STATUS_UNBOUNDED: there is no pose over these times, and *pose is
-     * ignored; shorter spans may have one. The host has set all to 0. [thread-safe] */
+     * of anew for each span of times. IMP_STATUS_UNBOUNDED: there is no pose over these times, and
+     * *pose is ignored; shorter spans may have one. The host has set all to 0. [thread-safe] */
     imp_status (*rigid)(const void *self, const imp_model *t, imp_pose *pose);
 
     /* Capability `span`; NULL, or a struct_size that ends before it: the span is the time domain.

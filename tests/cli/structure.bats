@@ -296,10 +296,10 @@ clang_format_14() {
     return 1
 }
 
-unformatted() { # FOLDER
+unformatted() { # FOLDER [PART]
     local format
     format=$(clang_format_14)
-    (cd "$1" && c_sources . | xargs "$format" --style=file:"$top_srcdir/.clang-format" -n 2>&1 |
+    (cd "$1" && c_sources . | grep "^${2-}" | xargs "$format" --style=file:"$top_srcdir/.clang-format" -n 2>&1 |
         sed -n 's/^\(\.\/\)\{0,1\}\([^:]*\):.*clang-format-violations.*/\2/p' | sort -u)
 }
 
@@ -313,7 +313,7 @@ unformatted() { # FOLDER
     clang_format_14 || skip "clang-format 14 not found"
     copy_sources
     echo 'static int  spread ( void )  { return 0;}' >>"$copy/core/base/status.c"
-    run unformatted "$copy"
+    run unformatted "$copy" core/base/
     [ "$output" = core/base/status.c ]
 }
 

@@ -23,7 +23,7 @@ static quat random_rotation(uint64_t *state)
     return quat_unit((quat){random_between(state, -1, 1), random_vector(state, 1)});
 }
 
-/* Of any mass and inertia; one in eight is a thin rod. */
+/* Draws a body of any mass and inertia; one in eight is a thin rod. */
 static impact_body random_body(uint64_t *state)
 {
     impact_body b = {.yields = true, .mass = random_power(state, -6, 6)};

@@ -10,7 +10,7 @@ enum { UNKNOWNS = 4 };
 
 /* --- One step --------------------------------------------------------------------------------- */
 
-/* Of |x_b - x_a|^2 / 2 by the unknowns (q_a, q_b). */
+/* Derivatives of |x_b - x_a|^2 / 2 by the unknowns (q_a, q_b). */
 typedef struct newton {
     double gradient[UNKNOWNS], hessian[UNKNOWNS][UNKNOWNS];
     bool free[UNKNOWNS];
@@ -216,7 +216,7 @@ imp_code closest_project(const chart *c, double p[2], vec x, vec *found, imp_err
 
 /* --- The normal ------------------------------------------------------------------------------- */
 
-/* Of the surface, unit length; 0 where it has none. */
+/* The surface's normal, of unit length; 0 where it has none. */
 static vec surface_normal(const jet *j)
 {
     const vec n = vec_cross(j->by[0], j->by[1]);

@@ -28,9 +28,9 @@ typedef struct footprint {
     size_t count, capacity;
 } footprint;
 
-/* Of a body on one side of the plane; `side` is 1 for that which the normal leads away from, -1 for
- * the other. Patches farther than `reach` from `middle` are left out, and the patch `but`, if it is
- * given. */
+/* Finds the footprint of a body on one side of the plane; `side` is 1 for that which the normal
+ * leads away from, -1 for the other. Patches farther than `reach` from `middle` are left out, and
+ * the patch `but`, if it is given. */
 imp_code footprint_find(footprint *f, const placed *at, const outline *o,
                         const contact_plane *plane, double side, vec middle, double reach,
                         const imp_place *but, imp_error *why);

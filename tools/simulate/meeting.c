@@ -145,7 +145,7 @@ imp_code meeting_level(searching *s, const meeting *m, double t, int least, int 
     return IMP_SUCCESS;
 }
 
-/* Of windows in time, each this much longer than the one before. */
+/* Each window in time is this much longer than the one before. */
 #define WINDOW_GROWTH 8
 
 /* The search at one level over one window. */

@@ -242,7 +242,7 @@ static void hop(instant *now, double most)
 
 /* --- All of them ------------------------------------------------------------------------------ */
 
-/* Of contacts between bodies that rest, and fixed ones, the impulses are those of the trial. */
+/* Gives contacts between bodies that rest, and fixed ones, the impulses of the trial. */
 static void keep_of_resting(instant *now)
 {
     for (size_t i = 0; i < now->count; ++i)

@@ -79,7 +79,7 @@ static imp_code look_around(const placed *at, const outline *o, imp_place own, c
     return IMP_SUCCESS;
 }
 
-/* Of all patches around the witness. */
+/* Finds the nearest points of all patches around the witness. */
 static imp_code find_nearest(const touch_pair *pair, const witness *from, closest *out,
                              imp_error *why)
 {

@@ -16,7 +16,7 @@
  * contact's manifold: a point, a segment, or a polygon of up to CONTACT_POINTS corners. Nothing of
  * this is part of what is promised. */
 
-/* Of the first and of the second body: a patch, and (u, v). */
+/* A patch and (u, v) on it, of the first and of the second body. */
 typedef struct witness {
     imp_place place[2];
     double p[2][2];
