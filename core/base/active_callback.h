@@ -7,9 +7,9 @@
 #include <stdatomic.h>
 #include <stddef.h>
 
-/* Which plugin this thread is in, so that a crash can be laid at the right door: a signal handler
- * of the program asks imp_call_in_progress. Set before a callback, cleared after the last of a
- * group; a few stores. */
+/* The plugin that each thread is in, so that a crash is blamed on the right one: a signal handler
+ * of the program asks imp_call_in_progress. It is set before a callback and cleared after the last
+ * of a group, by a few stores. */
 
 /* Others may read it while its thread is in a callback, or comes and goes. */
 struct imp_call {
@@ -18,7 +18,7 @@ struct imp_call {
     const char *last; /* `type` of the callback begun last, also after its end */
 };
 
-/* This thread's. */
+/* Returns the record of this thread. */
 imp_call *active_callback_own(void);
 
 static inline imp_call *active_callback_begin(const char *type, const char *callback)

@@ -28,8 +28,8 @@ typedef struct arena_growth {
     size_t first, factor, most; /* bytes, 1, bytes */
 } arena_growth;
 
-/* Room of `bytes`, a multiple of 8, in the newest block; NULL: that has too little left. May be
- * called by several threads at once. */
+/* Takes room of `bytes`, a multiple of 8, in the newest block. NULL: too little is left there.
+ * Several threads may call it at once. */
 static inline void *arena_next(arena *a, size_t bytes)
 {
     arena_block *newest = atomic_load_explicit(&a->newest, memory_order_acquire);
@@ -38,7 +38,7 @@ static inline void *arena_next(arena *a, size_t bytes)
     return at + bytes <= newest->capacity ? (char *)newest->memory + at : NULL;
 }
 
-/* Room of `bytes` in the newest block, or in a new one, whose size is added to *made; NULL: no
+/* Takes room of `bytes` in the newest block or in a new one, whose size is added to *made. NULL: no
  * memory. Only one thread at a time may call it; others may call arena_next meanwhile. */
 void *arena_take(arena *a, const arena_growth *growth, size_t bytes, size_t *made);
 

@@ -5,7 +5,7 @@
 
 #include "core/base/status.h"
 
-/* Where something stands that a person wrote
+/* Where something stands in what a person wrote
  * ==========================================
  * A chain from the inside out, on the stack of those who read: each level hands a place to
  * the next, and an error is reported with the whole chain in front.
@@ -21,17 +21,17 @@ typedef struct place {
     bool argument; /* an argument, or a stage of it: below it, words */
 } place;
 
-/* A document called `name`. */
+/* Makes the place of a document called `name`. */
 place place_document(const char *name);
 
-/* An argument called `name`, or with `up` a stage of that argument. */
+/* Makes the place of an argument called `name` or, with `up`, of a stage of that argument. */
 place place_argument(const place *up, const char *name);
 
-/* The member `key`, or element `index`, of what stands at `up`. */
+/* Makes the place of the member `key`, or element `index`, of what stands at `up`. */
 place place_key(const place *up, const char *key);
 place place_index(const place *up, size_t index);
 
-/* error_set with the place in front. */
+/* Does what error_set does, with the place in front of the text. */
 imp_code place_error(const place *at, imp_error *error, imp_code code, const char *format, ...)
     STATUS_PRINTF_(4, 5);
 

@@ -35,13 +35,13 @@
                        ((roundings) + 2 <= (pad) || ((roundings) == 1 && (pad) == 2)),             \
                    "a pad outweighs its roundings")
 
-/* What underflow can take away. A product loses 2^-1075 at most: fewer than 32 of them lose less
- * than PRODUCTS_UNDERFLOW. A square lost is below 2^-1074 and so its root below 2^-537: the root of
- * a sum of nine, times a factor below 2^100, loses less than ROOT_UNDERFLOW. */
+/* Bounds of what underflow can take away. A product loses 2^-1075 at most: fewer than 32 of them
+ * lose less than PRODUCTS_UNDERFLOW. A square lost is below 2^-1074 and so its root below 2^-537:
+ * the root of a sum of nine, times a factor below 2^100, loses less than ROOT_UNDERFLOW. */
 #define PRODUCTS_UNDERFLOW 0x1p-1070
 #define ROOT_UNDERFLOW 0x1p-400
 
-/* At least, and at most, what x >= 0 is in exact arithmetic; `pad` by PAD_COVERS. */
+/* An upper and a lower bound of what x >= 0 is in exact arithmetic; `pad` by PAD_COVERS. */
 static inline double padded_upper(double x, int pad) { return x + x * (pad * UNIT_ROUNDOFF); }
 
 /* padded_upper in each lane. */
@@ -64,7 +64,8 @@ static inline double double_above(double x)
     return x;
 }
 
-/* x + y rounded up, x - y rounded down; never the exact value's wrong side, whatever underflows. */
+/* Return x + y rounded up and x - y rounded down: never on the wrong side of the exact value,
+ * whatever underflows. */
 static inline double sum_upper(double x, double y) { return double_above(x + y); }
 static inline double difference_lower(double x, double y) { return -double_above(-(x - y)); }
 

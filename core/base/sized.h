@@ -36,8 +36,8 @@ static inline imp_code sized_check(const char *name, const void *sized, size_t f
                      (unsigned long)size, first, SIZED_MAX, name);
 }
 
-/* Copies what the program knows of over the library's own, which keeps its size and, in what the
- * program does not know, its values. What only a newer library would understand is refused. */
+/* Copies the program's struct over the library's own, which keeps its size and the values of fields
+ * that the program does not know. Fields that only a newer library would understand are refused. */
 static inline imp_code sized_read(const char *name, void *own, const void *given, size_t first,
                                   imp_error *error)
 {
@@ -56,7 +56,8 @@ static inline imp_code sized_read(const char *name, void *own, const void *given
     return IMP_SUCCESS;
 }
 
-/* Copies the library's own to the program's, as much as that holds; the rest of it becomes 0. */
+/* Copies the library's struct to the program's, as far as that reaches; the rest of the program's
+ * becomes 0. */
 static inline void sized_write(void *to, const void *own)
 {
     const uint32_t size = sized_size(to), known = sized_size(own);

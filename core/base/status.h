@@ -27,7 +27,7 @@ void error_prefix(imp_error *error, const char *format, ...) STATUS_PRINTF_(2, 3
 /* IMP_ERROR_USAGE: a function of the public header needs an argument that is NULL. */
 imp_code error_set_missing(imp_error *error, const char *function);
 
-/* The one text for memory that ran out. */
+/* Sets the one text for memory that ran out. */
 imp_code error_set_memory(imp_error *error);
 
 #endif

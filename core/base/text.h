@@ -13,29 +13,30 @@
 
 #define TEXT_NAME_MAX 63 /* bytes of a type's, parameter's or plugin's name */
 
-/* 1 to 63 letters of ASCII, digits, or characters of `extra`, a letter first. NULL is not a
- * name. */
+/* Whether the text is a name: 1 to 63 ASCII letters, digits, or characters of `extra`, a letter
+ * first. NULL is not a name. */
 bool text_is_name(const char *s, const char *extra);
 
 bool text_is_utf8(const char *s);
 
-/* Valid UTF-8 without control characters: fit for a terminal and for JSON. NULL is not a line. */
+/* Whether the text is a line: valid UTF-8 without control characters, fit for a terminal and for
+ * JSON. NULL is not a line. */
 bool text_is_line(const char *s);
 
-/* Makes a line of anything: control characters and broken UTF-8 become '?'. In place. */
+/* Makes a line of any text, in place: control characters and broken UTF-8 become '?'. */
 void text_clean(char *s);
 
 /* Appends to the NUL-terminated text in buffer[size]; what does not fit is cut. */
 void text_append(char *buffer, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* The shortest decimal that reads back as x, with a point in every locale. */
+/* Writes the shortest decimal that reads back as x, with a point in every locale. */
 typedef struct text_number {
     char at[32];
 } text_number;
 text_number text_of_number(double x);
 
-/* Characters (not bytes) in the first `bytes` bytes of UTF-8. */
+/* Counts the characters (not bytes) in the first `bytes` bytes of UTF-8. */
 size_t text_characters(const char *s, size_t bytes);
 
 #endif

@@ -24,8 +24,8 @@ typedef struct broad_phase_visitor {
     void *context;
 } broad_phase_visitor;
 
-/* Visits in the order of the sweep; a few boxes in any order. False from a callback stops the
- * visit and is returned. Sorts `boxes`. */
+/* Visits the pairs in the order of the sweep, or in any order if there are few boxes. False from a
+ * callback stops the visit and is returned. Sorts `boxes`. */
 bool broad_phase_visit(swept_box *boxes, size_t count, double gamma_clear,
                        const broad_phase_visitor *visitor);
 

@@ -20,7 +20,7 @@ typedef struct candidate {
     bool moves;        /* then: a point of it was seen to; never of one that has pieces */
 } candidate;
 
-/* Two of different bodies that may come near each other. */
+/* Two candidates of different bodies that may come near each other. */
 typedef struct candidate_pair {
     candidate *side[2];
     /* >= surface_slip of either along the other, over all times of both; 0: not asked yet */

@@ -29,20 +29,21 @@ typedef struct candidate_list {
     bool owns_trees; /* else they are the scene's */
 } candidate_list;    /* begins as {0}, and stays where it is once filled; candidates_clear frees */
 
-/* Asked for every few surfaces and boxes: whether a limit of the query is reached, with the bytes
- * that the list and the new trees hold. In between, and by threads that look ahead: whether one is
- * so near that it is to be asked, or that they had better stop, with the bytes and pairs made
- * since. [is_near: any thread] */
+/* How the caller limits the work. is_reached is asked after every few surfaces and boxes, with the
+ * bytes that the list and the new trees hold: whether a limit of the query is reached. is_near is
+ * asked in between, and by threads that look ahead, with the bytes and pairs made since then:
+ * whether a limit is so near that is_reached has to be asked, or that the threads should stop.
+ * [is_near: any thread] */
 typedef struct candidate_limit {
     bool (*is_reached)(void *context, uint64_t bytes, uint64_t pairs);
     bool (*is_near)(void *context, uint64_t bytes, uint64_t pairs);
     void *context;
 } candidate_limit;
 
-/* Fills an empty list; the nodes made for it are added to `stats`. The trees are the scene's.
- * `may_rest`: pairs that turn within themselves may have trees of one moment; false where parts of
- * the times are asked for. Where a limit ends it, the list is empty again and not complete; after
- * that, or a failure, it may be filled again. */
+/* Fills an empty list with the scene's trees; the nodes made for it are added to `stats`.
+ * `may_rest`: pairs that turn within themselves may have trees of one moment; false if parts of the
+ * times are asked for. If a limit ends it, the list is empty again and not complete; after that, or
+ * a failure, it may be filled again. */
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
                          double gamma_clear, bool may_rest, const candidate_limit *limit,
                          imp_stats *stats, imp_error *error);

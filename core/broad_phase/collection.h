@@ -13,7 +13,7 @@
  * collect_surfaces.c, collect_pairs.c and collect_roots.c fill it, each also with threads that look
  * ahead. */
 
-/* A surface whose tree is made ahead of its turn, and what that has made. */
+/* A surface whose tree is made ahead of its turn, and what making it has added. */
 typedef struct surface_ahead {
     size_t body, surface;
     tree_growth growth;
@@ -75,8 +75,9 @@ typedef struct collection {
     atomic_uint_least64_t bytes_ahead;
 } collection;
 
-/* Whether a limit ends it now; whether one is so near that threads that look ahead stop, with
- * bytes_ahead of trees (pair_size 0) or of pairs of this size. [collection_may_end: any thread] */
+/* collection_must_end tells whether a limit ends the collection now; collection_may_end, whether a
+ * limit is so near that threads that look ahead stop, with bytes_ahead of trees (pair_size 0) or of
+ * pairs of this size. [collection_may_end: any thread] */
 static inline bool collection_must_end(const collection *all)
 {
     return all->limit->is_reached(all->limit->context, candidates_bytes(all->list),
@@ -98,21 +99,21 @@ static inline void collection_count(collection *all, const tree_growth *growth)
 /* *done: all surfaces are there; otherwise a limit came first. */
 imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error);
 
-/* Counts the trees that were made, but whose turn does not come: they are the scene's all the
+/* Counts the trees that were made but whose turn does not come: they belong to the scene all the
  * same. */
 void collection_count_rest(collection *all);
 
 /* False: a limit, or no memory, which all->out_of_memory tells. */
 bool collection_add_pairs(collection *all);
 
-/* How many of their last maps all surfaces have in common, as surface_common_motion. */
+/* Counts the last maps that all surfaces have in common, as surface_common_motion does for two. */
 size_t collection_common_motion(const imp_scene *scene);
 
 /* Gives the surfaces of each pair trees without the motion that both have in common; *done as
  * above. */
 imp_code collection_use_frames(collection *all, bool *done, imp_error *error);
 
-/* A surface as a tree is to hold it. */
+/* The form in which a tree is to hold a surface. */
 typedef struct surface_view {
     size_t body, surface;
     size_t left_out; /* maps, counted from the last */

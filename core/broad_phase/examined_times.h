@@ -5,8 +5,8 @@
 
 #include "core/scene/scene.h"
 
-/* Which times a query examines
- * ============================
+/* The times that a query examines
+ * ==============================
  * Two surfaces are compared at the times at which both exist. Outside of their times surfaces of
  * some types do not exist (IMP_FLAG_ABSENT_OUTSIDE_TIMES), and touch nothing. Any other type or map
  * leaves open where its surface is outside of its times: nothing can be proved about those, so a

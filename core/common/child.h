@@ -27,7 +27,7 @@ typedef struct child_fate {
     int number;
 } child_fate;
 
-/* Zeroed memory that children share, or NULL. */
+/* Allocates zeroed memory that children share. NULL: no memory. */
 void *child_memory(size_t size);
 void child_memory_free(void *memory, size_t size);
 

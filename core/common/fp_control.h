@@ -21,7 +21,7 @@ typedef uint64_t fp_mode;
 #define FP_MODE_X87 0x0F3Fu  /* x87 control word: masks of traps (0 to 5), precision, rounding */
 #define FP_MODE_X87_SHIFT 32 /* its place in an fp_mode, above MXCSR */
 
-/* What FE_DFL_ENV sets: all exceptions masked; x87: 64 bits. */
+/* The mode that FE_DFL_ENV sets: all exceptions masked; x87: 64 bits. */
 #define FP_MODE_DEFAULT ((fp_mode)0x033Fu << FP_MODE_X87_SHIFT | 0x1F80u)
 
 static inline fp_mode fp_mode_read(void)
@@ -87,7 +87,7 @@ static inline bool fp_mode_is_default(void)
 #endif
 }
 
-/* True if the mode still is `before`; otherwise puts it back and answers false. */
+/* Returns true if the mode is still `before`; otherwise puts it back and returns false. */
 static inline bool fp_mode_kept(fp_mode before)
 {
     if (fp_mode_read() == before) return true;

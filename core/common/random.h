@@ -17,7 +17,7 @@ static inline uint64_t random_bits(uint64_t *state)
     return z ^ (z >> 31);
 }
 
-/* In [0, 1), a multiple of 2^-53. */
+/* Draws a number in [0, 1), a multiple of 2^-53. */
 static inline double random_fraction(uint64_t *state)
 {
     return (double)(random_bits(state) >> 11) * 0x1p-53;
@@ -28,7 +28,7 @@ static inline double random_between(uint64_t *state, double lo, double hi)
     return lo + (hi - lo) * random_fraction(state);
 }
 
-/* 2^k, k uniform in [lo, hi]. */
+/* Draws 2^k, k uniform in [lo, hi]. */
 static inline double random_power(uint64_t *state, double lo, double hi)
 {
     return exp2(random_between(state, lo, hi));

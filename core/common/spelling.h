@@ -21,8 +21,8 @@ typedef struct spelling_search {
 
 void spelling_offer(spelling_search *search, const char *candidate);
 
-/* Edits that turn a into b: a letter changed, inserted or removed, two neighbours swapped. SIZE_MAX
- * if one is longer than SPELLING_NAME_MAX. */
+/* Counts the edits that turn a into b: a letter changed, inserted or removed, two neighbours
+ * swapped. SIZE_MAX if one of them is longer than SPELLING_NAME_MAX. */
 size_t spelling_distance(const char *a, const char *b);
 
 #endif

@@ -6,7 +6,7 @@
 #include <errno.h>
 #include <string.h>
 
-/* strerror, with the cure where that is a limit of the process or the system. */
+/* Like strerror, with the cure if the error is a limit of the process or the system. */
 static inline const char *system_error_text(int number)
 {
     switch (number) {

@@ -8,9 +8,9 @@
 
 #include "core/base/place.h"
 
-/* Typed values to the object {"type": type, parameters} that a scene file would have: the same
- * doubles, without text. Whether they fit the type is judged from there. The caller owns
- * *object. */
+/* Makes of typed values the object {"type": type, parameters} that a scene file would have, with
+ * the same doubles and without text. Whether they fit the type is judged later, as for a file. The
+ * caller owns *object. */
 imp_code arguments_to_json(const char *type, const imp_argument *arguments, size_t count,
                            const place *at, json_t **object, imp_error *error);
 

@@ -25,7 +25,8 @@ typedef struct instance_table {
     size_t count, capacity;
 } instance_table; /* begins as {0} */
 
-/* The instance that was made from an equal description, or NULL. It stays the table's. */
+/* Returns the instance that was made from an equal description, or NULL. The table still owns
+ * it. */
 shared_instance *instance_table_find(const instance_table *t, imp_type_kind kind,
                                      const json_t *from);
 

@@ -7,7 +7,7 @@
 
 #include "core/base/status.h"
 
-/* The value as compact text. NULL: no memory. The caller frees it by free(). */
+/* Writes the value as compact text, which the caller frees by free(). NULL: no memory. */
 char *json_text_of(const json_t *value, imp_error *error);
 
 #endif

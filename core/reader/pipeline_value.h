@@ -7,7 +7,7 @@
 
 #include <impinge/impinge.h>
 
-/* A value as people type it
+/* A value as it is typed on a command line
  * =========================
  *     .5  ->  0.5      1,0,0  ->  [1,0,0]      sin(u)  ->  "sin(u)" where a string is wanted
  *

@@ -17,7 +17,7 @@ typedef struct scene_bodies {
     imp_error *error;
 } scene_bodies;
 
-/* Clear it also if it could not begin. */
+/* Begins an empty list. Clear it even if this fails. */
 imp_code scene_bodies_start(scene_bodies *b, const scene_source *source, imp_error *error);
 void scene_bodies_clear(scene_bodies *b);
 
@@ -31,10 +31,11 @@ imp_code scene_bodies_set_parent(scene_bodies *b, size_t body, const char *paren
 imp_code scene_bodies_ignore(scene_bodies *b, const char *x, const place *at_x, const char *y,
                              const place *at_y);
 
-/* A body that is its own ancestor, in *body; its chain in an error at `at`. */
+/* Answers the error for a body that is its own ancestor, at `at`; it names the chain of parents. */
 imp_code scene_bodies_refuse_cycle(const scene_bodies *b, size_t body, const place *at);
 
-/* The scene, put together; all is cleared. NULL: no memory, or too large. */
+/* Puts the scene together and clears everything else. NULL: no memory, or the scene is too
+ * large. */
 imp_scene *scene_bodies_finish(scene_bodies *b, const place *at);
 
 #endif

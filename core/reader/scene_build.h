@@ -23,7 +23,8 @@ typedef struct scene_source {
                            NULL: where the process does */
 } scene_source;
 
-/* The surface, without maps, or the map that `object` at `at` asks for. The caller holds *made. */
+/* Makes the surface, without maps, or the map that `object` at `at` asks for. The caller holds
+ * *made. */
 imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
                             const place *at, shared_instance **made, imp_error *error);
 
@@ -33,8 +34,8 @@ typedef struct scene_build_note {
     char text[340]; /* one line, with the parameter's name in front */
 } scene_build_note;
 
-/* What it begins with: the type and what its create made. The caller owns *instance. `note` may be
- * NULL. */
+/* Makes an instance that is not shared: the type, and what its create made. The caller owns
+ * *instance. `note` may be NULL. */
 imp_code scene_build_instance(const scene_source *source, imp_type_kind kind, const json_t *object,
                               const place *at, imp_instance *instance, scene_build_note *note,
                               imp_error *error);

@@ -47,11 +47,11 @@ typedef struct scene_instances {
     imp_error *error;
 } scene_instances;
 
-/* Takes note of the definitions; the scene `root` at `at` must live as long. */
+/* Notes the definitions. The scene `root` at `at` must live as long. */
 imp_code scene_instances_begin(scene_instances *p, const json_t *root, const place *at);
 void scene_instances_clear(scene_instances *p);
 
-/* The instance that the object describes: an equal one that was made before, or a new one. The
+/* Gets the instance that the object describes: an equal one that was made before, or a new one. The
  * caller releases it. */
 imp_code scene_instances_make(scene_instances *p, imp_type_kind kind, json_t *object,
                               const place *at, shared_instance **made);

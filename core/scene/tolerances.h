@@ -10,8 +10,9 @@
 
 double tolerances_clear(double gamma, double gamma_clear);
 
-/* 0 < gamma < infinity and gamma_clear < gamma. Otherwise, or where one is NaN, IMP_ERROR_SCENE,
- * with the key of the scene at `document`, or, where that is NULL, IMP_ERROR_USAGE. */
+/* Checks that 0 < gamma < infinity and gamma_clear < gamma, and that neither is NaN. Otherwise it
+ * fails: IMP_ERROR_SCENE with the key of the scene at `document`, or IMP_ERROR_USAGE if `document`
+ * is NULL. */
 imp_code tolerances_check(double gamma, double gamma_clear, const place *document,
                           imp_error *error);
 
