@@ -15,6 +15,7 @@ check_suites = \
     tests/fuzz/scene \
     tests/unit/test_alloc_failure \
     tests/unit/test_api \
+    tests/unit/test_arena \
     tests/unit/test_callers_mode \
     tests/unit/test_clearance \
     tests/unit/test_broad_phase \
@@ -64,6 +65,7 @@ check_suites = \
     tests/unit/test_scene_file \
     tests/unit/test_scene_judge \
     tests/unit/test_separation \
+    tests/unit/test_strategy \
     tests/unit/test_shared_motion \
     tests/unit/test_series \
     tests/unit/test_upper_times \
