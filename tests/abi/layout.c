@@ -105,7 +105,10 @@ static void types(void)
     FIELD(imp_surface_type, rate), FIELD(imp_surface_type, include);
     FIELD(imp_surface_type, net);
     FIELD(imp_surface_type, piece_count), FIELD(imp_surface_type, piece);
-    CALL(imp_surface_type, piece_count, size_t(*)(const void *));
+    /* The table has this space, which clang-format would take. */
+    /* clang-format off */
+    CALL(imp_surface_type, piece_count, size_t (*)(const void *));
+    /* clang-format on */
     CALL(imp_surface_type, piece, const void *(*)(const void *, size_t));
     FIELD(imp_surface_type, distance);
     CALL(imp_surface_type, distance, imp_status(*)(const void *, const imp_model *, imp_model *));

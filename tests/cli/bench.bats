@@ -227,7 +227,7 @@ counts() { jq 'del(.. | .seconds?)' <<<"$output"; }
 @test "repeats are one or more, and a seed belongs to a count" {
     fails 2 "--repeat must be at least 1, not '0'" "$IMPINGE" bench --repeat 0
     fails 2 '`make tools/impinge-tunable` builds' "$IMPINGE" bench --tune TUNING_GJK_GAP
-    fails 2 'leave out --method and --json' "$IMPINGE" bench --tune TUNING_GJK_GAP --json
+    fails 2 'leave out --method and --json' "$IMPINGE" bench --tune TUNING_GJK_GAP --method models
     fails 2 '--seed belongs to --count' "$IMPINGE" bench bicubic --seed 7
     fails 2 "--up-to must be at least 100, not '99'" "$IMPINGE" bench bodies --up-to 99
 }

@@ -100,11 +100,11 @@ prefix_of_our_own() {
     prefix_of_our_own
     PKG_CONFIG_PATH=$PWD/prefix/lib/pkgconfig pip_installs
     unset IMPINGE_LIBRARY
-    run -0 env -u PKG_CONFIG_PATH venv/bin/python -c 'import impinge
+    run -0 env -u PKG_CONFIG_PATH -u LD_LIBRARY_PATH venv/bin/python -c 'import impinge
 from impinge import _find, _library
 print(_find.library_folder(_library.library))'
     [ "$output" = "$PWD/prefix/lib" ]
     mv prefix moved
-    run -1 env -u PKG_CONFIG_PATH PATH="$PWD/venv/bin" venv/bin/python -c 'import impinge'
+    run -1 env -u PKG_CONFIG_PATH -u LD_LIBRARY_PATH PATH="$PWD/venv/bin" venv/bin/python -c 'import impinge'
     [[ $output == *'let IMPINGE_LIBRARY name its libimpinge.so.0'* ]]
 }

@@ -115,7 +115,9 @@ def make(scene: Handle, body: int, t: float, tolerance: Optional[float]) -> Mesh
     if tolerance is None and first:
         all_points = numpy.concatenate([grid.reshape(-1, 3) for grid in first])
         tolerance = _PART * float(numpy.linalg.norm(numpy.ptp(all_points, axis=0)))
-    points, triangles, count = [numpy.zeros((0, 3))], [numpy.zeros((0, 3), numpy.int64)], 0
+    points: List[Floats] = [numpy.zeros((0, 3))]
+    triangles: List[NDArray[numpy.int64]] = [numpy.zeros((0, 3), numpy.int64)]
+    count = 0
     for place, coarse in zip(pieces, first):
         bent = start > 2 or max(_bend(coarse, 0, 2), _bend(coarse, 1, 2)) > (tolerance or 0)
         grid = _thinned(_finest(sampler, place, start, tolerance or 0) if bent else coarse, tolerance or 0)

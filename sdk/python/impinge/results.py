@@ -5,7 +5,7 @@
 
 import ctypes as c
 from dataclasses import dataclass, fields
-from typing import Iterable, List, Literal, Optional, Tuple
+from typing import Any, Iterable, List, Literal, Optional, Tuple
 
 import numpy
 from numpy.typing import NDArray
@@ -204,10 +204,15 @@ def clearance_of(names: Tuple[str, ...], k: lib.Clearance) -> Clearance:
 _COLUMNS = ("t_start", "t_end", "lower", "upper", "t")
 
 
+def _listed(column: Any) -> List[Any]:
+    """A column of a structured array, whose kind NumPy's types do not tell."""
+    return list(column.tolist())
+
+
 def _bodies_of(names: Tuple[str, ...], chunk: "NDArray[numpy.void]") -> List[Optional[Bodies]]:
     """The two bodies of each witness, in tuples that slices share."""
-    pairs = list(zip(chunk["has_witness"].tolist(), chunk["a"]["body"].tolist(),
-                     chunk["b"]["body"].tolist()))
+    pairs = list(zip(_listed(chunk["has_witness"]), _listed(chunk["a"]["body"]),
+                     _listed(chunk["b"]["body"])))
     shared = {pair: (names[pair[1]], names[pair[2]]) if pair[0] else None for pair in set(pairs)}
     return [shared[pair] for pair in pairs]
 
@@ -221,7 +226,7 @@ def profile_of(names: Tuple[str, ...], chunks: Iterable["NDArray[numpy.void]"]) 
         for column, name in zip(columns, _COLUMNS):
             column.append(chunk[name].copy())
         bodies += _bodies_of(names, chunk)
-        verdicts += map(_REQUIREMENTS.__getitem__, chunk["verdict"].tolist())
+        verdicts += (_REQUIREMENTS[verdict] for verdict in _listed(chunk["verdict"]))
     t0, t1, lower, upper, t = (numpy.concatenate(column) for column in columns)
     return Profile(t0, t1, lower, upper, t, tuple(bodies), tuple(verdicts))
 

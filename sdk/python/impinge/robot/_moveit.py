@@ -3,6 +3,7 @@
 
 """MoveIt's planning scenes and motion plan requests, in YAML (which needs PyYAML)."""
 
+import importlib
 import math
 from typing import Any, Dict, List, Tuple
 
@@ -16,7 +17,7 @@ _SIZES = {"box": 3, "sphere": 1, "cylinder": 2, "cone": 2}
 
 def _load(path: str) -> Any:
     try:
-        import yaml
+        yaml: Any = importlib.import_module("yaml")
     except ImportError:
         raise SceneError(f"{path}: needs PyYAML (Debian: python3-yaml) to be read") from None
     try:
