@@ -12,9 +12,10 @@
  * that is nearer than was claimed refutes the claim: of the distance, or of the symmetry by which
  * it was taken to hold at all times. */
 
-/* What was asked, and answered: g bounds the distance of points of q->a from the surface of q->b,
- * over the region of q->a, which is no cluster; where distance_slides(q), for all times. `when` are
- * times of both nodes. IMP_ERROR_PLUGIN: it is refuted. */
+/* Tests the answer g to the question q: that g bounds the distance of points of q->a from the
+ * surface of q->b over the region of q->a, which is no cluster, and at all times if
+ * distance_slides(q). `when` lies in the times of both nodes. IMP_ERROR_PLUGIN: the claim is
+ * refuted. */
 imp_code claim_audit_run(const distance_question *q, const imp_model *g, const time_window *when,
                          imp_error *error);
 

@@ -5,7 +5,7 @@
 
 #include "core/bounds/time_window.h"
 
-/* Two nodes' models, re-centred on a window of time and seen from each other. */
+/* The Minkowski difference of two nodes' Taylor models, re-centred on a window of time. */
 
 /* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v that
  * holds at its middle, and how its slopes turn with w. x, y, z and a 0, here and below. */
@@ -39,7 +39,7 @@ enum { DIFFERENCE_ROUNDING = 4 };
 
 void difference_at(const node *a, const node *b, const time_window *window, difference *r);
 
-/* The offset at w, about. */
+/* Estimates the offset at w. */
 static inline vec3 difference_offset(const difference *r, double w)
 {
     vec3 x;

@@ -14,7 +14,7 @@
  * it (imp_surface_type.distance), parts the node from all of them at once: it is a Taylor model
  * over the node, in which what is parallel cancels, however small the gap. */
 
-/* What a node's distance from the surface of another shows over a window. */
+/* What a node's distance from the other node's whole surface shows over a window. */
 typedef struct distance_view {
     bool is_apart;     /* farther than gamma_clear all the time */
     bool is_promising; /* no: but halves of the node, which have smaller remainders, may be */
@@ -22,15 +22,15 @@ typedef struct distance_view {
     double bend[3];    /* how far u, v and t bend points beside the other surface, about; length */
 } distance_view;
 
-/* Nothing is known yet. */
+/* Returns a view in which nothing is known yet. */
 distance_view distance_view_none(const node *a);
 
 /* Whether distances of points of a from the surface of b are known, and worth asking for
  * (strategy_distance_pays). */
 bool distance_is_known(const node *a, const node *b);
 
-/* What is asked. Where a slides along b within itself, but for `slip`, its points are taken where
- * they are at one moment (surface_slip): then time costs nothing. */
+/* The question that distance_cut answers. If a's motion relative to b, modulo b's symmetry, is
+ * within `slip`, a's points are taken at one moment (surface_slip), so that time costs nothing. */
 typedef struct distance_question {
     const node *a, *b;
     const surface_plane
@@ -41,14 +41,14 @@ typedef struct distance_question {
     bool is_audited; /* hold what decides against points (claim_audit.h) */
 } distance_question;
 
-/* Whether a slides along b within itself, but for what is little beside gamma_clear. */
+/* Whether a's motion relative to b, modulo b's symmetry, is small against gamma_clear. */
 bool distance_slides(const distance_question *q);
 
 /* Cuts the window, which lies in both nodes' times, to the times at which points of a may be within
- * the gamma_clear of the whole surface of b, or of its plane; empty: *view says so, and the window
- * stays. Preconditions: distance_is_known, or there is a plane and distance_slides; both bounded;
- * no map of b alone turns it further (surface_still_maps), or distance_slides. IMP_ERROR_PLUGIN:
- * the callback breaks the ABI. */
+ * gamma_clear of the whole surface of b, or of its plane. If no time is left, *view says so and the
+ * window stays as it is. Preconditions: distance_is_known, or there is a plane and distance_slides;
+ * both bounded; no map of b alone turns it further (surface_still_maps), or distance_slides.
+ * IMP_ERROR_PLUGIN: the callback breaks the ABI. */
 imp_code distance_cut(const distance_question *q, time_window *window, distance_view *view,
                       imp_error *error);
 

@@ -10,10 +10,10 @@
  * Four axes at a time in vector lanes: the one that gjk_axis.h finds, and three that the nodes
  * suggest. What an axis proves does not depend on how it was found. */
 
-/* Cuts the range of w to the w at which no axis shows the nodes apart; false: none is left. `axis`
- * holds the axis that was best for the parents, or 0, and is given the best at the focus, or 0
- * where none parts the nodes there; no length is meant. What the axes prove of the distance is
- * added to `lines`, unless NULL. */
+/* Cuts the range of w to the w at which no axis proves the nodes farther apart than gamma_clear.
+ * False: none is left. `axis` holds the axis that was best for the parents, or 0; it becomes the
+ * best axis at the focus, of any length, or 0 if none parts the nodes there. What the axes prove of
+ * the distance is added to `lines`, unless NULL. */
 bool fixed_axes_cut(const difference *r, double gamma_clear, w_range *s, vec3 *axis,
                     gap_lines *lines);
 

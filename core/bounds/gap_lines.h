@@ -5,7 +5,7 @@
 
 #include "core/bounds/difference.h"
 
-/* How far apart two nodes stay over a window
+/* Lower bounds of the distance of two nodes over a window
  * ==========================================
  * Each separating axis proves a lower bound of the distance that is linear in w (fixed_axes.h,
  * normal_field.h). At every w the greatest of these lines holds: their upper envelope is convex,
@@ -22,14 +22,15 @@ typedef struct gap_lines {
     int count;
 } gap_lines;
 
-/* Begins with the line 0. */
+/* Begins a set of lines with the line 0. */
 void gap_lines_begin(gap_lines *lines);
 
 /* `length` times the distance is at least low + drift w, rounding included. Adds nothing where that
  * is never above 0, or NaN. */
 void gap_lines_add(gap_lines *lines, double low, double drift, double length);
 
-/* A lower bound of the distance over the range; *w is where the envelope is lowest, about. */
+/* Returns a lower bound of the distance over the range; *w becomes a w near which the envelope is
+ * lowest. */
 double gap_lines_lower(const gap_lines *lines, w_range range, double *w);
 
 #endif

@@ -63,7 +63,8 @@ IMP_QUAD_INLINE bool is_beyond(vec3 a, vec3 b, vec3 c, vec3 d)
     return !(vec3_dot(n, vec3_sub(d, a)) * vec3_dot(n, a) < 0);
 }
 
-/* On the faces at a that the origin is beyond; count 0: it is inside. */
+/* The nearest point on the faces at a beyond which the origin lies; count 0: the origin is
+ * inside. */
 IMP_QUAD_INLINE simplex on_tetrahedron(vec3 a, vec3 b, vec3 c, vec3 d)
 {
     simplex s = {.count = 0, .square = INFINITY};

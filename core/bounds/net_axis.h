@@ -16,8 +16,8 @@
  * was. */
 bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 
-/* Cuts the window, which lies in both nodes' times, to the part in which the axis does not show the
- * nodes farther apart than gamma_clear; false: none is left. */
+/* Cuts the window, which lies in both nodes' times, to the part in which the axis does not prove
+ * the nodes farther apart than gamma_clear. False: none is left. */
 bool net_axis_cut(const node *a, const node *b, vec3 axis, double gamma_clear, time_window *window);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "core/bounds/net_hull.h"
 
-/* Halves of nodes that an axis excludes
+/* Halves of nodes that an axis proves out of reach
  * =====================================
  * The heights of a half's control points along an axis are known before the half is made: de
  * Casteljau on the heights of the node's. Nothing is found unless both nodes have a net that was
@@ -34,7 +34,7 @@ typedef struct net_heights {
 typedef struct net_halves {
     int count;
     net_half found[NET_HALVES_MOST];
-    bool has_heights; /* else what follows means nothing */
+    bool has_heights; /* if false, the other fields are not set */
     time_window window;
     double limit;
     window_ends at; /* how far the places are apart along the axis */

@@ -164,7 +164,7 @@ static inline double net_limit_upper(vec3 n, double gamma_clear, double slack)
 
 /* --- Between two nets ------------------------------------------------------------------------- */
 
-/* How far B's place is from A's at time t. */
+/* The difference of B's place and A's at time t. */
 IMP_QUAD_INLINE imp_quad places_between(const net *a, const net *b, double t)
 {
     const imp_quad apart = imp_quad_load(b->place) - imp_quad_load(a->place);
@@ -211,7 +211,7 @@ IMP_QUAD_INLINE double slack_upper(const net *a, const net *b, vec3 n, const tim
 
 PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
 
-/* How far places are apart along n, at the window's ends. */
+/* The difference of the places along n, at the window's ends. */
 IMP_QUAD_INLINE window_ends places_along(const net *a, const net *b, vec3 n, const time_window *w)
 {
     const imp_quad along = {n.x[0], n.x[1], n.x[2], 0};

@@ -15,8 +15,9 @@
  * terms of third order. Pairs near contact need a size, and a time, like the cube root of the gap
  * instead of the square root. */
 
-/* Cuts the range of w to the w at which the field does not show the nodes apart; false: none is
- * left. What the field proves of the distance is added to `lines`, unless NULL. */
+/* Cuts the range of w to the w at which the field does not prove the nodes farther apart than
+ * gamma_clear. False: none is left. What the field proves of the distance is added to `lines`,
+ * unless NULL. */
 bool normal_field_cut(const difference *r, double gamma_clear, w_range *s, gap_lines *lines);
 
 #endif

@@ -8,13 +8,13 @@
 
 /* When can two nodes be near?
  * ===========================
- * Times in a window at which no axis shows the two inclusions apart. Outside the window that
- * is left, the nodes' points are farther than `gamma_clear` from each other: proved, rounding
+ * Finds the times in a window at which no axis proves the two inclusions apart. Outside the window
+ * that is left, the nodes' points are farther than `gamma_clear` from each other: proved, rounding
  * included. A NaN or an infinity anywhere leaves the window as it is. */
 
-/* Shrinks `window`, which lies in both nodes' times; false: nothing of it is left. `axis` is as for
- * fixed_axes_cut. `turning`: the candidate pair's chances of axes that turn (normal_field.h) where
- * fixed axes cut the start of the window; NULL: each is taken. */
+/* Shrinks `window`, which lies in both nodes' times. False: nothing of it is left. `axis` is as for
+ * fixed_axes_cut. `turning` counts the candidate pair's trials of turning axes (normal_field.h)
+ * where fixed axes cut the start of the window; NULL: each chance is taken. */
 bool separation_window(const node *a, const node *b, double gamma_clear, time_window *window,
                        vec3 *axis, trial_rate *turning);
 
@@ -27,7 +27,7 @@ bool separation_without_nets(const node *a, const node *b, double gamma_clear, t
 bool separation_first_look(const node *a, const node *b, double gamma_clear, time_window *window,
                            vec3 *axis, trial_rate *turning, bool *more);
 
-/* How near two nodes come. */
+/* What is known of how near two nodes come. */
 typedef struct approach {
     double lower;  /* bound of the distance; length */
     double moment; /* where in the window it is lowest, about; axes are chosen for it */
@@ -39,15 +39,16 @@ typedef struct approach {
 bool separation_approach(const node *a, const node *b, double gamma_clear, time_window *window,
                          vec3 *axis, approach *near);
 
-/* Lower bound of the distance of the bounding boxes over the whole of the nodes' times. */
+/* Returns a lower bound of the distance of the bounding boxes over the whole of the nodes'
+ * times. */
 double separation_boxes_lower(const node *a, const node *b);
 
-/* The paper's test: bounding boxes over the whole of the nodes' times (eqs. 20-22), or balls
- * (section 3.2), farther apart than `gamma_clear`. */
+/* The paper's test: whether bounding boxes over the whole of the nodes' times (eqs. 20-22), or
+ * balls (section 3.2), are farther apart than `gamma_clear`. */
 bool separation_of_boxes(const node *a, const node *b, double gamma_clear);
 bool separation_of_balls(const node *a, const node *b, double gamma_clear);
 
-/* Length of the longest way from a point of one to a point of the other, about; the paper's
+/* Estimates the greatest distance of a point of one node from a point of the other. The paper's
  * termination (eq. 6) compares it with gamma. */
 double separation_farthest_of_boxes(const node *a, const node *b);
 double separation_farthest_of_balls(const node *a, const node *b);

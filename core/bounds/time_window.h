@@ -14,11 +14,10 @@ typedef struct time_window {
     double lo, hi; /* lo <= hi */
 } time_window;
 
-/* More than what two products that underflow are off by: windows are cut with that much to
- * spare. */
+/* More than the error of two products that underflow. Windows are cut with that much to spare. */
 #define WINDOW_TINY 0x1p-1070
 
-/* From its middle to either end, rounded up. */
+/* Returns the distance from the window's middle to either end, rounded up. */
 PAD_COVERS(4, 1); /* one difference */
 static inline double window_half_upper(const time_window *window, double mid)
 {
@@ -26,13 +25,13 @@ static inline double window_half_upper(const time_window *window, double mid)
     return padded_upper(above > below ? above : below, 4);
 }
 
-/* What lies in both; lo > hi: nothing. */
+/* The intersection of two windows; lo > hi: it is empty. */
 time_window window_common(time_window x, time_window y);
 
-/* The times of both nodes. */
+/* The times that both nodes have. */
 time_window pair_times(const node *a, const node *b);
 
-/* Where w may be: [lo, hi] within [-1, 1]. */
+/* The range in which w may be: [lo, hi] within [-1, 1]. */
 typedef struct w_range {
     double lo, hi;
 } w_range;

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* How often something paid
+/* How often a trial paid
  * ========================
  * A step that costs much and helps in few scenes is tried at each chance as long as it pays, else
  * now and then. Each search counts for each candidate pair, in the order of its steps: the search

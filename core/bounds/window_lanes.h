@@ -34,7 +34,7 @@ IMP_QUAD_INLINE void window_lanes_add(window_lanes *c, imp_quad low, imp_quad dr
     c->lo = imp_quad_pick(some & (drift < imp_quad_all(0)), imp_quad_max(w - slack, c->lo), c->lo);
 }
 
-/* Cuts s by all of them; false: nothing is left. */
+/* Cuts s by all lanes. False: nothing is left. */
 IMP_QUAD_INLINE bool window_lanes_take(w_range *s, const window_lanes *c)
 {
     if (imp_quad_any(c->gone)) return false;

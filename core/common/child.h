@@ -18,7 +18,7 @@ typedef enum child_end {
     CHILD_KILLED,  /* by the signal `number` */
     CHILD_EXITED,  /* with the status `number`; -1: unknown, the program has others wait for it */
     CHILD_LATE,    /* killed at the deadline */
-    CHILD_STOPPED, /* the same, and until then stopped from outside by the signal `number` */
+    CHILD_STOPPED, /* killed at the deadline; the signal `number` from outside had stopped it */
     CHILD_NOT_RUN  /* no process or pipe: `number` is the errno */
 } child_end;
 

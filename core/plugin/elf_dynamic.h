@@ -25,7 +25,7 @@ bool elf_dynamic_find(const elf_dynamic *d, Elf64_Sxword tag, uint64_t *value);
 /* Whether the file has the bytes that are loaded at that address. */
 bool elf_dynamic_has(const elf_dynamic *d, uint64_t address, uint64_t length);
 
-/* Reads them; false: it has not. */
+/* Reads the bytes that are loaded at that address. False: the file does not have them. */
 bool elf_dynamic_load(const elf_dynamic *d, uint64_t address, void *to, size_t length);
 
 #endif

@@ -41,7 +41,7 @@ bool elf_file_segment(elf_file *file, unsigned index, Elf64_Phdr *segment);
 /* The descriptor of the first note of that owner and type in any note segment. */
 elf_span elf_file_find_note(elf_file *file, const char *owner, uint32_t type);
 
-/* In words: "64-bit", "little-endian", "x86-64". */
+/* Name the file's kind in words: "64-bit", "little-endian", "x86-64". */
 const char *elf_class_name(unsigned char class);
 const char *elf_order_name(unsigned char order);
 const char *elf_machine_name(Elf64_Half machine);

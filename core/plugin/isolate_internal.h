@@ -15,7 +15,7 @@ struct isolated {
     imp_surface_type surface_stand_in; /* one of the two is in use */
     imp_map_type map_stand_in;
     worker_pool *pool;
-    worker *worker;      /* NULL: none was to be had */
+    worker *worker;      /* NULL: could not start */
     void *self;          /* the instance, as the worker knows it; NULL: not created */
     const void *user;    /* whose requests they are: itself, or what it is a piece of */
     double lo[3], hi[3]; /* domain; a map: times in [0], span in [1] */

@@ -19,13 +19,13 @@ typedef struct parameter_table {
 
 const imp_parameter *parameter_table_row(const parameter_table *table, size_t index);
 
-/* Index of the row of that name, or -1. */
+/* Returns the index of the row of that name, or -1. */
 ptrdiff_t parameter_table_find(const parameter_table *table, const char *name);
 
-/* The name nearest to `name`, or NULL if none is near. */
+/* Returns the parameter's name nearest to `name`, or NULL if none is near. */
 const char *parameter_table_nearest(const parameter_table *table, const char *name);
 
-/* What a sentence needs after "must be". */
+/* A text that stands in a sentence after "must be". */
 typedef struct parameter_words {
     char at[120];
 } parameter_words;

@@ -6,7 +6,7 @@
 #include "core/base/status.h"
 #include "core/plugin/elf_probe.h"
 
-/* Whether what a plugin shows of itself keeps the ABI
+/* Checks that a plugin's entry and tables keep the ABI
  * ===================================================
  * After loading and before use, everything is checked that can be checked without creating an
  * instance: the entry, its agreement with the note, the factories, each type, each row of

@@ -17,7 +17,7 @@
 /* Makes a registry as imp_registry_open does, from these directories only. NULL: no memory. */
 imp_registry *registry_scan(const search_path *path, unsigned flags);
 
-/* NULL: not found. */
+/* Find a type by its name. NULL: not found. */
 const imp_surface_type *registry_find_surface(const imp_registry *registry, const char *name);
 const imp_map_type *registry_find_map(const imp_registry *registry, const char *name);
 
@@ -25,7 +25,7 @@ const imp_map_type *registry_find_map(const imp_registry *registry, const char *
  * type. */
 const char *registry_find_file(const imp_registry *registry, imp_type_kind kind, const char *name);
 
-/* Where instances of that type are isolated; NULL: they are not. */
+/* Returns the pool in which instances of that type are isolated; NULL: they are not. */
 worker_pool *registry_isolation(const imp_registry *registry, const char *name);
 
 /* Why a name may be unknown: "; 2 files were left out, such as '/a/b.so': <reason>", or "" if none

@@ -42,13 +42,13 @@ typedef struct worker {
     size_t users;        /* instances that exist; guarded by the pool */
 } worker;
 
-/* NULL: no process could be made, errno says why. The type must outlive it. */
+/* Starts a worker. The type must outlive it. NULL: no process could be made, errno says why. */
 worker *worker_start(worker_type type);
 
-/* Whether it still takes requests. */
+/* Whether the worker still takes requests. */
 bool worker_runs(worker *w);
 
-/* Kills it and frees it. */
+/* Kills the worker and frees it. */
 void worker_end(worker *w);
 
 /* Takes the channel for one request of the instance `user` (an address, for comparison only).

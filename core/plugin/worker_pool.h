@@ -12,23 +12,23 @@
 
 typedef struct worker_pool worker_pool;
 
-/* NULL: no memory. */
+/* Makes an empty pool. NULL: no memory. */
 worker_pool *worker_pool_new(void);
 
 /* Ends all workers; no instance may be left. NULL is accepted. */
 void worker_pool_free(worker_pool *pool);
 
-/* A worker that runs the type, for one more instance. NULL: errno says why. */
+/* Gets a worker that runs the type, for one more instance. NULL: errno says why. */
 worker *worker_pool_take(worker_pool *pool, worker_type type);
 
-/* One instance less. */
+/* Counts one instance less. */
 void worker_pool_return(worker_pool *pool, worker *w);
 
 /* Keeps how destroy ended a worker of the type: the first of each type, unless memory runs out. */
 void worker_pool_note(worker_pool *pool, worker_type type, imp_status end);
 
-/* What was kept, in order: "destroy of 'x' crashes ..."; the text lives as long as the pool. False:
- * past the last, or in another process than the one that made the pool. */
+/* Tells what was kept, in order: "destroy of 'x' crashes ..."; the text lives as long as the pool.
+ * False: past the last, or in another process than the one that made the pool. */
 bool worker_pool_fault(worker_pool *pool, size_t index, worker_type *type, const char **text);
 
 #endif

@@ -30,7 +30,7 @@ void clearance_free(clearance_search *c);
 imp_code clearance_begin(clearance_search *c, const candidate_list *list, imp_stats *stats,
                          imp_error *error);
 
-/* One unit of work. *reason: RUNNING, NONE when all tasks are done, or why it cannot go on. */
+/* Does one unit of work. *reason: RUNNING, NONE when all tasks are done, or why it cannot go on. */
 imp_code clearance_work(clearance_search *c, imp_reason *reason, imp_error *error);
 
 /* State of the task that is searched now, for progress and budgets. */

@@ -23,7 +23,7 @@ typedef enum impact_state {
     IMPACT_NO_MEMORY
 } impact_state;
 
-/* The first test of a pair. */
+/* The first test of a pair and its result. */
 typedef struct pair_test {
     pair p;         /* the window that is left, and the axis */
     bool near;      /* whether its nodes may be within gamma_clear */
@@ -38,7 +38,7 @@ typedef struct tests_ahead {
     uint32_t first, count;
 } tests_ahead;
 
-/* What pays in one candidate pair. */
+/* Counts of what pays in one candidate pair. */
 typedef struct pair_trials {
     trial_rate turning; /* axes that turn, in all tests but the roots' (separation.h) */
     trial_rate sliding; /* distances where an axis parts nodes whose parents slid (distance.h) */

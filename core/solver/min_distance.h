@@ -49,7 +49,7 @@ imp_code min_distance_begin(min_distance *m, size_t first, size_t count, imp_err
 /* Takes one pair and follows it one step. */
 imp_code min_distance_advance(min_distance *m, min_distance_state *state, imp_error *error);
 
-/* What is proved so far of the surfaces; INFINITY if there are no candidates. */
+/* Returns the lower bound proved so far for the surfaces; INFINITY if there are no candidates. */
 double min_distance_lower(const min_distance *m);
 
 void min_distance_clear(min_distance *m);

@@ -43,13 +43,14 @@ enum { PAIR_HEAP_BYTES = sizeof(pair_place) + sizeof(pair) }; /* for each of its
 /* Room for `more` pushes; false: no memory, the heap is as it was. */
 bool pair_heap_reserve(pair_heap *heap, size_t more);
 
-/* Precondition: there is room. */
+/* Pushes a copy of the pair. Precondition: there is room. */
 void pair_heap_push(pair_heap *heap, const pair *p);
 
-/* In no particular order, but the first first; precondition: index < count. */
+/* Returns a pair: the first for index 0, the others in no particular order. Precondition: index <
+ * count. */
 const pair *pair_heap_at(const pair_heap *heap, size_t index);
 
-/* The first; precondition: count > 0. */
+/* Return the first pair; pop also removes it. Precondition: count > 0. */
 const pair *pair_heap_top(const pair_heap *heap);
 pair pair_heap_pop(pair_heap *heap);
 

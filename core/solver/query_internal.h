@@ -40,7 +40,7 @@ struct imp_query {
 /* Ends the query, or the step, with an answer. */
 void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason);
 
-/* What the query answers where nothing comes near anything. */
+/* Returns the reason that a clear query answers. */
 imp_reason query_reason_of_clear(const imp_query *query);
 
 /* Fills the list of candidates, unless a limit comes first, which ends the query. `start` is when

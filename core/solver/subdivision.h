@@ -21,16 +21,17 @@ double pair_extent(const pair *p);
  * halved further whatever its size. */
 bool pair_has_cluster(const pair *p);
 
-/* Goes down to one piece each, always to the half whose box is nearer. */
+/* Descends to one piece on each side, always to the half whose box is nearer. */
 imp_code pair_descend(pair *p, const candidate_pair *both, imp_stats *stats, imp_error *error);
 
-/* A key for the heap, after p->serial is set: the squared distance of the centres at time t. Where
- * a node has no bounds the pair comes behind all others, the last made first, so that a place that
- * has none down to the smallest region is come to without going through all of its surroundings. */
+/* Computes a key for the heap, after p->serial is set: the squared distance of the centres at time
+ * t. A pair with a node without bounds comes behind all others, the last made first, so that the
+ * search reaches a place without bounds at any size before it has gone through all of its
+ * surroundings. */
 double pair_order(const pair *p, double t);
 
-/* Whether rounding takes much of `room`, the length that is to be told apart, and the pair is as
- * flat as `flat` times the rounding: then splitting on teaches ever less and only multiplies
+/* Whether evaluation errors take much of `room`, the length that is to be told apart, and the
+ * pair's curvature is below `flat` times these errors: more splits would then only multiply
  * pairs. */
 bool pair_precision_ends(const pair *p, const candidate_pair *both, double room, double flat);
 
@@ -41,24 +42,25 @@ typedef struct cut {
 } cut;
 #define CUT_NONE ((cut){-1, PARAMETER_U, 0})
 
-/* The paper: the parameter of either node that contributes most to its box. */
+/* The paper's cut: the parameter of either node that contributes most to its box. */
 cut cut_by_contribution(const pair *p);
 
-/* Models: what moves a point most along u or v, or bends it in time; what is below `scale`, a
- * length, does not matter. `has_nets`: the search asked for nets of both nodes, and they have some;
- * of a search that asks for none false, whatever others have made. */
+/* The cut of models: the parameter that moves a point most along u or v, or bends its motion most
+ * in time. Extents below `scale`, a length, do not matter. `has_nets`: the search asked for nets of
+ * both nodes and they have them; false in a search that asks for none, whatever other searches have
+ * made. */
 cut cut_by_spread(const pair *p, double scale, bool has_nets);
 
 /* The cut of one side alone, whose points u, v and t bend by `bend`, lengths; CUT_NONE: nothing is
  * left to split of it. */
 cut cut_alone(const pair *p, int side, const double bend[3], double scale);
 
-/* Time of the node whose points leave linear motion most within the window, where that of both
- * hides more than `scale`, a length, and counts beside what bends and blurs along u and v. Else
- * CUT_NONE. */
+/* A cut in time of the node whose motion is least linear within the window, if the nonlinear motion
+ * of both exceeds `scale`, a length, and matters beside curvature and remainders in u and v.
+ * Otherwise CUT_NONE. */
 cut cut_by_bend(const pair *p, double scale);
 
-/* Nothing more to learn from u and v: the later of the two nodes' times is halved. */
+/* A cut in time where u and v can teach no more: the later of the two nodes' times is halved. */
 cut cut_in_time(const pair *p);
 
 /* Puts halves of halves in the places of the nodes, one after the other; those on the way to the

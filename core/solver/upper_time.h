@@ -6,7 +6,7 @@
 #include "core/solver/pair_heap.h"
 #include "core/witness/witness.h"
 
-/* A contact that is met before it is proved to be the first
+/* A contact that is found before it is proved to be the first
  * =========================================================
  * The nearest points of a pair's surfaces, followed in time, soon touch: then the first contact is
  * no later. Such a time, of which the search learns early, ends the windows of the pairs that are
@@ -14,7 +14,7 @@
  * comes to it, it is the answer. */
 
 typedef struct upper_time {
-    bool is_known; /* `seen` touches at t; else what follows but for the counters means nothing */
+    bool is_known; /* `seen` touches at t; if false, only the counters are valid */
     double t;
     witness seen;
     uint32_t candidate_pair; /* whose witness */
@@ -28,10 +28,11 @@ typedef struct upper_time {
 imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *sought,
                            imp_error *error);
 
-/* After gamma was made smaller: what still touches stays known, else it is sought at once. */
+/* Adapts to a smaller gamma: a contact that still touches stays known; otherwise one is sought at
+ * once. */
 void upper_time_refine(upper_time *up, double gamma);
 
-/* Ends the window at the horizon: true where there is a part behind it, which becomes *later. */
+/* Ends the window at the horizon. True: there is a part behind it, which becomes *later. */
 bool upper_time_divide(const upper_time *up, time_window *window, time_window *later);
 
 #endif

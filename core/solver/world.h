@@ -14,7 +14,7 @@
  * parameters, and its normal turns with the frame. The gap is the distance of these points, or the
  * proved bound of the search where rounding in the world makes it larger than `most`. */
 
-/* A witness of a pair, as it is told. */
+/* A witness of a pair in world space, as the library returns it. */
 typedef struct world_witness {
     imp_side side[2];
     double gap;       /* length */

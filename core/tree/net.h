@@ -22,7 +22,7 @@ typedef struct net {
     double place[4], drift[4]; /* added to points, to velocities; x, y, z and a 0, here and below */
     double error[4]; /* >= the surface's distance from the patch over the region; length */
     double most[4];  /* >= |point| + |t - time| |velocity| over the times it was made for; length */
-    double numbers[]; /* x, y, z of points, the same of velocities if moving, weights if weighted */
+    double numbers[]; /* x, y, z of points; of velocities if moving; weights if weighted */
 } net;
 
 /* Room for any net. */

@@ -53,10 +53,10 @@ typedef struct node {
     vec3 normal;                /* bu x bv, any length; 0 where the node has none */
     double radius;              /* of a ball around a that holds the surface; rate trees only */
     double extent[3];           /* how much u, v, t move a point across the region, about; length */
-    double nonlinear_extent[3]; /* the same for what is not linear in the parameters; length */
+    double nonlinear_extent[3]; /* the nonlinear part of that; length */
     double time_remainder;      /* time's share in e where its rate is known, about; length */
     bool bounded;               /* f, e, lo, hi are all finite */
-    bool is_bare; /* of what is above only the region and `bounded`, which is true, mean anything */
+    bool is_bare;               /* only the region and `bounded`, which is true, are set above */
     bool follows_net; /* where it has a bicubic net its models are made of that (net_series.h) */
     const surface *surface; /* whose points are bounded: a piece, or the whole */
     const cluster *many;    /* of these pieces of it; NULL: of one surface */
@@ -70,7 +70,7 @@ typedef struct node {
     const struct pose_lanes *pose;      /* it is (posed_terms.h); NULL: use e, as one may always */
     double posed_e[4];                  /* what is left of e beside posed terms; length; then 0 */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
-    _Atomic(struct node *) bare[2][2];  /* the same along u and v, without models */
+    _Atomic(struct node *) bare[2][2];  /* halves along u and v without models */
 } node;
 
 typedef struct tree tree;

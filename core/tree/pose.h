@@ -21,7 +21,7 @@ typedef struct shape_model {
 
 typedef struct pose_lanes {
     double turn[3][3][4];    /* coefficients of 1, s, s^2; column; row */
-    double row[3][3][4];     /* the same; row; column */
+    double row[3][3][4];     /* coefficients of the transposed; row; column */
     double shift[3][4];      /* coefficients of 1, s, s^2; length */
     double turn_error[3][4]; /* remainders, by column and row; */
     double turn_most[3][4];  /* >= |entry|; */

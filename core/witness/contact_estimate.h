@@ -5,7 +5,7 @@
 
 #include "core/bounds/difference.h"
 
-/* When two nets meet, about
+/* An estimate of when two nets meet
  * =========================
  * Follows the nearest points of two surfaces in time: Newton steps on the distance at one time,
  * then a step to the time at which the gap would be closed at its present speed. Points are those
@@ -18,15 +18,15 @@ typedef struct contact_estimate {
     double speed; /* at which the gap closes; length/time */
 } contact_estimate;
 
-/* The first time in the window, about, at which the gap is `gap`; false: none was found. Both nodes
- * have nets. The march begins at the window's start, where the nodes reach farthest along the axis,
- * which points from A to B or is 0. */
+/* Estimates the first time in the window at which the gap is `gap`. False: none was found. Both
+ * nodes have nets. The march begins at the window's start, where the nodes reach farthest along the
+ * axis, which points from A to B or is 0. */
 bool contact_estimate_find(const node *a, const node *b, vec3 axis, const time_window *window,
                            double gap, contact_estimate *found);
 
-/* Where they are nearest to each other at time t, from the same start. Ends once a step promises
- * less than `gain` of the gap, or points are no farther apart than `enough`. Points may leave
- * either node by a half-width. */
+/* Estimates the nearest points of two nets at time t, from the start that contact_estimate_find
+ * takes. It ends once a step promises less than `gain` of the gap, or points are no farther apart
+ * than `enough`. Points may leave either node by a half-width. */
 void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,
                  double y[4]);
 

@@ -7,8 +7,8 @@
 
 /* Points of a net's patch, and their derivatives
  * ==============================================
- * By Bernstein polynomials, at s in [-1, 1] or beyond. Rounded like any sum: nothing is proved by
- * them. */
+ * They are computed by Bernstein polynomials, at s in [-1, 1] or beyond. Rounding is not bounded, so
+ * that they prove nothing. */
 
 /* The control points of a net at one time, without its place. If weighted they are multiplied with
  * their weights, which are the fourth coordinate. */
@@ -19,7 +19,7 @@ typedef struct net_points {
 
 void net_points_take(const net *f, double t, net_points *points);
 
-/* How high each control point lies along an axis. */
+/* Computes the height of each control point along an axis. */
 void net_heights_along(const net_points *f, vec3 axis, double height[IMP_QUAD * QUADS_MAX]);
 
 /* Value and derivatives along u, v, uu, uv, vv. */
@@ -32,7 +32,7 @@ typedef struct net_derivatives {
 /* The jets of two patches, at s = (y[0], y[1]) and (y[2], y[3]). */
 void net_eval_at(const net_points of[2], const double y[4], net_derivatives out[2]);
 
-/* How fast the point at s moves. */
+/* Returns the velocity of the point at s. */
 vec3 net_velocity_at(const net *f, const double s[2]);
 
 #endif

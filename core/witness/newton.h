@@ -39,7 +39,7 @@ newton_way newton_begin(const newton_bounds *bounds);
  * the rest is solved again. False: no step is worth it, or too many were tried. */
 bool newton_try(newton_way *way, const double *y, double *next);
 
-/* By how much the step would reduce |D|^2 / 2 if that were quadratic. */
+/* Returns by how much the step would reduce |D|^2 / 2 if that were quadratic. */
 double newton_promise(const newton_way *way, const double *y, const double *next);
 
 /* Notes whether the step led to a better place, whose derivatives the caller sets before the next

@@ -25,18 +25,19 @@ typedef struct witness {
 imp_code witness_seek(const node *const nodes[2], double t, double gamma, witness *found,
                       imp_error *error);
 
-/* The points evaluated at n parameters (u, v, t), n <= WITNESS_POINTS, and bounds of their
- * distances to the exact points. */
+/* Evaluates points at n parameters (u, v, t), n <= WITNESS_POINTS, and bounds their distances from
+ * the exact points. */
 enum { WITNESS_POINTS = 3 };
 imp_code witness_eval_errors(const surface *s, size_t n, const double (*p)[3], double *eval_error,
                              vec3 *x, imp_error *error);
 
-/* The points at parameters (s_u, s_v) of a and of b, relative to the nodes. They may lie outside
- * of the nodes, not of the surfaces' domains. */
+/* Makes a witness of the points at parameters (s_u, s_v) of a and of b, relative to the nodes. They
+ * may lie outside the nodes, but not outside the surfaces' domains. */
 imp_code witness_at(const node *const nodes[2], double t, const double y[4], witness *found,
                     imp_error *error);
 
-/* The points at the middles themselves, without a search: the paper's termination. */
+/* Makes a witness of the points at the nodes' middles, without a search: the paper's
+ * termination. */
 imp_code witness_at_centres(const node *const nodes[2], double t, witness *found, imp_error *error);
 
 #endif
