@@ -71,6 +71,7 @@ core_plugin = \
     core/plugin/json_describe.c core/plugin/json_describe.h \
     core/plugin/load_cache.c \
     core/plugin/load_probe.c core/plugin/load_probe.h \
+    core/plugin/output_guard.c core/plugin/output_guard.h \
     core/plugin/parameter_table.c core/plugin/parameter_table.h \
     core/plugin/parameters.c core/plugin/parameters.h \
     core/plugin/plugin_check.c core/plugin/plugin_check.h \

@@ -4,6 +4,7 @@
 
 #include "core/base/fp_mode.h"
 #include "core/common/array.h"
+#include "core/plugin/output_guard.h"
 #include "core/plugin/value_bytes.h"
 #include "core/plugin/worker.h"
 #include "core/surface/surface.h"
@@ -24,7 +25,21 @@ typedef struct server {
     pid_t process;
     unsigned char *bytes;
     size_t length, capacity;
+    output_guard out[2]; /* what the callback that is called fills */
 } server;
+
+/* Memory that a callback fills in the place of `of`. */
+static void *fills(server *s, int k, void *of, size_t size)
+{
+    return output_guard_lend(&s->out[k], of, size);
+}
+
+/* A callback that wrote before what it fills ends as one that wrote past the end does. */
+static void take_back(server *s)
+{
+    for (int k = 0; k < 2; ++k)
+        if (!output_guard_take_back(&s->out[k])) abort();
+}
 
 /* Only the worker itself goes on after a callback. */
 static void end_copies(const server *s)
@@ -57,6 +72,14 @@ static imp_status receive(server *s)
     return IMP_STATUS_OK;
 }
 
+static void domain(server *s, const void *instance)
+{
+    channel_work *w = &s->work;
+    s->type.surface->domain(instance, fills(s, 0, w->lo, sizeof w->lo),
+                            fills(s, 1, w->hi, sizeof w->hi));
+    take_back(s);
+}
+
 static imp_status create_with(server *s, const imp_value *values)
 {
     channel_work *w = &s->work;
@@ -67,16 +90,20 @@ static imp_status create_with(server *s, const imp_value *values)
     if (status != IMP_STATUS_OK || w->self == NULL) return status;
     if (type.surface == NULL) {
         begin(s, CALLBACK_TIME_DOMAIN);
-        type.map->time_domain(w->self, &w->lo[0], &w->hi[0]);
+        type.map->time_domain(w->self, fills(s, 0, &w->lo[0], sizeof w->lo[0]),
+                              fills(s, 1, &w->hi[0], sizeof w->hi[0]));
+        take_back(s);
         if (!IMP_OFFERS(type.map, span)) return IMP_STATUS_OK;
         begin(s, CALLBACK_SPAN);
-        type.map->span(w->self, &w->lo[1], &w->hi[1]);
+        type.map->span(w->self, fills(s, 0, &w->lo[1], sizeof w->lo[1]),
+                       fills(s, 1, &w->hi[1], sizeof w->hi[1]));
+        take_back(s);
     } else if (IMP_OFFERS(type.surface, piece)) {
         begin(s, CALLBACK_PIECE_COUNT);
         w->pieces = type.surface->piece_count(w->self);
     } else {
         begin(s, CALLBACK_DOMAIN);
-        type.surface->domain(w->self, w->lo, w->hi);
+        domain(s, w->self);
     }
     return IMP_STATUS_OK;
 }
@@ -88,7 +115,7 @@ static imp_status piece(server *s)
     w->piece = s->type.surface->piece(w->self, w->n);
     if (w->piece == NULL) return IMP_STATUS_OK;
     begin(s, CALLBACK_DOMAIN);
-    s->type.surface->domain(w->piece, w->lo, w->hi);
+    domain(s, w->piece);
     return IMP_STATUS_OK;
 }
 
@@ -116,26 +143,57 @@ static imp_status destroy(server *s)
     return IMP_STATUS_OK;
 }
 
-static imp_status obey_surface(channel_work *w, const imp_surface_type *type)
+/* The points, and where they are wanted their errors. */
+static double *fills_points(server *s)
 {
-    double *error = w->wants_error ? w->error : NULL;
-    if (w->request == REQUEST_EVAL) return type->eval(w->self, w->n, w->p, w->x, error);
-    if (w->request == REQUEST_RATE) return type->rate(w->self, &w->region, &w->rates);
-    if (w->request == REQUEST_NET) return type->net(w->self, &w->region, &w->net);
-    if (w->request == REQUEST_DISTANCE) return type->distance(w->self, w->in, w->out);
-    if (w->request == REQUEST_SYMMETRY) return type->symmetry(w->self, &w->symmetry);
-    return type->include(w->self, &w->region, w->out);
+    return fills(s, 0, s->work.x, 3 * s->work.n * sizeof *s->work.x);
 }
 
-static imp_status obey_map(channel_work *w, const imp_map_type *type)
+static double *fills_errors(server *s)
 {
-    double *error = w->wants_error ? w->error : NULL;
-    if (w->request == REQUEST_EVAL) return type->eval(w->self, w->n, w->p, w->x, error);
-    if (w->request == REQUEST_RATE) return type->rate(w->self, &w->box, &w->map_rates);
-    if (w->request == REQUEST_NET) return type->net(w->self, &w->region, &w->net);
-    if (w->request == REQUEST_POSE) return type->rigid(w->self, &w->in[3], &w->pose);
-    return type->apply(w->self, w->in, w->out);
+    channel_work *w = &s->work;
+    return w->wants_error ? fills(s, 1, w->error, 3 * w->n * sizeof *w->error) : NULL;
 }
+
+static imp_status obey_surface(server *s, const imp_surface_type *type)
+{
+    channel_work *w = &s->work;
+    switch (w->request) {
+    case REQUEST_EVAL:
+        return type->eval(w->self, w->n, w->p, fills_points(s), fills_errors(s));
+    case REQUEST_RATE:
+        return type->rate(w->self, &w->region, fills(s, 0, &w->rates, sizeof w->rates));
+    case REQUEST_NET:
+        return type->net(w->self, &w->region, fills(s, 0, &w->net, sizeof w->net));
+    case REQUEST_DISTANCE:
+        return type->distance(w->self, w->in, fills(s, 0, w->out, sizeof *w->out));
+    case REQUEST_SYMMETRY:
+        return type->symmetry(w->self, fills(s, 0, &w->symmetry, sizeof w->symmetry));
+    default:
+        return type->include(w->self, &w->region, fills(s, 0, w->out, sizeof w->out));
+    }
+}
+
+static imp_status obey_map(server *s, const imp_map_type *type)
+{
+    channel_work *w = &s->work;
+    switch (w->request) {
+    case REQUEST_EVAL:
+        return type->eval(w->self, w->n, w->p, fills_points(s), fills_errors(s));
+    case REQUEST_RATE:
+        return type->rate(w->self, &w->box, fills(s, 0, &w->map_rates, sizeof w->map_rates));
+    case REQUEST_NET:
+        return type->net(w->self, &w->region, fills(s, 0, &w->net, sizeof w->net));
+    case REQUEST_POSE:
+        return type->rigid(w->self, &w->in[3], fills(s, 0, &w->pose, sizeof w->pose));
+    default:
+        return type->apply(w->self, w->in, fills(s, 0, w->out, sizeof w->out));
+    }
+}
+
+_Static_assert(sizeof(imp_net) <= OUTPUT_GUARD_MOST && sizeof(imp_pose) <= OUTPUT_GUARD_MOST &&
+                   sizeof(((channel_work *)0)->x) <= OUTPUT_GUARD_MOST,
+               "room for all that callbacks fill");
 
 static imp_status obey(server *s)
 {
@@ -149,21 +207,25 @@ static imp_status obey(server *s)
     case REQUEST_DESTROY:
         return destroy(s);
     default:
-        return s->type.surface != NULL ? obey_surface(&s->work, s->type.surface)
-                                       : obey_map(&s->work, s->type.map);
+        return s->type.surface != NULL ? obey_surface(s, s->type.surface)
+                                       : obey_map(s, s->type.map);
     }
 }
 
 void worker_serve(channel *c, worker_type type)
 {
     const fp_mode mode = fp_mode_read();
-    server s = {.with = c, .type = type, .process = getpid()};
+    server s = {.with = c,
+                .type = type,
+                .process = getpid(),
+                .out = {output_guard_make(), output_guard_make()}};
     for (;;) {
         while (sem_wait(&c->requested) != 0)
             if (errno != EINTR) _exit(1);
         s.work = c->work;
         const imp_status status = obey(&s);
         end_copies(&s);
+        take_back(&s);
         s.work.status = fp_mode_kept(mode) ? status : SURFACE_CHANGED_MODE;
         c->work = s.work;
         atomic_store(&c->answering, c->number);

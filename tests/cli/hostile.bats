@@ -339,6 +339,33 @@ blamed() {
     done
 }
 
+@test "isolated, a write before or behind what a callback fills is laid at the door of its type" {
+    local each sin phase end='crashes or ends its process, in which it runs isolated'
+    local ball=$ball OPERAND
+    for sin in before after; do
+        for phase in domain eval rate include; do
+            run -5 --separate-stderr hostile $phase $sin --isolate all
+            echo "$phase $sin: $stderr"
+            blamed $phase hostile "$end" "$stderr"
+        done
+        for phase in time_domain eval rate apply; do
+            OPERAND=$lifted run -5 --separate-stderr hostile $phase $sin --isolate all
+            echo "$phase $sin: $stderr"
+            blamed $phase hostile-map "$end" "$stderr"
+        done
+        for each in $offered; do
+            phase=${each#*:}
+            [[ $phase != piece* ]] || continue
+            operands_of "${each%:*}"
+            run -5 --separate-stderr hostile "$phase" $sin --isolate all
+            echo "$each $sin: $stderr"
+            blamed "$phase" "${each%:*}" "$end" "$stderr"
+        done
+        unset OPERAND ball
+        ball=$usual_ball
+    done
+}
+
 # --- Hangs -----------------------------------------------------------------------------------------------
 
 # in_folder NAME COMMAND...: runs it there; its output, errors and status are files. A plugin that
