@@ -20,10 +20,15 @@ enum {
     CHANNEL_BYTES = 1 << 16, /* of one REQUEST_VALUES */
 };
 
+/* What a request about many pieces may take before it is answered for those that are done, so that
+ * slow callbacks do not look like one that hangs. */
+#define CHANNEL_BATCH_S 0.1
+
 typedef enum channel_request {
     REQUEST_VALUES, /* bytes: the next part of the parameter values for REQUEST_CREATE */
     REQUEST_CREATE,
-    REQUEST_PIECE, /* of `self`: the one with number n */
+    REQUEST_PIECES,         /* of `self`, from number n on: bytes, as channel_piece */
+    REQUEST_INCLUDE_PIECES, /* over their domains at region's times: bytes, as channel_inclusion */
     REQUEST_EVAL,
     REQUEST_RATE,
     REQUEST_INCLUDE, /* a map: apply */
@@ -34,7 +39,18 @@ typedef enum channel_request {
     REQUEST_DESTROY
 } channel_request;
 
-/* What REQUEST_CREATE and REQUEST_PIECE run, one after the other. */
+/* One of many pieces. */
+typedef struct channel_piece {
+    const void *self;    /* as the worker knows it, or NULL */
+    double lo[3], hi[3]; /* domain */
+} channel_piece;
+
+typedef struct channel_inclusion {
+    imp_status status;
+    imp_model model[3];
+} channel_inclusion;
+
+/* What REQUEST_CREATE and REQUEST_PIECES run, one after the other. */
 typedef enum channel_callback {
     CALLBACK_CREATE,
     CALLBACK_DOMAIN,
@@ -51,11 +67,10 @@ typedef struct channel_work {
     void *self; /* the instance, as the worker knows it: set by REQUEST_CREATE */
     imp_status status;
     imp_create_error why;
-    const void *piece; /* as the worker knows it: set by REQUEST_PIECE; or NULL */
-    size_t pieces;     /* set by REQUEST_CREATE of a type that has them; else 0 */
-    double lo[3],
-        hi[3]; /* domain, after REQUEST_CREATE and _PIECE; a map: times in [0], span in [1] */
-    size_t n;  /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values */
+    size_t
+        pieces; /* set by REQUEST_CREATE of a type that has them, else 0; how many are in bytes */
+    double lo[3], hi[3]; /* domain, after REQUEST_CREATE; a map: times in [0], span in [1] */
+    size_t n; /* points; of REQUEST_VALUES: bytes; of REQUEST_CREATE: values; the first piece */
     int wants_error;
     double p[4 * CHANNEL_POINTS], x[3 * CHANNEL_POINTS], error[3 * CHANNEL_POINTS];
     imp_region region;

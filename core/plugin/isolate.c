@@ -45,23 +45,39 @@ static imp_status request_create(isolated *i, const unsigned char *bytes, size_t
     return status;
 }
 
-/* Asks for all pieces; one that is NULL stays without `self`. */
+/* Takes `count` pieces from number `first` on, as the channel has them. */
+static void take_pieces(isolated *i, size_t first, size_t count)
+{
+    for (size_t k = 0; k < count; ++k) {
+        channel_piece one;
+        memcpy(&one, i->worker->channel->bytes + k * sizeof one, sizeof one);
+        isolated *piece = &i->pieces[first + k];
+        *piece =
+            (isolated){.type = i->type, .worker = i->worker, .user = i, .self = unconst(one.self)};
+        memcpy(piece->lo, one.lo, sizeof piece->lo);
+        memcpy(piece->hi, one.hi, sizeof piece->hi);
+    }
+}
+
+/* Asks for all pieces, as many at once as the channel holds; one that is NULL stays without
+ * `self`. */
 static imp_status request_pieces(isolated *i)
 {
     channel_work *c = &i->worker->channel->work;
     imp_status status = worker_enter(i->worker, i);
     if (status != IMP_STATUS_OK) return status;
-    for (size_t k = 0; k < i->piece_count && status == IMP_STATUS_OK; ++k) {
-        isolated *piece = &i->pieces[k];
+    for (size_t k = 0; k < i->piece_count && status == IMP_STATUS_OK;) {
         c->self = i->self;
         c->n = k;
-        status = worker_request(i->worker, i, REQUEST_PIECE);
-        *piece = (isolated){.type = i->type,
-                            .worker = i->worker,
-                            .user = i,
-                            .self = status == IMP_STATUS_OK ? unconst(c->piece) : NULL};
-        memcpy(piece->lo, c->lo, sizeof piece->lo);
-        memcpy(piece->hi, c->hi, sizeof piece->hi);
+        c->pieces = i->piece_count;
+        status = worker_request(i->worker, i, REQUEST_PIECES);
+        if (status != IMP_STATUS_OK) break;
+        const size_t left = i->piece_count - k, count = c->pieces < left ? c->pieces : left;
+        if (count == 0 || count > CHANNEL_BYTES / sizeof(channel_piece))
+            status = IMP_STATUS_INTERNAL; /* something overwrote the channel */
+        else
+            take_pieces(i, k, count);
+        k += count;
     }
     worker_leave(i->worker);
     return status;
@@ -71,7 +87,7 @@ static imp_status request_pieces(isolated *i)
 static imp_status create_pieces(isolated *i)
 {
     if (i->piece_count == 0 || i->piece_count > IMP_PIECES_MAX) return IMP_STATUS_OK;
-    i->pieces = malloc(i->piece_count * sizeof *i->pieces);
+    i->pieces = calloc(i->piece_count, sizeof *i->pieces);
     return i->pieces != NULL ? request_pieces(i) : IMP_STATUS_INTERNAL;
 }
 
@@ -128,6 +144,7 @@ void isolate_destroy(void *self)
     if (i == NULL) return;
     request_destroy(i);
     if (i->worker != NULL) worker_pool_return(i->pool, i->worker);
+    free(i->ahead);
     free(i->pieces);
     free(i);
 }

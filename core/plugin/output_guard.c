@@ -15,12 +15,13 @@ static size_t page_size(void) { return (size_t)sysconf(_SC_PAGESIZE); }
 
 output_guard output_guard_make(void)
 {
-    const size_t page = page_size(), room = (2 * OUTPUT_GUARD_MOST + page - 1) / page * page;
+    const size_t page = page_size(), most = OUTPUT_GUARD_MOST + OUTPUT_GUARD_BEFORE,
+                 room = (most + page - 1) / page * page;
     unsigned char *memory =
         mmap(NULL, room + 2 * page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) return (output_guard){.end = NULL};
-    const output_guard g = {.end = memory + page + room, .room = room};
-    if (mprotect(memory + page, room, PROT_READ | PROT_WRITE) == 0) return g;
+    if (mprotect(memory + page, room, PROT_READ | PROT_WRITE) == 0)
+        return (output_guard){.end = memory + page + room};
     munmap(memory, room + 2 * page);
     return (output_guard){.end = NULL};
 }
@@ -31,7 +32,7 @@ void *output_guard_lend(output_guard *g, void *of, size_t size)
     if (g->end == NULL) return of;
     g->of = of;
     g->size = size;
-    memset(g->end - g->room, PATTERN, g->room - size);
+    memset(g->end - size - OUTPUT_GUARD_BEFORE, PATTERN, OUTPUT_GUARD_BEFORE);
     return memcpy(g->end - size, of, size);
 }
 
@@ -39,8 +40,8 @@ void *output_guard_lend(output_guard *g, void *of, size_t size)
 bool output_guard_take_back(output_guard *g)
 {
     if (g->of == NULL) return true;
-    const unsigned char *first = g->end - g->room;
-    const bool kept = first[0] == PATTERN && memcmp(first, first + 1, g->room - g->size - 1) == 0;
+    const unsigned char *first = g->end - g->size - OUTPUT_GUARD_BEFORE;
+    const bool kept = first[0] == PATTERN && memcmp(first, first + 1, OUTPUT_GUARD_BEFORE - 1) == 0;
     memcpy(g->of, g->end - g->size, g->size);
     g->of = NULL;
     return kept;

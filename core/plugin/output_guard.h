@@ -9,15 +9,17 @@
 /* What a callback fills, between guards
  * =====================================
  * The memory that is lent ends at a page that cannot be accessed, so that a write past its end
- * crashes there and then. The bytes before it, down to another such page, hold a pattern; a write
- * into them is seen when the memory is taken back. For sizes that are multiples of the alignment,
- * up to OUTPUT_GUARD_MOST bytes. */
+ * crashes there and then. The bytes before it hold a pattern; a write into them is seen when the
+ * memory is taken back. For sizes that are multiples of the alignment, up to OUTPUT_GUARD_MOST
+ * bytes. */
 
-enum { OUTPUT_GUARD_MOST = 8192 };
+enum {
+    OUTPUT_GUARD_MOST = 8192,
+    OUTPUT_GUARD_BEFORE = 1024 /* bytes that hold the pattern; more would take longer than a call */
+};
 
 typedef struct output_guard {
     unsigned char *end; /* NULL: no memory was to be had, and nothing is guarded */
-    size_t room;        /* bytes before the end, down to the other page */
     void *of;           /* what is lent a copy of; NULL: nothing is lent */
     size_t size;
 } output_guard;

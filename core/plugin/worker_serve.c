@@ -4,9 +4,11 @@
 
 #include "core/base/fp_mode.h"
 #include "core/common/array.h"
+#include "core/common/clock.h"
 #include "core/plugin/output_guard.h"
 #include "core/plugin/value_bytes.h"
 #include "core/plugin/worker.h"
+#include "core/surface/region.h"
 #include "core/surface/surface.h"
 
 #include <errno.h>
@@ -108,14 +110,71 @@ static imp_status create_with(server *s, const imp_value *values)
     return IMP_STATUS_OK;
 }
 
-static imp_status piece(server *s)
+/* The pieces that there is room and time for. */
+typedef struct batch {
+    size_t most;
+    double until;
+} batch;
+
+static batch begin_batch(const channel_work *w, size_t size)
+{
+    const size_t left = w->n < w->pieces ? w->pieces - w->n : 0, room = CHANNEL_BYTES / size;
+    return (batch){left < room ? left : room, clock_seconds() + CHANNEL_BATCH_S};
+}
+
+static bool has_time(const batch *b, size_t done)
+{
+    return done == 0 || clock_seconds() < b->until;
+}
+
+static const void *piece(server *s, size_t k)
+{
+    begin(s, CALLBACK_PIECE);
+    const void *made = s->type.surface->piece(s->work.self, k);
+    end_copies(s);
+    return made;
+}
+
+static imp_status pieces(server *s)
 {
     channel_work *w = &s->work;
-    begin(s, CALLBACK_PIECE);
-    w->piece = s->type.surface->piece(w->self, w->n);
-    if (w->piece == NULL) return IMP_STATUS_OK;
-    begin(s, CALLBACK_DOMAIN);
-    domain(s, w->piece);
+    const batch b = begin_batch(w, sizeof(channel_piece));
+    size_t done = 0;
+    for (; done < b.most && has_time(&b, done); ++done) {
+        channel_piece one = {.self = piece(s, w->n + done)};
+        if (one.self != NULL) {
+            begin(s, CALLBACK_DOMAIN);
+            domain(s, one.self);
+            end_copies(s);
+            memcpy(one.lo, w->lo, sizeof one.lo);
+            memcpy(one.hi, w->hi, sizeof one.hi);
+        }
+        memcpy(s->with->bytes + done * sizeof one, &one, sizeof one);
+    }
+    w->pieces = done;
+    return IMP_STATUS_OK;
+}
+
+/* Each over its whole domain at the times of the region that was sent. */
+static imp_status include_pieces(server *s)
+{
+    channel_work *w = &s->work;
+    const batch b = begin_batch(w, sizeof(channel_inclusion));
+    const double times[2] = {w->region.lo[2], w->region.hi[2]};
+    size_t done = 0;
+    for (; done < b.most && has_time(&b, done); ++done) {
+        channel_inclusion one = {.status = IMP_STATUS_OK};
+        const void *self = piece(s, w->n + done);
+        domain(s, self);
+        w->lo[2] = times[0], w->hi[2] = times[1];
+        const imp_region region = region_make(w->lo, w->hi);
+        one.status = s->type.surface->include(self, &region, fills(s, 0, w->out, sizeof w->out));
+        end_copies(s);
+        take_back(s);
+        memcpy(one.model, w->out, sizeof one.model);
+        memcpy(s->with->bytes + done * sizeof one, &one, sizeof one);
+    }
+    w->pieces = done;
     return IMP_STATUS_OK;
 }
 
@@ -202,8 +261,10 @@ static imp_status obey(server *s)
         return receive(s);
     case REQUEST_CREATE:
         return create(s);
-    case REQUEST_PIECE:
-        return piece(s);
+    case REQUEST_PIECES:
+        return pieces(s);
+    case REQUEST_INCLUDE_PIECES:
+        return include_pieces(s);
     case REQUEST_DESTROY:
         return destroy(s);
     default:

@@ -3,6 +3,7 @@
 #include <config.h>
 
 #include "core/plugin/isolate.h"
+#include "core/surface/region.h"
 
 #include <impinge/formula.h>
 #include <pthread.h>
@@ -11,6 +12,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -361,6 +363,78 @@ START_TEST(instances_of_a_type_share_a_process)
 }
 END_TEST
 
+enum { PIECES = 20000 };
+static double columns[PIECES]; /* where each piece is: at no sin */
+
+static size_t count_pieces(const void *self) { return self != NULL ? PIECES : 0; }
+
+static const void *take_piece(const void *self, size_t k)
+{
+    (void)self;
+    columns[k] = (double)k + 100;
+    return &columns[k];
+}
+
+static void tile_domain(const void *self, double lo[3], double hi[3])
+{
+    const double at = *(const double *)self;
+    memcpy(lo, (double[3]){at, 0, 0}, 3 * sizeof *lo);
+    memcpy(hi, (double[3]){at + 0.5, 1, 9}, 3 * sizeof *hi);
+}
+
+static const imp_surface_type tiles = {.struct_size = sizeof tiles,
+                                       .name = "tiles",
+                                       .parameter_count = 1,
+                                       .create = make,
+                                       .destroy = destroy,
+                                       .domain = tile_domain,
+                                       .eval = eval,
+                                       .rate = rate,
+                                       .include = include,
+                                       .piece_count = count_pieces,
+                                       .piece = take_piece};
+
+/* Each piece over its domain at the given times, and over a half of it: as without isolation. */
+static void check_piece(const isolated *i, size_t k, const double times[2])
+{
+    const imp_surface_type *type = isolate_surface_type(i);
+    const void *piece = type->piece(i, k);
+    take_piece(NULL, k);
+    double lo[3], hi[3];
+    imp_model from[3], here[3];
+    type->domain(piece, lo, hi);
+    ck_assert(lo[0] == columns[k] && hi[0] == columns[k] + 0.5 && hi[2] == 9);
+    lo[2] = times[0], hi[2] = times[1];
+    for (int half = 0; half < (k % 997 == 0 ? 2 : 1); ++half) {
+        if (half == 1) hi[1] = 0.5;
+        const imp_region region = region_make(lo, hi);
+        ck_assert_int_eq(type->include(piece, &region, from), IMP_STATUS_OK);
+        ck_assert_int_eq(bowl_formula_include(&columns[k], &region, here), IMP_STATUS_OK);
+        ck_assert_int_eq(memcmp(from, here, sizeof here), 0);
+    }
+}
+
+/* Each reply that the host waits for costs it a switch to another process. */
+START_TEST(pieces_and_their_models_come_many_at_once)
+{
+    const double sin = 0;
+    const imp_value value = {.count = 1, .extent = {1, 1, 1}, .number = &sin};
+    imp_create_error why = {.struct_size = sizeof why, .parameter = -1, .element = -1};
+    struct rusage before, after;
+    isolated *i = isolate_surface(pool, &tiles);
+    getrusage(RUSAGE_SELF, &before);
+    ck_assert_int_eq(isolate_create(i, &value, &why), IMP_STATUS_OK);
+    for (size_t k = 0; k < PIECES; ++k) check_piece(i, k, (double[]){0, 9});
+    getrusage(RUSAGE_SELF, &after);
+    const long waits = after.ru_nvcsw - before.ru_nvcsw;
+    ck_assert_msg(waits < PIECES / 10, "%ld waits", waits);
+    for (size_t k = PIECES; k-- > PIECES - 300;) check_piece(i, k, (double[]){1, 2});
+    for (size_t k = 0; k < 300; ++k) check_piece(i, k, (double[]){1, 2});
+    check_piece(i, 300, (double[]){1, 3});
+    isolate_destroy(i);
+}
+END_TEST
+
 START_TEST(an_innocent_instance_is_lost_and_a_new_one_is_served)
 {
     double x[3];
@@ -543,6 +617,7 @@ int main(void)
         no_child_is_left_behind,
         what_destroy_did_is_kept_once_for_each_type,
         instances_of_a_type_share_a_process,
+        pieces_and_their_models_come_many_at_once,
         an_innocent_instance_is_lost_and_a_new_one_is_served,
         a_copy_of_the_host_is_refused_and_ends_nothing,
         a_callback_that_forks_and_returns_gives_one_answer,
