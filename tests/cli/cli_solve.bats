@@ -329,3 +329,18 @@ refuses_table() { # TABLE PARAMETERS SAYING
     "$IMPINGE" list 2>>told | true
     [ ! -s told ]
 }
+
+@test "reading counts in --max-seconds" {
+    local verb
+    scene >scene.json
+    for verb in solve 'solve --each' clearance 'clearance --each' 'clearance --profile 3'; do
+        # shellcheck disable=SC2086 # words on purpose
+        run -3 --separate-stderr bash -c '"$@" < <(sleep 1.5; cat scene.json)' - \
+            "$IMPINGE" $verb - --max-seconds 1 --json
+        [[ $output == *'"max-seconds"'* ]]
+        # shellcheck disable=SC2086 # words on purpose
+        run --separate-stderr bash -c '"$@" < <(sleep 0.1; cat scene.json)' - \
+            "$IMPINGE" $verb - --max-seconds 60 --json
+        [[ $output != *'"max-seconds"'* && $status -ne 3 ]]
+    done
+}

@@ -34,7 +34,7 @@ bool progress_is_wanted(void)
     return mode == PROGRESS_JSON || (mode == PROGRESS_AUTO && isatty(STDERR_FILENO));
 }
 
-static double seconds_since_begun(void) { return clock_seconds() - begun; }
+double progress_seconds(void) { return clock_seconds() - begun; }
 
 /* Whether it is time to show something; one of several threads that ask at once is answered yes. */
 static bool is_due(double seconds)
@@ -61,7 +61,7 @@ void progress_show(const char *format, ...)
 {
     char text[LINE];
     va_list list;
-    const double seconds = seconds_since_begun();
+    const double seconds = progress_seconds();
     if (mode != PROGRESS_AUTO || !is_due(seconds)) return;
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
@@ -119,7 +119,7 @@ static void print_count(double seconds, uint64_t done, double rate, double left)
 void progress_search(const imp_progress *p)
 {
     char text[LINE];
-    const double seconds = seconds_since_begun();
+    const double seconds = progress_seconds();
     if (count.noun != NULL || !is_due(seconds)) return;
     if (mode == PROGRESS_JSON) {
         print_search(seconds, p);
@@ -151,14 +151,14 @@ void progress_count_from(uint64_t done, uint64_t total, const char *noun)
 {
     count.before = done;
     count.total = total;
-    count.since = seconds_since_begun();
+    count.since = progress_seconds();
     count.noun = noun;
     progress_count(done);
 }
 
 void progress_count(uint64_t done)
 {
-    const double seconds = seconds_since_begun();
+    const double seconds = progress_seconds();
     atomic_store(&count.done, done);
     if (is_due(seconds)) show_count(seconds, done);
 }
@@ -172,6 +172,6 @@ void progress_end(void)
 {
     const uint64_t done = atomic_load(&count.done);
     if (mode == PROGRESS_JSON && count.noun != NULL && atomic_load(&count.told) != done + 1)
-        show_count(seconds_since_begun(), done);
+        show_count(progress_seconds(), done);
     progress_wipe();
 }

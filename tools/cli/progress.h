@@ -16,6 +16,9 @@ typedef enum progress_mode { PROGRESS_AUTO, PROGRESS_JSON, PROGRESS_NONE } progr
 
 /* The command begins now; AUTO until something else is chosen. */
 void progress_begin(void);
+
+/* Seconds of the clock since then. */
+double progress_seconds(void);
 void progress_choose(progress_mode mode);
 
 /* Whether anything may be shown at all. */

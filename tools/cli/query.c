@@ -110,6 +110,14 @@ static bool goes_on(void *context, const imp_progress *p)
     return !interrupt_came();
 }
 
+/* What reading has left of the limit; 0 would be no limit. */
+static double seconds_left(double limit)
+{
+    if (!(limit > 0)) return limit;
+    const double left = limit - progress_seconds();
+    return left > 0 ? left : 0x1p-1000;
+}
+
 imp_options query_options(const imp_scene *scene, const arguments *args)
 {
     imp_options o = imp_options_default(scene);
@@ -118,7 +126,7 @@ imp_options query_options(const imp_scene *scene, const arguments *args)
     o.gamma = arguments_number(args, "gamma", o.gamma);
     o.gamma_clear = arguments_number(args, "gamma-clear", o.gamma_clear);
     o.max_pairs = arguments_count(args, "max-pairs", args->verb->max_pairs);
-    o.max_seconds = arguments_number(args, "max-seconds", o.max_seconds);
+    o.max_seconds = seconds_left(arguments_number(args, "max-seconds", o.max_seconds));
     o.max_bytes = arguments_count(args, "max-bytes", o.max_bytes);
     o.baseline = baseline_of(args);
     o.audit = arguments_option(args, "audit") != NULL;

@@ -26,7 +26,8 @@ imp_registry *query_registry_first(const char *path, unsigned flags, const char 
 exit_status query_check(const arguments *args);
 
 /* What the scene asks for, overridden by what the command line says. Times that neither names and
- * the scene does not have are NAN, which queries refuse. */
+ * the scene does not have are NAN, which queries refuse. Of max_seconds what is left now: reading
+ * counts. */
 imp_options query_options(const imp_scene *scene, const arguments *args);
 
 /* Complains of such times, for verbs that need them before they ask anything. */
