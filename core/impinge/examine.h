@@ -16,9 +16,9 @@ extern "C" {
 
 /* --- Plugin files ----------------------------------------------------------------------------- */
 
-/* Everything that is checked of a plugin file, in order, each with a verdict: told one by one. What
- * comes after a refusal and depends on it is not reached. Loads the file in a child process
- * only. Answers whether all passed. */
+/* Checks a plugin file and reports each check with its verdict, in order. Checks that depend on one
+ * that was refused are left out. The file is loaded in a child process only. Returns whether all
+ * checks passed. */
 typedef enum imp_finding {
     IMP_FINDING_NOT_REACHED,
     IMP_FINDING_PASSED,
@@ -39,17 +39,18 @@ typedef struct imp_instance {
     void *self;
 } imp_instance;
 
-/* From one stage of a pipeline, "TYPE name=value ...". The registry must outlive the instance. */
+/* Makes an instance from one stage of a pipeline, "TYPE name=value ...". The registry must outlive
+ * it; imp_instance_free frees it. */
 IMP_EXPORT imp_code imp_instance_from_text(imp_registry *registry, imp_type_kind kind,
                                            const char *text, imp_instance *instance,
                                            imp_error *error);
-/* What a stage says, as the JSON object that a scene file would have for it: {"type": TYPE, "name":
+/* Returns a stage as the JSON object that a scene file would have for it: {"type": TYPE, "name":
  * value, ...}. Values are not compared with the type's parameters, and defaults are not added. NULL
  * on error. The caller frees the text by free(). */
 IMP_EXPORT char *imp_stage_to_json(const imp_registry *registry, imp_type_kind kind,
                                    const char *text, imp_error *error);
 
-/* An empty one ({NULL, NULL, NULL}) may be freed too. */
+/* Frees an instance; an empty one ({NULL, NULL, NULL}) may be freed, too. */
 IMP_EXPORT void imp_instance_free(imp_instance *instance);
 
 #ifdef __cplusplus

@@ -7,8 +7,8 @@
 
 /* Points of a net's patch, and their derivatives
  * ==============================================
- * They are computed by Bernstein polynomials, at s in [-1, 1] or beyond. Rounding is not bounded, so
- * that they prove nothing. */
+ * They are computed by Bernstein polynomials, at s in [-1, 1] or beyond. Rounding is not bounded,
+ * so that they prove nothing. */
 
 /* The control points of a net at one time, without its place. If weighted they are multiplied with
  * their weights, which are the fourth coordinate. */
