@@ -9,7 +9,7 @@
 
 #include "core/base/rounding.h"
 
-/* Written so that a NaN is never apart. */
+/* Whether two boxes are apart. A NaN compares false, so that it is never apart. */
 PAD_COVERS(2, 1); /* one difference */
 static bool apart(double above, double below, double gamma_clear)
 {

@@ -74,7 +74,7 @@ static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
     return sort_pairs(all, done, error);
 }
 
-/* Room to work in; false: no memory. */
+/* Allocates room to work in. False: no memory. */
 static bool prepare(collection *all)
 {
     size_t most = 1; /* an array of none may be NULL */
@@ -93,7 +93,7 @@ static bool prepare(collection *all)
     return all->surfaces != NULL && all->sweep != NULL;
 }
 
-/* A slip is small beside gamma_clear, and beside what is to be told apart. */
+/* The largest slip that is small against gamma_clear and against gamma - gamma_clear. */
 static double slip_most(const imp_options *options)
 {
     const double clear = tolerances_clear(options->gamma, options->gamma_clear);
@@ -132,7 +132,8 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
 
 /* --- Parts ------------------------------------------------------------------------------------ */
 
-/* The candidates of one side of some pairs of the same two bodies: neighbours in the list. */
+/* The candidates of one side of some pairs of the same two bodies, which are neighbours in the
+ * list. */
 typedef struct candidate_span {
     const candidate *first;
     size_t count;
@@ -149,7 +150,7 @@ static candidate_span span_of(const candidate_pair *pairs, size_t count, int sid
     return (candidate_span){lo, (size_t)(hi - lo) + 1};
 }
 
-/* The part's own candidate in place of the whole list's, with a tree; NULL: no memory. */
+/* Returns the part's own candidate, with a tree, for one of the whole list. NULL: no memory. */
 static candidate *own_candidate(candidate *slot, const candidate *from, imp_stats *stats)
 {
     if (slot->tree != NULL) return slot;

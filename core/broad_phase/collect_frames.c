@@ -28,7 +28,7 @@
  * contact at the moment, the first of both, is the earliest. So such a pair has trees of that
  * moment alone. */
 
-/* A surface in one frame: candidate `of` as `view` says. */
+/* A surface in one frame: candidate `of` in the form `view`. */
 typedef struct frame {
     size_t of;
     size_t next; /* of the same candidate, or NONE */
@@ -67,7 +67,8 @@ static size_t motion_of(const candidate_pair *p)
     return surface_common_motion(tree_surface(p->side[0]->tree), tree_surface(p->side[1]->tree));
 }
 
-/* Whether one of both can be turned within itself, and both may be at rest but for that. */
+/* Whether both may move only within themselves: all maps are rigid, one surface moves at least, and
+ * one of them has a symmetry. */
 static bool may_turn_within(const collection *all, const candidate_pair *p)
 {
     if (all->slip_most < 0) return false;
@@ -98,7 +99,7 @@ static bool are_equal(const surface_view *x, const surface_view *y)
            (x->moment == y->moment || (isnan(x->moment) && isnan(y->moment)));
 }
 
-/* The candidate's frame, made now unless it is there. *found NONE: a limit came first. */
+/* Finds the candidate's frame, made now unless it is there. *found NONE: a limit came first. */
 static imp_code find_frame(collection *all, frame_list *frames, const candidate *c,
                            const surface_view *view, size_t *found, imp_error *error)
 {
@@ -120,7 +121,7 @@ static imp_code find_frame(collection *all, frame_list *frames, const candidate 
     return IMP_SUCCESS;
 }
 
-/* Whether the pair of these frames is as far apart at one time as at another, but for *slip. */
+/* Bounds in *slip how much the distance of the pair of these frames changes with time. */
 static imp_code ask_slip(collection *all, candidate *const side[2], time_window *times,
                          double *slip, imp_error *error)
 {
@@ -151,7 +152,7 @@ static imp_code ask_slip(collection *all, candidate *const side[2], time_window 
     return surface_set_code(status, error);
 }
 
-/* Puts a pair that only turns within itself at rest. */
+/* Gives a pair that only turns within itself trees of one moment. */
 static imp_code rest_pair(collection *all, frame_list *frames, size_t k, imp_error *error)
 {
     const candidate_pair *p = &all->list->pairs[k];
@@ -198,7 +199,7 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
     return IMP_SUCCESS;
 }
 
-/* Puts the frames in the place of the candidates, in their order: those of one candidate are
+/* Replaces the candidates by their frames, in the same order; frames of one candidate are
  * neighbours. False: no memory. */
 static bool take_frames(candidate_list *list, frame_list *frames)
 {

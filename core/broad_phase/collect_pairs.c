@@ -77,7 +77,7 @@ static void sweep_boxes(void *of, size_t index)
     task.to->complete = true;
 }
 
-/* The pairs of one task's boxes: those found ahead, if all of them were. False: a limit, or no
+/* Adds the pairs of one task's boxes: those found ahead, if all of them were. False: a limit, or no
  * memory. */
 static bool take_boxes(collection *all, const sweep_ahead *found, size_t first)
 {
@@ -92,7 +92,7 @@ static bool take_boxes(collection *all, const sweep_ahead *found, size_t first)
     return go_on;
 }
 
-/* Frees what was found. */
+/* Frees the pairs that were found ahead. */
 static bool take_round(collection *all)
 {
     bool go_on = true;

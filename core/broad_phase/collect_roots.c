@@ -16,7 +16,8 @@ static bool any_is_missing(const candidate_list *list)
     return any;
 }
 
-/* The surfaces of pairs that lack a root, in the order of the list. False: no memory. */
+/* Lists the surfaces of pairs that lack a root, in the order of the list of pairs. False: no
+ * memory. */
 static bool find_missing(collection *all)
 {
     const candidate_list *list = all->list;
@@ -33,7 +34,7 @@ static bool find_missing(collection *all)
     return ok;
 }
 
-/* A root that fails is made again in its turn. */
+/* Makes a root ahead of its turn. One that fails is made again in its turn. */
 static void make_some(void *of, size_t task)
 {
     collection *all = of;

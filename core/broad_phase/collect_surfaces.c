@@ -33,7 +33,8 @@ static bool plan_of(const collection *all, const surface_view *view, tree_plan *
     return plan->t_start <= plan->t_end;
 }
 
-/* Makes the trees of some surfaces. What fails is made again in its turn. */
+/* Makes the trees of some surfaces ahead of their turn. One that fails is made again in its
+ * turn. */
 static void make_trees(void *of, size_t task)
 {
     collection *all = of;

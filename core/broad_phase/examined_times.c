@@ -55,7 +55,7 @@ static imp_code examine_surfaces(examination *x, const surface *a, const surface
     return code == IMP_SUCCESS ? check_defined(b, both, x->error) : code;
 }
 
-/* No further pair changes what was found. */
+/* Whether no further pair can change what was found. */
 static bool is_complete(const examination *x)
 {
     return x->all_defined && x->found->lo == x->asked.lo && x->found->hi == x->asked.hi;

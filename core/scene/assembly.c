@@ -133,7 +133,8 @@ static bool add_parts(surface *s, const instance_list *maps)
     return true;
 }
 
-/* The shape under its own maps, then those of the body and of all its ancestors. */
+/* Makes the surface of a shape under its own maps, then those of the body and of all its
+ * ancestors. */
 static surface *compose(const assembly *a, size_t body, const shape *what)
 {
     surface *s = surface_new_of(what->type);

@@ -177,7 +177,7 @@ imp_code scene_join(imp_scene *scene, size_t index, size_t group)
 
 /* --- Who ignores whom ------------------------------------------------------------------------- */
 
-/* Bodies have the even keys, groups the odd ones. */
+/* Returns the key of a body (even) or of a group (odd). */
 static size_t key_of(scene_members m) { return 2 * m.index + m.is_group; }
 
 imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y)
@@ -185,7 +185,7 @@ imp_code scene_ignore_members(imp_scene *scene, scene_members x, scene_members y
     return key_pairs_add(&scene->ignored, key_of(x), key_of(y)) ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 
-/* The body's own key (k == 0), or that of its group number k - 1. */
+/* Returns the body's own key (k == 0), or that of its group number k - 1. */
 static size_t body_key(const imp_scene *scene, size_t index, size_t k)
 {
     if (k == 0) return key_of((scene_members){false, index});
@@ -311,7 +311,7 @@ static const surface *piece_at(const imp_scene *scene, imp_place at)
     return surface_piece_count(s) > 0 ? surface_piece(s, at.piece) : s;
 }
 
-/* A callback's refusal of a place is the caller's fault. */
+/* Sets the error for a callback's status. A place outside the domain is the caller's fault. */
 static imp_code refusal(const surface *s, imp_status status, imp_error *why)
 {
     surface_fault(
@@ -324,7 +324,8 @@ static imp_code refusal(const surface *s, imp_status status, imp_error *why)
     return IMP_ERROR_USAGE;
 }
 
-/* The error for the first of n points that lies outside the domain; IMP_SUCCESS: none does. */
+/* Sets the error for the first of n points that lies outside the domain. IMP_SUCCESS: all lie
+ * inside. */
 static imp_code refuse_outside(const surface *s, size_t n, const double *p, imp_error *why)
 {
     double lo[3], hi[3];
@@ -505,8 +506,8 @@ static tree *find_tree(tree *t, const tree_plan *plan)
     return t;
 }
 
-/* Keeps the tree, unless another thread's is there already: then that one is answered, and `made`
- * freed. */
+/* Adds the tree to the list, unless another thread has added one: then `made` is freed and that one
+ * returned. */
 static tree *keep_tree(member *m, const tree_plan *plan, tree *made)
 {
     tree *first = atomic_load_explicit(&m->trees, memory_order_acquire);
@@ -528,7 +529,7 @@ static const surface *find_inner(const inner *i, size_t left_out)
     return i != NULL ? i->surface : NULL;
 }
 
-/* The surface without its last maps, made now if it is asked for first. NULL: no memory. */
+/* Returns the surface without its last maps, made now if it is asked for first. NULL: no memory. */
 static const surface *surface_in_frame(member *m, size_t left_out, tree_growth *growth)
 {
     if (left_out == 0) return m->surface;

@@ -14,7 +14,7 @@
 
 /* --- Creation and destruction ----------------------------------------------------------------- */
 
-/* What destroy does to the floating-point mode is undone. */
+/* Calls destroy and restores the floating-point mode if it was changed. */
 static void destroy(const char *type, void (*destroy_it)(void *), void *self)
 {
     const surface_call call = surface_call_begin(type, "destroy");
@@ -22,7 +22,8 @@ static void destroy(const char *type, void (*destroy_it)(void *), void *self)
     surface_call_end(call, IMP_STATUS_OK);
 }
 
-/* Domains are asked for once; one that is not finite in u and v, inverted or NaN is a breach. */
+/* Asks for a domain, once for each instance. One that is not finite in u and v, inverted or NaN
+ * breaks the ABI. */
 imp_status instance_domain(const imp_surface_type *type, const void *self, double lo[3],
                            double hi[3])
 {

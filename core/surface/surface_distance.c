@@ -180,7 +180,7 @@ static imp_status stretch_by(const surface *s, size_t first, const imp_region *r
     return IMP_STATUS_OK;
 }
 
-/* The point before the first `maps` maps, and their least stretch. */
+/* Takes the point back before the first `maps` maps, and bounds their least stretch. */
 static imp_status take_back_before(const surface *s, size_t maps, const imp_region *region,
                                    const imp_model point[3], imp_model at[3], double *stretch)
 {
@@ -214,7 +214,7 @@ static bool exists_during(const surface *s, const imp_region *region)
 
 /* --- Planes ----------------------------------------------------------------------------------- */
 
-/* n.(x - center) of models of x. */
+/* Returns the model of n.(x - center) for models of x. */
 static imp_model height_of(const surface_plane *plane, const imp_model x[3])
 {
     imp_model axis[3], way[3];

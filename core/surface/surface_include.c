@@ -20,7 +20,7 @@ static void model_unbounded(imp_model model[3])
     }
 }
 
-/* The inclusion that rates alone give: a = f(c), b = q = 0, e = error + M d. */
+/* Makes the inclusion that rates alone give: a = f(c), b = q = 0, e = error + M d. */
 static imp_status model_from_rates(const surface *s, const imp_region *region,
                                    const imp_rate_matrix *rates, size_t maps, imp_model model[3])
 {
@@ -79,7 +79,7 @@ imp_model surface_time(const imp_region *region)
     return t;
 }
 
-/* What rates say of map k over the models: its own, and those of the composition. */
+/* Computes the rates of map k over the box of the models, and those of the composition. */
 static imp_status rates_through_map(const surface *s, size_t k, const imp_region *region,
                                     const imp_model model[3], imp_box4 *box, imp_map_rates *p,
                                     imp_rate_matrix *rates)
@@ -96,7 +96,7 @@ static imp_status rates_through_map(const surface *s, size_t k, const imp_region
     return status == IMP_STATUS_OK ? surface_chain_rule(p, &inner, rates) : status;
 }
 
-/* Map k on top of the models, by rates alone. */
+/* Applies map k to the models by rates alone. */
 typedef imp_status box_step(const surface *s, size_t k, const imp_region *region,
                             imp_model model[3]);
 
@@ -149,8 +149,8 @@ static imp_status include_box(const surface *s, size_t k, const imp_region *regi
     return IMP_STATUS_OK;
 }
 
-/* One map on top of the models. `*unbounded` says that rates are no longer to be trusted, though
- * polynomials and ranges may still be. */
+/* Applies one map to the models. *unbounded: rates are no longer valid, though polynomials and
+ * ranges may still be. */
 static imp_status include_through_map(const surface *s, size_t k, const imp_region *region,
                                       box_step *step, imp_model model[3], bool *unbounded)
 {
@@ -173,7 +173,7 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
     return IMP_STATUS_OK;
 }
 
-/* The first `maps` maps on top of models that came with `status`. */
+/* Applies the first `maps` maps to models that came with `status`. */
 static imp_status include_through_maps(const surface *s, const imp_region *region, size_t maps,
                                        box_step *step, imp_status status, imp_model model[3])
 {

@@ -10,7 +10,7 @@
 
 /* --- Which maps are left when what stands still is moved -------------------------------------- */
 
-/* The maps from here on are all rigid. */
+/* Returns the first map from which on all maps are rigid. */
 static size_t first_rigid(const surface *s)
 {
     size_t first = s->map_count;
@@ -44,8 +44,8 @@ static const double pose_slack = 1e-9;
 
 static bool is_exact(const imp_model *m, double size) { return m->e <= pose_slack * (1 + size); }
 
-/* shift + turn (x - pivot) as turn x + (shift - turn pivot). False: there is no pose, or a vague
- * one. */
+/* Writes shift + turn (x - pivot) as turn x + (shift - turn pivot). False: there is no pose, or one
+ * that is not exact enough. */
 static bool place_at(const surface *s, size_t first, double t, placement *at)
 {
     double lo[3], hi[3];
@@ -67,8 +67,8 @@ static bool place_at(const surface *s, size_t first, double t, placement *at)
     return exact;
 }
 
-/* Rows of the inverse by cross products of columns. It exists: a pose turns, but for
- * IMP_RIGID_SLACK. */
+/* Computes the rows of the inverse by cross products of columns. It exists, since `turn` is within
+ * IMP_RIGID_SLACK of a rotation. */
 static void invert(double m[3][3], double inverse[3][3])
 {
     double determinant = 0;

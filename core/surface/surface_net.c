@@ -7,7 +7,7 @@
 
 #include "core/surface/surface_internal.h"
 
-/* False where a number is not finite or an error negative. */
+/* Whether all numbers are finite and no error is negative. */
 static bool is_sane(const imp_net *net)
 {
     const size_t points = (size_t)(net->degree[0] + 1) * (net->degree[1] + 1);

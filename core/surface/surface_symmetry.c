@@ -67,8 +67,8 @@ static double length_lower(const double x[3])
 
 /* --- Through one map -------------------------------------------------------------------------- */
 
-/* A point, and how far at most it is from where it would be if all maps so far had moved it as
- * rotations do and not nearly so. */
+/* A point, and a bound of its distance from where it would be if all maps so far were exact
+ * rotations. */
 typedef struct carried {
     imp_model at[3];
     double off;
@@ -129,8 +129,8 @@ static void pull_truly(const imp_pose *pose, double d, carried *x)
 
 /* --- What is seen at some times --------------------------------------------------------------- */
 
-/* The center, and where the axis from it ends, if it counts, as they are seen from a before its
- * maps; and points of a. */
+/* The symmetry's center, and the end of its axis if the axis counts, as seen from a before its
+ * maps; and bounds for points of a. */
 typedef struct seen {
     carried feature[2];
     double off; /* points of a are off by so much, seen from b before its maps; length */
@@ -146,7 +146,7 @@ typedef struct question {
     const imp_model *bare; /* a before its maps */
 } question;
 
-/* The pose of one map; *d >= |D|. */
+/* Computes the pose of one map, and *d >= |D|. */
 static imp_status pose_of(const surface *s, size_t k, const imp_region *times, imp_pose *pose,
                           double *d)
 {
@@ -157,7 +157,7 @@ static imp_status pose_of(const surface *s, size_t k, const imp_region *times, i
     return status == IMP_STATUS_OK && !(*d <= 0.5) ? IMP_STATUS_UNBOUNDED : status;
 }
 
-/* The pose of a's map k, and of b's, at these times. */
+/* Computes the pose of a's map k, or of b's, at these times. */
 static imp_status pose_of_a(const question *q, size_t k, const imp_region *times, imp_pose *pose,
                             double *d)
 {
@@ -268,8 +268,9 @@ static double slip_upper(const imp_symmetry *of, const seen *now, const seen *th
 
 /* --- Over all times --------------------------------------------------------------------------- */
 
-/* Where models of a turn hold poorly over a span, halves of it are tried. What comes of rounding
- * alone is good enough; a motion that is surely none within itself is given up at once. */
+/* Where models of a turn are loose over a span, its halves are tried, this many times in turn. A
+ * slip that rounding alone explains is good enough; a motion that surely leaves the symmetry is
+ * given up at once. */
 enum { HALVINGS = 6 };
 #define GOOD_ENOUGH 0x1p-40
 #define GIVEN_UP 0x1p-16
@@ -300,7 +301,7 @@ static imp_status slip_over(const question *q, const seen *then, const imp_regio
     return before == IMP_STATUS_OK ? slip_over(q, then, &second, halvings - 1, slip) : before;
 }
 
-/* Whether the motion is surely none within b, as seen at both ends of the times. */
+/* Whether the motion surely leaves b's symmetry, as seen at both ends of the times. */
 static imp_status give_up(const question *q, const imp_region *still, const imp_region *times,
                           bool *given_up)
 {
@@ -343,7 +344,7 @@ static imp_status answer(const question *q, const imp_region *times, double *sli
 
 static bool moves_rigidly(const surface *s) { return s->map_count == 0 || surface_is_rigid(s); }
 
-/* How a point that b's maps carry moves from one time to another, as a sees it, about. */
+/* Estimates how a point that b's maps carry moves from one time to another, as seen from a. */
 static imp_status way_of(const question *q, const double point[3], const imp_region *other,
                          double way[3])
 {
@@ -358,7 +359,7 @@ static imp_status way_of(const question *q, const double point[3], const imp_reg
     return status;
 }
 
-/* Two directions across the axis of the plane. */
+/* Finds two directions across the axis of the plane. */
 static void directions_across(const double axis[3], double across[2][3])
 {
     int least = 0;
@@ -383,8 +384,9 @@ static double dot(const double x[3], const double y[3])
 
 #define SINGULAR 0x1p-30
 
-/* Every point of a plane may be its center. That which the motion leaves where it is, if there is
- * one, is seen most exactly: the point of least way, which depends linearly on the point. */
+/* Chooses the plane's center, which may be any of its points. The point that the motion leaves
+ * where it is, if there is one, is seen most exactly: the point that moves least. The motion
+ * depends linearly on the point. */
 static imp_status choose_center(question *q, const imp_region *times)
 {
     const double t = times->lo[2] + 0.375 * (times->hi[2] - times->lo[2]);
@@ -489,8 +491,8 @@ static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetr
     return answer(&q, times, slip);
 }
 
-/* How many of the first maps only turn s within itself, and what that may be off by; what is sought
- * is more than one map only where the first alone is none. */
+/* Counts how many of the first maps together only turn s within itself, and bounds how far they
+ * leave that. */
 static imp_status first_maps_within(const surface *s, const imp_model bare[3],
                                     const imp_region *times, const imp_region *then, size_t *maps,
                                     double *slip)
@@ -512,7 +514,7 @@ static imp_status first_maps_within(const surface *s, const imp_model bare[3],
     return IMP_STATUS_OK;
 }
 
-/* What is left of a's motion as b sees it: within b's closed symmetry but for *slip. */
+/* Bounds in *slip how far a's motion, as seen from b, leaves b's closed symmetry. */
 static imp_status slip_of_rest(const surface *const s[2], const size_t still[2],
                                const imp_model *bare, const imp_region *times,
                                const imp_region *then, double *slip)

@@ -18,14 +18,14 @@ static bool region_holds(const imp_region *r, const double p[3])
     return true;
 }
 
-/* In [-1, 1], but for 2 roundings. */
+/* Returns s, which is in [-1, 1] but for 2 roundings. */
 static double parameter_within(const node *n, const double p[3], int j)
 {
     return n->region.d[j] > 0 ? (p[j] - n->region.c[j]) / n->region.d[j] : 0;
 }
 
-/* The polynomial at p, x, y, z in lanes, and how far off rounding may be, in units of u times the
- * sum of the terms' sizes: s, two factors of at most 2 each; two products; nine sums. */
+/* Evaluates the polynomial at p, with x, y, z in lanes, and bounds its rounding, in units of u
+ * times the sum of the terms' sizes: s, two factors of at most 2 each; two products; nine sums. */
 enum { POLYNOMIAL_ROUNDING = 32 };
 _Static_assert(2 * 2 + 2 + 9 <= POLYNOMIAL_ROUNDING, "rounding of the polynomial");
 
@@ -56,8 +56,8 @@ IMP_QUAD_INLINE imp_quad polynomial(const node *n, const double p[3], imp_quad *
 enum { POINT_ROUNDING = 8 }; /* units of u of x: 1 in x - polynomial, 1 in x -+ slack */
 PAD_COVERS(8, 2);            /* of e: two sums */
 
-/* The coordinate whose bound x -+ eval_error breaks beyond rounding, or -1. A NaN breaks none: it
- * is caught where points and bounds are made. */
+/* Returns the coordinate whose bound x -+ eval_error breaks beyond rounding, or -1. A NaN breaks
+ * none: it is caught where points and bounds are made. */
 IMP_QUAD_INLINE int outside(const node *n, const double p[3], const double x[3],
                             const double eval_error[3])
 {
@@ -104,8 +104,8 @@ IMP_QUAD_INLINE imp_quad third_order(const posed_terms *x, const double s[3], im
 enum { OFF_ROUNDING = 8 };
 PAD_COVERS(32, 3 + 9);
 
-/* Whether x leaves what a posed node's remainder reaches along one of the body's axes, as they are
- * then, beyond rounding. */
+/* Whether x lies, beyond rounding, outside the parallelepiped of a posed node's remainder along one
+ * of the body's axes at that time. */
 IMP_QUAD_INLINE bool outside_edges(const node *n, const double p[3], const double x[3],
                                    const double eval_error[3])
 {
@@ -157,8 +157,8 @@ static bool leaves_edges(const node *n, const double p[3], const double x[3],
 enum { NET_ROUNDING = 16 };
 _Static_assert(2 * (2 + 3) <= NET_ROUNDING, "rounding of a net's box");
 
-/* The coordinate that leaves the box of the node's net, which holds its hull, beyond rounding, or
- * -1. */
+/* Returns the coordinate that lies, beyond rounding, outside the box of the node's net, which holds
+ * its hull; or -1. */
 IMP_QUAD_INLINE int off_net(const net *f, double t, const double x[3], const double eval_error[3])
 {
     const double tau = t - f->time;
@@ -243,7 +243,7 @@ static imp_code judge(const surface *s, const node *n, const double p[3], const 
     return i >= 0 ? lie_of_net(s, n, p, x, i, error) : IMP_SUCCESS;
 }
 
-/* A point with its error bounds; what cannot be evaluated is no evidence here. */
+/* Evaluates a point with its error bounds. A point that cannot be evaluated is no evidence here. */
 static bool evaluate(const surface *s, const double p[3], double x[3], double eval_error[3])
 {
     if (surface_eval(s, 1, p, x, eval_error) != IMP_STATUS_OK) return false;

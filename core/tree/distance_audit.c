@@ -38,7 +38,7 @@ static imp_region draw_part(const imp_region *of, uint64_t *state)
     return region_make(lo, hi);
 }
 
-/* About normal to the part, or any direction. */
+/* Draws a direction that is nearly normal to the part, or any direction. */
 static vec3 draw_direction(const imp_model model[3], uint64_t *state)
 {
     vec3 by[2], n;
@@ -51,8 +51,8 @@ static vec3 draw_direction(const imp_model model[3], uint64_t *state)
     return n;
 }
 
-/* Models of what is moved. In units of u: a and b are rounded once, ends of the range three
- * times. */
+/* Makes models of the moved points. In units of u: a and b are rounded once, ends of the range
+ * three times. */
 static void move(passage *w, const vec3 *n, double h, double k)
 {
     for (int i = 0; i < 3; ++i) {
@@ -98,8 +98,7 @@ static bool draw_passage(const node *n, uint64_t *state, passage *w)
 
 /* --- Judging ---------------------------------------------------------------------------------- */
 
-/* At least the least |g| that is left at s. In units of u of the sizes: terms 2, sums 9, twice
- * that. */
+/* A lower bound of |g| at s. In units of u of the sizes: terms 2, sums 9, twice that. */
 enum { CLAIM_ROUNDING = 32 };
 
 static double claimed_at(const imp_model *g, const double s[3])

@@ -105,7 +105,7 @@ static void bound_both(cluster_bound *to, const cluster_bound *x, const cluster_
 
 /* --- Halving ---------------------------------------------------------------------------------- */
 
-/* Where a piece is, for choosing only: x, y, z and its number. Those of a cluster stand
+/* The place of a piece, for choosing only: x, y, z and its number. Pieces of a cluster stand
  * together. */
 typedef struct spot {
     double at[4];
@@ -128,8 +128,8 @@ static spot middle_of(const spot *x, const spot *y, const spot *z, int axis)
     return is_before(z, x, axis) ? *x : is_before(z, y, axis) ? *z : *y;
 }
 
-/* Puts the `count` pieces in such an order that none of the first `half` comes after any other, in
- * a total order, so that the answer is the same everywhere (Hoare's selection). */
+/* Orders the `count` pieces so that none of the first `half` comes after any other, by Hoare's
+ * selection. The order is total, so that the result is the same everywhere. */
 static void select_half(spot *spots, size_t count, size_t half, int axis)
 {
     size_t first = 0, last = count - 1;
@@ -167,8 +167,8 @@ static int longest_axis(const spot *spots, size_t count)
     return longest;
 }
 
-/* The cluster of `count` pieces, count >= 2. Halves are equal, so that the depth is the logarithm
- * of their number. */
+/* Makes the cluster of `count` pieces, count >= 2. Its halves are equal, so that the depth is the
+ * logarithm of the number of pieces. */
 static cluster *build(const building *b, spot *spots, size_t count)
 {
     cluster *made = &b->h->clusters[b->h->used++];

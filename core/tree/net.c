@@ -80,7 +80,8 @@ bool net_take(net *n, const imp_net *given, const imp_region *region)
 
 /* --- Halves ----------------------------------------------------------------------------------- */
 
-/* De Casteljau at the middle, in place: x[0], x[step], ... of degree n become those of a half. */
+/* Runs de Casteljau at the middle, in place: x[0], x[step], ... of degree n become those of a
+ * half. */
 static void halve_plain(double *x, int n, int step, int side)
 {
     for (int used = 1; used <= n; ++used)
@@ -124,7 +125,7 @@ static void halve_plain_bicubic(const double *x, int columns, parameter j, int s
         halve_bicubic(x, columns, j, side, half);
 }
 
-/* The mean of two numbers by their weights. */
+/* Returns the mean of two numbers by their weights. */
 static double mean(double x, double w, double y, double z) { return (w * x + z * y) / (w + z); }
 
 /* Halves `columns` columns that are `apart` from each other, by the weights w. */
@@ -221,7 +222,7 @@ static double halving_upper(double units, double most)
     return units * UNIT_ROUNDOFF * most + HALVING_UNDERFLOW;
 }
 
-/* Any patch: line after line, then the copies of the last point. */
+/* Halves any patch, line after line, then the copies of the last point. */
 static void halve_lines(const net *f, parameter j, int side, double *x, int columns)
 {
     const int n = f->degree[j], other = f->degree[!j], inner = f->degree[1] + 1;

@@ -15,7 +15,7 @@
 
 static const arena_growth node_growth = {4 * sizeof(node), 4, 64 * sizeof(node)};
 
-/* Room for a node, which is then published or given back; NULL: no memory. */
+/* Reserves room for a node, which is then published or given back. NULL: no memory. */
 static node *node_reserve(tree *t, tree_growth *growth)
 {
     node *n = NULL;
@@ -42,7 +42,8 @@ static void node_give_back(tree *t, node *n)
 
 /* --- Making ----------------------------------------------------------------------------------- */
 
-/* With the net; unless it has it already, it is made again when it is needed. */
+/* Audits a node with its net. A net that the node was not asked for is made for the audit alone,
+ * and again when it is needed. */
 static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
 {
     net_buffer room;
@@ -56,8 +57,9 @@ static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
     return code;
 }
 
-/* The whole of a surface says it for all parts, so that models depend on the region alone, not on
- * what was asked before. Models of nets are worth the nets only where patches bend. */
+/* Decides once per surface whether nodes take their models from their nets, so that models depend
+ * on the region alone, not on what was asked before. Such models are worth the nets only where
+ * patches bend. */
 static bool follows_net(const node *n)
 {
     if (!node_is_part(n)) return false;
@@ -65,8 +67,8 @@ static bool follows_net(const node *n)
     return n->many == NULL && node_bends(n->parent) && surface_offers_net(n->surface);
 }
 
-/* Sets all that filling does not, in memory that may hold anything. Filling sets models, and adds
- * to the bounds of rates. */
+/* Sets every field that filling does not set, in memory that may hold anything. Filling sets
+ * models, and adds to the bounds of rates. */
 static void node_begin(const tree *t, const node_place *place, node *n)
 {
     const size_t set = t->plan.kind == TREE_MODELS ? offsetof(node, bounded) : 0;
@@ -146,7 +148,7 @@ node_place node_place_of_cluster(const cluster *many, double t_start, double t_e
                         .many = many};
 }
 
-/* Which points a half of a node is to bound. */
+/* Returns the place of a half of a node: the points that it is to bound. */
 static node_place points_of_half(const node *parent, parameter j, int side)
 {
     const imp_region *r = &parent->region;

@@ -6,8 +6,8 @@
 
 #include "core/tree/model_lanes.h"
 
-/* The first promise of imp_model that a coordinate breaks, or NULL. Infinite values come only with
- * IMP_STATUS_UNBOUNDED. */
+/* Returns the first promise of imp_model that a coordinate breaks, or NULL. Infinite values come
+ * only with IMP_STATUS_UNBOUNDED. */
 static const char *breach_of(const imp_model *m, bool may_be_infinite)
 {
     const double limit = may_be_infinite ? INFINITY : 0x1.fffffffffffffp1023;

@@ -10,7 +10,7 @@
 
 const net net_none;
 
-/* Room for a net; NULL: no memory. */
+/* Reserves room for a net. NULL: no memory. */
 static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
 {
     const arena_growth sizes = {bytes, 4, 64 * bytes};
@@ -22,7 +22,7 @@ static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
     return n;
 }
 
-/* The net as the type gives it, in the room; NULL where it has none that can be computed with. */
+/* Asks the surface for the net, into the room. NULL: there is none that can be computed with. */
 static imp_code ask_net(const node *n, net_buffer *room, const net **made, imp_error *error)
 {
     imp_net given;
@@ -40,16 +40,15 @@ static bool may_have_net(const tree *t, const node *n)
            surface_offers_net(n->surface);
 }
 
-/* Whether the node's net is a half of its parent's, which is `whole`: what has one is of a tree and
- * a surface that may. */
+/* Whether the node's net is a half of its parent's net, `whole`. */
 static bool is_half_of(const node *n, const net *whole)
 {
     return whole != NULL && n->along != PARAMETER_T && n->bounded &&
            net_can_halve(&n->parent->region, n->along);
 }
 
-/* The net in the room, or that of the parent itself, which is `whole`; NULL: it has none. From the
- * parent's where that can be halved; it may lie in the room. */
+/* Makes the net in the room, by halving the parent's net `whole`, which may lie in the room, where
+ * that is possible. Returns it, or `whole` itself; NULL: there is none. */
 static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buffer *room,
                          const net **made, imp_error *error)
 {
@@ -66,7 +65,7 @@ static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buf
     return IMP_SUCCESS;
 }
 
-/* A copy in the tree of a net in the room. NULL: no memory. */
+/* Copies a net in the room into the tree. NULL: no memory. */
 static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
 {
     const size_t bytes = net_bytes(filled);
@@ -74,8 +73,8 @@ static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
     return kept != NULL ? memcpy(kept, filled, bytes) : NULL;
 }
 
-/* The net of n: this one, or another thread's that is there already. The room of this one is lost
- * then. NULL: it has none. */
+/* Publishes the net of n and returns it, or another thread's that is there already; the room of
+ * this one is then lost. NULL: it has none. */
 static const net *net_publish(node *n, const net *made)
 {
     const net *there = NULL;

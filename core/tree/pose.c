@@ -74,7 +74,7 @@ static double turned_upper(double norm, const double x[4])
     return padded_upper(norm * length, 8) + ROOT_UNDERFLOW;
 }
 
-/* The shape relative to the pivot: z = y - p. */
+/* A shape relative to the pivot: z = y - p. */
 typedef struct relative_shape {
     double a[4];      /* of its polynomial */
     double middle[4]; /* half the sum of the squares' coefficients */
@@ -197,7 +197,7 @@ IMP_QUAD_INLINE imp_quad remainder_upper(const shape_model *s, const pose_lanes 
     return quad_padded_upper(rest + folded_third(s, p) + e, 32) + POSE_UNDERFLOW;
 }
 
-/* With what edges leave out, and may be off by. */
+/* Adds what edges leave out, and their rounding. */
 PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5 + 2);
 
 IMP_QUAD_INLINE imp_quad posed_rest_upper(const shape_model *s, const pose_lanes *p, imp_quad rest)

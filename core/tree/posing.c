@@ -29,8 +29,8 @@ static const arena_growth posing_growth = {2048, 2, 8192};
 
 /* --- Shapes ----------------------------------------------------------------------------------- */
 
-/* Over the u and v of a node, at all times of the root. What answers no model is asked again
- * through all maps, which tells what is wrong. */
+/* Makes a shape over the u and v of a node, at all times of the root. If there is no model the
+ * surface is asked again through all maps, which tells what is wrong. */
 static void shape_fill(shape *s, const node *n, const node *root)
 {
     imp_region region = n->region;
@@ -66,7 +66,7 @@ static shape *shape_publish(posing *g, const shape *filled, _Atomic(shape *) *sl
     return s;
 }
 
-/* The shape in the slot, that of n. NULL: no memory. */
+/* Returns the shape in the slot, made now for n if there is none. NULL: no memory. */
 static shape *shape_in(posing *g, _Atomic(shape *) *slot, const node *n, tree_growth *growth)
 {
     shape *s = atomic_load_explicit(slot, memory_order_acquire);

@@ -10,7 +10,7 @@
 #include "core/base/status.h"
 #include "core/tree/tree_internal.h"
 
-/* A box, as a tree keeps it. */
+/* A tree keeps a box as lo and hi, side by side as in a node. */
 _Static_assert(offsetof(node, hi) == offsetof(node, lo) + 3 * sizeof(double), "lo, then hi");
 
 static node *own_root(tree *t)
@@ -55,7 +55,7 @@ static size_t tree_bytes(bool with_root)
     return sizeof(tree) + (with_root ? sizeof(node) : sizeof(root_box));
 }
 
-/* The root is not filled yet. NULL: no memory. */
+/* Makes a tree whose root is not filled yet. NULL: no memory. */
 static tree *tree_begin(const surface *s, const tree_plan *plan, bool with_root)
 {
     tree *t = malloc(tree_bytes(with_root));
