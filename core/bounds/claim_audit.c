@@ -36,8 +36,8 @@ enum { SIDE = 8, GRID = SIDE * SIDE };
 #define STEP_LEAST                                                                                 \
     0x1p-16 /* of the domain's widths: its square is lost in the distance's ninth digit */
 
-/* At least the distance of two exact points. Rounding: differences, squares, sums, root: 5 of it,
- * and 1 of the errors. */
+/* An upper bound of the distance of two exact points. Rounding: differences, squares, sums, root: 5
+ * of it, and 1 of the errors. */
 PAD_COVERS(8, 5);
 static double apart_upper(const place *a, const place *b)
 {
@@ -68,7 +68,8 @@ static void look_at(hunt *h, const double p[3 * GRID], size_t count)
     }
 }
 
-/* A grid over u and v, then steps along each that are halved when none comes nearer. */
+/* Seeks the nearest point: a grid over u and v, then steps along each that are halved when none
+ * comes nearer. */
 static void seek_nearest(hunt *h)
 {
     double p[3 * GRID];
@@ -100,7 +101,7 @@ static void seek_nearest(hunt *h)
 enum { CLAIM_ROUNDING = 32 };
 _Static_assert(2 * 2 + 2 + 9 <= CLAIM_ROUNDING, "rounding of a claim");
 
-/* At most the least |g| that polynomial and range leave at p; less than 0: nothing is claimed. */
+/* A lower bound of |g| at p by polynomial and range; less than 0: nothing is claimed. */
 static double claimed_lower(const imp_model *g, const imp_region *r, const double p[3], bool slides)
 {
     double s[3], value = g->a, size = fabs(g->a) + g->e;
@@ -119,8 +120,8 @@ static double claimed_lower(const imp_model *g, const imp_region *r, const doubl
     return by_polynomial > by_range ? by_polynomial : by_range;
 }
 
-/* Whether the distance alone, asked at that place and time, claims no more than is so: then it is
- * the symmetry that lies. */
+/* Whether the distance alone, asked at that place and time, claims no more than is true: then the
+ * symmetry is at fault. */
 static bool blames_symmetry(const distance_question *q, const place *at, double apart)
 {
     const surface *b = q->b->surface;

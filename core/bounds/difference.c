@@ -112,7 +112,7 @@ IMP_QUAD_INLINE imp_quad take_posed_terms(const node *n, difference *r, slice *s
            imp_quad_all(THIRD_ROUNDING * UNIT_ROUNDOFF) * third;
 }
 
-/* Remainders of both, as boxes. */
+/* Adds the remainders of both, as boxes. */
 IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, difference *r, moved *ma,
                                     moved *mb)
 {

@@ -20,7 +20,7 @@ bool distance_is_known(const node *a, const node *b)
            strategy_distance_pays(a, b, surface_common_maps(a->surface, b->surface));
 }
 
-/* The models of a node's points. A node keeps no rates. */
+/* Copies the models of a node's points. A node keeps no rates. */
 static void point_models(const node *n, imp_model model[3])
 {
     const quadratic3 *f = &n->f;
@@ -61,7 +61,7 @@ static imp_code fault(const surface *s, imp_status status, imp_error *error)
     return surface_set_code(status, error);
 }
 
-/* The region's u and v, at one moment. */
+/* Returns the region's u and v at one moment. */
 static imp_region at_moment(const imp_region *r, double moment)
 {
     return region_make((double[3]){r->lo[0], r->lo[1], moment},
@@ -196,10 +196,10 @@ static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
     return both;
 }
 
-/* Whether the remainder is what hides that the node is apart: the polynomial alone is, or hardly
- * varies beside the remainder, as where the surfaces are parallel; or the node slides within
- * itself, so that at all times some neighbours are as near. Then halves of the node, whose
- * remainders are a small part of it, are worth more than those of its neighbours. Not of remainders
+/* Whether only the remainder hides that the node is apart: the polynomial alone proves it, or
+ * hardly varies beside the remainder, as between parallel surfaces; or the node slides within
+ * itself, so that at all times some neighbours are as near. Halves of the node, whose remainders
+ * are a small part of its own, are then worth more than those of its neighbours. Not of remainders
  * that are mere rounding, nor of nodes so large that these say nothing of the surface. */
 static bool promises(const imp_model *g, const sides *both, const node *n, double gamma_clear,
                      double size, bool within_itself)
@@ -214,10 +214,10 @@ static bool promises(const imp_model *g, const sides *both, const node *n, doubl
     return farther + (within_itself || is_level ? g->e : 0) > gamma_clear;
 }
 
-/* Where the remainder is too large, the range may still do. */
+/* Returns a lower bound of |g| by its range, which may do where the remainder is too large. */
 static double range_lower(const imp_model *g) { return g->lo > -g->hi ? g->lo : -g->hi; }
 
-/* The least of both sides over the window. */
+/* Returns a lower bound of the distance over the window: the better of both sides. */
 static double sides_lower(const sides *both, double slack)
 {
     double lower[2];
@@ -239,7 +239,7 @@ static bool is_within_itself(const distance_question *q)
     return distance_slides(q) || q->a->region.lo[PARAMETER_T] == q->a->region.hi[PARAMETER_T];
 }
 
-/* What g shows over the window, which is cut. */
+/* Cuts the window by g and returns what g shows over it. */
 static void cut_by(const distance_question *q, const imp_model *g, time_window *window,
                    distance_view *view)
 {

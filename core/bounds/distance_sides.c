@@ -14,9 +14,9 @@ distance_outcome distance_outcome_none(const time_window *window)
     return (distance_outcome){*window, false, 0, -1, {0, 0, 0}};
 }
 
-/* How far one surface slides along the other over all times of both. `plane`: that of a part of the
- * other, or NULL for the other's symmetry. INFINITY: nothing is known, as of other surfaces of many
- * pieces, of which each has its own. */
+/* Bounds how far one surface slides along the other over all times of both. `plane`: that of a part
+ * of the other, or NULL for the other's symmetry. INFINITY: nothing is known, as of other surfaces
+ * of many pieces, of which each has its own. */
 static imp_code find_slip(const node *own, const node *other, const surface_plane *plane,
                           const time_window *times, double moment, double *slip, imp_error *error)
 {
@@ -41,8 +41,8 @@ static bool is_turned(const distance_sides *of, int side)
     return surface_map_count(other) - common > of->still_maps[!side];
 }
 
-/* What is asked of one side. Models of a node that moves uniformly are as good as those of one
- * moment. */
+/* Makes the question about one side. Models of a node that moves uniformly are as good as those of
+ * one moment. */
 static imp_code question_of(const distance_sides *of, int side, double gamma_clear,
                             distance_question *q, imp_error *error)
 {
@@ -66,7 +66,7 @@ static imp_code question_of(const distance_sides *of, int side, double gamma_cle
 
 /* --- Faces ------------------------------------------------------------------------------------ */
 
-/* Asks how far the points of one side are from the plane of the other's node, along which they
+/* Asks how far the points of one side are from the plane of the other side's node, along which they
  * slide. */
 static imp_code cut_along_face(const distance_sides *of, int side, double gamma_clear,
                                time_window *window, distance_view *view, imp_error *error)

@@ -8,7 +8,7 @@
 #include "core/bounds/quadratic.h"
 #include "core/bounds/window_lanes.h"
 
-/* Four directions, coordinate by coordinate; and their absolute values. */
+/* Four axes in lanes, coordinate by coordinate; and their absolute values. */
 typedef struct bundle {
     imp_quad x[3], size[3];
 } bundle;
@@ -67,7 +67,7 @@ IMP_QUAD_INLINE imp_quad turning(const forms *f)
     return slopes + (imp_quad_abs(f->uuw) + imp_quad_abs(f->uvw) + imp_quad_abs(f->vvw));
 }
 
-/* The form as it is at w. */
+/* Returns the form at w. */
 IMP_QUAD_INLINE quadratics form_at(const forms *f, double w)
 {
     const imp_quad to = imp_quad_all(w);
@@ -251,7 +251,7 @@ IMP_QUAD_INLINE imp_quad direction(const slice *s, double w)
            imp_quad_all(w) * (imp_quad_load(s->quw) + imp_quad_load(s->qvw));
 }
 
-/* A vector perpendicular to both curves at w, about; curves have no normals. */
+/* Returns a vector that is nearly perpendicular to both curves at w; curves have no normals. */
 IMP_QUAD_INLINE imp_quad across(const difference *r, double w)
 {
     return imp_quad_cross(direction(&r->a, w), direction(&r->b, w));
@@ -259,7 +259,8 @@ IMP_QUAD_INLINE imp_quad across(const difference *r, double w)
 
 IMP_QUAD_INLINE imp_quad quad_from(vec3 v) { return imp_quad_of(v.x[0], v.x[1], v.x[2], 0); }
 
-/* These two, and both normals; for two curves vectors perpendicular to both, at either end. */
+/* Makes a bundle of two axes and both normals or, for two curves, vectors perpendicular to both at
+ * either end. */
 IMP_QUAD_INLINE bundle bundle_with(const difference *r, vec3 x, vec3 y)
 {
     const bool curves = !(vec3_norm1(r->a.normal) + vec3_norm1(r->b.normal) > 0);

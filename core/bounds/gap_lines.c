@@ -56,9 +56,9 @@ static double weighted_lower(const gap_line *l, const gap_line *m, double p, w_r
     return least > 0 ? least : 0;
 }
 
-/* The two lines that cross where the envelope is lowest, one falling and one rising, are found by
- * going to where they cross and taking the line that is highest there in place of one. Any two
- * prove what they prove. */
+/* Finds the two lines that cross where the envelope is lowest, one falling and one rising: goes to
+ * where two lines cross and replaces one by the line that is highest there. Any two lines prove a
+ * bound. */
 double gap_lines_lower(const gap_lines *lines, w_range range, double *w)
 {
     const gap_line *fall = highest_at(lines, range.lo), *rise = highest_at(lines, range.hi);

@@ -53,13 +53,13 @@ IMP_QUAD_INLINE imp_quad along(vec3 n, const imp_quad x[3])
     return x[0] * imp_quad_all(n.x[0]) + x[1] * imp_quad_all(n.x[1]) + x[2] * imp_quad_all(n.x[2]);
 }
 
-/* Where b s is least over [-1, 1]. */
+/* Returns the s in [-1, 1] at which b s is least. */
 IMP_QUAD_INLINE imp_quad lower_end(imp_quad b)
 {
     return imp_quad_pick(b > imp_quad_all(0), imp_quad_all(-1), imp_quad_all(1));
 }
 
-/* Where b s + q s^2 is least over [-1, 1]; `vertex` is -1 / 2q. */
+/* Returns the s in [-1, 1] at which b s + q s^2 is least; `vertex` is -1 / 2q. */
 IMP_QUAD_INLINE imp_quad least_at(imp_quad b, imp_quad q, imp_quad vertex)
 {
     const imp_quad one = imp_quad_all(1), end = lower_end(b);
@@ -67,8 +67,8 @@ IMP_QUAD_INLINE imp_quad least_at(imp_quad b, imp_quad q, imp_quad vertex)
     return imp_quad_pick(q > imp_quad_all(0x1p-1000), inside, end);
 }
 
-/* Parameters (s_u of B, of -A, s_v of B, of -A) where both forms are least along n, about: u and v
- * in turn. */
+/* Estimates the parameters (s_u of B, of -A, s_v of B, of -A) at which both forms are least along
+ * n, by u and v in turn. */
 IMP_QUAD_INLINE imp_quad shape_bottom(const shape *z, vec3 n, bool bends)
 {
     const imp_quad slope = along(n, z->slope), twist = along(n, z->twist);

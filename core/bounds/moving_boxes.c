@@ -7,7 +7,7 @@
 #include "core/bounds/quadratic.h"
 #include "core/bounds/window_lanes.h"
 
-/* The largest distance of a node's points from a + bt s, but for rounding. */
+/* Bounds the distance of a node's points from a + bt s, without rounding. */
 IMP_QUAD_INLINE imp_quad reach_of(const node *n)
 {
     const quadratic3 *f = &n->f;
@@ -21,8 +21,8 @@ IMP_QUAD_INLINE imp_quad reach_of(const node *n)
     return slopes + still + turning + imp_quad_load(n->e);
 }
 
-/* B - A over the window t = mid + half w, coordinate by coordinate: delta + drift w, give or take
- * reach. */
+/* Encloses B - A over the window t = mid + half w, coordinate by coordinate: delta + drift w, plus
+ * and minus reach. */
 typedef struct passing {
     imp_quad delta, drift, reach;
 } passing;

@@ -60,13 +60,13 @@ _Static_assert(2 + 2 <= GAP_ROUNDING, "rounding of a half's limit");
 PAD_COVERS(64,
            3 + 3 + NET_HALVES_MOST); /* h->most: products and two sums; its own product, the sums */
 
-/* Bits of halves along j whose least heights are not all above `most`, `off` counted. */
+/* Returns bits of the halves along j whose least heights, less `off`, are not all above `most`. */
 IMP_QUAD_INLINE int near_bits(double lower, double upper, double most, double off)
 {
     return (int)!(lower - off > most) | (int)!(upper - off > most) << 1;
 }
 
-/* What halving once more may have moved heights by; the sum is rounded up where it is used. */
+/* Bounds how far halving once more moves heights; the sum is rounded up where it is used. */
 static double halved_off(const net_heights *h, parameter j)
 {
     return h->off + net_halving_upper(h->net, j, h->most);
@@ -83,7 +83,7 @@ static void keep(net_heights *h, parameter j, int half, double off, double early
     region_set_half(&h->region, &h->region, j, half);
 }
 
-/* Any patch: heights of both halves, and the least of them. */
+/* Computes heights of both halves of any patch, and the least of them. */
 typedef struct any_halves {
     double x[2][3 * IMP_QUAD * QUADS_MAX];
     window_ends low[2];
@@ -99,8 +99,8 @@ static void halve_any(const net_heights *h, parameter j, any_halves *both)
     }
 }
 
-/* Bits of the halves along j that may be near, whose heights are `most` at most somewhere; of one
- * alone the heights are kept. */
+/* Returns bits of the halves along j that may be near, that is, whose least height is at most
+ * `most` at one end of the window. If it is one half alone its heights are kept. */
 static int halve_any_heights(net_heights *h, parameter j, window_ends most)
 {
     const double off = halved_off(h, j), by = padded_upper(off, 64);
@@ -167,8 +167,8 @@ IMP_QUAD_INLINE int halve_bicubic_heights(net_heights *h, parameter j, window_en
 
 /* --- The search ------------------------------------------------------------------------------- */
 
-/* Bits of the parameters along which a half may be excluded: two corners of the half are above
- * `most`, as far as the window's end tells. */
+/* Returns bits of the parameters along which a half may be excluded: two corners of the half are
+ * above `most` at the window's end. */
 static int promising(const net_heights *h, double most)
 {
     const int end = h->net->degree[1], last = h->net->degree[0] * (end + 1);
@@ -178,7 +178,7 @@ static int promising(const net_heights *h, double most)
     return (first == 3 || second == 3) | ((first & second) != 0) << 1;
 }
 
-/* Along u, then v. */
+/* Excludes halves along u, then along v. */
 IMP_QUAD_INLINE bool find_of_side(net_heights *h, window_ends most, net_half *found)
 {
     const net *f = h->net;
@@ -197,7 +197,8 @@ IMP_QUAD_INLINE bool find_of_side(net_heights *h, window_ends most, net_half *fo
     return false;
 }
 
-/* A's halves, then B's. At the window's ends places are `at` apart along the axis. */
+/* Excludes A's halves, then B's. The nets' places are `at` apart along the axis at the window's
+ * ends. */
 IMP_QUAD_INLINE bool find_half(net_heights of[2], double limit, window_ends at, net_half *found)
 {
     for (found->side = 0; found->side < 2; ++found->side) {

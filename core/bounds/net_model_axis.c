@@ -22,7 +22,7 @@ static net_model net_model_of(const node *a, const node *b)
     return of_a != NULL ? (net_model){of_a, b, 1} : (net_model){node_net_made(b), a, -1};
 }
 
-/* From the net's place to the model's centre. */
+/* Returns the vector from the net's place to the model's centre. */
 IMP_QUAD_INLINE vec3 centre_apart(const net_model *p, double t)
 {
     vec3 apart;
@@ -62,7 +62,7 @@ IMP_QUAD_INLINE bowl bowl_at(const node *f, double t)
     return z;
 }
 
-/* Where b s + q s^2 is least over [-1, 1]. */
+/* Returns the s in [-1, 1] at which b s + q s^2 is least. */
 IMP_QUAD_INLINE double vertex_of(double b, double q)
 {
     const double inside = -0.5 * b / q, end = b > 0 ? -1 : 1;
@@ -70,7 +70,7 @@ IMP_QUAD_INLINE double vertex_of(double b, double q)
     return inside < -1 ? -1 : inside > 1 ? 1 : inside;
 }
 
-/* The point that lies lowest along n, about: u and v in turn. */
+/* Estimates the point that lies lowest along n, by u and v in turn. */
 IMP_QUAD_INLINE vec3 lowest_of_bowl(const bowl *z, vec3 n)
 {
     const imp_quad f = imp_quad_all(n.x[0]) * z->form[0] + imp_quad_all(n.x[1]) * z->form[1] +
@@ -144,8 +144,8 @@ enum { NET_MODEL_ROUNDING = 128 };
 _Static_assert(3 + 4 + 7 + 16 + 3 + QUADRATIC_ROUNDING + 6 + 8 <= NET_MODEL_ROUNDING,
                "rounding of a gap of net and model");
 
-/* The errors along n, and the rounding, for times no farther from the net's than `late`; *size is
- * R. */
+/* Bounds the errors along n, and the rounding, for times no farther from the net's than `late`;
+ * *size is R. */
 IMP_QUAD_INLINE double net_model_slack_upper(const net_model *p, vec3 n, double late, double *size)
 {
     const quadratic3 *q = &p->model->f;

@@ -45,8 +45,8 @@ static local_slice slice_to_local(const frame *f, const slice *s, bool is_posed)
     return l;
 }
 
-/* The frame between the two normals; false where the surfaces have none or are not nearly tangent.
- * Unit length up to rounding. */
+/* Makes the frame between the two normals, of unit length up to rounding. False: the surfaces have
+ * no normals or are not nearly tangent. */
 static bool frame_between(const difference *r, frame *f)
 {
     const double la = vec3_norm(r->a.normal), lb = vec3_norm(r->b.normal);
@@ -67,13 +67,13 @@ static bool frame_between(const difference *r, frame *f)
     return true;
 }
 
-/* Symmetric 2 x 2. */
+/* A symmetric 2 x 2 matrix. */
 typedef struct form {
     double xx, xy, yy;
 } form;
 
-/* K with y' K y / 2 = n.(quadratic part), y = (tangential slopes) s; false where the slopes are too
- * nearly parallel to say. Only a choice: nothing is proved by it. */
+/* Chooses K with y' K y / 2 = n.(quadratic part), y = (tangential slopes) s. False: the slopes are
+ * too nearly parallel. Nothing is proved by the choice. */
 static bool curvature(const local_slice *s, form *k)
 {
     const double ux = s->l[0].t[0], uy = s->l[0].t[1], vx = s->l[1].t[0], vy = s->l[1].t[1];
@@ -138,12 +138,12 @@ static bool turns_choose(const local_slice *a, const local_slice *b, turns *m)
     return true;
 }
 
-/* Offset, drift and bend in the frame. */
+/* The offset, drift and bend of the difference in the frame. */
 typedef struct path {
     local delta, drift, bend;
 } path;
 
-/* What the field's turn by one term makes of the other, and the other way round. */
+/* The sum of what the field's turn by either of two terms makes of the other. */
 static double both_ways(const local_slice *s, const turn *m, int q, int l)
 {
     return dot2(m->l[l], &s->q[q]) + dot2(m->q[q], &s->l[l]);
@@ -172,8 +172,7 @@ static void take_part(const local_slice *s, const turn *m, const double *mw, con
                 dot2(m->q[VV], &at);
 }
 
-/* At most, of the terms of third order in s_u and s_v of one surface's part; and of those in
- * w^2. */
+/* Bounds the terms of third order in s_u and s_v of one surface's part; and those in w^2. */
 static double cubic_upper(const local_slice *s, const turn *m)
 {
     return fabs(both_ways(s, m, UU, 0)) + fabs(both_ways(s, m, UU, 1) + both_ways(s, m, UV, 0)) +
@@ -190,7 +189,7 @@ static double squared_time_upper(const local_slice *s, const turn *m, const doub
     return sum;
 }
 
-/* At most, of terms that have parameters of both surfaces: slopes of one, anything of the other. */
+/* Bounds the terms that have parameters of both surfaces: slopes of one, anything of the other. */
 static double cross_upper(const local_slice *a, const local_slice *b, const turn *ma,
                           const turn *mb)
 {
@@ -205,7 +204,7 @@ static double cross_upper(const local_slice *a, const local_slice *b, const turn
     return sum;
 }
 
-/* How far the slopes (0) and terms of second order (1) turn the field along tangent i, at most. */
+/* Bounds how far the slopes (0) or terms of second order (1) turn the field along tangent i. */
 static double turned(const turn *m, int order, int i)
 {
     double sum = 0;
@@ -214,7 +213,7 @@ static double turned(const turn *m, int order, int i)
     return sum;
 }
 
-/* At most, of the terms of second order along tangent i. */
+/* Bounds the terms of second order along tangent i. */
 static double tangential_rest(const local_slice *s, int i)
 {
     double sum = 0;
@@ -234,7 +233,7 @@ IMP_QUAD_INLINE imp_quad along_edges(const double edge[3][4], vec3 n)
            imp_quad_all(n.x[2]) * imp_quad_load(edge[2]);
 }
 
-/* At most, along n: what edges add, and how the terms of second order of both change within the
+/* Bounds, along n, what edges add, and how the terms of second order of both change within the
  * window. */
 static double edges_upper(const difference *r, vec3 n)
 {
@@ -346,7 +345,7 @@ typedef struct height {
     quadratics parts;
 } height;
 
-/* Along the field, or against it if B lies on that side at the focus. */
+/* Cuts along the field, or against it if B lies on that side at the focus. */
 static height height_of(const difference *r, const local_slice *a, const local_slice *b,
                         const turns *m, const path *x)
 {

@@ -12,7 +12,7 @@
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 
-/* The w of `moment`, kept within the window. */
+/* Returns the w of `moment`, clamped to the window. */
 static double focus_of(const difference *r, double moment)
 {
     const double w = r->half > 0 ? (moment - r->mid) / r->half : 0;
@@ -29,8 +29,8 @@ static void approach_take(approach *near, const difference *r, const gap_lines *
     near->moment = r->mid + r->half * w;
 }
 
-/* The axis that is best at the end of what is left: once two edges have crossed, the axis that was
- * best before is the wrong one. */
+/* Seeks the axis that is best at the end of what is left: once two edges have crossed, the axis
+ * that was best before is the wrong one. */
 static bool cut_at_end(const node *a, const node *b, double gamma_clear, time_window *window)
 {
     difference r;
@@ -115,8 +115,9 @@ static bool cut_by_hulls(strategy_hulls hulls, const node *a, const node *b, vec
                                  : net_axis_cut(a, b, axis, gamma_clear, window);
 }
 
-/* Curved surfaces come nearer than their hulls say: their quadratics, along the axis that the hulls
- * show, or any that can be found where the hulls meet. */
+/* Cuts by quadratics after hulls. Hulls of curved surfaces are nearer than the surfaces: the
+ * quadratics are tried along the hulls' axis, or along any that can be found where the hulls
+ * meet. */
 static bool cut_by_models(const node *a, const node *b, double gamma_clear, time_window *window,
                           vec3 *axis, trial_rate *turning, bool found)
 {

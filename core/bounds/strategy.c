@@ -122,7 +122,7 @@ search_plan strategy_of_searches(const node *a, const node *b, strategy_goal goa
                           : (search_plan){TUNING_WINDOW_ROUNDS, TUNING_WINDOW_SHRINKS, false};
 }
 
-/* Where fixed axes cut the start of a window, an axis that turns seldom shows more. */
+/* A turning axis seldom shows more where fixed axes cut the start of a window. */
 static bool is_chance(const w_range *s) { return s->lo > -1; }
 
 bool strategy_takes_turning(const w_range *s, trial_rate *turning)

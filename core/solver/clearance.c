@@ -21,8 +21,8 @@
  * is right. */
 static double relaxed(const clearance_search *c) { return c->asked.required * (1 - 1e-6); }
 
-/* What the searches have to keep for it: room for the slip of pairs that are taken to be at
- * rest. */
+/* Returns the distance that the searches have to keep: what is required, and room for the slip of
+ * pairs that are taken to be at rest. */
 static double searched(const clearance_search *c)
 {
     return c->list->slip > 0 ? sum_upper(relaxed(c), 2 * c->list->slip) : relaxed(c);
@@ -126,7 +126,7 @@ static imp_code take_witness(const clearance_search *c, uint32_t k, const witnes
     return IMP_SUCCESS;
 }
 
-/* What the search has found so far, into the answer. */
+/* Copies what the search has found so far into the answer. */
 static imp_code take_bracket(const clearance_search *c, imp_clearance *answer, imp_error *error)
 {
     const min_distance *m = &c->distance;
@@ -137,7 +137,7 @@ static imp_code take_bracket(const clearance_search *c, imp_clearance *answer, i
     return take_witness(c, m->candidate, &m->found, m->t, answer, error);
 }
 
-/* What the current task has cost. */
+/* Returns what the current task has cost. */
 static imp_stats cost(const clearance_search *c)
 {
     imp_stats s = *c->stats;

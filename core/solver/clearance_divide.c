@@ -136,7 +136,7 @@ size_t clearance_count(const clearance_search *c)
     return c->group_count * (size_t)c->asked.slices;
 }
 
-/* When slice k begins; neighbours share the moment between. */
+/* Returns when slice k begins; neighbours share the moment between them. */
 static double slice_start(const clearance_search *c, uint64_t k)
 {
     const double share = (double)k / (double)c->asked.slices;

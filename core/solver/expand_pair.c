@@ -61,8 +61,8 @@ static imp_code split(impact *im, const pair *p, cut c, const net_halves *halves
     return IMP_SUCCESS;
 }
 
-/* Takes halves one after the other as long as the pair's axis excludes the other half; only the
- * last gets models. *some is false where both halves are excluded. */
+/* Descends to halves as long as the pair's axis excludes the other half; only the last gets models.
+ * *some false: both halves are excluded. */
 static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *some,
                                  imp_error *error)
 {
@@ -83,8 +83,8 @@ static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *
 
 static resolution resolved(const impact *im) { return resolution_of(im->gamma, im->gamma_clear); }
 
-/* Where nets are close to the surfaces, nearest points are sought on them, and only those found are
- * evaluated. */
+/* Seeks nearest points on the nets where these are close to the surfaces, and evaluates only the
+ * points found. */
 static imp_code seek_witness(const impact *im, const pair *p, witness *seen, imp_error *error)
 {
     const node *const nodes[2] = {p->a, p->b};
@@ -141,8 +141,8 @@ static imp_code cut_unbounded(impact *im, const pair *p, int side, cut *best, im
     return code;
 }
 
-/* A node without bounds tells nothing of where a surface is: it is halved, and again, until what is
- * left is a place where the type has no bounds at any size, or none. */
+/* Halves a node without bounds, which does not tell where the surface is, until nothing is left or
+ * a place at which the type has no bounds at any size. */
 static imp_code expand_unbounded(impact *im, const pair *p, impact_state *state, imp_error *error)
 {
     const int side = p->a->bounded ? 1 : 0;

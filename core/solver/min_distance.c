@@ -27,14 +27,14 @@ static double enough(const min_distance *m)
 
 static resolution resolved(const min_distance *m) { return resolution_of(m->upper, enough(m)); }
 
-/* Everything that was left aside is no nearer than this. */
+/* Returns a distance below which nothing lies that was left aside. */
 static double settled(const min_distance *m)
 {
     const double pruned = enough(m);
     return pruned < m->stuck ? pruned : m->stuck;
 }
 
-/* The least lower bound of what waits. */
+/* Returns the least lower bound of the pairs that wait. */
 static double waiting(const min_distance *m)
 {
     const double start = m->start_count > 0 ? m->starts[m->start_count - 1].key[0] : INFINITY;
@@ -51,7 +51,7 @@ double min_distance_lower(const min_distance *m)
 
 /* --- Beginning -------------------------------------------------------------------------------- */
 
-/* Goes down to the smallest node that holds the window. */
+/* Descends to the smallest node that holds the window. */
 static imp_code descend_in_time(min_distance *m, const candidate_pair *both, pair *p, int side,
                                 imp_error *error)
 {
@@ -209,7 +209,7 @@ static imp_code follow(min_distance *m, pair p, imp_error *error)
     return IMP_SUCCESS;
 }
 
-/* Whatever has the least bound: the next start, or the first pair of the heap. */
+/* Takes what has the least bound: the next candidate pair, or the first pair of the heap. */
 static imp_code take_one(min_distance *m, imp_error *error)
 {
     if (m->start_count > 0 && m->starts[m->start_count - 1].key[0] <= waiting(m))

@@ -4,7 +4,7 @@
 
 #include "core/solver/pair_step.h"
 
-/* The pair's nodes for distance_cut_sides; the slips are those of the candidate pair. */
+/* Returns the pair's nodes for distance_cut_sides; the slips are those of the candidate pair. */
 static distance_sides sides_of(const pair *p, candidate_pair *both)
 {
     const candidate *a = both->side[0], *b = both->side[1];

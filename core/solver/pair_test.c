@@ -29,7 +29,7 @@ bool pair_test_fully(const impact *im, pair *p)
 
 /* --- The first test --------------------------------------------------------------------------- */
 
-/* Every later test of the pair finds what is found here. */
+/* Every later test of the pair finds the nets that are made here. */
 imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[p->candidate_pair];

@@ -34,7 +34,7 @@ static imp_code check_baseline(uint32_t baseline, imp_error *error)
                      baseline);
 }
 
-/* All but the tolerances. */
+/* Checks all options but the tolerances. */
 static imp_code check_options(const imp_scene *scene, const imp_options *options, imp_error *error)
 {
     if (scene_check_times(scene, options->t_start, options->t_end, error) != IMP_SUCCESS)
@@ -186,8 +186,8 @@ static void note_bytes(imp_query *query, uint64_t of_candidates)
     if (bytes > query->peak_bytes) query->peak_bytes = bytes;
 }
 
-/* The budget that is used up, or IMP_REASON_NONE. A cancellation ends one step: taken back here, at
- * the only place that acts on it, none is lost. */
+/* Returns the budget that is used up, or IMP_REASON_NONE. A cancellation ends one step: it is taken
+ * back here, at the only place that acts on it, so that none is lost. */
 static imp_reason exhausted(imp_query *query, double seconds)
 {
     const imp_options *options = &query->options;
@@ -200,8 +200,8 @@ static imp_reason exhausted(imp_query *query, double seconds)
     return IMP_REASON_NONE;
 }
 
-/* One unit of work: a candidate pair's roots, as long as there are any left, then pairs from the
- * heap. */
+/* Does one unit of work: a candidate pair's roots, as long as there are any left, then pairs from
+ * the heap. */
 static imp_code search_contact(imp_query *query, imp_error *error)
 {
     impact_state state = IMPACT_RUNNING;
@@ -253,7 +253,7 @@ static void report(imp_query *query, double seconds)
     if (!options->progress(options->progress_context, &progress)) imp_query_cancel(query);
 }
 
-/* Looks at the clock, now and then. */
+/* Looks at the clock now and then. */
 static void tick(imp_query *query, double seconds_before, double start)
 {
     query->stats.seconds = seconds_before + (clock_seconds() - start);
@@ -298,8 +298,8 @@ static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
             c->seconds_before + (clock_seconds() - c->start) >= options->max_seconds);
 }
 
-/* Below this nothing is to be missed: what is asked for, and the slip of pairs that are taken to be
- * at rest. */
+/* Returns the distance below which nothing is missed: what is asked for, and the slip of pairs that
+ * are taken to be at rest. */
 static double searched_gamma_clear(const imp_query *query, double gamma_clear)
 {
     const double slip = query->candidates.slip;

@@ -60,7 +60,8 @@ imp_code imp_query_get_result(const imp_query *query, imp_result *result, imp_er
     return code;
 }
 
-/* One side of a waiting pair, or, with no node, of a candidate pair that was not tested yet. */
+/* Describes one side of a waiting pair or, with no node, of a candidate pair that was not tested
+ * yet. */
 static struct imp_pending_side pending_side(const imp_query *query, size_t k, int side,
                                             const node *n)
 {

@@ -26,7 +26,7 @@ static imp_code find_parts(imp_query *query, imp_error *error)
     return IMP_SUCCESS;
 }
 
-/* What is left for the query itself: the bodies of no candidate. */
+/* Leaves to the query itself the bodies of no candidate. */
 static imp_code conclude(imp_query *query, imp_error *error)
 {
     static const candidate_list none = {.complete = true};
@@ -81,7 +81,7 @@ bool imp_query_part_bodies(const imp_query *query, size_t index, size_t body[2])
     return true;
 }
 
-/* A query like the divided one, with nothing done yet. */
+/* Makes a query like the divided one, with nothing done yet. */
 static imp_query *fresh_query(const imp_query *whole, imp_error *error)
 {
     imp_query *query = calloc(1, sizeof *query);

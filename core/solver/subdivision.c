@@ -73,8 +73,8 @@ cut cut_by_contribution(const pair *p)
 }
 
 /* Whether the half below (0) or above (1) a cut in time holds moments of the window that the other
- * does not. Of a window that touches the cut with its end one half holds all, so that no pair is
- * left with a single moment which its neighbours in time have too. */
+ * does not. If the window only touches the cut, one half holds all of it, so that no pair is left
+ * with a single moment that its neighbour in time has, too. */
 static bool half_is_needed(const time_window *window, double at, int half)
 {
     if (window->lo >= at) return half == 1;
@@ -96,15 +96,15 @@ bool cut_is_free(const cut *c, const pair *p, int *half)
     return is_one_half_enough(&p->window, at);
 }
 
-/* What the worth of cuts depends on beside the node. */
+/* What the value of a cut depends on beside the node. */
 typedef struct view {
     double scale;
     bool is_tangent; /* no fixed axis parts the nodes, whose surfaces are nearly parallel */
     bool has_nets;
 } view;
 
-/* Whether time blurs the node enough to count beside the scale, and beside what u and v blur of
- * both. */
+/* Whether time's share of the node's remainder matters beside the scale and beside the shares of u
+ * and v in both nodes. */
 static bool time_blurs(const pair *p, const node *n, const view *of)
 {
     const double place = pair_remainder(p) - (p->a->time_remainder + p->b->time_remainder);
@@ -112,8 +112,8 @@ static bool time_blurs(const pair *p, const node *n, const view *of)
     return TUNING_BLUR_OF_GAMMA * n->time_remainder > of->scale && part * n->time_remainder > place;
 }
 
-/* What a cut in time is worth, on the scale of the spread. Linear motion costs nothing, so only
- * what bends counts; more where the cut is free, and most where it is and time blurs the node. */
+/* The value of a cut in time. Linear motion costs nothing, so only nonlinear motion counts: more
+ * where the cut makes one child, and most where that node's remainder comes from time. */
 static double gain_in_time(const pair *p, const node *n, double bend, const view *of)
 {
     if (!is_one_half_enough(&p->window, n->region.c[PARAMETER_T])) return TUNING_TIME_CUT * bend;
@@ -121,8 +121,8 @@ static double gain_in_time(const pair *p, const node *n, double bend, const view
     return (of->has_nets ? TUNING_TIME_CUT : TUNING_FREE_TIME_CUT) * bend;
 }
 
-/* What a cut along u or v is worth. Of tangent nodes only what bends counts: a cylinder that is too
- * wide for the field is not cut in length. The slopes decide where nothing bends. */
+/* The value of a cut along u or v. For tangent nodes only curvature counts, so that a cylinder that
+ * is too wide for the field is not cut in length; slopes decide where nothing bends. */
 static double gain_in_place(const node *n, parameter j, double bend, bool tangent)
 {
     return tangent ? TUNING_TANGENT_CUT * bend + TUNING_TANGENT_SLOPE * n->extent[j] : n->extent[j];
@@ -154,7 +154,7 @@ cut cut_alone(const pair *p, int side, const double bend[3], double scale)
     return best;
 }
 
-/* How far points of a node leave linear motion within the window, about. */
+/* Estimates how far points of a node leave linear motion within the window. */
 static double bend_of(const pair *p, const node *n)
 {
     const double part = 0.5 * (p->window.hi - p->window.lo) / n->region.d[PARAMETER_T];

@@ -36,7 +36,7 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
 
 /* --- Finer ------------------------------------------------------------------------------------ */
 
-/* The window that is left of the whole of both surfaces; counted as one pair. */
+/* Tests the whole of both surfaces and returns the window that is left; it counts as one pair. */
 static time_window window_of_roots(impact *im, uint32_t index)
 {
     const candidate_pair *both = &im->candidate_pairs[index];
@@ -143,7 +143,7 @@ bool impact_pass(impact *im, size_t count)
 
 /* --- An upper time ---------------------------------------------------------------------------- */
 
-/* Whether nothing that waits starts before a contact that is known. */
+/* Whether no pair on the heap starts before the contact that is known. */
 static bool is_settled(const impact *im)
 {
     return im->upper.is_known &&
@@ -157,7 +157,7 @@ static impact_state settle(impact *im)
     return impact_contact(im, &im->upper.seen);
 }
 
-/* A contact below gamma_clear is known before the time up to which nothing is that near. */
+/* Sets the error for a contact below gamma_clear before the time up to which that was excluded. */
 static imp_code contradict(const impact *im, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[im->found_candidate];
@@ -190,7 +190,7 @@ static imp_code seek_upper_time(impact *im, pair *p, imp_error *error)
 
 /* --- One step --------------------------------------------------------------------------------- */
 
-/* Returns false if there is no memory. */
+/* Allocates the counts of trials. False: no memory. */
 static bool reserve_chances(impact *im)
 {
     const size_t count = im->baseline == IMP_BASELINE_NONE ? im->candidate_pair_count : 0;

@@ -45,7 +45,8 @@ static imp_code turn_normal(const surface *s, size_t maps, const witness *found,
     return IMP_SUCCESS;
 }
 
-/* The point as the search has it, or moved outward. */
+/* Tells one side of a witness in the world: the search's point or, where maps were left out, the
+ * point under all maps. */
 static imp_code place_side(const imp_scene *scene, const candidate *of, const witness *found,
                            int side, double t, imp_side *at, imp_error *error)
 {

@@ -48,7 +48,7 @@ static vec3 jet_part(const net_derivatives *x, int part)
     return (vec3){{x->by[part][0], x->by[part][1], x->by[part][2]}};
 }
 
-/* How the vector between the points changes with the unknowns. */
+/* Computes how the vector between the points changes with the unknowns. */
 static void columns_of(const stand *s, vec3 by[NEWTON_UNKNOWNS])
 {
     for (int k = 0; k < NEWTON_UNKNOWNS; ++k)
@@ -69,9 +69,9 @@ static void derive(const stand *s, newton_way *way)
     newton_of_gap(s->apart, by, second, way->gradient, way->hessian);
 }
 
-/* Predicted reduction of half the squared gap by the step to `next`: half of what its slope
+/* Predicts the reduction of half the squared gap by the step to `next`: half of what its slope
  * promises. Patches are cheap to evaluate, so this suffices; newton_promise, which weighs the whole
- * Hessian, takes 1 % more instructions of a bicubic scene and no fewer pairs. */
+ * Hessian, costs more and takes no fewer pairs. */
 static double promise(const newton_way *way, const stand *s, const double *next)
 {
     double slope = 0;
@@ -82,8 +82,8 @@ static double promise(const newton_way *way, const stand *s, const double *next)
 /* Above this damping, the predicted reduction is unreliable. */
 static const double DAMPED = 0x1p-10;
 
-/* One step from s to `to`; *way is left with the derivatives at s. False: no step reduces the gap,
- * or it promises less than `gain` of it. */
+/* Takes one step from s to `to`; *way is left with the derivatives at s. False: no step reduces the
+ * gap, or it promises less than `gain` of it. */
 static bool step_down(const marcher *m, double gain, const stand *s, newton_way *way, stand *to)
 {
     bool is_better = false;
@@ -97,8 +97,8 @@ static bool step_down(const marcher *m, double gain, const stand *s, newton_way 
     return true;
 }
 
-/* Steps to the nearest points at one time, until the gap is `enough` or a step promises less than
- * `gain` of it; *way is left with the derivatives there. */
+/* Descends to the nearest points at one time, until the gap is `enough` or a step promises less
+ * than `gain` of it; *way is left with the derivatives there. */
 static void descend(const marcher *m, double enough, double gain, stand *s, newton_way *way)
 {
     stand room, *at = s, *next = &room;
@@ -117,8 +117,8 @@ static vec3 velocity_of(const net *const nets[2], const stand *s)
     return vec3_sub(net_velocity_at(nets[1], s->y + 2), net_velocity_at(nets[0], s->y));
 }
 
-/* Where the nearest points will be after a while, as they move now: a Newton step undoes what the
- * velocity changes of the gradient. */
+/* Predicts the nearest points a while later: a Newton step that undoes the change of the gradient
+ * by the velocity. */
 static void foresee(const stand *s, newton_way *way, vec3 velocity, double wait, double *y)
 {
     vec3 by[NEWTON_UNKNOWNS];
@@ -129,7 +129,8 @@ static void foresee(const stand *s, newton_way *way, vec3 velocity, double wait,
 
 /* --- In time ---------------------------------------------------------------------------------- */
 
-/* How far the surface extends around a node, in the node's half-widths; `most` at most. */
+/* Returns how far the surface extends around a node, in the node's half-widths, but at most
+ * `most`. */
 static void bounds_of(const node *n, double most, double *lo, double *hi)
 {
     const node *whole = n;
@@ -141,9 +142,9 @@ static void bounds_of(const node *n, double most, double *lo, double *hi)
     }
 }
 
-/* The next time; a NaN if the gap does not shrink, or will not be closed within the window. Only a
- * part of the way is taken: the gap may shrink faster later, and after the contact no nearest
- * points tell how far it was. */
+/* Returns the next time; a NaN if the gap does not shrink or will not be closed within the window.
+ * It takes only a part of the predicted time, since the gap may shrink faster later, and after the
+ * contact nearest points do not tell how far back it was. */
 static double time_after(const marcher *m, const stand *s, double gap, double speed, double end)
 {
     const double wait = (s->gap - gap) / speed;
@@ -155,10 +156,10 @@ static double time_after(const marcher *m, const stand *s, double gap, double sp
 /* Near enough, as a part of the gap that is sought. */
 static const double ENOUGH = 1.125;
 
-/* From the middle of the node, beside the control point that lies lowest. */
+/* Where a march begins, as a part of the way from the node's middle to its lowest control point. */
 static const double START = 0.7;
 
-/* Where along u and v the lowest control point along an axis is. */
+/* Finds where along u and v the lowest control point along an axis is. */
 static void lowest_at(const net_points *f, vec3 axis, double *y)
 {
     const int n = f->net->degree[0], m = f->net->degree[1];
@@ -177,7 +178,7 @@ static void lowest_at(const net_points *f, vec3 axis, double *y)
     y[1] = m > 0 ? START * (2.0 * (lowest % (m + 1)) / m - 1) : 0;
 }
 
-/* The start; points stay within `most` half-widths of the middles of the nodes. */
+/* Begins a march; points stay within `most` half-widths of the nodes' middles. */
 static void begin(marcher *m, const node *const nodes[2], const net *const nets[2], double most,
                   vec3 axis, double t, stand *s)
 {

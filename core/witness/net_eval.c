@@ -13,7 +13,7 @@ typedef struct bernstein {
     double value[IMP_NET_POINTS], first[IMP_NET_POINTS], second[IMP_NET_POINTS];
 } bernstein;
 
-/* From degree n - 1 to n, in place. */
+/* Raises the polynomials from degree n - 1 to n, in place. */
 static void raise_degree(double *b, int n, double x)
 {
     b[n] = x * b[n - 1];
@@ -46,7 +46,7 @@ static void bernstein_at(int degree, double s, bernstein *of)
     }
 }
 
-/* Values, first and second derivatives. */
+/* Computes values, first and second derivatives. */
 typedef struct cubics {
     double value[4], first[4], second[4];
 } cubics;
@@ -127,7 +127,7 @@ void net_heights_along(const net_points *f, vec3 axis, double height[IMP_QUAD * 
         all_heights_along(f, axis, height);
 }
 
-/* The sums of four quads' numbers. */
+/* Returns the sums of four quads' numbers. */
 IMP_QUAD_INLINE imp_quad totals(imp_quad a, imp_quad b, imp_quad c, imp_quad d)
 {
     const imp_quad ab = (imp_quad){a[0], b[0], a[2], b[2]} + (imp_quad){a[1], b[1], a[3], b[3]};
@@ -150,7 +150,7 @@ IMP_QUAD_INLINE imp_quad columns_by(const imp_quad x[4], imp_quad f, bool is_wei
     return totals(f * x[0], f * x[1], f * x[2], last);
 }
 
-/* For a bicubic patch: along u row by row, then along v. */
+/* Evaluates a bicubic patch: along u row by row, then along v. */
 IMP_QUAD_INLINE void bicubic_sums(const net_points *f, bool is_weighted, const double s[2],
                                   imp_quad sum[NET_DERIVATIVES])
 {
@@ -172,7 +172,7 @@ IMP_QUAD_INLINE void bicubic_sums(const net_points *f, bool is_weighted, const d
     sum[NET_VV] = columns_by(x, imp_quad_load(v.second), is_weighted);
 }
 
-/* For any patch, point by point. */
+/* Evaluates any patch, point by point. */
 static void any_sums(const net_points *f, const double s[2], imp_quad sum[NET_DERIVATIVES])
 {
     const int n = f->net->degree[0], m = f->net->degree[1];
@@ -193,7 +193,7 @@ static void any_sums(const net_points *f, const double s[2], imp_quad sum[NET_DE
         }
 }
 
-/* Derivatives of a quotient N / W from those of both, W being the fourth coordinate. */
+/* Computes derivatives of a quotient N / W from those of both, W being the fourth coordinate. */
 IMP_QUAD_INLINE void divide(imp_quad n[NET_DERIVATIVES])
 {
     imp_quad w[NET_DERIVATIVES];

@@ -61,14 +61,15 @@ static bool solve(const double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double
     return true;
 }
 
-/* Holds unknown k where it is. */
+/* Fixes unknown k. */
 static void hold(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double *g, int k)
 {
     for (int m = 0; m < NEWTON_UNKNOWNS; ++m) h[k][m] = h[m][k] = k == m;
     g[k] = 0;
 }
 
-/* The step with `damping` added to the diagonal. False: there is none, or it overflows. */
+/* Solves for the step with `damping` added to the diagonal. False: there is none, or it
+ * overflows. */
 static bool step(const newton_way *way, const double *y, double damping, double *next)
 {
     const newton_bounds *b = way->bounds;

@@ -89,7 +89,7 @@ static imp_code point_check(const surface *s, const double p[3], vec3 x, const d
     return IMP_SUCCESS;
 }
 
-/* The point at p and, unless eval_error is NULL, the bounds of its errors. */
+/* Evaluates the point at p and, unless eval_error is NULL, bounds of its errors. */
 static imp_code point_at(const surface *s, const double *p, vec3 *x, double eval_error[3],
                          imp_error *error)
 {
@@ -131,7 +131,7 @@ static imp_code state_at(const search *g, const double *y, state *s, imp_error *
 
 /* --- Derivatives ------------------------------------------------------------------------------ */
 
-/* Columns of J and, weighted with D, the second derivatives of one side. */
+/* Computes the columns of J of one side and, weighted with D, its second derivatives. */
 typedef struct derivatives {
     vec3 by[2];
     double second[2][2];
@@ -176,7 +176,7 @@ static imp_code derive_from_points(const search *g, int side, const state *s, de
     return IMP_SUCCESS;
 }
 
-/* Gradient and Hessian of |D|^2 / 2. */
+/* Computes gradient and Hessian of |D|^2 / 2. */
 static imp_code derive(const search *g, const state *s, double gradient[NEWTON_UNKNOWNS],
                        double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], imp_error *error)
 {
