@@ -450,10 +450,11 @@ imp_status surface_slip_along(const surface *a, const surface *b, const surface_
 
 /* --- Pairs that turn within themselves -------------------------------------------------------- */
 
-/* The rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known. */
+/* The rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known, as of a surface
+ * of several pieces, of which each has its own. */
 static imp_status closed_symmetry_of(const surface *s, imp_symmetry *found)
 {
-    if (!IMP_OFFERS(s->type, symmetry)) return IMP_STATUS_UNBOUNDED;
+    if (!IMP_OFFERS(s->type, symmetry) || s->piece_count > 1) return IMP_STATUS_UNBOUNDED;
     const imp_status status = symmetry_of(s, found);
     if (status != IMP_STATUS_OK) return status;
     if (!found->is_closed) return IMP_STATUS_UNBOUNDED;
@@ -533,6 +534,44 @@ static imp_status slip_of_rest(const surface *const s[2], const size_t still[2],
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
+/* >= how far points of s are at these times from where they would be, if each of its maps turned
+ * them as the rotation next to its turn does (push). */
+static imp_status off_of(const surface *s, const imp_model bare[3], const imp_region *times,
+                         double *off)
+{
+    carried y = {.off = 0};
+    imp_status status = IMP_STATUS_OK;
+    bool is_exact = true;
+    for (size_t k = 0; k < s->map_count; ++k) is_exact = is_exact && map_turns_exactly(&s->maps[k]);
+    for (int i = 0; i < 3; ++i) y.at[i] = imp_between(bare[i].lo, bare[i].hi);
+    for (size_t k = 0; k < s->map_count && !is_exact && status == IMP_STATUS_OK; ++k) {
+        imp_pose pose;
+        double d;
+        status = pose_of(s, k, times, &pose, &d);
+        if (status == IMP_STATUS_OK) push(&pose, d, &y);
+    }
+    *off = y.off;
+    return status;
+}
+
+/* Adds what maps that are rotations only nearly may do to the distance. Lemma. What slip_of_first
+ * and slip_of_rest bound are motions under rotations in place of the maps' turns, which change no
+ * distance of two points and no length on the way. Under the maps themselves points of either
+ * surface are off by `off` at most, at any of the times and at the moment, which is one of them: so
+ * the distances at both may be off by the sum of both surfaces' `off`, each. */
+static imp_status add_off(const surface *const s[2], const imp_model bare[2][3],
+                          const imp_region *times, double *slip)
+{
+    imp_status status = IMP_STATUS_OK;
+    for (int k = 0; k < 2 && status == IMP_STATUS_OK; ++k) {
+        double off;
+        status = off_of(s[k], bare[k], times, &off);
+        if (status == IMP_STATUS_OK && off > 0) *slip = sum_upper(*slip, 2 * off);
+    }
+    if (status != IMP_STATUS_OK || !(*slip >= 0)) *slip = INFINITY;
+    return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+}
+
 imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
                              const imp_region *times, double moment, double *slip, int *asked)
 {
@@ -558,5 +597,5 @@ imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][
         if (status != IMP_STATUS_OK) return status;
     }
     *slip = sum_upper(sum_upper(own[0], own[1]), rest);
-    return IMP_STATUS_OK;
+    return *slip < INFINITY ? add_off(s, bare, times, slip) : IMP_STATUS_OK;
 }
