@@ -24,7 +24,7 @@
 #define ROW_AXIS(NAME, DEFAULT, DOC)                                                               \
     IMP_ROW(NAME, "1", DEFAULT, 0, 1, 3, 0, -AXIS_MAX, AXIS_MAX, DOC)
 
-/* Some component of it is at least AXIS_MIN. */
+/* Checks that some component of the axis is at least AXIS_MIN. */
 imp_status axis_check(int row, const double axis[3], imp_create_error *why);
 
 /* An angle in time, by a constant rate or by its coefficients (polynomial.h). */
@@ -35,16 +35,16 @@ imp_status axis_check(int row, const double axis[3], imp_create_error *why);
     IMP_ROW_NUMBERS("angle", "rad/time^k", NULL, IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_SCALAR_OK, \
                     "instead: coefficients of t^0, t^1, t^2 ... of the angle")
 
-/* k . w; what is surely 0 is left out. */
+/* Returns k . w. Terms that are surely 0 are left out. */
 imp_model axis_dot(const near_constant k[3], const imp_model w[3]);
 
-/* The unit vector along `axis`, as models of constants. */
+/* Returns the unit vector along `axis`, as models of constants. */
 void axis_unit(const imp_model axis[3], imp_model unit[3]);
 
 /* Along x, y or z. */
 bool axis_is_aligned(const double axis[3]);
 
-/* The unit vector along a given axis; exact if it is aligned. */
+/* Returns the unit vector along a given axis, exactly if the axis lies along x, y or z. */
 void axis_unit_of(const double axis[3], imp_model unit[3]);
 
 /* a x b. */
@@ -54,30 +54,29 @@ typedef struct axis_frame {
     near_constant unit[3], along[3][3], across[3][3], turned[3][3];
 } axis_frame;
 
-/* The constants of an axis that passed axis_check. */
+/* Makes the constants of an axis that passed axis_check. */
 axis_frame axis_frame_of(const double axis[3]);
 
-/* w turned by an angle. */
+/* Turns w by an angle. */
 void axis_turn(const axis_frame *frame, imp_model angle, const imp_model w[3], imp_model out[3]);
 
-/* A point turned about the axis through the center, by an angle that is a point too
- * (imp_is_point), and bounds of its errors, at a small part of what the models cost. False: it is
- * not finite. */
+/* Turns a point about the axis through the center, by an angle that is a point, too (imp_is_point),
+ * and bounds its errors, at a small part of what the models cost. False: it is not finite. */
 bool axis_turn_point(const axis_frame *frame, const double center[3], const imp_model *angle,
                      const double at[3], double x[3], double error[3]);
 
-/* The matrix that turns by an angle, which depends on one parameter at most. */
+/* Makes the matrix that turns by an angle, which depends on one parameter at most. */
 void axis_matrix(const axis_frame *frame, imp_model angle, imp_model turn[3][3]);
 
-/* w by a factor across the axis. */
+/* Scales w by a factor across the axis. */
 void axis_stretch(const axis_frame *frame, imp_model factor, const imp_model w[3],
                   imp_model out[3]);
 
-/* t over a box, as a model of its third parameter. */
+/* Returns t over a box, as a model of its third parameter. */
 imp_model axis_moment(const imp_box4 *box);
 
-/* Rates over a box of a turn by `angle` about the axis through the center, with an advance by angle
- * times the vector `advance`; `angle` is over the times of the box. */
+/* Computes rates over a box of a turn by `angle` about the axis through the center, with an advance
+ * by angle times the vector `advance`; `angle` is over the times of the box. */
 imp_status axis_turn_rates(const axis_frame *frame, const double center[3],
                            const near_constant advance[3], imp_model angle, const imp_box4 *box,
                            imp_map_rates *rates);
@@ -86,16 +85,16 @@ imp_status axis_turn_rates(const axis_frame *frame, const double center[3],
 void axis_from_center(const double center[3], imp_model x, imp_model y, imp_model z,
                       imp_model w[3]);
 
-/* Back: out + center. */
+/* Undoes that: out + center. */
 void axis_add_center(const double center[3], imp_model out[3]);
 
 #define ROW_RANGE(DEFAULT, DOC)                                                                    \
     IMP_ROW("range", "length", DEFAULT, 0, 1, 2, 0, -AXIS_MAX, AXIS_MAX, DOC)
 
-/* Its second number is greater than the first. */
+/* Checks that the second number of a range is greater than the first. */
 imp_status axis_check_range(int row, const double range[2], imp_create_error *why);
 
-/* x where it is in the range, else the nearer end. */
+/* Returns x if it is in the range, else the nearer end. */
 imp_model axis_clamp(imp_model x, double lo, double hi);
 
 #endif

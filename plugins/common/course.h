@@ -78,16 +78,17 @@ void course_clear(course *c);
 imp_status course_read(course *c, const imp_value *values, int first, unit_kind kind,
                        imp_create_error *why, const imp_parameter *rows);
 
-/* The times at which it is defined: from *lo to *hi. */
+/* Tells the times at which it is defined: from *lo to *hi. */
 void course_times(const course *c, double *lo, double *hi);
 
-/* The times of a table, held or not; -INFINITY and INFINITY: it is none. */
+/* Tells the times of a table, whether it holds at its ends or not; -INFINITY and INFINITY: it is no
+ * table. */
 void course_span(const course *c, double *lo, double *hi);
 
-/* Whether it is defined all from one time to the other. */
+/* Whether it is defined at all times from one to the other. */
 bool course_is_defined(const course *c, double from, double to);
 
-/* All its numbers at time t. Precondition: it is defined there. */
+/* Computes all its numbers at time t. Precondition: it is defined there. */
 void course_at(const course *c, size_t width, imp_model t, imp_model *out);
 
 #endif

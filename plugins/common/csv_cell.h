@@ -18,7 +18,7 @@ typedef struct csv_cell {
     size_t length;
 } csv_cell;
 
-/* What parts the cells of a table whose first line this is: a semicolon if it has one, else a tab
+/* Returns the separator of a table whose first line this is: a semicolon if it has one, else a tab
  * if it has one, else a comma. */
 char csv_separator_of(const char *line);
 
@@ -32,7 +32,7 @@ bool csv_cell_number(const csv_cell *cell, double *number);
  * "inf" do. */
 bool csv_cell_is_name(const csv_cell *cell);
 
-/* Parts the unit in brackets at its end from a name; both lose the blanks around them. A unit of
+/* Splits off the unit in brackets at the end of a name; both lose the blanks around them. A unit of
  * length 0: there is none. */
 void csv_cell_split(const csv_cell *cell, csv_cell *name, csv_cell *unit);
 

@@ -8,10 +8,10 @@
 /* Keys of a motion: what their lists are checked for. `row`: of the parameter, for the
  * complaint. */
 
-/* Two or more, increasing. */
+/* Checks that there are two or more keys, in increasing order. */
 imp_status keys_check_times(int row, const imp_value *times, imp_create_error *why);
 
-/* Quaternions whose lengths are 1 within 1e-6. */
+/* Checks that quaternions have lengths of 1 within 1e-6. */
 imp_status keys_check_rotations(int row, const imp_value *rotations, imp_create_error *why);
 
 #endif

@@ -11,7 +11,7 @@
  * A parameter has two forms of which a caller gives one: a constant rate of change (velocity,
  * rate), or all coefficients, lowest power first (offset, angle). */
 
-/* Exactly one of the two rows must be given. */
+/* Checks that exactly one of the two rows is given. */
 static inline imp_status check_one_of(const imp_value *values, int rate, int coefficients,
                                       imp_create_error *why, const imp_parameter *rows)
 {
@@ -30,7 +30,7 @@ typedef struct polynomial {
     double *coefficient;
 } polynomial;
 
-/* How many coefficients one of the two forms gives. */
+/* Returns how many coefficients the given one of the two forms has. */
 static inline size_t polynomial_count(const imp_value *rate, const imp_value *coefficients)
 {
     return imp_is_given(rate) ? 2 : coefficients->extent[0];
@@ -71,7 +71,7 @@ static inline polynomial polynomial_spread(const double *number, size_t count, s
     IMP_ROW_NUMBERS(NAME, UNIT, DEFAULT, IMP_PARAMETER_SCALAR_OK,                                  \
                     DOC "; or coefficients of t^0, t^1, t^2 ...")
 
-/* Component i at time t. */
+/* Computes component i at time t. */
 static inline imp_model polynomial_at(const polynomial *p, size_t i, imp_model t)
 {
     return imp_poly(p->coefficient + i * p->count, p->count, t);

@@ -48,10 +48,10 @@ typedef struct spline {
     imp_interval *tree;  /* node k has children 2k and 2k+1; piece i is node pieces + i */
 } spline;
 
-/* What a spline with that many further columns takes in memory. */
+/* Returns the bytes of a spline with that many further columns. */
 size_t spline_bytes(size_t keys, size_t lanes, size_t further);
 
-/* A spline laid out in spline_bytes of memory, which stays the caller's; its keys, cubics and tree
+/* Lays out a spline in spline_bytes of memory, which stays the caller's; its keys, cubics and tree
  * are still to be set. */
 spline spline_place(size_t keys, size_t lanes, size_t further, void *memory);
 
@@ -65,10 +65,10 @@ static inline imp_interval *spline_node(const spline *s, size_t k)
     return s->tree + k * s->width;
 }
 
-/* From key to key in time. */
+/* Returns the time from one key to another. */
 imp_interval spline_step(const spline *s, size_t from, size_t to);
 
-/* The least interval that holds both. */
+/* Returns the least interval that holds both. */
 imp_interval spline_hull(imp_interval x, imp_interval y);
 
 /* Fills cubics and leaves, from time and from the keys' values, lane by lane. False: some step in
@@ -84,7 +84,7 @@ bool spline_set_parabolas(const spline *s, const imp_interval *keys, const doubl
 /* Fills the rest of the tree, when the leaves are complete. */
 void spline_grow(const spline *s);
 
-/* The polynomial of up to four control points there, by repeated averages (de Casteljau). */
+/* Evaluates the polynomial of up to four control points, by repeated averages (de Casteljau). */
 imp_interval spline_at(const imp_interval *control, int count, imp_interval part);
 
 enum { SPLINE_WIDTH_MAX = 32 };
@@ -102,8 +102,8 @@ typedef struct spline_span {
 /* lo, m and hi are between the first and the last key. */
 spline_span spline_span_of(const spline *s, double lo, double m, double hi);
 
-/* Models of all lanes over the times of the model t; and in `node` (width intervals) the ranges
- * over all of the pieces that t touches. */
+/* Computes models of all lanes over the times of the model t, and in `node` (width intervals) the
+ * ranges over all of the pieces that t touches. */
 void spline_models(const spline *s, imp_model t, imp_model *lanes, imp_interval *node);
 
 #endif

@@ -23,13 +23,13 @@ static inline imp_model sum_of_squares(const imp_model *x, int n)
     return imp_model_within(imp_dot3(all, all), range);
 }
 
-/* At least the root of the greatest value of a model that is never negative. */
+/* An upper bound of the root of a model that is never negative. */
 static inline double greatest_root_upper(const imp_model *square)
 {
     return imp_round_up(sqrt(imp_larger(square->hi, 0)));
 }
 
-/* 1 / x at most, for x > 0. */
+/* An upper bound of 1 / x for x > 0. */
 static inline double inverse_lower(double x) { return imp_round_down(1 / x); }
 
 /* From q^2, q >= 0, a g with |g| <= |q - r| and the sign of q - r; r > 0. Lemma. q^2 - r^2 = (q -

@@ -26,13 +26,13 @@ typedef struct superellipse {
 #define ROW_EXPONENTS(DOC)                                                                         \
     IMP_ROW("exponents", "1", "[0.5,0.5]", IMP_PARAMETER_MIN_OPEN, 1, 2, 0, 0, INFINITY, DOC)
 
-/* Each of the two is in (0, 2]. */
+/* Checks that each of the two exponents is in (0, 2]. */
 imp_status superellipse_check_exponents(const imp_value *exponents, int row, imp_create_error *why);
 
 /* The curve of that exponent, which is in (0, 2]. */
 superellipse superellipse_of(double exponent);
 
-/* X and Y at an angle of moderate size. */
+/* Computes X and Y at an angle of moderate size. */
 void superellipse_at(const superellipse *s, imp_model angle, imp_model *x, imp_model *y);
 
 #endif

@@ -21,13 +21,13 @@ typedef struct unit {
     bool is_of_pi;
 } unit;
 
-/* False: there is none of that kind by this name. */
+/* Finds a unit by its name. False: there is none of that kind by this name. */
 bool unit_find(unit_kind kind, const char *name, unit *found);
 
-/* Names of the kind, with commas between: "s, ms, us, min and h". */
+/* Writes the names of a kind, with commas between them: "s, ms, us, min and h". */
 const char *unit_names(unit_kind kind);
 
-/* From one unit to another of the same kind; nothing is rounded where both are the same. */
+/* Converts from one unit to another of the same kind; nothing is rounded where both are equal. */
 imp_interval unit_convert(double number, const unit *from, const unit *to);
 
 /* The nearest number, for times, which are exact in tables. */

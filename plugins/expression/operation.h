@@ -57,7 +57,7 @@ typedef struct operation {
     near_constant k;
 } operation;
 
-/* How many operands operations of this code have. */
+/* Returns how many operands operations of this code have. */
 int opcode_operands(opcode code);
 
 /* The constant as a model. */
@@ -70,7 +70,7 @@ imp_model operation_model(const operation *o, const imp_model *values);
  * their errors. An infinite error: nothing is known. */
 near_constant operation_point(const operation *o, const near_constant *values);
 
-/* Is the operation undefined for all values of its operands? */
+/* Whether the operation is undefined for all values of its operands. */
 bool operation_is_undefined(const operation *o, const imp_model *values);
 
 #endif

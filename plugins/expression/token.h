@@ -22,13 +22,13 @@ typedef struct token {
     size_t at, length; /* bytes of the text */
 } token;
 
-/* The token that begins at or after `from`. */
+/* Returns the token that begins at or after `from`. */
 token token_next(const char *text, size_t from);
 
-/* The double nearest to the number. What is wrong with it, or NULL. */
+/* Reads the double nearest to the number. Returns what is wrong with it, or NULL. */
 const char *token_number(const char *text, token number, double *value);
 
-/* Line and column, from 1, of a byte of the text; columns count characters. */
+/* Tells line and column, from 1, of a byte of the text; columns count characters. */
 typedef struct text_place {
     size_t line, column;
 } text_place;

@@ -581,8 +581,8 @@ static size_t two(const void *self)
 
 static const void *piece_of(const void *self, size_t k) { return (const imp_symmetry *)self + k; }
 
-/* Of a surface of pieces the type is asked for the first; what moves that within itself moves
- * others. */
+/* The type of a surface of pieces is asked for the first piece; motions of that within itself move
+ * the others. */
 START_TEST(the_symmetry_of_one_piece_is_not_that_of_all)
 {
     imp_surface_type many = target;
