@@ -207,6 +207,21 @@ oblique() {
     json '.reason == "max-seconds" and .time[1] < 1e4'
 }
 
+@test "--max-seconds and --max-bytes hold while pairs of many bodies are listed" {
+    # 20000 bodies make 2e8 pairs, which take five seconds to go through.
+    jq -cn '{bodies: [range(20000) | {name: "b\(.)", mass: 1, group: ["all"], inertia: [[1,0,0],[0,1,0],[0,0,1]],
+        center: [., 0, 0], surfaces: [{type: "sphere", radius: 0.4, center: [., 0, 0]}]}], ignore: [["all", "all"]]}' >many.json
+    local seconds TIMEFORMAT=%U
+    seconds=$({ time "$IMPINGE" simulate many.json -o out.json --json --max-seconds 1 >limited || true; } 2>&1)
+    echo "$seconds seconds of the processor"
+    output=$(<limited)
+    json '.reason == "max-seconds" and .stats.searches == 0'
+    has_sanitizers || jq -en --argjson seconds "$seconds" '$seconds < 4'
+    jq -c 'del(.ignore)' many.json >all.json
+    run -3 "$IMPINGE" simulate all.json -o out.json --json --max-bytes 10M
+    json '.reason == "max-bytes" and .stats.searches == 0'
+}
+
 @test "a budget that ends in the middle of an event leaves the event out" {
     local pairs most
     cradle 8e-7 3 >cradle.json
