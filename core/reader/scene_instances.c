@@ -178,6 +178,14 @@ static place place_of_map(const place *maps, size_t index, const json_t *map)
     return maps->argument && type != NULL ? place_argument(maps, type) : place_index(maps, index);
 }
 
+static imp_code refuse_maps(const scene_instances *p, const place *at)
+{
+    const place member = place_key(at, "maps");
+    return place_error(&member, p->error, IMP_ERROR_SCENE,
+                       "a map has no maps of its own; list them after it, in the order in which "
+                       "they apply");
+}
+
 static imp_code add_map(scene_instances *p, json_t *element, const place *at, instance_list *to)
 {
     if (json_is_string(element)) {
@@ -185,6 +193,7 @@ static imp_code add_map(scene_instances *p, json_t *element, const place *at, in
         const imp_code code = use(p, json_string_value(element), IMP_TYPE_MAP, at, &used);
         return code == IMP_SUCCESS ? keep(p, instance_list_add_all(to, &used->maps)) : code;
     }
+    if (json_object_get(element, "maps") != NULL) return refuse_maps(p, at);
     shared_instance *made = NULL;
     imp_code code = scene_instances_make(p, IMP_TYPE_MAP, element, at, &made);
     if (code == IMP_SUCCESS) code = keep(p, instance_list_add(to, made));

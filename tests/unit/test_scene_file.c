@@ -107,6 +107,14 @@ START_TEST(names_of_bodies_are_unique_lines)
 }
 END_TEST
 
+START_TEST(maps_of_a_map_are_refused)
+{
+    assert_wrong("{'bodies':[{'surfaces':[" KIT "],'maps':[{'type':'shift','maps':[]}]}]}",
+                 "s.json: /bodies/0/maps/0/maps: a map has no maps of its own; list them after it, "
+                 "in the order in which they apply");
+}
+END_TEST
+
 START_TEST(unknown_keys_are_refused_with_the_nearest)
 {
     assert_wrong(SCENE(",'gama':1"),
@@ -378,7 +386,7 @@ END_TEST
 SUITE_MAIN("scene_file", a_scene_has_its_bodies_surfaces_and_names,
            settings_are_taken_or_have_their_presets, an_instant_is_an_interval,
            settings_out_of_range_are_refused, maps_of_the_surface_come_before_maps_of_the_body,
-           ignored_pairs_are_named, names_of_bodies_are_unique_lines,
+           ignored_pairs_are_named, names_of_bodies_are_unique_lines, maps_of_a_map_are_refused,
            unknown_keys_are_refused_with_the_nearest,
            properties_of_bodies_are_ignored_and_motions_to_compute_refused,
            missing_and_misshapen_parts_are_told, types_are_told_when_unknown_or_of_the_wrong_sort,
