@@ -7,8 +7,11 @@ plugin_LTLIBRARIES = \
     plugins/bend.la \
     plugins/bezier.la \
     plugins/bezier-triangle.la \
+    plugins/box.la \
+    plugins/capsule.la \
     plugins/cone.la \
     plugins/cylinder.la \
+    plugins/disc.la \
     plugins/ellipsoid.la \
     plugins/ffd.la \
     plugins/formula.la \
@@ -55,10 +58,16 @@ plugins_bezier_la_SOURCES = plugins/surfaces/bezier.c
 plugins_bezier_la_LDFLAGS = $(plugin_ldflags)
 plugins_bezier_triangle_la_SOURCES = plugins/surfaces/bezier-triangle.c
 plugins_bezier_triangle_la_LDFLAGS = $(plugin_ldflags)
+plugins_box_la_SOURCES = plugins/surfaces/box.c
+plugins_box_la_LDFLAGS = $(plugin_ldflags)
+plugins_capsule_la_SOURCES = plugins/surfaces/capsule.c
+plugins_capsule_la_LDFLAGS = $(plugin_ldflags)
 plugins_cone_la_SOURCES = plugins/surfaces/cone.c
 plugins_cone_la_LDFLAGS = $(plugin_ldflags)
 plugins_cylinder_la_SOURCES = plugins/surfaces/cylinder.c
 plugins_cylinder_la_LDFLAGS = $(plugin_ldflags)
+plugins_disc_la_SOURCES = plugins/surfaces/disc.c
+plugins_disc_la_LDFLAGS = $(plugin_ldflags)
 plugins_ellipsoid_la_SOURCES = plugins/surfaces/ellipsoid.c
 plugins_ellipsoid_la_LDFLAGS = $(plugin_ldflags)
 plugins_ffd_la_SOURCES = plugins/maps/ffd.c
@@ -140,6 +149,8 @@ plugins_libcommon_la_SOURCES = \
     plugins/common/csv.c plugins/common/csv.h \
     plugins/common/csv_cell.c plugins/common/csv_cell.h \
     plugins/common/units.c plugins/common/units.h \
+    plugins/common/facet.c plugins/common/facet.h \
+    plugins/common/frame.c plugins/common/frame.h \
     plugins/common/keys.c plugins/common/keys.h \
     plugins/common/linear.c plugins/common/linear.h \
     plugins/common/sinc.c plugins/common/sinc.h \
@@ -149,6 +160,9 @@ plugins_libcommon_la_SOURCES = \
 plugins_libcommon_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 plugins_libcommon_la_LDFLAGS =
 plugins_bend_la_LIBADD = plugins/libcommon.la
+plugins_box_la_LIBADD = plugins/libcommon.la
+plugins_capsule_la_LIBADD = plugins/libcommon.la
+plugins_disc_la_LIBADD = plugins/libcommon.la
 plugins_keyframes_la_LIBADD = plugins/libcommon.la
 plugins_plane_la_LIBADD = plugins/libcommon.la
 plugins_point_la_LIBADD = plugins/libcommon.la

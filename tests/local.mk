@@ -167,6 +167,7 @@ tests_unit_test_expression_bounds_LDADD = plugins/libexpression.la $(LDADD)
 bats_suites = \
     tests/cli/bench.bats \
     tests/cli/bezier_triangle.bats \
+    tests/cli/bodies.bats \
     tests/cli/check.bats \
     tests/cli/cli.bats \
     tests/cli/clearance.bats \

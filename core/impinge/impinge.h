@@ -307,7 +307,8 @@ IMP_EXPORT imp_code imp_builder_ignore(imp_builder *builder, const char *x, cons
 IMP_EXPORT imp_scene *imp_builder_finish(imp_builder *builder, imp_error *error);
 
 IMP_EXPORT size_t imp_scene_body_count(const imp_scene *scene);
-/* Whether two bodies are never tested with each other. */
+/* Whether two bodies are never tested with each other: one ignores the other, or has no
+ * surfaces. */
 IMP_EXPORT bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b);
 IMP_EXPORT const char *imp_scene_body_name(const imp_scene *scene, size_t body);
 IMP_EXPORT size_t imp_scene_surface_count(const imp_scene *scene, size_t body);

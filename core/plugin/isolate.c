@@ -88,7 +88,13 @@ static imp_status create_pieces(isolated *i)
 {
     if (i->piece_count == 0 || i->piece_count > IMP_PIECES_MAX) return IMP_STATUS_OK;
     i->pieces = calloc(i->piece_count, sizeof *i->pieces);
-    return i->pieces != NULL ? request_pieces(i) : IMP_STATUS_INTERNAL;
+    if (i->pieces == NULL) return IMP_STATUS_INTERNAL;
+    const imp_status status = request_pieces(i);
+    if (status == IMP_STATUS_OK && isolate_is_own_piece(i)) {
+        memcpy(i->lo, i->pieces[0].lo, sizeof i->lo);
+        memcpy(i->hi, i->pieces[0].hi, sizeof i->hi);
+    }
+    return status;
 }
 
 /* For messages: the callback that this thread began last is the one that ended the worker. */

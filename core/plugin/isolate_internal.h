@@ -33,4 +33,10 @@ struct isolated {
     inclusions_ahead *ahead; /* of the pieces; NULL: none was asked for yet */
 };
 
+/* Whether the instance is its own only piece: one surface. */
+static inline bool isolate_is_own_piece(const isolated *i)
+{
+    return i->piece_count == 1 && i->pieces != NULL && i->pieces[0].self == i->self;
+}
+
 #endif

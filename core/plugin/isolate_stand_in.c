@@ -185,6 +185,7 @@ static size_t piece_count_of(const void *self) { return stand_in_of(self)->piece
 static const void *piece_of(const void *self, size_t k)
 {
     const isolated *i = self;
+    if (isolate_is_own_piece(i)) return i;
     return i->pieces[k].self != NULL ? &i->pieces[k] : NULL;
 }
 

@@ -235,15 +235,11 @@ imp_code imp_builder_ignore(imp_builder *b, const char *x, const char *y, imp_er
 
 /* --- Done ------------------------------------------------------------------------------------- */
 
-/* Every body has a surface, and none is its own ancestor. */
+/* There is a body, and none is its own ancestor. */
 static imp_code check_all(const imp_builder *b, imp_error *error)
 {
     const assembly *a = &b->bodies.assembly;
     if (a->count == 0) return error_set(error, IMP_ERROR_SCENE, "the scene has no bodies");
-    for (size_t k = 0; k < a->count; ++k)
-        if (a->bodies[k].shapes.count == 0)
-            return error_set(error, IMP_ERROR_SCENE, "%s has no surfaces, must have at least 1",
-                             words_of(b, k).at);
     size_t body = 0;
     const assembly_search search = assembly_find_cycle(a, &body);
     if (search == ASSEMBLY_NO_CYCLE) return IMP_SUCCESS;

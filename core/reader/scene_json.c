@@ -72,7 +72,7 @@ static imp_code add_body(scene_bodies *b, json_t *body, const place *at)
     if (code == IMP_SUCCESS) code = begin(b, body, at);
     if (code == IMP_SUCCESS) code = read_groups(b, index, body, at);
     if (code == IMP_SUCCESS)
-        code = json_keys_array(body, "surfaces", true, at, &surfaces, b->error);
+        code = json_keys_array(body, "surfaces", false, at, &surfaces, b->error);
     if (code == IMP_SUCCESS) code = json_keys_array(body, "maps", false, at, &maps, b->error);
     if (code != IMP_SUCCESS) return code;
     assembly_body *made = &b->assembly.bodies[index];

@@ -277,7 +277,9 @@ size_t imp_scene_body_count(const imp_scene *scene) { return scene != NULL ? sce
 bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b)
 {
     const size_t bodies = imp_scene_body_count(scene);
-    return a < bodies && b < bodies && scene_ignores(scene, a, b);
+    if (a >= bodies || b >= bodies) return false;
+    if (scene->bodies[a].count == 0 || scene->bodies[b].count == 0) return true;
+    return scene_ignores(scene, a, b);
 }
 
 const char *imp_scene_body_name(const imp_scene *scene, size_t body)

@@ -69,6 +69,11 @@ static bool take_pieces(shared_instance *p)
     }
     for (size_t k = 0; k < p->piece_count && p->breach == IMP_STATUS_OK; ++k)
         p->breach = take_piece(p, k);
+    if (p->piece_count == 1 && p->pieces[0] == p->self) { /* its own only piece: one surface */
+        free(p->pieces);
+        p->pieces = NULL;
+        p->piece_count = 0;
+    }
     return true;
 }
 

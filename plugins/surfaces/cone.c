@@ -7,10 +7,12 @@
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
 
-/* Only the lateral surface, from the base circle at v = 0 to the apex, to which the edge v = 1
- * collapses. With height 0 it is a disc. */
+/* The lateral surface, from the base circle at v = 0 to the apex, to which the edge v = 1
+ * collapses. With height 0 it is a disc. With `ends`, the disc of the base is a second piece, which
+ * goes round as the first does: both normals f_u x f_v point outward, or, with the apex below,
+ * inward. */
 
-enum { RADIUS, HEIGHT, CENTER };
+enum { RADIUS, HEIGHT, CENTER, ENDS };
 
 static const imp_parameter parameters[] = {
     [RADIUS] = IMP_ROW_POSITIVE("radius", "length", "1", "radius of the base"),
@@ -18,22 +20,47 @@ static const imp_parameter parameters[] = {
         "height", "length", "1",
         "height of the apex above the base, along z; 0: a disc; negative: apex below"),
     [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "centre of the base"),
+    [ENDS] = IMP_ROW_BOOLEAN("ends", "false", "closed by a disc at its base"),
 };
 
+enum { LATERAL, BASE, PARTS };
+
+/* What the callbacks get as `self`: one piece. */
 typedef struct cone_instance {
     double radius, height, center[3];
+    int part;
 } cone_instance;
+
+typedef struct cone_pieces {
+    cone_instance part[PARTS]; /* the instance is its first piece */
+    bool has_ends;
+} cone_pieces;
 
 static imp_status cone_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
-    cone_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
-    s->radius = values[RADIUS].number[0];
-    s->height = values[HEIGHT].number[0];
-    imp_copy_vector(s->center, &values[CENTER]);
-    *self = s;
+    cone_pieces *pieces = malloc(sizeof *pieces);
+    if (pieces == NULL) return IMP_STATUS_INTERNAL;
+    for (int k = 0; k < PARTS; ++k) {
+        cone_instance *s = &pieces->part[k];
+        s->part = k;
+        s->radius = values[RADIUS].number[0];
+        s->height = values[HEIGHT].number[0];
+        imp_copy_vector(s->center, &values[CENTER]);
+    }
+    pieces->has_ends = values[ENDS].number[0] != 0;
+    *self = pieces;
     return IMP_STATUS_OK;
+}
+
+static size_t cone_piece_count(const void *self)
+{
+    return ((const cone_pieces *)self)->has_ends ? PARTS : 1;
+}
+
+static const void *cone_piece(const void *self, size_t k)
+{
+    return &((const cone_pieces *)self)->part[k];
 }
 
 static void cone_domain(const void *self, double lo[3], double hi[3])
@@ -45,12 +72,13 @@ static void cone_domain(const void *self, double lo[3], double hi[3])
 static void cone_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
 {
     const cone_instance *s = self;
-    imp_model sin_u, cos_u, ring = imp_scale(imp_shift(imp_neg(v), 1), s->radius);
+    const bool base = s->part == BASE;
+    imp_model sin_u, cos_u, ring = imp_scale(base ? v : imp_shift(imp_neg(v), 1), s->radius);
     (void)t;
     imp_sincos(u, &sin_u, &cos_u);
     out[0] = imp_shift(imp_mul(ring, cos_u), s->center[0]);
     out[1] = imp_shift(imp_mul(ring, sin_u), s->center[1]);
-    out[2] = imp_shift(imp_scale(v, s->height), s->center[2]);
+    out[2] = base ? imp_num(s->center[2]) : imp_shift(imp_scale(v, s->height), s->center[2]);
 }
 IMP_SURFACE_FORMULA(cone_formula)
 
@@ -77,14 +105,14 @@ static imp_model cone_beyond(const cone_instance *s, const imp_model m[3])
     return imp_scale(sum, imp_larger(inverse_lower(imp_round_up(most * slant)), 0));
 }
 
-/* The distance from the endless double cone; of a disc, from its plane. */
+/* The distance from the endless double cone; from a disc or the base, from its plane. */
 static imp_model cone_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     const cone_instance *s = self;
     (void)t;
     const imp_model m[3] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]),
                             imp_shift(z, -s->center[2])};
-    return s->height == 0 ? m[2] : cone_beyond(s, m);
+    return s->height == 0 || s->part == BASE ? m[2] : cone_beyond(s, m);
 }
 IMP_DISTANCE_FORMULA(cone_gap)
 
@@ -100,11 +128,14 @@ static imp_status cone_symmetry(const void *self, imp_symmetry *symmetry)
 
 static const imp_surface_type cone = {
     IMP_SURFACE_FIELDS(cone, cone_formula),
+    .piece_count = cone_piece_count,
+    .piece = cone_piece,
     .distance = cone_gap_distance,
     .symmetry = cone_symmetry,
-    .summary = "lateral surface of a cone about the z axis, open at its base, up to the apex",
+    .summary = "cone about the z axis: its lateral surface up to the apex, with ends=true closed "
+               "by a disc",
     .equation = "center + ((1-v) radius cos u, (1-v) radius sin u, height v), u in [0,2pi], "
-                "v in [0,1]",
+                "v in [0,1]; end: center + (v radius cos u, v radius sin u, 0)",
     .source = NULL,
     .example = "cone radius=1 height=2",
 };

@@ -7,36 +7,81 @@
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
 
-/* Only the lateral surface, without end discs: a thin body can pass through. */
+/* The lateral surface; with `ends`, both end discs, as pieces of their own. Without them a thin
+ * body can pass through. All pieces go round the same way: f_u x f_v points outward. */
 
-enum { RADIUS, HEIGHT, CENTER };
+enum { RADIUS, HEIGHT, CENTER, ENDS };
 
 static const imp_parameter parameters[] = {
     [RADIUS] = IMP_ROW_POSITIVE("radius", "length", "1", "radius"),
     [HEIGHT] = IMP_ROW_POSITIVE("height", "length", "2", "extent along the z axis"),
     [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "middle of the axis"),
+    [ENDS] = IMP_ROW_BOOLEAN("ends", "false", "closed by a disc at either end"),
 };
 
+enum { LATERAL, BOTTOM, TOP, PARTS };
+
+/* What the callbacks get as `self`: one piece. */
 typedef struct cylinder_instance {
     double radius, height, center[3];
+    int part;
 } cylinder_instance;
+
+typedef struct cylinder_pieces {
+    cylinder_instance part[PARTS]; /* the instance is its first piece */
+    bool has_ends;
+} cylinder_pieces;
 
 static imp_status cylinder_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
-    cylinder_instance *s = malloc(sizeof *s);
-    if (s == NULL) return IMP_STATUS_INTERNAL;
-    s->radius = values[RADIUS].number[0];
-    s->height = values[HEIGHT].number[0];
-    imp_copy_vector(s->center, &values[CENTER]);
-    *self = s;
+    cylinder_pieces *pieces = malloc(sizeof *pieces);
+    if (pieces == NULL) return IMP_STATUS_INTERNAL;
+    for (int k = 0; k < PARTS; ++k) {
+        cylinder_instance *s = &pieces->part[k];
+        s->part = k;
+        s->radius = values[RADIUS].number[0];
+        s->height = values[HEIGHT].number[0];
+        imp_copy_vector(s->center, &values[CENTER]);
+    }
+    pieces->has_ends = values[ENDS].number[0] != 0;
+    *self = pieces;
     return IMP_STATUS_OK;
+}
+
+static size_t cylinder_piece_count(const void *self)
+{
+    return ((const cylinder_pieces *)self)->has_ends ? PARTS : 1;
+}
+
+static const void *cylinder_piece(const void *self, size_t k)
+{
+    return &((const cylinder_pieces *)self)->part[k];
 }
 
 static void cylinder_domain(const void *self, double lo[3], double hi[3])
 {
-    (void)self;
-    imp_set_domain(lo, hi, 0, IMP_TWO_PI_UPPER, -0.5, 0.5);
+    const cylinder_instance *s = self;
+    const bool lateral = s->part == LATERAL;
+    imp_set_domain(lo, hi, 0, IMP_TWO_PI_UPPER, lateral ? -0.5 : 0, lateral ? 0.5 : 1);
+}
+
+/* Where the axis ends. */
+static imp_model end_of(const cylinder_instance *s)
+{
+    const imp_model half = imp_scale(imp_num(s->part == TOP ? 0.5 : -0.5), s->height);
+    return imp_shift(half, s->center[2]);
+}
+
+/* An end, with v from 0 to 1 outward at the bottom and inward at the top. */
+static void end_formula(const cylinder_instance *s, imp_model u, imp_model v, imp_model out[3])
+{
+    imp_model sin_u, cos_u;
+    const imp_model ring = imp_scale(s->part == TOP ? imp_shift(imp_neg(v), 1) : v, s->radius);
+    imp_sincos(u, &sin_u, &cos_u);
+    out[0] = imp_shift(imp_mul(ring, cos_u), s->center[0]);
+    out[1] = imp_shift(imp_mul(ring, sin_u), s->center[1]);
+    out[2] = end_of(s);
 }
 
 static void cylinder_formula(const void *self, imp_model u, imp_model v, imp_model t,
@@ -45,6 +90,10 @@ static void cylinder_formula(const void *self, imp_model u, imp_model v, imp_mod
     const cylinder_instance *s = self;
     imp_model sin_u, cos_u;
     (void)t;
+    if (s->part != LATERAL) {
+        end_formula(s, u, v, out);
+        return;
+    }
     imp_sincos(u, &sin_u, &cos_u);
     out[0] = imp_shift(imp_scale(cos_u, s->radius), s->center[0]);
     out[1] = imp_shift(imp_scale(sin_u, s->radius), s->center[1]);
@@ -52,11 +101,13 @@ static void cylinder_formula(const void *self, imp_model u, imp_model v, imp_mod
 }
 IMP_SURFACE_FORMULA(cylinder_formula)
 
-/* From the axis, less the radius: the distance from the endless cylinder. */
+/* From the axis, less the radius: the distance from the endless cylinder. From an end, the distance
+ * from its plane. */
 static imp_model cylinder_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
     const cylinder_instance *s = self;
-    (void)z, (void)t;
+    (void)t;
+    if (s->part != LATERAL) return imp_sub(z, end_of(s));
     const imp_model m[2] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1])};
     return beyond_radius(sum_of_squares(m, 2), s->radius);
 }
@@ -65,7 +116,7 @@ IMP_DISTANCE_FORMULA(cylinder_gap)
 static imp_status cylinder_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const cylinder_instance *s = self;
-    symmetry->kind = IMP_SYMMETRY_ALONG_LINE;
+    symmetry->kind = s->part == LATERAL ? IMP_SYMMETRY_ALONG_LINE : IMP_SYMMETRY_ACROSS_LINE;
     symmetry->is_closed = 1;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
@@ -74,10 +125,15 @@ static imp_status cylinder_symmetry(const void *self, imp_symmetry *symmetry)
 
 static const imp_surface_type cylinder = {
     IMP_SURFACE_FIELDS(cylinder, cylinder_formula),
+    .piece_count = cylinder_piece_count,
+    .piece = cylinder_piece,
     .distance = cylinder_gap_distance,
     .symmetry = cylinder_symmetry,
-    .summary = "lateral surface of a cylinder about the z axis, open at both ends",
-    .equation = "center + (radius cos u, radius sin u, height v), u in [0,2pi], v in [-1/2,1/2]",
+    .summary = "cylinder about the z axis: its lateral surface, with ends=true closed by discs",
+    .equation =
+        "center + (radius cos u, radius sin u, height v), u in [0,2pi], v in [-1/2,1/2]; ends: "
+        "center + (v radius cos u, v radius sin u, -height/2), center + ((1-v) radius cos u, "
+        "(1-v) radius sin u, height/2), v in [0,1]",
     .source = NULL,
     .example = "cylinder radius=0.5 height=3",
 };

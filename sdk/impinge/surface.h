@@ -337,6 +337,7 @@ typedef struct imp_surface_type {
      * piece. piece_count is from 1 to IMP_PIECES_MAX and never changes. The host then calls domain,
      * eval, rate and include for the pieces alone; their domains must have the same times. The
      * pieces are one surface of the scene and move together: they are not tested with each other.
+     * With a piece_count of 1, piece(self, 0) may be `self`: then it is one surface without pieces.
      * [main-thread], like create */
     size_t (*piece_count)(const void *self);
     const void *(*piece)(const void *self, size_t k);

@@ -344,3 +344,23 @@ refuses_table() { # TABLE PARAMETERS SAYING
         [[ $output != *'"max-seconds"'* && $status -ne 3 ]]
     done
 }
+
+@test "a body without surfaces is a frame for its children" {
+    local ball='{"name": "ball", "surfaces": [{"type": "sphere"}], "parent": "joint"}'
+    local wall='{"name": "wall", "surfaces": [{"type": "plane", "origin": [3,-5,-5], "edge_u": [0,10,0], "edge_v": [0,0,10]}]}'
+    local maps='"maps": [{"type": "translate", "velocity": [4,0,0]}]'
+    for frame in "{\"name\": \"joint\", $maps}" "{\"name\": \"joint\", \"surfaces\": [], $maps}"; do
+        echo "{\"bodies\": [$frame, $ball, $wall]}" >frame.json
+        jq . frame.json >/dev/null
+        run -0 "$IMPINGE" solve frame.json --json
+        json '.verdict == "contact" and (.t - 0.5 | fabs) < 1e-5 and .a.body == "ball" and .b.body == "wall"'
+        run -0 "$IMPINGE" clearance frame.json --each --json
+        json '.pairs | length == 1'
+        run -0 "$IMPINGE" solve frame.json --each --json
+        json '.bodies == ["ball", "wall"]'
+        "$IMPINGE" view frame.json -o frame.svg 2>/dev/null || "$IMPINGE" view frame.json -o frame.png
+    done
+    echo '{"bodies": [{"name": "alone"}]}' >alone.json
+    run -0 "$IMPINGE" solve alone.json --json
+    json '.verdict == "clear" and .reason == "no-pairs"'
+}

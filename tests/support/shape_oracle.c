@@ -52,6 +52,80 @@ void cone_oracle(const type_arguments *arguments, const number p[3], number x[3]
     add_center(arguments, x);
 }
 
+/* Unit vectors a and b across an axis, and their product k along it: those of the plugins, which
+ * stand on the coordinate axis that k is farthest from. */
+static void frame_of(const number axis[3], number a[3], number b[3], number k[3])
+{
+    const number length = num_hypot(num_hypot(axis[0], axis[1]), axis[2]);
+    size_t least = 0, zeros = 0, along = 0;
+    number size = num(0);
+    for (size_t i = 0; i < 3; ++i) {
+        k[i] = num_div(axis[i], length);
+        zeros += num_near(k[i]) == 0;
+        if (num_near(k[i]) != 0) along = i;
+        if (fabs(num_near(k[i])) < fabs(num_near(k[least]))) least = i;
+    }
+    for (size_t i = 0; i < 3; ++i) {
+        const size_t j = (i + 1) % 3, l = (i + 2) % 3;
+        a[i] = num_sub(num_mul(k[j], num(l == least)), num_mul(k[l], num(j == least)));
+        if (zeros == 2) a[i] = num(i == (along + 1) % 3);
+        size = num_hypot(size, a[i]);
+    }
+    for (size_t i = 0; i < 3; ++i) a[i] = num_div(a[i], size);
+    for (size_t i = 0; i < 3; ++i) {
+        const size_t j = (i + 1) % 3, l = (i + 2) % 3;
+        b[i] = num_sub(num_mul(k[j], a[l]), num_mul(k[l], a[j]));
+    }
+}
+
+/* radius (a cos u + b sin u) */
+static void turned_ring(const number a[3], const number b[3], number radius, number u, number x[3])
+{
+    for (size_t i = 0; i < 3; ++i)
+        x[i] = num_mul(radius, num_add(num_mul(a[i], num_cos(u)), num_mul(b[i], num_sin(u))));
+}
+
+void disc_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    number axis[3], a[3], b[3], k[3];
+    for (size_t i = 0; i < 3; ++i) axis[i] = argument_at(arguments, "axis", i);
+    frame_of(axis, a, b, k);
+    turned_ring(a, b, num_mul(scalar(arguments, "radius"), num_sub(num(1), p[1])), p[0], x);
+    add_center(arguments, x);
+}
+
+void capsule_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    number axis[3], a[3], b[3], k[3];
+    bool is_point = true;
+    for (size_t i = 0; i < 3; ++i) {
+        axis[i] = num_sub(argument_at(arguments, "to", i), argument_at(arguments, "from", i));
+        is_point = is_point && num_near(axis[i]) == 0;
+    }
+    if (is_point) axis[2] = num(1);
+    frame_of(axis, a, b, k);
+    turned_ring(a, b, scalar(arguments, "radius"), p[0], x);
+    for (size_t i = 0; i < 3; ++i) {
+        x[i] = num_add(x[i], argument_at(arguments, "from", i));
+        if (!is_point) x[i] = num_add(x[i], num_mul(p[1], axis[i]));
+    }
+}
+
+/* The lower face across x: v along y, u along z. */
+void box_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    number lo[3], hi[3];
+    for (size_t i = 0; i < 3; ++i) {
+        const double size = argument(arguments, "size")->number[i];
+        const double center = argument(arguments, "center")->number[i];
+        lo[i] = num(center - size / 2);
+        hi[i] = num(center + size / 2);
+    }
+    x[0] = lo[0];
+    x[1] = num_add(lo[1], num_mul(p[1], num_sub(hi[1], lo[1])));
+    x[2] = num_add(lo[2], num_mul(p[0], num_sub(hi[2], lo[2])));
+}
+
 void thread_oracle(const type_arguments *arguments, const number p[3], number x[3])
 {
     const imp_value *profile = argument(arguments, "profile");

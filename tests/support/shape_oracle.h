@@ -13,6 +13,9 @@ typedef void surface_oracle(const type_arguments *arguments, const number p[3], 
 surface_oracle ellipsoid_oracle;
 surface_oracle cylinder_oracle;
 surface_oracle cone_oracle;
+surface_oracle disc_oracle;
+surface_oracle box_oracle;     /* its first piece */
+surface_oracle capsule_oracle; /* its first piece */
 surface_oracle thread_oracle;
 surface_oracle plane_oracle;
 surface_oracle point_oracle;

@@ -246,6 +246,22 @@ const type_oracle oracles[] = {
      .instances = {"{}", "{\"radius\": +, \"height\": ?, \"center\": [?,?,?]}",
                    "{\"radius\": 1e6, \"height\": 0}",
                    "{\"radius\": 1e-3, \"height\": -1e3, \"center\": [1e8,0,-1e8]}"}},
+    {.type = "disc",
+     .surface = disc_oracle,
+     .instances = {"{}", "{\"radius\": +, \"center\": [?,?,?], \"axis\": [?,?,?]}",
+                   "{\"axis\": [0,-1e-50,0], \"center\": [?,1e8,0]}",
+                   "{\"radius\": 1e6, \"axis\": [1e-90,1,1e90]}",
+                   "{\"axis\": [1,1,1], \"radius\": 1e-6, \"center\": [1e8,0,-1e8]}"}},
+    {.type = "box", /* its first piece */
+     .surface = box_oracle,
+     .instances = {"{}", "{\"size\": [+,+,+], \"center\": [?,?,?]}",
+                   "{\"size\": [1e-6,1,1e6], \"center\": [1e8,0.1,-1e-8]}"}},
+    {.type = "capsule", /* its first piece */
+     .surface = capsule_oracle,
+     .instances = {"{}", "{\"radius\": +, \"from\": [?,?,?], \"to\": [?,?,?]}",
+                   "{\"from\": [1,2,3], \"to\": [1,2,3]}",
+                   "{\"from\": [0,5,0], \"to\": [0,-1e-3,0], \"radius\": 1e-6}",
+                   "{\"from\": [1e8,0,0.1], \"to\": [1e8,?,-1e-8]}"}},
     {.type = "thread",
      .surface = thread_oracle,
      .instances =

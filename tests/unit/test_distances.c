@@ -70,6 +70,41 @@ static number plane(const type_arguments *a, const number x[3])
     return num_div(num_abs(sum), num_sqrt(square));
 }
 
+static number disc(const type_arguments *a, const number x[3])
+{
+    number sum = num(0), square = num(0);
+    for (size_t i = 0; i < 3; ++i) {
+        const number k = argument_at(a, "axis", i);
+        sum = num_add(sum, num_mul(k, from(a, "center", x, i)));
+        square = num_add(square, num_sqr(k));
+    }
+    return num_div(num_abs(sum), num_sqrt(square));
+}
+
+/* From the endless cylinder of its first piece. */
+static number capsule(const type_arguments *a, const number x[3])
+{
+    number d[3], m[3], square = num(0), length = num(0);
+    for (size_t i = 0; i < 3; ++i) {
+        d[i] = num_sub(argument_at(a, "to", i), argument_at(a, "from", i));
+        m[i] = from(a, "from", x, i);
+    }
+    for (size_t i = 0; i < 3; ++i) {
+        const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        const number c = num_sub(num_mul(d[j], m[k]), num_mul(d[k], m[j]));
+        square = num_add(square, num_sqr(c));
+        length = num_add(length, num_sqr(d[i]));
+    }
+    return num_abs(num_sub(num_sqrt(num_div(square, length)), argument_at(a, "radius", 0)));
+}
+
+/* From the plane of its first piece. */
+static number box(const type_arguments *a, const number x[3])
+{
+    const double size = argument(a, "size")->number[0], center = argument(a, "center")->number[0];
+    return num_abs(num_sub(x[0], num(center - size / 2)));
+}
+
 static const row rows[] = {
     {"sphere", "{\"radius\": +, \"center\": [?, ?, ?]}", sphere},
     {"sphere", "{\"radius\": 1}", sphere},
@@ -91,6 +126,11 @@ static const row rows[] = {
     {"ellipsoid", "{\"radii\": [+, +, +], \"center\": [?, ?, ?]}", nearest_of_ellipsoid},
     {"ellipsoid", "{\"radii\": [1, 1, 3]}", nearest_of_ellipsoid},
     {"plane", "{\"origin\": [?, ?, ?], \"edge_u\": [?, ?, ?], \"edge_v\": [?, ?, ?]}", plane},
+    {"disc", "{}", disc},
+    {"disc", "{\"radius\": +, \"center\": [?, ?, ?], \"axis\": [?, ?, ?]}", disc},
+    {"box", "{\"size\": [+, +, +], \"center\": [?, ?, ?]}", box},
+    {"capsule", "{\"radius\": +}", capsule},
+    {"capsule", "{\"radius\": +, \"from\": [?, ?, ?], \"to\": [?, ?, ?]}", capsule},
     {"plane", "{\"edge_u\": [1e60, 0, 3e60], \"edge_v\": [0, 1e-60, ?]}", plane},
 };
 enum { ROWS = sizeof rows / sizeof *rows };

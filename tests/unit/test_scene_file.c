@@ -156,10 +156,8 @@ START_TEST(missing_and_misshapen_parts_are_told)
                                   "least 1");
     assert_wrong("{'bodies':[7]}",
                  "s.json: /bodies/0: got 7, must be a body, {\"surfaces\": [...]}");
-    assert_wrong("{'bodies':[{}]}",
-                 "s.json: /bodies/0: \"surfaces\" is missing; it must be an array");
-    assert_wrong("{'bodies':[{'surfaces':[]}]}",
-                 "s.json: /bodies/0/surfaces: got an array of 0, must be an array of at least 1");
+    assert_wrong("{'bodies':[{'surfaces':{}}]}",
+                 "s.json: /bodies/0/surfaces: got an object, must be an array");
     assert_wrong("{'bodies':[{'surfaces':[[]]}]}", "s.json: /bodies/0/surfaces/0: got an array of "
                                                    "0, must be an object like {\"type\": ...}");
     assert_wrong("{'bodies':[{'surfaces':[" KIT "],'maps':{}}]}",

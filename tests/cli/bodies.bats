@@ -1,0 +1,87 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Types that are a whole body in one line: box, capsule, disc, and cylinder and cone with their ends.
+
+load ../support/cli_helper
+
+# meets BODY POINT DIRECTION DISTANCE PIECE: a ball of radius 0.1 that starts at POINT and moves along
+# the unit vector DIRECTION touches BODY after that way, at that piece.
+meets() {
+    run -0 "$IMPINGE" pair "$1" "sphere radius=0.1 center=$2 ! translate velocity=$3" --time 0,9 --gamma 1e-7 --json
+    jq -e --argjson way "$4" --argjson piece "$5" \
+        '.verdict == "contact" and (.t - $way | fabs) < 1e-6 and .a.piece == $piece' <<<"$output"
+}
+
+# misses BODY POINT DIRECTION
+misses() {
+    run -0 "$IMPINGE" pair "$1" "sphere radius=0.1 center=$2 ! translate velocity=$3" --time 0,9 --json
+    json '.verdict == "clear"'
+}
+
+@test "a box is met at each of its faces" {
+    local box='box size=2,4,6 center=1,2,3' # from 0,0,0 to 2,4,6
+    meets "$box" -3,1,1 1,0,0 2.9 0
+    meets "$box" 5,1,1 -1,0,0 2.9 1
+    meets "$box" 1,-3,1 0,1,0 2.9 2
+    meets "$box" 1,7,1 0,-1,0 2.9 3
+    meets "$box" 1,1,-3 0,0,1 2.9 4
+    meets "$box" 1,1,9 0,0,-1 2.9 5
+    misses "$box" -3,4.11,1 1,0,0
+    run -0 "$IMPINGE" clearance "$box" 'sphere radius=1 center=5,7,6' --json
+    json '(.lower <= 3.2426406871192855) and (.upper >= 3.2426406871192847) and .upper - .lower < 0.01'
+}
+
+@test "a capsule is met at its side and at both ends" {
+    local capsule='capsule radius=0.5 from=1,0,0 to=4,0,0'
+    meets "$capsule" 2,3,0 0,-1,0 2.4 0
+    meets "$capsule" -3,0,0 1,0,0 3.4 1
+    meets "$capsule" 8,0,0 -1,0,0 3.4 2
+    # along a slanted axis, (3,0,4) / 5: the end is 5.5 from the start
+    meets 'capsule radius=0.5 from=0,0,0 to=3,0,4' 6,0,8 -0.6,0,-0.8 4.4 2
+    misses "$capsule" 2,3,0.61 0,-1,0
+    # the same point twice: a sphere
+    run -0 "$IMPINGE" pair 'capsule radius=0.5 from=1,1,1 to=1,1,1' 'sphere radius=0.1 center=1,1,4 ! translate velocity=0,0,-1' \
+        --time 0,9 --gamma 1e-7 --json
+    json '.verdict == "contact" and (.t - 2.4 | fabs) < 1e-6'
+}
+
+@test "a disc is met within its radius only, whatever its axis" {
+    run -0 "$IMPINGE" pair 'disc radius=2 center=0,0,1' 'sphere radius=0.1 center=1.9,0,3 ! translate velocity=0,0,-1' \
+        --time 0,9 --gamma 1e-7 --json
+    json '.verdict == "contact" and (.t - 1.9 | fabs) < 1e-6'
+    misses 'disc radius=2 center=0,0,1' 2.11,0,3 0,0,-1
+    run -0 "$IMPINGE" pair 'disc radius=2 axis=3,0,4' 'sphere radius=0.1 center=3,0,4 ! translate velocity=-0.6,0,-0.8' \
+        --time 0,9 --gamma 1e-7 --json
+    json '.verdict == "contact" and (.t - 4.9 | fabs) < 1e-6'
+}
+
+@test "cylinder and cone are closed where ends are asked for, and else as they were" {
+    misses cylinder 0,0,4 0,0,-1
+    meets 'cylinder ends=true' 0.5,0,4 0,0,-1 2.9 2
+    meets 'cylinder ends=true' 0.5,0,-4 0,0,1 2.9 1
+    meets 'cylinder ends=true' 4,0,0 -1,0,0 2.9 0
+    misses cone 0,0,-1 0,0,0.12
+    meets 'cone ends=true height=2 center=0,0,1' 0.5,0,-3 0,0,1 3.9 1
+    run -0 "$IMPINGE" pair cylinder 'sphere center=3,0,0 ! translate velocity=-1,0,0' --time 0,2 --json
+    json '.a | has("piece") | not'
+}
+
+@test "the answers of isolated types are the same" {
+    local type
+    for type in cylinder 'cylinder ends=true' 'box size=2,2,2'; do
+        "$IMPINGE" pair "$type" 'sphere center=3,0,0 ! translate velocity=-1,0,0' --time 0,2 --json |
+            jq -c 'del(.stats.seconds)' >plain
+        "$IMPINGE" pair "$type" 'sphere center=3,0,0 ! translate velocity=-1,0,0' --time 0,2 --json --isolate all |
+            jq -c 'del(.stats.seconds)' >isolated
+        diff <(jq 'del(.stats)' plain) <(jq 'del(.stats)' isolated)
+    done
+}
+
+@test "check finds nothing to refute in these types" {
+    for type in box capsule disc cylinder cone 'cylinder ends=true' 'cone ends=true height=-2' \
+        'capsule from=1,2,3 to=1,2,3' 'disc axis=0,-2,0'; do
+        run -0 "$IMPINGE" check "$type" --effort 0.1 --json
+    done
+}
