@@ -144,6 +144,11 @@ static void request_destroy(isolated *i)
     if (end == SURFACE_CRASHED || end == SURFACE_HUNG) worker_pool_note(i->pool, i->type, end);
 }
 
+size_t isolate_bytes(const isolated *i)
+{
+    return sizeof *i + i->piece_count * sizeof *i->pieces + sizeof *i->ahead;
+}
+
 void isolate_destroy(void *self)
 {
     isolated *i = self;

@@ -33,4 +33,7 @@ const imp_map_type *isolate_map_type(const isolated *i);
 
 void isolate_destroy(void *i);
 
+/* Bytes that the host keeps for it and its pieces. */
+size_t isolate_bytes(const isolated *i);
+
 #endif

@@ -14,6 +14,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* --- Which type ------------------------------------------------------------------------------- */
 
@@ -161,6 +162,20 @@ static imp_code run_create(const type_view *view, isolated *stand_in, const char
     return blame(file, view, "create changed the mode of arithmetic", at, error);
 }
 
+/* Bytes of the regular files that the values name: create reads them, and keeps about as much. */
+static uint64_t bytes_of_files(const parameter_table *table, const parameter_values *values)
+{
+    uint64_t bytes = 0;
+    for (size_t k = 0; k < values->count; ++k) {
+        const imp_value *v = &values->value[k];
+        struct stat file;
+        if (!(parameter_table_row(table, k)->flags & IMP_PARAMETER_FILE) || v->count == 0) continue;
+        if (stat(v->string[0], &file) == 0 && S_ISREG(file.st_mode))
+            bytes += (uint64_t)file.st_size;
+    }
+    return bytes;
+}
+
 static imp_code create(const type_view *view, isolated *stand_in, const char *file,
                        const char *folder, const json_t *object, const place *at, void **self,
                        scene_build_note *note, imp_error *error)
@@ -169,6 +184,8 @@ static imp_code create(const type_view *view, isolated *stand_in, const char *fi
     imp_code code = parameters_read(&view->table, view->name, object, folder, at, &values, error);
     if (code != IMP_SUCCESS) return code;
     code = run_create(view, stand_in, file, &values, at, self, note, error);
+    if (note != NULL) note->bytes += bytes_of_files(&view->table, &values);
+    if (note != NULL && stand_in != NULL) note->bytes += isolate_bytes(stand_in);
     parameters_clear(&values);
     return code;
 }
@@ -290,7 +307,7 @@ imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, cons
     shared_instance *p = kind == IMP_TYPE_SURFACE ? instance_of_surface(i.surface, i.self)
                                                   : instance_of_map(i.map, i.self);
     if (p == NULL) return error_set_memory(error);
-    p->given = bytes_given(object);
+    p->given = bytes_given(object) + (size_t)note.bytes;
     const bool noted = note.count == 0 || instance_set_note(p, note.count, note.text);
     if (noted && p->breach == IMP_STATUS_OK && label_part(p, object)) {
         *made = p;

@@ -28,10 +28,11 @@ typedef struct scene_source {
 imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, const json_t *object,
                             const place *at, shared_instance **made, imp_error *error);
 
-/* What create noted without failing (imp_note). */
+/* What create noted without failing (imp_note), and what it took. */
 typedef struct scene_build_note {
     uint64_t count; /* 0: nothing */
     char text[340]; /* one line, with the parameter's name in front */
+    uint64_t bytes; /* of the files that its parameters name, and of its stand-in if isolated */
 } scene_build_note;
 
 /* Makes an instance that is not shared: the type, and what its create made. The caller owns

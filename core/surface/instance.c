@@ -139,7 +139,7 @@ shared_instance *instance_of_map(const imp_map_type *type, void *self)
 size_t instance_bytes(const shared_instance *p)
 {
     return sizeof *p + p->given + p->label_size + 3 * INSTANCE_BLOCK +
-           p->piece_count * sizeof *p->pieces;
+           p->piece_count * (sizeof *p->pieces + INSTANCE_PIECE);
 }
 
 shared_instance *instance_hold(shared_instance *p)

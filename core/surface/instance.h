@@ -24,7 +24,8 @@ typedef struct shared_instance {
     size_t piece_count;  /* 0: it is one surface */
     imp_status breach; /* IMP_STATUS_OK, or for surface_status_text: how the domain breaks the ABI;
                                    then the instance may only be released */
-    size_t given;      /* bytes of the values it was made from: about what the instance keeps */
+    size_t
+        given;   /* bytes of the values and files it was made from: about what the instance keeps */
     char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
     size_t label_size;   /* bytes of it, its end included */
     uint64_t note_count; /* things that create left out or read otherwise; 0: no note */
@@ -53,7 +54,10 @@ bool instance_set_note(shared_instance *p, uint64_t count, const char *text);
 
 /* Estimates the bytes that it and what create made hold, with what the allocator adds to each
  * block. */
-enum { INSTANCE_BLOCK = 16 }; /* bytes */
+enum {
+    INSTANCE_BLOCK = 16, /* bytes */
+    INSTANCE_PIECE = 96  /* bytes that a type keeps of one piece, as mesh does in growing arrays */
+};
 size_t instance_bytes(const shared_instance *p);
 
 shared_instance *instance_hold(shared_instance *p);

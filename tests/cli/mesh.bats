@@ -166,3 +166,15 @@ END
     fails 4 'point 0 does not exist; points are numbered from 1, or backwards from -1' \
         "$IMPINGE" pair 'mesh file=zero.obj' sphere
 }
+
+@test "--max-bytes counts what a file holds, and the processes of isolated types" {
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >small.obj
+    { cat small.obj && head -c 999999 /dev/zero | tr '\0' '#' && echo; } >large.obj
+    bytes() { "$IMPINGE" pair "mesh file=$1" 'sphere center=0,0,3' "${@:2}" --json | jq '.stats.bytes'; }
+    [ $(($(bytes large.obj) - $(bytes small.obj))) -eq 1000000 ]
+    [ "$(bytes small.obj --isolate all)" -gt "$(bytes small.obj)" ]
+    run -0 "$IMPINGE" pair 'mesh file=small.obj' 'sphere center=0,0,3' --max-bytes 500K --json
+    json '.verdict == "clear"'
+    run -3 "$IMPINGE" pair 'mesh file=large.obj' 'sphere center=0,0,3' --max-bytes 500K --json
+    json '.reason == "max-bytes"'
+}
