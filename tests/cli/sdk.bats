@@ -516,7 +516,8 @@ compare_layout() {
 # changed SED_SCRIPT LINE...: with the ABI header edited so, the comparison prints these lines.
 changed() {
     mkdir -p impinge
-    sed "$1; s/^IMP_LAYOUT(.*//" "$prefix/include/impinge/surface.h" >impinge/surface.h
+    sed -e "$1" -e '/^IMP_LAYOUT(/{:a;/;$/!{N;ba};d}' "$prefix/include/impinge/surface.h" \
+        >impinge/surface.h
     shift
     layout . >now
     run -0 compare_layout <now
