@@ -47,6 +47,9 @@ no_gain() {
     # It has not turned.
     [ "$(jq '.bodies[1].maps[0].rotations // [[1,0,0,0]] | last | .[0] > 1 - 1e-9' out.json)" = true ]
     never_nearer
+    # A picture finds the contact of the two faces soon.
+    run -0 "$IMPINGE" view out.json -o flat.svg --max-seconds 60
+    grep -q "contact: t = 0.316" flat.svg
 }
 
 @test "boxes of six planes, solids on their faces, and rings come to rest" {
