@@ -422,7 +422,7 @@ build_our_types() {
     xargs -P2 -I{} $CC $flags -c -o {}.o {} <shared
     find plugins -name '*.c.o' -exec ar rcs shared.a {} +
     # shellcheck disable=SC2016 # for the shell of xargs
-    xargs -P2 -I{} sh -c '$0 $1 -shared -o "$(basename "$2" .c).so" "$2" shared.a -lm' "$CC" "$flags" {} <types
+    xargs -P2 -I{} sh -c '$0 $1 -shared -o "$(basename "$2" .c).so" "$2" shared.a -lm '"$(pkg-config --libs jansson)" "$CC" "$flags" {} <types
 }
 
 @test "every type of ours builds against the installed SDK alone, loads and answers" {
