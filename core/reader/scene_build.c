@@ -119,7 +119,8 @@ static bool is_whole(const guarded_error *g)
         if (g->before[k] != MARK) return false;
     for (size_t k = 0; k < sizeof g->after; ++k)
         if (g->after[k] != MARK) return false;
-    return true;
+    /* A text that does not end, and a note behind it: the text went on into the note. */
+    return g->why.text[sizeof g->why.text - 1] == '\0' || g->why.note_count == 0;
 }
 
 /* Takes a note over; texts of plugins are not trusted. */
