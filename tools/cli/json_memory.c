@@ -5,7 +5,6 @@
 #include "tools/cli/json_memory.h"
 
 #include <errno.h>
-#include <jansson.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
@@ -24,3 +23,11 @@ static void *allocate(size_t size)
 void json_memory_prepare(void) { json_set_alloc_funcs(allocate, free); }
 
 bool json_memory_failed(void) { return atomic_load(&failed); }
+
+char *json_memory_text(const json_t *value, size_t flags)
+{
+    char *text = value != NULL ? json_dumps(value, flags) : NULL;
+    if (!json_memory_failed()) return text;
+    free(text);
+    return NULL;
+}

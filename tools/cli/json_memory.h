@@ -3,6 +3,7 @@
 #ifndef TOOLS_CLI_JSON_MEMORY_H
 #define TOOLS_CLI_JSON_MEMORY_H
 
+#include <jansson.h>
 #include <stdbool.h>
 
 /* Memory for Jansson that fails for good
@@ -15,5 +16,9 @@
 void json_memory_prepare(void);
 
 bool json_memory_failed(void);
+
+/* The text of a value, as of json_dumps, for free(); NULL: memory failed, also where json_dumps has
+ * left out a key instead of saying so. NULL is accepted. */
+char *json_memory_text(const json_t *value, size_t flags);
 
 #endif

@@ -163,7 +163,7 @@ static char *escape_controls(const char *text)
 char *output_json_line(json_t *object)
 {
     const size_t flags = JSON_COMPACT | JSON_REAL_PRECISION(17) | JSON_ENCODE_ANY;
-    char *text = object != NULL ? json_dumps(object, flags) : NULL;
+    char *text = json_memory_text(object, flags);
     json_decref(object);
     if (text == NULL) return NULL;
     shorten_numbers(text);

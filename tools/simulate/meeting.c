@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "tools/cli/json_memory.h"
 #include "tools/simulate/meeting.h"
 
 #include <stdlib.h>
@@ -57,7 +58,7 @@ static char *scene_text(const searching *s, const meeting *m)
     failed |= json_object_set_new(root, "bodies", bodies);
     failed |= json_object_set_new(root, "ignore", ignore);
     if (define != NULL) failed |= json_object_set(root, "define", define);
-    char *text = failed ? NULL : json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    char *text = failed ? NULL : json_memory_text(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
     json_decref(root);
     return text;
 }

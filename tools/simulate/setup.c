@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "tools/cli/input.h"
+#include "tools/cli/json_memory.h"
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
 #include "tools/simulate/actor.h"
@@ -73,7 +74,7 @@ static exit_status read_json(setup *s, const input_text *text)
     char *stripped = NULL;
     if (s->stripped != NULL) {
         strip(s->stripped);
-        stripped = json_dumps(s->stripped, JSON_REAL_PRECISION(17));
+        stripped = json_memory_text(s->stripped, JSON_REAL_PRECISION(17));
         if (stripped == NULL) return complain_of_memory(speaker);
         given = stripped;
     }

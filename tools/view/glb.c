@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/cli/json_memory.h"
 #include "tools/cli/output.h"
 #include "tools/view/animation.h"
 #include "tools/view/palette.h"
@@ -346,7 +347,7 @@ imp_code animation_glb(const film *f, FILE *file, imp_error *error)
     add_times(&g);
     imp_code code = add_tracks(&g, error);
     json_t *root = code == IMP_SUCCESS ? document(&g) : NULL;
-    if (root != NULL) text = json_dumps(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    text = json_memory_text(root, JSON_COMPACT | JSON_REAL_PRECISION(17));
     if (fclose(g.bytes) != 0 || (code == IMP_SUCCESS && (text == NULL || g.failed)))
         code = mesh_no_memory(error);
     if (code == IMP_SUCCESS) write_glb(file, text, bytes, size);

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "tools/cli/input.h"
+#include "tools/cli/json_memory.h"
 #include "tools/view/html_data.h"
 
 static const char *const libraries[] = {THREEJSDIR "/build/three.min.js",
@@ -73,7 +74,7 @@ static exit_status put_library(int index, FILE *file, const char *verb)
 static exit_status put_data(const html_page *page, FILE *file, const char *verb)
 {
     json_t *data = html_data(page);
-    char *text = data != NULL ? json_dumps(data, JSON_COMPACT | JSON_REAL_PRECISION(17)) : NULL;
+    char *text = json_memory_text(data, JSON_COMPACT | JSON_REAL_PRECISION(17));
     for (const char *c = text; c != NULL && *c != '\0'; ++c) {
         if (*c == '<')
             fputs("\\u003c", file);
