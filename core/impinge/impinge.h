@@ -553,7 +553,10 @@ typedef struct imp_pending {
 IMP_EXPORT bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pending);
 
 /* Makes the tolerances finer: gamma and gamma_clear (< 0: gamma / 2) may not be larger than now.
- * The work done so far is kept; continue with imp_query_step. */
+ * The work done so far is kept; continue with imp_query_step. Surfaces that turn within themselves
+ * but for a little, at most 2^-12 of the first gamma_clear, are searched at one moment, with room
+ * for what is left of their motion: where the new tolerances are not above that, the query may end
+ * UNDECIDED for lack of RESOLUTION though a new query with these tolerances decides. */
 IMP_EXPORT imp_code imp_query_refine(imp_query *query, double gamma, double gamma_clear,
                                      imp_error *error);
 
