@@ -366,6 +366,25 @@ blamed() {
     done
 }
 
+@test "an exception of C++ that leaves a callback is laid at the door of the type" {
+    local phase end='crashes or ends its process, in which it runs isolated'
+    ! has_sanitizers || skip 'the plugin is linked here, without them'
+    command -v c++ >/dev/null || skip 'no C++ compiler'
+    echo 'extern "C" void hostile_throw() { throw 1; }' | c++ -fPIC -x c++ -c - -o throw.o
+    $CC -std=c11 -D_GNU_SOURCE -O1 -ffp-contract=off -shared -fPIC -I"$top_builddir" -I"$top_srcdir" \
+        -I"$top_srcdir/sdk" "$top_srcdir/tests/plugins/hostile.c" throw.o -o plugins/hostile.so \
+        -lstdc++ -lm -lpthread
+    for phase in create domain eval rate include destroy; do
+        run -5 --separate-stderr hostile $phase throw
+        echo "$phase: $output / $stderr"
+        [[ $stderr == *"impinge: crashed in the $phase of "*"hostile"*"';"* ]]
+        committed $phase throw
+        [ $phase != destroy ] || continue
+        run -5 --separate-stderr hostile $phase throw --isolate all
+        blamed $phase hostile "$end" "$stderr"
+    done
+}
+
 # --- Hangs -----------------------------------------------------------------------------------------------
 
 # in_folder NAME COMMAND...: runs it there; its output, errors and status are files. A plugin that

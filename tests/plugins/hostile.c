@@ -174,6 +174,9 @@ static void change_environment(const char *sin)
     errno = strcmp(sin, "errno") == 0 ? EDOM : error;
 }
 
+/* Throws an exception of C++, where a test has linked it in. */
+__attribute__((weak)) void hostile_throw(void);
+
 static void commit(const char *sin)
 {
     change_environment(sin);
@@ -190,6 +193,7 @@ static void commit(const char *sin)
     if (strcmp(sin, "later") == 0) leave_crashing_thread();
     if (strcmp(sin, "thread_data") == 0) leave_thread_data();
     if (strcmp(sin, "longjmp") == 0) jump();
+    if (strcmp(sin, "throw") == 0 && hostile_throw != NULL) hostile_throw();
     if (strcmp(sin, "fclose") == 0) fclose(stdout);
     if (strcmp(sin, "freopen") == 0) (void)!freopen("stolen", "w", stdout);
     if (strcmp(sin, "setvbuf") == 0) setvbuf(stdout, NULL, _IOFBF, 4096);
