@@ -215,16 +215,23 @@ bin_PROGRAMS += tools/impinge
 tools_impinge_SOURCES = tools/cli/main.c
 tools_impinge_LDADD = $(tools_libs)
 
-# The command for `bench --tune`: the library linked in, its tuning constants as variables. Built by
-# name only.
+# The command for `bench --tune`, whose tuning constants are variables: built by name only. The library
+# is linked in as one object, whose internal symbols are local. Positive variables stand for
+# constants there, so that changes of sign are harmless.
+EXTRA_LIBRARIES = core/libtunable.a
+core_libtunable_a_SOURCES = $(core_common) $(core_libcore_la_SOURCES) core/bounds/tuning.c
+core_libtunable_a_CPPFLAGS = $(AM_CPPFLAGS) -DIMP_TUNABLE
+core_libtunable_a_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS) -Wno-sign-conversion -Wno-sign-compare
+core/tunable.o: core/libtunable.a
+	$(AM_V_GEN)$(LD) -r -o $@ --whole-archive core/libtunable.a && \
+	  $(OBJCOPY) --localize-hidden $@
+
 EXTRA_PROGRAMS = tools/impinge-tunable
-CLEANFILES += tools/impinge-tunable
-tools_impinge_tunable_SOURCES = $(tools_impinge_SOURCES) $(tools_libtools_a_SOURCES) \
-    $(core_common) $(core_libcore_la_SOURCES) core/bounds/tuning.c
+CLEANFILES += core/libtunable.a core/tunable.o tools/impinge-tunable
+tools_impinge_tunable_SOURCES = tools/cli/main.c tools/bench/tune.c
 tools_impinge_tunable_CPPFLAGS = $(AM_CPPFLAGS) -DIMP_TUNABLE
-# Positive variables stand for constants there, so that changes of sign are harmless.
-tools_impinge_tunable_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS) -Wno-sign-conversion -Wno-sign-compare
-tools_impinge_tunable_LDADD = tools/libproof.la $(JANSSON_LIBS) $(LIBPNG_LIBS) -lm
+tools_impinge_tunable_LDADD = core/tunable.o tools/libtools.a tools/libproof.la core/libcommon.la \
+    $(JANSSON_LIBS) $(LIBPNG_LIBS) -lm
 
 # batch and solve --each for clusters, where there is MPI.
 if HAVE_MPI

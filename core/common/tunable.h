@@ -3,6 +3,8 @@
 #ifndef CORE_COMMON_TUNABLE_H
 #define CORE_COMMON_TUNABLE_H
 
+#include <impinge/surface.h>
+
 /* Tuning constants as variables
  * =============================
  * tools/impinge-tunable is the command with the library linked in, compiled with IMP_TUNABLE: the
@@ -14,6 +16,6 @@
 typedef void tunable_visitor(const char *name, int *integer, double *number, void *data);
 
 /* Calls `visit` for each constant, in the order of tuning.h. */
-void tunables_visit(tunable_visitor *visit, void *data);
+IMP_EXPORT void tunables_visit(tunable_visitor *visit, void *data);
 
 #endif
