@@ -224,7 +224,15 @@ static imp_code work(imp_query *query, imp_error *error)
                                     : clearance_work(query->clearance, &query->reason, error);
 }
 
-enum { CLOCK_EVERY = 64 }; /* units of work between looks at the clock */
+/* Units of work between looks at the clock. A slice of time of many candidates begins with all of
+ * them in one unit, which takes tenths of a second: then each unit is followed by a look. */
+enum { CLOCK_EVERY = 64, MANY_CANDIDATES = 1000 };
+
+static unsigned units_a_look(const imp_query *query)
+{
+    const bool many = query->candidates.pair_count > MANY_CANDIDATES;
+    return query->clearance != NULL && many ? 1 : CLOCK_EVERY;
+}
 #define PROGRESS_EVERY 0.1 /* seconds between calls of options.progress */
 
 /* Tells the program how far it is, if it is time; the program may end the step. */
@@ -346,8 +354,9 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     query->reason = IMP_REASON_RUNNING;
     if (!query->candidates.complete) code = begin(query, start, error);
     const uint64_t of_candidates = candidates_bytes(&query->candidates);
+    const unsigned look_after = units_a_look(query);
     for (unsigned k = 0; code == IMP_SUCCESS && query->reason == IMP_REASON_RUNNING; ++k) {
-        if (k % CLOCK_EVERY == 0) tick(query, before, start);
+        if (k % look_after == 0) tick(query, before, start);
         note_bytes(query, of_candidates);
         const imp_reason reason = exhausted(query, query->stats.seconds);
         if (reason != IMP_REASON_NONE)
