@@ -80,10 +80,9 @@ static imp_status points_of(const distance_question *q, size_t common, imp_model
     const node *a = q->a;
     if (!distance_slides(q)) return points_before(a, common, point);
     const imp_region then = at_moment(&a->region, q->moment);
-    if (a->many != NULL) {
-        cluster_models(a->many, &then, point);
-        return surface_include_image(a->surface, &then, point);
-    }
+    /* A cluster's models are those of the image, which has the common maps; pair_look asks for
+     * none. */
+    if (a->many != NULL) return IMP_STATUS_UNBOUNDED;
     return surface_include_inner(a->surface, &then, surface_map_count(a->surface) - common, point);
 }
 

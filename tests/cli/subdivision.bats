@@ -76,7 +76,7 @@ write_octahedron() {
     echo 'f 1 3 4 2' >>cube.obj
     refused file=cube.obj "file: 'cube.obj': faces 0 and 6 both go from point 0 to point 2"
     printf 'solid s\nendsolid s\n' >s.stl
-    refused file=s.stl 'triangles of an STL file share no points; write it as .obj or .off'
+    refused file=s.stl 'triangles of such a file share no points; write it as .obj, .off or .ply'
 }
 
 @test "no more than 256 faces meet at a point, and no face has more corners" {
