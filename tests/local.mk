@@ -736,12 +736,15 @@ EXTRA_DIST += \
     tests/abi/libimpinge \
     tests/abi/libimpinge_0.abi
 
-# The parts of tools/test --all: all draws of property tests and the release in the first; what a second run
-# of scripts and installation would show is nothing new. AddressSanitizer handles stack overflows and ends
-# of threads itself, before the command can.
+# The parts of tools/test --all: all draws of property tests and the release in the first. With clang the
+# suites in C, which compare bits and bounds. With sanitizers also those scripts whose input reaches C in
+# ways of its own: pictures' looks, pages, terminals, budgets and machines of many processes are the first
+# part's. AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
 all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
-clang_suites = $(filter-out $(script_suites),$(TESTS))
-sanitized_suites = $(filter-out tests/cli/hostile.bats,$(clang_suites))
+clang_suites = $(filter-out %.bats,$(TESTS))
+sanitized_suites = $(filter-out $(script_suites) \
+    $(patsubst %,tests/cli/%.bats,bench check cli_list hostile host matrix mpi page plot progress \
+      simulate_rest),$(TESTS))
 .PHONY: check-all check-clang check-sanitized check-threads
 check-all:
 	IMPINGE_TEST_MULTIPLIER=$${IMPINGE_TEST_MULTIPLIER-1} $(MAKE) check TESTS='$(all_suites)'

@@ -21,7 +21,8 @@ teardown_file() {
 @test "the release builds, installs and uninstalls from a source folder that cannot be written" {
     # These suites write caches, which clean must remove.
     local suites='tests/unit/test_alloc_failure tests/unit/test_registry tests/cli/cli_list.bats'
-    make -s -C "$build" distcheck TESTS="$suites" DISTCHECK_CONFIGURE_FLAGS=CFLAGS=-O0 >log 2>&1 ||
+    make -s -C "$build" distcheck TESTS="$suites" check_PROGRAMS="${suites% *}" \
+        DISTCHECK_CONFIGURE_FLAGS=CFLAGS=-O0 >log 2>&1 ||
         { tail -n 15 log; false; }
     [ "$(grep -c '^PASS: ' log)" -eq 3 ]
 }

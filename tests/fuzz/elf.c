@@ -166,7 +166,7 @@ static void scan(void)
     FUZZ_REQUIRE(found[0] == found[1]);
 }
 
-#ifdef __clang__
+#ifdef IMP_FUZZ_SEARCH
 size_t LLVMFuzzerCustomMutator(unsigned char *bytes, size_t length, size_t max_length,
                                unsigned seed);
 size_t LLVMFuzzerCustomMutator(unsigned char *bytes, size_t length, size_t max_length,

@@ -114,7 +114,7 @@ static void ignore_signals(void)
     signal(SIGTERM, SIG_IGN);
 }
 
-static void limit(int what, rlim_t to)
+static void limit(__rlimit_resource_t what, rlim_t to)
 {
     struct rlimit now;
     getrlimit(what, &now);
