@@ -6,8 +6,8 @@
 #include <stddef.h>
 
 /* Mutations of text that leave it well formed more often than random bytes do: a number becomes
- * another one, a word another word of the text. Every other time libFuzzer's own. Only in a search (tests/fuzz/run);
- * replay.c needs none. */
+ * another one, a word another word of the text. Every other time libFuzzer's own. Only in a search
+ * (tests/fuzz/run); replay.c needs none. */
 
 #ifdef IMP_FUZZ_SEARCH
 
