@@ -738,12 +738,12 @@ EXTRA_DIST += \
 
 # The parts of tools/test --all: all draws of property tests and the release in the first. With clang the
 # suites in C, which compare bits and bounds. With sanitizers also those scripts whose input reaches C in
-# ways of its own: pictures' looks, pages, terminals, budgets and machines of many processes are the first
+# ways of its own: looks of pictures, pages, terminals, files, budgets and many processes are the first
 # part's. AddressSanitizer handles stack overflows and ends of threads itself, before the command can.
 all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
 clang_suites = $(filter-out %.bats,$(TESTS))
 sanitized_suites = $(filter-out $(script_suites) \
-    $(patsubst %,tests/cli/%.bats,bench check cli_list hostile host matrix mpi page plot progress \
+    $(patsubst %,tests/cli/%.bats,bench check cli cli_list files hostile host matrix mpi page plot progress \
       simulate_rest),$(TESTS))
 .PHONY: check-all check-clang check-sanitized check-threads
 check-all:
