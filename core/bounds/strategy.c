@@ -146,9 +146,8 @@ bool strategy_slides_on_face(const node *own, const node *other)
 {
     const quadratic3 *f = &own->f, *g = &other->f;
     const vec3 n = other->normal;
-    double along = 0, all = 0;
+    double bt = 0, ut = 0, vt = 0, tt = 0, all = 0;
     if (other->many != NULL || !node_has_normal(other) || node_bends(other)) return false;
-    double bt = 0, ut = 0, vt = 0, tt = 0;
     for (int i = 0; i < 3; ++i) {
         bt += n.x[i] * (f->bt[i] - g->bt[i]);
         ut += n.x[i] * f->qut[i];
@@ -156,7 +155,7 @@ bool strategy_slides_on_face(const node *own, const node *other)
         tt += n.x[i] * (f->qtt[i] - g->qtt[i]);
         all += own->motion[i] + other->motion[i];
     }
-    along = fabs(bt) + fabs(ut) + fabs(vt) + fabs(tt);
+    const double along = fabs(bt) + fabs(ut) + fabs(vt) + fabs(tt);
     return all > 0 && along <= ALONG_FACE * all * vec3_norm1(n);
 }
 

@@ -7,27 +7,15 @@
 #include <stdlib.h>
 
 #include "core/base/sized.h"
+#include "core/common/array.h"
 
-/* A scene has few instances with notes: files of meshes, once each. */
+/* The text of a remark is the instance's own. A scene has few instances with notes: files of
+ * meshes, once each. */
 static bool is_known(const scene_remarks *r, const shared_instance *p)
 {
     for (size_t k = 0; k < r->count; ++k)
-        if (r->of[k] == p) return true;
+        if (r->at[k].text == p->note) return true;
     return false;
-}
-
-static bool reserve(scene_remarks *r)
-{
-    if (r->count < r->capacity) return true;
-    const size_t wanted = 2 * r->capacity + 4;
-    imp_remark *at = realloc(r->at, wanted * sizeof *at);
-    if (at == NULL) return false;
-    r->at = at;
-    const shared_instance **of = realloc(r->of, wanted * sizeof(const shared_instance *));
-    if (of == NULL) return false;
-    r->of = of;
-    r->capacity = wanted;
-    return true;
 }
 
 bool scene_remarks_add(scene_remarks *r, const surface *s, size_t body, size_t index)
@@ -35,8 +23,9 @@ bool scene_remarks_add(scene_remarks *r, const surface *s, size_t body, size_t i
     for (size_t k = 0; k <= surface_map_count(s); ++k) {
         const shared_instance *p = surface_origin(s, k);
         if (p->note_count == 0 || is_known(r, p)) continue;
-        if (!reserve(r)) return false;
-        r->of[r->count] = p;
+        imp_remark *grown = array_reserve(r->at, r->count, &r->capacity, sizeof *grown);
+        if (grown == NULL) return false;
+        r->at = grown;
         r->at[r->count++] = (imp_remark){.struct_size = (uint32_t)sizeof(imp_remark),
                                          .body = body,
                                          .surface = index,
@@ -51,7 +40,6 @@ bool scene_remarks_add(scene_remarks *r, const surface *s, size_t body, size_t i
 void scene_remarks_clear(scene_remarks *r)
 {
     free(r->at);
-    free(r->of);
     *r = (scene_remarks){.count = 0};
 }
 

@@ -10,7 +10,6 @@
 
 typedef struct scene_remarks {
     imp_remark *at;
-    const shared_instance **of; /* the instance of each */
     size_t count, capacity;
 } scene_remarks; /* begins as {0} */
 

@@ -73,7 +73,7 @@ imp_code regions_measure(const subject *what, const film *f, regions *r, imp_err
         if (r->pairs[k] == NULL) return mesh_no_memory(error);
     }
     imp_options options = what->options;
-    options.t_end = what->t_searched; /* the same search once more */
+    options.t_end = imp_query_result(what->query).t_end; /* the same search once more */
     options.max_seconds = allowance_left(&what->allowance, 0.5);
     imp_query *query = imp_query_new(what->scene, &options, error);
     if (query == NULL) return error->code;

@@ -44,7 +44,7 @@ static exit_status search_until(subject *s, double end, const char *speaker, imp
 {
     imp_error error = {0};
     imp_options search = s->options;
-    search.t_end = s->t_searched = end;
+    search.t_end = end;
     search.max_seconds = allowance_left(&s->allowance, share_of_search);
     imp_query_free(s->query);
     s->query = imp_query_new(s->scene, &search, &error);

@@ -13,8 +13,7 @@
 typedef struct subject {
     imp_registry *registry;
     imp_scene *scene;
-    imp_query *query;  /* run to its end; NULL where the answer was read */
-    double t_searched; /* the end of its interval */
+    imp_query *query; /* run to its end; NULL where the answer was read */
     imp_options options;
     size_t body_count;   /* bodies from here on are not drawn; 0: all are */
     allowance allowance; /* of the whole verb */
