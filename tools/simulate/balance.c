@@ -12,8 +12,7 @@ typedef struct descent {
     impact_body *bodies, *start;
     size_t body_count, count, points;
     impact_contact *contacts;
-    vec *now, *ahead, *next,
-        *slope; /* impulses, where the slope is taken, the next ones; the slope */
+    vec *now, *ahead, *next, *slope; /* impulses, where the slope is taken, the next; the slope */
 } descent;
 
 /* The bodies after these impulses; answers their kinetic energy. */
@@ -25,8 +24,8 @@ static double apply(const descent *d, const vec *impulse)
     for (size_t k = 0; k < d->count; ++k)
         for (size_t i = 0; i < d->contacts[k].count; ++i, ++n) {
             const impact_contact *c = &d->contacts[k];
-            impact_push(&d->bodies[c->body[0]], c->point[i].at, vec_scale(-1, impulse[n]));
-            impact_push(&d->bodies[c->body[1]], c->point[i].at, impulse[n]);
+            impact_exchange(&d->bodies[c->body[0]], &d->bodies[c->body[1]], c->point[i].at,
+                            impulse[n]);
         }
     for (size_t b = 0; b < d->body_count; ++b) energy += impact_energy(&d->bodies[b]);
     return energy;

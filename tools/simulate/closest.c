@@ -6,7 +6,9 @@
 
 #include <string.h>
 
-enum { UNKNOWNS = 4 };
+#include "tools/simulate/eliminate.h"
+
+enum { UNKNOWNS = EQUATIONS_MAX };
 
 /* --- One step --------------------------------------------------------------------------------- */
 
@@ -42,31 +44,20 @@ static void find_free(const chart c[2], const spot s[2], newton *n)
     }
 }
 
-/* Solves (H + damping diag) d = -g over the unknowns that are free, by elimination without
- * exchange: a pivot that is not positive asks for more damping. */
+/* Solves (H + damping diag) d = -g over the unknowns that are free. A pivot that is not positive
+ * asks for more damping. */
 static bool solve(const newton *n, double damping, double d[UNKNOWNS])
 {
-    double m[UNKNOWNS][UNKNOWNS + 1];
+    double m[EQUATIONS_MAX][EQUATIONS_MAX + 1], least[UNKNOWNS];
     for (int i = 0; i < UNKNOWNS; ++i) {
         const double diagonal = n->hessian[i][i];
         const bool on = n->free[i] && diagonal != 0;
         for (int j = 0; j < UNKNOWNS; ++j) m[i][j] = on && n->free[j] ? n->hessian[i][j] : 0;
         m[i][UNKNOWNS] = on ? -n->gradient[i] : 0;
         m[i][i] = on ? diagonal + damping * fabs(diagonal) : 1;
+        least[i] = 1e-13 * fabs(diagonal);
     }
-    for (int i = 0; i < UNKNOWNS; ++i) {
-        if (!(m[i][i] > 1e-13 * fabs(n->hessian[i][i]))) return false;
-        for (int k = i + 1; k < UNKNOWNS; ++k) {
-            const double factor = m[k][i] / m[i][i];
-            for (int j = i; j <= UNKNOWNS; ++j) m[k][j] -= factor * m[i][j];
-        }
-    }
-    for (int i = UNKNOWNS - 1; i >= 0; --i) {
-        d[i] = m[i][UNKNOWNS];
-        for (int j = i + 1; j < UNKNOWNS; ++j) d[i] -= m[i][j] * d[j];
-        d[i] /= m[i][i];
-    }
-    return true;
+    return eliminate_solve(UNKNOWNS, m, least, d);
 }
 
 /* The part of the step after which the first coordinate comes to an end of its range, at most 1,
@@ -106,11 +97,13 @@ static void move(const chart c[2], const spot from[2], const double d[UNKNOWNS],
 
 /* --- Searches --------------------------------------------------------------------------------- */
 
+static double gap_of(const jet j[2]) { return vec_length(vec_sub(j[1].x, j[0].x)); }
+
 /* The greatest cosine between the line of the points and a direction in which they may move: 0 at
  * the nearest points. */
 static double slope_of(const newton *n, const jet j[2])
 {
-    const double gap = vec_length(vec_sub(j[1].x, j[0].x));
+    const double gap = gap_of(j);
     double most = 0;
     for (int a = 0; a < UNKNOWNS; ++a) {
         const double length = gap * vec_length(j[a / 2].by[a % 2]);
@@ -118,8 +111,6 @@ static double slope_of(const newton *n, const jet j[2])
     }
     return most;
 }
-
-static double gap_of(const jet j[2]) { return vec_length(vec_sub(j[1].x, j[0].x)); }
 
 /* How much rounding changes points. */
 static double rounding_of(const jet j[2])

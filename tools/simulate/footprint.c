@@ -252,9 +252,7 @@ imp_code footprint_find(footprint *f, const placed *at, const outline *o,
     sampler *s = malloc(sizeof *s);
     imp_code code = s != NULL ? IMP_SUCCESS : IMP_ERROR_MEMORY;
     for (size_t i = 0; i < o->count && code == IMP_SUCCESS; ++i) {
-        if (but != NULL && o->patch[i].place.surface == but->surface &&
-            o->patch[i].place.piece == but->piece)
-            continue;
+        if (but != NULL && outline_is_at(&o->patch[i], *but)) continue;
         if (!may_stand(at, &o->patch[i], plane, middle, reach)) continue;
         *s = (sampler){.at = at, .plane = plane, .side = side, .why = why};
         s->place = o->patch[i].place;

@@ -35,7 +35,8 @@ double impact_energy(const impact_body *b)
     return 0.5 * (b->mass * vec_dot(b->velocity, b->velocity) + vec_dot(b->spin, b->momentum));
 }
 
-void impact_push(impact_body *b, vec at, vec impulse)
+/* Gives an impulse at a point to a body, if it yields. */
+static void push(impact_body *b, vec at, vec impulse)
 {
     if (!b->yields) return;
     b->velocity = vec_along(b->velocity, 1 / b->mass, impulse);
@@ -43,11 +44,16 @@ void impact_push(impact_body *b, vec at, vec impulse)
     b->spin = mat3_apply(&b->inverse, b->momentum);
 }
 
+void impact_exchange(impact_body *a, impact_body *b, vec at, vec impulse)
+{
+    push(a, at, vec_scale(-1, impulse));
+    push(b, at, impulse);
+}
+
 static void apply(impact_body *bodies, impact_contact *c, size_t point, vec impulse)
 {
     impact_point *p = &c->point[point];
-    impact_push(&bodies[c->body[0]], p->at, vec_scale(-1, impulse));
-    impact_push(&bodies[c->body[1]], p->at, impulse);
+    impact_exchange(&bodies[c->body[0]], &bodies[c->body[1]], p->at, impulse);
     p->solving.change = vec_add(p->solving.change, impulse);
 }
 

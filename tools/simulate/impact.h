@@ -69,8 +69,8 @@ double impact_closing(const impact_body *bodies, const impact_contact *c);
 /* The kinetic energy of a body that yields, else 0. */
 double impact_energy(const impact_body *b);
 
-/* Gives an impulse at a point to a body, if it yields. */
-void impact_push(impact_body *b, vec at, vec impulse);
+/* Gives `impulse` at a point to b and the opposite to a, to each if it yields. */
+void impact_exchange(impact_body *a, impact_body *b, vec at, vec impulse);
 
 /* Solves for all contacts together with the targets of their points, and moves the bodies on.
  * False: it found no solution, which may happen with much friction; then bodies and impulses are of

@@ -6,6 +6,8 @@
 
 #include <stdlib.h>
 
+#include "tools/simulate/patches.h"
+
 static const vec_box everything = {{{-INFINITY, -INFINITY, -INFINITY}},
                                    {{INFINITY, INFINITY, INFINITY}}};
 
@@ -30,19 +32,11 @@ static void include(const imp_scene *still, const imp_options *options, outline_
     }
 }
 
-static size_t count_patches(const imp_scene *scene, size_t body)
-{
-    size_t count = 0;
-    for (size_t k = 0; k < imp_scene_surface_count(scene, body); ++k)
-        count += imp_scene_piece_count(scene, body, k);
-    return count;
-}
-
 bool outline_read(outline *o, const imp_scene *still, const imp_options *options, const limits *l,
                   size_t body)
 {
     *o = (outline){.box = vec_box_empty()};
-    o->patch = calloc(count_patches(still, body) + 1, sizeof *o->patch);
+    o->patch = calloc(patches_count(still, body) + 1, sizeof *o->patch);
     if (o->patch == NULL) return false;
     bool stopped = false;
     for (size_t k = 0; k < imp_scene_surface_count(still, body); ++k)

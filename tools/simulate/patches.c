@@ -46,7 +46,7 @@ shape_verdict patch_grid(const patches *p, size_t index, int cells, vec *at, imp
     return SHAPE_FOUND;
 }
 
-static size_t count_patches(const imp_scene *scene, size_t body)
+size_t patches_count(const imp_scene *scene, size_t body)
 {
     size_t count = 0;
     for (size_t s = 0; s < imp_scene_surface_count(scene, body); ++s)
@@ -92,7 +92,7 @@ shape_verdict patches_read(patches *p, const imp_scene *scene, size_t body, doub
                            const limits *end, imp_error *why)
 {
     *p = (patches){.scene = scene, .t = t, .limits = end};
-    p->patch = calloc(count_patches(scene, body) + 1, sizeof *p->patch);
+    p->patch = calloc(patches_count(scene, body) + 1, sizeof *p->patch);
     if (p->patch == NULL) return SHAPE_NO_MEMORY;
     for (size_t s = 0; s < imp_scene_surface_count(scene, body); ++s)
         for (size_t k = 0; k < imp_scene_piece_count(scene, body, s); ++k) {

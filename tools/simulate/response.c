@@ -141,11 +141,10 @@ static void note_pressed(instant *now)
  * them. */
 static void settle_on_trial(instant *now, impact_body *bodies)
 {
-    const double size = vec_length(now->gravity);
+    const vec pull = rest_pull(now);
     copy_bodies(now, bodies, now->bodies);
-    for (size_t b = 0; b < now->body_count && size > 0; ++b)
-        if (now->who[b].rested)
-            bodies[b].velocity = vec_along(bodies[b].velocity, now->slow / size, now->gravity);
+    for (size_t b = 0; b < now->body_count; ++b)
+        if (now->who[b].rested) bodies[b].velocity = vec_add(bodies[b].velocity, pull);
     clear_targets(now);
     solve_all(now, bodies, false);
 }

@@ -53,6 +53,7 @@ typedef struct participant {
     bool fixed;  /* it has no mass and no motion of its own */
     bool rested; /* it was at rest */
     bool rests;  /* it is now */
+    bool joined; /* by a row of contacts to something fixed; for rest_find */
     remembered *memory;
 } participant;
 
@@ -63,10 +64,10 @@ typedef struct instant {
     double lift, slow; /* L and V */
     participant *who;
     impact_body *bodies, *spare[3]; /* spare: as many, of no meaning between calls */
-    size_t body_count, body_capacity;
+    size_t body_count;
     impact_contact *contacts, *kept; /* kept: as many, of no meaning between calls */
     contact *about;                  /* of each contact */
-    size_t count, capacity;
+    size_t count;
 } instant;
 
 /* Gives impulses to the bodies, and says which rest. */

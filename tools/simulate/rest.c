@@ -49,24 +49,24 @@ static bool counts(const instant *now, const impact_contact *c)
 }
 
 /* Takes out those that no row of contacts joins to something fixed, and answers whether there were
- * any. `yields` of the spare bodies tells which are joined. */
+ * any. */
 static bool drop_floating(instant *now)
 {
-    impact_body *joined = now->spare[2];
+    participant *who = now->who;
     bool more = true, any = false;
-    for (size_t b = 0; b < now->body_count; ++b) joined[b].yields = now->who[b].fixed;
+    for (size_t b = 0; b < now->body_count; ++b) who[b].joined = who[b].fixed;
     while (more) {
         more = false;
         for (size_t i = 0; i < now->count; ++i) {
             const size_t *body = now->contacts[i].body;
-            if (!counts(now, &now->contacts[i]) || joined[body[0]].yields == joined[body[1]].yields)
+            if (!counts(now, &now->contacts[i]) || who[body[0]].joined == who[body[1]].joined)
                 continue;
-            joined[body[0]].yields = joined[body[1]].yields = more = true;
+            who[body[0]].joined = who[body[1]].joined = more = true;
         }
     }
     for (size_t b = 0; b < now->body_count; ++b) {
-        if (!now->who[b].rests || joined[b].yields) continue;
-        now->who[b].rests = false;
+        if (!who[b].rests || who[b].joined) continue;
+        who[b].rests = false;
         any = true;
     }
     return any;
@@ -74,12 +74,17 @@ static bool drop_floating(instant *now)
 
 /* --- Balance ---------------------------------------------------------------------------------- */
 
+vec rest_pull(const instant *now)
+{
+    const double size = vec_length(now->gravity);
+    return size > 0 ? vec_scale(now->slow / size, now->gravity) : zero;
+}
+
 /* Lets gravity pull at those that may rest, for as long as gives V to what falls. Takes out what
  * moves then, and answers whether there was any. */
 static bool drop_falling(instant *now)
 {
-    const double size = vec_length(now->gravity);
-    const vec pull = size > 0 ? vec_scale(now->slow / size, now->gravity) : zero;
+    const vec pull = rest_pull(now);
     impact_body *bodies = now->spare[2];
     size_t count = 0;
     bool any = false;

@@ -4,6 +4,8 @@
 
 #include "tools/simulate/smooth.h"
 
+#include "tools/simulate/eliminate.h"
+
 /* Find x >= 0 with w = a x + f >= 0, and x_i = 0 or w_i = 0 for each i. */
 typedef struct problem {
     size_t count;
@@ -28,34 +30,25 @@ static void set_problem(problem *p, const impact_body *bodies, const impact_cont
     }
 }
 
+enum { CARRIERS_MAX = 3 };
+
 /* A set of points that carry, and their impulses. */
 typedef struct carriers {
-    size_t count, at[3];
-    double x[3];
+    size_t count, at[CARRIERS_MAX];
+    double x[EQUATIONS_MAX];
 } carriers;
 
-/* The impulses with which the speeds of the carriers meet their targets, by elimination: the matrix
- * is positive semidefinite. False: it is singular. */
+/* The impulses with which the speeds of the carriers meet their targets. The matrix is positive
+ * semidefinite. False: it is singular. */
 static bool solve_carriers(const problem *p, carriers *s)
 {
-    double m[3][4];
+    double m[EQUATIONS_MAX][EQUATIONS_MAX + 1], least[EQUATIONS_MAX];
     for (size_t i = 0; i < s->count; ++i) {
         for (size_t j = 0; j < s->count; ++j) m[i][j] = p->a[s->at[i]][s->at[j]];
         m[i][s->count] = -p->f[s->at[i]];
+        least[i] = 1e-12 * m[i][i];
     }
-    for (size_t i = 0; i < s->count; ++i) {
-        if (!(m[i][i] > 1e-12 * p->a[s->at[i]][s->at[i]])) return false;
-        for (size_t k = i + 1; k < s->count; ++k) {
-            const double factor = m[k][i] / m[i][i];
-            for (size_t j = i; j <= s->count; ++j) m[k][j] -= factor * m[i][j];
-        }
-    }
-    for (size_t i = s->count; i-- > 0;) {
-        s->x[i] = m[i][s->count];
-        for (size_t j = i + 1; j < s->count; ++j) s->x[i] -= m[i][j] * s->x[j];
-        s->x[i] /= m[i][i];
-    }
-    return true;
+    return eliminate_solve(s->count, m, least, s->x);
 }
 
 /* By how much speed the law is broken, at most. */
@@ -80,7 +73,7 @@ static bool next_set(const problem *p, carriers *s)
             for (size_t j = i + 1; j < s->count; ++j) s->at[j] = s->at[j - 1] + 1;
             return true;
         }
-    if (s->count == 3 || s->count == p->count) return false;
+    if (s->count == CARRIERS_MAX || s->count == p->count) return false;
     s->count += 1;
     for (size_t i = 0; i < s->count; ++i) s->at[i] = i;
     return true;

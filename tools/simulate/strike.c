@@ -56,8 +56,7 @@ static solution solve_smooth(const impact_body *bodies, const impact_contact *c,
     smooth_impulses(s.body, &pair, size);
     for (size_t i = 0; i < c->count; ++i) {
         s.impulse[i] = vec_scale(size[i], c->normal);
-        impact_push(&s.body[0], c->point[i].at, vec_scale(-1, s.impulse[i]));
-        impact_push(&s.body[1], c->point[i].at, s.impulse[i]);
+        impact_exchange(&s.body[0], &s.body[1], c->point[i].at, s.impulse[i]);
     }
     s.gain = gain_of(bodies, c, &s);
     return s;

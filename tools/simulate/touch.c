@@ -20,11 +20,6 @@ typedef struct around {
     size_t count;
 } around;
 
-static bool is_same_place(imp_place a, imp_place b)
-{
-    return a.surface == b.surface && a.piece == b.piece;
-}
-
 static bool is_near(const vec_box *box, vec x, double distance)
 {
     for (int i = 0; i < 3; ++i)
@@ -67,7 +62,7 @@ static imp_code look_around(const placed *at, const outline *o, imp_place own, c
         double uv[2];
         vec found;
         chart c;
-        if (is_same_place(patch->place, own) || !is_near(&patch->box, inner, distance)) continue;
+        if (outline_is_at(patch, own) || !is_near(&patch->box, inner, distance)) continue;
         imp_code code = chart_make(&c, at, patch->place, why);
         if (code == IMP_SUCCESS) code = start_on(&c, x, uv, why);
         if (code == IMP_SUCCESS) code = closest_project(&c, uv, x, &found, why);
