@@ -131,6 +131,7 @@ plugins_wave_la_LDFLAGS = $(plugin_ldflags)
 
 # What they share; private, never installed.
 noinst_HEADERS += \
+    plugins/common/capped.h \
     plugins/common/near.h \
     plugins/common/squares.h \
     plugins/common/polynomial.h \

@@ -92,9 +92,8 @@ static imp_status add_primitive(gltf_reader *r, const json_t *primitive, const g
         if (status == IMP_STATUS_OK &&
             (!mesh_scalar_is_whole(indices.type) || indices.is_normalized ||
              indices.type == SCALAR_INT8 || indices.type == SCALAR_INT16))
-            return triangles_refuse(r->data.fault, 0,
-                                    "/accessors/%lld: indices must be unsigned whole numbers",
-                                    (long long)index);
+            return gltf_refuse(&r->data, "accessors", index, "",
+                               "indices must be unsigned whole numbers");
     }
     if (status == IMP_STATUS_OK) status = add_points(r, &points, place);
     if (status != IMP_STATUS_OK) return status;
@@ -108,13 +107,13 @@ enum { DEPTH_MAX = 256 };
 
 static imp_status add_mesh(gltf_reader *r, json_int_t index, const gltf_place *place)
 {
-    const json_t *mesh = gltf_item(r->data.root, "meshes", index), *primitive;
+    const json_t *mesh, *primitive;
     size_t k;
-    if (mesh == NULL)
-        return triangles_refuse(r->data.fault, 0, "/meshes/%lld does not exist", (long long)index);
+    imp_status status = gltf_find(&r->data, "meshes", index, &mesh);
+    if (status != IMP_STATUS_OK) return status;
     json_array_foreach(json_object_get(mesh, "primitives"), k, primitive)
     {
-        const imp_status status = add_primitive(r, primitive, place);
+        status = add_primitive(r, primitive, place);
         if (status != IMP_STATUS_OK) return status;
     }
     return IMP_STATUS_OK;
@@ -140,23 +139,21 @@ static imp_status add_children(gltf_reader *r, const json_t *list, const gltf_pl
 static imp_status add_node(gltf_reader *r, const json_t *number, const gltf_place *above, int depth)
 {
     const json_int_t index = json_is_integer(number) ? json_integer_value(number) : -1;
-    const json_t *node = gltf_item(r->data.root, "nodes", index);
+    const json_t *node;
     json_int_t mesh;
     gltf_place place;
-    if (node == NULL)
-        return triangles_refuse(r->data.fault, 0, "/nodes/%lld does not exist", (long long)index);
+    imp_status status = gltf_find(&r->data, "nodes", index, &node);
+    if (status != IMP_STATUS_OK) return status;
     if (r->passed[index] || depth > DEPTH_MAX)
-        return triangles_refuse(r->data.fault, 0, "/nodes/%lld: %s", (long long)index,
-                                depth > DEPTH_MAX ? "too many nodes above it (256)"
-                                                  : "must have one parent only");
+        return gltf_refuse(&r->data, "nodes", index, "",
+                           depth > DEPTH_MAX ? "too many nodes above it (256)"
+                                             : "must have one parent only");
     r->passed[index] = true;
     if (!gltf_place_under(above, node, &place))
-        return triangles_refuse(r->data.fault, 0,
-                                "/nodes/%lld: matrix, translation, rotation and scale must be "
-                                "lists of 16, 3, 4 and 3 numbers",
-                                (long long)index);
+        return gltf_refuse(&r->data, "nodes", index, "",
+                           "matrix, translation, rotation and scale must be lists of 16, 3, 4 and "
+                           "3 numbers");
     if (json_object_get(node, "skin") != NULL) triangles_note(&r->to->left_out, 0);
-    imp_status status = IMP_STATUS_OK;
     if (json_object_get(node, "mesh") != NULL) {
         if (!gltf_count(node, "mesh", -1, &mesh)) return refuse_index(r, "mesh of a node");
         status = add_mesh(r, mesh, &place);
@@ -191,11 +188,13 @@ static imp_status add_scene(gltf_reader *r)
 {
     json_int_t index;
     if (!gltf_count(r->data.root, "scene", 0, &index)) return refuse_index(r, "scene");
-    const json_t *scene = gltf_item(r->data.root, "scenes", index);
-    if (scene != NULL)
-        return add_children(r, json_object_get(scene, "nodes"), &gltf_place_identity, 0);
-    if (json_object_get(r->data.root, "scene") == NULL) return add_roots(r);
-    return triangles_refuse(r->data.fault, 0, "/scenes/%lld does not exist", (long long)index);
+    if (json_object_get(r->data.root, "scene") == NULL &&
+        gltf_item(r->data.root, "scenes", index) == NULL)
+        return add_roots(r);
+    const json_t *scene;
+    const imp_status status = gltf_find(&r->data, "scenes", index, &scene);
+    if (status != IMP_STATUS_OK) return status;
+    return add_children(r, json_object_get(scene, "nodes"), &gltf_place_identity, 0);
 }
 
 /* --- The document ----------------------------------------------------------------------------- */

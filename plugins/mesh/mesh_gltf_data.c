@@ -14,6 +14,19 @@ const json_t *gltf_item(const json_t *root, const char *list, json_int_t index)
     return json_is_object(item) ? item : NULL;
 }
 
+imp_status gltf_refuse(const gltf_data *d, const char *list, json_int_t index, const char *where,
+                       const char *what)
+{
+    return triangles_refuse(d->fault, 0, "/%s/%lld%s: %s", list, (long long)index, where, what);
+}
+
+imp_status gltf_find(const gltf_data *d, const char *list, json_int_t index, const json_t **item)
+{
+    *item = gltf_item(d->root, list, index);
+    if (*item != NULL) return IMP_STATUS_OK;
+    return triangles_refuse(d->fault, 0, "/%s/%lld does not exist", list, (long long)index);
+}
+
 bool gltf_count(const json_t *object, const char *key, json_int_t preset, json_int_t *value)
 {
     const json_t *json = json_object_get(object, key);
@@ -60,15 +73,12 @@ static bool decode(const char *text, char *bytes, size_t *length)
 static imp_status open_text(gltf_data *d, const char *uri, json_int_t index, gltf_buffer *b)
 {
     const char *mark = strstr(uri, ";base64,");
-    if (mark == NULL)
-        return triangles_refuse(d->fault, 0, "/buffers/%lld/uri: data that is not in base64",
-                                (long long)index);
+    if (mark == NULL) return gltf_refuse(d, "buffers", index, "/uri", "data that is not in base64");
     const char *text = mark + strlen(";base64,");
     b->owned = malloc(strlen(text) / 4 * 3 + 4);
     if (b->owned == NULL) return IMP_STATUS_INTERNAL;
     if (!decode(text, b->owned, &b->length))
-        return triangles_refuse(d->fault, 0, "/buffers/%lld/uri: a character that is not base64",
-                                (long long)index);
+        return gltf_refuse(d, "buffers", index, "/uri", "a character that is not base64");
     return IMP_STATUS_OK;
 }
 
@@ -106,8 +116,7 @@ static imp_status open_file(gltf_data *d, const char *uri, json_int_t index, glt
                                 "data",
                                 (long long)index, uri);
     if (!write_path(d->folder, uri, path, sizeof path))
-        return triangles_refuse(d->fault, 0, "/buffers/%lld/uri: too long a name",
-                                (long long)index);
+        return gltf_refuse(d, "buffers", index, "/uri", "too long a name");
     return mesh_read_whole(path, &b->owned, &b->length, d->fault);
 }
 
@@ -126,8 +135,7 @@ static imp_status load(gltf_data *d, const json_t *buffer, json_int_t index, glt
     }
     if (status != IMP_STATUS_OK) return status;
     if (b->bytes == NULL)
-        return triangles_refuse(d->fault, 0, "/buffers/%lld: no uri, and no bytes in the file",
-                                (long long)index);
+        return gltf_refuse(d, "buffers", index, "", "no uri, and no bytes in the file");
     if (!gltf_count(buffer, "byteLength", -1, &length) || (uint64_t)length > b->length)
         return triangles_refuse(d->fault, 0,
                                 "/buffers/%lld/byteLength: %lld of %zu bytes that are there",
@@ -138,9 +146,9 @@ static imp_status load(gltf_data *d, const json_t *buffer, json_int_t index, glt
 
 static imp_status open_buffer(gltf_data *d, json_int_t index, const gltf_buffer **found)
 {
-    const json_t *buffer = gltf_item(d->root, "buffers", index);
-    if (buffer == NULL)
-        return triangles_refuse(d->fault, 0, "/buffers/%lld does not exist", (long long)index);
+    const json_t *buffer;
+    const imp_status status = gltf_find(d, "buffers", index, &buffer);
+    if (status != IMP_STATUS_OK) return status;
     if (d->buffers == NULL) {
         const size_t count = json_array_size(json_object_get(d->root, "buffers"));
         d->buffers = calloc(count, sizeof *d->buffers);
@@ -163,27 +171,24 @@ static bool find_type(json_int_t code, mesh_scalar *type)
     return true;
 }
 
-static imp_status refuse(gltf_data *d, const char *list, json_int_t index, const char *what)
-{
-    return triangles_refuse(d->fault, 0, "/%s/%lld: %s", list, (long long)index, what);
-}
-
 /* The bytes of a view, and how far apart its items are; 0: as close as they are long. */
 static imp_status open_view(gltf_data *d, json_int_t index, const char **bytes, size_t *length,
                             size_t *stride)
 {
-    const json_t *view = gltf_item(d->root, "bufferViews", index);
+    const json_t *view;
     json_int_t buffer, offset, size, apart;
     const gltf_buffer *b = NULL;
-    if (view == NULL) return refuse(d, "bufferViews", index, "does not exist");
+    imp_status status = gltf_find(d, "bufferViews", index, &view);
+    if (status != IMP_STATUS_OK) return status;
     if (!gltf_count(view, "buffer", -1, &buffer) || !gltf_count(view, "byteOffset", 0, &offset) ||
         !gltf_count(view, "byteLength", -1, &size) || !gltf_count(view, "byteStride", 0, &apart))
-        return refuse(d, "bufferViews", index,
-                      "buffer, byteOffset, byteLength and byteStride must be whole numbers from 0");
-    const imp_status status = open_buffer(d, buffer, &b);
+        return gltf_refuse(
+            d, "bufferViews", index, "",
+            "buffer, byteOffset, byteLength and byteStride must be whole numbers from 0");
+    status = open_buffer(d, buffer, &b);
     if (status != IMP_STATUS_OK) return status;
     if ((uint64_t)offset > b->length || (uint64_t)size > b->length - (size_t)offset)
-        return refuse(d, "bufferViews", index, "ends behind its buffer");
+        return gltf_refuse(d, "bufferViews", index, "", "ends behind its buffer");
     *bytes = b->bytes + offset;
     *length = (size_t)size;
     *stride = (uint64_t)apart < SIZE_MAX / 2 ? (size_t)apart : SIZE_MAX / 2;
@@ -192,31 +197,34 @@ static imp_status open_view(gltf_data *d, json_int_t index, const char **bytes, 
 
 imp_status gltf_accessor_open(gltf_data *d, json_int_t index, int width, gltf_accessor *made)
 {
-    const json_t *a = gltf_item(d->root, "accessors", index);
+    const json_t *a;
     json_int_t view, offset, code, count;
     size_t length = 0;
     *made = (gltf_accessor){.width = width};
-    if (a == NULL) return refuse(d, "accessors", index, "does not exist");
+    imp_status status = gltf_find(d, "accessors", index, &a);
+    if (status != IMP_STATUS_OK) return status;
     if (json_object_get(a, "sparse") != NULL)
-        return refuse(d, "accessors", index, "is sparse; write the mesh without sparse accessors");
+        return gltf_refuse(d, "accessors", index, "",
+                           "is sparse; write the mesh without sparse accessors");
     const char *type = json_string_value(json_object_get(a, "type"));
     if (type == NULL || strcmp(type, width == 1 ? "SCALAR" : "VEC3") != 0)
-        return refuse(d, "accessors", index,
-                      width == 1 ? "type must be SCALAR" : "type must be VEC3");
+        return gltf_refuse(d, "accessors", index, "",
+                           width == 1 ? "type must be SCALAR" : "type must be VEC3");
     if (!gltf_count(a, "bufferView", -1, &view) || !gltf_count(a, "byteOffset", 0, &offset) ||
         !gltf_count(a, "count", -1, &count))
-        return refuse(d, "accessors", index,
-                      "bufferView, byteOffset and count must be whole numbers from 0");
+        return gltf_refuse(d, "accessors", index, "",
+                           "bufferView, byteOffset and count must be whole numbers from 0");
     if (!gltf_count(a, "componentType", -1, &code) || !find_type(code, &made->type))
-        return refuse(d, "accessors", index, "componentType must be 5120 to 5126, and not 5124");
-    const imp_status status = open_view(d, view, &made->bytes, &length, &made->stride);
+        return gltf_refuse(d, "accessors", index, "",
+                           "componentType must be 5120 to 5126, and not 5124");
+    status = open_view(d, view, &made->bytes, &length, &made->stride);
     if (status != IMP_STATUS_OK) return status;
     const size_t item = (size_t)width * mesh_scalar_size(made->type);
     if (made->stride == 0) made->stride = item;
     const bool fits = (uint64_t)offset <= length && item <= length - (size_t)offset;
     if (count > 0 &&
         (!fits || (uint64_t)count - 1 > (length - (size_t)offset - item) / made->stride))
-        return refuse(d, "accessors", index, "ends behind its bufferView");
+        return gltf_refuse(d, "accessors", index, "", "ends behind its bufferView");
     made->bytes += count > 0 ? offset : 0;
     made->count = (size_t)count;
     made->is_normalized = json_is_true(json_object_get(a, "normalized"));

@@ -47,6 +47,13 @@ double gltf_accessor_at(const gltf_accessor *a, size_t k, int i);
 /* The item of that number in a list of the document, an object; NULL: there is none. */
 const json_t *gltf_item(const json_t *root, const char *list, json_int_t index);
 
+/* The item that gltf_item finds; that there is none is refused. */
+imp_status gltf_find(const gltf_data *d, const char *list, json_int_t index, const json_t **item);
+
+/* Refuses an item of a list, or what `where` names below it ("/uri"; "": itself). */
+imp_status gltf_refuse(const gltf_data *d, const char *list, json_int_t index, const char *where,
+                       const char *what);
+
 /* A whole number that is not negative. False: the key has anything else; where it is missing,
  * *value is `preset`, and a preset below 0 is false too. */
 bool gltf_count(const json_t *object, const char *key, json_int_t preset, json_int_t *value);

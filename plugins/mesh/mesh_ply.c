@@ -17,10 +17,16 @@ typedef struct ply_reader {
 
 /* --- Values ----------------------------------------------------------------------------------- */
 
+/* The line of a text; 0 in a binary file. */
+static size_t line_of(const ply_reader *r)
+{
+    return r->head.format == PLY_TEXT ? r->text->line : 0;
+}
+
 static imp_status refuse_end(ply_reader *r)
 {
     if (mesh_text_status(r->text) != IMP_STATUS_OK) return IMP_STATUS_INTERNAL;
-    return triangles_refuse(r->fault, r->head.format == PLY_TEXT ? r->text->line : 0,
+    return triangles_refuse(r->fault, line_of(r),
                             "the file ends before all elements of its head are there");
 }
 
@@ -54,11 +60,6 @@ static imp_status refuse(ply_reader *r, const char *what, double x)
 }
 
 /* --- Elements --------------------------------------------------------------------------------- */
-
-static size_t line_of(const ply_reader *r)
-{
-    return r->head.format == PLY_TEXT ? r->text->line : 0;
-}
 
 /* The values of a list; kept as corners if they are. */
 static imp_status read_list(ply_reader *r, const ply_property *p)

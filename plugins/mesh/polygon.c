@@ -52,6 +52,11 @@ static polygon measure(const double *point, const int64_t *corner, size_t count)
     return p;
 }
 
+static bool has_normal(const polygon *p)
+{
+    return p->normal[0] != 0 || p->normal[1] != 0 || p->normal[2] != 0;
+}
+
 /* Part of its size by which a corner may be off the plane, and of its area that may be turned
  * over. */
 #define FLATNESS 1e-3
@@ -105,8 +110,7 @@ bool polygon_is_fan(const double *point, const int64_t *corner, size_t count)
 {
     const polygon p = measure(point, corner, count);
     if (p.size == 0) return true;
-    const bool has_normal = p.normal[0] != 0 || p.normal[1] != 0 || p.normal[2] != 0;
-    return has_normal ? is_plane(&p) && is_convex(&p) : is_on_line(&p);
+    return has_normal(&p) ? is_plane(&p) && is_convex(&p) : is_on_line(&p);
 }
 
 /* --- Seen along its normal -------------------------------------------------------------------- */
@@ -223,9 +227,8 @@ imp_status polygon_cut(const double *point, const int64_t *corner, size_t count,
 {
     const polygon p = measure(point, corner, count);
     flat f;
-    const bool has_normal = p.normal[0] != 0 || p.normal[1] != 0 || p.normal[2] != 0;
     const bool done = flatten(&p, &f);
-    *is_simple = done && has_normal && !crosses_itself(&f) && cut_ears(&f, cut);
+    *is_simple = done && has_normal(&p) && !crosses_itself(&f) && cut_ears(&f, cut);
     flat_clear(&f);
     return done ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
 }

@@ -129,8 +129,8 @@ static imp_model capsule_gap(const void *self, imp_model x, imp_model y, imp_mod
 }
 IMP_DISTANCE_FORMULA(capsule_gap)
 
-/* The axis of a symmetry is exact: none is told where to - from is rounded. A half sphere turned
- * about its middle is not itself. */
+/* The axis of a symmetry must be exact. Where to - from is rounded, no symmetry is reported. A half
+ * sphere turned about its middle is not itself. */
 static imp_status capsule_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const capsule_instance *s = self;

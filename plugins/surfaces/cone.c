@@ -1,6 +1,7 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include "plugins/common/capped.h"
 #include "plugins/common/publish.h"
 #include "plugins/common/squares.h"
 
@@ -12,55 +13,21 @@
  * goes round as the first does: both normals f_u x f_v point outward, or, with the apex below,
  * inward. */
 
-enum { RADIUS, HEIGHT, CENTER, ENDS };
-
 static const imp_parameter parameters[] = {
-    [RADIUS] = IMP_ROW_POSITIVE("radius", "length", "1", "radius of the base"),
-    [HEIGHT] = IMP_ROW_NUMBER(
+    [CAPPED_RADIUS] = IMP_ROW_POSITIVE("radius", "length", "1", "radius of the base"),
+    [CAPPED_HEIGHT] = IMP_ROW_NUMBER(
         "height", "length", "1",
         "height of the apex above the base, along z; 0: a disc; negative: apex below"),
-    [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "centre of the base"),
-    [ENDS] = IMP_ROW_BOOLEAN("ends", "false", "closed by a disc at its base"),
+    [CAPPED_CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "centre of the base"),
+    [CAPPED_ENDS] = IMP_ROW_BOOLEAN("ends", "false", "closed by a disc at its base"),
 };
 
-enum { LATERAL, BASE, PARTS };
-
-/* What the callbacks get as `self`: one piece. */
-typedef struct cone_instance {
-    double radius, height, center[3];
-    int part;
-} cone_instance;
-
-typedef struct cone_pieces {
-    cone_instance part[PARTS]; /* the instance is its first piece */
-    bool has_ends;
-} cone_pieces;
+enum { BASE = CAPPED_LATERAL + 1, PARTS };
 
 static imp_status cone_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
-    cone_pieces *pieces = malloc(sizeof *pieces);
-    if (pieces == NULL) return IMP_STATUS_INTERNAL;
-    for (int k = 0; k < PARTS; ++k) {
-        cone_instance *s = &pieces->part[k];
-        s->part = k;
-        s->radius = values[RADIUS].number[0];
-        s->height = values[HEIGHT].number[0];
-        imp_copy_vector(s->center, &values[CENTER]);
-    }
-    pieces->has_ends = values[ENDS].number[0] != 0;
-    *self = pieces;
-    return IMP_STATUS_OK;
-}
-
-static size_t cone_piece_count(const void *self)
-{
-    return ((const cone_pieces *)self)->has_ends ? PARTS : 1;
-}
-
-static const void *cone_piece(const void *self, size_t k)
-{
-    return &((const cone_pieces *)self)->part[k];
+    return capped_create(values, PARTS, self);
 }
 
 static void cone_domain(const void *self, double lo[3], double hi[3])
@@ -71,7 +38,7 @@ static void cone_domain(const void *self, double lo[3], double hi[3])
 
 static void cone_formula(const void *self, imp_model u, imp_model v, imp_model t, imp_model out[3])
 {
-    const cone_instance *s = self;
+    const capped *s = self;
     const bool base = s->part == BASE;
     imp_model sin_u, cos_u, ring = imp_scale(base ? v : imp_shift(imp_neg(v), 1), s->radius);
     (void)t;
@@ -93,7 +60,7 @@ IMP_SURFACE_FORMULA(cone_formula)
  *   (h q)^2 - (r y)^2 = (|h| q - r |y|) (|h| q + r |y|),
  *
  * whose last factor is at most |h| Q + r Y where q <= Q, |y| <= Y: a bound without roots. */
-static imp_model cone_beyond(const cone_instance *s, const imp_model m[3])
+static imp_model cone_beyond(const capped *s, const imp_model m[3])
 {
     const double h = s->height, r = s->radius;
     const double slant = greatest_root_upper(
@@ -108,7 +75,7 @@ static imp_model cone_beyond(const cone_instance *s, const imp_model m[3])
 /* The distance from the endless double cone; from a disc or the base, from its plane. */
 static imp_model cone_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
-    const cone_instance *s = self;
+    const capped *s = self;
     (void)t;
     const imp_model m[3] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]),
                             imp_shift(z, -s->center[2])};
@@ -118,7 +85,7 @@ IMP_DISTANCE_FORMULA(cone_gap)
 
 static imp_status cone_symmetry(const void *self, imp_symmetry *symmetry)
 {
-    const cone_instance *s = self;
+    const capped *s = self;
     symmetry->kind = IMP_SYMMETRY_ABOUT_LINE;
     symmetry->is_closed = 1;
     symmetry->axis[2] = 1;
@@ -128,8 +95,8 @@ static imp_status cone_symmetry(const void *self, imp_symmetry *symmetry)
 
 static const imp_surface_type cone = {
     IMP_SURFACE_FIELDS(cone, cone_formula),
-    .piece_count = cone_piece_count,
-    .piece = cone_piece,
+    .piece_count = capped_piece_count,
+    .piece = capped_piece,
     .distance = cone_gap_distance,
     .symmetry = cone_symmetry,
     .summary = "cone about the z axis: its lateral surface up to the apex, with ends=true closed "

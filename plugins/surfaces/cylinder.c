@@ -1,6 +1,7 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include "plugins/common/capped.h"
 #include "plugins/common/publish.h"
 #include "plugins/common/squares.h"
 
@@ -10,71 +11,37 @@
 /* The lateral surface; with `ends`, both end discs, as pieces of their own. Without them a thin
  * body can pass through. All pieces go round the same way: f_u x f_v points outward. */
 
-enum { RADIUS, HEIGHT, CENTER, ENDS };
-
 static const imp_parameter parameters[] = {
-    [RADIUS] = IMP_ROW_POSITIVE("radius", "length", "1", "radius"),
-    [HEIGHT] = IMP_ROW_POSITIVE("height", "length", "2", "extent along the z axis"),
-    [CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "middle of the axis"),
-    [ENDS] = IMP_ROW_BOOLEAN("ends", "false", "closed by a disc at either end"),
+    [CAPPED_RADIUS] = IMP_ROW_POSITIVE("radius", "length", "1", "radius"),
+    [CAPPED_HEIGHT] = IMP_ROW_POSITIVE("height", "length", "2", "extent along the z axis"),
+    [CAPPED_CENTER] = IMP_ROW_VECTOR("center", "length", "[0,0,0]", 0, "middle of the axis"),
+    [CAPPED_ENDS] = IMP_ROW_BOOLEAN("ends", "false", "closed by a disc at either end"),
 };
 
-enum { LATERAL, BOTTOM, TOP, PARTS };
-
-/* What the callbacks get as `self`: one piece. */
-typedef struct cylinder_instance {
-    double radius, height, center[3];
-    int part;
-} cylinder_instance;
-
-typedef struct cylinder_pieces {
-    cylinder_instance part[PARTS]; /* the instance is its first piece */
-    bool has_ends;
-} cylinder_pieces;
+enum { BOTTOM = CAPPED_LATERAL + 1, TOP, PARTS };
 
 static imp_status cylinder_create(const imp_value *values, void **self, imp_create_error *why)
 {
     (void)why;
-    cylinder_pieces *pieces = malloc(sizeof *pieces);
-    if (pieces == NULL) return IMP_STATUS_INTERNAL;
-    for (int k = 0; k < PARTS; ++k) {
-        cylinder_instance *s = &pieces->part[k];
-        s->part = k;
-        s->radius = values[RADIUS].number[0];
-        s->height = values[HEIGHT].number[0];
-        imp_copy_vector(s->center, &values[CENTER]);
-    }
-    pieces->has_ends = values[ENDS].number[0] != 0;
-    *self = pieces;
-    return IMP_STATUS_OK;
-}
-
-static size_t cylinder_piece_count(const void *self)
-{
-    return ((const cylinder_pieces *)self)->has_ends ? PARTS : 1;
-}
-
-static const void *cylinder_piece(const void *self, size_t k)
-{
-    return &((const cylinder_pieces *)self)->part[k];
+    return capped_create(values, PARTS, self);
 }
 
 static void cylinder_domain(const void *self, double lo[3], double hi[3])
 {
-    const cylinder_instance *s = self;
-    const bool lateral = s->part == LATERAL;
+    const capped *s = self;
+    const bool lateral = s->part == CAPPED_LATERAL;
     imp_set_domain(lo, hi, 0, IMP_TWO_PI_UPPER, lateral ? -0.5 : 0, lateral ? 0.5 : 1);
 }
 
 /* Where the axis ends. */
-static imp_model end_of(const cylinder_instance *s)
+static imp_model end_of(const capped *s)
 {
     const imp_model half = imp_scale(imp_num(s->part == TOP ? 0.5 : -0.5), s->height);
     return imp_shift(half, s->center[2]);
 }
 
 /* An end, with v from 0 to 1 outward at the bottom and inward at the top. */
-static void end_formula(const cylinder_instance *s, imp_model u, imp_model v, imp_model out[3])
+static void end_formula(const capped *s, imp_model u, imp_model v, imp_model out[3])
 {
     imp_model sin_u, cos_u;
     const imp_model ring = imp_scale(s->part == TOP ? imp_shift(imp_neg(v), 1) : v, s->radius);
@@ -87,10 +54,10 @@ static void end_formula(const cylinder_instance *s, imp_model u, imp_model v, im
 static void cylinder_formula(const void *self, imp_model u, imp_model v, imp_model t,
                              imp_model out[3])
 {
-    const cylinder_instance *s = self;
+    const capped *s = self;
     imp_model sin_u, cos_u;
     (void)t;
-    if (s->part != LATERAL) {
+    if (s->part != CAPPED_LATERAL) {
         end_formula(s, u, v, out);
         return;
     }
@@ -105,9 +72,9 @@ IMP_SURFACE_FORMULA(cylinder_formula)
  * from its plane. */
 static imp_model cylinder_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
-    const cylinder_instance *s = self;
+    const capped *s = self;
     (void)t;
-    if (s->part != LATERAL) return imp_sub(z, end_of(s));
+    if (s->part != CAPPED_LATERAL) return imp_sub(z, end_of(s));
     const imp_model m[2] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1])};
     return beyond_radius(sum_of_squares(m, 2), s->radius);
 }
@@ -115,8 +82,8 @@ IMP_DISTANCE_FORMULA(cylinder_gap)
 
 static imp_status cylinder_symmetry(const void *self, imp_symmetry *symmetry)
 {
-    const cylinder_instance *s = self;
-    symmetry->kind = s->part == LATERAL ? IMP_SYMMETRY_ALONG_LINE : IMP_SYMMETRY_ACROSS_LINE;
+    const capped *s = self;
+    symmetry->kind = s->part == CAPPED_LATERAL ? IMP_SYMMETRY_ALONG_LINE : IMP_SYMMETRY_ACROSS_LINE;
     symmetry->is_closed = 1;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
@@ -125,8 +92,8 @@ static imp_status cylinder_symmetry(const void *self, imp_symmetry *symmetry)
 
 static const imp_surface_type cylinder = {
     IMP_SURFACE_FIELDS(cylinder, cylinder_formula),
-    .piece_count = cylinder_piece_count,
-    .piece = cylinder_piece,
+    .piece_count = capped_piece_count,
+    .piece = capped_piece,
     .distance = cylinder_gap_distance,
     .symmetry = cylinder_symmetry,
     .summary = "cylinder about the z axis: its lateral surface, with ends=true closed by discs",
