@@ -214,8 +214,8 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
     return check_table(&view->table, &type, error);
 }
 
-/* `allowed`: all flags that it may have. The name follows the size, and is told where the size
- * holds it. */
+/* `allowed`: all flags that the type may have. *name is read only after the size is known to
+ * include it. */
 static imp_code check_size(uint32_t size, size_t least, const char *const *name, uint32_t flags,
                            uint32_t allowed, imp_error *error)
 {

@@ -9,8 +9,8 @@
 
 /* Answers in the world
  * ====================
- * A pair is searched in the frame that both of its surfaces move in (collect_frames.c). What is
- * told of a witness is in the world: its points are those that imp_piece_eval gives for its
+ * A pair is searched in the frame that both of its surfaces move in (collect_frames.c). A
+ * reported witness is in world space: its points are those that imp_piece_eval gives for its
  * parameters, and its normal turns with the frame. The gap is the distance of these points, or the
  * proved bound of the search where rounding in the world makes it larger than `most`. */
 

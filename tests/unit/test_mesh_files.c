@@ -445,7 +445,7 @@ START_TEST(polygons_that_cross_themselves_are_refused)
 }
 END_TEST
 
-/* What is told of a mesh names all that happened. */
+/* The note of a mesh lists everything that was left out or changed. */
 START_TEST(notes_count_what_was_done)
 {
     const bytes b = text_of("v 0 0 0\nv 2 0 0\nv .1 .1 0\nv 0 2 0\nl 1 2\nf 1 2 3 4\nf 1 1 2\n");

@@ -188,7 +188,7 @@ static exit_status tune(bench *b)
     const size_t named = b->args->operand_count;
     for (size_t k = 0; k < (named > 0 ? named : sizeof usual / sizeof *usual); ++k)
         sets[k] = bench_set_find(named > 0 ? b->args->operands[k] : usual[k]);
-    b->request.repeats = 1; /* only counters are told */
+    b->request.repeats = 1; /* it prints counters only, which every run repeats */
     return bench_tune(b->registry, &b->request, arguments_option(b->args, "tune")->text, sets);
 }
 

@@ -135,7 +135,7 @@ exit_status view_write(subject *what, const view_request *request, written *w)
     return told != EXIT_ANSWERED ? told : EXIT_UNDECIDED;
 }
 
-/* --- What is told ----------------------------------------------------------------------------- */
+/* --- The report ------------------------------------------------------------------------------- */
 
 static json_t *written_json(const view_request *request, const written *w)
 {
