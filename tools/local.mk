@@ -66,6 +66,9 @@ tools_bench = \
     tools/bench/conformal.c \
     tools/bench/crowd.c tools/bench/crowd.h \
     tools/bench/crowds.c \
+    tools/bench/everyday.c tools/bench/everyday.h \
+    tools/bench/everyday_families.c \
+    tools/bench/everyday_text.c \
     tools/bench/instructions.c tools/bench/instructions.h \
     tools/bench/json.c \
     tools/bench/measure.c \

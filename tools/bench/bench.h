@@ -24,6 +24,8 @@
 
 /* --- What is asked ---------------------------------------------------------------------------- */
 
+enum { BENCH_ROWS_MAX = 8, BENCH_FINDINGS_MAX = 4 };
+
 /* One scene, and when its bodies first touch, where that is known. */
 typedef struct bench_scene {
     char *a, *b; /* two pipelines; b NULL: a is the text of a scene file */
@@ -36,6 +38,8 @@ typedef struct bench_case {
     char name[48];
     double gamma, gamma_clear; /* length; gamma_clear < 0: gamma / 2 */
     double cut; /* if > 0: asked only up to this part of the time until the first contact */
+    uint64_t goal[BENCH_ROWS_MAX]; /* pairs that each of the set's methods may take; 0: no goal */
+    bool goal_is_open[BENCH_ROWS_MAX]; /* known not to be reached yet */
     bench_scene *scenes;
     size_t count, capacity;
 } bench_case;
@@ -75,7 +79,8 @@ typedef struct bench_method {
     const char *name;
     uint32_t baseline; /* of imp_options */
     bench_question question;
-    bool capped;    /* whether it ends at the request's budget */
+    bool capped;         /* whether it ends at the request's budget, */
+    uint64_t pairs_most; /* or at this one, if that is less; 0: none */
     size_t threads; /* BENCH_STREAM: of the batch; 0: no batch, each scene is read and solved */
 } bench_method;
 
@@ -113,16 +118,29 @@ typedef struct bench_row {
     bench_tally tally;
 } bench_row;
 
-enum { BENCH_ROWS_MAX = 8, BENCH_FINDINGS_MAX = 4 };
-
 /* All methods on one case, and the row that ratios are against: the paper's, BENCH_PROOF, or
  * NULL. */
 typedef struct bench_result {
     const bench_case *about;
     bench_row rows[BENCH_ROWS_MAX];
     size_t row_count;
+    uint64_t budget[BENCH_ROWS_MAX]; /* of each row, in pairs a scene; 0: none */
     const bench_row *baseline;
 } bench_result;
+
+/* What became of a case's goal for one method: whether all scenes have the verdict of the
+ * reference, for no more pairs than the goal. */
+typedef enum bench_goal {
+    BENCH_GOAL_NONE, /* there is none, or the budget was below it */
+    BENCH_GOAL_REACHED,
+    BENCH_GOAL_MISSED,
+    BENCH_GOAL_OPEN,       /* missed, as is known */
+    BENCH_GOAL_REACHED_NOW /* though marked as open */
+} bench_goal;
+bench_goal bench_goal_of(const bench_result *result, size_t row);
+
+/* The pairs at which a method ends, for one scene; 0: none. */
+uint64_t bench_budget(const bench_method *m, const bench_request *request);
 
 /* One number that a set is about, drawn from its results. */
 typedef struct bench_finding {
@@ -145,9 +163,9 @@ typedef struct bench_set {
 const bench_set *const *bench_sets_all(void);
 const bench_set *bench_set_find(const char *name);
 
-/* Machine parts that slide in each other; scenes of many bodies; meshes of many triangles; streams
- * of scenes. */
-extern const bench_set bench_conformal, bench_bodies, bench_surfaces, bench_batch;
+/* Machine parts that slide in each other; everyday scenes; scenes of many bodies; meshes of many
+ * triangles; streams of scenes. */
+extern const bench_set bench_conformal, bench_everyday, bench_bodies, bench_surfaces, bench_batch;
 
 /* Whether the request measures any method of the set. */
 bool bench_set_is_measured(const bench_set *set, const bench_request *request);

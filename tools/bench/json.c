@@ -34,17 +34,32 @@ static json_t *ratio_json(const bench_tally *t, const bench_row *baseline)
                      output_json_number(baseline->tally.seconds.mean / t->seconds.mean));
 }
 
-static json_t *row_json(const bench_row *row, const bench_row *baseline)
+/* NULL: the case has no goals. */
+static json_t *goal_json(const bench_result *result, size_t row)
 {
+    static const char *const words[] = {[BENCH_GOAL_NONE] = "not measured",
+                                        [BENCH_GOAL_REACHED] = "reached",
+                                        [BENCH_GOAL_MISSED] = "missed",
+                                        [BENCH_GOAL_OPEN] = "open",
+                                        [BENCH_GOAL_REACHED_NOW] = "reached now"};
+    if (result->about->goal[row] == 0) return NULL;
+    return json_pack("{s:I, s:s}", "pairs", (json_int_t)result->about->goal[row], "outcome",
+                     words[bench_goal_of(result, row)]);
+}
+
+static json_t *row_json(const bench_result *result, size_t at)
+{
+    const bench_row *row = &result->rows[at], *baseline = result->baseline;
     const bench_tally *t = &row->tally;
     json_t *processor = row->method->question == BENCH_STREAM ? json_real(t->processor) : NULL;
-    return json_pack("{s:s, s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o*}", "method",
-                     row->method->name, "verdicts", verdicts_json(t), "ended", (json_int_t)t->ended,
-                     "pairs", spread_json(&t->pairs), "nodes", spread_json(&t->nodes),
-                     "witness_searches", spread_json(&t->searches), "peak_heap",
-                     spread_json(&t->heap), "bytes", spread_json(&t->bytes), "seconds",
+    return json_pack("{s:s, s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o*, s:o*}",
+                     "method", row->method->name, "verdicts", verdicts_json(t), "ended",
+                     (json_int_t)t->ended, "pairs", spread_json(&t->pairs), "nodes",
+                     spread_json(&t->nodes), "witness_searches", spread_json(&t->searches),
+                     "peak_heap", spread_json(&t->heap), "bytes", spread_json(&t->bytes), "seconds",
                      spread_json(&t->seconds), "ratio", ratio_json(t, baseline), "reference",
-                     reference_json(t), "processor_seconds", processor);
+                     reference_json(t), "processor_seconds", processor, "goal",
+                     goal_json(result, at));
 }
 
 json_t *bench_result_json(const bench_result *result)
@@ -52,7 +67,7 @@ json_t *bench_result_json(const bench_result *result)
     const bench_case *c = result->about;
     json_t *rows = json_array();
     for (size_t k = 0; k < result->row_count; ++k)
-        if (json_array_append_new(rows, row_json(&result->rows[k], result->baseline)) != 0) {
+        if (json_array_append_new(rows, row_json(result, k)) != 0) {
             json_decref(rows);
             return NULL;
         }

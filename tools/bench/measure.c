@@ -24,6 +24,14 @@ static imp_scene *scene_of(imp_registry *registry, const bench_scene *s, imp_err
     return imp_scene_from_json(registry, s->a, strlen(s->a), "a scene of the benchmark", error);
 }
 
+uint64_t bench_budget(const bench_method *m, const bench_request *request)
+{
+    const uint64_t most = m->pairs_most;
+    if (!m->capped) return 0;
+    return most > 0 && (request->max_pairs == 0 || most < request->max_pairs) ? most
+                                                                              : request->max_pairs;
+}
+
 static imp_options options_of(const imp_scene *scene, const bench_case *c, const bench_method *m,
                               const bench_request *request)
 {
@@ -32,7 +40,7 @@ static imp_options options_of(const imp_scene *scene, const bench_case *c, const
     o.gamma_clear = c->gamma_clear;
     o.baseline = m->baseline;
     o.max_bytes = 0; /* memory is measured, not limited */
-    if (m->capped) o.max_pairs = request->max_pairs;
+    if (m->capped) o.max_pairs = bench_budget(m, request);
     return o;
 }
 
@@ -201,4 +209,15 @@ imp_code bench_measure(imp_registry *registry, const bench_case *c, const bench_
     if (code == IMP_SUCCESS) columns_tally(&x, tally);
     columns_free(&x);
     return code;
+}
+
+bench_goal bench_goal_of(const bench_result *result, size_t row)
+{
+    const bench_case *c = result->about;
+    const bench_tally *t = &result->rows[row].tally;
+    const uint64_t goal = c->goal[row], budget = result->budget[row];
+    if (goal == 0 || (budget > 0 && budget < goal)) return BENCH_GOAL_NONE;
+    const bool reached = t->agreed == t->scenes && t->pairs.max <= (double)goal;
+    if (c->goal_is_open[row]) return reached ? BENCH_GOAL_REACHED_NOW : BENCH_GOAL_OPEN;
+    return reached ? BENCH_GOAL_REACHED : BENCH_GOAL_MISSED;
 }

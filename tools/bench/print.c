@@ -91,8 +91,21 @@ static void print_reference(const bench_tally *t)
     puts("");
 }
 
-static void print_row(const bench_row *row, const bench_row *baseline)
+static void print_goal(const bench_result *result, size_t row)
 {
+    static const char *const words[] = {[BENCH_GOAL_NONE] = "",
+                                        [BENCH_GOAL_REACHED] = "",
+                                        [BENCH_GOAL_MISSED] = " missed",
+                                        [BENCH_GOAL_OPEN] = " open",
+                                        [BENCH_GOAL_REACHED_NOW] = " reached now"};
+    if (result->about->goal[row] > 0)
+        printf("  goal %llu%s", (unsigned long long)result->about->goal[row],
+               words[bench_goal_of(result, row)]);
+}
+
+static void print_row(const bench_result *result, size_t at)
+{
+    const bench_row *row = &result->rows[at], *baseline = result->baseline;
     const bench_tally *t = &row->tally;
     const bool ended = t->ended > 0;
     printf("  %-24s%8zu%6zu%6zu", row->method->name, t->verdicts[IMP_VERDICT_CONTACT],
@@ -106,8 +119,9 @@ static void print_row(const bench_row *row, const bench_row *baseline)
         printf("%9s%9s", cell_ratio(t->pairs.mean, t, b->pairs.mean, b).text,
                cell_ratio(t->seconds.mean, t, b->seconds.mean, b).text);
     }
+    print_goal(result, at);
     puts("");
-    if (t->references > 0) print_reference(t);
+    if (t->references > 0 && result->about->goal[at] == 0) print_reference(t);
 }
 
 void bench_print_result(const bench_result *result)
@@ -116,7 +130,7 @@ void bench_print_result(const bench_result *result)
     printf("%s", c->name);
     if (c->count > 1) printf(" (%zu scenes)", c->count);
     puts("");
-    for (size_t k = 0; k < result->row_count; ++k) print_row(&result->rows[k], result->baseline);
+    for (size_t k = 0; k < result->row_count; ++k) print_row(result, k);
 }
 
 void bench_print_findings(const bench_finding *findings, size_t count)

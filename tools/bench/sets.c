@@ -371,9 +371,19 @@ static const bench_set clearance_set = {
 
 /* --- All -------------------------------------------------------------------------------------- */
 
-static const bench_set *const all[] = {
-    &figure7,       &bicubic,         &spikes,       &tori,           &rates,       &moving,
-    &clearance_set, &bench_conformal, &bench_bodies, &bench_surfaces, &bench_batch, NULL};
+static const bench_set *const all[] = {&figure7,
+                                       &bicubic,
+                                       &spikes,
+                                       &tori,
+                                       &rates,
+                                       &moving,
+                                       &clearance_set,
+                                       &bench_conformal,
+                                       &bench_everyday,
+                                       &bench_bodies,
+                                       &bench_surfaces,
+                                       &bench_batch,
+                                       NULL};
 
 const bench_set *const *bench_sets_all(void) { return all; }
 

@@ -1,0 +1,166 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/bench/everyday.h"
+
+#include <stddef.h>
+
+/* --- Words ------------------------------------------------------------------------------------ */
+
+#define BOX(SIZE, CENTER) "{'type':'box','size':[" SIZE "],'center':[" CENTER "]}"
+#define CYLINDER(RADIUS, HEIGHT, CENTER)                                                           \
+    "{'type':'cylinder','radius':" RADIUS ",'height':" HEIGHT ",'center':[" CENTER "]}"
+#define SPHERE(RADIUS, CENTER) "{'type':'sphere','radius':" RADIUS ",'center':[" CENTER "]}"
+#define TORUS(MAJOR, MINOR) "{'type':'torus','major_radius':" MAJOR ",'minor_radius':" MINOR "}"
+#define PLANE(ORIGIN, U, V)                                                                        \
+    "{'type':'plane','origin':[" ORIGIN "],'edge_u':[" U "],'edge_v':[" V "]}"
+#define CONE(Z) "{'type':'cone','center':[0,0," Z "]}"
+#define CAPSULE(RADIUS, FROM, TO)                                                                  \
+    "{'type':'capsule','radius':" RADIUS ",'from':[" FROM "],'to':[" TO "]}"
+#define DISC(RADIUS, CENTER) "{'type':'disc','radius':" RADIUS ",'center':[" CENTER "]}"
+#define LATHE(TEXT) "{<" TEXT ">}"
+
+#define TURN(AXIS, RATE) "{'type':'rotate','axis':[" AXIS "],'rate':" RATE "}"
+#define TURN_AT(AXIS, RATE, CENTER)                                                                \
+    "{'type':'rotate','axis':[" AXIS "],'rate':" RATE ",'center':[" CENTER "]}"
+#define MOVE(VELOCITY) "{'type':'translate','velocity':[" VELOCITY "]}"
+#define SCALE(FACTOR) "{'type':'scale','factor':[" FACTOR "," FACTOR "," FACTOR "]}"
+
+/* A place that only its angle shows to be common to both. */
+#define PLACE "{'type':'rotate','axis':[1,2,3],'angle':[0.7]}"
+#define SAME_PLACE                                                                                 \
+    "{'type':'rotate','axis':[1,2,3],'angle':[0.5]},{'type':'rotate','axis':[1,2,3],'angle':[0.2]" \
+    "}"
+
+#define Z_AXIS "0,0,1"
+#define TUMBLE TURN("1,2,3", "2") "," TURN_AT("0,1,0", "1.5", "3,0,0") "," MOVE("5,1,0")
+#define WHIRL TURN("1,2,3", "20") "," MOVE("5,1,0")
+#define HAND BOX("2,2,1", "0,0,-0.5")
+#define FLOOR PLANE("-3,-3,0", "6,0,0", "0,6,0")
+#define WALL PLANE("@1,-3,-3", "0,6,0", "0,0,6")
+#define FOLIAGE                                                                                    \
+    "p 16 0.38268343236508977:-0.92387953251128674 0.70710678118654757:-0.70710678118654757 "      \
+    "0.92387953251128674:-0.38268343236508977 1:0 0.92387953251128674:0.38268343236508977 "        \
+    "0.70710678118654757:0.70710678118654757 0.38268343236508977:0.92387953251128674"
+/* A tube of 64 sides, whose sides are 1 from its axis. */
+#define TUBE "op 64 1.0012060077811093:-1 1.0012060077811093:1"
+#define SCREW "{'type':'screw','pitch':0.5,'rate':1}"
+#define THREAD(RADIUS, HEIGHT) "{'type':'thread','radius':" RADIUS ",'height':" HEIGHT "}"
+#define THREAD_BY_FORMULA(RADIUS, FROM, TO)                                                        \
+    "{'type':'formula','x':'(r+0.1*cos(2*pi*(v-u)))*cos(2*pi*u)','y':'(r+0.1*cos(2*pi*(v-u)))*"    \
+    "sin(2*pi*u)','z':'0.5*v','domain':[[0,1],[" FROM "," TO "]],'constants':{'r':" RADIUS "}}"
+#define SHEET                                                                                      \
+    "{'type':'bezier','degree':[2,2],'points':[[-1,-1,@0],[-1,0,@0],[-1,1,@0],[0,-1,@0],[0,0,@0]," \
+    "[0,1,@0],[1,-1,@0],[1,0,@0],[1,1,@0]]}"
+#define BOUNCE                                                                                     \
+    "{'type':'trajectory','times':[0,0.5,1],'positions':[[0,0,1],[0,0,0],[0,0,1]],"                \
+    "'accelerations':[[0,0,-2],[0,0,-2]]}"
+
+#define FIVE "12346"
+
+/* --- Families --------------------------------------------------------------------------------- */
+
+const everyday_family everyday_families[] = {
+    /* carried */
+    {"box on a hand", HAND, TUMBLE, BOX("1,1,1", "0,0,@0.5"), "", BOND_PARENT, 0, false, FIVE, 100,
+     "", ""},
+    {"box on a hand that whirls", HAND, WHIRL, BOX("1,1,1", "0,0,@0.5"), "", BOND_TWICE, 0, false,
+     FIVE, 100, "", ""},
+    {"slider in a rail that turns", BOX("6,1,1", "0,-1.5,0") "," BOX("6,1,1", "0,1.5,0"), TUMBLE,
+     BOX("1,~2,1", "0,0,0"), MOVE("1,0,0"), BOND_PARENT, 0, false, FIVE, 500, "", ""},
+    {"ball joint, carried", SPHERE("1", "0,0,0"), TUMBLE, SPHERE("~1", "0,0,0"), TURN("1,2,3", "2"),
+     BOND_PARENT, 0, false, "1234", 1000, "4", "1234"},
+    {"cylinders, carried", CYLINDER("1", "4", "0,0,0"), TUMBLE, CYLINDER("1", "4", "@2,0,0"), "",
+     BOND_PARENT, 0, false, FIVE, 100, "", ""},
+    {"pin of a hinge", CYLINDER("0.2", "1", "0,0,0"), TUMBLE, CYLINDER("~0.2", "2", "0,0,0"),
+     TURN(Z_AXIS, "2"), BOND_PARENT, 0, false, FIVE, 50, "6", "12346"},
+    /* faces */
+    {"door above the floor", FLOOR, PLACE, BOX("1,0.1,2", "0.6,0,@1"),
+     TURN(Z_AXIS, "1.5") "," SAME_PLACE, BOND_NONE, 0, false, FIVE, 500, "", "12"},
+    {"door between floor and lintel", BOX("4,4,1", "0,0,-0.5") "," BOX("4,0.2,1", "0,0,2.5"), "",
+     BOX("1,0.1,~2", "0.6,0,1"), TURN(Z_AXIS, "1.5"), BOND_NONE, 0, false, FIVE, 1000, "", ""},
+    {"lid that turns on a box", BOX("1,1,1", "0,0,-0.5"), PLACE, DISC("1", "0,0,@0"),
+     TURN(Z_AXIS, "3") "," SAME_PLACE, BOND_NONE, 0, false, FIVE, 100, "", ""},
+    {"can that turns on a table", FLOOR, PLACE,
+     "{'type':'cylinder','ends':true,'center':[0.3,0,@1]}", TURN(Z_AXIS, "3") "," SAME_PLACE,
+     BOND_NONE, 0, false, FIVE, 100, "2346", "12346"},
+    {"sheet that turns above a table", FLOOR, PLACE, SHEET, TURN(Z_AXIS, "2") "," SAME_PLACE,
+     BOND_NONE, 0, false, FIVE, 500, "", ""},
+    {"box that turns on an inclined table", LATHE("pi 4 4:-1 4:0"), "", LATHE("pi 4 0.7:@0 0.7:1"),
+     TURN("-1,2,2", "2"), BOND_NONE, 0, false, FIVE, 2000, "", "123"},
+    {"box that slides down a table", LATHE("pi 4 4:-1 4:0"), "", LATHE("pi 4 0.7:@0 0.7:1"),
+     MOVE("1.5,1.5,-0.75"), BOND_NONE, 0, false, FIVE, 500, "", ""},
+    /* symmetries */
+    {"rollers", CYLINDER("1", "4", "0,0,0"), TURN(Z_AXIS, "20"), CYLINDER("1", "4", "@2,0,0"),
+     TURN_AT(Z_AXIS, "-20", "@2,0,0"), BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"roller beside a plate", CYLINDER("1", "4", "0,0,0"), TURN(Z_AXIS, "100"), WALL, "", BOND_NONE,
+     0, false, FIVE, 50, "", ""},
+    {"wheel that rolls along a wall", CYLINDER("1", "4", "0,-1,0"),
+     TURN_AT(Z_AXIS, "2", "0,-1,0") "," MOVE("0,2,0"), WALL, "", BOND_NONE, 0, false, FIVE, 100,
+     "2346", "12346"},
+    {"ball that rolls on a floor", SPHERE("1", "-1,0,@1"),
+     TURN_AT("0,1,0", "2", "-1,0,@1") "," MOVE("2,0,0"), FLOOR, "", BOND_NONE, 0, false, FIVE, 100,
+     "2346", "12346"},
+    {"disc beside a ball", TORUS("1", "0.25"), TURN(Z_AXIS, "100"), SPHERE("0.5", "@1.75,0,0"), "",
+     BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"roller that orbits in a bore", CYLINDER("1", "3", "0,0,0"), "",
+     CYLINDER("0.2", "1", "~0.8,0,0"), TURN_AT(Z_AXIS, "5", "~0.8,0,0") "," TURN(Z_AXIS, "1"),
+     BOND_NONE, 0, false, FIVE, 50, "", ""},
+    {"shaft in a bore", CYLINDER("1", "2", "0,0,0"), "", CYLINDER("~1", "2", "0,0,0"),
+     TURN(Z_AXIS, "3"), BOND_NONE, 0, false, FIVE, 50, "46", "346"},
+    {"piston", CYLINDER("1", "4", "0,0,0"), "", CYLINDER("~1", "1", "0,0,0"), MOVE("0,0,0.5"),
+     BOND_NONE, 0, false, FIVE, 300, "", "6"},
+    {"cone in a cone", CONE("0"), "", CONE("~0"), TURN(Z_AXIS, "3"), BOND_NONE, 0, false, FIVE, 500,
+     "2346", "12346"},
+    {"cone that is drawn from a cone", CONE("0"), "", CONE("~0"), MOVE("0,0,-1"), BOND_NONE, 0,
+     false, FIVE, 500, "2346", "12346"},
+    {"ball in its groove", TORUS("1", "@0.2"), "", SPHERE("0.2", "1,0,0"),
+     TURN_AT("0,1,0", "5", "1,0,0") "," TURN(Z_AXIS, "1"), BOND_NONE, 0, false, "1234", 2000, "",
+     "1234"},
+    {"ellipsoid in its hollow", "{'type':'ellipsoid','radii':[1.5,1,1]}", "",
+     "{'type':'ellipsoid','radii':[~1.5,~1,~1]}", TURN("1,0,0", "2"), BOND_NONE, 0, false, "1234",
+     1000, "4", "1234"},
+    {"capsules that slide along", CAPSULE("0.5", "0,0,-1", "0,0,1"), "",
+     CAPSULE("0.5", "@1,0,-1", "@1,0,1"), MOVE("0,0,0.5"), BOND_NONE, 0, false, FIVE, 100, "", ""},
+    /* meshes */
+    {"shaft of 64 sides in a round bore", CYLINDER("1", "2", "0,0,0"), "",
+     LATHE("p 64 ~1:-0.75 ~1:0.75"), TURN(Z_AXIS, "3"), BOND_NONE, 0, false, "1234", 20000, "", ""},
+    {"shaft in a bore of 64 sides", LATHE(TUBE), "", LATHE("p 64 ~1:-0.75 ~1:0.75"),
+     TURN(Z_AXIS, "3"), BOND_NONE, 0, false, "123", 20000, "123", ""},
+    {"piston in a sleeve of 64 sides", LATHE(TUBE), "", LATHE("p 64 ~1:-0.5 ~1:0.5"),
+     MOVE("0,0,0.25"), BOND_NONE, 0, false, "1234", 2000, "1234", "1234"},
+    {"nested copies of a mesh", LATHE(FOLIAGE), "", LATHE(FOLIAGE), SCALE("~1"), BOND_NONE, 0,
+     false, "1234", 2000, "1234", "1234"},
+    {"nested copies of a mesh, carried", LATHE(FOLIAGE), TUMBLE, LATHE(FOLIAGE), SCALE("~1"),
+     BOND_PARENT, 0, false, "1234", 2000, "1234", "1234"},
+    {"gears whose tips pass", LATHE("p 64 1/0.85:0 1/0.85:0.3"), TURN(Z_AXIS, "2"),
+     LATHE("p 64 1/0.85:0 1/0.85:0.3"),
+     MOVE("0,0,0") "," TURN(Z_AXIS, "-2") ","
+                                          "{'type':'translate','offset':[[@2,0,0]]}",
+     BOND_NONE, 0, false, "123", 20000, "", ""},
+    /* threads */
+    {"nut on its bolt", THREAD("~1", "2"), "", THREAD("1", "0.5"), SCREW, BOND_NONE, 0, false,
+     "123", 10000, "3", ""},
+    {"nut on its bolt by formula", THREAD_BY_FORMULA("~1", "-2", "2"), "",
+     THREAD_BY_FORMULA("1", "-0.5", "0.5"), SCREW, BOND_NONE, 0, false, "12", 20000, "2", ""},
+    /* long and fast */
+    {"cam and follower", CYLINDER("1", "1", "0.1,0,0"), TURN(Z_AXIS, "6"),
+     PLANE("@1.1,-1,-1", "0,2,0", "0,0,2"), "", BOND_NONE, 0, false, FIVE, 500, "346", "2346"},
+    {"orbit over 100 units of time", SPHERE("0.5", "3,0,0"), TURN(Z_AXIS, "1"),
+     SPHERE("0.5", "0,@4,0"), "", BOND_NONE, 100, false, "123", 2000, "23", "123"},
+    {"orbit over 1000 units of time", SPHERE("0.5", "3,0,0"), TURN(Z_AXIS, "1"),
+     SPHERE("0.5", "0,@4,0"), "", BOND_NONE, 1000, false, "12", 20000, "2", ""},
+    {"box at 1000 rad beside a ball", BOX("1,1,0.2", "0,0,0"), TURN(Z_AXIS, "1000"),
+     SPHERE("0.5", "@1.2071067811865475,0,0"), "", BOND_NONE, 0, false, "123", 2000, "3", "123"},
+    {"octagon at 100 rad in a bore", CYLINDER("1", "2", "0,0,0"), "", LATHE("p 8 ~1:-0.5 ~1:0.5"),
+     TURN(Z_AXIS, "100"), BOND_NONE, 0, false, "1234", 2000, "", "1234"},
+    /* landings */
+    {"box that lands flat", FLOOR, PLACE, BOX("1,1,1", "0.3,0,@0.5"),
+     MOVE("0,0,~0") "," MOVE("0,0,~0") "," SAME_PLACE, BOND_NONE, 0, true, FIVE, 500, "", ""},
+    {"box that lands flat and turns", FLOOR, PLACE, BOX("1,1,1", "0.3,0,@0.5"),
+     TURN(Z_AXIS, "1") "," MOVE("0,0,~0") "," MOVE("0,0,~0") "," SAME_PLACE, BOND_NONE, 0, true,
+     FIVE, 500, "346", ""},
+    {"box that bounces on a table", FLOOR, PLACE, BOX("1,1,1", "0.3,0,@0.5"), BOUNCE "," SAME_PLACE,
+     BOND_NONE, 0, false, FIVE, 500, "", ""},
+    {NULL, "", "", "", "", BOND_NONE, 0, false, "", 0, "", ""}};
