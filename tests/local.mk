@@ -10,6 +10,7 @@ check_suites = \
     tests/fuzz/elf \
     tests/fuzz/formula \
     tests/fuzz/mesh \
+    tests/fuzz/picture \
     tests/fuzz/pipeline \
     tests/fuzz/proof \
     tests/fuzz/scene \
@@ -456,6 +457,9 @@ tests_fuzz_csv_SOURCES = tests/fuzz/csv.c tests/fuzz/replay.c
 tests_fuzz_csv_LDADD = plugins/libcommon.la $(LDADD)
 tests_fuzz_mesh_SOURCES = tests/fuzz/mesh.c tests/fuzz/replay.c
 tests_fuzz_mesh_LDADD = plugins/libsubdivision.la plugins/libpatch.la plugins/libmesh.la $(LDADD)
+tests_fuzz_picture_SOURCES = tests/fuzz/picture.c tests/fuzz/replay.c
+tests_fuzz_picture_LDADD = $(tools_libs)
+tests_fuzz_picture_LDFLAGS = $(AM_LDFLAGS) -Wl,--wrap=build_tree_data
 tests_fuzz_pipeline_SOURCES = tests/fuzz/pipeline.c tests/fuzz/replay.c tests/fuzz/fuzz_registry.h
 tests_fuzz_pipeline_LDADD = $(LDADD) $(JANSSON_LIBS)
 tests_fuzz_proof_SOURCES = tests/fuzz/proof.c tests/fuzz/replay.c
@@ -468,7 +472,8 @@ tests_fuzz_scene_SOURCES = tests/fuzz/scene.c tests/fuzz/scene_judge.c tests/fuz
 # What tests/fuzz/run builds: libraries that tell libFuzzer what runs, and plugins that do not.
 .PHONY: fuzz-libraries fuzz-plugins
 fuzz-libraries: core/libcore.la tools/libproof.la plugins/libexpression.la plugins/libcommon.la \
-    plugins/libmesh.la plugins/libsubdivision.la plugins/libpatch.la $(plugin_LTLIBRARIES)
+    plugins/libmesh.la plugins/libsubdivision.la plugins/libpatch.la tools/libtools.a \
+    tools/built-data/page.html $(plugin_LTLIBRARIES)
 fuzz-plugins: $(check_LTLIBRARIES)
 EXTRA_DIST += \
     tests/fuzz/api.d/distance \
@@ -585,6 +590,18 @@ EXTRA_DIST += \
     tests/fuzz/mesh.d/stl_text \
     tests/fuzz/mesh.d/stl_text_cut \
     tests/fuzz/mesh.dict \
+    tests/fuzz/picture.d/cut \
+    tests/fuzz/picture.d/events_html \
+    tests/fuzz/picture.d/far_svg \
+    tests/fuzz/picture.d/meet_glb \
+    tests/fuzz/picture.d/meet_html \
+    tests/fuzz/picture.d/meet_obj \
+    tests/fuzz/picture.d/meet_png \
+    tests/fuzz/picture.d/meet_svg \
+    tests/fuzz/picture.d/meet_vtu \
+    tests/fuzz/picture.d/result \
+    tests/fuzz/picture.d/sheet_glb \
+    tests/fuzz/picture.d/sheet_html \
     tests/fuzz/pipeline.d/all_kinds.txt \
     tests/fuzz/pipeline.d/blanks.txt \
     tests/fuzz/pipeline.d/brackets.txt \
