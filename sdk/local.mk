@@ -52,6 +52,7 @@ sdk_folders = $(templatedir) $(examplesdir) $(sdkdocdir) $(hostexamplesdir) $(do
 python_module = \
     sdk/python/impinge/__init__.py \
     sdk/python/impinge/_arguments.py \
+    sdk/python/impinge/_assembly.py \
     sdk/python/impinge/_command.py \
     sdk/python/impinge/_crew.py \
     sdk/python/impinge/_document.py \
@@ -75,8 +76,12 @@ python_module = \
 python_robot = \
     sdk/python/impinge/robot/__init__.py \
     sdk/python/impinge/robot/__main__.py \
+    sdk/python/impinge/robot/_course.py \
     sdk/python/impinge/robot/_moveit.py \
+    sdk/python/impinge/robot/_positions.py \
+    sdk/python/impinge/robot/_report.py \
     sdk/python/impinge/robot/_shapes.py \
+    sdk/python/impinge/robot/_srdf.py \
     sdk/python/impinge/robot/_urdf.py
 EXTRA_DIST += sdk/python/pyproject.toml sdk/python/setup.py $(python_module) $(python_robot)
 if HAVE_PYTHON

@@ -3,10 +3,6 @@
 
 """Robots from URDF, against kinematics of their own in NumPy."""
 
-import json
-import subprocess
-import sys
-
 import impinge
 import numpy
 import pytest
@@ -61,29 +57,27 @@ CENTERS = {"base": shifted(0, 0, 0.05), "shoulder": shifted(0, 0, 0.15),
            "left_finger": shifted(0.08, 0, 0), "right_finger": shifted(0.08, 0, 0)}
 
 
+HALVES = {"base": (0.15, 0.15, 0.05), "shoulder": (0.06, 0.06, 0.1), "upper": (0.04, 0.04, 0.19),
+          "fore": (0.03, 0.03, 0.13), "slide": (0.05, 0.03, 0.03), "left_finger": (0.03, 0.005, 0.01),
+          "right_finger": (0.008, 0.008, 0.008)}
+
+
+def local_extent(scene, link, t, pose):
+    """The ends of the box around a link, in its shape's own frame."""
+    points = scene.mesh(link, t, tolerance=2e-4).points
+    local = numpy.c_[points, numpy.ones(len(points))] @ numpy.linalg.inv(pose).T
+    return local[:, :3].min(axis=0), local[:, :3].max(axis=0)
+
+
 @pytest.mark.parametrize("t", [0, 0.25, 1, 1.7, 3])
 def test_links_are_where_forward_kinematics_puts_them(t):
     arm = robot.load(ARM)
     scene = arm.scene(TIMES, POSITIONS)
-    q = [numpy.interp(t, TIMES, POSITIONS[:, k]) for k in range(5)]
-    at = frames(q)
-    assert set(scene.bodies) == set(CENTERS)
+    at = frames([numpy.interp(t, TIMES, POSITIONS[:, k]) for k in range(5)])
+    assert scene.bodies == arm.links and set(arm.links) == {*CENTERS, "elbow"}
     for link, center in CENTERS.items():
-        pose = at[link] @ center
-        for surface, p, local in SAMPLES[link]:
-            found = scene.eval(link, surface, [[*p, t]])[0]
-            assert numpy.allclose(found, (pose @ [*local, 1])[:3], atol=1e-12), (link, t)
-
-
-SAMPLES = {
-    "base": [(0, (0, 0), (-0.15, -0.15, -0.05)), (5, (1, 0), (0.15, -0.15, 0.05))],
-    "shoulder": [(1, (0.06, 0), (0.06, 0, -0.1)), (2, (0.03, numpy.pi / 2), (0, 0.03, 0.1))],
-    "upper": [(1, (0, 0), (0.04, 0, -0.15)), (2, (0, 0), (0.04, 0, 0.15))],
-    "fore": [(1, (0, 0), (0.03, 0, -0.1)), (2, (0, 0), (0.03, 0, 0.1))],
-    "slide": [(1, (0, 0), (0.05, -0.03, -0.03)), (0, (1, 1), (-0.05, 0.03, 0.03))],
-    "left_finger": [(1, (0, 0), (0.03, -0.005, -0.01))],
-    "right_finger": [(0, (0, 0), (0.008, 0, 0))],
-}
+        lo, hi = local_extent(scene, link, t, at[link] @ center)
+        assert numpy.allclose(hi, HALVES[link], atol=4e-4) and numpy.allclose(lo, -hi, atol=4e-4), (link, t)
 
 
 def test_a_cubic_motion_passes_through_its_positions():
@@ -107,61 +101,74 @@ def test_the_first_contact_with_the_world_is_that_of_sampled_poses():
     arm = robot.load(ARM)
     wall = {"name": "wall", "surfaces": [{"type": "plane", "origin": [0.3, -5, -5], "edge_u": [0, 10, 0],
                                           "edge_v": [0, 0, 10]}]}
-    scene = arm.scene([0, 1], [[0, 0, 0, 0, 0], [0, 1.2, 0, 0, 0]], world=[wall])
+    scene = arm.scene([0, 1], [[0, -1.2, 0, 0, 0], [0, 1.2, 0, 0, 0]], world=[wall])
     result = scene.solve()
     assert result.verdict == "contact" and "wall" in result.bodies
-    late = [t for t in numpy.linspace(0, 1, 4001)
-            if max(scene.eval("left_finger", k, [[u, v, t]])[0, 0] for k in range(6)
-                   for u in (0, 1) for v in (0, 1)) >= 0.3]
-    assert result.t <= late[0] + 1e-3
+    before, after = (max(scene.mesh(link, result.t + late).points[:, 0].max() for link in CENTERS)
+                     for late in (-1e-3, 1e-3))
+    assert before < 0.3 < after
     free = arm.scene([0, 1], [[0, -0.2, 0, 0, 0], [0, -0.1, 0, 0, 0]],
                      world=[{**wall, "surfaces": [{**wall["surfaces"][0], "origin": [3, -5, -5]}]}])
     assert free.solve().verdict == "clear"
 
 
+def pairs_of(scene):
+    """Names of all bodies that are tested with each other."""
+    return {frozenset(answer.bodies) for answer in scene.each(max_pairs=1)}
+
+
 def test_pairs_that_the_srdf_disables_are_not_tested(tmp_path):
     (tmp_path / "arm.srdf").write_text(
         '<robot name="arm"><disable_collisions link1="base" link2="upper" reason="Never"/></robot>')
-    scene = robot.load(ARM, srdf=tmp_path / "arm.srdf").scene([0, 1], POSITIONS[:2])
-    pairs = {frozenset(answer.bodies) for answer in scene.each(max_pairs=1)}
+    arm = robot.load(ARM, srdf=tmp_path / "arm.srdf")
+    pairs = pairs_of(arm.scene([0, 1], POSITIONS[:2]))
     assert {"base", "upper"} not in pairs and {"upper", "fore"} not in pairs
     assert {"base", "fore"} in pairs
-    (tmp_path / "bad.srdf").write_text('<robot><disable_collisions link1="base" link2="x"/></robot>')
-    with pytest.raises(impinge.SceneError, match="bad.srdf: disable_collisions: got the link 'x'"):
-        robot.load(ARM, srdf=tmp_path / "bad.srdf")
+    other = pairs_of(arm.scene([0, 1], POSITIONS[:2], allowed=[("base", "fore")]))
+    assert {"base", "upper"} in other and {"base", "fore"} not in other
 
 
-LINK = '<link name="{}"><collision><geometry>{}</geometry></collision></link>'
-A, B = LINK.format("a", '<sphere radius="1"/>'), LINK.format("b", '<sphere radius="1"/>')
-JOINT = '<joint name="{}" type="{}"><parent link="{}"/><child link="{}"/>{}</joint>'
-LIMIT = '<limit lower="-1" upper="1"/>'
+def test_what_is_attached_moves_with_its_link():
+    tool = {"name": "tool", "parent": "slide", "surfaces": [{"type": "sphere", "radius": 0.01, "center": [0.2, 0, 0]}]}
+    table = {"name": "table", "surfaces": [{"type": "box", "center": [9, 0, 0]}]}
+    scene = robot.load(ARM).scene(TIMES, POSITIONS, world=[tool, table])
+    pose = frames(POSITIONS[1])["slide"]
+    assert numpy.allclose(scene.eval("tool", 0, [[0, 0, 1]])[0], (pose @ [0.21, 0, 0, 1])[:3], atol=1e-12)
+    assert {"tool", "table"} in pairs_of(scene)
 
 
-@pytest.mark.parametrize("inside,message", [
-    ("", "no link has a <collision>"),
-    (A + A, "link 'a': is there twice"),
-    (A + B + JOINT.format("j", "revolute", "a", "b", ""), "joint 'j': a revolute joint must have a <limit>"),
-    (A + B + JOINT.format("j", "revolute", "a", "b", '<limit lower="1" upper="-1"/>'), "limits from 1.0 to -1.0"),
-    (A + B + JOINT.format("j", "floating", "a", "b", ""), "got the type 'floating', must be one of revolute"),
-    (A + B + JOINT.format("j", "fixed", "a", "c", ""), "got the link 'c', which is not there"),
-    (A + B + JOINT.format("j", "fixed", "a", "b", "") + JOINT.format("k", "fixed", "b", "a", ""), "loop"),
-    (A + B + JOINT.format("j", "continuous", "a", "b", '<axis xyz="0 0 0"/>'), "axis 0 0 0"),
-    (A + B + JOINT.format("j", "continuous", "a", "b", '<axis xyz="nan 0 0"/>'), "xyz: got 'nan 0 0'"),
-    (A + B + JOINT.format("j", "continuous", "a", "b", '<mimic joint="x"/>'), "mimic joint 'x', which is not"),
-    (A + B + JOINT.format("j", "continuous", "a", "b", '<mimic joint="j"/>'), "follows another itself"),
-    (LINK.format("a", '<sphere radius="0"/>'), "<sphere>: got the size 0.0, must be > 0"),
-    (LINK.format("a", '<mesh filename="package://p/x.stl"/>'), "got package 'p', known are none"),
-    (LINK.format("a", '<mesh filename="x.stl"/>'), "x.stl is not there"),
-    (LINK.format("a", '<mesh filename="x.stl" scale="1 0 1"/>'), "must not be 0"),
-    (LINK.format("a", '<torus/>'), "got the geometry <torus>"),
-    ("<link/>", "<link> has no name"),
-    ("<", "must be XML")])
-def test_what_is_wrong_in_a_urdf_is_named(inside, message, tmp_path):
-    path = tmp_path / "r.urdf"
-    path.write_text(f"<robot name='r'>{inside}</robot>")
-    with pytest.raises(impinge.SceneError, match="r.urdf: ") as caught:
-        robot.load(path)
-    assert message in str(caught.value)
+def test_a_scene_is_the_same_by_its_text():
+    scene = robot.load(ARM).scene(TIMES, POSITIONS, world=[{"name": "ball", "surfaces": [
+        {"type": "sphere", "radius": 0.1, "center": [0.5, 0.2, 0.5]}]}])
+    again = impinge.Scene.from_json(scene.to_json())
+    ours, theirs = scene.solve(), again.solve()
+    assert (ours.verdict, ours.t, ours.a, ours.pairs) == (theirs.verdict, theirs.t, theirs.a, theirs.pairs)
+    assert ours.verdict == "contact" and again.bodies == scene.bodies
+
+
+def test_a_planar_and_a_floating_joint_have_several_positions(tmp_path):
+    (tmp_path / "r.urdf").write_text("""<robot name="r"><link name="floor"/>
+      <link name="base"><collision><geometry><sphere radius="1"/></geometry></collision></link>
+      <link name="drone"><collision><geometry><sphere radius="1"/></geometry></collision></link>
+      <joint name="drive" type="planar"><parent link="floor"/><child link="base"/></joint>
+      <joint name="fly" type="floating"><parent link="floor"/><child link="drone"/>
+        <origin xyz="0 0 5"/></joint></robot>""")
+    r = robot.load(tmp_path / "r.urdf")
+    assert r.variables == ("drive/x", "drive/y", "drive/theta", "fly/trans_x", "fly/trans_y", "fly/trans_z", "fly/rot_x",
+                           "fly/rot_y", "fly/rot_z", "fly/rot_w") and r.rest["fly/rot_w"] == 1
+    half = numpy.sqrt(0.5)
+    moved = {"drive/x": [0, 2], "drive/theta": [0, numpy.pi / 2], "fly/trans_z": [0, 1], "fly/rot_x": [0, -half],
+             "fly/rot_w": [1, -half]}
+    scene = r.scene([0, 2], moved)
+    assert numpy.allclose(scene.eval("base", 0, [[0, 0, 2], [0, 0, 1]]), [[2, 1, 0], [1 + half, half, 0]])
+    # A quarter about x, to a quaternion of the other sign; v is the latitude of the sphere.
+    top = [[0, numpy.pi / 2, 0], [0, numpy.pi / 2, 2], [0, numpy.pi / 2, 1]]
+    assert numpy.allclose(scene.eval("drone", 0, top), [[0, 0, 6], [0, -1, 6], [0, -half, 5.5 + half]])
+    assert numpy.allclose(r.scene([0, 2], {"fly/rot_x": half, "fly/rot_w": half}).eval("drone", 0, top[1:2]), [[0, -1, 5]])
+    smooth = r.scene([0, 2], moved, interpolation="cubic")
+    assert numpy.allclose(smooth.eval("drone", 0, top[1:2]), [[0, -1, 6]])
+    with pytest.raises(impinge.UsageError, match="a floating joint takes none"):
+        r.scene([0, 2], moved, velocities={name: [0, 0] for name in r.variables})
 
 
 def test_positions_are_checked():
@@ -170,7 +177,7 @@ def test_positions_are_checked():
             ([0, 1], [[0] * 5] * 3, r"shape \(3, 5\), must be \(2, 5\)"),
             ([1, 0], [[0] * 5] * 2, "increasing"), ([0], [[0] * 5], "two or more"),
             ([0, 1], {"lift": [0, 3]}, "positions: lift: got 3.0, must be from -2.0 to 2.0"),
-            ([0, 1], {"lift": [0, float("nan")]}, "lift: got nan"),
+            ([0, 1], {"lift": [0, float("nan")]}, r"lift: got \[0, nan\]"),
             ([0, 1], {"tilt": [0, 1]}, "got 'tilt', must be a joint that moves"),
             ([0, 1], {"lift": [0, 1, 2]}, "must be 2 numbers, or one"),
             ([0, 1], {"grip_right": [0, 0]}, "got 'grip_right'")]:
@@ -179,6 +186,16 @@ def test_positions_are_checked():
     for wrong in ([5], [{}], [{"name": 5}], [{"surfaces": []}]):
         with pytest.raises(impinge.UsageError, match="world: got .*each with a name"):
             arm.scene([0, 1], POSITIONS[:2], world=wrong)
+    with pytest.raises(impinge.UsageError, match="got the name 'base' twice"):
+        arm.scene([0, 1], POSITIONS[:2], world=[{"name": "base", "surfaces": []}])
+    with pytest.raises(impinge.UsageError, match="velocities: lift: missing"):
+        arm.scene([0, 1], {"lift": [0, 1], "bend": [0, 1]}, velocities={"bend": [0, 0]})
+    with pytest.raises(impinge.UsageError, match="accelerations: given without velocities"):
+        arm.scene([0, 1], {"lift": [0, 1]}, accelerations={"lift": [0, 0]})
+    with pytest.raises(impinge.UsageError, match="interpolation: got 'none'"):
+        arm.scene([0, 1], {"lift": [0, 1]}, interpolation="none")
+    with pytest.raises(impinge.UsageError, match="allowed: got .*a pair of names"):
+        arm.scene([0, 1], {"lift": [0, 1]}, allowed=[("base", "nothing")])
 
 
 def test_bodies_of_the_world_are_not_tested_with_each_other():
@@ -186,32 +203,3 @@ def test_bodies_of_the_world_are_not_tested_with_each_other():
              for name, x in (("one", 0), ("two", 1.5))]
     scene = robot.load(ARM).scene([0, 1], {"bend": 1}, world=balls)
     assert scene.solve().verdict == "clear"
-
-
-def command(*words):
-    return subprocess.run([sys.executable, "-m", "impinge.robot", *map(str, words)], capture_output=True,
-                          text=True)
-
-
-def test_the_command_answers_with_an_exit_status(tmp_path):
-    clear = command(ARM, "--start", "0,0,1,0,0", "--goal", "1,0,1,0,0")
-    assert clear.returncode == 0 and clear.stdout.startswith("clear from t = 0"), clear
-    (tmp_path / "world.yaml").write_text(
-        "world:\n  collision_objects:\n    - id: box\n      primitive_poses:\n"
-        "        - {position: [0.3, 0, 0.8], orientation: [0, 0, 0, 1]}\n"
-        "      primitives:\n        - {type: box, dimensions: [0.1, 0.5, 0.1]}\n")
-    hit = command(ARM, "--start=0,-1,0,0,0", "--goal=0,1,0,0,0", "--world", tmp_path / "world.yaml", "--json")
-    if "needs PyYAML" in hit.stderr:
-        pytest.skip("no PyYAML")
-    assert hit.returncode == 1 and "box" in json.loads(hit.stdout)["bodies"], hit
-    (tmp_path / "q.csv").write_text("time,turn,bend\n0,0,1\n1,1,1\n2,2,1\n")
-    kept = command(ARM, "--trajectory", tmp_path / "q.csv", "--require", "0.001", "--json")
-    assert kept.returncode == 0 and json.loads(kept.stdout)["verdict"] == "holds", kept
-    for words, status, message in [
-            (["--goal", "1,2"], 2, "--goal: got '1,2', must be 5 numbers: turn, lift"),
-            ([], 2, "give one of --trajectory"),
-            (["--goal", "0,9,0,0,0"], 2, "lift: got 9.0"),
-            (["--trajectory", tmp_path / "none.csv"], 4, "cannot be read")]:
-        told = command(ARM, *words, "--json")
-        assert told.returncode == status and message in told.stderr, told
-        assert message in json.loads(told.stdout)["error"]

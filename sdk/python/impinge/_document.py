@@ -26,6 +26,13 @@ def from_text(data: bytes, folder: str) -> Document:
     return document
 
 
+def resolved(document: Document, folder: str) -> Document:
+    """A copy of plain lists and numbers whose names of files are absolute; relative ones begin at `folder`."""
+    copied: Document = _plain(document)
+    _resolve(copied, folder)
+    return copied
+
+
 def _resolve(value: Any, folder: str) -> None:
     """Makes the names of files in it absolute, in place."""
     if isinstance(value, list):

@@ -4,7 +4,7 @@
 """Answers, as plain objects. Lengths are in the scene's unit of length, times in its unit of time."""
 
 import ctypes as c
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, Iterable, List, Literal, Optional, Tuple
 
 import numpy
@@ -40,6 +40,19 @@ class Side:
 
 
 @dataclass(frozen=True)
+class Stats:
+    """What a search cost: regions made, the most pairs of regions that waited at once, and the most bytes of
+    trees and waiting pairs."""
+
+    seconds: float
+    pairs: int
+    nodes: int
+    peak_heap: int
+    witness_searches: int
+    bytes: int
+
+
+@dataclass(frozen=True)
 class Result:
     """The earliest contact from `t_start` to `t_end`. Before `t_lower` no points of two bodies are nearer
     than `gamma_clear`: that is proved, whatever the verdict. `t`, `gap` (the distance of the two points),
@@ -61,6 +74,8 @@ class Result:
     t_end: float
     at_rest: bool = False  # contact of two surfaces that do not move: they overlap
     bodies: Optional[Bodies] = None  # of `solve_each`, or those that touch
+    t_examined: Optional[Tuple[float, float]] = None  # when two surfaces that are tested are there
+    stats: Optional[Stats] = field(default=None, compare=False)
 
     def time_left(self, t: float) -> float:
         """Time left from t until contact; negative when that is past, infinite when clear."""
@@ -105,6 +120,7 @@ class Clearance:
     gap_violated: Optional[float] = None
     a_violated: Optional[Side] = None
     b_violated: Optional[Side] = None
+    stats: Optional[Stats] = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,6 +171,10 @@ def _side(names: Tuple[str, ...], side: lib.Side) -> Side:
     return Side(names[side.body], side.surface, side.piece, side.u, side.v, _vector(side.point))
 
 
+def _stats(stats: lib.Stats) -> Stats:
+    return Stats(*(getattr(stats, one.name) for one in fields(Stats)))
+
+
 def progress_of(r: lib.Result, bracket: Optional[lib.Clearance]) -> Progress:
     """From the C structs; `bracket` of the least distance that is sought now, if one is."""
     if bracket is None:
@@ -174,7 +194,9 @@ def result_of(names: Tuple[str, ...], r: lib.Result,
         a=_side(names, r.a) if contact else None, b=_side(names, r.b) if contact else None,
         normal=_vector(r.normal) if r.has_normal else None, pairs=r.stats.pairs,
         seconds=r.stats.seconds, t_start=r.t_start, t_end=r.t_end, at_rest=r.at_rest,
-        bodies=(names[pair[0]], names[pair[1]]) if pair is not None else None)
+        bodies=(names[pair[0]], names[pair[1]]) if pair is not None else None,
+        t_examined=None if r.t_examined[0] != r.t_examined[0] else (r.t_examined[0], r.t_examined[1]),
+        stats=_stats(r.stats))
 
 
 def reason_of(r: lib.Result) -> Optional[Reason]:
@@ -198,7 +220,7 @@ def clearance_of(names: Tuple[str, ...], k: lib.Clearance) -> Clearance:
         bodies=(names[pair[0]], names[pair[1]]) if known else None, reason=_REASONS[k.reason],
         pairs=k.stats.pairs, gap_violated=_number(k.gap_violated) if violated else None,
         a_violated=_side(names, k.a_violated) if violated else None,
-        b_violated=_side(names, k.b_violated) if violated else None)
+        b_violated=_side(names, k.b_violated) if violated else None, stats=_stats(k.stats))
 
 
 _COLUMNS = ("t_start", "t_end", "lower", "upper", "t")

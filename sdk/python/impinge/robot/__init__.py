@@ -4,180 +4,184 @@
 """Robots from URDF: motions of all joints as scenes.
 
     from impinge import robot
-    arm = robot.load("arm.urdf", srdf="arm.srdf", packages={"arm_description": "/path/to/it"})
-    scene = arm.scene([0, 1], [[0, 0, 0], [1, 0.5, 0]])
+    arm = robot.load("arm.urdf", srdf="arm.srdf")
+    scene = arm.scene([0, 1], [[0, 0, 0], [1, 0.5, 0]], world="table.yaml")
     print(scene.solve(), scene.each(required=0.002)[0])
 
-Every link with a collision geometry is a body of its name. Bodies are surfaces: what is inside of another
-body from the start on touches nothing."""
+Every link is a body of its name; one without a collision geometry is a frame, which touches nothing.
+Bodies are surfaces: what is inside of another body from the start on touches nothing. Lengths are in m,
+angles in rad, as URDF has them."""
 
-from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
-
-import numpy
+import os
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Set, Tuple, Union
 
 from .. import _document as document
 from .. import _values as values
+from .._assembly import Stage, scene_of
 from ..errors import SceneError, UsageError
 from ..scene import Scene
-from ._shapes import Stage, stages_of, surfaces_of
-from ._urdf import Joint, Model, Shape, read_srdf, read_urdf
+from ._course import Course, maps_of_joint
+from ._moveit import Matrix, World, read_world
+from ._positions import Positions, Variables
+from ._shapes import maps_of, surface_at
+from ._srdf import Semantics, read_srdf
+from ._urdf import Joint, Model, Shape, read_urdf
 
-__all__ = ["Joint", "Robot", "Shape", "load"]
+__all__ = ["Joint", "Matrix", "Robot", "Shape", "World", "load"]
 
-_SLACK = 1e-6  # rad or length: so far beyond a limit a position may be, as written with few digits
-
-Positions = Union[Mapping[str, Any], Any]
+AnyWorld = Union[values.Path, World, Sequence[Mapping[str, Any]]]
+Pairs = Iterable[Tuple[str, str]]
 
 
 class Robot:
     """A robot that `load` read. `links` are the names of all links, `joints` those joints that move by
-    themselves, in the order in which `scene` takes positions: parents before children."""
+    themselves, parents before children; `variables` names their positions, in the order in which `scene`
+    takes them: one for each joint, but for planar and floating ones. `groups` are the joints of each group
+    of the SRDF file, `states` its named states, as "NAME" and as "GROUP/NAME". Any number of threads may
+    make scenes of one robot at once."""
 
-    def __init__(self, model: Model, disabled: Iterable[Tuple[str, str]]):
-        self._model = model
+    def __init__(self, model: Model, semantics: Semantics):
+        self._model, self._semantics, self._variables = model, semantics, Variables(model)
         self.name = model.name
         self.links: Tuple[str, ...] = tuple(model.links)
-        self.joints: Tuple[Joint, ...] = tuple(
-            joint for joint in model.joints.values() if joint.kind != "fixed" and joint.mimic is None)
+        self.joints: Tuple[Joint, ...] = self._variables.joints
+        self.variables: Tuple[str, ...] = self._variables.names
+        self.groups: Dict[str, Tuple[str, ...]] = dict(semantics.groups)
+        self.states: Dict[str, Dict[str, float]] = self._states()
         self._joint_of = {joint.child: joint for joint in model.joints.values()}
-        self._disabled = list(disabled)
         if not any(model.links.values()):
             raise SceneError(f"{model.file}: no link has a <collision>; there is nothing to test")
+        self._surfaces = {link: [surface_at(shape) for shape in shapes] for link, shapes in model.links.items()}
+        self._origins = {joint.child: maps_of(joint.origin) for joint in model.joints.values()}
+        self._joined = {pair for link in model.links for pair in self._pair_above(link)}
 
     def __repr__(self) -> str:
         return f"Robot({self.name!r}, {len(self.links)} links, {len(self.joints)} joints)"
 
-    def scene(self, times: Any, positions: Positions, *, world: Sequence[Mapping[str, Any]] = (),
-              interpolation: str = "linear") -> Scene:
+    def scene(self, times: Any, positions: Positions, *, velocities: Optional[Positions] = None,
+              accelerations: Optional[Positions] = None, interpolation: str = "splines",
+              world: Optional[AnyWorld] = None, allowed: Optional[Pairs] = None) -> Scene:
         """The motion through `positions` at `times` (two or more, increasing): rows of one number for each
-        of `joints`, or a dict from names to columns, where joints that are not named stay at 0, or at the
-        nearest limit. Between them joints move linearly, or by a cubic spline ("cubic"). `world` are bodies
-        as of scene files, each with a name, which are not tested with each other."""
-        at = self._times(times)
-        if interpolation not in ("linear", "cubic"):
-            raise values.refuse("interpolation", interpolation, "'linear' or 'cubic'")
-        courses, apart = self._courses(at, positions), _all_pairs(world)
-        bodies = [self._body(link, at, courses, interpolation)
-                  for link, shapes in self._model.links.items() if shapes]
-        made: document.Document = {"time": [float(at[0]), float(at[-1])],
-                                   "bodies": [*bodies, *({**body} for body in world)], "ignore": self._ignored() + apart}
-        return Scene.from_json(document.to_text(made), name=self.name or "robot")
+        of `variables`, or a dict from names to columns (or one number, for what rests); what is not named
+        stays at 0, or at the nearest limit. "splines" is what joint_trajectory_controller does by default:
+        linear between positions, cubic with `velocities`, quintic with `accelerations` too. "linear" and
+        "cubic" (a smooth curve through the positions) do without them.
 
-    # --- Positions ----------------------------------------------------------------------------
+        `world` is the path of a planning scene, what `world` made of one, or bodies as of scene files, each
+        with a name; one whose "parent" is a link moves with it. Others are not tested with each other. Links
+        that a joint connects are never tested with each other; nor are the pairs `allowed`, which are those
+        of the planning scene's matrix if it has one, else those that the SRDF file disables."""
+        around = self._around(world)
+        courses = self._variables.courses(times, positions, velocities, accelerations, interpolation)
+        bodies: List[Mapping[str, Any]] = [self._body(link, courses) for link in self.links]
+        group = self._free_name(around)
+        for body in around.bodies:
+            bodies.append(body if "parent" in body else {**body, "group": [group]})
+        at = next(iter(courses.values())).times if courses else values.array("times", times)
+        ignored = self._joined | self._allowed(around, allowed) | set(around.touching)
+        made: document.Document = {"time": [float(at[0]), float(at[-1])], "bodies": bodies,
+                                   "ignore": [list(pair) for pair in sorted(ignored)]}
+        if any("parent" not in body for body in around.bodies):
+            made["ignore"].append([group, group])
+        return scene_of(made, self.name or "robot")
 
-    def _times(self, times: Any) -> values.Floats:
-        at = values.array("times", times)
-        if at.ndim != 1 or len(at) < 2 or not numpy.all(numpy.isfinite(at)) or numpy.any(at[1:] <= at[:-1]):
-            raise values.refuse("times", times, "two or more increasing numbers")
-        return at
+    def world(self, path: values.Path) -> World:
+        """The bodies and the allowed collision matrix of a planning scene of MoveIt, in YAML: primitives and
+        meshes. It may be used for many scenes."""
+        root = next(link for link in self.links if link not in self._joint_of)
+        return read_world(values.path("path", path), {"world", root} | self._semantics.frames)
 
-    def _courses(self, at: values.Floats, positions: Positions) -> Dict[str, values.Floats]:
-        """The positions of every joint that moves, mimic joints too."""
-        if isinstance(positions, Mapping):
-            columns = self._named_columns(at, positions)
-        else:
-            table = values.array("positions", positions)
-            if table.shape != (len(at), len(self.joints)):
-                raise UsageError(f"positions: got an array of shape {table.shape}, must be "
-                                 f"({len(at)}, {len(self.joints)}): a row for each time, a column for each "
-                                 f"of {', '.join(joint.name for joint in self.joints)}")
-            columns = {joint.name: table[:, k] for k, joint in enumerate(self.joints)}
-        for joint in self.joints:
-            self._check_limits(joint, columns[joint.name])
-        for joint in self._model.joints.values():
-            if joint.mimic is not None:
-                followed = columns.get(joint.mimic, numpy.zeros_like(at))  # zeros: of a fixed joint
-                columns[joint.name] = joint.factor * followed + joint.offset
-        return columns
+    def state(self, name: str) -> Dict[str, float]:
+        """The positions of a named state of the SRDF file."""
+        if name not in self.states:
+            raise values.refuse("state", name, f"one of {', '.join(sorted(self.states)) or 'none'}")
+        return dict(self.states[name])
 
-    def _named_columns(self, at: values.Floats, positions: Mapping[str, Any]) -> Dict[str, values.Floats]:
-        known = {joint.name for joint in self.joints}
-        for name in positions:
-            if name not in known:
-                raise values.refuse("positions", name, f"a joint that moves: {', '.join(sorted(known))}")
-        columns = {}
-        for joint in self.joints:
-            given = positions.get(joint.name, min(max(0.0, joint.lower), joint.upper))
-            column = values.array(f"positions: {joint.name}", given)
-            if column.ndim > 1 or len(column) not in (1, len(at)):
-                raise values.refuse(f"positions: {joint.name}", given, f"{len(at)} numbers, or one")
-            columns[joint.name] = numpy.broadcast_to(column, at.shape)
-        return columns
+    @property
+    def rest(self) -> Dict[str, float]:
+        """The positions of which nothing is said: 0, or the nearest limit."""
+        return {name: self._variables.rest(name) for name in self.variables}
 
-    def _check_limits(self, joint: Joint, column: values.Floats) -> None:
-        wrong = ~((column >= joint.lower - _SLACK) & (column <= joint.upper + _SLACK)
-                  & numpy.isfinite(column))
-        if numpy.any(wrong):
-            raise UsageError(f"positions: {joint.name}: got {float(column[wrong][0])!r}, must be from "
-                             f"{joint.lower!r} to {joint.upper!r}")
+    def own_positions(self, named: Mapping[str, float], where: str = "positions"
+                      ) -> Tuple[Dict[str, float], List[str]]:
+        """Of positions by name, as others write them, those that `scene` takes: without fixed joints and
+        joints that follow others, which must agree with them. The second is what was left out that is not
+        0, in words."""
+        return self._variables.own(named, where)
 
     # --- Bodies -----------------------------------------------------------------------------------
 
-    def _ancestor(self, link: str) -> Optional[str]:
-        """The nearest link above that is a body; None: there is none."""
-        joint = self._joint_of.get(link)
-        while joint is not None and not self._model.links[joint.parent]:
-            joint = self._joint_of.get(joint.parent)
-        return None if joint is None else joint.parent
+    def _states(self) -> Dict[str, Dict[str, float]]:
+        found: Dict[str, Dict[str, float]] = {}
+        names = [name for _, name in self._semantics.states]
+        for (group, name), state in self._semantics.states.items():
+            own, _ = self._variables.own(state, f"group_state {name!r}")
+            found[f"{group}/{name}"] = own
+            if names.count(name) == 1:
+                found[name] = own
+        return found
 
-    def _body(self, link: str, at: values.Floats, courses: Mapping[str, values.Floats],
-              interpolation: str) -> Dict[str, Any]:
-        """A link as a body whose parent is the nearest link that is one: links without a geometry, between
-        them, only move it."""
-        body: Dict[str, Any] = {"name": link, "surfaces": [
-            surface for shape in self._model.links[link] for surface in surfaces_of(shape)]}
-        maps: List[Stage] = []
-        joint, parent = self._joint_of.get(link), self._ancestor(link)
-        while joint is not None:
-            maps += _motion(joint, at, courses.get(joint.name), interpolation)
-            maps += stages_of(joint.origin)
-            joint = None if joint.parent == parent else self._joint_of.get(joint.parent)
-        if maps:
-            body["maps"] = maps
-        if parent is not None:
-            body["parent"] = parent
+    def _body(self, link: str, courses: Mapping[str, Course]) -> Dict[str, Any]:
+        body: Dict[str, Any] = {"name": link, "surfaces": self._surfaces[link]}
+        joint = self._joint_of.get(link)
+        if joint is not None:
+            maps: List[Stage] = maps_of_joint(joint, courses) + self._origins[link]
+            body["parent"] = joint.parent
+            if maps:
+                body["maps"] = maps
         return body
 
-    def _ignored(self) -> List[List[str]]:
-        """Links that a joint connects, and the pairs that the SRDF disables."""
-        pairs = {(link, parent) for link, shapes in self._model.links.items() if shapes
-                 for parent in [self._ancestor(link)] if parent is not None}
-        pairs |= {(a, b) for a, b in self._disabled
-                  if a != b and self._model.links[a] and self._model.links[b]}
-        return [list(pair) for pair in sorted(pairs)]
+    def _pair_above(self, link: str) -> List[Tuple[str, str]]:
+        """The link and the nearest one above that is no frame; [] where there is none."""
+        joint = self._joint_of.get(link) if self._model.links[link] else None
+        while joint is not None and not self._model.links[joint.parent]:
+            joint = self._joint_of.get(joint.parent)
+        return [] if joint is None else [(link, joint.parent)]
 
+    # --- What is around -----------------------------------------------------------------------------
 
-def _all_pairs(world: Sequence[Mapping[str, Any]]) -> List[List[str]]:
-    """Names of bodies, two by two."""
-    names = []
-    for body in world:
-        if not isinstance(body, Mapping) or not isinstance(body.get("name"), str):
-            raise values.refuse("world", body, "bodies as of scene files, each with a name")
-        names.append(body["name"])
-    return [[a, b] for k, a in enumerate(names) for b in names[k + 1:]]
+    def _around(self, world: Optional[AnyWorld]) -> World:
+        if world is None:
+            return World()
+        if isinstance(world, (str, os.PathLike)):
+            world = self.world(world)
+        around = world if isinstance(world, World) else World(list(world))
+        names: Set[str] = set(self.links)
+        for body in around.bodies:
+            if not isinstance(body, Mapping) or not isinstance(body.get("name"), str):
+                raise values.refuse("world", body, "bodies as of scene files, each with a name")
+            if body["name"] in names:
+                raise UsageError(f"world: got the name {body['name']!r} twice, must be one that no link and no other "
+                                 "body has")
+            names.add(body["name"])
+        return around
 
+    def _free_name(self, around: World) -> str:
+        """A name for the group of all bodies that are tested with links only."""
+        names = {*self.links, *(body["name"] for body in around.bodies)}
+        group = "around"
+        while group in names:
+            group += "_"
+        return group
 
-def _motion(joint: Joint, at: values.Floats, course: Optional[values.Floats],
-            interpolation: str) -> List[Stage]:
-    """The map of one joint; none where it stays at 0."""
-    if course is None or not numpy.any(course):
-        return []
-    rests = bool(numpy.all(course == course[0]))
-    if joint.kind == "prismatic":
-        along = numpy.array(joint.axis) / numpy.linalg.norm(joint.axis)
-        if rests:
-            return [{"type": "translate", "offset": [(along * course[0]).tolist()]}]
-        return [{"type": "translate", "times": at, "positions": numpy.outer(course, along),
-                 "interpolation": interpolation}]
-    if rests:
-        return [{"type": "rotate", "axis": list(joint.axis), "angle": [float(course[0])]}]
-    return [{"type": "rotate", "axis": list(joint.axis), "times": at, "angles": course,
-             "interpolation": interpolation}]
+    def _allowed(self, around: World, allowed: Optional[Pairs]) -> Set[Tuple[str, str]]:
+        names = {*self.links, *(body["name"] for body in around.bodies)}
+        if allowed is None:
+            pairs = self._semantics.disabled if around.allowed is None else around.allowed.pairs(sorted(names))
+            return {(a, b) for a, b in pairs if a != b}
+        found = set()
+        for pair in allowed:
+            if isinstance(pair, str) or len(tuple(pair)) != 2 or not names.issuperset(pair):
+                raise values.refuse("allowed", pair, "a pair of names of links, or of bodies of the world")
+            a, b = pair
+            found.add((a, b))
+        return found
 
 
 def load(urdf: values.Path, srdf: Optional[values.Path] = None,
          packages: Optional[Mapping[str, str]] = None) -> Robot:
-    """The robot of a URDF file. `packages` tells where the packages of its meshes are; the pairs of links
-    that the SRDF file disables are never tested with each other, nor are links that a joint connects."""
+    """The robot of a URDF file. `packages` tells where the packages of its meshes are; without, folders
+    above the file are searched. The pairs of links that the SRDF file disables are never tested with each
+    other, nor are links that a joint connects."""
     model = read_urdf(values.path("urdf", urdf), dict(packages or {}))
-    return Robot(model, [] if srdf is None else read_srdf(values.path("srdf", srdf), model))
+    return Robot(model, Semantics() if srdf is None else read_srdf(values.path("srdf", srdf), model))

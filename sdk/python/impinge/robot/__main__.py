@@ -4,43 +4,79 @@
 """python3 -m impinge.robot: does a motion of a robot touch anything, or come too near?"""
 
 import argparse
-import csv
-import dataclasses
 import json
 import sys
-from typing import Any, Dict, List, Tuple
+from typing import Any, Dict, List, NoReturn, Optional
 
-from .. import _files
-from ..errors import ImpingeError, PluginError, SceneError, UsageError
-from ..results import Clearance, Result
+from ..errors import ImpingeError, PluginError, UsageError
 from . import Robot, load
-from ._moveit import read_request, read_world
+from ._course import Table, read_table
+from ._moveit import read_request
+from ._report import Answer, as_json, as_text, sample
 
 _STATUS = {"clear": 0, "contact": 1, "holds": 0, "violated": 1, "undecided": 3}
 
 
-def _arguments(line: List[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
-        prog="python3 -m impinge.robot", description=__doc__,
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"{message}; --help lists the options")
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"got {text}, must be a number > 0")
+    return value
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if value < 2:
+        raise argparse.ArgumentTypeError(f"got {text}, must be 2 or more")
+    return value
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="python3 -m impinge.robot", description=__doc__, allow_abbrev=False,
         epilog="Exit status: 0 clear or holds, 1 contact or violated, 2 usage, 3 undecided, 4 bad file, "
-               "5 plugin. Joints move linearly between positions. Links are surfaces: what is inside of "
-               "another body from the start on touches nothing.")
-    parser.add_argument("urdf")
-    parser.add_argument("--srdf", help="pairs of links that it disables are not tested")
+               "5 plugin. Links are surfaces: what is inside of another body from the start on touches nothing. "
+               "Positions go as by joint_trajectory_controller's default: linear between those of a table, "
+               "cubic where it has columns NAME.velocity, quintic with NAME.acceleration too.")
+    parser.add_argument("urdf", help="the robot, a URDF file")
+    parser.add_argument("--srdf", metavar="FILE", help="pairs of links that it disables are not tested; its groups and "
+                                                       "states have names")
     parser.add_argument("--package", action="append", default=[], metavar="NAME=FOLDER",
-                        help="where meshes of package://NAME/... are; may be repeated")
+                        help="where meshes of package://NAME/... are, if not above the URDF file; may be repeated")
     parser.add_argument("--trajectory", metavar="FILE.csv",
-                        help="times in the first column, joints by name in its head")
+                        help="times in the first column, positions of joints by name in its head; others rest")
+    parser.add_argument("--interpolation", choices=("splines", "linear", "cubic"), default="splines",
+                        help="of a trajectory: as above, or without velocities: linear, or smooth")
     parser.add_argument("--request", metavar="FILE.yaml", help="start and goal of a motion plan request")
-    parser.add_argument("--start", metavar="Q,Q,...", help="positions at t = 0 (all as near 0 as allowed)")
-    parser.add_argument("--goal", metavar="Q,Q,...", help="positions at t = 1")
-    parser.add_argument("--world", metavar="FILE.yaml", help="a planning scene")
-    parser.add_argument("--require", type=float, metavar="DISTANCE", help="is this distance kept?")
-    parser.add_argument("--gamma", type=float, help="what is no farther apart touches (1e-6)")
-    parser.add_argument("--max-seconds", type=float, help="end as undecided")
+    parser.add_argument("--start", metavar="POSE", help="positions at t = 0: NAME of a state, or JOINT=Q,..., or Q,Q,... "
+                                                        "(otherwise 0, or as near as limits allow)")
+    parser.add_argument("--goal", metavar="POSE", help="positions at t = 1; joints that it does not name stay")
+    parser.add_argument("--group", metavar="NAME", help="Q,Q,... are those of the joints of this group")
+    parser.add_argument("--world", metavar="FILE.yaml", help="a planning scene; its allowed collision matrix, if it has "
+                                                             "one, replaces what the SRDF file disables")
+    parser.add_argument("--require", type=_positive, metavar="DISTANCE", help="is this distance kept?")
+    parser.add_argument("--gamma", type=_positive, help="what is no farther apart touches (1e-6)")
+    parser.add_argument("--max-seconds", type=_positive, metavar="S", help="end as undecided")
+    parser.add_argument("--compare-samples", type=_count, metavar="N", help="tell what N single poses show and miss")
     parser.add_argument("--view", metavar="FILE", help="draw it, in the format of the extension")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
-    return parser.parse_args(line)
+    return parser
+
+
+def _joined(line: List[str]) -> List[str]:
+    """The words, with --goal -1,2 as --goal=-1,2: argparse would take the number for an option."""
+    words: List[str] = []
+    for word in line:
+        if words and words[-1] in ("--start", "--goal") and word[:1] == "-" and word[1:2] in "0123456789.":
+            words[-1] += "=" + word
+        else:
+            words.append(word)
+    return words
 
 
 def _packages(words: List[str]) -> Dict[str, str]:
@@ -53,108 +89,114 @@ def _packages(words: List[str]) -> Dict[str, str]:
     return packages
 
 
-def _row(robot: Robot, option: str, text: str) -> Dict[str, float]:
-    try:
-        row = [float(word) for word in text.split(",")]
-    except ValueError:
-        row = []
-    if len(row) != len(robot.joints):
-        raise UsageError(f"{option}: got {text!r}, must be {len(robot.joints)} numbers: "
-                         f"{', '.join(joint.name for joint in robot.joints)}")
-    return {joint.name: value for joint, value in zip(robot.joints, row)}
+def _numbers(option: str, text: str, words: List[str]) -> Optional[List[float]]:
+    """None: the first word is no number, and so all is a name."""
+    numbers = []
+    for word in words:
+        try:
+            numbers.append(float(word))
+        except ValueError:
+            if not numbers:
+                return None
+            raise UsageError(f"{option}: got {word!r} in {text!r}, must be a number") from None
+    return numbers
 
 
-def _table(path: str) -> Tuple[List[float], Dict[str, List[float]]]:
-    """Times and columns of a CSV file whose head names the joints."""
-    try:
-        rows = list(csv.reader(_files.read(path).decode("utf-8-sig").splitlines()))
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise SceneError(f"{path}: {error}") from None
-    head = [name.strip() for name in rows[0]] if rows else []
-    columns: List[List[float]] = [[] for _ in head]
-    for number, row in enumerate(rows[1:], 2):
-        if len(row) != len(head):
-            raise SceneError(f"{path}:{number}: got {len(row)} cells, must be {len(head)} as in the head")
-        for column, cell in zip(columns, row):
-            try:
-                column.append(float(cell))
-            except ValueError:
-                raise SceneError(f"{path}:{number}: got {cell!r}, must be a number") from None
-    if len(head) < 2 or len(columns[0]) < 2:
-        raise SceneError(f"{path}: must have a head (time, joints by name) and two rows or more")
-    return columns[0], dict(zip(head[1:], columns[1:]))
+def _pose(robot: Robot, option: str, text: str, group: Optional[str]) -> Dict[str, float]:
+    """Positions by name, of a state's name, of JOINT=Q,... or of Q,Q,..."""
+    if "=" in text:
+        words = [word.partition("=") for word in text.split(",")]
+        found = _numbers(option, text, [value for _, _, value in words])
+        if found is None:
+            raise UsageError(f"{option}: got {text!r}, must be JOINT=Q,JOINT=Q,... with numbers")
+        return dict(zip((name.strip() for name, _, _ in words), found))
+    row = _numbers(option, text, text.split(","))
+    if row is None:
+        if text not in robot.states:
+            raise UsageError(f"{option}: got {text!r}, which is no state of the SRDF file (its states: "
+                             f"{', '.join(sorted(robot.states)) or 'none'}) and not JOINT=Q,... or Q,Q,...")
+        return robot.state(text)
+    names = robot.variables
+    if group is not None:
+        if group not in robot.groups:
+            raise UsageError(f"--group: got {group!r}, must be one of {', '.join(robot.groups) or 'none'}: those "
+                             "of the SRDF file")
+        names = tuple(name for name in robot.variables if name.partition("/")[0] in robot.groups[group])
+    if len(row) != len(names):
+        raise UsageError(f"{option}: got {text!r}, must be {len(names)} number{'s' if len(names) != 1 else ''}: "
+                         f"{', '.join(names)}")
+    return dict(zip(names, row))
 
 
-def _course(robot: Robot, asked: argparse.Namespace) -> Tuple[List[float], Dict[str, List[float]]]:
-    given = [name for name in ("trajectory", "request", "goal") if getattr(asked, name) is not None]
-    if len(given) != 1:
-        raise UsageError("give one of --trajectory, --request and --goal (with --start)")
-    if asked.trajectory is not None:
-        return _table(asked.trajectory)
+def _edge(robot: Robot, asked: argparse.Namespace, notes: List[str]) -> Table:
+    """The straight edge from a start to a goal."""
     start: Dict[str, float] = {}
     if asked.request is not None:
         start, goal = read_request(asked.request)
+        where = asked.request, asked.request
     else:
-        goal = _row(robot, "--goal", asked.goal)
-        start = {joint.name: min(max(0.0, joint.lower), joint.upper) for joint in robot.joints}
-        if asked.start is not None:
-            start = _row(robot, "--start", asked.start)
-    moving = {joint.name for joint in robot.joints}
-    return [0.0, 1.0], {name: [start[name], goal[name]] for name in start if name in moving}
+        goal, where = _pose(robot, "--goal", asked.goal, asked.group), ("--start", "--goal")
+    if asked.start is not None:
+        start, where = _pose(robot, "--start", asked.start, asked.group), ("--start", where[1])
+    start, left = robot.own_positions(start, where[0])
+    goal, more = robot.own_positions({**start, **goal}, where[1])
+    notes += [*left, *(note for note in more if note not in left)]
+    return Table([0.0, 1.0], {name: [start.get(name, robot.rest[name]), goal[name]] for name in goal}, {}, {})
 
 
-def _tell(answer: Any) -> None:
-    """One line for people."""
-    pair = " and ".join(answer.bodies) if answer.bodies else "no bodies"
-    if isinstance(answer, Clearance):
-        print(f"{answer.verdict}: required {answer.required!r}, proved never nearer than {answer.lower:.6g}")
-        if answer.t_violated is not None and answer.a_violated is not None and answer.b_violated is not None:
-            print(f"first violation at t = {answer.t_violated:.6g}: {answer.a_violated.body} and "
-                  f"{answer.b_violated.body}, {answer.gap_violated:.6g} apart")
-    elif answer.verdict == "contact":
-        print(f"contact at t = {answer.t:.9g}: {pair}, {answer.gap:.3g} apart")
-    elif answer.verdict == "clear":
-        print(f"clear from t = {answer.t_start:.6g} to {answer.t_end:.6g}, proved")
-    else:
-        print(f"undecided ({answer.reason}): proved clear before t = {answer.t_lower:.6g}")
+def _table(robot: Robot, asked: argparse.Namespace, notes: List[str]) -> Table:
+    given = [name for name in ("trajectory", "request", "goal") if getattr(asked, name) is not None]
+    if len(given) != 1:
+        raise UsageError(f"got {' and '.join('--' + name for name in given) or 'no motion'}, must be one of "
+                         "--trajectory, --request and --goal (with --start)")
+    if asked.trajectory is None:
+        return _edge(robot, asked, notes)
+    if asked.start is not None:
+        raise UsageError("--start: is of no use with --trajectory, whose first row is the start")
+    return read_table(asked.trajectory)
 
 
-def _plain(answer: Any) -> Dict[str, Any]:
-    """For JSON, which has no infinite numbers."""
-    return {name: None if isinstance(value, float) and value in (float("inf"), -float("inf")) else value
-            for name, value in dataclasses.asdict(answer).items()}
-
-
-def _run(asked: argparse.Namespace) -> int:
+def _answer(asked: argparse.Namespace) -> Answer:
     robot = load(asked.urdf, asked.srdf, _packages(asked.package))
-    times, positions = _course(robot, asked)
-    scene = robot.scene(times, positions, world=read_world(asked.world) if asked.world else ())
-    answer: "Result | Clearance"
-    if asked.require is None:
-        answer = scene.solve(gamma=asked.gamma, max_seconds=asked.max_seconds)
-    else:
-        answer = scene.clearance(required=asked.require, gamma=asked.gamma, max_seconds=asked.max_seconds)
+    notes: List[str] = []
+    table = _table(robot, asked, notes)
+    scene = robot.scene(table.times, table.positions, velocities=table.velocities or None,
+                        accelerations=table.accelerations or None, interpolation=asked.interpolation,
+                        world=asked.world)
+    limits: Dict[str, Any] = {"gamma": asked.gamma, "max_seconds": asked.max_seconds}
+    clearance = contact = samples = None
+    if asked.require is not None:
+        clearance = scene.clearance(required=asked.require, **limits)
+    if clearance is None or clearance.verdict == "violated":
+        contact = scene.solve(**limits)
+    if asked.compare_samples is not None:
+        span = table.times[0], table.times[-1]
+        samples = sample(scene, span, asked.compare_samples, asked.require, asked.gamma)
     if asked.view is not None:
-        scene.view(asked.view)
-    if asked.json:
-        print(json.dumps(_plain(answer)))
-    else:
-        _tell(answer)
-    return _STATUS[answer.verdict or "undecided"]
+        scene.view(asked.view, gamma=asked.gamma, max_seconds=asked.max_seconds)
+    return Answer(contact, clearance, samples, notes)
+
+
+def _fail(error: Exception, json_asked: bool) -> None:
+    print(f"impinge.robot: {error}", file=sys.stderr)
+    if json_asked:
+        print(json.dumps({"error": str(error)}))
 
 
 def main(line: List[str]) -> int:
     """Answers a command line; its exit status."""
-    asked = _arguments(line)
+    json_asked = "--json" in line
     try:
-        return _run(asked)
-    except ImpingeError as error:
-        print(f"impinge.robot: {error}", file=sys.stderr)
-        if asked.json:
-            print(json.dumps({"error": str(error)}))
+        answer = _answer(_parser().parse_args(_joined(line)))
+    except (ImpingeError, MemoryError) as error:
+        _fail(error, json_asked)
         if isinstance(error, UsageError):
             return 2
         return 5 if isinstance(error, PluginError) else 4
+    for note in answer.notes:
+        print(f"impinge.robot: warning: {note}", file=sys.stderr)
+    print(json.dumps(as_json(answer)) if json_asked else as_text(answer))
+    return _STATUS[answer.verdict]
 
 
 if __name__ == "__main__":

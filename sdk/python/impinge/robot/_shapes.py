@@ -1,77 +1,99 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: MIT
 
-"""Collision shapes as the surfaces of a scene file."""
+"""Collision shapes and poses as the surfaces and maps of a scene file."""
 
 import math
-from typing import Any, Dict, List, Sequence, Tuple
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, List, Sequence, Tuple
 
-from ._urdf import Origin, Shape
+from .._assembly import Stage
+from ._urdf import Origin, Shape, Vector
 
-Stage = Dict[str, Any]
-
-_ROUND = 2 * math.pi
-
-
-def stages_of(origin: Origin) -> List[Stage]:
-    """The maps that bring something to a pose at rest; none for what stays."""
-    maps: List[Stage] = []
-    for axis, angle in zip(([1, 0, 0], [0, 1, 0], [0, 0, 1]), origin.rpy):
-        if angle != 0:
-            maps.append({"type": "rotate", "axis": axis, "angle": [angle]})
-    if any(origin.xyz):
-        maps.append({"type": "translate", "offset": [list(origin.xyz)]})
-    return maps
+Quaternion = Tuple[float, float, float, float]  # x, y, z, w
 
 
-def _box(sides: Sequence[float]) -> List[Stage]:
-    """Six rectangles."""
-    half = [0.5 * side for side in sides]
-    faces = []
-    for axis in range(3):
-        u, v = (axis + 1) % 3, (axis + 2) % 3
-        for sign in (-1, 1):
-            origin, edge_u, edge_v = [0.0] * 3, [0.0] * 3, [0.0] * 3
-            origin[axis], origin[u], origin[v] = sign * half[axis], -half[u], -half[v]
-            edge_u[u], edge_v[v] = sides[u], sides[v]
-            faces.append({"type": "plane", "origin": origin, "edge_u": edge_u, "edge_v": edge_v})
-    return faces
+@dataclass(frozen=True)
+class Pose:
+    """Turned by a unit quaternion, then shifted."""
+
+    xyz: Vector = (0.0, 0.0, 0.0)
+    turn: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+    def then(self, outer: "Pose") -> "Pose":
+        """This pose, in a frame that has the outer pose."""
+        x, y, z = rotated(outer.turn, self.xyz)
+        return Pose((x + outer.xyz[0], y + outer.xyz[1], z + outer.xyz[2]), product(outer.turn, self.turn))
+
+    def maps(self) -> List[Stage]:
+        """The maps that bring something to it; none for what stays."""
+        x, y, z, w = self.turn
+        made, sine = [], math.hypot(x, y, z)
+        if sine > 0:
+            made.append(Stage({"type": "rotate", "axis": [x, y, z], "angle": [2 * math.atan2(sine, w)]}))
+        if any(self.xyz):
+            made.append(Stage({"type": "translate", "offset": [list(self.xyz)]}))
+        return made
 
 
-def _disc(radius: float, height: float) -> Stage:
-    return {"type": "formula", "x": "u*cos(v)", "y": "u*sin(v)", "z": "h", "constants": {"h": height},
-            "domain": [[0, radius], [0, _ROUND]]}
+def product(p: Quaternion, q: Quaternion) -> Quaternion:
+    """The rotation q, then p."""
+    a, b, c, d = p
+    x, y, z, w = q
+    return (d * x + w * a + b * z - c * y, d * y + w * b + c * x - a * z, d * z + w * c + a * y - b * x,
+            d * w - a * x - b * y - c * z)
 
 
-def _cylinder(sizes: Tuple[float, ...]) -> List[Stage]:
-    radius, length = sizes
-    return [{"type": "cylinder", "radius": radius, "height": length},
-            _disc(radius, -0.5 * length), _disc(radius, 0.5 * length)]
+def rotated(q: Quaternion, v: Sequence[float]) -> Vector:
+    """The vector v, turned by q."""
+    x, y, z, _ = product(product(q, (v[0], v[1], v[2], 0.0)), (-q[0], -q[1], -q[2], q[3]))
+    return x, y, z
 
 
-def _capsule(sizes: Tuple[float, ...]) -> List[Stage]:
-    radius, length = sizes
-    ends = [{"type": "sphere", "radius": radius, "center": [0, 0, z]} for z in (-0.5 * length, 0.5 * length)]
-    return [{"type": "cylinder", "radius": radius, "height": length}, *ends]
+def maps_of(origin: Origin) -> List[Stage]:
+    """The maps that bring something to an origin of a URDF file; an angle about one axis stays as it is."""
+    angles = [(axis, angle) for axis, angle in enumerate(origin.rpy) if angle != 0]
+    if len(angles) > 1:
+        turn: Quaternion = (0.0, 0.0, 0.0, 1.0)
+        for axis, angle in angles:
+            half = [0.0, 0.0, 0.0, math.cos(0.5 * angle)]
+            half[axis] = math.sin(0.5 * angle)
+            turn = product((half[0], half[1], half[2], half[3]), turn)
+        return Pose(origin.xyz, turn).maps()
+    maps = []
+    for axis, angle in angles:
+        maps.append(Stage({"type": "rotate", "axis": [float(k == axis) for k in range(3)], "angle": [angle]}))
+    return maps + Pose(origin.xyz).maps()
 
 
-def _mesh(shape: Shape) -> List[Stage]:
-    stage: Stage = {"type": "mesh", "file": shape.file}
-    if shape.sizes != (1, 1, 1):
-        stage["maps"] = [{"type": "scale", "factor": list(shape.sizes)}]
-    return [stage]
+def _mesh(shape: Shape) -> Dict[str, Any]:
+    scaled = {} if shape.sizes == (1, 1, 1) else {"scale": list(shape.sizes)}
+    return {"type": "mesh", "file": shape.file, **scaled}
 
 
-def surfaces_of(shape: Shape) -> List[Stage]:
-    """The shape's surfaces, at its pose in its link."""
-    if shape.kind == "mesh":
-        made = _mesh(shape)
-    elif shape.kind == "sphere":
-        made = [{"type": "sphere", "radius": shape.sizes[0]}]
-    else:
-        made = {"box": _box, "cylinder": _cylinder, "capsule": _capsule}[shape.kind](shape.sizes)
-    maps = stages_of(shape.origin)
-    for stage in made:
-        if maps:
-            stage["maps"] = [*stage.get("maps", []), *maps]
+def _capsule(shape: Shape) -> Dict[str, Any]:
+    radius, length = shape.sizes
+    return {"type": "capsule", "radius": radius, "from": [0, 0, -0.5 * length], "to": [0, 0, 0.5 * length]}
+
+
+_MADE: Dict[str, Callable[[Shape], Dict[str, Any]]] = {
+    "box": lambda shape: {"type": "box", "size": list(shape.sizes)},
+    "sphere": lambda shape: {"type": "sphere", "radius": shape.sizes[0]},
+    "cylinder": lambda shape: {"type": "cylinder", "radius": shape.sizes[0], "height": shape.sizes[1],
+                               "ends": True},
+    "cone": lambda shape: {"type": "cone", "radius": shape.sizes[0], "height": shape.sizes[1], "ends": True,
+                           "center": [0, 0, -0.5 * shape.sizes[1]]},
+    "capsule": _capsule, "mesh": _mesh}
+
+
+def surface_of(shape: Shape) -> Stage:
+    """The shape as one surface, before it is brought to its origin. Centres are in the middle."""
+    return Stage(_MADE[shape.kind](shape))
+
+
+def surface_at(shape: Shape) -> Stage:
+    """The shape as one surface at its origin in its link."""
+    made, maps = surface_of(shape), maps_of(shape.origin)
+    if maps:
+        made["maps"] = maps
     return made

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Impinge authors
 # SPDX-License-Identifier: MIT
 
-"""URDF and SRDF files as plain objects."""
+"""URDF files as plain objects."""
 
 import math
 import os
@@ -15,7 +15,10 @@ from ..errors import SceneError
 Vector = Tuple[float, float, float]
 Element = ElementTree.Element
 
-KINDS = ("revolute", "continuous", "prismatic", "fixed")
+KINDS = ("revolute", "continuous", "prismatic", "fixed", "planar", "floating")
+_VARIABLES = {"fixed": (), "planar": ("x", "y", "theta"),
+              "floating": ("trans_x", "trans_y", "trans_z", "rot_x", "rot_y", "rot_z", "rot_w")}
+_XACRO = "{http://www.ros.org/wiki/xacro}", "{http://wiki.ros.org/xacro}", "{http://ros.org/wiki/xacro}"
 
 
 @dataclass(frozen=True)
@@ -39,8 +42,9 @@ class Shape:
 
 @dataclass(frozen=True)
 class Joint:
-    """One joint. A mimic joint follows `factor` times the joint `mimic`, plus `offset`. Angles are in rad;
-    limits of continuous joints are infinite."""
+    """One joint. A mimic joint follows `factor` times the joint `mimic`, plus `offset`. Angles are in rad.
+    Limits of joints that have none are infinite. A planar joint moves in x and y and turns about z, whatever
+    its axis says, as in MoveIt; a floating one moves and turns freely."""
 
     name: str
     kind: str
@@ -54,6 +58,12 @@ class Joint:
     factor: float = 1.0
     offset: float = 0.0
 
+    @property
+    def variables(self) -> Tuple[str, ...]:
+        """The names of its positions: its own, or NAME/x and so on as in MoveIt, where it has several."""
+        return tuple(f"{self.name}/{part}" for part in _VARIABLES[self.kind]) \
+            if self.kind in _VARIABLES else (self.name,)
+
 
 @dataclass
 class Model:
@@ -65,14 +75,36 @@ class Model:
     joints: Dict[str, Joint] = field(default_factory=dict)  # parents before children
 
 
-def _parse(path: str, root_tag: str) -> Element:
+def parse(path: str) -> Element:
+    """The element <robot> of a file of XML."""
     try:
         root = ElementTree.fromstring(_files.read(path))
     except (ElementTree.ParseError, ValueError, LookupError) as error:
         raise SceneError(f"{path}: {error}; must be XML") from None
-    if root.tag != root_tag:
-        raise SceneError(f"{path}: got the element <{root.tag}>, must be <{root_tag}>")
+    if root.tag != "robot":
+        raise SceneError(f"{path}: got the element <{root.tag}>, must be <robot>")
+    for element in root.iter():
+        if isinstance(element.tag, str) and element.tag.startswith(_XACRO):
+            raise SceneError(f"{path}: got <xacro:{element.tag.partition('}')[2]}>, must be plain XML; expand "
+                             f"it first: xacro {path} > robot.xml")
     return root
+
+
+def _find_package(package: str, path: str) -> Optional[str]:
+    """The folder of a package: one of that name above the file, or beside a folder above it, or one that
+    ROS 2 has installed."""
+    folder = os.path.dirname(os.path.abspath(path))
+    while True:
+        if os.path.basename(folder) == package:
+            return folder
+        if os.path.isdir(os.path.join(folder, package)):
+            return os.path.join(folder, package)
+        if folder == os.path.dirname(folder):
+            break
+        folder = os.path.dirname(folder)
+    installed = (os.path.join(prefix, "share", package)
+                 for prefix in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix)
+    return next((folder for folder in installed if os.path.isdir(folder)), None)
 
 
 class _Reader:
@@ -136,14 +168,18 @@ class _Reader:
         path = name[len("file://"):] if name.startswith("file://") else name
         if name.startswith("package://"):
             package, _, rest = name[len("package://"):].partition("/")
-            if package not in self._packages:
-                known = ", ".join(sorted(self._packages)) or "none"
-                raise self.fail(where, f"got package {package!r}, known are {known}; say where it is: "
-                                       f"packages={{{package!r}: 'FOLDER'}} or --package {package}=FOLDER")
-            path = os.path.join(self._packages[package], rest)
+            folder = self._packages.get(package) or _find_package(package, self._path)
+            if folder is None:
+                raise self.fail(where, f"got package {package!r}, which is in no folder above the file and not "
+                                       f"in AMENT_PREFIX_PATH; say where it is: packages={{{package!r}: "
+                                       f"'FOLDER'}} or --package {package}=FOLDER")
+            path = os.path.join(folder, rest)
         path = os.path.join(os.path.dirname(os.path.abspath(self._path)), path)
         if not os.path.isfile(path):
             raise self.fail(where, f"the mesh {path} is not there")
+        if path.lower().endswith(".dae"):
+            raise self.fail(where, f"the mesh {path} is COLLADA, which is not read; convert it, as by assimp "
+                                   "export in.dae out.stl")
         return path
 
     def joint(self, element: Element) -> Joint:
@@ -160,10 +196,12 @@ class _Reader:
             ends[tag] = self.text(found, "link", where)
         found = element.find("axis")
         x, y, z = (1.0, 0.0, 0.0) if found is None else self.numbers(found, "xyz", 3, None, where)
-        if kind != "fixed" and (x, y, z) == (0, 0, 0):
+        if kind not in _VARIABLES and (x, y, z) == (0, 0, 0):
             raise self.fail(where, "got the axis 0 0 0, must be a direction")
         lower, upper = self.limits(element, kind, where)
         mimic, factor, offset = None if kind == "fixed" else element.find("mimic"), 1.0, 0.0
+        if mimic is not None and kind in _VARIABLES:
+            raise self.fail(where, f"a {kind} joint cannot follow another; leave out <mimic>")
         if mimic is not None:
             factor, = self.numbers(mimic, "multiplier", 1, "1", where)
             offset, = self.numbers(mimic, "offset", 1, "0", where)
@@ -172,7 +210,7 @@ class _Reader:
                      offset)
 
     def limits(self, element: Element, kind: str, where: str) -> Tuple[float, float]:
-        if kind in ("fixed", "continuous"):
+        if kind == "continuous" or kind in _VARIABLES:
             return -math.inf, math.inf
         found = element.find("limit")
         if found is None:
@@ -180,13 +218,14 @@ class _Reader:
         lower, = self.numbers(found, "lower", 1, "0", where)
         upper, = self.numbers(found, "upper", 1, "0", where)
         if lower > upper:
-            raise self.fail(where, f"got limits from {lower!r} to {upper!r}, must be in this order")
+            raise self.fail(where, f"got limits from {lower!r} to {upper!r}, must be in this order; swap lower "
+                                   "and upper")
         return lower, upper
 
 
 def read_urdf(path: str, packages: Mapping[str, str]) -> Model:
     """A robot: a tree of links."""
-    reader, root = _Reader(path, packages), _parse(path, "robot")
+    reader, root = _Reader(path, packages), parse(path)
     model = Model(path, root.get("name", "robot"))
     for link in root.findall("link"):
         name = reader.text(link, "name", "link")
@@ -215,19 +254,31 @@ def _check_tree(reader: _Reader, links: Mapping[str, List[Shape]], joints: Mappi
             raise reader.fail(where, f"link {joint.child!r} is the child of {moved[joint.child]!r} already; "
                                      "links must form a tree")
         moved[joint.child] = joint.name
-        if joint.mimic is None:
-            continue
-        if joint.mimic not in joints:
-            raise reader.fail(where, f"got the mimic joint {joint.mimic!r}, which is not there")
-        if joints[joint.mimic].mimic is not None:
-            raise reader.fail(where, f"got the mimic joint {joint.mimic!r}, which follows another itself; "
-                                     "chains are not understood")
+        _check_mimic(reader, joint, joints)
+
+
+def _check_mimic(reader: _Reader, joint: Joint, joints: Mapping[str, Joint]) -> None:
+    if joint.mimic is None:
+        return
+    where, followed = f"joint {joint.name!r}", joints.get(joint.mimic)
+    if followed is None:
+        raise reader.fail(where, f"got the mimic joint {joint.mimic!r}, which is not there")
+    if followed.mimic is not None:
+        raise reader.fail(where, f"got the mimic joint {joint.mimic!r}, which follows another itself; let it "
+                                 f"follow {followed.mimic!r}, with the product of the multipliers")
+    if followed.kind in ("planar", "floating"):
+        raise reader.fail(where, f"got the mimic joint {joint.mimic!r}, which is {followed.kind}; must be one "
+                                 "with one position")
 
 
 def _order(reader: _Reader, model: Model, joints: Mapping[str, Joint]) -> None:
     """Puts the joints into the model, parents before children."""
     children = {joint.child for joint in joints.values()}
-    placed: Set[str] = set(model.links) - children
+    roots = [link for link in model.links if link not in children]
+    if len(roots) > 1:
+        raise reader.fail(f"link {roots[1]!r}", f"is the child of no joint, as is {roots[0]!r}; join them, as by a "
+                                                "fixed joint, so that there is one root")
+    placed: Set[str] = set(roots)
     waiting = dict(joints)
     while waiting:
         ready = [joint for joint in waiting.values() if joint.parent in placed]
@@ -236,16 +287,3 @@ def _order(reader: _Reader, model: Model, joints: Mapping[str, Joint]) -> None:
         for joint in ready:
             placed.add(joint.child)
             model.joints[joint.name] = waiting.pop(joint.name)
-
-
-def read_srdf(path: str, model: Model) -> List[Tuple[str, str]]:
-    """The pairs of links that are never tested with each other."""
-    root, pairs = _parse(path, "robot"), []
-    for element in root.findall("disable_collisions"):
-        pair = (element.get("link1", ""), element.get("link2", ""))
-        for link in pair:
-            if link not in model.links:
-                raise SceneError(f"{path}: disable_collisions: got the link {link!r}, which "
-                                 f"{model.file} does not have")
-        pairs.append(pair)
-    return pairs
