@@ -244,19 +244,6 @@ is_readable() { [[ $1 != */tools/mpi/* ]] || [ -n "$mpi_flags" ]; }
     done
 }
 
-@test "clang finds nothing to warn of in any source" {
-    command -v clang >/dev/null || skip "clang not found"
-    local file sources=()
-    for file in "$top_srcdir"/{core,plugins,tools,tests}/*/*.c; do
-        ! is_readable "$file" || sources+=("$file")
-    done
-    # shellcheck disable=SC2086 # words on purpose
-    clang -std=c11 -O2 -ffp-contract=off -Wall -Wextra -Werror -fsyntax-only \
-        -DPLUGINDIR='""' -DPKGDATADIR='""' -DPKGCONFIGDIR='""' -DINCLUDEDIR='""' \
-        -DSDKDOCDIR='""' -DTHREEJSDIR='""' -I"$top_builddir" -I"$top_srcdir" -I"$top_srcdir/sdk" \
-        -I"$top_srcdir/core" $mpi_flags "${sources[@]}"
-}
-
 # Feature macros must be set before the first header of the system. Plugins include nothing of the
 # build: third parties could build them.
 first_includes() { # SOURCES
