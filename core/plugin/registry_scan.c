@@ -35,7 +35,7 @@ static bool add_refusal(imp_registry *r, const char *file, const char *reason)
     return add_remark(&r->refusals, file, reason);
 }
 
-/* Their names, which all fit. */
+/* The names of the types, which all fit. */
 static void list_capabilities(found_type *found)
 {
     const imp_surface_type *surface = found->kind == IMP_TYPE_SURFACE ? found->type : NULL;

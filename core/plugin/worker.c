@@ -162,7 +162,7 @@ static imp_status look(const worker *w)
     return end.si_code != CLD_EXITED && end.si_status == SIGKILL ? SURFACE_KILLED : SURFACE_CRASHED;
 }
 
-/* Nor is it the plugin's fault that its process was stopped. */
+/* A stopped process is not the plugin's fault either. */
 static imp_status look_at_deadline(const worker *w)
 {
     siginfo_t end;

@@ -82,7 +82,7 @@ static bool half_is_needed(const time_window *window, double at, int half)
     return true;
 }
 
-/* Then a cut in time is free. */
+/* Whether one half holds the whole window: a cut in time is free then. */
 static bool is_one_half_enough(const time_window *window, double at)
 {
     return !half_is_needed(window, at, 0) || !half_is_needed(window, at, 1);

@@ -134,9 +134,9 @@ static imp_code span_in(posing *g, _Atomic(span *) *slot, const node *n, span **
 
 /* --- Nodes ------------------------------------------------------------------------------------ */
 
-/* Those of the tree's root. *s stays NULL where it does not move rigidly, or moves by itself; or
- * uniformly without turning: then the inclusion through the maps is as cheap, and needs no memory
- * beside the node. */
+/* Finds the poses of the tree's root. *s stays NULL where it does not move rigidly, or moves by
+ * itself; or uniformly without turning: then the inclusion through the maps is as cheap, and needs
+ * no memory beside the node. */
 static imp_code begin_at_root(posing *g, shape **s, span **t, tree_growth *growth, imp_error *error)
 {
     shape whole = {.moves = true};

@@ -233,7 +233,7 @@ static imp_code descend(const search *g, double gamma, state *s, imp_error *erro
 
 /* D shorter than this, in error bounds, has a direction that is mostly rounding. */
 static const double NORMAL_FROM = 64;
-/* Its length has a finite inverse. */
+/* A normal of at least this length has a finite inverse. */
 static const double NORMAL_LEAST = 0x1p-1000;
 
 /* Lemma. The exact points are within the two error vectors of those computed, so their distance is

@@ -100,7 +100,7 @@ static imp_status course_collect(const course_question *q, csv_numbers *to)
     return IMP_STATUS_OK;
 }
 
-/* That of a kind where nobody says. */
+/* The unit of a column that names none. */
 static const unit plain_unit = {1, 1, false};
 
 static imp_status refuse_unit(const course_question *q, const course_table *t, size_t k,

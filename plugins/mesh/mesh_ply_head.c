@@ -13,7 +13,7 @@ static bool is_word(const char *word, const char *wanted)
 /* What stands in a line, for messages. */
 static const char *shown(const char *word) { return word != NULL ? word : ""; }
 
-/* Both of the names that each type goes by. */
+/* Each type has two names. */
 static bool find_type(const char *word, mesh_scalar *type)
 {
     static const char *const names[][2] = {

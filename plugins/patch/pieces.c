@@ -57,7 +57,7 @@ imp_status pieces_sample(pieces_eval *eval, const void *self, const imp_region *
 
 /* --- Its distance from a piece ---------------------------------------------------------------- */
 
-/* Which parameters the coefficient q[k] multiplies. */
+/* The two parameters that coefficient q[k] multiplies. */
 static const int pieces_first[6] = {0, 0, 0, 1, 1, 2}, pieces_second[6] = {0, 1, 2, 1, 2, 2};
 
 pieces_shift pieces_shift_of(const imp_region *whole, const imp_region *piece)

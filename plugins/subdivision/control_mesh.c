@@ -23,7 +23,7 @@ void control_settle(control_mesh *m)
 
 /* --- Half-edges by the point where they begin ------------------------------------------------- */
 
-/* Those of point p are order[from[p]] to order[from[p + 1] - 1]. */
+/* The half-edges that begin at point p are order[from[p]] to order[from[p + 1] - 1]. */
 typedef struct outgoing {
     uint32_t *from, *order;
 } outgoing;

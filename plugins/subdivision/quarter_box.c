@@ -93,7 +93,7 @@ static bool outer_share(const half_box *b, half_box *to)
     return true;
 }
 
-/* Likewise with the corner (y[0], w[1]): w >= 2 - 2 / y[0] and y <= 2 / (2 - w[1]). */
+/* A bound from the corner (y[0], w[1]): w >= 2 - 2 / y[0] and y <= 2 / (2 - w[1]). */
 static bool inner_share(const half_box *b, half_box *to)
 {
     if (b->y[0] * b->w[1] * (1 + SHARE_PAD) < 2 * (b->y[0] - 1)) return false;

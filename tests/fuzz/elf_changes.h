@@ -39,7 +39,7 @@ typedef struct elf_image {
     size_t length;
 } elf_image;
 
-/* Those changes of the list that are about that file, made in a copy, which the caller frees. */
+/* Makes the changes of the list that concern a file in a copy of it, which the caller frees. */
 elf_image elf_changed(elf_image original, unsigned file, const unsigned char *bytes, size_t length);
 
 /* Replaces or adds one change: fields by values that matter to a loader. Answers the new length. */

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tiny.h"
 
-/* Its own default is out of its own range. */
+/* The default of a parameter is out of its range. */
 static const imp_parameter table[] = {
     {.name = "radius",
      .unit = "length",

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "tiny.h"
 
-/* Its first type is in order, its second is not. */
+/* The first type is in order, the second is not. */
 static const imp_surface_type good = TINY_TYPE("half_good", tiny_create, tiny_eval, 0, NULL);
 static const imp_surface_type bad = TINY_TYPE("half_bad", NULL, tiny_eval, 0, NULL);
 static const imp_surface_type *const types[] = {&good, &bad};

@@ -303,7 +303,7 @@ static imp_status distance(const void *self, const imp_model point[4], imp_model
     return IMP_STATUS_UNBOUNDED;
 }
 
-/* Its own, of no axis. */
+/* Claims no symmetry. */
 static imp_status symmetry(const void *self, imp_symmetry *out)
 {
     (void)self;
@@ -326,7 +326,7 @@ static const void *piece(const void *self, size_t k)
     return self;
 }
 
-/* Its last rows: what else it offers. */
+/* The last rows of the type: its optional callbacks. */
 #define HOSTILE_SURFACE(NAME, ...)                                                                 \
     {                                                                                              \
         .struct_size = sizeof(imp_surface_type), .parameter_count = 1,                             \

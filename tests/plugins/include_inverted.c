@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "slab.h"
 
-/* Its range has the greater end first. */
+/* The range has the greater end first. */
 static imp_status include(const void *self, const imp_region *region, imp_model model[3])
 {
     slab_include(self, region, model);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include "pipe.h"
 
-/* Its center is not a number. */
+/* The center of the symmetry is not a number. */
 static imp_status symmetry(const void *self, imp_symmetry *found)
 {
     (void)self;

@@ -24,7 +24,7 @@ bool judge_models(const imp_model model[3], const number s[3], const number exac
 /* The patch of a net over a region, exactly: coordinates at p = (u, v, t). */
 void net_value(const imp_net *net, const imp_region *region, const double p[3], number x[3]);
 
-/* That it is within the net's error there. */
+/* Requires the point to be within the net's error. */
 bool judge_net(const imp_net *net, const imp_region *region, const double p[3],
                const number exact[3], fault *fault);
 

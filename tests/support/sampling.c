@@ -124,7 +124,7 @@ void sample_normalized(const imp_region *region, const double p[3], number s[3])
 
 /* --- Arguments of maps ------------------------------------------------------------------------ */
 
-/* Which s the coefficient q[k] multiplies. */
+/* The two parameters that coefficient q[k] multiplies. */
 static const int first[6] = {0, 0, 0, 1, 1, 2}, second[6] = {0, 1, 2, 1, 2, 2};
 
 static bool varies(const sample_models *models, int i, int j)

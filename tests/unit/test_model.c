@@ -77,8 +77,8 @@ static void trim(uint64_t *state, imp_model *m)
     }
 }
 
-/* Its linear terms may be small, so that those of second order show. Not its middle but an end may
- * be at the special place. */
+/* Draws a model. Linear terms may be small, so that those of second order show, and an end instead
+ * of the middle may be at the special place. */
 static imp_model hostile_model(uint64_t *state)
 {
     static const int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Which s the coefficient q[k] multiplies. */
+/* The two parameters that coefficient q[k] multiplies. */
 static const int first[6] = {0, 0, 0, 1, 1, 2}, second[6] = {0, 1, 2, 1, 2, 2};
 
 long double under_quadratic(const imp_model *g, const long double s[3], long double *size)

@@ -11,7 +11,7 @@
  * a config.status at the top; no installed tree looks like that. */
 const char *build_tree_plugins(void);
 
-/* Likewise the directory of the data files that come with the command. */
+/* The directory of the data files that come with the command, in that same tree; else NULL. */
 const char *build_tree_data(void);
 
 #endif

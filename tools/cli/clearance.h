@@ -57,7 +57,7 @@ imp_clearance clearance_summary(const clearance_table *table);
 /* Whether something other than the answer ended a search. */
 bool clearance_is_ended(imp_reason reason);
 
-/* By what is proved: the least lower bound first, then in the order of the scene. */
+/* Orders answers by their lower bound, the least first; equal ones in the order of the scene. */
 void clearance_sort(imp_clearance *answers, size_t count);
 
 /* Lines to standard output, verdict first. Bounds are rounded to the side that claims less. Without

@@ -52,7 +52,7 @@ void remark(const char *verb, const char *format, ...) __attribute__((format(pri
  * --json it becomes the object {"error": text} (output_finish). */
 const char *complain_first(void);
 
-/* Its text, or that of its code. */
+/* The text of an error; where it has none, the text of its code. */
 const char *message_of(const imp_error *error);
 
 /* Complains of an error of the library and returns its status. */

@@ -49,7 +49,7 @@ static jet number_of(const frame *f, int j, const jet *normalized, long double p
     return p;
 }
 
-/* Their distances from the quadratic. */
+/* How far the coordinates are off the claimed model's quadratic. */
 static void subtract_quadratics(const frame *f, const jet normalized[BOX_DIMS],
                                 const bool off_wanted[3], const jet values[3], jet off[3])
 {
@@ -75,7 +75,7 @@ static long double number_near(const branch_claims *c, int j, long double m)
     return p < c->where.lo[j] ? c->where.lo[j] : p > c->where.hi[j] ? c->where.hi[j] : p;
 }
 
-/* Its s. */
+/* Parameter p, from -1 to 1 over the region. */
 static ld_interval normalized_at(const branch_claims *c, int j, long double p)
 {
     const ld_interval offset = ld_interval_sub(ld_interval_of(p), ld_interval_of(c->c[j]));

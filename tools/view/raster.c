@@ -161,7 +161,8 @@ typedef struct ramp {
     double at, dx, dy;
 } ramp;
 
-/* That is 1 at corner a, and 0 on the line from b to c; area: as cross2 of the three. */
+/* The barycentric coordinate that is 1 at corner a and 0 on the line from b to c. `area`: cross2 of
+ * the three corners. */
 static ramp share_of(const vec *b, const vec *c, double area)
 {
     const double dx = (b->x[1] - c->x[1]) / area, dy = (c->x[0] - b->x[0]) / area;

@@ -158,7 +158,7 @@ static exit_status show_bench(const char *text, size_t length, const char *name,
     return status;
 }
 
-/* This program again, as `bench SET --json`; what it complains of is seen. */
+/* Runs this program as `bench SET --json`; its complaints are shown. */
 static exit_status plot_set(const char *set, const arguments *args)
 {
     const char *const words[] = {
