@@ -142,6 +142,7 @@ core_solver = \
     core/solver/clearance_divide.c \
     core/solver/clearance_internal.h \
     core/solver/expand_pair.c core/solver/expand_pair.h \
+    core/solver/explanation.c core/solver/explanation.h \
     core/solver/impact.c core/solver/impact.h \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
@@ -151,6 +152,7 @@ core_solver = \
     core/solver/query_answer.c \
     core/solver/query_clearance.c \
     core/solver/query_divide.c \
+    core/solver/query_explain.c \
     core/solver/query_internal.h \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \

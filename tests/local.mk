@@ -53,6 +53,7 @@ check_suites = \
     tests/unit/test_parameters \
     tests/unit/test_parts \
     tests/unit/test_pair_heap \
+    tests/unit/test_explanation \
     tests/unit/test_pending \
     tests/unit/test_pieces \
     tests/unit/test_pipeline \

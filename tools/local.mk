@@ -96,6 +96,7 @@ tools_cli = \
     tools/cli/crash.c tools/cli/crash.h \
     tools/cli/crew.c tools/cli/crew.h \
     tools/cli/each.c tools/cli/each.h \
+    tools/cli/explain.c tools/cli/explain.h \
     tools/cli/file_lock.c tools/cli/file_lock.h \
     tools/cli/input.c tools/cli/input.h \
     tools/cli/interrupt.c tools/cli/interrupt.h \

@@ -53,6 +53,46 @@ IMP_EXPORT char *imp_stage_to_json(const imp_registry *registry, imp_type_kind k
 /* Frees an instance; an empty one ({NULL, NULL, NULL}) may be freed, too. */
 IMP_EXPORT void imp_instance_free(imp_instance *instance);
 
+/* --- Why a search is slow --------------------------------------------------------------------- */
+
+/* What kept a pair of regions from being parted, so that one of them was halved. */
+typedef enum imp_obstacle {
+    IMP_OBSTACLE_REMAINDER_A, /* the remainder of a's inclusion: without it the pair was parted */
+    IMP_OBSTACLE_REMAINDER_B,
+    IMP_OBSTACLE_TIME_A, /* likewise, and most of that remainder comes from time */
+    IMP_OBSTACLE_TIME_B,
+    IMP_OBSTACLE_BOUNDS_A, /* the type answered IMP_STATUS_UNBOUNDED */
+    IMP_OBSTACLE_BOUNDS_B,
+    IMP_OBSTACLE_DISTANCE,   /* the surfaces lie along each other, and neither type bounds the
+                              distance of points from it */
+    IMP_OBSTACLE_RESOLUTION, /* double precision tells no more */
+    IMP_OBSTACLE_SIZE        /* the regions are too large for the gap between them */
+} imp_obstacle;
+enum { IMP_OBSTACLES = IMP_OBSTACLE_SIZE + 1 };
+
+/* Where the work on two surfaces went. It never grows. Texts live as long as the scene. */
+typedef struct imp_explanation {
+    size_t body[2], surface[2]; /* indices in the scene; the first is a, the second b */
+    const char *type[2];        /* names of the surfaces' types */
+    const char
+        *without_order_2[2];    /* the first type or map of each that has no inclusions (include,
+                                       apply); NULL: all have */
+    bool knows_distance[2];     /* whether the type bounds distances, and the maps leave it so */
+    uint64_t tested;            /* pairs of their regions that were tested */
+    uint64_t divided;           /* and those that nothing parted, */
+    uint64_t by[IMP_OBSTACLES]; /* by the obstacle */
+} imp_explanation;
+
+/* Has a query for a contact, before its first step, count the obstacles; the search then takes up
+ * to three times as long, and its answer is the same. Not with a baseline, and not of a clearance:
+ * IMP_ERROR_USAGE. */
+IMP_EXPORT imp_code imp_query_explain(imp_query *query, imp_error *error);
+
+/* Fills *row with the surfaces at `index`, in the order of the scene; false past the last. Of a
+ * query that was not asked to count, `tested` is 0 and the obstacles are those of up to 1000 pairs
+ * that wait to be searched. */
+IMP_EXPORT bool imp_query_explanation(const imp_query *query, size_t index, imp_explanation *row);
+
 #ifdef __cplusplus
 }
 #endif

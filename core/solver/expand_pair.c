@@ -6,6 +6,7 @@
 
 #include "core/bounds/separation.h"
 #include "core/bounds/tuning.h"
+#include "core/solver/explanation.h"
 #include "core/solver/pair_step.h"
 #include "core/witness/contact_estimate.h"
 #include "core/witness/newton.h"
@@ -148,6 +149,7 @@ static imp_code expand_unbounded(impact *im, const pair *p, impact_state *state,
     const int side = p->a->bounded ? 1 : 0;
     cut c;
     const imp_code code = cut_unbounded(im, p, side, &c, error);
+    explanation_count(im, p);
     if (code != IMP_SUCCESS) return code;
     if (c.side >= 0) return split(im, p, c, NULL, state, error);
     return node_unbounded_fault(candidate_pair_of(im, p)->side[side]->tree, side == 0 ? p->a : p->b,
@@ -223,10 +225,18 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcom
     return code;
 }
 
+static impact_state resolution_ends(impact *im, const pair *p)
+{
+    explanation_count_as(im, p, IMP_OBSTACLE_RESOLUTION);
+    return IMPACT_RESOLUTION;
+}
+
 static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
-    if (pair_has_cluster(p))
+    if (pair_has_cluster(p)) {
+        explanation_count_as(im, p, IMP_OBSTACLE_SIZE);
         return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
+    }
     distance_outcome from_each;
     trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
     imp_code code = pair_look(p, candidate_pair_of(im, p), im->gamma_clear, GOAL_CONTACT, sliding,
@@ -239,7 +249,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
         if (seen.gap_upper <= im->gamma)
             *state = impact_contact(im, &seen);
         else if (precision_ends(im, p, 1))
-            *state = IMPACT_RESOLUTION;
+            *state = resolution_ends(im, p);
         if (*state != IMPACT_RUNNING) return IMP_SUCCESS;
         p->wait = TUNING_WITNESS_WAIT;
     } else if (p->wait > 0) {
@@ -247,6 +257,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     }
     p->slides = p->slides || from_each.side >= 0;
     p->window = from_each.left; /* not before: other pairs may start sooner */
+    const pair whole = *p;
     bool some;
     cut c;
     net_halves halves;
@@ -258,9 +269,9 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
         code = choose_cut_after_free(im, p, &from_each, &c, error);
     if (code == IMP_ERROR_PLUGIN) return code;
     if (code != IMP_SUCCESS) return *state = IMPACT_NO_MEMORY, IMP_SUCCESS;
-    if (c.side >= 0) return split(im, p, c, &halves, state, error);
-    *state = IMPACT_RESOLUTION;
-    return IMP_SUCCESS;
+    if (c.side < 0) return *state = resolution_ends(im, p), IMP_SUCCESS;
+    explanation_count(im, &whole);
+    return split(im, p, c, &halves, state, error);
 }
 
 imp_code expand_pair(impact *im, pair *p, impact_state *state, imp_error *error)

@@ -10,6 +10,7 @@ void impact_push(impact *im, pair_test *t)
 {
     im->stats->pairs += 1;
     im->stats->bytes += t->bytes;
+    if (im->explained != NULL) im->explained[t->p.candidate_pair].tested += 1;
     if (!t->near) return;
     pair *p = &t->p;
     p->key[0] = p->window.lo;

@@ -10,6 +10,7 @@
 #include "core/witness/witness.h"
 
 #include <impinge/baseline.h>
+#include <impinge/examine.h>
 
 /* The state of a search for the earliest contact
  * ==============================================
@@ -52,10 +53,12 @@ typedef struct impact {
     size_t candidate_pair_count;     /* 0: their roots are tested at once, each */
     imp_stats *stats;                /* the caller's; bytes: of the trees, without the heap */
     pair_heap heap;
-    upper_time upper;         /* with method models */
-    pair_trials *trials;      /* for each candidate pair, from the first step on, or NULL */
-    tests_ahead ahead;        /* made by threads that look ahead (pair_test.h) */
-    uint64_t serial, refined; /* of the next pair; of the first after impact_refine */
+    upper_time upper;           /* with method models */
+    imp_explanation *explained; /* counts for each candidate pair; NULL: not asked for */
+    bool explains;              /* they are asked for */
+    pair_trials *trials;        /* for each candidate pair, from the first step on, or NULL */
+    tests_ahead ahead;          /* made by threads that look ahead (pair_test.h) */
+    uint64_t serial, refined;   /* of the next pair; of the first after impact_refine */
     double t_lower;
     time_window
         *roots;       /* of candidate pairs, for impact_refine; NAN: unknown; NULL: never refined */

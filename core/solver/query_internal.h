@@ -7,6 +7,7 @@
 
 #include "core/broad_phase/examined_times.h"
 #include "core/solver/clearance.h"
+#include "core/solver/explanation.h"
 #include "core/solver/time_of_impact.h"
 #include "core/solver/world.h"
 

@@ -21,10 +21,21 @@ static bool reserve_for_candidate(impact *im, uint32_t index)
     return pair_heap_reserve(&im->heap, 1 + (half < ROOM_MOST ? half : ROOM_MOST));
 }
 
+/* Allocates the counts of an explanation, where one is asked for. False: no memory. */
+static bool reserve_explained(impact *im)
+{
+    const size_t count = im->candidate_pair_count;
+    if (!im->explains || im->explained != NULL || count == 0) return true;
+    im->explained = calloc(count, sizeof *im->explained);
+    if (im->explained != NULL) im->stats->bytes += count * sizeof *im->explained;
+    return im->explained != NULL;
+}
+
 imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, imp_error *error)
 {
     pair_test t;
     *state = IMPACT_NO_MEMORY;
+    if (!reserve_explained(im)) return IMP_SUCCESS;
     const imp_code code = pair_test_candidate(im, index, &t, error);
     if (code == IMP_ERROR_MEMORY) return IMP_SUCCESS;
     if (code == IMP_SUCCESS && t.any_time && t.near && !reserve_for_candidate(im, index))
@@ -242,9 +253,11 @@ void impact_clear(impact *im)
     free(im->roots);
     free(im->passed);
     free(im->trials);
+    free(im->explained);
     free(im->ahead.tests);
     im->roots = NULL;
     im->passed = NULL;
     im->trials = NULL;
+    im->explained = NULL;
     im->ahead = (tests_ahead){.tests = NULL};
 }

@@ -179,11 +179,14 @@ bool surface_instance_at(const surface *s, size_t k, surface_instance *found)
     if (k > s->map_count) return false;
     const shared_instance *p = k == 0 ? s->origin : s->maps[k - 1].origin;
     const uint32_t flags = p->surface != NULL ? p->surface->flags : p->map->flags;
+    const bool has_order_2 = p->surface != NULL ? p->surface->include != NULL
+                                                : p->map->apply != NULL || p->map->rigid != NULL;
     *found = (surface_instance){.name = p->surface != NULL ? p->surface->name : p->map->name,
                                 .lo = p->lo[2],
                                 .hi = p->hi[2],
                                 .span = {p->span[0], p->span[1]},
-                                .absent = flags & IMP_FLAG_ABSENT_OUTSIDE_TIMES};
+                                .absent = flags & IMP_FLAG_ABSENT_OUTSIDE_TIMES,
+                                .has_order_2 = has_order_2};
     return true;
 }
 

@@ -54,8 +54,9 @@ void surface_domain(const surface *s, double lo[3], double hi[3]);
 typedef struct surface_instance {
     const char *name;
     double lo, hi;
-    double span[2]; /* -INFINITY, INFINITY: none before others */
-    bool absent;    /* at other times it does not exist (IMP_FLAG_ABSENT_OUTSIDE_TIMES) */
+    double span[2];   /* -INFINITY, INFINITY: none before others */
+    bool absent;      /* at other times it does not exist (IMP_FLAG_ABSENT_OUTSIDE_TIMES) */
+    bool has_order_2; /* include of a type; apply or rigid of a map */
 } surface_instance;
 
 /* Instance 0 is the type, instance k the map k - 1; false past the last. */

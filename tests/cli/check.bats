@@ -27,6 +27,8 @@ blamed() {
 @test "the liars' surface without a lie passes every check" {
     run -0 "$IMPINGE" check "$liars/liar_truthful.so"
     [[ $output != *FAIL* && $output == *"tested("*", 1)"* ]]
+    run -0 "$IMPINGE" check "$liars/liar_truthful.so" --only allocations
+    [[ $output != *FAIL* && $output != *"tested("* ]]
 }
 
 @test "rates 1 % low in 1 % of the domain are exposed" {

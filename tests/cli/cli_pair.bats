@@ -247,3 +247,44 @@ there, or too large for a double, though that lies in its domain; shrink the dom
         'sphere radius=.1 center=.5,.5,1.9 ! translate velocity=0,0,-2' --json
     json '.verdict == "contact" and (.t - 0.4 | fabs) < 1e-4'
 }
+
+# --- Why it is slow ---------------------------------------------------------------------------
+
+# A hollow ball and one in it, by a type without distances, and the same by one with.
+hollow='formula x=cos(u)*cos(v) y=sin(u)*cos(v) z=sin(v) domain=[[0,6.3],[-1.5,1.5]]'
+inside='formula x=0.99*cos(u)*cos(v) y=0.99*sin(u)*cos(v) z=0.99*sin(v) domain=[[0,6.3],[-1.5,1.5]]'
+
+@test "--explain tells where the pairs went, and changes no answer" {
+    run -0 "$IMPINGE" pair "$hollow" "$inside" --gamma 1e-3 --json
+    local plain=$output
+    run -0 "$IMPINGE" pair "$hollow" "$inside" --gamma 1e-3 --json --explain
+    valid result
+    json '.explanation | length == 1 and .[0].tested > 200 and .[0].divided > 100'
+    json '.explanation[0] | ([.by[]] | add) == .divided and .by.distance * 3 > .divided'
+    json '.explanation[0].a | .type == "formula" and .has_inclusions and (.knows_distance | not)'
+    json '.advice | test("callback distance")'
+    same='del(.explanation, .advice, .stats.seconds, .stats.bytes)'
+    [ "$(jq -c "$same" <<<"$output")" = "$(jq -c "$same" <<<"$plain")" ]
+    run -0 "$IMPINGE" pair "$hollow" "$inside" --gamma 1e-3 --explain
+    [[ $output == *"surface 0 of \"a\" (formula) and surface 0 of \"b\" (formula)"* ]]
+    [[ $output == *"they lie along each other"*advice* ]]
+}
+
+@test "what is undecided comes with advice, what is cheap without" {
+    run -3 "$IMPINGE" pair "$hollow" "$inside" --gamma 1e-3 --max-pairs 300 --json
+    valid result
+    json '(.advice | length > 20) and (has("explanation") | not)'
+    run -3 "$IMPINGE" pair "$hollow" "$inside" --gamma 1e-3 --max-pairs 300
+    [[ $output == *"  advice "* ]]
+    run -0 "$IMPINGE" pair "$left" "$right" --gamma 1e-4 --explain
+    [[ $output == *"nothing to mend"* ]]
+}
+
+@test "--explain is of one search by models" {
+    fails 2 '--explain belongs to --method models' \
+        "$IMPINGE" pair "$left" "$right" --explain --method paper
+    scene >two.json
+    fails 2 '--each and --explain exclude each other' "$IMPINGE" solve two.json --explain --each
+    fails 2 '--refine and --explain exclude each other' \
+        "$IMPINGE" solve two.json --explain --refine 1e-3,1e-4
+}

@@ -223,8 +223,9 @@ void report_type_end(check_report *r)
     if (strcmp(label, "proved") == 0)
         printf("  proved(%llu, %llu): claims, seed\n", (unsigned long long)r->type_proof.claims,
                seed);
-    if (strcmp(label, "proved") == 0 && r->type_tests == 0) return;
-    if (strcmp(label, "proved") == 0 || strcmp(label, "tested") == 0)
+    const bool stands = strcmp(label, "proved") == 0 || strcmp(label, "tested") == 0;
+    if (stands && r->type_tests == 0) return; /* what --only left out */
+    if (stands)
         printf("  tested(%llu, %llu): comparisons, seed\n", (unsigned long long)r->type_tests,
                seed);
     else

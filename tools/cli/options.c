@@ -92,6 +92,12 @@ const option options_query[] = {
     {.name = NULL},
 };
 
+const option options_explain[] = {
+    {.name = "explain",
+     .help = "tell where the pairs went, by surface and by what held them together"},
+    {.name = NULL},
+};
+
 const option *option_find(const option *const *tables, const char *name, size_t length)
 {
     for (; *tables != NULL; ++tables)

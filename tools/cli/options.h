@@ -49,6 +49,7 @@ exit_status option_read(const option *row, const char *text, const char *verb, o
 extern const option options_always[];   /* help, version: every verb has these */
 extern const option options_registry[]; /* json, plugin-path */
 extern const option options_search[];   /* time, gamma, budgets: every search has these */
+extern const option options_explain[];  /* explain: of one search for contact */
 extern const option options_query[];    /* method, ...: of the search for contact */
 
 #endif

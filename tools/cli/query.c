@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "tools/cli/build_tree.h"
+#include "tools/cli/explain.h"
 #include "tools/cli/input.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
@@ -86,6 +87,9 @@ exit_status query_check(const arguments *args)
     if (gamma != NULL && clear != NULL && clear->number[0] >= gamma->number[0])
         return complain(EXIT_USAGE, args->verb->name,
                         "--gamma-clear %s must be less than --gamma %s", clear->text, gamma->text);
+    if (arguments_option(args, "explain") != NULL && method != NULL &&
+        method->choice == METHOD_PAPER)
+        return complain(EXIT_USAGE, args->verb->name, "--explain belongs to --method models");
     for (int i = 0; i < 2; ++i)
         if (arguments_option(args, paper_only[i]) != NULL &&
             (method == NULL || method->choice != METHOD_PAPER))
@@ -207,22 +211,40 @@ json_t *query_scene_json(const arguments *args)
     return json_null();
 }
 
-static json_t *answer_json(const imp_scene *scene, const imp_result *result, const arguments *args)
+/* `why` may be NULL: nothing is explained. */
+static json_t *answer_json(const imp_scene *scene, const imp_result *result, const explanation *why,
+                           const arguments *args)
 {
     json_t *object = result_json(scene, result);
     if (object == NULL || (json_object_set_new(object, "scene", query_scene_json(args)) == 0 &&
-                           result_set_warnings(object, scene)))
+                           result_set_warnings(object, scene) &&
+                           (why == NULL || explain_set_json(object, scene, why))))
         return object;
     json_decref(object);
     return NULL;
 }
 
-exit_status query_print(const imp_scene *scene, const imp_result *result, const arguments *args)
+static exit_status print(const imp_scene *scene, const imp_result *result, const explanation *why,
+                         const arguments *args)
 {
     if (arguments_option(args, "json") != NULL)
-        return output_json(answer_json(scene, result, args), args->verb->name);
+        return output_json(answer_json(scene, result, why, args), args->verb->name);
     result_print(scene, result);
+    if (why != NULL) explain_print(scene, why);
     return output_flush(args->verb->name);
+}
+
+exit_status query_print(const imp_scene *scene, const imp_query *query, const imp_result *result,
+                        const arguments *args)
+{
+    const bool is_asked = arguments_option(args, "explain") != NULL;
+    explanation why;
+    if (!is_asked && result->verdict != IMP_VERDICT_UNDECIDED)
+        return print(scene, result, NULL, args);
+    if (!explain_query(query, result->reason, &why)) return complain_of_memory(args->verb->name);
+    const exit_status status = print(scene, result, &why, args);
+    explain_free(&why);
+    return status;
 }
 
 static exit_status answer(imp_scene *scene, const arguments *args)
@@ -231,11 +253,21 @@ static exit_status answer(imp_scene *scene, const arguments *args)
     imp_error error = {0};
     imp_options options = query_options(scene, args);
     crew threads = {query_threads_asked(args)};
+    exit_status status;
     query_lend_threads(&options, &threads);
-    if (solve(scene, &options, &result, &error) != IMP_SUCCESS)
-        return complain_of(&error, args->verb->name);
-    const exit_status printed = query_print(scene, &result, args);
-    return printed != EXIT_ANSWERED ? printed : query_status(&result, args);
+    imp_query *query = imp_query_new(scene, &options, &error);
+    imp_code code = query != NULL ? IMP_SUCCESS : error.code;
+    if (code == IMP_SUCCESS && arguments_option(args, "explain") != NULL)
+        code = imp_query_explain(query, &error);
+    if (code == IMP_SUCCESS) code = query_run(query, &result, &error);
+    if (code != IMP_SUCCESS) {
+        status = complain_of(&error, args->verb->name);
+    } else {
+        status = query_print(scene, query, &result, args);
+        if (status == EXIT_ANSWERED) status = query_status(&result, args);
+    }
+    imp_query_free(query);
+    return status;
 }
 
 exit_status query_answer(imp_scene *scene, const imp_error *error, const arguments *args)

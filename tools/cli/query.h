@@ -55,8 +55,10 @@ void query_lend_threads(imp_options *options, crew *c);
 /* The exit status a result stands for. */
 exit_status query_status(const imp_result *result, const arguments *args);
 
-/* Prints the result as text or JSON. */
-exit_status query_print(const imp_scene *scene, const imp_result *result, const arguments *args);
+/* Prints the result of a query as text or JSON: explained where that is asked for, and an undecided
+ * one with advice. */
+exit_status query_print(const imp_scene *scene, const imp_query *query, const imp_result *result,
+                        const arguments *args);
 
 /* Solves, prints the result as text or JSON, and answers the exit status. Takes over `scene`; where
  * it is NULL, complains of `error`. */

@@ -46,6 +46,9 @@ exit_status series_check(const arguments *args)
     const bool each = arguments_option(args, "each") != NULL;
     if (!each && arguments_option(args, "list-all") != NULL)
         return complain(EXIT_USAGE, speaker, "--list-all belongs to --each");
+    if ((each || refine != NULL) && arguments_option(args, "explain") != NULL)
+        return complain(EXIT_USAGE, speaker, "--%s and --explain exclude each other",
+                        each ? "each" : "refine");
     if (refine == NULL) return EXIT_ANSWERED;
     if (each) return complain(EXIT_USAGE, speaker, "--each and --refine exclude each other");
     const char *const excluded[] = {"gamma", "gamma-clear"};
@@ -84,7 +87,7 @@ static exit_status answer_refined(series *s)
         imp_result r;
         if (query_run(s->query, &r, &error) != IMP_SUCCESS)
             return complain_of(&error, s->args->verb->name);
-        const exit_status status = query_print(s->scene, &r, s->args);
+        const exit_status status = query_print(s->scene, s->query, &r, s->args);
         if (status != EXIT_ANSWERED) return status;
         s->worst = query_status(&r, s->args);
         if (r.verdict == IMP_VERDICT_UNDECIDED || *text == '\0') return EXIT_ANSWERED;

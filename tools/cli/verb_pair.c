@@ -19,8 +19,8 @@ static exit_status run(const arguments *args)
     return status;
 }
 
-static const option *const tables[] = {options_search, options_query, options_registry,
-                                       options_always, NULL};
+static const option *const tables[] = {options_explain,  options_search, options_query,
+                                       options_registry, options_always, NULL};
 
 const verb verb_pair = {
     .name = "pair",

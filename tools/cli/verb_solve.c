@@ -34,8 +34,13 @@ static exit_status run(const arguments *args)
     return status;
 }
 
-static const option *const tables[] = {options_series,   options_search, options_query,
-                                       options_registry, options_always, NULL};
+static const option *const tables[] = {options_series,
+                                       options_explain,
+                                       options_search,
+                                       options_query,
+                                       options_registry,
+                                       options_always,
+                                       NULL};
 
 const verb verb_solve = {
     .name = "solve",

@@ -1,0 +1,30 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_EXPLAIN_H
+#define TOOLS_CLI_EXPLAIN_H
+
+#include <impinge/examine.h>
+#include <jansson.h>
+
+/* Where the pairs of a search went, and what would help
+ * ===================================================== */
+
+typedef struct explanation {
+    imp_explanation *row; /* surfaces whose pairs were divided, those with most first */
+    size_t count;
+    bool is_counted; /* of the whole search; else of pairs that wait */
+    char advice[512];
+} explanation; /* explain_free frees */
+
+/* Reads what a query tells; `why` is its result's reason. False: no memory. */
+bool explain_query(const imp_query *query, imp_reason why, explanation *e);
+void explain_free(explanation *e);
+
+/* Prints the table, then the advice, each with a label. The table is left out of what was not
+ * counted. */
+void explain_print(const imp_scene *scene, const explanation *e);
+
+/* Adds "advice" and, of what was counted, "explanation". False: no memory. */
+bool explain_set_json(json_t *object, const imp_scene *scene, const explanation *e);
+
+#endif
