@@ -206,6 +206,7 @@ release_suites = tests/cli/release.bats
 # Tests of the sources, the scripts and the installation.
 script_suites = \
     tests/cli/install.bats \
+    tests/cli/manuals.bats \
     tests/cli/structure.bats \
     tests/cli/sdk.bats \
     tests/cli/preparation.bats
@@ -710,7 +711,7 @@ AM_TESTS_ENVIRONMENT = \
 # built without optimization, which halves the time, and installed. `files` lists what is installed. Where
 # the source folder is configured itself, a copy of it is built.
 installed = tests/installed
-tests/cli/install.log tests/cli/release.log tests/cli/sdk.log: $(installed)/files
+tests/cli/install.log tests/cli/manuals.log tests/cli/release.log tests/cli/sdk.log: $(installed)/files
 .PHONY: $(installed)/files
 $(installed)/files:
 	$(AM_V_GEN)unset DESTDIR; source='$(abs_top_srcdir)'; $(MKDIR_P) $(installed)/build && \
@@ -722,7 +723,7 @@ $(installed)/files:
 	  rm -rf ../prefix && $(MAKE) -s install && cd ../prefix && find . | sort >../files
 
 # What suites leave behind.
-clean-local:
+clean-local: clean-manuals
 	test ! -d $(installed) || chmod -R u+w $(installed)
 	rm -rf $(installed) tests/cache tests/no-user-data
 

@@ -5,7 +5,7 @@
 
 #include <impinge/impinge.h>
 
-/* The baseline: the algorithm of 1990 ("the paper", <impinge/surface.h>), to compare with
+/* Baseline: the algorithm of 1990 ("the paper", <impinge/surface.h>), to compare with
  * ======================================================================================
  * imp_options.baseline is one of the first three, and of the others at most one may be added. */
 enum {

@@ -9,12 +9,12 @@
 extern "C" {
 #endif
 
-/* Examining plugins, types and single instances
- * =============================================
+/* Examine: plugins, types and single instances
+ * ============================================
  * `impinge check` and `impinge why` are made with these functions. A program that asks about
  * contacts needs none of this. */
 
-/* --- Plugin files ----------------------------------------------------------------------------- */
+/* --- Examine: plugin files -------------------------------------------------------------------- */
 
 /* Checks a plugin file and reports each check with its verdict, in order. Checks that depend on one
  * that was refused are left out. The file is loaded in a child process only. Returns whether all
@@ -28,7 +28,7 @@ typedef void (*imp_finding_sink)(void *context, const char *check, imp_finding f
                                  const char *text);
 IMP_EXPORT bool imp_plugin_examine(const char *path, imp_finding_sink tell, void *context);
 
-/* --- Instances -------------------------------------------------------------------------------- */
+/* --- Examine: instances by themselves --------------------------------------------------------- */
 
 /* One surface or map by itself, for programs that examine a type: its callbacks
  * (<impinge/surface.h>) and what create made. The program calls them itself, in the default

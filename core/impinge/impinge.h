@@ -47,7 +47,7 @@ extern "C" {
  * nearest, subnormals kept, exceptions masked: FE_DFL_ENV) and restores the program's own, sticky
  * flags included. The program's callbacks are called in the default environment. */
 
-/* --- What can go wrong ------------------------------------------------------------------------ */
+/* --- Error: what can go wrong ----------------------------------------------------------------- */
 
 /* The codes that functions of the library return. (Callbacks of plugins return an imp_status.) */
 typedef enum imp_code {
@@ -123,6 +123,8 @@ IMP_EXPORT imp_registry *imp_registry_from_file(const char *file);
  * of a file, and IMP_ERROR_PLUGIN adds nothing. A plugin that is there already is ignored. */
 IMP_EXPORT imp_code imp_registry_add(imp_registry *registry, const imp_plugin *plugin,
                                      imp_error *error);
+
+/* Frees a registry, whose scenes are freed already. */
 IMP_EXPORT void imp_registry_free(imp_registry *registry);
 
 /* From now on, new instances of these types (names between commas; NULL: all) live in other
@@ -175,7 +177,7 @@ IMP_EXPORT bool imp_registry_warning(const imp_registry *registry, size_t index,
 IMP_EXPORT bool imp_registry_fault(const imp_registry *registry, size_t index,
                                    imp_plugin_refusal *fault);
 
-/* --- Scenes ----------------------------------------------------------------------------------- */
+/* --- Scene: bodies, their surfaces and maps --------------------------------------------------- */
 
 typedef struct imp_scene imp_scene;
 
@@ -196,9 +198,11 @@ IMP_EXPORT imp_scene *imp_scene_from_pair(imp_registry *registry, const char *a,
  * frees the text by free(). [any thread] */
 IMP_EXPORT char *imp_pair_to_json(const imp_registry *registry, const char *a, const char *b,
                                   imp_error *error);
+
+/* Frees a scene, whose queries are freed already. */
 IMP_EXPORT void imp_scene_free(imp_scene *scene);
 
-/* --- Scenes built without text ---------------------------------------------------------------- */
+/* --- Builder: scenes built without text ------------------------------------------------------- */
 
 /* A parameter's name and value. It never grows. Single values have rank 0 and stand in `single`
  * (numbers, and booleans as 0 or 1) or `text`; arrays, row-major, in `number` or `string`. A table
@@ -306,11 +310,16 @@ IMP_EXPORT imp_code imp_builder_ignore(imp_builder *builder, const char *x, cons
  * error. */
 IMP_EXPORT imp_scene *imp_builder_finish(imp_builder *builder, imp_error *error);
 
+/* --- Scene: what it holds --------------------------------------------------------------------- */
+
+/* Returns the number of bodies. */
 IMP_EXPORT size_t imp_scene_body_count(const imp_scene *scene);
 /* Whether two bodies are never tested with each other: one ignores the other, or has no
  * surfaces. */
 IMP_EXPORT bool imp_scene_ignores(const imp_scene *scene, size_t a, size_t b);
+/* Returns the name of a body, which lives as long as the scene. */
 IMP_EXPORT const char *imp_scene_body_name(const imp_scene *scene, size_t body);
+/* Returns the number of surfaces of a body. */
 IMP_EXPORT size_t imp_scene_surface_count(const imp_scene *scene, size_t body);
 
 /* What a type left out, or read otherwise than the author of a file may expect, when an instance
@@ -378,7 +387,7 @@ typedef struct imp_rigid_motion {
 IMP_EXPORT imp_code imp_piece_motion(const imp_scene *scene, imp_place at, double from, double to,
                                      imp_rigid_motion *motion, imp_error *why);
 
-/* --- Queries ---------------------------------------------------------------------------------- */
+/* --- Query: the earliest contact -------------------------------------------------------------- */
 
 typedef enum imp_verdict {
     IMP_VERDICT_CLEAR,
@@ -424,6 +433,8 @@ typedef bool (*imp_progress_sink)(void *context, const imp_progress *progress);
 typedef void (*imp_parallel)(void *context, void (*work)(void *of, size_t index), void *of,
                              size_t count);
 
+/* --- Options: what a query is asked ----------------------------------------------------------- */
+
 /* Start from imp_options_default(scene) and change what you need. */
 typedef struct imp_options {
     uint32_t struct_size; /* sizeof(imp_options); grows at the end */
@@ -460,6 +471,8 @@ static inline imp_options imp_options_default(const imp_scene *scene)
     imp_options_get_default(scene, &options, NULL);
     return options;
 }
+
+/* --- Query: its answer ------------------------------------------------------------------------ */
 
 /* One side of a witness. */
 typedef struct imp_side {
@@ -513,6 +526,8 @@ typedef struct imp_query imp_query;
  * error (options, plugin, memory). IMP_ERROR_SCENE: the query needs times at which a type or map is
  * not defined. The caller frees it. */
 IMP_EXPORT imp_query *imp_query_new(imp_scene *scene, const imp_options *options, imp_error *error);
+
+/* Frees a query. */
 IMP_EXPORT void imp_query_free(imp_query *query);
 
 /* Tests about `pairs` more pairs (0: until decided). IMP_ERROR_PLUGIN ends the query for good.
