@@ -31,6 +31,7 @@ core_base = \
     core/base/unconst.h
 
 core_surface = \
+    core/surface/formula_text.c core/surface/formula_text.h \
     core/surface/instance.c core/surface/instance.h \
     core/surface/region.c core/surface/region.h \
     core/surface/surface.c core/surface/surface.h \
@@ -91,6 +92,7 @@ core_scene = \
     core/scene/default_times.c core/scene/default_times.h \
     core/scene/key_pairs.c core/scene/key_pairs.h \
     core/scene/scene.c core/scene/scene.h \
+    core/scene/scene_formula.c \
     core/scene/scene_remarks.c core/scene/scene_remarks.h \
     core/scene/scene_trees.h \
     core/scene/tolerances.c core/scene/tolerances.h

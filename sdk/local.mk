@@ -6,6 +6,7 @@
 
 pkginclude_HEADERS = \
     sdk/impinge/formula.h \
+    sdk/impinge/formula_text.h \
     sdk/impinge/interval.h \
     sdk/impinge/model.h \
     sdk/impinge/model.hpp \

@@ -33,6 +33,7 @@ check_suites = \
     tests/unit/test_expression_faults \
     tests/unit/test_faulty_types \
     tests/unit/test_formula_answers \
+    tests/unit/test_formula_texts \
     tests/unit/test_guarantees \
     tests/unit/test_impacts \
     tests/unit/test_lanes \

@@ -22,6 +22,14 @@ OFFERS(map, net)
 OFFERS(map, rigid)
 OFFERS(map, span)
 
+#define OFFERS_FORMULA(KIND)                                                                       \
+    static bool KIND##_offers_formula(const imp_##KIND##_type *type)                               \
+    {                                                                                              \
+        return IMP_OFFERS(type, formula) || IMP_OFFERS(type, write_formula);                       \
+    }
+OFFERS_FORMULA(surface)
+OFFERS_FORMULA(map)
+
 const capability_row capabilities[CAPABILITIES] = {
     [CAPABILITY_CORE] = {"core", is_surface, is_map, CAPABILITY_CORE, NULL},
     [CAPABILITY_ORDER_2] = {"order-2", surface_offers_include, map_offers_apply, CAPABILITY_CORE,
@@ -33,6 +41,8 @@ const capability_row capabilities[CAPABILITIES] = {
     [CAPABILITY_DISTANCE] = {"distance", surface_offers_distance, NULL, CAPABILITY_CORE, NULL},
     [CAPABILITY_SYMMETRY] = {"symmetry", surface_offers_symmetry, NULL, CAPABILITY_DISTANCE,
                              "what changes no distance"},
+    [CAPABILITY_FORMULA] = {"formula", surface_offers_formula, map_offers_formula, CAPABILITY_CORE,
+                            NULL},
 };
 
 bool surface_type_offers(const imp_surface_type *type, capability which)

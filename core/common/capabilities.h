@@ -22,6 +22,7 @@ typedef enum capability {
     CAPABILITY_SPAN,
     CAPABILITY_DISTANCE,
     CAPABILITY_SYMMETRY,
+    CAPABILITY_FORMULA,
     CAPABILITIES
 } capability;
 

@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 /* Examine: plugins, types and single instances
- * ============================================
+ * =====================================
  * `impinge check` and `impinge why` are made with these functions. A program that asks about
  * contacts needs none of this. */
 
@@ -92,6 +92,31 @@ IMP_EXPORT imp_code imp_query_explain(imp_query *query, imp_error *error);
  * query that was not asked to count, `tested` is 0 and the obstacles are those of up to 1000 pairs
  * that wait to be searched. */
 IMP_EXPORT bool imp_query_explanation(const imp_query *query, size_t index, imp_explanation *row);
+
+/* --- Formulas --------------------------------------------------------------------------------- */
+
+/* What a surface of a scene is composed of: stage 0 is its type, or the piece of it, and each later
+ * one a map, in the order in which they apply, those of its parents last. It never grows. */
+typedef struct imp_stage {
+    imp_type_kind kind;
+    const char *type;     /* name; lives as long as the scene */
+    const void *identity; /* the same for stages that are the same instance; for comparison only */
+} imp_stage;
+
+/* Returns the number of stages; 0 if there is no such surface or piece. [any thread] */
+IMP_EXPORT size_t imp_piece_stage_count(const imp_scene *scene, imp_place at);
+
+/* Tells what stage it is. IMP_ERROR_USAGE: there is none. [any thread] */
+IMP_EXPORT imp_code imp_piece_stage(const imp_scene *scene, imp_place at, size_t stage,
+                                    imp_stage *info, imp_error *why);
+
+/* Tells the formula of a stage, in the language of imp_surface_type.formula in <impinge/surface.h>,
+ * with its numbers bound: each part begins with definitions of the parameters that it names, so
+ * that it stands for itself. *text becomes NULL if the type has no formula for it; else the caller
+ * frees it by free(). The language is not checked here. IMP_ERROR_USAGE: there is no such stage;
+ * IMP_ERROR_PLUGIN: the type failed, or printed what is no text. [any thread] */
+IMP_EXPORT imp_code imp_piece_formula(const imp_scene *scene, imp_place at, size_t stage,
+                                      char **text, imp_error *why);
 
 #ifdef __cplusplus
 }

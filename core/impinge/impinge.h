@@ -149,10 +149,11 @@ typedef struct imp_type_info {
     const imp_parameter *parameters; /* step by parameter_size bytes */
     size_t parameter_count, parameter_size;
     const char
-        *capabilities; /* what this host uses of it, names with blanks between: "core", always;
+        *capabilities;   /* what this host uses of it, names with blanks between: "core", always;
                                  "order-2": the callback include (surfaces) or apply (maps);
                                  the callbacks "net", "pieces", "rigid", "span", "distance",
-                                 "symmetry" */
+                                 "symmetry"; "formula": the text or callback */
+    const char *formula; /* as in imp_surface_type: a text with the parameters' names; or NULL */
 } imp_type_info;
 
 /* Fills *info for type `index`, in the order found, shadowed types included. Returns false past the

@@ -36,6 +36,7 @@ typedef enum channel_request {
     REQUEST_POSE, /* of a map over the times of in[3] */
     REQUEST_DISTANCE,
     REQUEST_SYMMETRY,
+    REQUEST_FORMULA, /* from byte number n on: bytes, and n of the whole text */
     REQUEST_DESTROY
 } channel_request;
 

@@ -180,6 +180,33 @@ static imp_status symmetry_of(const void *self, imp_symmetry *symmetry)
     return status;
 }
 
+/* Passes the next part of a formula on. *at counts the bytes passed on; *length is that of all. */
+static imp_status formula_part(isolated *i, const imp_text_sink *to, size_t *at, size_t *length)
+{
+    imp_status status = enter(i);
+    if (status != IMP_STATUS_OK) return status;
+    channel *with = i->worker->channel;
+    with->work.n = *at;
+    status = worker_request(i->worker, i->user, REQUEST_FORMULA);
+    *length = with->work.n;
+    if (status == IMP_STATUS_OK && *length > *at) {
+        const size_t left = *length - *at, count = left < CHANNEL_BYTES ? left : CHANNEL_BYTES;
+        to->add(to, (const char *)with->bytes, count);
+        *at += count;
+    }
+    worker_leave(i->worker);
+    return status;
+}
+
+static imp_status write_formula_of(const void *self, const imp_text_sink *to)
+{
+    size_t at = 0, length = 0;
+    imp_status status = IMP_STATUS_OK;
+    do status = formula_part(stand_in_of(self), to, &at, &length);
+    while (status == IMP_STATUS_OK && at < length);
+    return status;
+}
+
 static size_t piece_count_of(const void *self) { return stand_in_of(self)->piece_count; }
 
 static const void *piece_of(const void *self, size_t k)
@@ -243,7 +270,7 @@ static imp_status map_rigid_of(const void *self, const imp_model *t, imp_pose *p
     return status;
 }
 
-_Static_assert(CAPABILITIES == 8, "stand-ins offer what their types do");
+_Static_assert(CAPABILITIES == 9, "stand-ins offer what their types do");
 
 isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
 {
@@ -253,20 +280,22 @@ isolated *isolate_surface(worker_pool *pool, const imp_surface_type *type)
     i->user = i;
     i->type.surface = type;
     const bool pieces = IMP_OFFERS(type, piece);
-    i->surface_stand_in =
-        (imp_surface_type){.struct_size = sizeof i->surface_stand_in,
-                           .flags = type->flags,
-                           .name = type->name,
-                           .destroy = isolate_destroy,
-                           .domain = surface_domain_of,
-                           .eval = surface_eval_of,
-                           .rate = surface_rate_of,
-                           .include = type->include != NULL ? surface_include_of : NULL,
-                           .net = type->net != NULL ? net_of : NULL,
-                           .piece_count = pieces ? piece_count_of : NULL,
-                           .piece = pieces ? piece_of : NULL,
-                           .distance = IMP_OFFERS(type, distance) ? distance_of : NULL,
-                           .symmetry = IMP_OFFERS(type, symmetry) ? symmetry_of : NULL};
+    i->surface_stand_in = (imp_surface_type){
+        .struct_size = sizeof i->surface_stand_in,
+        .flags = type->flags,
+        .name = type->name,
+        .destroy = isolate_destroy,
+        .domain = surface_domain_of,
+        .eval = surface_eval_of,
+        .rate = surface_rate_of,
+        .include = type->include != NULL ? surface_include_of : NULL,
+        .net = type->net != NULL ? net_of : NULL,
+        .piece_count = pieces ? piece_count_of : NULL,
+        .piece = pieces ? piece_of : NULL,
+        .distance = IMP_OFFERS(type, distance) ? distance_of : NULL,
+        .symmetry = IMP_OFFERS(type, symmetry) ? symmetry_of : NULL,
+        .formula = IMP_OFFERS(type, formula) ? type->formula : NULL,
+        .write_formula = IMP_OFFERS(type, write_formula) ? write_formula_of : NULL};
     return i;
 }
 
@@ -277,17 +306,20 @@ isolated *isolate_map(worker_pool *pool, const imp_map_type *type)
     i->pool = pool;
     i->user = i;
     i->type.map = type;
-    i->map_stand_in = (imp_map_type){.struct_size = sizeof i->map_stand_in,
-                                     .flags = type->flags,
-                                     .name = type->name,
-                                     .destroy = isolate_destroy,
-                                     .time_domain = map_times_of,
-                                     .eval = map_eval_of,
-                                     .rate = map_rate_of,
-                                     .apply = type->apply != NULL ? map_apply_of : NULL,
-                                     .net = type->net != NULL ? net_of : NULL,
-                                     .rigid = IMP_OFFERS(type, rigid) ? map_rigid_of : NULL,
-                                     .span = IMP_OFFERS(type, span) ? map_span_of : NULL};
+    i->map_stand_in =
+        (imp_map_type){.struct_size = sizeof i->map_stand_in,
+                       .flags = type->flags,
+                       .name = type->name,
+                       .destroy = isolate_destroy,
+                       .time_domain = map_times_of,
+                       .eval = map_eval_of,
+                       .rate = map_rate_of,
+                       .apply = type->apply != NULL ? map_apply_of : NULL,
+                       .net = type->net != NULL ? net_of : NULL,
+                       .rigid = IMP_OFFERS(type, rigid) ? map_rigid_of : NULL,
+                       .span = IMP_OFFERS(type, span) ? map_span_of : NULL,
+                       .formula = IMP_OFFERS(type, formula) ? type->formula : NULL,
+                       .write_formula = IMP_OFFERS(type, write_formula) ? write_formula_of : NULL};
     return i;
 }
 

@@ -194,7 +194,8 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
     const text_field fields[] = {{"summary", view->summary},
                                  {"equation", view->equation},
                                  {"example", view->example},
-                                 {"source", view->source != NULL ? view->source : ""}};
+                                 {"source", view->source != NULL ? view->source : ""},
+                                 {"formula", view->formula != NULL ? view->formula : ""}};
     if (!text_is_name(view->name, "_-"))
         return error_set(
             error, IMP_ERROR_PLUGIN,
@@ -209,7 +210,8 @@ static imp_code check_view(const type_view *view, const char *null_callback, imp
     if (null_callback != NULL)
         return place_error(
             &type, error, IMP_ERROR_PLUGIN,
-            "%s is NULL; only include, apply, net, rigid, span, distance and symmetry may be",
+            "%s is NULL; only include, apply, net, rigid, span, distance, symmetry, formula and "
+            "write_formula may be",
             null_callback);
     return check_table(&view->table, &type, error);
 }

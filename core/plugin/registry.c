@@ -153,6 +153,7 @@ bool imp_registry_type(const imp_registry *registry, size_t index, imp_type_info
         .parameter_count = found->view.table.count,
         .parameter_size = found->view.table.stride,
         .capabilities = found->capabilities,
+        .formula = found->view.formula,
     };
     return true;
 }

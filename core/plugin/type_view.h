@@ -3,6 +3,8 @@
 #ifndef CORE_PLUGIN_TYPE_VIEW_H
 #define CORE_PLUGIN_TYPE_VIEW_H
 
+#include <stdbool.h>
+
 #include "core/plugin/parameter_table.h"
 
 /* What surface types and maps have in common
@@ -12,6 +14,8 @@
 
 typedef struct type_view {
     const char *name, *summary, *equation, *source, *example;
+    const char *formula; /* NULL: there is no constant text */
+    bool has_formula;    /* that, or the callback */
     parameter_table table;
     imp_status (*create)(const imp_value *values, void **self, imp_create_error *why);
     void (*destroy)(void *self);
@@ -25,6 +29,8 @@ static inline type_view type_view_of_surface(const imp_surface_type *type)
         .equation = type->equation,
         .source = type->source,
         .example = type->example,
+        .formula = IMP_OFFERS(type, formula) ? type->formula : NULL,
+        .has_formula = IMP_OFFERS(type, formula) || IMP_OFFERS(type, write_formula),
         .table = {type->parameters, type->parameter_count, type->parameter_size},
         .create = type->create,
         .destroy = type->destroy,
@@ -39,6 +45,8 @@ static inline type_view type_view_of_map(const imp_map_type *type)
         .equation = type->equation,
         .source = type->source,
         .example = type->example,
+        .formula = IMP_OFFERS(type, formula) ? type->formula : NULL,
+        .has_formula = IMP_OFFERS(type, formula) || IMP_OFFERS(type, write_formula),
         .table = {type->parameters, type->parameter_count, type->parameter_size},
         .create = type->create,
         .destroy = type->destroy,

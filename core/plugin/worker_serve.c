@@ -193,6 +193,34 @@ static imp_status create(server *s)
     return status;
 }
 
+/* --- Formulas --------------------------------------------------------------------------------- */
+
+/* What the callback prints, of which only a part fits into the channel. */
+typedef struct text_window {
+    unsigned char *bytes;
+    size_t from, length;
+} text_window;
+
+static void add_to_window(const imp_text_sink *sink, const char *text, size_t size)
+{
+    text_window *w = sink->host;
+    for (size_t k = 0; k < size; ++k, ++w->length)
+        if (w->length >= w->from && w->length - w->from < CHANNEL_BYTES)
+            w->bytes[w->length - w->from] = (unsigned char)text[k];
+}
+
+static imp_status write_formula(server *s)
+{
+    channel_work *w = &s->work;
+    text_window window = {s->with->bytes, w->n, 0};
+    const imp_text_sink sink = {.struct_size = sizeof sink, .host = &window, .add = add_to_window};
+    const imp_status status = s->type.surface != NULL
+                                  ? s->type.surface->write_formula(w->self, &sink)
+                                  : s->type.map->write_formula(w->self, &sink);
+    w->n = window.length;
+    return status;
+}
+
 static imp_status destroy(server *s)
 {
     if (s->type.surface != NULL)
@@ -265,6 +293,8 @@ static imp_status obey(server *s)
         return pieces(s);
     case REQUEST_INCLUDE_PIECES:
         return include_pieces(s);
+    case REQUEST_FORMULA:
+        return write_formula(s);
     case REQUEST_DESTROY:
         return destroy(s);
     default:

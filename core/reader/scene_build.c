@@ -13,6 +13,7 @@
 #include "core/reader/scene_build.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -177,6 +178,13 @@ static uint64_t bytes_of_files(const parameter_table *table, const parameter_val
     return bytes;
 }
 
+/* False: no memory. */
+static bool keep_numbers(const type_view *view, const parameter_values *values, fixed_numbers *to)
+{
+    const parameter_table *t = &view->table;
+    return fixed_numbers_copy(to, t->rows, t->count, t->stride, values->value);
+}
+
 static imp_code create(const type_view *view, isolated *stand_in, const char *file,
                        const char *folder, const json_t *object, const place *at, void **self,
                        scene_build_note *note, imp_error *error)
@@ -184,7 +192,10 @@ static imp_code create(const type_view *view, isolated *stand_in, const char *fi
     parameter_values values;
     imp_code code = parameters_read(&view->table, view->name, object, folder, at, &values, error);
     if (code != IMP_SUCCESS) return code;
-    code = run_create(view, stand_in, file, &values, at, self, note, error);
+    if (note == NULL || !view->has_formula || keep_numbers(view, &values, &note->numbers))
+        code = run_create(view, stand_in, file, &values, at, self, note, error);
+    else
+        code = error_set_memory(error);
     if (note != NULL) note->bytes += bytes_of_files(&view->table, &values);
     if (note != NULL && stand_in != NULL) note->bytes += isolate_bytes(stand_in);
     parameters_clear(&values);
@@ -304,10 +315,14 @@ imp_code scene_build_shared(const scene_source *source, imp_type_kind kind, cons
     imp_instance i;
     scene_build_note note = {.count = 0};
     imp_code code = scene_build_instance(source, kind, object, at, &i, &note, error);
-    if (code != IMP_SUCCESS) return code;
-    shared_instance *p = kind == IMP_TYPE_SURFACE ? instance_of_surface(i.surface, i.self)
-                                                  : instance_of_map(i.map, i.self);
-    if (p == NULL) return error_set_memory(error);
+    shared_instance *p = code != IMP_SUCCESS        ? NULL
+                         : kind == IMP_TYPE_SURFACE ? instance_of_surface(i.surface, i.self)
+                                                    : instance_of_map(i.map, i.self);
+    if (p == NULL) {
+        free(note.numbers.number);
+        return code != IMP_SUCCESS ? code : error_set_memory(error);
+    }
+    p->numbers = note.numbers;
     p->given = bytes_given(object) + (size_t)note.bytes;
     const bool noted = note.count == 0 || instance_set_note(p, note.count, note.text);
     if (noted && p->breach == IMP_STATUS_OK && label_part(p, object)) {

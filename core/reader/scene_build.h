@@ -33,6 +33,7 @@ typedef struct scene_build_note {
     uint64_t count; /* 0: nothing */
     char text[340]; /* one line, with the parameter's name in front */
     uint64_t bytes; /* of the files that its parameters name, and of its stand-in if isolated */
+    fixed_numbers numbers; /* for its formula; the caller frees numbers.number */
 } scene_build_note;
 
 /* Makes an instance that is not shared: the type, and what its create made. The caller owns

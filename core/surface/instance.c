@@ -138,7 +138,8 @@ shared_instance *instance_of_map(const imp_map_type *type, void *self)
 
 size_t instance_bytes(const shared_instance *p)
 {
-    return sizeof *p + p->given + p->label_size + 3 * INSTANCE_BLOCK +
+    return sizeof *p + p->given + p->label_size + 4 * INSTANCE_BLOCK +
+           p->numbers.count * sizeof *p->numbers.number +
            p->piece_count * (sizeof *p->pieces + INSTANCE_PIECE);
 }
 
@@ -160,6 +161,7 @@ void instance_release(shared_instance *p)
     free(p->pieces);
     free(p->label);
     free(p->note);
+    free(p->numbers.number);
     free(p);
 }
 
@@ -198,6 +200,39 @@ bool instance_set_note(shared_instance *p, uint64_t count, const char *text)
     p->note = strdup(text);
     if (p->note == NULL) return false;
     p->note_count = count;
+    return true;
+}
+
+/* --- Numbers ---------------------------------------------------------------------------------- */
+
+size_t fixed_numbers_of_row(const imp_parameter *row)
+{
+    size_t count = row->kind == IMP_KIND_NUMBER || row->kind == IMP_KIND_INTEGER ||
+                   row->kind == IMP_KIND_BOOLEAN;
+    for (uint32_t k = 0; k < row->rank; ++k) count *= row->extent[k];
+    return count;
+}
+
+const imp_parameter *fixed_numbers_row(const fixed_numbers *numbers, size_t k)
+{
+    const char *rows = (const char *)numbers->rows;
+    return (const imp_parameter *)(const void *)(rows + k * numbers->stride);
+}
+
+bool fixed_numbers_copy(fixed_numbers *to, const imp_parameter *rows, size_t row_count,
+                        size_t stride, const imp_value *values)
+{
+    size_t at = 0;
+    *to = (fixed_numbers){.rows = rows, .row_count = row_count, .stride = stride};
+    for (size_t k = 0; k < row_count; ++k)
+        to->count += fixed_numbers_of_row(fixed_numbers_row(to, k));
+    to->number = malloc((to->count + 1) * sizeof *to->number);
+    if (to->number == NULL) return false;
+    for (size_t k = 0; k < row_count; ++k) {
+        const size_t wanted = fixed_numbers_of_row(fixed_numbers_row(to, k));
+        for (size_t i = 0; i < wanted; ++i)
+            to->number[at++] = i < values[k].count ? values[k].number[i] : NAN;
+    }
     return true;
 }
 

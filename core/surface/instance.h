@@ -13,6 +13,15 @@
 
 enum { INSTANCE_LABEL_MAX = 240 };
 
+/* The numbers among the values that it was made from, for a formula that names parameters: those
+ * of rows with a fixed shape, in the table's order, NaN where absent. */
+typedef struct fixed_numbers {
+    const imp_parameter *rows; /* the type's table */
+    size_t row_count, stride;  /* 0 rows: the type has no formula */
+    size_t count;
+    double *number;
+} fixed_numbers;
+
 typedef struct shared_instance {
     const imp_surface_type *surface; /* NULL: it is a map */
     const imp_map_type *map;         /* NULL: it is a surface */
@@ -27,9 +36,10 @@ typedef struct shared_instance {
     size_t
         given;   /* bytes of the values and files it was made from: about what the instance keeps */
     char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
-    size_t label_size;   /* bytes of it, its end included */
-    uint64_t note_count; /* things that create left out or read otherwise; 0: no note */
-    char *note;          /* which ones, with the parameter's name; NULL: none */
+    size_t label_size;     /* bytes of it, its end included */
+    uint64_t note_count;   /* things that create left out or read otherwise; 0: no note */
+    char *note;            /* which ones, with the parameter's name; NULL: none */
+    fixed_numbers numbers; /* for its formula */
 } shared_instance;
 
 /* Takes over the instance `self` and asks for its domain, or for those of its pieces, which have
@@ -51,6 +61,15 @@ const char *instance_label(const shared_instance *p);
 
 /* Copies a note of create, once: `count` things, told by the text. False: no memory. */
 bool instance_set_note(shared_instance *p, uint64_t count, const char *text);
+
+/* Numbers of a row: 0 if its shape is not fixed, or it has no numbers. */
+size_t fixed_numbers_of_row(const imp_parameter *row);
+
+const imp_parameter *fixed_numbers_row(const fixed_numbers *numbers, size_t k);
+
+/* Copies them from the values, one for each row. False: no memory. */
+bool fixed_numbers_copy(fixed_numbers *to, const imp_parameter *rows, size_t row_count,
+                        size_t stride, const imp_value *values);
 
 /* Estimates the bytes that it and what create made hold, with what the allocator adds to each
  * block. */

@@ -246,6 +246,8 @@ const char *surface_status_text(imp_status status)
         return "its symmetry has an unknown kind, a center or an axis that is not finite, or an "
                "axis "
                "without length";
+    case SURFACE_BAD_FORMULA:
+        return "printed a formula that is empty, or has other than printable characters";
     case SURFACE_BAD_SPAN:
         return "the span of its times is empty or NaN";
     case SURFACE_CRASHED:

@@ -91,6 +91,7 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 #define SURFACE_BAD_DISTANCE 1015
 #define SURFACE_BAD_SYMMETRY 1016
 #define SURFACE_BAD_SPAN 1017
+#define SURFACE_BAD_FORMULA 1018
 
 /* The text for a status other than IMP_STATUS_OK, as the end of "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);

@@ -80,6 +80,8 @@ static const imp_surface_type sphere = {
     .equation =
         "center + radius (cos v cos u, cos v sin u, sin v), u in [0,2pi], v in [-pi/2,pi/2]",
     .source = NULL,
+    .formula = "u in [0, 2*pi]; v in [-pi/2, pi/2]; center0 + radius*cos(v)*cos(u); "
+               "center1 + radius*cos(v)*sin(u); center2 + radius*sin(v)",
     .example = "sphere radius=2 center=0,0,1",
 };
 

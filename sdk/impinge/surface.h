@@ -272,6 +272,50 @@ typedef struct imp_symmetry {
     double axis[3];     /* some component from 1e-100 to 1e100 */
 } imp_symmetry;
 
+/* --- Formulas as text ------------------------------------------------------------------------- */
+
+/* Takes a text in portions. It grows at the end. `add` appends size bytes; sinks are the host's. */
+typedef struct imp_text_sink {
+    uint32_t struct_size;
+    uint32_t reserved; /* 0 */
+    void *host;
+    void (*add)(const struct imp_text_sink *sink, const char *text, size_t size);
+} imp_text_sink;
+
+/* Capability `formula`: what an instance is, in a language that people and other programs read. A
+ * proof that is written to a file states the surfaces by these formulas, and `impinge check` proves
+ * the callbacks' bounds by them. A type has `formula`, a text in which its parameters stand by
+ * their names, or `write_formula`, which prints an instance, or both.
+ *
+ *   text     = part { "|" part }
+ *   part     = { item ";" } X ";" Y ";" Z
+ *   item     = variable "in" "[" sum "," sum "]"  |  name "=" sum
+ *   sum      = product { ("+" | "-") product }
+ *   product  = signed { ("*" | "/") signed }
+ *   signed   = { "+" | "-" } power
+ *   power    = operand [ "^" signed ]
+ *   operand  = number | name | name "(" sum { "," sum } ")" | "(" sum ")"
+ *
+ * X, Y and Z are sums: the three coordinates, lengths. The variables are u, v and t of a surface,
+ * and x, y, z and t of a map; t is the time, or what the map's or surface's clock shows. Items
+ * stand before what uses them. `variable in [lo, hi]` is the domain, closed: of a surface those of
+ * u and v are said, and t has all times if none are said; of a map only t may have one. Its ends
+ * are without variables, and those of t may be -inf and inf. `name = sum` defines a name, letters,
+ * digits and '_', a letter first, which is no variable, function or name that has a meaning
+ * already, but may be one of a parameter that stands for nothing here. Blanks and line ends
+ * separate.
+ *
+ * Names that are not defined are pi, e, and the numbers among the instance's parameters: of a
+ * number, integer or boolean (0 or 1) by its name, of an array with the place behind it, row-major
+ * from 0, as in center0; only those of a fixed shape. Names of parameters come before pi and e.
+ * Functions are those that `impinge info formula` lists. Numbers are decimal or as C's hexadecimal
+ * ones, and stand for the nearest double; all else is exact: real numbers, no rounding.
+ *
+ * The surface is the union of its parts. Where the boxes of two parts overlap, they agree; every
+ * point of the instance's domain that the host may ask for is in one, but for the rounding of the
+ * domain's ends: IMP_TWO_PI_UPPER stands for 2*pi. For a surface that has no other times, or a map,
+ * what is said for times outside of the boxes is nothing. */
+
 /* --- Types ------------------------------------------------------------------------------------ */
 
 /* Set in `flags` of a surface type or map that is defined for some times only: at other times the
@@ -373,6 +417,20 @@ typedef struct imp_surface_type {
      * host has set *symmetry to 0. IMP_STATUS_UNBOUNDED: there is no symmetry with these
      * parameters. [thread-safe] */
     imp_status (*symmetry)(const void *self, imp_symmetry *symmetry);
+
+    /* Capability `formula` (see above); NULL, or a struct_size that ends before it: no such text.
+     *
+     * The formula of every instance, or of those that `write_formula` does not print otherwise. It
+     * says nothing about an instance that consists of pieces. */
+    const char *formula;
+
+    /* Capability `formula`; NULL, or a struct_size that ends before it: `formula` alone counts.
+     *
+     * Prints the formula of an instance, or of a piece where instances consist of pieces. It may
+     * use the names of parameters, and print `formula`. <impinge/formula_text.h> writes exact
+     * numbers. IMP_STATUS_UNBOUNDED: the instance has no formula, and what was printed is ignored.
+     * Other statuses are errors. It may allocate. [thread-safe] */
+    imp_status (*write_formula)(const void *self, const imp_text_sink *to);
 } imp_surface_type;
 
 #define IMP_PIECES_MAX ((size_t)1 << 24)
@@ -432,6 +490,11 @@ typedef struct imp_map_type {
      * table whose ends hold before and after it. A host that is not told which times to examine
      * examines these. -INFINITY and INFINITY: no times are preferred. [thread-safe] */
     void (*span)(const void *self, double *lo, double *hi);
+
+    /* Capability `formula`; each may be missing as in imp_surface_type. A text of several parts has
+     * one for each span of times: of a table those between two of its rows. [thread-safe] */
+    const char *formula;
+    imp_status (*write_formula)(const void *self, const imp_text_sink *to);
 } imp_map_type;
 
 /* --- The plugin ------------------------------------------------------------------------------- */
@@ -580,19 +643,24 @@ IMP_LAYOUT(offsetof(imp_model, depends) == 128);
 IMP_LAYOUT(sizeof(imp_net) == 2104 && offsetof(imp_net, place) == 16);
 IMP_LAYOUT(offsetof(imp_net, error) == 64 && offsetof(imp_net, point) == 88);
 IMP_LAYOUT(offsetof(imp_net, velocity) == 952 && offsetof(imp_net, weight) == 1816);
-IMP_LAYOUT(sizeof(imp_surface_type) == 152 && offsetof(imp_surface_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_text_sink) == 24 && offsetof(imp_text_sink, add) == 16);
+IMP_LAYOUT(sizeof(imp_surface_type) == 168 && offsetof(imp_surface_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_surface_type, create) == 64 && offsetof(imp_surface_type, include) == 104);
 IMP_LAYOUT(offsetof(imp_surface_type, net) == 112);
 IMP_LAYOUT(offsetof(imp_surface_type, piece_count) == 120);
 IMP_LAYOUT(offsetof(imp_surface_type, distance) == 136);
 IMP_LAYOUT(offsetof(imp_surface_type, symmetry) == 144);
+IMP_LAYOUT(offsetof(imp_surface_type, formula) == 152);
+IMP_LAYOUT(offsetof(imp_surface_type, write_formula) == 160);
 IMP_LAYOUT(sizeof(imp_pose) == 1680 && offsetof(imp_pose, shift) == 1224);
 IMP_LAYOUT(offsetof(imp_pose, pivot) == 1632 && offsetof(imp_pose, fixed) == 1656);
 IMP_LAYOUT(sizeof(imp_symmetry) == 56 && offsetof(imp_symmetry, center) == 8);
-IMP_LAYOUT(sizeof(imp_map_type) == 136 && offsetof(imp_map_type, name) == 16);
+IMP_LAYOUT(sizeof(imp_map_type) == 152 && offsetof(imp_map_type, name) == 16);
 IMP_LAYOUT(offsetof(imp_map_type, create) == 64 && offsetof(imp_map_type, apply) == 104);
 IMP_LAYOUT(offsetof(imp_map_type, net) == 112 && offsetof(imp_map_type, rigid) == 120);
 IMP_LAYOUT(offsetof(imp_map_type, span) == 128);
+IMP_LAYOUT(offsetof(imp_map_type, formula) == 136);
+IMP_LAYOUT(offsetof(imp_map_type, write_formula) == 144);
 IMP_LAYOUT(sizeof(imp_surface_factory) == 16 && sizeof(imp_map_factory) == 16);
 IMP_LAYOUT(sizeof(imp_plugin) == 56 && offsetof(imp_plugin, name) == 16);
 IMP_LAYOUT(offsetof(imp_plugin, get_factory) == 48);

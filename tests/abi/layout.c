@@ -99,6 +99,10 @@ static void regions(void)
 
 static void types(void)
 {
+    GROWS(imp_text_sink);
+    FIELD(imp_text_sink, struct_size), FIELD(imp_text_sink, reserved);
+    FIELD(imp_text_sink, host), FIELD(imp_text_sink, add);
+    CALL(imp_text_sink, add, void (*)(const imp_text_sink *, const char *, size_t));
     GROWS(imp_surface_type);
     TYPE_FIELDS(imp_surface_type);
     FIELD(imp_surface_type, domain), FIELD(imp_surface_type, eval);
@@ -114,6 +118,8 @@ static void types(void)
     CALL(imp_surface_type, distance, imp_status(*)(const void *, const imp_model *, imp_model *));
     FIELD(imp_surface_type, symmetry);
     CALL(imp_surface_type, symmetry, imp_status(*)(const void *, imp_symmetry *));
+    FIELD(imp_surface_type, formula), FIELD(imp_surface_type, write_formula);
+    CALL(imp_surface_type, write_formula, imp_status(*)(const void *, const imp_text_sink *));
     CALL(imp_surface_type, domain, void (*)(const void *, double *, double *));
     CALL(imp_surface_type, rate,
          imp_status(*)(const void *, const imp_region *, imp_rate_matrix *));
@@ -129,6 +135,8 @@ static void types(void)
     CALL(imp_map_type, apply, imp_status(*)(const void *, const imp_model *, imp_model *));
     CALL(imp_map_type, rigid, imp_status(*)(const void *, const imp_model *, imp_pose *));
     CALL(imp_map_type, span, void (*)(const void *, double *, double *));
+    FIELD(imp_map_type, formula), FIELD(imp_map_type, write_formula);
+    CALL(imp_map_type, write_formula, imp_status(*)(const void *, const imp_text_sink *));
 }
 
 static void plugins(void)

@@ -145,12 +145,12 @@ json_t *catalogue_full_json(const imp_type_info *info)
 {
     json_t *type = catalogue_short_json(info);
     json_t *more = json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equation",
-        output_json_text(info->equation), "source", output_json_text(info->source), "parameters",
-        parameters_json(info), "example", output_json_text(info->example), "plugin",
-        output_json_text(info->plugin), "version", output_json_text(info->version), "license",
-        output_json_text(info->license), "author", output_json_text(info->author), "capabilities",
-        capabilities_json(info));
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equation",
+        output_json_text(info->equation), "formula", output_json_text(info->formula), "source",
+        output_json_text(info->source), "parameters", parameters_json(info), "example",
+        output_json_text(info->example), "plugin", output_json_text(info->plugin), "version",
+        output_json_text(info->version), "license", output_json_text(info->license), "author",
+        output_json_text(info->author), "capabilities", capabilities_json(info));
     if (type == NULL || more == NULL || json_object_update(type, more) != 0) {
         json_decref(type);
         type = NULL;

@@ -85,6 +85,7 @@ static void print_type(const imp_registry *registry, const imp_type_info *info)
     printf("%s (%s): %s\n", info->name, catalogue_kind_name(info->kind), info->summary);
     print_line("equation", info->equation);
     print_line("source", info->source);
+    print_line("formula", info->formula);
     print_parameters(info);
     print_line("example", info->example);
     print_command(registry, info);

@@ -176,6 +176,7 @@ class TypeInfo(c.Structure):
         ("parameter_count", c.c_size_t),
         ("parameter_size", c.c_size_t),
         ("capabilities", c.c_char_p),
+        ("formula", c.c_char_p),
     ]
 
 
