@@ -156,7 +156,7 @@ plugins_libcommon_la_SOURCES = \
     plugins/common/linear.c plugins/common/linear.h \
     plugins/common/sinc.c plugins/common/sinc.h \
     plugins/common/spin.c plugins/common/spin.h \
-    plugins/common/spline.c plugins/common/spline.h \
+    plugins/common/spline.c plugins/common/spline.h plugins/common/spline_set.c \
     plugins/common/superquadric.c plugins/common/superquadric.h
 plugins_libcommon_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 plugins_libcommon_la_LDFLAGS =

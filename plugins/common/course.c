@@ -33,6 +33,28 @@ static imp_status course_check_unit(const course_question *q, int given)
                       angle ? "table" : "file");
 }
 
+/* Velocities belong to times, and accelerations to velocities; there is one for each time. */
+static imp_status course_check_slopes(const course_question *q, int given)
+{
+    static const int further[] = {COURSE_VELOCITIES, COURSE_ACCELERATIONS};
+    for (int k = 0; k < 2; ++k) {
+        const imp_value *v = &q->v[further[k]];
+        const int owner = k == 0 ? COURSE_TIMES : COURSE_VELOCITIES;
+        if (!imp_is_given(v)) continue;
+        if (given != COURSE_TIMES || !imp_is_given(&q->v[owner]))
+            return imp_reject(q->why, q->first + further[k], -1, "belongs to %s, which is missing",
+                              q->rows[q->first + owner].name);
+        if (v->extent[0] != q->v[COURSE_TIMES].count)
+            return imp_reject(q->why, q->first + further[k], -1,
+                              "%zu for %zu times; there must be one for each", v->extent[0],
+                              q->v[COURSE_TIMES].count);
+        if (strcmp(q->v[COURSE_INTERPOLATION].string[0], "linear") != 0)
+            return imp_reject(q->why, q->first + further[k], -1,
+                              "given beside interpolation, which takes slopes from the values");
+    }
+    return IMP_STATUS_OK;
+}
+
 /* Exactly one of rate, coefficients, times with values, and file. */
 static imp_status course_check(const course_question *q)
 {
@@ -58,7 +80,8 @@ static imp_status course_check(const course_question *q)
     if (imp_is_given(&v[COURSE_COLUMNS]) && given != COURSE_FILE)
         return imp_reject(q->why, q->first + COURSE_COLUMNS, -1,
                           "belongs to a file, which is missing");
-    return course_check_unit(q, given);
+    const imp_status status = course_check_unit(q, given);
+    return status == IMP_STATUS_OK ? course_check_slopes(q, given) : status;
 }
 
 static imp_status course_read_polynomial(course *c, const course_question *q)
@@ -163,37 +186,58 @@ static imp_status course_take_times(course_table *t, imp_create_error *why)
     return IMP_STATUS_OK;
 }
 
-static void fill_keys(const course_table *t, double *time, imp_interval *key)
+static void fill_times(const course_table *t, double *time)
 {
-    const size_t columns = t->numbers.columns;
-    for (size_t i = 0; i < t->numbers.rows; ++i) {
-        const double *row = &t->numbers.number[i * columns];
-        time[i] = row[0];
-        for (size_t k = 1; k < columns; ++k)
-            key[i * (columns - 1) + k - 1] = unit_convert(row[k], &t->from[k], &t->to[k]);
-    }
+    for (size_t i = 0; i < t->numbers.rows; ++i)
+        time[i] = t->numbers.number[i * t->numbers.columns];
+}
+
+/* Converts rows of one number for each column but the time, `stride` apart. */
+static void fill_keys(const course_table *t, const double *number, size_t stride, imp_interval *key)
+{
+    const size_t width = t->numbers.columns - 1;
+    for (size_t i = 0; i < t->numbers.rows; ++i)
+        for (size_t k = 0; k < width; ++k)
+            key[i * width + k] =
+                unit_convert(number[i * stride + k], &t->from[k + 1], &t->to[k + 1]);
+}
+
+/* Sets the spline through the values, or through them with the velocities that are given. `key` has
+ * room for all three. */
+static bool course_set_spline(const course *c, const course_table *t, const course_question *q,
+                              imp_interval *key, size_t *piece)
+{
+    const size_t width = t->numbers.columns - 1, all = t->numbers.rows * width;
+    const imp_value *slopes = &q->v[COURSE_VELOCITIES], *bends = &q->v[COURSE_ACCELERATIONS];
+    fill_keys(t, t->numbers.number + 1, width + 1, key);
+    if (!imp_is_given(slopes)) return spline_set(&c->table, key, piece);
+    fill_keys(t, slopes->number, width, key + all);
+    if (imp_is_given(bends)) fill_keys(t, bends->number, width, key + 2 * all);
+    return spline_set_hermite(&c->table, key, key + all, key + 2 * all, piece);
 }
 
 /* The spline of a checked table. */
-static imp_status course_set_table(course *c, const course_table *t, bool linear,
-                                   imp_create_error *why)
+static imp_status course_set_table(course *c, const course_table *t, const course_question *q,
+                                   bool linear)
 {
     const size_t width = t->numbers.columns - 1, keys = t->numbers.rows;
-    imp_interval *key = malloc(keys * width * sizeof *key);
-    c->memory = malloc(spline_bytes(keys, width, 0));
+    const bool sloped = imp_is_given(&q->v[COURSE_VELOCITIES]);
+    const int degree = imp_is_given(&q->v[COURSE_ACCELERATIONS]) ? SPLINE_QUINTIC : SPLINE_CUBIC;
+    imp_interval *key = malloc(3 * keys * width * sizeof *key);
+    c->memory = malloc(spline_bytes(degree, keys, width, 0));
     if (key == NULL || c->memory == NULL) {
         free(key);
         return IMP_STATUS_INTERNAL;
     }
-    c->table = spline_place(keys, width, 0, c->memory);
-    c->table.kinked = linear;
-    fill_keys(t, c->table.time, key);
+    c->table = spline_place(degree, keys, width, 0, c->memory);
+    c->table.kinked = linear && !sloped;
+    fill_times(t, c->table.time);
     size_t piece;
-    const bool good = spline_set(&c->table, key, &piece);
+    const bool good = course_set_spline(c, t, q, key, &piece);
     free(key);
     if (!good)
         return imp_reject(
-            why, t->row, -1,
+            q->why, t->row, -1,
             "row %zu of the table is too far from the one before for the time between "
             "them: speeds are not finite",
             piece + 2);
@@ -218,7 +262,7 @@ static imp_status course_read_table(course *c, const course_question *q)
                             : course_collect(q, &t.numbers);
     if (status == IMP_STATUS_OK) status = course_find_units(q, &t);
     if (status == IMP_STATUS_OK) status = course_take_times(&t, q->why);
-    if (status == IMP_STATUS_OK) status = course_set_table(c, &t, linear, q->why);
+    if (status == IMP_STATUS_OK) status = course_set_table(c, &t, q, linear);
     free(t.numbers.number);
     return status;
 }

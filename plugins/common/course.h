@@ -11,8 +11,9 @@
  * ================================
  * An angle, or three lengths, as a polynomial in time (polynomial.h), or from a table of times and
  * values: given as parameters, or as columns of a file (csv.h), converted from their units
- * (units.h). Between the times of a table it is linear, or the cubic of a spline (spline.h). Beyond
- * them it is held, or the map is not defined. */
+ * (units.h). Between the times of a table it is linear, or a spline (spline.h): a cubic with slopes
+ * of its own or with given velocities, a quintic with given accelerations too. Beyond them it is
+ * held, or the map is not defined. */
 
 /* The rows of a type's table, in this order, from `first` on. */
 enum {
@@ -25,10 +26,13 @@ enum {
     COURSE_UNIT,
     COURSE_INTERPOLATION,
     COURSE_HOLD,
+    COURSE_VELOCITIES,
+    COURSE_ACCELERATIONS,
     COURSE_ROWS
 };
 
-/* VALUES is a row of its own kind; UNIT is that of angles or that of lengths. */
+/* VALUES, VELOCITIES and ACCELERATIONS are rows of their own kind; UNIT is that of angles or that
+ * of lengths. */
 #define COURSE_ROW_TIMES                                                                           \
     IMP_ROW_NUMBERS("times", "time", NULL, IMP_PARAMETER_OPTIONAL,                                 \
                     "instead: of a table, increasing, two or more")
@@ -57,6 +61,11 @@ enum {
 #define COURSE_ROW_INTERPOLATION                                                                   \
     IMP_ROW_OF(IMP_KIND_STRING, "interpolation", "1", "\"linear\"", 0, 0, 0, 0, -INFINITY,         \
                INFINITY, "of a table: linear, or cubic with continuous slopes as in keyframes")
+
+#define COURSE_DOC_VELOCITIES                                                                      \
+    "with times: one for each; between them the cubic with these slopes, or with accelerations a " \
+    "quintic"
+#define COURSE_DOC_ACCELERATIONS "with velocities: one for each of times"
 
 #define COURSE_ROW_HOLD                                                                            \
     IMP_ROW_BOOLEAN("hold", "false",                                                               \

@@ -5,168 +5,6 @@
 
 #include <string.h>
 
-/* --- Making one ------------------------------------------------------------------------------- */
-
-size_t spline_bytes(size_t keys, size_t lanes, size_t further)
-{
-    const size_t width = SPLINE_COLUMNS * lanes + further;
-    return keys *
-           (sizeof(double) + lanes * sizeof(spline_cubic) + 2 * width * sizeof(imp_interval));
-}
-
-spline spline_place(size_t keys, size_t lanes, size_t further, void *memory)
-{
-    spline s = {.pieces = keys - 1, .lanes = lanes, .width = SPLINE_COLUMNS * lanes + further};
-    s.cubic = memory;
-    s.tree = (imp_interval *)(s.cubic + lanes * s.pieces);
-    s.time = (double *)(s.tree + 2 * s.width * s.pieces);
-    return s;
-}
-
-imp_interval spline_step(const spline *s, size_t from, size_t to)
-{
-    return imp_interval_sub(imp_interval_make(s->time[to], s->time[to]),
-                            imp_interval_make(s->time[from], s->time[from]));
-}
-
-/* (g_to - g_from) / (t_to - t_from); `key` has the values of one lane, `lanes` apart. */
-static imp_interval spline_secant(const spline *s, const imp_interval *key, size_t from, size_t to)
-{
-    return imp_interval_div(imp_interval_sub(key[to * s->lanes], key[from * s->lanes]),
-                            spline_step(s, from, to));
-}
-
-/* Slope at key i. At an end that of a parabola whose slope at the next key is known: both
- * together are twice the secant. */
-static imp_interval spline_tangent(const spline *s, const imp_interval *key, size_t i)
-{
-    const size_t last = s->pieces;
-    if (last == 1) return spline_secant(s, key, 0, 1);
-    if (i > 0 && i < last) return spline_secant(s, key, i - 1, i + 1);
-    const size_t next = i == 0 ? 1 : last - 1;
-    imp_interval secant = spline_secant(s, key, i == 0 ? 0 : next, i == 0 ? 1 : last);
-    return imp_interval_sub(imp_interval_scale(secant, 2), spline_tangent(s, key, next));
-}
-
-/* factor (b - a) / h. */
-static imp_interval spline_rise(imp_interval a, imp_interval b, double factor, imp_interval h)
-{
-    return imp_interval_div(imp_interval_scale(imp_interval_sub(b, a), factor), h);
-}
-
-/* Sets the cubic of a straight piece. The control points between the ends divide the way, so that
- * values stay in the hull of the ends: (2 a + b) / 3 and (a + 2 b) / 3. */
-static void spline_set_line(const spline *s, const imp_interval *key, size_t piece, spline_cubic *c)
-{
-    const imp_interval a = key[piece * s->lanes], b = key[(piece + 1) * s->lanes];
-    const imp_interval secant = spline_secant(s, key, piece, piece + 1);
-    const imp_interval none = imp_interval_make(0, 0), three = imp_interval_make(3, 3);
-    c->value[0] = a;
-    c->value[1] = imp_interval_div(imp_interval_add(imp_interval_scale(a, 2), b), three);
-    c->value[2] = imp_interval_div(imp_interval_add(a, imp_interval_scale(b, 2)), three);
-    c->value[3] = b;
-    for (int k = 0; k < 3; ++k) c->slope[k] = secant;
-    for (int k = 0; k < 2; ++k) c->bend[k] = none;
-    c->third = none;
-}
-
-/* With g'' = a. Its slope is the secant - a h/2 at the start and + a h/2 at the end. */
-static void spline_set_parabola(const spline *s, const imp_interval *key, size_t piece, double a,
-                                spline_cubic *c)
-{
-    const imp_interval h = spline_step(s, piece, piece + 1), three = imp_interval_make(3, 3);
-    const imp_interval half = imp_interval_scale(imp_interval_scale(h, a), 0.5);
-    spline_set_line(s, key, piece, c);
-    c->slope[0] = imp_interval_sub(c->slope[1], half);
-    c->slope[2] = imp_interval_add(c->slope[1], half);
-    const imp_interval up = imp_interval_mul(h, c->slope[0]);
-    const imp_interval down = imp_interval_mul(h, c->slope[2]);
-    c->value[1] = imp_interval_add(c->value[0], imp_interval_div(up, three));
-    c->value[2] = imp_interval_sub(c->value[3], imp_interval_div(down, three));
-    for (int k = 0; k < 2; ++k) c->bend[k] = imp_interval_scale(imp_interval_make(a, a), 0.5);
-}
-
-/* The control points next to the ends are a third of a step up their slopes. */
-static void spline_set_cubic(const spline *s, const imp_interval *key, size_t piece,
-                             spline_cubic *c)
-{
-    const imp_interval h = spline_step(s, piece, piece + 1), three = imp_interval_make(3, 3);
-    if (s->kinked) {
-        spline_set_line(s, key, piece, c);
-        return;
-    }
-    imp_interval up = imp_interval_mul(h, spline_tangent(s, key, piece));
-    imp_interval down = imp_interval_mul(h, spline_tangent(s, key, piece + 1));
-    c->value[0] = key[piece * s->lanes];
-    c->value[3] = key[(piece + 1) * s->lanes];
-    c->value[1] = imp_interval_add(c->value[0], imp_interval_div(up, three));
-    c->value[2] = imp_interval_sub(c->value[3], imp_interval_div(down, three));
-    for (int k = 0; k < 3; ++k) c->slope[k] = spline_rise(c->value[k], c->value[k + 1], 3, h);
-    for (int k = 0; k < 2; ++k) c->bend[k] = spline_rise(c->slope[k], c->slope[k + 1], 1, h);
-    c->third = imp_interval_div(spline_rise(c->bend[0], c->bend[1], 1, h), three);
-}
-
-imp_interval spline_hull(imp_interval x, imp_interval y)
-{
-    return imp_interval_make(imp_smaller(x.lo, y.lo), imp_larger(x.hi, y.hi));
-}
-
-static imp_interval spline_hull_of(const imp_interval *x, int count)
-{
-    imp_interval hull = x[0];
-    for (int k = 1; k < count; ++k) hull = spline_hull(hull, x[k]);
-    return hull;
-}
-
-/* Ranges over a whole piece. False: not finite. */
-static bool spline_set_leaf(const spline_cubic *c, imp_interval node[SPLINE_COLUMNS])
-{
-    node[SPLINE_VALUE] = spline_hull_of(c->value, 4);
-    node[SPLINE_SLOPE] = spline_hull_of(c->slope, 3);
-    node[SPLINE_BEND] = spline_hull_of(c->bend, 2);
-    return imp_interval_is_finite(node[SPLINE_VALUE]) &&
-           imp_interval_is_finite(node[SPLINE_SLOPE]) &&
-           imp_interval_is_finite(node[SPLINE_BEND]) && imp_interval_is_finite(c->third);
-}
-
-bool spline_set(const spline *s, const imp_interval *keys, size_t *piece)
-{
-    for (size_t i = 0; i < s->pieces; ++i)
-        for (size_t lane = 0; lane < s->lanes; ++lane) {
-            imp_interval *node = spline_node(s, s->pieces + i) + SPLINE_COLUMNS * lane;
-            spline_set_cubic(s, keys + lane, i, spline_lane(s, i, lane));
-            *piece = i;
-            if (!spline_set_leaf(spline_lane(s, i, lane), node)) return false;
-        }
-    return true;
-}
-
-bool spline_set_parabolas(const spline *s, const imp_interval *keys, const double *accelerations,
-                          size_t *piece)
-{
-    for (size_t i = 0; i < s->pieces; ++i)
-        for (size_t lane = 0; lane < s->lanes; ++lane) {
-            const double a = accelerations != NULL ? accelerations[3 * i + lane] : 0;
-            spline_cubic *c = spline_lane(s, i, lane);
-            if (a != 0)
-                spline_set_parabola(s, keys + lane, i, a, c);
-            else
-                spline_set_line(s, keys + lane, i, c);
-            *piece = i;
-            if (!spline_set_leaf(c, spline_node(s, s->pieces + i) + SPLINE_COLUMNS * lane))
-                return false;
-        }
-    return true;
-}
-
-void spline_grow(const spline *s)
-{
-    for (size_t k = s->pieces - 1; k > 0; --k)
-        for (size_t j = 0; j < s->width; ++j)
-            spline_node(s, k)[j] =
-                spline_hull(spline_node(s, 2 * k)[j], spline_node(s, 2 * k + 1)[j]);
-}
-
 /* --- One time --------------------------------------------------------------------------------- */
 
 /* The part of a piece that has passed at t; exactly, it is in [0, 1]. */
@@ -183,7 +21,7 @@ static imp_interval spline_part(const spline *s, size_t piece, double t)
 imp_interval spline_at(const imp_interval *control, int count, imp_interval part)
 {
     const imp_interval rest = imp_interval_sub(imp_interval_make(1, 1), part);
-    imp_interval x[4];
+    imp_interval x[SPLINE_QUINTIC + 1];
     memcpy(x, control, (size_t)count * sizeof *x);
     for (int n = count - 1; n > 0; --n)
         for (int k = 0; k < n; ++k)
@@ -233,15 +71,22 @@ static void spline_ask(const spline *s, size_t first, size_t last, imp_interval 
     }
 }
 
-/* g''/2 over the span: linear in each piece. */
+/* Bounds g''/2 over the span. It is linear in each piece of a cubic spline; of a quintic one, over
+ * its first and last piece, it is in the hull of the control points, since it is a cubic there. */
 static imp_interval spline_bend_over(const spline *s, const spline_span *span, size_t lane,
                                      const imp_interval *between)
 {
-    const imp_interval *first = spline_lane(s, span->first, lane)->bend;
-    const imp_interval *last = spline_lane(s, span->last, lane)->bend;
-    imp_interval lo = spline_at(first, 2, spline_part(s, span->first, span->lo));
-    imp_interval hi = spline_at(last, 2, spline_part(s, span->last, span->hi));
-    imp_interval bend = spline_hull(spline_hull(lo, first[1]), spline_hull(last[0], hi));
+    const imp_interval *first = spline_term(s, span->first, lane, 2);
+    const imp_interval *last = spline_term(s, span->last, lane, 2);
+    imp_interval lo, hi;
+    if (s->degree == SPLINE_CUBIC) {
+        lo = spline_hull(spline_at(first, 2, spline_part(s, span->first, span->lo)), first[1]);
+        hi = spline_hull(last[0], spline_at(last, 2, spline_part(s, span->last, span->hi)));
+    } else {
+        lo = spline_hull_of(first, s->degree - 1);
+        hi = spline_hull_of(last, s->degree - 1);
+    }
+    imp_interval bend = spline_hull(lo, hi);
     return between != NULL ? spline_hull(bend, between[SPLINE_COLUMNS * lane + SPLINE_BEND]) : bend;
 }
 
@@ -250,10 +95,11 @@ static imp_interval spline_bend_over(const spline *s, const spline_span *span, s
 static imp_interval spline_slopes_within(const spline *s, size_t piece, size_t lane, double lo,
                                          double hi)
 {
-    const spline_cubic *c = spline_lane(s, piece, lane);
-    if (c->bend[0].lo == 0 && c->bend[0].hi == 0) return c->slope[0];
-    return spline_hull(spline_at(c->slope, 3, spline_part(s, piece, lo)),
-                       spline_at(c->slope, 3, spline_part(s, piece, hi)));
+    const imp_interval *slope = spline_term(s, piece, lane, 1);
+    const imp_interval *bend = spline_term(s, piece, lane, 2);
+    if (bend[0].lo == 0 && bend[0].hi == 0) return slope[0];
+    return spline_hull(spline_at(slope, 3, spline_part(s, piece, lo)),
+                       spline_at(slope, 3, spline_part(s, piece, hi)));
 }
 
 /* Slopes over a span of several pieces of a curve with kinks: monotonic in each piece. */
@@ -276,30 +122,55 @@ static double spline_middle(imp_interval x, double scale, double *e)
     return m;
 }
 
-/* The series of one lane around span->m, and at least its |g'|; g->r is set. `between`: the node of
- * what lies between the first piece and the last, NULL if there is nothing. Within one piece it is
- * the cubic itself; across several, slopes change by at most twice g''/2 per unit of time. */
+/* The terms of one lane at the middle of a span: with y = t - m, g(m + y) = sum_k term_k y^k, where
+ * the terms after g''/2 are 0 and g''/2 is that of some time of the span, if it has several pieces.
+ * `between`: the node of what lies between the first piece and the last, NULL: nothing. */
+static void spline_terms_at(const spline *s, const spline_span *span, size_t lane,
+                            const imp_interval *between, imp_interval term[SPLINE_QUINTIC + 1])
+{
+    const imp_interval part = spline_part(s, span->at, span->m);
+    const bool whole = span->first == span->last;
+    for (int k = 0; k <= SPLINE_QUINTIC; ++k) {
+        const bool known = k <= s->degree && (whole || k < 2);
+        term[k] = known ? spline_at(spline_term(s, span->at, lane, k), s->degree + 1 - k, part)
+                        : imp_interval_make(0, 0);
+    }
+    if (!whole) term[2] = spline_bend_over(s, span, lane, between);
+}
+
+/* What the terms 4 and 5 add to the slope over y, 4 term_4 y^3 + 5 term_5 y^4; adds to *e what they
+ * add to the value. */
+static imp_interval spline_beyond(const imp_interval *term, imp_interval y, imp_interval square,
+                                  double *e)
+{
+    const double r = y.hi;
+    *e = (*e + imp_interval_mag(term[4]) * (r * r * (r * r))) * IMP_SLACK;
+    *e = (*e + imp_interval_mag(term[5]) * (r * r * (r * r) * r)) * IMP_SLACK;
+    const imp_interval cube = imp_interval_mul(y, square), fourth = imp_interval_sqr(square);
+    return imp_interval_add(imp_interval_mul(imp_interval_scale(term[4], 4), cube),
+                            imp_interval_mul(imp_interval_scale(term[5], 5), fourth));
+}
+
+/* The series of one lane around span->m, and at least its |g'|; g->r is set. Across several pieces
+ * slopes change by at most twice g''/2 per unit of time. What is beyond the third power is counted
+ * as an error: |term_4| r^4 + |term_5| r^5. */
 static double spline_series(const spline *s, const spline_span *span, size_t lane,
                             const imp_interval *between, imp_series *g)
 {
-    const spline_cubic *c = spline_lane(s, span->at, lane);
+    imp_interval term[SPLINE_QUINTIC + 1];
     const double r = g->r;
-    const imp_interval part = spline_part(s, span->at, span->m), y = imp_interval_make(-r, r);
-    imp_interval slope = spline_at(c->slope, 3, part), bend = spline_at(c->bend, 2, part);
-    imp_interval third = c->third;
-    if (span->first != span->last) {
-        bend = spline_bend_over(s, span, lane, between);
-        third = imp_interval_make(0, 0);
-    }
+    const imp_interval y = imp_interval_make(-r, r), square = imp_interval_sqr(y);
+    spline_terms_at(s, span, lane, between, term);
     g->e = 0;
-    g->c[0] = spline_middle(spline_at(c->value, 4, part), 1, &g->e);
-    g->c[1] = spline_middle(slope, r, &g->e);
-    g->c[2] = spline_middle(bend, r * r, &g->e);
-    g->c[3] = spline_middle(third, r * r * r, &g->e);
-    imp_interval rise =
-        imp_interval_add(imp_interval_mul(imp_interval_scale(bend, 2), y),
-                         imp_interval_mul(imp_interval_scale(third, 3), imp_interval_sqr(y)));
-    return imp_interval_mag(imp_interval_add(slope, rise));
+    g->c[0] = spline_middle(term[0], 1, &g->e);
+    g->c[1] = spline_middle(term[1], r, &g->e);
+    g->c[2] = spline_middle(term[2], r * r, &g->e);
+    g->c[3] = spline_middle(term[3], r * r * r, &g->e);
+    imp_interval rise = imp_interval_add(imp_interval_mul(imp_interval_scale(term[2], 2), y),
+                                         imp_interval_mul(imp_interval_scale(term[3], 3), square));
+    if (s->degree > SPLINE_CUBIC)
+        rise = imp_interval_add(rise, spline_beyond(term, y, square, &g->e));
+    return imp_interval_mag(imp_interval_add(term[1], rise));
 }
 
 /* Makes the series of a curve with kinks across several pieces with those slopes, and answers its
@@ -307,9 +178,9 @@ static double spline_series(const spline *s, const spline_span *span, size_t lan
 static double spline_fan(const spline *s, const spline_span *span, size_t lane, imp_interval slopes,
                          imp_series *g)
 {
-    const spline_cubic *c = spline_lane(s, span->at, lane);
+    const imp_interval *value = spline_term(s, span->at, lane, 0);
     g->e = 0;
-    g->c[0] = spline_middle(spline_at(c->value, 4, spline_part(s, span->at, span->m)), 1, &g->e);
+    g->c[0] = spline_middle(spline_at(value, 4, spline_part(s, span->at, span->m)), 1, &g->e);
     g->c[1] = spline_middle(slopes, g->r, &g->e);
     g->c[2] = g->c[3] = 0;
     return imp_interval_mag(slopes);

@@ -15,11 +15,14 @@
  * For equal steps this is the Catmull-Rom spline, and quadratic motion is reproduced. For others
  * the slopes cannot overshoot: a step up a slope is never more than the way between three keys.
  *
- * A piece is kept by its control points, those of g' and of g''/2, and by g'''/6. Each is an
- * interval that holds the exact number, and so does what interval arithmetic makes of it.
+ * Where the slopes at the keys are given, pieces are the cubics with these; where g'' is given at
+ * the keys, too, quintics (Hermite interpolation).
  *
- * A span of times within one piece has a series from that cubic. One across several pieces has
- * the value and slope at its middle m, and, as slopes are continuous,
+ * A piece is kept by the control points of its terms g^(k)/k! as Bezier curves. Each is an interval
+ * that holds the exact number, and so does what interval arithmetic makes of it.
+ *
+ * A span of times within one piece has a series from its terms at the middle. One across several
+ * pieces has the value and slope at its middle m, and, as slopes are continuous,
  *
  *   g(m + y) = g(m) + g'(m) y + h y^2,   h between the least and the greatest g''/2 of the span.
  *
@@ -35,30 +38,36 @@
 /* Per lane in a node of the tree. Further columns, after those of all lanes, are the owner's. */
 enum { SPLINE_VALUE, SPLINE_SLOPE, SPLINE_BEND, SPLINE_COLUMNS };
 
-/* One lane of one piece: control points, and g'''/6. */
-typedef struct spline_cubic {
-    imp_interval value[4], slope[3], bend[2], third;
-} spline_cubic;
-
 typedef struct spline {
     size_t pieces, lanes, width; /* width: intervals in a node */
+    int degree;                  /* of a piece: 3, or 5 */
     bool kinked;
-    double *time;        /* pieces + 1 */
-    spline_cubic *cubic; /* lanes per piece */
-    imp_interval *tree;  /* node k has children 2k and 2k+1; piece i is node pieces + i */
+    double *time;          /* pieces + 1 */
+    imp_interval *control; /* of each piece, lane by lane, the control points of all terms */
+    imp_interval *tree;    /* node k has children 2k and 2k+1; piece i is node pieces + i */
 } spline;
 
-/* Returns the bytes of a spline with that many further columns. */
-size_t spline_bytes(size_t keys, size_t lanes, size_t further);
+enum { SPLINE_CUBIC = 3, SPLINE_QUINTIC = 5 };
 
-/* Lays out a spline in spline_bytes of memory, which stays the caller's; its keys, cubics and tree
- * are still to be set. */
-spline spline_place(size_t keys, size_t lanes, size_t further, void *memory);
-
-static inline spline_cubic *spline_lane(const spline *s, size_t piece, size_t lane)
+/* The control points of a piece and lane: of all of its terms. */
+static inline size_t spline_controls(int degree)
 {
-    return s->cubic + piece * s->lanes + lane;
+    return (size_t)((degree + 1) * (degree + 2) / 2);
 }
+
+/* The control points of term k, which is g^(k)/k!: degree + 1 - k of them. */
+static inline imp_interval *spline_term(const spline *s, size_t piece, size_t lane, int k)
+{
+    return s->control + (piece * s->lanes + lane) * spline_controls(s->degree) +
+           k * (2 * s->degree + 3 - k) / 2;
+}
+
+/* Returns the bytes of a spline with that many further columns. */
+size_t spline_bytes(int degree, size_t keys, size_t lanes, size_t further);
+
+/* Lays out a spline in spline_bytes of memory, which stays the caller's; its keys, controls and
+ * tree are still to be set. */
+spline spline_place(int degree, size_t keys, size_t lanes, size_t further, void *memory);
 
 static inline imp_interval *spline_node(const spline *s, size_t k)
 {
@@ -68,14 +77,20 @@ static inline imp_interval *spline_node(const spline *s, size_t k)
 /* Returns the time from one key to another. */
 imp_interval spline_step(const spline *s, size_t from, size_t to);
 
-/* Returns the least interval that holds both. */
+/* Returns the least interval that holds both, or all of them. */
 imp_interval spline_hull(imp_interval x, imp_interval y);
+imp_interval spline_hull_of(const imp_interval *x, int count);
 
-/* Fills cubics and leaves, from time and from the keys' values, lane by lane. False: some step in
- * time is too short for what happens in it, and *piece says which. */
+/* Fills controls and leaves of a cubic spline, from time and from the keys' values, lane by lane.
+ * False: some step in time is too short for what happens in it, and *piece says which. */
 bool spline_set(const spline *s, const imp_interval *keys, size_t *piece);
 
-/* Fills cubics and leaves of a curve with kinks whose pieces are parabolas: row i of
+/* Fills controls and leaves of a spline that has these slopes at its keys, laid out as the keys
+ * are; of a quintic one also `bends`, g'' there. */
+bool spline_set_hermite(const spline *s, const imp_interval *keys, const imp_interval *slopes,
+                        const imp_interval *bends, size_t *piece);
+
+/* Fills controls and leaves of a curve with kinks whose pieces are parabolas: row i of
  * `accelerations`, a number for each of the first three lanes, is g'' in piece i. NULL: straight
  * lines. */
 bool spline_set_parabolas(const spline *s, const imp_interval *keys, const double *accelerations,
@@ -84,7 +99,7 @@ bool spline_set_parabolas(const spline *s, const imp_interval *keys, const doubl
 /* Fills the rest of the tree, when the leaves are complete. */
 void spline_grow(const spline *s);
 
-/* Evaluates the polynomial of up to four control points, by repeated averages (de Casteljau). */
+/* Evaluates the polynomial of up to six control points, by repeated averages (de Casteljau). */
 imp_interval spline_at(const imp_interval *control, int count, imp_interval part);
 
 enum { SPLINE_WIDTH_MAX = 32 };

@@ -51,7 +51,7 @@ typedef struct keyframes_instance {
     bool hold;                 /* defined at all times: held at both ends */
     imp_interval square;       /* range of |q|^2 */
     spline path;               /* one further column if there are rotations: angular speed */
-    spline_cubic memory[];
+    imp_interval memory[];
 } keyframes_instance;
 
 /* --- Checks ----------------------------------------------------------------------------------- */
@@ -139,12 +139,13 @@ static void bound_part(const keyframes_instance *s, size_t piece, int part, imp_
     imp_interval slopes = imp_interval_make(0, 0);
     *square = slopes;
     for (size_t j = 0; j < 4; ++j) {
-        const spline_cubic *c = spline_lane(&s->path, piece, s->position + j);
-        imp_interval rise = imp_interval_scale(spline_hull(c->bend[0], c->bend[1]), 2);
+        const imp_interval *term[3];
+        for (int k = 0; k < 3; ++k) term[k] = spline_term(&s->path, piece, s->position + j, k);
+        imp_interval rise = imp_interval_scale(spline_hull(term[2][0], term[2][1]), 2);
         imp_interval slope =
-            imp_interval_add(spline_at(c->slope, 3, at), imp_interval_mul(rise, reach));
+            imp_interval_add(spline_at(term[1], 3, at), imp_interval_mul(rise, reach));
         imp_interval value =
-            imp_interval_add(spline_at(c->value, 4, at), imp_interval_mul(slope, reach));
+            imp_interval_add(spline_at(term[0], 4, at), imp_interval_mul(slope, reach));
         *square = imp_interval_add(*square, imp_interval_sqr(value));
         slopes = imp_interval_add(slopes, imp_interval_sqr(slope));
     }
@@ -189,13 +190,14 @@ static imp_status keyframes_create(const imp_value *values, void **self, imp_cre
     const size_t position = imp_is_given(&values[POSITIONS]) ? 3 : 0;
     const size_t rotation = imp_is_given(&values[ROTATIONS]) ? 4 : 0;
     const size_t keys = values[TIMES].count, lanes = position + rotation;
-    keyframes_instance *s = malloc(sizeof *s + spline_bytes(keys, lanes, rotation > 0));
+    keyframes_instance *s =
+        malloc(sizeof *s + spline_bytes(SPLINE_CUBIC, keys, lanes, rotation > 0));
     imp_interval *key = malloc(keys * lanes * sizeof *key);
     if (s != NULL && key != NULL) {
         s->position = position;
         s->rotation = rotation;
         s->hold = values[HOLD].number[0] != 0;
-        s->path = spline_place(keys, lanes, rotation > 0, s->memory);
+        s->path = spline_place(SPLINE_CUBIC, keys, lanes, rotation > 0, s->memory);
         size_t piece = set_path(s, values, key);
         if (piece < keys - 1)
             status = imp_reject(

@@ -27,6 +27,10 @@ static const imp_parameter parameters[] = {
     [ANGLE + COURSE_UNIT] = COURSE_ROW_DEGREES,
     [ANGLE + COURSE_INTERPOLATION] = COURSE_ROW_INTERPOLATION,
     [ANGLE + COURSE_HOLD] = COURSE_ROW_HOLD,
+    [ANGLE + COURSE_VELOCITIES] = IMP_ROW_NUMBERS("velocities", "rad/time", NULL,
+                                                  IMP_PARAMETER_OPTIONAL, COURSE_DOC_VELOCITIES),
+    [ANGLE + COURSE_ACCELERATIONS] = IMP_ROW_NUMBERS(
+        "accelerations", "rad/time^2", NULL, IMP_PARAMETER_OPTIONAL, COURSE_DOC_ACCELERATIONS),
 };
 
 typedef struct rotate_instance {
@@ -143,7 +147,8 @@ static const imp_map_type rotate = {
     .span = rotate_span,
     .summary = "turns about an axis, at a constant rate, by a polynomial angle or by a table",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t, sum_k angle_k t^k, or the "
-                "table's value at t: center + k (k.w) + cos A (w - k (k.w)) + sin A (k x w)",
+                "table's value at t (between its times a line, or a spline): center + k (k.w) + "
+                "cos A (w - k (k.w)) + sin A (k x w)",
     .source = "Von Herzen, Barr, Zatz, SIGGRAPH 1990, appendix B.5",
     .example = "rotate axis=0,0,1 rate=2",
 };

@@ -64,7 +64,7 @@ typedef struct trajectory_instance {
     double center[3];
     spin_turn *rotation; /* one for each piece; NULL: none */
     spline path; /* one further column if there are rotations: how fast entries of R change */
-    spline_cubic memory[];
+    imp_interval memory[];
 } trajectory_instance;
 
 /* --- Checks ----------------------------------------------------------------------------------- */
@@ -152,12 +152,12 @@ static imp_status trajectory_create(const imp_value *values, void **self, imp_cr
 {
     imp_status status = check(values, why);
     if (status != IMP_STATUS_OK) return status;
-    const size_t keys = values[TIMES].count, bytes = spline_bytes(keys, 3, 2);
+    const size_t keys = values[TIMES].count, bytes = spline_bytes(SPLINE_CUBIC, keys, 3, 2);
     const bool turns = imp_is_given(&values[ROTATIONS]);
     trajectory_instance *s = malloc(sizeof *s + bytes + keys * sizeof(spin_turn));
     imp_interval *key = malloc(3 * keys * sizeof *key);
     if (s != NULL && key != NULL) {
-        s->path = spline_place(keys, 3, turns ? 2 : 0, s->memory);
+        s->path = spline_place(SPLINE_CUBIC, keys, 3, turns ? 2 : 0, s->memory);
         s->path.kinked = true;
         s->rotation = turns ? (spin_turn *)((char *)s->memory + bytes) : NULL;
         status = fill(s, values, key, why);

@@ -25,6 +25,10 @@ static const imp_parameter parameters[] = {
     [COURSE_UNIT] = COURSE_ROW_SCENE_UNIT,
     [COURSE_INTERPOLATION] = COURSE_ROW_INTERPOLATION,
     [COURSE_HOLD] = COURSE_ROW_HOLD,
+    [COURSE_VELOCITIES] = IMP_ROW_VECTORS("velocities", "length/time", NULL, 3,
+                                          IMP_PARAMETER_OPTIONAL, COURSE_DOC_VELOCITIES),
+    [COURSE_ACCELERATIONS] = IMP_ROW_VECTORS("accelerations", "length/time^2", NULL, 3,
+                                             IMP_PARAMETER_OPTIONAL, COURSE_DOC_ACCELERATIONS),
 };
 
 static imp_status translate_create(const imp_value *values, void **self, imp_create_error *why)

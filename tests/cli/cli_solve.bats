@@ -127,7 +127,15 @@ refuses_table() { # TABLE PARAMETERS SAYING
     refuses_table '0,0\n1,1\n' ', "column": "9"' "'9' is no column of 'table.csv'; it has no head, and columns 1 to 2"
     refuses_table '0,0\n1,1\n' ', "rate": 1' 'given beside rate'
     refuses_table '0,0\n1,1\n' ', "interpolation": "round"' 'allowed "linear" or "cubic"'
+    refuses_table '0,0\n1,1\n' ', "velocities": [0,1]' 'velocities: belongs to times, which is missing'
     rm table.csv
+    local -r rows='"times": [0,1], "angles": [0,1]'
+    run -4 solve_text "$(swing "$rows"', "velocities": [0,1,2]')"
+    [[ $output == *"/maps/0/velocities: 3 for 2 times; there must be one for each"* ]]
+    run -4 solve_text "$(swing "$rows"', "accelerations": [0,1]')"
+    [[ $output == *"/maps/0/accelerations: belongs to velocities, which is missing"* ]]
+    run -4 solve_text "$(swing "$rows"', "velocities": [0,1], "interpolation": "cubic"')"
+    [[ $output == *"given beside interpolation, which takes slopes from the values"* ]]
     run -4 solve_text "$(swing '"file": "table.csv"')"
     [[ $output == *"/bodies/0/maps/0/file: 'table.csv' cannot be read"* ]]
     mkdir table.csv

@@ -88,6 +88,30 @@ def test_a_cubic_motion_passes_through_its_positions():
         assert numpy.allclose(found, (pose @ [0.008, 0, 0, 1])[:3], atol=1e-9)
 
 
+def test_velocities_and_accelerations_make_the_splines_of_joint_trajectory_controller():
+    arm, random = robot.load(ARM), numpy.random.default_rng(1)
+    v, a = 0.1 * random.standard_normal((3, 5)), 0.1 * random.standard_normal((3, 5))
+    positions = 0.1 * POSITIONS + [0, 0, 0, 0.1, 0.01]
+    for bends in (None, a):
+        scene = arm.scene(TIMES, positions, velocities=v, accelerations=bends)
+        for t in (0, 0.4, 1, 1.5, 2.9):
+            k, q = int(t >= 1), numpy.empty(5)
+            h, s = TIMES[k + 1] - TIMES[k], (t - TIMES[k]) / (TIMES[k + 1] - TIMES[k])
+            for joint in range(5):
+                # The polynomial in s with these values and derivatives at 0 and 1.
+                rows = [[p == 0 for p in range(6)], [1] * 6, [p == 1 for p in range(6)], range(6),
+                        [2 * (p == 2) for p in range(6)], [p * (p - 1) for p in range(6)]]
+                known = [*positions[k:k + 2, joint], *(h * v[k:k + 2, joint]), *(h * h * a[k:k + 2, joint])]
+                n = 4 if bends is None else 6
+                c = numpy.linalg.solve(numpy.array(rows, float)[:n, :n], known[:n])
+                q[joint] = numpy.polyval(c[::-1], s)
+            pose = frames(q)["right_finger"] @ CENTERS["right_finger"]
+            found = scene.eval("right_finger", 0, [[0, 0, t]])[0]
+            assert numpy.allclose(found, (pose @ [0.008, 0, 0, 1])[:3], atol=1e-9), (t, bends)
+    plain = arm.scene(TIMES, positions, velocities=v, interpolation="linear")
+    assert plain.to_json() == arm.scene(TIMES, positions).to_json()
+
+
 def test_a_robot_names_its_links_and_joints():
     arm = robot.load(ARM)
     assert [joint.name for joint in arm.joints] == ["turn", "lift", "bend", "extend", "grip"]

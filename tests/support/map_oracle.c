@@ -173,7 +173,9 @@ void wave_oracle(const type_arguments *arguments, const number p[4], number x[3]
 typedef struct track {
     const double *time;
     size_t keys;
-    number value[16]; /* of one lane */
+    number value[16];            /* of one lane */
+    bool sloped, bent;           /* whether slopes, and second derivatives, are given: */
+    number given[16], bends[16]; /* these */
 } track;
 
 static number step(const track *g, size_t i)
@@ -191,6 +193,7 @@ static number secant(const track *g, size_t i)
 static number slope(const track *g, size_t i)
 {
     bool first = i == 0, last = i == g->keys - 1;
+    if (g->sloped) return g->given[i];
     if (g->keys == 2) return secant(g, 0);
     if (first) return num_sub(num_mul(num(2), secant(g, 0)), slope(g, 1));
     if (last) return num_sub(num_mul(num(2), secant(g, i - 1)), slope(g, i - 1));
@@ -207,6 +210,31 @@ static number track_at(const track *g, size_t i, number t)
     number x = num_add(num_mul(from, g->value[i]), num_mul(to, g->value[i + 1]));
     x = num_add(x, num_mul(num_mul(h, num_mul(rr, s)), slope(g, i)));
     return num_sub(x, num_mul(num_mul(h, num_mul(ss, r)), slope(g, i + 1)));
+}
+
+/* s^3 (1 + 3 r + 6 r^2), s^3 (1 + 3 r), s^3: r = 1 - s. */
+static void quintic_basis(number s, number basis[3])
+{
+    const number r = num_sub(num(1), s), cube = num_mul(s, num_sqr(s));
+    const number line = num_add(num(1), num_mul(num(3), r));
+    basis[0] = num_mul(cube, num_add(line, num_mul(num(6), num_sqr(r))));
+    basis[1] = num_mul(cube, line);
+    basis[2] = cube;
+}
+
+/* Hermite's quintic: values, h s r slopes and h^2/2 s^2 r^2 second derivatives, by the basis. */
+static number quintic_at(const track *g, size_t i, number t)
+{
+    const number h = step(g, i), s = num_div(num_sub(t, num(g->time[i])), h);
+    const number r = num_sub(num(1), s), half = num_mul(num(0.5), num_sqr(h));
+    number from[3], to[3];
+    quintic_basis(r, from);
+    quintic_basis(s, to);
+    number x = num_add(num_mul(from[0], g->value[i]), num_mul(to[0], g->value[i + 1]));
+    x = num_add(x, num_mul(num_mul(h, num_mul(s, from[1])), slope(g, i)));
+    x = num_sub(x, num_mul(num_mul(h, num_mul(r, to[1])), slope(g, i + 1)));
+    x = num_add(x, num_mul(num_mul(half, num_mul(num_sqr(s), from[2])), g->bends[i]));
+    return num_add(x, num_mul(num_mul(half, num_mul(num_sqr(r), to[2])), g->bends[i + 1]));
 }
 
 static size_t piece_at(const track *g, double t)
@@ -269,6 +297,14 @@ static number line_at(const track *g, size_t i, number t)
     return num_add(g->value[i], num_mul(secant(g, i), passed));
 }
 
+/* Column i of rows, one for each key. False: there are none. */
+static bool fill_lane(const imp_value *rows, size_t keys, size_t i, number *lane)
+{
+    for (size_t k = 0; k < keys && rows->count > 0; ++k)
+        lane[k] = num(rows->number[k * (rows->count / keys) + i]);
+    return rows->count > 0;
+}
+
 bool table_oracle(const type_arguments *arguments, const char *values, size_t i, number t,
                   number *x)
 {
@@ -276,12 +312,17 @@ bool table_oracle(const type_arguments *arguments, const char *values, size_t i,
     if (times->count == 0) return false;
     track g = {.time = times->number, .keys = times->count};
     if (g.keys > 16) abort();
-    for (size_t k = 0; k < g.keys; ++k)
-        g.value[k] = num(rows->number[k * (rows->count / g.keys) + i]);
+    fill_lane(rows, g.keys, i, g.value);
+    g.sloped = fill_lane(argument(arguments, "velocities"), g.keys, i, g.given);
+    g.bent = fill_lane(argument(arguments, "accelerations"), g.keys, i, g.bends);
     t = held(arguments, t);
     const size_t piece = piece_at(&g, num_near(t));
     const char *way = argument(arguments, "interpolation")->string[0];
-    *x = strcmp(way, "linear") == 0 ? line_at(&g, piece, t) : track_at(&g, piece, t);
+    const bool straight = strcmp(way, "linear") == 0 && !g.sloped;
+    if (g.bent)
+        *x = quintic_at(&g, piece, t);
+    else
+        *x = straight ? line_at(&g, piece, t) : track_at(&g, piece, t);
     return true;
 }
 

@@ -404,14 +404,17 @@ const type_oracle oracles[] = {
           " \"points\": [@16[1e8,?,?]]}"}},
     {.type = "translate",
      .map = translate,
-     .instances = {"{\"velocity\": [?,?,?]}", "{\"offset\": [@1[?,?,?]]}",
-                   "{\"offset\": [@5[?,?,?]]}", "{\"velocity\": [1e8,-1e-8,0]}",
-                   "{\"times\": [0,1], \"positions\": [@2[?,?,?]]}",
-                   "{\"times\": [-0.5,0.125,0.25,0.5], \"positions\": [@4[?,?,?]], \"hold\": true}",
-                   "{\"times\": [-1,-0.5,0.75,1], \"positions\": [@4[?,?,?]],"
-                   " \"interpolation\": \"cubic\"}",
-                   "{\"times\": [1e6,1000000.001,1000001], \"positions\": [[1e8,0,0],[1e8,?,?],"
-                   "[1e8,1,1e-9]]}"}},
+     .instances =
+         {"{\"velocity\": [?,?,?]}", "{\"offset\": [@1[?,?,?]]}", "{\"offset\": [@5[?,?,?]]}",
+          "{\"velocity\": [1e8,-1e-8,0]}", "{\"times\": [0,1], \"positions\": [@2[?,?,?]]}",
+          "{\"times\": [-0.5,0.125,0.25,0.5], \"positions\": [@4[?,?,?]], \"hold\": true}",
+          "{\"times\": [-1,-0.5,0.75,1], \"positions\": [@4[?,?,?]],"
+          " \"interpolation\": \"cubic\"}",
+          "{\"times\": [-1,-0.5,1], \"positions\": [@3[?,?,?]], \"velocities\": [@3[?,?,?]]}",
+          "{\"times\": [-1,-0.5,1], \"positions\": [@3[?,?,?]], \"velocities\": [@3[?,?,?]],"
+          " \"accelerations\": [@3[?,?,?]], \"hold\": true}",
+          "{\"times\": [1e6,1000000.001,1000001], \"positions\": [[1e8,0,0],[1e8,?,?],"
+          "[1e8,1,1e-9]]}"}},
     {.type = "rotate",
      .map = rotate,
      .instances = {"{\"rate\": 1}", "{\"axis\": [?,?,?], \"rate\": ?, \"center\": [?,?,?]}",
@@ -423,7 +426,12 @@ const type_oracle oracles[] = {
                    "{\"times\": [-0.25,0.125,0.5], \"angles\": [0,?,30], \"hold\": true}",
                    "{\"times\": [-1,0,0.25,2], \"angles\": [@4?], \"interpolation\": \"cubic\"}",
                    "{\"times\": [-0.25,0.125,0.5], \"angles\": [0,?,3], \"hold\": true,"
-                   " \"interpolation\": \"cubic\"}"}},
+                   " \"interpolation\": \"cubic\"}",
+                   "{\"times\": [-1,0.125,0.5,2], \"angles\": [@4?], \"velocities\": [@4?]}",
+                   "{\"times\": [-1,0.125,0.5,2], \"angles\": [@4?], \"velocities\": [@4?],"
+                   " \"accelerations\": [@4?]}",
+                   "{\"times\": [-0.25,0.125,0.5], \"angles\": [0,?,3], \"velocities\": [1,-30,0],"
+                   " \"accelerations\": [0,1000,-5]}"}},
     /* In these texts '+' stands only before a digit. */
     {.type = "formula",
      .surface = formula,

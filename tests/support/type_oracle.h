@@ -31,7 +31,7 @@ typedef struct type_oracle {
 
     /* Parameters as JSON, in which a number may stand as '?' (drawn from [-1, 1]) or as '+' (drawn
      * from [1/4, 4]), and @5[...] for five arrays like it, with commas. NULL ends the list. */
-    const char *instances[12];
+    const char *instances[14];
 } type_oracle;
 
 extern const type_oracle oracles[];
