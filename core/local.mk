@@ -170,6 +170,7 @@ core_reader = \
     core/reader/json_text.c core/reader/json_text.h \
     core/reader/pipeline.c core/reader/pipeline.h \
     core/reader/pipeline_value.c core/reader/pipeline_value.h \
+    core/reader/required_plugins.c core/reader/required_plugins.h \
     core/reader/scene_bodies.c core/reader/scene_bodies.h \
     core/reader/scene_build.c core/reader/scene_build.h \
     core/reader/scene_file.c core/reader/scene_file.h \

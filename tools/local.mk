@@ -128,7 +128,8 @@ tools_cli = \
     tools/cli/verb_pair.c \
     tools/cli/verb_solve.c \
     tools/cli/verb_why.c \
-    tools/cli/verbs.c tools/cli/verbs.h
+    tools/cli/verbs.c tools/cli/verbs.h \
+    tools/cli/version.c tools/cli/version.h
 
 tools_view = \
     tools/view/animation.h \
@@ -274,6 +275,7 @@ pkgdata_DATA = \
     tools/schema/scene.schema.json \
     tools/schema/simulate.schema.json \
     tools/schema/types.schema.json \
+    tools/schema/version.schema.json \
     tools/schema/why.schema.json
 
 # Where build_tree_data looks, so that the command just built meets the data of its own tree.

@@ -215,8 +215,8 @@ bool elf_probe_abi_fits(uint32_t major, uint32_t minor, char *text, size_t size)
     if (minor > IMP_ABI_MINOR) {
         snprintf(text, size,
                  "abi_minor is %u, the host's is %u and may not be less; use a newer "
-                 "host, or rebuild the plugin with the headers of this one",
-                 minor, IMP_ABI_MINOR);
+                 "host, or rebuild the plugin with -DIMP_ABI_MINOR_TARGET=%u",
+                 minor, IMP_ABI_MINOR, IMP_ABI_MINOR);
         return false;
     }
     snprintf(text, size, "%u.%u, the host speaks %u.%u", major, minor, IMP_ABI_MAJOR,

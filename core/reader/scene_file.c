@@ -9,6 +9,7 @@
 #include "core/reader/json_keys.h"
 #include "core/reader/json_text.h"
 #include "core/reader/pipeline.h"
+#include "core/reader/required_plugins.h"
 #include "core/reader/scene_file.h"
 #include "core/reader/scene_json.h"
 #include "core/scene/tolerances.h"
@@ -18,9 +19,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const scene_keys[] = {"time",   "gamma",   "gamma_clear", "define",
-                                         "bodies", "ignore",  "id",          "reference",
-                                         "note",   "gravity", "events",      NULL};
+static const char *const scene_keys[] = {"time",   "gamma",   "gamma_clear", "define", "bodies",
+                                         "ignore", "id",      "reference",   "note",   "gravity",
+                                         "events", "plugins", NULL};
 static const char *const simulated_keys[] = {"gravity", NULL};
 
 /* --- Settings --------------------------------------------------------------------------------- */
@@ -85,6 +86,7 @@ static imp_scene *scene_of(const scene_source *source, json_t *root, const place
     if (code == IMP_SUCCESS)
         code = json_keys_check(root, scene_keys, "a scene, {\"bodies\": [...]}", at, error);
     if (code == IMP_SUCCESS) code = json_keys_refuse(root, simulated_keys, at, error);
+    if (code == IMP_SUCCESS) code = required_plugins_check(source->registry, root, at, error);
     if (code == IMP_SUCCESS) code = read_settings(&b, root, at);
     if (code == IMP_SUCCESS) code = scene_json_read(&b, root, at);
     if (code == IMP_SUCCESS) return scene_bodies_finish(&b, at);

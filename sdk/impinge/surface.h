@@ -57,8 +57,18 @@ extern "C" {
  * Units: u, v are whatever the type's documentation says (often radians), t is
  * the scene's time, lengths are the scene's length. Angles are radians. */
 
-#define IMP_ABI_MAJOR 1              /* differs: the host refuses the plugin */
-#define IMP_ABI_MINOR 0              /* the plugin's may be at most the host's */
+#define IMP_ABI_MAJOR 1 /* differs: the host refuses the plugin */
+#define IMP_ABI_MINOR 0 /* the plugin's may be at most the host's */
+
+/* The minor version that a plugin is built for: defined before this header is included, an older
+ * one makes newer headers build for older hosts. Fields that minor version N appends stand between
+ * #if IMP_ABI_MINOR_TARGET >= N and #endif. */
+#ifndef IMP_ABI_MINOR_TARGET
+#define IMP_ABI_MINOR_TARGET IMP_ABI_MINOR
+#elif IMP_ABI_MINOR_TARGET > IMP_ABI_MINOR || IMP_ABI_MINOR_TARGET < 0
+#error "IMP_ABI_MINOR_TARGET is beyond what these headers know: install a newer Impinge."
+#endif
+
 #define IMP_PLUGIN_MAGIC 0x31706D49u /* the bytes "Imp1" in a little-endian file */
 
 #if defined(__GNUC__)
@@ -579,11 +589,11 @@ extern IMP_EXPORT const imp_plugin IMPINGE_PLUGIN_SYMBOL;
                                "770:\t.asciz \"" IMP_NOTE_OWNER "\"\n"                             \
                                "771:\t.balign 4\n"                                                 \
                                "772:\t.long " IMP_TEXT_OF(IMP_ABI_MAJOR) ", " IMP_TEXT_OF(         \
-                                   IMP_ABI_MINOR) "\n"                                             \
-                                                  "\t.asciz \"" NAME "\"\n"                        \
-                                                  "\t.asciz \"" VERSION "\"\n"                     \
-                                                  "773:\t.balign 4\n"                              \
-                                                  "\t.popsection\n")
+                                   IMP_ABI_MINOR_TARGET) "\n"                                      \
+                                                         "\t.asciz \"" NAME "\"\n"                 \
+                                                         "\t.asciz \"" VERSION "\"\n"              \
+                                                         "773:\t.balign 4\n"                       \
+                                                         "\t.popsection\n")
 #endif
 
 /* Defines the plugin, once per shared object, at file scope. Strings are literals; GET_FACTORY
@@ -597,7 +607,7 @@ extern IMP_EXPORT const imp_plugin IMPINGE_PLUGIN_SYMBOL;
     const imp_plugin IMPINGE_PLUGIN_SYMBOL = {IMP_PLUGIN_MAGIC,                                    \
                                               (uint32_t)sizeof(imp_plugin),                        \
                                               IMP_ABI_MAJOR,                                       \
-                                              IMP_ABI_MINOR,                                       \
+                                              IMP_ABI_MINOR_TARGET,                                \
                                               NAME,                                                \
                                               VERSION,                                             \
                                               LICENSE,                                             \

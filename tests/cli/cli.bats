@@ -162,6 +162,10 @@ verbs() { "$IMPINGE" help | sed -n 's/^  \([a-z]*\) .*/\1/p'; }
     [ "$(verbs | wc -l)" -ge 7 ]
     [ "$output" = "$("$IMPINGE" --help)" ]
     [ "$output" = "$("$IMPINGE" -h)" ]
+    run -0 "$IMPINGE" --version --json
+    valid version
+    json '.abi.major == 1 and ([.abi.capabilities[].name] | contains(["core", "net", "rigid"]))'
+    json '.abi.capabilities[] | select(.name == "rigid") | .kinds == ["map"]'
     run -0 "$IMPINGE" --version
     [[ $output =~ ^impinge\ [0-9]+\.[0-9]+\.[0-9]+\ \(libimpinge\  ]]
     [ "$output" = "$("$IMPINGE" pair -V)" ]

@@ -58,6 +58,8 @@ load ../support/cli_helper
     json '.types | map([.kind, .name]) | . == (sort | reverse | group_by(.[0]) | reverse
         | map(sort) | add)'
     json '.types | any(.kind == "surface" and .name == "sphere" and .shadowed_by == null)'
+    json '.types[] | select(.name == "sphere") | .plugin == "sphere" and (.version | length > 0)
+        and (.capabilities | contains(["core", "order-2", "distance", "symmetry"]))'
     json '.types | all(.file | startswith("/"))'
 }
 

@@ -372,3 +372,25 @@ refuses_table() { # TABLE PARAMETERS SAYING
     run -0 "$IMPINGE" solve alone.json --json
     json '.verdict == "clear" and .reason == "no-pairs"'
 }
+
+@test "a scene may require versions of plugins" {
+    local wanted text
+    for wanted in '">= 0.1"' '">=0.1.0,<1"' '"> 0.1.0-rc1"' '"== 0.1"' '"<= 00.1.0.0"'; do
+        scene "\"plugins\": {\"sphere\": $wanted, \"translate\": \">= 0\"}," >pinned.json
+        run -0 "$IMPINGE" solve pinned.json --gamma 1e-3 --json
+    done
+    while read -r wanted text; do
+        scene "\"plugins\": $wanted," >pinned.json
+        fails 4 "$text" "$IMPINGE" solve pinned.json
+    done <<'END'
+{"sphere":">=0.2"} /plugins/sphere: found version 0.1.0 in
+{"sphere":">=0.1,<0.1.0"} must be < 0.1.0; install such a version
+{"sphere":">0.1"} must be > 0.1
+{"sphere":">=10"} must be >= 10
+{"spheer":">=0"} did you mean 'sphere'?
+{"sphere":"0.1"} must be comparisons with >=, >, ==, < or <= and a version
+{"sphere":">=0.1,"} must be comparisons
+{"sphere":1} must be a text such as
+["sphere"] must be an object of plugins' names and versions
+END
+}

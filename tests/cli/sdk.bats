@@ -605,3 +605,19 @@ with_abidiff() {
     [ "${#lines[@]}" -lt 16 ]
     g++ -std=c++17 -fsyntax-only -I"$top_srcdir/sdk" old.cc
 }
+
+@test "newer headers build for an older host where the plugin asks for that" {
+    hurry
+    mkdir headers
+    cp -r "$prefix/include/impinge" headers/
+    sed -i 's/^#define IMP_ABI_MINOR 0/#define IMP_ABI_MINOR 1/' headers/impinge/surface.h
+    cp "$prefix/share/doc/impinge/sdk/examples/seashell.c" .
+    newer() { cc -shared -fPIC -O0 -ffp-contract=off -Iheaders "$@" -o seashell.so seashell.c -lm; }
+    newer
+    run ! impinge why ./seashell.so
+    [[ $output == *"abi_minor is 1, the host's is 0"*"-DIMP_ABI_MINOR_TARGET=0"* ]]
+    newer -DIMP_ABI_MINOR_TARGET=0
+    impinge info seashell --plugin-path .
+    run ! newer -DIMP_ABI_MINOR_TARGET=2
+    [[ $output == *"beyond what these headers know"* ]]
+}

@@ -81,12 +81,25 @@ range_text catalogue_range(const imp_parameter *p)
     return range;
 }
 
+static json_t *capabilities_json(const imp_type_info *info)
+{
+    json_t *names = json_array();
+    for (const char *name = info->capabilities; *name != '\0';) {
+        const size_t length = strcspn(name, " ");
+        json_array_append_new(names, json_stringn(name, length));
+        name += length + (name[length] == ' ');
+    }
+    return names;
+}
+
 json_t *catalogue_short_json(const imp_type_info *info)
 {
-    return json_pack("{s:s, s:o, s:o, s:o, s:o}", "kind", catalogue_kind_name(info->kind), "name",
-                     output_json_text(info->name), "summary", output_json_text(info->summary),
-                     "file", output_json_text(info->file), "shadowed_by",
-                     output_json_text(info->shadowed_by));
+    return json_pack(
+        "{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "kind", catalogue_kind_name(info->kind), "name",
+        output_json_text(info->name), "summary", output_json_text(info->summary), "file",
+        output_json_text(info->file), "shadowed_by", output_json_text(info->shadowed_by), "plugin",
+        output_json_text(info->plugin), "version", output_json_text(info->version), "capabilities",
+        capabilities_json(info));
 }
 
 /* Extents, outermost first; null where any number will do. */
@@ -130,27 +143,14 @@ static json_t *parameters_json(const imp_type_info *info)
     return rows;
 }
 
-static json_t *capabilities_json(const imp_type_info *info)
-{
-    json_t *names = json_array();
-    for (const char *name = info->capabilities; *name != '\0';) {
-        const size_t length = strcspn(name, " ");
-        json_array_append_new(names, json_stringn(name, length));
-        name += length + (name[length] == ' ');
-    }
-    return names;
-}
-
 json_t *catalogue_full_json(const imp_type_info *info)
 {
     json_t *type = catalogue_short_json(info);
     json_t *more = json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equation",
-        output_json_text(info->equation), "formula", output_json_text(info->formula), "source",
-        output_json_text(info->source), "parameters", parameters_json(info), "example",
-        output_json_text(info->example), "plugin", output_json_text(info->plugin), "version",
-        output_json_text(info->version), "license", output_json_text(info->license), "author",
-        output_json_text(info->author), "capabilities", capabilities_json(info));
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "equation", output_json_text(info->equation),
+        "formula", output_json_text(info->formula), "source", output_json_text(info->source),
+        "parameters", parameters_json(info), "example", output_json_text(info->example), "license",
+        output_json_text(info->license), "author", output_json_text(info->author));
     if (type == NULL || more == NULL || json_object_update(type, more) != 0) {
         json_decref(type);
         type = NULL;

@@ -2,19 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include <stdio.h>
-
 #include "core/common/c_locale.h"
 #include "tools/cli/crash.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/verbs.h"
-
-static exit_status print_version(void)
-{
-    printf("impinge %s (%s)\n", PACKAGE_VERSION, imp_version());
-    return EXIT_ANSWERED;
-}
+#include "tools/cli/version.h"
 
 static exit_status print_help(const verb *v)
 {
@@ -28,7 +21,7 @@ static exit_status print_help(const verb *v)
 static exit_status run(const arguments *args)
 {
     if (arguments_option(args, "help") != NULL) return print_help(args->verb);
-    if (arguments_option(args, "version") != NULL) return print_version();
+    if (arguments_option(args, "version") != NULL) return version_print(args);
     if (args->verb != NULL) return args->verb->run(args);
     return complain(EXIT_USAGE, NULL,
                     "which verb? `impinge help` shows all, `impinge demo` a first "
