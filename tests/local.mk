@@ -174,6 +174,7 @@ bats_suites = \
     tests/cli/check.bats \
     tests/cli/cli.bats \
     tests/cli/clearance.bats \
+    tests/cli/completion.bats \
     tests/cli/cli_batch.bats \
     tests/cli/cli_list.bats \
     tests/cli/cli_pair.bats \
@@ -765,7 +766,7 @@ EXTRA_DIST += \
 all_suites = $(if $(filter $(script_suites),$(TESTS)),$(release_suites)) $(TESTS)
 clang_suites = $(filter-out %.bats,$(TESTS))
 sanitized_suites = $(filter-out $(script_suites) \
-    $(patsubst %,tests/cli/%.bats,bench check cli cli_list files hostile host matrix mpi page plot progress \
+    $(patsubst %,tests/cli/%.bats,bench check cli cli_list completion files hostile host matrix mpi page plot progress \
       simulate_rest),$(TESTS))
 .PHONY: check-all check-clang check-sanitized check-threads
 check-all:

@@ -92,12 +92,14 @@ tools_cli = \
     tools/cli/clearance_json.c \
     tools/cli/clearance_table.c \
     tools/cli/clearance_text.c \
+    tools/cli/command_line.c tools/cli/command_line.h \
     tools/cli/compile.c tools/cli/compile.h \
     tools/cli/crash.c tools/cli/crash.h \
     tools/cli/crew.c tools/cli/crew.h \
     tools/cli/each.c tools/cli/each.h \
     tools/cli/explain.c tools/cli/explain.h \
     tools/cli/file_lock.c tools/cli/file_lock.h \
+    tools/cli/help_topics.c tools/cli/help_topics.h \
     tools/cli/input.c tools/cli/input.h \
     tools/cli/interrupt.c tools/cli/interrupt.h \
     tools/cli/json_memory.c tools/cli/json_memory.h \
@@ -121,6 +123,7 @@ tools_cli = \
     tools/cli/verb_batch.c \
     tools/cli/verb_build.c \
     tools/cli/verb_clearance.c \
+    tools/cli/verb_complete.c \
     tools/cli/verb_help.c \
     tools/cli/verb_list.c \
     tools/cli/verb_matrix.c \

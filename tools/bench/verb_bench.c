@@ -65,6 +65,12 @@ static exit_status unknown_set(const char *speaker, const char *name)
     return complain(EXIT_USAGE, speaker, "unknown set '%s'; there are %s", name, all);
 }
 
+static const char *set_name(size_t index)
+{
+    const bench_set *set = bench_sets_all()[index];
+    return set != NULL ? set->name : NULL;
+}
+
 /* --- Running ---------------------------------------------------------------------------------- */
 
 static exit_status run_method(bench *b, const bench_method *m, bench_result *result)
@@ -259,6 +265,7 @@ static const option *const tables[] = {bench_options, options_registry, options_
 const verb verb_bench = {
     .name = "bench",
     .operands = "[SET]...",
+    .operand_word = set_name,
     .summary = "Measure the methods side by side",
     .details = "Each SET of scenes (all, if none is named) is answered by the default method and, "
                "but for the "

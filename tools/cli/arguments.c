@@ -74,6 +74,14 @@ static const option *find_for(const verb *v, spelling s)
     return v != NULL ? option_find(v->options, s.name, s.length) : find_anywhere(s);
 }
 
+const option *arguments_find(const verb *v, const char *word, const char **attached)
+{
+    if (!is_option(word)) return NULL;
+    const spelling s = spell(word);
+    *attached = s.attached;
+    return find_for(v, s);
+}
+
 static void offer_options(spelling_search *near, const verb *v)
 {
     for (const option *const *t = v->options; *t != NULL; ++t)

@@ -34,6 +34,10 @@ bool arguments_ask_for_json(int argc, const char *const *argv);
 
 void arguments_free(arguments *args);
 
+/* The option that a word names, as the verb has it, or any verb where `v` is NULL; NULL: none.
+ * *attached is what stands behind its '=', or NULL. */
+const option *arguments_find(const struct verb *v, const char *word, const char **attached);
+
 /* The last value given for the option, or NULL. */
 const option_value *arguments_option(const arguments *args, const char *name);
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/cli/help_topics.h"
 #include "tools/cli/verbs.h"
 
 /* `impinge help`: everything it prints about verbs and options comes from their tables. */
@@ -85,13 +86,18 @@ void help_overview(void)
           "usage: impinge VERB [OPTION or OPERAND]...\n\n",
           stdout);
     for (const verb *const *v = verbs_all(); *v != NULL; ++v) {
+        if ((*v)->is_hidden) continue;
         char left[64];
         snprintf(left, sizeof left, "%s %s", (*v)->name, (*v)->operands);
         printf("  %-24s %s\n", left, (*v)->summary);
     }
     puts("\nCommon options:");
     print_options((const option *const[]){options_registry, options_always, NULL}, 0);
-    fputs("\n`impinge help VERB` describes one verb, with an example. Options may stand anywhere.\n"
+    fputs("\nTopics: ", stdout);
+    for (const help_topic *t = help_topics; t->name != NULL; ++t)
+        printf("%s%s", t->name, t[1].name != NULL ? ", " : ".\n");
+    fputs("\n`impinge help VERB` describes one verb, with an example, or one topic. Options may "
+          "stand anywhere.\n"
           "Exit status: 0 answered, 1 contact (with --exit-code), 2 usage, 3 undecided,\n"
           "4 scene, data or file, 5 plugin fault, 6 conformance failure.\n",
           stdout);
@@ -112,6 +118,11 @@ static exit_status run(const arguments *args)
         help_overview();
         return EXIT_ANSWERED;
     }
+    for (const help_topic *t = help_topics; t->name != NULL; ++t)
+        if (strcmp(t->name, args->operands[0]) == 0) {
+            printf("%s\n\n%s", t->summary, t->text);
+            return EXIT_ANSWERED;
+        }
     const verb *v = verb_find(args->operands[0]);
     if (v == NULL) return verb_unknown(args->verb->name, args->operands[0]);
     help_verb(v);
@@ -120,12 +131,13 @@ static exit_status run(const arguments *args)
 
 static const option *const tables[] = {options_always, NULL};
 
-const verb verb_help = {
-    .name = "help",
-    .operands = "[VERB]",
-    .summary = "Show how to use the command, or one verb of it",
-    .details = "Prints the verbs; with VERB, its options and an example that can be run.\n",
-    .example = "impinge help pair",
-    .operand_max = 1,
-    .options = tables,
-    .run = run};
+const verb verb_help = {.name = "help",
+                        .operands = "[VERB|TOPIC]",
+                        .summary = "Show how to use the command, one verb, or a topic",
+                        .details = "Prints the verbs; with VERB, its options and an example that "
+                                   "can be run; with TOPIC, what\n"
+                                   "stands in the list of topics.\n",
+                        .example = "impinge help pair",
+                        .operand_max = 1,
+                        .options = tables,
+                        .run = run};

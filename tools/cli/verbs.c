@@ -25,6 +25,7 @@
     ROW(new)                                                                                       \
     ROW(build)                                                                                     \
     ROW(check)                                                                                     \
+    ROW(complete)                                                                                  \
     ROW(help)
 
 #define DECLARE(NAME) extern const verb verb_##NAME;
@@ -47,7 +48,8 @@ const verb *verb_find(const char *name)
 exit_status verb_unknown(const char *speaker, const char *name)
 {
     spelling_search near = {.wanted = name};
-    for (const verb *const *v = all; *v != NULL; ++v) spelling_offer(&near, (*v)->name);
+    for (const verb *const *v = all; *v != NULL; ++v)
+        if (!(*v)->is_hidden) spelling_offer(&near, (*v)->name);
     if (near.best != NULL)
         return complain(EXIT_USAGE, speaker,
                         "unknown verb '%s', did you mean '%s'? `impinge help` shows all", name,

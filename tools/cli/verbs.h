@@ -17,6 +17,9 @@ typedef struct verb {
     uint64_t max_pairs;           /* of a query, unless --max-pairs says otherwise; 0: no limit */
     const option *const *options; /* tables, NULL-terminated */
     exit_status (*run)(const arguments *args);
+    bool is_hidden; /* for programs alone: `impinge help` does not list it */
+    /* Word `index` that an operand may be, or NULL past the last; NULL: there are no such words. */
+    const char *(*operand_word)(size_t index);
 } verb;
 
 /* All verbs in the order of help, NULL-terminated. */

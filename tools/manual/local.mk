@@ -51,3 +51,15 @@ html-local: $(header_pages) tools/manual/tutorial/done
 	@echo 'html/index.html leads to all manuals'
 clean-manuals: clean-header-pages
 	rm -rf tools/manual/bin tools/manual/tutorial tools/manual/tutorial.log html
+
+# Completions of shells, where these look for them below the prefix.
+bashcompletiondir = $(datadir)/bash-completion/completions
+zshcompletiondir = $(datadir)/zsh/site-functions
+fishcompletiondir = $(datadir)/fish/vendor_completions.d
+dist_zshcompletion_DATA = tools/completion/_impinge
+dist_fishcompletion_DATA = tools/completion/impinge.fish
+nodist_bashcompletion_DATA = tools/completion/impinge
+EXTRA_DIST += tools/completion/impinge.bash
+CLEANFILES += tools/completion/impinge
+tools/completion/impinge: tools/completion/impinge.bash
+	$(AM_V_GEN)$(MKDIR_P) $(@D) && cp $< $@ && chmod u+w $@

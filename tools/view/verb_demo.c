@@ -217,6 +217,12 @@ static exit_status run(const arguments *args)
     return status;
 }
 
+static const char *scene_name(size_t index)
+{
+    static const char *const names[] = {"blade", "teapot"};
+    return index < 2 ? names[index] : NULL;
+}
+
 static const option demo_options[] = {{.name = "output",
                                        .kind = OPTION_TEXT,
                                        .argument = "DIR",
@@ -241,5 +247,6 @@ const verb verb_demo = {
         "against a spinning torus that flies at it.\n",
     .example = "impinge demo teapot",
     .operand_max = 1,
+    .operand_word = scene_name,
     .options = tables,
     .run = run};
