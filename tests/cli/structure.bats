@@ -21,10 +21,11 @@ copy_sources() {
 unguarded_functions() { # FOLDER
     local plain=" imp_version imp_code_text imp_call_in_progress imp_registry_new
         imp_registry_open imp_registry_free imp_registry_isolate imp_registry_type
-        imp_registry_refusal imp_registry_warning imp_registry_fault imp_call_of_thread imp_call_read imp_instance_free imp_scene_from_file
+        imp_registry_refusal imp_registry_warning imp_registry_fault imp_call_of_thread imp_call_read
+        imp_instance_free imp_scene_from_file
         imp_scene_free imp_scene_remark imp_scene_body_count imp_scene_body_name imp_scene_surface_count
         imp_scene_domain imp_options_get_default imp_query_free imp_query_get_result imp_query_pending
-        imp_query_cancel imp_query_exclude_pair imp_query_part_bodies imp_scene_ignores imp_scene_solve imp_clearance_options_get_default imp_clearance_count
+        imp_query_cancel imp_query_explain imp_query_exclude_pair imp_query_part_bodies imp_scene_ignores imp_scene_solve imp_clearance_options_get_default imp_clearance_count
         imp_builder_new imp_builder_time imp_builder_gamma imp_builder_body imp_builder_parent
         imp_builder_group imp_builder_ignore imp_scene_piece_count imp_scene_eval imp_scene_include
         imp_piece_domain imp_piece_stage_count imp_piece_stage "
@@ -141,13 +142,13 @@ plugin_names() {
 without_comments() { gcc -fpreprocessed -dD -E -P -x c "$1" 2>/dev/null; }
 
 # Strings of core (comments do not count) that are a type's name, or hold one as a pipeline
-# would: name, blank, parameter, equals sign.
+# would: name, blank, parameter, equals sign. "formula" is a capability's name, too.
 named_in_core() {
     local file names
     names=$(plugin_names | sort -u | paste -sd'|')
     for file in $(grep -lE "\"($names)\"|\<($names) +[a-z_]+=" "$1"/core/*/*.[ch]); do
         without_comments "$file" | grep -v '^#include' |
-            grep -oE '"([^"\\]|\\.)*"' | grep -E "^\"($names)\"$|\<($names) +[a-z_]+=" |
+            grep -oE '"([^"\\]|\\.)*"' | grep -vx '"formula"' | grep -E "^\"($names)\"$|\<($names) +[a-z_]+=" |
             sed "s|^|${file#"$1"/}: |"
     done
 }

@@ -114,7 +114,7 @@ static imp_obstacle worst_of(const imp_explanation *row)
     return worst;
 }
 
-/* Of fewer pairs than these there is nothing to mend, or too little to tell. */
+/* Fewer pairs than these are no cost, or too few to judge by. */
 enum { TESTED_FEW = 200, WAITING_FEW = 16 };
 
 static void advise(imp_reason why, explanation *e)
