@@ -34,7 +34,7 @@ static bool evaluate(const surface *s, const double p[3], place *at)
 
 enum { SIDE = 8, GRID = SIDE * SIDE };
 #define STEP_LEAST                                                                                 \
-    0x1p-16 /* of the domain's widths: its square is lost in the distance's ninth digit */
+    0x1p-16 /* of the domain's widths: its square changes the distance's ninth digit */
 
 /* An upper bound of the distance of two exact points. Rounding: differences, squares, sums, root: 5
  * of it, and 1 of the errors. */
@@ -54,7 +54,7 @@ typedef struct hunt {
     double apart;
 } hunt;
 
-static void look_at(hunt *h, const double p[3 * GRID], size_t count)
+static void try_points(hunt *h, const double p[3 * GRID], size_t count)
 {
     double x[3 * GRID], error[3 * GRID];
     if (surface_eval(h->s, count, p, x, error) != IMP_STATUS_OK) return;
@@ -68,8 +68,8 @@ static void look_at(hunt *h, const double p[3 * GRID], size_t count)
     }
 }
 
-/* Seeks the nearest point: a grid over u and v, then steps along each that are halved when none
- * comes nearer. */
+/* Seeks the nearest point: a grid over u and v, then steps along u and v, which are halved when
+ * none comes nearer. */
 static void seek_nearest(hunt *h)
 {
     double p[3 * GRID];
@@ -79,7 +79,7 @@ static void seek_nearest(hunt *h)
         p[3 * k + 1] = h->lo[1] + h->width[1] * (k % SIDE) / (SIDE - 1);
         p[3 * k + 2] = h->from->p[2];
     }
-    look_at(h, p, GRID);
+    try_points(h, p, GRID);
     for (double step = 0.5 / SIDE; step >= STEP_LEAST && h->apart < INFINITY;) {
         const double before = h->apart;
         for (int k = 0; k < 4; ++k) {
@@ -89,19 +89,19 @@ static void seek_nearest(hunt *h)
             const double hi = h->lo[j] + h->width[j];
             p[3 * k + j] = moved < h->lo[j] ? h->lo[j] : moved > hi ? hi : moved;
         }
-        look_at(h, p, 4);
+        try_points(h, p, 4);
         if (!(h->apart < before)) step *= 0.5;
     }
 }
 
-/* --- What is claimed -------------------------------------------------------------------------- */
+/* --- The claim -------------------------------------------------------------------------------- */
 
 /* Rounding of the polynomial, in units of u of the sum of the terms' sizes: s 2 roundings, twice;
  * products 2; sums 9. */
 enum { CLAIM_ROUNDING = 32 };
 _Static_assert(2 * 2 + 2 + 9 <= CLAIM_ROUNDING, "rounding of a claim");
 
-/* A lower bound of |g| at p by polynomial and range; less than 0: nothing is claimed. */
+/* Returns the lower bound of |g| at p that polynomial and range claim; below 0: no claim. */
 static double claimed_lower(const imp_model *g, const imp_region *r, const double p[3], bool slides)
 {
     double s[3], value = g->a, size = fabs(g->a) + g->e;
@@ -120,8 +120,7 @@ static double claimed_lower(const imp_model *g, const imp_region *r, const doubl
     return by_polynomial > by_range ? by_polynomial : by_range;
 }
 
-/* Whether the distance alone, asked at that place and time, claims no more than is true: then the
- * symmetry is at fault. */
+/* Whether the distance at that point and time alone is correct, so that the symmetry is wrong. */
 static bool blames_symmetry(const distance_question *q, const place *at, double apart)
 {
     const surface *b = q->b->surface;
@@ -155,8 +154,8 @@ static imp_code refute(const distance_question *q, const place *at, const hunt *
 
 enum { POINTS = 6 };
 
-/* Corners, edges, inside; the bits of the region's center are the seed, so that every machine asks
- * the same. */
+/* Returns the seed for drawing points: the bits of the region's centre and the window, so that
+ * every machine draws the same. */
 static uint64_t seed_of(const imp_region *r, const time_window *when)
 {
     const double from[4] = {r->c[0], r->c[1], when->lo, when->hi};

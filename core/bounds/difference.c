@@ -76,7 +76,7 @@ enum { THIRD_ROUNDING = 32 };
 _Static_assert(3 + 2 + 3 + 3 + 2 <= THIRD_ROUNDING && 12 + 5 + 4 <= THIRD_ROUNDING, "third order");
 
 /* Takes the terms of third order of a posed node into its slice, and its remainder's edges into r.
- * Answers the rest of the remainder. */
+ * Returns the rest of the remainder. */
 IMP_QUAD_INLINE imp_quad take_posed_terms(const node *n, difference *r, slice *s, moved *m)
 {
     const double d = n->region.d[PARAMETER_T], c = n->region.c[PARAMETER_T];
@@ -112,7 +112,7 @@ IMP_QUAD_INLINE imp_quad take_posed_terms(const node *n, difference *r, slice *s
            imp_quad_all(THIRD_ROUNDING * UNIT_ROUNDOFF) * third;
 }
 
-/* Adds the remainders of both, as boxes. */
+/* Returns the sum of both nodes' remainders, as boxes. */
 IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, difference *r, moved *ma,
                                     moved *mb)
 {
@@ -130,8 +130,8 @@ IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, difference *r,
     return ea + eb;
 }
 
-/* Lemma (its rounding). With |s0| + k <= 1, s0 is off by 2 u and k by u. In units of u, off by at
- * most, of each node's
+/* Lemma (rounding of re-centring). With |s0| + k <= 1, s0 is off by 2 u and k by u. Errors at most,
+ * in units of u of each node's
  *
  *              |bt|   2 |qtt|   |q.t|   |apart|   the result
  *   shift       4       4                                        7 |qtt|
@@ -143,9 +143,9 @@ IMP_QUAD_INLINE imp_quad remainders(const node *a, const node *b, difference *r,
  *   delta       1       1                             1
  *   slack                                             3
  *
- * Columns of the nodes' terms add up to at most MOTION_ROUNDING, which is added to the slack; that
- * of the result is DIFFERENCE_ROUNDING, which users of it count. Large motions and far places thus
- * cost u of themselves, once, before they cancel. */
+ * Columns of the nodes' terms add up to at most MOTION_ROUNDING, which is added to the slack; the
+ * result's column is DIFFERENCE_ROUNDING, which callers count. Large motions and distant places
+ * thus cost u of their size once, before they cancel. */
 enum { MOTION_ROUNDING = 16 };
 _Static_assert(4 + 3 + 1 + 2 <= MOTION_ROUNDING, "|bt|");
 _Static_assert(4 + 4 + 2 + 1 + 2 <= MOTION_ROUNDING, "2 |qtt|");

@@ -7,33 +7,33 @@
 
 /* The Minkowski difference of two nodes' Taylor models, re-centred on a window of time. */
 
-/* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v that
- * holds at its middle, and how its slopes turn with w. x, y, z and a 0, here and below. */
+/* One surface over the window t = mid + half * w, w in [-1, 1]: the polynomial in s_u, s_v at the
+ * window's middle, and how its coefficients change with w. Each array, here and below, holds x, y,
+ * z and a 0. */
 typedef struct slice {
     double bu[4], bv[4], quu[4], quv[4], qvv[4];
-    double quw[4], qvw[4]; /* the slopes at w are bu + quw * w, bv + qvw * w */
-    double uuw[4], uvw[4],
-        vvw[4];  /* the same of quu, quv, qvv; where r.posed > 0, else not filled */
+    double quw[4], qvw[4];         /* the slopes at w are bu + quw * w, bv + qvw * w */
+    double uuw[4], uvw[4], vvw[4]; /* changes of quu, quv, qvv with w; only set if r.posed > 0 */
     vec3 normal; /* bu x bv: at the window's middle, which may be far from the node's */
 } slice;
 
-/* B - A over the window: offset delta + drift * w + bend * w^2, plus slice b, minus slice a, give
- * or take slack, and plus, for each posed node i, the sum over k = 0, 1, 2 of d_k (edge[i].k +
+/* B - A over the window: offset delta + drift * w + bend * w^2, plus slice b, minus slice a, plus
+ * or minus slack, and plus, for each posed node i, the sum over k = 0, 1, 2 of d_k (edge[i].k +
  * swing[i].k w), any |d_k| <= 1; edge[i][j][k] is coordinate j of edge k. */
 typedef struct difference {
     slice a, b;
     double delta[4], drift[4], bend[4];
     double slack[4]; /* both remainders, and the rounding of moving the centre */
-    int posed;       /* nodes that are posed: the edges of their remainders turn (posed_terms.h), */
-    double edge[2][3][4], swing[2][3][4]; /* and only the rest of these is in the slack */
+    int posed;       /* number of posed nodes: their remainders turn (posed_terms.h) */
+    double edge[2][3][4], swing[2][3][4]; /* of posed nodes; slack has the rest */
     double magnitude[4];                  /* >= sum of abs of the coefficients above */
     double squares;   /* 0: neither slice has a square of s_u or s_v; else not 0, or NaN */
     double mid, half; /* of the window; half is rounded up */
-    double share;     /* of the widest gap along any axis, that a search for one must come to */
+    double share;     /* GJK stops at an axis that shows this part of the widest gap */
     double focus;     /* the w that axes are chosen for; -1: the start of the window */
 } difference;
 
-/* What the coefficients in `relative` may be off by beside what slack counts: units of u times
+/* Rounding of a `difference`'s coefficients that slack does not count: units of u times
  * `magnitude`. */
 enum { DIFFERENCE_ROUNDING = 4 };
 

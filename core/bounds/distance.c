@@ -12,7 +12,7 @@
 #include "core/bounds/tuning.h"
 #include "core/tree/model_lanes.h"
 
-/* --- Asking ----------------------------------------------------------------------------------- */
+/* --- The distance model ----------------------------------------------------------------------- */
 
 bool distance_is_known(const node *a, const node *b)
 {
@@ -20,7 +20,7 @@ bool distance_is_known(const node *a, const node *b)
            strategy_distance_pays(a, b, surface_common_maps(a->surface, b->surface));
 }
 
-/* Copies the models of a node's points. A node keeps no rates. */
+/* Copies a node's Taylor models, with infinite rates: a node keeps none. */
 static void point_models(const node *n, imp_model model[3])
 {
     const quadratic3 *f = &n->f;
@@ -46,7 +46,7 @@ static imp_status points_before(const node *a, size_t common, imp_model model[3]
     return IMP_STATUS_OK;
 }
 
-/* Computes what node.nonlinear_extent is of a node over the region. */
+/* Computes the nonlinear extents (node.nonlinear_extent) of models over the region. */
 static void bend_of(const imp_model model[3], const imp_region *r, double bend[3])
 {
     model_lanes m;
@@ -80,8 +80,7 @@ static imp_status points_of(const distance_question *q, size_t common, imp_model
     const node *a = q->a;
     if (!distance_slides(q)) return points_before(a, common, point);
     const imp_region then = at_moment(&a->region, q->moment);
-    /* A cluster's models are those of the image, which has the common maps; pair_look asks for
-     * none. */
+    /* A cluster's models include the common maps; pair_look requests none. */
     if (a->many != NULL) return IMP_STATUS_UNBOUNDED;
     return surface_include_inner(a->surface, &then, surface_map_count(a->surface) - common, point);
 }
@@ -98,9 +97,9 @@ static imp_status distance_of(const distance_question *q, size_t common, const i
                               : surface_distance(b, r, maps, point, g);
 }
 
-/* *known false: nothing is known. */
-static imp_code ask(const distance_question *q, imp_model *g, double bend[3], bool *known,
-                    imp_error *error)
+/* Computes the Taylor model *g of the distance. *known false: the type gives no bound. */
+static imp_code find_distance(const distance_question *q, imp_model *g, double bend[3], bool *known,
+                              imp_error *error)
 {
     imp_model point[3];
     const size_t common = surface_common_maps(q->a->surface, q->b->surface);
@@ -117,10 +116,10 @@ static imp_code ask(const distance_question *q, imp_model *g, double bend[3], bo
     return fault(q->b->surface, status, error);
 }
 
-/* --- Judging ---------------------------------------------------------------------------------- */
+/* --- Cutting the window ----------------------------------------------------------------------- */
 
-/* Both sides of g over a window: g >= low[0] + drift[0] w - e, and -g >= low[1] + drift[1] w -
- * e. */
+/* Lower bounds of g and -g over a window: g >= low[0] + drift[0] w - e, and -g >= low[1] + drift[1]
+ * w - e. */
 typedef struct sides {
     double low[2], drift[2];
 } sides;
@@ -138,15 +137,15 @@ static span span_of(const time_window *window)
     return (span){mid, padded_upper(above > below ? above : below, 4)};
 }
 
-/* Lemma. For fixed s_u, s_v the polynomial of g is q_tt s_t^2 and what is linear in s_t. So between
+/* Lemma. For fixed s_u, s_v the polynomial of g is q_tt s_t^2 plus terms linear in s_t. So between
  * two times, s - k and s + k, it lies above its chord, less q_tt k^2 where q_tt > 0. The least
  * value of the chords over s_u, s_v lies above the chord between the least values G0 and G1 at
  * either end. The same holds for -g. So
  *
  *   g >= (G0 + G1) / 2 + w (G1 - G0) / 2 - max(q_tt, 0) k^2 - e,
  *
- * |g| <= |x - y| for each point x of the node and each y of the surface: where that exceeds the
- * gamma_clear on either side, the node is farther away than it.
+ * |g| <= |x - y| for each point x of the node and each y of the surface: where that exceeds
+ * gamma_clear on either side, the node is farther away than gamma_clear.
  * Rounding, in units of u S, S = |a| + sum |b| + sum |q|, |s_t| <= 1 but for rounding:
  *
  *   s_t = s +- k at the ends  8: differences, quotients, sum: 4 of |b_t| + 2 |q_tt| + |q_ut| +
@@ -195,13 +194,13 @@ static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
     return both;
 }
 
-/* Whether only the remainder hides that the node is apart: the polynomial alone proves it, or
- * hardly varies beside the remainder, as between parallel surfaces; or the node slides within
- * itself, so that at all times some neighbours are as near. Halves of the node, whose remainders
- * are a small part of its own, are then worth more than those of its neighbours. Not of remainders
- * that are mere rounding, nor of nodes so large that these say nothing of the surface. */
-static bool promises(const imp_model *g, const sides *both, const node *n, double gamma_clear,
-                     double size, bool within_itself)
+/* Whether splitting this node alone is likely to separate it: the polynomial without the remainder
+ * proves it apart, or varies little beside the remainder, as between parallel surfaces; or the node
+ * slides within itself, so that at all times some neighbours are as near. Its halves, whose
+ * remainders are much smaller, then help more than halves of its neighbours. False if the remainder
+ * is mere rounding, or the node so large that the remainder exceeds its extents. */
+static bool is_worth_halving(const imp_model *g, const sides *both, const node *n,
+                             double gamma_clear, double size, bool within_itself)
 {
     const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
     double least[2];
@@ -231,7 +230,7 @@ distance_view distance_view_none(const node *a)
     return view;
 }
 
-/* Whether a slides along b within itself, or the pair is of one moment, which stands for all
+/* Whether a slides along b within itself, or the pair is searched at one moment that represents all
  * times. */
 static bool is_within_itself(const distance_question *q)
 {
@@ -258,7 +257,7 @@ static void cut_by(const distance_question *q, const imp_model *g, time_window *
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], gamma_clear);
     view->is_promising =
-        !view->is_apart && promises(g, &both, a, gamma_clear, size, is_within_itself(q));
+        !view->is_apart && is_worth_halving(g, &both, a, gamma_clear, size, is_within_itself(q));
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
 }
 
@@ -269,7 +268,7 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
     imp_model g;
     bool known;
     *view = distance_view_none(q->a);
-    const imp_code code = ask(q, &g, view->bend, &known, error);
+    const imp_code code = find_distance(q, &g, view->bend, &known, error);
     if (code != IMP_SUCCESS || !known) return code;
     cut_by(q, &g, window, view);
     const bool decides =

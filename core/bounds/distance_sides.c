@@ -14,9 +14,9 @@ distance_outcome distance_outcome_none(const time_window *window)
     return (distance_outcome){*window, false, 0, -1, {0, 0, 0}};
 }
 
-/* Bounds how far one surface slides along the other over all times of both. `plane`: that of a part
- * of the other, or NULL for the other's symmetry. INFINITY: nothing is known, as of other surfaces
- * of many pieces, of which each has its own. */
+/* Bounds how far one surface slides along the other over their common times: along `plane`, or, if
+ * that is NULL, modulo the other's symmetry. INFINITY: no bound is known, as where the other has
+ * many pieces, each with its own symmetry. */
 static imp_code find_slip(const node *own, const node *other, const surface_plane *plane,
                           const time_window *times, double moment, double *slip, imp_error *error)
 {
@@ -33,7 +33,7 @@ static imp_code find_slip(const node *own, const node *other, const surface_plan
     return surface_set_code(status, error);
 }
 
-/* Whether maps turn the surface of the other side further, so that only a slip helps. */
+/* Whether maps of the other side rotate its surface, so that distances hold only with a slip. */
 static bool is_turned(const distance_sides *of, int side)
 {
     const surface *own = of->node[side]->surface, *other = of->node[!side]->surface;
@@ -41,8 +41,8 @@ static bool is_turned(const distance_sides *of, int side)
     return surface_map_count(other) - common > of->still_maps[!side];
 }
 
-/* Makes the question about one side. Models of a node that moves uniformly are as good as those of
- * one moment. */
+/* Fills the input of distance_cut for one side. A node that moves uniformly needs no slip: its
+ * models are as tight as those of one moment. */
 static imp_code question_of(const distance_sides *of, int side, double gamma_clear,
                             distance_question *q, imp_error *error)
 {
@@ -66,8 +66,8 @@ static imp_code question_of(const distance_sides *of, int side, double gamma_cle
 
 /* --- Faces ------------------------------------------------------------------------------------ */
 
-/* Asks how far the points of one side are from the plane of the other side's node, along which they
- * slide. */
+/* Cuts by the distance of one side's points from the plane of the other side's node, along which
+ * they slide. */
 static imp_code cut_along_face(const distance_sides *of, int side, double gamma_clear,
                                time_window *window, distance_view *view, imp_error *error)
 {
@@ -105,9 +105,9 @@ static imp_code cut_side(const distance_sides *of, int side, double gamma_clear,
     return distance_cut(&asked, window, view, error);
 }
 
-/* Lemma. The nodes' points are points of their whole surfaces: the distance of one node's points
- * from all of the other surface, or from the plane of its node, is no greater than that of the two
- * nodes. Each side cuts what the other has left. */
+/* Lemma. A node's points belong to its whole surface: the distance of one node's points from all of
+ * the other surface, or from the plane of its node, is no greater than that of the two nodes. Each
+ * side cuts what the other has left. */
 imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error)
 {

@@ -33,7 +33,7 @@ typedef struct forms {
     imp_quad uuw, uvw, vvw;
 } forms;
 
-/* `bends` and `is_cubic` are constant in each caller, so that what is not costs nothing. */
+/* `bends` and `is_cubic` are constant in each caller, so that unused terms are compiled away. */
 IMP_QUAD_INLINE forms project(const bundle *n, const slice *s, bool bends, bool is_cubic)
 {
     const imp_quad none = imp_quad_all(0);
@@ -132,7 +132,7 @@ IMP_QUAD_INLINE void add_lines(gap_lines *lines, const bundle *n, imp_quad_mask 
         if (sane[k]) gap_lines_add(lines, low[k], drift[k], padded_upper(sqrt(square[k]), 8));
 }
 
-/* The chord under the sum of both forms' least values: at w at least middle + tilt w. */
+/* A line below the sum of both forms' least values: at w they are at least middle + tilt w. */
 typedef struct chord {
     imp_quad middle, tilt;
 } chord;
@@ -169,19 +169,19 @@ IMP_QUAD_INLINE chord chord_over_edges(const difference *r, const bundle *n)
     return (chord){half * (start + end), half * (end - start)};
 }
 
-/* Lemma (one axis). Let x of A and y of B have fixed parameters s_a, s_b. But for the slack,
- * n.(y - x) is then linear in w, plus n.bend w^2, which lies between min(n.bend, 0) and
- * max(n.bend, 0). The least of what is linear over all s_a, s_b is concave in w, being a
- * minimum of linear functions, and so lies above its chord; the greatest lies below its own.
- * At either end of the window, w = -1 and w = 1, they are
+/* Lemma (one axis). Let x of A and y of B have fixed parameters s_a, s_b. Apart from the slack,
+ * n.(y - x) is then linear in w, plus n.bend w^2, which lies between min(n.bend, 0) and max(n.bend,
+ * 0). The minimum of the linear part over all s_a, s_b is concave in w, being a minimum of linear
+ * functions, and so lies above its chord; the maximum lies below its chord. At either end of the
+ * window, w = -1 and w = 1, they are
  *
  *   n.delta + n.drift w + [min Qb - max Qa, max Qb - min Qa],   the forms with their slopes at w,
  *
- * and |n.(y - x)| <= |n| |y - x|. So where the chords less or more sum_i |n_i| slack_i, and that
- * over the edges, leave [-g, g], g = |n| gamma_clear, the nodes are farther apart than gamma_clear.
- * 2^-490 outweighs underflow, since every axis has a coordinate of 1. Lanes whose axis or size is
- * out of range are left out: they prove nothing. The far side is computed only where it may end
- * below g. Rounding, in units of u R, R = sum_i |n_i| magnitude_i:
+ * and |n.(y - x)| <= |n| |y - x|. So where the lower chord less sum_i |n_i| slack_i and the chord
+ * over the edges exceeds g = |n| gamma_clear, or the upper chord plus both is below -g, the nodes
+ * are farther apart than gamma_clear. 2^-490 outweighs underflow, since every axis has a coordinate
+ * of 1. Lanes whose axis or size is out of range are left out: they prove nothing. The far side is
+ * computed only where it may end below g. Rounding, in units of u R, R = sum_i |n_i| magnitude_i:
  *
  *   difference_at                            DIFFERENCE_ROUNDING
  *   dots n.x                               6: of a form 3, of offset, drift and bend 3
@@ -270,9 +270,10 @@ IMP_QUAD_INLINE bundle bundle_with(const difference *r, vec3 x, vec3 y)
     return (bundle){.x = {n[0], n[1], n[2]}};
 }
 
-/* Along the axis that is best at the focus, the window's start where that decides when the earliest
- * contact can be; both normals; and the line of centres at the end of the window that is farther
- * from the focus. Where no axis is any good at the focus, along the line of centres there. */
+/* Cuts along the axis that is best at the focus, which is the window's start in a search for the
+ * earliest contact; along both normals; and along the line of centres at the end of the window that
+ * is farther from the focus. If no axis separates the nodes at the focus, the line of centres there
+ * replaces the first. */
 IMP_QUAD_INLINE bool cut_along_axes(const difference *r, double gamma_clear, w_range *s, vec3 *axis,
                                     gap_lines *lines)
 {
@@ -285,7 +286,7 @@ IMP_QUAD_INLINE bool cut_along_axes(const difference *r, double gamma_clear, w_r
     return bundle_cut(r, &n, gamma_clear, s, lines);
 }
 
-/* Cuts along an axis that is known; nothing is searched for. */
+/* Cuts along a given axis, both normals and the line of centres at the window's end. */
 IMP_QUAD_INLINE bool cut_along_given(const difference *r, double gamma_clear, w_range *s, vec3 axis)
 {
     const vec3 end = vec3_add(vec3_from(r->delta), vec3_from(r->drift));

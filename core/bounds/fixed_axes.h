@@ -12,12 +12,12 @@
 
 /* Cuts the range of w to the w at which no axis proves the nodes farther apart than gamma_clear.
  * False: none is left. `axis` holds the axis that was best for the parents, or 0; it becomes the
- * best axis at the focus, of any length, or 0 if none parts the nodes there. What the axes prove of
- * the distance is added to `lines`, unless NULL. */
+ * best axis at the focus, of any length, or 0 if none separates the nodes there. The lower bounds
+ * of the distance that the axes prove are added to `lines`, unless NULL. */
 bool fixed_axes_cut(const difference *r, double gamma_clear, w_range *s, vec3 *axis,
                     gap_lines *lines);
 
-/* Like fixed_axes_cut, along an axis that was found elsewhere, both normals and the line of
+/* Like fixed_axes_cut, but without a search: cuts along `axis`, both normals and the line of
  * centres. */
 bool fixed_axes_cut_along(const difference *r, double gamma_clear, w_range *s, vec3 axis);
 

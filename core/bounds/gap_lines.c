@@ -16,7 +16,7 @@ void gap_lines_begin(gap_lines *lines)
 
 /* Lemma. Dividing by a length that is not less than |n| keeps a bound true: where low + drift w is
  * positive it only falls, and where it is negative the distance, at least 0, is above it. Rounding,
- * in units of u (|q| + |e|), |w| <= 1: the quotients 1, what is taken off 1, the difference 1. */
+ * in units of u (|q| + |e|), |w| <= 1: the quotients 1, the slack 1, the difference 1. */
 enum { LINE_ROUNDING = 4 };
 _Static_assert(1 + 1 + 1 <= LINE_ROUNDING, "rounding of a line");
 
@@ -56,9 +56,9 @@ static double weighted_lower(const gap_line *l, const gap_line *m, double p, w_r
     return least > 0 ? least : 0;
 }
 
-/* Finds the two lines that cross where the envelope is lowest, one falling and one rising: goes to
- * where two lines cross and replaces one by the line that is highest there. Any two lines prove a
- * bound. */
+/* Finds the falling and the rising line that cross where the envelope is lowest: replaces one of
+ * two lines by the line that is highest where they cross, until neither changes. Any two lines
+ * prove a bound. */
 double gap_lines_lower(const gap_lines *lines, w_range range, double *w)
 {
     const gap_line *fall = highest_at(lines, range.lo), *rise = highest_at(lines, range.hi);

@@ -12,15 +12,15 @@
  * ====================================================================
  * The axis through the set's point that is nearest to the origin shows the widest gap of all. The
  * point is sought by the method of E. Gilbert, D. Johnson and S. Keerthi ("A fast procedure for
- * computing the distance between complex objects in three-dimensional space", 1988), and no nearer
- * than pays. The set is known by its support function alone. Two nodes' set is a Minkowski
- * difference B - A: of their Taylor models (gjk_axis.c), of the hulls of their control nets
- * (net_axis.c), of a model and a hull (net_model_axis.c). Nothing is proved here: what an axis
- * shows is proved afterwards. */
+ * computing the distance between complex objects in three-dimensional space", 1988), stopped early.
+ * The set is given by its support function. For two nodes it is the Minkowski difference B - A: of
+ * their Taylor models (gjk_axis.c), of the hulls of their control nets (net_axis.c), or of a model
+ * and a hull (net_model_axis.c). Nothing is proved here: those files, and fixed_axes.c, prove
+ * afterwards what the axis shows. */
 
 /* --- The nearest point of a simplex ----------------------------------------------------------- */
 
-/* A point, segment or triangle, and its point that is nearest, which lies inside it. */
+/* A point, segment or triangle, whose point nearest to the origin lies inside it. */
 typedef struct simplex {
     int count;
     vec3 p[3];
@@ -42,8 +42,8 @@ IMP_QUAD_INLINE simplex on_segment(vec3 a, vec3 b)
 
 IMP_QUAD_INLINE simplex nearer(simplex s, simplex t) { return t.square < s.square ? t : s; }
 
-/* The newest point is a: of the edge bc the search has come from elsewhere. With x = a + y ab + z
- * ac, the normal equations have the determinant `all`. */
+/* The newest point is a. The edge bc belongs to the previous simplex and is not tried again. With x
+ * = a + y ab + z ac, the normal equations have the determinant `all`. */
 IMP_QUAD_INLINE simplex on_triangle(vec3 a, vec3 b, vec3 c)
 {
     const vec3 ab = vec3_sub(b, a), ac = vec3_sub(c, a);
@@ -83,13 +83,13 @@ IMP_QUAD_INLINE simplex simplex_add(const simplex *s, vec3 a)
 
 /* --- The search ------------------------------------------------------------------------------- */
 
-/* The support function: the point of the set that lies lowest along n, or nearly. It is inlined
- * where each caller names its own. */
+/* A support function: returns the point of the set that lies lowest along n, or nearly. Callers
+ * pass a constant, so that it is inlined. */
 typedef vec3 (*gjk_support)(const void *set, vec3 n);
 
-/* Turns `axis`, which may be any direction but 0, to one that shows at least `share` of the widest
- * gap: the gap along the axis to a point that is reached is the lowest point's height along it.
- * False: the set holds the origin; `axis` is as it was. A NaN ends the search. */
+/* Turns `axis`, which may be any direction but 0, to one along which the set is at least `share` of
+ * its distance from the origin. False: the set contains the origin; `axis` is unchanged. A NaN ends
+ * the search. */
 IMP_QUAD_INLINE bool gjk_search(gjk_support lowest, const void *set, double share, vec3 *axis)
 {
     simplex s = on_point(lowest(set, *axis));

@@ -11,16 +11,16 @@
 /* --- The point that lies lowest along a direction --------------------------------------------- */
 
 /* B - A at a moment: centre, forms of B (0) and of -A (1), and the slack's box; the edges of posed
- * nodes are left out. x, y, z and 0 in lanes; and once more coordinate by coordinate, as (u of B, u
- * of -A, v of B, v of -A). */
+ * nodes are left out. The lanes hold x, y, z and 0; slope, curvature and twist hold the forms
+ * again, by coordinate, with the lanes (u of B, u of -A, v of B, v of -A). */
 typedef struct shape {
     imp_quad centre, slack;
     imp_quad bu[2], bv[2], quu[2], quv[2], qvv[2];
     imp_quad slope[3], curvature[3], twist[3];
 } shape;
 
-/* `bends`, here and below, is constant where it is compiled: false where curvature is 0, and not
- * set. */
+/* `bends`, here and below, is constant in each caller. If false, the curvature is 0 and its fields
+ * are not set. */
 
 IMP_QUAD_INLINE void shape_take(shape *z, int k, const slice *f, double w, imp_quad sign)
 {
@@ -67,8 +67,8 @@ IMP_QUAD_INLINE imp_quad least_at(imp_quad b, imp_quad q, imp_quad vertex)
     return imp_quad_pick(q > imp_quad_all(0x1p-1000), inside, end);
 }
 
-/* Estimates the parameters (s_u of B, of -A, s_v of B, of -A) at which both forms are least along
- * n, by u and v in turn. */
+/* Estimates the parameters (s_u of B, s_u of -A, s_v of B, s_v of -A) at which both forms are least
+ * along n: minimises over u, then v, then u. */
 IMP_QUAD_INLINE imp_quad shape_bottom(const shape *z, vec3 n, bool bends)
 {
     const imp_quad slope = along(n, z->slope), twist = along(n, z->twist);

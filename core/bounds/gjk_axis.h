@@ -5,13 +5,13 @@
 
 #include "core/bounds/difference.h"
 
-/* The separating axis along which two nodes are farthest apart: GJK
- * =================================================================
- * At one moment of the window, B - A and the box of its slack fill a set, whose convex hull is
- * searched (gjk.h). fixed_axes.h proves what the axis shows. */
+/* The axis along which two Taylor models are farthest apart: GJK
+ *  * ==============================================================
+ * At one moment of the window, GJK (gjk.h) searches the convex hull of B - A, widened by the box of
+ * its slack. fixed_axes.c proves what the axis shows. */
 
-/* Turns `axis`, which may be any direction but 0, to the separating axis of the moment w. False:
- * the hulls meet then, so that no axis shows a gap; `axis` is as it was. */
+/* Turns `axis`, which may be any direction but 0, to a separating axis at w. False: the hulls
+ * intersect at w, so that no axis shows a gap; `axis` is unchanged. */
 bool gjk_axis(const difference *r, double w, vec3 *axis);
 
 #endif

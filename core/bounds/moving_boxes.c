@@ -7,7 +7,7 @@
 #include "core/bounds/quadratic.h"
 #include "core/bounds/window_lanes.h"
 
-/* Bounds the distance of a node's points from a + bt s, without rounding. */
+/* Bounds the distance of a node's points from a + bt s; rounding is not included. */
 IMP_QUAD_INLINE imp_quad reach_of(const node *n)
 {
     const quadratic3 *f = &n->f;
@@ -27,11 +27,10 @@ typedef struct passing {
     imp_quad delta, drift, reach;
 } passing;
 
-/* Lemma. In a node s = s0 + k w, |s| <= 1 as the window lies in its times, so that terms in s reach
- * no farther than their coefficients, but for bt, which delta and drift have. Rounding, in units of
- * u of |apart| + |bt| of both + reach of both: s0 2, k 1 and their products 2; differences and sums
- * 4; of reach 9; low 1, low -+ drift 1, each of two of them at most; and of `size` itself, to first
- * order 0. */
+/* Lemma. In a node s = s0 + k w, and |s| <= 1 since the window lies in its times, so that each term
+ * in s is at most its coefficient; bt is in delta and drift. Rounding, in units of u of |apart| +
+ * |bt| of both + reach of both: s0 2, k 1 and their products 2; differences and sums 4; of reach 9;
+ * low 1, low -+ drift 1, each of two of them at most; and of `size` itself, to first order 0. */
 enum { PASSING_ROUNDING = 32 };
 _Static_assert(2 + 1 + 2 + 4 + 9 + 2 * (1 + 1) <= PASSING_ROUNDING, "rounding along a coordinate");
 

@@ -5,9 +5,9 @@
 
 #include "core/bounds/difference.h"
 
-/* Cuts the window by boxes around the nodes that move linearly, for a tenth of the work of
- * separation_window. Shrinks `window`, which lies in both nodes' times, to the times in which these
- * may be within the gamma_clear; false: nothing of it is left. A NaN leaves it as it is. */
+/* Shrinks `window`, which lies in both nodes' times, to the times at which two boxes around the
+ * nodes, which move linearly, are within gamma_clear of each other. False: nothing of it is left. A
+ * NaN leaves it unchanged. This takes a tenth of the work of separation_window. */
 bool moving_boxes_cut(const node *a, const node *b, double gamma_clear, time_window *window);
 
 #endif

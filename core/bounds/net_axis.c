@@ -48,12 +48,13 @@ bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis)
 
 /* --- The proof -------------------------------------------------------------------------------- */
 
-/* Lemma (one axis). But for the error each surface lies in the hull of its net at every moment, so
- * n.(y - x) is at least the least over pairs of control points. Their motion is linear, so that
- * least is concave in time, and lies above the line between its values at the window's ends. Where
- * the line, less errors and rounding, is above |n| gamma_clear, the nodes are farther apart than
- * gamma_clear. With a coordinate of n equal to 1 nothing that counts underflows; a NaN or infinity
- * cuts nothing. */
+/* Lemma (separating axis of two nets). At every moment each surface lies within its net's error of
+ * the hull of its control points. So n.(y - x), for points x of A and y of B, is at least the
+ * minimum of n.(q - p) over control points p of A and q of B, less both errors along n. Control
+ * points move linearly, so that this minimum is concave in time, and lies above the line between
+ * its values at the window's ends. Where that line, less errors and rounding (net_hull.h), exceeds
+ * |n| gamma_clear, the nodes are farther apart than gamma_clear, since n.(y - x) <= |n| |y - x|.
+ * One coordinate of n is about 1, so that no underflow matters; a NaN or infinity cuts nothing. */
 IMP_QUAD_INLINE bool cut_along(const node *a, const node *b, vec3 axis, double gamma_clear,
                                time_window *window)
 {

@@ -7,13 +7,15 @@
 
 /* Separating axes of two control nets
  * ===================================
- * Each node lies in the convex hull of its control points, give or take the net's error, and the
- * hull is a body of few points that move linearly. Both nodes have a net, which was asked
- * for (node_net). */
+ * Each node lies within its net's error of the convex hull of its control points, which move
+ * linearly in time. An axis separates two nodes where the least n.(y - x) over pairs of control
+ * points exceeds the errors and |n| gamma_clear; net_axis.c proves this over a window
+ * (core/PROOF.md, Lemma 14). Precondition of both functions: both nodes have nets
+ * (node_net_made). */
 
 /* Turns `axis`, which may be any direction but 0, to one that shows most of the widest gap of the
- * hulls at time t: GJK on their Minkowski difference. False: the hulls meet then; `axis` is as it
- * was. */
+ * hulls at time t: GJK on their Minkowski difference. False: the hulls intersect at t; `axis` is
+ * unchanged. */
 bool net_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 
 /* Cuts the window, which lies in both nodes' times, to the part in which the axis does not prove

@@ -51,11 +51,11 @@ IMP_QUAD_INLINE void heights_take(const node *of, const time_window *w, vec3 axi
 /* Lemma. Over the window n.(y - x) of points of a half and of the other node is no less than the
  * least difference of heights of their control points, and that is concave in time: heights are
  * linear, and halving takes fixed means of them. So where it is above the limit at both ends of the
- * window, the half is out of reach. Heights halved k times are those of a patch that is off by the
- * sum of k net_halving_upper: each counts from the numbers that were halved, as rounded. In units
- * of u R (net_hull.h): heights, their places and R itself are GAP_ROUNDING; the limit less the rest
- * rounds twice, both nodes' heights less what halving moved them by once each: slack is counted
- * twice. A NaN excludes nothing. */
+ * window, the half is separated. Heights halved k times are those of a patch that is off by the sum
+ * of k net_halving_upper: each bounds the rounding of one halving. In units of u R (net_hull.h):
+ * heights, their places and R itself are GAP_ROUNDING; the limit less the rest rounds twice, both
+ * nodes' heights less what halving moved them by once each: slack is counted twice. A NaN excludes
+ * nothing. */
 _Static_assert(2 + 2 <= GAP_ROUNDING, "rounding of a half's limit");
 PAD_COVERS(64,
            3 + 3 + NET_HALVES_MOST); /* h->most: products and two sums; its own product, the sums */
@@ -74,7 +74,7 @@ static double halved_off(const net_heights *h, parameter j)
 
 enum { NONE_LEFT = 0, BOTH_LEFT = 3 };
 
-/* Notes that a half is kept, and its least heights. */
+/* Replaces the region by its half, with these least heights. */
 static void keep(net_heights *h, parameter j, int half, double off, double early, double late)
 {
     const double by = padded_upper(off, 64);
@@ -83,7 +83,7 @@ static void keep(net_heights *h, parameter j, int half, double off, double early
     region_set_half(&h->region, &h->region, j, half);
 }
 
-/* Computes heights of both halves of any patch, and the least of them. */
+/* Heights of both halves of any patch, and the least of them. */
 typedef struct any_halves {
     double x[2][3 * IMP_QUAD * QUADS_MAX];
     window_ends low[2];
@@ -115,10 +115,10 @@ static int halve_any_heights(net_heights *h, parameter j, window_ends most)
     return left;
 }
 
-/* Heights of both halves of a bicubic patch. Lemma. Of a rational one, heights times weights and
- * weights are halved like any numbers; their quotients are the heights. In units of u most: the
- * products and their halving n + 1 in all, weights n, quotients 1, less than halving_units
- * (net.c). */
+/* Computes heights of both halves of a bicubic patch. Lemma. If it is rational, heights times
+ * weights and weights are halved like any numbers; their quotients are the heights. In units of u
+ * most: the products and their halving n + 1 in all, weights n, quotients 1, less than
+ * halving_units (net.c). */
 IMP_QUAD_INLINE halved_rows halve_heights(const double *x, parameter j, const rows *weights,
                                           const halved_rows *by)
 {
@@ -138,8 +138,8 @@ IMP_QUAD_INLINE void least_of_halves(const halved_rows *x, double least[2])
     least[1] = least_of(upper);
 }
 
-/* Does what halve_any_heights does, for bicubic nets. More is near at the window's end than at its
- * start, as a rule: where both halves are near at the end, the start is not needed. */
+/* Does what halve_any_heights does, for bicubic nets. Usually more is near at the window's end than
+ * at its start: if both halves are near at the end, the start is not computed. */
 IMP_QUAD_INLINE int halve_bicubic_heights(net_heights *h, parameter j, window_ends most,
                                           bool is_weighted)
 {
@@ -169,7 +169,7 @@ IMP_QUAD_INLINE int halve_bicubic_heights(net_heights *h, parameter j, window_en
 
 /* Returns bits of the parameters along which a half may be excluded: two corners of the half are
  * above `most` at the window's end. */
-static int promising(const net_heights *h, double most)
+static int parameters_to_try(const net_heights *h, double most)
 {
     const int end = h->net->degree[1], last = h->net->degree[0] * (end + 1);
     const double *x = h->x + h->net->stride;
@@ -182,7 +182,7 @@ static int promising(const net_heights *h, double most)
 IMP_QUAD_INLINE bool find_of_side(net_heights *h, window_ends most, net_half *found)
 {
     const net *f = h->net;
-    const int may = promising(h, most.hi);
+    const int may = parameters_to_try(h, most.hi);
     for (parameter j = PARAMETER_U; j <= PARAMETER_V; ++j) {
         if (!(may >> j & 1) || !region_can_split(&h->region, j) || !net_can_halve(&h->region, j))
             continue;
@@ -273,9 +273,9 @@ static void any_lows(const net_heights *h, parameter j, window_ends low[2])
     memcpy(low, both.low, sizeof both.low);
 }
 
-/* Lemma. As above, the least difference of heights lies above the line between its values at the
- * window's ends; where that is above the limit the half is out of reach. A value sums three times
- * what the limit rounds. */
+/* Lemma. The least difference of heights is concave in time, so that it lies above the line between
+ * its values at the window's ends; where that is above the limit the half is separated. A value
+ * sums three numbers more than the limit. */
 _Static_assert(3 + 2 <= GAP_ROUNDING, "rounding of a half's line");
 
 IMP_QUAD_INLINE void cut_halves(const net_halves *halves, int side, parameter j,

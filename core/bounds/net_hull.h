@@ -10,13 +10,15 @@
 
 /* The hull of a control net along an axis
  * =======================================
- * What the searches and proofs of net_axis.c and net_model_axis.c have in common. */
+ * Functions that net_axis.c, net_model_axis.c and net_halves.c share. The height of a point x along
+ * an axis n is n.x. Control points are kept relative to the net's place (net.h), so that large
+ * offsets cancel before they round. */
 
 enum { QUADS_MAX = (IMP_NET_POINTS + IMP_QUAD - 1) / IMP_QUAD };
 
 /* --- At one time ------------------------------------------------------------------------------ */
 
-/* The control points of a net, without its place. */
+/* The control points of a net relative to its place. */
 typedef struct cloud {
     imp_quad x[3][QUADS_MAX];
 } cloud;
@@ -76,8 +78,7 @@ IMP_QUAD_INLINE vec3 lowest_of_cloud(const cloud *z, int quads, vec3 n)
 
 /* --- Over a window ---------------------------------------------------------------------------- */
 
-/* The least of n.x over the control points of a net, without its place, at both ends of a
- * window. */
+/* A number at the start and at the end of a window. */
 typedef struct window_ends {
     double lo, hi;
 } window_ends;
@@ -121,9 +122,10 @@ IMP_QUAD_INLINE window_ends lowest_heights_of(const net *f, const time_window *w
     return f->stride == 16 ? lowest_heights(f, w, n, 16) : lowest_heights(f, w, n, f->stride);
 }
 
-/* Cuts the window to where the line from g0 at its start to g1 at its end is not above `limit`. In
- * units of u: the two differences and the quotient 3 of what is cut; its product with the length,
- * itself rounded, 2; the sum 1 of |t|. WINDOW_TINY covers what underflows. */
+/* Cuts the window to the times at which the line from g0 at its start to g1 at its end is not above
+ * `limit`. False: no time is left. Rounding in units of u: the two differences and the quotient 3
+ * of what is cut; its product with the length, itself rounded, 2; the sum 1 of |t|. WINDOW_TINY
+ * covers underflow. */
 enum { CUT_ROUNDING = 8 };
 _Static_assert(3 + 2 + 1 <= CUT_ROUNDING, "rounding of a cut");
 
@@ -142,8 +144,8 @@ static inline bool line_cut(double g0, double g1, double limit, time_window *w)
 
 /* --- Along an axis ---------------------------------------------------------------------------- */
 
-/* Scales n to a longest coordinate of 1, about. False: its length is such that it proves
- * nothing. */
+/* Scales the axis to a longest coordinate of about 1. False: it is too short or too long to prove
+ * anything. */
 static inline bool axis_scaled(vec3 axis, vec3 *n)
 {
     double longest = fabs(axis.x[0]);
@@ -164,7 +166,7 @@ static inline double net_limit_upper(vec3 n, double gamma_clear, double slack)
 
 /* --- Between two nets ------------------------------------------------------------------------- */
 
-/* The difference of B's place and A's at time t. */
+/* Returns B's place minus A's at time t. */
 IMP_QUAD_INLINE imp_quad places_between(const net *a, const net *b, double t)
 {
     const imp_quad apart = imp_quad_load(b->place) - imp_quad_load(a->place);
@@ -193,7 +195,8 @@ _Static_assert(2 + 1 + 3 + 3 + 2 + 6 <= GAP_ROUNDING, "rounding of a gap");
 /* The sum of x, y and z. */
 IMP_QUAD_INLINE double sum_of(imp_quad x) { return x[0] + x[1] + x[2]; }
 
-/* R and the nets' errors along n, at any time of the window. */
+/* Bounds the nets' errors along n plus the rounding of a gap (GAP_ROUNDING u R), at any time of the
+ * window. */
 IMP_QUAD_INLINE double slack_upper(const net *a, const net *b, vec3 n, const time_window *w)
 {
     const double early = fabs(w->lo - a->time) + fabs(w->lo - b->time);
@@ -211,7 +214,7 @@ IMP_QUAD_INLINE double slack_upper(const net *a, const net *b, vec3 n, const tim
 
 PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
 
-/* The difference of the places along n, at the window's ends. */
+/* Returns n.(B's place - A's place) at the window's ends. */
 IMP_QUAD_INLINE window_ends places_along(const net *a, const net *b, vec3 n, const time_window *w)
 {
     const imp_quad along = {n.x[0], n.x[1], n.x[2], 0};

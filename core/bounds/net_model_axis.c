@@ -31,7 +31,7 @@ IMP_QUAD_INLINE vec3 centre_apart(const net_model *p, double t)
     return apart;
 }
 
-/* Time relative to the model's region: off by 2 u, |s| <= 1 + 2 u. */
+/* Returns the time relative to the model's region: off by 2 u, |s| <= 1 + 2 u. */
 static double model_time(const node *f, double t)
 {
     const double d = f->region.d[PARAMETER_T];
@@ -40,8 +40,9 @@ static double model_time(const node *f, double t)
 
 /* --- The search ------------------------------------------------------------------------------- */
 
-/* A model at one time, from its centre: lanes x, y, z and 0; and once more coordinate by
- * coordinate, as (slope along u, along v, curvature along u, along v). */
+/* A model at one time, relative to its centre. The lanes hold x, y, z and 0; `form` holds the
+ * coefficients again, by coordinate, with the lanes (slope along u, along v, curvature along u,
+ * along v). */
 typedef struct bowl {
     imp_quad middle, e, bu, bv, quu, quv, qvv;
     imp_quad form[3];
@@ -70,7 +71,7 @@ IMP_QUAD_INLINE double vertex_of(double b, double q)
     return inside < -1 ? -1 : inside > 1 ? 1 : inside;
 }
 
-/* Estimates the point that lies lowest along n, by u and v in turn. */
+/* Estimates the point that lies lowest along n: minimises over u, then v, then u. */
 IMP_QUAD_INLINE vec3 lowest_of_bowl(const bowl *z, vec3 n)
 {
     const imp_quad f = imp_quad_all(n.x[0]) * z->form[0] + imp_quad_all(n.x[1]) * z->form[1] +
@@ -144,8 +145,8 @@ enum { NET_MODEL_ROUNDING = 128 };
 _Static_assert(3 + 4 + 7 + 16 + 3 + QUADRATIC_ROUNDING + 6 + 8 <= NET_MODEL_ROUNDING,
                "rounding of a gap of net and model");
 
-/* Bounds the errors along n, and the rounding, for times no farther from the net's than `late`;
- * *size is R. */
+/* Bounds the errors along n, and the rounding, for times at most `late` from the net's time; *size
+ * is R. */
 IMP_QUAD_INLINE double net_model_slack_upper(const net_model *p, vec3 n, double late, double *size)
 {
     const quadratic3 *q = &p->model->f;
@@ -166,13 +167,11 @@ IMP_QUAD_INLINE double net_model_slack_upper(const net_model *p, vec3 n, double 
 
 PAD_COVERS(8, 5); /* errors: their sum, a product, three sums */
 
-/* The model's least value along n at both ends of the window, from its centre, less what its
- * acceleration takes off between.
- *
- * Lemma (bow). For fixed u and v the value is linear in time but for n.qtt s^2. Where n.qtt is
- * negative that is above its chord between the ends; where positive, at most n.qtt ((s1 - s0) /
- * 2)^2 below. The least of what is left, over u and v, is a minimum of linear functions, and above
- * its chord. */
+/* Returns the model's least value along n at both ends of the window, relative to its centre, less
+ * the most by which its acceleration lowers it in between. Lemma (bow). For fixed u and v the value
+ * is linear in time except for n.qtt s^2. If n.qtt is negative, that term is above its chord
+ * between the ends; if positive, at most n.qtt ((s1 - s0) / 2)^2 below. The minimum of the rest
+ * over u and v is a minimum of linear functions, and above its chord. */
 IMP_QUAD_INLINE window_ends lowest_values(const node *f, const time_window *w, vec3 n)
 {
     const quadratic3 *q = &f->f;
@@ -196,13 +195,13 @@ IMP_QUAD_INLINE window_ends lowest_values(const node *f, const time_window *w, v
     return (window_ends){low[0] - bow, low[1] - bow};
 }
 
-/* Lemma (one axis). At every moment n.(model - net) is at least the least value of the model, less
- * its remainder, less the greatest of the control points, less the net's error. The least of
- * n.(-point) over control points, which move linearly, is above the line between its values at the
- * window's ends, as is that of the model (bow). Where the sum of both lines, less errors and
- * rounding, is above |n| gamma_clear, the nodes are farther apart than gamma_clear. With a
- * coordinate of n equal to 1 nothing that counts underflows; a NaN or a number out of range cuts
- * nothing. */
+/* Lemma (separating axis of a net and a model). At every moment n.(model - net) is at least the
+ * least value of the model, less its remainder, less the greatest of the control points, less the
+ * net's error. The least of n.(-point) over control points, which move linearly, is above the line
+ * between its values at the window's ends, as is that of the model (bow). Where the sum of both
+ * lines, less errors and rounding, is above |n| gamma_clear, the nodes are farther apart than
+ * gamma_clear. One coordinate of n is about 1, so that no underflow matters; a NaN or a number out
+ * of range cuts nothing. */
 IMP_QUAD_INLINE bool net_model_cut(const net_model *p, vec3 axis, double gamma_clear,
                                    time_window *window)
 {

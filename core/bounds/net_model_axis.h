@@ -7,9 +7,9 @@
 
 /* Separating axes of a control net and a Taylor model
  * ===================================================
- * One of the two nodes has a net, the other, whose surface is of another kind or turns, none: the
- * hull of the one against the quadratic of the other. Both nodes are bounded. As net_axis.h
- * otherwise. */
+ * These functions do what those of net_axis.h do where one node has a net and the other, which may
+ * turn or be of another type, has none: the hull of the net is tested against the other's Taylor
+ * model. Precondition: both nodes are bounded. */
 
 bool net_model_axis_seek(const node *a, const node *b, double t, vec3 *axis);
 

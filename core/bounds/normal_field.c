@@ -108,7 +108,8 @@ static void turn_choose(const form *k, const local_slice *s, turn *m)
     for (int j = 0; j < SECONDS; ++j) turn_by(k, &s->q[j], m->q[j]);
 }
 
-/* How fast a surface's own normal turns, in the tangents: m.l + n0.lw = 0 for both slopes. */
+/* Computes the rate, along the tangents, at which a surface's own normal turns: m.l + n0.lw = 0 for
+ * both slopes. */
 static void turn_in_time(const local_slice *s, double m[2])
 {
     const local *u = &s->l[0], *v = &s->l[1];
@@ -123,7 +124,7 @@ typedef struct turns {
     double w[2];
 } turns;
 
-/* False where the slopes are too nearly parallel to say. */
+/* Chooses the numbers m of the lemma. False: the slopes are too nearly parallel. */
 static bool turns_choose(const local_slice *a, const local_slice *b, turns *m)
 {
     form ka, kb;
@@ -143,13 +144,13 @@ typedef struct path {
     local delta, drift, bend;
 } path;
 
-/* The sum of what the field's turn by either of two terms makes of the other. */
+/* Returns m_q.x_l + m_l.x_q for two terms x of one surface. */
 static double both_ways(const local_slice *s, const turn *m, int q, int l)
 {
     return dot2(m->l[l], &s->q[q]) + dot2(m->q[q], &s->l[l]);
 }
 
-/* One surface's part of n.(B - A) at w, into lane k of p: sign +1 for B, -1 for A. */
+/* Writes one surface's part of n.(B - A) at w into lane k of p: sign +1 for B, -1 for A. */
 static void take_part(const local_slice *s, const turn *m, const double *mw, const path *x,
                       double w, double sign, int k, quadratics *p)
 {
@@ -233,8 +234,7 @@ IMP_QUAD_INLINE imp_quad along_edges(const double edge[3][4], vec3 n)
            imp_quad_all(n.x[2]) * imp_quad_load(edge[2]);
 }
 
-/* Bounds, along n, what edges add, and how the terms of second order of both change within the
- * window. */
+/* Bounds, along n, the edges of both remainders. */
 static double edges_upper(const difference *r, vec3 n)
 {
     imp_quad sum = imp_quad_all(0);
@@ -243,6 +243,7 @@ static double edges_upper(const difference *r, vec3 n)
     return sum[0] + sum[1] + sum[2];
 }
 
+/* Bounds, along n, how far the terms of second order of both slices change within the window. */
 static double bending_upper(const difference *r, vec3 n)
 {
     double sum = 0;
@@ -309,7 +310,7 @@ PAD_COVERS(SLACK_PAD, 4 + 20 + 14 + 16); /* cross; of second order, times nu; su
 PAD_COVERS(MU_PAD, 4 + 10);              /* slopes and w, terms of second order */
 PAD_COVERS(LENGTH_PAD, (2 * (14 + 1) + 1 + 2 + 1) / 2 + 1 + 1); /* lean^2; sums; root; product */
 
-/* What the lemma takes off, and the length of n. False: too large to tell. */
+/* Computes the lemma's slack and the length of n. False: they are too large. */
 static bool slack_and_length(const difference *r, const frame *f, const local_slice *a,
                              const local_slice *b, const turns *m, const path *x,
                              double *slack_upper, double *length_upper)
@@ -338,14 +339,14 @@ static bool slack_and_length(const difference *r, const frame *f, const local_sl
     return true;
 }
 
-/* n.D but for the slack: offset + drift w + bend w^2, and the parts of A and B at the start of the
+/* n.D without the slack: offset + drift w + bend w^2, and the parts of A and B at the start of the
  * window and at its end. */
 typedef struct height {
     double offset, drift, bend;
     quadratics parts;
 } height;
 
-/* Cuts along the field, or against it if B lies on that side at the focus. */
+/* Computes n.D along the field, or along -n if B lies on that side at the focus. */
 static height height_of(const difference *r, const local_slice *a, const local_slice *b,
                         const turns *m, const path *x)
 {
@@ -394,13 +395,13 @@ bool normal_field_cut(const difference *r, double gamma_clear, w_range *s, gap_l
     const imp_quad seen = imp_quad_min(quadratics_corner(&h.parts), imp_quad_all(0));
     if (h.offset - h.drift + (seen[0] + seen[1]) <= 0 &&
         h.offset + h.drift + (seen[2] + seen[3]) <= 0)
-        return true; /* nothing to cut, whatever the rest may be */
+        return true; /* nothing can be cut, even without slack */
     double least[IMP_QUAD];
     least_values(&h.parts, least);
     const double start = least[0] + least[1], end = least[2] + least[3];
     const double middle = h.offset + 0.5 * (start + end) + (h.bend < 0 ? h.bend : 0);
     const double drift = h.drift + 0.5 * (end - start);
-    if (lines == NULL && middle + fabs(drift) <= 0) return true; /* the same */
+    if (lines == NULL && middle + fabs(drift) <= 0) return true; /* nothing can be cut */
     double slack, length;
     if (!slack_and_length(r, &f, &a, &b, &m, &x, &slack, &length)) return true;
     const double low = middle - slack;

@@ -7,17 +7,17 @@
 
 /* Separation along a field of normals
  * ===================================
- * Where two surfaces are nearly tangent, any one axis sees the curvature of both, although only the
- * difference of the two decides whether they touch. So the axis is let turn with the surfaces, n(s)
- * = n0 - K (y_a + y_b) / 2, where y are tangential coordinates of the two points and K is the mean
- * of the two curvatures, and with time as the mean of the two normals does. Then n.(B - A) is a
- * quadratic in which only the difference of the curvatures is left, apart for each surface, up to
- * terms of third order. Pairs near contact need a size, and a time, like the cube root of the gap
- * instead of the square root. */
+ * Where two surfaces are nearly tangent, the bound along a fixed axis contains the curvature of
+ * both, although only their difference decides whether they touch. So the axis turns with the
+ * surfaces, n(s) = n0 - K (y_a + y_b) / 2, where y are tangential coordinates of the two points and
+ * K is the mean of the two curvatures, and with time as the mean of the two normals does. Then n.(B
+ * - A) is the sum of one quadratic for each surface, in which only the difference of the curvatures
+ * is left, up to terms of third order. Near contact, nodes and windows need to be as small as the
+ * cube root of the gap instead of its square root. */
 
 /* Cuts the range of w to the w at which the field does not prove the nodes farther apart than
- * gamma_clear. False: none is left. What the field proves of the distance is added to `lines`,
- * unless NULL. */
+ * gamma_clear. False: none is left. The lower bounds of the distance that the field proves are
+ * added to `lines`, unless NULL. */
 bool normal_field_cut(const difference *r, double gamma_clear, w_range *s, gap_lines *lines);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include <impinge/quad.h>
 
-/* The minimum of quadratics over a square
+/* The minimum of a quadratic over a square
  * =======================================
  * p(s, r) = bs s + br r + qss s^2 + qsr s r + qrr r^2 for s, r in [-1, 1], one p in each lane.
  * In what follows u is UNIT_ROUNDOFF and S the sum of |coefficients| of p, so |p| <= S. */
@@ -32,8 +32,7 @@ _Static_assert(QUADRATIC_EDGE + QUADRATIC_NO_INNER <= QUADRATIC_ROUNDING, "edge 
 _Static_assert(QUADRATIC_TANGENT <= QUADRATIC_ROUNDING, "interior, bound (A)");
 _Static_assert(QUADRATIC_EDGE + QUADRATIC_WALK <= QUADRATIC_ROUNDING, "interior, bound (B)");
 
-/* The value at a corner, a low one: neither it nor 0, the value in the middle, can be below the
- * least. */
+/* The value at a low corner: an upper bound of the minimum, as is 0, the value in the middle. */
 IMP_QUAD_INLINE imp_quad quadratics_corner(const quadratics *p)
 {
     return p->qss + p->qrr - (imp_quad_abs(p->bs) + imp_quad_abs(p->br) - imp_quad_abs(p->qsr));
@@ -113,8 +112,8 @@ IMP_QUAD_INLINE imp_quad quadratics_inner_lower(const quadratics *p, imp_quad ed
     return imp_quad_pick(on_edge, edge, imp_quad_min(inner, edge));
 }
 
-/* Answers what quadratics_lower does, with fewer instructions, where qss and qrr are 0: p is linear
- * in s and in r, and least at a corner. */
+/* Returns what quadratics_lower returns, with fewer instructions, where qss and qrr are 0: p is
+ * linear in s and in r, and least at a corner. */
 IMP_QUAD_INLINE imp_quad quadratics_bilinear_lower(const quadratics *p)
 {
     const imp_quad ends =

@@ -19,8 +19,8 @@ static double focus_of(const difference *r, double moment)
     return w < -1 ? -1 : w > 1 ? 1 : w;
 }
 
-/* Lemma. Outside the range s that is left, nodes are farther apart than gamma_clear; within it, no
- * nearer than the lines say, nor than the boxes. */
+/* Lemma. Outside the range s that is left, nodes are farther apart than gamma_clear; within it,
+ * their distance is at least the lines' and the boxes' lower bounds. */
 static void approach_take(approach *near, const difference *r, const gap_lines *lines, w_range s)
 {
     double w;
@@ -29,8 +29,8 @@ static void approach_take(approach *near, const difference *r, const gap_lines *
     near->moment = r->mid + r->half * w;
 }
 
-/* Seeks the axis that is best at the end of what is left: once two edges have crossed, the axis
- * that was best before is the wrong one. */
+/* Cuts along the axis that is best at the window's end: once two edges have crossed, the axis that
+ * was best before no longer separates them. */
 static bool cut_at_end(const node *a, const node *b, double gamma_clear, time_window *window)
 {
     difference r;
@@ -43,8 +43,9 @@ static bool cut_at_end(const node *a, const node *b, double gamma_clear, time_wi
     return true;
 }
 
-/* Cuts the window of two nodes without normals along axes that need no search: perpendicular to
- * both, and the lines of centres, at either end of the window; again if that pays. */
+/* Cuts the window of two nodes without normals along axes that need no search, perpendicular to
+ * both curves and along the lines of centres at either end of the window; repeats while that
+ * pays. */
 static bool cut_across(const node *a, const node *b, double gamma_clear, time_window *window,
                        int rounds)
 {
@@ -115,9 +116,9 @@ static bool cut_by_hulls(strategy_hulls hulls, const node *a, const node *b, vec
                                  : net_axis_cut(a, b, axis, gamma_clear, window);
 }
 
-/* Cuts by quadratics after hulls. Hulls of curved surfaces are nearer than the surfaces: the
- * quadratics are tried along the hulls' axis, or along any that can be found where the hulls
- * meet. */
+/* Cuts by quadratics after hulls. Hulls of curved surfaces are nearer to each other than the
+ * surfaces, so the quadratics are tried along the hulls' axis or, where the hulls intersect, along
+ * the axis that GJK finds. */
 static bool cut_by_models(const node *a, const node *b, double gamma_clear, time_window *window,
                           vec3 *axis, trial_rate *turning, bool found)
 {
@@ -195,12 +196,12 @@ bool separation_approach(const node *a, const node *b, double gamma_clear, time_
     return shrink(a, b, gamma_clear, window, axis, NULL, near) && !(near->lower > gamma_clear);
 }
 
-/* Boxes and balls. Roundings: difference 1, square 1, sums 2, root, which halves them and counts 1:
- * (2 * 1 + 1 + 2) / 2 + 1 < 4; of balls one more, the last difference, whose rounding is below that
- * of its first term. Written so that a NaN is never apart. A sum that overflows is at least
- * 2^1023. */
+/* Roundings of boxes and balls: difference 1, square 1, sums 2, root, which halves them and counts
+ * 1: (2 * 1 + 1 + 2) / 2 + 1 < 4; of balls one more, the last difference, whose rounding is below
+ * that of its first term. A NaN is never apart. A sum that overflows is at least 2^1023. */
 PAD_COVERS(16, 4 + 1);
-PAD_COVERS(8, 3 + 1 + 1); /* reach: three errors, then the rest summed to a radius; the radii */
+PAD_COVERS(8,
+           3 + 1 + 1); /* a node's radius: three errors, its other terms; the sum of both radii */
 
 double separation_boxes_lower(const node *a, const node *b)
 {

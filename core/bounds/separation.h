@@ -8,13 +8,15 @@
 
 /* When can two nodes be near?
  * ===========================
- * Finds the times in a window at which no axis proves the two inclusions apart. Outside the window
- * that is left, the nodes' points are farther than `gamma_clear` from each other: proved, rounding
- * included. A NaN or an infinity anywhere leaves the window as it is. */
+ * Cuts a window to the times at which no separating axis is proved for the two nodes. Outside the
+ * window that is left, the nodes' points are farther than `gamma_clear` from each other: proved,
+ * rounding included. A NaN or an infinity anywhere leaves the window unchanged. separation.c tries
+ * the bounds that strategy.h chooses; fixed_axes.c (Taylor models), net_axis.c (control nets) and
+ * normal_field.c (turning axes) prove them. */
 
 /* Shrinks `window`, which lies in both nodes' times. False: nothing of it is left. `axis` is as for
  * fixed_axes_cut. `turning` counts the candidate pair's trials of turning axes (normal_field.h)
- * where fixed axes cut the start of the window; NULL: each chance is taken. */
+ * after fixed axes have cut the start of the window; NULL: always try them. */
 bool separation_window(const node *a, const node *b, double gamma_clear, time_window *window,
                        vec3 *axis, trial_rate *turning);
 
@@ -33,9 +35,9 @@ typedef struct approach {
     double moment; /* where in the window it is lowest, about; axes are chosen for it */
 } approach;
 
-/* Like separation_window, and tells how near the nodes come: at no time of the window as it was
- * handed over is their distance below `near->lower` and below `gamma_clear`. `near->moment` holds a
- * guess to begin with. */
+/* Like separation_window, and also bounds how near the nodes come: at no time of the window as
+ * passed is their distance below both `near->lower` and `gamma_clear`. On entry `near->moment` is a
+ * guess. */
 bool separation_approach(const node *a, const node *b, double gamma_clear, time_window *window,
                          vec3 *axis, approach *near);
 

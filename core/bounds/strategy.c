@@ -10,18 +10,17 @@
 
 static const double ROUNDING = 0x1p-24; /* remainders below this part are mere rounding */
 
-/* Whether a net may say more than the quadratic, as it does not for a bilinear patch without
- * remainder. */
-static bool gains_by_net(const node *n) { return node_bends(n) || node_blurs(n, ROUNDING); }
+/* Whether a net may be tighter than the quadratic: false for a bilinear patch without remainder. */
+static bool net_may_be_tighter(const node *n) { return node_bends(n) || node_blurs(n, ROUNDING); }
 
-/* Whether it is a point, or a curve that is nearly straight. */
+/* Whether the node is a point, or a curve that is nearly straight. */
 static bool is_thin(const node *n)
 {
     return !node_has_normal(n) && n->many == NULL && !node_blurs(n, TUNING_STRAIGHT_BLUR);
 }
 
 /* Whether both nodes are nearly flat, so that GJK decides at each moment and only time is left to
- * be searched: halves would learn no more of u and v. */
+ * be searched: splitting u or v would not help. */
 static bool are_flat(const node *a, const node *b)
 {
     double bent = 0, extent = 0;
@@ -35,7 +34,7 @@ static bool are_flat(const node *a, const node *b)
     return TUNING_FLAT * bent < extent;
 }
 
-/* Whether quadratics may show more than hulls: a hull leaves its surface by a part of what bends, a
+/* Whether quadratics may be tighter than hulls: a hull is off by a part of the curvature, a
  * quadratic by its remainder. */
 static bool are_quadratics_closer(const node *a, const node *b)
 {
@@ -64,15 +63,16 @@ strategy_hulls strategy_hulls_of(const node *a, const node *b)
 {
     const net *p = node_net_made(a), *q = node_net_made(b);
     if (p == NULL && q == NULL) return HULLS_NONE;
-    if (!(p != NULL && gains_by_net(a)) && !(q != NULL && gains_by_net(b))) return HULLS_NONE;
+    if (!(p != NULL && net_may_be_tighter(a)) && !(q != NULL && net_may_be_tighter(b)))
+        return HULLS_NONE;
     if (p == NULL || q == NULL) return HULLS_OF_ONE;
     return net_is_curved(p) || net_is_curved(q) ? HULLS_OF_BOTH : HULLS_FLAT;
 }
 
 bool strategy_wants_nets(const node *a, const node *b)
 {
-    return (surface_offers_net(a->surface) && gains_by_net(a)) ||
-           (surface_offers_net(b->surface) && gains_by_net(b));
+    return (surface_offers_net(a->surface) && net_may_be_tighter(a)) ||
+           (surface_offers_net(b->surface) && net_may_be_tighter(b));
 }
 
 bool strategy_waits_for_nets(const node *a, const node *b)
@@ -122,24 +122,24 @@ search_plan strategy_of_searches(const node *a, const node *b, strategy_goal goa
                           : (search_plan){TUNING_WINDOW_ROUNDS, TUNING_WINDOW_SHRINKS, false};
 }
 
-/* A turning axis seldom shows more where fixed axes cut the start of a window. */
-static bool is_chance(const w_range *s) { return s->lo > -1; }
+/* Whether fixed axes cut the start of the window: a turning axis then seldom shows more. */
+static bool is_cut_at_start(const w_range *s) { return s->lo > -1; }
 
 bool strategy_takes_turning(const w_range *s, trial_rate *turning)
 {
-    return !is_chance(s) || trial_rate_take(turning, TUNING_FIELD_SHARE, TUNING_FIELD_WAIT);
+    return !is_cut_at_start(s) || trial_rate_take(turning, TUNING_FIELD_SHARE, TUNING_FIELD_WAIT);
 }
 
 void strategy_note_turning(const w_range *before, const w_range *after, bool some,
                            trial_rate *turning)
 {
-    if (is_chance(before))
+    if (is_cut_at_start(before))
         trial_rate_note(turning, !some || after->lo > before->lo || after->hi < before->hi);
 }
 
 /* --- One-sided distances ---------------------------------------------------------------------- */
 
-/* Motion along a direction below this part of all motion is rounding. */
+/* Motion along the normal below this part of all motion is rounding. */
 #define ALONG_FACE 0x1p-30
 
 bool strategy_slides_on_face(const node *own, const node *other)
@@ -159,8 +159,8 @@ bool strategy_slides_on_face(const node *own, const node *other)
     return all > 0 && along <= ALONG_FACE * all * vec3_norm1(n);
 }
 
-/* Surfaces that approach each other are parted from the start of their times by axes: no distance
- * is asked for then. A search for the distance asks wherever no axis parts the pair. */
+/* Axes separate approaching surfaces from the start of their times: no distance is computed then. A
+ * search for the minimum distance computes it wherever no axis separates the pair. */
 bool strategy_takes_distances(const node *a, const node *b, const slide_signs *of,
                               strategy_goal goal)
 {
@@ -176,7 +176,7 @@ void strategy_note_distances(const slide_signs *of, bool pays)
     if (of->is_parted) trial_rate_note(of->sliding, pays);
 }
 
-/* Whether the node is so small that its remainder at one moment says something of the surface. */
+/* Whether the node is so small that its remainder at one moment is below a part of its extents. */
 static bool is_small(const node *n)
 {
     const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];

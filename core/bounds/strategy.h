@@ -18,18 +18,18 @@
  *   boxes                   always, first                           a box costs next to nothing
  *   moving boxes alone      roots of bodies with many candidate     few of them are ever popped
  *                           pairs (pair_test.c)
- *   nets asked for          a node that offers one gains by it; of  hulls touch their surfaces at
- *                           straight nodes with a remainder, once   corners, where most contacts
- *                           the pair is popped                      are; quadratics part most
- *                                                                   straight ones
- *   hull against hull       both nets are there, one node gains     a box around a remainder does
+ *   request of nets         one node offers a net that may be       hulls touch their surfaces at
+ *                           tighter than its quadratic; straight    corners, where most contacts
+ *                           nodes with a remainder wait until the   are; quadratics separate most
+ *                           pair is popped                          straight nodes
+ *   hull against hull       both nets are made, one may be tighter  a box around a remainder does
  *                                                                   not vanish at a corner
- *   hull against quadratic  one net is there, and its node gains    either shows more than its box
+ *   hull against quadratic  one net is made, and may be tighter     either shows more than its box
  *   quadratics after hulls  remainders are small beside what        a hull is off by a part of what
  *                           bends; hulls meet; one net is missing   bends, a quadratic by its
  *                                                                   remainder
- *   quadratics, fixed axes  no hull is tried; also where all are    bilinear nodes have no
- *                           flat and one net is missing             remainder; GJK finds the best
+ *   quadratics, fixed axes  no hull is tried; also where both are   bilinear nodes have no
+ *                           nearly flat and one net is missing      remainder; GJK finds the best
  *                                                                   axis
  *   axes that need no       before quadratics, contact only:        vectors across both curves cut
  *   search                  neither node has a normal               the window again and again
@@ -39,29 +39,30 @@
  *   turning field           fixed axes leave the window's start;    it shows more only where one
  *                           else as often as it pays                lies in the other's concave
  *                                                                   side
- *   one-sided distance      no axis parts the pair from the start   what slides along a surface has
- *                           of its nodes' times; its parents slid   many neighbours there, and the
- *                           (while it pays); motion along a face    distance parts it from all
- *   halves left out         both nets are there, one node gains     heights of halves cost a tenth
+ *   one-sided distance      no axis separates the pair from the     what slides along a surface has
+ *                           start of its nodes' times; its parents  many neighbours there, and the
+ *                           slid (while it pays); motion along a    distance separates it from all
+ *                           face
+ *   halves left out         both nets are made, one may be tighter  heights of halves cost a tenth
  *                           (net_halves.h)                          of a test
  *   witness on nets         nets are off by little beside gamma     no surface is evaluated on the
  *                                                                   way
  *
- * A search for the minimum distance takes boxes, quadratics on fixed axes, the turning field and
- * one-sided distances: it needs bounds of the gap, which hulls do not give. */
+ * A search for the minimum distance uses boxes, quadratics on fixed axes, the turning field and
+ * one-sided distances: it needs lower bounds of the distance, which hulls do not give here. */
 
 /* --- Hulls of control nets -------------------------------------------------------------------- */
 
 typedef enum strategy_hulls {
     HULLS_NONE,
-    HULLS_OF_ONE,  /* only one node has a net, and gains by it */
-    HULLS_OF_BOTH, /* at least one node gains */
-    HULLS_FLAT     /* of both, and they are the surfaces or nearly so: bilinear patches, triangles,
-                      edges, points */
+    HULLS_OF_ONE,  /* only one node has a net, which may be tighter than its quadratic */
+    HULLS_OF_BOTH, /* at least one net may be tighter than its node's quadratic */
+    HULLS_FLAT     /* HULLS_OF_BOTH where both nets are flat, as of triangles, edges and points */
 } strategy_hulls;
 
-/* Which hulls can be tried, by the nets that the nodes were asked for. Nets that other pairs asked
- * for count only where this pair asks for them, too: a test depends on its two nodes alone. */
+/* Which hulls can be tried with the nets that were made (node_net_made). A net that another pair
+ * requested counts only if this pair would request it, too: a test depends on its two nodes
+ * alone. */
 strategy_hulls strategy_hulls_of(const node *a, const node *b);
 
 static inline bool strategy_has_both_hulls(const node *a, const node *b)
@@ -69,17 +70,19 @@ static inline bool strategy_has_both_hulls(const node *a, const node *b)
     return strategy_hulls_of(a, b) >= HULLS_OF_BOTH;
 }
 
-/* Whether the nodes are to be asked for the nets that they offer: one of them gains by its own. */
+/* Whether to request the nodes' nets: one of them offers a net that may be tighter than its
+ * quadratic. */
 bool strategy_wants_nets(const node *a, const node *b);
 
-/* Whether that waits until the pair is popped: both nodes are straight but for a remainder. */
+/* Whether the request waits until the pair is popped: both nodes are straight except for a
+ * remainder. */
 bool strategy_waits_for_nets(const node *a, const node *b);
 
 /* Whether both have nets so close to the surfaces that the nets' nearest points are within gamma
- * where the surfaces come within gamma_clear; `room` is what lies between the two. */
+ * where the surfaces come within gamma_clear; `room` is gamma - gamma_clear. */
 bool strategy_has_close_nets(const node *a, const node *b, double room);
 
-/* How a window is cut by hulls: up to `rounds` times at its start, as long as each leaves less than
+/* How a window is cut by hulls: up to `rounds` times at its start, while each leaves less than
  * `shrinks` of it. */
 typedef struct hull_plan {
     int rounds;
@@ -103,7 +106,7 @@ strategy_after_hulls strategy_after(strategy_hulls hulls, const node *a, const n
 typedef enum strategy_goal { GOAL_CONTACT, GOAL_DISTANCE } strategy_goal;
 
 /* How a window is cut by quadratics: up to `rounds_across` times along axes that need no search,
- * then by searches, each around the middle of what is left. */
+ * then along axes that GJK finds, each for the window that is left. */
 typedef struct quadratic_plan {
     int rounds_across;
     bool is_thin; /* one search is enough */
@@ -111,48 +114,49 @@ typedef struct quadratic_plan {
 
 quadratic_plan strategy_of_quadratics(const node *a, const node *b, strategy_goal goal);
 
-/* What follows the first search, unless that parted the pair, as most do, or left the window as it
- * was: searches up to `rounds` in all, as long as each leaves less than `shrinks` of w's range,
- * which is 2. */
+/* What follows the first search, unless it separated the pair, as most do, or left the window
+ * unchanged: searches, up to `rounds` in all, while each leaves less than `shrinks` of w's range,
+ * whose length is 2. */
 typedef struct search_plan {
     int rounds;
     double shrinks;
-    bool cuts_at_end; /* where a search cut the start, one more at the end of what is left */
+    bool cuts_at_end; /* if a search cut the start, search once more at the window's end */
 } search_plan;
 
 search_plan strategy_of_searches(const node *a, const node *b, strategy_goal goal);
 
-/* Whether a turning axis is tried where fixed axes left `s`. strategy_note_turning tells what came
- * of it: whether `some` of the window is left, and what. */
+/* Whether to try a turning axis after fixed axes left `s`. strategy_note_turning records the
+ * outcome: whether `some` of the window is left, and what. */
 bool strategy_takes_turning(const w_range *s, trial_rate *turning);
 void strategy_note_turning(const w_range *before, const w_range *after, bool some,
                            trial_rate *turning);
 
-/* Whether surfaces at both nodes are nearly parallel: only a field of normals or a distance parts
- * them well. */
+/* Whether the surfaces at both nodes are nearly parallel: only a field of normals or a distance
+ * separates them well. */
 bool strategy_is_tangent(const node *a, const node *b);
 
 /* --- One-sided distances ---------------------------------------------------------------------- */
 
-/* What is known of a pair before its distances are asked for. */
+/* What is known of a pair before its one-sided distances are computed. */
 typedef struct slide_signs {
     double start;        /* of its window */
-    bool is_parted;      /* some axis parts it at a moment */
-    bool slides;         /* one node of an ancestor was worth halving alone */
-    trial_rate *sliding; /* of its candidate pair; NULL: each chance is taken */
+    bool is_parted;      /* some axis separates it at one moment */
+    bool slides;         /* a distance chose one node of an ancestor to be split alone */
+    trial_rate *sliding; /* of its candidate pair; NULL: always try */
 } slide_signs;
 
-/* Whether the nodes may slide along each other, so that their distances are worth asking for.
- * Afterwards strategy_note_distances tells whether that paid. */
+/* Whether the nodes may slide along each other, so that one-sided distances are worth computing.
+ * Afterwards strategy_note_distances records whether that paid. */
 bool strategy_takes_distances(const node *a, const node *b, const slide_signs *of,
                               strategy_goal goal);
 void strategy_note_distances(const slide_signs *of, bool pays);
 
-/* Whether distances of a from the surface of b are worth the inclusion that maps in common cost:
- * not where both nodes are so small that remainders say something, and they are not tangent. */
+/* Whether distances of a from the surface of b are worth the inclusion that `common_maps` maps of
+ * both surfaces cost: not if both nodes are so small that remainders are useful, and they are not
+ * tangent. */
 bool strategy_distance_pays(const node *a, const node *b, size_t common_maps);
 
-/* Whether `other` is flat and the two move along its plane, but for rounding. */
+/* Whether `other` is flat and the two move along its plane, up to rounding. */
 bool strategy_slides_on_face(const node *own, const node *other);
 
 #endif

@@ -15,8 +15,7 @@ time_window pair_times(const node *a, const node *b)
     return window_common((time_window){r->lo[2], r->hi[2]}, (time_window){s->lo[2], s->hi[2]});
 }
 
-/* Keeps the w with low + drift w <= limit. Roundings of w, |w| <= 1: the difference 1, the quotient
- * 1, moving it outward 1. NaN keeps everything. */
+/* Roundings of w, |w| <= 1: the difference 1, the quotient 1, moving it outward 1. */
 _Static_assert(1 + 1 + 1 <= W_RANGE_ROUNDING, "rounding of w");
 
 bool w_range_cut(w_range *s, double low, double drift, double limit)

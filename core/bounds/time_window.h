@@ -14,7 +14,8 @@ typedef struct time_window {
     double lo, hi; /* lo <= hi */
 } time_window;
 
-/* More than the error of two products that underflow. Windows are cut with that much to spare. */
+/* Exceeds the error of two products that underflow; every cut of a window is moved outward by
+ * it. */
 #define WINDOW_TINY 0x1p-1070
 
 /* Returns the distance from the window's middle to either end, rounded up. */
@@ -36,8 +37,8 @@ typedef struct w_range {
     double lo, hi;
 } w_range;
 
-/* Cuts a window, whose middle and half these are, to the part that `s` leaves, rounded outward. In
- * units of u (|mid| + half): half w is off by 1, its sum with mid by 1, that with the slack by 1.
+/* Cuts a window with this middle and half-width to the range `s` of w, rounded outward. In units of
+ * u (|mid| + half): half w is off by 1, its sum with mid by 1, the sum with the slack by 1.
  * WINDOW_TINY covers what underflows. */
 enum { WINDOW_ROUNDING = 4 };
 _Static_assert(1 + 1 + 1 <= WINDOW_ROUNDING, "rounding of a window");

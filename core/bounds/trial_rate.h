@@ -7,22 +7,22 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* How often a trial paid
- * ========================
- * A step that costs much and helps in few scenes is tried at each chance as long as it pays, else
- * now and then. Each search counts for each candidate pair, in the order of its steps: the search
- * is the same in every run, and other bodies do not matter. This decides how long a search takes,
- * never what it proves. */
+/* How often an expensive step is tried
+ * ====================================
+ * A step that costs much and helps in few scenes is tried at every opportunity while it pays, else
+ * now and then. Each search keeps one count per candidate pair, in the order of its steps, so that
+ * the search is the same in every run and independent of other bodies. The count decides how long a
+ * search takes, never what it proves. */
 
 typedef struct trial_rate {
-    uint16_t left;        /* chances left out since the last one taken */
-    uint16_t taken, paid; /* among the last TRIALS_KEPT taken, about */
+    uint16_t left;        /* opportunities skipped since the last trial */
+    uint16_t taken, paid; /* among the last TRIALS_KEPT trials, about */
 } trial_rate;             /* begins as {0} */
 
 enum { TRIALS_KEPT = 1024 };
 
-/* Whether to take this chance: one in `share` of those taken paid, or `wait` were left out, or c is
- * NULL. */
+/* Whether to try now: one in `share` of the trials paid, or `wait` opportunities were skipped since
+ * the last, or c is NULL. */
 static inline bool trial_rate_take(trial_rate *c, unsigned share, unsigned wait)
 {
     if (c == NULL) return true;
@@ -39,7 +39,7 @@ static inline bool trial_rate_take(trial_rate *c, unsigned share, unsigned wait)
     return true;
 }
 
-/* Notes whether the chance taken last paid. */
+/* Notes whether the last trial paid. */
 static inline void trial_rate_note(trial_rate *c, bool pays)
 {
     if (c != NULL) c->paid += pays;

@@ -47,7 +47,7 @@ TUNING_INTEGER(TUNING_BEND_OF_PLACE, 16);
 /* u and v are not split once the pair's extents are below (gamma - gamma_clear) / this. */
 TUNING_INTEGER(TUNING_TINY, 64);
 
-/* --- Which roots are tested by their boxes before they are popped (pair_test.c) --------------- */
+/* --- Which roots are tested only by their boxes before they are popped (pair_test.c) ---------- */
 
 /* The bodies of a candidate pair have many pairs if the candidate pair this many places before or
  * after it in the list is of the same two bodies. */
@@ -76,8 +76,8 @@ TUNING_INTEGER(TUNING_UPPER_SHARE, 3);
 TUNING_INTEGER(TUNING_MARCH_STEPS, 12);
 /* Nearest points are refined only roughly while the gap is above this times the gap sought. */
 TUNING_INTEGER(TUNING_MARCH_NEAR, 64);
-/* While the gap is that large, Newton steps that promise less than this part of it are left
- * out. */
+/* While the gap is that large, Newton steps are left out whose predicted reduction is below this
+ * part of it. */
 TUNING_NUMBER(TUNING_MARCH_GAIN, 0x1p-6);
 /* Fraction of the predicted time to contact by which one step advances. Must be below 1. */
 TUNING_NUMBER(TUNING_MARCH_STRIDE, 0.9);
@@ -135,10 +135,9 @@ TUNING_NUMBER(TUNING_GJK_GAP_OF_BOUND, 0.999);
 /* Normals are nearly parallel if the cosine of their angle exceeds this: 25 degrees. Must be
  * below 1. */
 TUNING_NUMBER(TUNING_FIELD_COSINE, 0.9);
-/* A turning axis is tried beside fixed axes while one trial in this many cuts more than they
- * do. */
+/* A turning axis is tried after fixed axes while one trial in this many cuts more than they do. */
 TUNING_INTEGER(TUNING_FIELD_SHARE, 8);
-/* Chances left out between two trials of a turning axis that does not pay. */
+/* Opportunities skipped between two trials of a turning axis that does not pay. */
 TUNING_INTEGER(TUNING_FIELD_WAIT, 7);
 
 /* --- Distances from a surface (strategy.c, distance.c); sets: conformal, tori ----------------- */
@@ -155,15 +154,16 @@ TUNING_INTEGER(TUNING_DISTANCE_LEVEL, 16);
 TUNING_NUMBER(TUNING_REST_SLIP, 0x1p12);
 /* A surface slides along the other within itself if its slip is below gamma_clear / this. */
 TUNING_NUMBER(TUNING_DISTANCE_SLIP, 0x1p12);
-/* Nodes that an axis parts, and whose parents slid: distances are tried while one trial in this
+/* Where an axis separates nodes whose parents slid, distances are tried while one trial in this
  * many shows more. */
 TUNING_INTEGER(TUNING_DISTANCE_SHARE, 2);
-/* Chances left out between two trials of distances that do not pay. */
+/* Opportunities skipped between two trials of distances that do not pay. */
 TUNING_INTEGER(TUNING_DISTANCE_WAIT, 15);
 
 /* --- When the searches for contact and for the distance alternate (clearance.c) --------------- */
 
-/* Pairs without a verdict, beside two for each candidate pair, after which they alternate. */
+/* The searches alternate after this many pairs without a verdict, plus two for each candidate
+ * pair. */
 TUNING_INTEGER(TUNING_DECIDE_PAIRS, 2000);
 
 /* --- The search for a witness (witness.c) ----------------------------------------------------- */
@@ -172,10 +172,9 @@ TUNING_INTEGER(TUNING_DECIDE_PAIRS, 2000);
 TUNING_INTEGER(TUNING_NEWTON_STEPS, 24);
 /* While the gap is above this times gamma, a step has to halve it. */
 TUNING_INTEGER(TUNING_NEWTON_FAR, 8);
-/* The search ends with a step that gains less than this part of the gap. */
+/* The search ends with a step that reduces the gap by less than this part of it. */
 TUNING_NUMBER(TUNING_NEWTON_GAIN, 1e-4);
-/* A step that promises to change the square of the gap by less than twice this part is left
- * out. */
+/* A step is left out if its predicted change of the squared gap is below twice this part of it. */
 TUNING_NUMBER(TUNING_NEWTON_PROMISE, 1e-8);
 
 #endif

@@ -9,8 +9,8 @@
 
 /* Cuts of a window by inequalities, four side by side: w_range_cut, in lanes. */
 
-/* The least upper and greatest lower bound of w that low + drift w <= limit leaves in each lane;
- * `gone` where it leaves nothing. */
+/* The range [lo, hi] of w at which the inequalities low + drift w <= limit of each lane hold;
+ * `gone`: they hold nowhere. */
 typedef struct window_lanes {
     imp_quad lo, hi;
     imp_quad_mask gone;

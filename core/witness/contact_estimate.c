@@ -69,9 +69,9 @@ static void derive(const stand *s, newton_way *way)
     newton_of_gap(s->apart, by, second, way->gradient, way->hessian);
 }
 
-/* Predicts the reduction of half the squared gap by the step to `next`: half of what its slope
- * promises. Patches are cheap to evaluate, so this suffices; newton_promise, which weighs the whole
- * Hessian, costs more and takes no fewer pairs. */
+/* Predicts by how much the step to `next` reduces half the squared gap, as half of step times
+ * gradient. Patches are cheap to evaluate, so this suffices; newton_promise, which uses the Hessian
+ * too, costs more and saves no pairs. */
 static double promise(const newton_way *way, const stand *s, const double *next)
 {
     double slope = 0;
@@ -82,8 +82,8 @@ static double promise(const newton_way *way, const stand *s, const double *next)
 /* Above this damping, the predicted reduction is unreliable. */
 static const double DAMPED = 0x1p-10;
 
-/* Takes one step from s to `to`; *way is left with the derivatives at s. False: no step reduces the
- * gap, or it promises less than `gain` of it. */
+/* Takes one step from s to `to`; *way keeps the derivatives at s. False: no step reduces the gap,
+ * or the predicted reduction is below `gain` of it. */
 static bool step_down(const marcher *m, double gain, const stand *s, newton_way *way, stand *to)
 {
     bool is_better = false;
@@ -97,8 +97,8 @@ static bool step_down(const marcher *m, double gain, const stand *s, newton_way 
     return true;
 }
 
-/* Descends to the nearest points at one time, until the gap is `enough` or a step promises less
- * than `gain` of it; *way is left with the derivatives there. */
+/* Descends to the nearest points at one time, until the gap is at most `enough` or the predicted
+ * reduction of a step is below `gain` of it; *way keeps the last derivatives. */
 static void descend(const marcher *m, double enough, double gain, stand *s, newton_way *way)
 {
     stand room, *at = s, *next = &room;
@@ -117,8 +117,8 @@ static vec3 velocity_of(const net *const nets[2], const stand *s)
     return vec3_sub(net_velocity_at(nets[1], s->y + 2), net_velocity_at(nets[0], s->y));
 }
 
-/* Predicts the nearest points a while later: a Newton step that undoes the change of the gradient
- * by the velocity. */
+/* Predicts the nearest points after the time `wait`, by a Newton step that cancels the change of
+ * the gradient that the velocity causes. */
 static void foresee(const stand *s, newton_way *way, vec3 velocity, double wait, double *y)
 {
     vec3 by[NEWTON_UNKNOWNS];
@@ -143,8 +143,8 @@ static void bounds_of(const node *n, double most, double *lo, double *hi)
 }
 
 /* Returns the next time; a NaN if the gap does not shrink or will not be closed within the window.
- * It takes only a part of the predicted time, since the gap may shrink faster later, and after the
- * contact nearest points do not tell how far back it was. */
+ * A step goes over only a part of the predicted time to contact: the gap may shrink faster later,
+ * and nearest points after the contact do not show when it was. */
 static double time_after(const marcher *m, const stand *s, double gap, double speed, double end)
 {
     const double wait = (s->gap - gap) / speed;
@@ -153,10 +153,10 @@ static double time_after(const marcher *m, const stand *s, double gap, double sp
     return speed > 0 && next > m->t && m->t + wait <= end ? next : NAN;
 }
 
-/* Near enough, as a part of the gap that is sought. */
+/* The search ends at this multiple of the gap that is sought. */
 static const double ENOUGH = 1.125;
 
-/* Where a march begins, as a part of the way from the node's middle to its lowest control point. */
+/* A search starts at this part of the way from the node's middle to its lowest control point. */
 static const double START = 0.7;
 
 /* Finds where along u and v the lowest control point along an axis is. */
@@ -178,7 +178,7 @@ static void lowest_at(const net_points *f, vec3 axis, double *y)
     y[1] = m > 0 ? START * (2.0 * (lowest % (m + 1)) / m - 1) : 0;
 }
 
-/* Begins a march; points stay within `most` half-widths of the nodes' middles. */
+/* Begins a search; points stay within `most` half-widths of the nodes' middles. */
 static void begin(marcher *m, const node *const nodes[2], const net *const nets[2], double most,
                   vec3 axis, double t, stand *s)
 {
@@ -219,8 +219,8 @@ bool contact_estimate_find(const node *a, const node *b, vec3 axis, const time_w
     return false;
 }
 
-/* The surface may leave the net beside the node, as behind a knot: points may leave it by one
- * half-width, so that those of small nodes are near them. */
+/* In half-widths from the node's middle: points may leave the node by one only, since outside the
+ * node the surface may leave the net, for example across a knot. */
 static const double NEAREST_REACH = 2;
 
 void net_nearest(const node *const nodes[2], vec3 axis, double t, double enough, double gain,

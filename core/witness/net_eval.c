@@ -21,8 +21,8 @@ static void raise_degree(double *b, int n, double x)
     b[0] *= 1 - x;
 }
 
-/* Derivatives by s, where x = (1 + s) / 2, from the polynomials of degree n - 1: n / 2 times their
- * differences. */
+/* Computes derivatives by s, where x = (1 + s) / 2, from the polynomials of degree n - 1: n / 2
+ * times their differences. */
 static void differences(const double *b, int n, double *d)
 {
     const double f = 0.5 * n;
@@ -46,7 +46,7 @@ static void bernstein_at(int degree, double s, bernstein *of)
     }
 }
 
-/* Computes values, first and second derivatives. */
+/* Values, first and second derivatives of the cubic Bernstein polynomials. */
 typedef struct cubics {
     double value[4], first[4], second[4];
 } cubics;
@@ -135,14 +135,14 @@ IMP_QUAD_INLINE imp_quad totals(imp_quad a, imp_quad b, imp_quad c, imp_quad d)
     return (imp_quad){ab[0], ab[1], cd[0], cd[1]} + (imp_quad){ab[2], ab[3], cd[2], cd[3]};
 }
 
-/* Four rows by four numbers. */
+/* Returns the sum of four rows, each times its number. */
 IMP_QUAD_INLINE imp_quad rows_by(const imp_quad x[4], const double f[4])
 {
     return (imp_quad_all(f[0]) * x[0] + imp_quad_all(f[1]) * x[1]) +
            (imp_quad_all(f[2]) * x[2] + imp_quad_all(f[3]) * x[3]);
 }
 
-/* Each row of a bicubic patch times four numbers along v. */
+/* Returns the sums over v of each row of a bicubic patch times four numbers. */
 IMP_QUAD_INLINE imp_quad columns_by(const imp_quad x[4], imp_quad f, bool is_weighted)
 {
     imp_quad last = imp_quad_all(0);
@@ -253,7 +253,7 @@ void net_eval_at(const net_points of[2], const double y[4], net_derivatives out[
 
 /* --- Velocities ------------------------------------------------------------------------------- */
 
-/* The weighted sum of velocities, and the sum of the weights. */
+/* Returns the weighted sum of velocities, and the sum of the weights in the fourth lane. */
 static imp_quad bicubic_velocity(const net *f, const double s[2])
 {
     const double *weights = weights_of(f);

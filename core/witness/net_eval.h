@@ -7,11 +7,11 @@
 
 /* Points of a net's patch, and their derivatives
  * ==============================================
- * They are computed by Bernstein polynomials, at s in [-1, 1] or beyond. Rounding is not bounded,
- * so that they prove nothing. */
+ * Both are computed by Bernstein polynomials, at s in [-1, 1] or beyond. Rounding is not bounded:
+ * nothing here is a proof. */
 
-/* The control points of a net at one time, without its place. If weighted they are multiplied with
- * their weights, which are the fourth coordinate. */
+/* The control points of a net at one time, relative to its place. If weighted, they are multiplied
+ * by their weights, which are the fourth coordinate. */
 typedef struct net_points {
     const net *net;
     imp_quad x[4][QUADS_MAX];
@@ -26,10 +26,10 @@ void net_heights_along(const net_points *f, vec3 axis, double height[IMP_QUAD * 
 enum { NET_VALUE, NET_U, NET_V, NET_UU, NET_UV, NET_VV, NET_DERIVATIVES };
 
 typedef struct net_derivatives {
-    imp_quad by[NET_DERIVATIVES]; /* x, y, z; the fourth number means nothing */
+    imp_quad by[NET_DERIVATIVES]; /* x, y, z; the fourth number is undefined */
 } net_derivatives;
 
-/* The jets of two patches, at s = (y[0], y[1]) and (y[2], y[3]). */
+/* Computes value and derivatives of two patches, at s = (y[0], y[1]) and (y[2], y[3]). */
 void net_eval_at(const net_points of[2], const double y[4], net_derivatives out[2]);
 
 /* Returns the velocity of the point at s. */

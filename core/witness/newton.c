@@ -61,7 +61,7 @@ static bool solve(const double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], const double
     return true;
 }
 
-/* Fixes unknown k. */
+/* Removes unknown k from the system, so that its step is 0. */
 static void hold(double h[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS], double *g, int k)
 {
     for (int m = 0; m < NEWTON_UNKNOWNS; ++m) h[k][m] = h[m][k] = k == m;
@@ -103,10 +103,10 @@ static bool step(const newton_way *way, const double *y, double damping, double 
     return true;
 }
 
-/* --- The way ---------------------------------------------------------------------------------- */
+/* --- The descent ------------------------------------------------------------------------------ */
 
-/* Damping at first, and where the search gives up; then the factors by which a step that leads
- * downhill, or does not, changes it. */
+/* The first damping, and that at which the search gives up; then the factors of the damping after a
+ * step that reduces the distance, and after one that does not. */
 static const double DAMPING = 0x1p-20, DAMPING_MAX = 0x1p10, DAMPING_LESS = 0x1p-6,
                     DAMPING_MORE = 0x1p5;
 

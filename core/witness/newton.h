@@ -7,9 +7,9 @@
 
 #include "core/tree/vec.h"
 
-/* Damped Newton steps downhill, within bounds
- * ===========================================
- * In four unknowns, u and v of two surfaces. */
+/* Damped Newton steps within bounds
+ * =================================
+ * They minimise the distance of two points; the four unknowns are u and v on both surfaces. */
 
 enum { NEWTON_UNKNOWNS = 4 };
 
@@ -17,33 +17,33 @@ typedef struct newton_bounds {
     double lo[NEWTON_UNKNOWNS], hi[NEWTON_UNKNOWNS];
 } newton_bounds;
 
-/* Gradient and Hessian of |D|^2 / 2, D = x_b - x_a, from its derivatives and second[side], which
- * are D.x'' of a and of b. */
+/* Computes gradient and Hessian of |D|^2 / 2, D = x_b - x_a, from the derivatives of D and
+ * second[side], which are D.x'' of a and of b. */
 void newton_of_gap(vec3 apart, const vec3 by[NEWTON_UNKNOWNS], const double second[2][2][2],
                    double gradient[NEWTON_UNKNOWNS],
                    double hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]);
 
-/* The state of a descent: from each place that is better than the last, steps are tried with its
- * derivatives until one leads to a better place. */
+/* The state of a descent. From the best point so far, steps with its derivatives and growing
+ * damping are tried until one reduces the distance. */
 typedef struct newton_way {
     const newton_bounds *bounds;
     double gradient[NEWTON_UNKNOWNS],
-        hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]; /* at the last place */
-    double damping;                                /* of the Hessian's largest diagonal element */
-    int steps;                                     /* steps tried */
+        hessian[NEWTON_UNKNOWNS][NEWTON_UNKNOWNS]; /* at the best point */
+    double damping; /* relative to the Hessian's largest diagonal element */
+    int steps;      /* steps tried */
 } newton_way;
 
 newton_way newton_begin(const newton_bounds *bounds);
 
-/* A step from y that stays within the bounds: unknowns that would leave them are held there, and
- * the rest is solved again. False: no step is worth it, or too many were tried. */
+/* Computes a step from y that stays within the bounds: unknowns that would leave them are fixed
+ * there, and the rest is solved again. False: there is no useful step, or too many were tried. */
 bool newton_try(newton_way *way, const double *y, double *next);
 
 /* Returns by how much the step would reduce |D|^2 / 2 if that were quadratic. */
 double newton_promise(const newton_way *way, const double *y, const double *next);
 
-/* Notes whether the step led to a better place, whose derivatives the caller sets before the next
- * try. */
+/* Records whether the step reduced the distance. If it did, the caller sets the derivatives at the
+ * new point before the next newton_try. */
 void newton_judge(newton_way *way, bool is_better);
 
 #endif

@@ -13,9 +13,9 @@
 #include "core/tree/bound_audit.h"
 #include "core/witness/newton.h"
 
-/* Unknowns: y = (s_u, s_v) of a and of b, normalised to the nodes. Minimised: |D|^2 / 2,
- * D = x_b - x_a, by Newton steps with J'J + D.D'' + damping; J and D'' come from the nodes'
- * polynomials (differences where there are none), points from the surfaces themselves. */
+/* The unknowns are y = (s_u, s_v) of a and of b, relative to the nodes. Newton steps with the
+ * Hessian J'J + D.D'' + damping minimise |D|^2 / 2, D = x_b - x_a; J and D'' come from the nodes'
+ * polynomials (or from differences, if a node has none), points from the surfaces themselves. */
 
 typedef struct search {
     const node *const *nodes;
@@ -32,14 +32,14 @@ typedef struct state {
     double gap;
 } state;
 
-/* Whether its polynomial tells too little of how points depend on u and v: it has no normal, and
- * is not a curve that is nearly straight. */
-static bool node_is_vague(const node *n)
+/* Whether the node's polynomial is too poor for derivatives in u and v: the node has no normal and
+ * is not a nearly straight curve. */
+static bool needs_differences(const node *n)
 {
     return !node_has_normal(n) && node_blurs(n, TUNING_STRAIGHT_BLUR);
 }
 
-/* y may leave the node by one half-width, not the surface. */
+/* Sets the bounds of y: it may leave the node by one half-width, but not the surface. */
 static void search_begin(search *g)
 {
     for (int side = 0; side < 2; ++side)
@@ -98,8 +98,8 @@ static imp_code point_at(const surface *s, const double *p, vec3 *x, double eval
     return point_check(s, p, *x, eval_error, error);
 }
 
-/* Evaluates n points with their errors. If they cannot be evaluated together, the error names the
- * first that cannot be evaluated by itself, or else the first of all. */
+/* Evaluates n points with their errors. If that fails, the error names the first point that cannot
+ * be evaluated by itself, or else the first of all. */
 static imp_code points_at(const surface *s, size_t n, const double (*p)[3], vec3 *x,
                           double (*eval_error)[3], imp_error *error)
 {
@@ -185,7 +185,7 @@ static imp_code derive(const search *g, const state *s, double gradient[NEWTON_U
     double second[2][2][2];
     for (int side = 0; side < 2; ++side) {
         imp_code code = IMP_SUCCESS;
-        if (node_is_vague(g->nodes[side]))
+        if (needs_differences(g->nodes[side]))
             code = derive_from_points(g, side, s, &d[side], error);
         else
             derive_from_polynomial(g, side, s, &d[side]);
@@ -200,9 +200,9 @@ static imp_code derive(const search *g, const state *s, double gradient[NEWTON_U
 
 /* --- Steps ------------------------------------------------------------------------------------ */
 
-/* Descends from *s as long as that pays: until a step promises no more than rounding, or the gap
- * shrinks by less than TUNING_NEWTON_GAIN of it, or by less than half while it is far above gamma.
- * The last does not count where hulls are the surfaces: there windows start with a contact. */
+/* Descends from *s until the predicted reduction of a step is mere rounding, or a step reduces the
+ * gap by less than TUNING_NEWTON_GAIN of it, or by less than half while it is far above gamma. The
+ * last condition is left out for two flat hulls, whose windows start at a contact. */
 static imp_code descend(const search *g, double gamma, state *s, imp_error *error)
 {
     newton_way way = newton_begin(&g->y);
@@ -231,7 +231,7 @@ static imp_code descend(const search *g, double gamma, state *s, imp_error *erro
     return IMP_SUCCESS;
 }
 
-/* D shorter than this, in error bounds, has a direction that is mostly rounding. */
+/* The direction of D is mostly rounding if |D| is below this times the points' error bounds. */
 static const double NORMAL_FROM = 64;
 /* A normal of at least this length has a finite inverse. */
 static const double NORMAL_LEAST = 0x1p-1000;
@@ -279,7 +279,7 @@ imp_code witness_seek(const node *const nodes[2], double t, double gamma, witnes
     return search_run(nodes, t, gamma, true, found, error);
 }
 
-/* y may be anywhere on the surfaces. */
+/* Unlike in a search, y may be anywhere on the surfaces. */
 imp_code witness_at(const node *const nodes[2], double t, const double y[4], witness *found,
                     imp_error *error)
 {

@@ -7,11 +7,11 @@
 
 /* A witness: points of two surfaces, evaluated, that are near at a time
  * =====================================================================
- * Found by damped Gauss-Newton steps on the gap. Finding none proves nothing. */
+ * Damped Newton steps on the gap seek it. Finding none proves nothing. */
 
 typedef struct witness {
-    size_t piece[2];   /* of surface a and b, 0 where it is one, */
-    double u[2], v[2]; /* and where on it */
+    size_t piece[2];   /* of surface a and b; 0 if it has one piece */
+    double u[2], v[2]; /* parameters on the piece */
     vec3 point[2];
     double gap;       /* distance of the points as computed; length */
     double gap_upper; /* proved bound of the distance of the exact points */
@@ -19,9 +19,9 @@ typedef struct witness {
     vec3 normal; /* unit, a to b */
 } witness;
 
-/* Seeks the nearest points of the two surfaces at time t, from the middles of the two nodes,
- * neither of which is a cluster; gives up early where the gap stays far above gamma.
- * IMP_ERROR_PLUGIN when an evaluation fails. */
+/* Seeks the nearest points of the two surfaces at time t, starting at the middles of the two nodes,
+ * neither of which is a cluster; stops early if the gap stays far above gamma. IMP_ERROR_PLUGIN: an
+ * evaluation failed. */
 imp_code witness_seek(const node *const nodes[2], double t, double gamma, witness *found,
                       imp_error *error);
 
