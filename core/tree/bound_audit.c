@@ -18,7 +18,7 @@ static bool region_holds(const imp_region *r, const double p[3])
     return true;
 }
 
-/* Returns s, which is in [-1, 1] but for 2 roundings. */
+/* Returns s, which is in [-1, 1] up to 2 roundings. */
 static double parameter_within(const node *n, const double p[3], int j)
 {
     return n->region.d[j] > 0 ? (p[j] - n->region.c[j]) / n->region.d[j] : 0;
@@ -84,8 +84,8 @@ static int coordinate_outside(const node *n, const double p[3], const double x[3
     return imp_quad_is_wide() ? outside_wide(n, p, x, eval_error) : outside(n, p, x, eval_error);
 }
 
-/* Terms of third order at p; *size is the sum of their vectors' sizes. Rounding, in units of u of
- * that: three factors s 2 each, a square less 1/2 1, products 3, sums 4. */
+/* Returns the terms of third order at p; *size is the sum of their vectors' sizes. Rounding, in
+ * units of u size: three factors s 2 each, a square less 1/2 1, products 3, sums 4. */
 enum { THIRD_ROUNDING = 16 };
 _Static_assert(3 * 2 + 1 + 3 + 4 <= THIRD_ROUNDING, "rounding of terms of third order");
 
@@ -99,8 +99,8 @@ IMP_QUAD_INLINE imp_quad third_order(const posed_terms *x, const double s[3], im
            (t * t - half) * (x->utt * u + x->vtt * v);
 }
 
-/* Roundings of what edges and boxes reach along an axis: dots 3, sums 9; the dot with what is off:
- * 3 and 1. */
+/* Roundings of the extent of edges and boxes along an axis: dots 3, sums 9; the dot with x -
+ * polynomial: 3 and 1. */
 enum { OFF_ROUNDING = 8 };
 PAD_COVERS(32, 3 + 9);
 
@@ -152,13 +152,13 @@ static bool leaves_edges(const node *n, const double p[3], const double x[3],
                               : outside_edges(n, p, x, eval_error);
 }
 
-/* Rounding of the box of a net at time t, by which it is moved outward: t - time and its products
- * 2, sums 3 of the sizes below, and as much for those sums themselves. */
+/* Rounding of the box of a net at time t, by which it is widened: t - time and its products 2, sums
+ * 3 of the sizes below, and as much for those sums themselves. */
 enum { NET_ROUNDING = 16 };
 _Static_assert(2 * (2 + 3) <= NET_ROUNDING, "rounding of a net's box");
 
-/* Returns the coordinate that lies, beyond rounding, outside the box of the node's net, which holds
- * its hull; or -1. */
+/* Returns the coordinate that lies, beyond rounding, outside the bounding box of the node's net; or
+ * -1. */
 IMP_QUAD_INLINE int off_net(const net *f, double t, const double x[3], const double eval_error[3])
 {
     const double tau = t - f->time;
@@ -194,8 +194,8 @@ static int coordinate_off_net(const net *f, double t, const double x[3], const d
     return imp_quad_is_wide() ? off_net_wide(f, t, x, eval_error) : off_net(f, t, x, eval_error);
 }
 
-static imp_code lie_of_net(const surface *s, const node *n, const double p[3], const double x[3],
-                           int i, imp_error *error)
+static imp_code net_fault(const surface *s, const node *n, const double p[3], const double x[3],
+                          int i, imp_error *error)
 {
     const imp_region *r = &n->region;
     return surface_fault(s, error,
@@ -206,8 +206,8 @@ static imp_code lie_of_net(const surface *s, const node *n, const double p[3], c
                          p[2], "xyz"[i], x[i], node_net_made(n) -> error[i]);
 }
 
-static imp_code lie(const surface *s, const node *n, const double p[3], const double x[3], int i,
-                    imp_error *error)
+static imp_code model_fault(const surface *s, const node *n, const double p[3], const double x[3],
+                            int i, imp_error *error)
 {
     imp_quad rounding;
     const imp_region *r = &n->region;
@@ -221,7 +221,7 @@ static imp_code lie(const surface *s, const node *n, const double p[3], const do
                          p[2], axis, x[i], middle, n->e[i], n->lo[i], n->hi[i]);
 }
 
-static imp_code lie_of_shape(const surface *s, const node *n, const double p[3], imp_error *error)
+static imp_code shape_fault(const surface *s, const node *n, const double p[3], imp_error *error)
 {
     const imp_region *r = &n->region;
     return surface_fault(
@@ -236,11 +236,11 @@ static imp_code judge(const surface *s, const node *n, const double p[3], const 
                       const double eval_error[3], imp_error *error)
 {
     int i = coordinate_outside(n, p, x, eval_error);
-    if (i >= 0) return lie(s, n, p, x, i, error);
-    if (leaves_edges(n, p, x, eval_error)) return lie_of_shape(s, n, p, error);
+    if (i >= 0) return model_fault(s, n, p, x, i, error);
+    if (leaves_edges(n, p, x, eval_error)) return shape_fault(s, n, p, error);
     const net *hull = node_net_made(n);
     i = hull != NULL ? coordinate_off_net(hull, p[2], x, eval_error) : -1;
-    return i >= 0 ? lie_of_net(s, n, p, x, i, error) : IMP_SUCCESS;
+    return i >= 0 ? net_fault(s, n, p, x, i, error) : IMP_SUCCESS;
 }
 
 /* Evaluates a point with its error bounds. A point that cannot be evaluated is no evidence here. */

@@ -9,8 +9,8 @@
 #include "core/base/rounding.h"
 #include "core/common/random.h"
 
-/* Points beside the surface under its first `maps` maps: each point f(p) of a part of the node,
- * moved by (h + k s_j) n for some vector n and s = (p - c) / d of the part. */
+/* Points near the surface under its first `maps` maps: each point f(p) of a part of the node, moved
+ * by (h + k s_j) n for some vector n and s = (p - c) / d of the part. */
 typedef struct passage {
     imp_region region;
     size_t maps;
@@ -22,7 +22,7 @@ typedef struct passage {
 
 /* --- Drawing ---------------------------------------------------------------------------------- */
 
-enum { SHRINK = 8 }; /* parts down to 2^-8 of the node in each parameter */
+enum { SHRINK = 8 }; /* a part's widths are down to 2^-8 of the node's */
 
 static imp_region draw_part(const imp_region *of, uint64_t *state)
 {
@@ -72,7 +72,8 @@ static void move(passage *w, const vec3 *n, double h, double k)
     }
 }
 
-/* False: the part has no bounds, or is so small that its parameters are coarse. */
+/* Draws a part and its moved points. False: the part has no bounds, or is so small that its
+ * parameters are too coarse. */
 static bool draw_passage(const node *n, uint64_t *state, passage *w)
 {
     w->region = draw_part(&n->region, state);
@@ -81,7 +82,7 @@ static bool draw_passage(const node *n, uint64_t *state, passage *w)
         const double d = w->region.d[j];
         if (d > 0 && !(d > 0x1p-30 * fabs(w->region.c[j]))) return false;
     }
-    size_t still; /* as the solver asks */
+    size_t still; /* as in the solver */
     if (surface_still_maps(n->surface, &w->region, &still) != IMP_STATUS_OK) return false;
     w->maps = random_bits(state) % (still + 1);
     if (surface_include_inner(n->surface, &w->region, w->maps, w->point) != IMP_STATUS_OK)
@@ -96,9 +97,10 @@ static bool draw_passage(const node *n, uint64_t *state, passage *w)
     return true;
 }
 
-/* --- Judging ---------------------------------------------------------------------------------- */
+/* --- Checking --------------------------------------------------------------------------------- */
 
-/* A lower bound of |g| at s. In units of u of the sizes: terms 2, sums 9, twice that. */
+/* Returns the lower bound of |g| at s. Rounding in units of u of the sizes: terms 2, sums 9, twice
+ * that. */
 enum { CLAIM_ROUNDING = 32 };
 
 static double claimed_at(const imp_model *g, const double s[3])
@@ -117,8 +119,8 @@ static double claimed_at(const imp_model *g, const double s[3])
     return by_polynomial > by_range ? by_polynomial : by_range;
 }
 
-static imp_code lie_of_distance(const surface *s, const imp_region *r, double claimed, double off,
-                                imp_error *error)
+static imp_code distance_fault(const surface *s, const imp_region *r, double claimed, double off,
+                               imp_error *error)
 {
     return surface_fault(s, error,
                          "claims too large a distance over u [%.17g, %.17g], v [%.17g, %.17g], t "
@@ -128,10 +130,10 @@ static imp_code lie_of_distance(const surface *s, const imp_region *r, double cl
 
 enum { PASSAGES = 8, STEPS = 4 };
 
-/* Lemma. A point that is moved by a vector is no farther from the surface than the vector is long,
- * wherever the surface is, and whatever brings both nearer to each other after that. s is from -1 +
- * 2^-20 to 1 - 2^-20, or 0 where the region has no width, and so stands for a point of it; the
- * vector's length has fewer than 2^10 roundings. */
+/* Lemma. A point of the surface that is moved by a vector is no farther from the surface than the
+ * vector's length, also after maps that bring points nearer to each other. s is from -1 + 2^-20 to
+ * 1 - 2^-20, or 0 where the region has no width, and so stands for a point of it; the vector's
+ * length has fewer than 2^10 roundings. */
 static imp_code judge_passage(const node *n, const passage *w, uint64_t *state, imp_error *error)
 {
     imp_model g;
@@ -150,7 +152,7 @@ static imp_code judge_passage(const node *n, const passage *w, uint64_t *state, 
         const double size = vec3_norm1((vec3){{w->way[0], w->way[1], w->way[2]}});
         const double off = vec3_norm(moved) + 0x1p-40 * size + DBL_MIN;
         const double claimed = claimed_at(&g, s);
-        if (claimed > off) return lie_of_distance(n->surface, &w->region, claimed, off, error);
+        if (claimed > off) return distance_fault(n->surface, &w->region, claimed, off, error);
     }
     return IMP_SUCCESS;
 }

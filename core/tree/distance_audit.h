@@ -5,8 +5,8 @@
 
 #include "core/tree/node.h"
 
-/* Holds the distances that the type of n's surface claims against points at known distances from
- * the node, in a few parts of its region, drawn from *state. IMP_ERROR_PLUGIN: a claim is too
+/* Checks the distances that the type of n's surface claims at points whose distance from the node
+ * is known, in a few parts of its region, drawn from *state. IMP_ERROR_PLUGIN: a claim is too
  * large. A surface without distances (surface_has_distance) passes. */
 imp_code distance_audit_run(const node *n, uint64_t *state, imp_error *error);
 

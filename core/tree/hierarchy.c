@@ -17,10 +17,10 @@
 struct hierarchy {
     const surface *surface;
     double lo, hi, c, d; /* the times, as in imp_region */
-    uint32_t *order;     /* the pieces; those of a cluster stand together */
+    uint32_t *order;     /* the pieces; those of a cluster are adjacent */
     cluster *clusters; /* count - 1 of them, a parent before its children; the root is the first */
-    size_t count;      /* of pieces */
-    size_t used;       /* clusters made */
+    size_t count;      /* number of pieces */
+    size_t used;       /* number of clusters made */
 };
 
 /* --- The bounds of one piece ------------------------------------------------------------------ */
@@ -31,9 +31,9 @@ static void bound_nothing(cluster_bound *b)
     for (int i = 0; i < 3; ++i) b->e[i] = b->rate[i] = INFINITY;
 }
 
-/* Lemma. What is linear in t stays; all other terms of the model are at most their coefficients, as
- * |s| <= 1: two slopes, six coefficients, the remainder, 8 sums. What does not depend on t lies in
- * its range, half of which, rounded, is two roundings off. */
+/* Lemma. Terms linear in t are kept; all other terms of the model are at most their coefficients,
+ * as |s| <= 1: two slopes, six coefficients, the remainder, 8 sums. A model that does not depend on
+ * t is replaced by its range, half of which is two roundings off. */
 PAD_COVERS(16, 8);
 PAD_COVERS(4, 2);
 static void bound_piece(cluster_bound *b, int i, const imp_model *m)
@@ -81,9 +81,10 @@ static imp_code take_piece(const hierarchy *h, size_t k, cluster_bound *b, imp_e
 
 /* --- The bounds of two together --------------------------------------------------------------- */
 
-/* Lemma. With the mean slope b, a part stays within e' = e + |b_part - b| of its a, since |s| <= 1;
- * the middle a of what both cover is e from its ends at most. Roundings: e' 3, its ends 1, their
- * distance from a 1; ends are moved outward by their rounding, which is relative to |a|. */
+/* Lemma. With the mean slope b, each of the two stays within e' = e + |its b - b| of its a, since
+ * |s| <= 1; let a be the middle of the range that both cover, and e its distance from the ends.
+ * Roundings: e' 3, its ends 1, their distance from a 1; ends are moved outward by their rounding,
+ * which is relative to |a|. */
 PAD_COVERS(8, 3 + 1 + 1);
 static void bound_both(cluster_bound *to, const cluster_bound *x, const cluster_bound *y)
 {
@@ -105,8 +106,8 @@ static void bound_both(cluster_bound *to, const cluster_bound *x, const cluster_
 
 /* --- Halving ---------------------------------------------------------------------------------- */
 
-/* The place of a piece, for choosing only: x, y, z and its number. Pieces of a cluster stand
- * together. */
+/* The place of a piece, used only to choose halves: x, y, z and its number. Pieces of one cluster
+ * are adjacent. */
 typedef struct spot {
     double at[4];
 } spot;
@@ -167,8 +168,8 @@ static int longest_axis(const spot *spots, size_t count)
     return longest;
 }
 
-/* Makes the cluster of `count` pieces, count >= 2. Its halves are equal, so that the depth is the
- * logarithm of the number of pieces. */
+/* Makes the cluster of `count` pieces, count >= 2. Its halves have the same number of pieces, so
+ * that the depth is the logarithm of that number. */
 static cluster *build(const building *b, spot *spots, size_t count)
 {
     cluster *made = &b->h->clusters[b->h->used++];

@@ -7,16 +7,17 @@
 
 /* A bounding volume hierarchy over the pieces of one surface
  * ==========================================================
- * Each cluster is a set of pieces in a box that moves linearly, before any map: for every point of
- * them and every time t of the hierarchy, with s = (t - c) / d in [-1, 1],
+ * A cluster is a set of pieces and a box around them that moves linearly, before any map: for every
+ * point x of a piece and every time t of the hierarchy, with s = (t - c) / d in [-1, 1],
  *
  *   | x_i - (a_i + b_i s) | <= e_i
  *
- * Halved at the median of the longest axis, down to single pieces. Immutable once built. */
+ * Clusters are halved at the median of the longest axis, down to single pieces. A hierarchy is
+ * immutable once built. */
 
 typedef struct cluster_bound {
-    double a[3], b[3], e[3]; /* length; e may be infinite: there are no bounds */
-    double rate[3];          /* length / time: of each piece, in t */
+    double a[3], b[3], e[3]; /* length; e is infinite if there are no bounds */
+    double rate[3];          /* length / time: >= |df/dt| of each piece */
 } cluster_bound;
 
 typedef struct hierarchy hierarchy;
@@ -24,15 +25,15 @@ typedef struct hierarchy hierarchy;
 typedef struct cluster {
     const hierarchy *of;
     cluster_bound bound;
-    const struct cluster *child[2]; /* NULL: it is one piece, */
-    uint32_t piece[2];              /* this one */
+    const struct cluster *child[2]; /* NULL: that half is one piece, */
+    uint32_t piece[2];              /* with this index */
 } cluster;
 
 /* Makes the hierarchy over the times t_start..t_end, finite and within the domain. Precondition:
- * `s` has two pieces or more. Fails as node_child does. */
+ * `s` has two pieces or more. Errors are those of node_child. */
 imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy **made,
                        imp_error *error);
-void hierarchy_free(hierarchy *h); /* NULL is none */
+void hierarchy_free(hierarchy *h); /* h may be NULL */
 
 const cluster *hierarchy_root(const hierarchy *h);
 const surface *hierarchy_surface(const hierarchy *h);

@@ -12,9 +12,8 @@
 
 /* The models of three coordinates side by side
  * ============================================
- * x, y and z of the same coefficient in one quad, whose fourth lane is 0. For the files that fill
- * nodes, which compile what is here for either width of a register; distance.c uses the narrow
- * one. */
+ * One quad holds a coefficient of x, y and z; its fourth lane is 0. Files that fill nodes compile
+ * these functions for both register widths; distance.c uses the narrow one. */
 
 typedef struct model_lanes {
     imp_quad a, b[3], q[6], e, lo, hi, rate[3];
@@ -41,10 +40,10 @@ IMP_QUAD_INLINE void lanes_gather(const imp_model m[3], model_lanes *all)
 
 IMP_QUAD_INLINE double lanes_sum(imp_quad x) { return x[0] + x[1] + x[2]; }
 
-/* What a region's models say of how its points depend on each of u, v and t, coordinate by
- * coordinate: what is curved along it, and its share of the remainder. The remainder is distributed
- * over them in proportion to what is unexplained of each: the curved part, and what the rate allows
- * beyond the slope. Decides only what to split. */
+/* How points of a region depend on each of u, v and t, by coordinate: the curved part of their
+ * motion along it, and its share of the remainder. The remainder is distributed in proportion to
+ * what the linear terms do not explain: the curved part, and what the rate allows beyond the slope.
+ * This decides only what to split. */
 typedef struct lanes_spread {
     imp_quad curved[3], blame[3];
 } lanes_spread;
@@ -73,9 +72,9 @@ IMP_QUAD_INLINE lanes_spread lanes_spread_of(const model_lanes *m, const double 
     return s;
 }
 
-/* How far u, v and t move a point across the region, and how much of that is not linear. A way
- * through space counts by its length, about LENGTH_OF_SUM of the sum of its coordinates; the
- * remainder, a box, counts in full; the weight of acceleration is measured. */
+/* Estimates how far u, v and t move a point across the region, and how much of that is not linear.
+ * The length of a motion is about LENGTH_OF_SUM of the sum of its coordinates; the remainder, a
+ * box, counts in full; the weight of acceleration was chosen by measurement. */
 static const double LENGTH_OF_SUM = 0.6;
 
 IMP_QUAD_INLINE void lanes_take_spread(node *n, const model_lanes *m)
@@ -117,7 +116,7 @@ IMP_QUAD_INLINE bool lanes_are_bounded(const model_lanes *m)
     return !imp_quad_any(~fine);
 }
 
-/* The conditions of breach_of that hold for bounded models too. */
+/* Whether bounded models also keep the other promises of imp_model (breach_of). */
 IMP_QUAD_INLINE bool lanes_are_sound(const model_lanes *m)
 {
     const imp_quad none = imp_quad_all(0), infinite = imp_quad_all(INFINITY);

@@ -9,7 +9,7 @@
 #include "core/base/rounding.h"
 #include "core/tree/net_rows.h"
 
-/* --- As a type gives it ----------------------------------------------------------------------- */
+/* --- From an imp_net -------------------------------------------------------------------------- */
 
 static int stride_of(int points) { return (points + IMP_QUAD - 1) / IMP_QUAD * IMP_QUAD; }
 
@@ -144,8 +144,8 @@ static void halve_weighted(double *x, double *w, int columns, int apart, int n, 
         }
 }
 
-/* The weights of a rational bicubic patch, four lines at a time: the weights of the cubics, of the
- * means of two, of three and of all four points. */
+/* The weights of a rational bicubic patch, four lines at a time: those of the control points, then
+ * of the means of two, of three and of all four points. */
 typedef struct row_weights {
     imp_quad point[4], two[3], three[2], all;
 } row_weights;
@@ -198,7 +198,7 @@ IMP_QUAD_WIDE static void halve_bicubic_weighted_wide(double *x, int columns, pa
 }
 
 /* Lemma (error). Over the region's times a number is at most M = `most` in size, and so are means
- * of such, but for a factor below 2 that the budgets have room for. Halving goes through n steps.
+ * of such, but for a factor below 2 that the budgets allow for. Halving goes through n steps.
  * In units of u M:
  *
  *   without weights   a step rounds the sum                                          1
@@ -207,9 +207,9 @@ IMP_QUAD_WIDE static void halve_bicubic_weighted_wide(double *x, int columns, pa
  *                     which moves a mean of points 2 M apart by                    2 n
  *                     and the patch itself, of the half, once more, by             2 n
  *
- * so n, and n (5 + 2 n) + 2 n; twice that is added. A step's two products underflow by 2^-1075
- * each, over weights that add up to 2^-299 at least: n <= 35 steps by less than 2^-769, of
- * velocities times less than 2^300 (NET_LARGE). */
+ * so n units without weights, and n (5 + 2 n) + 2 n with weights; twice that is added. A step's two
+ * products underflow by 2^-1075 each, over weights that add up to 2^-299 at least: n <= 35 steps by
+ * less than 2^-769, of velocities times less than 2^300 (NET_LARGE). */
 #define HALVING_UNDERFLOW 0x1p-468
 
 static double halving_units(const net *p, int n)
@@ -262,7 +262,7 @@ void net_halve(const net *p, parameter j, int side, net *half)
     const int columns = p->is_moving ? 6 : 3;
     const bool is_plain_bicubic = p->degree[0] == 3 && p->degree[1] == 3 && !p->is_weighted;
     if (is_plain_bicubic) {
-        if (half != p) *half = *p; /* but for its numbers */
+        if (half != p) *half = *p; /* all fields but the numbers */
         halve_plain_bicubic(p->numbers, columns, j, side, half->numbers);
     } else {
         if (half != p) memcpy(half, p, net_bytes(p));

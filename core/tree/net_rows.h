@@ -9,7 +9,7 @@
 
 /* Four rows of four numbers of a bicubic patch
  * ============================================
- * De Casteljau at the middle, of four cubics side by side. */
+ * De Casteljau at the middle for four cubics at once. */
 
 typedef struct rows {
     imp_quad row[4];
@@ -33,7 +33,7 @@ IMP_QUAD_INLINE rows rows_turned(rows r)
     return r;
 }
 
-/* Turned so that the lines along j are columns; its own inverse. */
+/* Transposes the rows if needed, so that the lines along j are columns. It is its own inverse. */
 IMP_QUAD_INLINE rows rows_along(rows r, parameter j)
 {
     return j == PARAMETER_U ? r : rows_turned(r);

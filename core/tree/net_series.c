@@ -48,15 +48,15 @@ IMP_QUAD_INLINE rows row_of_series(const columns *c, int k)
 
 /* --- The models ------------------------------------------------------------------------------- */
 
-/* Sums over a series of X + t Y: X here is at the region's middle time, Y times half its length;
- * the size of a coefficient is |X| + |Y|. */
+/* Sums over a series of X + t Y: x holds X at the region's middle time, y holds Y times half the
+ * region's duration; the size of a coefficient is |X| + |Y|. */
 typedef struct series_sums {
     imp_quad x[3][3];   /* X_kl, k + l <= 2 */
     imp_quad y[2][2];   /* Y_kl, k + l <= 1 */
-    imp_quad rest;      /* of sizes, where k + l >= 3, and of |Y|, where k + l = 2 */
-    imp_quad along_u;   /* of k^2 size */
-    imp_quad column[4]; /* of size, for each l */
-    imp_quad speed;     /* of |Y| */
+    imp_quad rest;      /* sum of sizes, where k + l >= 3, and of |Y|, where k + l = 2 */
+    imp_quad along_u;   /* sum of k^2 size */
+    imp_quad column[4]; /* sum of sizes, for each l */
+    imp_quad speed;     /* sum of |Y| */
 } series_sums;
 
 /* Adds the coefficients of T_k(s_u). */
@@ -104,15 +104,15 @@ IMP_QUAD_INLINE void sums_take(const net *p, double middle, double half, bool is
     }
 }
 
-/* At least b s + q s^2 on [-1, 1]: its ends, and the vertex -b^2 / 4q, which is inside only if |b|
- * < 2 |q| and then at most |b| / 2 from 0. */
+/* Returns an upper bound of b s + q s^2 on [-1, 1], from its ends and the vertex -b^2 / 4q, which
+ * is inside only if |b| < 2 |q| and then at most |b| / 2 from 0. */
 IMP_QUAD_INLINE imp_quad bow_upper(imp_quad b, imp_quad q)
 {
     return imp_quad_max(q + imp_quad_abs(b), imp_quad_all(0.5) * imp_quad_abs(b));
 }
 
-/* Lemma. T_2 = 2 s^2 - 1, so X_20 T_2 is 2 X_20 s^2 and -X_20 of the constant. All that is left out
- * is within the sum of its sizes, as |T_k| <= 1, and the patch within the net's error of the
+/* Lemma. T_2 = 2 s^2 - 1, so X_20 T_2 is 2 X_20 s^2 and -X_20 of the constant. The terms left out
+ * are at most the sum of their sizes, as |T_k| <= 1, and the patch is within the net's error of the
  * surface. Rounding, in units of u M, M = `most` >= |X| + |t - time| |Y| of each control point:
  *
  *   series     each direction: c0 takes 4 roundings, c1 as many, of |A| / 2 + 3 (|A| + |B|) / 16
@@ -120,8 +120,7 @@ IMP_QUAD_INLINE imp_quad bow_upper(imp_quad b, imp_quad q)
  *              roundings; X + middle Y, whose middle is rounded, has 3 more, half Y one:
  *              (8 + 3 + 1) 16
  *   constant   two sums of 3.25 at most, and one with the place: 7 + 4
- *   middle     lo + hi is 2 c, so only d is rounded, up by 7 units at most: s is that of the net
- *              but for 7 u |s|; a cubic within M has a slope of 3 M: both directions 2 * 21
+ *   middle     lo + hi is 2 c, so only d is rounded, up by 7 units at most: s differs from the net's by at most 7 u |s|; a cubic within M has a slope of 3 M: both directions 2 * 21
  *
  * Numbers of a net that was halved are within 2 `most` (net.c). Of |place| + |t - time| |drift|:
  * products and sums 8, twice for the range. Each of 16 coefficients passes at most 8 products,
@@ -139,10 +138,9 @@ IMP_QUAD_INLINE imp_quad rounding_upper(const net *p, imp_quad far)
            imp_quad_all(PLACE_ROUNDING * UNIT_ROUNDOFF) * far + tiny;
 }
 
-PAD_COVERS(64,
-           13 + 16 + 2); /* rest: thirteen sums, those of sizes; the net's error, and rounding */
-PAD_COVERS(16,
-           1 + 1 + 3 + 1 + 1 + 1); /* range: a bow, both, what is mixed, all, rounding, the end */
+PAD_COVERS(64, 13 + 16 + 2); /* rest: thirteen sums, sums of sizes; the net's error, and rounding */
+PAD_COVERS(16, 1 + 1 + 3 + 1 + 1 +
+                   1); /* range: a bow, both bows, mixed terms, their sum, rounding, the end */
 
 IMP_QUAD_INLINE void models_of(const net *p, const imp_region *region, bool is_moving,
                                model_lanes *m)

@@ -15,7 +15,7 @@
 
 static const arena_growth node_growth = {4 * sizeof(node), 4, 64 * sizeof(node)};
 
-/* Reserves room for a node, which is then published or given back. NULL: no memory. */
+/* Reserves memory for a node, which is then published or given back. NULL: no memory. */
 static node *node_reserve(tree *t, tree_growth *growth)
 {
     node *n = NULL;
@@ -42,14 +42,14 @@ static void node_give_back(tree *t, node *n)
 
 /* --- Making ----------------------------------------------------------------------------------- */
 
-/* Audits a node with its net. A net that the node was not asked for is made for the audit alone,
- * and again when it is needed. */
+/* Audits a node with its net. If the net is not made yet, one is made for the audit alone, and
+ * again when it is needed. */
 static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
 {
-    net_buffer room;
+    net_buffer buffer;
     const net *made;
     if (node_net_is_asked(n)) return t->plan.audit(n->surface, n, error);
-    imp_code code = node_net_find(t, n, false, &room, &made, growth, error);
+    imp_code code = node_net_find(t, n, false, &buffer, &made, growth, error);
     if (code != IMP_SUCCESS) return code;
     atomic_store_explicit(&n->net, made, memory_order_relaxed);
     code = t->plan.audit(n->surface, n, error);
@@ -58,8 +58,8 @@ static imp_code audit(tree *t, node *n, tree_growth *growth, imp_error *error)
 }
 
 /* Decides once per surface whether nodes take their models from their nets, so that models depend
- * on the region alone, not on what was asked before. Such models are worth the nets only where
- * patches bend. */
+ * on the region alone, not on earlier calls. Such models are worth the nets only where patches
+ * bend. */
 static bool follows_net(const node *n)
 {
     if (!node_is_part(n)) return false;
@@ -67,8 +67,7 @@ static bool follows_net(const node *n)
     return n->many == NULL && node_bends(n->parent) && surface_offers_net(n->surface);
 }
 
-/* Sets every field that filling does not set, in memory that may hold anything. Filling sets
- * models, and adds to the bounds of rates. */
+/* Initialises every field that filling does not set, and the bounds to which rates are added. */
 static void node_begin(const tree *t, const node_place *place, node *n)
 {
     const size_t set = t->plan.kind == TREE_MODELS ? offsetof(node, bounded) : 0;
@@ -101,8 +100,8 @@ imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growt
     return code;
 }
 
-/* Puts a reserved node, filled, into the slot. If another thread's is there already, it is given
- * back. Returns the one in the slot. */
+/* Puts a reserved, filled node into the slot, or gives it back if the slot holds another thread's
+ * node already. Returns the node in the slot. */
 static node *node_publish(tree *t, node *n, _Atomic(node *) *slot)
 {
     node *there = NULL;
@@ -148,7 +147,7 @@ node_place node_place_of_cluster(const cluster *many, double t_start, double t_e
                         .many = many};
 }
 
-/* Returns the place of a half of a node: the points that it is to bound. */
+/* Returns which points and times a half of a node is to bound. */
 static node_place points_of_half(const node *parent, parameter j, int side)
 {
     const imp_region *r = &parent->region;

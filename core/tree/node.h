@@ -11,7 +11,7 @@
 #include "core/tree/net.h"
 #include "core/tree/vec.h"
 
-/* Nodes: regions of one surface with Taylor models that hold
+/* Nodes: regions of one surface with Taylor models
  * ==========================================================
  * The nodes of a surface form a k-d tree that is made lazily: the halves of a node along a
  * parameter are made on first use, and then serve every pair and every later query. Where the
@@ -19,15 +19,15 @@
  * a node runs over the pieces, from -1 to 1, and halving it along u gives its two halves. A node
  * may be halved along any of its parameters.
  *
- * Trees may be used from several threads at once. A node is filled by whoever asks for it first,
- * published once, and never changes. Two threads that ask at the same moment fill one each: as both
- * are the same to the last bit, the first that is published serves both, the other is dropped. A
- * node's net comes later, when node_net first asks for it, and is published in the same way; a node
- * that follows its net is filled with it. */
+ * Trees may be used from several threads at once. The first caller that needs a node fills it; it
+ * is published once and never changes. Two threads that need it at the same moment fill one each:
+ * as both are the same to the last bit, the first that is published serves both, the other is
+ * dropped. A node's net is made later, at the first call of node_net, and published in the same
+ * way; a node that follows its net is filled with it. */
 
 /* What a node's inclusion is made from. */
 typedef enum tree_kind {
-    TREE_MODELS,         /* order-2 inclusions (boxes from rates where a part has no better) */
+    TREE_MODELS,         /* order-2 inclusions (boxes from rates where a type or map has none) */
     TREE_RATES_FULL,     /* the rate matrix: half-widths M d (paper, eqs. 12, 19-22) */
     TREE_RATES_COLUMN,   /* one bound a parameter: L_j = norm of M's column j (paper, eq. 11) */
     TREE_RATES_CONSTANT, /* one Lipschitz constant: L = Frobenius norm of M (paper, eq. 4) */
@@ -49,7 +49,7 @@ typedef struct node {
     quadratic3 f;               /* with e, encloses the surface over the region; length */
     double e[4];                /* remainder; length; then 0 */
     double lo[3], hi[3];        /* axis-aligned box; length, world space */
-    double motion[4];           /* >= |bt| + 2 |qtt| + |qut| + |qvt|; length; then 0 */
+    double motion[4];           /* >= |bt| + 2 |qtt| + |qut| + |qvt|, then 0; length */
     vec3 normal;                /* bu x bv, any length; 0 where the node has none */
     double radius;              /* of a ball around a that holds the surface; rate trees only */
     double extent[3];           /* how much u, v, t move a point across the region, about; length */
@@ -57,18 +57,19 @@ typedef struct node {
     double time_remainder;      /* time's share in e where its rate is known, about; length */
     bool bounded;               /* f, e, lo, hi are all finite */
     bool is_bare;               /* only the region and `bounded`, which is true, are set above */
-    bool follows_net; /* where it has a bicubic net its models are made of that (net_series.h) */
+    bool follows_net; /* its models are made from its net, if that is bicubic (net_series.h) */
     const surface *surface; /* whose points are bounded: a piece, or the whole */
-    const cluster *many;    /* of these pieces of it; NULL: of one surface */
+    const cluster *many;    /* the pieces it bounds; NULL: no cluster */
     struct node *parent;    /* NULL: it is the root */
     parameter along;        /* which half of the parent it is */
     int side;
-    _Atomic(const net *) net;           /* NULL: not asked for yet; &net_none: it has none */
-    struct shape *shape;                /* what is moved rigidly, */
-    struct span *span;                  /* and when (posing.h); NULL: neither is known */
-    const struct shape_model *still;    /* whose image under */
-    const struct pose_lanes *pose;      /* it is (posed_terms.h); NULL: use e, as one may always */
-    double posed_e[4];                  /* what is left of e beside posed terms; length; then 0 */
+    _Atomic(const net *) net;        /* NULL: not made yet; &net_none: it has none */
+    struct shape *shape;             /* the shape that is moved rigidly, and */
+    struct span *span;               /* its poses (posing.h); NULL: not known */
+    const struct shape_model *still; /* model of the shape; the node is its image under */
+    const struct pose_lanes
+        *pose;         /* the pose (posed_terms.h); NULL: use e, which is always valid */
+    double posed_e[4]; /* the rest of e beside posed terms, then 0; length */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
     _Atomic(struct node *) bare[2][2];  /* halves along u and v without models */
 } node;
@@ -83,10 +84,10 @@ typedef struct tree_plan {
     tree_kind kind;
     double t_start, t_end; /* within the surface's domain */
     node_audit audit;      /* may be NULL */
-    size_t left_out; /* maps of the surface that its nodes are not under, counted from the last */
+    size_t left_out;       /* number of the surface's last maps that are not applied */
 } tree_plan;
 
-/* Sums of what calls have made. */
+/* Counts of what calls have made. */
 typedef struct tree_growth {
     uint64_t nodes;
     size_t bytes;
@@ -97,19 +98,20 @@ typedef struct tree_growth {
 imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_growth *growth,
                   imp_error *error);
 
-/* Makes a tree that keeps only its root's box until the root is made: most surfaces of a large
- * scene meet no other. */
+/* Makes a tree that keeps only its root's box until tree_make_root: most surfaces of a large scene
+ * come near no other. */
 imp_code tree_new_without_root(const surface *s, const tree_plan *plan, tree **made,
                                tree_growth *growth, imp_error *error);
 bool tree_has_root(const tree *t);
-imp_code tree_make_root(tree *t, tree_growth *growth, imp_error *error); /* unless it has one */
+imp_code tree_make_root(tree *t, tree_growth *growth,
+                        imp_error *error); /* does nothing if it has one */
 
-/* Makes another tree of that surface and plan, whose root is a copy and not counted: for searches
- * whose counts must not depend on other threads. */
+/* Makes another tree of t's surface and plan, whose root is a copy that is not counted: for
+ * searches whose counts must not depend on other threads. */
 imp_code tree_new_from_root(const tree *t, tree **made, tree_growth *growth, imp_error *error);
 void tree_free(tree *t);
 
-/* Lists of trees: what comes after t, or NULL. */
+/* Trees form lists: returns the tree after t, or NULL. */
 tree *tree_next(const tree *t);
 void tree_set_next(tree *t, tree *next);
 
@@ -120,28 +122,28 @@ bool tree_is_of(const tree *t, const tree_plan *plan);
 bool tree_is_audited(const tree *t);
 
 /* Returns in *child the half of `parent` below (side 0) or above (1) its centre along j, made now
- * if it is not there. What this call makes is added to *growth. IMP_ERROR_PLUGIN names the type,
- * the region and what the type answered. Precondition: region_can_split. */
+ * if it does not exist. What this call makes is added to *growth. IMP_ERROR_PLUGIN names the type,
+ * the region and what is wrong. Precondition: region_can_split. */
 imp_code node_child(tree *t, node *parent, parameter j, int side, node **child, tree_growth *growth,
                     imp_error *error);
 
-/* The half that node_child answers, along u or v, on the way to a smaller one: unless it is there
- * already it is bare, without models, and not counted as a node. Precondition: `parent` is no
+/* Like node_child along u or v, for a node whose halves only are needed: unless the node exists
+ * already it is made bare, without models, and is not counted. Precondition: `parent` is no
  * cluster. */
 imp_code node_child_bare(tree *t, node *parent, parameter j, int side, node **child,
                          tree_growth *growth, imp_error *error);
 
-/* Returns in *found the control net of the node, made now if it is asked for first; NULL: it has
- * none. What this call makes is added to *growth. It fails as node_child does. */
+/* Returns in *found the control net of the node, made by the first call; NULL: it has none. What
+ * this call makes is added to *growth. Errors are those of node_child. */
 imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error);
 
-/* Whether the node was asked for its net. */
+/* Whether node_net was called for the node. */
 static inline bool node_net_is_asked(const node *n)
 {
     return atomic_load_explicit(&n->net, memory_order_acquire) != NULL;
 }
 
-/* The control net of a node that was asked for it; NULL for any other. */
+/* Returns the control net if node_net has made it, else NULL. */
 static inline const net *node_net_made(const node *n)
 {
     const net *made = atomic_load_explicit(&n->net, memory_order_acquire);
@@ -165,7 +167,8 @@ static inline bool node_blurs(const node *n, double part)
     return least > 0 && (n->e[0] > least || n->e[1] > least || n->e[2] > least);
 }
 
-/* Models of all points of the node before any map. False: it moves by itself, or has no bounds. */
+/* Returns models of all points of the node before any map. False: it moves by itself, or has no
+ * bounds. */
 bool node_bare_models(const node *n, imp_model bare[3]);
 
 /* Sets the error for a node without bounds that cannot be halved: IMP_ERROR_PLUGIN names the type,

@@ -41,8 +41,8 @@ static imp_code fill_from_model(const tree *t, node *n, imp_error *error)
 
 /* --- Nodes of rates --------------------------------------------------------------------------- */
 
-/* Half-widths and radius from the rate matrix in one of the paper's three forms. Roundings of the
- * longest chain, where a square root halves those of its argument and counts one:
+/* Computes half-widths and radius from the rate matrix in one of the paper's three forms. Roundings
+ * of the longest chain, where a square root halves those of its argument and counts one:
  *
  *   Frobenius norm: square 1, sums 2 + 2, root    (1 + 2 + 2) / 2 + 1 <= 4
  *   |d|: square 1, sums 2, root                   (1 + 2) / 2 + 1     <= 3
@@ -86,8 +86,9 @@ static void take_infinite(node *n)
     n->bounded = false;
 }
 
-/* A cluster has no rates of its own: its box, and the ball around that. Roundings of the radius:
- * half a side 2, square 1, sums 2, which the root halves, and its own: (2 * 2 + 1 + 2) / 2 + 1 < 8
+/* Fills a cluster's node, which has no rates, with its box and the ball around that. Roundings of
+ * the radius: half a side 2, square 1, sums 2, which the root halves, and its own: (2 * 2 + 1 + 2)
+ * / 2 + 1 < 8
  * - 2. */
 PAD_COVERS(8, 5);
 static imp_code fill_from_box(const tree *t, node *n, imp_error *error)

@@ -5,9 +5,9 @@
 
 #include "core/tree/node.h"
 
-/* Fills everything of `n` but its region, which is set, and its children from what an inclusion
- * answered. Returns NULL, or the promise of imp_model that the answer breaks; infinite values break
- * none if `may_be_infinite`. */
+/* Fills every field of `n` except its region, which is set, and its children from an inclusion's
+ * models. Returns NULL, or the promise of imp_model that they break; infinite values break none if
+ * `may_be_infinite`. */
 const char *node_take_model(node *n, const imp_model model[3], bool may_be_infinite);
 
 #endif

@@ -10,7 +10,7 @@
 
 const net net_none;
 
-/* Reserves room for a net. NULL: no memory. */
+/* Reserves memory for a net. NULL: no memory. */
 static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
 {
     const arena_growth sizes = {bytes, 4, 64 * bytes};
@@ -22,15 +22,15 @@ static net *net_alloc(tree *t, size_t bytes, tree_growth *growth)
     return n;
 }
 
-/* Asks the surface for the net, into the room. NULL: there is none that can be computed with. */
-static imp_code ask_net(const node *n, net_buffer *room, const net **made, imp_error *error)
+/* Calls the surface's net callback, into the buffer. NULL: there is no net that can be used. */
+static imp_code call_net(const node *n, net_buffer *buffer, const net **made, imp_error *error)
 {
     imp_net given;
     const imp_status status = surface_net(n->surface, &n->region, &given);
     *made = NULL;
     if (status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
     if (status != IMP_STATUS_OK) return node_status_fault(n, status, error);
-    if (net_take(net_in(room), &given, &n->region)) *made = net_in(room);
+    if (net_take(net_in(buffer), &given, &n->region)) *made = net_in(buffer);
     return IMP_SUCCESS;
 }
 
@@ -47,25 +47,25 @@ static bool is_half_of(const node *n, const net *whole)
            net_can_halve(&n->parent->region, n->along);
 }
 
-/* Makes the net in the room, by halving the parent's net `whole`, which may lie in the room, where
- * that is possible. Returns it, or `whole` itself; NULL: there is none. */
-static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buffer *room,
+/* Makes the net in the buffer, if possible by halving the parent's net `whole`, which may be in the
+ * buffer. Returns it, or `whole` itself; NULL: there is none. */
+static imp_code fill_net(const tree *t, const node *n, const net *whole, net_buffer *buffer,
                          const net **made, imp_error *error)
 {
     *made = NULL;
     if (!may_have_net(t, n)) return IMP_SUCCESS;
     if (is_half_of(n, whole)) {
-        net_halve(whole, n->along, n->side, net_in(room));
-        *made = net_in(room);
+        net_halve(whole, n->along, n->side, net_in(buffer));
+        *made = net_in(buffer);
     } else if (whole != NULL && n->along == PARAMETER_T) {
         *made = whole;
     } else {
-        return ask_net(n, room, made, error);
+        return call_net(n, buffer, made, error);
     }
     return IMP_SUCCESS;
 }
 
-/* Copies a net in the room into the tree. NULL: no memory. */
+/* Copies a net from the buffer into the tree. NULL: no memory. */
 static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
 {
     const size_t bytes = net_bytes(filled);
@@ -73,8 +73,8 @@ static const net *net_copy(tree *t, const net *filled, tree_growth *growth)
     return kept != NULL ? memcpy(kept, filled, bytes) : NULL;
 }
 
-/* Publishes the net of n and returns it, or another thread's that is there already; the room of
- * this one is then lost. NULL: it has none. */
+/* Publishes the net of n and returns it, or another thread's that was published already; the memory
+ * of this one is then unused. NULL: it has none. */
 static const net *net_publish(node *n, const net *made)
 {
     const net *there = NULL;
@@ -85,18 +85,18 @@ static const net *net_publish(node *n, const net *made)
     return made != &net_none ? made : NULL;
 }
 
-/* Publishes *made, NULL if there is none; what lies in the room, as a copy. False: no memory. */
-static bool net_keep(tree *t, node *n, const net **made, const net_buffer *room,
+/* Publishes *made, NULL if there is none; a net in the buffer is copied first. False: no memory. */
+static bool net_keep(tree *t, node *n, const net **made, const net_buffer *buffer,
                      tree_growth *growth)
 {
-    const bool is_in_room = *made == (const void *)room->memory;
-    const net *kept = is_in_room ? net_copy(t, *made, growth) : *made;
-    if (is_in_room && kept == NULL) return false;
+    const bool is_in_buffer = *made == (const void *)buffer->memory;
+    const net *kept = is_in_buffer ? net_copy(t, *made, growth) : *made;
+    if (is_in_buffer && kept == NULL) return false;
     *made = net_publish(n, kept);
     return true;
 }
 
-/* Makes half a net where it is kept. False: no memory. */
+/* Makes the half of a net in the tree's memory. False: no memory. */
 static bool net_keep_half(tree *t, node *n, const net *whole, const net **made, tree_growth *growth)
 {
     net *half = net_alloc(t, net_bytes(whole), growth);
@@ -107,21 +107,21 @@ static bool net_keep_half(tree *t, node *n, const net *whole, const net **made, 
 }
 
 /* Makes the net and publishes it. */
-static imp_code make_net(tree *t, node *n, const net *whole, net_buffer *room, const net **made,
+static imp_code make_net(tree *t, node *n, const net *whole, net_buffer *buffer, const net **made,
                          tree_growth *growth, imp_error *error)
 {
     bool is_kept;
     if (is_half_of(n, whole)) {
         is_kept = net_keep_half(t, n, whole, made, growth);
     } else {
-        const imp_code code = fill_net(t, n, whole, room, made, error);
+        const imp_code code = fill_net(t, n, whole, buffer, made, error);
         if (code != IMP_SUCCESS) return code;
-        is_kept = net_keep(t, n, made, room, growth);
+        is_kept = net_keep(t, n, made, buffer, growth);
     }
     return is_kept ? IMP_SUCCESS : error_set_memory(error);
 }
 
-imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
+imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *buffer, const net **made,
                        tree_growth *growth, imp_error *error)
 {
     node *at = n;
@@ -129,8 +129,8 @@ imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, cons
     const net *whole = node_is_part(at) ? node_net_made(at->parent) : NULL;
     for (;;) {
         const bool keeps = at == n ? is_to_keep : !at->is_bare;
-        const imp_code code = keeps ? make_net(t, at, whole, room, &whole, growth, error)
-                                    : fill_net(t, at, whole, room, &whole, error);
+        const imp_code code = keeps ? make_net(t, at, whole, buffer, &whole, growth, error)
+                                    : fill_net(t, at, whole, buffer, &whole, error);
         if (code != IMP_SUCCESS || at == n) return *made = whole, code;
         node *below = n;
         while (below->parent != at) below = below->parent;
@@ -141,9 +141,9 @@ imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, cons
 imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_error *error)
 {
     if (!node_net_is_asked(n)) {
-        net_buffer room;
+        net_buffer buffer;
         const net *made;
-        const imp_code code = node_net_find(t, n, true, &room, &made, growth, error);
+        const imp_code code = node_net_find(t, n, true, &buffer, &made, growth, error);
         if (code != IMP_SUCCESS) return code;
     }
     *found = node_net_made(n);
@@ -152,10 +152,10 @@ imp_code node_net(tree *t, node *n, const net **found, tree_growth *growth, imp_
 
 imp_code node_fill_from_net(tree *t, node *n, bool *done, tree_growth *growth, imp_error *error)
 {
-    net_buffer room;
+    net_buffer buffer;
     const net *made;
     n->bounded = true;
-    const imp_code code = node_net_find(t, n, true, &room, &made, growth, error);
+    const imp_code code = node_net_find(t, n, true, &buffer, &made, growth, error);
     if (code != IMP_SUCCESS) return code;
     *done = made != NULL && net_series_take(made, n);
     if (made != NULL && !*done) n->follows_net = false;

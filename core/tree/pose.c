@@ -7,7 +7,7 @@
 #include "core/tree/model_lanes.h"
 #include "core/tree/posed_terms.h"
 
-/* --- Side by side ----------------------------------------------------------------------------- */
+/* --- Vector layout ---------------------------------------------------------------------------- */
 
 static double larger(double x, double y) { return x > y ? x : y; }
 
@@ -134,7 +134,7 @@ IMP_QUAD_INLINE void take_coefficients(const shape_model *s, const relative_shap
     m->q[IMP_TT] = pose_times(p->turn[2], z->both) + imp_quad_load(p->shift[2]);
 }
 
-/* What the last lemma leaves out of third order, and of fourth. */
+/* Bounds the terms of third order, and of fourth order, that the lemma (polynomial) folds. */
 IMP_QUAD_INLINE imp_quad folded_third(const shape_model *s, const pose_lanes *p)
 {
     const imp_quad halves = size_times(p->turn[1], s->quu) + size_times(p->turn[1], s->qvv) +
@@ -148,7 +148,7 @@ IMP_QUAD_INLINE imp_quad folded_fourth(const shape_model *s, const pose_lanes *p
     return imp_quad_all(0.5) * size_times(p->turn[2], s->quv) + imp_quad_all(0.25) * quarters;
 }
 
-/* Lemma (rounding). Roundings that a product passes through: of R_k A, in a, bt or qtt: A 1, G 1,
+/* Lemma (rounding). Number of roundings of each product: of R_k A, in a, bt or qtt: A 1, G 1,
  * the product 1, its sums 2, T 1, the last 1: 6 at most of a, and of bt and qtt. Of others: in H 1,
  * G 1, S 1; product 1, sums 2, T 1: 6 at most; R2 cuu is in a, quu and qtt with the weights 1/4,
  * 1/2 and 1/2, others with less: 7.5. What is folded misses 3 of each, with weights of 1 at most:
@@ -181,7 +181,7 @@ IMP_QUAD_INLINE imp_quad rounding(const shape_model *s, const relative_shape *z,
 #define POSE_UNDERFLOW imp_quad_of(0x1p-1000, 0x1p-1000, 0x1p-1000, 0)
 PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5);
 
-/* What is left of the remainder of posed terms beside third order and R delta. */
+/* Bounds the remainder without the terms of third order and R delta. */
 IMP_QUAD_INLINE imp_quad rest(const shape_model *s, const relative_shape *z, const pose_lanes *p)
 {
     double far[4];
@@ -197,7 +197,7 @@ IMP_QUAD_INLINE imp_quad remainder_upper(const shape_model *s, const pose_lanes 
     return quad_padded_upper(rest + folded_third(s, p) + e, 32) + POSE_UNDERFLOW;
 }
 
-/* Adds what edges leave out, and their rounding. */
+/* Bounds posed_e: the rest, plus what the edges leave out, and their rounding. */
 PAD_COVERS(32, 7 + 1 + 2 + 3 + 2 + 5 + 2);
 
 IMP_QUAD_INLINE imp_quad posed_rest_upper(const shape_model *s, const pose_lanes *p, imp_quad rest)
@@ -221,8 +221,8 @@ IMP_QUAD_INLINE range_lanes bow(imp_quad b, imp_quad q)
     return (range_lanes){imp_quad_min(q - size, -half), imp_quad_max(q + size, half)};
 }
 
-/* The range of polynomial and remainder, as imp_model_poly_range has it: at most 16 roundings of
- * partial sums that `size` and e bound; 32 u of these cover them and the computing of the size. */
+/* Returns the range of polynomial and remainder, like imp_model_poly_range: at most 16 roundings of
+ * partial sums that `size` and e bound; 32 u of these cover them and the rounding of `size`. */
 IMP_QUAD_INLINE range_lanes range_of_polynomial(const model_lanes *m)
 {
     const range_lanes u = bow(m->b[0], m->q[IMP_UU]), v = bow(m->b[1], m->q[IMP_VV]),
@@ -265,7 +265,7 @@ IMP_QUAD_INLINE range_lanes range_of_box(const shape_model *s, const pose_lanes 
     return (range_lanes){c0 + c.lo - reach, c0 + c.hi + reach};
 }
 
-/* Turned by any angle: |x - T| <= norm |z|. Two roundings each. */
+/* Returns a range that holds for any rotation: |x - T| <= norm |z|. Two roundings each. */
 IMP_QUAD_INLINE range_lanes range_of_ball(const relative_shape *z, const pose_lanes *p)
 {
     const imp_quad reach = imp_quad_all(turned_upper(p->norm, z->most));

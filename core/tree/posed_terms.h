@@ -9,10 +9,10 @@
 
 /* Terms of third order, and a remainder that turns
  * ================================================
- * The remainder n->e of a node is a box along x, y and z. Of a posed node more is known: the terms
- * of third order of the product, and that the shape's remainder is a box along the body's axes,
- * which turns with the pose: a parallelepiped in space, narrower than its bounding box along most
- * axes. For the files that work on nodes, compiled for either width of a register.
+ * The remainder n->e of a node is a box along x, y and z. For a posed node, the terms of third
+ * order of the product are known, and the shape's remainder is a box along the body's axes that
+ * turns with the pose: a parallelepiped in space, narrower than its bounding box along most axes.
+ * Files that use nodes compile these functions for both register widths.
  *
  * Lemma. In the lemma of pose.c (polynomial), with f the quadratic that is kept, x is
  *
@@ -33,7 +33,7 @@
 typedef struct posed_terms {
     imp_quad uut, uvt, vvt, utt, vtt;
     imp_quad bow;               /* |R2| e k^2 */
-    imp_quad edge[3], swing[3]; /* x, y, z; the edges side by side, then 0 */
+    imp_quad edge[3], swing[3]; /* of x, y, z: the three edges, then 0 */
 } posed_terms;
 
 /* Matrix times vector, column by column. */
@@ -44,8 +44,8 @@ IMP_QUAD_INLINE imp_quad pose_times(const double column[3][4], const double y[4]
            imp_quad_load(column[2]) * imp_quad_all(y[2]);
 }
 
-/* What edges and bow may be off by along an axis, in units of u (|R0| + |R1| + |R2|) e; in posed_e.
- * s0 is off by 2 u and k by u; |edge| + |swing| + bow are at most one such size.
+/* Rounding of edges and bow along an axis, in units of u (|R0| + |R1| + |R2|) e; posed_e includes
+ * it. s0 is off by 2 u and k by u; |edge| + |swing| + bow are at most one such size.
  *
  *   edge     R2 s0 2 + 1, sum 1, times s0 2 + 1, sum 1, times e 1         9
  *   swing    R2 s0 2 + 1, sums 2, times k 1 + 1, times e 1                8

@@ -9,15 +9,15 @@
 #include "core/base/status.h"
 
 typedef struct shape {
-    bool moves;    /* by itself: there are no shapes below it */
-    bool is_known; /* whether the model is filled */
+    bool moves;    /* moves by itself: has no halves */
+    bool is_known; /* the model is filled */
     shape_model model;
     _Atomic(struct shape *) child[2][2]; /* along u and v */
 } shape;
 
 typedef struct span {
-    bool is_known;   /* whether there is a pose */
-    bool is_uniform; /* it neither turns nor gains speed */
+    bool is_known;   /* the pose is filled */
+    bool is_uniform; /* it neither turns nor accelerates */
     pose_lanes pose;
     _Atomic(struct span *) child[2];
 } span;
@@ -29,8 +29,8 @@ static const arena_growth posing_growth = {2048, 2, 8192};
 
 /* --- Shapes ----------------------------------------------------------------------------------- */
 
-/* Makes a shape over the u and v of a node, at all times of the root. If there is no model the
- * surface is asked again through all maps, which tells what is wrong. */
+/* Fills a shape over the u and v of a node, at all times of the root. If there is no model, the
+ * node's inclusion through all maps will report the error. */
 static void shape_fill(shape *s, const node *n, const node *root)
 {
     imp_region region = n->region;
@@ -119,7 +119,7 @@ static span *span_publish(posing *g, const span *filled, _Atomic(span *) *slot, 
     return s;
 }
 
-/* *found: the span in the slot, that of n. */
+/* Returns in *found the span in the slot, made now for n if there is none. */
 static imp_code span_in(posing *g, _Atomic(span *) *slot, const node *n, span **found,
                         tree_growth *growth, imp_error *error)
 {
@@ -134,9 +134,9 @@ static imp_code span_in(posing *g, _Atomic(span *) *slot, const node *n, span **
 
 /* --- Nodes ------------------------------------------------------------------------------------ */
 
-/* Finds the poses of the tree's root. *s stays NULL where it does not move rigidly, or moves by
- * itself; or uniformly without turning: then the inclusion through the maps is as cheap, and needs
- * no memory beside the node. */
+/* Makes shape and span of the tree's root. *s stays NULL if it does not move rigidly, or moves by
+ * itself, or moves uniformly without turning: then the inclusion through the maps is as cheap, and
+ * needs no memory beside the node. */
 static imp_code begin_at_root(posing *g, shape **s, span **t, tree_growth *growth, imp_error *error)
 {
     shape whole = {.moves = true};

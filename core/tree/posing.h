@@ -10,26 +10,26 @@
 
 /* Shapes and spans of a tree
  * ==========================
- * Where all maps of a surface are rigid, a tree of its shapes, halved along u and v, and one of
- * spans of time with their poses stand beside its tree of nodes. A node knows its shape and its
- * span: halving it along u or v halves the shape, along t the span. Both trees are made lazily, as
- * the nodes are: filled outside of the lock, published once. The root has neither; its own are made
- * with its first child, since most surfaces of a large scene are never split. */
+ * Where all maps of a surface are rigid, its tree of nodes has two more trees: one of shapes,
+ * halved along u and v, and one of spans of time with their poses. A node points to its shape and
+ * its span: halving it along u or v halves the shape, along t the span. Both trees are made lazily
+ * like the nodes: filled outside of the lock, published once. Those of the root are made with its
+ * first child, since most surfaces of a large scene are never split. */
 
 typedef struct posing {
-    pthread_mutex_t *lock;         /* the tree's: of memory and of publishing */
+    pthread_mutex_t *lock;         /* the tree's; guards memory and publishing */
     const node *root;              /* of the tree */
     _Atomic bool is_idle;          /* nodes of this surface are not posed */
-    _Atomic(struct shape *) shape; /* of the root; NULL: not made yet */
+    _Atomic(struct shape *) shape; /* the root's; NULL: not made yet */
     _Atomic(struct span *) span;
     arena memory; /* of shapes and spans */
 } posing;
 
-/* Sets shape and span of n, which is half of its parent and has nothing else yet but its place,
- * where the surface moves rigidly and not by itself. Fails as node_child does. */
+/* Sets shape and span of n, a half of its parent of which only the place is set, if the surface
+ * moves rigidly and not by itself. Errors are those of node_child. */
 imp_code posing_begin(posing *g, node *n, tree_growth *growth, imp_error *error);
 
-/* Fills n from its shape and its span. False: n has to be filled from an inclusion. */
+/* Fills n from its shape and its span. False: it needs an inclusion instead. */
 bool posing_fill(node *n);
 
 #endif

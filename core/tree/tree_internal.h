@@ -17,19 +17,19 @@ struct tree {
     tree *next;
     _Atomic(node *) root; /* NULL: not made yet */
     bool begins_with_root;
-    pthread_mutex_t lock;  /* of changes to the lists of blocks and spare nodes, and of the root */
-    arena nodes;           /* beside the root */
-    _Atomic(node *) spare; /* reserved, but not published; each one's parent is the next */
+    pthread_mutex_t lock;  /* guards the arenas, the list of spare nodes, and the root */
+    arena nodes;           /* all but the root */
+    _Atomic(node *) spare; /* reserved, but not published; linked by `parent` */
     hierarchy *pieces;     /* NULL: it is one surface */
     arena nets;
     posing posing;
-    double rest[]; /* the root, if the tree begins with it; else the root's box */
+    double rest[]; /* the root, or the root's box if it has none yet */
 };
 
-/* Which points a node is to bound, and when; which half of which node it is. */
+/* The points and times that a node is to bound, and which half of which node it is. */
 typedef struct node_place {
-    bool is_half;        /* its region is that half of the parent's; else the box */
-    double lo[3], hi[3]; /* is its region */
+    bool is_half;        /* its region is that half of the parent's; else it is the box */
+    double lo[3], hi[3]; /* [lo, hi] */
     const surface *surface;
     const cluster *many;
     node *parent; /* NULL: it is the root */
@@ -37,34 +37,35 @@ typedef struct node_place {
     int side;
 } node_place;
 
-/* The whole of one surface, or of a cluster, during these times. */
+/* Return the place of the whole of one surface, or of a cluster, during these times. */
 node_place node_place_of_surface(const surface *s, double t_start, double t_end);
 node_place node_place_of_cluster(const cluster *many, double t_start, double t_end);
 
-/* Whether it is a part of its parent's surface, not the whole of one. */
+/* Whether the node bounds a part of its parent's surface, not the whole of another piece. */
 static inline bool node_is_part(const node *n)
 {
     return n->parent != NULL && n->parent->surface == n->surface;
 }
 
-/* Makes a node there, in memory that may hold anything. */
+/* Makes a node at this place, in uninitialised memory. */
 imp_code node_fill(tree *t, const node_place *place, node *n, tree_growth *growth,
                    imp_error *error);
 
-/* The bounds of a node that has begun: models, a cluster's box, or rates, as the tree's plan asks
- * for. */
+/* Computes the bounds of a node whose place is set: from models, a cluster's box, or rates, as the
+ * tree's plan says. */
 imp_code node_bounds_find(const tree *t, node *n, imp_error *error);
 
-/* Names the type, the region and what is wrong. */
+/* Set an error that names the type, the region and what is wrong. */
 imp_code node_fault(const node *n, const char *what, imp_error *error);
 imp_code node_status_fault(const node *n, imp_status status, imp_error *error);
 
-/* The net of n, which was not asked for it: published, if n is to keep it, or in the room, or in
- * the tree; NULL: it has none. Its ancestors come first, from the top. Bare ones keep none. */
-imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *room, const net **made,
+/* Makes the net of n, for which node_net was not called: published if is_to_keep, else in `buffer`
+ * or in the tree; NULL: it has none. The nets of its ancestors are made first, from the root on;
+ * bare nodes keep none. */
+imp_code node_net_find(tree *t, node *n, bool is_to_keep, net_buffer *buffer, const net **made,
                        tree_growth *growth, imp_error *error);
 
-/* Fills n, which follows its net, from that. *done: false where it has none, or one that is no
+/* Fills n, which follows its net, from that net. *done false: it has none, or one that is no
  * bicubic patch. */
 imp_code node_fill_from_net(tree *t, node *n, bool *done, tree_growth *growth, imp_error *error);
 
