@@ -12,7 +12,7 @@
 #include "core/tree/vec.h"
 
 /* Nodes: regions of one surface with Taylor models
- * ==========================================================
+ * ================================================
  * The nodes of a surface form a k-d tree that is made lazily: the halves of a node along a
  * parameter are made on first use, and then serve every pair and every later query. Where the
  * surface consists of pieces, the nodes above them are clusters of pieces (hierarchy.h): u of such
@@ -63,13 +63,12 @@ typedef struct node {
     struct node *parent;    /* NULL: it is the root */
     parameter along;        /* which half of the parent it is */
     int side;
-    _Atomic(const net *) net;        /* NULL: not made yet; &net_none: it has none */
-    struct shape *shape;             /* the shape that is moved rigidly, and */
-    struct span *span;               /* its poses (posing.h); NULL: not known */
-    const struct shape_model *still; /* model of the shape; the node is its image under */
-    const struct pose_lanes
-        *pose;         /* the pose (posed_terms.h); NULL: use e, which is always valid */
-    double posed_e[4]; /* the rest of e beside posed terms, then 0; length */
+    _Atomic(const net *) net;           /* NULL: not made yet; &net_none: it has none */
+    struct shape *shape;                /* the shape that is moved rigidly, and */
+    struct span *span;                  /* its poses (posing.h); NULL: not known */
+    const struct shape_model *still;    /* model of the shape; the node is its image under */
+    const struct pose_lanes *pose;      /* the pose (posed_terms.h); NULL: use e, always valid */
+    double posed_e[4];                  /* the rest of e beside posed terms, then 0; length */
     _Atomic(struct node *) child[3][2]; /* NULL: not made yet */
     _Atomic(struct node *) bare[2][2];  /* halves along u and v without models */
 } node;
@@ -103,8 +102,8 @@ imp_code tree_new(const surface *s, const tree_plan *plan, tree **made, tree_gro
 imp_code tree_new_without_root(const surface *s, const tree_plan *plan, tree **made,
                                tree_growth *growth, imp_error *error);
 bool tree_has_root(const tree *t);
-imp_code tree_make_root(tree *t, tree_growth *growth,
-                        imp_error *error); /* does nothing if it has one */
+/* Makes the root, unless the tree has one. */
+imp_code tree_make_root(tree *t, tree_growth *growth, imp_error *error);
 
 /* Makes another tree of t's surface and plan, whose root is a copy that is not counted: for
  * searches whose counts must not depend on other threads. */
