@@ -730,6 +730,9 @@ clean-local: clean-manuals
 	rm -rf $(installed) tests/cache tests/no-user-data
 
 EXTRA_DIST += \
+    tests/peers/fcl_overlaps.cc \
+    tests/peers/kinematics.py \
+    tests/peers/test_robots.py \
     tests/python/support.py \
     tests/python/test_hostile.py \
     tests/python/test_impinge.py \

@@ -60,6 +60,16 @@ needs_python() {
     [ "$status" -eq 0 ]
 }
 
+@test "robots overlap nothing before their contact, as FCL sees it" {
+    needs_python
+    "$PYTHON3" -c 'import yaml' || skip "no python3-yaml"
+    pkg-config --exists fcl || skip "no FCL (libfcl-dev)"
+    PYTHONPATH=$top_srcdir/sdk/python run "$PYTHON3" -m pytest -q -p no:cacheprovider \
+        "$top_srcdir/tests/peers"
+    echo "$output"
+    [ "$status" -eq 0 ]
+}
+
 @test "the Python module and programs that use it have types" {
     needs_python
     "$PYTHON3" -c 'import mypy' || skip "no python3-mypy"
