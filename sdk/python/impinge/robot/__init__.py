@@ -17,13 +17,13 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Set, 
 
 from .. import _document as document
 from .. import _values as values
-from .._assembly import Stage, scene_of
+from .._assembly import scene_of
 from ..errors import SceneError, UsageError
 from ..scene import Scene
 from ._course import Course, maps_of_joint
 from ._moveit import Matrix, World, read_world
 from ._positions import Positions, Variables
-from ._shapes import maps_of, surface_at
+from ._shapes import Pose, pose_of, surface_at
 from ._srdf import Semantics, read_srdf
 from ._urdf import Joint, Model, Shape, read_urdf
 
@@ -51,8 +51,9 @@ class Robot:
         self._joint_of = {joint.child: joint for joint in model.joints.values()}
         if not any(model.links.values()):
             raise SceneError(f"{model.file}: no link has a <collision>; there is nothing to test")
-        self._surfaces = {link: [surface_at(shape) for shape in shapes] for link, shapes in model.links.items()}
-        self._origins = {joint.child: maps_of(joint.origin) for joint in model.joints.values()}
+        self._frames = self._frames_at_rest()
+        self._surfaces = {link: [surface_at(shape, self._frames[link]) for shape in shapes]
+                          for link, shapes in model.links.items()}
         self._joined = {pair for link in model.links for pair in self._pair_above(link)}
 
     def __repr__(self) -> str:
@@ -76,7 +77,7 @@ class Robot:
         bodies: List[Mapping[str, Any]] = [self._body(link, courses) for link in self.links]
         group = self._free_name(around)
         for body in around.bodies:
-            bodies.append(body if "parent" in body else {**body, "group": [group]})
+            bodies.append(self._attached(body) if "parent" in body else {**body, "group": [group]})
         at = next(iter(courses.values())).times if courses else values.array("times", times)
         ignored = self._joined | self._allowed(around, allowed) | set(around.touching)
         made: document.Document = {"time": [float(at[0]), float(at[-1])], "bodies": bodies,
@@ -121,15 +122,27 @@ class Robot:
                 found[name] = own
         return found
 
+    def _frames_at_rest(self) -> Dict[str, Pose]:
+        """The pose of each link where all joints are at 0."""
+        frames = {link: Pose() for link in self.links}
+        for joint in self._model.joints.values():  # parents before children
+            frames[joint.child] = pose_of(joint.origin).then(frames[joint.parent])
+        return frames
+
     def _body(self, link: str, courses: Mapping[str, Course]) -> Dict[str, Any]:
         body: Dict[str, Any] = {"name": link, "surfaces": self._surfaces[link]}
         joint = self._joint_of.get(link)
         if joint is not None:
-            maps: List[Stage] = maps_of_joint(joint, courses) + self._origins[link]
+            maps = maps_of_joint(joint, self._frames[link], courses)
             body["parent"] = joint.parent
             if maps:
                 body["maps"] = maps
         return body
+
+    def _attached(self, body: Mapping[str, Any]) -> Mapping[str, Any]:
+        """A body in the frame of its parent; a link, whose maps begin where it rests, or another body."""
+        frame = self._frames.get(body["parent"])
+        return body if frame is None else {**body, "maps": [*body.get("maps", ()), *frame.maps()]}
 
     def _pair_above(self, link: str) -> List[Tuple[str, str]]:
         """The link and the nearest one above that is no frame; [] where there is none."""

@@ -14,7 +14,7 @@ from .. import _files
 from .. import _values as values
 from .._assembly import Stage
 from ..errors import SceneError
-from ._shapes import Pose
+from ._shapes import Pose, rotated
 from ._urdf import Joint
 
 INTERPOLATIONS = ("splines", "linear", "cubic")
@@ -91,21 +91,30 @@ class Course:
                 made[key] = column(x)
         return made
 
-    def turned(self, axis: Sequence[float]) -> List[Stage]:
-        """The maps of a joint that turns about an axis."""
-        if not self.rests:
-            return [Stage({"type": "rotate", "axis": list(axis), **self.table("angles")})]
-        if self.positions[0] == 0:
+    def line(self) -> Optional[List[float]]:
+        """The coefficients of 1, t, if it rests or goes straight from t = 0 to one other time: what is
+        cheaper than a table."""
+        if self.rests:
+            return [float(self.positions[0])]
+        if len(self.times) > 2 or self.times[0] != 0 or self.velocities is not None:
+            return None
+        return [float(self.positions[0]), float((self.positions[1] - self.positions[0]) / self.times[1])]
+
+    def turned(self, axis: Sequence[float], center: Sequence[float] = (0, 0, 0)) -> List[Stage]:
+        """The maps of a joint that turns about an axis through a centre."""
+        line = self.line()
+        if line == [0.0]:
             return []
-        return [Stage({"type": "rotate", "axis": list(axis), "angle": [float(self.positions[0])]})]
+        about: Dict[str, Any] = {"axis": list(axis), "center": list(center)}
+        return [Stage({"type": "rotate", **about, **(self.table("angles") if line is None else {"angle": line})})]
 
     def shifted(self, axis: Sequence[float]) -> List[Stage]:
         """The maps of a joint that slides along an axis."""
-        length = math.hypot(*axis)
+        length, line = math.hypot(*axis), self.line()
         along = [x / length for x in axis]
-        if not self.rests:
+        if line is None:
             return [Stage({"type": "translate", **self.table("positions", along)})]
-        return Pose((along[0] * self.positions[0], along[1] * self.positions[0], along[2] * self.positions[0])).maps()
+        return [] if line == [0.0] else [Stage({"type": "translate", "offset": [[x * c for x in along] for c in line]})]
 
 
 def _floating(joint: Joint, courses: Mapping[str, Course]) -> List[Stage]:
@@ -138,14 +147,17 @@ def _spins(times: values.Floats, rotations: values.Floats) -> values.Floats:
     return numpy.array(spins)
 
 
-def maps_of_joint(joint: Joint, courses: Mapping[str, Course]) -> List[Stage]:
-    """The maps by which a joint moves its child in the child's frame; none where it stays at 0."""
+def maps_of_joint(joint: Joint, frame: Pose, courses: Mapping[str, Course]) -> List[Stage]:
+    """The maps by which a joint moves what is below it, where its frame is at rest; none where it stays at
+    0. With the axes of the robot at rest (the product of exponentials) a joint is one map."""
     if joint.kind == "fixed":
         return []
     if joint.kind == "floating":
-        return _floating(joint, courses)
+        own = _floating(joint, courses)
+        return [*frame.inverse().maps(), *own, *frame.maps()] if own else []
     if joint.kind == "planar":
         x, y, theta = (courses[name] for name in joint.variables)
-        return [*theta.turned([0, 0, 1]), *x.shifted([1, 0, 0]), *y.shifted([0, 1, 0])]
-    course = courses[joint.name]
-    return course.shifted(joint.axis) if joint.kind == "prismatic" else course.turned(joint.axis)
+        across = [rotated(frame.turn, axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+        return [*theta.turned(across[2], frame.xyz), *x.shifted(across[0]), *y.shifted(across[1])]
+    course, axis = courses[joint.name], rotated(frame.turn, joint.axis)
+    return course.shifted(axis) if joint.kind == "prismatic" else course.turned(axis, frame.xyz)

@@ -25,6 +25,12 @@ class Pose:
         x, y, z = rotated(outer.turn, self.xyz)
         return Pose((x + outer.xyz[0], y + outer.xyz[1], z + outer.xyz[2]), product(outer.turn, self.turn))
 
+    def inverse(self) -> "Pose":
+        """The pose that undoes this one."""
+        a, b, c, d = self.turn
+        x, y, z = rotated((-a, -b, -c, d), self.xyz)
+        return Pose((-x, -y, -z), (-a, -b, -c, d))
+
     def maps(self) -> List[Stage]:
         """The maps that bring something to it; none for what stays."""
         x, y, z, w = self.turn
@@ -50,20 +56,14 @@ def rotated(q: Quaternion, v: Sequence[float]) -> Vector:
     return x, y, z
 
 
-def maps_of(origin: Origin) -> List[Stage]:
-    """The maps that bring something to an origin of a URDF file; an angle about one axis stays as it is."""
-    angles = [(axis, angle) for axis, angle in enumerate(origin.rpy) if angle != 0]
-    if len(angles) > 1:
-        turn: Quaternion = (0.0, 0.0, 0.0, 1.0)
-        for axis, angle in angles:
-            half = [0.0, 0.0, 0.0, math.cos(0.5 * angle)]
-            half[axis] = math.sin(0.5 * angle)
-            turn = product((half[0], half[1], half[2], half[3]), turn)
-        return Pose(origin.xyz, turn).maps()
-    maps = []
-    for axis, angle in angles:
-        maps.append(Stage({"type": "rotate", "axis": [float(k == axis) for k in range(3)], "angle": [angle]}))
-    return maps + Pose(origin.xyz).maps()
+def pose_of(origin: Origin) -> Pose:
+    """The pose that an origin of a URDF file stands for."""
+    turn: Quaternion = (0.0, 0.0, 0.0, 1.0)
+    for axis, angle in enumerate(origin.rpy):
+        half = [0.0, 0.0, 0.0, math.cos(0.5 * angle)]
+        half[axis] = math.sin(0.5 * angle)
+        turn = product((half[0], half[1], half[2], half[3]), turn)
+    return Pose(origin.xyz, turn)
 
 
 def _mesh(shape: Shape) -> Dict[str, Any]:
@@ -91,9 +91,9 @@ def surface_of(shape: Shape) -> Stage:
     return Stage(_MADE[shape.kind](shape))
 
 
-def surface_at(shape: Shape) -> Stage:
-    """The shape as one surface at its origin in its link."""
-    made, maps = surface_of(shape), maps_of(shape.origin)
+def surface_at(shape: Shape, frame: Pose) -> Stage:
+    """The shape as one surface at its origin in a frame."""
+    made, maps = surface_of(shape), pose_of(shape.origin).then(frame).maps()
     if maps:
         made["maps"] = maps
     return made
