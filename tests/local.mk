@@ -289,6 +289,7 @@ check_LTLIBRARIES = \
     tests/plugins/mistakes_map.la \
     tests/plugins/mistakes_pieces.la \
     tests/plugins/mistakes_pose.la \
+    tests/plugins/mistakes_formula.la \
     tests/plugins/mistakes_stated.la \
     tests/plugins/net_nan.la \
     tests/plugins/newer_minor.la \
@@ -389,6 +390,7 @@ tests_plugins_mistakes_manners_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_map_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_pieces_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_pose_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_mistakes_formula_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_mistakes_stated_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_net_nan_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_newer_minor_la_LDFLAGS = $(test_plugin_ldflags)

@@ -32,6 +32,7 @@ tools_check = \
     tools/check/domain.c tools/check/domain.h \
     tools/check/environment.c tools/check/environment.h \
     tools/check/file.c tools/check/file.h \
+    tools/check/formulas.c tools/check/formulas.h \
     tools/check/guard.c tools/check/guard.h \
     tools/check/inclusions.c tools/check/inclusions.h \
     tools/check/list.c tools/check/list.h \
@@ -42,6 +43,7 @@ tools_check = \
     tools/check/operand.c tools/check/operand.h \
     tools/check/malloc_watch.c tools/check/malloc_watch.h \
     tools/check/map_operand.c tools/check/map_operand.h \
+    tools/check/own_formula.c tools/check/own_formula.h \
     tools/check/pair.c tools/check/pair.h \
     tools/check/pieces.c tools/check/pieces.h \
     tools/check/points.c tools/check/points.h \

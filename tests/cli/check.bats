@@ -93,6 +93,16 @@ blamed() {
     [[ $output == *'pass  nets '*comparisons* ]]
 }
 
+@test "a stated formula that differs from eval, in a digit or a part, is refused" {
+    shows formula formula digit_wrong "but by the type's formula it is surely "
+    shows formula formula second_part_wrong "but by the type's formula it is surely "
+    shows formula formula turn_of_6_28 "by the type's formula u is in [0, 6.28"
+    shows formula formula part_left_out "no part of the type's formula holds for "
+    shows formula formula name_unknown "'q' is neither a variable"
+    run -6 "$IMPINGE" check "$liars/mistakes_formula.so" --only formula --json
+    json '[.types[] | select(.checks[].verdict != "fail").name] == ["one_part", "two_parts"]'
+}
+
 @test "distances that are too large or too sure are exposed, and true ones are not" {
     exposes distances liar_distance 'distance claims at least '
     exposes distances liar_distance_remainder 'distance claims at least '

@@ -16,6 +16,7 @@
 #include "tools/check/domain.h"
 #include "tools/check/environment.h"
 #include "tools/check/file.h"
+#include "tools/check/formulas.h"
 #include "tools/check/inclusions.h"
 #include "tools/check/nets.h"
 #include "tools/check/pieces.h"
@@ -64,15 +65,16 @@ static const check all[] = {
     {.name = "nets", .of_subject = nets_check, .of_bounds = true, .is_repeated_late = true},
     {.name = "poses", .of_subject = poses_check, .of_bounds = true, .is_repeated_late = true},
     {.name = "distances", .of_subject = distances_check, .of_bounds = true},
+    {.name = "formula", .of_stage = formula_check},
     {.name = "proof", .of_subject = proof_check, .of_bounds = true},
     {.name = "tightness", .of_subject = tightness_check},
     {.name = "cost", .of_subject = cost_check},
 };
 const char *const check_names[] = {
-    "exports", "factories", "build",       "parameters", "arguments",   "memory",
-    "finite",  "domain",    "determinism", "state",      "allocations", "environment",
-    "buffers", "pieces",    "rates",       "errors",     "inclusions",  "nets",
-    "poses",   "distances", "proof",       "tightness",  "cost",        NULL};
+    "exports", "factories",   "build",      "parameters",  "arguments",   "memory",    "finite",
+    "domain",  "determinism", "state",      "allocations", "environment", "buffers",   "pieces",
+    "rates",   "errors",      "inclusions", "nets",        "poses",       "distances", "formula",
+    "proof",   "tightness",   "cost",       NULL};
 
 _Static_assert(sizeof all / sizeof *all + 1 == sizeof check_names / sizeof *check_names,
                "a name for each");

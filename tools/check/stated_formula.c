@@ -123,6 +123,39 @@ formula *stated_formula(const imp_registry *registry, const imp_type_info *type,
     return f;
 }
 
+/* --- Texts of types --------------------------------------------------------------------------- */
+
+struct stated_scope {
+    stated from;
+};
+
+stated_scope *stated_scope_new(const imp_registry *registry, const imp_type_info *type,
+                               const char *stage)
+{
+    stated_scope *scope = calloc(1, sizeof *scope);
+    if (scope == NULL) return NULL;
+    scope->from.type = type;
+    gather_constants(&scope->from, registry, stage);
+    return scope;
+}
+
+formula *stated_scope_read(const stated_scope *scope, const char *text,
+                           formula_range range[BOX_DIMS], char *fault, size_t size)
+{
+    const stated *s = &scope->from;
+    const formula_scope names = {.variables = s->type->kind == IMP_TYPE_SURFACE ? "uvt" : "xyzt",
+                                 .count = s->count,
+                                 .name = (const char *const *)s->name,
+                                 .value = s->value};
+    return formula_read_part(&names, text, range, fault, size);
+}
+
+void stated_scope_free(stated_scope *scope)
+{
+    if (scope != NULL) stated_free(&scope->from);
+    free(scope);
+}
+
 /* --- Domains ---------------------------------------------------------------------------------- */
 
 /* One end, without variables. */

@@ -19,6 +19,15 @@
 formula *stated_formula(const imp_registry *registry, const imp_type_info *type, const char *stage,
                         const char *given, char *fault, size_t size);
 
+/* The constants of a stage, for texts that its type states (imp_surface_type.formula): parts are
+ * read as by formula_read_part. NULL: no memory. The caller frees the scope and the formulas. */
+typedef struct stated_scope stated_scope;
+stated_scope *stated_scope_new(const imp_registry *registry, const imp_type_info *type,
+                               const char *stage);
+formula *stated_scope_read(const stated_scope *scope, const char *text,
+                           formula_range range[BOX_DIMS], char *fault, size_t size);
+void stated_scope_free(stated_scope *scope);
+
 /* Reads the domain that was stated: "LO,HI; LO,HI" for u and v, and perhaps "; LO,HI" for t; for a
  * map, t alone. Ends are formulas without variables: "0,2*pi; -pi/2,pi/2". */
 typedef struct said_domain {

@@ -63,3 +63,15 @@ char *stage_with(const imp_registry *registry, imp_type_kind kind, const char *s
     json_decref(values);
     return text;
 }
+
+char *stage_print(json_t *values)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (out == NULL) return NULL;
+    const bool whole = print_stage(out, values) == 0;
+    if (fclose(out) == 0 && whole) return text;
+    free(text);
+    return NULL;
+}

@@ -19,4 +19,7 @@ json_t *stage_value(const json_t *values, const imp_parameter *row);
 char *stage_with(const imp_registry *registry, imp_type_kind kind, const char *stage,
                  const char *parameter, const char *value);
 
+/* The stage that has these values. Free it. NULL: no memory. */
+char *stage_print(json_t *values);
+
 #endif

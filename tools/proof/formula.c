@@ -6,19 +6,40 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "tools/proof/steps.h"
 
-formula *formula_read(const formula_scope *scope, const char *const text[3], char *fault,
-                      size_t size)
+/* Makes room for the values of a formula that was read, or frees what is left of one that was
+ * not. */
+static formula *finished(formula *f, bool read, char *fault, size_t size)
 {
-    formula *f = calloc(1, sizeof *f);
-    const bool read = f != NULL && reader_read(scope, text, f, fault, size);
     if (read) f->value = calloc((size_t)f->count, sizeof *f->value);
     if (read && f->value != NULL) return f;
     if (f == NULL || read) snprintf(fault, size, "memory ran out");
     formula_free(f);
     return NULL;
+}
+
+formula *formula_read(const formula_scope *scope, const char *const text[3], char *fault,
+                      size_t size)
+{
+    formula *f = calloc(1, sizeof *f);
+    return finished(f, f != NULL && reader_read(scope, text, f, fault, size), fault, size);
+}
+
+formula *formula_read_part(const formula_scope *scope, const char *text,
+                           formula_range ranges[BOX_DIMS], char *fault, size_t size)
+{
+    formula *f = calloc(1, sizeof *f);
+    return finished(f, f != NULL && reader_read_part(scope, text, f, ranges, fault, size), fault,
+                    size);
+}
+
+const char *formula_next_part(const char *text)
+{
+    const char *sign = strchr(text, '|');
+    return sign != NULL ? sign + 1 : NULL;
 }
 
 void formula_free(formula *f)
@@ -83,4 +104,25 @@ void formula_jets(formula *f, const jet *variables, jet out[3])
             s->kind == STEP_VARIABLE ? variables[s->operand[0]] : computed(f, s, variables[0].n);
     }
     for (int i = 0; i < 3; ++i) out[i] = f->value[f->out[i]];
+}
+
+bool formula_constant(formula *f, int which, ld_interval *value)
+{
+    bool *has_variable = calloc((size_t)which + 1, sizeof *has_variable);
+    jet *all = calloc((size_t)which + 1, sizeof *all);
+    bool is_known = has_variable != NULL && all != NULL;
+    f->value = all;
+    for (int k = 0; k <= which && is_known; ++k) {
+        const step *s = &f->steps[k];
+        has_variable[k] = s->kind == STEP_VARIABLE;
+        for (int i = 0; i < s->count; ++i)
+            has_variable[k] = has_variable[k] || has_variable[s->operand[i]];
+        if (!has_variable[k]) all[k] = computed(f, s, 0);
+    }
+    is_known = is_known && !has_variable[which];
+    if (is_known) *value = all[which].v;
+    f->value = NULL;
+    free(all);
+    free(has_variable);
+    return is_known;
 }

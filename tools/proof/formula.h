@@ -36,6 +36,21 @@ formula *formula_read(const formula_scope *scope, const char *const text[3], cha
                       size_t size);
 void formula_free(formula *f);
 
+/* The range of a variable in a part of a text: ends may be infinite. */
+typedef struct formula_range {
+    bool is_said;
+    ld_interval lo, hi;
+} formula_range;
+
+/* The next part of a text as types state it (imp_surface_type.formula: ranges, definitions and
+ * three formulas, parts divided by '|'), or NULL after the last. */
+const char *formula_next_part(const char *text);
+
+/* Reads the first part of the text, and the ranges of its variables, in their order. NULL: `fault`
+ * says why. The caller frees the formula. */
+formula *formula_read_part(const formula_scope *scope, const char *text,
+                           formula_range ranges[BOX_DIMS], char *fault, size_t size);
+
 /* x, y, z from jets of the variables. Not thread-safe: the formula stores intermediate values. */
 void formula_jets(formula *f, const jet *variables, jet out[3]);
 

@@ -10,13 +10,21 @@
 
 #include "tools/proof/steps.h"
 
-enum { DEPTH_MAX = 200, ARGUMENTS_MAX = 16 };
+enum { DEPTH_MAX = 200, ARGUMENTS_MAX = 16, WORD_SIZE = 64 };
+
+/* What a part of a text calls a name of its own. */
+typedef struct defined_name {
+    char text[WORD_SIZE];
+    int step;
+} defined_name;
 
 typedef struct reader {
     const formula_scope *scope;
     formula *f;
     const char *text, *at;
     int depth;
+    defined_name *defined;
+    int defined_count, defined_capacity;
     char *fault; /* empty: none. Afterwards the text counts as ended. */
     size_t size;
 } reader;
@@ -168,11 +176,20 @@ static constants constants_text(const formula_scope *s)
     return c;
 }
 
+static const defined_name *find_defined(const reader *r, const char *word)
+{
+    for (int k = 0; k < r->defined_count; ++k)
+        if (strcmp(r->defined[k].text, word) == 0) return &r->defined[k];
+    return NULL;
+}
+
 static int read_name(reader *r, const char *word)
 {
     const formula_scope *s = r->scope;
     const char *variable = word[1] == '\0' ? strchr(s->variables, word[0]) : NULL;
     if (variable != NULL) return (int)(variable - s->variables);
+    const defined_name *own = find_defined(r, word);
+    if (own != NULL) return own->step;
     for (size_t k = 0; k < s->count; ++k)
         if (strcmp(s->name[k], word) == 0) return number(r, s->value[k]);
     if (strcmp(word, "pi") == 0) return add_step(r, (step){.kind = STEP_PI});
@@ -197,15 +214,22 @@ static int read_call(reader *r, const char *word)
     return apply(r, word, argument, count);
 }
 
-static int read_word(reader *r)
+/* False: there is no word here, or one that is too long. */
+static bool take_word(reader *r, char word[WORD_SIZE])
 {
-    char word[64];
     const size_t length = strspn(r->at, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"
                                         "0123456789");
-    if (length == 0 || length >= sizeof word) return fail(r, "expected a number, a name or '('");
+    if (length == 0 || length >= WORD_SIZE) return false;
     memcpy(word, r->at, length);
     word[length] = '\0';
     r->at += length;
+    return true;
+}
+
+static int read_word(reader *r)
+{
+    char word[WORD_SIZE];
+    if (!take_word(r, word)) return fail(r, "expected a number, a name or '('");
     return take(r, '(') ? read_call(r, word) : read_name(r, word);
 }
 
@@ -270,6 +294,14 @@ static int read_sum(reader *r)
     }
 }
 
+/* --- Texts ------------------------------------------------------------------------------------ */
+
+static void add_variables(reader *r)
+{
+    for (int j = 0; r->scope->variables[j] != '\0'; ++j)
+        add_step(r, (step){.kind = STEP_VARIABLE, .operand = {j}, .number = j});
+}
+
 static void read_text(reader *r, const char *text, int *out)
 {
     r->text = r->at = text;
@@ -282,8 +314,118 @@ bool reader_read(const formula_scope *scope, const char *const text[3], formula 
 {
     reader r = {.scope = scope, .f = f, .fault = fault, .size = size};
     fault[0] = '\0';
-    for (int j = 0; scope->variables[j] != '\0'; ++j)
-        add_step(&r, (step){.kind = STEP_VARIABLE, .operand = {j}, .number = j});
+    add_variables(&r);
     for (int i = 0; i < 3 && fault[0] == '\0'; ++i) read_text(&r, text[i], &f->out[i]);
+    return fault[0] == '\0';
+}
+
+/* --- Parts of texts --------------------------------------------------------------------------- */
+
+static bool is_function(const char *word)
+{
+    static const char *const composed[] = {"log2", "log10", "exp2", "clamp", "lerp"};
+    for (size_t k = 0; k < sizeof functions / sizeof *functions; ++k)
+        if (strcmp(functions[k].text, word) == 0) return true;
+    for (size_t k = 0; k < sizeof composed / sizeof *composed; ++k)
+        if (strcmp(composed[k], word) == 0) return true;
+    return false;
+}
+
+static void define(reader *r, const char *word)
+{
+    const bool is_variable = word[1] == '\0' && strchr(r->scope->variables, word[0]) != NULL;
+    if (is_variable || is_function(word) || find_defined(r, word) != NULL ||
+        strspn(word, "0123456789_") > 0)
+        fail(r, "'%s' cannot be defined: it %s", word,
+             is_variable ? "is a variable" : "has a meaning already, or begins with no letter");
+    const int value = read_sum(r);
+    if (r->fault[0] != '\0') return;
+    if (r->defined_count == r->defined_capacity) {
+        const int wanted = 2 * r->defined_capacity + 16;
+        defined_name *grown = realloc(r->defined, (size_t)wanted * sizeof *grown);
+        if (grown == NULL) {
+            fail(r, "memory ran out");
+            return;
+        }
+        r->defined = grown;
+        r->defined_capacity = wanted;
+    }
+    memcpy(r->defined[r->defined_count].text, word, strlen(word) + 1);
+    r->defined[r->defined_count++].step = value;
+}
+
+/* One end of a range, whose steps hold no variable. */
+static bool read_end(reader *r, ld_interval *end)
+{
+    bool is_negative = false;
+    const char *from = r->at;
+    char word[WORD_SIZE];
+    for (; peek(r) == '+' || peek(r) == '-'; ++r->at) is_negative ^= *r->at == '-';
+    if (take_word(r, word) && strcmp(word, "inf") == 0) {
+        *end = ld_interval_of(is_negative ? -INFINITY : INFINITY);
+        return true;
+    }
+    r->at = from;
+    const int value = read_sum(r);
+    if (r->fault[0] != '\0') return false;
+    if (!formula_constant(r->f, value, end)) fail(r, "an end of a range has variables in it");
+    return r->fault[0] == '\0';
+}
+
+static void read_range(reader *r, const char *word, formula_range *ranges)
+{
+    const char *variable = word[1] == '\0' ? strchr(r->scope->variables, word[0]) : NULL;
+    if (variable == NULL) {
+        fail(r, "'%s' is no variable (%s)", word, r->scope->variables);
+        return;
+    }
+    formula_range *range = &ranges[variable - r->scope->variables];
+    if (range->is_said) fail(r, "the range of %s is said twice", word);
+    range->is_said = true;
+    if (!take(r, '[') || !read_end(r, &range->lo) || !take(r, ',') || !read_end(r, &range->hi) ||
+        !take(r, ']'))
+        fail(r, "expected a range, [LO, HI]");
+    else if (range->lo.lo > range->hi.hi)
+        fail(r, "the range of %s ends before it begins", word);
+}
+
+/* Reads a definition or a range; false: it is a coordinate, of which nothing has been read. */
+static bool read_item(reader *r, formula_range *ranges)
+{
+    char word[WORD_SIZE];
+    peek(r);
+    const char *from = r->at;
+    if (take_word(r, word)) {
+        if (take(r, '=')) {
+            define(r, word);
+            return true;
+        }
+        char in[WORD_SIZE];
+        peek(r);
+        if (take_word(r, in) && strcmp(in, "in") == 0) {
+            read_range(r, word, ranges);
+            return true;
+        }
+    }
+    r->at = from;
+    return false;
+}
+
+bool reader_read_part(const formula_scope *scope, const char *text, formula *f,
+                      formula_range ranges[BOX_DIMS], char *fault, size_t size)
+{
+    reader r = {.scope = scope, .f = f, .fault = fault, .size = size, .text = text, .at = text};
+    int coordinates = 0;
+    fault[0] = '\0';
+    memset(ranges, 0, BOX_DIMS * sizeof *ranges);
+    add_variables(&r);
+    for (;;) {
+        if (coordinates > 0 || !read_item(&r, ranges)) f->out[coordinates++] = read_sum(&r);
+        if (coordinates == 3 || !take(&r, ';')) break;
+    }
+    if (fault[0] == '\0' && (coordinates < 3 || (peek(&r) != '\0' && peek(&r) != '|')))
+        fail(&r, coordinates < 3 ? "expected three formulas, with ';' between them"
+                                 : "expected an operator or the end");
+    free(r.defined);
     return fault[0] == '\0';
 }

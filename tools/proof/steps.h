@@ -27,7 +27,7 @@ typedef enum step_kind {
     STEP_FUNCTION
 } step_kind;
 
-enum { STEPS_MAX = 4096 };
+enum { STEPS_MAX = 16384 };
 
 typedef struct step {
     step_kind kind;
@@ -41,6 +41,13 @@ struct formula {
     step steps[STEPS_MAX];
     jet *value; /* of each step */
 };
+
+/* Computes a step that depends on no variable. False: it depends on one. */
+bool formula_constant(formula *f, int which, ld_interval *value);
+
+/* Reads one part of a text, as formula_read_part. */
+bool reader_read_part(const formula_scope *scope, const char *text, formula *f,
+                      formula_range ranges[BOX_DIMS], char *fault, size_t size);
 
 /* Reads the texts. False: `fault` says why. */
 bool reader_read(const formula_scope *scope, const char *const text[3], formula *f, char *fault,
