@@ -157,6 +157,7 @@ plugins_libcommon_la_SOURCES = \
     plugins/common/sinc.c plugins/common/sinc.h \
     plugins/common/spin.c plugins/common/spin.h \
     plugins/common/spline.c plugins/common/spline.h plugins/common/spline_set.c \
+    plugins/common/spline_text.c \
     plugins/common/superquadric.c plugins/common/superquadric.h
 plugins_libcommon_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 plugins_libcommon_la_LDFLAGS =
@@ -197,6 +198,7 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/patch_net.c plugins/patch/patch_net.h \
     plugins/patch/patch_rate.c plugins/patch/patch_rate.h \
     plugins/patch/patch_series.c plugins/patch/patch_series.h \
+    plugins/patch/patch_text.c plugins/patch/patch_text.h \
     plugins/patch/pieces.c plugins/patch/pieces.h \
     plugins/patch/rough_points.c plugins/patch/rough_points.h \
     plugins/patch/spline_patch.c plugins/patch/spline_patch.h \

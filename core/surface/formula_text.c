@@ -53,14 +53,15 @@ static imp_text_sink sink_of(text_buffer *b)
 
 static bool is_of_word(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-/* Whether the part, of so many characters, uses the name. Digits and letters that begin with a
- * digit or a point are a number. */
+/* Whether the part, of so many characters, uses the name and does not define it: a definition
+ * stands before all uses. Digits and letters that begin with a digit or a point are a number. */
 static bool uses(const char *part, size_t length, const char *name, size_t name_length)
 {
     for (size_t k = 0; k < length;) {
         const size_t from = k;
         while (k < length && (is_of_word(part[k]) || part[k] == '.')) ++k;
-        if (k - from == name_length && memcmp(part + from, name, name_length) == 0) return true;
+        if (k - from == name_length && memcmp(part + from, name, name_length) == 0)
+            return part[k + strspn(part + k, " \n")] != '=';
         if (k == from) ++k;
     }
     return false;

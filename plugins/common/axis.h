@@ -50,6 +50,17 @@ void axis_unit_of(const double axis[3], imp_model unit[3]);
 /* a x b. */
 void axis_cross(const imp_model a[3], const imp_model b[3], imp_model out[3]);
 
+/* Formulas of maps about an axis with the parameters `axis` and `center`: definitions of its unit
+ * vector, k0 ... k2, of (x,y,z) - center as w0 ... w2, and of k . w as d; then the three
+ * coordinates, turned by the angle A, which is defined between both. */
+#define AXIS_TEXT                                                                                  \
+    "l = hypot(axis0, axis1, axis2); k0 = axis0/l; k1 = axis1/l; k2 = axis2/l; "                   \
+    "w0 = x - center0; w1 = y - center1; w2 = z - center2; d = k0*w0 + k1*w1 + k2*w2; "
+#define AXIS_TURN_TEXT                                                                             \
+    "C = cos(A); S = sin(A); center0 + k0*d + C*(w0 - k0*d) + S*(k1*w2 - k2*w1); "                 \
+    "center1 + k1*d + C*(w1 - k1*d) + S*(k2*w0 - k0*w2); "                                         \
+    "center2 + k2*d + C*(w2 - k2*d) + S*(k0*w1 - k1*w0)"
+
 typedef struct axis_frame {
     near_constant unit[3], along[3][3], across[3][3], turned[3][3];
 } axis_frame;

@@ -5,6 +5,7 @@
 
 #include "plugins/common/csv.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,6 +90,7 @@ static imp_status course_read_polynomial(course *c, const course_question *q)
     const imp_value *rate = &q->v[COURSE_RATE], *coefficients = &q->v[COURSE_COEFFICIENTS];
     c->memory = malloc(width_of(q) * polynomial_count(rate, coefficients) * sizeof(double));
     if (c->memory == NULL) return IMP_STATUS_INTERNAL;
+    c->numbers = width_of(q) * polynomial_count(rate, coefficients);
     c->polynomial = polynomial_read(rate, coefficients, width_of(q), (double *)c->memory);
     return IMP_STATUS_OK;
 }
@@ -216,6 +218,27 @@ static bool course_set_spline(const course *c, const course_table *t, const cour
     return spline_set_hermite(&c->table, key, key + all, key + 2 * all, piece);
 }
 
+/* Copies the table's numbers, and the velocities and accelerations that were given, to where there
+ * is room for them. */
+static void keep_given(course *c, const course_table *t, const course_question *q, double *room)
+{
+    const size_t width = t->numbers.columns - 1;
+    const imp_value *further[] = {&q->v[COURSE_VELOCITIES], &q->v[COURSE_ACCELERATIONS]};
+    c->given[0] = room;
+    for (size_t i = 0; i < t->numbers.rows; ++i, room += width)
+        memcpy(room, &t->numbers.number[i * (width + 1) + 1], width * sizeof *room);
+    for (int k = 0; k < 2; ++k) {
+        if (!imp_is_given(further[k])) continue;
+        c->given[k + 1] = room;
+        memcpy(room, further[k]->number, further[k]->count * sizeof *room);
+        room += further[k]->count;
+    }
+    for (size_t k = 0; k < width; ++k) {
+        c->from[k] = t->from[k + 1];
+        c->to[k] = t->to[k + 1];
+    }
+}
+
 /* The spline of a checked table. */
 static imp_status course_set_table(course *c, const course_table *t, const course_question *q,
                                    bool linear)
@@ -223,8 +246,9 @@ static imp_status course_set_table(course *c, const course_table *t, const cours
     const size_t width = t->numbers.columns - 1, keys = t->numbers.rows;
     const bool sloped = imp_is_given(&q->v[COURSE_VELOCITIES]);
     const int degree = imp_is_given(&q->v[COURSE_ACCELERATIONS]) ? SPLINE_QUINTIC : SPLINE_CUBIC;
+    const size_t bytes = spline_bytes(degree, keys, width, 0);
     imp_interval *key = malloc(3 * keys * width * sizeof *key);
-    c->memory = malloc(spline_bytes(degree, keys, width, 0));
+    c->memory = malloc(bytes + COURSE_ORDERS * keys * width * sizeof(double));
     if (key == NULL || c->memory == NULL) {
         free(key);
         return IMP_STATUS_INTERNAL;
@@ -232,6 +256,7 @@ static imp_status course_set_table(course *c, const course_table *t, const cours
     c->table = spline_place(degree, keys, width, 0, c->memory);
     c->table.kinked = linear && !sloped;
     fill_times(t, c->table.time);
+    keep_given(c, t, q, (double *)(void *)((char *)c->memory + bytes));
     size_t piece;
     const bool good = course_set_spline(c, t, q, key, &piece);
     free(key);
@@ -310,4 +335,47 @@ void course_at(const course *c, size_t width, imp_model t, imp_model *out)
         spline_models(&c->table, c->hold ? spline_hold(&c->table, t) : t, out, node);
     else
         for (size_t i = 0; i < width; ++i) out[i] = polynomial_at(&c->polynomial, i, t);
+}
+
+/* --- As text ---------------------------------------------------------------------------------- */
+
+/* What spline_write_part asks for: a number of the table in units of the host. */
+static void write_key(const void *of, int order, size_t key, size_t lane, const imp_text_sink *to)
+{
+    const course *c = of;
+    const unit *from = &c->from[lane], *into = &c->to[lane];
+    imp_add_number(to, c->given[order][key * c->table.lanes + lane]);
+    if (from->top * into->bottom == into->top * from->bottom && from->is_of_pi == into->is_of_pi)
+        return;
+    imp_add_text(to, "*");
+    imp_add_number(to, from->top);
+    imp_add_text(to, "*");
+    imp_add_number(to, into->bottom);
+    imp_add_text(to, "/(");
+    imp_add_number(to, from->bottom);
+    imp_add_text(to, "*");
+    imp_add_number(to, into->top);
+    imp_add_text(to, from->is_of_pi ? ")*pi" : ")");
+}
+
+void course_write(const course *c, const char *name, const char *before, const char *after,
+                  const imp_text_sink *to)
+{
+    const char digits[COURSE_WIDTH_MAX] = {'0', '1', '2'};
+    const int orders = c->given[1] == NULL ? 0 : c->given[2] == NULL ? 1 : 2;
+    const spline_text text = {&c->table, c->hold, orders, name, write_key, c};
+    for (size_t k = 0; c->polynomial.count == 0 && k < c->table.pieces; ++k) {
+        imp_add_text(to, k > 0 ? "| " : "");
+        imp_add_text(to, before);
+        spline_write_part(&text, k, to);
+        imp_add_text(to, after);
+    }
+    if (c->polynomial.count == 0) return;
+    imp_add_text(to, before);
+    for (size_t i = 0; i < COURSE_WIDTH_MAX && i * c->polynomial.count < c->numbers; ++i) {
+        char numbered[32];
+        snprintf(numbered, sizeof numbered, "%s%c", name, digits[i]);
+        polynomial_define(&c->polynomial, i, numbered, to);
+    }
+    imp_add_text(to, after);
 }

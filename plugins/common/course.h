@@ -72,11 +72,18 @@ enum {
                     "of a table: whether its ends hold before and after it; else the map is "      \
                     "defined between them only")
 
+enum { COURSE_WIDTH_MAX = 3, COURSE_ORDERS = 3 };
+
 typedef struct course {
     polynomial polynomial; /* count == 0: it is a table */
+    size_t numbers;        /* coefficients of all of its components */
     spline table;
     bool hold;
     void *memory;
+    /* Of a table: its numbers, row by row, before their units are converted, and its velocities and
+     * accelerations or NULL. */
+    const double *given[COURSE_ORDERS];
+    unit from[COURSE_WIDTH_MAX], to[COURSE_WIDTH_MAX]; /* units of the columns that they are from */
 } course;
 
 /* Frees what course_read took. */
@@ -96,6 +103,11 @@ void course_span(const course *c, double *lo, double *hi);
 
 /* Whether it is defined at all times from one to the other. */
 bool course_is_defined(const course *c, double from, double to);
+
+/* Prints formulas of a map: for each span of times in which the course is one formula a part, which
+ * is `before`, definitions of the course's numbers as "name0" ..., and `after`. */
+void course_write(const course *c, const char *name, const char *before, const char *after,
+                  const imp_text_sink *to);
 
 /* Computes all its numbers at time t. Precondition: it is defined there. */
 void course_at(const course *c, size_t width, imp_model t, imp_model *out);

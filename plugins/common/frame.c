@@ -71,3 +71,33 @@ imp_model frame_across_squared(const frame *f, const imp_model m[3])
     const imp_model flat[2] = {axis_dot(f->a, m), axis_dot(f->b, m)};
     return sum_of_squares(flat, 2);
 }
+
+/* --- As text ---------------------------------------------------------------------------------- */
+
+static void define_vector(const imp_text_sink *to, const char *name, const near_constant v[3])
+{
+    for (size_t i = 0; i < 3; ++i) imp_define_at(to, name, i, v[i].value);
+}
+
+/* What frame_about does, as formulas: by the coordinate axis that k is farthest from. */
+void frame_write(const frame *f, const imp_text_sink *to)
+{
+    static const char *const across[3] = {"h = hypot(k1, k2); a0 = 0; a1 = k2/h; a2 = -k1/h; ",
+                                          "h = hypot(k0, k2); a0 = -k2/h; a1 = 0; a2 = k0/h; ",
+                                          "h = hypot(k0, k1); a0 = k1/h; a1 = -k0/h; a2 = 0; "};
+    int least = 0;
+    bool is_exact = true;
+    for (int i = 0; i < 3; ++i) {
+        if (fabs(f->k[i].value) < fabs(f->k[least].value)) least = i;
+        is_exact = is_exact && f->a[i].error == 0 && f->b[i].error == 0 && f->k[i].error == 0;
+    }
+    if (is_exact) {
+        define_vector(to, "a", f->a);
+        define_vector(to, "b", f->b);
+        define_vector(to, "k", f->k);
+        return;
+    }
+    imp_add_text(to, "l = hypot(w0, w1, w2); k0 = w0/l; k1 = w1/l; k2 = w2/l; ");
+    imp_add_text(to, across[least]);
+    imp_add_text(to, "b0 = k1*a2 - k2*a1; b1 = k2*a0 - k0*a2; b2 = k0*a1 - k1*a0; ");
+}

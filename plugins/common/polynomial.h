@@ -3,6 +3,7 @@
 #ifndef PLUGINS_COMMON_POLYNOMIAL_H
 #define PLUGINS_COMMON_POLYNOMIAL_H
 
+#include <impinge/formula_text.h>
 #include <impinge/model.h>
 #include <impinge/plugin.h>
 
@@ -70,6 +71,21 @@ static inline polynomial polynomial_spread(const double *number, size_t count, s
 #define ROW_IN_TIME(NAME, UNIT, DEFAULT, DOC)                                                      \
     IMP_ROW_NUMBERS(NAME, UNIT, DEFAULT, IMP_PARAMETER_SCALAR_OK,                                  \
                     DOC "; or coefficients of t^0, t^1, t^2 ...")
+
+/* Prints "name = ...; ", component i as a formula in t. */
+static inline void polynomial_define(const polynomial *p, size_t i, const char *name,
+                                     const imp_text_sink *to)
+{
+    imp_add_text(to, name);
+    for (size_t k = 0; k < p->count; ++k) {
+        imp_add_text(to, k == 0 ? " = " : " + ");
+        imp_add_number(to, p->coefficient[i * p->count + k]);
+        if (k > 0) imp_add_text(to, "*t");
+        if (k > 1) imp_add_text(to, "^");
+        if (k > 1) imp_add_whole(to, k);
+    }
+    imp_add_text(to, "; ");
+}
 
 /* Computes component i at time t. */
 static inline imp_model polynomial_at(const polynomial *p, size_t i, imp_model t)

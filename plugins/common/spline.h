@@ -3,6 +3,7 @@
 #ifndef PLUGINS_COMMON_SPLINE_H
 #define PLUGINS_COMMON_SPLINE_H
 
+#include <impinge/formula_text.h>
 #include <impinge/model.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -107,6 +108,22 @@ enum { SPLINE_WIDTH_MAX = 32 };
 /* The time at which a track stands that holds its ends: t, or the end of the track nearest to it.
  * Where t crosses an end this has a kink, and the rate 1 on its side of it. */
 imp_model spline_hold(const spline *s, imp_model t);
+
+/* What is printed of a spline: lanes by `name` and their number; keys by the callback, their values
+ * (order 0), and the slopes (1) and second derivatives (2) that are given. */
+typedef struct spline_text {
+    const spline *of;
+    bool hold;        /* its ends hold before and after it */
+    int orders;       /* 0: slopes follow from the values; 1: they are given; 2: g'', too */
+    const char *name; /* of the lanes: "name0" ... */
+    void (*write_key)(const void *context, int order, size_t key, size_t lane,
+                      const imp_text_sink *to);
+    const void *context;
+} spline_text;
+
+/* Prints the times of a piece, "t in [...]; ", and definitions of all lanes in it. The names t0, h,
+ * s and those that begin with the name of the lanes are used. */
+void spline_write_part(const spline_text *text, size_t piece, const imp_text_sink *to);
 
 /* Times from lo to hi, in the pieces first ... last; the middle m lies in the piece `at`. */
 typedef struct spline_span {

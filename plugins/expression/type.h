@@ -5,6 +5,7 @@
 
 #include "plugins/expression/expression.h"
 
+#include <impinge/formula_text.h>
 #include <impinge/plugin.h>
 
 /* What the surface and the map given by formulas share
@@ -63,6 +64,53 @@ static inline imp_status compile_texts(const imp_value *values, expression_scope
               : error.at == EXPRESSION_AT_CONSTANTS ? CONSTANTS
                                                     : -1;
     return imp_reject(why, row, -1, "%s", error.message);
+}
+
+/* --- As text ---------------------------------------------------------------------------------- */
+
+/* Prints the instance (imp_surface_type.formula): constants, domain and the three texts. lo and hi
+ * hold u, v and t of a surface, and of a map t alone. */
+static inline void write_texts(const imp_value *values, const double *lo, const double *hi,
+                               bool is_surface, const imp_text_sink *to)
+{
+    static const char *const variable[] = {"u", "v", "t"};
+    const imp_value *constants = &values[CONSTANTS];
+    for (size_t k = 0; k < constants->count; ++k)
+        imp_define(to, constants->string[k], constants->number[k]);
+    for (int j = is_surface ? 0 : 2; j < 3; ++j, ++lo, ++hi)
+        if (*lo > -INFINITY || *hi < INFINITY) imp_add_range(to, variable[j], *lo, *hi);
+    for (int i = TEXT_X; i <= TEXT_Z; ++i) {
+        imp_add_text(to, values[i].string[0]);
+        if (i < TEXT_Z) imp_add_text(to, "; ");
+    }
+}
+
+/* A text, and how much of it there is; `at` NULL: it is only measured. */
+typedef struct kept_text {
+    char *at;
+    size_t length;
+} kept_text;
+
+static inline void add_to_kept(const imp_text_sink *sink, const char *text, size_t size)
+{
+    kept_text *kept = (kept_text *)sink->host;
+    if (kept->at != NULL) memcpy(kept->at + kept->length, text, size);
+    kept->length += size;
+}
+
+/* Keeps what write_texts prints, for free(). NULL: no memory. */
+static inline char *keep_texts(const imp_value *values, const double *lo, const double *hi,
+                               bool is_surface)
+{
+    kept_text kept = {NULL, 0};
+    const imp_text_sink to = {
+        .struct_size = (uint32_t)sizeof to, .host = &kept, .add = add_to_kept};
+    write_texts(values, lo, hi, is_surface, &to);
+    kept = (kept_text){(char *)malloc(kept.length + 1), 0};
+    if (kept.at == NULL) return NULL;
+    write_texts(values, lo, hi, is_surface, &to);
+    kept.at[kept.length] = '\0';
+    return kept.at;
 }
 
 #endif

@@ -134,8 +134,27 @@ static void bend_formula(const void *self, imp_model x, imp_model y, imp_model z
 IMP_MAP_FORMULA(bend_formula)
 IMP_MAP_AT_ALL_TIMES(bend)
 
+/* A curvature that may be 0 has no formula without sin A / A, which the language lacks. */
+static imp_status bend_write_formula(const void *self, const imp_text_sink *to)
+{
+    const bend_instance *s = self;
+    if (s->curvature.count > 1 || s->curvature.coefficient[0] == 0) return IMP_STATUS_UNBOUNDED;
+    imp_define(to, "c", s->curvature.coefficient[0]);
+    imp_add_text(
+        to, AXIS_TEXT
+        "s0 = k1*along2 - k2*along1; s1 = k2*along0 - k0*along2; s2 = k0*along1 - k1*along0; "
+        "m = hypot(s0, s1, s2); n0 = s0/m; n1 = s1/m; n2 = s2/m; "
+        "a0 = n1*k2 - n2*k1; a1 = n2*k0 - n0*k2; a2 = n0*k1 - n1*k0; "
+        "Y = a0*w0 + a1*w1 + a2*w2; Z = n0*w0 + n1*w1 + n2*w2; L = clamp(Y, range0, range1); "
+        "A = c*L; p = sin(A)/c - Z*sin(A) + (Y - L)*cos(A); "
+        "q = (1 - cos(A))/c + Z*cos(A) + (Y - L)*sin(A); center0 + k0*d + a0*p + n0*q; "
+        "center1 + k1*d + a1*p + n1*q; center2 + k2*d + a2*p + n2*q");
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type bend = {
     IMP_MAP_FIELDS(bend, bend_formula),
+    .write_formula = bend_write_formula,
     .summary = "bends a rod into an arc within a range, straight beyond; may change in time",
     .equation =
         "w = (x,y,z) - center; k, a, n: unit vectors of axis, of along, of axis x along; Y = "

@@ -3,6 +3,7 @@
 
 #include "plugins/common/publish.h"
 #include "plugins/patch/ffd_model.h"
+#include "plugins/patch/patch_text.h"
 
 #include <impinge/formula.h>
 #include <impinge/plugin.h>
@@ -92,10 +93,12 @@ static void set_box(ffd_instance *s, const double *lo, const double *hi)
 static ffd_instance *allocate(const double *side, bool moves)
 {
     const size_t points = (size_t)(side[0] * side[1] * side[2]), lanes = moves ? 6 : 3;
-    ffd_instance *s = malloc(sizeof *s + points * (2 * lanes + 1) * sizeof(double));
+    const size_t numbers = points * (2 * lanes + 1);
+    ffd_instance *s = malloc(sizeof *s + (numbers + points * lanes) * sizeof(double));
     if (s == NULL) return NULL;
     memset(s, 0, sizeof *s);
     s->moves = moves;
+    s->given = s->memory + numbers;
     for (int j = 0; j < 3; ++j) s->lattice.degree[j] = (int)side[j] - 1;
     for (size_t k = 0; k < lanes; ++k) {
         lattice_lane *lane = k < 3 ? &s->shape[k] : &s->drift[k - 3];
@@ -119,6 +122,10 @@ static imp_status ffd_create(const imp_value *values, void **self, imp_create_er
         set_shape(s, values[POINTS].number, axis, s->memory);
         if (moves) set_drift(s, values[VELOCITIES].number, axis, s->memory);
     }
+    memcpy(s->given, values[POINTS].number, values[POINTS].count * sizeof *s->given);
+    if (moves)
+        memcpy(s->given + values[POINTS].count, values[VELOCITIES].number,
+               values[VELOCITIES].count * sizeof *s->given);
     *self = s;
     return IMP_STATUS_OK;
 }
@@ -206,8 +213,59 @@ static imp_status ffd_apply(const void *self, const imp_model in[4], imp_model o
     return ffd_formula_apply(self, in, out);
 }
 
+/* --- As text ---------------------------------------------------------------------------------- */
+
+/* sum_k C_k(c) (points + t velocities), from control point `at` on. */
+static void write_line(const ffd_instance *s, size_t at, size_t axis, const imp_text_sink *to)
+{
+    const double *velocities = s->given + 3 * lattice_points(&s->lattice);
+    for (size_t k = 0; k <= (size_t)s->lattice.degree[2]; ++k) {
+        if (k > 0) imp_add_text(to, " + ");
+        patch_add_name(to, 'C', k, "*(");
+        imp_add_number(to, s->given[3 * (at + k) + axis]);
+        if (s->moves) imp_add_text(to, " + t*");
+        if (s->moves) imp_add_number(to, velocities[3 * (at + k) + axis]);
+        imp_add_text(to, ")");
+    }
+}
+
+static void write_sum(const ffd_instance *s, size_t axis, const imp_text_sink *to)
+{
+    const size_t rows = (size_t)s->lattice.degree[1] + 1, side = (size_t)s->lattice.degree[2] + 1;
+    for (size_t i = 0; i <= (size_t)s->lattice.degree[0]; ++i) {
+        imp_add_text(to, " + ");
+        patch_add_name(to, 'A', i, "*(");
+        for (size_t j = 0; j < rows; ++j) {
+            if (j > 0) imp_add_text(to, " + ");
+            patch_add_name(to, 'B', j, "*(");
+            write_line(s, (i * rows + j) * side, axis, to);
+            imp_add_text(to, ")");
+        }
+        imp_add_text(to, ")");
+    }
+}
+
+/* The Bernstein polynomials reproduce the undeformed lattice: without it, x less its own place in
+ * the box is left. */
+static imp_status ffd_write_formula(const void *self, const imp_text_sink *to)
+{
+    static const char *const off[3] = {"x - (lo0 + a*(hi0 - lo0))", "; y - (lo1 + b*(hi1 - lo1))",
+                                       "; z - (lo2 + c*(hi2 - lo2))"};
+    const ffd_instance *s = self;
+    imp_add_text(to, "a = clamp((x - lo0)/(hi0 - lo0), 0, 1); "
+                     "b = clamp((y - lo1)/(hi1 - lo1), 0, 1); "
+                     "c = clamp((z - lo2)/(hi2 - lo2), 0, 1); ");
+    for (int j = 0; j < 3; ++j) bernstein_define(to, "ABC"[j], s -> lattice.degree[j], "abc"[j]);
+    for (size_t axis = 0; axis < 3; ++axis) {
+        imp_add_text(to, off[axis]);
+        write_sum(s, axis, to);
+    }
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type ffd = {
     IMP_MAP_FIELDS_OF("ffd", ffd, ffd, free, ffd_formula_rate),
+    .write_formula = ffd_write_formula,
     .summary = "free-form deformation: space follows a lattice of control points, which may move",
     .equation =
         "(x,y,z) + sum_ijk B_i(a) B_j(b) B_k(c) (points_ijk + t velocities_ijk - place_ijk); "

@@ -47,10 +47,11 @@ static const imp_parameter parameters[] = {
 enum { LANES_MAX = 7 };
 
 typedef struct keyframes_instance {
-    size_t position, rotation; /* number of lanes of either: 3 or 0, 4 or 0 */
-    bool hold;                 /* defined at all times: held at both ends */
-    imp_interval square;       /* range of |q|^2 */
-    spline path;               /* one further column if there are rotations: angular speed */
+    size_t position, rotation;           /* number of lanes of either: 3 or 0, 4 or 0 */
+    bool hold;                           /* defined at all times: held at both ends */
+    imp_interval square;                 /* range of |q|^2 */
+    const double *positions, *rotations; /* as given; NULL: none */
+    spline path; /* one further column if there are rotations: angular speed */
     imp_interval memory[];
 } keyframes_instance;
 
@@ -183,6 +184,17 @@ static size_t set_path(keyframes_instance *s, const imp_value *values, imp_inter
     return s->path.pieces;
 }
 
+/* Copies the keys as they were given, to where there is room for them. */
+static void keep_given(keyframes_instance *s, const imp_value *values, double *room)
+{
+    const imp_value *positions = &values[POSITIONS], *rotations = &values[ROTATIONS];
+    s->positions = s->position > 0 ? room : NULL;
+    s->rotations = s->rotation > 0 ? room + positions->count : NULL;
+    if (s->position > 0) memcpy(room, positions->number, positions->count * sizeof *room);
+    if (s->rotation > 0)
+        memcpy(room + positions->count, rotations->number, rotations->count * sizeof *room);
+}
+
 static imp_status keyframes_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check(values, why);
@@ -190,14 +202,15 @@ static imp_status keyframes_create(const imp_value *values, void **self, imp_cre
     const size_t position = imp_is_given(&values[POSITIONS]) ? 3 : 0;
     const size_t rotation = imp_is_given(&values[ROTATIONS]) ? 4 : 0;
     const size_t keys = values[TIMES].count, lanes = position + rotation;
-    keyframes_instance *s =
-        malloc(sizeof *s + spline_bytes(SPLINE_CUBIC, keys, lanes, rotation > 0));
+    const size_t bytes = spline_bytes(SPLINE_CUBIC, keys, lanes, rotation > 0);
+    keyframes_instance *s = malloc(sizeof *s + bytes + keys * lanes * sizeof(double));
     imp_interval *key = malloc(keys * lanes * sizeof *key);
     if (s != NULL && key != NULL) {
         s->position = position;
         s->rotation = rotation;
         s->hold = values[HOLD].number[0] != 0;
         s->path = spline_place(SPLINE_CUBIC, keys, lanes, rotation > 0, s->memory);
+        keep_given(s, values, (double *)(void *)((char *)s->memory + bytes));
         size_t piece = set_path(s, values, key);
         if (piece < keys - 1)
             status = imp_reject(
@@ -327,11 +340,70 @@ static imp_status keyframes_rigid(const void *self, const imp_model *time, imp_p
     return imp_pose_status(pose);
 }
 
+/* --- As text ---------------------------------------------------------------------------------- */
+
+/* A key's position, or its quaternion, of unit length and with the sign that it has in the path:
+ * that of the interval there, which may hold 0 only where the number is 0. */
+static void write_key(const void *of, int order, size_t key, size_t lane, const imp_text_sink *to)
+{
+    (void)order;
+    const keyframes_instance *s = of;
+    if (lane < s->position) {
+        imp_add_number(to, s->positions[3 * key + lane]);
+        return;
+    }
+    const double *q = s->rotations + 4 * key;
+    double sign = 1;
+    for (size_t j = 0; j < 4; ++j) {
+        const size_t piece = key < s->path.pieces ? key : key - 1;
+        const bool begins = key < s->path.pieces;
+        const imp_interval there =
+            spline_term(&s->path, piece, s->position + j, 0)[begins ? 0 : s->path.degree];
+        if (q[j] != 0 && (q[j] > 0) != (there.lo > 0)) sign = -1;
+    }
+    imp_add_number(to, sign * q[lane - s->position]);
+    imp_add_text(to, "/hypot(hypot(");
+    for (int j = 0; j < 4; ++j) {
+        imp_add_number(to, q[j]);
+        imp_add_text(to, j == 1 ? "), hypot(" : j == 3 ? "))" : ", ");
+    }
+}
+
+/* The path's lanes are named a0 ..., positions first; the quaternion is w, e0, e1, e2. */
+static void write_rotation(const keyframes_instance *s, const imp_text_sink *to)
+{
+    static const char *const name[4] = {"w = a", "e0 = a", "e1 = a", "e2 = a"};
+    for (size_t j = 0; j < 4; ++j) {
+        imp_add_text(to, name[j]);
+        imp_add_whole(to, s->position + j);
+        imp_add_text(to, "; ");
+    }
+    imp_add_text(to, "n = 2/(w^2 + e0^2 + e1^2 + e2^2); c0 = e1*z - e2*y; c1 = e2*x - e0*z; "
+                     "c2 = e0*y - e1*x; r0 = x + n*(w*c0 + e1*c2 - e2*c1); "
+                     "r1 = y + n*(w*c1 + e2*c0 - e0*c2); r2 = z + n*(w*c2 + e0*c1 - e1*c0); ");
+}
+
+static imp_status keyframes_write_formula(const void *self, const imp_text_sink *to)
+{
+    const keyframes_instance *s = self;
+    const spline_text text = {&s->path, s->hold, 0, "a", write_key, s};
+    for (size_t k = 0; k < s->path.pieces; ++k) {
+        if (k > 0) imp_add_text(to, "| ");
+        spline_write_part(&text, k, to);
+        if (s->rotation > 0) write_rotation(s, to);
+        imp_add_text(to, s->rotation == 0   ? "x + a0; y + a1; z + a2"
+                         : s->position == 0 ? "r0; r1; r2"
+                                            : "r0 + a0; r1 + a1; r2 + a2");
+    }
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type keyframes = {
     IMP_MAP_FIELDS(keyframes, keyframes),
     .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = keyframes_rigid,
     .span = keyframes_span,
+    .write_formula = keyframes_write_formula,
     .summary = "moves and turns smoothly through positions and orientations at given times",
     .equation =
         "R(q) (x,y,z) + p; p and q are cubics between keys, with the slope at each key from the "

@@ -17,6 +17,7 @@ static const imp_parameter parameters[] = {
 
 typedef struct map_instance {
     expression_program *program;
+    char *text;    /* what it prints */
     double lo, hi; /* times */
 } map_instance;
 
@@ -31,12 +32,20 @@ static imp_status compile(const imp_value *values, map_instance *s, imp_create_e
     return compile_texts(values, &scope, &s->program, why);
 }
 
+static imp_status keep(const imp_value *values, map_instance *s)
+{
+    s->text = keep_texts(values, &s->lo, &s->hi, false);
+    if (s->text == NULL) expression_free(s->program);
+    return s->text != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
+}
+
 static imp_status map_create(const imp_value *values, void **self, imp_create_error *why)
 {
     map_instance *s = malloc(sizeof *s);
     if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_status status = read_time(values, &s->lo, &s->hi, why);
     if (status == IMP_STATUS_OK) status = compile(values, s, why);
+    if (status == IMP_STATUS_OK) status = keep(values, s);
     if (status == IMP_STATUS_OK)
         *self = s;
     else
@@ -48,6 +57,7 @@ static void map_destroy(void *self)
 {
     map_instance *s = self;
     expression_free(s->program);
+    free(s->text);
     free(s);
 }
 
@@ -77,8 +87,15 @@ static imp_status map_eval(const void *self, size_t n, const double *p, double *
     return status;
 }
 
+static imp_status map_write_formula(const void *self, const imp_text_sink *to)
+{
+    imp_add_text(to, ((const map_instance *)self)->text);
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type map_formula = {
     IMP_TYPE_FIELDS(imp_map_type, "map-formula", map, map_destroy),
+    .write_formula = map_write_formula,
     .summary = "any motion or deformation, given by formulas",
     .equation = "(x, y, z) becomes three texts in x, y, z, t, in the language of the surface type "
                 "formula; a text that is absent leaves its coordinate unchanged",

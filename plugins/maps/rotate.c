@@ -140,11 +140,19 @@ static imp_status rotate_rigid(const void *self, const imp_model *t, imp_pose *p
     return imp_pose_status(pose);
 }
 
+static imp_status rotate_write_formula(const void *self, const imp_text_sink *to)
+{
+    const rotate_instance *s = self;
+    course_write(&s->angle, "a", AXIS_TEXT, "A = a0; " AXIS_TURN_TEXT, to);
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type rotate = {
     IMP_MAP_FIELDS_OF("rotate", rotate, rotate, rotate_destroy, rotate_rate),
     .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = rotate_rigid,
     .span = rotate_span,
+    .write_formula = rotate_write_formula,
     .summary = "turns about an axis, at a constant rate, by a polynomial angle or by a table",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t, sum_k angle_k t^k, or the "
                 "table's value at t (between its times a line, or a spline): center + k (k.w) + "

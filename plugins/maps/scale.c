@@ -65,8 +65,20 @@ static void scale_formula(const void *self, imp_model x, imp_model y, imp_model 
 IMP_MAP_FORMULA(scale_formula)
 IMP_MAP_AT_ALL_TIMES(scale)
 
+static imp_status scale_write_formula(const void *self, const imp_text_sink *to)
+{
+    const scale_instance *s = self;
+    polynomial_define(&s->factor, 0, "f0", to);
+    polynomial_define(&s->factor, 1, "f1", to);
+    polynomial_define(&s->factor, 2, "f2", to);
+    imp_add_text(to, "center0 + f0*(x - center0); center1 + f1*(y - center1); "
+                     "center2 + f2*(z - center2)");
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type scale = {
     IMP_MAP_FIELDS(scale, scale_formula),
+    .write_formula = scale_write_formula,
     .summary = "scales by one factor or by one per axis; may change in time",
     .equation = "center + factor ((x,y,z) - center), component by component; factor = "
                 "sum_k factors_k t^k",

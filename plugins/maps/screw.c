@@ -86,10 +86,23 @@ static imp_status screw_rigid(const void *self, const imp_model *t, imp_pose *po
     return imp_pose_status(pose);
 }
 
+static imp_status screw_write_formula(const void *self, const imp_text_sink *to)
+{
+    const screw_instance *s = self;
+    imp_add_text(to, AXIS_TEXT);
+    polynomial_define(&s->angle, 0, "A", to);
+    imp_add_text(to, "c = cos(A); s = sin(A); p = d + pitch*A/(2*pi); "
+                     "center0 + k0*p + c*(w0 - k0*d) + s*(k1*w2 - k2*w1); "
+                     "center1 + k1*p + c*(w1 - k1*d) + s*(k2*w0 - k0*w2); "
+                     "center2 + k2*p + c*(w2 - k2*d) + s*(k0*w1 - k1*w0)");
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type screw = {
     IMP_MAP_FIELDS_OF("screw", screw, screw_formula, free, screw_rate),
     .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = screw_rigid,
+    .write_formula = screw_write_formula,
     .summary = "turns about an axis and moves along it in proportion to the angle",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate t or sum_k angle_k t^k: center + "
                 "k (k.w + pitch A / 2pi) + cos A (w - k (k.w)) + sin A (k x w)",

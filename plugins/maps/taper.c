@@ -69,8 +69,21 @@ static void taper_formula(const void *self, imp_model x, imp_model y, imp_model 
 IMP_MAP_FORMULA(taper_formula)
 IMP_MAP_AT_ALL_TIMES(taper)
 
+static imp_status taper_write_formula(const void *self, const imp_text_sink *to)
+{
+    const taper_instance *s = self;
+    imp_add_text(to, AXIS_TEXT);
+    polynomial_define(&s->start, 0, "first", to);
+    polynomial_define(&s->end, 0, "last", to);
+    imp_add_text(to, "p = clamp((d - range0)/(range1 - range0), 0, 1); "
+                     "f = first + p*(last - first); center0 + k0*d + f*(w0 - k0*d); "
+                     "center1 + k1*d + f*(w1 - k1*d); center2 + k2*d + f*(w2 - k2*d)");
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type taper = {
     IMP_MAP_FIELDS(taper, taper_formula),
+    .write_formula = taper_write_formula,
     .summary = "widens or narrows along an axis, linearly within a range; may change in time",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, h = k.w, p = (h - lo)/(hi - lo) limited to "
                 "[0,1], f = start + p (end - start): center + k h + f (w - k h); start and end are "

@@ -7,6 +7,7 @@
 #include "plugins/common/spline.h"
 
 #include <impinge/formula.h>
+#include <impinge/formula_text.h>
 #include <impinge/plugin.h>
 
 /* Rigid motion in pieces: parabolas with constant spin
@@ -62,6 +63,7 @@ static const imp_parameter parameters[] = {
 
 typedef struct trajectory_instance {
     double center[3];
+    const double *positions, *accelerations, *rotations, *spins; /* as given; NULL: none */
     spin_turn *rotation; /* one for each piece; NULL: none */
     spline path; /* one further column if there are rotations: how fast entries of R change */
     imp_interval memory[];
@@ -148,18 +150,38 @@ static imp_status fill(trajectory_instance *s, const imp_value *values, imp_inte
     return IMP_STATUS_OK;
 }
 
+/* Copies a list to where there is room for it, if it was given. */
+static const double *keep_list(const imp_value *list, double **room)
+{
+    double *to = *room;
+    if (!imp_is_given(list)) return NULL;
+    memcpy(to, list->number, list->count * sizeof *to);
+    *room += list->count;
+    return to;
+}
+
+static void keep_given(trajectory_instance *s, const imp_value *values, double *room)
+{
+    s->positions = keep_list(&values[POSITIONS], &room);
+    s->accelerations = keep_list(&values[ACCELERATIONS], &room);
+    s->rotations = keep_list(&values[ROTATIONS], &room);
+    s->spins = keep_list(&values[SPINS], &room);
+}
+
 static imp_status trajectory_create(const imp_value *values, void **self, imp_create_error *why)
 {
     imp_status status = check(values, why);
     if (status != IMP_STATUS_OK) return status;
     const size_t keys = values[TIMES].count, bytes = spline_bytes(SPLINE_CUBIC, keys, 3, 2);
     const bool turns = imp_is_given(&values[ROTATIONS]);
-    trajectory_instance *s = malloc(sizeof *s + bytes + keys * sizeof(spin_turn));
+    const size_t turn_bytes = keys * sizeof(spin_turn);
+    trajectory_instance *s = malloc(sizeof *s + bytes + turn_bytes + 13 * keys * sizeof(double));
     imp_interval *key = malloc(3 * keys * sizeof *key);
     if (s != NULL && key != NULL) {
         s->path = spline_place(SPLINE_CUBIC, keys, 3, turns ? 2 : 0, s->memory);
         s->path.kinked = true;
         s->rotation = turns ? (spin_turn *)((char *)s->memory + bytes) : NULL;
+        keep_given(s, values, (double *)(void *)((char *)s->memory + bytes + turn_bytes));
         status = fill(s, values, key, why);
         *self = s;
     } else {
@@ -304,9 +326,91 @@ static imp_status trajectory_rigid(const void *self, const imp_model *t, imp_pos
     return imp_pose_status(pose);
 }
 
+/* --- As text ---------------------------------------------------------------------------------- */
+
+static void define_list(const imp_text_sink *to, const char *name, const double *list, size_t count)
+{
+    for (size_t k = 0; k < count; ++k) imp_define_at(to, name, k, list[k]);
+}
+
+/* Where the center is, c0 ... c2, by the positions a and b of both keys. */
+static void write_position(const trajectory_instance *s, size_t piece, const imp_text_sink *to)
+{
+    define_list(to, "a", s->positions + 3 * piece, 3);
+    define_list(to, "b", s->positions + 3 * piece + 3, 3);
+    if (s->accelerations == NULL) {
+        imp_add_text(to, "c0 = a0 + (b0 - a0)*s/h; c1 = a1 + (b1 - a1)*s/h; "
+                         "c2 = a2 + (b2 - a2)*s/h; ");
+        return;
+    }
+    define_list(to, "g", s->accelerations + 3 * piece, 3);
+    imp_add_text(to, "c0 = a0 + (b0 - a0)*s/h - g0/2*s*(h - s); "
+                     "c1 = a1 + (b1 - a1)*s/h - g1/2*s*(h - s); "
+                     "c2 = a2 + (b2 - a2)*s/h - g2/2*s*(h - s); ");
+}
+
+/* M_i w as m0 ... m2 and M_i+1 w as o0 ... o2, by the quaternions p and q. */
+static void write_ends(const trajectory_instance *s, size_t piece, const imp_text_sink *to)
+{
+    define_list(to, "p", s->rotations + 4 * piece, 4);
+    define_list(to, "q", s->rotations + 4 * piece + 4, 4);
+    imp_add_text(to, "n = 2/(p0^2 + p1^2 + p2^2 + p3^2); d0 = p2*w2 - p3*w1; "
+                     "d1 = p3*w0 - p1*w2; d2 = p1*w1 - p2*w0; "
+                     "m0 = w0 + n*(p0*d0 + p2*d2 - p3*d1); "
+                     "m1 = w1 + n*(p0*d1 + p3*d0 - p1*d2); "
+                     "m2 = w2 + n*(p0*d2 + p1*d1 - p2*d0); "
+                     "N = 2/(q0^2 + q1^2 + q2^2 + q3^2); e0 = q2*w2 - q3*w1; "
+                     "e1 = q3*w0 - q1*w2; e2 = q1*w1 - q2*w0; "
+                     "o0 = w0 + N*(q0*e0 + q2*e2 - q3*e1); "
+                     "o1 = w1 + N*(q0*e1 + q3*e0 - q1*e2); "
+                     "o2 = w2 + N*(q0*e2 + q1*e1 - q2*e0); ");
+}
+
+/* R w as r0 ... r2. A turn about k by the angle A takes m to k (k.m) + cos A (m - k (k.m)) + sin A
+ * (k x m); without a spin it does nothing. */
+static void write_rotation(const trajectory_instance *s, size_t piece, const imp_text_sink *to)
+{
+    const double *spin = s->spins + 3 * piece;
+    write_ends(s, piece, to);
+    if (spin[0] == 0 && spin[1] == 0 && spin[2] == 0) {
+        imp_add_text(to, "r0 = m0 + s/h*(o0 - m0); r1 = m1 + s/h*(o1 - m1); "
+                         "r2 = m2 + s/h*(o2 - m2); ");
+        return;
+    }
+    define_list(to, "f", spin, 3);
+    imp_add_text(to, "l = hypot(f0, f1, f2); k0 = f0/l; k1 = f1/l; k2 = f2/l; "
+                     "D = k0*m0 + k1*m1 + k2*m2; u0 = m0 - k0*D; u1 = m1 - k1*D; u2 = m2 - k2*D; "
+                     "v0 = k1*m2 - k2*m1; v1 = k2*m0 - k0*m2; v2 = k0*m1 - k1*m0; "
+                     "r0 = k0*D + cos(l*s)*u0 + sin(l*s)*v0 + "
+                     "s/h*(o0 - k0*D - cos(l*h)*u0 - sin(l*h)*v0); "
+                     "r1 = k1*D + cos(l*s)*u1 + sin(l*s)*v1 + "
+                     "s/h*(o1 - k1*D - cos(l*h)*u1 - sin(l*h)*v1); "
+                     "r2 = k2*D + cos(l*s)*u2 + sin(l*s)*v2 + "
+                     "s/h*(o2 - k2*D - cos(l*h)*u2 - sin(l*h)*v2); ");
+}
+
+static imp_status trajectory_write_formula(const void *self, const imp_text_sink *to)
+{
+    const trajectory_instance *s = self;
+    for (size_t k = 0; k < s->path.pieces; ++k) {
+        if (k > 0) imp_add_text(to, "| ");
+        imp_add_range(to, "t", s->path.time[k], s->path.time[k + 1]);
+        imp_define(to, "t0", s->path.time[k]);
+        imp_define(to, "t1", s->path.time[k + 1]);
+        imp_add_text(to, "h = t1 - t0; s = t - t0; w0 = x - center0; w1 = y - center1; "
+                         "w2 = z - center2; ");
+        write_position(s, k, to);
+        if (s->rotations != NULL) write_rotation(s, k, to);
+        imp_add_text(to, s->rotations != NULL ? "c0 + r0; c1 + r1; c2 + r2"
+                                              : "c0 + w0; c1 + w1; c2 + w2");
+    }
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type trajectory = {
     IMP_MAP_FIELDS(trajectory, trajectory),
     .rigid = trajectory_rigid,
+    .write_formula = trajectory_write_formula,
     .summary = "moves along parabolas and turns at constant spin, from key to key",
     .equation = "with s = t - times_i, h = times_i+1 - times_i: p + R ((x,y,z) - center); p = "
                 "positions_i + "

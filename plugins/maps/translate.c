@@ -290,12 +290,19 @@ static imp_status translate_rigid(const void *self, const imp_model *t, imp_pose
     return imp_pose_status(pose);
 }
 
+static imp_status translate_write_formula(const void *self, const imp_text_sink *to)
+{
+    course_write(self, "a", "", "x + a0; y + a1; z + a2", to);
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type translate = {
     IMP_MAP_FIELDS_OF("translate", translate, translate, translate_destroy, translate_rate),
     .net = translate_net,
     .flags = IMP_FLAG_TURNS_EXACTLY,
     .rigid = translate_rigid,
     .span = translate_span,
+    .write_formula = translate_write_formula,
     .summary = "moves along a straight line, along a polynomial in time, or by a table",
     .equation = "(x,y,z) + velocity t, or (x,y,z) + sum_k offset_k t^k, or (x,y,z) + the "
                 "table's value at t",

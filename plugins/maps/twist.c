@@ -49,8 +49,18 @@ static void twist_formula(const void *self, imp_model x, imp_model y, imp_model 
 IMP_MAP_FORMULA(twist_formula)
 IMP_MAP_AT_ALL_TIMES(twist)
 
+static imp_status twist_write_formula(const void *self, const imp_text_sink *to)
+{
+    const twist_instance *s = self;
+    imp_add_text(to, AXIS_TEXT);
+    polynomial_define(&s->rate, 0, "r", to);
+    imp_add_text(to, "A = r*d; " AXIS_TURN_TEXT);
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type twist = {
     IMP_MAP_FIELDS(twist, twist_formula),
+    .write_formula = twist_write_formula,
     .summary = "turns about an axis, in proportion to the distance along it; may change in time",
     .equation = "w = (x,y,z) - center, k = axis/|axis|, A = rate (k.w), rate a polynomial in t: "
                 "center + k (k.w) + cos A (w - k (k.w)) + sin A (k x w)",

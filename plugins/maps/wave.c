@@ -77,8 +77,21 @@ static void wave_formula(const void *self, imp_model x, imp_model y, imp_model z
 IMP_MAP_FORMULA(wave_formula)
 IMP_MAP_AT_ALL_TIMES(wave)
 
+static imp_status wave_write_formula(const void *self, const imp_text_sink *to)
+{
+    const wave_instance *s = self;
+    polynomial_define(&s->amplitude, 0, "a0", to);
+    polynomial_define(&s->amplitude, 1, "a1", to);
+    polynomial_define(&s->amplitude, 2, "a2", to);
+    imp_add_text(to, "k = hypot(wave_vector0, wave_vector1, wave_vector2); "
+                     "swing = sin(wave_vector0*x + wave_vector1*y + wave_vector2*z - k*speed*t + "
+                     "phase); x + a0*swing; y + a1*swing; z + a2*swing");
+    return IMP_STATUS_OK;
+}
+
 static const imp_map_type wave = {
     IMP_MAP_FIELDS(wave, wave_formula),
+    .write_formula = wave_write_formula,
     .summary = "displaces every point by a travelling wave",
     .equation = "(x,y,z) + amplitude sin(k.(x,y,z) - |k| speed t + phase), k = wave_vector; "
                 "amplitude may be sum_k amplitudes_k t^k",

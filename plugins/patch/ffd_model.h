@@ -29,6 +29,7 @@ typedef struct ffd_instance {
     double lo[3], hi[3];
     near_constant per_length[3]; /* 1 / (hi - lo) */
     lattice_lane shape[3], drift[3];
+    double *given; /* 3 numbers of each control point, then 3 of each velocity if it moves */
     double memory[];
 } ffd_instance;
 

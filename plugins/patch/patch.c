@@ -25,7 +25,7 @@ patch *patch_allocate(const patch_data *data)
     size_t points = patch_points(data->degree);
     size_t along_u = points - (size_t)(m + 1), along_v = points - (size_t)(n + 1);
     size_t head = (sizeof(patch) + 63) / 64 * 64;
-    size_t numbers = (2 * points + along_u + along_v) * (size_t)lanes;
+    size_t numbers = (2 * points + along_u + along_v) * (size_t)lanes + 7 * points;
     patch *f = aligned_alloc(64, head + (numbers * sizeof(double) + 63) / 64 * 64);
     if (f == NULL) return NULL;
     memset(f, 0, sizeof *f);
@@ -35,7 +35,17 @@ patch *patch_allocate(const patch_data *data)
     f->series = patch_groups(&memory, points, lanes);
     f->difference[0] = patch_groups(&memory, along_u, lanes);
     f->difference[1] = patch_groups(&memory, along_v, lanes);
+    f->given = memory;
     return f;
+}
+
+void patch_keep(patch *f, const patch_data *data)
+{
+    const size_t points = patch_points(f->degree), moving = data->velocities != NULL ? points : 0;
+    memcpy(f->given, data->points, 3 * points * sizeof(double));
+    if (moving > 0) memcpy(f->given + 3 * points, data->velocities, 3 * points * sizeof(double));
+    if (data->weights != NULL)
+        memcpy(f->given + 3 * (points + moving), data->weights, points * sizeof(double));
 }
 
 /* Middle of n numbers that are 3 apart, and how far they are from it, rounded up. */

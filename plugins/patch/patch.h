@@ -65,6 +65,7 @@ typedef struct patch {
     double *net;                      /* (n+1)(m+1) groups */
     double *series;                   /* the same polynomials in Chebyshev form */
     double *difference[2];            /* nets of d/du and d/dv: n (m+1), (n+1) m groups */
+    double *given;                    /* the data, see patch_keep */
 } patch;
 
 static inline size_t patch_points(const int degree[2])
@@ -74,6 +75,10 @@ static inline size_t patch_points(const int degree[2])
 
 /* The struct and its arrays as one block, for free(); NULL: no memory. */
 patch *patch_allocate(const patch_data *data);
+
+/* Keeps a copy of the data that patch_allocate saw: 3 numbers of each point, then 3 of its velocity
+ * if the patch moves, and then its weight if it is rational. */
+void patch_keep(patch *f, const patch_data *data);
 
 /* Fills net, place, drift and what bounds them, from the data that patch_allocate saw. */
 void patch_set_net(patch *f, const patch_data *data);

@@ -311,6 +311,7 @@ patch *patch_new(const patch_data *data)
 {
     patch *f = patch_allocate(data);
     if (f == NULL) return NULL;
+    patch_keep(f, data);
     patch_set_net(f, data);
     if (patch_finish(f)) return f;
     free(f);

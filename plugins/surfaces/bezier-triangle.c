@@ -6,6 +6,7 @@
 #include "plugins/patch/patch_include.h"
 #include "plugins/patch/patch_net.h"
 #include "plugins/patch/patch_rate.h"
+#include "plugins/patch/patch_text.h"
 #include "plugins/patch/triangle.h"
 
 #include <impinge/plugin.h>
@@ -178,6 +179,12 @@ static imp_status triangle_net(const void *self, const imp_region *region, imp_n
     return patch_net(self, region, net);
 }
 
+static imp_status triangle_write_formula(const void *self, const imp_text_sink *to)
+{
+    triangle_write(self, to);
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type bezier_triangle = {
     IMP_TYPE_FIELDS(imp_surface_type, "bezier-triangle", triangles, triangles_destroy),
     .domain = triangle_domain,
@@ -187,6 +194,7 @@ static const imp_surface_type bezier_triangle = {
     .net = triangle_net,
     .piece_count = triangles_piece_count,
     .piece = triangles_piece,
+    .write_formula = triangle_write_formula,
     .summary = "Bezier triangles of any degree up to 10, polynomial or rational, moving linearly",
     .equation =
         "sum_kj B_kj w_kj (points_kj + t velocities_kj) / sum_kj B_kj w_kj, B_kj = "

@@ -6,6 +6,7 @@
 #include "plugins/patch/patch_include.h"
 #include "plugins/patch/patch_net.h"
 #include "plugins/patch/patch_rate.h"
+#include "plugins/patch/patch_text.h"
 
 #include <impinge/plugin.h>
 
@@ -78,9 +79,16 @@ static imp_status bezier_net(const void *self, const imp_region *region, imp_net
     return patch_net(self, region, net);
 }
 
+static imp_status bezier_write_formula(const void *self, const imp_text_sink *to)
+{
+    patch_write(self, to);
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type bezier = {
     IMP_SURFACE_FIELDS(bezier, bezier),
     .net = bezier_net,
+    .write_formula = bezier_write_formula,
     .summary = "Bezier patch of any degree up to 20, polynomial or rational, moving linearly",
     .equation =
         "sum_ij B_i(u) B_j(v) w_ij (points_ij + t velocities_ij) / sum_ij B_i(u) B_j(v) w_ij, "

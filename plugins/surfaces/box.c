@@ -4,6 +4,8 @@
 #include "plugins/common/facet.h"
 #include "plugins/common/publish.h"
 
+#include <impinge/formula_text.h>
+
 /* Six rectangles, as pieces, that meet in common corners. A corner is center - size / 2 or center +
  * size / 2, rounded to double once: the box has these doubles for corners, exactly. */
 
@@ -80,6 +82,18 @@ static imp_model box_gap(const void *self, imp_model x, imp_model y, imp_model z
 }
 IMP_DISTANCE_FORMULA(box_gap)
 
+/* The corners are rounded, so the numbers of the face are printed. */
+static imp_status box_write_formula(const void *self, const imp_text_sink *to)
+{
+    const linear *f = self;
+    for (size_t i = 0; i < 3; ++i) imp_define_at(to, "corner", i, f->still[LINEAR_1][i]);
+    for (size_t i = 0; i < 3; ++i) imp_define_at(to, "edge_u", i, f->still[LINEAR_U][i]);
+    for (size_t i = 0; i < 3; ++i) imp_define_at(to, "edge_v", i, f->still[LINEAR_V][i]);
+    imp_add_text(to, "u in [0, 1]; v in [0, 1]; corner0 + edge_u0*u + edge_v0*v; corner1 + "
+                     "edge_u1*u + edge_v1*v; corner2 + edge_u2*u + edge_v2*v");
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type box = {
     IMP_SURFACE_FIELDS(box, linear),
     .net = linear_net,
@@ -87,6 +101,7 @@ static const imp_surface_type box = {
     .piece = box_piece,
     .distance = box_gap_distance,
     .symmetry = facet_symmetry,
+    .write_formula = box_write_formula,
     .summary = "box with edges along x, y and z, of six rectangles",
     .equation =
         "faces across x, y, z, each at its lower and upper end: corner + u edge_u + v edge_v, "

@@ -147,12 +147,31 @@ static imp_status capsule_symmetry(const void *self, imp_symmetry *symmetry)
     return s->is_exact && greatest <= AXIS_MAX ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
+static imp_status capsule_write_formula(const void *self, const imp_text_sink *to)
+{
+    static const char *const text[PARTS] = {
+        [LATERAL] = "v in [0, 1]; from0 + w0*v + radius*x0; from1 + w1*v + radius*x1; from2 + "
+                    "w2*v + radius*x2",
+        [AT_FROM] = "v in [-pi/2, 0]; from0 + radius*(cos(v)*x0 + sin(v)*k0); from1 + "
+                    "radius*(cos(v)*x1 + sin(v)*k1); from2 + radius*(cos(v)*x2 + sin(v)*k2)",
+        [AT_TO] = "v in [0, pi/2]; to0 + radius*(cos(v)*x0 + sin(v)*k0); to1 + "
+                  "radius*(cos(v)*x1 + sin(v)*k1); to2 + radius*(cos(v)*x2 + sin(v)*k2)"};
+    const capsule_instance *s = self;
+    imp_add_text(to, "w0 = to0 - from0; w1 = to1 - from1; w2 = to2 - from2; ");
+    frame_write(&s->frame, to);
+    imp_add_text(to, "x0 = a0*cos(u) + b0*sin(u); x1 = a1*cos(u) + b1*sin(u); "
+                     "x2 = a2*cos(u) + b2*sin(u); u in [0, 2*pi]; ");
+    imp_add_text(to, text[s->part]);
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type capsule = {
     IMP_SURFACE_FIELDS(capsule, capsule_formula),
     .piece_count = capsule_piece_count,
     .piece = capsule_piece,
     .distance = capsule_gap_distance,
     .symmetry = capsule_symmetry,
+    .write_formula = capsule_write_formula,
     .summary =
         "all points at one distance from a segment: a cylinder with half spheres at its ends",
     .equation = "from + v (to - from) + radius (a cos u + b sin u), v in [0,1]; from, then to, + "

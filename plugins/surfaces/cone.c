@@ -6,6 +6,7 @@
 #include "plugins/common/squares.h"
 
 #include <impinge/formula.h>
+#include <impinge/formula_text.h>
 #include <impinge/plugin.h>
 
 /* The lateral surface, from the base circle at v = 0 to the apex, to which the edge v = 1
@@ -93,12 +94,25 @@ static imp_status cone_symmetry(const void *self, imp_symmetry *symmetry)
     return IMP_STATUS_OK;
 }
 
+static imp_status cone_write_formula(const void *self, const imp_text_sink *to)
+{
+    static const char *const text[PARTS] = {
+        [CAPPED_LATERAL] =
+            "u in [0, 2*pi]; v in [0, 1]; center0 + (1 - v)*radius*cos(u); center1 + "
+            "(1 - v)*radius*sin(u); center2 + height*v",
+        [BASE] = "u in [0, 2*pi]; v in [0, 1]; center0 + v*radius*cos(u); center1 + "
+                 "v*radius*sin(u); center2"};
+    imp_add_text(to, text[((const capped *)self)->part]);
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type cone = {
     IMP_SURFACE_FIELDS(cone, cone_formula),
     .piece_count = capped_piece_count,
     .piece = capped_piece,
     .distance = cone_gap_distance,
     .symmetry = cone_symmetry,
+    .write_formula = cone_write_formula,
     .summary = "cone about the z axis: its lateral surface up to the apex, with ends=true closed "
                "by a disc",
     .equation = "center + ((1-v) radius cos u, (1-v) radius sin u, height v), u in [0,2pi], "

@@ -6,6 +6,7 @@
 #include "plugins/common/squares.h"
 
 #include <impinge/formula.h>
+#include <impinge/formula_text.h>
 #include <impinge/plugin.h>
 
 /* The lateral surface; with `ends`, both end discs, as pieces of their own. Without them a thin
@@ -90,12 +91,26 @@ static imp_status cylinder_symmetry(const void *self, imp_symmetry *symmetry)
     return IMP_STATUS_OK;
 }
 
+static imp_status cylinder_write_formula(const void *self, const imp_text_sink *to)
+{
+    static const char *const text[PARTS] = {
+        [CAPPED_LATERAL] = "u in [0, 2*pi]; v in [-1/2, 1/2]; center0 + radius*cos(u); center1 + "
+                           "radius*sin(u); center2 + height*v",
+        [BOTTOM] = "u in [0, 2*pi]; v in [0, 1]; center0 + v*radius*cos(u); center1 + "
+                   "v*radius*sin(u); center2 - height/2",
+        [TOP] = "u in [0, 2*pi]; v in [0, 1]; center0 + (1 - v)*radius*cos(u); center1 + (1 - "
+                "v)*radius*sin(u); center2 + height/2"};
+    imp_add_text(to, text[((const capped *)self)->part]);
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type cylinder = {
     IMP_SURFACE_FIELDS(cylinder, cylinder_formula),
     .piece_count = capped_piece_count,
     .piece = capped_piece,
     .distance = cylinder_gap_distance,
     .symmetry = cylinder_symmetry,
+    .write_formula = cylinder_write_formula,
     .summary = "cylinder about the z axis: its lateral surface, with ends=true closed by discs",
     .equation =
         "center + (radius cos u, radius sin u, height v), u in [0,2pi], v in [-1/2,1/2]; ends: "

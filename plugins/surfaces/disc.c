@@ -70,10 +70,22 @@ static imp_status disc_symmetry(const void *self, imp_symmetry *symmetry)
     return IMP_STATUS_OK;
 }
 
+static imp_status disc_write_formula(const void *self, const imp_text_sink *to)
+{
+    const disc_instance *s = self;
+    imp_add_text(to, "w0 = axis0; w1 = axis1; w2 = axis2; ");
+    frame_write(&s->frame, to);
+    imp_add_text(to, "u in [0, 2*pi]; v in [0, 1]; ring = (1 - v)*radius; center0 + "
+                     "ring*(a0*cos(u) + b0*sin(u)); center1 + ring*(a1*cos(u) + b1*sin(u)); "
+                     "center2 + ring*(a2*cos(u) + b2*sin(u))");
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type disc = {
     IMP_SURFACE_FIELDS(disc, disc_formula),
     .distance = disc_gap_distance,
     .symmetry = disc_symmetry,
+    .write_formula = disc_write_formula,
     .summary = "flat disc across an axis",
     .equation =
         "center + (1-v) radius (a cos u + b sin u), u in [0,2pi], v in [0,1], where a, b and "

@@ -123,6 +123,8 @@ static const imp_surface_type ellipsoid = {
     .equation = "center + (a cos v cos u, b cos v sin u, c sin v), radii = [a,b,c], u in [0,2pi], "
                 "v in [-pi/2,pi/2]",
     .source = NULL,
+    .formula = "u in [0, 2*pi]; v in [-pi/2, pi/2]; center0 + radii0*cos(v)*cos(u); center1 + "
+               "radii1*cos(v)*sin(u); center2 + radii2*sin(v)",
     .example = "ellipsoid radii=1,2,3",
 };
 

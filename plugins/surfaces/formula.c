@@ -20,6 +20,7 @@ static const imp_parameter parameters[] = {
 
 typedef struct formula_instance {
     expression_program *program;
+    char *text; /* what it prints */
     double lo[3], hi[3];
 } formula_instance;
 
@@ -44,12 +45,20 @@ static imp_status compile(const imp_value *values, formula_instance *s, imp_crea
     return compile_texts(values, &scope, &s->program, why);
 }
 
+static imp_status keep(const imp_value *values, formula_instance *s)
+{
+    s->text = keep_texts(values, s->lo, s->hi, true);
+    if (s->text == NULL) expression_free(s->program);
+    return s->text != NULL ? IMP_STATUS_OK : IMP_STATUS_INTERNAL;
+}
+
 static imp_status formula_create(const imp_value *values, void **self, imp_create_error *why)
 {
     formula_instance *s = malloc(sizeof *s);
     if (s == NULL) return IMP_STATUS_INTERNAL;
     imp_status status = read_domain(values, s, why);
     if (status == IMP_STATUS_OK) status = compile(values, s, why);
+    if (status == IMP_STATUS_OK) status = keep(values, s);
     if (status == IMP_STATUS_OK)
         *self = s;
     else
@@ -61,6 +70,7 @@ static void formula_destroy(void *self)
 {
     formula_instance *s = self;
     expression_free(s->program);
+    free(s->text);
     free(s);
 }
 
@@ -92,9 +102,16 @@ static imp_status formula_eval(const void *self, size_t n, const double *p, doub
     return status;
 }
 
+static imp_status formula_write_formula(const void *self, const imp_text_sink *to)
+{
+    imp_add_text(to, ((const formula_instance *)self)->text);
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type formula = {
     IMP_TYPE_FIELDS(imp_surface_type, "formula", formula, formula_destroy),
     .flags = IMP_FLAG_ABSENT_OUTSIDE_TIMES,
+    .write_formula = formula_write_formula,
     .summary = "any surface, given by formulas",
     .equation = "(x, y, z), each a text in u, v, t with + - * / ^, pi, e, constants, and abs sqrt "
                 "cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh pow min max hypot "

@@ -5,6 +5,8 @@
 #include "plugins/common/publish.h"
 #include "plugins/mesh/mesh_parameters.h"
 
+#include <impinge/formula_text.h>
+
 /* Each triangle is a piece: that of the type for single triangles, made of the points when it is
  * asked for something. */
 
@@ -132,6 +134,29 @@ static imp_status mesh_net(const void *self, const imp_region *region, imp_net *
     return linear_net(&f, region, net);
 }
 
+/* Defines the nine coordinates of a triangle's corners, or their velocities. */
+static void define_corners(const imp_text_sink *to, const char *name, const double *list,
+                           const uint32_t *corner)
+{
+    for (size_t k = 0; k < 9; ++k)
+        imp_define_at(to, name, k, list[3 * (size_t)corner[k / 3] + k % 3]);
+}
+
+static imp_status mesh_write_formula(const void *self, const imp_text_sink *to)
+{
+    const piece *p = self;
+    define_corners(to, "p", p->of->triangles.point, p->corner);
+    if (p->of->velocity != NULL) define_corners(to, "w", p->of->velocity, p->corner);
+    imp_add_text(to, p->of->velocity != NULL
+                         ? "u in [0, 1]; v in [0, 1]; (1 - u)*(p0 + w0*t) + u*((1 - v)*(p3 + "
+                           "w3*t) + v*(p6 + w6*t)); (1 - u)*(p1 + w1*t) + u*((1 - v)*(p4 + "
+                           "w4*t) + v*(p7 + w7*t)); (1 - u)*(p2 + w2*t) + u*((1 - v)*(p5 + "
+                           "w5*t) + v*(p8 + w8*t))"
+                         : "u in [0, 1]; v in [0, 1]; (1 - u)*p0 + u*((1 - v)*p3 + v*p6); (1 - "
+                           "u)*p1 + u*((1 - v)*p4 + v*p7); (1 - u)*p2 + u*((1 - v)*p5 + v*p8)");
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type mesh_type = {
     IMP_TYPE_FIELDS(imp_surface_type, "mesh", mesh, mesh_destroy),
     .domain = mesh_domain,
@@ -141,6 +166,7 @@ static const imp_surface_type mesh_type = {
     .net = mesh_net,
     .piece_count = mesh_piece_count,
     .piece = mesh_piece,
+    .write_formula = mesh_write_formula,
     .summary = "triangles and polygons from a file or a list, whose points may move linearly",
     .equation = "each triangle: p_0(t) + u (p_1(t) - p_0(t) + v (p_2(t) - p_1(t))), p_k(t) = "
                 "scale points_k + t velocities_k, u and v in [0,1]",

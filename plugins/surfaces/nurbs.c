@@ -5,6 +5,7 @@
 #include "plugins/patch/cell_net.h"
 #include "plugins/patch/nurbs_cells.h"
 #include "plugins/patch/parameters.h"
+#include "plugins/patch/patch_text.h"
 
 #include <impinge/plugin.h>
 
@@ -281,9 +282,16 @@ static imp_status nurbs_net(const void *self, const imp_region *region, imp_net 
     return nurbs_cell_net(f, region, net);
 }
 
+static imp_status nurbs_write_formula(const void *self, const imp_text_sink *to)
+{
+    nurbs_write(self, to);
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type nurbs = {
     IMP_SURFACE_FIELDS_OF("nurbs", nurbs, nurbs, nurbs_destroy),
     .net = nurbs_net,
+    .write_formula = nurbs_write_formula,
     .summary = "NURBS surface of any degree up to 20, rational or not, moving linearly",
     .equation =
         "sum_ij N_i(u) N_j(v) w_ij (points_ij + t velocities_ij) / sum_ij N_i(u) N_j(v) w_ij, "

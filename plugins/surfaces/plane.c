@@ -74,6 +74,8 @@ static const imp_surface_type plane = {
     .summary = "parallelogram, the piece of a plane between two edges",
     .equation = "origin + u edge_u + v edge_v, u and v in [0,1]",
     .source = NULL,
+    .formula = "u in [0, 1]; v in [0, 1]; origin0 + edge_u0*u + edge_v0*v; origin1 + edge_u1*u "
+               "+ edge_v1*v; origin2 + edge_u2*u + edge_v2*v",
     .example = "plane origin=-5,-5,0 edge_u=10,0,0 edge_v=0,10,0",
 };
 

@@ -39,6 +39,8 @@ static const imp_surface_type point = {
     .summary = "a single point, at rest or moving along a straight line",
     .equation = "position + t velocity; u = v = 0",
     .source = NULL,
+    .formula = "u in [0, 0]; v in [0, 0]; position0 + velocity0*t; position1 + velocity1*t; "
+               "position2 + velocity2*t",
     .example = "point position=1,2,3 velocity=0,0,-1",
 };
 

@@ -3,6 +3,7 @@
 
 #include "plugins/common/publish.h"
 #include "plugins/patch/curve.h"
+#include "plugins/patch/patch_text.h"
 
 #include <impinge/formula.h>
 
@@ -77,8 +78,19 @@ static void product_formula(const void *self, imp_model u, imp_model v, imp_mode
 }
 IMP_SURFACE_FORMULA(product_formula)
 
+static imp_status product_write_formula(const void *self, const imp_text_sink *to)
+{
+    const product_instance *s = self;
+    curve_write(s->c, 'p', 'u', to);
+    curve_write(s->d, 'q', 'v', to);
+    imp_add_text(to, "u in [0, 1]; v in [0, 1]; center0 + k0*p0*q0; center1 + k1*p0*q1; "
+                     "center2 + k2*p1");
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type product = {
     IMP_SURFACE_FIELDS_OF("product", product, product_formula, product_destroy),
+    .write_formula = product_write_formula,
     .summary = "spherical product of two plane Bezier curves: a profile and an outline",
     .equation =
         "center + (k_x c_1(u) d_1(v), k_y c_1(u) d_2(v), k_z c_2(u)), c and d each sum_i B_i "

@@ -3,6 +3,7 @@
 
 #include "plugins/common/publish.h"
 #include "plugins/patch/curve.h"
+#include "plugins/patch/patch_text.h"
 
 #include <impinge/formula.h>
 
@@ -63,8 +64,17 @@ static void revolution_formula(const void *self, imp_model u, imp_model v, imp_m
 }
 IMP_SURFACE_FORMULA(revolution_formula)
 
+static imp_status revolution_write_formula(const void *self, const imp_text_sink *to)
+{
+    curve_write(((const revolution_instance *)self)->profile, 'p', 'v', to);
+    imp_add_text(to, "u in [0, 2*pi]; v in [0, 1]; center0 + p0*cos(u); center1 + p0*sin(u); "
+                     "center2 + p1");
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type revolution = {
     IMP_SURFACE_FIELDS_OF("revolution", revolution, revolution_formula, revolution_destroy),
+    .write_formula = revolution_write_formula,
     .summary = "surface of revolution about the z axis; its profile is a Bezier curve",
     .equation = "center + (r(v) cos u, r(v) sin u, z(v)), (r,z)(v) = sum_i B_i(v) w_i profile_i / "
                 "sum_i B_i(v) w_i, u in [0,2pi], v in [0,1]",

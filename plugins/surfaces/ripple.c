@@ -89,6 +89,9 @@ static const imp_surface_type ripple = {
     .equation = "center + (u, v, amplitude sin(2 pi (d.(u,v) - speed t) / wavelength)), "
                 "d = direction/|direction|, |u| <= size_x / 2, |v| <= size_y / 2",
     .source = NULL,
+    .formula = "u in [-size0/2, size0/2]; v in [-size1/2, size1/2]; way = (direction0*u + "
+               "direction1*v)/hypot(direction0, direction1); center0 + u; center1 + v; center2 "
+               "+ amplitude*sin(2*pi*(way - speed*t)/wavelength)",
     .example = "ripple size=4,4 amplitude=0.2 wavelength=1 direction=1,1 speed=2",
 };
 

@@ -5,6 +5,7 @@
 #include "plugins/common/publish.h"
 
 #include <impinge/formula.h>
+#include <impinge/formula_text.h>
 #include <impinge/plugin.h>
 
 /* A sphere with narrow peaks (paper, eqs. 8 and 9): sampling can miss such peaks, bounds cannot. A
@@ -25,8 +26,9 @@ static const imp_parameter parameters[] = {
 };
 
 typedef struct peak {
-    near_constant u;
-    double v;
+    near_constant u; /* given_u + 2 pi turn */
+    double v, given_u;
+    int turn;
 } peak;
 
 typedef struct spike_instance {
@@ -76,7 +78,7 @@ static size_t repeat(peak top, double width, peak *to)
 {
     size_t count = 0;
     for (int turn = -TURNS_MAX; turn <= TURNS_MAX; ++turn) {
-        peak image = {turned(top.u.value, turn), top.v};
+        peak image = {turned(top.u.value, turn), top.v, top.u.value, turn};
         if (!is_in_reach(image.u, width)) continue;
         if (to != NULL) to[count] = image;
         ++count;
@@ -86,7 +88,8 @@ static size_t repeat(peak top, double width, peak *to)
 
 static peak peak_given(const imp_value *spikes, size_t index)
 {
-    return (peak){near_exact(spikes->number[2 * index]), spikes->number[2 * index + 1]};
+    const double *at = spikes->number + 2 * index;
+    return (peak){near_exact(at[0]), at[1], at[0], 0};
 }
 
 static imp_status spike_create(const imp_value *values, void **self, imp_create_error *why)
@@ -184,11 +187,38 @@ static void spike_formula(const void *self, imp_model u, imp_model v, imp_model 
 }
 IMP_SURFACE_FORMULA(spike_formula)
 
+/* exp(-((u - peak)^2 + (v - peak)^2)/width^2) */
+static void write_peak(const peak *p, const imp_text_sink *to)
+{
+    imp_add_text(to, "exp(-((u - (");
+    imp_add_number(to, p->given_u);
+    imp_add_text(to, " + 2*pi*");
+    imp_add_number(to, p->turn);
+    imp_add_text(to, "))^2 + (v - ");
+    imp_add_number(to, p->v);
+    imp_add_text(to, ")^2)/width^2)");
+}
+
+static imp_status spike_write_formula(const void *self, const imp_text_sink *to)
+{
+    const spike_instance *s = self;
+    imp_add_text(to, "r = radius + height*(0");
+    for (size_t k = 0; k < s->count; ++k) {
+        imp_add_text(to, " + ");
+        write_peak(&s->peaks[k], to);
+    }
+    imp_add_text(to, "); u in [0, 2*pi]; v in [-pi/2, pi/2]; center0 + r*cos(v)*cos(u); "
+                     "center1 + r*cos(v)*sin(u); center2 + r*sin(v)");
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type spike = {
     IMP_SURFACE_FIELDS(spike, spike_formula),
+    .write_formula = spike_write_formula,
     .summary = "sphere with narrow spikes; near a pole, a spike makes the pole a line",
     .equation = "center + r(u,v) (cos v cos u, cos v sin u, sin v), r = radius + height sum_k "
-                "exp(-((u-u_k)^2 + (v-v_k)^2) / width^2), summed over all turns of u_k",
+                "exp(-((u-u_k)^2 + (v-v_k)^2) / width^2), summed over the turns of u_k that are "
+                "within 26.7 widths of [0,2pi]",
     .source = "Von Herzen, Barr, Zatz, SIGGRAPH 1990, eqs. 8 and 9",
     .example = "spike radius=1 height=0.5 width=0.1 spikes=[[0,0],[3.14,0.5]]",
 };

@@ -3,6 +3,7 @@
 
 #include "plugins/common/publish.h"
 #include "plugins/patch/curve.h"
+#include "plugins/patch/patch_text.h"
 
 #include <impinge/formula.h>
 
@@ -66,8 +67,18 @@ static void sweep_formula(const void *self, imp_model u, imp_model v, imp_model 
 }
 IMP_SURFACE_FORMULA(sweep_formula)
 
+static imp_status sweep_write_formula(const void *self, const imp_text_sink *to)
+{
+    const sweep_instance *s = self;
+    curve_write(s->profile, 'p', 'u', to);
+    curve_write(s->path, 'q', 'v', to);
+    imp_add_text(to, "u in [0, 1]; v in [0, 1]; p0 + q0; p1 + q1; p2 + q2");
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type sweep = {
     IMP_SURFACE_FIELDS_OF("sweep", sweep, sweep_formula, sweep_destroy),
+    .write_formula = sweep_write_formula,
     .summary = "translational sweep: a Bezier curve moved, without turning, along another",
     .equation =
         "profile(u) + path(v), each sum_i B_i w_i P_i / sum_i B_i w_i over its control points "

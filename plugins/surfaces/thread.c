@@ -6,6 +6,7 @@
 #include "plugins/common/squares.h"
 
 #include <impinge/formula.h>
+#include <impinge/formula_text.h>
 #include <impinge/plugin.h>
 
 /* Only the flanks, without end discs. The radius follows the phase, starts u - 2 pi z / pitch, z
@@ -206,9 +207,27 @@ static imp_model thread_gap(const void *self, imp_model x, imp_model y, imp_mode
 }
 IMP_DISTANCE_FORMULA(thread_gap)
 
+static imp_status thread_write_formula(const void *self, const imp_text_sink *to)
+{
+    const thread_instance *s = self;
+    for (size_t k = 0; k < s->count; ++k) imp_define_at(to, "profile", k, s->profile[k]);
+    imp_add_text(to, "phase = starts*u - 2*pi*height*v/pitch; ring = radius");
+    for (size_t k = 0; k < s->count; ++k) {
+        imp_add_text(to, " + profile");
+        imp_add_whole(to, k);
+        imp_add_text(to, "*cos(");
+        imp_add_whole(to, k + 1);
+        imp_add_text(to, "*phase)");
+    }
+    imp_add_text(to, "; u in [0, 2*pi]; v in [-1/2, 1/2]; center0 + ring*cos(u); "
+                     "center1 + ring*sin(u); center2 + height*v");
+    return IMP_STATUS_OK;
+}
+
 static const imp_surface_type thread = {
     IMP_SURFACE_FIELDS(thread, thread_formula),
     .distance = thread_gap_distance,
+    .write_formula = thread_write_formula,
     .summary = "flanks of a screw thread about the z axis, of any profile",
     .equation =
         "center + (R cos u, R sin u, height v), R = radius + sum_k profile_k cos(k (starts u - "

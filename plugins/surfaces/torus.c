@@ -88,6 +88,8 @@ static const imp_surface_type torus = {
     .equation = "center + ((R + r cos v) cos u, (R + r cos v) sin u, r sin v), R = major_radius, "
                 "r = minor_radius, u and v in [0,2pi]",
     .source = NULL,
+    .formula = "u in [0, 2*pi]; v in [0, 2*pi]; ring = major_radius + minor_radius*cos(v); "
+               "center0 + ring*cos(u); center1 + ring*sin(u); center2 + minor_radius*sin(v)",
     .example = "torus major_radius=1 minor_radius=0.3",
 };
 
