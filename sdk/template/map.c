@@ -58,6 +58,7 @@ static const imp_map_type type = {
     .summary = "leans to and fro along x, in proportion to z",
     .equation = "(x + slope z sin(rate t), y, z)",
     .source = NULL,
+    .formula = "x + slope*z*sin(rate*t); y; z",
     .example = "@name@ slope=0.5",
 };
 

@@ -63,6 +63,7 @@ static const imp_surface_type type = {
     .summary = "square drumhead that swings",
     .equation = "(u, v, height (1 - u^2) (1 - v^2) sin(rate t)), u and v in [-1,1]",
     .source = NULL,
+    .formula = "u in [-1, 1]; v in [-1, 1]; u; v; height*(1 - u^2)*(1 - v^2)*sin(rate*t)",
     .example = "@name@ height=0.5",
 };
 

@@ -282,8 +282,15 @@ follows() {
     [[ $output != *FAIL* ]]
 }
 
+@test "a type's own formula proves its bounds, part by part" {
+    run -0 "$IMPINGE" check sphere --only proof --effort 0.2
+    [[ $output == *"pass  proof        all "*"  proved("* ]]
+    run -0 "$IMPINGE" check 'rotate times=[0,1,2] angles=[0,1,0.5]' --only proof --effort 0.2
+    [[ $output == *"pass  proof "*" claims over "* ]]
+}
+
 @test "without a formula there is no proof" {
-    run -0 "$IMPINGE" check sphere --only proof
+    run -0 "$IMPINGE" check "$liars/liar_truthful.so" --only proof
     [[ $output == *"skip  proof "*"no formula is known; state it with --formula "* ]]
 }
 

@@ -65,29 +65,39 @@ static void add_parameter(stated *s, const imp_parameter *row, json_t *value)
 
 /* --- Texts ------------------------------------------------------------------------------------ */
 
-/* "X; Y; Z". False: not three of them. */
-static bool take_given(stated *s, const char *given)
+static const char *variables_of(const stated *s)
 {
-    for (int i = 0; i < 3; ++i) {
-        const size_t length = strcspn(given, ";");
-        free(s->text[i]);
-        s->text[i] = strndup(given, length);
-        given += length;
-        if ((i < 2) != (*given == ';')) return false;
-        ++given;
-    }
-    return true;
+    return s->type->kind == IMP_TYPE_SURFACE ? "uvt" : "xyzt";
+}
+
+static formula_scope scope_of(const stated *s, const char *variables)
+{
+    return (formula_scope){.variables = variables,
+                           .count = s->count,
+                           .name = (const char *const *)s->name,
+                           .value = s->value};
 }
 
 static formula *read_stated(const stated *s, const char *variables, char *fault, size_t size)
 {
     const char *const text[3] = {s->text[0], s->text[1], s->text[2]};
-    const formula_scope scope = {.variables = variables,
-                                 .count = s->count,
-                                 .name = (const char *const *)s->name,
-                                 .value = s->value};
+    const formula_scope scope = scope_of(s, variables);
     if (text[0] == NULL || text[1] == NULL || text[2] == NULL) return NULL;
     return formula_read(&scope, text, fault, size);
+}
+
+/* "X; Y; Z", definitions before them. */
+static formula *read_given(const stated *s, const char *given, char *fault, size_t size)
+{
+    formula_range range[BOX_DIMS];
+    const formula_scope scope = scope_of(s, variables_of(s));
+    formula *f = formula_read_part(&scope, given, range, fault, size);
+    bool is_said = formula_next_part(given) != NULL;
+    for (int j = 0; f != NULL && j < BOX_DIMS; ++j) is_said = is_said || range[j].is_said;
+    if (f == NULL || !is_said) return f;
+    snprintf(fault, size, "expected one part without ranges, which --domain states");
+    formula_free(f);
+    return NULL;
 }
 
 static void gather_constants(stated *s, const imp_registry *registry, const char *stage)
@@ -115,10 +125,8 @@ formula *stated_formula(const imp_registry *registry, const imp_type_info *type,
     formula *f = NULL;
     fault[0] = '\0';
     gather_constants(&s, registry, stage);
-    if (given == NULL || take_given(&s, given))
-        f = read_stated(&s, type->kind == IMP_TYPE_SURFACE ? "uvt" : "xyzt", fault, size);
-    else
-        snprintf(fault, size, "expected three formulas with ';' between them");
+    f = given != NULL ? read_given(&s, given, fault, size)
+                      : read_stated(&s, variables_of(&s), fault, size);
     stated_free(&s);
     return f;
 }
@@ -142,11 +150,7 @@ stated_scope *stated_scope_new(const imp_registry *registry, const imp_type_info
 formula *stated_scope_read(const stated_scope *scope, const char *text,
                            formula_range range[BOX_DIMS], char *fault, size_t size)
 {
-    const stated *s = &scope->from;
-    const formula_scope names = {.variables = s->type->kind == IMP_TYPE_SURFACE ? "uvt" : "xyzt",
-                                 .count = s->count,
-                                 .name = (const char *const *)s->name,
-                                 .value = s->value};
+    const formula_scope names = scope_of(&scope->from, variables_of(&scope->from));
     return formula_read_part(&names, text, range, fault, size);
 }
 

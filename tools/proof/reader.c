@@ -424,7 +424,7 @@ bool reader_read_part(const formula_scope *scope, const char *text, formula *f,
         if (coordinates == 3 || !take(&r, ';')) break;
     }
     if (fault[0] == '\0' && (coordinates < 3 || (peek(&r) != '\0' && peek(&r) != '|')))
-        fail(&r, coordinates < 3 ? "expected three formulas, with ';' between them"
+        fail(&r, coordinates < 3 ? "expected three formulas with ';' between them"
                                  : "expected an operator or the end");
     free(r.defined);
     return fault[0] == '\0';
