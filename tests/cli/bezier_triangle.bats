@@ -8,7 +8,7 @@ load ../support/cli_helper
 
 @test "bezier-triangle has nets and pieces, and its example is drawn" {
     run -0 "$IMPINGE" info bezier-triangle --json
-    json '.types[0].capabilities == ["core", "order-2", "net", "pieces"]'
+    json '.types[0].capabilities == ["core", "order-2", "net", "pieces", "formula"]'
     run -0 "$IMPINGE" info bezier-triangle --view triangle.svg
     [ "$(grep -c '^<polyline' triangle.svg)" -gt 50 ]
 }

@@ -103,6 +103,27 @@ blamed() {
     json '[.types[] | select(.checks[].verdict != "fail").name] == ["one_part", "two_parts"]'
 }
 
+@test "formulas of tables, weights, velocities and odd axes are those of eval" {
+    local stage
+    printf 't [ms],a [deg],x [mm],y [in]\n0,10,5,1\n1,40,7,2\n2,-20,11,5\n4,5,-3,6\n' >table.csv
+    for stage in 'rotate file=table.csv columns=a axis=1,2,3' \
+        'rotate file=table.csv columns=a interpolation=cubic hold=true center=1,0,2' \
+        'translate file=table.csv columns=x,y,x scene_unit=m' \
+        'rotate times=[0,1,3] angles=[0,1,0.5] velocities=[0,1,2]' \
+        'rotate times=[0,1,3] angles=[0,30,9] velocities=[0,1,2] accelerations=[1,2,-1] degrees=true' \
+        'keyframes times=[0,1,2] rotations=[[1,0,0,0],[-0.8,0.6,0,0],[0.8,0,0.6,0]] hold=true' \
+        'trajectory times=[0,1] positions=[[0,0,0],[1,1,0]] accelerations=[[0,0,-9.81]]' \
+        'bezier degree=1,1 points=[[0,0,0],[0,1,0],[1,0,0],[1,1,0.5]] weights=[1,2,3,1]
+            velocities=[[0,0,1],[0,1,0],[1,0,0],[1,1,0.5]]' \
+        'revolution profile=[[0,0],[1,0],[0.2,1]] weights=[1,2,3]' 'bend curvature=0.7 along=0,1,3' \
+        'disc axis=0,-1,0' 'disc axis=0,1,2' 'capsule from=1,2,3 to=1,2,3' \
+        'mesh points=[[0,0,0],[1,0,0],[0,1,0]] faces=[[0,2,1]] velocities=[[0,0,0],[1,0,0],[0,1,0]]' \
+        'formula x=u*time0 y=v*domain1 constants={"time0":3,"domain1":4} time=0,1'; do
+        run -0 "$IMPINGE" check "$stage" --only formula
+        [[ $output == *'  pass  formula '*' are proved '* ]]
+    done
+}
+
 @test "distances that are too large or too sure are exposed, and true ones are not" {
     exposes distances liar_distance 'distance claims at least '
     exposes distances liar_distance_remainder 'distance claims at least '

@@ -115,13 +115,15 @@ load ../support/cli_helper
 
 @test "info lists what the host uses of a type" {
     uses() { "$IMPINGE" info "$1" --json | jq -r '.types[0].capabilities | join(" ")'; }
-    [ "$(uses sphere)" = 'core order-2 distance symmetry' ]
-    [ "$(uses superellipsoid)" = 'core order-2' ]
-    [ "$(uses bezier)" = 'core order-2 net' ]
-    [ "$(uses translate)" = 'core order-2 net rigid span' ]
-    [ "$(uses rotate)" = 'core order-2 rigid span' ]
+    [ "$(uses sphere)" = 'core order-2 distance symmetry formula' ]
+    [ "$(uses superellipsoid)" = 'core order-2 formula' ]
+    [ "$(uses bezier)" = 'core order-2 net formula' ]
+    [ "$(uses translate)" = 'core order-2 net rigid span formula' ]
+    [ "$(uses rotate)" = 'core order-2 rigid span formula' ]
     run -0 "$IMPINGE" info triangle
-    [[ $output == *'uses       core order-2 net'* ]]
+    [[ $output == *'uses       core order-2 net formula'* ]]
+    run -0 "$IMPINGE" info ellipsoid
+    [[ $output == *'formula    u in [0, 2*pi]; v in [-pi/2, pi/2]; center0 + radii0*cos(v)*cos(u); '* ]]
 }
 
 @test "info tells shapes of lists, and what is required" {

@@ -17,6 +17,17 @@ import pytest
 from support import ARM, crowd, endless, flying
 
 
+def test_formulas_of_stages_have_their_numbers():
+    scene = impinge.Scene.from_pair("sphere radius=0.3 ! rotate rate=2", "box size=1,1,1")
+    (sphere, text), (rotate, turn) = scene.formulas("a")
+    assert (sphere, rotate) == ("sphere", "rotate")
+    assert text.startswith("radius = 0x1.3333333333333p-2; ") and "A = a0" in turn
+    assert "corner0 = (-0.5)" in scene.formulas("b", 0, 5)[0][1]
+    for surface, piece in ((1, 0), (0, 6)):
+        with pytest.raises(impinge.UsageError, match="has none of these numbers"):
+            scene.formulas("b", surface, piece)
+
+
 def test_a_scene_is_built_and_solved():
     result = flying().build().solve()
     assert result.verdict == "contact" and 0.4999 < result.t <= 0.5

@@ -180,6 +180,10 @@ class TypeInfo(c.Structure):
     ]
 
 
+class Stage(c.Structure):
+    _fields_ = [("kind", c.c_int), ("type", c.c_char_p), ("identity", c.c_void_p)]
+
+
 CLEAR, CONTACT, UNDECIDED = 0, 1, 2  # imp_verdict
 RESOLUTION, RUNNING = 7, 8  # imp_reason
 LIMITS = (3, 4, 5, 6, RUNNING)  # imp_reason: of what has not been answered
@@ -207,6 +211,9 @@ _FUNCTIONS = {
     "imp_scene_piece_count": (_N, _P, _N, _N),
     "imp_piece_eval": (c.c_int, _P, Place, _N, _P, _P, _P, _E),
     "imp_piece_domain": (None, _P, Place, _P, _P),
+    "imp_piece_stage_count": (_N, _P, Place),
+    "imp_piece_stage": (c.c_int, _P, Place, _N, _P, _E),
+    "imp_piece_formula": (c.c_int, _P, Place, _N, c.POINTER(_P), _E),
     "imp_builder_new": (_P, _P),
     "imp_builder_free": (None, _P),
     "imp_builder_time": (c.c_int, _P, _D, _D, _E),

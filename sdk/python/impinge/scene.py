@@ -148,6 +148,26 @@ class Scene:
             raise values.refuse("tolerance", tolerance, "a length > 0")
         return _mesh.make(self._handle, index, values.number("t", t), tolerance)
 
+    def formulas(self, body: str, surface: int = 0, piece: int = 0) -> List[Tuple[str, Optional[str]]]:
+        """What a surface, or one of its pieces, is: its type and then its maps, those of its parents last,
+        each with its formula as text (`sdk/README`, "Formulas as text") whose numbers are exact; None where a
+        type has none."""
+        place = lib.Place(self._index(body), values.count("surface", surface), values.count("piece", piece))
+        count = lib.library.imp_piece_stage_count(self._handle.address, place)
+        if count == 0:
+            raise UsageError(f"surface {surface}, piece {piece}: body {body!r} has none of these numbers")
+        return [self._stage(place, k) for k in range(count)]
+
+    def _stage(self, place: lib.Place, k: int) -> Tuple[str, Optional[str]]:
+        stage, text, error = lib.Stage(), c.c_void_p(), lib.Error()
+        address = self._handle.address
+        check(lib.library.imp_piece_stage(address, place, k, c.byref(stage), c.byref(error)), error)
+        check(lib.library.imp_piece_formula(address, place, k, c.byref(text), c.byref(error)), error)
+        try:
+            return stage.type.decode(), c.string_at(text.value).decode() if text.value else None
+        finally:
+            lib.free(text)
+
     def view(self, path: Optional[values.Path] = None, *, format: Format = "png",
              width: Optional[int] = None, height: Optional[int] = None,
              azimuth: Optional[float] = None, elevation: Optional[float] = None,
