@@ -106,8 +106,8 @@ blamed() {
 @test "formulas of tables, weights, velocities and odd axes are those of eval" {
     local stage
     printf 't [ms],a [deg],x [mm],y [in]\n0,10,5,1\n1,40,7,2\n2,-20,11,5\n4,5,-3,6\n' >table.csv
-    for stage in 'rotate file=table.csv columns=a axis=1,2,3' \
-        'rotate file=table.csv columns=a interpolation=cubic hold=true center=1,0,2' \
+    for stage in 'rotate file=table.csv column=a axis=1,2,3' \
+        'rotate file=table.csv column=a interpolation=cubic hold=true center=1,0,2' \
         'translate file=table.csv columns=x,y,x scene_unit=m' \
         'rotate times=[0,1,3] angles=[0,1,0.5] velocities=[0,1,2]' \
         'rotate times=[0,1,3] angles=[0,30,9] velocities=[0,1,2] accelerations=[1,2,-1] degrees=true' \

@@ -420,6 +420,8 @@ bool reader_read_part(const formula_scope *scope, const char *text, formula *f,
     memset(ranges, 0, BOX_DIMS * sizeof *ranges);
     add_variables(&r);
     for (;;) {
+        peek(&r);
+        r.text = r.at;
         if (coordinates > 0 || !read_item(&r, ranges)) f->out[coordinates++] = read_sum(&r);
         if (coordinates == 3 || !take(&r, ';')) break;
     }
