@@ -247,6 +247,7 @@ plugins_libsubdivision_la_SOURCES = \
     plugins/subdivision/corner_quad.c \
     plugins/subdivision/corner_triangle.c \
     plugins/subdivision/face.c plugins/subdivision/face.h \
+    plugins/subdivision/face_text.c \
     plugins/subdivision/gauge.c \
     plugins/subdivision/quarter.h \
     plugins/subdivision/quarter_box.c \

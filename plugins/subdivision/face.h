@@ -47,5 +47,6 @@ void face_measure(const face *q, face_gauge *gauge);
 imp_status face_eval(const void *self, size_t n, const double *p, double *x, double *error);
 imp_status face_include(const face *q, const imp_region *region, imp_model model[3]);
 imp_status face_net(const face *q, const imp_region *region, imp_net *net);
+imp_status face_write(const face *q, const imp_text_sink *to);
 
 #endif

@@ -242,6 +242,11 @@ static imp_status subdivision_net(const void *self, const imp_region *region, im
     return face_net(self, region, net);
 }
 
+static imp_status subdivision_write_formula(const void *self, const imp_text_sink *to)
+{
+    return face_write(self, to);
+}
+
 static const imp_surface_type subdivision_type = {
     IMP_TYPE_FIELDS(imp_surface_type, "subdivision", subdivision, subdivision_destroy),
     .domain = subdivision_domain,
@@ -251,6 +256,7 @@ static const imp_surface_type subdivision_type = {
     .net = subdivision_net,
     .piece_count = subdivision_piece_count,
     .piece = subdivision_piece,
+    .write_formula = subdivision_write_formula,
     .summary = "Catmull-Clark surface of a control mesh of any polygons, or Loop surface of one of "
                "triangles; points may move linearly",
     .equation =

@@ -116,6 +116,7 @@ blamed() {
         'bezier degree=1,1 points=[[0,0,0],[0,1,0],[1,0,0],[1,1,0.5]] weights=[1,2,3,1]
             velocities=[[0,0,1],[0,1,0],[1,0,0],[1,1,0.5]]' \
         'revolution profile=[[0,0],[1,0],[0.2,1]] weights=[1,2,3]' 'bend curvature=0.7 along=0,1,3' \
+        'subdivision points=[[0,0,0],[0,1,1],[1,0,0],[1,1,0],[2,0,1],[2,1,0]] faces=[[0,2,3,1],[2,4,5,3]]' \
         'disc axis=0,-1,0' 'disc axis=0,1,2' 'capsule from=1,2,3 to=1,2,3' \
         'mesh points=[[0,0,0],[1,0,0],[0,1,0]] faces=[[0,2,1]] velocities=[[0,0,0],[1,0,0],[0,1,0]]' \
         'formula x=u*time0 y=v*domain1 constants={"time0":3,"domain1":4} time=0,1'; do
