@@ -97,6 +97,18 @@ core_scene = \
     core/scene/scene_trees.h \
     core/scene/tolerances.c core/scene/tolerances.h
 
+core_solid = \
+    core/solid/closure.c \
+    core/solid/components.c core/solid/components.h \
+    core/solid/edges.c core/solid/edges.h \
+    core/solid/inside.c core/solid/inside.h \
+    core/solid/nesting.c \
+    core/solid/patches.c core/solid/patches.h \
+    core/solid/shells.c core/solid/shells.h \
+    core/solid/solid.c core/solid/solid.h core/solid/solid_internal.h \
+    core/solid/solid_angle.c core/solid/solid_angle.h \
+    core/solid/winding.c core/solid/winding.h
+
 core_bounds = \
     core/bounds/claim_audit.c core/bounds/claim_audit.h \
     core/bounds/difference.c core/bounds/difference.h \
@@ -142,10 +154,12 @@ core_solver = \
     core/solver/clearance.c core/solver/clearance.h \
     core/solver/contradiction.c core/solver/contradiction.h \
     core/solver/clearance_divide.c \
+    core/solver/clearance_inside.c \
     core/solver/clearance_internal.h \
     core/solver/expand_pair.c core/solver/expand_pair.h \
     core/solver/explanation.c core/solver/explanation.h \
     core/solver/impact.c core/solver/impact.h \
+    core/solver/query_inside.c \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
     core/solver/pair_step.c core/solver/pair_step.h \
@@ -184,7 +198,7 @@ core_libcommon_la_SOURCES = $(core_common)
 # Everything, internal symbols included: what the Check suites link.
 noinst_LTLIBRARIES += core/libcore.la
 core_libcore_la_SOURCES = $(core_base) $(core_surface) $(core_tree) $(core_plugin) $(core_scene) \
-    $(core_bounds) $(core_witness) $(core_broad_phase) $(core_solver) $(core_reader)
+    $(core_solid) $(core_bounds) $(core_witness) $(core_broad_phase) $(core_solver) $(core_reader)
 core_libcore_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 core_libcore_la_LIBADD = core/libcommon.la $(JANSSON_LIBS) -lm
 

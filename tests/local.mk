@@ -25,6 +25,7 @@ check_suites = \
     tests/unit/test_distance_maps \
     tests/unit/test_distance_windows \
     tests/unit/test_slips \
+    tests/unit/test_solids \
     tests/unit/test_elf_probe \
     tests/unit/test_elf_tables \
     tests/unit/test_isolate \

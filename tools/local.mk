@@ -184,7 +184,6 @@ tools_simulate = \
     tools/simulate/chart.c tools/simulate/chart.h \
     tools/simulate/coulomb.c tools/simulate/coulomb.h \
     tools/simulate/drift.c tools/simulate/drift.h \
-    tools/simulate/edges.c tools/simulate/edges.h \
     tools/simulate/eliminate.c tools/simulate/eliminate.h \
     tools/simulate/event.c tools/simulate/event.h \
     tools/simulate/footprint.c tools/simulate/footprint.h \

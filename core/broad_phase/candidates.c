@@ -70,6 +70,10 @@ static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
 {
     *done = collection_add_pairs(all);
     if (all->out_of_memory) return error_set_memory(error);
+    if (*done && scene_has_solids(all->scene)) {
+        const imp_code code = collection_add_solids(all, done, error);
+        if (code != IMP_SUCCESS) return code;
+    }
     if (!*done || all->list->pair_count < 2) return IMP_SUCCESS;
     return sort_pairs(all, done, error);
 }

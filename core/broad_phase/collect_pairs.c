@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "core/base/status.h"
 #include "core/broad_phase/collection.h"
 #include "core/common/array.h"
 
@@ -135,4 +136,76 @@ bool collection_add_pairs(collection *all)
                                          : broad_phase_visit(all->boxes, all->list->count,
                                                              all->gamma_clear, &visitor);
     return done && !collection_must_end(all); /* notes what the last pairs take */
+}
+
+/* --- Pairs of solid bodies -------------------------------------------------------------------- */
+
+/* The first candidate of a body, and a box around all of them. */
+typedef struct body_box {
+    size_t first;
+    double lo[3], hi[3];
+} body_box;
+
+static void box_bodies(const collection *all, body_box *box)
+{
+    for (size_t b = 0; b < scene_body_count(all->scene); ++b)
+        box[b] =
+            (body_box){SIZE_MAX, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t k = 0; k < all->list->count; ++k) {
+        const candidate *c = &all->list->candidates[k];
+        body_box *of = &box[c->body];
+        double lo[3], hi[3];
+        tree_box(c->tree, lo, hi);
+        if (of->first == SIZE_MAX) of->first = k;
+        for (int i = 0; i < 3; ++i) {
+            if (!(lo[i] >= of->lo[i])) of->lo[i] = lo[i];
+            if (!(hi[i] <= of->hi[i])) of->hi[i] = hi[i];
+        }
+    }
+}
+
+static bool boxes_meet(const body_box *a, const body_box *b)
+{
+    for (int i = 0; i < 3; ++i)
+        if (a->lo[i] > b->hi[i] || b->lo[i] > a->hi[i]) return false;
+    return true;
+}
+
+/* Marks the bodies that have a pair with `body` among the first pairs. */
+static void mark_partners(const candidate_list *list, size_t body, bool *has_pair)
+{
+    for (size_t k = 0; k < list->pair_count; ++k) {
+        const candidate_pair *p = &list->pairs[k];
+        if (p->side[0]->body == body) has_pair[p->side[1]->body] = true;
+        if (p->side[1]->body == body) has_pair[p->side[0]->body] = true;
+    }
+}
+
+static void pair_solid(collection *all, size_t body, const body_box *box, bool *has_pair)
+{
+    const size_t bodies = scene_body_count(all->scene);
+    candidate_pair p;
+    for (size_t b = 0; b < bodies; ++b) has_pair[b] = b == body;
+    mark_partners(all->list, body, has_pair);
+    for (size_t b = 0; b < bodies && !all->out_of_memory; ++b)
+        if (!has_pair[b] && box[b].first != SIZE_MAX && boxes_meet(&box[body], &box[b]) &&
+            make_pair(all, box[body].first, box[b].first, &p))
+            keep_pair(all, &p);
+}
+
+imp_code collection_add_solids(collection *all, bool *done, imp_error *error)
+{
+    const size_t bodies = scene_body_count(all->scene);
+    body_box *box = malloc(bodies * sizeof *box);
+    bool *has_pair = malloc(bodies * sizeof *has_pair);
+    all->out_of_memory = box == NULL || has_pair == NULL;
+    if (!all->out_of_memory) box_bodies(all, box);
+    for (size_t b = 0; *done && b < bodies && !all->out_of_memory; ++b) {
+        if (!scene_is_solid(all->scene, b) || box[b].first == SIZE_MAX) continue;
+        pair_solid(all, b, box, has_pair);
+        *done = !collection_must_end(all);
+    }
+    free(box);
+    free(has_pair);
+    return all->out_of_memory ? error_set_memory(error) : IMP_SUCCESS;
 }

@@ -106,6 +106,11 @@ void collection_count_rest(collection *all);
 /* False: a limit, or no memory, which all->out_of_memory tells. */
 bool collection_add_pairs(collection *all);
 
+/* Adds a pair of surfaces for each solid body and each body whose boxes have a point in common with
+ * its boxes, where no surfaces of the two come near each other: one may be inside the other. *done
+ * as above. */
+imp_code collection_add_solids(collection *all, bool *done, imp_error *error);
+
 /* Counts the last maps that all surfaces have in common, as surface_common_motion does for two. */
 size_t collection_common_motion(const imp_scene *scene);
 

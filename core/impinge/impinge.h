@@ -285,6 +285,10 @@ IMP_EXPORT imp_code imp_builder_gamma(imp_builder *builder, double gamma, double
 IMP_EXPORT imp_code imp_builder_body(imp_builder *builder, const char *name, size_t *body,
                                      imp_error *error);
 
+/* Makes a body solid, or not, which is what bodies are at first. */
+IMP_EXPORT imp_code imp_builder_solid(imp_builder *builder, size_t body, bool solid,
+                                      imp_error *error);
+
 /* Adds a surface to a body; a map to a body, after those it has; a map to one surface of a body,
  * which is applied before those of the body. `arguments` has `count` entries, and nothing of it is
  * kept. */
@@ -387,6 +391,51 @@ typedef struct imp_rigid_motion {
  * enclosed: use it for pictures, not for proofs. [any thread] */
 IMP_EXPORT imp_code imp_piece_motion(const imp_scene *scene, imp_place at, double from, double to,
                                      imp_rigid_motion *motion, imp_error *why);
+
+/* --- Bodies that bound a volume --------------------------------------------------------------- */
+
+/* Whether a body is solid ("solid" in scene files): whoever is inside when a query begins is in
+ * contact there. */
+IMP_EXPORT bool imp_scene_is_solid(const imp_scene *scene, size_t body);
+
+/* Whether the surfaces of a body bound a volume, as far as their edges tell. */
+typedef enum imp_closure_verdict {
+    IMP_CLOSURE_CLOSED,
+    IMP_CLOSURE_OPEN,      /* an edge borders on nothing */
+    IMP_CLOSURE_ONE_SIDED, /* they have no inside and outside, as a Moebius strip */
+    IMP_CLOSURE_UNBOUNDED, /* a domain is infinite, or points are farther than 1e50 away */
+    IMP_CLOSURE_EMPTY,     /* there is no surface at that time, or all of it is one point */
+    IMP_CLOSURE_STOPPED    /* `go_on` answered false */
+} imp_closure_verdict;
+
+typedef struct imp_closure {
+    uint32_t struct_size; /* sizeof(imp_closure); grows at the end */
+    imp_closure_verdict verdict;
+    size_t shells;   /* CLOSED: sets of surfaces that hang together; else 0 */
+    double where[3]; /* OPEN, ONE_SIDED: a point of the edge in question, */
+    imp_place at;    /* which is of this surface */
+} imp_closure;
+
+/* Which shell a surface, or a piece of one, belongs to, and on which side of it the shell is: of
+ * all patches of a shell sign * (du x dv) points inward, or of all of them outward. It never
+ * grows. */
+typedef struct imp_facing {
+    size_t shell;
+    int sign; /* 1, or -1; 1 for the first patch of each shell */
+} imp_facing;
+
+/* Asked now and then by what may take long, with the program's own pointer: whether to go on. */
+typedef bool (*imp_go_on)(void *context);
+
+/* Finds out whether a body is closed at time t: whether each edge of its surfaces is a point or
+ * runs along other edges of the body, within 1e-9 of its size or within `slack`, length. The caller
+ * sets closure->struct_size. `facing` may be NULL, or has room for as many patches as the body's
+ * surfaces have pieces (imp_scene_piece_count), and is filled in that order where the verdict is
+ * CLOSED. `go_on`, which may be NULL, is asked now and then with `context`. Edges are compared at
+ * points: it is no proof. [any thread] */
+IMP_EXPORT imp_code imp_scene_get_closure(const imp_scene *scene, size_t body, double t,
+                                          double slack, imp_facing *facing, imp_go_on go_on,
+                                          void *context, imp_closure *closure, imp_error *error);
 
 /* --- Query: the earliest contact -------------------------------------------------------------- */
 
@@ -492,12 +541,22 @@ typedef struct imp_stats {
     uint64_t bytes; /* peak memory of scene, trees and heap, about; of a part without the scene */
 } imp_stats;
 
+/* How two bodies are in contact. */
+typedef enum imp_contact_kind {
+    IMP_CONTACT_TOUCH, /* two surfaces come together */
+    IMP_CONTACT_INSIDE /* one body, or a part of it, is inside the other, which is solid, at the
+                          first time asked: of the solid's side `point` is the other's point, u and
+                          v are NAN, surface and piece 0 */
+} imp_contact_kind;
+
 /* What is proved so far, with the gamma_clear in force:
  *   (a) no points of two bodies are nearer than gamma_clear at any time in [t_start, t_lower);
  *       for every verdict, undecided included;
  *   (b) CONTACT: a.point and b.point lie on their surfaces at time t, evaluated, no farther than
- *       gamma apart, rounding included, and t == t_lower;
- *   (c) CLEAR: never nearer than gamma_clear in [t_start, t_end]; t_lower == t_end.
+ *       gamma apart, rounding included, and t == t_lower; or, of kind INSIDE, t is t_start, and the
+ *       point of one body lies in the other, which is solid;
+ *   (c) CLEAR: never nearer than gamma_clear in [t_start, t_end], and nobody inside a solid body at
+ *       t_start, hence never; t_lower == t_end.
  * Surfaces of some types do not exist at all times, and touch nothing when they do not
  * (IMP_FLAG_ABSENT_OUTSIDE_TIMES). t_examined is the part of [t_start, t_end] from the first to the
  * last time at which two surfaces that are tested exist together: all of it where types set no
@@ -518,6 +577,7 @@ typedef struct imp_result {
     double t_start, t_end; /* what was asked about */
     double t_examined[2];  /* see above; NAN, NAN: no time */
     bool at_rest; /* CONTACT of two surfaces that do not move in [t_start, t_end]: they overlap */
+    imp_contact_kind kind; /* CONTACT only */
 } imp_result;
 
 typedef struct imp_query imp_query;
@@ -674,6 +734,7 @@ typedef struct imp_clearance {
     imp_side a_violated, b_violated;
     imp_stats
         stats; /* seconds, pairs, nodes and witness_searches: of this answer; the rest: so far */
+    imp_contact_kind kind; /* of the witness. INSIDE: lower and upper are 0 from t_start on */
 } imp_clearance;
 
 /* Makes a query for a clearance, to be stepped, cancelled and freed like any other. `asked` may be

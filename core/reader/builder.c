@@ -113,6 +113,14 @@ imp_code imp_builder_body(imp_builder *b, const char *name, size_t *body, imp_er
     return code;
 }
 
+imp_code imp_builder_solid(imp_builder *b, size_t body, bool solid, imp_error *error)
+{
+    imp_code code = enter(b, error);
+    if (code == IMP_SUCCESS) code = check_body(b, body, error);
+    if (code == IMP_SUCCESS) scene_set_solid(b->bodies.assembly.scene, body, solid);
+    return code;
+}
+
 /* The instance that a type's name and arguments make. */
 static imp_code make(imp_builder *b, imp_type_kind kind, const char *type,
                      const imp_argument *arguments, size_t count, const place *at,

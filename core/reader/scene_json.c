@@ -8,9 +8,9 @@
 #include "core/reader/json_keys.h"
 
 /* What bodies are made of is for simulations; here it is ignored. */
-static const char *const body_keys[] = {"name",     "surfaces", "maps",   "parent",   "group",
-                                        "mass",     "inertia",  "center", "friction", "restitution",
-                                        "velocity", "spin",     NULL};
+static const char *const body_keys[] = {"name",        "surfaces", "maps",    "parent", "group",
+                                        "solid",       "mass",     "inertia", "center", "friction",
+                                        "restitution", "velocity", "spin",    NULL};
 
 /* A motion that is still to be computed is refused: an answer without it would be about another
  * scene. */
@@ -62,6 +62,18 @@ static imp_code read_groups(scene_bodies *b, size_t index, const json_t *body, c
     return code;
 }
 
+static imp_code read_solid(scene_bodies *b, size_t index, const json_t *body, const place *at)
+{
+    const json_t *json = json_object_get(body, "solid");
+    const place member = place_key(at, "solid");
+    if (json == NULL) return IMP_SUCCESS;
+    if (!json_is_boolean(json))
+        return place_error(&member, b->error, IMP_ERROR_SCENE, "got %s, must be true or false",
+                           json_describe(json).at);
+    scene_set_solid(b->assembly.scene, index, json_is_true(json));
+    return IMP_SUCCESS;
+}
+
 static imp_code add_body(scene_bodies *b, json_t *body, const place *at)
 {
     json_t *surfaces, *maps;
@@ -71,6 +83,7 @@ static imp_code add_body(scene_bodies *b, json_t *body, const place *at)
     if (code == IMP_SUCCESS) code = json_keys_refuse(body, simulated_keys, at, b->error);
     if (code == IMP_SUCCESS) code = begin(b, body, at);
     if (code == IMP_SUCCESS) code = read_groups(b, index, body, at);
+    if (code == IMP_SUCCESS) code = read_solid(b, index, body, at);
     if (code == IMP_SUCCESS)
         code = json_keys_array(body, "surfaces", false, at, &surfaces, b->error);
     if (code == IMP_SUCCESS) code = json_keys_array(body, "maps", false, at, &maps, b->error);

@@ -35,6 +35,7 @@ typedef struct member {
 
 typedef struct scene_body {
     char *name;
+    bool solid;
     member *members;
     size_t count, capacity;
     size_t *groups;
@@ -44,6 +45,7 @@ typedef struct scene_body {
 struct imp_scene {
     scene_body *bodies;
     size_t count, capacity;
+    size_t solids; /* how many bodies are solid */
     char **groups; /* names */
     size_t group_count, group_capacity;
     key_pairs ignored;
@@ -121,6 +123,22 @@ imp_code scene_add_body(imp_scene *scene, const char *name)
     if (copy == NULL) return IMP_ERROR_MEMORY;
     bodies[scene->count++] = (scene_body){.name = copy};
     return IMP_SUCCESS;
+}
+
+void scene_set_solid(imp_scene *scene, size_t body, bool is_solid)
+{
+    assert(body < scene->count);
+    scene->solids += is_solid;
+    scene->solids -= scene->bodies[body].solid;
+    scene->bodies[body].solid = is_solid;
+}
+
+bool scene_has_solids(const imp_scene *scene) { return scene->solids > 0; }
+
+bool scene_is_solid(const imp_scene *scene, size_t body)
+{
+    assert(body < scene->count);
+    return scene->bodies[body].solid;
 }
 
 imp_code scene_add_surface(imp_scene *scene, size_t index, surface *s)

@@ -13,6 +13,11 @@ imp_scene *scene_new(void); /* NULL: no memory. Free with imp_scene_free. */
 /* `name` is copied. Its index is the count before. */
 imp_code scene_add_body(imp_scene *scene, const char *name);
 
+/* Whether being inside the body counts as contact; false at first. body < scene_body_count. */
+void scene_set_solid(imp_scene *scene, size_t body, bool solid);
+bool scene_is_solid(const imp_scene *scene, size_t body);
+bool scene_has_solids(const imp_scene *scene); /* whether any body is */
+
 /* Takes over `s`, also when it fails. */
 imp_code scene_add_surface(imp_scene *scene, size_t body, surface *s);
 

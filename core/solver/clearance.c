@@ -57,19 +57,31 @@ static imp_code renew_trees(clearance_search *c, imp_error *error)
     return code;
 }
 
-static imp_code begin_task(clearance_search *c, imp_error *error)
+static void finish_task(clearance_search *c, imp_reason reason);
+
+/* Answers a task at whose start one body is inside another. */
+static void finish_inside(clearance_search *c, const inside_answer *found)
 {
-    if (renew_trees(c, error) != IMP_SUCCESS) return error->code;
-    const clearance_group *group = group_of(c);
+    imp_clearance *answer = &c->answer;
+    answer->kind = IMP_CONTACT_INSIDE;
+    answer->has_witness = true;
+    answer->lower = answer->upper = 0;
+    answer->t = answer->t_start;
+    answer->a = found->side[0];
+    answer->b = found->side[1];
+    if (c->asked.required > 0) answer->verdict = IMP_REQUIREMENT_VIOLATED;
+    if (c->asked.required > 0 && c->asked.slices == 1) {
+        answer->t_violated = answer->t_start;
+        answer->gap_violated = 0;
+        answer->a_violated = answer->a;
+        answer->b_violated = answer->b;
+    }
+    finish_task(c, IMP_REASON_NONE);
+}
+
+static imp_code begin_search(clearance_search *c, const clearance_group *group, imp_error *error)
+{
     const double required = c->asked.required;
-    imp_clearance *grown =
-        array_reserve(c->answers, c->current, &c->answer_capacity, sizeof *c->answers);
-    if (grown == NULL) return error_set_memory(error);
-    c->answers = grown;
-    c->answer = clearance_blank_answer(c, c->current);
-    c->before = *c->stats;
-    c->before.seconds = clock_seconds();
-    c->unresolved = c->takes_turns = false;
     c->distance = (min_distance){
         .window = {c->answer.t_start, c->answer.t_end},
         .tolerance = c->asked.tolerance,
@@ -85,6 +97,28 @@ static imp_code begin_task(clearance_search *c, imp_error *error)
     else
         min_distance_clear(&c->distance);
     return code;
+}
+
+static imp_code begin_task(clearance_search *c, imp_error *error)
+{
+    if (renew_trees(c, error) != IMP_SUCCESS) return error->code;
+    const clearance_group *group = group_of(c);
+    imp_clearance *grown =
+        array_reserve(c->answers, c->current, &c->answer_capacity, sizeof *c->answers);
+    if (grown == NULL) return error_set_memory(error);
+    c->answers = grown;
+    c->answer = clearance_blank_answer(c, c->current);
+    c->before = *c->stats;
+    c->before.seconds = clock_seconds();
+    c->unresolved = c->takes_turns = false;
+    inside_answer inside;
+    const imp_code code = clearance_look_inside(c, group, &inside, error);
+    if (code != IMP_SUCCESS || inside.state == INSIDE_STOPPED) return code;
+    if (inside.state == INSIDE_FOUND) {
+        finish_inside(c, &inside);
+        return code;
+    }
+    return begin_search(c, group, error);
 }
 
 /* What is proved of the current task. Lemma. Candidates are all surfaces that come within
@@ -173,6 +207,14 @@ static void finish_task(clearance_search *c, imp_reason reason)
 {
     if (reason == IMP_REASON_NONE && (decides(c) || is_beyond(c)) && !is_narrow(c, &c->answer))
         reason = IMP_REASON_DECIDED;
+    if (c->inside_unknown && c->answer.lower > 0) {
+        c->answer.lower = 0;
+        reason = IMP_REASON_RESOLUTION;
+        if (c->answer.verdict == IMP_REQUIREMENT_HOLDS)
+            c->answer.verdict = IMP_REQUIREMENT_UNDECIDED;
+    }
+    c->known_outside =
+        c->answer.lower > 0 && scene_is_defined(c->scene, c->options.t_start, c->options.t_end);
     c->answer.reason = reason;
     c->answer.stats = cost(c);
     c->answers[c->current++] = c->answer;

@@ -4,6 +4,7 @@
 #define CORE_SOLVER_CLEARANCE_H
 
 #include "core/broad_phase/candidates.h"
+#include "core/solid/inside.h"
 #include "core/solver/min_distance.h"
 
 /* The questions of imp_clearance_new
@@ -14,13 +15,14 @@
 
 typedef struct clearance_search clearance_search;
 
-/* Checks what is asked. any_pair: two surfaces of the scene are to be tested with each other. */
-imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options *options,
-                       const imp_clearance_options *asked, clearance_search **made,
-                       imp_error *error);
+/* Checks what is asked. The watch ends long looks at solid bodies, and must outlive it. any_pair:
+ * two surfaces of the scene are to be tested with each other. */
+imp_code clearance_new(imp_scene *scene, bool any_pair, const imp_options *options,
+                       const imp_clearance_options *asked, const patch_watch *watch,
+                       clearance_search **made, imp_error *error);
 /* Asks the question of `whole` about two bodies alone. `whole` is only read. */
 imp_code clearance_part(const clearance_search *whole, const size_t body[2],
-                        clearance_search **made, imp_error *error);
+                        const patch_watch *watch, clearance_search **made, imp_error *error);
 bool clearance_is_each(const clearance_search *c);
 double clearance_near(const clearance_search *c); /* surfaces farther apart do not count; length */
 bool clearance_is_of_all_times(const clearance_search *c); /* not of slices */

@@ -68,9 +68,9 @@ static imp_code add_groups(clearance_search *c, imp_error *error)
     return IMP_SUCCESS;
 }
 
-imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options *options,
-                       const imp_clearance_options *asked, clearance_search **made,
-                       imp_error *error)
+imp_code clearance_new(imp_scene *scene, bool any_pair, const imp_options *options,
+                       const imp_clearance_options *asked, const patch_watch *watch,
+                       clearance_search **made, imp_error *error)
 {
     if (check(asked, error) != IMP_SUCCESS) return IMP_ERROR_USAGE;
     if (options->baseline != IMP_BASELINE_NONE)
@@ -82,6 +82,7 @@ imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options 
     c->any_pair = any_pair;
     c->options = *options;
     c->asked = *asked;
+    c->watch = watch;
     const imp_code code = add_groups(c, error);
     if (code == IMP_SUCCESS)
         *made = c;
@@ -91,7 +92,7 @@ imp_code clearance_new(const imp_scene *scene, bool any_pair, const imp_options 
 }
 
 imp_code clearance_part(const clearance_search *whole, const size_t body[2],
-                        clearance_search **made, imp_error *error)
+                        const patch_watch *watch, clearance_search **made, imp_error *error)
 {
     clearance_search *c = calloc(1, sizeof *c);
     if (c == NULL) return error_set_memory(error);
@@ -99,6 +100,7 @@ imp_code clearance_part(const clearance_search *whole, const size_t body[2],
                             .any_pair = true,
                             .options = whole->options,
                             .asked = whole->asked,
+                            .watch = watch,
                             .groups = malloc(sizeof *c->groups)};
     if (c->groups == NULL) {
         clearance_free(c);
@@ -124,6 +126,7 @@ void clearance_free(clearance_search *c)
     min_distance_clear(&c->distance);
     impact_clear(&c->violation);
     candidates_clear(&c->own);
+    inside_free(c->insides);
     free(c->answers);
     free(c->groups);
     free(c);

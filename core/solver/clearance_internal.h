@@ -18,7 +18,7 @@ typedef struct clearance_group {
 typedef enum stage { STAGE_NEXT, STAGE_DISTANCE, STAGE_VIOLATION } stage;
 
 struct clearance_search {
-    const imp_scene *scene;
+    imp_scene *scene;
     bool any_pair;
     imp_options options;
     imp_clearance_options asked;
@@ -41,8 +41,17 @@ struct clearance_search {
     size_t tested; /* of the current task's candidates, while the violation is searched for */
     uint64_t turn_from, turn; /* of stats->pairs: when its turn began, and how many a turn has */
     bool takes_turns; /* that search took long: it and the search for the distance go on in turn */
-    bool unresolved;  /* double precision ended that search: the distance is to decide */
+    const patch_watch *watch;
+    inside_search *insides; /* NULL: nothing was asked about solid bodies yet */
+    bool inside_unknown;    /* at the current task's start, of some bodies */
+    bool known_outside;     /* nobody is inside at the next task's start */
+    bool unresolved;        /* double precision ended that search: the distance is to decide */
 };
+
+/* Whether one of the current task's bodies, in order, is inside another that is solid when it
+ * begins. *found.state is INSIDE_STOPPED where the watch ended the look: begin again. */
+imp_code clearance_look_inside(clearance_search *c, const clearance_group *group,
+                               inside_answer *found, imp_error *error);
 
 /* What is known of a task before it begins. */
 imp_clearance clearance_blank_answer(const clearance_search *c, size_t index);

@@ -83,6 +83,7 @@ FP_APART static imp_query *new_query(imp_scene *scene, const imp_options *given,
                          .verdict = IMP_VERDICT_UNDECIDED,
                          .reason = IMP_REASON_RUNNING};
     query->peak_bytes = query->scene_bytes + sizeof *query;
+    query_begin_watch(query);
     return query;
 }
 
@@ -102,6 +103,7 @@ void imp_query_free(imp_query *query)
 {
     if (query == NULL) return;
     impact_clear(&query->impact);
+    inside_free(query->insides);
     clearance_free(query->clearance);
     candidates_clear(&query->candidates);
     free(query->parts);
@@ -153,13 +155,28 @@ static imp_code conclude_contact(imp_query *query, imp_error *error)
     const impact *im = &query->impact;
     const candidate_pair *both = &query->candidates.pairs[im->found_candidate];
     query_finish(query, IMP_VERDICT_CONTACT, IMP_REASON_NONE);
+    query->kind = IMP_CONTACT_TOUCH;
     query->at_rest = is_at_rest(query, 0) && is_at_rest(query, 1);
     return world_witness_of(query->scene, both, &im->found, im->t_lower, im->gamma, &query->contact,
                             error);
 }
 
+/* Ends a search that has found nothing at the start, where it is not known whether one of two
+ * bodies was inside the other then. */
+static void conclude_unknown(imp_query *query)
+{
+    query->impact.found_candidate = (uint32_t)query->unknown_candidate;
+    query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RESOLUTION);
+}
+
 static imp_code conclude(imp_query *query, impact_state state, imp_error *error)
 {
+    const bool at_start =
+        state == IMPACT_CONTACT && query->impact.t_lower <= query->options.t_start;
+    if (query->inside_unknown && !at_start && (state == IMPACT_CLEAR || state == IMPACT_CONTACT)) {
+        conclude_unknown(query);
+        return IMP_SUCCESS;
+    }
     switch (state) {
     case IMPACT_RUNNING:
         break;
@@ -206,6 +223,7 @@ static imp_code search_contact(imp_query *query, imp_error *error)
 {
     impact_state state = IMPACT_RUNNING;
     imp_code code = IMP_SUCCESS;
+    if (query_may_be_inside(query)) return query_look_inside(query, error);
     if (query->candidates_tested < query->candidates.pair_count) {
         pair_test_look_ahead(&query->impact, (uint32_t)query->candidates_tested,
                              query->candidates.pair_count, &query->options);
@@ -348,6 +366,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     if (query->verdict != IMP_VERDICT_UNDECIDED || query->reason == IMP_REASON_NONE)
         return IMP_SUCCESS;
     const double start = clock_seconds(), before = query->stats.seconds;
+    query->step_from[0] = before, query->step_from[1] = start;
     const uint64_t done = query->stats.pairs;
     const uint64_t until = pairs == 0 || pairs > UINT64_MAX - done ? UINT64_MAX : done + pairs;
     imp_code code = IMP_SUCCESS;
@@ -356,7 +375,8 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     const uint64_t of_candidates = candidates_bytes(&query->candidates);
     const unsigned look_after = units_a_look(query);
     for (unsigned k = 0; code == IMP_SUCCESS && query->reason == IMP_REASON_RUNNING; ++k) {
-        if (k % look_after == 0) tick(query, before, start);
+        if (k % look_after == 0 || query->watch_ended) tick(query, before, start);
+        query->watch_ended = false;
         note_bytes(query, of_candidates);
         const imp_reason reason = exhausted(query, query->stats.seconds);
         if (reason != IMP_REASON_NONE)
@@ -404,6 +424,7 @@ FP_APART static imp_code refine(imp_query *query, double gamma, double gamma_cle
                        query->candidates.pair_count))
         return error_set_memory(error);
     query->gamma_clear = gamma_clear;
+    query->insides_next = 0;
     if (query->verdict == IMP_VERDICT_CONTACT)
         query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;
@@ -429,6 +450,7 @@ imp_code imp_query_exclude_pair(imp_query *query, imp_error *error)
         return error_set(error, IMP_ERROR_USAGE,
                          "pass: this query has found no contact, and nothing that is unresolved");
     if (!impact_pass(&query->impact, query->candidates.pair_count)) return error_set_memory(error);
+    query->insides_next = 0;
     query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RUNNING);
     return IMP_SUCCESS;
 }

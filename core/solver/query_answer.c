@@ -32,13 +32,21 @@ static imp_result result_of(const imp_query *query)
     if (query->examined.lo <= query->examined.hi)
         r.t_examined[0] = query->examined.lo, r.t_examined[1] = query->examined.hi;
     r.stats.bytes = query->peak_bytes;
+    if (query->inside_unknown && r.verdict == IMP_VERDICT_UNDECIDED) r.t_lower = r.t_start;
     if (r.reason == IMP_REASON_RESOLUTION) {
         r.a.body = unresolved(query, 0);
         r.b.body = unresolved(query, 1);
     }
     if (r.verdict != IMP_VERDICT_CONTACT) return r;
     r.at_rest = query->at_rest;
+    r.kind = query->kind;
     r.t = im->t_lower;
+    if (r.kind == IMP_CONTACT_INSIDE) {
+        r.gap = 0;
+        r.a = query->inside.side[0];
+        r.b = query->inside.side[1];
+        return r;
+    }
     r.gap = query->contact.gap;
     r.a = query->contact.side[0];
     r.b = query->contact.side[1];

@@ -28,9 +28,10 @@ FP_APART static imp_code add_clearance(imp_query *query, const imp_clearance_opt
     imp_code code = IMP_SUCCESS;
     if (asked != NULL)
         code = sized_read("imp_clearance_options", &own, asked, OPTIONS_FIRST, error);
-    return code != IMP_SUCCESS ? code
-                               : clearance_new(query->scene, query->examined.any_pair,
-                                               &query->options, &own, &query->clearance, error);
+    return code != IMP_SUCCESS
+               ? code
+               : clearance_new(query->scene, query->examined.any_pair, &query->options, &own,
+                               &query->watch, &query->clearance, error);
 }
 
 imp_query *imp_clearance_new(imp_scene *scene, const imp_options *options,

@@ -103,6 +103,7 @@ static imp_query *fresh_query(const imp_query *whole, imp_error *error)
                              .stats = &query->stats,
                              .t_lower = whole->options.t_start};
     atomic_init(&query->cancelled, false);
+    query_begin_watch(query);
     return query;
 }
 
@@ -130,7 +131,7 @@ FP_APART static imp_query *part_of(const imp_query *whole, size_t index, imp_err
     query->impact.candidate_pairs = query->candidates.pairs;
     query->impact.candidate_pair_count = query->candidates.pair_count;
     if (code == IMP_SUCCESS && whole->clearance != NULL)
-        code = clearance_part(whole->clearance, body, &query->clearance, error);
+        code = clearance_part(whole->clearance, body, &query->watch, &query->clearance, error);
     if (code == IMP_SUCCESS && query->clearance != NULL)
         code = clearance_begin(query->clearance, &query->candidates, &query->stats, error);
     if (code == IMP_SUCCESS) return query;

@@ -6,6 +6,7 @@
 #include <stdatomic.h>
 
 #include "core/broad_phase/examined_times.h"
+#include "core/solid/inside.h"
 #include "core/solver/clearance.h"
 #include "core/solver/explanation.h"
 #include "core/solver/time_of_impact.h"
@@ -33,6 +34,15 @@ struct imp_query {
     clearance_search *clearance; /* NULL: the earliest contact is asked for, by the following */
     impact impact;
     size_t candidates_tested; /* how many candidate pairs have been tested */
+    patch_watch watch;        /* ends what is asked about solid bodies when a limit comes */
+    double step_from[2];      /* seconds spent before this step; of the clock when it began */
+    bool watch_ended;         /* a limit came */
+    inside_search *insides;   /* NULL: not begun */
+    size_t insides_next;      /* of the candidate pairs, which bodies are asked about next */
+    bool inside_unknown;      /* of two bodies it cannot be told, */
+    size_t unknown_candidate; /* which are this pair's */
+    imp_contact_kind kind;    /* CONTACT; INSIDE: */
+    inside_answer inside;
     size_t *parts;     /* NULL: not divided; where the candidates of each pair of bodies begin, */
     size_t part_count; /* and, at this index, where the last ones end */
     double divided;    /* seconds of the clock when it was */
@@ -40,6 +50,16 @@ struct imp_query {
 
 /* Ends the query, or the step, with an answer. */
 void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason);
+
+/* Asks about the next two bodies of the candidates one of which is solid, whether one is inside the
+ * other at the query's start, which is contact. */
+imp_code query_look_inside(imp_query *query, imp_error *error);
+
+/* Whether there is any such pair left to ask about. */
+bool query_may_be_inside(const imp_query *query);
+
+/* Makes the query's watch. */
+void query_begin_watch(imp_query *query);
 
 /* Returns the reason that a clear query answers. */
 imp_reason query_reason_of_clear(const imp_query *query);

@@ -28,6 +28,8 @@ static imp_argument argument_none;
 static imp_instance instance_none;
 static imp_model models[4];
 static imp_rigid_motion motion_place;
+static imp_facing facing_place[ROOM];
+static imp_closure closure_none, closure_good = {.struct_size = sizeof(imp_closure)};
 static imp_explanation explanation_place;
 static imp_pending pending_place;
 static imp_plugin plugin_none;
@@ -40,6 +42,12 @@ static size_t size_place[ROOM];
 static void ignore_finding(void *context, const char *check, imp_finding finding, const char *text)
 {
     (void)context, (void)check, (void)finding, (void)text;
+}
+
+static bool never_go_on(void *context)
+{
+    (void)context;
+    return false;
 }
 
 /* The first of a pointer is NULL. Objects are made before the calls. */
@@ -58,6 +66,8 @@ static imp_argument *const of_imp_argument_p[] = {NULL, &argument_none};
 static imp_instance *const of_imp_instance_p[] = {NULL, &instance_none};
 static imp_model *const of_imp_model_p[] = {NULL, models};
 static imp_rigid_motion *const of_imp_rigid_motion_p[] = {NULL, &motion_place};
+static imp_facing *const of_imp_facing_p[] = {NULL, facing_place};
+static imp_closure *const of_imp_closure_p[] = {NULL, &closure_none, &closure_good};
 static imp_explanation *const of_imp_explanation_p[] = {NULL, &explanation_place};
 static imp_pending *const of_imp_pending_p[] = {NULL, &pending_place};
 static imp_plugin *const of_imp_plugin_p[] = {NULL, &plugin_none};
@@ -69,6 +79,7 @@ static const char **const of_char_p_p[] = {NULL, &text_place};
 static double *const of_double_p[] = {NULL, numbers};
 static size_t *const of_size_t_p[] = {NULL, size_place};
 static void *const of_void_p[] = {NULL, numbers};
+static const imp_go_on of_imp_go_on[] = {NULL, never_go_on};
 static const imp_finding_sink of_imp_finding_sink[] = {NULL, ignore_finding};
 static const double of_double[] = {0, -1, 1e-9, NAN, INFINITY};
 static const size_t of_size_t[] = {0, 1, 2, SIZE_MAX};

@@ -74,6 +74,8 @@ json_t *clearance_json(const imp_scene *scene, const imp_clearance *r)
         result_stats_json(&r->stats));
     if (object == NULL) return NULL;
     int failed = set_required(object, scene, r);
+    if (r->kind == IMP_CONTACT_INSIDE)
+        failed |= set(object, "kind", json_string(result_kind_name(r->kind)));
     if (r->body[0] != SIZE_MAX) failed |= set(object, "bodies", pair_json(scene, r->body));
     return checked(object, failed);
 }

@@ -72,8 +72,9 @@ static void print_bracket(const imp_scene *scene, const imp_clearance *r, double
     if (!r->has_witness) {
         printf("%s", reason_of_none(r));
     } else if (touches(r, gamma)) {
-        printf("they touch or overlap at t = %.10g: \"%s\" and \"%s\"", r->t,
-               name_of(scene, r->a.body), name_of(scene, r->b.body));
+        printf("they %s at t = %.10g: \"%s\" and \"%s\"",
+               r->kind == IMP_CONTACT_INSIDE ? "are one inside the other" : "touch or overlap",
+               r->t, name_of(scene, r->a.body), name_of(scene, r->b.body));
     } else {
         printf("nearest ");
         print_nearest(scene, r);
@@ -186,6 +187,7 @@ static void print_points(const imp_scene *scene, const imp_clearance *r, double 
         if (is_first_violation_known(r)) result_print_sides(scene, &r->a_violated, &r->b_violated);
     } else if (r->has_witness) {
         result_print_sides(scene, &r->a, &r->b);
+        if (r->kind == IMP_CONTACT_INSIDE) return;
         if (touches(r, gamma)) result_print_gap(r->upper, gamma);
         result_print_normal(r->has_normal ? r->normal : NULL);
     }

@@ -22,6 +22,12 @@ bool result_set_warnings(json_t *object, const imp_scene *scene);
 /* "clear", "contact", "undecided". */
 const char *result_verdict_name(imp_verdict verdict);
 
+/* "touch", "inside". */
+const char *result_kind_name(imp_contact_kind kind);
+
+/* Whether a side of an answer is on a surface, not merely in a solid body. */
+bool result_is_on_surface(const imp_side *side);
+
 /* --- Parts of both, for other answers --------------------------------------------------------- */
 
 /* Lines behind the first begin with a label. */

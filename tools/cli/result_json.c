@@ -18,6 +18,11 @@ const char *result_verdict_name(imp_verdict verdict)
     return "undecided";
 }
 
+const char *result_kind_name(imp_contact_kind kind)
+{
+    return kind == IMP_CONTACT_INSIDE ? "inside" : "touch";
+}
+
 json_t *result_reason_json(imp_reason reason)
 {
     switch (reason) {
@@ -59,10 +64,11 @@ json_t *result_times_json(double from, double to)
 json_t *result_side_json(const imp_scene *scene, const imp_side *side)
 {
     const bool pieces = imp_scene_piece_count(scene, side->body, side->surface) > 1;
-    return json_pack("{s:o, s:I, s:o*, s:o, s:o, s:o}", "body",
+    const bool on_surface = result_is_on_surface(side);
+    return json_pack("{s:o, s:o, s:o*, s:o, s:o, s:o}", "body",
                      output_json_text(imp_scene_body_name(scene, side->body)), "surface",
-                     (json_int_t)side->surface, "piece",
-                     pieces ? json_integer((json_int_t)side->piece) : NULL, "u",
+                     on_surface ? json_integer((json_int_t)side->surface) : json_null(), "piece",
+                     pieces && on_surface ? json_integer((json_int_t)side->piece) : NULL, "u",
                      output_json_number(side->u), "v", output_json_number(side->v), "point",
                      result_vector_json(side->point));
 }
@@ -103,11 +109,12 @@ json_t *result_json(const imp_scene *scene, const imp_result *r)
 {
     const bool contact = r->verdict == IMP_VERDICT_CONTACT;
     return json_pack(
-        "{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
-        result_verdict_name(r->verdict), "reason", result_reason_json(r->reason), "time",
-        result_times_json(r->t_start, r->t_end), "t",
-        contact ? output_json_number(r->t) : json_null(), "t_lower", output_json_number(r->t_lower),
-        "t_examined", result_times_json(r->t_examined[0], r->t_examined[1]), "gap",
+        "{s:s, s:s*, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
+        result_verdict_name(r->verdict), "kind", contact ? result_kind_name(r->kind) : NULL,
+        "reason", result_reason_json(r->reason), "time", result_times_json(r->t_start, r->t_end),
+        "t", contact ? output_json_number(r->t) : json_null(), "t_lower",
+        output_json_number(r->t_lower), "t_examined",
+        result_times_json(r->t_examined[0], r->t_examined[1]), "gap",
         contact ? output_json_number(r->gap) : json_null(), "gamma", output_json_number(r->gamma),
         "gamma_clear", output_json_number(r->gamma_clear), "a",
         contact ? result_side_json(scene, &r->a) : json_null(), "b",

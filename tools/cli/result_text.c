@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <math.h>
 #include <stdio.h>
 
 #include "tools/cli/output.h"
@@ -35,6 +36,8 @@ typedef struct side_text {
     const char *body;
 } side_text;
 
+bool result_is_on_surface(const imp_side *side) { return !isnan(side->u); }
+
 static side_text side_columns(const imp_scene *scene, const imp_side *side)
 {
     side_text text;
@@ -61,6 +64,15 @@ static int wider(const char *a, const char *b)
     return m > n ? m : n;
 }
 
+/* Of a body that is solid, the other side's point is what there is to tell. */
+static void print_solid(const imp_scene *scene, const char *label, const imp_side *side)
+{
+    result_print_label(label);
+    printf("\"%s\", which is solid, holds ", imp_scene_body_name(scene, side->body));
+    print_vector(side->point);
+    putchar('\n');
+}
+
 static void print_side(const char *label, const imp_side *side, const side_text *own,
                        const side_text *other)
 {
@@ -76,8 +88,14 @@ static void print_side(const char *label, const imp_side *side, const side_text 
 void result_print_sides(const imp_scene *scene, const imp_side *side_a, const imp_side *side_b)
 {
     const side_text a = side_columns(scene, side_a), b = side_columns(scene, side_b);
-    print_side("a", side_a, &a, &b);
-    print_side("b", side_b, &b, &a);
+    if (result_is_on_surface(side_a))
+        print_side("a", side_a, &a, result_is_on_surface(side_b) ? &b : &a);
+    else
+        print_solid(scene, "a", side_a);
+    if (result_is_on_surface(side_b))
+        print_side("b", side_b, &b, result_is_on_surface(side_a) ? &a : &b);
+    else
+        print_solid(scene, "b", side_b);
 }
 
 void result_print_normal(const double *normal)
@@ -100,6 +118,7 @@ void result_print_gap(double gap, double gamma)
 static void print_contact(const imp_scene *scene, const imp_result *r)
 {
     result_print_sides(scene, &r->a, &r->b);
+    if (r->kind == IMP_CONTACT_INSIDE) return;
     result_print_gap(r->gap, r->gamma);
     result_print_normal(r->has_normal ? r->normal : NULL);
 }
@@ -194,6 +213,10 @@ void result_print(const imp_scene *scene, const imp_result *r)
            output_colour(OUTPUT_PLAIN));
     if (r->verdict == IMP_VERDICT_CONTACT) printf(" at t = %s", output_number_lower(r->t).text);
     if (r->verdict == IMP_VERDICT_UNDECIDED) printf(": %s", result_excuse(r->reason).why);
+    if (r->verdict == IMP_VERDICT_CONTACT && r->kind == IMP_CONTACT_INSIDE)
+        printf(": \"%s\" is inside \"%s\"",
+               imp_scene_body_name(scene, (result_is_on_surface(&r->a) ? r->a : r->b).body),
+               imp_scene_body_name(scene, (result_is_on_surface(&r->a) ? r->b : r->a).body));
     putchar('\n');
     result_print_times(r->t_start, r->t_end);
     print_proved(r);

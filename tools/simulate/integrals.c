@@ -89,7 +89,7 @@ static shape_verdict add_patches(const patches *p, const shells *s, int cells, v
         if (i == 0) *origin = at[0];
         for (int k = 0; k < points; ++k) at[k] = vec_sub(at[k], *origin);
         for (int level = 0; level < levels_of(cells); ++level)
-            add_grid(at, cells, 1 << level, s->sign[i], each[s->of[i]].sum[level]);
+            add_grid(at, cells, 1 << level, s->facing[i].sign, each[s->facing[i].shell].sum[level]);
     }
     return SHAPE_FOUND;
 }

@@ -10,14 +10,17 @@
 
 /* --- The scene of two bodies ------------------------------------------------------------------ */
 
-/* A copy of the body under its path. NULL: no memory. */
-static json_t *body_json(const searching *s, size_t body)
+/* A copy of the body under its path. NULL: no memory. Bodies that begin outside of each other stay
+ * so, as they never come nearer than gamma_clear: only the `first` scene of a meeting has solid
+ * ones. */
+static json_t *body_json(const searching *s, size_t body, bool first)
 {
     const actor *a = &s->setup->actors[body];
     json_t *copy = json_copy(a->json), *maps = json_array();
     int failed =
         copy == NULL || maps == NULL || json_object_set_new(copy, "name", json_string(a->name));
     json_object_del(copy, "group");
+    if (!first) json_object_del(copy, "solid");
     failed |= json_array_extend(maps, json_object_get(copy, "maps")) &&
               json_object_get(copy, "maps") != NULL;
     if (a->moves) failed |= json_array_append(maps, s->movers[body].map);
@@ -42,18 +45,19 @@ static int add_parents(const searching *s, size_t body, json_t *bodies, json_t *
             if (strcmp(other, name) == 0) return failed;
             failed |= json_array_append_new(ignore, json_pack("[s,s]", other, name));
         }
-        failed |= json_array_append_new(bodies, body_json(s, up));
+        failed |= json_array_append_new(bodies, body_json(s, up, false));
         parent = json_object_get(s->setup->actors[up].json, "parent");
     }
     return failed;
 }
 
-static char *scene_text(const searching *s, const meeting *m)
+static char *scene_text(const searching *s, const meeting *m, bool first)
 {
     json_t *bodies = json_array(), *ignore = json_array(), *root = json_object();
     json_t *define = json_object_get(s->setup->stripped, "define");
     int failed = 0;
-    for (int k = 0; k < 2; ++k) failed |= json_array_append_new(bodies, body_json(s, m->body[k]));
+    for (int k = 0; k < 2; ++k)
+        failed |= json_array_append_new(bodies, body_json(s, m->body[k], first));
     for (int k = 0; k < 2; ++k) failed |= add_parents(s, m->body[k], bodies, ignore);
     failed |= json_object_set_new(root, "bodies", bodies);
     failed |= json_object_set_new(root, "ignore", ignore);
@@ -66,9 +70,10 @@ static char *scene_text(const searching *s, const meeting *m)
 imp_code meeting_make_scene(searching *s, meeting *m)
 {
     if (m->scene != NULL && !m->stale) return IMP_SUCCESS;
+    const bool first = m->scene == NULL;
     imp_scene_free(m->scene);
     m->scene = NULL;
-    char *text = scene_text(s, m);
+    char *text = scene_text(s, m, first);
     if (text == NULL) {
         s->error = (imp_error){.code = IMP_ERROR_MEMORY};
         return IMP_ERROR_MEMORY;

@@ -30,7 +30,7 @@ static shape_verdict read_extents(const patches *p, const shells *s, shell_exten
         if (limits_reached(p->limits) != IMP_REASON_NONE) return SHAPE_STOPPED;
         const shape_verdict verdict = patch_grid(p, i, CELLS, at, why);
         if (verdict != SHAPE_FOUND) return verdict;
-        shell_extent *o = &each[s->of[i]];
+        shell_extent *o = &each[s->facing[i].shell];
         for (int k = 0; k < POINTS; ++k) vec_box_add(&o->box, at[k]);
         o->point = at[POINTS / 2];
     }
@@ -52,7 +52,7 @@ static shape_verdict wind(const patches *p, const shells *s, size_t shell, vec x
     vec at[POINTS];
     double sum = 0;
     for (size_t i = 0; i < p->count; ++i) {
-        if (s->of[i] != shell) continue;
+        if (s->facing[i].shell != shell) continue;
         if (limits_reached(p->limits) != IMP_REASON_NONE) return SHAPE_STOPPED;
         const shape_verdict verdict = patch_grid(p, i, CELLS, at, why);
         if (verdict != SHAPE_FOUND) return verdict;
@@ -60,7 +60,7 @@ static shape_verdict wind(const patches *p, const shells *s, size_t shell, vec x
         for (int k = 0; k + ROW < POINTS; ++k) {
             if (k % ROW == CELLS) continue;
             const vec a = at[k], b = at[k + ROW], c = at[k + ROW + 1], d = at[k + 1];
-            sum += s->sign[i] * (solid_angle(a, b, c) + solid_angle(a, c, d));
+            sum += s->facing[i].sign * (solid_angle(a, b, c) + solid_angle(a, c, d));
         }
     }
     *winding = fabs(sum) / (4 * 3.141592653589793);

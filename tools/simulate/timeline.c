@@ -157,8 +157,8 @@ static exit_status refuse_overlap(const simulation *s, const meeting *m)
 {
     return complain(
         EXIT_DATA, speaker,
-        "%.300s: the bodies '%s' and '%s' are nearer than gamma_clear, %g, at the start; "
-        "move them apart, or make gamma smaller",
+        "%.300s: the bodies '%s' and '%s' are nearer than gamma_clear, %g, at the start, or one is "
+        "inside the other, which is solid; move them apart, or make gamma smaller",
         s->setup->name, s->setup->actors[m->body[0]].name, s->setup->actors[m->body[1]].name,
         s->setup->options.gamma_clear);
 }

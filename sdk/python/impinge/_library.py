@@ -93,6 +93,7 @@ class Result(c.Structure):
         ("t_end", c.c_double),
         ("t_examined", c.c_double * 2),
         ("at_rest", c.c_bool),
+        ("kind", c.c_int),
     ]
 
 
@@ -130,6 +131,7 @@ class Clearance(c.Structure):
         ("a_violated", Side),
         ("b_violated", Side),
         ("stats", Stats),
+        ("kind", c.c_int),
     ]
 
 
@@ -219,6 +221,7 @@ _FUNCTIONS = {
     "imp_builder_time": (c.c_int, _P, _D, _D, _E),
     "imp_builder_gamma": (c.c_int, _P, _D, _D, _E),
     "imp_builder_body": (c.c_int, _P, _S, c.POINTER(_N), _E),
+    "imp_builder_solid": (c.c_int, _P, _N, c.c_bool, _E),
     "imp_builder_surface": (c.c_int, _P, _N, _S, _A, _N, _E),
     "imp_builder_map": (c.c_int, _P, _N, _S, _A, _N, _E),
     "imp_builder_surface_map": (c.c_int, _P, _N, _N, _S, _A, _N, _E),

@@ -121,8 +121,9 @@ class Builder:
     # --- Bodies -------------------------------------------------------------------------------------
 
     def body(self, name: Optional[str] = None, *, parent: Optional[Body] = None,
-             group: Union[str, Iterable[str]] = ()) -> Body:
-        """Begins a body; the maps of its parent come after its own."""
+             group: Union[str, Iterable[str]] = (), solid: bool = False) -> Body:
+        """Begins a body; the maps of its parent come after its own. Who is inside a `solid` body when a
+        question begins is in contact there."""
         if parent is not None and not (isinstance(parent, Body) and parent._builder is self):
             raise values.refuse("parent", parent, "a Body of this Builder")
         text = None if name is None else values.text("name", name)
@@ -136,6 +137,9 @@ class Builder:
             if parent is not None:
                 self._call(lib.library.imp_builder_parent, index.value, parent.index)
                 written["parent"] = parent.name
+            if solid:
+                self._call(lib.library.imp_builder_solid, index.value, True)
+                written["solid"] = True
             for one in groups:
                 self._call(lib.library.imp_builder_group, index.value, one)
                 written.setdefault("group", []).append(one.decode())

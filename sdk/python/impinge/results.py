@@ -17,6 +17,7 @@ Verdict = Literal["clear", "contact", "undecided"]
 Requirement = Literal["holds", "violated", "undecided"]
 Reason = Literal["no-time", "no-pairs", "pairs", "seconds", "memory", "cancelled", "resolution",
                  "running", "decided"]
+Kind = Literal["touch", "inside"]
 Vector = Tuple[float, float, float]
 Bodies = Tuple[str, str]
 
@@ -24,12 +25,14 @@ _VERDICTS: Tuple[Verdict, ...] = ("clear", "contact", "undecided")
 _REASONS: Tuple[Optional[Reason], ...] = (
     None, "no-time", "no-pairs", "pairs", "seconds", "memory", "cancelled", "resolution", "running",
     "decided")
+_KINDS: Tuple[Kind, ...] = ("touch", "inside")
 _REQUIREMENTS: Tuple[Optional[Requirement], ...] = (None, "holds", "violated", "undecided")
 
 
 @dataclass(frozen=True)
 class Side:
-    """One point of a witness: where it is on its surface, and in the world."""
+    """One point of a witness: where it is on its surface, and in the world. Of a solid body that something
+    is inside of, `u` and `v` are NaN, and the point is the other side's."""
 
     body: str
     surface: int
@@ -76,6 +79,7 @@ class Result:
     bodies: Optional[Bodies] = None  # of `solve_each`, or those that touch
     t_examined: Optional[Tuple[float, float]] = None  # when two surfaces that are tested are there
     stats: Optional[Stats] = field(default=None, compare=False)
+    kind: Optional[Kind] = None  # of a contact; "inside": one is inside the other, which is solid
 
     def time_left(self, t: float) -> float:
         """Time left from t until contact; negative when that is past, infinite when clear."""
@@ -121,6 +125,7 @@ class Clearance:
     a_violated: Optional[Side] = None
     b_violated: Optional[Side] = None
     stats: Optional[Stats] = field(default=None, compare=False)
+    kind: Optional[Kind] = None  # of the witness; "inside": one is inside the other, which is solid
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,7 +201,8 @@ def result_of(names: Tuple[str, ...], r: lib.Result,
         seconds=r.stats.seconds, t_start=r.t_start, t_end=r.t_end, at_rest=r.at_rest,
         bodies=(names[pair[0]], names[pair[1]]) if pair is not None else None,
         t_examined=None if r.t_examined[0] != r.t_examined[0] else (r.t_examined[0], r.t_examined[1]),
-        stats=_stats(r.stats))
+        stats=_stats(r.stats),
+        kind=_KINDS[r.kind] if contact else None)
 
 
 def reason_of(r: lib.Result) -> Optional[Reason]:
@@ -220,7 +226,8 @@ def clearance_of(names: Tuple[str, ...], k: lib.Clearance) -> Clearance:
         bodies=(names[pair[0]], names[pair[1]]) if known else None, reason=_REASONS[k.reason],
         pairs=k.stats.pairs, gap_violated=_number(k.gap_violated) if violated else None,
         a_violated=_side(names, k.a_violated) if violated else None,
-        b_violated=_side(names, k.b_violated) if violated else None, stats=_stats(k.stats))
+        b_violated=_side(names, k.b_violated) if violated else None, stats=_stats(k.stats),
+        kind=_KINDS[k.kind] if k.has_witness else None)
 
 
 _COLUMNS = ("t_start", "t_end", "lower", "upper", "t")

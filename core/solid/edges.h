@@ -1,11 +1,11 @@
 /* SPDX-FileCopyrightText: The Impinge authors
  * SPDX-License-Identifier: Apache-2.0 */
-#ifndef TOOLS_SIMULATE_EDGES_H
-#define TOOLS_SIMULATE_EDGES_H
+#ifndef CORE_SOLID_EDGES_H
+#define CORE_SOLID_EDGES_H
 
 #include <stdint.h>
 
-#include "tools/simulate/patches.h"
+#include "core/solid/patches.h"
 
 /* The edges of the patches of a body, and which of them run along each other
  * ========================================================================
@@ -14,20 +14,20 @@
  * never by names or numbers: two edges are one seam if they run through the same points, in the
  * same or in the opposite direction. Points within `slack` of each other are the same. */
 
-#define SEAM_SLACK 1e-6 /* part of the body's size within which points are the same */
-
 typedef struct edges {
     const patches *patches;
-    vec *at;      /* steps + 1 points of each edge, in its direction */
+    vec3 *at;     /* steps + 1 points of each edge, in its direction */
     size_t count; /* 4 for each patch: number 4 p + k is side k of patch p */
     int steps;    /* even */
-    double slack; /* length */
+    double slack; /* > 0, length */
+    bool bounded; /* all points are finite */
 } edges;
 
-shape_verdict edges_read(edges *e, const patches *p, imp_error *why);
+/* Evaluates all edges; free them in any case. */
+imp_code edges_read(edges *e, const patches *p, double slack, imp_error *error);
 void edges_free(edges *e);
 
-static inline const vec *edge_points(const edges *e, size_t i)
+static inline const vec3 *edge_points(const edges *e, size_t i)
 {
     return e->at + i * (size_t)(e->steps + 1);
 }
@@ -43,9 +43,13 @@ int edge_compare(const edges *e, size_t i, size_t j);
  * or -1; 0: it does not. Evaluates the patch. */
 int edge_passes(const edges *e, size_t i, int k, size_t j);
 
-/* For each edge that is no point: the other edge that is the same seam, SIZE_MAX if there is none,
- * or SEAM_SHARED if there are several. */
-#define SEAM_SHARED (SIZE_MAX - 1)
-shape_verdict edges_match(const edges *e, size_t *partner);
+/* For each edge that is no point: the other edge that is the same seam; SEAM_NONE: there is none;
+ * SEAM_EVEN: there are several, and with it their number is even; SEAM_ODD: it is odd, so that the
+ * patches cannot bound a volume. False: no memory. */
+#define SEAM_NONE SIZE_MAX
+#define SEAM_EVEN (SIZE_MAX - 1)
+#define SEAM_ODD (SIZE_MAX - 2)
+static inline bool seam_is_pair(size_t partner) { return partner < SEAM_ODD; }
+bool edges_match(const edges *e, size_t *partner);
 
 #endif

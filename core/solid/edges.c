@@ -2,44 +2,51 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
-#include "tools/simulate/edges.h"
+#include "core/solid/edges.h"
 
 #include <stdlib.h>
 
-/* --- Reading ------------------------------------------------------------------------------------
- */
+#include "core/base/status.h"
+
+/* --- Reading ---------------------------------------------------------------------------------- */
 
 /* Bodies of many patches get fewer points for each edge. */
 static int steps_for(size_t count) { return count <= 256 ? 16 : count <= 65536 ? 4 : 2; }
 
-/* The corners of a domain, counter-clockwise: side k leads from corner k to corner k + 1. */
-static void corner_of(const patch *p, int k, double at[2])
+static imp_code read_patch(edges *e, size_t index, imp_error *error)
 {
-    at[0] = k == 1 || k == 2 ? p->hi[0] : p->lo[0];
-    at[1] = k == 2 || k == 3 ? p->hi[1] : p->lo[1];
+    enum { STEPS_MAX = 16 };
+    const patch *p = &e->patches->patch[index];
+    const int points = e->steps + 1;
+    double uv[4 * (STEPS_MAX + 1)][2];
+    for (int k = 0; k < 4 * points; ++k) {
+        double from[2], to[2];
+        patch_corner(p, k / points, from);
+        patch_corner(p, (k / points + 1) % 4, to);
+        for (int i = 0; i < 2; ++i) uv[k][i] = patch_between(from[i], to[i], k % points, e->steps);
+    }
+    vec3 *at = e->at + 4 * index * (size_t)points;
+    const imp_code code =
+        patch_eval(p, e->patches->t, (size_t)(4 * points), (const double(*)[2])uv, at, NULL, error);
+    for (int k = 0; code == IMP_SUCCESS && k < 4 * points; ++k)
+        e->bounded = e->bounded && vec3_norm1(at[k]) < INFINITY;
+    return code;
 }
 
-static vec *points_of(edges *e, size_t i) { return e->at + i * (size_t)(e->steps + 1); }
-
-shape_verdict edges_read(edges *e, const patches *p, imp_error *why)
+imp_code edges_read(edges *e, const patches *p, double slack, imp_error *error)
 {
     *e = (edges){.patches = p,
                  .count = 4 * p->count,
                  .steps = steps_for(p->count),
-                 .slack = SEAM_SLACK * p->size};
+                 .slack = slack,
+                 .bounded = true};
     e->at = malloc((e->count + 1) * (size_t)(e->steps + 1) * sizeof *e->at);
-    if (e->at == NULL) return SHAPE_NO_MEMORY;
-    for (size_t i = 0; i < e->count; ++i) {
-        double from[2], to[2];
-        const int side = (int)(i % 4);
-        if (side == 0 && limits_reached(p->limits) != IMP_REASON_NONE) return SHAPE_STOPPED;
-        corner_of(&p->patch[i / 4], side, from);
-        corner_of(&p->patch[i / 4], (side + 1) % 4, to);
-        const shape_verdict verdict =
-            patch_line(p, i / 4, from, to, e->steps + 1, points_of(e, i), why);
-        if (verdict != SHAPE_FOUND) return verdict;
+    if (e->at == NULL) return error_set_memory(error);
+    for (size_t i = 0; i < p->count; ++i) {
+        const imp_code code = read_patch(e, i, error);
+        if (code != IMP_SUCCESS) return code;
     }
-    return SHAPE_FOUND;
+    return IMP_SUCCESS;
 }
 
 void edges_free(edges *e)
@@ -48,14 +55,13 @@ void edges_free(edges *e)
     *e = (edges){0};
 }
 
-/* --- Comparing two ------------------------------------------------------------------------------
- */
+/* --- Comparing two ---------------------------------------------------------------------------- */
 
-static double distance(vec a, vec b) { return vec_length(vec_sub(a, b)); }
+static double distance(vec3 a, vec3 b) { return vec3_norm(vec3_sub(a, b)); }
 
 bool edge_is_point(const edges *e, size_t i)
 {
-    const vec *x = edge_points(e, i);
+    const vec3 *x = edge_points(e, i);
     for (int k = 1; k <= e->steps; ++k)
         if (!(distance(x[k], x[0]) <= e->slack)) return false;
     return true;
@@ -63,7 +69,7 @@ bool edge_is_point(const edges *e, size_t i)
 
 int edge_compare(const edges *e, size_t i, size_t j)
 {
-    const vec *x = edge_points(e, i), *y = edge_points(e, j);
+    const vec3 *x = edge_points(e, i), *y = edge_points(e, j);
     const int n = e->steps;
     bool same = true, opposite = true;
     for (int k = 0; k <= n && (same || opposite); ++k) {
@@ -75,21 +81,22 @@ int edge_compare(const edges *e, size_t i, size_t j)
 
 /* The nearest point of edge j to x between its points a and b (numbers, not whole), by golden
  * section. Answers its distance, and its number in *where. */
-static double refine(const edges *e, size_t j, double a, double b, vec x, double *where)
+static double refine(const edges *e, size_t j, double a, double b, vec3 x, double *where)
 {
     const double ratio = 0.6180339887498949;
     const patch *p = &e->patches->patch[j / 4];
     double from[2], to[2], least = INFINITY;
-    corner_of(p, (int)(j % 4), from);
-    corner_of(p, (int)(j % 4 + 1) % 4, to);
+    patch_corner(p, (int)(j % 4), from);
+    patch_corner(p, (int)(j % 4 + 1) % 4, to);
     for (int n = 0; n < 60; ++n) {
         const double number[2] = {b - ratio * (b - a), a + ratio * (b - a)};
         double at[2][2], d[2];
-        vec y[2];
+        vec3 y[2];
         for (int i = 0; i < 2; ++i)
             for (int k = 0; k < 2; ++k)
                 at[i][k] = from[k] + (to[k] - from[k]) * (number[i] / e->steps);
-        if (patch_line(e->patches, j / 4, at[0], at[1], 2, y, NULL) != SHAPE_FOUND) return INFINITY;
+        if (patch_eval(p, e->patches->t, 2, (const double(*)[2])at, y, NULL, NULL) != IMP_SUCCESS)
+            return INFINITY;
         for (int i = 0; i < 2; ++i) {
             d[i] = distance(y[i], x);
             if (d[i] < least) least = d[i], *where = number[i];
@@ -103,19 +110,19 @@ static double refine(const edges *e, size_t j, double a, double b, vec x, double
 }
 
 /* The direction of an edge at its point number k, which need not be whole. */
-static vec direction_at(const edges *e, size_t i, double k)
+static vec3 direction_at(const edges *e, size_t i, double k)
 {
-    const vec *x = edge_points(e, i);
+    const vec3 *x = edge_points(e, i);
     const int before = (int)fmin(fmax(floor(k - 0.5), 0), e->steps - 1);
     const int after = (int)fmax(fmin(ceil(k + 0.5), e->steps), before + 1);
-    return vec_sub(x[after], x[before]);
+    return vec3_sub(x[after], x[before]);
 }
 
 /* The point number of edge j that is nearest to x, among those farther than one step from `but`;
  * -1: there is none. */
-static int nearest_number(const edges *e, size_t j, vec x, int but)
+static int nearest_number(const edges *e, size_t j, vec3 x, int but)
 {
-    const vec *y = edge_points(e, j);
+    const vec3 *y = edge_points(e, j);
     int best = -1;
     for (int n = 0; n <= e->steps; ++n)
         if ((but < 0 || abs(n - but) > 1) && (best < 0 || distance(y[n], x) < distance(y[best], x)))
@@ -125,9 +132,9 @@ static int nearest_number(const edges *e, size_t j, vec x, int but)
 
 /* How far x is from edge j near its point number n; *where: the number of the nearest place.
  * Distances of more than four steps are not refined. */
-static double distance_near(const edges *e, size_t j, int n, vec x, double *where)
+static double distance_near(const edges *e, size_t j, int n, vec3 x, double *where)
 {
-    const vec *y = edge_points(e, j);
+    const vec3 *y = edge_points(e, j);
     const int a = n > 0 ? n - 1 : 0, b = n < e->steps ? n + 1 : e->steps;
     const double least = distance(y[n], x);
     *where = n;
@@ -138,7 +145,7 @@ static double distance_near(const edges *e, size_t j, int n, vec x, double *wher
 
 int edge_passes(const edges *e, size_t i, int k, size_t j)
 {
-    const vec x = edge_points(e, i)[k];
+    const vec3 x = edge_points(e, i)[k];
     double where;
     /* A closed edge comes near a point at both of its ends. */
     int n = nearest_number(e, j, x, -1);
@@ -146,11 +153,10 @@ int edge_passes(const edges *e, size_t i, int k, size_t j)
         n = nearest_number(e, j, x, n);
         if (n < 0 || !(distance_near(e, j, n, x, &where) <= e->slack)) return 0;
     }
-    return vec_dot(direction_at(e, i, k), direction_at(e, j, where)) >= 0 ? 1 : -1;
+    return vec3_dot(direction_at(e, i, k), direction_at(e, j, where)) >= 0 ? 1 : -1;
 }
 
-/* --- Matching all -------------------------------------------------------------------------------
- */
+/* --- Matching all ----------------------------------------------------------------------------- */
 
 /* Edges by the cell of their middle point, in cells of the size 4 slack: points within slack of
  * each other are in the same cell or in neighbours. */
@@ -161,7 +167,7 @@ typedef struct cells {
 } cells;
 
 /* Counted from the first point of all, so that numbers stay small wherever the body is. */
-static int64_t cell_number(const edges *e, vec x, int i, double shift)
+static int64_t cell_number(const edges *e, vec3 x, int i, double shift)
 {
     return (int64_t)floor((x.x[i] - e->at[0].x[i] + shift) / (4 * e->slack));
 }
@@ -176,7 +182,7 @@ static size_t bucket_of(const cells *c, const int64_t at[3])
     return (size_t)(hash & (c->buckets - 1));
 }
 
-static vec middle_of(const edges *e, size_t i) { return edge_points(e, i)[e->steps / 2]; }
+static vec3 middle_of(const edges *e, size_t i) { return edge_points(e, i)[e->steps / 2]; }
 
 static bool cells_fill(cells *c, const edges *e)
 {
@@ -197,20 +203,26 @@ static bool cells_fill(cells *c, const edges *e)
     return true;
 }
 
+/* The partners of one edge that were found. */
+typedef struct partners {
+    size_t count, first;
+} partners;
+
 /* Looks for partners of edge i in one bucket. */
-static void match_bucket(const cells *c, size_t i, size_t bucket, size_t *partner)
+static void match_bucket(const cells *c, size_t i, size_t bucket, partners *found)
 {
     for (size_t j = c->first[bucket]; j != SIZE_MAX; j = c->next[j]) {
-        if (j == i || j == *partner || edge_compare(c->edges, i, j) == 0) continue;
-        *partner = *partner == SIZE_MAX ? j : SEAM_SHARED;
+        if (j == i || edge_compare(c->edges, i, j) == 0) continue;
+        if (found->count++ == 0) found->first = j;
     }
 }
 
-static void match_edge(const cells *c, size_t i, size_t *partner)
+static size_t match_edge(const cells *c, size_t i)
 {
-    const vec middle = middle_of(c->edges, i);
+    const vec3 middle = middle_of(c->edges, i);
     size_t seen[8];
     int count = 0;
+    partners found = {0, SEAM_NONE};
     for (int corner = 0; corner < 8; ++corner) {
         int64_t at[3];
         for (int k = 0; k < 3; ++k) {
@@ -222,21 +234,19 @@ static void match_edge(const cells *c, size_t i, size_t *partner)
         for (int k = 0; k < count; ++k) again |= seen[k] == bucket;
         if (again) continue;
         seen[count++] = bucket;
-        match_bucket(c, i, bucket, partner);
+        match_bucket(c, i, bucket, &found);
     }
+    if (found.count < 2) return found.first;
+    return found.count % 2 == 1 ? SEAM_EVEN : SEAM_ODD;
 }
 
-shape_verdict edges_match(const edges *e, size_t *partner)
+bool edges_match(const edges *e, size_t *partner)
 {
     cells c;
-    shape_verdict verdict = cells_fill(&c, e) ? SHAPE_FOUND : SHAPE_NO_MEMORY;
-    for (size_t i = 0; i < e->count && verdict == SHAPE_FOUND; ++i) {
-        if (i % 1024 == 0 && limits_reached(e->patches->limits) != IMP_REASON_NONE)
-            verdict = SHAPE_STOPPED;
-        partner[i] = SIZE_MAX;
-        if (!edge_is_point(e, i)) match_edge(&c, i, &partner[i]);
-    }
+    const bool filled = cells_fill(&c, e);
+    for (size_t i = 0; filled && i < e->count; ++i)
+        partner[i] = edge_is_point(e, i) ? SEAM_NONE : match_edge(&c, i);
     free(c.first);
     free(c.next);
-    return verdict;
+    return filled;
 }

@@ -1,0 +1,59 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLID_PATCHES_H
+#define CORE_SOLID_PATCHES_H
+
+#include "core/scene/scene.h"
+#include "core/tree/vec.h"
+
+/* The patches of a body at one time
+ * =================================
+ * A patch is a surface over its domain in (u, v), or one piece of a surface that consists of
+ * pieces. Surfaces that do not exist at the time have none. */
+
+typedef struct patch {
+    const surface *surface;
+    imp_place place;
+    double lo[2], hi[2]; /* domain of u and v */
+} patch;
+
+/* What ends long computations: asked now and then, whether to go on. */
+typedef struct patch_watch {
+    imp_go_on go_on; /* NULL: always */
+    void *context;
+} patch_watch;
+
+static inline bool patch_watch_goes_on(const patch_watch *w)
+{
+    return w->go_on == NULL || w->go_on(w->context);
+}
+
+typedef struct patches {
+    double t;
+    patch *patch; /* by surface, then by piece */
+    size_t count;
+    double size;  /* diagonal of a box around points of all patches, length */
+    bool bounded; /* domains are finite, and no point is farther than 1e50 away */
+} patches;
+
+/* Lists the patches; free them in any case. Fails with IMP_ERROR_MEMORY, or as surface_eval. */
+imp_code patches_read(patches *p, const imp_scene *scene, size_t body, double t, imp_error *error);
+void patches_free(patches *p);
+
+/* Evaluates n points (u, v) of a patch, at most PATCH_POINTS_MAX. `errors` may be NULL, or takes
+ * bounds of each point's distance from the exact one; length. Fails as the plugin does. */
+enum { PATCH_POINTS_MAX = 129 };
+imp_code patch_eval(const patch *p, double t, size_t n, const double (*uv)[2], vec3 *x,
+                    double *errors, imp_error *error);
+
+/* Sets *at to the corner k of the domain, counter-clockwise from (lo, lo): side k leads from corner
+ * k to corner k + 1. */
+void patch_corner(const patch *p, int k, double at[2]);
+
+/* The fraction k / n of the way; both ends are met exactly. */
+static inline double patch_between(double from, double to, int k, int n)
+{
+    return k == n ? to : from + (to - from) * k / n;
+}
+
+#endif

@@ -1,0 +1,188 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solid/shells.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+#include "core/solid/edges.h"
+
+/* --- Sets of patches with signs --------------------------------------------------------------- */
+
+/* Union-find: each patch knows a patch of its set, and whether its orientation is that one's. */
+typedef struct linked {
+    size_t *up;
+    int *sign; /* relative to `up` */
+} linked;
+
+/* Returns the root of a patch's set; *sign: relative to the root. Shortens the path. */
+static size_t find_root(linked *l, size_t i, int *sign)
+{
+    size_t root = i;
+    int whole = 1;
+    for (; l->up[root] != root; root = l->up[root]) whole *= l->sign[root];
+    *sign = whole;
+    while (i != root) {
+        const size_t next = l->up[i];
+        const int part = l->sign[i];
+        l->up[i] = root, l->sign[i] = whole;
+        whole *= part;
+        i = next;
+    }
+    return root;
+}
+
+/* Notes that two patches have orientations whose product is `sign`. False: they are known to have
+ * the other. */
+static bool join(linked *l, size_t i, size_t j, int sign)
+{
+    int a, b;
+    const size_t x = find_root(l, i, &a), y = find_root(l, j, &b);
+    if (x == y) return a * b == sign;
+    l->up[y] = x;
+    l->sign[y] = a * b * sign;
+    return true;
+}
+
+/* --- Seams ------------------------------------------------------------------------------------ */
+
+typedef struct joining {
+    linked l;
+    const edges *e;
+    size_t *partner;
+    imp_closure *closure;
+    const patch_watch *watch;
+} joining;
+
+/* Keeps the first fault, at point k of edge i. */
+static void note_fault(joining *j, imp_closure_verdict verdict, size_t i, int k)
+{
+    if (j->closure->verdict != IMP_CLOSURE_CLOSED) return;
+    j->closure->verdict = verdict;
+    j->closure->at = j->e->patches->patch[i / 4].place;
+    memcpy(j->closure->where, edge_points(j->e, i)[k].x, sizeof j->closure->where);
+}
+
+/* Edges that run in opposite directions bound patches of the same orientation. */
+static bool join_at_seam(joining *j, size_t i, size_t other, int direction)
+{
+    return join(&j->l, i / 4, other / 4, -direction);
+}
+
+/* Joins what runs along the point k of edge i. False: nothing does. Of many edges only those
+ * without a partner are looked at. */
+static bool join_at_point(joining *j, size_t i, int k)
+{
+    const edges *e = j->e;
+    const bool all = e->count <= 4096;
+    for (size_t other = 0; other < e->count; ++other) {
+        if (other == i || !(all || j->partner[other] == SEAM_NONE) || edge_is_point(e, other))
+            continue;
+        const int direction = edge_passes(e, i, k, other);
+        if (direction == 0) continue;
+        /* At its ends an edge may meet others that lead away. */
+        const bool inner = k > 0 && k < e->steps;
+        if (inner && !join_at_seam(j, i, other, direction))
+            note_fault(j, IMP_CLOSURE_ONE_SIDED, i, k);
+        return true;
+    }
+    return false;
+}
+
+/* An edge without a partner must run along others, one after another: every point of it lies on
+ * one. */
+static void join_along(joining *j, size_t i)
+{
+    for (int k = 0; k <= j->e->steps && j->closure->verdict == IMP_CLOSURE_CLOSED; ++k) {
+        if (!patch_watch_goes_on(j->watch))
+            j->closure->verdict = IMP_CLOSURE_STOPPED;
+        else if (!join_at_point(j, i, k))
+            note_fault(j, IMP_CLOSURE_OPEN, i, k);
+    }
+}
+
+static void join_all(joining *j)
+{
+    const edges *e = j->e;
+    for (size_t i = 0; i < e->count; ++i) {
+        const size_t partner = j->partner[i];
+        const int middle = e->steps / 2;
+        if (partner == SEAM_EVEN || edge_is_point(e, i)) continue;
+        if (partner == SEAM_ODD)
+            note_fault(j, IMP_CLOSURE_OPEN, i, middle);
+        else if (partner == SEAM_NONE)
+            join_along(j, i);
+        else if (i < partner && !join_at_seam(j, i, partner, edge_compare(e, i, partner)))
+            note_fault(j, IMP_CLOSURE_ONE_SIDED, i, middle);
+    }
+}
+
+/* --- All -------------------------------------------------------------------------------------- */
+
+/* Numbers the sets by their first patch, whose sign becomes 1. A root may come after it: it then
+ * has its number and sign before its turn. */
+static void number_shells(shells *s, linked *l, size_t count)
+{
+    s->count = 0;
+    for (size_t i = 0; i < count; ++i) s->facing[i].shell = SIZE_MAX;
+    for (size_t i = 0; i < count; ++i) {
+        int sign;
+        const size_t root = find_root(l, i, &sign);
+        imp_facing *first = &s->facing[root];
+        if (first->shell == SIZE_MAX) *first = (imp_facing){s->count++, sign};
+        if (i != root) s->facing[i] = (imp_facing){first->shell, sign * first->sign};
+    }
+}
+
+static imp_code find_within(shells *s, const patches *p, double slack, const patch_watch *watch,
+                            imp_closure *closure, imp_error *error)
+{
+    const size_t n = p->count;
+    edges e;
+    joining j = {.e = &e, .closure = closure, .watch = watch};
+    j.l = (linked){malloc((n + 1) * sizeof *j.l.up), malloc((n + 1) * sizeof *j.l.sign)};
+    j.partner = malloc((4 * n + 1) * sizeof *j.partner);
+    closure->verdict = IMP_CLOSURE_CLOSED;
+    imp_code code = edges_read(&e, p, slack, error);
+    if (j.l.up == NULL || j.l.sign == NULL || j.partner == NULL) code = error_set_memory(error);
+    if (code == IMP_SUCCESS && !e.bounded)
+        closure->verdict = IMP_CLOSURE_UNBOUNDED;
+    else if (code == IMP_SUCCESS && !edges_match(&e, j.partner))
+        code = error_set_memory(error);
+    for (size_t i = 0; code == IMP_SUCCESS && i < n; ++i) j.l.up[i] = i, j.l.sign[i] = 1;
+    if (code == IMP_SUCCESS && e.bounded) join_all(&j);
+    if (code == IMP_SUCCESS) number_shells(s, &j.l, n);
+    s->slack = slack;
+    edges_free(&e);
+    free(j.l.up);
+    free(j.l.sign);
+    free(j.partner);
+    return code;
+}
+
+#define FINE_SLACK 1e-9 /* part of the body's size within which points are the same */
+
+imp_code shells_find(shells *s, const patches *p, double slack, const patch_watch *watch,
+                     imp_closure *closure, imp_error *error)
+{
+    const double fine = FINE_SLACK * p->size;
+    *s = (shells){.facing = calloc(p->count + 1, sizeof *s->facing)};
+    if (s->facing == NULL) return error_set_memory(error);
+    closure->verdict = p->bounded ? IMP_CLOSURE_EMPTY : IMP_CLOSURE_UNBOUNDED;
+    if (!p->bounded || p->count == 0 || !(p->size > 0)) return IMP_SUCCESS;
+    imp_code code = find_within(s, p, fine, watch, closure, error);
+    if (code == IMP_SUCCESS && slack > fine &&
+        (closure->verdict == IMP_CLOSURE_OPEN || closure->verdict == IMP_CLOSURE_ONE_SIDED))
+        code = find_within(s, p, slack, watch, closure, error);
+    closure->shells = closure->verdict == IMP_CLOSURE_CLOSED ? s->count : 0;
+    return code;
+}
+
+void shells_free(shells *s)
+{
+    free(s->facing);
+    *s = (shells){0};
+}

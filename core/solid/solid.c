@@ -1,0 +1,263 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/solid/solid_internal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+#include "core/solid/winding.h"
+#include "core/surface/region.h"
+
+/* --- Creation and destruction ----------------------------------------------------------------- */
+
+imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
+                   const patch_watch *watch, solid **made, imp_error *error)
+{
+    solid *s = calloc(1, sizeof *s);
+    *made = s;
+    if (s == NULL) return error_set_memory(error);
+    *s = (solid){.scene = scene, .body = body, .watch = watch, .slack = slack};
+    const imp_code code = patches_read(&s->patches, scene, body, t, error);
+    if (code == IMP_SUCCESS && s->patches.count > 0) return code;
+    solid_free(s);
+    *made = NULL;
+    return code;
+}
+
+void solid_free(solid *s)
+{
+    if (s == NULL) return;
+    patches_free(&s->patches);
+    shells_free(&s->shells);
+    free(s->boxes);
+    free(s);
+}
+
+/* --- Boxes ------------------------------------------------------------------------------------ */
+
+imp_code solid_box_of(const solid *s, const patch *p, const imp_region *region, solid_box *box,
+                      imp_error *error)
+{
+    imp_model model[3];
+    const imp_status status = surface_include(p->surface, region, model);
+    if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) {
+        surface_fault(p->surface, error, "at t = %.17g: %s", s->patches.t,
+                      surface_status_told(p->surface, status).text);
+        return surface_set_code(status, error);
+    }
+    for (int i = 0; i < 3; ++i) {
+        box->lo[i] = model[i].lo > -INFINITY ? model[i].lo : -INFINITY;
+        box->hi[i] = model[i].hi < INFINITY ? model[i].hi : INFINITY;
+    }
+    return IMP_SUCCESS;
+}
+
+static void add_box(solid_box *to, const solid_box *box)
+{
+    for (int i = 0; i < 3; ++i) {
+        if (!(box->lo[i] >= to->lo[i])) to->lo[i] = box->lo[i];
+        if (!(box->hi[i] <= to->hi[i])) to->hi[i] = box->hi[i];
+    }
+}
+
+static imp_code make_boxes(solid *s, imp_error *error)
+{
+    const patches *p = &s->patches;
+    s->boxes = malloc((p->count + s->shells.count + 1) * sizeof *s->boxes);
+    if (s->boxes == NULL) return error_set_memory(error);
+    for (size_t k = 0; k < s->shells.count; ++k)
+        s->boxes[p->count + k] =
+            (solid_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (size_t k = 0; k < p->count; ++k) {
+        const patch *one = &p->patch[k];
+        const imp_region region = region_make((double[3]){one->lo[0], one->lo[1], p->t},
+                                              (double[3]){one->hi[0], one->hi[1], p->t});
+        const imp_code code = solid_box_of(s, one, &region, &s->boxes[k], error);
+        if (code != IMP_SUCCESS) return code;
+        add_box(&s->boxes[p->count + s->shells.facing[k].shell], &s->boxes[k]);
+    }
+    return IMP_SUCCESS;
+}
+
+/* Finds the shells, once. */
+static imp_code read_shells(solid *s, imp_error *error)
+{
+    if (s->is_read) return IMP_SUCCESS;
+    shells_free(&s->shells);
+    free(s->boxes);
+    s->boxes = NULL;
+    imp_code code = shells_find(&s->shells, &s->patches, s->slack, s->watch, &s->closure, error);
+    if (code == IMP_SUCCESS && s->patches.bounded) code = make_boxes(s, error);
+    s->is_read = code == IMP_SUCCESS && s->closure.verdict != IMP_CLOSURE_STOPPED;
+    return code;
+}
+
+/* --- How often a shell winds around a point --------------------------------------------------- */
+
+/* Sums up patches with sign: of one shell, or of all for shell SIZE_MAX. */
+static imp_code sum_up(const solid *s, size_t shell, const winding_view *view, winding_sum *sum,
+                       imp_error *error)
+{
+    *sum = (winding_sum){{0, 0}, INFINITY};
+    for (size_t k = 0; k < s->patches.count; ++k) {
+        const imp_facing *f = &s->shells.facing[k];
+        if (shell != SIZE_MAX && f->shell != shell) continue;
+        const imp_code code = winding_add(view, &s->patches.patch[k], f->sign, sum, error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    return IMP_SUCCESS;
+}
+
+/* Chords of edges are finer by this factor where the sum leaves two integers possible. */
+enum { FINER = 16, ATTEMPTS = 3 };
+
+/* Lemma. A closed shell winds around x an integer number of times, which is in number -+ error: if
+ * that is an interval of less than 1 around one integer, it is that one. It winds as often around
+ * all points nearer to x than the shell is. */
+imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_number *found,
+                    imp_error *error)
+{
+    winding_view view = {.t = s->patches.t, .x = x, .slack = s->shells.slack, .fineness = 0x1p-10};
+    *found = (winding_number){.is_whole = true};
+    if (solid_box_excludes(solid_shell_box(s, shell), x, off)) return IMP_SUCCESS;
+    for (int k = 0; k < ATTEMPTS; ++k, view.fineness /= FINER) {
+        winding_sum sum;
+        const imp_code code = sum_up(s, shell, &view, &sum, error);
+        if (code != IMP_SUCCESS) return code;
+        found->number = sum.seen.angle / FULL_ANGLE;
+        found->error =
+            sum_upper(sum.seen.error / FULL_ANGLE, 8 * UNIT_ROUNDOFF * fabs(found->number));
+        const double whole = rint(found->number), rest = fabs(found->number - whole);
+        const bool is_known = sum_upper(rest, found->error) < 0.5;
+        found->is_near = !is_known || !(sum.distance > off);
+        found->is_whole = !(rest > found->error);
+        found->times = is_known ? (long)whole : 0;
+        if (is_known || !found->is_whole || !(sum.seen.error < FULL_ANGLE)) break;
+    }
+    return IMP_SUCCESS;
+}
+
+/* --- Not closed ------------------------------------------------------------------------------- */
+
+/* "; they wind 0.36 times around (0, 0, 0)", as far as their orientation is known. */
+static imp_code tell_number(const solid *s, vec3 x, char text[160], imp_error *error)
+{
+    winding_sum sum;
+    const winding_view view = {.t = s->patches.t, .x = x, .fineness = 0x1p-10};
+    text[0] = '\0';
+    if (!s->patches.bounded || s->boxes == NULL) return IMP_SUCCESS;
+    const imp_code code = sum_up(s, SIZE_MAX, &view, &sum, error);
+    if (code == IMP_SUCCESS && sum.seen.error < 0.1 * FULL_ANGLE)
+        snprintf(text, 160, "; they wind %.3g times around (%g, %g, %g)",
+                 sum.seen.angle / FULL_ANGLE, x.x[0], x.x[1], x.x[2]);
+    return code;
+}
+
+static imp_code refuse(const solid *s, vec3 x, imp_error *error)
+{
+    static const char cure[] = "close it, raise gamma if these are gaps, or leave out \"solid\"";
+    const char *name = imp_scene_body_name(s->scene, s->body);
+    const imp_closure *c = &s->closure;
+    char number[160];
+    const imp_code code = tell_number(s, x, number, error);
+    if (code != IMP_SUCCESS) return code;
+    switch (c->verdict) {
+    case IMP_CLOSURE_OPEN:
+        return error_set(error, IMP_ERROR_SCENE,
+                         "body '%.80s' is solid, but its surfaces are not closed within %g: "
+                         "nothing, or one too many, borders on the edge of surface %zu, piece %zu, "
+                         "at (%g, %g, %g)%s; %s",
+                         name, s->shells.slack, c->at.surface, c->at.piece, c->where[0],
+                         c->where[1], c->where[2], number, cure);
+    case IMP_CLOSURE_ONE_SIDED:
+        return error_set(error, IMP_ERROR_SCENE,
+                         "body '%.80s' is solid, but its surfaces have no inside: they return to "
+                         "(%g, %g, %g), on surface %zu, piece %zu, with the other side%s; %s",
+                         name, c->where[0], c->where[1], c->where[2], c->at.surface, c->at.piece,
+                         number, cure);
+    case IMP_CLOSURE_UNBOUNDED:
+    case IMP_CLOSURE_EMPTY:
+        return error_set(error, IMP_ERROR_SCENE,
+                         "body '%.80s' is solid, but its surfaces %s; leave out \"solid\"", name,
+                         c->verdict == IMP_CLOSURE_EMPTY ? "are a single point"
+                                                         : "are not bounded");
+    case IMP_CLOSURE_CLOSED:
+    case IMP_CLOSURE_STOPPED:
+        break;
+    }
+    return error_set(error, IMP_ERROR_SCENE,
+                     "body '%.80s' is solid, but its surfaces bound no volume%s, which is no whole "
+                     "number; %s",
+                     name, number, cure);
+}
+
+/* --- On which side? --------------------------------------------------------------------------- */
+
+/* The shells around a point. */
+typedef struct enclosing {
+    size_t *shell, *depth;
+    size_t count;
+} enclosing;
+
+static imp_code find_enclosing(const solid *s, vec3 x, double off, enclosing *around,
+                               solid_side *side, bool *stopped, imp_error *error)
+{
+    *side = SOLID_OUTSIDE;
+    for (size_t k = 0; k < s->shells.count && *side == SOLID_OUTSIDE; ++k) {
+        winding_number found;
+        *stopped = !patch_watch_goes_on(s->watch);
+        if (*stopped) return IMP_SUCCESS;
+        const imp_code code = solid_wind(s, k, x, off, &found, error);
+        if (code != IMP_SUCCESS) return code;
+        if (!found.is_whole)
+            *side = SOLID_NOT_CLOSED;
+        else if (found.is_near)
+            *side = SOLID_TOO_NEAR;
+        else if (found.times != 0)
+            around->shell[around->count++] = k;
+    }
+    return IMP_SUCCESS;
+}
+
+static imp_code count_walls(const solid *s, enclosing *around, solid_side *side, bool *stopped,
+                            imp_error *error)
+{
+    long outer = 0;
+    imp_code code = IMP_SUCCESS;
+    around->depth[0] = 0;
+    if (around->count > 1)
+        code = solid_depths(s, around->shell, around->count, around->depth, stopped, error);
+    for (size_t k = 0; code == IMP_SUCCESS && !*stopped && k < around->count; ++k)
+        outer += around->depth[k] % 2 == 0 ? 1 : -1;
+    if (outer > 0) *side = SOLID_INSIDE;
+    return code;
+}
+
+imp_code solid_side_of(solid *s, vec3 x, double off, solid_side *side, bool *stopped,
+                       imp_error *error)
+{
+    *stopped = false;
+    imp_code code = read_shells(s, error);
+    if (code != IMP_SUCCESS) return code;
+    *stopped = s->closure.verdict == IMP_CLOSURE_STOPPED;
+    *side = SOLID_NOT_CLOSED;
+    if (*stopped) return IMP_SUCCESS;
+    if (s->closure.verdict != IMP_CLOSURE_CLOSED) return refuse(s, x, error);
+    enclosing around = {calloc(s->shells.count + 1, sizeof *around.shell),
+                        calloc(s->shells.count + 1, sizeof *around.depth), 0};
+    if (around.shell == NULL || around.depth == NULL)
+        code = error_set_memory(error);
+    else
+        code = find_enclosing(s, x, off, &around, side, stopped, error);
+    if (code == IMP_SUCCESS && !*stopped && *side == SOLID_OUTSIDE && around.count > 0)
+        code = count_walls(s, &around, side, stopped, error);
+    free(around.shell);
+    free(around.depth);
+    return code == IMP_SUCCESS && *side == SOLID_NOT_CLOSED && !*stopped ? refuse(s, x, error)
+                                                                         : code;
+}

@@ -1,0 +1,39 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLID_SOLID_H
+#define CORE_SOLID_SOLID_H
+
+#include "core/solid/shells.h"
+
+/* A solid body at one time
+ * ========================
+ * Its surfaces form shells, each of which is closed: a point is inside a shell that winds around it
+ * any number of times but 0. Shells that are wholly inside others, and do not touch them, are walls
+ * of cavities, or of solid parts in these, in turn; shells that intersect bound their union. So a
+ * point is in the solid exactly if more of the shells around it are outer walls than are walls of
+ * cavities. In which order a body's shells come, and where their normals point, is of no
+ * consequence. */
+
+typedef struct solid solid;
+
+typedef enum solid_side {
+    SOLID_OUTSIDE,
+    SOLID_INSIDE,
+    SOLID_TOO_NEAR, /* to the surfaces, for models and points to tell */
+    SOLID_NOT_CLOSED
+} solid_side;
+
+/* Reads the body at time t; *made may be NULL where the scene has nothing of it at that time. Edges
+ * within `slack` of each other are one seam. Whether it is closed is only known when asked for
+ * sides. Both must outlive it: the scene and the watch. */
+imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
+                   const patch_watch *watch, solid **made, imp_error *error);
+void solid_free(solid *s); /* NULL is none */
+
+/* Finds the side on which all points lie that are no farther than `off` from x. SOLID_NOT_CLOSED:
+ * the surfaces bound no volume, as *error tells. *stopped: the watch ended it, and *side means
+ * nothing. Fails as plugins do. */
+imp_code solid_side_of(solid *s, vec3 x, double off, solid_side *side, bool *stopped,
+                       imp_error *error);
+
+#endif

@@ -1,0 +1,68 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef CORE_SOLID_SOLID_INTERNAL_H
+#define CORE_SOLID_SOLID_INTERNAL_H
+
+#include "core/base/rounding.h"
+#include "core/solid/solid.h"
+
+/* What the files of a solid share: solid.c tells on which side points are, nesting.c which shells
+ * are walls of cavities. */
+
+typedef struct solid_box {
+    double lo[3], hi[3];
+} solid_box;
+
+struct solid {
+    const imp_scene *scene;
+    size_t body;
+    const patch_watch *watch;
+    patches patches;
+    double slack;
+    bool is_read; /* the following are known */
+    imp_closure closure;
+    shells shells;
+    solid_box *boxes; /* of each patch, then of each shell */
+};
+
+/* Whether x is in a shell: *times is how often the shell winds around all points within `off` of x.
+ * *near: it is too near to tell. *number is the enclosure from which that is known. */
+typedef struct winding_number {
+    double number, error;
+    long times;
+    bool is_near, is_whole; /* is_whole: the number may be an integer */
+} winding_number;
+imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_number *found,
+                    imp_error *error);
+
+/* How many shells of the list each one of them is wholly inside of, counted along the longest
+ * chain; `depth` has room for `count` numbers. */
+imp_code solid_depths(const solid *s, const size_t *shell, size_t count, size_t *depth,
+                      bool *stopped, imp_error *error);
+
+/* Bounds a part of a patch; infinite where there are no models. Fails as the plugin does. */
+imp_code solid_box_of(const solid *s, const patch *p, const imp_region *region, solid_box *box,
+                      imp_error *error);
+
+static inline bool solid_boxes_apart(const solid_box *a, const solid_box *b)
+{
+    for (int i = 0; i < 3; ++i)
+        if (a->lo[i] > b->hi[i] || b->lo[i] > a->hi[i]) return true;
+    return false;
+}
+
+/* Whether all points within `off` of x are outside of the box, and so of what is in it. */
+static inline bool solid_box_excludes(const solid_box *box, vec3 x, double off)
+{
+    for (int i = 0; i < 3; ++i)
+        if (sum_upper(x.x[i], off) < box->lo[i] || difference_lower(x.x[i], off) > box->hi[i])
+            return true;
+    return false;
+}
+
+static inline const solid_box *solid_shell_box(const solid *s, size_t shell)
+{
+    return &s->boxes[s->patches.count + shell];
+}
+
+#endif
