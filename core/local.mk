@@ -235,4 +235,14 @@ core_include_HEADERS = core/impinge/baseline.h core/impinge/examine.h core/impin
 
 pkgconfig_DATA += core/impinge.pc
 
+# For CMake: find_package(Impinge).
+cmakedir = $(libdir)/cmake/Impinge
+cmake_DATA = core/ImpingeConfig.cmake core/ImpingeConfigVersion.cmake
+$(cmake_DATA): %: %.in Makefile
+	$(AM_V_GEN)$(MKDIR_P) $(@D) && sed -e 's|@libdir[@]|$(libdir)|g' \
+	  -e 's|@includedir[@]|$(includedir)|g' -e 's|@plugindir[@]|$(plugindir)|g' \
+	  -e 's|@PACKAGE_VERSION[@]|$(PACKAGE_VERSION)|g' -e 's|@CMAKE_LIBS[@]|$(LIBS)|g' $< >$@
+CLEANFILES += $(cmake_DATA)
+EXTRA_DIST += $(cmake_DATA:%=%.in)
+
 EXTRA_DIST += core/MEASUREMENTS.md core/PROOF.md core/README core/libimpinge.map

@@ -84,7 +84,7 @@ python_robot = \
     sdk/python/impinge/robot/_shapes.py \
     sdk/python/impinge/robot/_srdf.py \
     sdk/python/impinge/robot/_urdf.py
-EXTRA_DIST += sdk/python/pyproject.toml sdk/python/setup.py $(python_module) $(python_robot)
+EXTRA_DIST += sdk/python/MANIFEST.in sdk/python/pyproject.toml sdk/python/setup.py $(python_module) $(python_robot)
 if HAVE_PYTHON
 pythonmoduledir = $(pythondir)/impinge
 pythonmodule_DATA = $(python_module) sdk/python/_installed.py
@@ -98,6 +98,25 @@ sdk_folders += $(pythonrobotdir) $(pythonmoduledir)
 uninstall-pycache:
 	rm -rf "$(DESTDIR)$(pythonmoduledir)/__pycache__" "$(DESTDIR)$(pythonrobotdir)/__pycache__"
 endif
+
+# Packages for pip, in the folder python-packages: a wheel with library, plugins and command inside, and
+# the sources of all of it, which pip builds.
+build_package = (cd python-packages/$@ && IMPINGE_BUILD='$(IMPINGE_BUILD)' $(PYTHON3) -c \
+    'import setuptools.build_meta as b; print(b.build_$@("$(abs_top_builddir)/python-packages"))')
+copy_python = rm -rf python-packages/$@ && $(MKDIR_P) python-packages && \
+    cp -R $(srcdir)/sdk/python python-packages/$@ && chmod -R u+w python-packages/$@
+.PHONY: wheel sdist
+wheel: IMPINGE_BUILD = $(abs_top_builddir)
+wheel: all
+	$(copy_python)
+	$(build_package) >python-packages/$@.log 2>&1 || { cat python-packages/$@.log; exit 1; }
+	@tail -n 1 python-packages/$@.log
+sdist:
+	$(copy_python)
+	$(MAKE) -s distdir distdir=python-packages/sdist/source
+	chmod -R u+w python-packages/sdist/source
+	$(build_package) >python-packages/$@.log 2>&1 || { cat python-packages/$@.log; exit 1; }
+	@tail -n 1 python-packages/$@.log
 
 # Programs that use the library, beside the plugins that the guide builds.
 hostexamplesdir = $(docdir)/examples

@@ -729,6 +729,7 @@ $(installed)/files:
 
 # What suites leave behind.
 clean-local: clean-manuals
+	rm -rf python-packages
 	test ! -d $(installed) || chmod -R u+w $(installed)
 	rm -rf $(installed) tests/cache tests/no-user-data
 

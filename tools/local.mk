@@ -303,4 +303,5 @@ $(built_data)/include/%: sdk/%
 	$(copy_data)
 
 EXTRA_DIST += tools/data/blade.png tools/data/blade_gap.png
+EXTRA_DIST += tools/debian tools/package
 EXTRA_DIST += tools/coverage tools/coverage.gaps tools/coverage.py tools/demo tools/prepare tools/test $(pkgdata_DATA)

@@ -145,6 +145,30 @@ END
     [ "${BASH_REMATCH[1]}" -ge 6 ]
 }
 
+@test "CMake finds the library by find_package, and refuses another series" {
+    command -v cmake >/dev/null || skip "no cmake"
+    cat >CMakeLists.txt <<'END'
+cmake_minimum_required(VERSION 3.13)
+project(asks C)
+find_package(Impinge 0.1 REQUIRED)
+add_executable(arm ${Impinge_DIR}/../../../share/doc/impinge/examples/arm.c)
+target_link_libraries(arm Impinge::impinge)
+add_executable(arm_static ${Impinge_DIR}/../../../share/doc/impinge/examples/arm.c)
+target_link_libraries(arm_static Impinge::static)
+END
+    cmake -S . -B build -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="${CC%% *}" >log 2>&1 &&
+        cmake --build build >>log 2>&1 || { cat log; false; }
+    local program
+    for program in arm arm_static; do
+        run -0 "build/$program" "$prefix/share/impinge/arm.json"
+        [[ $output == 'holds, tightest 2.88'*' mm at t = 0.5'*' between link5 and fixture' ]]
+    done
+    run ! grep libimpinge.so <(readelf -d build/arm_static)
+    sed -i 's/Impinge 0.1 /Impinge 0.2 /' CMakeLists.txt
+    run ! cmake -S . -B other -DCMAKE_PREFIX_PATH="$prefix"
+    [[ $output == *0.1.0* ]]
+}
+
 # compile_example NAME FLAG...: a program of the installed examples, with the installed library.
 compile_example() {
     local name=$1

@@ -97,6 +97,30 @@ pip_installs() {
     [ "libimpinge $output" = "$(venv/bin/python -c 'import impinge; print(impinge.version())')" ]
 }
 
+@test "a wheel brings library, plugins and command along, and needs nothing else of Impinge" {
+    needs_python
+    "$PYTHON3" -c 'import ensurepip, setuptools, wheel' ||
+        skip "no python3-venv, python3-setuptools or python3-wheel"
+    cp -R "$top_srcdir/sdk/python" source
+    chmod -R u+w source
+    (cd source && IMPINGE_BUILD=$top_builddir "$PYTHON3" -c \
+        'import setuptools.build_meta as b; b.build_wheel("..")') >log 2>&1 || { cat log; false; }
+    [[ $(ls ./*.whl) == ./impinge-*-py3-none-manylinux_2_*_"$(uname -m)".whl ]]
+    "$PYTHON3" -m venv --system-site-packages venv
+    venv/bin/python -m pip install --quiet --no-index ./*.whl
+    rm -rf source
+    cd /
+    run -0 env -i "$BATS_TEST_TMPDIR/venv/bin/python" -c 'import impinge
+scene = impinge.Scene.from_pair("sphere", "torus center=3,0,0 ! translate velocity=-2,0,0")
+print(scene.solve().verdict, impinge._find.find_command(impinge._library.library))
+print(len(scene.view(width=64, height=64).data) > 100)
+print({name for line in open("/proc/self/maps") for name in [line.split()[-1]]
+       if name.endswith(".so.0") and "impinge" in name})'
+    [ "${lines[0]}" = "contact $(echo "$BATS_TEST_TMPDIR"/venv/lib/python3*/site-packages/impinge/_bundle/tools/impinge)" ]
+    [ "${lines[1]}" = True ]
+    [[ ${lines[2]} == "{'$BATS_TEST_TMPDIR/venv/"*"/_bundle/.libs/libimpinge.so.0'}" ]]
+}
+
 # As make install leaves it below a prefix that the dynamic linker does not know.
 prefix_of_our_own() {
     mkdir -p prefix/lib/pkgconfig

@@ -31,6 +31,9 @@ teardown_file() {
     git -C "$top_srcdir" ls-files >committed 2>/dev/null || skip "not a git repository"
     [ -s committed ] || skip "not a git repository"
     make -s -C "$build" dist
+    cp "$build"/impinge-*.tar.gz first.tar.gz
+    (umask 077 && make -s -C "$build" dist)
+    cmp "$build"/impinge-*.tar.gz first.tar.gz # the same bytes again
     tar tzf "$build"/impinge-*.tar.gz | sed 's|^[^/]*/||' | sort >released
     comm -23 <(sort committed) released >missing
     cat missing

@@ -96,8 +96,8 @@ void help_overview(void)
     fputs("\nTopics: ", stdout);
     for (const help_topic *t = help_topics; t->name != NULL; ++t)
         printf("%s%s", t->name, t[1].name != NULL ? ", " : ".\n");
-    fputs("\n`impinge help VERB` describes one verb, with an example, or one topic. Options may "
-          "stand anywhere.\n"
+    fputs("\n`impinge help VERB` describes one verb, with an example; topics likewise. Options\n"
+          "may stand anywhere.\n"
           "Exit status: 0 answered, 1 contact (with --exit-code), 2 usage, 3 undecided,\n"
           "4 scene, data or file, 5 plugin fault, 6 conformance failure.\n",
           stdout);

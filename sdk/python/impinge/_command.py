@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Tuple
 from . import _files
 from . import _library as lib
 from . import _values as values
-from ._find import find_command
+from ._find import bundled_environment, find_command
 from .errors import FileError, ImpingeError, PluginError, SceneError, UsageError
 
 _UNDECIDED = 3
@@ -38,7 +38,8 @@ def _command() -> str:
 def _run(line: List[str], text: bytes) -> Tuple[int, bytes]:
     """The exit status and what is printed; an exception for what is no answer."""
     try:
-        done = subprocess.run(line, input=text, capture_output=True, check=False)
+        done = subprocess.run(line, input=text, capture_output=True, check=False,
+                              env=bundled_environment(line[0]))
     except OSError as error:
         raise FileError(f"{line[0]}: cannot be run: {error.strerror or error}") from None
     if done.returncode in _ANSWERS:

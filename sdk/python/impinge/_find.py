@@ -3,8 +3,8 @@
 
 """Where libimpinge and the command impinge are.
 
-The library is the one that the environment's IMPINGE_LIBRARY names, or else the one that this module was
-installed or built with, or the one that the dynamic linker or pkg-config finds. The command is the one that
+The library is the one that the environment's IMPINGE_LIBRARY names, or else the one that a wheel brings
+along, or that this module was installed or built with, or the one that the dynamic linker or pkg-config finds. The command is the one that
 IMPINGE_COMMAND names, or else the one installed or built beside that library, or the one in PATH."""
 
 import ctypes as c
@@ -12,9 +12,33 @@ import importlib
 import os
 import shutil
 import subprocess
-from typing import Iterator, Optional
+from typing import Dict, Iterator, Optional
 
 NAME = "libimpinge.so.0"
+
+# What a wheel brings along, as in a build tree: library, plugins, command, data.
+_BUNDLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "_bundle")
+_BUNDLED = os.path.join(_BUNDLE, ".libs", NAME)
+
+
+def bundled_plugins(library: c.CDLL) -> Optional[str]:
+    """The folder of the plugins that a wheel brings along, if the library is its own."""
+    return os.path.join(_BUNDLE, "plugins", ".libs") if library._name == _BUNDLED else None
+
+
+def bundled_environment(command: str) -> Optional[Dict[str, str]]:
+    """The environment in which a command that a wheel brings along finds its libraries; None: any."""
+    if os.path.dirname(os.path.realpath(command)) != os.path.realpath(os.path.join(_BUNDLE, "tools")):
+        return None
+    folders = [os.path.dirname(_BUNDLED), os.environ.get("LD_LIBRARY_PATH", "")]
+    return {**os.environ, "LD_LIBRARY_PATH": ":".join(filter(None, folders))}
+
+
+def _load_needed() -> None:
+    """Loads what the library of a wheel needs, which the dynamic linker does not look for there."""
+    for name in os.listdir(os.path.dirname(_BUNDLED)):
+        if name.startswith("libjansson"):
+            c.CDLL(os.path.join(os.path.dirname(_BUNDLED), name), mode=c.RTLD_GLOBAL)
 
 
 def _installed() -> Optional[str]:
@@ -38,6 +62,9 @@ def _libraries() -> Iterator[Optional[str]]:
     if named:
         yield named
         return
+    if os.path.exists(_BUNDLED):
+        _load_needed()
+        yield _BUNDLED
     yield _installed()
     yield NAME
     yield _pkg_config()

@@ -9,6 +9,7 @@ import threading
 from typing import Dict, FrozenSet, Iterator, Optional
 
 from . import _library as lib
+from ._find import bundled_plugins
 
 
 class Registry:
@@ -22,7 +23,7 @@ class Registry:
     def handle(cls) -> int:
         with cls._lock:
             if cls._handle is None:
-                cls._handle = lib.library.imp_registry_new(None)
+                cls._handle = lib.library.imp_registry_new(_plugin_path())
                 if cls._handle is None:
                     raise MemoryError("out of memory")
             return cls._handle
@@ -50,6 +51,15 @@ class Registry:
     def after_fork(cls) -> None:
         """In the copy of a process, where the thread that held the lock does not exist."""
         cls._lock = threading.Lock()
+
+
+def _plugin_path() -> Optional[bytes]:
+    """Where a wheel has its plugins: after those of the environment, as installed ones are."""
+    bundled = bundled_plugins(lib.library)
+    if bundled is None:
+        return None
+    named = os.environ.get("IMPINGE_PLUGIN_PATH")
+    return os.fsencode(f"{named}:{bundled}" if named else bundled)
 
 
 def _file_parameters(info: lib.TypeInfo) -> Iterator[str]:
