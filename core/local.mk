@@ -31,6 +31,7 @@ core_base = \
     core/base/unconst.h
 
 core_surface = \
+    core/surface/carried.h \
     core/surface/formula_text.c core/surface/formula_text.h \
     core/surface/instance.c core/surface/instance.h \
     core/surface/region.c core/surface/region.h \
@@ -38,7 +39,7 @@ core_surface = \
     core/surface/surface_distance.c \
     core/surface/surface_include.c core/surface/surface_internal.h \
     core/surface/surface_motion.c core/surface/surface_net.c core/surface/surface_pose.c \
-    core/surface/surface_rate.c \
+    core/surface/surface_orbit.c core/surface/surface_rate.c \
     core/surface/surface_symmetry.c
 
 core_tree = \
@@ -110,6 +111,7 @@ core_solid = \
     core/solid/winding.c core/solid/winding.h
 
 core_bounds = \
+    core/bounds/convex_line.c core/bounds/convex_line.h \
     core/bounds/claim_audit.c core/bounds/claim_audit.h \
     core/bounds/difference.c core/bounds/difference.h \
     core/bounds/distance.c core/bounds/distance.h \

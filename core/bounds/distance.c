@@ -4,9 +4,11 @@
 
 #include "core/bounds/distance.h"
 
+#include <impinge/model.h>
 #include <string.h>
 
 #include "core/bounds/claim_audit.h"
+#include "core/bounds/convex_line.h"
 #include "core/bounds/quadratic.h"
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
@@ -61,28 +63,51 @@ static imp_code fault(const surface *s, imp_status status, imp_error *error)
     return surface_set_code(status, error);
 }
 
-/* Returns the region's u and v at one moment. */
-static imp_region at_moment(const imp_region *r, double moment)
+bool distance_slip_is_small(double slip, double gamma_clear)
 {
-    return region_make((double[3]){r->lo[0], r->lo[1], moment},
-                       (double[3]){r->hi[0], r->hi[1], moment});
+    return slip < INFINITY && TUNING_DISTANCE_SLIP * slip <= gamma_clear;
 }
 
 bool distance_slides(const distance_question *q)
 {
-    return q->slip < INFINITY && TUNING_DISTANCE_SLIP * q->slip <= q->gamma_clear;
+    return !q->is_carried && distance_slip_is_small(q->slip, q->gamma_clear);
 }
 
-/* Models of the node's points before the maps that both surfaces end with, at one moment where the
- * node slides. */
-static imp_status points_of(const distance_question *q, size_t common, imp_model point[3])
+/* Returns the region over which points are taken: at one moment where the node slides, and with the
+ * parameters that are held in the middle. */
+static imp_region region_of(const distance_question *q)
+{
+    const imp_region *r = &q->a->region;
+    double lo[3], hi[3];
+    memcpy(lo, r->lo, sizeof lo);
+    memcpy(hi, r->hi, sizeof hi);
+    for (int j = 0; j < 2; ++j)
+        if ((q->held >> j & 1) != 0) lo[j] = hi[j] = r->c[j];
+    if (distance_slides(q)) lo[2] = hi[2] = q->moment;
+    return region_make(lo, hi);
+}
+
+/* Models of the node's points before the maps that both surfaces end with, over region_of; less
+ * b's motion where that is carried. */
+static imp_status points_of(const distance_question *q, size_t common, const imp_region *over,
+                            imp_model point[3])
 {
     const node *a = q->a;
-    if (!distance_slides(q)) return points_before(a, common, point);
-    const imp_region then = at_moment(&a->region, q->moment);
-    /* A cluster's models include the common maps; pair_look requests none. */
-    if (a->many != NULL) return IMP_STATUS_UNBOUNDED;
-    return surface_include_inner(a->surface, &then, surface_map_count(a->surface) - common, point);
+    imp_model way[3];
+    imp_status status;
+    if (!distance_slides(q) && q->held == 0) {
+        status = points_before(a, common, point);
+    } else {
+        /* A cluster's models include the common maps; pair_look requests none. */
+        if (a->many != NULL) return IMP_STATUS_UNBOUNDED;
+        const size_t maps = surface_map_count(a->surface) - common;
+        status = surface_include_inner(a->surface, over, maps, point);
+    }
+    if (status != IMP_STATUS_OK || !q->is_carried) return status;
+    const carry_base base = {q->moment, q->is_bare};
+    status = surface_carry_way(q->b->surface, over, &base, way);
+    for (int i = 0; i < 3 && status == IMP_STATUS_OK; ++i) point[i] = imp_sub(point[i], way[i]);
+    return status;
 }
 
 static imp_status distance_of(const distance_question *q, size_t common, const imp_model point[3],
@@ -90,11 +115,12 @@ static imp_status distance_of(const distance_question *q, size_t common, const i
 {
     const surface *b = q->b->surface;
     const imp_region *r = &q->a->region;
-    const size_t maps = surface_map_count(b) - common;
+    const size_t maps = q->is_bare ? 0 : surface_map_count(b) - common;
     if (q->plane != NULL)
         return surface_height_within(b, q->plane, r, point, q->moment, q->slip, g);
-    return distance_slides(q) ? surface_distance_within(b, r, maps, point, q->moment, q->slip, g)
-                              : surface_distance(b, r, maps, point, g);
+    return distance_slides(q) || q->is_carried
+               ? surface_distance_within(b, r, maps, point, q->moment, q->slip, g)
+               : surface_distance(b, r, maps, point, g);
 }
 
 /* Computes the Taylor model *g of the distance. *known false: the type gives no bound. */
@@ -103,13 +129,12 @@ static imp_code find_distance(const distance_question *q, imp_model *g, double b
 {
     imp_model point[3];
     const size_t common = surface_common_maps(q->a->surface, q->b->surface);
-    imp_status status = points_of(q, common, point);
+    const imp_region over = region_of(q);
+    imp_status status = points_of(q, common, &over, point);
     *known = false;
     if (status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
     if (status != IMP_STATUS_OK) return fault(q->a->surface, status, error);
-    const imp_region then = at_moment(&q->a->region, q->moment);
-    const bool still = distance_slides(q);
-    if (still || common > 0) bend_of(point, still ? &then : &q->a->region, bend);
+    if (distance_slides(q) || q->is_carried || common > 0) bend_of(point, &over, bend);
     status = distance_of(q, common, point, g);
     *known = status == IMP_STATUS_OK;
     if (status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED) return IMP_SUCCESS;
@@ -144,6 +169,8 @@ static span span_of(const time_window *window)
  *
  *   g >= (G0 + G1) / 2 + w (G1 - G0) / 2 - max(q_tt, 0) k^2 - e,
  *
+ * or above a line in w below its polynomial as a whole (convex_line.h), less e;
+ *
  * |g| <= |x - y| for each point x of the node and each y of the surface: where that exceeds
  * gamma_clear on either side, the node is farther away than gamma_clear.
  * Rounding, in units of u S, S = |a| + sum |b| + sum |q|, |s_t| <= 1 but for rounding:
@@ -172,7 +199,7 @@ static double size_upper(const imp_model *g)
     return padded_upper(size, 16);
 }
 
-static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
+static sides sides_of(const imp_model *g, const imp_region *r, const span *w, double size)
 {
     const double d = r->d[PARAMETER_T], s = d > 0 ? (w->mid - r->c[PARAMETER_T]) / d : 0;
     const double reach = d > 0 ? w->half / d : 0;
@@ -190,6 +217,11 @@ static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
         const double bend = k == 0 ? g->q[IMP_TT] : -g->q[IMP_TT];
         both.low[k] = 0.5 * (start + end) - (bend > 0 ? bend * (reach * reach) : 0);
         both.drift[k] = 0.5 * (end - start);
+        if (!(bend > 0)) continue;
+        const convex_line line = convex_line_below(g, k == 0 ? 1 : -1, s, reach, size);
+        if (!(line.low - fabs(line.drift) > both.low[k] - fabs(both.drift[k]))) continue;
+        both.low[k] = line.low;
+        both.drift[k] = line.drift;
     }
     return both;
 }
@@ -200,10 +232,11 @@ static sides sides_of(const imp_model *g, const imp_region *r, const span *w)
  * remainders are much smaller, then help more than halves of its neighbours. False if the remainder
  * is mere rounding, or the node so large that the remainder exceeds its extents. */
 static bool is_worth_halving(const imp_model *g, const sides *both, const node *n,
-                             double gamma_clear, double size, bool within_itself)
+                             double gamma_clear, double size, bool within_itself, bool is_orbit)
 {
     const double extent = n->extent[PARAMETER_U] + n->extent[PARAMETER_V];
     double least[2];
+    if (is_orbit && fabs(g->a) - g->e > gamma_clear) return true;
     if (!(g->e > TUNING_DISTANCE_ROUNDING * size && g->e < TUNING_DISTANCE_EXTENT * extent))
         return false;
     for (int k = 0; k < 2; ++k) least[k] = both->low[k] - fabs(both->drift[k]);
@@ -248,7 +281,7 @@ static void cut_by(const distance_question *q, const imp_model *g, time_window *
     const double size = size_upper(g);
     if (view->is_apart || !(size < 0x1p400)) return;
     const span whole = span_of(window);
-    const sides both = sides_of(g, &a->region, &whole);
+    const sides both = sides_of(g, &a->region, &whole, size);
     const double slack =
         padded_upper(g->e + size * (DISTANCE_ROUNDING * UNIT_ROUNDOFF), 16) + QUADRATIC_UNDERFLOW;
     const double lower = sides_lower(&both, slack);
@@ -256,8 +289,8 @@ static void cut_by(const distance_question *q, const imp_model *g, time_window *
     w_range s = {-1, 1};
     for (int k = 0; k < 2 && !view->is_apart; ++k)
         view->is_apart = !w_range_cut(&s, both.low[k] - slack, both.drift[k], gamma_clear);
-    view->is_promising =
-        !view->is_apart && is_worth_halving(g, &both, a, gamma_clear, size, is_within_itself(q));
+    view->is_promising = !view->is_apart && is_worth_halving(g, &both, a, gamma_clear, size,
+                                                             is_within_itself(q), q->held != 0);
     if (!view->is_apart) window_cut(window, whole.mid, whole.half, &s);
 }
 

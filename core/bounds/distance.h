@@ -38,8 +38,14 @@ typedef struct distance_question {
     double gamma_clear; /* length */
     double moment;
     double slip;     /* of a posed node; INFINITY: not bounded; length */
+    bool is_carried; /* `slip` is that of surface_carry_slip: a's points are taken at all times, */
+    bool is_bare;    /* and b as it is before its maps */
+    unsigned held;   /* parameters of a that stay in the middle: bit 0 u, bit 1 v (slip counts) */
     bool is_audited; /* check decisive distances at points (claim_audit.h) */
 } distance_question;
+
+/* Whether a slip is known, and small against gamma_clear. */
+bool distance_slip_is_small(double slip, double gamma_clear);
 
 /* Whether a's motion relative to b, modulo b's symmetry, is small against gamma_clear. */
 bool distance_slides(const distance_question *q);
@@ -58,8 +64,12 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
 typedef struct distance_sides {
     const node *node[2], *root[2];
     size_t still_maps[2]; /* surface_still_maps of each surface */
-    float *slip; /* the caller's two numbers: surface_slip of each surface along the other over
+    float *slip;  /* the caller's two numbers: surface_slip of each surface along the other over
                              their common times, rounded up; 0: not computed yet */
+    float *carry; /* likewise surface_carry_slip of the other, for all points of each */
+    float *orbit; /* likewise surface_orbit_slip of each along the other, with the parameters */
+    unsigned char *held;
+    bool *is_bare; /* whether `carry` counts from before the other's maps */
     bool is_audited;
 } distance_sides;
 

@@ -41,27 +41,144 @@ static bool is_turned(const distance_sides *of, int side)
     return surface_map_count(other) - common > of->still_maps[!side];
 }
 
-/* Fills the input of distance_cut for one side. A node that moves uniformly needs no slip: its
- * models are as tight as those of one moment. */
+static imp_code fault_of(const surface *s, imp_status status, imp_error *error)
+{
+    surface_fault(s, error, ": %s", surface_status_told(s, status).text);
+    return surface_set_code(status, error);
+}
+
+static imp_region all_of(const time_window *times)
+{
+    return region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
+}
+
+/* A slip below this part of the points' distance is rounding. */
+#define MERE_ROUNDING 0x1p-40
+
+/* Finds out whether, and how nearly, the other surface moves as its center does; from where it is
+ * before its maps if these leave the axis its direction. */
+static imp_code find_carry(const distance_sides *of, int side, const time_window *times,
+                           double moment, double *slip, imp_error *error)
+{
+    const node *own = of->root[side];
+    const surface *other = of->root[!side]->surface;
+    const imp_region all = all_of(times);
+    double size = 0;
+    *slip = INFINITY;
+    if (of->root[!side]->many != NULL || !own->bounded) return IMP_SUCCESS;
+    if (surface_common_maps(own->surface, other) > 0) return IMP_SUCCESS;
+    for (int i = 0; i < 3; ++i) size += own->hi[i] - own->lo[i];
+    carry_base base = {moment, true};
+    imp_status status = surface_carry_slip(other, own->lo, own->hi, &all, &base, slip);
+    of->is_bare[side] = *slip <= MERE_ROUNDING * size;
+    base.is_bare = false;
+    if (status == IMP_STATUS_OK && !of->is_bare[side])
+        status = surface_carry_slip(other, own->lo, own->hi, &all, &base, slip);
+    return status == IMP_STATUS_OK ? IMP_SUCCESS : fault_of(other, status, error);
+}
+
+/* Finds out which parameters of a side's node need not vary. */
+static imp_code find_orbit(const distance_sides *of, int side, const time_window *times,
+                           unsigned *held, double *slip, imp_error *error)
+{
+    const node *own = of->node[side], *root = of->root[side];
+    const surface *a = own->surface, *b = of->node[!side]->surface;
+    const imp_region all = all_of(times);
+    *held = 0;
+    *slip = INFINITY;
+    if (!root->bounded || surface_common_maps(a, b) > 0) return IMP_SUCCESS;
+    const imp_status status = surface_orbit_slip(a, b, root->lo, root->hi, &all, held, slip);
+    return status == IMP_STATUS_OK ? IMP_SUCCESS : fault_of(b, status, error);
+}
+
+static float float_upper(double x) { return nextafterf((float)x, INFINITY); }
+
+/* Takes it that the other surface moves as its center does, if it does so nearly enough. */
+static imp_code add_carry(const distance_sides *of, int side, const time_window *times,
+                          distance_question *q, imp_error *error)
+{
+    float *known = &of->carry[side];
+    if (*known == 0) {
+        double found;
+        const imp_code code = find_carry(of, side, times, q->moment, &found, error);
+        if (code != IMP_SUCCESS) return code;
+        *known = float_upper(found);
+    }
+    if (!distance_slip_is_small(*known, q->gamma_clear)) return IMP_SUCCESS;
+    q->is_carried = true;
+    q->is_bare = of->is_bare[side];
+    q->slip = *known;
+    return IMP_SUCCESS;
+}
+
+/* Lets one point stand for its orbit, if that is one of the other's symmetry nearly enough. Pieces
+ * have orbits of their own. */
+static imp_code add_orbit(const distance_sides *of, int side, const time_window *times,
+                          distance_question *q, imp_error *error)
+{
+    const bool is_piece = of->root[side]->many != NULL;
+    unsigned held = of->held[side];
+    double slip = of->orbit[side];
+    if (is_piece || slip == 0) {
+        const imp_code code = find_orbit(of, side, times, &held, &slip, error);
+        if (code != IMP_SUCCESS) return code;
+        slip = float_upper(slip);
+    }
+    if (!is_piece) {
+        of->orbit[side] = (float)slip;
+        of->held[side] = (unsigned char)held;
+    }
+    const double all = sum_upper(q->slip, slip);
+    if (!distance_slip_is_small(all, q->gamma_clear)) return IMP_SUCCESS;
+    q->held = held;
+    q->slip = all;
+    return IMP_SUCCESS;
+}
+
+/* Bounds in q->slip how far the side slides along the other, found once for each candidate pair. */
+static imp_code add_slip(const distance_sides *of, int side, const time_window *times,
+                         distance_question *q, imp_error *error)
+{
+    float *slip = &of->slip[side];
+    if (*slip == 0) {
+        double found;
+        const imp_code code =
+            find_slip(of->root[side], of->root[!side], NULL, times, q->moment, &found, error);
+        if (code != IMP_SUCCESS) return code;
+        *slip = float_upper(found);
+    }
+    q->slip = *slip;
+    return IMP_SUCCESS;
+}
+
+/* Fills the input of distance_cut for one side. A node that moves uniformly needs no slip, unless
+ * one point stands for its orbit: its models are as tight as those of one moment. */
 static imp_code question_of(const distance_sides *of, int side, double gamma_clear,
                             distance_question *q, imp_error *error)
 {
     const node *own = of->node[side], *other = of->node[!side];
-    *q = (distance_question){own, other, NULL, gamma_clear, 0, INFINITY, of->is_audited};
+    imp_code code = IMP_SUCCESS;
+    *q = (distance_question){.a = own,
+                             .b = other,
+                             .gamma_clear = gamma_clear,
+                             .slip = INFINITY,
+                             .is_audited = of->is_audited};
     if (!surface_has_symmetry(other->surface)) return IMP_SUCCESS;
-    if (own->still == NULL && !is_turned(of, side)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
-    float *slip = &of->slip[side];
+    const bool at_once = times.lo == times.hi, turned = is_turned(of, side);
+    const bool has_orbits = surface_has_orbits(own->surface), turns = own->still != NULL || turned;
     q->moment = 0.5 * times.lo + 0.5 * times.hi;
-    if (*slip == 0) {
-        double found;
-        const imp_code code =
-            find_slip(of->root[side], of->root[!side], NULL, &times, q->moment, &found, error);
-        if (code != IMP_SUCCESS) return code;
-        *slip = nextafterf((float)found, INFINITY);
+    if (turns || has_orbits) code = add_slip(of, side, &times, q, error);
+    const bool slides = distance_slides(q);
+    if (code == IMP_SUCCESS && !slides) {
+        q->slip = at_once ? 0 : INFINITY;
+        if (!at_once && (turned || has_orbits)) code = add_carry(of, side, &times, q, error);
     }
-    q->slip = *slip;
-    return IMP_SUCCESS;
+    if (code == IMP_SUCCESS && has_orbits && q->slip < INFINITY)
+        code = add_orbit(of, side, &times, q, error);
+    const bool pays = slides ? turns : q->is_carried && turned;
+    if (q->held == 0 && !pays) q->slip = INFINITY, q->is_carried = q->is_bare = false;
+    return code;
 }
 
 /* --- Faces ------------------------------------------------------------------------------------ */
@@ -79,8 +196,13 @@ static imp_code cut_along_face(const distance_sides *of, int side, double gamma_
         return IMP_SUCCESS;
     if (!(TUNING_DISTANCE_SLIP * plane.off <= gamma_clear)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
-    distance_question q = {
-        own, other, &plane, gamma_clear, 0.5 * times.lo + 0.5 * times.hi, INFINITY, of->is_audited};
+    distance_question q = {.a = own,
+                           .b = other,
+                           .plane = &plane,
+                           .gamma_clear = gamma_clear,
+                           .moment = 0.5 * times.lo + 0.5 * times.hi,
+                           .slip = INFINITY,
+                           .is_audited = of->is_audited};
     const imp_code code =
         find_slip(of->root[side], other, &plane, &times, q.moment, &q.slip, error);
     return code == IMP_SUCCESS && distance_slides(&q) ? distance_cut(&q, window, view, error)
@@ -89,20 +211,36 @@ static imp_code cut_along_face(const distance_sides *of, int side, double gamma_
 
 /* --- Both ------------------------------------------------------------------------------------- */
 
-static imp_code cut_side(const distance_sides *of, int side, double gamma_clear,
-                         time_window *window, distance_view *view, imp_error *error)
+/* What is asked about one side. */
+typedef struct side_plan {
+    distance_question q;
+    bool is_asked; /* q, of the other's type */
+    bool is_face;  /* the plane of the other's node */
+    bool is_still; /* time costs nothing, or only by how the other's center moves */
+} side_plan;
+
+static imp_code plan_side(const distance_sides *of, int side, double gamma_clear, side_plan *plan,
+                          imp_error *error)
 {
     const node *own = of->node[side], *other = of->node[!side];
-    distance_question asked;
-    *view = distance_view_none(own);
-    if (!distance_is_known(own, other)) {
-        if (!strategy_slides_on_face(own, other)) return IMP_SUCCESS;
-        return cut_along_face(of, side, gamma_clear, window, view, error);
+    *plan = (side_plan){.is_asked = distance_is_known(own, other)};
+    if (!plan->is_asked) {
+        plan->is_face = strategy_slides_on_face(own, other);
+        return IMP_SUCCESS;
     }
-    const imp_code code = question_of(of, side, gamma_clear, &asked, error);
-    if (code != IMP_SUCCESS) return code;
-    if (!distance_slides(&asked) && is_turned(of, side)) return IMP_SUCCESS;
-    return distance_cut(&asked, window, view, error);
+    const imp_code code = question_of(of, side, gamma_clear, &plan->q, error);
+    plan->is_still = distance_slides(&plan->q) || plan->q.is_carried;
+    plan->is_asked = plan->is_still || !is_turned(of, side);
+    return code;
+}
+
+static imp_code cut_side(const distance_sides *of, int side, const side_plan *plan,
+                         double gamma_clear, time_window *window, distance_view *view,
+                         imp_error *error)
+{
+    *view = distance_view_none(of->node[side]);
+    if (plan->is_face) return cut_along_face(of, side, gamma_clear, window, view, error);
+    return plan->is_asked ? distance_cut(&plan->q, window, view, error) : IMP_SUCCESS;
 }
 
 /* Lemma. A node's points belong to its whole surface: the distance of one node's points from all of
@@ -111,9 +249,17 @@ static imp_code cut_side(const distance_sides *of, int side, double gamma_clear,
 imp_code distance_cut_sides(const distance_sides *of, double gamma_clear, distance_outcome *seen,
                             imp_error *error)
 {
-    for (int side = 0; side < 2 && !seen->is_apart && seen->side < 0; ++side) {
+    side_plan plan[2];
+    for (int side = 0; side < 2; ++side) {
+        const imp_code code = plan_side(of, side, gamma_clear, &plan[side], error);
+        if (code != IMP_SUCCESS) return code;
+    }
+    const int first = plan[1].is_still && !plan[0].is_still ? 1 : 0;
+    for (int k = 0; k < 2 && !seen->is_apart && seen->side < 0; ++k) {
+        const int side = k == 0 ? first : !first;
         distance_view view;
-        const imp_code code = cut_side(of, side, gamma_clear, &seen->left, &view, error);
+        const imp_code code =
+            cut_side(of, side, &plan[side], gamma_clear, &seen->left, &view, error);
         if (code != IMP_SUCCESS) return code;
         seen->is_apart = view.is_apart;
         if (view.lower > seen->lower) seen->lower = view.lower;

@@ -164,6 +164,7 @@ bool strategy_slides_on_face(const node *own, const node *other)
 bool strategy_takes_distances(const node *a, const node *b, const slide_signs *of,
                               strategy_goal goal)
 {
+    if (of->is_whole) return true;
     if (goal == GOAL_DISTANCE) return of->slides || !of->is_parted;
     if (!of->is_parted) return of->slides || !(of->start > pair_times(a, b).lo);
     const bool may_slide =

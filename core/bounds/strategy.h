@@ -140,6 +140,7 @@ bool strategy_is_tangent(const node *a, const node *b);
 /* What is known of a pair before its one-sided distances are computed. */
 typedef struct slide_signs {
     double start;        /* of its window */
+    bool is_whole;       /* its nodes are two whole surfaces, or large pieces of such */
     bool is_parted;      /* some axis separates it at one moment */
     bool slides;         /* a distance chose one node of an ancestor to be split alone */
     trial_rate *sliding; /* of its candidate pair; NULL: always try */

@@ -25,6 +25,10 @@ typedef struct candidate_pair {
     candidate *side[2];
     /* >= surface_slip of either along the other, over all times of both; 0: not asked yet */
     float slip[2];
+    float carry[2];        /* like surface_carry_slip of the other, for points of either */
+    float orbit[2];        /* like surface_orbit_slip of either along the other */
+    unsigned char held[2]; /* the parameters that need not vary then */
+    bool is_bare[2];       /* whether `carry` counts from before the other's maps */
 } candidate_pair;
 
 static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const candidate_pair *q)

@@ -12,13 +12,22 @@ static distance_sides sides_of(const pair *p, candidate_pair *both)
                             .root = {tree_root(a->tree), tree_root(b->tree)},
                             .still_maps = {a->still_maps, b->still_maps},
                             .slip = both->slip,
+                            .carry = both->carry,
+                            .orbit = both->orbit,
+                            .held = both->held,
+                            .is_bare = both->is_bare,
                             .is_audited = tree_is_audited(a->tree)};
 }
 
 imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
                    trial_rate *sliding, distance_outcome *seen, imp_error *error)
 {
-    const slide_signs signs = {p->window.lo, vec3_norm1(p->axis) > 0, p->slides, sliding};
+    const slide_signs signs = {.start = p->window.lo,
+                               .is_whole = surface_is_whole(p->a->surface, &p->a->region) &&
+                                           surface_is_whole(p->b->surface, &p->b->region),
+                               .is_parted = vec3_norm1(p->axis) > 0,
+                               .slides = p->slides,
+                               .sliding = sliding};
     *seen = distance_outcome_none(&p->window);
     if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return IMP_SUCCESS;
     if (!strategy_takes_distances(p->a, p->b, &signs, goal)) return IMP_SUCCESS;

@@ -126,6 +126,16 @@ const surface *surface_piece(const surface *s, size_t k)
     return &s->pieces[k];
 }
 
+enum { PIECES_FEW = 8 };
+
+bool surface_is_whole(const surface *s, const imp_region *region)
+{
+    if (s->whole != NULL && s->whole->piece_count > PIECES_FEW) return false;
+    for (int j = 0; j < 2; ++j)
+        if (region->lo[j] > s->lo[j] || region->hi[j] < s->hi[j]) return false;
+    return true;
+}
+
 size_t surface_piece_index(const surface *s)
 {
     return s->whole != NULL ? (size_t)(s - s->whole->pieces) : 0;

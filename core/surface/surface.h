@@ -32,6 +32,9 @@ imp_code surface_divide(surface *s);
 size_t surface_piece_count(const surface *s);
 const surface *surface_piece(const surface *s, size_t k); /* k < surface_piece_count */
 
+/* Whether the region has all u and v of the surface, which is none of many pieces. */
+bool surface_is_whole(const surface *s, const imp_region *region);
+
 /* Returns the piece's number among the pieces of its surface; 0 if s is no piece. */
 size_t surface_piece_index(const surface *s);
 
@@ -151,6 +154,9 @@ bool surface_has_distance(const surface *s);
 /* Whether distances may be known and the type offers a symmetry. */
 bool surface_has_symmetry(const surface *s);
 
+/* Whether one point of it may stand for others (surface_orbit_slip). */
+bool surface_has_orbits(const surface *s);
+
 /* Bounds the distance, as in imp_surface_type, of a point with these models over the region from
  * the whole surface under its first `maps` maps. The models' rates are not used. The bound also
  * holds under all maps, which may bring both nearer to each other. IMP_STATUS_UNBOUNDED: nothing is
@@ -160,7 +166,7 @@ imp_status surface_distance(const surface *s, const imp_region *region, size_t m
                             const imp_model point[3], imp_model *distance);
 
 /* Like surface_distance, for points within `slip` of these models, which are of one moment and do
- * not depend on time; the moment is as in surface_slip. */
+ * not depend on time (surface_slip), or have b's motion undone (surface_carry_way). */
 imp_status surface_distance_within(const surface *s, const imp_region *region, size_t maps,
                                    const imp_model point[3], double moment, double slip,
                                    imp_model *distance);
@@ -172,6 +178,33 @@ imp_status surface_distance_within(const surface *s, const imp_region *region, s
  * models of a before its maps, of which only the ranges are used; a does not move by itself. */
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double *slip);
+
+/* Where motion is counted from: from where all maps take the surface at a moment, or from where it
+ * is before them. */
+typedef struct carry_base {
+    double moment;
+    bool is_bare;
+} carry_base;
+
+/* Bounds how far b's axis is turned from where it is at the base, at points of the box: b then
+ * moves as its center does, and what its type claims of all points within *slip of x -
+ * surface_carry_way, taken back by the maps of the base (surface_distance_within, of no maps if it
+ * is bare), holds for x. INFINITY: nothing is known. The moment is one of the times. */
+imp_status surface_carry_slip(const surface *b, const double lo[3], const double hi[3],
+                              const imp_region *times, const carry_base *base, double *slip);
+
+/* Computes how the center of b's symmetry moves from where it is at the base: models of t over the
+ * region. Precondition: surface_carry_slip knows b. */
+imp_status surface_carry_way(const surface *b, const imp_region *region, const carry_base *base,
+                             imp_model way[3]);
+
+/* Tells which of a's parameters need not vary: bit 0 of *held for u, bit 1 for v. What b's type
+ * claims, at any of the times, of all points within *slip of a's point at some u (or v) then holds
+ * for its points at all others. The box holds the points of a at these times; a and b have no maps
+ * in common. INFINITY: nothing is known. */
+imp_status surface_orbit_slip(const surface *a, const surface *b, const double lo[3],
+                              const double hi[3], const imp_region *times, unsigned *held,
+                              double *slip);
 
 /* A plane, and an upper bound of the distance from it of the points of a part of a surface, before
  * its maps. */

@@ -292,8 +292,9 @@ imp_status surface_distance(const surface *s, const imp_region *region, size_t m
 }
 
 /* Lemma. The point is taken back by the maps of the moment. At every time of the region the claim
- * that is made of it holds for the point of surface_slip as the maps of that time take it back, and
- * each of these leaves of the distance what it stretches by at that time at least. */
+ * that is made of it holds for the point of surface_slip, or that of surface_carry_slip, as the
+ * maps of that time take it back, and each of these leaves of the distance what it stretches by at
+ * that time at least. */
 imp_status surface_distance_within(const surface *s, const imp_region *region, size_t maps,
                                    const imp_model point[3], double moment, double slip,
                                    imp_model *distance)

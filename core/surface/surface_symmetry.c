@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "core/base/rounding.h"
+#include "core/surface/carried.h"
 #include "core/surface/region.h"
-#include "core/surface/surface_internal.h"
 
 /* --- Asking ----------------------------------------------------------------------------------- */
 
@@ -18,15 +18,20 @@
 
 static bool is_sane(const imp_symmetry *found)
 {
+    const uint32_t orbits = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V,
+                   all = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_ALL | orbits;
     double most = 0;
     if (found->kind < IMP_SYMMETRY_ABOUT_POINT || found->kind > IMP_SYMMETRY_ACROSS_LINE)
         return false;
+    const bool is_ball = found->kind == IMP_SYMMETRY_ABOUT_POINT;
     for (int i = 0; i < 3; ++i) {
         if (!isfinite(found->center[i]) || !isfinite(found->axis[i])) return false;
         if (fabs(found->axis[i]) > most) most = fabs(found->axis[i]);
     }
-    if (found->is_closed > 1) return false;
-    return found->kind == IMP_SYMMETRY_ABOUT_POINT || (most > AXIS_LEAST && most < AXIS_MOST);
+    if (found->is_closed > all) return false;
+    if (!is_ball && (found->is_closed & IMP_SYMMETRY_ORBIT_ALL) != 0) return false;
+    if (is_ball && (found->is_closed & orbits) == 0) return true;
+    return most > AXIS_LEAST && most < AXIS_MOST;
 }
 
 bool surface_has_symmetry(const surface *s)
@@ -34,7 +39,7 @@ bool surface_has_symmetry(const surface *s)
     return IMP_OFFERS(s->type, symmetry) && surface_has_distance(s);
 }
 
-static imp_status symmetry_of(const surface *s, imp_symmetry *found)
+imp_status surface_symmetry(const surface *s, imp_symmetry *found)
 {
     memset(found, 0, sizeof *found);
     if (!surface_has_symmetry(s)) return IMP_STATUS_UNBOUNDED;
@@ -49,7 +54,7 @@ static imp_status symmetry_of(const surface *s, imp_symmetry *found)
 
 /* >= |w|. Roundings: squares 1, sums 2, halved by the root, root 1. */
 PAD_COVERS(8, 2 + 1);
-static double size_upper(const imp_model w[3])
+double surface_size_upper(const imp_model w[3])
 {
     double sum = 0;
     for (int i = 0; i < 3; ++i) {
@@ -66,13 +71,6 @@ static double length_lower(const double x[3])
 }
 
 /* --- Through one map -------------------------------------------------------------------------- */
-
-/* A point, and a bound of its distance from where it would be if all maps so far were exact
- * rotations. */
-typedef struct carried {
-    imp_model at[3];
-    double off;
-} carried;
 
 /* Takes from `way` what is along the direction f that the pose leaves fixed. Lemma. R f = f, and
  * R^T f = f where R is a rotation; so with w = c f + w', R w = c f + R w', and what is not known of
@@ -91,17 +89,25 @@ static void take_along(const imp_pose *pose, imp_model way[3], imp_model along[3
     }
 }
 
+void carried_turn(const imp_pose *pose, imp_model way[3])
+{
+    imp_model along[3], turned[3];
+    take_along(pose, way, along);
+    for (int i = 0; i < 3; ++i) turned[i] = imp_add(imp_dot3(pose->turn[i], way), along[i]);
+    memcpy(way, turned, sizeof turned);
+}
+
 /* Lemma. Let R be the turn of a map, R^T R = 1 + D with |D| <= d <= 1/2. Its polar decomposition is
  * U H with a rotation U, H = (1 + D)^(1/2) and |H - 1| <= d, since 1 - (1 - d)^(1/2) <= d. So
  *
  *   |R w - U w| = |(H - 1) w| <= d |w|,   |R^T w - U^T w| = |(H - 1) U^T w| <= d |w|,
  *
  * and what the point was off by stays as long under U. */
-static void push(const imp_pose *pose, double d, carried *x)
+void carried_push(const imp_pose *pose, double d, carried *x)
 {
     imp_model way[3], along[3];
     for (int i = 0; i < 3; ++i) way[i] = imp_shift(x->at[i], -pose->pivot[i]);
-    x->off = sum_upper(x->off, d * size_upper(way));
+    x->off = sum_upper(x->off, d * surface_size_upper(way));
     take_along(pose, way, along);
     for (int i = 0; i < 3; ++i)
         x->at[i] = imp_add(imp_add(imp_dot3(pose->turn[i], way), along[i]), pose->shift[i]);
@@ -111,7 +117,7 @@ static void pull(const imp_pose *pose, double d, carried *x)
 {
     imp_model way[3], along[3];
     for (int i = 0; i < 3; ++i) way[i] = imp_sub(x->at[i], pose->shift[i]);
-    x->off = sum_upper(x->off, d * size_upper(way));
+    x->off = sum_upper(x->off, d * surface_size_upper(way));
     take_along(pose, way, along);
     for (int j = 0; j < 3; ++j) {
         const imp_model column[3] = {pose->turn[0][j], pose->turn[1][j], pose->turn[2][j]};
@@ -147,8 +153,8 @@ typedef struct question {
 } question;
 
 /* Computes the pose of one map, and *d >= |D|. */
-static imp_status pose_of(const surface *s, size_t k, const imp_region *times, imp_pose *pose,
-                          double *d)
+imp_status carried_pose(const surface *s, size_t k, const imp_region *times, imp_pose *pose,
+                        double *d)
 {
     const imp_status status = surface_pose_of_maps(s, k, k + 1, times, pose);
     if (status == IMP_STATUS_OK)
@@ -161,13 +167,13 @@ static imp_status pose_of(const surface *s, size_t k, const imp_region *times, i
 static imp_status pose_of_a(const question *q, size_t k, const imp_region *times, imp_pose *pose,
                             double *d)
 {
-    return pose_of(q->a, k, k < q->a_still ? &q->then : times, pose, d);
+    return carried_pose(q->a, k, k < q->a_still ? &q->then : times, pose, d);
 }
 
 static imp_status pose_of_b(const question *q, size_t k, const imp_region *times, imp_pose *pose,
                             double *d)
 {
-    return pose_of(q->b, k, k < q->b_still ? &q->then : times, pose, d);
+    return carried_pose(q->b, k, k < q->b_still ? &q->then : times, pose, d);
 }
 
 /* Sees the symmetry's center and axis at these times. What points are off by is not counted. */
@@ -186,7 +192,7 @@ static imp_status see_features(const question *q, const imp_region *times, seen 
     for (size_t k = 0; k < q->b_maps && status == IMP_STATUS_OK; ++k) {
         status = pose_of_b(q, k, times, &pose, &d);
         for (int f = 0; f < features && status == IMP_STATUS_OK; ++f)
-            push(&pose, d, &x->feature[f]);
+            carried_push(&pose, d, &x->feature[f]);
     }
     for (size_t k = q->a_maps; k-- > 0 && status == IMP_STATUS_OK;) {
         status = pose_of_a(q, k, times, &pose, &d);
@@ -196,7 +202,7 @@ static imp_status see_features(const question *q, const imp_region *times, seen 
     if (status != IMP_STATUS_OK) return status;
     for (int i = 0; i < 3; ++i)
         from[i] = imp_sub(imp_between(q->bare[i].lo, q->bare[i].hi), x->feature[0].at[i]);
-    x->far = sum_upper(size_upper(from), x->feature[0].off);
+    x->far = sum_upper(surface_size_upper(from), x->feature[0].off);
     return IMP_STATUS_OK;
 }
 
@@ -209,7 +215,7 @@ static imp_status see(const question *q, const imp_region *times, seen *x)
     for (int i = 0; i < 3; ++i) y.at[i] = imp_between(q->bare[i].lo, q->bare[i].hi);
     for (size_t k = 0; k < q->a_maps && status == IMP_STATUS_OK; ++k) {
         status = pose_of_a(q, k, times, &pose, &d);
-        if (status == IMP_STATUS_OK) push(&pose, d, &y);
+        if (status == IMP_STATUS_OK) carried_push(&pose, d, &y);
     }
     for (size_t k = q->b_maps; k-- > 0 && status == IMP_STATUS_OK;) {
         status = pose_of_b(q, k, times, &pose, &d);
@@ -241,7 +247,8 @@ static double slip_upper(const imp_symmetry *of, const seen *now, const seen *th
 {
     imp_model v[3], w[3], axis[3];
     for (int i = 0; i < 3; ++i) v[i] = imp_sub(now->feature[0].at[i], then->feature[0].at[i]);
-    const double off = now->feature[0].off + then->feature[0].off, all = size_upper(v) + off;
+    const double off = now->feature[0].off + then->feature[0].off,
+                 all = surface_size_upper(v) + off;
     const double points = now->off + then->off;
     if (of->kind == IMP_SYMMETRY_ABOUT_POINT) return padded_upper(all + points, 16);
     for (int i = 0; i < 3; ++i) {
@@ -250,7 +257,7 @@ static double slip_upper(const imp_symmetry *of, const seen *now, const seen *th
     }
     const double length = length_lower(of->axis);
     const double tips = off + now->feature[1].off + then->feature[1].off;
-    const double turn = (size_upper(w) + tips) / length;
+    const double turn = (surface_size_upper(w) + tips) / length;
     double shift = all;
     if (of->kind == IMP_SYMMETRY_ALONG_LINE) {
         imp_model across[3];
@@ -258,10 +265,10 @@ static double slip_upper(const imp_symmetry *of, const seen *now, const seen *th
             const int j = (i + 1) % 3, k = (i + 2) % 3;
             across[i] = imp_sub(imp_mul(v[j], axis[k]), imp_mul(v[k], axis[j]));
         }
-        shift = (size_upper(across) + all * tips) / length + off + all * turn;
+        shift = (surface_size_upper(across) + all * tips) / length + off + all * turn;
     } else if (of->kind == IMP_SYMMETRY_ACROSS_LINE) {
         const imp_model along[3] = {imp_dot3(v, axis), imp_num(0), imp_num(0)};
-        shift = (size_upper(along) + all * tips) / length + off + all * turn;
+        shift = (surface_size_upper(along) + all * tips) / length + off + all * turn;
     }
     return padded_upper(shift + turn * (now->far + all) + points, 16);
 }
@@ -421,7 +428,7 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
                   .bare = bare};
     *slip = INFINITY;
     if (!moves_rigidly(a) || q.a_maps + q.b_maps == 0) return IMP_STATUS_OK;
-    imp_status status = symmetry_of(b, &q.found);
+    imp_status status = surface_symmetry(b, &q.found);
     if (status == IMP_STATUS_OK && q.found.kind == IMP_SYMMETRY_ACROSS_LINE)
         status = choose_center(&q, times);
     if (status == IMP_STATUS_OK && is_sane(&q.found)) return answer(&q, times, slip);
@@ -455,9 +462,9 @@ imp_status surface_slip_along(const surface *a, const surface *b, const surface_
 static imp_status closed_symmetry_of(const surface *s, imp_symmetry *found)
 {
     if (!IMP_OFFERS(s->type, symmetry) || s->piece_count > 1) return IMP_STATUS_UNBOUNDED;
-    const imp_status status = symmetry_of(s, found);
+    const imp_status status = surface_symmetry(s, found);
     if (status != IMP_STATUS_OK) return status;
-    if (!found->is_closed) return IMP_STATUS_UNBOUNDED;
+    if ((found->is_closed & IMP_SYMMETRY_CLOSED) == 0) return IMP_STATUS_UNBOUNDED;
     if (found->kind != IMP_SYMMETRY_ABOUT_POINT) found->kind = IMP_SYMMETRY_ABOUT_LINE;
     return IMP_STATUS_OK;
 }
@@ -478,10 +485,10 @@ static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetr
         imp_pose pose;
         double d;
         carried y = {.off = 0};
-        const imp_status status = pose_of(s, k, then, &pose, &d);
+        const imp_status status = carried_pose(s, k, then, &pose, &d);
         if (status != IMP_STATUS_OK) return status;
         memcpy(y.at, there, sizeof y.at);
-        push(&pose, d, &y);
+        carried_push(&pose, d, &y);
         for (int i = 0; i < 3; ++i) {
             const imp_interval range = imp_model_range(&y.at[i]);
             there[i] = imp_between(difference_lower(range.lo, y.off), sum_upper(range.hi, y.off));
@@ -535,7 +542,7 @@ static imp_status slip_of_rest(const surface *const s[2], const size_t still[2],
 }
 
 /* >= how far points of s are at these times from where they would be, if each of its maps turned
- * them as the rotation next to its turn does (push). */
+ * them as the rotation next to its turn does (carried_push). */
 static imp_status off_of(const surface *s, const imp_model bare[3], const imp_region *times,
                          double *off)
 {
@@ -547,8 +554,8 @@ static imp_status off_of(const surface *s, const imp_model bare[3], const imp_re
     for (size_t k = 0; k < s->map_count && !is_exact && status == IMP_STATUS_OK; ++k) {
         imp_pose pose;
         double d;
-        status = pose_of(s, k, times, &pose, &d);
-        if (status == IMP_STATUS_OK) push(&pose, d, &y);
+        status = carried_pose(s, k, times, &pose, &d);
+        if (status == IMP_STATUS_OK) carried_push(&pose, d, &y);
     }
     *off = y.off;
     return status;

@@ -136,6 +136,8 @@ static imp_status capsule_symmetry(const void *self, imp_symmetry *symmetry)
     const capsule_instance *s = self;
     memcpy(symmetry->center, s->end, sizeof s->end);
     symmetry->kind = s->part == LATERAL ? IMP_SYMMETRY_ALONG_LINE : IMP_SYMMETRY_ABOUT_POINT;
+    symmetry->is_closed =
+        s->part == LATERAL ? IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U : IMP_SYMMETRY_ORBIT_ALL;
     if (s->part != LATERAL) return IMP_STATUS_OK;
     double greatest = 0;
     for (int i = 0; i < 3; ++i) {
@@ -143,7 +145,6 @@ static imp_status capsule_symmetry(const void *self, imp_symmetry *symmetry)
         greatest = imp_larger(greatest, fabs(symmetry->axis[i]));
     }
     if (greatest == 0) symmetry->axis[2] = 1;
-    symmetry->is_closed = 1;
     return s->is_exact && greatest <= AXIS_MAX ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 

@@ -73,6 +73,39 @@ static imp_model cone_beyond(const capped *s, const imp_model m[3])
     return imp_scale(sum, imp_larger(inverse_lower(imp_round_up(most * slant)), 0));
 }
 
+/* Lemma. Let e be a vector across the axis, |e| = 1 up to 4 u, f the same turned by a quarter, and
+ * p = e.(x, y), s = f.(x, y). Then |e| q = (p^2 + s^2)^(1/2), and where p > 0
+ *
+ *   p + s^2 / (2 p) - s^4 / (8 p^3) <= |e| q <= p + s^2 / (2 p).
+ *
+ * On a line through the axis s is 0, and q exact. */
+static imp_model across_near(imp_model p, imp_model s)
+{
+    const double most = imp_interval_mag(imp_model_range(&s)), least = p.lo;
+    const double ratio = most / least, slack = 0.125 * ratio * ratio * ratio * most;
+    const imp_model half = imp_scale(imp_div(imp_sqr(s), p), 0.5);
+    const imp_model q = imp_add(imp_add(p, half), imp_between(-imp_round_up(2 * slack), 0));
+    return imp_mul(q, imp_between(1 - 0x1p-50, 1 + 0x1p-50));
+}
+
+/* The same where points stay on one side of the axis and of the apex; false: they do not. */
+static bool cone_near(const capped *s, const imp_model m[3], imp_model *gap)
+{
+    const double h = s->height, r = s->radius;
+    const double size = sqrt(m[0].a * m[0].a + m[1].a * m[1].a),
+                 e[2] = {m[0].a / size, m[1].a / size};
+    if (!(size > 0x1p-300)) return false;
+    const imp_model p = imp_add(imp_scale(m[0], e[0]), imp_scale(m[1], e[1]));
+    const imp_model t = imp_sub(imp_scale(m[1], e[0]), imp_scale(m[0], e[1]));
+    const imp_model y = h > 0 ? imp_shift(imp_neg(m[2]), h) : imp_shift(m[2], -h);
+    if (!(p.lo > 0 && imp_interval_mag(imp_model_range(&t)) <= p.lo && y.lo >= 0)) return false;
+    const double slant = greatest_root_upper(
+        &(imp_model){.hi = imp_round_up(imp_round_up(h * h) + imp_round_up(r * r))});
+    const imp_model apart = imp_sub(imp_scale(across_near(p, t), fabs(h)), imp_scale(y, r));
+    *gap = imp_scale(apart, imp_larger(inverse_lower(slant), 0));
+    return true;
+}
+
 /* The distance from the endless double cone; from a disc or the base, from its plane. */
 static imp_model cone_gap(const void *self, imp_model x, imp_model y, imp_model z, imp_model t)
 {
@@ -80,7 +113,9 @@ static imp_model cone_gap(const void *self, imp_model x, imp_model y, imp_model 
     (void)t;
     const imp_model m[3] = {imp_shift(x, -s->center[0]), imp_shift(y, -s->center[1]),
                             imp_shift(z, -s->center[2])};
-    return s->height == 0 || s->part == BASE ? m[2] : cone_beyond(s, m);
+    imp_model gap;
+    if (s->height == 0 || s->part == BASE) return m[2];
+    return cone_near(s, m, &gap) ? gap : cone_beyond(s, m);
 }
 IMP_DISTANCE_FORMULA(cone_gap)
 
@@ -88,7 +123,7 @@ static imp_status cone_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const capped *s = self;
     symmetry->kind = IMP_SYMMETRY_ABOUT_LINE;
-    symmetry->is_closed = 1;
+    symmetry->is_closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_STATUS_OK;

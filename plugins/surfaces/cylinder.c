@@ -85,7 +85,7 @@ static imp_status cylinder_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const capped *s = self;
     symmetry->kind = s->part == CAPPED_LATERAL ? IMP_SYMMETRY_ALONG_LINE : IMP_SYMMETRY_ACROSS_LINE;
-    symmetry->is_closed = 1;
+    symmetry->is_closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_STATUS_OK;

@@ -64,7 +64,7 @@ static imp_status disc_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const disc_instance *s = self;
     symmetry->kind = IMP_SYMMETRY_ACROSS_LINE;
-    symmetry->is_closed = 1;
+    symmetry->is_closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U;
     memcpy(symmetry->center, s->center, sizeof s->center);
     memcpy(symmetry->axis, s->axis, sizeof s->axis);
     return IMP_STATUS_OK;

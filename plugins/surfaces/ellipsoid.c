@@ -104,12 +104,13 @@ static imp_status ellipsoid_symmetry(const void *self, imp_symmetry *symmetry)
     const ellipsoid_instance *s = self;
     const double *r = s->radii;
     memcpy(symmetry->center, s->center, sizeof s->center);
-    symmetry->is_closed = 1;
+    symmetry->is_closed = IMP_SYMMETRY_CLOSED;
     symmetry->kind =
         r[0] == r[1] && r[1] == r[2] ? IMP_SYMMETRY_ABOUT_POINT : IMP_SYMMETRY_ABOUT_LINE;
     for (int i = 0; i < 3; ++i)
         if (r[(i + 1) % 3] == r[(i + 2) % 3]) {
             symmetry->axis[i] = 1;
+            if (i == 2) symmetry->is_closed |= IMP_SYMMETRY_ORBIT_U;
             return IMP_STATUS_OK;
         }
     return IMP_STATUS_UNBOUNDED;

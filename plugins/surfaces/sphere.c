@@ -67,7 +67,8 @@ static imp_status sphere_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const sphere_instance *s = self;
     symmetry->kind = IMP_SYMMETRY_ABOUT_POINT;
-    symmetry->is_closed = 1;
+    symmetry->is_closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_ALL;
+    symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_STATUS_OK;
 }

@@ -74,7 +74,7 @@ static imp_status torus_symmetry(const void *self, imp_symmetry *symmetry)
 {
     const torus_instance *s = self;
     symmetry->kind = IMP_SYMMETRY_ABOUT_LINE;
-    symmetry->is_closed = 1;
+    symmetry->is_closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U;
     symmetry->axis[2] = 1;
     memcpy(symmetry->center, s->center, sizeof s->center);
     return IMP_STATUS_OK;

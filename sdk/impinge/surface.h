@@ -271,13 +271,27 @@ enum {
     IMP_SYMMETRY_ACROSS_LINE = 4  /* these rotations, and translations perpendicular to the line */
 };
 
-/* A symmetry. is_closed claims more: each rotation of the kind maps the surface itself, over all u
- * and v of its domain, onto itself. A whole cylinder is closed, half a cylinder is not (a full turn
- * needs IMP_TWO_PI_UPPER). The distance of two bodies that only turn about closed axes never
- * changes. */
+/* What a symmetry claims besides, of the surface itself over all u and v of its domain; the sum of
+ * any of these.
+ *
+ * CLOSED: each rotation of the kind maps the surface onto itself. A whole cylinder is closed, half
+ * a cylinder is not (a full turn needs IMP_TWO_PI_UPPER). The distance of two bodies that only turn
+ * about closed axes never changes.
+ *
+ * ORBIT_U: points of the same v and t are taken to each other by rotations about the line through
+ * the center along the axis (which then counts for ABOUT_POINT, too); ORBIT_V: points of the same u
+ * and t. ORBIT_ALL, for ABOUT_POINT only: all points of the same t are as far from the center. One
+ * point then stands for its whole orbit where two surfaces have an axis or a center in common. */
+enum {
+    IMP_SYMMETRY_CLOSED = 1,
+    IMP_SYMMETRY_ORBIT_U = 2,
+    IMP_SYMMETRY_ORBIT_V = 4,
+    IMP_SYMMETRY_ORBIT_ALL = 8
+};
+
 typedef struct imp_symmetry {
-    uint32_t kind;      /* IMP_SYMMETRY_... */
-    uint32_t is_closed; /* 0 or 1 */
+    uint32_t kind;      /* IMP_SYMMETRY_ABOUT_... */
+    uint32_t is_closed; /* IMP_SYMMETRY_CLOSED, ... or 0 */
     double center[3];   /* length */
     double axis[3];     /* some component from 1e-100 to 1e100 */
 } imp_symmetry;

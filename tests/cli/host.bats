@@ -631,7 +631,7 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
 
 @test "distances and symmetries that lie where the search asks are found by --audit" {
     takes mistakes_distance
-    local ring='cylinder radius=50 height=1 center=0,0,1 ! rotate axis=0,0,1 rate=2'
+    local ring='bezier degree=[1,1] points=[[50,-1,0],[50,-1,2],[50,1,0],[50,1,2]] ! rotate axis=0,0,1 rate=2'
     local ball='sphere radius=0.15 center=0.9,0,1 ! rotate axis=0,0,1 times=0,1 angles=3.5,7'
     run -0 pair symmetry_half "$ball" --json
     json '.verdict == "clear"' # wrongly

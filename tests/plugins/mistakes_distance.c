@@ -127,7 +127,16 @@ static imp_status closed_symmetry(const void *self, imp_symmetry *found)
 {
     (void)self;
     *found = axis;
-    found->is_closed = 1;
+    found->is_closed = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_U;
+    return IMP_STATUS_OK;
+}
+
+/* Claims that turning about the axis takes points along it to each other. */
+static imp_status orbit_symmetry(const void *self, imp_symmetry *found)
+{
+    (void)self;
+    *found = axis;
+    found->is_closed = IMP_SYMMETRY_ORBIT_V;
     return IMP_STATUS_OK;
 }
 
@@ -172,6 +181,7 @@ MISTAKEN(distance_early, early_distance, NULL);
 MISTAKEN(distance_spot, spot_distance, NULL);
 MISTAKEN(distance_axial, axial_distance, symmetry);
 MISTAKEN(symmetry_plate, pipe_gap_distance, plate_symmetry);
+MISTAKEN(symmetry_orbit, pipe_gap_distance, orbit_symmetry);
 MISTAKEN(symmetry_leaning, pipe_gap_distance, leaning_symmetry);
 MISTAKEN(symmetry_ended, ended_distance, symmetry);
 
@@ -180,7 +190,7 @@ static const imp_surface_type *const types[] = {
     &distance_farthest_type,   &distance_late_type,  &distance_early_type,
     &distance_spot_type,       &distance_axial_type, &symmetry_plate_type,
     &symmetry_leaning_type,    &symmetry_ended_type, &symmetry_half_type,
-    &symmetry_open_type,
+    &symmetry_open_type,       &symmetry_orbit_type,
 };
 static const imp_surface_factory factory = {sizeof factory, sizeof types / sizeof *types, types};
 

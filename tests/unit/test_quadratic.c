@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "core/bounds/convex_line.h"
 #include "core/bounds/quadratic.h"
 #include "core/common/random.h"
 #include "tests/support/suite.h"
@@ -196,7 +197,78 @@ START_TEST(forms_without_squares_are_least_at_a_corner)
 }
 END_TEST
 
-SUITE_MAIN("quadratic", sums_are_rounded_outward_to_the_next_double,
+/* --- Lines below convex quadratics ------------------------------------------------------------ */
+
+/* The square of a distance: a sum of squares of linear forms, of one to three; or any quadratic. */
+static imp_model draw_squares(uint64_t *state)
+{
+    imp_model g = {.a = random_between(state, -1, 1)};
+    const size_t kind = random_bits(state) % 4;
+    for (size_t k = 0; k < kind; ++k) {
+        double l[3], c = random_between(state, -2, 2);
+        for (int j = 0; j < 3; ++j)
+            l[j] = random_bits(state) % 3 ? random_between(state, -2, 2) : 0;
+        g.a += c * c;
+        for (int i = 0, n = 0; i < 3; ++i) {
+            g.b[i] += 2 * c * l[i];
+            for (int j = i; j < 3; ++j, ++n) g.q[n] += (i == j ? 1 : 2) * l[i] * l[j];
+        }
+    }
+    for (int n = 0; n < 6 && kind == 0; ++n) g.q[n] = random_between(state, -1, 1);
+    return g;
+}
+
+static long double value_of(const imp_model *g, const long double s[3])
+{
+    long double sum = g->a;
+    for (int i = 0, n = 0; i < 3; ++i) {
+        sum += g->b[i] * s[i];
+        for (int j = i; j < 3; ++j, ++n) sum += g->q[n] * s[i] * s[j];
+    }
+    return sum;
+}
+
+/* Along a grid: how far the values stay above the line, at least; the least value. */
+static long double room_above(const imp_model *g, double sign, double middle, double reach,
+                              const convex_line *line, long double *least)
+{
+    long double room = INFINITY;
+    *least = INFINITY;
+    for (int i = 0; i < 13 * 13 * 13; ++i) {
+        const long double w = i % 13 / 6.0L - 1;
+        const long double s[3] = {i / 13 % 13 / 6.0L - 1, i / 169 / 6.0L - 1, middle + reach * w};
+        const long double x = sign * value_of(g, s), above = x - (line->low + line->drift * w);
+        if (above < room) room = above;
+        if (x < *least) *least = x;
+    }
+    return room;
+}
+
+START_TEST(no_value_of_a_quadratic_is_below_its_line)
+{
+    uint64_t state = suite_seed();
+    int close = 0, convex = 0;
+    for (int k = 0; k < suite_times(400); ++k) {
+        const imp_model g = draw_squares(&state);
+        const double reach = random_power(&state, -8, 0),
+                     middle = random_between(&state, reach - 1, 1 - reach),
+                     sign = random_bits(&state) % 4 ? 1 : -1;
+        double size = fabs(g.a);
+        long double least;
+        for (int j = 0; j < 3; ++j) size += fabs(g.b[j]);
+        for (int n = 0; n < 6; ++n) size += fabs(g.q[n]);
+        const convex_line line = convex_line_below(&g, sign, middle, reach, size);
+        const long double room = room_above(&g, sign, middle, reach, &line, &least);
+        ck_assert_msg(room >= 0, "%Lg below the line", -room);
+        convex += sign > 0;
+        close += sign > 0 && line.low - fabs(line.drift) > least - 0.1L * size;
+    }
+    ck_assert_msg(2 * close > convex, "%d of %d lines are close", close, convex);
+}
+END_TEST
+
+SUITE_MAIN("quadratic", no_value_of_a_quadratic_is_below_its_line,
+           sums_are_rounded_outward_to_the_next_double,
            no_value_of_a_random_quadratic_is_outside_its_span,
            no_value_of_a_nearly_singular_quadratic_is_outside_its_span,
            no_value_of_a_valley_is_outside_its_span,

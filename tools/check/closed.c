@@ -82,6 +82,62 @@ static bool judge(const subject *s, uint64_t *random, const imp_symmetry *of)
         motion_text(&m).text, subject_point_text(3, at.p).text, x[0], x[1], x[2], 0.5 * apart);
 }
 
+/* --- Orbits ----------------------------------------------------------------------------------- */
+
+/* Where a point is beside the center: along the axis, and from the center; length. */
+static void place_of(const imp_symmetry *of, const double x[3], long double place[2])
+{
+    long double along = 0, length = 0, square = 0;
+    for (int i = 0; i < 3; ++i) {
+        const long double w = (long double)x[i] - of->center[i];
+        along += w * of->axis[i];
+        length += (long double)of->axis[i] * of->axis[i];
+        square += w * w;
+    }
+    place[0] = length > 0 ? along / sqrtl(length) : 0;
+    place[1] = sqrtl(square);
+}
+
+/* Compares two points of one orbit: `varies` says along which parameters. */
+static bool judge_orbit(const subject *s, uint64_t *random, const imp_symmetry *of,
+                        const bool varies[2], bool has_axis, const char *flag)
+{
+    spot x, y;
+    long double at[2], was[2];
+    draw_point(random, &s->domain, 3, x.p);
+    draw_point(random, &s->domain, 3, y.p);
+    for (int j = 0; j < 3; ++j)
+        if (j == 2 || !varies[j]) y.p[j] = x.p[j];
+    if (!spot_evaluate(s, &x) || !spot_evaluate(s, &y)) return true;
+    place_of(of, x.x, at);
+    place_of(of, y.x, was);
+    ++s->answer->tests;
+    const long double off = fabsl(at[1] - was[1]) + (has_axis ? fabsl(at[0] - was[0]) : 0);
+    const long double rounding = 0x1p-48L * (at[1] + was[1]);
+    if (!(off > 2 * (x.error + y.error) + rounding)) return true;
+    return answer_fail_for(s->answer, FAULT_ERROR,
+                           "symmetry says %s, but no rotation takes the surface's point at %s to "
+                           "that at %s: they are %.6Lg apart along the axis or from the center",
+                           flag, subject_point_text(3, x.p).text, subject_point_text(3, y.p).text,
+                           off);
+}
+
+bool orbit_check(const subject *s, uint64_t *random, const imp_symmetry *of)
+{
+    static const struct {
+        uint32_t flag;
+        bool varies[2], has_axis;
+        const char *name;
+    } claims[] = {{IMP_SYMMETRY_ORBIT_U, {true, false}, true, "IMP_SYMMETRY_ORBIT_U"},
+                  {IMP_SYMMETRY_ORBIT_V, {false, true}, true, "IMP_SYMMETRY_ORBIT_V"},
+                  {IMP_SYMMETRY_ORBIT_ALL, {true, true}, false, "IMP_SYMMETRY_ORBIT_ALL"}};
+    for (size_t c = 0; c < sizeof claims / sizeof *claims; ++c)
+        for (int k = 0; k < POINTS && (of->is_closed & claims[c].flag) != 0; ++k)
+            if (!judge_orbit(s, random, of, claims[c].varies, claims[c].has_axis, claims[c].name))
+                return false;
+    return true;
+}
+
 bool closed_check(const subject *s, uint64_t *random, const imp_symmetry *of)
 {
     imp_symmetry rotations = *of;

@@ -10,4 +10,8 @@
  * by its own bounds, show that. False: it is refuted. */
 bool closed_check(const subject *s, uint64_t *random, const imp_symmetry *of);
 
+/* That points of one orbit, as its flags say, are as far from the center, and for orbits along u or
+ * v as high along the axis. False: it is refuted. */
+bool orbit_check(const subject *s, uint64_t *random, const imp_symmetry *of);
+
 #endif

@@ -108,16 +108,22 @@ static imp_region draw_region(const hunt *h)
 
 static bool judge_symmetry(const subject *s, const imp_symmetry *found)
 {
+    const uint32_t lines = IMP_SYMMETRY_ORBIT_U | IMP_SYMMETRY_ORBIT_V,
+                   flags = IMP_SYMMETRY_CLOSED | IMP_SYMMETRY_ORBIT_ALL | lines;
+    const bool is_ball = found->kind == IMP_SYMMETRY_ABOUT_POINT;
     bool sane = found->kind >= IMP_SYMMETRY_ABOUT_POINT && found->kind <= IMP_SYMMETRY_ACROSS_LINE;
     double most = 0;
     for (int i = 0; i < 3; ++i) {
         sane = sane && isfinite(found->center[i]) && isfinite(found->axis[i]);
         most = fmax(most, fabs(found->axis[i]));
     }
-    sane = sane && (found->kind == IMP_SYMMETRY_ABOUT_POINT || (most >= 1e-100 && most <= 1e100));
+    sane = sane && found->is_closed <= flags &&
+           (is_ball || (found->is_closed & IMP_SYMMETRY_ORBIT_ALL) == 0);
+    const bool has_axis = !is_ball || (found->is_closed & lines) != 0;
+    sane = sane && (!has_axis || (most >= 1e-100 && most <= 1e100));
     return sane ||
-           answer_fail(s->answer, "the symmetry has an unknown kind, a center or an axis that is "
-                                  "not finite, or an axis without length");
+           answer_fail(s->answer, "the symmetry has an unknown kind or flag, a center or an axis "
+                                  "that is not finite, or an axis without length");
 }
 
 typedef struct passage {
@@ -291,7 +297,9 @@ void distances_check(const subject *s, uint64_t *random, double effort)
     }
     h.has_symmetry = status == IMP_STATUS_OK;
     if (h.has_symmetry && !judge_symmetry(s, &h.symmetry)) return;
-    if (h.has_symmetry && h.symmetry.is_closed && !closed_check(s, random, &h.symmetry)) return;
+    const bool is_closed = h.has_symmetry && (h.symmetry.is_closed & IMP_SYMMETRY_CLOSED) != 0;
+    if (is_closed && !closed_check(s, random, &h.symmetry)) return;
+    if (h.has_symmetry && !orbit_check(s, random, &h.symmetry)) return;
     double middle[3];
     if (!spot_extent(s, s->domain.lo[2], middle, &h.radius) || !(h.radius > 0)) h.radius = 1;
     uint64_t k = 0;

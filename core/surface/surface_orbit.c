@@ -1,0 +1,227 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <impinge/model.h>
+#include <string.h>
+
+#include "core/base/rounding.h"
+#include "core/surface/carried.h"
+#include "core/surface/region.h"
+
+/* What a symmetry makes of motion and of whole orbits. All maps here are exact rotations and
+ * shifts; of others nothing is told. */
+
+/* A symmetry's center and axis as the surface's maps carry them. */
+typedef struct feature {
+    imp_symmetry of; /* before the maps */
+    imp_model center[3], axis[3];
+} feature;
+
+static bool maps_are_exact(const surface *s)
+{
+    for (size_t k = 0; k < s->map_count; ++k)
+        if (!IMP_OFFERS(s->maps[k].type, rigid) || !map_turns_exactly(&s->maps[k])) return false;
+    return true;
+}
+
+static imp_status carry(const surface *s, const imp_symmetry *of, const imp_region *times,
+                        feature *f)
+{
+    carried center = {.off = 0};
+    f->of = *of;
+    for (int i = 0; i < 3; ++i) {
+        center.at[i] = imp_num(of->center[i]);
+        f->axis[i] = imp_num(of->axis[i]);
+    }
+    for (size_t k = 0; k < s->map_count; ++k) {
+        imp_pose pose;
+        double d;
+        const imp_status status = carried_pose(s, k, times, &pose, &d);
+        if (status != IMP_STATUS_OK) return status;
+        carried_push(&pose, d, &center);
+        carried_turn(&pose, f->axis);
+    }
+    memcpy(f->center, center.at, sizeof f->center);
+    return IMP_STATUS_OK;
+}
+
+static imp_region at_moment(double moment)
+{
+    return region_make((double[3]){0, 0, moment}, (double[3]){0, 0, moment});
+}
+
+static void difference(const imp_model x[3], const imp_model y[3], imp_model way[3])
+{
+    for (int i = 0; i < 3; ++i) way[i] = imp_sub(x[i], y[i]);
+}
+
+/* >= the distance of the points of a box from one with these models. */
+static double reach_upper(const double lo[3], const double hi[3], const imp_model from[3])
+{
+    imp_model way[3];
+    for (int i = 0; i < 3; ++i) way[i] = imp_sub(imp_between(lo[i], hi[i]), from[i]);
+    return surface_size_upper(way);
+}
+
+/* 1 / |axis|, off by less than 8 u of it: squares, sums, halved by the root, root, quotient. */
+static double inverse_length(const imp_symmetry *of)
+{
+    const double *x = of->axis;
+    return 1 / sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+}
+
+/* What a unit axis with a length within 8 u of 1 is off by, of two of them, at most. */
+#define AXES_OFF 0x1p-48
+
+static bool are_finite(const imp_model x[3])
+{
+    for (int i = 0; i < 3; ++i)
+        if (!(x[i].e < INFINITY && x[i].lo > -INFINITY && x[i].hi < INFINITY)) return false;
+    return true;
+}
+
+/* --- Motion of the center alone --------------------------------------------------------------- */
+
+/* Center and axis at the times of carry_base, or before all maps. */
+static imp_status base_of(const surface *b, const imp_symmetry *of, const carry_base *base,
+                          feature *f)
+{
+    const surface bare = {.map_count = 0};
+    const imp_region at = at_moment(base->is_bare ? 0 : base->moment);
+    return carry(base->is_bare ? &bare : b, of, &at, f);
+}
+
+/* Lemma. Let M(t) be what b's maps do, and M0 what they do at the moment, or 1; c(t) and n(t) the
+ * images of the symmetry's center and unit axis under M(t), c0 and n0 those under M0; T the shift
+ * by c(t) - c0; Q the smallest rotation about c(t) that takes n0 to n(t), or 1 of a ball. S =
+ * M(t)^-1 Q T M0 leaves the center where it is and the axis its direction: it is a motion of the
+ * symmetry. As M(t)^-1 x = S M0^-1 T^-1 Q^-1 x, what b's type claims of all points within |Q^-1 x -
+ * x| <= |x - c(t)| |n(t) - n0| of x - (c(t) - c0), taken back by M0, holds for x at t. Roundings: 8
+ * of the inverse length, product, sum, product. */
+PAD_COVERS(16, 8 + 1 + 1 + 1);
+imp_status surface_carry_slip(const surface *b, const double lo[3], const double hi[3],
+                              const imp_region *times, const carry_base *base, double *slip)
+{
+    imp_symmetry found;
+    feature now, then;
+    imp_model turn[3];
+    *slip = INFINITY;
+    if (!maps_are_exact(b)) return IMP_STATUS_OK;
+    imp_status status = surface_symmetry(b, &found);
+    if (status == IMP_STATUS_OK) status = carry(b, &found, times, &now);
+    if (status == IMP_STATUS_OK) status = base_of(b, &found, base, &then);
+    if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+    if (!are_finite(now.center)) return IMP_STATUS_OK;
+    if (found.kind == IMP_SYMMETRY_ABOUT_POINT) return *slip = 0, IMP_STATUS_OK;
+    difference(now.axis, then.axis, turn);
+    const double angle = surface_size_upper(turn) * inverse_length(&found) + AXES_OFF;
+    const double most = padded_upper(angle * reach_upper(lo, hi, now.center), 16);
+    if (most >= 0) *slip = most;
+    return IMP_STATUS_OK;
+}
+
+imp_status surface_carry_way(const surface *b, const imp_region *region, const carry_base *base,
+                             imp_model way[3])
+{
+    imp_symmetry found;
+    feature now, then;
+    imp_status status = surface_symmetry(b, &found);
+    if (status == IMP_STATUS_OK) status = carry(b, &found, region, &now);
+    if (status == IMP_STATUS_OK) status = base_of(b, &found, base, &then);
+    if (status != IMP_STATUS_OK) return status;
+    difference(now.center, then.center, way);
+    return are_finite(way) ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
+}
+
+/* --- Orbits ----------------------------------------------------------------------------------- */
+
+/* Bounds d = |(c_a - c_b) x n_a| and |n_a - n_b|, n_b being that of the two directions of b's axis
+ * which is nearer. Roundings of d: 8 of the inverse length. */
+PAD_COVERS(64, 8);
+static void compare_lines(const feature *a, const feature *b, double *off, double *angle)
+{
+    imp_model way[3], n[2][3], across[3], turn[3];
+    double length[2] = {inverse_length(&a->of), inverse_length(&b->of)}, cosine = 0;
+    difference(a->center, b->center, way);
+    for (int i = 0; i < 3; ++i) cosine += a->axis[i].a * b->axis[i].a;
+    if (cosine < 0) length[1] = -length[1];
+    for (int i = 0; i < 3; ++i) {
+        n[0][i] = imp_scale(a->axis[i], length[0]);
+        n[1][i] = imp_scale(b->axis[i], length[1]);
+    }
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        across[i] = imp_sub(imp_mul(way[j], n[0][k]), imp_mul(way[k], n[0][j]));
+    }
+    difference(n[0], n[1], turn);
+    *off = padded_upper(surface_size_upper(across), 64);
+    *angle = surface_size_upper(turn) + AXES_OFF;
+}
+
+/* Lemma. Let S be a rotation about a's line, or about a's center, and F a rigid motion that takes
+ * b's line to a's, or b's center to a's: then S' = F^-1 S F is a rotation about b's line or center,
+ * a motion of b's symmetry. If F moves no point y in question farther than s,
+ *
+ *   |S x - S' x| <= |F S' F^-1 x - S' F^-1 x| + |S' F^-1 x - S' x| <= 2 s,
+ *
+ * so that what b's type claims of all points within 2 s of x holds for S x. Two lines: F turns
+ * about b's center c by the angle between the two, which moves y by |y - c| |n_a - n_b| at most,
+ * and shifts by the distance d of a's line from c; |F^-1 x - c| <= |x - c| + d. A ball has lines of
+ * all directions; across a line all lines of its direction are as good, also the one through a's
+ * center. Roundings: sums and products of non-negative numbers, 6 at most. */
+PAD_COVERS(16, 6);
+static double orbit_slip_upper(const feature *a, const feature *b, const double lo[3],
+                               const double hi[3])
+{
+    double d = 0, angle = 0, s;
+    compare_lines(a, b, &d, &angle);
+    if (b->of.kind == IMP_SYMMETRY_ABOUT_POINT)
+        s = d;
+    else if (b->of.kind == IMP_SYMMETRY_ACROSS_LINE)
+        s = reach_upper(lo, hi, a->center) * angle;
+    else
+        s = (reach_upper(lo, hi, b->center) + d) * angle + d;
+    return padded_upper(2 * s, 16);
+}
+
+bool surface_has_orbits(const surface *s)
+{
+    imp_symmetry found;
+    return surface_has_symmetry(s) && surface_symmetry(s, &found) == IMP_STATUS_OK &&
+           found.is_closed > IMP_SYMMETRY_CLOSED;
+}
+
+imp_status surface_orbit_slip(const surface *a, const surface *b, const double lo[3],
+                              const double hi[3], const imp_region *times, unsigned *held,
+                              double *slip)
+{
+    imp_symmetry own, other;
+    feature of_a, of_b;
+    *held = 0;
+    *slip = INFINITY;
+    if (!IMP_OFFERS(a->type, symmetry) || !maps_are_exact(a) || !maps_are_exact(b))
+        return IMP_STATUS_OK;
+    imp_status status = surface_symmetry(a, &own);
+    if (status == IMP_STATUS_OK && own.is_closed <= IMP_SYMMETRY_CLOSED) return IMP_STATUS_OK;
+    if (status == IMP_STATUS_OK) status = surface_symmetry(b, &other);
+    if (status == IMP_STATUS_OK) status = carry(a, &own, times, &of_a);
+    if (status == IMP_STATUS_OK) status = carry(b, &other, times, &of_b);
+    if (status != IMP_STATUS_OK) return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
+    const bool all =
+        (own.is_closed & IMP_SYMMETRY_ORBIT_ALL) != 0 && other.kind == IMP_SYMMETRY_ABOUT_POINT;
+    if (all) {
+        imp_model way[3];
+        difference(of_a.center, of_b.center, way);
+        *slip = padded_upper(2 * surface_size_upper(way), 16);
+        *held = 3;
+    }
+    const unsigned lines = own.is_closed >> 1 & 3;
+    if (lines == 0 || (all && *slip <= 0x1p-40 * reach_upper(lo, hi, of_b.center)))
+        return IMP_STATUS_OK;
+    const double along_lines = orbit_slip_upper(&of_a, &of_b, lo, hi);
+    if (!(along_lines < *slip)) return IMP_STATUS_OK;
+    *slip = along_lines;
+    *held = lines;
+    return IMP_STATUS_OK;
+}
