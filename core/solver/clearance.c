@@ -17,12 +17,12 @@
 
 /* --- The minimum distance of a task ----------------------------------------------------------- */
 
-/* Part of what is required that counts as kept: between this and what is required, either answer
- * is right. */
+/* Returns the distance that counts as kept: between this and the required one, either verdict is
+ * right. */
 static double relaxed(const clearance_search *c) { return c->asked.required * (1 - 1e-6); }
 
-/* Returns the distance that the searches have to keep: what is required, and room for the slip of
- * pairs that are taken to be at rest. */
+/* Returns the distance that the searches have to prove: the required one, plus the slip of pairs
+ * that are searched at one moment. */
 static double searched(const clearance_search *c)
 {
     return c->list->slip > 0 ? sum_upper(relaxed(c), 2 * c->list->slip) : relaxed(c);
@@ -33,13 +33,12 @@ static const clearance_group *group_of(const clearance_search *c)
     return &c->groups[c->current / c->asked.slices];
 }
 
-/* Bytes of nodes before trees begin anew. Less costs time; without it, 1000000 slices of two
- * spheres would take 80 GB. */
+/* Trees are replaced once their nodes have this many bytes. A smaller value costs time; without a
+ * limit, 1000000 slices of two spheres would take 80 GB. */
 #define SLICES_BYTES ((uint64_t)4 << 20)
 
-/* A slice needs few of the nodes that the slices before it have left. When these are many it gets
- * trees that begin with the same roots; nodes depend on their regions alone, so that no answer
- * changes. */
+/* Replaces large trees by new ones with the same roots: a slice needs few of the nodes that earlier
+ * slices made. Nodes depend on their regions alone, so that no answer changes. */
 static imp_code renew_trees(clearance_search *c, imp_error *error)
 {
     const uint64_t fresh = c->fresh_bytes - c->shared_bytes;
@@ -121,15 +120,15 @@ static imp_code begin_task(clearance_search *c, imp_error *error)
     return begin_search(c, group, error);
 }
 
-/* What is proved of the current task. Lemma. Candidates are all surfaces that come within
- * asked.within, so that the others, too, are never nearer. */
+/* Returns the lower bound proved for the current task. Lemma. All surfaces that come within
+ * asked.within are candidates, so that other pairs are never nearer than that. */
 static double lower_of(const clearance_search *c)
 {
     const double lower = min_distance_lower(&c->distance), near = clearance_near(c);
     return lower < near ? lower : near;
 }
 
-/* Whether bodies are known to be so far apart that they need not be measured. */
+/* Whether the bodies are proved to be farther apart than asked.within. */
 static bool is_beyond(const clearance_search *c)
 {
     return c->asked.within > 0 && lower_of(c) >= c->asked.within;
@@ -171,7 +170,7 @@ static imp_code take_bracket(const clearance_search *c, imp_clearance *answer, i
     return take_witness(c, m->candidate, &m->found, m->t, answer, error);
 }
 
-/* Returns what the current task has cost. */
+/* Returns the counts and time of the current task. */
 static imp_stats cost(const clearance_search *c)
 {
     imp_stats s = *c->stats;
@@ -182,7 +181,7 @@ static imp_stats cost(const clearance_search *c)
     return s;
 }
 
-/* Whether only a verdict is asked for. */
+/* Whether only a verdict is wanted. */
 static bool decides(const clearance_search *c) { return c->asked.decide && c->asked.required > 0; }
 
 static bool is_narrow(const clearance_search *c, const imp_clearance *answer)
@@ -191,8 +190,8 @@ static bool is_narrow(const clearance_search *c, const imp_clearance *answer)
     return width <= c->asked.tolerance * answer->upper || answer->upper <= c->options.gamma;
 }
 
-/* Lemma. No points are nearer than `lower` before time t, and those of the witness are no farther
- * apart than `upper`, but for what pairs that are taken to be at rest slip. */
+/* Lemma. No points are nearer than `lower` before time t, and those of the witness are at most
+ * `upper` apart, up to the slip of pairs that are searched at one moment. */
 static imp_code check_witness(const clearance_search *c, const imp_clearance *answer, double lower,
                               double t, imp_error *error)
 {
@@ -246,9 +245,9 @@ static void begin_violation(clearance_search *c)
     c->stage = STAGE_VIOLATION;
 }
 
-/* Whether the bracket says all that is asked for, or leaves it to a search for contact. Where two
- * points are known and only a verdict is asked for, that search costs a fraction of a narrow
- * bracket. */
+/* Whether the search for the distance can end: the bracket answers the query, or a search for
+ * contact will. Where two points are known and only a verdict is wanted, that search costs a
+ * fraction of a narrow bracket. */
 static bool ends_early(const clearance_search *c)
 {
     const min_distance *m = &c->distance;
@@ -258,9 +257,9 @@ static bool ends_early(const clearance_search *c)
            requirement_of(c, lower_of(c), m->upper) != IMP_REQUIREMENT_UNDECIDED;
 }
 
-/* Where the search for contact takes long, a narrow bracket may be known before. Then both go on
- * in turn, twice as far each time: the verdict takes at most about four times the faster one's
- * work. */
+/* Whether a turn of one search ends. Where the search for contact takes long, a narrow bracket may
+ * be known earlier. So both searches alternate, each turn twice as long: the verdict takes at most
+ * about four times the work of the faster one. */
 static bool turn_ends(clearance_search *c)
 {
     if (c->stats->pairs - c->turn_from <= c->turn) return false;
@@ -323,8 +322,9 @@ static imp_code take_violation(const clearance_search *c, imp_clearance *answer,
     return IMP_SUCCESS;
 }
 
-/* Double precision ends the search for contact where a millionth of what is required is too little
- * to be told apart; a witness, or the bracket, may still decide. */
+/* Continues with the distance alone after double precision has ended the search for contact,
+ * because it cannot resolve a millionth of the required distance; a witness, or the bracket, may
+ * still decide. */
 static void go_on_with_distance(clearance_search *c)
 {
     impact_clear(&c->violation);
@@ -349,7 +349,7 @@ static imp_code conclude_violation(clearance_search *c, impact_state state, imp_
         code = take_violation(c, answer, error);
         if (code == IMP_SUCCESS) code = check_witness(c, answer, answer->lower, INFINITY, error);
         break;
-    case IMPACT_CLEAR: /* also where a witness violates it: within the room both are right */
+    case IMPACT_CLEAR: /* between `relaxed` and `required` both verdicts are right */
         answer->verdict = IMP_REQUIREMENT_HOLDS;
         if (answer->lower < relaxed(c)) answer->lower = relaxed(c);
         code = check_witness(c, answer, answer->lower, INFINITY, error);

@@ -8,7 +8,7 @@
 
 #include "core/base/status.h"
 
-/* --- What is asked ---------------------------------------------------------------------------- */
+/* --- Options and groups ----------------------------------------------------------------------- */
 
 enum { SLICES_MAX = 1000000 };
 
@@ -49,7 +49,7 @@ static void add_group(clearance_search *c, size_t a, size_t b)
     c->groups[c->group_count++] = (clearance_group){.body = {a, b}};
 }
 
-/* Which pairs of bodies may come within asked.within is known when the candidates are. */
+/* Whether groups can only be made once the candidates are known: those within asked.within. */
 static bool awaits_candidates(const clearance_search *c)
 {
     return c->asked.each && c->asked.within > 0;
@@ -180,8 +180,8 @@ static imp_code add_candidate_groups(clearance_search *c, const candidate_list *
     return IMP_SUCCESS;
 }
 
-/* The list and the groups are in the order of the scene: candidates of two bodies stand
- * together. */
+/* The list and the groups are in the order of the scene: candidates of two bodies are
+ * neighbours. */
 imp_code clearance_begin(clearance_search *c, const candidate_list *list, imp_stats *stats,
                          imp_error *error)
 {

@@ -6,8 +6,8 @@
 #include "core/solver/clearance.h"
 #include "core/solver/time_of_impact.h"
 
-/* What the files of the clearance share: clearance_divide.c divides what is asked into tasks,
- * clearance.c searches them one after the other. */
+/* Declarations that clearance_divide.c, which divides a query into tasks, and clearance.c, which
+ * searches them one after the other, share. */
 
 /* A pair of bodies, or all: each of its slices of time is a task. */
 typedef struct clearance_group {
@@ -24,28 +24,28 @@ struct clearance_search {
     imp_clearance_options asked;
     clearance_group *groups;
     size_t group_count;
-    size_t current;         /* index of the task that is searched: as many are done */
-    imp_clearance *answers; /* of the tasks that are done */
+    size_t current;         /* index of the current task: number of finished tasks */
+    imp_clearance *answers; /* of the finished tasks */
     size_t answer_capacity;
-    imp_clearance answer; /* of the current task, from its beginning on */
+    imp_clearance answer; /* of the current task so far */
     stage stage;
     const candidate_list *whole;
-    const candidate_list *list; /* the whole one, or */
-    candidate_list own;         /* its pairs with trees that only slices since then have used */
-    uint64_t shared_bytes;      /* stats->bytes without the own trees, */
-    uint64_t fresh_bytes;       /* and with them when they were new */
+    const candidate_list *list; /* all candidates, or `own`: */
+    candidate_list own;    /* the same pairs, with new trees that only recent slices have used */
+    uint64_t shared_bytes; /* stats->bytes without the trees of `own`, */
+    uint64_t fresh_bytes;  /* and with them, when they were new */
     imp_stats *stats;
-    imp_stats before; /* when the current task began; seconds: of the clock */
+    imp_stats before; /* stats when the current task began; seconds: clock time */
     min_distance distance;
     impact violation;
-    size_t tested; /* of the current task's candidates, while the violation is searched for */
-    uint64_t turn_from, turn; /* of stats->pairs: when its turn began, and how many a turn has */
-    bool takes_turns; /* that search took long: it and the search for the distance go on in turn */
+    size_t tested; /* candidates of the current task that the search for a violation has tested */
+    uint64_t turn_from, turn; /* stats->pairs when the turn began; length of a turn in pairs */
+    bool takes_turns; /* that search takes long: it alternates with the search for the distance */
     const patch_watch *watch;
-    inside_search *insides; /* NULL: nothing was asked about solid bodies yet */
-    bool inside_unknown;    /* at the current task's start, of some bodies */
-    bool known_outside;     /* nobody is inside at the next task's start */
-    bool unresolved;        /* double precision ended that search: the distance is to decide */
+    inside_search *insides; /* NULL: solid bodies were not tested yet */
+    bool inside_unknown;    /* undecided for some bodies at the current task's start */
+    bool known_outside;     /* no body is inside another at the next task's start */
+    bool unresolved;        /* double precision ended that search: the distance has to decide */
 };
 
 /* Whether one of the current task's bodies, in order, is inside another that is solid when it
@@ -53,7 +53,7 @@ struct clearance_search {
 imp_code clearance_look_inside(clearance_search *c, const clearance_group *group,
                                inside_answer *found, imp_error *error);
 
-/* What is known of a task before it begins. */
+/* Returns the answer of a task that has not begun. */
 imp_clearance clearance_blank_answer(const clearance_search *c, size_t index);
 
 #endif

@@ -18,7 +18,8 @@ static candidate_pair *candidate_pair_of(const impact *im, const pair *p)
 
 /* --- Push ------------------------------------------------------------------------------------- */
 
-/* p->window holds the parent's window, cut to both nodes' times. */
+/* Tests a child and pushes it. Precondition: p->window is the parent's window, cut to both nodes'
+ * times. */
 static imp_code test_and_push(impact *im, const pair *p, imp_error *error)
 {
     pair_test t = {.p = *p};
@@ -39,7 +40,8 @@ static imp_code push_cut(impact *im, const pair *p, imp_error *error)
     return code;
 }
 
-/* `halves`: those of its nodes along its axis; NULL: not known. */
+/* Splits the pair and pushes its halves. `halves`: the heights of its nodes along its axis; NULL:
+ * not known. */
 static imp_code split(impact *im, const pair *p, cut c, const net_halves *halves,
                       impact_state *state, imp_error *error)
 {
@@ -62,8 +64,8 @@ static imp_code split(impact *im, const pair *p, cut c, const net_halves *halves
     return IMP_SUCCESS;
 }
 
-/* Descends to halves as long as the pair's axis excludes the other half; only the last gets models.
- * *some false: both halves are excluded. */
+/* Replaces nodes by halves while the pair's axis excludes the other half; only the last gets
+ * models. *some false: both halves are excluded. */
 static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *some,
                                  imp_error *error)
 {
@@ -80,7 +82,7 @@ static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *
     return code == IMP_SUCCESS ? pair_test_ask_for_nets(im, p, &im->stats->bytes, error) : code;
 }
 
-/* --- Following one pair ----------------------------------------------------------------------- */
+/* --- Expanding one pair ----------------------------------------------------------------------- */
 
 static resolution resolved(const impact *im) { return resolution_of(im->gamma, im->gamma_clear); }
 
@@ -109,7 +111,7 @@ static imp_code find_witness(impact *im, const pair *p, bool moving, witness *se
     return code;
 }
 
-/* Whether either half of a node without bounds has some. */
+/* Whether either half of a node without bounds has bounds. */
 static imp_code has_bounded_half(impact *im, const pair *p, const cut *c, bool *found,
                                  imp_error *error)
 {
@@ -125,10 +127,10 @@ static imp_code has_bounded_half(impact *im, const pair *p, const cut *c, bool *
     return IMP_SUCCESS;
 }
 
-/* Chooses the cut of a node without bounds. It cuts time if that leaves one half with bounds, so
- * that a moment without bounds is closed in on before u and v are cut; else pairs of different
- * starts would be followed one after the other. It also cuts time where so little is left that
- * there must have been such a moment. Otherwise it cuts what contributes most. */
+/* Chooses the cut of a node without bounds. It cuts time if one half then has bounds, so that a
+ * moment without bounds is enclosed before u and v are cut; else pairs with different starts would
+ * be expanded one after the other. It also cuts time where the node's times are nearly one moment.
+ * Otherwise it cuts the parameter that contributes most. */
 static imp_code cut_unbounded(impact *im, const pair *p, int side, cut *best, imp_error *error)
 {
     const imp_region *region = side == 0 ? &p->a->region : &p->b->region;
@@ -142,8 +144,8 @@ static imp_code cut_unbounded(impact *im, const pair *p, int side, cut *best, im
     return code;
 }
 
-/* Halves a node without bounds, which does not tell where the surface is, until nothing is left or
- * a place at which the type has no bounds at any size. */
+/* Splits a node without bounds. If no parameter can be split further, the type has no bounds at
+ * that place at any size, which is an error. */
 static imp_code expand_unbounded(impact *im, const pair *p, impact_state *state, imp_error *error)
 {
     const int side = p->a->bounded ? 1 : 0;
@@ -181,9 +183,9 @@ static bool precision_ends(const impact *im, const pair *p, double flat)
     return pair_precision_ends(p, candidate_pair_of(im, p), resolved(im).room, flat);
 }
 
-/* Whether a search may pay: the polynomials are good enough for gamma, or will never be better, or
- * hulls show all there is. At one instant also where one side alone would be halved: surfaces that
- * touch all over would be halved down to gamma everywhere. */
+/* Whether a search for a witness is likely to succeed: remainders are small against gamma, or
+ * cannot become smaller, or hulls are exact. At one instant it is also tried where one side alone
+ * would be split: surfaces that touch everywhere would otherwise be split down to gamma. */
 static bool witness_is_likely(const impact *im, const pair *p, const distance_outcome *seen)
 {
     if (p->wait > 0) return false;
@@ -195,9 +197,9 @@ static bool witness_is_likely(const impact *im, const pair *p, const distance_ou
            precision_ends(im, p, TUNING_WITNESS_FLAT);
 }
 
-/* The pairs that hold the points of a contact are near each other for a long time where gamma is
- * wide and its room narrow: how motion bends in that time, not place, is what keeps their starts
- * from being found. What one side's distance shows comes first. */
+/* Chooses a cut: first of the side that a distance chose; then in time if the motion bends much
+ * within the window; else by spread. Where gamma is large and gamma - gamma_clear small, windows of
+ * contact are long, and bending motion, not extent, makes their starts inexact. */
 static cut choose_cut(const impact *im, const pair *p, const distance_outcome *seen)
 {
     const double scale = resolved(im).scale;
@@ -208,8 +210,8 @@ static cut choose_cut(const impact *im, const pair *p, const distance_outcome *s
     return cut_by_spread(p, scale, strategy_has_both_hulls(p->a, p->b));
 }
 
-/* Chooses a cut. A cut in time of which one half holds the whole window is made at once, without
- * another test, and the next is chosen. */
+/* Chooses a cut. A cut in time of which one half contains the whole window is made at once, without
+ * another test, and the next one is chosen. */
 static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcome *seen, cut *c,
                                       imp_error *error)
 {
@@ -256,7 +258,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
         p->wait -= 1;
     }
     p->slides = p->slides || from_each.side >= 0;
-    p->window = from_each.left; /* not before: other pairs may start sooner */
+    p->window = from_each.left; /* only now: other pairs may start earlier */
     const pair whole = *p;
     bool some;
     cut c;

@@ -5,8 +5,8 @@
 
 #include "core/solver/pair_test.h"
 
-/* One step with the pair whose window starts first: a search for a witness at that start, else its
- * halves are tested and pushed. */
+/* Takes one step with the pair whose window starts first: seeks a witness at that start; if there
+ * is none, splits the pair, tests its halves and pushes them. */
 imp_code expand_pair(impact *im, pair *p, impact_state *state, imp_error *error);
 
 #endif

@@ -28,54 +28,54 @@ typedef enum impact_state {
 typedef struct pair_test {
     pair p;         /* the window that is left, and the axis */
     bool near;      /* whether its nodes may be within gamma_clear */
-    bool any_time;  /* for a candidate pair: both exist at one time; else nothing else counts */
-    bool done;      /* ahead of its turn */
+    bool any_time;  /* for a candidate pair: both exist at some time; if false, the rest is unset */
+    bool done;      /* made ahead by another thread */
     uint64_t bytes; /* of nets made for it */
 } pair_test;
 
-/* Tests of candidate pairs from `first` on, whose turn has not come. */
+/* Tests of candidate pairs from `first` on, made ahead by other threads. */
 typedef struct tests_ahead {
     pair_test *tests;
     uint32_t first, count;
 } tests_ahead;
 
-/* Counts of what pays in one candidate pair. */
+/* How often expensive bounds paid in one candidate pair. */
 typedef struct pair_trials {
-    trial_rate turning; /* axes that turn, in all tests but the roots' (separation.h) */
-    trial_rate sliding; /* distances where an axis parts nodes whose parents slid (distance.h) */
+    trial_rate turning; /* turning axes, in all tests except the roots' (separation.h) */
+    trial_rate sliding; /* distances where axes separate nodes whose parents slid (distance.h) */
 } pair_trials;
 
 typedef struct impact {
     double gamma, gamma_clear;
-    time_window window;              /* what is before or after does not count */
-    uint32_t baseline;               /* of imp_options; 0: by models */
+    time_window window;              /* the times that are searched */
+    uint32_t baseline;               /* of imp_options; 0: by Taylor models */
     candidate_pair *candidate_pairs; /* the caller's */
-    size_t candidate_pair_count;     /* 0: their roots are tested at once, each */
-    imp_stats *stats;                /* the caller's; bytes: of the trees, without the heap */
+    size_t candidate_pair_count;     /* 0: each pair's roots are tested when added */
+    imp_stats *stats; /* the caller's; its bytes are those of the trees, without the heap */
     pair_heap heap;
-    upper_time upper;           /* with method models */
+    upper_time upper;           /* used with Taylor models only */
     imp_explanation *explained; /* counts for each candidate pair; NULL: not asked for */
     bool explains;              /* they are asked for */
     pair_trials *trials;        /* for each candidate pair, from the first step on, or NULL */
-    tests_ahead ahead;          /* made by threads that look ahead (pair_test.h) */
-    uint64_t serial, refined;   /* of the next pair; of the first after impact_refine */
+    tests_ahead ahead;          /* made by other threads (pair_test.h) */
+    uint64_t serial, refined;   /* number of the next pair; of the first after impact_refine */
     double t_lower;
-    time_window
-        *roots;       /* of candidate pairs, for impact_refine; NAN: unknown; NULL: never refined */
-    bool *passed;     /* candidate pairs that impact_pass leaves out; NULL: none */
-    bool any_gap;     /* whether any two points were evaluated, */
-    double least_gap; /* and the least distance of two; length */
-    witness found;    /* IMPACT_CONTACT: the witness, */
-    uint32_t found_candidate; /* whose pair was followed last: with IMPACT_CONTACT, the witness's */
+    time_window *roots; /* windows of candidate pairs; NAN: unknown; NULL: before impact_refine */
+    bool *passed;       /* candidate pairs that impact_pass excluded; NULL: none */
+    bool any_gap;       /* whether two points were evaluated, */
+    double least_gap;   /* and the least distance of two; length */
+    witness found;      /* IMPACT_CONTACT: the witness, */
+    uint32_t found_candidate; /* of the last expanded pair; of the witness with IMPACT_CONTACT */
 } impact; /* the caller sets gamma ... stats and t_lower, the rest is 0; impact_clear frees */
 
-/* NULL before the first step: each chance is taken. */
+/* Returns the counts of turning axes of the pair; NULL before the first step: always try. */
 static inline trial_rate *impact_turning(const impact *im, const pair *p)
 {
     return im->trials != NULL ? &im->trials[p->candidate_pair].turning : NULL;
 }
 
-/* Counts a test, and puts the pair on the heap, which has room, unless its nodes stay apart. */
+/* Counts a test, and pushes the pair unless its nodes stay apart. Precondition: the heap has
+ * capacity. */
 void impact_push(impact *im, pair_test *t);
 
 /* Keeps the least gap of all witnesses. */

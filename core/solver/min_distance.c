@@ -13,12 +13,12 @@
 #include "core/solver/contradiction.h"
 #include "core/solver/pair_step.h"
 
-/* --- How near is near enough ------------------------------------------------------------------ */
+/* --- Bounds and limits ------------------------------------------------------------------------ */
 
-/* What is farther apart than this need not be looked at. Lemma. In the end lower is at least
- * (1 - R') upper with R' = R (1 - 2^-20), off by 2 u upper at most; as R >= 2^-30, upper - lower is
- * then at most R upper. Where something is required of which upper has room to spare and (1 - R')
- * upper falls short, the bracket is narrowed to what is a little below what is required. */
+/* Returns the distance above which pairs are pruned. Lemma. In the end lower is at least (1 - R')
+ * upper with R' = R (1 - 2^-20), off by 2 u upper at most; as R >= 2^-30, upper - lower is then at
+ * most R upper. Where a distance is required, upper is above it and (1 - R') upper below, the
+ * bracket is narrowed until lower reaches `relaxed`. */
 static double enough(const min_distance *m)
 {
     const double part = (1 - m->tolerance * (1 - 0x1p-20)) * m->upper;
@@ -27,14 +27,14 @@ static double enough(const min_distance *m)
 
 static resolution resolved(const min_distance *m) { return resolution_of(m->upper, enough(m)); }
 
-/* Returns a distance below which nothing lies that was left aside. */
+/* Returns a lower bound of the distances of all pairs that are not on the heap. */
 static double settled(const min_distance *m)
 {
     const double pruned = enough(m);
     return pruned < m->stuck ? pruned : m->stuck;
 }
 
-/* Returns the least lower bound of the pairs that wait. */
+/* Returns the least lower bound of the pairs on the heap and of those not begun. */
 static double waiting(const min_distance *m)
 {
     const double start = m->start_count > 0 ? m->starts[m->start_count - 1].key[0] : INFINITY;
@@ -49,9 +49,9 @@ double min_distance_lower(const min_distance *m)
     return lower > m->slip ? difference_lower(lower, m->slip) : 0;
 }
 
-/* --- Beginning -------------------------------------------------------------------------------- */
+/* --- The first pairs -------------------------------------------------------------------------- */
 
-/* Descends to the smallest node that holds the window. */
+/* Replaces the side's node by the smallest node in time that contains the window. */
 static imp_code descend_in_time(min_distance *m, const candidate_pair *both, pair *p, int side,
                                 imp_error *error)
 {
@@ -108,9 +108,9 @@ imp_code min_distance_begin(min_distance *m, size_t first, size_t count, imp_err
 /* --- Test and push ---------------------------------------------------------------------------- */
 
 /* Lemma. A pair's first key bounds the distance of its points over its window from below, or is
- * `enough` or more; what was cut off the window is no nearer than what was enough then, which is at
- * least what is enough now, since upper only falls. A child's points and times are its parent's, so
- * the parent's bound holds too. */
+ * `enough` or more; at times cut off the window the distance is at least `enough` of that moment,
+ * which is no less than now, since upper only falls. A child's points and times are its parent's,
+ * so the parent's bound holds too. */
 static void test_and_push(min_distance *m, pair p)
 {
     approach near = {0, p.moment};
@@ -124,7 +124,7 @@ static void test_and_push(min_distance *m, pair p)
     pair_push(&m->heap, &p, p.moment, &m->serial, m->stats);
 }
 
-/* --- Following one pair ----------------------------------------------------------------------- */
+/* --- Expanding one pair ----------------------------------------------------------------------- */
 
 static imp_code find_witness(min_distance *m, const pair *p, imp_error *error)
 {
@@ -180,9 +180,8 @@ static cut choose_cut(const min_distance *m, const pair *p, const distance_outco
     return alone.side >= 0 ? alone : cut_by_spread(p, r.scale, false);
 }
 
-/* Lemma. The times that one-sided distances cut off p->window are farther apart than what is
- * enough, and over those that are left nothing is nearer than seen->lower, so that p->key[0] stays
- * a bound. */
+/* Lemma. At the times that one-sided distances cut off p->window the nodes are farther apart than
+ * `enough`, and at the other times no nearer than seen->lower, so that p->key[0] stays a bound. */
 static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error *error)
 {
     const imp_code code = pair_look(p, &m->candidates[p->candidate_pair], enough(m), GOAL_DISTANCE,
@@ -209,7 +208,7 @@ static imp_code follow(min_distance *m, pair p, imp_error *error)
     return IMP_SUCCESS;
 }
 
-/* Takes what has the least bound: the next candidate pair, or the first pair of the heap. */
+/* Expands the pair of least bound: the next candidate pair, or the first pair of the heap. */
 static imp_code take_one(min_distance *m, imp_error *error)
 {
     if (m->start_count > 0 && m->starts[m->start_count - 1].key[0] <= waiting(m))
@@ -220,8 +219,8 @@ static imp_code take_one(min_distance *m, imp_error *error)
     return code;
 }
 
-/* Follow pushes at most two pairs in place of one; on failure one of them, and the pair goes
- * back. */
+/* Expanding replaces a pair by at most two; on failure it may push one, and the pair is pushed
+ * again. */
 imp_code min_distance_advance(min_distance *m, min_distance_state *state, imp_error *error)
 {
     *state = MIN_DISTANCE_NO_MEMORY;

@@ -7,25 +7,25 @@
 
 /* Pairs of nodes that may still touch, the most urgent first
  * ==========================================================
- * Ordered by two keys, then serial number: a total order, so the same input always pops in the same
- * order. What the keys are is the search's: for the time of impact the start of the window (paper,
- * eq. 5) and the squared distance of the centres at that time. */
+ * The heap is ordered by two keys, then by serial number: a total order, so the same input always
+ * pops in the same order. Each search chooses its keys: the time of impact uses the start of the
+ * window (paper, eq. 5) and the squared distance of the centres at that time. */
 
 typedef struct pair {
     time_window window; /* when they may be near; within both nodes' times */
     double key[2];      /* the least comes first; no NaN */
-    double moment;      /* of the window, that decides: where the distance may be least */
-    uint64_t serial;    /* order of making */
-    vec3 axis;          /* that parted the nodes best at the window's start or moment; 0: none */
+    double moment;   /* of the window, at which the distance may be least; axes are chosen for it */
+    uint64_t serial; /* order of making */
+    vec3 axis;       /* best separating axis at the window's start or moment; 0: none */
     node *a, *b;
-    uint32_t candidate_pair; /* which two surfaces of the scene: index of the query's list */
+    uint32_t candidate_pair; /* index in the query's list of candidate pairs */
     uint32_t wait;           /* generations until a witness is sought again */
-    bool is_seen_only;       /* separation_first_look may have left too much */
-    bool lacks_nets;         /* its nodes were not asked for nets yet */
-    bool slides; /* of it or an ancestor one node alone was worth halving (distance.h) */
+    bool is_seen_only;       /* only separation_first_look has tested it */
+    bool lacks_nets;         /* nets of its nodes were not requested yet */
+    bool slides; /* a distance chose one node, of it or an ancestor, to be split alone */
 } pair;
 
-/* What decides a pair's place on the heap, and where the pair itself is, which never moves. */
+/* The keys of a pair, and the index of the pair itself, which never moves. */
 typedef struct pair_place {
     double key[2];
     uint64_t serial;
@@ -33,17 +33,17 @@ typedef struct pair_place {
 } pair_place;
 
 typedef struct pair_heap {
-    pair *slots;        /* a block of memory, whose second part are */
-    pair_place *places; /* in the order of a heap; from `count` on, the slots that are free */
+    pair *slots;        /* one block of memory that also holds `places` */
+    pair_place *places; /* the heap; from `count` on, the free slots */
     size_t count, capacity;
 } pair_heap; /* begins as {0}; pair_heap_clear frees */
 
-enum { PAIR_HEAP_BYTES = sizeof(pair_place) + sizeof(pair) }; /* for each of its capacity */
+enum { PAIR_HEAP_BYTES = sizeof(pair_place) + sizeof(pair) }; /* for each pair of its capacity */
 
-/* Room for `more` pushes; false: no memory, the heap is as it was. */
+/* Allocates memory for `more` pushes. False: no memory; the heap is unchanged. */
 bool pair_heap_reserve(pair_heap *heap, size_t more);
 
-/* Pushes a copy of the pair. Precondition: there is room. */
+/* Pushes a copy of the pair. Precondition: pair_heap_reserve. */
 void pair_heap_push(pair_heap *heap, const pair *p);
 
 /* Returns a pair: the first for index 0, the others in no particular order. Precondition: index <

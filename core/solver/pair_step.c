@@ -4,7 +4,7 @@
 
 #include "core/solver/pair_step.h"
 
-/* Returns the pair's nodes for distance_cut_sides; the slips are those of the candidate pair. */
+/* Returns the input of distance_cut_sides; the slips are stored in the candidate pair. */
 static distance_sides sides_of(const pair *p, candidate_pair *both)
 {
     const candidate *a = both->side[0], *b = both->side[1];
@@ -37,8 +37,8 @@ imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_g
     return code;
 }
 
-/* Where surfaces come to touch along a curve, a side whose remainder does not matter any more would
- * be halved all along before the other is small enough for a witness. */
+/* Where surfaces come to touch along a curve, one side would be split along all of it before the
+ * other is small enough for a witness: so a side whose remainder is small is not split alone. */
 cut pair_cut_alone(const pair *p, const distance_outcome *seen, double scale)
 {
     if (seen->side < 0) return CUT_NONE;

@@ -29,7 +29,7 @@ bool pair_test_fully(const impact *im, pair *p)
 
 /* --- The first test --------------------------------------------------------------------------- */
 
-/* Every later test of the pair finds the nets that are made here. */
+/* Later tests of the pair use the nets that are made here (node_net_made). */
 imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[p->candidate_pair];
@@ -70,8 +70,8 @@ imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, im
 
 /* --- Candidate pairs -------------------------------------------------------------------------- */
 
-/* Whether its two bodies have many candidate pairs, which stand together in the list: only a few
- * of them will be popped. Other bodies do not matter: a query of the two alone finds the same
+/* Whether its two bodies have many candidate pairs, which are neighbours in the list: few of them
+ * will be popped. Other bodies do not matter, so that a query of the two alone finds the same
  * contact. */
 static bool is_of_many(const impact *im, size_t index)
 {
@@ -106,7 +106,7 @@ imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error
     return t->done ? IMP_SUCCESS : test_roots(im, index, t, error);
 }
 
-/* Whether its test makes no net. If threads made nets ahead, a limit of memory might end the
+/* Whether its test makes no net. Nets made ahead by threads could make a memory limit end the
  * search at another step. */
 static bool makes_no_net(const impact *im, size_t index)
 {

@@ -7,25 +7,26 @@
 
 /* Whether a pair's nodes may be within gamma_clear
  * ==================================================
- * The first test of a pair may leave too much of its window. It is completed when the pair is
- * popped, since a third of the pairs pushed never is. Pairs of roots are tested first of all,
- * perhaps ahead of their turn by several threads: such a test depends only on its two nodes. */
+ * The first test of a pair is cheap and may leave too much of its window. It is completed when the
+ * pair is popped, since a third of the pairs pushed is never popped. Pairs of roots are tested at
+ * the beginning, possibly ahead of their turn by several threads: such a test depends only on its
+ * two nodes. */
 
-/* Completes the test of a pair that had its first test, or whose nodes had; p->window becomes what
- * is left. */
+/* Completes the test of a pair after its first test; p->window becomes the window that is left.
+ * False: none is left. */
 bool pair_test_fully(const impact *im, pair *p);
 
-/* Makes the nodes' nets where they are of use; their memory is added to *bytes. */
+/* Makes the nodes' nets if strategy_wants_nets; their memory is added to *bytes. */
 imp_code pair_test_ask_for_nets(const impact *im, const pair *p, uint64_t *bytes, imp_error *error);
 
-/* The first test of t->p; the rest of *t is its result. Makes the nodes' nets. `turning` is as for
- * separation_window. */
+/* Makes the first test of t->p, and the nodes' nets; the other fields of *t are its result.
+ * `turning` is as for separation_window. */
 imp_code pair_test_first(const impact *im, pair_test *t, trial_rate *turning, imp_error *error);
 
-/* The first test of the roots of candidate pair `index`: that made ahead, or one made now. */
+/* Returns in *t the first test of the roots of candidate pair `index`, made ahead or now. */
 imp_code pair_test_candidate(impact *im, uint32_t index, pair_test *t, imp_error *error);
 
-/* Has candidate pairs from `first` on, of `count` in all, tested by the threads of the program,
+/* Lets the program's threads test the roots of candidate pairs from `first` on, of `count` in all,
  * unless that was done. */
 void pair_test_look_ahead(impact *im, uint32_t first, size_t count, const imp_options *options);
 

@@ -19,7 +19,7 @@
 
 /* --- Creation and destruction ----------------------------------------------------------------- */
 
-/* None, or one kind of volume with at most one form of rates. */
+/* Checks that the baseline is 0, or one kind of volume with at most one form of rates. */
 static imp_code check_baseline(uint32_t baseline, imp_error *error)
 {
     const uint32_t volume = baseline & (IMP_BASELINE_BOXES | IMP_BASELINE_SPHERES),
@@ -34,7 +34,7 @@ static imp_code check_baseline(uint32_t baseline, imp_error *error)
                      baseline);
 }
 
-/* Checks all options but the tolerances. */
+/* Checks all options except the tolerances. */
 static imp_code check_options(const imp_scene *scene, const imp_options *options, imp_error *error)
 {
     if (scene_check_times(scene, options->t_start, options->t_end, error) != IMP_SUCCESS)
@@ -130,8 +130,8 @@ imp_reason query_reason_of_clear(const imp_query *query)
     return query->examined.lo <= query->examined.hi ? IMP_REASON_NONE : IMP_REASON_NO_TIME;
 }
 
-/* Whether one surface of the contact found stays as it is for all of the query's times. Rates are
- * asked for only where no point of it was seen to move. */
+/* Whether one surface of the contact is at rest during all of the query's times. Rates are computed
+ * only if no point of it was seen to move. */
 static bool is_at_rest(const imp_query *query, int side)
 {
     const candidate *c = query->candidates.pairs[query->impact.found_candidate].side[side];
@@ -203,8 +203,8 @@ static void note_bytes(imp_query *query, uint64_t of_candidates)
     if (bytes > query->peak_bytes) query->peak_bytes = bytes;
 }
 
-/* Returns the budget that is used up, or IMP_REASON_NONE. A cancellation ends one step: it is taken
- * back here, at the only place that acts on it, so that none is lost. */
+/* Returns the budget that is exhausted, or IMP_REASON_NONE. A cancellation ends one step: it is
+ * cleared here, the only place that acts on it, so that none is lost. */
 static imp_reason exhausted(imp_query *query, double seconds)
 {
     const imp_options *options = &query->options;
@@ -217,8 +217,8 @@ static imp_reason exhausted(imp_query *query, double seconds)
     return IMP_REASON_NONE;
 }
 
-/* Does one unit of work: a candidate pair's roots, as long as there are any left, then pairs from
- * the heap. */
+/* Does one unit of work: tests the roots of the next candidate pair or, after all of them, expands
+ * a pair of the heap. */
 static imp_code search_contact(imp_query *query, imp_error *error)
 {
     impact_state state = IMPACT_RUNNING;
@@ -242,18 +242,19 @@ static imp_code work(imp_query *query, imp_error *error)
                                     : clearance_work(query->clearance, &query->reason, error);
 }
 
-/* Units of work between looks at the clock. A slice of time of many candidates begins with all of
- * them in one unit, which takes tenths of a second: then each unit is followed by a look. */
+/* Units of work between readings of the clock. With many candidates, a slice of time begins with
+ * all of them in one unit, which takes tenths of a second: then the clock is read after each
+ * unit. */
 enum { CLOCK_EVERY = 64, MANY_CANDIDATES = 1000 };
 
-static unsigned units_a_look(const imp_query *query)
+static unsigned units_per_reading(const imp_query *query)
 {
     const bool many = query->candidates.pair_count > MANY_CANDIDATES;
     return query->clearance != NULL && many ? 1 : CLOCK_EVERY;
 }
 #define PROGRESS_EVERY 0.1 /* seconds between calls of options.progress */
 
-/* Tells the program how far it is, if it is time; the program may end the step. */
+/* Calls options.progress if it is due; the program may end the step. */
 static void report(imp_query *query, double seconds)
 {
     const imp_options *options = &query->options;
@@ -279,7 +280,7 @@ static void report(imp_query *query, double seconds)
     if (!options->progress(options->progress_context, &progress)) imp_query_cancel(query);
 }
 
-/* Looks at the clock now and then. */
+/* Reads the clock every few units, and reports progress. */
 static void tick(imp_query *query, double seconds_before, double start)
 {
     query->stats.seconds = seconds_before + (clock_seconds() - start);
@@ -292,8 +293,8 @@ typedef struct collecting {
     imp_reason reason;
 } collecting;
 
-/* Each candidate pair is a pair to test: with more of them than max_pairs the search cannot end. In
- * a divided query that limit is each part's own. 0: none. */
+/* Returns the most candidate pairs with which the search can end: each counts as a pair of
+ * max_pairs. In a divided query that limit applies to each part. 0: no limit. */
 static uint64_t most_candidates(const imp_query *query)
 {
     return query->divided > 0 ? 0 : query->options.max_pairs;
@@ -310,7 +311,7 @@ static bool limit_is_reached(void *context, uint64_t bytes, uint64_t pairs)
     return c->reason != IMP_REASON_NONE;
 }
 
-/* Read while the query's own thread waits: nothing of it but `cancelled` changes. */
+/* Other threads call this while the query's thread waits: only `cancelled` may change meanwhile. */
 static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
 {
     const collecting *c = context;
@@ -324,16 +325,16 @@ static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
             c->seconds_before + (clock_seconds() - c->start) >= options->max_seconds);
 }
 
-/* Returns the distance below which nothing is missed: what is asked for, and the slip of pairs that
- * are taken to be at rest. */
+/* Returns the gamma_clear of the search: the requested one, plus the slip of pairs that are
+ * searched at one moment. */
 static double searched_gamma_clear(const imp_query *query, double gamma_clear)
 {
     const double slip = query->candidates.slip;
     return slip > 0 ? sum_upper(gamma_clear, slip) : gamma_clear;
 }
 
-/* What a limit ends begins anew with the next step. Where the minimum distance is asked for without
- * `within`, all surfaces count, however far apart. */
+/* If a limit ends it, the next step starts it again. For a minimum distance without `within`, all
+ * surfaces are candidates, however far apart. */
 imp_code query_collect(imp_query *query, double start, imp_error *error)
 {
     const double near =
@@ -373,7 +374,7 @@ FP_APART static imp_code step(imp_query *query, uint64_t pairs, imp_error *error
     query->reason = IMP_REASON_RUNNING;
     if (!query->candidates.complete) code = begin(query, start, error);
     const uint64_t of_candidates = candidates_bytes(&query->candidates);
-    const unsigned look_after = units_a_look(query);
+    const unsigned look_after = units_per_reading(query);
     for (unsigned k = 0; code == IMP_SUCCESS && query->reason == IMP_REASON_RUNNING; ++k) {
         if (k % look_after == 0 || query->watch_ended) tick(query, before, start);
         query->watch_ended = false;
@@ -405,7 +406,7 @@ imp_code imp_query_step(imp_query *query, uint64_t pairs, imp_error *error)
     return code;
 }
 
-/* --- Finer ------------------------------------------------------------------------------------ */
+/* --- Refinement ------------------------------------------------------------------------------- */
 
 FP_APART static imp_code refine(imp_query *query, double gamma, double gamma_clear,
                                 imp_error *error)
@@ -439,7 +440,7 @@ imp_code imp_query_refine(imp_query *query, double gamma, double gamma_clear, im
     return code;
 }
 
-/* --- Without two bodies ----------------------------------------------------------------------- */
+/* --- Exclusion of two bodies ------------------------------------------------------------------ */
 
 imp_code imp_query_exclude_pair(imp_query *query, imp_error *error)
 {

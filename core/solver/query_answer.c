@@ -55,7 +55,7 @@ static imp_result result_of(const imp_query *query)
     return r;
 }
 
-/* Bytes of imp_result in the first release. */
+/* Size of imp_result in the first release. */
 #define RESULT_FIRST sizeof(imp_result)
 
 imp_code imp_query_get_result(const imp_query *query, imp_result *result, imp_error *error)
@@ -68,8 +68,8 @@ imp_code imp_query_get_result(const imp_query *query, imp_result *result, imp_er
     return code;
 }
 
-/* Describes one side of a waiting pair or, with no node, of a candidate pair that was not tested
- * yet. */
+/* Describes one side of a pair on the heap or, with no node, of a candidate pair that was not
+ * tested yet. */
 static struct imp_pending_side pending_side(const imp_query *query, size_t k, int side,
                                             const node *n)
 {

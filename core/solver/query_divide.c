@@ -11,7 +11,8 @@
 
 /* --- Dividing --------------------------------------------------------------------------------- */
 
-/* The list is in the order of the scene, so that the candidates of two bodies stand together. */
+/* Lists the parts. The list of candidates is in the order of the scene, so that those of two bodies
+ * are neighbours. */
 static imp_code find_parts(imp_query *query, imp_error *error)
 {
     const candidate_list *list = &query->candidates;
@@ -26,7 +27,7 @@ static imp_code find_parts(imp_query *query, imp_error *error)
     return IMP_SUCCESS;
 }
 
-/* Leaves to the query itself the bodies of no candidate. */
+/* Sets the result of the query itself, which covers the bodies that have no candidates. */
 static imp_code conclude(imp_query *query, imp_error *error)
 {
     static const candidate_list none = {.complete = true};
@@ -81,7 +82,7 @@ bool imp_query_part_bodies(const imp_query *query, size_t index, size_t body[2])
     return true;
 }
 
-/* Makes a query like the divided one, with nothing done yet. */
+/* Makes a query with the options of the divided one, in its initial state. */
 static imp_query *fresh_query(const imp_query *whole, imp_error *error)
 {
     imp_query *query = calloc(1, sizeof *query);
@@ -107,7 +108,8 @@ static imp_query *fresh_query(const imp_query *whole, imp_error *error)
     return query;
 }
 
-/* The limit of time is that of all parts together; 0 would be none. */
+/* Returns the time left: max_seconds limits all parts together. It is never 0, which would mean no
+ * limit. */
 static double seconds_left(const imp_query *whole)
 {
     const double left = whole->options.max_seconds - (clock_seconds() - whole->divided);

@@ -12,26 +12,27 @@
 #include "core/solver/time_of_impact.h"
 #include "core/solver/world.h"
 
-/* What the files of the query share: query.c runs it, query_divide.c divides it, query_answer.c
- * and query_clearance.c tell how far it has come. */
+/* Declarations that the files of the query share: query.c runs it, query_divide.c divides it,
+ * query_answer.c and query_clearance.c return its results. */
 
 struct imp_query {
     imp_scene *scene;
     imp_options options;
     examined_times examined;
     imp_stats stats;      /* bytes: of the trees, without the heap */
-    double gamma_clear;   /* asked for; the search has room for slips beside it; length */
-    uint64_t scene_bytes; /* 0 in a part of a divided query, which counts them */
+    double gamma_clear;   /* as requested; searches use it plus slips; length */
+    uint64_t scene_bytes; /* 0 in a part of a divided query: the whole query counts them */
     uint64_t peak_bytes;
     double next_report; /* seconds spent when options.progress is called next */
     bool failed;
     imp_verdict verdict;
-    bool at_rest;          /* CONTACT: of two surfaces that do not move, */
+    bool at_rest;          /* CONTACT of two surfaces that do not move, */
     world_witness contact; /* found here */
     imp_reason reason;
     atomic_bool cancelled;
     candidate_list candidates;
-    clearance_search *clearance; /* NULL: the earliest contact is asked for, by the following */
+    clearance_search
+        *clearance; /* NULL: the query is for the earliest contact, and uses what follows */
     impact impact;
     size_t candidates_tested; /* how many candidate pairs have been tested */
     patch_watch watch;        /* ends what is asked about solid bodies when a limit comes */
@@ -48,7 +49,7 @@ struct imp_query {
     double divided;    /* seconds of the clock when it was */
 };
 
-/* Ends the query, or the step, with an answer. */
+/* Ends the query, or the step, with this verdict. */
 void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason);
 
 /* Asks about the next two bodies of the candidates one of which is solid, whether one is inside the

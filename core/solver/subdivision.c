@@ -8,7 +8,7 @@
 #include "core/bounds/strategy.h"
 #include "core/bounds/tuning.h"
 
-/* --- What a pair is like ---------------------------------------------------------------------- */
+/* --- Properties of a pair --------------------------------------------------------------------- */
 
 bool pair_has_cluster(const pair *p) { return p->a->many != NULL || p->b->many != NULL; }
 
@@ -53,9 +53,9 @@ bool pair_precision_ends(const pair *p, const candidate_pair *both, double room,
            pair_remainder(p) <= TUNING_PRECISION_REMAINDER * flat * eval_error;
 }
 
-/* --- Where it is cut -------------------------------------------------------------------------- */
+/* --- The cut ---------------------------------------------------------------------------------- */
 
-/* A node without bounds is cut before one that has them, which would gain nothing. */
+/* Keeps the cut of greater value. A node without bounds is cut before a bounded one. */
 static void cut_consider(cut *best, const pair *p, int side, parameter j, double gain)
 {
     if (best->side >= 0 && !(gain > best->gain)) return;
@@ -72,9 +72,9 @@ cut cut_by_contribution(const pair *p)
     return best;
 }
 
-/* Whether the half below (0) or above (1) a cut in time holds moments of the window that the other
- * does not. If the window only touches the cut, one half holds all of it, so that no pair is left
- * with a single moment that its neighbour in time has, too. */
+/* Whether the half below (0) or above (1) a cut in time contains moments of the window that the
+ * other does not. If the window only touches the cut, one half contains all of it, so that no pair
+ * is made for a single moment that the other half covers, too. */
 static bool half_is_needed(const time_window *window, double at, int half)
 {
     if (window->lo >= at) return half == 1;
@@ -82,7 +82,7 @@ static bool half_is_needed(const time_window *window, double at, int half)
     return true;
 }
 
-/* Whether one half holds the whole window: a cut in time is free then. */
+/* Whether one half contains the whole window: a cut in time then makes one child. */
 static bool is_one_half_enough(const time_window *window, double at)
 {
     return !half_is_needed(window, at, 0) || !half_is_needed(window, at, 1);
@@ -96,10 +96,10 @@ bool cut_is_free(const cut *c, const pair *p, int *half)
     return is_one_half_enough(&p->window, at);
 }
 
-/* What the value of a cut depends on beside the node. */
+/* What the value of a cut depends on apart from the node. */
 typedef struct view {
     double scale;
-    bool is_tangent; /* no fixed axis parts the nodes, whose surfaces are nearly parallel */
+    bool is_tangent; /* surfaces are nearly parallel: fixed axes do not separate them */
     bool has_nets;
 } view;
 

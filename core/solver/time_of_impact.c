@@ -47,7 +47,7 @@ imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, i
 
 /* --- Finer ------------------------------------------------------------------------------------ */
 
-/* Tests the whole of both surfaces and returns the window that is left; it counts as one pair. */
+/* Tests the roots of both surfaces and returns the window that is left; it counts as one pair. */
 static time_window window_of_roots(impact *im, uint32_t index)
 {
     const candidate_pair *both = &im->candidate_pairs[index];
@@ -68,7 +68,7 @@ bool impact_refine(impact *im, double gamma, double gamma_clear, size_t count)
     }
     for (size_t k = 0; k < count; ++k)
         if (im->roots[k].lo > -INFINITY) im->roots[k] = (time_window){NAN, NAN};
-    im->ahead.count = 0; /* they are not for this gamma_clear */
+    im->ahead.count = 0; /* their tests used the old gamma_clear */
     im->gamma = gamma;
     im->gamma_clear = gamma_clear;
     upper_time_refine(&im->upper, gamma);
@@ -76,7 +76,7 @@ bool impact_refine(impact *im, double gamma, double gamma_clear, size_t count)
     return true;
 }
 
-/* The window of the roots, or any if that is of no use: it starts no later than the pair's. */
+/* Returns a window of the roots, which starts no later than the pair's; unbounded if not known. */
 static const time_window *roots_of(impact *im, const pair *p)
 {
     time_window *whole = &im->roots[p->candidate_pair];
@@ -86,13 +86,12 @@ static const time_window *roots_of(impact *im, const pair *p)
     return whole;
 }
 
-/* After refining, cuts what is left of a pair by the new gamma_clear; false: it is pruned, or waits
- * for its later start. The window of the roots bounds those of all their descendants. Where it
- * starts as late as any proof can say, descendants that were cut to an earlier start would each
- * prove a start of their own, a little before it, and all that fills a curve of contacts would be
- * searched before a witness of any of it counts. (A sphere that meets a torus took 1467 pairs from
- * 1e-2 to 1e-9, now 118; afresh it takes 110.) Where the roots are of no use the pair itself is
- * tested again, once. */
+/* After refining, cuts a pair by the new gamma_clear. False: it is pruned, or was pushed again with
+ * a later start. The window of the roots bounds those of all descendants; without it, descendants
+ * that were cut to an earlier start would each have to be tested up to the contact, and along a
+ * curve of contacts all of them before any witness counts. (A sphere that meets a torus took 1467
+ * pairs from 1e-2 to 1e-9, now 118; a new query takes 110.) If the roots' window does not help, the
+ * pair itself is tested again, once. */
 static bool is_still_first(impact *im, pair *p)
 {
     if (im->roots == NULL || im->baseline != IMP_BASELINE_NONE) return true;
@@ -110,7 +109,7 @@ static bool is_still_first(impact *im, pair *p)
     return false;
 }
 
-/* Asks for the nets of a pair that was only looked at; if that fails the pair goes back on the
+/* Makes the nets of a pair that had only its first test; on failure the pair goes back on the
  * heap. */
 static imp_code ask_before_test(impact *im, pair *p, imp_error *error)
 {
@@ -121,8 +120,8 @@ static imp_code ask_before_test(impact *im, pair *p, imp_error *error)
     return code;
 }
 
-/* Completes the test of a pair that was only looked at; false: it is pruned, or waits for its later
- * start. */
+/* Completes the test of a pair that had only its first test. False: it is pruned, or was pushed
+ * again with a later start. */
 static bool is_first_when_tested(impact *im, pair *p)
 {
     if (!p->is_seen_only) return true;
@@ -154,7 +153,7 @@ bool impact_pass(impact *im, size_t count)
 
 /* --- An upper time ---------------------------------------------------------------------------- */
 
-/* Whether no pair on the heap starts before the contact that is known. */
+/* Whether no pair on the heap starts before the known contact. */
 static bool is_settled(const impact *im)
 {
     return im->upper.is_known &&
@@ -168,7 +167,7 @@ static impact_state settle(impact *im)
     return impact_contact(im, &im->upper.seen);
 }
 
-/* Sets the error for a contact below gamma_clear before the time up to which that was excluded. */
+/* Sets the error for a contact at a time before which contacts were excluded. */
 static imp_code contradict(const impact *im, imp_error *error)
 {
     const candidate_pair *both = &im->candidate_pairs[im->found_candidate];
@@ -176,7 +175,8 @@ static imp_code contradict(const impact *im, imp_error *error)
                                im->found.gap_upper, im->t_lower, im->gamma_clear, error);
 }
 
-/* Ends the pair's window at the horizon. What lies behind waits on the heap, which has room. */
+/* Ends the pair's window at the horizon and pushes the later part. Precondition: the heap has
+ * capacity. */
 static void postpone(impact *im, pair *p)
 {
     time_window behind;
@@ -211,15 +211,15 @@ static bool reserve_chances(impact *im)
     return im->trials != NULL;
 }
 
-/* Heap space that one step needs: for the pair popped, twice for what is postponed of it, and one
- * more half. */
+/* Pairs that one step may push: the pair popped, two later parts of windows, one more half. */
 enum { ROOM_OF_STEP = 3 };
 
 /* Lemma. The popped pair's window starts first of all, and outside the windows on the heap no two
- * points are within gamma_clear: so nothing is before that start. Children's windows lie in their
- * parent's, so the bound never falls. A pair that ends the search goes back: finer gamma can go on
- * from it. A contact that is known, no later than the first window, is the answer; it is no earlier
- * than t_lower, since it was followed from a window's start, and no later one is popped since. */
+ * points are within gamma_clear: so no two are before that start. Children's windows lie in their
+ * parent's, so the bound never falls. A pair that ends the search is pushed again, so that a
+ * smaller gamma can continue from it. A known contact no later than the first window is the answer;
+ * it is no earlier than t_lower, since its search began at a window's start, and windows are popped
+ * in order. */
 imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
 {
     const double proved = im->t_lower;
@@ -229,7 +229,7 @@ imp_code impact_advance(impact *im, impact_state *state, imp_error *error)
     if (*state == IMPACT_CONTACT || im->heap.count == 0) return IMP_SUCCESS;
     *state = IMPACT_NO_MEMORY;
     if (!pair_heap_reserve(&im->heap, ROOM_OF_STEP) || !reserve_chances(im))
-        return IMP_SUCCESS; /* and the place of the one popped */
+        return IMP_SUCCESS; /* including the popped pair's place */
     *state = IMPACT_RUNNING;
     pair p = pair_heap_pop(&im->heap);
     if (im->passed != NULL && im->passed[p.candidate_pair]) return IMP_SUCCESS;

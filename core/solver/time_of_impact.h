@@ -11,19 +11,19 @@
  * at any time before t_lower; (b) with IMPACT_CONTACT the witness's gap_upper is at most gamma at
  * t_lower; (c) with IMPACT_CLEAR there are no such points at all. (a) holds for every answer. */
 
-/* Tests the roots of candidate pair `index` and keeps the pair if they may be near. */
+/* Tests the roots of candidate pair `index` and pushes the pair if they may be near. */
 imp_code impact_add_candidate(impact *im, uint32_t index, impact_state *state, imp_error *error);
 
-/* Takes one pair from the heap and follows it one step. On IMP_ERROR_PLUGIN the search is over and
- * its results so far still stand. */
+/* Pops one pair and expands it. On IMP_ERROR_PLUGIN the search is over; its results so far remain
+ * valid. */
 imp_code impact_advance(impact *im, impact_state *state, imp_error *error);
 
-/* Goes on with a smaller gamma and gamma_clear; `count` candidate pairs, or 0 while these are not
- * known. False: no memory, nothing has changed. */
+/* Continues with a smaller gamma and gamma_clear, for `count` candidate pairs, or 0 while these are
+ * not known. False: no memory; nothing has changed. */
 bool impact_refine(impact *im, double gamma, double gamma_clear, size_t count);
 
-/* After IMPACT_CONTACT or IMPACT_RESOLUTION: goes on without the two bodies of that pair. False: no
- * memory, nothing has changed. */
+/* After IMPACT_CONTACT or IMPACT_RESOLUTION: continues without the two bodies of that pair. False:
+ * no memory; nothing has changed. */
 bool impact_pass(impact *im, size_t count);
 
 void impact_clear(impact *im);

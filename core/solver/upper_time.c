@@ -8,11 +8,11 @@
 #include "core/bounds/tuning.h"
 #include "core/witness/contact_estimate.h"
 
-/* Nearest points are followed to this part of gamma, so that rounding and the net's error have
- * room, and nothing nearer has to be told apart from gamma_clear before it. */
+/* Nearest points are followed until their gap is this part of gamma, which leaves a margin for
+ * rounding and the net's error and is well above gamma_clear. */
 #define TOUCHING 0.875
 
-/* Whether the pair holds the points of the contact that is known, which would be found again. */
+/* Whether the pair contains the points of the known contact, which would be found again. */
 static bool holds_contact(const upper_time *up, const pair *p)
 {
     const node *const nodes[2] = {p->a, p->b};
@@ -36,8 +36,8 @@ static bool is_wanted(upper_time *up, const pair *p)
     return true;
 }
 
-/* The horizon is where the gap would be gone: a smaller gamma is met before it, so that none of
- * what was left out is needed again. */
+/* Keeps a contact. The horizon is the time at which the gap is predicted to be 0: a smaller gamma
+ * is reached before it, so that the later parts of windows are not needed again. */
 static void take(upper_time *up, const pair *p, const contact_estimate *met, const witness *seen)
 {
     const double rest = 2 * seen->gap / met->speed;

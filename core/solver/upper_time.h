@@ -8,31 +8,31 @@
 
 /* A contact that is found before it is proved to be the first
  * =========================================================
- * The nearest points of a pair's surfaces, followed in time, soon touch: then the first contact is
- * no later. Such a time, of which the search learns early, ends the windows of the pairs that are
- * followed, a little behind it; what is left of these windows waits on the heap. Where the search
- * comes to it, it is the answer. */
+ * The nearest points of a pair's surfaces, followed in time, may touch: the first contact is no
+ * later than that. Such an upper time ends the windows of the pairs that are expanded, a little
+ * after it; the later parts of these windows stay on the heap. When the search reaches the upper
+ * time, it is the answer. */
 
 typedef struct upper_time {
-    bool is_known; /* `seen` touches at t; if false, only the counters are valid */
+    bool is_known; /* `seen` is a contact at t; if false, only the counters are valid */
     double t;
     witness seen;
-    uint32_t candidate_pair; /* whose witness */
+    uint32_t candidate_pair; /* of the witness */
     bool has_horizon;
-    double horizon; /* any time, t or a little later: where windows end while they are followed */
-    uint64_t followed, next; /* pairs followed; how many it takes until the next search */
+    double horizon;          /* t or a little later: windows of expanded pairs end there */
+    uint64_t followed, next; /* pairs expanded; the count at which the next search is made */
 } upper_time;
 
-/* Counts a pair that is followed, and, when it is time, seeks a contact earlier than t from there;
- * *sought tells whether it did. IMP_ERROR_PLUGIN when an evaluation fails. */
+/* Counts an expanded pair and, at intervals, seeks a contact earlier than t starting from it;
+ * *sought: whether it did. IMP_ERROR_PLUGIN: an evaluation failed. */
 imp_code upper_time_follow(upper_time *up, const pair *p, double gamma, bool *sought,
                            imp_error *error);
 
-/* Adapts to a smaller gamma: a contact that still touches stays known; otherwise one is sought at
- * once. */
+/* Adapts to a smaller gamma: a contact whose gap is still small enough stays known; otherwise the
+ * next pair is used to seek one. */
 void upper_time_refine(upper_time *up, double gamma);
 
-/* Ends the window at the horizon. True: there is a part behind it, which becomes *later. */
+/* Ends the window at the horizon. True: it has a part after the horizon, which becomes *later. */
 bool upper_time_divide(const upper_time *up, time_window *window, time_window *later);
 
 #endif

@@ -19,8 +19,8 @@ static imp_code fault(const surface *s, imp_status status, double t, imp_error *
     return surface_set_code(status, error);
 }
 
-/* The length of the arrow whose image gives the normal: a power of two beside which the rounding of
- * the points' coordinates is small. */
+/* Returns the length of the arrow whose image gives the normal: a power of two against which the
+ * rounding of the points' coordinates is small. */
 static double arrow_length(const vec3 *from, const double to[3])
 {
     const vec3 image = {{to[0], to[1], to[2]}};
@@ -45,7 +45,7 @@ static imp_code turn_normal(const surface *s, size_t maps, const witness *found,
     return IMP_SUCCESS;
 }
 
-/* Tells one side of a witness in the world: the search's point or, where maps were left out, the
+/* Computes one side of a witness in world space: the search's point or, if maps were left out, the
  * point under all maps. */
 static imp_code place_side(const imp_scene *scene, const candidate *of, const witness *found,
                            int side, double t, imp_side *at, imp_error *error)

@@ -7,12 +7,12 @@
 #include "core/scene/scene.h"
 #include "core/witness/witness.h"
 
-/* Answers in the world
- * ====================
- * A pair is searched in the frame that both of its surfaces move in (collect_frames.c). A
- * reported witness is in world space: its points are those that imp_piece_eval gives for its
- * parameters, and its normal turns with the frame. The gap is the distance of these points, or the
- * proved bound of the search where rounding in the world makes it larger than `most`. */
+/* Witnesses in world space
+ * ========================
+ * A pair is searched in the frame that both of its surfaces move in (collect_frames.c). A reported
+ * witness is in world space: its points are those that imp_piece_eval returns for its parameters,
+ * and its normal turns with the frame. The gap is the distance of these points; if rounding in
+ * world space makes that larger than `most`, it is the bound that the search proved. */
 
 /* A witness of a pair in world space, as the library returns it. */
 typedef struct world_witness {
