@@ -36,8 +36,8 @@ static int by_x(const void *p, const void *q) { return by_start(p, q, 0); }
 static int by_y(const void *p, const void *q) { return by_start(p, q, 1); }
 static int by_z(const void *p, const void *q) { return by_start(p, q, 2); }
 
-/* Estimates which part of all other boxes' starts a box's span along the axis crosses: the mean
- * length of the spans that are finite, over the distance from the first to the last. */
+/* Estimates which part of all boxes' starts lies within one box's span along the axis: the mean
+ * length of the finite spans, divided by the distance from the first to the last. */
 static double crowding(const swept_box *boxes, size_t count, int axis)
 {
     double first = INFINITY, last = -INFINITY, length = 0;
@@ -80,9 +80,9 @@ int broad_phase_sort(swept_box *boxes, size_t count)
 }
 
 /* Lemma. No two boxes of different groups within gamma_clear are left out. A box with a NaN along
- * the axis starts before all others and ends after them, so that the order is one of numbers. A box
- * behind another in it starts no earlier: once one is apart from it along the axis, so are all that
- * follow. */
+ * the axis starts before all others and ends after them, so that the order is total. A box after
+ * another in the order starts no earlier: once one is apart from box k along the axis, so are all
+ * that follow. */
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
                            double gamma_clear, const broad_phase_visitor *visitor)
 {

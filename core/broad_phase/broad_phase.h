@@ -6,21 +6,22 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Which boxes are near each other? Sweep and prune along the axis on which the boxes crowd least:
- * every pair of the boxes of different groups whose gap along every axis is at most gamma_clear
- * is visited. A box with an infinity or a NaN is near all. */
+/* Sweep and prune along the axis on which the boxes overlap least: visits every pair of boxes of
+ * different groups whose gap along every axis is at most gamma_clear. A box with an infinity or a
+ * NaN is near all. */
 
 typedef struct swept_box {
     double lo[3], hi[3]; /* over the whole query's times; length, world space */
-    size_t owner;        /* caller's number, handed to the visitor */
+    size_t owner;        /* the caller's number, passed to the visitor */
     size_t group;        /* pairs within one group are not visited */
     size_t beyond;       /* once sorted: the next box of another group; the caller leaves it 0 */
 } swept_box;
 
 typedef struct broad_phase_visitor {
-    /* Called before the pairs of each box, unless there are few boxes: whether to go on. */
+    /* Called before the pairs of each box, unless there are few boxes. Returns whether to
+     * continue. */
     bool (*next_box)(void *context);
-    bool (*visit)(void *context, size_t first, size_t second); /* whether to go on */
+    bool (*visit)(void *context, size_t first, size_t second); /* returns whether to continue */
     void *context;
 } broad_phase_visitor;
 
@@ -29,11 +30,11 @@ typedef struct broad_phase_visitor {
 bool broad_phase_visit(swept_box *boxes, size_t count, double gamma_clear,
                        const broad_phase_visitor *visitor);
 
-/* Do what broad_phase_visit does in two steps, of which several threads may take the second. The
- * first sorts the boxes along the axis that it answers; */
+/* broad_phase_visit in two steps, the second of which may run in several threads. The first sorts
+ * the boxes along an axis, which it returns. */
 int broad_phase_sort(swept_box *boxes, size_t count);
 
-/* the second visits the pairs of box k with those behind it. */
+/* The second visits the pairs of box k with the boxes after it. */
 bool broad_phase_visit_box(const swept_box *boxes, size_t count, int axis, size_t k,
                            double gamma_clear, const broad_phase_visitor *visitor);
 

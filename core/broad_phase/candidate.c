@@ -7,8 +7,8 @@
 #include "core/tree/bound_audit.h"
 #include "core/witness/witness.h"
 
-/* Evaluates the middle of a surface at both ends and in the middle of the root's times. *moves: its
- * ends are surely apart. */
+/* Evaluates the middle of a surface at the start, middle and end of the root's times. *moves: its
+ * positions at start and end are apart beyond error. */
 static imp_code measure_surface(const surface *s, const node *root, double *largest, bool *moves,
                                 imp_error *error)
 {

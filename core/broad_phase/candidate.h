@@ -13,17 +13,16 @@
 typedef struct candidate {
     tree *tree;
     size_t body, surface;
-    size_t left_out;   /* maps of the surface that the tree's nodes are not under */
-    double eval_error; /* of points evaluated, about, of 16 of its pieces if it has more; < 0: not
-                          measured yet; length */
-    size_t still_maps; /* then: of a surface with distances, surface_still_maps */
-    bool moves;        /* then: a point of it was seen to; never of one that has pieces */
+    size_t left_out;   /* number of the surface's last maps that its tree leaves out */
+    double eval_error; /* of evaluated points, about; < 0: not measured yet; length */
+    size_t still_maps; /* once measured: surface_still_maps, if it has distances */
+    bool moves;        /* once measured: a point was seen to move; false if it has pieces */
 } candidate;
 
 /* Two candidates of different bodies that may come near each other. */
 typedef struct candidate_pair {
     candidate *side[2];
-    /* >= surface_slip of either along the other, over all times of both; 0: not asked yet */
+    /* >= surface_slip of either along the other over their common times; 0: not computed yet */
     float slip[2];
     float carry[2];        /* like surface_carry_slip of the other, for points of either */
     float orbit[2];        /* like surface_orbit_slip of either along the other */
@@ -43,7 +42,7 @@ static inline bool candidate_pair_is_first(const candidate_pair *pairs, size_t k
 }
 
 /* Measures eval_error, still_maps and moves of both, unless they are known: once for each surface
- * of a query, and only of those whose pairs are followed. */
+ * of a query, and only if its pairs are expanded. */
 imp_code candidate_pair_measure(const candidate_pair *both, imp_error *error);
 
 #endif

@@ -25,7 +25,7 @@ static size_t key_of(const candidate *candidates, const candidate_pair *p, sort_
     return key >= KEY_BODY_B ? c->body : (size_t)(c - candidates);
 }
 
-/* A stable counting sort; `start` has room for all keys and one more. False: all keys are the same,
+/* A stable counting sort; `start` has one element per key and one more. False: all keys are equal,
  * and nothing is moved. */
 static bool sort_pass(const candidate_list *list, sort_key key, size_t *start, size_t keys,
                       candidate_pair *to)
@@ -42,7 +42,7 @@ static bool sort_pass(const candidate_list *list, sort_key key, size_t *start, s
 
 /* Sorts by body of a, body of b, surface of a, surface of b, least significant key first: the order
  * of the scene, so that ties on the heap do not depend on the order of the sweep, which depends on
- * the query's times. A radix sort, because limits can be asked between its passes. */
+ * the query's times. It is a radix sort, so that limits can be checked between its passes. */
 static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
 {
     candidate_list *list = all->list;
@@ -50,7 +50,7 @@ static imp_code sort_pairs(collection *all, bool *done, imp_error *error)
     const size_t keys = list->count > bodies ? list->count : bodies;
     size_t *start = malloc((keys + 1) * sizeof *start);
     candidate_pair *to = malloc((list->pair_count + 1) * sizeof *to);
-    const int last = bodies > 2 ? SORT_KEYS : KEY_BODY_B; /* two bodies need no order */
+    const int last = bodies > 2 ? SORT_KEYS : KEY_BODY_B; /* two bodies are in order already */
     *done = start != NULL && to != NULL;
     const imp_code code = *done ? IMP_SUCCESS : error_set_memory(error);
     for (int key = 0; *done && key < last; ++key) {
@@ -78,10 +78,10 @@ static imp_code collect_pairs(collection *all, bool *done, imp_error *error)
     return sort_pairs(all, done, error);
 }
 
-/* Allocates room to work in. False: no memory. */
+/* Allocates working memory. False: no memory. */
 static bool prepare(collection *all)
 {
-    size_t most = 1; /* an array of none may be NULL */
+    size_t most = 1; /* malloc(0) may return NULL */
     for (size_t b = 0; b < scene_body_count(all->scene); ++b)
         most += scene_surface_count(all->scene, b);
     all->boxes = most <= BOXES_AT_HAND ? all->at_hand : malloc(most * sizeof *all->boxes);
@@ -89,8 +89,8 @@ static bool prepare(collection *all)
                                 ? all->list->at_hand
                                 : malloc(most * sizeof *all->list->candidates);
     if (all->boxes == NULL || all->list->candidates == NULL) return false;
-    all->with_roots =
-        most <= ROOTS_AT_ONCE || !(all->gamma_clear < INFINITY); /* or all are in pairs */
+    all->with_roots = most <= ROOTS_AT_ONCE ||
+                      !(all->gamma_clear < INFINITY); /* all surfaces are in pairs then */
     if (!parallel_is_on(all->options)) return true;
     all->surfaces = malloc(SURFACES_A_ROUND * sizeof *all->surfaces);
     all->sweep = calloc(TASKS_A_ROUND, sizeof *all->sweep);
@@ -110,7 +110,7 @@ imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_optio
                          imp_stats *stats, imp_error *error)
 {
     const bool models =
-        options->baseline == IMP_BASELINE_NONE; /* the paper's algorithm knows no frames */
+        options->baseline == IMP_BASELINE_NONE; /* the paper's algorithm has no frames */
     collection all = {.scene = scene,
                       .slip_most = models && may_rest ? slip_most(options) : -1,
                       .common_motion = models ? collection_common_motion(scene) : 0,

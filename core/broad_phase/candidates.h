@@ -7,16 +7,16 @@
 
 /* How a query begins: the broad phase
  * ===================================
- * Every surface that exists at any of the query's times gets its tree, whose root is a box around
- * all that the surface sweeps. Surfaces of different bodies whose boxes come within gamma_clear
- * of each other, unless their bodies ignore each other, are the candidate pairs.
+ * Every surface that exists at any of the query's times gets a tree, whose root has a box around
+ * all points that the surface sweeps. Two surfaces of different bodies are a candidate pair if
+ * their boxes come within gamma_clear of each other, unless their bodies ignore each other.
  *
- * A pair of which each surface turns only within itself, or as the other can be turned within
- * itself, has trees of one moment, the first at which both exist: at any other time the surfaces
- * are as far apart, but for the list's slip. What is proved of the list at a distance of c holds at
- * c - slip. */
+ * If each surface of a pair turns only within itself, or by a symmetry of the other, the pair has
+ * trees of one moment, the first at which both exist: at any other time the distance of the
+ * surfaces differs by at most the list's slip. A distance of c proved for the list is one of c -
+ * slip for the surfaces. */
 
-enum { CANDIDATES_AT_HAND = 3 }; /* that need no memory of their own */
+enum { CANDIDATES_AT_HAND = 3 }; /* stored in the list itself */
 
 typedef struct candidate_list {
     candidate *candidates; /* in the order of the scene */
@@ -29,11 +29,11 @@ typedef struct candidate_list {
     bool owns_trees; /* else they are the scene's */
 } candidate_list;    /* begins as {0}, and stays where it is once filled; candidates_clear frees */
 
-/* How the caller limits the work. is_reached is asked after every few surfaces and boxes, with the
- * bytes that the list and the new trees hold: whether a limit of the query is reached. is_near is
- * asked in between, and by threads that look ahead, with the bytes and pairs made since then:
- * whether a limit is so near that is_reached has to be asked, or that the threads should stop.
- * [is_near: any thread] */
+/* The caller's limits. is_reached is called after every few surfaces and boxes, with the bytes that
+ * the list and the new trees hold, and returns whether a limit of the query is reached. is_near is
+ * called in between, and by threads that work ahead, with the bytes and pairs made since then; it
+ * returns whether a limit is so near that is_reached has to be called, or that the threads should
+ * stop. [is_near: any thread] */
 typedef struct candidate_limit {
     bool (*is_reached)(void *context, uint64_t bytes, uint64_t pairs);
     bool (*is_near)(void *context, uint64_t bytes, uint64_t pairs);
@@ -41,16 +41,16 @@ typedef struct candidate_limit {
 } candidate_limit;
 
 /* Fills an empty list with the scene's trees; the nodes made for it are added to `stats`.
- * `may_rest`: pairs that turn within themselves may have trees of one moment; false if parts of the
- * times are asked for. If a limit ends it, the list is empty again and not complete; after that, or
- * a failure, it may be filled again. */
+ * `may_rest`: pairs that turn within themselves may have trees of one moment; false for a query of
+ * slices of time. If a limit ends it, the list is empty again and not complete; after that, or a
+ * failure, it may be filled again. */
 imp_code candidates_find(candidate_list *list, imp_scene *scene, const imp_options *options,
                          double gamma_clear, bool may_rest, const candidate_limit *limit,
                          imp_stats *stats, imp_error *error);
 
-/* Fills an empty list with `count` pairs of another from `first` on and trees of its own, one for
- * each side on which a surface is. `whole` is only read, also by other threads. Bytes are added to
- * `stats`. */
+/* Fills an empty list with `count` pairs of another from `first` on and with its own trees, one for
+ * each side on which a surface occurs. `whole` is only read, possibly by several threads. Bytes are
+ * added to `stats`. */
 imp_code candidates_part(candidate_list *list, const candidate_list *whole, size_t first,
                          size_t count, imp_stats *stats, imp_error *error);
 

@@ -10,23 +10,23 @@
 #include "core/broad_phase/collection.h"
 #include "core/common/array.h"
 
-/* Pairs in the frame that both surfaces move in, and at rest where they only turn within themselves
- * =============================================
+/* Pairs in the frame that both surfaces move in, and pairs searched at one moment
+ * ===============================================================================
  * Lemma. Let both surfaces of a pair end with the same maps, each of which is x -> R(t) x + c(t)
- * with an exact rotation R(t). At each time such a map changes the distance of no two points, so
- * two points are as far apart before these maps as after them. All that is proved of the surfaces
- * without these maps (a time before which nothing is near, a gap, a minimum distance) holds for the
- * surfaces under all of their maps, with the same u, v and t. Times at which one of these maps does
- * not exist are in no tree: a tree has the times of the whole surface.
+ * with an exact rotation R(t). At each time such a map preserves the distance of any two points. So
+ * everything proved for the surfaces without these maps (a time before which nothing is near, a
+ * gap, a minimum distance) holds for the surfaces under all of their maps, with the same u, v and
+ * t. Times at which one of these maps does not exist are in no tree: a tree has the times of the
+ * whole surface.
  *
- * Parts that a moving body carries are then at rest, and cost as little as bodies at rest. Which
- * maps are the same is seen by their instances: a parent's are shared, and the reader shares equal
+ * Parts that a moving body carries are then at rest, and cost as little as bodies at rest. Two maps
+ * are the same if they are one instance: a parent's maps are shared, and the reader shares equal
  * maps.
  *
  * Lemma. Let the distance of two surfaces at any time differ by at most s from what it is at a
  * moment (surface_pair_slip). If it is above c + s at the moment, it is above c at all times; a
- * contact at the moment, the first of both, is the earliest. So such a pair has trees of that
- * moment alone. */
+ * contact at the moment, the first at which both exist, is the earliest. So such a pair has trees
+ * of that moment alone. */
 
 /* A surface in one frame: candidate `of` in the form `view`. */
 typedef struct frame {
@@ -60,15 +60,15 @@ size_t collection_common_motion(const imp_scene *scene)
     return common;
 }
 
-/* --- What a pair needs ------------------------------------------------------------------------ */
+/* --- Which pairs need frames ------------------------------------------------------------------ */
 
 static size_t motion_of(const candidate_pair *p)
 {
     return surface_common_motion(tree_surface(p->side[0]->tree), tree_surface(p->side[1]->tree));
 }
 
-/* Whether both may move only within themselves: all maps are rigid, one surface moves at least, and
- * one of them has a symmetry. */
+/* Whether the pair may turn only within itself: all maps are rigid, at least one surface moves, and
+ * one has a symmetry. */
 static bool may_turn_within(const collection *all, const candidate_pair *p)
 {
     if (all->slip_most < 0) return false;
@@ -99,7 +99,8 @@ static bool are_equal(const surface_view *x, const surface_view *y)
            (x->moment == y->moment || (isnan(x->moment) && isnan(y->moment)));
 }
 
-/* Finds the candidate's frame, made now unless it is there. *found NONE: a limit came first. */
+/* Returns the candidate's frame, made now unless it exists. *found NONE: a limit was reached
+ * first. */
 static imp_code find_frame(collection *all, frame_list *frames, const candidate *c,
                            const surface_view *view, size_t *found, imp_error *error)
 {
@@ -122,8 +123,8 @@ static imp_code find_frame(collection *all, frame_list *frames, const candidate 
 }
 
 /* Bounds in *slip how much the distance of the pair of these frames changes with time. */
-static imp_code ask_slip(collection *all, candidate *const side[2], time_window *times,
-                         double *slip, imp_error *error)
+static imp_code find_slip(collection *all, candidate *const side[2], time_window *times,
+                          double *slip, imp_error *error)
 {
     imp_model bare[2][3];
     const surface *s[2];
@@ -160,7 +161,7 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, imp_err
     candidate *const side[2] = {&frames->at[of_pair[0]].made, &frames->at[of_pair[1]].made};
     time_window times;
     double slip;
-    imp_code code = ask_slip(all, side, &times, &slip, error);
+    imp_code code = find_slip(all, side, &times, &slip, error);
     if (code != IMP_SUCCESS || !(slip <= all->slip_most)) return code;
     for (int j = 0; j < 2 && code == IMP_SUCCESS; ++j) {
         surface_view view = frames->at[of_pair[j]].view;
@@ -172,7 +173,7 @@ static imp_code rest_pair(collection *all, frame_list *frames, size_t k, imp_err
     return code;
 }
 
-enum { PAIRS_AN_ASK = 64 }; /* pairs between looks at the limits: some milliseconds */
+enum { PAIRS_PER_CHECK = 64 }; /* pairs between checks of the limits: some milliseconds */
 
 static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp_error *error)
 {
@@ -182,7 +183,7 @@ static imp_code find_frames(collection *all, frame_list *frames, bool *done, imp
         const candidate_pair *p = &list->pairs[k];
         const size_t motion = motion_of(p);
         imp_code code = IMP_SUCCESS;
-        *done = k % PAIRS_AN_ASK != PAIRS_AN_ASK - 1 || !collection_must_end(all);
+        *done = k % PAIRS_PER_CHECK != PAIRS_PER_CHECK - 1 || !collection_must_end(all);
         for (int side = 0; side < 2 && *done && code == IMP_SUCCESS; ++side) {
             const candidate *c = p->side[side];
             const surface_view view = {c->body, c->surface, c->left_out + motion, NAN};

@@ -10,8 +10,8 @@
 
 /* --- Pairs ------------------------------------------------------------------------------------ */
 
-/* Makes the candidate pair of two surfaces that come near each other, the smaller body first.
- * False: they are not to be tested. */
+/* Makes the candidate pair of two surfaces, the body of smaller index first. False: they are not
+ * tested: one body, or bodies that ignore each other. */
 static bool make_pair(const collection *all, size_t first, size_t second, candidate_pair *p)
 {
     candidate *candidates = all->list->candidates;
@@ -21,7 +21,7 @@ static bool make_pair(const collection *all, size_t first, size_t second, candid
            !scene_ignores(all->scene, candidates[a].body, candidates[b].body);
 }
 
-/* False: no memory. */
+/* Appends the pair to the list. False: no memory. */
 static bool keep_pair(collection *all, const candidate_pair *p)
 {
     candidate_list *list = all->list;
@@ -78,8 +78,8 @@ static void sweep_boxes(void *of, size_t index)
     task.to->complete = true;
 }
 
-/* Adds the pairs of one task's boxes: those found ahead, if all of them were. False: a limit, or no
- * memory. */
+/* Adds the pairs of one task's boxes: those found ahead if all were found, else finds them now.
+ * False: a limit, or no memory. */
 static bool take_boxes(collection *all, const sweep_ahead *found, size_t first)
 {
     const broad_phase_visitor visitor = {NULL, add_pair, all};
@@ -93,7 +93,7 @@ static bool take_boxes(collection *all, const sweep_ahead *found, size_t first)
     return go_on;
 }
 
-/* Frees the pairs that were found ahead. */
+/* Adds the pairs of one round, and frees those found ahead. False: a limit, or no memory. */
 static bool take_round(collection *all)
 {
     bool go_on = true;
@@ -123,7 +123,7 @@ static bool sweep_by_threads(collection *all)
 static bool go_on(void *context)
 {
     collection *all = context;
-    const bool many = all->boxes_swept++ % BOXES_AN_ASK == 0;
+    const bool many = all->boxes_swept++ % BOXES_PER_CHECK == 0;
     if (!many && !all->limit->is_near(all->limit->context, candidates_bytes(all->list), 0))
         return true;
     return !collection_must_end(all);
@@ -135,7 +135,7 @@ bool collection_add_pairs(collection *all)
     const bool done = all->sweep != NULL ? sweep_by_threads(all)
                                          : broad_phase_visit(all->boxes, all->list->count,
                                                              all->gamma_clear, &visitor);
-    return done && !collection_must_end(all); /* notes what the last pairs take */
+    return done && !collection_must_end(all); /* counts the bytes of the last pairs */
 }
 
 /* --- Pairs of solid bodies -------------------------------------------------------------------- */

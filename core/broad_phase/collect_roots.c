@@ -47,7 +47,7 @@ static void make_some(void *of, size_t task)
     }
 }
 
-static void look_ahead(collection *all)
+static void work_ahead(collection *all)
 {
     const size_t rest = all->root_count - all->first_root;
     const size_t some = rest < SURFACES_A_ROUND ? rest : SURFACES_A_ROUND;
@@ -55,7 +55,8 @@ static void look_ahead(collection *all)
     parallel_run(all->options, make_some, all, (some + SURFACES_A_TASK - 1) / SURFACES_A_TASK);
 }
 
-/* A root made ahead counts in its turn, or at the end. */
+/* Makes or takes all roots in their order. A root made ahead is counted in its turn, or at the
+ * end. */
 static imp_code take_roots(collection *all, bool *done, imp_error *error)
 {
     const bool ahead = parallel_is_on(all->options);
@@ -64,7 +65,7 @@ static imp_code take_roots(collection *all, bool *done, imp_error *error)
         root_ahead *r = &all->roots[k];
         if (*done && code == IMP_SUCCESS && ahead && k % SURFACES_A_ROUND == 0) {
             all->first_root = k;
-            look_ahead(all);
+            work_ahead(all);
         }
         *done = *done && !collection_must_end(all);
         if (*done && code == IMP_SUCCESS) code = tree_make_root(r->tree, &r->growth, error);

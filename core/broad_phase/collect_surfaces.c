@@ -18,7 +18,7 @@ static tree_kind kind_of(const imp_options *options)
                                                                   : TREE_RATES_FULL;
 }
 
-/* False: the surface exists at none of the query's times. */
+/* Fills the plan of a tree. False: the surface exists at none of the query's times. */
 static bool plan_of(const collection *all, const surface_view *view, tree_plan *plan)
 {
     const imp_options *options = all->options;
@@ -52,8 +52,8 @@ static void make_trees(void *of, size_t task)
     }
 }
 
-/* From this surface on. */
-static void look_ahead(collection *all, size_t body, size_t index)
+/* Lets threads make the trees of the next surfaces, from this one on. */
+static void work_ahead(collection *all, size_t body, size_t index)
 {
     const size_t bodies = scene_body_count(all->scene);
     all->used = all->ahead = 0;
@@ -99,7 +99,7 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
 {
     bool exists;
     if (all->surfaces != NULL) {
-        if (all->used == all->ahead) look_ahead(all, body, index);
+        if (all->used == all->ahead) work_ahead(all, body, index);
         collection_count(all, &all->surfaces[all->used++].growth);
     }
     const size_t k = all->list->count;
@@ -115,15 +115,16 @@ static imp_code collect_surface(collection *all, size_t body, size_t index, imp_
     return IMP_SUCCESS;
 }
 
-/* Whether a limit ends it before this surface. Checked where a limit is near, and after a few
- * surfaces or a large one; only what has had its turn counts, so that threads change no answer. */
+/* Whether a limit ends the collection before this surface. Limits are checked if one is near, and
+ * after a few surfaces or a large one; only surfaces that had their turn count, so that threads
+ * change no result. */
 static bool must_end_here(collection *all)
 {
-    const uint64_t made = all->stats->bytes - all->bytes_asked;
+    const uint64_t made = all->stats->bytes - all->bytes_checked;
     const size_t count = all->list->count;
-    const bool many = (count > 0 && count % SURFACES_AN_ASK == 0) || made >= BYTES_AN_ASK;
+    const bool many = (count > 0 && count % SURFACES_PER_CHECK == 0) || made >= BYTES_PER_CHECK;
     if (!many && !all->limit->is_near(all->limit->context, made, 0)) return false;
-    all->bytes_asked = all->stats->bytes;
+    all->bytes_checked = all->stats->bytes;
     return collection_must_end(all);
 }
 

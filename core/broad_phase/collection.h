@@ -9,11 +9,11 @@
 #include "core/broad_phase/candidates.h"
 #include "core/broad_phase/parallel.h"
 
-/* What the files of the list of candidates share: candidates.c begins and sorts it,
- * collect_surfaces.c, collect_pairs.c and collect_roots.c fill it, each also with threads that look
- * ahead. */
+/* Declarations shared by the files that make the list of candidates: candidates.c begins and sorts
+ * it; collect_surfaces.c, collect_pairs.c and collect_roots.c fill it, each possibly with threads
+ * that work ahead. */
 
-/* A surface whose tree is made ahead of its turn, and what making it has added. */
+/* A surface whose tree is made ahead of its turn, and the memory that this added. */
 typedef struct surface_ahead {
     size_t body, surface;
     tree_growth growth;
@@ -39,14 +39,13 @@ enum {
     SURFACES_A_ROUND = SURFACES_A_TASK * TASKS_A_ROUND
 };
 
-/* A limit that is not near is checked after so many surfaces, or so much memory, and so many
- * boxes. */
-enum { SURFACES_AN_ASK = 8, BYTES_AN_ASK = 1 << 15, BOXES_AN_ASK = 32 };
+/* While no limit is near, limits are checked after this many surfaces, bytes and boxes. */
+enum { SURFACES_PER_CHECK = 8, BYTES_PER_CHECK = 1 << 15, BOXES_PER_CHECK = 32 };
 
-enum { BOXES_AT_HAND = 4 }; /* so few boxes need no memory of their own */
+enum { BOXES_AT_HAND = 4 }; /* boxes stored in the collection itself */
 
-/* With more surfaces a root is made only once its surface is in a pair, though what it is made
- * from is then computed again: most surfaces of large scenes are in none. */
+/* With more surfaces, a root is made only once its surface is in a pair, although its inclusion is
+ * then computed twice: most surfaces of large scenes are in no pair. */
 enum { ROOTS_AT_ONCE = 512 };
 
 typedef struct collection {
@@ -55,18 +54,18 @@ typedef struct collection {
     const candidate_limit *limit;
     imp_stats *stats;
     double gamma_clear;
-    size_t common_motion; /* last maps of all surfaces that no tree has */
-    double slip_most;     /* of pairs that are taken to be at rest; < 0: none are; length */
+    size_t common_motion; /* number of last maps of all surfaces that all trees leave out */
+    double slip_most;     /* of pairs searched at one moment; < 0: none are; length */
     swept_box *boxes, at_hand[BOXES_AT_HAND];
     candidate_list *list;
-    uint64_t bytes_asked; /* stats->bytes when limits were last checked */
+    uint64_t bytes_checked; /* stats->bytes when limits were last checked */
     size_t boxes_swept;
     bool out_of_memory;
-    bool with_roots; /* all trees are made with them */
+    bool with_roots; /* all trees are made with roots */
     bool any_lacks_root;
-    root_ahead *roots; /* those that are missing */
+    root_ahead *roots; /* the missing roots */
     size_t first_root, root_count;
-    /* by threads that look ahead: */
+    /* filled by threads that work ahead: */
     surface_ahead *surfaces; /* the first `used` of `ahead` have had their turn; NULL: no threads */
     size_t used, ahead;
     sweep_ahead *sweep; /* TASKS_A_ROUND of them; NULL: no threads */
@@ -75,9 +74,9 @@ typedef struct collection {
     atomic_uint_least64_t bytes_ahead;
 } collection;
 
-/* collection_must_end tells whether a limit ends the collection now; collection_may_end, whether a
- * limit is so near that threads that look ahead stop, with bytes_ahead of trees (pair_size 0) or of
- * pairs of this size. [collection_may_end: any thread] */
+/* collection_must_end returns whether a limit ends the collection now; collection_may_end, whether
+ * a limit is so near that threads that work ahead stop, with bytes_ahead of trees (pair_size 0) or
+ * of pairs of this size. [collection_may_end: any thread] */
 static inline bool collection_must_end(const collection *all)
 {
     return all->limit->is_reached(all->limit->context, candidates_bytes(all->list),
@@ -96,14 +95,13 @@ static inline void collection_count(collection *all, const tree_growth *growth)
     all->stats->bytes += growth->bytes;
 }
 
-/* *done: all surfaces are there; otherwise a limit came first. */
+/* Adds all surfaces. *done false: a limit was reached first. */
 imp_code collection_add_surfaces(collection *all, bool *done, imp_error *error);
 
-/* Counts the trees that were made but whose turn does not come: they belong to the scene all the
- * same. */
+/* Counts the trees that were made ahead but not used: the scene keeps them. */
 void collection_count_rest(collection *all);
 
-/* False: a limit, or no memory, which all->out_of_memory tells. */
+/* Adds all pairs. False: no memory (all->out_of_memory), or a limit was reached first. */
 bool collection_add_pairs(collection *all);
 
 /* Adds a pair of surfaces for each solid body and each body whose boxes have a point in common with
@@ -114,23 +112,23 @@ imp_code collection_add_solids(collection *all, bool *done, imp_error *error);
 /* Counts the last maps that all surfaces have in common, as surface_common_motion does for two. */
 size_t collection_common_motion(const imp_scene *scene);
 
-/* Gives the surfaces of each pair trees without the motion that both have in common; *done as
- * above. */
+/* Gives the surfaces of each pair trees without the motion that both have in common. *done false: a
+ * limit was reached first. */
 imp_code collection_use_frames(collection *all, bool *done, imp_error *error);
 
-/* The form in which a tree is to hold a surface. */
+/* The maps and times for which a tree represents a surface. */
 typedef struct surface_view {
     size_t body, surface;
-    size_t left_out; /* maps, counted from the last */
-    double moment;   /* the only one, or NAN: all of the query's times */
+    size_t left_out; /* number of last maps left out */
+    double moment;   /* the only time, or NAN: all of the query's times */
 } surface_view;
 
-/* Makes such a tree. *exists false: the surface exists at none of
- * the query's times, and *made stays as it is. */
+/* Makes a tree of this view. *exists false: the surface exists at none of the query's times, and
+ * *made is unchanged. */
 imp_code collection_make_tree(collection *all, const surface_view *view, candidate *made,
                               bool *exists, imp_error *error);
 
-/* Makes the roots that surfaces of pairs lack; *done as above. */
+/* Makes the missing roots of surfaces in pairs. *done false: a limit was reached first. */
 imp_code collection_make_roots(collection *all, bool *done, imp_error *error);
 
 #endif

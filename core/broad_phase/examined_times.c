@@ -13,8 +13,8 @@ typedef struct examination {
     span asked;
     examined_times *found;
     imp_error *error;
-    bool all_exist;   /* at all times asked about, and defined */
-    bool all_defined; /* whatever is asked about, no surface leaves its place open */
+    bool all_exist;   /* all surfaces exist and are defined at all of the query's times */
+    bool all_defined; /* no surface is undefined at any of the query's times */
 } examination;
 
 static span existence(const surface *s, span within)

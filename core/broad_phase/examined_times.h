@@ -6,20 +6,20 @@
 #include "core/scene/scene.h"
 
 /* The times that a query examines
- * ==============================
- * Two surfaces are compared at the times at which both exist. Outside of their times surfaces of
- * some types do not exist (IMP_FLAG_ABSENT_OUTSIDE_TIMES), and touch nothing. Any other type or map
- * leaves open where its surface is outside of its times: nothing can be proved about those, so a
- * query that needs them is refused. */
+ * ===============================
+ * Two surfaces are compared at the times at which both exist. Surfaces of some types do not exist
+ * outside of their times (IMP_FLAG_ABSENT_OUTSIDE_TIMES), and touch nothing then. Other types and
+ * maps are undefined outside of their times: nothing can be proved there, so a query that needs
+ * such times is an error. */
 
 typedef struct examined_times {
     bool any_pair; /* two surfaces are to be tested with each other */
-    double lo, hi; /* from the first to the last time at which two such exist together; lo > hi:
-                      never within the query's times */
+    double lo, hi; /* first and last time at which such a pair exists; lo > hi: none */
 } examined_times;
 
-/* Finds the times that a query from t_start to t_end examines. IMP_ERROR_SCENE names the body, the
- * type or map, and its times, where it needs times that these do not cover. */
+/* Finds the times that a query from t_start to t_end examines. IMP_ERROR_SCENE: the query needs
+ * times at which a type or map is undefined; the message names the body, the type or map, and its
+ * times. */
 imp_code examined_times_find(const imp_scene *scene, double t_start, double t_end,
                              examined_times *found, imp_error *error);
 

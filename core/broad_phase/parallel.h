@@ -7,10 +7,10 @@
 
 /* Threads that a program lends to a query (imp_options.parallel)
  * =============================================================
- * They look ahead: what the search will need next is prepared in slots of fixed places, and used in
- * its turn by the one thread that steps the query. A slot that was not prepared, because a limit is
- * reached or something failed, is made in its turn, as all are where there are no threads: so
- * limits, errors and counts are those of one thread. */
+ * They work ahead: they fill fixed slots with results that the search will need next, and the
+ * thread that steps the query uses each in its turn. A slot that was not filled, because a limit
+ * was near or something failed, is filled in its turn, as all slots are without threads: so limits,
+ * errors and counts are those of one thread. */
 
 static inline bool parallel_is_on(const imp_options *options) { return options->parallel != NULL; }
 

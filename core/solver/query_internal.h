@@ -31,8 +31,7 @@ struct imp_query {
     imp_reason reason;
     atomic_bool cancelled;
     candidate_list candidates;
-    clearance_search
-        *clearance; /* NULL: the query is for the earliest contact, and uses what follows */
+    clearance_search *clearance; /* NULL: the earliest contact is sought, as follows */
     impact impact;
     size_t candidates_tested; /* how many candidate pairs have been tested */
     patch_watch watch;        /* ends what is asked about solid bodies when a limit comes */
