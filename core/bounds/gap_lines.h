@@ -6,7 +6,7 @@
 #include "core/bounds/difference.h"
 
 /* Lower bounds of the distance of two nodes over a window
- * ==========================================
+ * =======================================================
  * Each separating axis proves a lower bound of the distance that is linear in w (fixed_axes.h,
  * normal_field.h). At every w the greatest of these lines holds: their upper envelope is convex,
  * and its least value over a range of w bounds the distance over that range. */

@@ -8,7 +8,7 @@
 #include <impinge/quad.h>
 
 /* The minimum of a quadratic over a square
- * =======================================
+ * ========================================
  * p(s, r) = bs s + br r + qss s^2 + qsr s r + qrr r^2 for s, r in [-1, 1], one p in each lane.
  * In what follows u is UNIT_ROUNDOFF and S the sum of |coefficients| of p, so |p| <= S. */
 

@@ -6,7 +6,7 @@
 #include "core/scene/scene.h"
 
 /* Threads that a program lends to a query (imp_options.parallel)
- * =============================================================
+ * ==============================================================
  * They work ahead: they fill fixed slots with results that the search will need next, and the
  * thread that steps the query uses each in its turn. A slot that was not filled, because a limit
  * was near or something failed, is filled in its turn, as all slots are without threads: so limits,

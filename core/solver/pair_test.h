@@ -6,7 +6,7 @@
 #include "core/solver/impact.h"
 
 /* Whether a pair's nodes may be within gamma_clear
- * ==================================================
+ * ================================================
  * The first test of a pair is cheap and may leave too much of its window. It is completed when the
  * pair is popped, since a third of the pairs pushed is never popped. Pairs of roots are tested at
  * the beginning, possibly ahead of their turn by several threads: such a test depends only on its

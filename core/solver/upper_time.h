@@ -7,7 +7,7 @@
 #include "core/witness/witness.h"
 
 /* A contact that is found before it is proved to be the first
- * =========================================================
+ * ===========================================================
  * The nearest points of a pair's surfaces, followed in time, may touch: the first contact is no
  * later than that. Such an upper time ends the windows of the pairs that are expanded, a little
  * after it; the later parts of these windows stay on the heap. When the search reaches the upper

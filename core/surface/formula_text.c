@@ -16,14 +16,14 @@
 
 /* --- A text that grows ------------------------------------------------------------------------ */
 
-/* A callback that prints without end is ended by memory at the latest here. */
+/* A callback may print at most this many bytes. */
 #define TEXT_MAX ((size_t)1 << 30)
 
 typedef struct text_buffer {
     char *at;
     size_t length, capacity;
     bool is_full;  /* no memory */
-    bool is_wrong; /* something else than printable characters and line ends was added */
+    bool is_wrong; /* a character was added that is neither printable nor a line end */
 } text_buffer;
 
 static void add(const imp_text_sink *sink, const char *text, size_t size)
@@ -53,8 +53,8 @@ static imp_text_sink sink_of(text_buffer *b)
 
 static bool is_of_word(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-/* Whether the part, of so many characters, uses the name and does not define it: a definition
- * stands before all uses. Digits and letters that begin with a digit or a point are a number. */
+/* Whether the part, of `length` characters, uses the name and does not define it: a definition
+ * precedes all uses. A word that begins with a digit or a point is a number. */
 static bool uses(const char *part, size_t length, const char *name, size_t name_length)
 {
     for (size_t k = 0; k < length;) {
@@ -107,9 +107,9 @@ static void bind(text_buffer *out, const fixed_numbers *numbers, const char *tex
     }
 }
 
-/* --- Asking ----------------------------------------------------------------------------------- */
+/* --- Callbacks -------------------------------------------------------------------------------- */
 
-/* The two members of the type, where it has them. */
+/* The two members of the type, or NULL. */
 typedef struct statement {
     const char *type, *formula;
     imp_status (*write_formula)(const void *self, const imp_text_sink *to);
@@ -127,8 +127,8 @@ static statement statement_of(const shared_instance *origin)
     return (statement)STATEMENT_OF(origin->map);
 }
 
-/* What the type says of the instance, or of its piece. */
-static imp_status said(const shared_instance *origin, const void *self, text_buffer *raw)
+/* Appends the formula of the instance, or of its piece, as the type gives it. */
+static imp_status add_formula(const shared_instance *origin, const void *self, text_buffer *raw)
 {
     const imp_text_sink to = sink_of(raw);
     const statement from = statement_of(origin);
@@ -146,7 +146,7 @@ imp_status surface_formula(const surface *s, size_t k, char **text)
     const shared_instance *origin = surface_origin(s, k);
     text_buffer raw = {.at = NULL}, closed = raw;
     *text = NULL;
-    imp_status status = said(origin, k == 0 ? s->self : origin->self, &raw);
+    imp_status status = add_formula(origin, k == 0 ? s->self : origin->self, &raw);
     if (status == IMP_STATUS_OK && (raw.is_wrong || raw.length == 0)) status = SURFACE_BAD_FORMULA;
     if (status == IMP_STATUS_OK && !raw.is_full) bind(&closed, &origin->numbers, raw.at);
     if (status == IMP_STATUS_OK && (raw.is_full || closed.is_full)) status = IMP_STATUS_INTERNAL;

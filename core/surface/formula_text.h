@@ -7,13 +7,13 @@
 
 /* The formula of an instance, closed
  * ==================================
- * What a type says of an instance (imp_surface_type.formula, write_formula), with the numbers that
- * it names bound: each part begins with definitions of the parameters that it uses. The language is
- * not read here, but for names. */
+ * The formula that a type prints for an instance (imp_surface_type.formula, write_formula), with
+ * its parameters bound: each part begins with definitions of the parameters that it uses. Only
+ * names are parsed here. */
 
-/* Tells the formula of what the surface is composed of, by k as in surface_origin; for a piece, its
- * own. *text becomes NULL where there is none; the caller frees it by free(). IMP_STATUS_INTERNAL:
- * no memory, or the callback says so; another status is a breach, told by surface_status_told. */
+/* Returns in *text the formula of instance k of the surface (surface_origin); for a piece, its own.
+ * It is NULL if there is none; the caller frees it by free(). IMP_STATUS_INTERNAL: no memory, or
+ * the callback returned it; another status is a breach of the ABI (surface_status_told). */
 imp_status surface_formula(const surface *s, size_t k, char **text);
 
 #endif

@@ -22,7 +22,7 @@ static void destroy(const char *type, void (*destroy_it)(void *), void *self)
     surface_call_end(call, IMP_STATUS_OK);
 }
 
-/* Asks for a domain, once for each instance. One that is not finite in u and v, inverted or NaN
+/* Gets a domain, once for each instance. A domain that is infinite in u or v, inverted or NaN
  * breaks the ABI. */
 imp_status instance_domain(const imp_surface_type *type, const void *self, double lo[3],
                            double hi[3])
@@ -36,7 +36,7 @@ imp_status instance_domain(const imp_surface_type *type, const void *self, doubl
     return status == IMP_STATUS_OK && !good ? SURFACE_BAD_DOMAIN : status;
 }
 
-/* One piece, and whether it keeps the rules; p->lo and p->hi are those of the first. */
+/* Takes piece k and checks it; p->lo and p->hi are those of the first piece. */
 static imp_status take_piece(shared_instance *p, size_t k)
 {
     double lo[3], hi[3];
@@ -54,7 +54,7 @@ static imp_status take_piece(shared_instance *p, size_t k)
                                                                                : status;
 }
 
-/* False: no memory. */
+/* Takes all pieces. False: no memory. */
 static bool take_pieces(shared_instance *p)
 {
     const surface_call call = surface_call_begin(p->surface->name, "piece_count");
@@ -69,7 +69,7 @@ static bool take_pieces(shared_instance *p)
     }
     for (size_t k = 0; k < p->piece_count && p->breach == IMP_STATUS_OK; ++k)
         p->breach = take_piece(p, k);
-    if (p->piece_count == 1 && p->pieces[0] == p->self) { /* its own only piece: one surface */
+    if (p->piece_count == 1 && p->pieces[0] == p->self) { /* it is its only piece: one surface */
         free(p->pieces);
         p->pieces = NULL;
         p->piece_count = 0;

@@ -8,13 +8,14 @@
 /* Instances of types, shared
  * ==========================
  * An instance is what one call of a type's create made: a surface without maps, or a map. Surfaces
- * are composed of instances; one may be in many of them, and is destroyed with its last holder.
- * Immutable once it is in use, but for the count of holders, which belongs to one thread. */
+ * are composed of instances; one instance may be in many surfaces, and is destroyed with its last
+ * holder. It is immutable once in use, except for the reference count, which belongs to one
+ * thread. */
 
 enum { INSTANCE_LABEL_MAX = 240 };
 
-/* The numbers among the values that it was made from, for a formula that names parameters: those
- * of rows with a fixed shape, in the table's order, NaN where absent. */
+/* The numbers that an instance was made from, for a formula that names parameters: those of rows
+ * with a fixed shape, in the table's order, NaN where absent. */
 typedef struct fixed_numbers {
     const imp_parameter *rows; /* the type's table */
     size_t row_count, stride;  /* 0 rows: the type has no formula */
@@ -27,28 +28,26 @@ typedef struct shared_instance {
     const imp_map_type *map;         /* NULL: it is a surface */
     void *self;
     size_t holders;
-    double lo[3], hi[3]; /* a surface's domain; of a map, the times alone: [2] */
-    double span[2];      /* times it is made for; -INFINITY, INFINITY: none before others */
-    const void **pieces; /* instances that `self` owns, in place of it; NULL: it is one surface */
-    size_t piece_count;  /* 0: it is one surface */
-    imp_status breach; /* IMP_STATUS_OK, or for surface_status_text: how the domain breaks the ABI;
-                                   then the instance may only be released */
-    size_t
-        given;   /* bytes of the values and files it was made from: about what the instance keeps */
+    double lo[3], hi[3]; /* a surface's domain; of a map only the times, [2] */
+    double span[2];      /* times it is made for; -INFINITY, INFINITY: not stated */
+    const void **pieces; /* instances that `self` owns and that replace it; NULL: one surface */
+    size_t piece_count;  /* 0: one surface */
+    imp_status breach;   /* other than IMP_STATUS_OK: its domain breaks the ABI, only release it */
+    size_t given;        /* bytes of the values and files it was made from, about what it keeps */
     char *label; /* as on a command line, shortened: "sphere radius=2"; NULL: its type's name */
-    size_t label_size;     /* bytes of it, its end included */
-    uint64_t note_count;   /* things that create left out or read otherwise; 0: no note */
-    char *note;            /* which ones, with the parameter's name; NULL: none */
+    size_t label_size;     /* bytes, including the final NUL */
+    uint64_t note_count;   /* number of items that create left out or reinterpreted; 0: no note */
+    char *note;            /* the items, with the parameter's name; NULL: none */
     fixed_numbers numbers; /* for its formula */
 } shared_instance;
 
-/* Takes over the instance `self` and asks for its domain, or for those of its pieces, which have
- * the same times; `lo` and `hi` are then the first piece's. The caller holds the result. NULL: no
+/* Take ownership of the instance `self` and get its domain, or those of its pieces, which have the
+ * same times; `lo` and `hi` are then the first piece's. The caller holds the result. NULL: no
  * memory, and the instance is destroyed. */
 shared_instance *instance_of_surface(const imp_surface_type *type, void *self);
 shared_instance *instance_of_map(const imp_map_type *type, void *self);
 
-/* Asks for the domain of an instance. Returns IMP_STATUS_OK, or how the domain breaks the ABI. */
+/* Gets the domain of an instance. Returns IMP_STATUS_OK, or how the domain breaks the ABI. */
 imp_status instance_domain(const imp_surface_type *type, const void *self, double lo[3],
                            double hi[3]);
 
@@ -59,20 +58,20 @@ void instance_label_add(char label[INSTANCE_LABEL_MAX], const char *text);
 bool instance_set_label(shared_instance *p, const char label[INSTANCE_LABEL_MAX]);
 const char *instance_label(const shared_instance *p);
 
-/* Copies a note of create, once: `count` things, told by the text. False: no memory. */
+/* Copies a note of create, once: `count` items, described by the text. False: no memory. */
 bool instance_set_note(shared_instance *p, uint64_t count, const char *text);
 
-/* Numbers of a row: 0 if its shape is not fixed, or it has no numbers. */
+/* Returns how many numbers a row has: 0 if its shape is not fixed, or it has none. */
 size_t fixed_numbers_of_row(const imp_parameter *row);
 
 const imp_parameter *fixed_numbers_row(const fixed_numbers *numbers, size_t k);
 
-/* Copies them from the values, one for each row. False: no memory. */
+/* Copies the numbers from the values, one value for each row. False: no memory. */
 bool fixed_numbers_copy(fixed_numbers *to, const imp_parameter *rows, size_t row_count,
                         size_t stride, const imp_value *values);
 
-/* Estimates the bytes that it and what create made hold, with what the allocator adds to each
- * block. */
+/* Estimates the bytes of the instance and of what create made, including the allocator's overhead
+ * per block. */
 enum {
     INSTANCE_BLOCK = 16, /* bytes */
     INSTANCE_PIECE = 96  /* bytes that a type keeps of one piece, as mesh does in growing arrays */
@@ -80,9 +79,9 @@ enum {
 size_t instance_bytes(const shared_instance *p);
 
 shared_instance *instance_hold(shared_instance *p);
-void instance_release(shared_instance *p); /* NULL is no shared_instance */
+void instance_release(shared_instance *p); /* p may be NULL */
 
-/* A list of instances in order. It holds an instance once for each place where it stands. */
+/* A list of instances in order. It holds each instance once per occurrence. */
 typedef struct instance_list {
     shared_instance **at;
     size_t count, capacity;

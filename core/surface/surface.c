@@ -95,7 +95,7 @@ imp_code surface_divide(surface *s)
         piece->piece_count = 0;
         piece->self = origin->pieces[k];
         if (instance_domain(s->type, piece->self, lo, hi) != IMP_STATUS_OK)
-            continue; /* good when it was made */
+            continue; /* checked when it was made */
         memcpy(piece->lo, lo, 2 * sizeof *lo);
         memcpy(piece->hi, hi, 2 * sizeof *hi);
     }
@@ -148,7 +148,7 @@ void surface_set_body(surface *s, const char *body, size_t index)
     for (size_t k = 0; k < s->piece_count; ++k) surface_set_body(&s->pieces[k], body, index);
 }
 
-/* Names the type and all maps, those that an inner surface leaves out included. */
+/* Names the type and all maps, including those that an inner surface leaves out. */
 static void label_of(const surface *s, char label[INSTANCE_LABEL_MAX])
 {
     const surface *whole = s->outer != NULL ? s->outer : s;
@@ -279,7 +279,7 @@ const char *surface_status_text(imp_status status)
     }
 }
 
-/* Whether the text of the status leaves open which callback gave it. */
+/* Whether the text of the status does not say which callback returned it. */
 static bool is_of_any_callback(imp_status status)
 {
     return status == SURFACE_CRASHED || status == SURFACE_HUNG || status == SURFACE_CHANGED_MODE;

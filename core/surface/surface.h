@@ -25,10 +25,10 @@ surface *surface_new_inner(const surface *s, size_t maps);
 void surface_free(surface *s);
 
 /* Makes a surface of each piece, under the same maps, if the type's instance consists of pieces. No
- * map may be added after that. Questions about the whole are then answered for the first piece. */
+ * map may be added after that. Functions of the whole then apply to the first piece. */
 imp_code surface_divide(surface *s);
 
-/* 0: it is one surface. */
+/* Returns the number of pieces; 0: it is one surface. */
 size_t surface_piece_count(const surface *s);
 const surface *surface_piece(const surface *s, size_t k); /* k < surface_piece_count */
 
@@ -38,18 +38,18 @@ bool surface_is_whole(const surface *s, const imp_region *region);
 /* Returns the piece's number among the pieces of its surface; 0 if s is no piece. */
 size_t surface_piece_index(const surface *s);
 
-/* Estimates the bytes it holds: its pieces, and its share of what it has in common with other
+/* Estimates the bytes it holds: its pieces, and its share of the memory that it shares with other
  * surfaces. */
 size_t surface_bytes(const surface *s);
 
-/* Tells messages whose it is; the text must outlive the surface. */
+/* Sets the body and number that error messages name; the text must outlive the surface. */
 void surface_set_body(surface *s, const char *body, size_t index);
 
-/* Sets IMP_ERROR_PLUGIN and answers it: "body 'b', surface 0: type 'sphere radius=2' <format>". */
+/* Sets and returns IMP_ERROR_PLUGIN: "body 'b', surface 0: type 'sphere radius=2' <format>". */
 imp_code surface_fault(const surface *s, imp_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Tells the domain. Its times are those at which the type and all maps are defined: lo[2] > hi[2]
+/* Returns the domain. Its times are those at which the type and all maps are defined: lo[2] > hi[2]
  * if there are none. */
 void surface_domain(const surface *s, double lo[3], double hi[3]);
 
@@ -57,7 +57,7 @@ void surface_domain(const surface *s, double lo[3], double hi[3]);
 typedef struct surface_instance {
     const char *name;
     double lo, hi;
-    double span[2];   /* -INFINITY, INFINITY: none before others */
+    double span[2];   /* -INFINITY, INFINITY: not stated */
     bool absent;      /* at other times it does not exist (IMP_FLAG_ABSENT_OUTSIDE_TIMES) */
     bool has_order_2; /* include of a type; apply or rigid of a map */
 } surface_instance;
@@ -65,7 +65,7 @@ typedef struct surface_instance {
 /* Instance 0 is the type, instance k the map k - 1; false past the last. */
 bool surface_instance_at(const surface *s, size_t k, surface_instance *found);
 
-/* Tells the times at which the surface exists: those that no instance excludes
+/* Returns the times at which the surface exists: those that no instance excludes
  * (IMP_FLAG_ABSENT_OUTSIDE_TIMES). lo > hi: there are none. */
 void surface_existence(const surface *s, double *lo, double *hi);
 
@@ -73,9 +73,9 @@ void surface_existence(const surface *s, double *lo, double *hi);
  * is none. */
 bool surface_undefined_instance(const surface *s, double lo, double hi, surface_instance *found);
 
-/* Statuses beside those of the ABI: a callback left another floating-point mode behind, which was
- * put back; the process of an isolated instance ended, or was ended because it did not answer; what
- * a callback returned breaks the ABI. */
+/* Statuses in addition to those of the ABI: a callback changed the floating-point mode, which was
+ * restored; the process of an isolated instance ended, or was ended because it did not respond; a
+ * callback's result breaks the ABI. */
 #define SURFACE_CHANGED_MODE 1000
 #define SURFACE_CRASHED 1001
 #define SURFACE_HUNG 1002
@@ -96,21 +96,21 @@ bool surface_undefined_instance(const surface *s, double lo, double hi, surface_
 #define SURFACE_BAD_SPAN 1017
 #define SURFACE_BAD_FORMULA 1018
 
-/* The text for a status other than IMP_STATUS_OK, as the end of "type 'x' ...: ". */
+/* Returns the text for a status other than IMP_STATUS_OK, to follow "type 'x' ...: ". */
 const char *surface_status_text(imp_status status);
 
-/* The text for what a callback of this thread answered last. Where surface_status_text leaves open
- * which callback it was, the text ends with its name: "... (rate of 'twist')". Ask before any other
- * callback is called. */
+/* The text for the status that a callback of this thread returned last. If surface_status_text does
+ * not say which callback it was, the text ends with its name: "... (rate of 'twist')". Get it
+ * before any other callback is called. */
 typedef struct surface_told {
     char text[400];
 } surface_told;
 surface_told surface_status_of_last(imp_status status);
 
-/* The text for a status that a surface answered, maps included, since its label names them all. */
+/* Returns the text for a status that a function of this surface returned. */
 surface_told surface_status_told(const surface *s, imp_status status);
 
-/* Replaces the code of an error by that of the status that caused it, and answers it:
+/* Replaces the code of an error by that of the status that caused it, and returns it:
  * IMP_ERROR_USAGE for SURFACE_FORKED, IMP_ERROR_MEMORY for SURFACE_NO_PROCESS, else
  * IMP_ERROR_PLUGIN. */
 imp_code surface_set_code(imp_status status, imp_error *error);
@@ -141,17 +141,16 @@ bool surface_is_rigid(const surface *s);
  * Precondition: surface_is_rigid. */
 imp_status surface_pose(const surface *s, const imp_region *region, imp_pose *pose);
 
-/* Answers imp_piece_motion. Times are in the surface's domain. */
+/* Implements imp_piece_motion. Times are in the surface's domain. */
 bool surface_motion(const surface *s, double from, double to, imp_rigid_motion *motion);
 
-/* Bounds the factor by which surface_pose lengthens vectors from above: 1 but for the slack. */
+/* Returns an upper bound of the factor by which surface_pose lengthens vectors: 1 plus slack. */
 double surface_pose_norm_upper(const surface *s);
 
-/* Whether distances from the surface may be known: its type knows them, and all of its maps are
- * rigid. */
+/* Whether surface_distance can be called: the type offers distances, and all maps are rigid. */
 bool surface_has_distance(const surface *s);
 
-/* Whether distances may be known and the type offers a symmetry. */
+/* Whether surface_has_distance, and the type offers a symmetry. */
 bool surface_has_symmetry(const surface *s);
 
 /* Whether one point of it may stand for others (surface_orbit_slip). */
@@ -159,8 +158,8 @@ bool surface_has_orbits(const surface *s);
 
 /* Bounds the distance, as in imp_surface_type, of a point with these models over the region from
  * the whole surface under its first `maps` maps. The models' rates are not used. The bound also
- * holds under all maps, which may bring both nearer to each other. IMP_STATUS_UNBOUNDED: nothing is
- * known, for instance at times at which the surface does not exist. Precondition:
+ * holds under all maps, which may bring both nearer to each other. IMP_STATUS_UNBOUNDED: there is
+ * no bound, for instance at times at which the surface does not exist. Precondition:
  * surface_has_distance. */
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
                             const imp_model point[3], imp_model *distance);
@@ -171,11 +170,11 @@ imp_status surface_distance_within(const surface *s, const imp_region *region, s
                                    const imp_model point[3], double moment, double slip,
                                    imp_model *distance);
 
-/* Bounds the motion of a relative to b, modulo b's symmetry. Let b be under its own maps without
+/* Bounds the motion of a relative to b, modulo b's symmetry, where b is under its own maps without
  * those that both surfaces end with. A distance that b's type claims for all points within *slip of
- * where a point of a is at `moment` (surface_distance_within) then holds for that point of a at all
- * times of the region. INFINITY: nothing is known. `moment` is one of these times. `bare` holds
- * models of a before its maps, of which only the ranges are used; a does not move by itself. */
+ * a point of a at `moment` (surface_distance_within) then holds for that point of a at all times of
+ * the region. INFINITY: no bound. `moment` is one of these times. `bare` holds models of a before
+ * its maps, of which only the ranges are used; a does not move by itself. */
 imp_status surface_slip(const surface *a, const surface *b, const imp_model bare[3],
                         const imp_region *times, double moment, double *slip);
 
@@ -210,7 +209,7 @@ imp_status surface_orbit_slip(const surface *a, const surface *b, const double l
  * its maps. */
 typedef struct surface_plane {
     double center[3]; /* length */
-    double axis[3];   /* unit, but for rounding; 0: the part has no plane */
+    double axis[3];   /* unit, up to rounding; 0: the part has no plane */
     double off;       /* length */
 } surface_plane;
 
@@ -230,19 +229,19 @@ imp_status surface_height_within(const surface *s, const surface_plane *plane,
                                  const imp_region *region, const imp_model point[3], double moment,
                                  double slip, imp_model *height);
 
-/* Bounds how much the distance of two surfaces differs at any time from what it is at `moment`, one
- * of the times. INFINITY: nothing is known. *slip is mere rounding where both turn only within
- * themselves, or as one of them can be turned within itself: rollers, a shaft in its bore. `bare`
- * holds models of all points of each surface before its maps, of which only the ranges are used;
- * neither moves by itself. *asked becomes the side whose symmetry was asked for last. */
+/* Bounds how much the distance of two surfaces at any time differs from that at `moment`, one of
+ * the times. INFINITY: no bound. *slip is mere rounding where both turn only within themselves, or
+ * by a symmetry of one of them: rollers, a shaft in its bore. `bare` holds models of all points of
+ * each surface before its maps, of which only the ranges are used; neither moves by itself. *asked
+ * becomes the side whose symmetry callback was called last, for error messages. */
 imp_status surface_pair_slip(const surface *const s[2], const imp_model bare[2][3],
                              const imp_region *times, double moment, double *slip, int *asked);
 
 /* Counts the maps, from the last one back, that are the same instances on both surfaces. */
 size_t surface_common_maps(const surface *a, const surface *b);
 
-/* Counts those of them, from the last one back, that are rigid in exact arithmetic
- * (IMP_FLAG_TURNS_EXACTLY) and so change the distance of no two points. */
+/* Counts the common maps, from the last one back, that are rigid in exact arithmetic
+ * (IMP_FLAG_TURNS_EXACTLY) and so preserve distances. */
 size_t surface_common_motion(const surface *a, const surface *b);
 
 /* Applies the maps after the first `maps` to a point at time t, in place. */
@@ -250,12 +249,12 @@ imp_status surface_move_outward(const surface *s, size_t maps, double t, double 
 
 size_t surface_map_count(const surface *s);
 
-/* Returns what the surface is composed of: its type's instance (k = 0), then its maps'. k <=
+/* Returns an instance that the surface is composed of: its type's (k = 0), then its maps'. k <=
  * surface_map_count. */
 const shared_instance *surface_origin(const surface *s, size_t k);
 
-/* Counts the maps, from the first one on, that do not turn the surface further during the region's
- * times. Precondition: surface_has_distance. */
+/* Counts the maps, from the first one on, whose rotation is constant during the region's times.
+ * Precondition: surface_has_distance. */
 imp_status surface_still_maps(const surface *s, const imp_region *region, size_t *count);
 
 /* Computes the inclusion under the first `maps` maps alone. */
@@ -265,9 +264,9 @@ imp_status surface_include_inner(const surface *s, const imp_region *region, siz
 /* Computes the inclusion of the type alone, under none of the maps. */
 imp_status surface_include_bare(const surface *s, const imp_region *region, imp_model model[3]);
 
-/* Applies the maps to anything whose coordinates have the models `model` over the region, and
- * replaces these by the models of its image. Where u or v number the points of a set, any two count
- * as 1 apart, so that a rate is how far apart points may be. */
+/* Applies the maps to a set of points whose coordinates have the models `model` over the region,
+ * and replaces these by the models of its image. If u or v only numbers the points of a set, any
+ * two count as 1 apart, so that a rate bounds the distance of two points. */
 imp_status surface_include_image(const surface *s, const imp_region *region, imp_model model[3]);
 
 #endif

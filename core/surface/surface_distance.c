@@ -55,10 +55,10 @@ typedef struct deviation {
     double norm; /* >= |D x| / |x|, in the greatest and in the Euclidean norm, as D is symmetric */
 } deviation;
 
-/* Lemma. D_ij is the product of the columns i and j of R less that of the identity: in the range of
- * the same of the models, which contain R. And with e = IMP_RIGID_SLACK, each of the K maps alone
- * changes squares of lengths by a factor from 1 - 3 e to 1 + 3 e (surface_pose_norm_upper), all of
- * them together from (1 - 3 e)^K to (1 + 3 e)^K, so that
+/* Lemma. D_ij is the product of the columns i and j of R less that of the identity, which lies in
+ * the range of the same expression of the models, since they contain R. And with e =
+ * IMP_RIGID_SLACK, each of the K maps alone changes squares of lengths by a factor from 1 - 3 e to
+ * 1 + 3 e (surface_pose_norm_upper), all of them together from (1 - 3 e)^K to (1 + 3 e)^K, so that
  *
  *   |D_ij| <= |D| = max ||R x|^2 / |x|^2 - 1| <= (1 + 3 e)^K - 1 <= n^2 - 1,   n = (1 + 2 e)^K,
  *
@@ -91,9 +91,9 @@ double surface_pose_deviation_upper(const imp_pose *pose)
     return deviation_of(pose, 1 + 2 * IMP_RIGID_SLACK).norm;
 }
 
-/* At most |R x| / |x|, and 1. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root of what is below 1 is
- * above it. Also each map leaves sqrt(1 - 3 e) at least, and (1 + 2 e)^2 (1 - 3 e) > 1 + e / 2, so
- * that 1 / n is less than that of all. */
+/* Returns a lower bound of |R x| / |x|, at most 1. Lemma. |R x|^2 >= (1 - |D|) |x|^2, and the root
+ * of a number below 1 exceeds it. Also each map stretches by at least sqrt(1 - 3 e), and (1 + 2
+ * e)^2 (1 - 3 e) > 1 + e / 2, so that 1 / n is below the product over all maps. */
 static double least_stretch(const deviation *d, double norm)
 {
     const double found = difference_lower(1, d->norm);
@@ -104,8 +104,8 @@ static double least_stretch(const deviation *d, double norm)
 
 /* Lemma. Let x = T + R (y - p) + r be a point that moves, y any point of the surface before the
  * maps, and z = R^-1 (x - T). Then x - (T + R (y - p)) = R (z + p - y), whose length is at least
- * that of z + p - y times the least stretch of R: the distance of z + p from the surface before the
- * maps says how far x is from it after them. Of z, R^T (x - T) = R^T R z = z + D z is known. Let
+ * that of z + p - y times the least stretch of R: so the distance of z + p from the surface before
+ * the maps bounds that of x from it after them. Of z, R^T (x - T) = R^T R z = z + D z is known. Let
  * X_i >= |(R^T (x - T))_i| and d >= |D| in the greatest norm, d < 1. From z = R^T (x - T) - D z,
  *
  *   |z_i| <= X_i + row_i Z,   Z = max X / (1 - d) >= max |z_i|,   |(D z)_i| <= sum_j |D_ij| |z_j|.
@@ -137,10 +137,11 @@ static bool take_back(const imp_pose *pose, const deviation *d, const imp_model 
     return true;
 }
 
-/* --- Asking ----------------------------------------------------------------------------------- */
+/* --- The callback ----------------------------------------------------------------------------- */
 
-/* A NaN or an infinity among the coefficients: nothing is known. Nothing is infinitely far away. */
-static imp_status judge(imp_status status, const imp_model *distance)
+/* Checks a distance. With a NaN or an infinity among the coefficients there is no bound; no finite
+ * point is at an infinite distance. */
+static imp_status check_distance(imp_status status, const imp_model *distance)
 {
     if (status != IMP_STATUS_OK) return status;
     if (!(distance->e >= 0 && distance->lo <= distance->hi)) return SURFACE_BAD_DISTANCE;
@@ -157,15 +158,16 @@ static imp_status distance_before_maps(const surface *s, const imp_region *regio
     const imp_model at[4] = {point[0], point[1], point[2], surface_time(region)};
     const surface_call call = surface_call_begin(s->type->name, "distance");
     const imp_status status = s->type->distance(s->self, at, distance);
-    return judge(surface_call_end(call, status), distance);
+    return check_distance(surface_call_end(call, status), distance);
 }
 
-/* *stretch: times that of the maps from `first` on, if they are all rigid then. Of maps that turn
- * with time no more is asked than what each may do: the remainders of their models say less. */
+/* Multiplies *stretch by the least stretch of the maps from `first` on, if they are all rigid at
+ * these times. For maps that turn with time, the bound per map of the ABI is used: the remainders
+ * of their models are larger. */
 static imp_status stretch_by(const surface *s, size_t first, const imp_region *region,
                              double *stretch)
 {
-    const double norm = 1 + 2 * IMP_RIGID_SLACK; /* of one; exact */
+    const double norm = 1 + 2 * IMP_RIGID_SLACK; /* of one map; exact */
     for (size_t k = first; k < s->map_count; ++k) {
         imp_pose pose;
         const imp_status status = surface_pose_of_maps(s, k, k + 1, region, &pose);
@@ -193,9 +195,9 @@ static imp_status take_back_before(const surface *s, size_t maps, const imp_regi
     return take_back(&pose, &d, point, at) ? IMP_STATUS_OK : IMP_STATUS_UNBOUNDED;
 }
 
-/* Lemma. Maps that follow on both, and are rigid, stretch what is between any two points at the
- * same time by their least stretch at least: |g| times that of all maps is no more than the
- * distance after them. imp_scale bounds what it rounds of g, which may depend on anything. */
+/* Lemma. Rigid maps that follow on both surfaces multiply the distance of any two points at the
+ * same time by at least their least stretch: |g| times that of all maps is no more than the
+ * distance after them. imp_scale adds its rounding to g, which may depend on any parameter. */
 static imp_status stretched(const surface *s, const imp_region *region, const imp_model at[3],
                             double stretch, imp_model *distance)
 {
@@ -275,7 +277,7 @@ imp_status surface_height_within(const surface *s, const surface_plane *plane,
     *height = lowered(plane, slip, stretch, height_of(plane, at));
     height->depends = 7;
     for (int j = 0; j < 3; ++j) height->rate[j] = INFINITY;
-    return judge(IMP_STATUS_OK, height);
+    return check_distance(IMP_STATUS_OK, height);
 }
 
 imp_status surface_distance(const surface *s, const imp_region *region, size_t maps,
@@ -291,10 +293,9 @@ imp_status surface_distance(const surface *s, const imp_region *region, size_t m
     return status == IMP_STATUS_OK ? stretched(s, region, at, stretch, distance) : status;
 }
 
-/* Lemma. The point is taken back by the maps of the moment. At every time of the region the claim
- * that is made of it holds for the point of surface_slip, or that of surface_carry_slip, as the
- * maps of that time take it back, and each of these leaves of the distance what it stretches by at
- * that time at least. */
+/* Lemma. The point is taken back by the maps at the moment. At every time of the region the claim
+ * about it holds for the point of a (surface_slip, surface_carry_slip) taken back by the maps at
+ * that time, and these multiply the distance by at least their least stretch at that time. */
 imp_status surface_distance_within(const surface *s, const imp_region *region, size_t maps,
                                    const imp_model point[3], double moment, double slip,
                                    imp_model *distance)

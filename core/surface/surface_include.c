@@ -110,10 +110,10 @@ static imp_status include_by_chain_rule(const surface *s, size_t k, const imp_re
     return status == IMP_STATUS_OK ? model_from_rates(s, region, &rates, k + 1, model) : status;
 }
 
-/* Includes map k's image of the box of the models, where no point of what is included is known.
- * Lemma. The box is convex and holds its centre c, so a point of it maps to within sum_j P_ij h_j
- * of phi(c), h_j >= |x_j - c_j|; phi(c) is within `error` of what eval gives. Four products, each
- * of which goes through at most four sums. */
+/* Computes the inclusion of map k's image of the box of the models, for models of a set without a
+ * known point. Lemma. The box is convex and holds its centre c, so a point of it maps to within
+ * sum_j P_ij h_j of phi(c), h_j >= |x_j - c_j|; phi(c) is within `error` of what eval gives. Four
+ * products, each of which goes through at most four sums. */
 PAD_COVERS(16, 1 + 4);
 static imp_status include_box(const surface *s, size_t k, const imp_region *region,
                               imp_model model[3])
@@ -173,7 +173,7 @@ static imp_status include_through_map(const surface *s, size_t k, const imp_regi
     return IMP_STATUS_OK;
 }
 
-/* Applies the first `maps` maps to models that came with `status`. */
+/* Applies the first `maps` maps to models whose inclusion returned `status`. */
 static imp_status include_through_maps(const surface *s, const imp_region *region, size_t maps,
                                        box_step *step, imp_status status, imp_model model[3])
 {

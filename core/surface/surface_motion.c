@@ -8,7 +8,7 @@
 #include "core/surface/region.h"
 #include "core/surface/surface_internal.h"
 
-/* --- Which maps are left when what stands still is moved -------------------------------------- */
+/* --- Which first maps do not move the surface ------------------------------------------------- */
 
 /* Returns the first map from which on all maps are rigid. */
 static size_t first_rigid(const surface *s)
@@ -19,8 +19,8 @@ static size_t first_rigid(const surface *s)
 }
 
 /* Lemma. A rate matrix bounds the derivatives in t over the region, so where its column of t is 0,
- * points under the first `maps` maps are the same at all of its times. What is not known, as where
- * models are unbounded, counts as moving. */
+ * points under the first `maps` maps are the same at all of its times. Without bounds the surface
+ * counts as moving. */
 static bool stands_still(const surface *s, size_t maps, double from, double to)
 {
     double lo[3], hi[3];
@@ -39,7 +39,7 @@ typedef struct placement {
     double turn[3][3], shift[3];
 } placement;
 
-/* A pose known less exactly than this, by radians and by parts of its shift, is not used. */
+/* A pose whose remainders exceed this, in radians and relative to its shift, is not used. */
 static const double pose_slack = 1e-9;
 
 static bool is_exact(const imp_model *m, double size) { return m->e <= pose_slack * (1 + size); }

@@ -43,8 +43,8 @@ bool surface_offers_net(const surface *s)
     return true;
 }
 
-/* In halves: the C library clears more than 2 kB by an instruction that repeats, which is slow to
- * begin. */
+/* Clears the net in two halves: for more than 2 kB the C library uses a repeated-store instruction,
+ * which is slow to start. */
 static void clear(imp_net *net)
 {
     const size_t half = offsetof(imp_net, velocity);

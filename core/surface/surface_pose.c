@@ -15,8 +15,8 @@ bool surface_is_rigid(const surface *s)
 }
 
 /* Lemma. With D = R^T R - 1, |R x|^2 = |x|^2 + x^T D x <= |x|^2 (1 + 3 max |D_ij|), so that one map
- * makes x longer by a factor of 1 + 1.5 IMP_RIGID_SLACK at most; what is left of that slack
- * outweighs a rounding by far. */
+ * lengthens x by a factor of at most 1 + 1.5 IMP_RIGID_SLACK; the rest of the factor 1 + 2
+ * IMP_RIGID_SLACK far outweighs the rounding. */
 double surface_pose_norm_upper(const surface *s)
 {
     double norm = 1;
@@ -24,7 +24,7 @@ double surface_pose_norm_upper(const surface *s)
     return norm;
 }
 
-/* Whether the model is finite and that of a function of time alone. */
+/* Whether the model is finite and depends on time alone. */
 static bool is_sane(const imp_model *m)
 {
     const double *b = m->b, *q = m->q;
@@ -57,8 +57,8 @@ bool pose_turns(const imp_pose *pose)
     return false;
 }
 
-/* Where a pose does not turn, every pivot is as good: that which it moves to the pivot of the next
- * map, in the middle of the times, is better for that. With any p',
+/* Chooses the pivot of a pose that does not turn, for which any is right: the point that it moves
+ * to the next map's pivot at the middle of the times is best. With any p',
  *
  *   shift + R (x - p) = (shift + R (p' - p)) + R (x - p') */
 static void choose_pivot(const imp_pose *next, imp_pose *pose)
@@ -86,7 +86,7 @@ static bool is_identity(imp_model turn[3][3])
     return true;
 }
 
-/* After `pose` comes `next`, S y with R x:
+/* Composes `next`, with turn S, after `pose`, with turn R:
  *
  *   shift' + S (shift + R (x - p) - p') = (shift' + S (shift - p')) + S R (x - p) */
 static void add_pose(imp_pose *next, double norm, imp_pose *pose)

@@ -32,7 +32,7 @@ imp_status surface_map_rate(const mapping *map, const imp_box4 *box, imp_map_rat
     return checked_rates(status, rates->m[0], 12);
 }
 
-enum { BATCH = 16 }; /* points a call to a map takes at once; keeps buffers on the stack */
+enum { BATCH = 16 }; /* points per call to a map; keeps buffers on the stack */
 
 /* --- Points ----------------------------------------------------------------------------------- */
 
@@ -85,7 +85,7 @@ static imp_status batch_through_map(const mapping *map, size_t n, const double *
     return IMP_STATUS_OK;
 }
 
-/* Under the first `maps` maps. */
+/* Evaluates points under the first `maps` maps. */
 static imp_status eval_under(const surface *s, size_t maps, size_t n, const double *p, double *x,
                              double *error)
 {

@@ -10,9 +10,9 @@
 #include "core/surface/carried.h"
 #include "core/surface/region.h"
 
-/* --- Asking ----------------------------------------------------------------------------------- */
+/* --- The callback ----------------------------------------------------------------------------- */
 
-/* Squares neither underflow nor overflow; 1e-100 and 1e100 are inside. */
+/* Lengths of an axis between these have squares that neither underflow nor overflow. */
 #define AXIS_LEAST 0x1p-340
 #define AXIS_MOST 0x1p340
 
@@ -52,7 +52,7 @@ imp_status surface_symmetry(const surface *s, imp_symmetry *found)
 
 /* --- Lengths ---------------------------------------------------------------------------------- */
 
-/* >= |w|. Roundings: squares 1, sums 2, halved by the root, root 1. */
+/* Returns an upper bound of |w|. Roundings: squares 1, sums 2, halved by the root, root 1. */
 PAD_COVERS(8, 2 + 1);
 double surface_size_upper(const imp_model w[3])
 {
@@ -72,11 +72,11 @@ static double length_lower(const double x[3])
 
 /* --- Through one map -------------------------------------------------------------------------- */
 
-/* Takes from `way` what is along the direction f that the pose leaves fixed. Lemma. R f = f, and
- * R^T f = f where R is a rotation; so with w = c f + w', R w = c f + R w', and what is not known of
- * R counts for w' alone: for a direction along the axis of the turn it is 0 but for rounding,
- * however far the pose turns. Any c is right. Of a map that is no rotation in exact arithmetic R^T
- * f is not f: nothing is taken. */
+/* Splits off from `way` the component along the direction f that the pose leaves fixed. Lemma. R f
+ * = f, and R^T f = f where R is a rotation; so with w = c f + w', R w = c f + R w', and the
+ * remainder of R multiplies w' alone: for a direction along the axis of the turn it is 0 up to
+ * rounding, however far the pose turns. Any c is right. If the map is no exact rotation, R^T f
+ * differs from f, and nothing is split off. */
 static void take_along(const imp_pose *pose, imp_model way[3], imp_model along[3])
 {
     imp_model f[3], c = imp_num(0);
@@ -102,7 +102,7 @@ void carried_turn(const imp_pose *pose, imp_model way[3])
  *
  *   |R w - U w| = |(H - 1) w| <= d |w|,   |R^T w - U^T w| = |(H - 1) U^T w| <= d |w|,
  *
- * and what the point was off by stays as long under U. */
+ * and the length of the point's previous error is unchanged under U. */
 void carried_push(const imp_pose *pose, double d, carried *x)
 {
     imp_model way[3], along[3];
@@ -133,24 +133,24 @@ static void pull_truly(const imp_pose *pose, double d, carried *x)
     for (int j = 0; j < 3; ++j) x->at[j] = imp_add(x->at[j], imp_between(-x->off, x->off));
 }
 
-/* --- What is seen at some times --------------------------------------------------------------- */
+/* --- The symmetry in a's coordinates ---------------------------------------------------------- */
 
-/* The symmetry's center, and the end of its axis if the axis counts, as seen from a before its
+/* The symmetry's center, and the end of its axis if the axis matters, in a's coordinates before its
  * maps; and bounds for points of a. */
-typedef struct seen {
+typedef struct located {
     carried feature[2];
-    double off; /* points of a are off by so much, seen from b before its maps; length */
-    double far; /* and no farther from the center; length */
-} seen;
+    double off; /* error of a's points in b's coordinates before its maps; length */
+    double far; /* >= distance of a's points from the center; length */
+} located;
 
-typedef struct question {
+typedef struct slip_input {
     const surface *a, *b;
-    size_t a_maps, b_maps;   /* of either, without those that both end with */
-    size_t a_still, b_still; /* the first of these, which are taken at one moment, `then` */
+    size_t a_maps, b_maps;   /* number of maps, without the common last ones */
+    size_t a_still, b_still; /* how many first maps are taken at one moment, `then` */
     imp_region then;
     imp_symmetry found;    /* of b */
     const imp_model *bare; /* a before its maps */
-} question;
+} slip_input;
 
 /* Computes the pose of one map, and *d >= |D|. */
 imp_status carried_pose(const surface *s, size_t k, const imp_region *times, imp_pose *pose,
@@ -164,20 +164,21 @@ imp_status carried_pose(const surface *s, size_t k, const imp_region *times, imp
 }
 
 /* Computes the pose of a's map k, or of b's, at these times. */
-static imp_status pose_of_a(const question *q, size_t k, const imp_region *times, imp_pose *pose,
+static imp_status pose_of_a(const slip_input *q, size_t k, const imp_region *times, imp_pose *pose,
                             double *d)
 {
     return carried_pose(q->a, k, k < q->a_still ? &q->then : times, pose, d);
 }
 
-static imp_status pose_of_b(const question *q, size_t k, const imp_region *times, imp_pose *pose,
+static imp_status pose_of_b(const slip_input *q, size_t k, const imp_region *times, imp_pose *pose,
                             double *d)
 {
     return carried_pose(q->b, k, k < q->b_still ? &q->then : times, pose, d);
 }
 
-/* Sees the symmetry's center and axis at these times. What points are off by is not counted. */
-static imp_status see_features(const question *q, const imp_region *times, seen *x)
+/* Computes the symmetry's center and axis at these times, in a's coordinates, without the bounds
+ * for points. */
+static imp_status locate_features(const slip_input *q, const imp_region *times, located *x)
 {
     const int features = q->found.kind == IMP_SYMMETRY_ABOUT_POINT ? 1 : 2;
     imp_model from[3];
@@ -206,12 +207,12 @@ static imp_status see_features(const question *q, const imp_region *times, seen 
     return IMP_STATUS_OK;
 }
 
-static imp_status see(const question *q, const imp_region *times, seen *x)
+static imp_status locate(const slip_input *q, const imp_region *times, located *x)
 {
     carried y = {.off = 0};
     imp_pose pose;
     double d;
-    imp_status status = see_features(q, times, x);
+    imp_status status = locate_features(q, times, x);
     for (int i = 0; i < 3; ++i) y.at[i] = imp_between(q->bare[i].lo, q->bare[i].hi);
     for (size_t k = 0; k < q->a_maps && status == IMP_STATUS_OK; ++k) {
         status = pose_of_a(q, k, times, &pose, &d);
@@ -225,25 +226,27 @@ static imp_status see(const question *q, const imp_region *times, seen *x)
     return status;
 }
 
-/* --- How far it slides ------------------------------------------------------------------------ */
+/* --- The slip --------------------------------------------------------------------------------- */
 
-/* Lemma. Let M(t) be what takes points y of a before its maps to b before its maps, if all maps are
- * rotations indeed; c(t) and the unit vector n(t) the center and the axis of b's symmetry as
- * M(t)^-1 shows them to a. Let a rigid motion F take c(t0) and n(t0) to c(t) and n(t), the first up
- * to what the symmetry permits: any shift along n(t), or across. Then S = M(t) F M(t0)^-1 leaves
- * center and axis where they are, but for that shift: it is one of the motions of the symmetry, and
- * M(t) y = S M(t0) F^-1 y. So the claim of b's type of a point z holds for M(t) y, if z is M(t0)
- * F^-1 y, which is as far from M(t0) y as F^-1 y is from y.
+/* Lemma. Let M(t) take points y of a before its maps to b before its maps, if all maps are exact
+ * rotations; let c(t) and the unit vector n(t) be the images under M(t)^-1 of the center and the
+ * axis of b's symmetry. Let a rigid motion F take c(t0) and n(t0) to c(t) and n(t), the first up to
+ * what the symmetry permits: any shift along n(t), or across. Then S = M(t) F M(t0)^-1 leaves
+ * center and axis fixed, up to that shift: it is one of the motions of the symmetry, and M(t) y = S
+ * M(t0) F^-1 y. So the claim of b's type of a point z holds for M(t) y, if z is M(t0) F^-1 y, which
+ * is as far from M(t0) y as F^-1 y is from y.
  *
- * F turns n(t0) by the smallest angle, which moves what is r away from c(t) by r |n(t) - n(t0)| at
- * most, and shifts by what is left of v = c(t) - c(t0): all of it; of a shift along the line only
- * what is across it, |v x n|; of a shift across only |v . n|; n = n(t0), for n(t) instead |v| |n(t)
- * - n(t0)| more. The shift that F may add is |v| long at most, and adds that to r.
+ * F turns n(t0) by the smallest angle, which moves a point at distance r from c(t) by at most r
+ * |n(t) - n(t0)|, and shifts by the part of v = c(t) - c(t0) that the symmetry does not permit: all
+ * of it; if it permits shifts along the line, |v x n|; if it permits shifts across, |v . n|; here n
+ * = n(t0), and for n(t) instead |v| |n(t) - n(t0)| is added. The shift that F may add is at most
+ * |v| long, which is added to r.
  *
- * In truth points and features are off by what `carried` says, at both times. Rounding of the sum:
- * terms have 4 roundings at most, quotient, product, sums; all is positive. */
+ * Since maps are not exact, points and features have the errors of `carried`, at both times.
+ * Rounding of the sum: terms have at most 4 roundings (quotient, product, sums), and all are
+ * positive. */
 PAD_COVERS(16, 4 + 6);
-static double slip_upper(const imp_symmetry *of, const seen *now, const seen *then)
+static double slip_upper(const imp_symmetry *of, const located *now, const located *then)
 {
     imp_model v[3], w[3], axis[3];
     for (int i = 0; i < 3; ++i) v[i] = imp_sub(now->feature[0].at[i], then->feature[0].at[i]);
@@ -275,9 +278,9 @@ static double slip_upper(const imp_symmetry *of, const seen *now, const seen *th
 
 /* --- Over all times --------------------------------------------------------------------------- */
 
-/* Where models of a turn are loose over a span, its halves are tried, this many times in turn. A
- * slip that rounding alone explains is good enough; a motion that surely leaves the symmetry is
- * given up at once. */
+/* If models of a turn are loose over a span, its halves are tried, recursively up to this depth. A
+ * slip that is mere rounding is not refined; a motion that surely leaves the symmetry ends the
+ * search at once. */
 enum { HALVINGS = 6 };
 #define GOOD_ENOUGH 0x1p-40
 #define GIVEN_UP 0x1p-16
@@ -288,11 +291,11 @@ static imp_region at_times(const imp_region *r, double from, double to)
     return region_make(lo, hi);
 }
 
-static imp_status slip_over(const question *q, const seen *then, const imp_region *times,
+static imp_status slip_over(const slip_input *q, const located *then, const imp_region *times,
                             int halvings, double *slip)
 {
-    seen now;
-    const imp_status status = see(q, times, &now);
+    located now;
+    const imp_status status = locate(q, times, &now);
     double found = status == IMP_STATUS_OK ? slip_upper(&q->found, &now, then) : INFINITY;
     const double middle = times->c[2];
     if (!(found >= 0)) found = INFINITY; /* NaN */
@@ -308,39 +311,38 @@ static imp_status slip_over(const question *q, const seen *then, const imp_regio
     return before == IMP_STATUS_OK ? slip_over(q, then, &second, halvings - 1, slip) : before;
 }
 
-/* Whether the motion surely leaves b's symmetry, as seen at both ends of the times. */
-static imp_status give_up(const question *q, const imp_region *still, const imp_region *times,
+/* Whether the motion surely leaves b's symmetry, by its slip between both ends of the times. */
+static imp_status give_up(const slip_input *q, const imp_region *still, const imp_region *times,
                           bool *given_up)
 {
-    seen then;
-    imp_status status = see_features(q, still, &then);
+    located then;
+    imp_status status = locate_features(q, still, &then);
     const double ends[2] = {times->lo[2], times->hi[2]};
     for (int k = 0; k < 2 && status == IMP_STATUS_OK && !*given_up; ++k) {
         const imp_region end = at_times(times, ends[k], ends[k]);
-        seen now;
-        status = see_features(q, &end, &now);
+        located now;
+        status = locate_features(q, &end, &now);
         *given_up =
             status == IMP_STATUS_OK && !(slip_upper(&q->found, &now, &then) <= GIVEN_UP * then.far);
     }
     return status;
 }
 
-/* *slip as found for the question, whose symmetry is known; INFINITY where the motion is none of
- * its kind. */
-static imp_status answer(const question *q, const imp_region *times, double *slip)
+/* Computes *slip, given the symmetry; INFINITY if the motion leaves the symmetry. */
+static imp_status find_slip(const slip_input *q, const imp_region *times, double *slip)
 {
-    question center = *q;
+    slip_input center = *q;
     bool given_up = false;
-    seen then;
+    located then;
     imp_status status = IMP_STATUS_OK;
     *slip = INFINITY;
     center.found.kind = IMP_SYMMETRY_ABOUT_POINT;
-    /* Rotations about a line keep its center, which alone costs less to see. */
+    /* Rotations about a line keep its center, which is cheaper to compute alone. */
     if (q->found.kind == IMP_SYMMETRY_ABOUT_LINE)
         status = give_up(&center, &q->then, times, &given_up);
     if (status == IMP_STATUS_OK && !given_up) status = give_up(q, &q->then, times, &given_up);
     if (given_up) return IMP_STATUS_OK;
-    if (status == IMP_STATUS_OK) status = see(q, &q->then, &then);
+    if (status == IMP_STATUS_OK) status = locate(q, &q->then, &then);
     if (status == IMP_STATUS_OK) {
         *slip = 0;
         status = slip_over(q, &then, times, HALVINGS, slip);
@@ -351,16 +353,16 @@ static imp_status answer(const question *q, const imp_region *times, double *sli
 
 static bool moves_rigidly(const surface *s) { return s->map_count == 0 || surface_is_rigid(s); }
 
-/* Estimates how a point that b's maps carry moves from one time to another, as seen from a. */
-static imp_status way_of(const question *q, const double point[3], const imp_region *other,
+/* Estimates how a point carried by b's maps moves from one time to another, in a's coordinates. */
+static imp_status way_of(const slip_input *q, const double point[3], const imp_region *other,
                          double way[3])
 {
-    question p = *q;
-    seen now, then;
+    slip_input p = *q;
+    located now, then;
     p.found.kind = IMP_SYMMETRY_ABOUT_POINT;
     memcpy(p.found.center, point, sizeof p.found.center);
-    imp_status status = see_features(&p, &q->then, &then);
-    if (status == IMP_STATUS_OK) status = see_features(&p, other, &now);
+    imp_status status = locate_features(&p, &q->then, &then);
+    if (status == IMP_STATUS_OK) status = locate_features(&p, other, &now);
     for (int i = 0; i < 3 && status == IMP_STATUS_OK; ++i)
         way[i] = now.feature[0].at[i].a - then.feature[0].at[i].a;
     return status;
@@ -391,10 +393,9 @@ static double dot(const double x[3], const double y[3])
 
 #define SINGULAR 0x1p-30
 
-/* Chooses the plane's center, which may be any of its points. The point that the motion leaves
- * where it is, if there is one, is seen most exactly: the point that moves least. The motion
- * depends linearly on the point. */
-static imp_status choose_center(question *q, const imp_region *times)
+/* Chooses the plane's center, which may be any of its points: the one that moves least, since a
+ * fixed point has the tightest bound. The motion depends linearly on the point. */
+static imp_status choose_center(slip_input *q, const imp_region *times)
 {
     const double t = times->lo[2] + 0.375 * (times->hi[2] - times->lo[2]);
     const imp_region other = at_times(times, t, t);
@@ -420,18 +421,18 @@ imp_status surface_slip(const surface *a, const surface *b, const imp_model bare
                         const imp_region *times, double moment, double *slip)
 {
     const size_t common = surface_common_maps(a, b);
-    question q = {.a = a,
-                  .b = b,
-                  .a_maps = a->map_count - common,
-                  .b_maps = b->map_count - common,
-                  .then = at_times(times, moment, moment),
-                  .bare = bare};
+    slip_input q = {.a = a,
+                    .b = b,
+                    .a_maps = a->map_count - common,
+                    .b_maps = b->map_count - common,
+                    .then = at_times(times, moment, moment),
+                    .bare = bare};
     *slip = INFINITY;
     if (!moves_rigidly(a) || q.a_maps + q.b_maps == 0) return IMP_STATUS_OK;
     imp_status status = surface_symmetry(b, &q.found);
     if (status == IMP_STATUS_OK && q.found.kind == IMP_SYMMETRY_ACROSS_LINE)
         status = choose_center(&q, times);
-    if (status == IMP_STATUS_OK && is_sane(&q.found)) return answer(&q, times, slip);
+    if (status == IMP_STATUS_OK && is_sane(&q.found)) return find_slip(&q, times, slip);
     return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
@@ -439,26 +440,26 @@ imp_status surface_slip_along(const surface *a, const surface *b, const surface_
                               const imp_model bare[3], const imp_region *times, double moment,
                               double *slip)
 {
-    question q = {.a = a,
-                  .b = b,
-                  .a_maps = a->map_count,
-                  .b_maps = b->map_count,
-                  .then = at_times(times, moment, moment),
-                  .found = {.kind = IMP_SYMMETRY_ACROSS_LINE},
-                  .bare = bare};
+    slip_input q = {.a = a,
+                    .b = b,
+                    .a_maps = a->map_count,
+                    .b_maps = b->map_count,
+                    .then = at_times(times, moment, moment),
+                    .found = {.kind = IMP_SYMMETRY_ACROSS_LINE},
+                    .bare = bare};
     memcpy(q.found.center, plane->center, sizeof q.found.center);
     memcpy(q.found.axis, plane->axis, sizeof q.found.axis);
     *slip = INFINITY;
     if (!moves_rigidly(a) || !moves_rigidly(b)) return IMP_STATUS_OK;
     const imp_status status = choose_center(&q, times);
-    if (status == IMP_STATUS_OK && is_sane(&q.found)) return answer(&q, times, slip);
+    if (status == IMP_STATUS_OK && is_sane(&q.found)) return find_slip(&q, times, slip);
     return status == IMP_STATUS_OK || status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
 /* --- Pairs that turn within themselves -------------------------------------------------------- */
 
-/* The rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known, as of a surface
- * of several pieces, of which each has its own. */
+/* Returns the rotations that keep the whole surface. IMP_STATUS_UNBOUNDED: none are known, for
+ * instance if it has several pieces, each with its own symmetry. */
 static imp_status closed_symmetry_of(const surface *s, imp_symmetry *found)
 {
     if (!IMP_OFFERS(s->type, symmetry) || s->piece_count > 1) return IMP_STATUS_UNBOUNDED;
@@ -469,11 +470,11 @@ static imp_status closed_symmetry_of(const surface *s, imp_symmetry *found)
     return IMP_STATUS_OK;
 }
 
-/* Lemma. Let P(t) be what the first maps of s do. In the lemma of slip_upper let b be s under these
- * maps, and a what they make of s at the moment, at rest. Then the points of P(t0) s are within
- * `slip` of P(t) s, and those of P(t) s of P(t0) s: F, which takes one center and axis to the
- * other, moves neither farther. So s may stay as it is at the moment under these maps, if `slip` is
- * added to what is proved. */
+/* Lemma. Let P(t) be the motion by the first maps of s. In the lemma of slip_upper let b be s under
+ * these maps, and a be P(t0) s at rest. Then the points of P(t0) s are within `slip` of P(t) s, and
+ * those of P(t) s within `slip` of P(t0) s: F, which takes one center and axis to the other, moves
+ * neither farther. So P(t) s may be replaced by P(t0) s if `slip` is subtracted from the distances
+ * that are proved. */
 static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetry *found,
                                 const imp_model bare[3], const imp_region *times,
                                 const imp_region *then, double *slip)
@@ -494,13 +495,12 @@ static imp_status slip_of_first(const surface *s, size_t maps, const imp_symmetr
             there[i] = imp_between(difference_lower(range.lo, y.off), sum_upper(range.hi, y.off));
         }
     }
-    const question q = {
+    const slip_input q = {
         .a = &rest, .b = s, .b_maps = maps, .then = *then, .found = *found, .bare = there};
-    return answer(&q, times, slip);
+    return find_slip(&q, times, slip);
 }
 
-/* Counts how many of the first maps together only turn s within itself, and bounds how far they
- * leave that. */
+/* Counts how many of the first maps together only turn s within itself, and bounds their slip. */
 static imp_status first_maps_within(const surface *s, const imp_model bare[3],
                                     const imp_region *times, const imp_region *then, size_t *maps,
                                     double *slip)
@@ -527,17 +527,17 @@ static imp_status slip_of_rest(const surface *const s[2], const size_t still[2],
                                const imp_model *bare, const imp_region *times,
                                const imp_region *then, double *slip)
 {
-    question q = {.a = s[0],
-                  .b = s[1],
-                  .a_maps = s[0]->map_count,
-                  .b_maps = s[1]->map_count,
-                  .a_still = still[0],
-                  .b_still = still[1],
-                  .then = *then,
-                  .bare = bare};
+    slip_input q = {.a = s[0],
+                    .b = s[1],
+                    .a_maps = s[0]->map_count,
+                    .b_maps = s[1]->map_count,
+                    .a_still = still[0],
+                    .b_still = still[1],
+                    .then = *then,
+                    .bare = bare};
     *slip = INFINITY;
     imp_status status = closed_symmetry_of(s[1], &q.found);
-    if (status == IMP_STATUS_OK) status = answer(&q, times, slip);
+    if (status == IMP_STATUS_OK) status = find_slip(&q, times, slip);
     return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
@@ -561,11 +561,11 @@ static imp_status off_of(const surface *s, const imp_model bare[3], const imp_re
     return status;
 }
 
-/* Adds what maps that are rotations only nearly may do to the distance. Lemma. What slip_of_first
- * and slip_of_rest bound are motions under rotations in place of the maps' turns, which change no
- * distance of two points and no length on the way. Under the maps themselves points of either
- * surface are off by `off` at most, at any of the times and at the moment, which is one of them: so
- * the distances at both may be off by the sum of both surfaces' `off`, each. */
+/* Adds to *slip how much maps that are only nearly rotations may change the distance. Lemma.
+ * slip_of_first and slip_of_rest bound motions in which rotations, which preserve distances,
+ * replace the maps' turns. Under the maps themselves points of either surface are off by at most
+ * its `off`, at any of the times and at the moment: so each of the two distances is off by at most
+ * the sum of both surfaces' `off`. */
 static imp_status add_off(const surface *const s[2], const imp_model bare[2][3],
                           const imp_region *times, double *slip)
 {
