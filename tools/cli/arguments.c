@@ -10,7 +10,7 @@
 #include "core/common/spelling.h"
 #include "tools/cli/verbs.h"
 
-/* One option as written: `--name`, `--name=value`, or the letter of one that has a letter. */
+/* One option as written: `--name`, `--name=value`, or a letter. */
 typedef struct spelling {
     const char *name;
     size_t length;
@@ -19,7 +19,7 @@ typedef struct spelling {
 
 static bool is_option(const char *word) { return word[0] == '-' && word[1] != '\0'; }
 
-/* The name of the option that has this letter, or NULL. */
+/* Returns the name of the option that has this letter, or NULL. */
 static const char *name_of_letter(const char *word)
 {
     static const char *const letters[][2] = {{"-h", "help"}, {"-V", "version"}, {"-o", "output"}};
@@ -38,8 +38,8 @@ static spelling spell(const char *word)
     return (spelling){name, (size_t)(equals - name), equals + 1};
 }
 
-/* The option of that name of any verb, or NULL. Before the verb is known, this says whether the
- * next word is a value; the verbs' options of one name agree in that. */
+/* Returns any verb's option of that name, or NULL. Before the verb is known, it decides whether the
+ * next word is a value: options of one name agree in that. */
 static const option *find_anywhere(spelling s)
 {
     const option *row = NULL;
@@ -53,8 +53,8 @@ static bool takes_next(const option *row, spelling s)
     return row != NULL && row->kind != OPTION_FLAG && s.attached == NULL;
 }
 
-/* The word that is the verb, or NULL; NULL also behind an option that no verb has, for whether it
- * takes a value cannot be known. */
+/* Returns the word that is the verb, or NULL. After an option that no verb has it returns NULL,
+ * too: whether that option takes a value is unknown. */
 static const char *verb_word(int argc, const char *const *argv)
 {
     for (int i = 1; i < argc; ++i) {
@@ -68,7 +68,7 @@ static const char *verb_word(int argc, const char *const *argv)
     return NULL;
 }
 
-/* The option as the verb has it; without a verb, as any verb has it. */
+/* Returns the verb's option; without a verb, that of any verb. */
 static const option *find_for(const verb *v, spelling s)
 {
     return v != NULL ? option_find(v->options, s.name, s.length) : find_anywhere(s);

@@ -21,8 +21,8 @@ void batch_keep_worst(batch *b, exit_status status)
 
 /* --- One line; on any thread ------------------------------------------------------------------ */
 
-/* One line of the id and, behind it, what `rest` holds, which has a key. Takes over both; NULL: no
- * memory. */
+/* Makes one line of the id followed by the members of `rest`, which has at least one. Takes
+ * ownership of both. NULL: no memory. */
 static char *answer_of(json_t *id, json_t *rest)
 {
     char *id_text = output_json_line(id), *rest_text = output_json_line(rest), *line = NULL;
@@ -103,8 +103,8 @@ static bool is_blank(const input_text *line)
     return true;
 }
 
-/* Whether the line is answered here and now: not blank, of our shard, and without an answer in the
- * output that is resumed. *ok false: that output does not fit the input. */
+/* Whether this run solves the line: it is not blank, belongs to our shard, and has no result in the
+ * output that is resumed. *ok false: that output does not match the input. */
 static bool is_wanted(batch *b, const input_text *line, bool *ok)
 {
     if (is_blank(line) || b->scenes++ % b->shard.count != b->shard.index) return false;

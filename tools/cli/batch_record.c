@@ -16,7 +16,7 @@
 #include "tools/cli/output.h"
 #include "tools/cli/verbs.h"
 
-/* Options that change no answer but where it is undecided, or only how it is made and written. */
+/* Whether the option changes decided results: limits and options of output or threads do not. */
 static bool changes_questions(const char *name)
 {
     static const char *const others[] = {
@@ -40,7 +40,7 @@ static json_t *record_json(const arguments *args)
     return json_pack("{s:o}", "options", options);
 }
 
-/* --- Against what is asked now ---------------------------------------------------------------- */
+/* --- Comparison with the present options ------------------------------------------------------ */
 
 /* Complains of an option that was given with another value, or in only one of the two runs. */
 static exit_status complain_of_option(const batch_record *record, const char *out, const char *name,
@@ -60,7 +60,7 @@ static exit_status complain_of_option(const batch_record *record, const char *ou
         out, name, json_string_value(then), name, json_string_value(now), record->path, cure);
 }
 
-/* The first option of `x` that `y` has not, or has otherwise; NULL: there is none. */
+/* Returns the first option of `x` that `y` lacks or has with another value; NULL: there is none. */
 static const char *first_other(json_t *x, const json_t *y)
 {
     const char *name;
@@ -80,7 +80,7 @@ static exit_status compare(const batch_record *record, const char *out, json_t *
                               json_object_get(now, name), args->verb->name);
 }
 
-/* The file's text is judged; an empty one is new. */
+/* Compares the record's text with the present options; an empty record is new. */
 static exit_status judge(batch_record *record, const char *out, const arguments *args)
 {
     char text[1 << 14];

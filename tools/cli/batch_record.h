@@ -7,19 +7,19 @@
 
 /* OUT.options: what the answers in OUT were asked with
  * ====================================================
- * One line of JSON beside the output of `batch --resume OUT`: the options that change what is
- * asked, such as --gamma; not limits, threads and the like. It is locked while OUT is written, so
+ * One line of JSON in a file beside the output of `batch --resume OUT`: the options that change
+ * results, such as --gamma; not limits, threads and the like. It is locked while OUT is written, so
  * that of two runs on one output the second is refused. OUT itself cannot be: an MPI library opens
  * and closes it, which would end the lock. */
 
 typedef struct batch_record {
     int descriptor; /* -1: none */
     char *path;
-    bool is_known; /* it tells how the answers were asked for */
+    bool is_known; /* it has the options of earlier results */
 } batch_record;
 
-/* Opens and locks the record of the output `out`. Complains, and answers the status, if another
- * process has it, or the answers were asked for with other options. batch_record_close in any
+/* Opens and locks the record of the output `out`. Complains, and returns the status, if another
+ * process has it, or the results were made with other options. Call batch_record_close in any
  * case. */
 exit_status batch_record_open(batch_record *record, const char *out, const arguments *args);
 

@@ -25,8 +25,7 @@ static exit_status fail(const batch_resume *resume, const char *what)
 
 /* --- Opening ---------------------------------------------------------------------------------- */
 
-/* What is left of an answer that was cut: the beginning of one, or a place that was never
- * written. */
+/* Whether the line is an incomplete result: cut off, or with a place that was never written. */
 static bool is_torn_answer(const input_text *line)
 {
     static const char beginning[] = "{\"id\":";
@@ -42,8 +41,8 @@ static bool is_torn(const input_text *line)
            memchr(line->text, '\0', line->length) != NULL;
 }
 
-/* Counts the whole lines from the start; `end` is behind the last of them. A zero byte is a place
- * that was never written: all from its line on is torn. */
+/* Counts the complete lines from the start; `end` is the offset after the last of them. A zero byte
+ * is a place that was never written: its line and all later ones are incomplete. */
 static exit_status count_answers(batch_resume *resume)
 {
     while (input_read_line(resume->file, resume->path, verb_of(resume), &resume->line)) {
@@ -104,7 +103,7 @@ exit_status batch_resume_close(batch_resume *resume)
 
 /* --- Answers that are there ------------------------------------------------------------------- */
 
-/* What an answer of an earlier run adds to the exit status. */
+/* Returns what a result of an earlier run adds to the exit status. */
 static answered_line judge(const batch_resume *resume, const json_t *answer)
 {
     const char *verdict = json_string_value(json_object_get(answer, "verdict"));
@@ -115,7 +114,7 @@ static answered_line judge(const batch_resume *resume, const json_t *answer)
     return (answered_line){false, touches && exit_code ? EXIT_CONTACT : EXIT_ANSWERED};
 }
 
-/* The gamma that a scene is solved with. */
+/* Returns the gamma that a scene is solved with. */
 static double gamma_of(const batch_resume *resume, const json_t *scene)
 {
     const option_value *given = arguments_option(resume->args, "gamma");
@@ -133,7 +132,7 @@ static bool refuse(const batch_resume *resume, const char *why)
     return false;
 }
 
-/* Whether that is the answer to that scene. Complains if not. */
+/* Whether the result is that scene's. Complains if not. */
 static bool fits(const batch_resume *resume, const json_t *answer, const json_t *scene)
 {
     const json_t *id = json_object_get(answer, "id"), *wanted = json_object_get(scene, "id");
@@ -145,7 +144,7 @@ static bool fits(const batch_resume *resume, const json_t *answer, const json_t 
     return refuse(resume, "the answer was asked for with another gamma");
 }
 
-/* All answers that are there fit: cuts off what is behind them. */
+/* Truncates the file after its results, all of which match. */
 static bool begin(batch_resume *resume)
 {
     const int fd = fileno(resume->file);

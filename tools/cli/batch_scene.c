@@ -29,7 +29,8 @@ exit_status batch_shard_read(const arguments *args, batch_shard *shard)
 
 /* --- Ids -------------------------------------------------------------------------------------- */
 
-/* Behind the JSON string that begins at `at`; NULL: it does not end. *plain: without escapes. */
+/* Returns the place after the JSON string that begins at `at`; NULL: it does not end. *plain: it
+ * has no escapes. */
 static const char *behind_string(const char *at, const char *end, bool *plain)
 {
     *plain = true;
@@ -41,7 +42,7 @@ static const char *behind_string(const char *at, const char *end, bool *plain)
     return at < end ? at + 1 : NULL;
 }
 
-/* The keys and values of the outermost object, one by one. */
+/* An iterator over the keys and values of the outermost object. */
 typedef struct member_walk {
     const char *at, *end;
 } member_walk;
@@ -51,7 +52,7 @@ static void skip_blanks(member_walk *w)
     while (w->at < w->end && strchr(" \t\r\n", *w->at) != NULL) ++w->at;
 }
 
-/* To the ',' or '}' behind a value. False: there is none. */
+/* Moves to the ',' or '}' after a value. False: there is none. */
 static bool skip_value(member_walk *w)
 {
     size_t depth = 0;
@@ -69,8 +70,8 @@ static bool skip_value(member_walk *w)
     return false;
 }
 
-/* Where the value of the last "id" is, found without reading the rest as values. False: the text is
- * no object, or has keys with escapes. */
+/* Finds the value of the last "id" without parsing the other values. False: the text is no object,
+ * or has keys with escapes. */
 static bool find_id(const input_text *line, const char **id, size_t *length)
 {
     member_walk w = {line->text, line->text + line->length};

@@ -8,20 +8,20 @@
 #include "tools/cli/arguments.h"
 #include "tools/cli/input.h"
 
-/* Scenes of a batch: which are ours, and what they are called. */
+/* Scenes of a batch: shards and ids. */
 
-/* With --shard I/N a run answers scenes I, I + N, I + 2N, ... */
+/* With --shard I/N a run solves scenes I, I + N, I + 2N, ... */
 typedef struct batch_shard {
     size_t index, count; /* index from 0 */
 } batch_shard;
 
-/* From --shard, if it is given. Complains of what is wrong. */
+/* Reads --shard, if it is given. Complains. */
 exit_status batch_shard_read(const arguments *args, batch_shard *shard);
 
-/* The "id" of a scene's line, or null, also where the line is no JSON. NULL: no memory. */
+/* Returns the "id" of a scene's line, or null, also if the line is no JSON. NULL: no memory. */
 json_t *batch_line_id(const input_text *line);
 
-/* Like batch_line_id, of a line that is known to be a scene, without reading it all again. */
+/* Like batch_line_id, for a line that is known to be a scene, without parsing all of it again. */
 json_t *batch_scene_id(const input_text *line);
 
 #endif

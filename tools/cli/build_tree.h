@@ -3,15 +3,15 @@
 #ifndef TOOLS_CLI_BUILD_TREE_H
 #define TOOLS_CLI_BUILD_TREE_H
 
-/* The plugins of the tree that this very program was built in, if it runs from there: an
- * absolute path that lives as long as the program, else NULL (installed). Whoever builds
- * Impinge can then run tools/impinge without installing and meets the plugins just built.
+/* Returns the plugin directory of the build tree, if the program runs from one: an absolute path
+ * that lives as long as the program, else NULL (installed). So tools/impinge can run without
+ * installation and uses the plugins just built.
  *
  * libtool keeps the real program in tools/.libs and the modules in plugins/.libs, beside
  * a config.status at the top; no installed tree looks like that. */
 const char *build_tree_plugins(void);
 
-/* The directory of the data files that come with the command, in that same tree; else NULL. */
+/* Returns the directory of the command's data files in the build tree; else NULL. */
 const char *build_tree_data(void);
 
 #endif

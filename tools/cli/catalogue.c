@@ -102,7 +102,7 @@ json_t *catalogue_short_json(const imp_type_info *info)
         capabilities_json(info));
 }
 
-/* Extents, outermost first; null where any number will do. */
+/* Returns the extents, outermost first; null where any number is allowed. */
 static json_t *extents_json(const imp_parameter *p)
 {
     json_t *extents = json_array();

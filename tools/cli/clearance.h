@@ -15,13 +15,13 @@ typedef struct clearance_table {
     const imp_scene *scene;
     const imp_clearance *answers; /* NULL: they are read from */
     const imp_query *query;       /* this, */
-    imp_reason ended;             /* the reason of answers that run; RUNNING: they go on */
+    imp_reason ended;             /* reason of unfinished answers; RUNNING: they continue */
     size_t count;
     bool has_rest;      /* then the last answer is */
     imp_clearance rest; /* this, which stands for slices that were not begun */
 } clearance_table;
 
-/* Answer k, below the count. */
+/* Returns answer k, below the count. */
 imp_clearance clearance_table_get(const clearance_table *table, size_t k);
 
 /* --each: an answer for each pair of bodies that do not ignore each other, by several threads. */
@@ -40,7 +40,7 @@ typedef struct clearance_answers {
     size_t count;
     size_t beyond;       /* pairs of bodies that never come within `within` */
     size_t not_examined; /* pairs of bodies, because of a limit or a signal */
-    bool has_rest;       /* list[count] stands for those that are not listed */
+    bool has_rest;       /* list[count] is for pairs that are not listed */
     imp_stats stats;     /* of all together */
 } clearance_answers;
 
@@ -50,31 +50,31 @@ imp_code clearance_each_run(const clearance_each *of, clearance_answers *found, 
 /* "holds", "violated", "undecided"; NULL: nothing was required. */
 const char *clearance_verdict_name(imp_requirement verdict);
 
-/* The answer that stands for all: of least lower and of least upper bound, violated where one is
- * violated, with the first violation of all if none before it is possible. count > 0. */
+/* Returns the combined answer: the least lower and the least upper bound; violated if one is
+ * violated, with the first violation if none before it is possible. Precondition: count > 0. */
 imp_clearance clearance_summary(const clearance_table *table);
 
-/* Whether something other than the answer ended a search. */
+/* Whether a limit or a signal ended a search. */
 bool clearance_is_ended(imp_reason reason);
 
 /* Orders answers by their lower bound, the least first; equal ones in the order of the scene. */
 void clearance_sort(imp_clearance *answers, size_t count);
 
-/* Lines to standard output, verdict first. Bounds are rounded to the side that claims less. Without
- * a requirement, what comes within gamma is said to touch. */
+/* Prints lines to standard output, verdict first. Bounds are rounded to the side that claims less.
+ * Without a requirement, bodies that come within gamma are said to touch. */
 void clearance_print(const imp_scene *scene, const imp_clearance *answer, double gamma);
 /* One line a pair of bodies, under a line of heads. count > 0. */
 void clearance_print_pairs(const clearance_table *table);
 
-/* CSV: the head, and one line a slice. */
+/* Print the CSV header, and one line for each slice. */
 void clearance_print_csv_head(void);
 void clearance_print_csv(const imp_scene *scene, const imp_clearance *slice);
 
 json_t *clearance_json(const imp_scene *scene, const imp_clearance *answer);
 json_t *clearance_slice_json(const imp_scene *scene, const imp_clearance *slice);
-/* Prints the object, which is taken over, on one line, with the answers as its last key: "slices",
- * or "pairs" of bodies. They are made and printed one by one: all at once they would take kilobytes
- * each. A signal ends the list. */
+/* Prints the object, and frees it, on one line, with the answers as its last key: "slices", or
+ * "pairs" of bodies. Answers are made and printed one by one to save memory. A signal ends the
+ * list. */
 exit_status clearance_print_json(json_t *object, const clearance_table *table, bool slices,
                                  const char *verb);
 

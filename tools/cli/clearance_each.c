@@ -62,7 +62,7 @@ static void take(void *context, size_t index, imp_query *part)
     pthread_mutex_unlock(&f->lock);
 }
 
-/* The memory of answers counts, too: they are sorted, so that all are there before the first is
+/* Whether memory is over the limit. Answers count, too: all are kept until they are sorted and
  * printed. */
 static bool is_over(void *context)
 {
@@ -78,9 +78,8 @@ static bool is_over(void *context)
     return true;
 }
 
-/* The answer for two bodies that are never both there; for any that are beyond `within`, where
- * `reason` is DECIDED; or, where another reason ended the search, for any that were not
- * examined. */
+/* Returns the answer for two bodies that never exist together; or for bodies beyond `within`, if
+ * `reason` is DECIDED; or for bodies not examined when another reason ended the search. */
 static imp_clearance answer_of_none(const clearance_each *of, imp_reason reason, size_t a, size_t b)
 {
     const imp_result whole = imp_query_result(of->query);
@@ -130,8 +129,8 @@ static bool add_absent(filling *f)
     return true;
 }
 
-/* Counts the pairs of bodies that are not listed; one answer stands for them where it says more
- * than those listed do. */
+/* Counts the pairs of bodies that are not listed; one answer is added for them if it has
+ * information that the others lack. */
 static bool count_rest(filling *f, size_t parts, imp_reason ended)
 {
     clearance_answers *found = f->found;
@@ -148,7 +147,7 @@ static bool count_rest(filling *f, size_t parts, imp_reason ended)
     return true;
 }
 
-/* What is known when no more parts are measured. */
+/* Finishes the list once no more parts are measured. */
 static imp_code conclude(filling *f, size_t parts)
 {
     const imp_result whole = imp_query_result(f->of->query);

@@ -93,14 +93,15 @@ void clearance_print_pairs(const clearance_table *table)
 
 void clearance_print_csv_head(void) { puts("t0,t1,lower,upper,t,verdict,a,b"); }
 
-/* An empty field for what is not there. */
+/* Prints the number, or an empty field for NaN. */
 static void print_field(double number)
 {
     if (isfinite(number)) printf("%s", output_number_exact(number).text);
     putchar(',');
 }
 
-/* RFC 4180: in quotes where it has a comma, a quote or the end of a line; quotes are doubled. */
+/* Prints a name as RFC 4180 says: quoted if it contains a comma, a quote or a line break; quotes
+ * are doubled. */
 static void print_name(const char *name)
 {
     putchar(',');
@@ -136,7 +137,8 @@ static imp_requirement worse(imp_requirement x, imp_requirement y)
     return x == IMP_REQUIREMENT_UNDECIDED ? x : y;
 }
 
-/* The greatest weight counts for all parts: ended early, then a verdict alone, then a bracket. */
+/* Orders reasons; the greatest of all parts is the combined reason: ended early, then a verdict
+ * alone, then a bracket. */
 static int weight(imp_reason reason)
 {
     if (clearance_is_ended(reason)) return 3;
@@ -144,8 +146,8 @@ static int weight(imp_reason reason)
     return reason == IMP_REASON_NONE ? 1 : 0;
 }
 
-/* Lemma. What holds of each part holds of all: the least of the lower bounds, and any upper
- * bound. */
+/* Lemma. The least of the parts' lower bounds, and any part's upper bound, are bounds for all parts
+ * together. */
 static imp_clearance join_brackets(const clearance_table *table)
 {
     imp_clearance all = clearance_table_get(table, 0);
@@ -162,15 +164,15 @@ static imp_clearance join_brackets(const clearance_table *table)
     return all;
 }
 
-/* Whether a violation before time t is possible: of an answer whose first one is not known. */
+/* Whether an answer without a known first violation may have one before time t. */
 static bool may_be_violated_before(const imp_clearance *r, double t)
 {
     const bool holds = r->verdict == IMP_REQUIREMENT_HOLDS;
     return !holds && isnan(r->t_violated) && r->t_start < t;
 }
 
-/* Lemma. The least time of the violations known is the first of all unless an answer that has none,
- * and does not hold, begins before it. */
+/* Lemma. The earliest known violation is the first of all unless an undecided answer begins before
+ * it. */
 static bool first_violation(const clearance_table *table, imp_clearance *first)
 {
     bool found = false;

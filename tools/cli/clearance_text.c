@@ -59,7 +59,7 @@ static void print_nearest(const imp_scene *scene, const imp_clearance *r)
            name_of(scene, r->a.body), name_of(scene, r->b.body));
 }
 
-/* Why there are no two points. */
+/* Returns why there are no two points. */
 static const char *reason_of_none(const imp_clearance *r)
 {
     const char *why = result_reason_of_none(r->reason);
@@ -150,7 +150,7 @@ static void print_required(const imp_clearance *r)
     printf("%.10g\n", r->required);
 }
 
-/* What the first line does not say already. */
+/* Prints proved bounds that are not in the first line. */
 static void print_proved(const imp_clearance *r)
 {
     const double said = r->verdict == IMP_REQUIREMENT_HOLDS ? r->required : 0;
@@ -167,7 +167,7 @@ static void print_ended(const imp_clearance *r)
     printf("%s: %s\n", e.why, e.cure);
 }
 
-/* The nearest distance, where the first line tells of a verdict. */
+/* Prints the nearest distance if the first line has a verdict. */
 static void print_nearest_line(const imp_scene *scene, const imp_clearance *r)
 {
     if (r->verdict == IMP_REQUIREMENT_NONE || !r->has_witness) return;
@@ -180,7 +180,7 @@ static void print_nearest_line(const imp_scene *scene, const imp_clearance *r)
     putchar('\n');
 }
 
-/* The two nearest points, or those of the first violation where only a verdict is asked for. */
+/* Prints the two nearest points, or those of the first violation if only a verdict is wanted. */
 static void print_points(const imp_scene *scene, const imp_clearance *r, double gamma)
 {
     if (is_decided_only(r)) {

@@ -9,7 +9,8 @@
 
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n'; }
 
-/* Copies the word that begins at `typed` to *to, where it is ended; answers where it ends. */
+/* Copies the word that begins at `typed` to *to, NUL-terminated; returns where it ends in
+ * `typed`. */
 static const char *copy_word(const char *typed, char **to, char *quote)
 {
     *quote = '\0';
@@ -29,7 +30,8 @@ static const char *copy_word(const char *typed, char **to, char *quote)
 
 bool command_line_split(const char *typed, command_line *line)
 {
-    /* A word takes a byte at least, and a blank before it but for the first: its end has room. */
+    /* A word has at least one byte, and a blank before all but the first: there is space for each
+     * NUL. */
     const size_t length = strlen(typed);
     *line = (command_line){.text = malloc(length + 2),
                            .words = calloc(length / 2 + 2, sizeof *line->words)};

@@ -37,7 +37,7 @@ bool compile_knows(const char *source) { return language_of(source) != NULL; }
 
 #define WORDS_MAX 250
 
-/* `texts` own what the words of the environment point to. */
+/* A command; words taken from the environment point into `texts`, which it owns. */
 typedef struct command {
     const char *words[WORDS_MAX + 1];
     int count;
@@ -55,7 +55,7 @@ static void add(command *c, const char *word)
         c->complete = false;
 }
 
-/* The words of an environment's variable, or of `otherwise` where it has none. */
+/* Adds the words of an environment variable, or of `otherwise` if it is not set. */
 static void add_variable(command *c, const char *variable, const char *otherwise)
 {
     const char *value = getenv(variable);
@@ -105,9 +105,10 @@ static void clear(command *c)
     free(c->include);
 }
 
-/* --- What the compiler says ------------------------------------------------------------------- */
+/* --- Messages of the compiler ----------------------------------------------------------------- */
 
-/* The line that holds `mark`, or the first line if mark is NULL. Cuts `said` there. */
+/* Returns the line that contains `mark`, or the first line if mark is NULL. Terminates it in
+ * `said`. */
 static const char *line_with(char *said, const char *mark)
 {
     char *line = mark != NULL ? strstr(said, mark) : said;

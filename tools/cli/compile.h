@@ -8,14 +8,14 @@
 /* A plugin from one source file
  * =============================
  * With the SDK that came with this command, and the user's compiler: CC, CPPFLAGS, CFLAGS (C++: CXX
- * and CXXFLAGS) and LDFLAGS of the environment, as make has them. What bounds rely on stands behind
- * the user's flags. */
+ * and CXXFLAGS) and LDFLAGS of the environment, as make has them. The flags that bounds rely on
+ * come after the user's. */
 
-/* Is it a source of C or C++, by its suffix? */
+/* Whether the suffix is one of C or C++. */
 bool compile_knows(const char *source);
 
-/* Compiles and links `source` to the shared object `target`. What the compiler says goes to
- * standard error; the complaint on behalf of `verb` tells the first error of it. */
+/* Compiles and links `source` to the shared object `target`. The compiler's messages go to standard
+ * error; the complaint on behalf of `verb` quotes the first error. */
 exit_status compile_plugin(const char *source, const char *target, const char *verb);
 
 #endif

@@ -19,7 +19,7 @@
 #include "tools/cli/message.h"
 #include "tools/cli/standard_output.h"
 
-/* The process that was prepared: its copies may end as they like. */
+/* The prepared process: copies made by fork are not watched. */
 static pid_t prepared;
 static bool json_wanted;
 
@@ -45,7 +45,7 @@ static void add(line *l, const char *text)
 
 static void add_shown(line *l, const char *text) { add(l, message_shown(text).text); }
 
-/* For a string of JSON; the text has no control characters. */
+/* Adds text to a JSON string. Precondition: it has no control characters. */
 static void add_escaped(line *l, const char *text)
 {
     for (; *text != '\0'; ++text) {
@@ -79,12 +79,12 @@ _Noreturn static void end_with(const line *what)
 
 /* --- Whose fault it is ------------------------------------------------------------------------ */
 
-/* While a plugin is loaded or unloaded its path stands for the type. */
+/* Whether the type is a path: used in place of a type while a plugin is loaded or unloaded. */
 static bool is_path(const char *type) { return type[0] == '/'; }
 
 static const char cure_of_loading[] = "; `impinge why FILE` loads it in a process of its own";
 
-/* "PLACE of type 'TYPE'", or of a plugin. */
+/* Adds "PLACE of type 'TYPE'", or of a plugin. */
 static void add_place(line *l, const char *type, const char *callback)
 {
     add(l, callback);
@@ -93,7 +93,7 @@ static void add_place(line *l, const char *type, const char *callback)
     add(l, "'");
 }
 
-/* Where a callback crashes another plugin may have damaged what it works on. */
+/* Reports a crash in a callback; another plugin may have damaged the callback's data. */
 _Noreturn static void blame_for_crash(const char *type, const char *callback)
 {
     line l = {.used = 0};
@@ -119,7 +119,7 @@ _Noreturn static void blame_for_end(const char *type, const char *callback, cons
     end_with(&l);
 }
 
-/* `what` NULL: a crash. */
+/* Reports the callback that is running, if any. `what` NULL: a crash. */
 static void blame_if_in_call(const char *what)
 {
     const char *callback, *type = imp_call_in_progress(&callback);
@@ -141,7 +141,8 @@ static void note_objects(void)
         started_with.count += 1;
 }
 
-/* The file of the plugin, or a library that one needs, whose code is at that address; or NULL. */
+/* Returns the file of the plugin, or of a library of one, whose code is at that address; or
+ * NULL. */
 static const char *plugin_at(void *address)
 {
     Dl_info info;
@@ -155,8 +156,8 @@ static const char *plugin_at(void *address)
 }
 
 /* Code of a plugin also runs outside of its callbacks: in threads that it has left, in destructors
- * of thread-local data, in handlers. Looking at the stack is not safe in a handler, but the process
- * is lost anyway; should the look hang, the alarm ends it. */
+ * of thread-local data, in handlers. Reading the stack is not safe in a handler, but the process is
+ * lost anyway; if it hangs, the alarm ends it. */
 static void blame_if_on_stack(void)
 {
     enum { FRAMES = 64, SECONDS = 5 };
@@ -192,10 +193,10 @@ static void on_crash(int number)
 
 /* --- Threads and their calls ------------------------------------------------------------------ */
 
-/* Main and as many as --threads allows; the calls of any more would not be known. */
+/* The main thread and as many as --threads allows; calls of further threads are not recorded. */
 enum { THREADS_MAX = 1025 };
 
-/* Where the call of each thread can be read; NULL: free. */
+/* The current call of each thread; NULL: a free slot. */
 static const imp_call *_Atomic calls[THREADS_MAX];
 static _Thread_local size_t own_call = THREADS_MAX;
 
@@ -211,7 +212,7 @@ static void enter_call(void)
     }
 }
 
-/* A thread that ends takes its call along, so it waits where the handler may have found that. */
+/* Removes an ending thread's call; waits if the handler may be reading it. */
 static void leave_call(void)
 {
     if (own_call == THREADS_MAX) return;
@@ -278,7 +279,7 @@ void crash_thread_left(void *unused)
     on_exit_in_call();
 }
 
-/* On a stack of its own: a plugin may have used up the other. */
+/* Handlers run on a separate stack: a plugin may have exhausted the other. */
 void crash_prepare(bool json)
 {
     static char room[SIGNAL_STACK];

@@ -11,14 +11,14 @@
  * signal. */
 void crash_prepare(bool json);
 
-/* A handler for signals by which the user ends the command: says in whose callbacks the threads
- * are, in case one hangs, and lets the signal end the process. SIGQUIT has it from the beginning,
- * unless it is ignored. */
+/* A handler for signals by which the user ends the command: prints in which callbacks the threads
+ * are, in case one hangs, and lets the signal end the process. crash_prepare installs it for
+ * SIGQUIT, unless that is ignored. */
 void crash_interrupted(int number);
 
-/* Prepares a thread of our own for crashes: answers its stack for signals (NULL: no memory, and a
- * plugin that uses up the thread's stack ends the process without a message), to be handed to
- * crash_thread_end. */
+/* Prepares one of our threads for crashes. Returns its signal stack, to be passed to
+ * crash_thread_end; NULL: no memory, and a plugin that exhausts the thread's stack ends the process
+ * without a message. */
 void *crash_thread_begin(void);
 void crash_thread_end(void *stack);
 

@@ -67,8 +67,8 @@ typedef struct timed {
     size_t part;
 } timed;
 
-/* While lines are printed. What stays clear without a search has the same line for any two bodies
- * but for their names: it is made once, in two halves. */
+/* State while lines are printed. Pairs that are clear without a search have the same line except
+ * for the bodies' names: it is made once, in two halves. */
 struct printing {
     each *e;
     bool json;
@@ -146,7 +146,7 @@ static int by_time(const void *p, const void *q)
     return x->part < y->part ? -1 : 1;
 }
 
-/* Orders the answers that have come and are not clear, behind those that are printed. */
+/* Sorts the new answers that are not clear, after those that are printed. */
 static void collect_timed(printing *p)
 {
     size_t waiting = 0;
@@ -202,7 +202,7 @@ static exit_status print_or_count(printing *p, const imp_result *r, size_t a, si
     return EXIT_ANSWERED;
 }
 
-/* Parts are in the order of the scene. Those without an answer were not examined. */
+/* Prints the clear parts in the order of the scene. Parts without an answer were not examined. */
 static exit_status print_clear(printing *p)
 {
     const each *e = p->e;
@@ -228,7 +228,7 @@ static imp_reason reason_of_cut(const printing *p)
     return p->rest.verdict == IMP_VERDICT_UNDECIDED ? p->rest.reason : IMP_REASON_SECONDS;
 }
 
-/* One line for all pairs of bodies that have none. */
+/* Prints one line that counts all pairs of bodies without a line. */
 static exit_status print_counts(printing *p)
 {
     const imp_reason reason = reason_of_cut(p);
@@ -249,7 +249,7 @@ static exit_status print_counts(printing *p)
 
 /* --- All -------------------------------------------------------------------------------------- */
 
-/* The line of the rest in two halves, and the names that go between. */
+/* Makes the two halves of the line of clear pairs, and the names that go between. */
 static bool prepare_json(printing *p)
 {
     static const char key[] = "\"bodies\":[]";
@@ -295,7 +295,7 @@ static exit_status printing_begin(printing *p, each *e)
     return EXIT_ANSWERED;
 }
 
-/* What is left, all answers being there. */
+/* Prints the remaining lines once all answers are known. */
 static exit_status print_rest(printing *p)
 {
     advance(p->e, INFINITY);

@@ -8,9 +8,9 @@
 #include "tools/cli/parts.h"
 
 /* solve --each: the first contact of each pair of bodies
- * ==================================================
- * What is not clear comes in order of time, then by the bodies' places in the scene; what is clear
- * follows in the order of the scene. Bodies that the broad phase parts have the answer of the
+ * ======================================================
+ * Contacts and undecided pairs come in order of time, then of the bodies in the scene; clear pairs
+ * follow in the order of the scene. Bodies that the broad phase separates have the answer of the
  * divided query. Pairs of bodies that were not examined, or not listed, when a limit or a signal
  * came are counted in one last line. */
 
@@ -30,12 +30,12 @@ typedef struct each {
  * struct stays where it is until each_end. Complains of what is wrong. */
 exit_status each_begin(each *e, imp_scene *scene, const arguments *args, size_t threads);
 
-/* Prints all answers, those of the parts being there. The exit status is that of the worst. */
+/* Prints all answers once those of the parts are known. The exit status is that of the worst. */
 exit_status each_print(each *e);
 
 void each_end(each *e); /* also after each_begin has failed */
 
-/* All of that; each line is printed as soon as no other can come before it. */
+/* Divides, solves and prints; each line is printed as soon as no other can come before it. */
 exit_status each_answer(imp_scene *scene, const arguments *args);
 
 #endif

@@ -14,7 +14,7 @@
 
 /* --- Advice ----------------------------------------------------------------------------------- */
 
-/* An obstacle that took this part of the divided pairs is what to mend first. */
+/* An obstacle that took this part of the split pairs is to be removed first. */
 static const double STANDS_OUT = 0.3;
 
 /* What the obstacles have in common: which side's, and of which kind. */
@@ -30,7 +30,7 @@ typedef enum cause {
 static const struct kind {
     cause cause;
     int side;
-    const char *name, *text; /* of --json; for people, behind it the surface's type */
+    const char *name, *text; /* of --json; for people, followed by the surface's type */
 } kinds[IMP_OBSTACLES] = {
     [IMP_OBSTACLE_REMAINDER_A] = {CAUSE_REMAINDER, 0, "remainder_a", "the remainder of "},
     [IMP_OBSTACLE_REMAINDER_B] = {CAUSE_REMAINDER, 1, "remainder_b", "the remainder of "},

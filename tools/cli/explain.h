@@ -16,12 +16,11 @@ typedef struct explanation {
     char advice[512];
 } explanation; /* explain_free frees */
 
-/* Reads what a query tells; `why` is its result's reason. False: no memory. */
+/* Reads a query's counts; `why` is its result's reason. False: no memory. */
 bool explain_query(const imp_query *query, imp_reason why, explanation *e);
 void explain_free(explanation *e);
 
-/* Prints the table, then the advice, each with a label. The table is left out of what was not
- * counted. */
+/* Prints the table, then the advice, each with a label. Without counts there is no table. */
 void explain_print(const imp_scene *scene, const explanation *e);
 
 /* Adds "advice" and, of what was counted, "explanation". False: no memory. */

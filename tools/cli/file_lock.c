@@ -50,7 +50,8 @@ static bool has_name(const struct stat *is, const char *name)
     return lstat(name, &named) == 0 && named.st_dev == is->st_dev && named.st_ino == is->st_ino;
 }
 
-/* A file that an earlier run left is taken over, unless it may be a trap. */
+/* Checks a lock file that an earlier run left; one that another user may have planted is
+ * refused. */
 static exit_status check(const file_lock *lock, const struct stat *is)
 {
     if (S_ISREG(is->st_mode) && is->st_nlink == 1 && is->st_uid == geteuid()) return EXIT_ANSWERED;

@@ -19,9 +19,9 @@ typedef struct file_lock {
     const char *verb;
 } file_lock;
 
-/* Opens the file for reading and writing, and locks it: *fd, described by *is. Complains that
- * another process is writing the output, and which; and of a file that another user may have put
- * there. A file system without locks counts as locked. *fd is -1 where it is not EXIT_ANSWERED. */
+/* Opens the file for reading and writing, and locks it: *fd, described by *is. Complains if another
+ * process is writing the output, and names it; and if another user may have planted the file. On a
+ * file system without locks it counts as locked. *fd is -1 unless EXIT_ANSWERED is returned. */
 exit_status file_lock_open(const file_lock *lock, int *fd, struct stat *is);
 
 #endif

@@ -3,7 +3,8 @@
 #ifndef TOOLS_CLI_HELP_TOPICS_H
 #define TOOLS_CLI_HELP_TOPICS_H
 
-/* What `impinge help TOPIC` tells beside verbs: each in short, with the manual that tells more. */
+/* Topics of `impinge help TOPIC` other than verbs: a summary, and the manual page with the
+ * details. */
 typedef struct help_topic {
     const char *name, *summary;
     const char *text; /* paragraphs, each line ended */

@@ -9,7 +9,7 @@
 
 #include "tools/cli/crash.h"
 
-/* A signal handler has no arguments of ours. Lock-free. */
+/* Global, since a signal handler has no context argument; lock-free. */
 static atomic_bool came;
 
 static void on_signal(int number)
@@ -18,7 +18,7 @@ static void on_signal(int number)
     atomic_store(&came, true);
 }
 
-/* No SA_RESTART: a read that waits for the next scene ends too. */
+/* Without SA_RESTART, so that a read that waits for the next scene ends too. */
 void interrupt_prepare(void)
 {
     struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_ONSTACK};

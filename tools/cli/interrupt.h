@@ -7,11 +7,11 @@
 
 /* SIGINT and SIGTERM end a search, not its answer
  * ===============================================
- * Queries ask interrupt_came about ten times a second (imp_options.progress) and end with what is
+ * Queries call interrupt_came about ten times a second (imp_options.progress) and end with what is
  * proved so far. A second signal of the same kind ends the process as usual, and a message names
  * the callback that may hang. */
 
-/* From now on signals are taken. Before, they end the process: nothing is proved yet. */
+/* Installs the handlers. Before, signals end the process: nothing is proved yet. */
 void interrupt_prepare(void);
 
 /* Whether a signal has come. [any thread] */

@@ -8,7 +8,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-/* Jansson's functions take no context: one for the process. */
+/* Global, since Jansson's allocation functions have no context argument. */
 static atomic_bool failed;
 
 static void *allocate(size_t size)

@@ -10,15 +10,14 @@
  * ======================================
  * Jansson 2.14 does not always report an allocation that failed: an object may lack keys, or be
  * damaged by what is put into it afterwards. So once one allocation has failed all others do, and
- * the command asks before it prints whether that has happened: nothing that was read or made since
- * then can be relied on. */
+ * the command checks this before it prints: JSON values read or made since then may be damaged. */
 
 void json_memory_prepare(void);
 
 bool json_memory_failed(void);
 
-/* The text of a value, as of json_dumps, for free(); NULL: memory failed, also where json_dumps has
- * left out a key instead of saying so. NULL is accepted. */
+/* Returns the text of a value, like json_dumps; free it with free(). NULL: an allocation failed,
+ * even if json_dumps only left out a key. The value may be NULL. */
 char *json_memory_text(const json_t *value, size_t flags);
 
 #endif

@@ -75,7 +75,7 @@ void complain_aloud(bool aloud) { silent = !aloud; }
 
 enum { TEXT = 2048 };
 
-/* One for the process, as standard error is. */
+/* Global, like standard error. */
 static char first_error[TEXT];
 
 const char *complain_first(void) { return first_error[0] != '\0' ? first_error : NULL; }

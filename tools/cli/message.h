@@ -5,16 +5,16 @@
 
 #include <impinge/impinge.h>
 
-/* What the command answers to the shell, and how it complains
- * ===========================================================
+/* Exit statuses and error messages of the command
+ * ===============================================
  * Results go to standard output, complaints to standard error, one line each:
  *
  *   impinge: pair: --gamma must be a number greater than 0, not '-1'
  *
- * A complaint says what was found and what is allowed. Every function that complains
- * returns the exit status that belongs to it, so that callers write `return complain(...)`. */
+ * A complaint states what was found and what is allowed. Every function that complains returns the
+ * matching exit status, so that callers write `return complain(...)`. */
 
-/* Exit statuses: a contract with scripts. Where several things were asked, the greatest wins. */
+/* Exit statuses: a contract with scripts. If several apply, the greatest is used. */
 typedef enum exit_status {
     EXIT_ANSWERED = 0,
     EXIT_CONTACT = 1, /* with --exit-code only */
@@ -26,18 +26,18 @@ typedef enum exit_status {
 } exit_status;
 
 /* A text with its control characters, C1 included, and bytes that are no UTF-8 written as \x1b, so
- * that names of files neither forge lines nor steer a terminal; a line break is \n. What does not
- * fit is cut. [async-signal-safe] */
+ * that names of files neither forge lines nor steer a terminal; a line break is \n. Text that is
+ * too long is cut. [async-signal-safe] */
 typedef struct message_text {
     char text[4096];
 } message_text;
 message_text message_shown(const char *text);
 
-/* The status for an error the library returned. */
+/* Returns the exit status for an error of the library. */
 exit_status status_of_code(imp_code code);
 
-/* Switches complaints off and on: where several processes find one fault, one complains and the
- * others only answer the status. */
+/* Switches complaints off and on: if several processes find the same fault, one complains and the
+ * others only return the status. */
 void complain_aloud(bool aloud);
 
 /* Writes "impinge: VERB: text" (or "impinge: text" where verb is NULL) and returns `status`.
@@ -45,14 +45,14 @@ void complain_aloud(bool aloud);
 exit_status complain(exit_status status, const char *verb, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Writes a line like those of complain about what is no error of the command. */
+/* Writes a line like complain, for warnings that are no errors. */
 void remark(const char *verb, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The text of the first complaint with the status of an error (2 or from 4 on), or NULL: with
+/* Returns the text of the first complaint with an error's status (2, or from 4 on), or NULL: with
  * --json it becomes the object {"error": text} (output_finish). */
 const char *complain_first(void);
 
-/* The text of an error; where it has none, the text of its code. */
+/* Returns the text of an error; if it has none, that of its code. */
 const char *message_of(const imp_error *error);
 
 /* Complains of an error of the library and returns its status. */

@@ -106,8 +106,8 @@ const option *option_find(const option *const *tables, const char *name, size_t 
     return NULL;
 }
 
-/* A finite number that starts at `text`; *end points past it. strtod also takes "inf", "nan" and
- * hexadecimal: the first two are refused here, the last is harmless. */
+/* Reads a finite number that starts at `text`; *end points past it. strtod also accepts "inf",
+ * "nan" and hexadecimal: the first two are refused here, the last is harmless. */
 static bool read_number(const char *text, char **end, double *number)
 {
     if (*text == '\0' || strchr(" \t\n\v\f\r", *text) != NULL) return false;
@@ -129,7 +129,8 @@ static bool read_two(const char *text, double number[2])
     return read_number(end + 1, &end, &number[1]) && *end == '\0';
 }
 
-/* Whole number with an optional suffix; `unit` is what K stands for. Refuses what does not fit. */
+/* Reads a whole number with an optional suffix; `unit` is the value of K. Refuses numbers that are
+ * too large. */
 static bool read_count(const char *text, uint64_t unit, uint64_t *count)
 {
     char *end;

@@ -7,9 +7,9 @@
 
 /* Options of the command line
  * ===========================
- * An option is one row of a table: its name, what it takes, what is allowed, one line of help.
- * Parsing, range checks, complaints and help text all follow from the row, so they cannot differ.
- * A verb lists the tables it accepts. */
+ * An option is one row of a table: its name, the kind of its value, the allowed range, one line of
+ * help. Parsing, range checks, complaints and help text all follow from the row, so they cannot
+ * differ. A verb lists the tables it accepts. */
 
 typedef enum option_kind {
     OPTION_FLAG,     /* takes nothing */
@@ -24,7 +24,7 @@ typedef enum option_kind {
 typedef struct option {
     const char *name; /* without the dashes; NULL ends a table */
     option_kind kind;
-    const char *argument;       /* what help calls the value; NULL for flags */
+    const char *argument;       /* the value's name in help; NULL for flags */
     const char *help;           /* one line */
     const char *const *choices; /* OPTION_CHOICE: names, NULL-terminated */
     double min;                 /* OPTION_NUMBER */
@@ -39,13 +39,14 @@ typedef struct option_value {
     size_t choice;    /* OPTION_CHOICE: index */
 } option_value;
 
-/* The row of that name in NULL-terminated tables of rows, or NULL. The name ends at `length`. */
+/* Returns the row of that name in NULL-terminated tables of rows, or NULL. The name has `length`
+ * characters. */
 const option *option_find(const option *const *tables, const char *name, size_t length);
 
 /* Reads `text` (NULL for flags) as the row wants it. Complains on behalf of `verb`. */
 exit_status option_read(const option *row, const char *text, const char *verb, option_value *value);
 
-/* The tables verbs choose from. */
+/* The tables that verbs choose from. */
 extern const option options_always[];   /* help, version: every verb has these */
 extern const option options_registry[]; /* json, plugin-path */
 extern const option options_search[];   /* time, gamma, budgets: every search has these */

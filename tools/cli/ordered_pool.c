@@ -33,10 +33,10 @@ static void *slot_of(ordered_pool *pool, size_t k)
 
 /* --- Workers; the lock is held at entry and exit of each -------------------------------------- */
 
-/* Whoever completes the oldest item finishes it and all complete ones behind it. */
+/* The worker that completes the oldest item finishes it and all complete items after it. */
 static void finish_in_order(ordered_pool *pool)
 {
-    if (pool->finishing) return; /* by another worker, which will look again */
+    if (pool->finishing) return; /* another worker finishes items now, and will check again */
     pool->finishing = true;
     while (pool->finished < pool->taken && pool->worked[pool->finished % pool->plan.items]) {
         void *item = slot_of(pool, pool->finished);

@@ -39,7 +39,7 @@ static exit_status complain_of_output(const char *verb)
     return complain(EXIT_DATA, verb, "standard output: %s", system_error_text(error));
 }
 
-/* What was made of JSON that lost a part of itself is not printed. One complaint is enough. */
+/* Complains, once, instead of printing text made of damaged JSON (json_memory.h). */
 static exit_status refuse_damaged(const char *verb)
 {
     static bool complained;
@@ -89,9 +89,10 @@ const char *output_colour(output_tint tint)
 /* Characters of the number that the text begins with. */
 static size_t number_length(const char *text) { return strspn(text, "+-.0123456789eE"); }
 
-/* The number that `from` begins with to `to`, in the fewest digits that read back exactly. Answers
- * the characters written: at most those read. A text of up to 15 characters is one of 15 digits
- * already, perhaps with a ".0" that Jansson adds to whole numbers. */
+/* Writes the number at the beginning of `from` to `to`, in the fewest digits that read back
+ * exactly. Returns the number of characters written: at most those read. A text of up to 15
+ * characters is one of 15 digits already, perhaps with a ".0" that Jansson adds to whole
+ * numbers. */
 static size_t write_shortest(const char *from, char *to)
 {
     const size_t length = number_length(from);
@@ -131,8 +132,8 @@ static void shorten_numbers(char *text)
     *to = '\0';
 }
 
-/* The next character that steers a terminal and that Jansson writes as it is: DEL, or one of C1
- * (U+0080 to U+009F), which is two bytes in UTF-8. NULL: there is none. */
+/* Returns the next character that controls a terminal and that Jansson does not escape: DEL, or one
+ * of C1 (U+0080 to U+009F), which is two bytes in UTF-8. NULL: there is none. */
 static const char *next_control(const char *text)
 {
     while ((text = strpbrk(text, "\x7f\xc2")) != NULL && *text == '\xc2' &&
@@ -249,7 +250,8 @@ char *output_shell_word(const char *text)
     return word;
 }
 
-/* The decimal of 10 digits next to that of `text` (as "%.9e" prints it), on the wanted side. */
+/* Returns the decimal of 10 digits next to that of `text` (as "%.9e" prints it), on the given
+ * side. */
 static double next_decimal(const char *text, int side)
 {
     char digits[32], next[48], *exponent, *to = digits;
@@ -261,8 +263,9 @@ static double next_decimal(const char *text, int side)
     return strtod(next, NULL);
 }
 
-/* 10 digits: the nearest decimal if it is on the wanted side, else the next one, which is less than
- * one unit in the last digit away. 17 digits where neither is, next to the largest double. */
+/* Returns 10 digits: the nearest decimal if it is on the given side, else the next one, which is
+ * less than one unit in the last digit away. Returns 17 digits if neither is, near the largest
+ * double. */
 static number_text number_on_side(double number, int side)
 {
     number_text n;

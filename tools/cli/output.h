@@ -7,30 +7,30 @@
 
 #include "tools/cli/message.h"
 
-/* Standard output, with nothing lost in silence
- * =============================================
- * A full disk is an error of the command, told; a pipe whose reader has left ends it quietly. Print
+/* Standard output, with every write error reported
+ * ================================================
+ * A full disk is an error that is reported; a closed pipe ends the command quietly. Print
  * with stdio as usual; call output_finish before exit, or output_flush after each line of a
  * stream. */
 
-/* To be called first of all: closed standard streams are opened so that no file of ours lands on
- * their numbers while writing to them still fails, and a closed pipe is an error, not a signal.
- * False, and it complains: no memory. */
+/* Call it first of all: it opens closed standard streams, so that no file of ours gets their
+ * numbers while writing to them still fails, and makes a closed pipe an error, not a signal. False,
+ * and it complains: no memory. */
 bool output_prepare(void);
 
-/* Complain on behalf of `verb` and answer EXIT_DATA if anything could not be written. */
+/* Complain on behalf of `verb` and return EXIT_DATA if anything could not be written. */
 exit_status output_flush(const char *verb);
 exit_status output_finish(const char *verb);
 
-/* With --json: prints the first error that was complained of, if any, as {"error": text}, so that a
- * program that reads standard output is told, too. To be called before output_finish. */
+/* With --json: prints the first complaint about an error, if any, as {"error": text}, for programs
+ * that read standard output. Call it before output_finish. */
 void output_error_object(void);
 
-/* Colour for people: none unless it is wanted, standard output is a terminal that has colours, and
- * NO_COLOR is not in the environment. */
+/* Switches colour on if it is wanted, standard output is a terminal with colours, and NO_COLOR is
+ * not in the environment. */
 void output_choose_colour(bool wanted);
 
-/* What begins a tint, or ends all (PLAIN); "" where there are none. */
+/* The codes that begin a tint, or end all (PLAIN); "" without colour. */
 typedef enum output_tint {
     OUTPUT_PLAIN,
     OUTPUT_BOLD,
@@ -44,20 +44,20 @@ const char *output_colour(output_tint tint);
  * drops the reference. NULL: memory ran out when it was made. */
 exit_status output_json(json_t *object, const char *verb);
 
-/* The line that output_json prints, as text, which the caller frees; [any thread]. NULL: no
+/* Returns the line that output_json prints, as text, which the caller frees; [any thread]. NULL: no
  * memory. */
 char *output_json_line(json_t *object);
 
 /* Prints such a line and frees it. NULL: memory ran out when it was made. */
 exit_status output_line(char *text, const char *verb);
 
-/* A JSON string of a text that ought to be UTF-8; other bytes are shown as '?'. NULL text: null. */
+/* Returns a JSON string of a text that should be UTF-8; other bytes become '?'. NULL text: null. */
 json_t *output_json_text(const char *text);
 
-/* A JSON number; null where JSON has none (NaN, infinities). */
+/* Returns a JSON number, or null for NaN and infinities. */
 json_t *output_json_number(double number);
 
-/* The text as one word of a shell command line, in quotes where it needs them, and with control
+/* Returns the text as one word of a shell command line, quoted if necessary, with control
  * characters escaped. Free it. NULL: no memory. */
 char *output_shell_word(const char *text);
 

@@ -15,7 +15,7 @@
 #include "tools/cli/output.h"
 #include "tools/cli/standard_output.h"
 
-/* The draft is unlinked while it is locked: a name that is ours belongs to nobody else. */
+/* Unlinks the draft while it is locked, so that the name cannot be another run's. */
 static void forget(output_file *out)
 {
     if (out->descriptor >= 0 && out->draft != NULL) unlink(out->draft);
@@ -56,7 +56,7 @@ static int close_descriptor(void *cookie)
     return close(out->descriptor);
 }
 
-/* Takes over the descriptor; -1: errno says why there is none. */
+/* Takes ownership of the descriptor; -1: it could not be opened, for errno's reason. */
 static exit_status begin_file(output_file *out, int fd)
 {
     const cookie_io_functions_t functions = {.write = write_some, .close = close_descriptor};
@@ -68,7 +68,7 @@ static exit_status begin_file(output_file *out, int fd)
 
 /* --- Drafts ----------------------------------------------------------------------------------- */
 
-/* The file that is replaced hands on its mode and, if root replaces it, its owner. */
+/* Gives the draft the mode of the file that it replaces and, if root replaces it, its owner. */
 static void copy_mode(int fd, const struct stat *there)
 {
     const int mode = fchmod(fd, there->st_mode & 0777);
@@ -143,8 +143,8 @@ static exit_status end_standard(output_file *out, bool keep)
     return EXIT_ANSWERED;
 }
 
-/* The draft is renamed while it is locked, and thus before it is closed; fsync finds what closing
- * would find. */
+/* Renames the draft while it is locked, and thus before it is closed; fsync reports the errors that
+ * closing would report. */
 static bool put_in_place(const output_file *out)
 {
     if (out->draft == NULL) return true;

@@ -13,8 +13,8 @@
 
 /* --- Names of descriptors --------------------------------------------------------------------- */
 
-/* The descriptor that the name stands for, or -1. These names are links that lead nowhere, or to a
- * file that must not be replaced, so they are known by their spelling. */
+/* Returns the descriptor that the name stands for, or -1. Such names are links that lead nowhere,
+ * or to a file that must not be replaced, so they are recognised by their spelling. */
 static int descriptor_of(const char *path)
 {
     static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/", "/proc/thread-self/fd/"};
@@ -33,7 +33,7 @@ static int descriptor_of(const char *path)
 
 /* --- Links ------------------------------------------------------------------------------------ */
 
-/* Where the link leads, relative to the folder it is in; NULL: no link (errno EINVAL), or an
+/* Returns the link's target, relative to the folder it is in; NULL: no link (errno EINVAL), or an
  * error. */
 static char *read_link(const char *path)
 {
@@ -46,7 +46,7 @@ static char *read_link(const char *path)
     return asprintf(&to, "%.*s%s", folder, path, text) >= 0 ? to : NULL;
 }
 
-/* The name behind all links, a descriptor's among them. NULL: errno says why. */
+/* Returns the name at the end of all links, including those of descriptors. NULL: see errno. */
 static char *follow_links(const char *path)
 {
     enum { LINKS_MAX = 40 }; /* as the system allows */
@@ -70,7 +70,7 @@ static output_target refused(int error)
     return (output_target){.kind = OUTPUT_REFUSED};
 }
 
-/* Takes over the name, behind all links. */
+/* Takes ownership of the name, whose links are resolved. */
 static output_target look_at(char *name, const char *path)
 {
     output_target target = {.kind = OUTPUT_FILE, .path = name};

@@ -23,7 +23,7 @@ imp_code parts_solve(const parts_plan *plan, size_t index, imp_error *error)
 
 /* --- All parts -------------------------------------------------------------------------------- */
 
-/* A part that has had its turns so far. */
+/* A part that is being solved in turns. */
 typedef struct open_part {
     size_t index;
     imp_query *query; /* NULL before its first turn and after its last */
@@ -79,7 +79,7 @@ static bool finish_turn(void *context, void *of)
     return run->error.code == IMP_SUCCESS;
 }
 
-/* One turn for each open part; those that are done are closed. */
+/* Gives each open part one turn, and closes the finished ones. */
 static imp_code take_turns(parts_run_state *run)
 {
     enum { ITEMS_PER_THREAD = 64 };

@@ -41,7 +41,7 @@ static int start(const char *const *words, int stream, int to, pid_t *pid)
     return error;
 }
 
-/* Everything that comes, until the other end is closed. */
+/* Returns everything that is read until the other end is closed. */
 static char *listen_to(int from, bool shown)
 {
     char *said = NULL, some[4096];

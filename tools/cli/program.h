@@ -5,14 +5,14 @@
 
 #include <stdbool.h>
 
-/* Other programs, run to their end: compilers, pkg-config. */
+/* Runs other programs, such as compilers and pkg-config, and waits for them. */
 
 typedef enum program_stream { PROGRAM_OUTPUT = 1, PROGRAM_ERRORS = 2 } program_stream;
 
 typedef struct program_end {
     int error;  /* why it could not be run (as errno), or 0 */
     int status; /* its exit status; 128 + number if a signal ended it */
-    char *said; /* what it wrote to the stream, NUL-terminated, or NULL; free it */
+    char *said; /* the text that it wrote to the stream, NUL-terminated, or NULL; free it */
 } program_end;
 
 /* Runs words[0], found on PATH, with its NULL-terminated words. What it writes to `stream` is
@@ -20,11 +20,11 @@ typedef struct program_end {
  * An interrupt from the keyboard ends the program, not us. */
 program_end program_run(const char *const *words, program_stream stream, bool shown);
 
-/* The file that the shell would run for this name, or NULL. Free it. */
+/* Returns the file that the shell would run for this name, or NULL. Free it. */
 char *program_find(const char *name);
 
-/* The blank-separated words of `text`, which is cut up for it, stored behind words[*count]. No more
- * than `most` stand there in the end; the rest is left out and false the answer. */
+/* Appends the blank-separated words of `text`, which is modified, at words[*count]. False: there
+ * would be more than `most`; the rest is left out. */
 bool program_words(char *text, const char **words, int *count, int most);
 
 #endif

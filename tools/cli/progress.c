@@ -36,7 +36,8 @@ bool progress_is_wanted(void)
 
 double progress_seconds(void) { return clock_seconds() - begun; }
 
-/* Whether it is time to show something; one of several threads that ask at once is answered yes. */
+/* Whether it is time to show something; true for only one of several threads that call it at
+ * once. */
 static bool is_due(double seconds)
 {
     const double interval = mode == PROGRESS_JSON ? 0.5 : 0.1, first = 1;
@@ -87,7 +88,7 @@ static void describe_search(char *text, size_t size, const imp_progress *p)
 
 /* --- For programs ----------------------------------------------------------------------------- */
 
-/* A number of JSON, or null. */
+/* Returns a JSON number, or null. */
 static number_text json_number(double number)
 {
     number_text n = {"null"};

@@ -18,7 +18,7 @@
 
 /* --- Texts ------------------------------------------------------------------------------------ */
 
-/* The row whose @word@ the text begins with, or NULL. */
+/* Returns the row whose @word@ is at the beginning of the text, or NULL. */
 static const project_word *word_at(const char *text, const project_word *words)
 {
     for (; words->word != NULL; ++words) {
@@ -28,7 +28,7 @@ static const project_word *word_at(const char *text, const project_word *words)
     return NULL;
 }
 
-/* The text with its words replaced; an '@' that begins none stays. NULL: no memory. */
+/* Returns the text with its words replaced; any other '@' is kept. NULL: no memory. */
 static char *expanded(const char *text, const project_word *words)
 {
     char *result = NULL;
@@ -61,7 +61,7 @@ static char *read_all(const char *path, const char *verb)
     return ended;
 }
 
-/* What the template says for this project; NULL: complained. */
+/* Returns the template's text for this project; NULL: it complained. */
 static char *text_of(const char *template, const project_word *words, const char *verb)
 {
     char name[256];
@@ -110,7 +110,7 @@ static exit_status open_folder(const char *folder, bool *made, int *at, const ch
 
 /* --- The files -------------------------------------------------------------------------------- */
 
-/* The folder part of a path in the project, or "" for none. */
+/* Returns the folder part of a path in the project, or "". */
 static void folder_of(const char *path, char folder[64])
 {
     const char *slash = strchr(path, '/');
@@ -131,7 +131,7 @@ static bool write_text(int at, const project_file *file, const char *text)
     return fclose(stream) == 0 && written;
 }
 
-/* Takes back what write_text did, for `count` files; the folder was empty before. */
+/* Removes the first `count` files that write_text wrote; the folder was empty before. */
 static void remove_files(int at, const project_file *files, size_t count)
 {
     char folder[64];
@@ -159,7 +159,7 @@ static exit_status write_files(const char *folder, const project_file *files, ch
     return status;
 }
 
-/* Every text is there before anything is written. */
+/* Makes all texts before it writes the first file. */
 exit_status project_write(const char *folder, const project_file *files, const project_word *words,
                           const char *verb)
 {

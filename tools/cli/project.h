@@ -7,8 +7,8 @@
 
 /* A folder of files made from the package's templates
  * ===================================================
- * A template is a text in which words such as @name@ stand for what is different from project to
- * project. All or nothing: either every file is written or none. */
+ * A template is a text in which words such as @name@ are replaced for each project. Either every
+ * file is written or none. */
 
 typedef struct project_word {
     const char *word; /* "name" for @name@ */

@@ -21,8 +21,8 @@
 
 #include <impinge/baseline.h>
 
-/* The plugins of the build tree we run from stand behind those the environment names and before the
- * installed ones, so that a program just built meets the plugins built with it. */
+/* Adds the plugins of the build tree, if the command runs from one, after those of the environment
+ * and before the installed ones, so that a program just built uses the plugins built with it. */
 static bool add_build_tree(void)
 {
     const char *built = build_tree_plugins(), *named = getenv("IMPINGE_PLUGIN_PATH");
@@ -98,7 +98,7 @@ exit_status query_check(const arguments *args)
     return EXIT_ANSWERED;
 }
 
-/* What --method, --bounds and --rates say. */
+/* Returns imp_options.baseline from --method, --bounds and --rates. */
 static uint32_t baseline_of(const arguments *args)
 {
     const uint32_t volumes[] = {IMP_BASELINE_BOXES, IMP_BASELINE_SPHERES},
@@ -114,7 +114,7 @@ static bool goes_on(void *context, const imp_progress *p)
     return !interrupt_came();
 }
 
-/* What reading has left of the limit; 0 would be no limit. */
+/* Returns the rest of the time limit after reading; never 0, which would mean no limit. */
 static double seconds_left(double limit)
 {
     if (!(limit > 0)) return limit;
@@ -211,7 +211,7 @@ json_t *query_scene_json(const arguments *args)
     return json_null();
 }
 
-/* `why` may be NULL: nothing is explained. */
+/* Returns the result as JSON, with an explanation unless `why` is NULL. */
 static json_t *answer_json(const imp_scene *scene, const imp_result *result, const explanation *why,
                            const arguments *args)
 {

@@ -8,18 +8,17 @@
 
 /* A result, for people and for programs. */
 
-/* Some lines to standard output, verdict first. Whatever bound they state is rounded to the side
- * that claims less. */
+/* Prints some lines to standard output, verdict first. Bounds are rounded to the side that claims
+ * less. */
 void result_print(const imp_scene *scene, const imp_result *result);
 
-/* One object, as tools/schema/result.schema.json says. NULL: no memory. */
+/* Returns one object that follows tools/schema/result.schema.json. NULL: no memory. */
 json_t *result_json(const imp_scene *scene, const imp_result *result);
 
-/* Adds "warnings", what types remarked on (imp_scene_remark), if there are any. False: no
- * memory. */
+/* Adds "warnings", the remarks of types (imp_scene_remark), if there are any. False: no memory. */
 bool result_set_warnings(json_t *object, const imp_scene *scene);
 
-/* "clear", "contact", "undecided". */
+/* Returns "clear", "contact" or "undecided". */
 const char *result_verdict_name(imp_verdict verdict);
 
 /* "touch", "inside". */
@@ -30,7 +29,7 @@ bool result_is_on_surface(const imp_side *side);
 
 /* --- Parts of both, for other answers --------------------------------------------------------- */
 
-/* Lines behind the first begin with a label. */
+/* Prints the label at the beginning of a line after the first. */
 void result_print_label(const char *label);
 void result_print_times(double from, double to);
 void result_print_sides(const imp_scene *scene, const imp_side *a, const imp_side *b);
@@ -44,10 +43,10 @@ typedef struct excuse {
 } excuse;
 excuse result_excuse(imp_reason reason);
 
-/* Why nothing was searched, or NULL. */
+/* Returns why nothing was searched, or NULL. */
 const char *result_reason_of_none(imp_reason reason);
 
-/* [from, to]; null: there is no such time. */
+/* Returns [from, to]; null: there is no such time. */
 json_t *result_times_json(double from, double to);
 json_t *result_reason_json(imp_reason reason);
 json_t *result_vector_json(const double v[3]);

@@ -104,7 +104,7 @@ bool result_set_warnings(json_t *object, const imp_scene *scene)
     return false;
 }
 
-/* json_pack with "o" takes NULL for an error and frees the rest. */
+/* If a part is NULL, json_pack with "o" fails and frees the other parts. */
 json_t *result_json(const imp_scene *scene, const imp_result *r)
 {
     const bool contact = r->verdict == IMP_VERDICT_CONTACT;

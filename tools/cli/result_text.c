@@ -184,7 +184,7 @@ static void print_examined(const imp_result *r)
 {
     const double *t = r->t_examined;
     if (t[0] == r->t_start && t[1] == r->t_end) return;
-    if (!(t[0] <= t[1])) return; /* then the reason says it */
+    if (!(t[0] <= t[1])) return; /* the reason says so then */
     result_print_label("examined");
     printf("t from %s to %s only; at other times no two surfaces exist together\n",
            output_number_upper(t[0]).text, output_number_lower(t[1]).text);

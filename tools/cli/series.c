@@ -28,7 +28,8 @@ const option options_series[] = {
 
 /* --- Gammas ----------------------------------------------------------------------------------- */
 
-/* The number at *text, which is moved behind it and a comma; NAN: there is none that is allowed. */
+/* Returns the number at *text, which is moved after it and a comma; NAN: there is no valid
+ * number. */
 static double next_gamma(const char **text, double before)
 {
     char *end;

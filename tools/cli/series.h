@@ -7,10 +7,10 @@
 
 /* solve --refine G1,G2,...: one answer for each gamma, from one search. */
 
-/* What solve may be asked besides its first contact: --each (each.h) and --refine. */
+/* Options of solve for several answers: --each (each.h) and --refine. */
 extern const option options_series[];
 
-/* Complains of what does not go together. */
+/* Complains about options that exclude each other. */
 exit_status series_check(const arguments *args);
 
 /* Prints all answers of --refine. The exit status is that of the last. */

@@ -13,11 +13,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* One for the process, as stdout is. */
+/* Global, like stdout. */
 static struct {
     int descriptor;
-    struct stat
-        file; /* what the descriptor was opened on: a plugin may close it, or open another */
+    struct stat file; /* the file of the descriptor: a plugin may close it, or open another */
     pid_t owner;
     bool is_terminal, is_replaced;
     int error; /* errno of a write that failed and was not reported yet; 0: none */
@@ -64,7 +63,7 @@ static bool write_out(void)
     return output.error == 0;
 }
 
-/* A plugin may have given stdout a buffer, which is emptied first. */
+/* Flushes stdio's buffer first, which a plugin may have set. */
 bool standard_output_flush(void)
 {
     const bool passed_on = fflush(stdout) == 0;
@@ -93,7 +92,7 @@ static bool collect(const char *text, size_t length)
     return !line || write_out();
 }
 
-/* What stdio hands over: with an unbuffered stream each call's text as a whole, at once. */
+/* Receives text from stdio: each call's whole text at once, since the stream is unbuffered. */
 static ssize_t take(void *unused, const char *text, size_t length)
 {
     (void)unused;
@@ -106,8 +105,8 @@ static ssize_t take(void *unused, const char *text, size_t length)
 static bool open_stream(void);
 
 /* Only a plugin closes the stream (fclose, freopen): then there is a new one, and what the plugin
- * prints into the old one is lost. Where there is no memory for it, the answer is, which is
- * told. */
+ * prints into the old one is lost. Without memory for a new stream our text is lost, which is
+ * reported. */
 static int reopen(void *unused)
 {
     (void)unused;
@@ -125,7 +124,7 @@ static bool open_stream(void)
     return true;
 }
 
-/* With no descriptor left, plugins share descriptor 1. */
+/* If no descriptor is left, plugins share descriptor 1. */
 bool standard_output_prepare(void)
 {
     const int copy = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);

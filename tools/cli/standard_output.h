@@ -17,23 +17,23 @@
 /* False: no memory. */
 bool standard_output_prepare(void);
 
-/* From now on the text goes to that file, which may be closed then. False: errno says why. */
+/* Redirects the text to that file; the caller may then close the descriptor. False: see errno. */
 bool standard_output_replace(int descriptor);
 
-/* Writes out what has been collected. False: errno says why; also if an earlier write failed and
- * that was not reported yet. */
+/* Writes the collected text. False, with errno: this write failed, or an earlier one that was not
+ * reported yet. */
 bool standard_output_flush(void);
 
-/* Whether standard_output_replace was called: the text goes to a file of the user's. */
+/* Whether standard_output_replace was called, so that the text goes to a file. */
 bool standard_output_is_replaced(void);
 
-/* Writes the text at once, and drops what has been collected: a process that crashes prints no
- * more. [async-signal-safe] */
+/* Writes the text at once, and drops the collected text: a process that crashes prints nothing
+ * else. [async-signal-safe] */
 void standard_output_write_at_crash(const char *text, size_t length);
 
 bool standard_output_is_terminal(void);
 
-/* Drops what has been collected. */
+/* Drops the collected text. */
 void standard_output_discard(void);
 
 /* Flushes and closes. */

@@ -36,7 +36,7 @@ static inline vec vec_cross(vec a, vec b)
 
 static inline double vec_length(vec a) { return sqrt(vec_dot(a, a)); }
 
-/* The vector scaled to length 1; 0 stays 0. */
+/* Returns the vector scaled to length 1; 0 stays 0. */
 static inline vec vec_unit(vec a)
 {
     const double length = vec_length(a);

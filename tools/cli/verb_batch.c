@@ -14,8 +14,8 @@
 
 static void work_on_line(void *context, void *of) { batch_answer(context, of); }
 
-/* In order, one at a time. What a signal has cut short ends the output: printed, as it says how far
- * the proof came, unless the output is to be resumed, which solves that line again. */
+/* Prints results in order, one at a time. The output ends with a result that a signal interrupted:
+ * it says how far the proof came; with --resume it is left out, and solved again later. */
 static bool finish_line(void *context, void *of)
 {
     batch *b = context;

@@ -18,13 +18,12 @@
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
 
-/* A plugin is compiled into a folder of its own inside the one it is meant for, loaded there, and
- * moved only if the loader takes it: a plugin that worked is never replaced by one that does not.
- */
+/* A plugin is compiled into a new folder inside its target folder, loaded there, and moved only if
+ * the loader accepts it: a plugin that worked is never replaced by one that does not. */
 
 typedef struct building {
     const char *source, *verb;
-    char folder[PATH_MAX];   /* where the plugin goes; absolute */
+    char folder[PATH_MAX];   /* the plugin's final path; absolute */
     char name[NAME_MAX + 1]; /* "wobble.so" */
     char trial[PATH_MAX];    /* the folder inside, until it is moved */
 } building;
@@ -40,7 +39,7 @@ static bool join(char *path, size_t size, const char *folder, const char *name)
     return length > 0 && (size_t)length < size;
 }
 
-/* --- Where it goes ---------------------------------------------------------------------------- */
+/* --- The target ------------------------------------------------------------------------------- */
 
 /* Finds the user's plugin folder by the rule of core/plugin/search_path.h. */
 static bool user_folder(char *folder, size_t size)
@@ -86,7 +85,7 @@ static exit_status find_folder(building *b, const arguments *args)
     return EXIT_ANSWERED;
 }
 
-/* wobble.c makes wobble.so. */
+/* Finds the plugin's file name: wobble.c makes wobble.so. */
 static exit_status find_name(building *b)
 {
     const char *slash = strrchr(b->source, '/');
@@ -107,7 +106,8 @@ static exit_status make_trial(building *b)
 
 /* --- Does the loader take it? ----------------------------------------------------------------- */
 
-/* A reason may name the file that it speaks of; in `trial` nobody will find it. */
+/* Complains of a refused plugin. The folder `trial` is cut from a path in the reason, since it is
+ * removed. */
 static exit_status refused_for(const char *reason, const building *b)
 {
     const char *path = strstr(reason, b->trial);
@@ -132,7 +132,7 @@ static bool is_same_type(const imp_type_info *a, const imp_type_info *b)
     return a->kind == b->kind && strcmp(a->name, b->name) == 0;
 }
 
-/* Another file with that type, or NULL. The one we replace, `target`, does not count. */
+/* Returns another file with that type, or NULL. The one we replace, `target`, does not count. */
 static const char *found_elsewhere(const imp_registry *registry, const imp_type_info *type,
                                    const char *target)
 {
@@ -160,7 +160,7 @@ static size_t print_types(const imp_registry *registry, const char *file, const 
     return count;
 }
 
-/* Loads the plugin `file` and tells of its types. */
+/* Loads the plugin `file` and prints its types. */
 static exit_status try_plugin(const building *b, const char *file, const char *target)
 {
     imp_registry *registry = query_registry_first(b->trial, 0, b->verb);

@@ -15,7 +15,7 @@
 #include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
 
-/* Pairs between two looks at what is done: some milliseconds. */
+/* Pairs between two checks for finished answers: some milliseconds. */
 #define STEP_PAIRS 2048
 
 typedef struct measuring {
@@ -32,7 +32,7 @@ typedef struct measuring {
     imp_stats stats;
 } measuring;
 
-/* --- What is asked ---------------------------------------------------------------------------- */
+/* --- Options and operands --------------------------------------------------------------------- */
 
 /* Two operands are surfaces; a file beside something else is often a forgotten "--require". */
 static exit_status check_operands(const arguments *args)
@@ -97,7 +97,7 @@ static exit_status take_answer(measuring *m)
     return m->profile ? tell_slice(m, &answer) : EXIT_ANSWERED;
 }
 
-/* Whether the answer is there: no limit has ended it, and it does not run. */
+/* Whether the answer is final: it is not running, and no limit has ended it. */
 static bool is_there(const imp_clearance *answer)
 {
     return answer->reason != IMP_REASON_RUNNING &&
@@ -110,7 +110,7 @@ static bool is_over(const measuring *m)
     return interrupt_came() || clock_seconds() + (m->json ? m->printing : 0) >= m->until;
 }
 
-/* Takes the answers that are there, as long as there is time. */
+/* Takes the finished answers, as long as there is time. */
 static exit_status take_answers(measuring *m)
 {
     enum { ANSWERS_A_LOOK = 64 };
@@ -127,8 +127,7 @@ static exit_status take_answers(measuring *m)
     return status == EXIT_ANSWERED ? output_flush(m->args->verb->name) : status;
 }
 
-/* Takes what is left where a limit or a signal came: the answer that was searched for, and one that
- * stands for all that follow. */
+/* Takes the rest after a limit or a signal: the current answer, and one for all that follow. */
 static exit_status take_rest(measuring *m)
 {
     const size_t count = imp_clearance_count(m->query);
@@ -173,7 +172,7 @@ static exit_status run_query(measuring *m)
 
 /* --- At the end ------------------------------------------------------------------------------- */
 
-/* Only where pairs of bodies were asked for and all are ignored is there no answer at all. */
+/* Returns the summary without any answer: with --each, if all pairs are ignored. */
 static imp_clearance nothing(const measuring *m)
 {
     const double required = required_of(m->args);
@@ -236,7 +235,8 @@ static exit_status print(const measuring *m, const imp_clearance *all)
     return output_flush(speaker);
 }
 
-/* `told` is the table, or has an answer more that stands for what is not listed. */
+/* Prints the answers. `told` is the table, or the table with one more answer, for pairs that are
+ * not listed. */
 static exit_status conclude(const measuring *m, const clearance_table *told)
 {
     imp_clearance all = told->count > 0 ? clearance_summary(told) : nothing(m);

@@ -14,9 +14,9 @@
 /* `impinge complete LINE`: what may stand at the end of a command line
  * ====================================================================
  * The completions of shells call it with the line up to the cursor. Everything follows from the
- * tables of verbs and options and from the types that are found. Each line of the answer is a word
- * in full and, behind a tab, what it means; the line ":files" says that names of files will do,
- * too. The verb never complains: what cannot be completed has no answer. */
+ * tables of verbs and options and from the types that are found. Each output line is a complete
+ * word and, after a tab, its meaning; the line ":files" means that file names are possible, too.
+ * The verb never complains: for a word that cannot be completed it prints nothing. */
 
 typedef struct completion {
     command_line line;
@@ -27,7 +27,7 @@ typedef struct completion {
     imp_registry *registry;
 } completion;
 
-/* Prints a word, and what follows it, if what is typed so far is its beginning. */
+/* Prints a word, and its suffix, if the typed text is its beginning. */
 static void offer(const completion *c, const char *word, const char *behind, const char *about)
 {
     const char *typed = c->word + c->kept;
@@ -81,7 +81,7 @@ static void offer_values(const completion *c, const option *row)
 
 /* --- Pipelines -------------------------------------------------------------------------------- */
 
-/* What a pipeline ends with: in which stage, and which parameters that has already. */
+/* The last stage of a pipeline, and the parameters that it has already. */
 typedef struct stage {
     imp_type_kind kind;
     char type[64];    /* "": not given yet */

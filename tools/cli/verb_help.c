@@ -14,7 +14,7 @@
 
 enum { HELP_INDENT = 27, HELP_WIDTH = 80, HELP_WIDTH_MIN = 60 };
 
-/* The width that COLUMNS says, from 60 on; else 80. */
+/* Returns the width of COLUMNS, if it is at least 60; else 80. */
 static size_t line_width(void)
 {
     const char *columns = getenv("COLUMNS");
@@ -44,7 +44,8 @@ static void print_wrapped(const char *text)
     putchar('\n');
 }
 
-/* The help, and the verb's own limit of pairs in place of the usual one, which is none. */
+/* Prints the help of an option, with the verb's own limit of pairs instead of the general one,
+ * which is none. */
 static void format_help(const option *row, uint64_t max_pairs, char *text, size_t size)
 {
     static const char usual[] = "(0)";

@@ -11,7 +11,8 @@
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
 
-/* The types found, surfaces first, each kind by name; of one name, the one in force first. */
+/* The types found, surfaces first, each kind by name; among types of one name, the one that is used
+ * first. */
 typedef struct type_list {
     imp_type_info *types;
     size_t count;
@@ -57,7 +58,7 @@ static int longer(int width, const char *text)
 
 enum { SCREEN = 80 }; /* columns */
 
-/* The text from column `indent` on, broken at blanks so that no line reaches the last column. */
+/* Prints the text from column `indent` on, wrapped at blanks before the last column. */
 static void print_wrapped(const char *text, int indent)
 {
     while ((int)strlen(text) > SCREEN - 1 - indent) {
@@ -134,7 +135,7 @@ static json_t *types_json(const type_list *list)
     return types;
 }
 
-/* Lists refusals or warnings, as `next` tells them. */
+/* Lists refusals or warnings, which `next` returns one by one. */
 static json_t *remarks_json(const imp_registry *registry,
                             bool (*next)(const imp_registry *, size_t, imp_plugin_refusal *))
 {

@@ -11,8 +11,7 @@
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
 
-/* Everything with everything: each surface type's example against each other's, and under each map.
- */
+/* Solves the example of each surface type against that of each other, and under each map. */
 
 typedef struct tally {
     size_t contact, clear, undecided, failed;
@@ -74,7 +73,7 @@ static void tell_failure(matrix *m, const char *a, const char *b, const char *wh
     remark(m->args->verb->name, "%s  |  %s: %s", a, b, why);
 }
 
-/* One pair; a failure is reported at once, with both names. */
+/* Solves one pair; a failure is reported at once, with both names. */
 static void solve(matrix *m, const char *a, const char *b, tally *t)
 {
     imp_error error = {0};
@@ -98,7 +97,7 @@ static void tell_row(const matrix *m, const char *name, const tally *t)
            t->contact, t->clear, t->undecided, t->failed, (unsigned long long)t->pairs, t->seconds);
 }
 
-/* The next type of that kind that is not shadowed. */
+/* Moves to the next type of that kind that is not shadowed. */
 static bool next_type(const matrix *m, imp_type_kind kind, size_t *index, imp_type_info *info)
 {
     while (imp_registry_type(m->registry, (*index)++, info))

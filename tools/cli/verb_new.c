@@ -19,8 +19,8 @@
 #define LETTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
 #define NAME_SIZE 64 /* 63 bytes, as surface.h has it */
 
-/* What a surface and a map differ in. The pipelines `before` NAME, and `b`, meet; `formula` is what
- * the template computes, as the checker takes it. */
+/* The differences between projects of a surface and of a map. The pipelines `before` NAME and `b`
+ * touch; `formula` is the template's formula, in the checker's language. */
 typedef struct project_kind {
     imp_type_kind kind;
     const char *called, *source, *before, *b, *formula;
@@ -60,7 +60,7 @@ static exit_status check_name(const char *name, const char *speaker)
     return EXIT_ANSWERED;
 }
 
-/* Two types of one kind and name do not live together: the first found shadows the other. */
+/* Complains if a type of that kind and name exists: the first found would shadow the other. */
 static exit_status check_is_free(const project_kind *kind, const arguments *args)
 {
     imp_type_info info;
@@ -79,7 +79,7 @@ static exit_status check_is_free(const project_kind *kind, const arguments *args
 
 /* --- Words of the project --------------------------------------------------------------------- */
 
-/* The full name of whoever asks, as far as it can stand in a comment and in a string of C. */
+/* Finds the user's full name, without characters that a C comment or string cannot contain. */
 static void find_author(char author[128])
 {
     const struct passwd *who = getpwuid(geteuid());
@@ -122,7 +122,8 @@ static exit_status write_project(const project_kind *kind, const char *folder, c
 
 /* --- What to do with it ----------------------------------------------------------------------- */
 
-/* How a shell finds this command: by its name if PATH leads to it, else by its path. */
+/* Returns the word by which a shell finds this command: its name if it is in PATH, else its
+ * path. */
 static char *command_word(void)
 {
     char *found = program_find("impinge"), *self = realpath("/proc/self/exe", NULL), *word = NULL;
@@ -147,7 +148,7 @@ static bool pkg_config_finds_us(void)
     return ours;
 }
 
-/* " PKG_CONFIG_PATH=..." for configure, where it is needed. NULL: no memory. */
+/* Returns " PKG_CONFIG_PATH=..." for configure if it is needed, else "". NULL: no memory. */
 static char *configure_rest(void)
 {
     if (pkg_config_finds_us()) return strdup("");

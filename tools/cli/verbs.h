@@ -12,9 +12,9 @@ typedef struct verb {
     const char *operands; /* as in the usage line; "" if none */
     const char *summary;  /* one line */
     const char *details;  /* paragraphs for `impinge help VERB`, each line ended */
-    const char *example;  /* a command line that works as it stands */
+    const char *example;  /* a complete command line that works */
     size_t operand_min, operand_max;
-    uint64_t max_pairs;           /* of a query, unless --max-pairs says otherwise; 0: no limit */
+    uint64_t max_pairs;           /* limit of a query without --max-pairs; 0: none */
     const option *const *options; /* tables, NULL-terminated */
     exit_status (*run)(const arguments *args);
     bool is_hidden; /* for programs alone: `impinge help` does not list it */
@@ -22,16 +22,16 @@ typedef struct verb {
     const char *(*operand_word)(size_t index);
 } verb;
 
-/* All verbs in the order of help, NULL-terminated. */
+/* Returns all verbs in the order of help, NULL-terminated. */
 const verb *const *verbs_all(void);
 
-/* The verb of that name, or NULL. */
+/* Returns the verb of that name, or NULL. */
 const verb *verb_find(const char *name);
 
 /* Complains about a verb there is not, with the nearest there is. */
 exit_status verb_unknown(const char *speaker, const char *name);
 
-/* `impinge help` and `impinge help VERB`, to standard output. */
+/* Print `impinge help` and `impinge help VERB` to standard output. */
 void help_overview(void);
 void help_verb(const verb *v);
 

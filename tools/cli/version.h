@@ -5,8 +5,8 @@
 
 #include "tools/cli/arguments.h"
 
-/* Answers --version: a line or, with --json, the versions, and what this host uses of the surface
- * ABI (tools/schema/version.schema.json). */
+/* Prints --version: a line or, with --json, the versions, and the capabilities of the surface ABI
+ * that this host uses (tools/schema/version.schema.json). */
 exit_status version_print(const arguments *args);
 
 #endif
