@@ -13,8 +13,8 @@
 
 #include "core/common/clock.h"
 
-/* Seconds between two looks at the memory held: at 2 GB a second, what is written meanwhile is a
- * tenth of 100 MB. A look costs some microseconds. */
+/* Seconds between two checks of the memory held: at 2 GB a second, 10 MB are written meanwhile. A
+ * check costs some microseconds. */
 static const double look_interval = 5e-3;
 
 /* Bytes in memory now; 0: not known. */
@@ -113,7 +113,7 @@ static void set_alarm(double seconds)
 
 void allowance_watch_reading(const allowance *l, const char *verb)
 {
-    enum { LONGEST = 1000000000 }; /* seconds; what is longer is not worth an alarm */
+    enum { LONGEST = 1000000000 }; /* seconds; longer limits set no alarm */
     if (!(l->seconds > 0 && l->seconds < LONGEST)) return;
     snprintf(told, sizeof told,
              "impinge: %s: --max-seconds %g was over while the scene was read; allow more (0: no "

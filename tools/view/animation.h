@@ -14,7 +14,7 @@ imp_code animation_obj(const film *f, FILE *file, imp_error *error);
 /* VTK: one frame as an unstructured grid of triangles, with body, surface, u and v. */
 imp_code animation_vtu(const film *f, size_t frame, FILE *file, imp_error *error);
 
-/* VTK: which file holds which moment: STEM_0000.vtu and so on. */
+/* VTK: a list of the files of all moments, STEM_0000.vtu and so on. */
 imp_code animation_pvd(const film *f, const char *stem, FILE *file, imp_error *error);
 
 /* glTF 2.0, binary: rigid motions as tracks of nodes, deformations as morph targets. */

@@ -5,16 +5,17 @@
 
 #include "tools/cli/vec.h"
 
-/* A parallel projection: lengths stay lengths, so an error in the world is one on the picture. */
+/* A parallel projection: it preserves the scale, so an error in the world is the same length on the
+ * picture. */
 
 typedef struct camera {
-    vec right, up, toward; /* unit length, at right angles; toward the one who looks */
-    vec target;            /* the point that is seen at `middle` */
+    vec right, up, toward; /* unit, perpendicular to each other; `toward` points to the viewer */
+    vec target;            /* the point that is projected to `middle` */
     double scale;          /* pixels per length */
     double middle[2];      /* pixels, y downward */
 } camera;
 
-/* Pixels, y downward; the third is the depth, greater is nearer, in pixels too. */
+/* Returns pixels, y downward; the third number is the depth, greater is nearer, in pixels too. */
 static inline vec camera_see(const camera *c, vec p)
 {
     const vec d = vec_sub(p, c->target);
@@ -22,8 +23,8 @@ static inline vec camera_see(const camera *c, vec p)
                   c->middle[1] - c->scale * vec_dot(d, c->up), c->scale * vec_dot(d, c->toward)}};
 }
 
-/* Looks from that azimuth (from +x toward +y) and elevation (above the xy plane), in degrees, at
- * the origin, which is seen at pixel 0,0, one pixel a length. */
+/* Returns a camera that looks from this azimuth (from +x toward +y) and elevation (above the xy
+ * plane), in degrees, at the origin, which is at pixel 0,0; one pixel is one unit of length. */
 static inline camera camera_toward(double azimuth, double elevation)
 {
     const double a = azimuth * (3.14159265358979323846 / 180);

@@ -61,7 +61,7 @@ static void svg_escaped(const canvas *c, const char *text)
  * typeface. */
 static const double svg_letters = 0.8;
 
-/* `length`: the letters are spread or pressed to this many pixels; 0: as they are. */
+/* `length`: the text is stretched or compressed to this many pixels; 0: its natural length. */
 static void svg_text(canvas *c, double x, double y, double size, canvas_anchor anchor, colour tint,
                      double length, const char *text)
 {
@@ -80,7 +80,7 @@ static void svg_text(canvas *c, double x, double y, double size, canvas_anchor a
 
 /* --- Either ----------------------------------------------------------------------------------- */
 
-/* Far outside of every picture, and where a number has no place on it. */
+/* Whether all coordinates are finite and not far outside of every picture. */
 static bool are_places(const double *xy, size_t n)
 {
     for (size_t k = 0; k < 2 * n; ++k)
@@ -136,7 +136,8 @@ static size_t character_bytes(const char *text)
     return n;
 }
 
-/* Pixels that a character takes. Of a typeface it is what most letters stay below. */
+/* Returns the width of a character in pixels; for a typeface, one that most letters do not
+ * exceed. */
 static double character_width(const canvas *c, double size, const char *text)
 {
     if (c->file == NULL) return size * STROKE_ADVANCE / STROKE_LINE;
@@ -155,7 +156,7 @@ void canvas_fitted(const canvas *c, double size, double room, const char *text, 
 {
     static const char dots[] = "...";
     double width = 0;
-    size_t used = 0, kept = 0; /* kept: what leaves room for the dots */
+    size_t used = 0, kept = 0; /* bytes that are kept, with space for the dots */
     const double less = canvas_text_width(c, size, dots);
     while (text[used] != '\0') {
         const size_t bytes = character_bytes(text + used);
@@ -170,7 +171,7 @@ void canvas_fitted(const canvas *c, double size, double room, const char *text, 
         snprintf(fitted, length, "%.*s%s", (int)kept, text, dots);
 }
 
-/* One letter with its left foot at x, y; what has no strokes is drawn as '?'. */
+/* Draws one letter with its left foot at x, y; a character without strokes is drawn as '?'. */
 static void stroke_letter(canvas *c, double x, double y, double unit, colour tint, char letter)
 {
     double from[2] = {0, 0};

@@ -9,8 +9,8 @@
 
 /* Flat drawing, into pixels or as SVG
  * ===================================
- * Lines, filled convex shapes and words, at pixels of the picture, y downward. What is drawn later
- * covers what was drawn before. */
+ * Draws lines, filled convex shapes and text, in pixels of the picture, y downward. Later shapes
+ * cover earlier ones. */
 
 typedef struct pen {
     colour colour;
@@ -25,17 +25,17 @@ typedef struct canvas {
     FILE *file;     /* or elements of SVG here */
 } canvas;
 
-/* An SVG picture: its head, and its end. */
+/* Write the beginning and the end of an SVG picture. */
 canvas canvas_svg_begin(FILE *file, double width, double height);
 void canvas_svg_end(const canvas *c);
 
-/* n points as x, y, x, y ... */
+/* Draws a line through n points x, y, x, y ... */
 void canvas_line(canvas *c, const double *xy, size_t n, pen p);
 void canvas_shape(canvas *c, const double *xy, size_t n, colour fill);
 void canvas_disc(canvas *c, double x, double y, double radius, colour fill);
 
-/* Words whose baseline begins, has its middle, or ends at x, y; `size` is the height of a line of
- * text, pixels. In pixels what is not ASCII is shown as '?'. */
+/* Draws text whose baseline begins, has its middle, or ends at x, y; `size` is the height of a line
+ * of text, pixels. In raster pictures, characters other than ASCII become '?'. */
 void canvas_text(canvas *c, double x, double y, double size, canvas_anchor anchor, colour tint,
                  const char *text);
 
@@ -43,7 +43,8 @@ void canvas_text(canvas *c, double x, double y, double size, canvas_anchor ancho
 void canvas_text_fixed(canvas *c, double x, double y, double size, colour tint, const char *text);
 double canvas_text_width(const canvas *c, double size, const char *text);
 
-/* The text, or as much of it as fits `room` pixels and `length` bytes, with dots at its end. */
+/* Copies the text, or as much of it as fits `room` pixels and `length` bytes, with dots at its
+ * end. */
 void canvas_fitted(const canvas *c, double size, double room, const char *text, char *fitted,
                    size_t length);
 

@@ -18,7 +18,8 @@ void cloud_free(cloud *c)
 
 enum { DIRECTIONS = 128 };
 
-/* Spread evenly over the sphere: along a spiral whose turns are the golden angle apart. */
+/* Returns direction k of a set that is spread evenly over the sphere, along a spiral with steps of
+ * the golden angle. */
 static vec direction_of(size_t k)
 {
     const double height = 1 - (2 * (double)k + 1) / DIRECTIONS,
@@ -59,8 +60,8 @@ static bool add_points(cloud *c, const vec *point, size_t count)
 
 /* --- Coarse grids ----------------------------------------------------------------------------- */
 
-/* Points along a side: enough to see the size of what is curved; of many pieces corners and
- * middle. */
+/* Points along a side: enough for the size of curved pieces; corners and middle if there are
+ * many. */
 enum { COARSE = 9, COARSE_OF_MANY = 3, MANY = 100 };
 
 imp_code cloud_add(cloud *c, const imp_scene *scene, size_t body, size_t surface,

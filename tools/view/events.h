@@ -8,8 +8,7 @@
 
 #include "tools/cli/vec.h"
 
-/* The events that `impinge simulate` wrote into a scene, "events": what touched what, when and
- * where. */
+/* The "events" that `impinge simulate` wrote into a scene: which bodies touched, when and where. */
 
 typedef struct event {
     double t;
@@ -23,7 +22,7 @@ typedef struct event_list {
     size_t count;
 } event_list;
 
-/* Reads the events of a scene's JSON, which may be NULL; what is there and is no event is left out.
+/* Reads the events of a scene's JSON, which may be NULL; entries that are no events are left out.
  * False: no memory. */
 bool events_read(const json_t *scene, event_list *list);
 void events_free(event_list *list);

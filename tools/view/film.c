@@ -57,7 +57,7 @@ static size_t frame_of(const film *f, const stage_spot *spot)
 
 /* --- Poses ------------------------------------------------------------------------------------ */
 
-/* By the largest of the four squares, so that nothing is divided by what is small. */
+/* Uses the largest of the four squares, so that no divisor is small. */
 static void quaternion(const double r[3][3], double q[4])
 {
     const double trace = r[0][0] + r[1][1] + r[2][2];
@@ -75,7 +75,7 @@ static void quaternion(const double r[3][3], double q[4])
     for (int n = 0; n < 4; ++n) q[n] /= length;
 }
 
-/* The shorter way from the frame before. */
+/* Chooses the sign that gives the shorter rotation from the previous frame. */
 static void keep_near(double q[4], const double before[4])
 {
     double dot = 0;
@@ -83,7 +83,7 @@ static void keep_near(double q[4], const double before[4])
     for (int n = 0; n < 4 && dot < 0; ++n) q[n] = -q[n];
 }
 
-/* From where it stands at frame 0, which is where `first` put it, to where `now` puts it. */
+/* Returns the motion from the place at frame 0, given by `first`, to that given by `now`. */
 static pose pose_between(const imp_rigid_motion *first, const imp_rigid_motion *now)
 {
     double turn[3][3];
@@ -140,7 +140,7 @@ static imp_code begin_track(film *f, track *t, mesh *m, imp_error *error)
     return t->point != NULL && t->normal != NULL ? IMP_SUCCESS : mesh_no_memory(error);
 }
 
-/* Where the mesh stands now. */
+/* Stores the mesh's present points as those of the frame. */
 static void keep_points(track *t, size_t frame)
 {
     static const vec up = {{0, 0, 1}};

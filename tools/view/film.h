@@ -7,11 +7,10 @@
 #include "tools/view/subject.h"
 
 /* A scene in motion: the meshes' points at each of some frames. The times of the contact, or of the
- * nearest approach, and of events are frames. A surface that does not exist at a frame stands there
- * as at the nearest moment at which it does. */
+ * nearest approach, and of events are frames. A surface that does not exist at a frame has the
+ * points of the nearest moment at which it does. */
 
-/* Where a rigid body is, as against frame 0: x -> turn(x) + shift; turn: unit quaternion
- * x,y,z,w. */
+/* The motion of a rigid body since frame 0: x -> turn(x) + shift; turn: unit quaternion x,y,z,w. */
 typedef struct pose {
     double turn[4];
     vec shift;
@@ -36,10 +35,10 @@ typedef struct film {
     size_t count;
 } film;
 
-/* The image of a point. */
+/* Returns the image of a point. */
 vec pose_apply(const pose *p, vec x);
 
-/* A point or a normal of a track at a frame. */
+/* Return a point or a normal of a track at a frame. */
 vec track_point(const track *t, size_t frame, size_t k);
 vec track_normal(const track *t, size_t frame, size_t k);
 

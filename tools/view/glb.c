@@ -66,7 +66,8 @@ static int add_accessor(glb *g, int view, int component, size_t count, const cha
     return (int)json_array_size(g->accessors) - 1;
 }
 
-/* What is asked of positions and of times: the ends of each component, as they were rounded. */
+/* Adds the least and greatest value of each component, as rounded; glTF requires them for positions
+ * and times. */
 static void add_ends(glb *g, int accessor, const float *lo, const float *hi, size_t n)
 {
     json_t *a = json_array_get(g->accessors, (size_t)accessor), *min = json_array(),
@@ -79,7 +80,7 @@ static void add_ends(glb *g, int accessor, const float *lo, const float *hi, siz
         g->failed = true;
 }
 
-/* `count` vectors, less those of `base` where there is one. */
+/* Adds `count` vectors, minus those of `base` unless it is NULL. */
 static int add_vectors(glb *g, const vec *x, const vec *base, size_t count, bool ends, int target)
 {
     const size_t from = g->length;
@@ -161,7 +162,8 @@ static void animate_rigid(glb *g, const track *t, int node)
     free(shifts);
 }
 
-/* Target k - 1 is the shape of frame k: at its frame it counts in full, alone. */
+/* Animates the weights: target k - 1 is the shape of frame k; at that frame its weight is 1 and all
+ * others are 0. */
 static void animate_shape(glb *g, int node)
 {
     const size_t n = g->film->frames, targets = n - 1;
@@ -176,7 +178,7 @@ static void animate_shape(glb *g, int node)
     free(weights);
 }
 
-/* Present or not, as a scale of 1 or 0. */
+/* Animates presence as a scale of 1 or 0. */
 static void animate_presence(glb *g, int node, const bool *there)
 {
     const size_t n = g->film->frames;

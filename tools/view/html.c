@@ -16,7 +16,7 @@
 static const char *const libraries[] = {THREEJSDIR "/build/three.min.js",
                                         THREEJSDIR "/examples/js/controls/OrbitControls.js"};
 
-/* The first that is missing, or NULL. */
+/* Returns the first library that is missing, or NULL. */
 static const char *missing_library(void)
 {
     for (int k = 0; k < 2; ++k)
@@ -45,8 +45,9 @@ static exit_status read_file(const char *path, const char *verb, input_text *tex
     return read ? EXIT_ANSWERED : EXIT_DATA;
 }
 
-/* A script inside a page. Where its text would end the element, or begin what hides that end, a
- * character is escaped, which means the same in a string and in a regular expression. */
+/* Writes a script into a page. Where its text would end the element, or begin a comment that hides
+ * that end, a character is escaped, which has the same meaning in a string and in a regular
+ * expression. */
 static void put_script(const char *text, size_t length, FILE *file)
 {
     static const char *const words[] = {"</script", "<!--"};
@@ -69,8 +70,8 @@ static exit_status put_library(int index, FILE *file, const char *verb)
     return status;
 }
 
-/* In JSON '<' stands in strings only, where it may be written by its number: then no name ends the
- * element, whatever it is. */
+/* In JSON '<' occurs in strings only, where it can be written as \u003c: then no name can end the
+ * element. */
 static exit_status put_data(const html_page *page, FILE *file, const char *verb)
 {
     json_t *data = html_data(page);
@@ -117,7 +118,7 @@ static exit_status put_word(word w, const html_page *page, FILE *file, const cha
     return put_data(page, file, verb);
 }
 
-/* The template with each @WORD@ replaced. */
+/* Writes the template with each @WORD@ replaced. */
 static exit_status put_page(const char *template, const html_page *page, FILE *file,
                             const char *verb)
 {

@@ -8,14 +8,14 @@
 #include "tools/view/gap.h"
 #include "tools/view/regions.h"
 
-/* One page that needs nothing else: tools/data/page.html with three.js and the film put in. */
+/* One self-contained page: tools/data/page.html with three.js and the film inserted. */
 
 bool html_is_available(void);
 
-/* Complains, with the cure, where three.js is not. */
+/* Complains, with the cure, if three.js is missing. */
 exit_status html_check(const char *path, const char *verb);
 
-/* What the page shows. */
+/* The contents of the page. */
 typedef struct html_page {
     const film *film;
     const event_list *events;
@@ -23,7 +23,7 @@ typedef struct html_page {
     gap_profile gap;     /* in slices of time; none of them: it is not shown */
     gap_profile moments; /* at the film's frames; none: it is not shown */
     regions regions;     /* none: they are not shown */
-    vec toward;          /* from where to look */
+    vec toward;          /* the view's direction */
 } html_page;
 
 /* Complains of files that cannot be read. */

@@ -14,7 +14,7 @@
 
 /* --- Arrays ----------------------------------------------------------------------------------- */
 
-/* 32-bit numbers on their way into base64. */
+/* 32-bit numbers to be encoded in base64. */
 typedef struct packed {
     uint8_t *bytes;
     size_t length, room;
@@ -71,7 +71,7 @@ static json_t *vector_json(vec v) { return numbers_json(v.x, 3); }
 /* --- Places ----------------------------------------------------------------------------------- */
 
 /* The page's numbers have 32 bits: its origin is the middle of the scene, its unit the scene's
- * size, so that neither large nor far away scenes lose anything that shows. */
+ * size, so that large and distant scenes lose no visible precision. */
 typedef struct frame {
     vec centre;
     double unit; /* 1 / length */
@@ -125,7 +125,7 @@ static json_t *steps_json(const mesh *m, bool edges)
     return packed_json(&p);
 }
 
-/* In the page's places the pose x -> R x + s is x -> R x + (R c + s - c) / size. */
+/* In the page's coordinates the pose x -> R x + s is x -> R x + (R c + s - c) / size. */
 static json_t *poses_json(const frame *f, const track *t, size_t frames)
 {
     json_t *poses = json_array();
@@ -158,7 +158,7 @@ static void put_proof(void *context, const mesh *m, const size_t c[3], size_t ce
     put_float(p->to, p->pairs[cell]);
 }
 
-/* For each triangle how many pairs had been tested when it was proved clear. */
+/* Returns, for each triangle, how many pairs had been tested when it was proved clear. */
 static json_t *proved_json(const html_page *page, size_t index)
 {
     const mesh *m = page->film->tracks[index].mesh;
@@ -250,7 +250,7 @@ static json_t *gap_json(const gap_profile *gap, size_t times)
                      numbers_json(gap->upper, gap->count));
 }
 
-/* What is known, in words. */
+/* Returns the answer in words. */
 static json_t *told_json(const stage *s)
 {
     char text[700];

@@ -7,8 +7,8 @@
 
 #include "tools/view/html.h"
 
-/* What the page's script reads: arrays in base64, 32 bits a number, little-endian. NULL: no
- * memory. */
+/* Returns the data of the page's script: arrays in base64, 32 bits a number, little-endian. NULL:
+ * no memory. */
 json_t *html_data(const html_page *page);
 
 #endif

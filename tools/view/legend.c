@@ -37,7 +37,7 @@ static bool flow_place(flow *f, double width, double *x, size_t *row)
     return true;
 }
 
-/* A name as the row has room for it, its end cut off if need be. */
+/* A name that fits into the row, cut off if necessary. */
 typedef struct legend_name {
     char text[256];
     double width;
@@ -59,7 +59,7 @@ static size_t bodies_from(const stage *s, size_t body)
     return count;
 }
 
-/* The bottom row's letters stand above the margin. */
+/* Returns the baseline of a row; that of the bottom row is above the margin. */
 static double row_y(const canvas *c, size_t rows, size_t row)
 {
     return c->height - margin - row_height * (double)(rows - 1 - row);
@@ -84,7 +84,7 @@ static size_t lay_out(const stage *s, canvas *c, const char *note, size_t rows)
         const legend_name name = name_of(c, imp_scene_body_name(s->scene, b), f.width - to_name);
         flow after = f;
         if (!flow_place(&after, to_name + name.width, &x, &row)) break;
-        /* On the last row, the rest's count has to have room behind, unless this is the last. */
+        /* The last row needs space for the count of the rest, unless this is the last entry. */
         snprintf(rest, sizeof rest, "and %zu more", bodies_from(s, b));
         const double rest_width = canvas_text_width(c, text_size, rest);
         const bool is_last = bodies_from(s, b) == 1;

@@ -6,11 +6,11 @@
 #include "tools/view/canvas.h"
 #include "tools/view/stage.h"
 
-/* Which colour is which body, in rows at the foot of a picture. Nothing overlaps. Where there are
- * more bodies than a third of the picture has room for, the last entry counts the rest. A body
- * without a surface is not shown. */
+/* The bodies' colours, in rows at the bottom of a picture. Entries do not overlap. If the bodies
+ * need more than a third of the picture, the last entry counts the rest. A body without a surface
+ * is not shown. */
 
-/* How high it is, in pixels, with a note at its end. */
+/* Returns its height in pixels, with a note at its end. */
 double legend_height(const stage *s, const canvas *c, const char *note);
 
 /* Draws it; `note` is no longer than the one it was measured with. */

@@ -93,7 +93,7 @@ static imp_code make_patches(const imp_scene *scene, mesh *m, const mesh_plan *p
 
 /* --- What stays as it is ---------------------------------------------------------------------- */
 
-/* A patch lies in a plane if its points do, but for this part of its size. */
+/* A patch is flat if its points are in a plane up to this part of its size. */
 static const double plane_slack = 1e-9;
 
 static bool is_plane(const vec *point, size_t count)
@@ -117,7 +117,7 @@ static bool is_plane(const vec *point, size_t count)
 static bool coincide(vec a, vec b) { return memcmp(&a, &b, sizeof a) == 0; }
 
 /* A triangle's grid has one cell, of which the corners at the ends of one side are one point.
- * Answers whether another time might refute what was found. */
+ * Returns whether another time might refute the result. */
 static bool look_at_patches(mesh *m, bool is_first)
 {
     bool open = false;
@@ -135,7 +135,7 @@ static bool look_at_patches(mesh *m, bool is_first)
     return open;
 }
 
-/* At all times of the plan at which it exists. */
+/* Checks all times of the plan at which it exists. */
 static imp_code look_at_times(const imp_scene *scene, mesh *m, const mesh_plan *plan,
                               imp_error *error)
 {
@@ -151,7 +151,8 @@ static imp_code look_at_times(const imp_scene *scene, mesh *m, const mesh_plan *
     return IMP_SUCCESS;
 }
 
-/* Between the first and the last time of the plan at which it exists. */
+/* Finds out whether it moves rigidly between the first and the last time of the plan at which it
+ * exists. */
 static imp_code find_rigid(const imp_scene *scene, mesh *m, const mesh_plan *plan, imp_error *error)
 {
     const size_t pieces = imp_scene_piece_count(scene, m->body, m->surface);
@@ -171,7 +172,7 @@ static imp_code find_rigid(const imp_scene *scene, mesh *m, const mesh_plan *pla
     return code;
 }
 
-/* What is rigid is evaluated at home, and its error found there. */
+/* Evaluates a rigid mesh at its home time, and bounds its error there. */
 static imp_code settle(const imp_scene *scene, mesh *m, allowance *l, imp_error *error)
 {
     m->is_rigid = false;

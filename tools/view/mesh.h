@@ -11,9 +11,9 @@
 /* A surface as triangles, with a known error
  * ==========================================
  * Each piece of the surface is a patch: a grid of lines of constant u and v, as dense as the
- * surface's own Taylor models ask for, so that neighbouring cells of a patch share whole edges.
- * Cell (i,j) is two triangles, cut from corner (i,j) to corner (i+1,j+1). A flat triangle or
- * quadrilateral is one cell.
+ * surface's Taylor models require; neighbouring cells of a patch share whole edges. Cell (i,j) is
+ * two triangles, cut from corner (i,j) to corner (i+1,j+1). A flat triangle or quadrilateral is one
+ * cell.
  *
  * The grids are made once; points and normals are those of one time. A surface that moves rigidly
  * is evaluated once, at its home time, and then moved. */
@@ -24,7 +24,7 @@ typedef struct mesh_patch {
     size_t first_line;  /* line[first_line...]: the nu values of u, then the nv of v */
     size_t first_point; /* point[first_point + i * nv + j] */
     size_t first_cell;  /* cells of the patches before: that of (i,j) is i * (nv - 1) + j on */
-    bool is_flat;       /* it lies in a plane: lines of constant u and v are not shown */
+    bool is_flat;       /* it is flat: lines of constant u and v are not shown */
     bool is_triangle;   /* one cell whose second triangle is empty */
 } mesh_patch;
 
@@ -48,12 +48,12 @@ typedef struct mesh {
     bool *marked; /* the lines that a picture shows */
     size_t line_count, point_count, cell_count, triangle_count;
     vec *point, *normal; /* world space, unit length or 0; of the last mesh_move */
-    mesh_step *steps;    /* what is shown of its lines: mesh_find_steps */
+    mesh_step *steps;    /* the steps that are shown: mesh_find_steps */
     size_t step_count, step_room;
     double home;   /* a time at which the surface exists: the first of its plan, if there is one */
-    bool is_rigid; /* at all times of its plan */
+    bool is_rigid; /* during its plan's times */
     vec *home_point, *home_normal; /* of a rigid one; else NULL */
-    double home_error;             /* of all times of its plan: at most what mesh_error answers */
+    double home_error;             /* at its home time; mesh_error returns slightly more */
     vec focus;                     /* as in its plan */
     double focus_radius;
 } mesh;
@@ -73,7 +73,7 @@ static inline const double *mesh_v(const mesh *m, const mesh_patch *p)
     return m->line + p->first_line + p->nu;
 }
 
-/* How fine. No patch is refined once it has max_cells. */
+/* How finely to divide. No patch is refined once it has max_cells. */
 typedef struct mesh_plan {
     const double *times; /* ascending; the error is to be within the tolerance at all of them */
     size_t time_count;
@@ -97,12 +97,12 @@ bool mesh_exists(const imp_scene *scene, const mesh *m, double t);
 /* Points and normals at time t, at which the surface exists. */
 imp_code mesh_move(const imp_scene *scene, mesh *m, double t, allowance *l, imp_error *error);
 
-/* How a rigid mesh moves from its home to time t; not known of one that deforms. */
+/* Returns the motion of a rigid mesh from its home time to t; fails for one that deforms. */
 imp_code mesh_motion(const imp_scene *scene, const mesh *m, double t, imp_rigid_motion *motion,
                      imp_error *error);
 
-/* How far the surface is at most from the triangles at time t, over all cells in focus: *upper, a
- * length. */
+/* Bounds in *upper the distance of the surface from the triangles at time t, over all cells in
+ * focus; length. */
 imp_code mesh_error(const imp_scene *scene, const mesh *m, double t, allowance *l, double *upper,
                     imp_error *error);
 
@@ -111,11 +111,11 @@ typedef void (*mesh_visitor)(void *context, const mesh *m, const size_t corner[3
 void mesh_triangles(const mesh *m, mesh_visitor visit, void *context);
 void mesh_patch_triangles(const mesh *m, const mesh_patch *p, mesh_visitor visit, void *context);
 
-/* Finds the steps of the meshes of one body together, where they stand now: an edge is where no
- * other patch of the body goes on. `size` is that of all there is, a length. */
+/* Finds the steps of the meshes of one body together, at their present time: an edge is a side
+ * where no other patch of the body continues. `size` is the scene's, a length. */
 imp_code mesh_find_steps(mesh *meshes, size_t count, double size, imp_error *error);
 
-/* Sets *error to memory that ran out, and answers the code. */
+/* Sets *error to IMP_ERROR_MEMORY, and returns it. */
 imp_code mesh_no_memory(imp_error *error);
 
 #endif

@@ -12,19 +12,19 @@
 
 /* --- Point by point --------------------------------------------------------------------------- */
 
-/* What bends the coordinate along u and v, but for q_uv. Lemma. The function linear in s, linear in
- * r, that agrees at the four corners differs from the coordinate by q_uu (s^2 - 1) + q_vv (r^2 -
- * 1), at most |q_uu| + |q_vv|, and by e once at the point and once at the corners, of which it is a
- * mean. */
+/* Bounds the coordinate's curvature along u and v, without q_uv. Lemma. The function linear in s,
+ * linear in r, that agrees at the four corners differs from the coordinate by q_uu (s^2 - 1) + q_vv
+ * (r^2 - 1), at most |q_uu| + |q_vv|, and by e once at the point and once at the corners, of which
+ * it is a mean. */
 static double bend(const imp_model *m)
 {
     return fabs(m->q[IMP_UU]) + fabs(m->q[IMP_VV]) + 2 * m->e;
 }
 
-/* Lemma. The triangles are linear and agree with the coordinate at three corners each. What is left
+/* Lemma. The triangles are linear and agree with the coordinate at three corners each. The rest
  * beside `bend` is q_uv: on the triangle s >= r, s r - (r - s + 1) = (s - 1)(r + 1) is in [-1, 0],
- * on the other (s + 1)(r - 1), likewise. Both points also lie in [lo, hi], so no coordinate differs
- * by more than that is wide. */
+ * on the other (s + 1)(r - 1), likewise. Both points are also in [lo, hi], so no coordinate differs
+ * by more than its width. */
 static double coordinate_error(const imp_model *m)
 {
     const double bent = bend(m) + fabs(m->q[IMP_UV]), wide = m->hi - m->lo;
@@ -39,10 +39,10 @@ static vec coefficient(const imp_model m[3], bool of_b, int k)
                 : (vec){{m[0].q[k], m[1].q[k], m[2].q[k]}};
 }
 
-/* Rounding of the cross products below, by parts of what they multiply. */
+/* Rounding of the cross products below, relative to their factors. */
 static const double cross_slack = 1e-12;
 
-/* How far the image of the cell is from the two triangles as a set, whichever point lies where.
+/* Bounds the distance of the cell's image from the two triangles, as sets of points.
  *
  * Lemma. Let B = a + b_u s + b_v r + q s r be linear in s and in r, n the unit normal of b_u and
  * b_v, and q = q_t + n (n.q). Without the last term B lies in the plane through a, and its Jacobian

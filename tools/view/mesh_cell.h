@@ -7,7 +7,7 @@
 
 #include "tools/cli/vec.h"
 
-/* What is known of one cell of a grid: [u[0], u[1]] x [v[0], v[1]] of a piece at one time. */
+/* Bounds for one cell of a grid: [u[0], u[1]] x [v[0], v[1]] of a piece at one time. */
 
 typedef struct cell_error {
     double upper;    /* length: how far the surface is from the cell's two triangles at most */

@@ -5,7 +5,7 @@
 
 #include "tools/view/mesh.h"
 
-/* Where the lines of one piece's grid are. */
+/* The lines of one piece's grid. */
 
 /* Lines of one parameter: its values, ascending. */
 typedef struct grid_lines {
@@ -21,7 +21,7 @@ typedef struct grid {
     double upper; /* how far the piece is from its triangles, over all cells in focus and times */
 } grid;
 
-/* *g begins as zeros, and is to be freed in any case. */
+/* Makes a grid. *g begins as zeros; free it in any case. */
 imp_code grid_make(const imp_scene *scene, imp_place at, const mesh_plan *plan, grid *g,
                    imp_error *error);
 void grid_free(grid *g);

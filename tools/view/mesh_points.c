@@ -41,10 +41,10 @@ typedef struct scratch {
     vec *sum;
 } scratch;
 
-/* A step further, or back where the domain ends. */
+/* Returns a value one step further, or back at the end of the domain. */
 static double beside(double at, double h, double hi) { return at + h <= hi ? at + h : at - h; }
 
-/* Three points: here, beside it in u, and in v. */
+/* Makes three points: at u and v, and one step away in u, and in v. */
 static void three_points(const offsets *o, double u, double v, double t, double p[9])
 {
     for (int k = 0; k < 3; ++k) p[3 * k] = u, p[3 * k + 1] = v, p[3 * k + 2] = t;
@@ -67,8 +67,8 @@ typedef struct facets {
     size_t first;
 } facets;
 
-/* Where the surface has no normal of its own, as at a pole, it gets the mean of those of the
- * triangles around it, each weighed by its area. */
+/* A point without a normal, such as a pole, gets the mean of the normals of the triangles around
+ * it, weighted by area. */
 static void add_facet(void *context, const mesh *m, const size_t c[3], size_t cell)
 {
     const facets *f = context;
@@ -78,7 +78,7 @@ static void add_facet(void *context, const mesh *m, const size_t c[3], size_t ce
     for (int k = 0; k < 3; ++k) f->sum[c[k] - f->first] = vec_add(f->sum[c[k] - f->first], n);
 }
 
-/* The sums of a pole's copies are one sum: it is one point. */
+/* Adds up the sums of all copies of a pole, since they are one point. */
 static void join_pole(const vec *normal, vec *sum, size_t from, size_t step, size_t count)
 {
     vec all = {{0, 0, 0}};
@@ -216,7 +216,8 @@ imp_code mesh_move(const imp_scene *scene, mesh *m, double t, allowance *l, imp_
 
 /* --- Error ------------------------------------------------------------------------------------ */
 
-/* A motion lengthens by less than this: IMP_RIGID_SLACK for each of a hundred maps. */
+/* A rigid motion lengthens vectors by less than this factor: IMP_RIGID_SLACK for each of a hundred
+ * maps. */
 static const double stretch_upper = 1.002;
 
 static imp_code patch_error(const imp_scene *scene, const mesh *m, const mesh_patch *p, double t,

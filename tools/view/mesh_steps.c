@@ -17,7 +17,7 @@
 /* --- Sides ------------------------------------------------------------------------------------ */
 
 typedef enum join {
-    JOIN_ALONE,  /* no other patch goes on */
+    JOIN_ALONE,  /* no other patch continues there */
     JOIN_SMOOTH, /* one does, with the same tangent plane, */
     JOIN_FOLD,   /* at a small angle, */
     JOIN_CREASE, /* or at a large one; or several do */
@@ -58,7 +58,7 @@ static side_points points_of(const mesh *m, const mesh_patch *p, unsigned which)
                          middle_of(mesh_u(m, p), p->nu), which == 3 ? -1 : 1};
 }
 
-/* A side in space: what two sides are compared by. */
+/* A side in space, for comparing two sides. */
 typedef struct side_shape {
     vec from, middle, to;
     vec inward; /* unit length, in the tangent plane at the middle, at right angles to the side */
@@ -135,7 +135,7 @@ static size_t cell_of(const joiner *j, vec p, unsigned halves)
     return (size_t)hash & j->mask;
 }
 
-/* The side put down before that is one with this; SIZE_MAX: none. */
+/* Returns the earlier side that coincides with this one; SIZE_MAX: none. */
 static size_t partner_of(const joiner *j, const side_shape *shape)
 {
     for (unsigned halves = 0; halves < 8; ++halves)
@@ -216,7 +216,7 @@ static bool add_side(const joiner *j, const side *s, mesh *m)
     return good;
 }
 
-/* The marked lines between the sides. */
+/* Adds the marked lines between the sides. */
 static bool add_lines(mesh *m, const mesh_patch *p)
 {
     const bool *marked_u = m->marked + p->first_line, *marked_v = marked_u + p->nu;

@@ -5,13 +5,13 @@
 
 #include "tools/view/stage.h"
 
-/* Where bodies come nearest to each other in the times of the options: *spot, with the distance to
- * within a thousandth of it. Where a limit ends the search, it is the nearest found so far, if any.
- * It is not known where nothing comes near anything. */
+/* Finds where bodies come nearest to each other in the times of the options: *spot, with the
+ * distance to within a thousandth of it. If a limit ends the search, it is the nearest found so
+ * far, if any. It is not known if no two bodies exist together. */
 imp_code nearest_find(imp_scene *scene, const imp_options *options, stage_spot *spot,
                       imp_error *error);
 
-/* The spot of an answer. */
+/* Returns the spot of an answer. */
 stage_spot nearest_of(const imp_clearance *answer, double gamma);
 
 #endif

@@ -8,10 +8,10 @@
 
 const colour palette_mark = {0.84f, 0.10f, 0.11f};
 
-/* The construction: a blue and an orange, then each time that colour which is farthest from all
- * before it and, at 0.7 of the distance, from the mark and white and, at 0.6, from black, among
- * those of lightness 0.52, 0.64, 0.76 or 0.88, chroma 0.06, 0.12 or 0.18, and 36 hues, as far as a
- * screen shows them. */
+/* Construction: a blue and an orange, then in each step the colour that is farthest from all before
+ * it and, weighted by 0.7, from the mark and white and, by 0.6, from black, among those of
+ * lightness 0.52, 0.64, 0.76 or 0.88, chroma 0.06, 0.12 or 0.18, and 36 hues, as far as a screen
+ * shows them. */
 colour palette_colour(size_t k)
 {
     static const colour all[PALETTE_COUNT] = {

@@ -11,20 +11,20 @@
  * ==============================
  * Colours are compared in Oklab (B. Ottosson, 2020), where a distance of some 0.02 is just seen.
  * Any two of the first 16 are at least PALETTE_FAR apart, any two of all at least PALETTE_NEAR, and
- * after the last the first comes again. All are as far from the red of marks, from black and from
+ * the list repeats after the last. All are as far from the red of marks, from black and from
  * white. */
 
 enum { PALETTE_COUNT = 24, PALETTE_FIRST = 16 };
 #define PALETTE_FAR 0.11
 #define PALETTE_NEAR 0.09
 
-/* The colour of body or curve number k. */
+/* Returns the colour of body or curve number k. */
 colour palette_colour(size_t k);
 
 /* The colour of contacts and marks. */
 extern const colour palette_mark;
 
-/* Distance in Oklab. */
+/* Returns the distance in Oklab. */
 double palette_distance(colour a, colour b);
 
 #endif

@@ -46,7 +46,7 @@ static const double veil_pixels = 2;
 
 typedef struct veil {
     bool *hides;  /* one a body; NULL: none does */
-    double depth; /* what is nearer is transparent; pixels, as the camera sees it */
+    double depth; /* depth in pixels; nearer shapes are transparent */
 } veil;
 
 static imp_code veil_begin(veil *v, const stage *s, const panel *p, imp_error *error)
@@ -85,7 +85,8 @@ static void paint_triangle(void *context, const mesh *m, const size_t c[3], size
     raster_triangle(paint->raster, corner, paint->colour);
 }
 
-/* Two pixels nearer than the surface they lie on, so that they are not lost in it. */
+/* Moves a point two pixels nearer than the surface it is on, so that the surface does not hide
+ * it. */
 static vec lifted(const camera *c, vec p)
 {
     vec seen = camera_see(c, p);
@@ -144,7 +145,7 @@ static bool is_inside(const raster_window *w, const double *p)
     return p[0] >= w->x && p[0] <= w->x + w->width && p[1] >= w->y && p[1] <= w->y + w->height;
 }
 
-/* Draws a step if it is of the kind that is asked for, hidden or not; a veiled one is drawn as if
+/* Draws a step if it is of the requested kind, hidden or not; a veiled step is drawn as if
  * hidden. */
 static void outline_step(const outliner *o, const mesh *m, const mesh_step *s, bool faint)
 {
@@ -222,7 +223,7 @@ static void mark_contact(const stage *s, const panel *p, canvas *c)
     dot(c, at.x);
 }
 
-/* The line between the two points, with its length. */
+/* Draws the line between the two points, with its length. */
 static void mark_nearest(const stage *s, const panel *p, canvas *c)
 {
     const vec a = camera_see(&p->camera, s->spot.point[0]);

@@ -7,8 +7,8 @@
 #include "tools/view/canvas.h"
 #include "tools/view/stage.h"
 
-/* What one panel of a picture shows: the stage at its time, shaded into the canvas's pixels or as
- * lines, those that are hidden fainter. Bodies that hide the spot are transparent before it. */
+/* Draws one panel of a picture: the stage at its time, shaded into the canvas's pixels or as lines,
+ * hidden lines fainter. Bodies in front of the spot are transparent. */
 
 typedef struct panel {
     raster_window window;

@@ -169,7 +169,8 @@ static colour pale(colour c)
     return (colour){1 - 0.45f * (1 - c.r), 1 - 0.45f * (1 - c.g), 1 - 0.45f * (1 - c.b)};
 }
 
-/* An upper end that is not known reaches the top; a lower one without a place, the bottom. */
+/* Draws a band. An unknown upper end is at the top; a lower end without a place on the scale, at
+ * the bottom. */
 static void draw_band(const frame *f, canvas *c, const plot_series *s)
 {
     for (size_t k = 0; k < s->count; ++k) {
@@ -234,7 +235,7 @@ static void draw_level(const frame *f, canvas *c)
     draw_level_label(f, c, f->x + f->width, y > f->y + 24 ? y - 7 : y + 16);
 }
 
-/* Words above the frame, as near to x as there is room beside the name of the vertical axis. */
+/* Draws text above the frame, as near to x as the name of the vertical axis permits. */
 static void draw_top_label(const frame *f, canvas *c, double x, const char *text)
 {
     char fitted[192];
@@ -252,7 +253,7 @@ static void draw_mark(const frame *f, canvas *c)
     draw_top_label(f, c, x, f->plot->mark_label);
 }
 
-/* A thin line leads from the point up to its label. */
+/* Draws the point, and a thin line up to its label. */
 static void draw_point(const frame *f, canvas *c)
 {
     const double x = frame_x(f, f->plot->point[0]), y = frame_y(f, f->plot->point[1]);

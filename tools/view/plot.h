@@ -17,7 +17,7 @@ typedef struct plot_series {
     char name[64];
     plot_kind kind;
     colour tint;
-    char letter; /* that stands for it in text */
+    char letter; /* its mark in text plots */
     double *x, *y, *high;
     size_t count;
 } plot_series;
@@ -36,12 +36,13 @@ typedef struct plot {
     bool has_level; /* a horizontal line, */
     double level;   /* at this y, */
     char level_label[64];
-    bool has_point; /* one point that stands out */
+    bool has_point; /* one highlighted point */
     double point[2];
     char point_label[192];
 } plot;
 
-/* Adds a series of room for `count` steps (one x more); NULL: no memory, or no room. */
+/* Adds a series for `count` steps (and count + 1 numbers x). NULL: no memory, or too many
+ * series. */
 plot_series *plot_add(plot *p, const char *name, plot_kind kind, size_t count);
 void plot_free(plot *p);
 
@@ -52,15 +53,15 @@ typedef struct plot_scale {
 } plot_scale;
 plot_scale plot_measure(const plot *p);
 
-/* Where x (axis 0) or y (1) is between the ends: 0 to 1; NAN if it has no place. */
+/* Returns the place of x (axis 0) or y (1) between the ends: 0 to 1; NAN: it has none. */
 double plot_place(const plot *p, const plot_scale *s, int axis, double value);
 
-/* Marks along an axis; answers how many, at most `most`. */
+/* Chooses the marks along an axis; returns how many, at most `most`. */
 size_t plot_ticks(const plot *p, const plot_scale *s, int axis, double *ticks, size_t most);
 
 void plot_draw(const plot *p, canvas *c);
 
-/* In so many columns and rows of ASCII, all told. False: no memory. */
+/* Prints the plot in this many columns and rows of ASCII in all. False: no memory. */
 bool plot_print(const plot *p, FILE *to, size_t columns, size_t rows);
 
 #endif

@@ -70,7 +70,7 @@ static plot_series *series_named(plot *p, const char *name, size_t most)
     return s;
 }
 
-/* Cases whose names end with no number stand side by side. */
+/* Adds a case; cases whose names do not end with a number are placed side by side. */
 static bool add_case(plot *p, const json_t *one, size_t index, size_t most)
 {
     const char *text = json_string_value(json_object_get(one, "case"));

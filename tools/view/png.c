@@ -12,7 +12,7 @@
 
 bool png_is_available(void) { return true; }
 
-/* What libpng would say itself, on standard error. The caller says what is wrong. */
+/* Replaces libpng's own message on standard error. The caller reports the error. */
 _Noreturn static void leave(png_structp png, png_const_charp text)
 {
     (void)text;
@@ -21,7 +21,7 @@ _Noreturn static void leave(png_structp png, png_const_charp text)
 
 static void keep_quiet(png_structp png, png_const_charp text) { (void)png, (void)text; }
 
-/* libpng leaves by longjmp; what is used after it is not changed between. */
+/* libpng leaves by longjmp; variables used afterwards are not changed in between. */
 static bool write_rows(png_structp png, png_infop info, FILE *file, const raster *r, uint8_t *row)
 {
     if (setjmp(png_jmpbuf(png))) return false;

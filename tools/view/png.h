@@ -12,7 +12,7 @@
 
 bool png_is_available(void);
 
-/* Complains, with the cure, of a file that cannot be written for want of it. */
+/* Complains, with the cure, if the file cannot be written because libpng is missing. */
 exit_status png_check(const char *path, const char *verb);
 
 /* False: it could not be written, or there is no libpng. */

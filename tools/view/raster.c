@@ -84,7 +84,7 @@ static void fine_window(const raster *r, size_t lo[2], size_t hi[2])
     hi[1] = y1 > 0 ? (size_t)(y1 * RASTER_FINE) : 0;
 }
 
-/* What is left of 255 parts of the picture under the veil. */
+/* The picture's share, of 255, under the veil. */
 enum { SHINES_THROUGH = 185 };
 
 void raster_veil_end(raster *r)
@@ -114,8 +114,8 @@ static double sharpened(double x)
     return x16 * x16 * x16;
 }
 
-/* Lambert and a highlight, by a lamp at the upper left behind the camera; the side turned to the
- * camera is lit, whichever it is. */
+/* Returns Lambert shading with a highlight, by a lamp at the upper left behind the camera;
+ * whichever side faces the camera is lit. */
 static colour lit(colour c, vec n)
 {
     static const vec lamp = {{-0.42, 0.55, 0.722}}, halfway = {{-0.226, 0.296, 0.928}};
@@ -171,7 +171,7 @@ static ramp share_of(const vec *b, const vec *c, double area)
 
 static double ramp_at(const ramp *r, double x, double y) { return r->at + r->dx * x + r->dy * y; }
 
-/* A triangle on its way into pixels. */
+/* A triangle while its pixels are drawn. */
 typedef struct shaded {
     const raster_corner *corner;
     ramp share[3];
@@ -200,7 +200,8 @@ static colour colour_at(const shaded *s, const double share[3])
     return lit(s->tint, vec_along(two, share[2], c[2].normal));
 }
 
-/* One fine pixel inside the triangle: over everything, or where nothing nearer is. */
+/* Draws one fine pixel inside the triangle: over everything, or unless something nearer is
+ * there. */
 static void put_pixel(raster *r, const shaded *s, size_t at, const double share[3], bool hidden)
 {
     raster_layer *layer = &r->front;

@@ -12,11 +12,11 @@
 /* A z-buffer
  * ==========
  * Pixels are kept RASTER_FINE times finer in both directions than they are written, and averaged in
- * the end: that is what smooths edges. All coordinates here are those of the written picture, y
- * downward; the centre of its first pixel is (0.5, 0.5).
+ * the end, which smooths edges. All coordinates here are those of the written picture, y downward;
+ * the centre of its first pixel is (0.5, 0.5).
  *
- * What hides something can be drawn into a veil: a second buffer that is laid over the picture,
- * transparent, when the veil ends. */
+ * Shapes that hide something can be drawn into a veil: a second buffer that is blended over the
+ * picture when the veil ends. */
 
 enum { RASTER_FINE = 3 };
 
@@ -24,7 +24,7 @@ typedef struct colour {
     float r, g, b; /* 0 to 1, as shown */
 } colour;
 
-/* What is drawn is cut off at the window. */
+/* Drawing is clipped to the window. */
 typedef struct raster_window {
     double x, y, width, height;
 } raster_window;
@@ -38,8 +38,8 @@ typedef struct raster_layer {
 typedef struct raster {
     size_t width, height;     /* of the written picture */
     raster_layer front, veil; /* front: the picture; veil: NULLs until there is one */
-    double veil_depth;    /* what is nearer than this goes into the veil; INFINITY: nothing does */
-    raster_window window; /* all of it, until the caller sets it */
+    double veil_depth;        /* shapes nearer than this are drawn into the veil; INFINITY: none */
+    raster_window window;     /* all of it, until the caller sets it */
 } raster;
 
 /* Bytes that raster_begin takes, and as many again with a veil. */
@@ -49,31 +49,33 @@ size_t raster_bytes(double width, double height);
 bool raster_begin(raster *r, size_t width, size_t height, colour background);
 void raster_free(raster *r);
 
-/* From here on, what is nearer than `depth` goes into a veil; INFINITY: nothing does. False: no
+/* From now on, shapes nearer than `depth` are drawn into a veil; INFINITY: none. False: no
  * memory. */
 bool raster_veil(raster *r, double depth);
 
 /* Lays the veil over the window, and clears it. */
 void raster_veil_end(raster *r);
 
-/* A corner of a triangle: x, y, depth; the normal as the camera sees it (right, up, toward). */
+/* A corner of a triangle: x, y, depth; the normal in camera coordinates (right, up, toward). */
 typedef struct raster_corner {
     vec at, normal;
 } raster_corner;
 
-/* Lit from the upper left, both sides alike; without a normal, in the colour itself. */
+/* Draws a triangle, lit from the upper left on either side; without a normal, in the plain
+ * colour. */
 void raster_triangle(raster *r, const raster_corner corner[3], colour c);
 
-/* A line `width` wide whose depth counts; without `hidden` it goes over everything. */
+/* Draws a line `width` wide that nearer shapes hide; without `hidden` it is drawn over
+ * everything. */
 void raster_line(raster *r, vec from, vec to, double width, colour c, bool hidden);
 
-/* A convex shape of n points x, y over everything. */
+/* Draws a convex shape of n points x, y over everything. */
 void raster_flat(raster *r, const double *xy, size_t n, colour c);
 
-/* Depth at a point of the window; -INFINITY outside. */
+/* Returns the depth at a point of the window; -INFINITY outside. */
 double raster_depth(const raster *r, double x, double y);
 
-/* One row of the written picture: 3 * width bytes. */
+/* Writes one row of the picture: 3 width bytes. */
 void raster_row(const raster *r, size_t y, uint8_t *rgb);
 
 #endif

@@ -59,7 +59,7 @@ void recorded_times(const recorded *r, imp_options *options)
     options->t_end = json_number_value(to);
 }
 
-/* False: what is named is not in the scene. */
+/* Reads the spot. False: it names bodies or surfaces that are not in the scene. */
 static bool read_spot(const json_t *json, const imp_scene *scene, stage_spot *spot)
 {
     const char *const sides[2] = {"a", "b"};

@@ -23,13 +23,14 @@ typedef struct recorded {
     const char *scene, *pair[2]; /* and one of them: the JSON's */
 } recorded;
 
-/* What the JSON is, which may be NULL. Complains of a result that names no scene. */
+/* Finds out which kind of result the JSON is, which may be NULL. Complains of a result that names
+ * no scene. */
 exit_status recorded_read(const json_t *json, const char *name, const char *verb, recorded *r);
 
-/* Sets the times that the answer is about, if it tells them. */
+/* Sets the times of the answer, if it has them. */
 void recorded_times(const recorded *r, imp_options *options);
 
-/* The answer, in terms of the scene; the spot is known where two points are named. */
+/* Returns the answer, with the scene's bodies; the spot is known if the answer has two points. */
 exit_status recorded_answer(const recorded *r, const imp_scene *scene, const imp_options *options,
                             const char *name, const char *verb, stage_contact *contact,
                             stage_spot *spot);

@@ -7,9 +7,9 @@
 
 /* When the search proved the cells of meshes clear
  * ================================================
- * The search runs once more, in steps. A cell is proved clear once no pair of regions that is left
- * to search covers it before the answer's time. What is kept is how many pairs had been tested by
- * then, as seen at the end of a step. */
+ * The search runs once more, in steps. A cell is proved clear once no pair of regions on the heap
+ * covers it before the answer's time. For each cell the number of pairs tested by then is kept, to
+ * the end of a step. */
 
 typedef struct regions {
     double **pairs; /* [track][cell of its mesh] */
@@ -18,7 +18,7 @@ typedef struct regions {
     double total; /* pairs tested in all */
 } regions;
 
-/* Free in any case. */
+/* Runs the search and fills *regions; free it in any case. */
 imp_code regions_measure(const subject *what, const film *f, regions *r, imp_error *error);
 void regions_free(regions *r);
 

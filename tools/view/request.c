@@ -74,7 +74,7 @@ const char *request_ending(const char *path)
     return strrchr(slash != NULL ? slash : path, '.');
 }
 
-/* NULL: --format is not given, and the name says nothing. */
+/* Returns the format; NULL: --format is not given, and the name has no ending. */
 static const char *format_asked(const arguments *args)
 {
     const option_value *output = arguments_option(args, "output");

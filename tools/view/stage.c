@@ -62,7 +62,7 @@ static imp_code make_body(stage *s, size_t body, mesh_plan *plan, size_t max_cel
     plan->max_cells = max_cells / (pieces + (pieces == 0)) + 16;
     for (size_t k = 0; k < imp_scene_surface_count(s->scene, body) && code == IMP_SUCCESS; ++k)
         code = mesh_make(s->scene, body, k, plan, &s->meshes[s->count++], error);
-    /* Steps are found where all stand at one time. */
+    /* Steps are found with all meshes at one time. */
     for (size_t k = first; k < s->count && code == IMP_SUCCESS; ++k)
         if (s->meshes[k].home < INFINITY)
             code = mesh_move(s->scene, &s->meshes[k], s->meshes[k].home, s->allowance, error);

@@ -9,17 +9,18 @@
 
 /* A scene to be drawn
  * ===================
- * The bodies' surfaces as meshes, what is known of their contact, and the moments worth showing. */
+ * It has the bodies' surfaces as meshes, the answer about their contact, and the moments to
+ * show. */
 
-/* What a query, or a file of results, tells. */
+/* The answer of a query, or from a file of results. */
 typedef struct stage_contact {
-    bool is_known; /* false: nobody asked when they touch */
+    bool is_known; /* false: no search for a contact was made */
     imp_verdict verdict;
-    double t; /* CONTACT; else what is proved: t_lower */
+    double t; /* with CONTACT its time; else t_lower */
     double gap, gamma;
 } stage_contact;
 
-/* Where two bodies touch or come nearest: what a picture is to show. */
+/* Where two bodies touch or come nearest, for the picture to show. */
 typedef struct stage_spot {
     bool is_known;
     bool is_contact;
@@ -41,8 +42,8 @@ typedef struct stage {
     mesh *meshes;      /* one for each surface, those of a body one after another */
     size_t count;
     double now;          /* the meshes' time */
-    cloud cloud;         /* of all that stands at the moments */
-    double *moments;     /* ascending; what the meshes' tolerance holds at */
+    cloud cloud;         /* of all surfaces at the moments */
+    double *moments;     /* ascending; times at which the meshes' tolerance holds */
     size_t moment_count; /* at least 1 */
     double error_upper;  /* of the pictures made so far: how far a surface is from its triangles */
 } stage;
@@ -59,15 +60,15 @@ typedef struct stage_detail {
 imp_code stage_make(stage *s, const stage_detail *detail, imp_error *error);
 void stage_free(stage *s);
 
-/* Puts everything where it is at time t, and keeps account of the error. What does not exist then
- * is left out of stage_is_there. */
+/* Moves all meshes to time t, and updates the error. stage_is_there is false for surfaces that do
+ * not exist then. */
 imp_code stage_move(stage *s, double t, imp_error *error);
 bool stage_is_there(const stage *s, const mesh *m);
 
-/* The middle of the spot's two points. */
+/* Returns the middle of the spot's two points. */
 vec stage_spot_point(const stage *s);
 
-/* Length of the box's diagonal; 1 where it has none. */
+/* Returns the length of the box's diagonal; 1 if that is 0. */
 double stage_size(const stage *s);
 
 #endif

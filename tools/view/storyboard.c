@@ -50,7 +50,7 @@ static void add(story *tale, double t, const char *what, const char *more)
     snprintf(tale->titles[tale->count++], sizeof tale->titles[0], "%st = %.7g%s", what, t, more);
 }
 
-/* "a and b", which of several distances. */
+/* Adds the title of the spot: "a and b" if there are several distances. */
 static void add_spot(story *tale, const subject *what)
 {
     const stage_spot *spot = &what->spot;
@@ -82,7 +82,7 @@ static void plan_even(story *tale, double t0, double t1)
             "");
 }
 
-/* Start, what is worth showing between, and end. */
+/* Plans panels for the start, the end, and the events between. */
 static void plan_all(story *tale, const subject *what)
 {
     const double t0 = what->options.t_start, t1 = what->options.t_end;
@@ -123,7 +123,7 @@ static story plan(const subject *what, const view_request *request)
 
 /* --- Panels ----------------------------------------------------------------------------------- */
 
-/* What all panels of a picture share. */
+/* Data that all panels of a picture share. */
 typedef struct board {
     stage *stage;
     const story *tale;
@@ -143,7 +143,7 @@ static raster_window window_of(const board *b, size_t k)
                            height};
 }
 
-/* About the spot, where there is one and more than all is asked for. */
+/* Zooms in on the spot, if there is one and the request has a zoom. */
 static void zoom(camera *c, const raster_window *w, const stage *s, double factor)
 {
     if (!(factor != 1)) return;
@@ -181,7 +181,7 @@ static imp_code draw_moments(const board *b, imp_error *error)
 
 /* --- The spot from near ----------------------------------------------------------------------- */
 
-/* Diagonal of the smallest body's box, where the meshes stand. */
+/* Returns the diagonal of the smallest body's box, at the meshes' present time. */
 static double smallest_body(const stage *s)
 {
     double least = INFINITY;
@@ -198,7 +198,7 @@ static double smallest_body(const stage *s)
     return least;
 }
 
-/* What the close-up shows around the spot: both points at least. */
+/* Returns the radius around the spot that the close-up shows: both points at least. */
 static double close_up_radius(const stage *s)
 {
     const double all = stage_size(s), small = 0.25 * smallest_body(s);
@@ -206,7 +206,7 @@ static double close_up_radius(const stage *s)
     return fmax(fmax(all / 60, 0.8 * apart), fmin(small, all / 8));
 }
 
-/* A stage of its own, finer about the spot. *near: how much larger than in the other panels. */
+/* Makes a separate stage, finer near the spot. *near: its scale relative to the other panels. */
 static imp_code make_close_up(const board *b, panel *p, double *near, stage *fine, imp_error *error)
 {
     const stage *whole = b->stage;

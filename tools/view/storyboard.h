@@ -7,19 +7,20 @@
 #include "tools/view/request.h"
 #include "tools/view/subject.h"
 
-/* The scene in panels: start, contact, end, and the contact from near; without a contact the
- * nearest approach in its place. With --at, that moment alone. */
+/* The scene in panels: start, contact, end, and a close-up of the contact; without a contact, the
+ * nearest approach instead. With --at, that moment alone. */
 
-/* Draws it all. *error_upper: how far any surface is from what stands for it, length. */
+/* Draws all panels. *error_upper bounds the distance of any surface from its drawn triangles,
+ * length. */
 imp_code storyboard_draw(subject *what, const view_request *request, canvas *c, double *error_upper,
                          imp_error *error);
 
-/* The stage for these moments, which it takes over (NULL: no memory). */
+/* Makes the stage for these moments, and takes ownership of them (NULL: no memory). */
 imp_code storyboard_stage(subject *what, const view_request *request, double *moments, size_t count,
                           stage *s, imp_error *error);
 
-/* From where to look: as the request says, or so that the spot is in front; where none is known, as
- * usual. The stage is left at the spot's time. */
+/* Chooses the view's direction: that of the request, or one in which nothing hides the spot, or the
+ * default without a spot. The stage is left at the spot's time. */
 imp_code storyboard_direction(stage *s, const view_request *request, direction *from,
                               imp_error *error);
 

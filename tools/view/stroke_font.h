@@ -12,7 +12,7 @@
 
 enum { STROKE_ADVANCE = 6, STROKE_LINE = 11 }; /* units from letter to letter, from line to line */
 
-/* The strokes of a letter; those of '?' for a byte that is no letter here. */
+/* Returns the strokes of a letter; those of '?' for a byte without strokes. */
 const char *stroke_of(char letter);
 
 #endif

@@ -54,7 +54,7 @@ static exit_status search_until(subject *s, double end, const char *speaker, imp
 }
 
 /* The first event of a simulation within the time, or the end. The motion has a kink there; where
- * flat faces meet, a search across it divides them all before it divides time. */
+ * flat faces meet, a search across it splits them all before it splits time. */
 static double first_event(const subject *s)
 {
     const imp_options *o = &s->options;
@@ -99,7 +99,7 @@ static void begin(subject *s, const arguments *args)
     s->allowance.interrupted = interrupt_came;
 }
 
-/* A file's name without folders. */
+/* Returns a file's name without folders. */
 static const char *base_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -183,7 +183,7 @@ exit_status subject_read(subject *s, const arguments *args)
     allowance_watch_reading(&s->allowance, args->verb->name);
     status = args->operand_count == 1 ? read_file(s, args) : read_pair(s, args);
     allowance_unwatch_reading();
-    /* What was read already may be a result, of which nothing more is asked. */
+    /* The text may be a result, which needs no search. */
     if (status != EXIT_ANSWERED || s->contact.gamma > 0) return status;
     return solve(s, args);
 }

@@ -7,18 +7,18 @@
 #include "tools/view/events.h"
 #include "tools/view/stage.h"
 
-/* What a verb of pictures is asked to show: a scene file, a result that names one, or two surfaces;
- * and what is found out about it. */
+/* The subject of a picture: a scene file, a result that names one, or two surfaces; with its query,
+ * contact and nearest approach. */
 
 typedef struct subject {
     imp_registry *registry;
     imp_scene *scene;
-    imp_query *query; /* run to its end; NULL where the answer was read */
+    imp_query *query; /* finished; NULL if the answer was read */
     imp_options options;
     size_t body_count;   /* bodies from here on are not drawn; 0: all are */
     allowance allowance; /* of the whole verb */
     stage_contact contact;
-    stage_spot spot;   /* the contact; else the nearest approach, once it was asked for */
+    stage_spot spot;   /* the contact; else the nearest approach, once it was searched */
     bool has_looked;   /* the nearest approach was searched for, or read */
     event_list events; /* of a simulation */
     char title[256];   /* the scene's name: its file, or the two surfaces */
@@ -27,7 +27,7 @@ typedef struct subject {
 /* Reads the operands and solves, unless they are a result. Complains. Free in any case. */
 exit_status subject_read(subject *s, const arguments *args);
 
-/* subject_read of a scene file; the operands are not looked at. */
+/* Like subject_read, for a scene file; the operands are ignored. */
 exit_status subject_of_file(subject *s, const char *path, const arguments *args);
 
 /* Finds the nearest approach where there is no contact. */

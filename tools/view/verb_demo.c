@@ -57,7 +57,7 @@ static imp_code measure_frames(const subject *what, gap_profile *f, imp_error *e
     return code;
 }
 
-/* --- The blade: what is printed --------------------------------------------------------------- */
+/* --- The blade: printed text ------------------------------------------------------------------ */
 
 static exit_status introduce(const char *speaker)
 {
@@ -115,7 +115,7 @@ static exit_status tell_gap(const subject *what, const gap_profile *f, const cha
     return status == EXIT_ANSWERED ? output_flush(speaker) : status;
 }
 
-/* --- The blade: what is written --------------------------------------------------------------- */
+/* --- The blade: files ------------------------------------------------------------------------- */
 
 enum { FRAMES_OF_PAGE = 26 }; /* a hundredth of a second apart; more would take longer to make */
 

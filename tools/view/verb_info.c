@@ -51,7 +51,7 @@ static void print_parameters(const imp_type_info *info)
         print_parameter(catalogue_parameter(info, i));
 }
 
-/* The example of some surface, for a map to act on. */
+/* Returns the example of some surface, for a map to act on. */
 static const char *any_surface(const imp_registry *registry)
 {
     imp_type_info info;
@@ -63,7 +63,7 @@ static const char *any_surface(const imp_registry *registry)
     return best;
 }
 
-/* A command that runs: the example against itself, under the map if it is one. */
+/* Prints a command that works: the example against itself, under the map if it is one. */
 static void print_command(const imp_registry *registry, const imp_type_info *info)
 {
     const char *surface = info->kind == IMP_TYPE_MAP ? any_surface(registry) : info->example;
@@ -163,7 +163,7 @@ static exit_status draw_first(imp_registry *registry, const arguments *args)
     return EXIT_ANSWERED;
 }
 
-/* A file that cannot be written is reported before anything is printed. */
+/* Reports a file that cannot be written before anything is printed. */
 static exit_status check_view(const arguments *args)
 {
     const option_value *view = arguments_option(args, "view");

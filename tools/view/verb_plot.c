@@ -19,7 +19,7 @@
 
 #include <impinge/baseline.h>
 
-/* --- Where it goes ---------------------------------------------------------------------------- */
+/* --- The output ------------------------------------------------------------------------------- */
 
 enum { WIDTH = 960, HEIGHT = 480, COLUMNS = 79, ROWS = 24 }; /* pixels; characters */
 
@@ -174,7 +174,7 @@ static exit_status plot_set(const char *set, const arguments *args)
     return status;
 }
 
-/* A file that holds "sets" is of bench; any other is left to the reader of scenes. */
+/* Whether the file is of bench: it has "sets". Other files are read as scenes. */
 static bool is_of_bench(const input_text *t)
 {
     json_t *json = json_loadb(t->text, t->length, 0, NULL);

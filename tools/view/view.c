@@ -22,7 +22,7 @@ static void tell_picture(const view_request *request, written *w)
     w->width = (size_t)request->width, w->height = (size_t)request->height;
 }
 
-/* What could not be written is complained of when the file is closed. */
+/* Write errors are reported when the file is closed. */
 static imp_code write_png(subject *what, const view_request *request, FILE *file, written *w,
                           imp_error *error)
 {

@@ -13,7 +13,7 @@
 #include "tools/view/html.h"
 #include "tools/view/storyboard.h"
 
-/* One moment, where no other is asked for: the contact's, or the start. */
+/* Returns a request of one moment: --at, or else the contact, or the start. */
 static view_request one_moment(const subject *what, const view_request *request)
 {
     view_request still = *request;
@@ -70,7 +70,7 @@ imp_code view_write_vtu(subject *what, const view_request *request, FILE *file, 
     return write_film(what, &still, file, w, error, first_vtu);
 }
 
-/* One frame beside the collection, under its own name. */
+/* Writes one frame into its own file beside the collection. */
 static imp_code write_frame(const film *f, const view_request *request, size_t frame,
                             imp_error *error)
 {
@@ -107,7 +107,7 @@ imp_code view_write_pvd(subject *what, const view_request *request, FILE *file, 
 
 /* --- A page ----------------------------------------------------------------------------------- */
 
-/* From where the spot is seen. */
+/* Chooses a direction from which the spot is visible. */
 static imp_code look(film *f, const view_request *request, vec *toward, imp_error *error)
 {
     direction from = request->from;

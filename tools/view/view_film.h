@@ -7,8 +7,8 @@
 
 #include "tools/view/view.h"
 
-/* The formats that hold triangles, of one moment or of many. Each writes the whole file; an error
- * of IMP_ERROR_FILE without a text was complained of. */
+/* The formats that hold triangles, of one moment or of many. Each writes the whole file; an
+ * IMP_ERROR_FILE without a text was reported already. */
 imp_code view_write_glb(subject *what, const view_request *request, FILE *file, written *w,
                         imp_error *error);
 imp_code view_write_html(subject *what, const view_request *request, FILE *file, written *w,

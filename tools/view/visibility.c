@@ -9,7 +9,7 @@
 
 #include "tools/view/camera.h"
 
-/* What lies within this part of all there is before the spot hides nothing. */
+/* Triangles within this part of the scene's size in front of the spot do not hide it. */
 static const double slack_share = 0.02;
 
 double visibility_slack(const stage *s) { return slack_share * stage_size(s); }
@@ -67,7 +67,7 @@ imp_code visibility_hiding(const stage *s, vec toward, bool *hides, imp_error *e
     return s->spot.is_known ? cast_all(s, &r, error) : IMP_SUCCESS;
 }
 
-/* --- What is seen of the two bodies ----------------------------------------------------------- */
+/* --- The visible part of the two bodies ------------------------------------------------------- */
 
 enum { SAMPLES = 12 }; /* points of each of the two bodies, at most */
 
@@ -85,7 +85,7 @@ static double body_size(const stage *s, size_t body)
     return vec_length(vec_sub(box.hi, box.lo));
 }
 
-/* Every stride-th of the body's points that lie within the radius of the spot. */
+/* Takes every stride-th of the body's points within the radius around the spot. */
 static size_t take_samples(const stage *s, size_t body, double radius, size_t stride, vec *taken,
                            size_t *found)
 {
@@ -121,7 +121,7 @@ static samples choose_samples(const stage *s)
 /* Rays from samples, which bodies other than their own may meet. */
 typedef struct glances {
     const samples *from;
-    const size_t *body; /* whose the samples are */
+    const size_t *body; /* the samples' body */
     const vec *toward;
     size_t count;
     double slack;
@@ -143,7 +143,7 @@ static void block(void *context, const mesh *m, const size_t corner[3], size_t c
         }
 }
 
-/* The share of samples that are seen, of that body of the two of which less is seen. */
+/* Returns the share of visible samples, of the body that is less visible. */
 static double share_seen(const samples *from, bool blocked[2][SAMPLES])
 {
     double least = 1;
@@ -173,7 +173,8 @@ static direction trial(size_t k)
     return (direction){usual.azimuth + 360 / TURNS * (double)(k % TURNS), elevations[k / TURNS]};
 }
 
-/* A third body in the way costs more than anything else; the two hide their own contact often. */
+/* Returns the merit of a direction: a third body in front of the spot costs most; the two bodies
+ * often hide their own contact. */
 static double merit(const stage *s, direction d, vec toward, const bool *met)
 {
     double hiding = 0;
@@ -185,7 +186,7 @@ static double merit(const stage *s, direction d, vec toward, const bool *met)
            fabs(d.elevation - usual.elevation) / 200;
 }
 
-/* The best azimuths of one elevation, by what hides the spot. */
+/* Takes the azimuths of one elevation from which the spot is least hidden. */
 static void take_best(const double *merits, size_t height, size_t best[BEST])
 {
     for (size_t n = 0; n < BEST; ++n) {
@@ -196,7 +197,7 @@ static void take_best(const double *merits, size_t height, size_t best[BEST])
     }
 }
 
-/* Among the finalists that which shows most of both bodies, too. */
+/* Chooses the finalist that also shows most of both bodies. */
 static imp_code choose_last(const stage *s, const vec *toward, const double *merits,
                             direction *chosen, imp_error *error)
 {

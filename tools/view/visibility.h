@@ -7,23 +7,23 @@
 
 /* From where a spot can be seen
  * =============================
- * The stage stands at the spot's time. From the spot a ray goes to the one who looks; what it meets
- * hides the spot, but for what lies within a small distance, as the two bodies themselves. */
+ * The stage is at the spot's time. Triangles on the ray from the spot to the viewer hide the spot,
+ * except within a small distance, since the two bodies meet there. */
 
-/* From where to look, in degrees. */
+/* The direction toward the viewer, in degrees. */
 typedef struct direction {
     double azimuth, elevation;
 } direction;
 
-/* Chooses the direction in which least hides the spot, its normal is seen from the side, and little
- * else is strange. Without a spot, the usual one. */
+/* Chooses a direction in which the spot is least hidden and its normal is seen from the side, near
+ * the default. Without a spot, the default one. */
 imp_code visibility_choose(const stage *s, direction *chosen, imp_error *error);
 
 /* Sets hides[b] for each body of the stage that hides the spot from the direction; toward: unit
  * length. */
 imp_code visibility_hiding(const stage *s, vec toward, bool *hides, imp_error *error);
 
-/* Length that counts as nothing before the spot. */
+/* Returns the distance in front of the spot within which triangles do not hide it. */
 double visibility_slack(const stage *s);
 
 #endif
