@@ -9,8 +9,8 @@
 #include <impinge/plugin.h>
 #include <stdbool.h>
 
-/* Axes, and what turns, stretches and bends along them
- * ====================================================
+/* Axes, and maps that turn, stretch and bend along them
+ * =====================================================
  * An axis is given by a vector of any length. Its unit vector k, and the matrices that take w apart
  * and turn it,
  *

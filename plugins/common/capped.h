@@ -6,12 +6,12 @@
 #include <impinge/plugin.h>
 
 /* Cylinders and cones about the z axis: the lateral surface and, if asked for, its end discs as
- * pieces of their own. Their parameters have this order. */
+ * pieces of their own. Types have these parameters in this order. */
 enum { CAPPED_RADIUS, CAPPED_HEIGHT, CAPPED_CENTER, CAPPED_ENDS };
 
 enum { CAPPED_LATERAL, CAPPED_PARTS_MAX = 3 };
 
-/* What the callbacks get as `self`: one piece. */
+/* The callbacks' `self`: one piece. */
 typedef struct capped {
     double radius, height, center[3];
     int part; /* CAPPED_LATERAL, or an end */

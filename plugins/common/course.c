@@ -13,7 +13,7 @@ void course_clear(course *c) { free(c->memory); }
 
 /* --- Making one ------------------------------------------------------------------------------- */
 
-/* What course_read is asked for. */
+/* The input of course_read. */
 typedef struct course_question {
     const imp_value *v; /* those of the course */
     int first;          /* row of the type's table that v begins with */
@@ -170,7 +170,7 @@ static imp_status course_find_units(const course_question *q, course_table *t)
     return status;
 }
 
-/* Converts the times, and sees that they increase. */
+/* Converts the times, and checks that they increase. */
 static imp_status course_take_times(course_table *t, imp_create_error *why)
 {
     const csv_numbers *n = &t->numbers;

@@ -86,7 +86,7 @@ typedef struct course {
     unit from[COURSE_WIDTH_MAX], to[COURSE_WIDTH_MAX]; /* units of the columns that they are from */
 } course;
 
-/* Frees what course_read took. */
+/* Frees the memory that course_read allocated. */
 void course_clear(course *c);
 
 /* Reads the rows `first` ... first + COURSE_ROWS - 1 of the table `rows`: an angle, or three
@@ -97,8 +97,8 @@ imp_status course_read(course *c, const imp_value *values, int first, unit_kind 
 /* Tells the times at which it is defined: from *lo to *hi. */
 void course_times(const course *c, double *lo, double *hi);
 
-/* Tells the times of a table, whether it holds at its ends or not; -INFINITY and INFINITY: it is no
- * table. */
+/* Returns the first and last time of a table, whether or not it is held beyond them; -INFINITY and
+ * INFINITY: it is no table. */
 void course_span(const course *c, double *lo, double *hi);
 
 /* Whether it is defined at all times from one to the other. */

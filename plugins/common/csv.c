@@ -49,7 +49,7 @@ static void csv_skip_mark(csv_reader *r)
     if (!is_mark) rewind(r->file);
 }
 
-/* The next line that counts; *more is false at the end of the file. */
+/* Reads the next line with cells; *more is false at the end of the file. */
 static imp_status csv_next_line(csv_reader *r, bool *more)
 {
     for (;;) {
@@ -71,7 +71,7 @@ static imp_status csv_next_line(csv_reader *r, bool *more)
 
 /* --- Heads ------------------------------------------------------------------------------------ */
 
-/* Text after a word for its number. */
+/* Returns the ending of a word for this count. */
 static const char *plural(size_t count) { return count == 1 ? "" : "s"; }
 
 static const char *separators_told(char separator)
@@ -98,7 +98,7 @@ static size_t csv_count(const char *line, char separator)
     return count;
 }
 
-/* What there is to choose from, cut where it is long. */
+/* The list of columns for a message, cut if it is long. */
 typedef struct csv_choice {
     char text[100];
 } csv_choice;
@@ -125,7 +125,7 @@ static csv_choice choice_of(const csv_reader *r, const char *head)
     return c;
 }
 
-/* Where the head names the column; `place` stays where it does not. */
+/* Finds the column by its name in the head; without it `place` is unchanged. */
 static imp_status csv_find_name(const csv_reader *r, const char *head, const char *wanted,
                                 int name_row, int64_t element, size_t *place, bool *found)
 {
@@ -191,7 +191,7 @@ static void csv_take_units(const csv_reader *r, const char *head, csv_numbers *t
 
 /* --- Rows ------------------------------------------------------------------------------------- */
 
-/* What is often meant by a cell that is no number. */
+/* Returns a hint for common mistakes in a cell that is no number. */
 static const char *hint_for(const csv_cell *cell)
 {
     double number;
@@ -222,7 +222,7 @@ static imp_status csv_check_width(const csv_reader *r, size_t width)
                       separators_told(r->separator));
 }
 
-/* Room for one more row. False: no memory. */
+/* Reserves memory for one more row. False: no memory. */
 static bool csv_reserve(csv_numbers *to)
 {
     if (to->rows < to->capacity) return true;
@@ -281,7 +281,7 @@ static imp_status csv_read_all(csv_reader *r, const char *const *name, int name_
     return status;
 }
 
-/* Only files: a pipe or a device might never end. */
+/* Opens regular files only: a pipe or a device might never end. */
 static FILE *csv_open(const char *path)
 {
     struct stat facts;

@@ -16,13 +16,12 @@
 
 enum { CSV_COLUMNS_MAX = 4, CSV_LINE_MAX = 65536, CSV_UNIT_MAX = 16 };
 
-/* What was read: `columns` numbers in each of `rows` rows. */
+/* The numbers read: `columns` in each of `rows` rows. */
 typedef struct csv_numbers {
     double *number;
     size_t rows, capacity, columns;
-    size_t place[CSV_COLUMNS_MAX]; /* of each column in the file, from 0 */
-    char unit[CSV_COLUMNS_MAX]
-             [CSV_UNIT_MAX]; /* as the head says; "": it says none; cut if longer */
+    size_t place[CSV_COLUMNS_MAX];            /* of each column in the file, from 0 */
+    char unit[CSV_COLUMNS_MAX][CSV_UNIT_MAX]; /* from the head, cut if longer; "": none */
 } csv_numbers;
 
 /* Reads the first column and those called `name` (to->columns in all); NULL: those that follow it.

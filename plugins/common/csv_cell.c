@@ -36,7 +36,7 @@ bool csv_cell_next(const char **next, char separator, csv_cell *cell)
 
 enum { CSV_NUMBER_MAX = 100 };
 
-/* strtod takes the point of the locale, and names of what is no number. */
+/* Checks the text first, since strtod depends on the locale and also accepts "nan" and "inf". */
 bool csv_cell_number(const csv_cell *cell, double *number)
 {
     char text[CSV_NUMBER_MAX], *end;

@@ -8,7 +8,7 @@
 
 /* Cells of a line of a table
  * ==========================
- * A cell is what stands between two separators, without the blanks and quotes around it. A number
+ * A cell is the text between two separators, without the blanks and quotes around it. A number
  * has a point in every locale. The cells of a head are names, perhaps with a unit: "j1 [deg]", "x
  * (mm)". */
 
@@ -28,8 +28,8 @@ bool csv_cell_next(const char **next, char separator, csv_cell *cell);
 /* False: it is no finite number. */
 bool csv_cell_number(const csv_cell *cell, double *number);
 
-/* Whether the cell may stand in a head: it is empty, or does not begin as a number does. "nan" and
- * "inf" do. */
+/* Whether the cell may be in a head: it is empty, or does not begin like a number, "nan" or
+ * "inf". */
 bool csv_cell_is_name(const csv_cell *cell);
 
 /* Splits off the unit in brackets at the end of a name; both lose the blanks around them. A unit of

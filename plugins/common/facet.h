@@ -10,11 +10,11 @@
 /* Parallelograms at rest that know how far a point is from their plane. */
 
 typedef struct facet {
-    linear surface;             /* first: what linear.h does with an instance */
+    linear surface;             /* first member: linear.h uses the instance as this */
     double normal[3], flatness; /* facet_gap */
 } facet;
 
-/* The greatest size of a component. */
+/* Returns the greatest absolute value of a component. */
 double facet_greatest(const double x[3]);
 
 /* The parallelogram origin + u edge_u + v edge_v; the edges are not parallel. */

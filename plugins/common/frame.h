@@ -7,8 +7,8 @@
 
 #include <impinge/formula_text.h>
 
-/* Three unit vectors a, b, k = a x b, perpendicular to each other, as constants that are known to
- * within their errors: what stands about an axis along k. Exact for an axis along x, y or z. */
+/* Three unit vectors a, b, k = a x b, perpendicular to each other, as constants with error bounds:
+ * the frame of a surface about an axis along k. Exact for an axis along x, y or z. */
 
 typedef struct frame {
     near_constant a[3], b[3], k[3];

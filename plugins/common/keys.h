@@ -5,8 +5,7 @@
 
 #include <impinge/plugin.h>
 
-/* Keys of a motion: what their lists are checked for. `row`: of the parameter, for the
- * complaint. */
+/* Checks of the lists of keys of a motion. `row`: the parameter's, for the error message. */
 
 /* Checks that there are two or more keys, in increasing order. */
 imp_status keys_check_times(int row, const imp_value *times, imp_create_error *why);

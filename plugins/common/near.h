@@ -29,7 +29,7 @@ static inline imp_model near_scale(imp_model x, near_constant k)
     product.depends = x.depends; /* also if the value is 0, and the number only nearly */
     double slip =
         imp_round_up(imp_round_up(imp_interval_mag(imp_interval_make(x.lo, x.hi))) * k.error);
-    /* A product of models may know one end of its range without the other. */
+    /* A product of models may have a range with one infinite end. */
     if (!(slip < INFINITY)) return imp_mul(x, imp_known(k.value, k.error));
     product.e = imp_sum_up(product.e + slip);
     product.lo = imp_sum_down(product.lo - slip);

@@ -5,8 +5,8 @@
 
 #include <impinge/surface.h>
 
-/* The entries of the plugins of this folder. They are built like anybody's, with the SDK alone and
- * no config.h; Makefile.am gives them the version of the package. */
+/* The entries of the plugins of this folder. They are built like third-party plugins, with the SDK
+ * alone and no config.h; Makefile.am gives them the version of the package. */
 #ifndef PLUGIN_VERSION
 #define PLUGIN_VERSION "built apart"
 #endif

@@ -138,8 +138,8 @@ static void spline_terms_at(const spline *s, const spline_span *span, size_t lan
     if (!whole) term[2] = spline_bend_over(s, span, lane, between);
 }
 
-/* What the terms 4 and 5 add to the slope over y, 4 term_4 y^3 + 5 term_5 y^4; adds to *e what they
- * add to the value. */
+/* Returns the terms 4 and 5 of the slope over y, 4 term_4 y^3 + 5 term_5 y^4; adds those of the
+ * value to *e. */
 static imp_interval spline_beyond(const imp_interval *term, imp_interval y, imp_interval square,
                                   double *e)
 {
@@ -173,7 +173,7 @@ static double spline_series(const spline *s, const spline_span *span, size_t lan
     return imp_interval_mag(imp_interval_add(term[1], rise));
 }
 
-/* Makes the series of a curve with kinks across several pieces with those slopes, and answers its
+/* Makes the series of a curve with kinks across several pieces with those slopes, and returns its
  * greatest slope. */
 static double spline_fan(const spline *s, const spline_span *span, size_t lane, imp_interval slopes,
                          imp_series *g)

@@ -33,8 +33,8 @@
  *
  *   g(m + y) = g(m) + h y,   h between the least and the greatest slope of the span.
  *
- * A binary tree over the pieces holds the range of each lane, of its slope and of g''/2: a
- * span across a thousand pieces asks for some twenty nodes. */
+ * A binary tree over the pieces holds the range of each lane, of its slope and of g''/2: a span
+ * across a thousand pieces uses some twenty nodes. */
 
 /* Per lane in a node of the tree. Further columns, after those of all lanes, are the owner's. */
 enum { SPLINE_VALUE, SPLINE_SLOPE, SPLINE_BEND, SPLINE_COLUMNS };
@@ -83,7 +83,7 @@ imp_interval spline_hull(imp_interval x, imp_interval y);
 imp_interval spline_hull_of(const imp_interval *x, int count);
 
 /* Fills controls and leaves of a cubic spline, from time and from the keys' values, lane by lane.
- * False: some step in time is too short for what happens in it, and *piece says which. */
+ * False: the step in time of piece *piece is too short for the change of values in it. */
 bool spline_set(const spline *s, const imp_interval *keys, size_t *piece);
 
 /* Fills controls and leaves of a spline that has these slopes at its keys, laid out as the keys
@@ -105,8 +105,8 @@ imp_interval spline_at(const imp_interval *control, int count, imp_interval part
 
 enum { SPLINE_WIDTH_MAX = 32 };
 
-/* The time at which a track stands that holds its ends: t, or the end of the track nearest to it.
- * Where t crosses an end this has a kink, and the rate 1 on its side of it. */
+/* Returns the time within a track that is held beyond its ends: t, or the end nearest to it. Where
+ * t crosses an end this has a kink, and the rate 1 on its side of it. */
 imp_model spline_hold(const spline *s, imp_model t);
 
 /* What is printed of a spline: lanes by `name` and their number; keys by the callback, their values

@@ -13,7 +13,7 @@
  * wherever it is above 2^-1000. 1/p = e/2 is exact.
  *
  * Lemma (flat). With L = min(1, 1/|w|): 2^(-1/p) L <= G <= L, because max(1, T) <= 1 + T <= 2
- * max(1, T). It tells all there is to tell when p is beyond SUPERELLIPSE_SHARP. */
+ * max(1, T). It is the only bound used when p is beyond SUPERELLIPSE_SHARP. */
 
 #define SUPERELLIPSE_SHARP 0x1p50
 #define SUPERELLIPSE_STEEP 0x1p10 /* greatest T for the smooth way */
@@ -80,7 +80,7 @@ static imp_model superellipse_power(const superellipse *s, imp_model w, imp_inte
 
 /* --- X and Y near an axis --------------------------------------------------------------------- */
 
-/* G where |w|^p is smooth enough to be told. */
+/* Returns G where |w|^p is smooth enough for a model. */
 static imp_model superellipse_smooth(const superellipse *s, imp_model w, imp_interval range)
 {
     imp_model t = superellipse_power(s, w, range);
@@ -121,7 +121,7 @@ static void superellipse_speeds(const superellipse *s, imp_interval size, imp_in
     *x_upper = imp_smaller(2, sec * fall * (steep * lift + IMP_TINY) * lift);
 }
 
-/* What is known of X and Y all along: they are in [-1, 1], and their speeds. */
+/* Applies the bounds that always hold for X and Y: they are in [-1, 1], with bounded speeds. */
 static void superellipse_limit(imp_model *x, const imp_model *angle, double speed)
 {
     x->lo = imp_larger(x->lo, -1);

@@ -14,8 +14,8 @@
 
 typedef enum unit_kind { UNIT_TIME, UNIT_LENGTH, UNIT_ANGLE } unit_kind;
 
-/* So many times the first of its kind (s, m, rad): top / bottom, both whole numbers; of degrees,
- * times pi. */
+/* The unit in terms of the first of its kind (s, m, rad): top / bottom, both whole numbers; of
+ * degrees, times pi. */
 typedef struct unit {
     double top, bottom;
     bool is_of_pi;

@@ -12,8 +12,7 @@
  * over the triangle of (0,0), (1,0), (0,1) a quartic polynomial of the twelve control points around
  * it (C. Loop, Smooth subdivision surfaces based on triangles, 1987). Polynomials of neighbours
  * have two derivatives in common.
- *
- * It is asked for over one of three areas, of which each is a square in s and w. A quartic
+ * It is evaluated over one of three areas, each of which is a square in s and w. A quartic
  * polynomial of what is bilinear in s and w is a patch of degrees 4 and 4:
  *
  *   BOX_WHOLE  the triangle, from its corner (0,0), with barycentric coordinates 1 - s, s (1 - w),
@@ -50,7 +49,7 @@ typedef struct box_tables {
 
 void box_make_tables(box_tables *to);
 
-/* Twelve points, and over what. `is_mirrored`: 1 - w takes the place of w. */
+/* Twelve points and the area. `is_mirrored`: 1 - w replaces w. */
 typedef struct box_data {
     const box_tables *tables;
     box_area area;

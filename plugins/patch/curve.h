@@ -10,7 +10,7 @@
 
 /* Bezier curves, polynomial or rational, in the plane or in space
  * ===============================================================
- * A curve is a patch of degrees n and 0 (patch.h). It is used inside a formula: curve_at answers
+ * A curve is a patch of degrees n and 0 (patch.h). It is used inside a formula: curve_at returns
  * the models of its coordinates for a parameter of the region, or for a number. */
 
 #define ROW_CURVE_WEIGHTS(NAME, CURVE)                                                             \

@@ -29,7 +29,7 @@ typedef struct knots {
     size_t *last; /* per span, its last control point */
 } knots;
 
-/* One direction's numbers, and where they stand for messages. */
+/* One direction's numbers, and their place in the parameters, for messages. */
 typedef struct knot_row {
     const double *number;
     size_t length;
@@ -43,7 +43,7 @@ imp_status knots_check(const knot_row *row, int degree, imp_create_error *why);
 /* Frees the arrays. */
 void knots_free(knots *k);
 
-/* From checked numbers. False: no memory; knots_free it all the same. */
+/* Makes knots from checked numbers. False: no memory; call knots_free even then. */
 bool knots_make(knots *k, const knot_row *row, int degree);
 
 static inline double knots_lo(const knots *k) { return k->ends[0]; }

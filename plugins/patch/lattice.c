@@ -39,7 +39,7 @@ static void lattice_contract(const lattice *f, int axis, const double *matrix, i
 
 /* --- Once ------------------------------------------------------------------------------------- */
 
-/* R from the net; answers beta. `work` has room for another net. */
+/* Computes R from the net and returns beta. `work` has the size of a net. */
 static double lattice_set_series(const lattice *f, lattice_lane *lane, double *work)
 {
     double beta[LATTICE_SIDE_MAX * LATTICE_SIDE_MAX], product = 1;
@@ -140,7 +140,7 @@ void lattice_enter(const lattice *f, const double centre[3], const double half[3
                         f->degree[axis] + 1);
 }
 
-/* C from the series; both buffers have room for it, the answer is one of them. */
+/* Computes C from the series; both buffers are large enough, and it returns one of them. */
 static const double *lattice_move(const lattice *f, const lattice_box *box, const double *series,
                                   double *out, double *work)
 {

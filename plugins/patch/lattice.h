@@ -48,7 +48,7 @@ static inline size_t lattice_inner(const lattice *f, int axis)
     return inner;
 }
 
-/* Sets everything that follows from net and slip. `work` has room for another net. */
+/* Sets everything that follows from net and slip. `work` has the size of a net. */
 void lattice_set(const lattice *f, lattice_lane *lane, double *work);
 
 typedef struct lattice_weights {

@@ -12,7 +12,7 @@
 
 /* --- Making cells ----------------------------------------------------------------------------- */
 
-/* Room for one cell's control points, in the order of a patch. */
+/* Memory for one cell's control points, in the order of a patch. */
 typedef struct cell_data {
     double points[3 * PATCH_SIDE_MAX * PATCH_SIDE_MAX];
     double velocities[3 * PATCH_SIDE_MAX * PATCH_SIDE_MAX];

@@ -41,14 +41,14 @@ static inline const cell *nurbs_cell(const nurbs_instance *f, size_t i, size_t j
     return &f->cells[i * f->side[1].spans + j];
 }
 
-/* All cells; their memory is there. False: no memory for what is needed meanwhile. */
+/* Makes all cells in memory that is allocated already. False: no temporary memory. */
 bool nurbs_make_cells(const nurbs_instance *f);
 
 #define CELL_SLIP 0x1p-51 /* more than (u - k) / h is off by: three roundings, |x| <= 1 */
 
-/* A region of u or v as one of x or y, which surely holds it; answers at least |x' - x| where x' =
- * c' + d' s stands for x = (c + d s - k) / h. (More than rounding only where u is much greater than
- * h: its own resolution is coarse there.) */
+/* A region of u or v as one of x or y, which surely holds it; returns a bound of |x' - x| where x'
+ * = c' + d' s stands for x = (c + d s - k) / h. (More than rounding only where u is much greater
+ * than h: its own resolution is coarse there.) */
 double cell_localize(const knots *k, size_t span, const imp_region *region, int side,
                      imp_region *local);
 

@@ -92,7 +92,7 @@ void patch_point(const patch *f, const double p[3], double x[3], double error[3]
 /* Implements imp_surface_type.eval. */
 imp_status patch_eval(const patch *f, size_t count, const double *p, double *x, double *error);
 
-/* Whether rate and include can answer for a region. */
+/* Whether rate and include have bounds for a region. */
 imp_status patch_region_status(const imp_region *region);
 
 #endif

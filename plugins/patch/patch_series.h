@@ -18,7 +18,7 @@
 /* out = matrix . in, for size rows of width numbers. */
 void patch_multiply(int size, const double *matrix, const double *in, double *out, int width);
 
-/* Fills series and noise. `work` has room for as many numbers as the net. */
+/* Fills series and noise. `work` has the size of the net. */
 void patch_set_series(patch *f, double *work);
 
 /* The series of all lanes over a region. Fits in (n+1)(m+1) lanes numbers; `work` likewise. */

@@ -5,7 +5,7 @@
 
 /* --- A quadratic through points --------------------------------------------------------------- */
 
-/* Where Chebyshev's quadratic interpolation looks: 0 and +- sqrt(3)/2. */
+/* Nodes of Chebyshev's quadratic interpolation: 0 and +- this, sqrt(3)/2. */
 #define PIECES_OFF 0.8660254037844386
 
 /* (u, v, t) where s is `off` times these. */

@@ -8,7 +8,7 @@
 #include <impinge/quad.h>
 
 /* Control points of a spline that are known but for a slip
- * =========================================================
+ * ========================================================
  * From them a patch is made on the stack each time that something is asked of it: a uniform bicubic
  * B-spline (spline_patch.h) or a quartic box spline (box_patch.h). Both are means of their control
  * points, so what holds of the spline of these points holds of all whose points are within `slip`

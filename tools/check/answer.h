@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 /* The result of a check
- * ==================
+ * =====================
  * Stored in memory that the child process shares with its parent, so that the call in progress is
  * known even if the plugin has ended the child. Plain data; pointers are to texts that live as long
  * as the command. */

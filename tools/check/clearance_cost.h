@@ -6,7 +6,7 @@
 #include "tools/check/subject.h"
 
 /* How good a surface's bounds are for a solver
- * ==============================================
+ * ============================================
  * The number of pairs of a region and a plane that are tested until it is proved that surface and
  * plane do not touch at any time. The plane is perpendicular to an axis, at a small distance from
  * the surface; regions with loose bounds are halved repeatedly. The mean over six planes, one on

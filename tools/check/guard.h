@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 /* Buffers that end at a guard page
- * ==================================
+ * ================================
  * The data ends directly before a page that cannot be read or written, so that an access one byte
  * past the end crashes, and the call that made it is known. For data whose size is a multiple of
  * its alignment. */
@@ -17,7 +17,7 @@ typedef struct guard {
     size_t size;
 } guard;
 
-/* Room for so many bytes at once. False: no memory. */
+/* Allocates this many bytes. False: no memory. */
 bool guard_make(guard *g, size_t room);
 
 /* A copy of the bytes at the end; earlier content is overwritten. `data` may be NULL: then the

@@ -9,7 +9,7 @@
 #include "tools/check/fate.h"
 
 /* The list of checks
- * ====================
+ * ==================
  * Some concern a file, some each type in it, once for each of a few stages ("sphere radius=2").
  * Each is run in a child process of its own. */
 

@@ -8,7 +8,7 @@
 #include "tools/check/sampling.h"
 
 /* A test surface for a map
- * =============================
+ * ========================
  * A map's apply turns models of x, y, z, t into models. To test it, we need surfaces whose models
  * are right and whose points are exact. We use polynomials with short binary numbers over regions
  * with short binary ends, at points s with short binary numbers: all values are sums of at most

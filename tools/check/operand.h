@@ -5,7 +5,7 @@
 
 #include "tools/cli/arguments.h"
 
-/* What `impinge check` is asked for: a file, a type, or a type with parameters. */
+/* The operand of `impinge check`: a file, a type, or a type with parameters. */
 
 #define OPERAND_BLANKS " \t\n\r" /* as in a pipeline */
 
@@ -30,7 +30,7 @@ typedef struct operand_type {
 exit_status operand_find_type(const arguments *args, const operand_type *w, double seconds,
                               operand_file *l);
 
-/* Looks at the plugin at a path. Complains of what cannot be read. */
+/* Finds the plugin at a path. Complains if it cannot be read. */
 exit_status operand_find_file(const arguments *args, const char *path, operand_file *l);
 
 #endif

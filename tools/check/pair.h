@@ -6,7 +6,7 @@
 #include "tools/check/subject.h"
 
 /* Testing rates with two points
- * ========================
+ * =============================
  * A row of rates claims |f(p) - f(q)| <= sum_j rate_j |p_j - q_j|. The values of f have errors, so
  * the claim is refuted only if the values differ by more than that bound plus both errors. */
 

@@ -6,7 +6,7 @@
 #include "tools/check/subject.h"
 
 /* Proves or refutes the claims of a type whose formula is known
- * ==================================================================
+ * =============================================================
  * Claims are tested over the domain, over the first regions that halving it makes, as in a solver,
  * and over random regions: rates, ranges, remainders, and the errors of points; rates also over
  * thousands of tiny regions, spread evenly. Branch and bound (tools/proof/branch.h) proves or

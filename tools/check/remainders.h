@@ -7,8 +7,8 @@
 
 /* How much a surface needs beside a quadratic
  * ===========================================
- * Over each region a quadratic is fitted to points of the surface, by least squares. What the
- * points are off it at most is what a remainder has to be, but for a factor near 1. */
+ * Over each region a quadratic is fitted to points of the surface, by least squares. The greatest
+ * distance of a point from it is the least possible remainder, up to a factor near 1. */
 
 /* Over the region, for each coordinate: the remainder that the host works with, by include or,
  * where that is NULL, by rate, and what is needed. Lengths; false: there is none. */

@@ -9,7 +9,7 @@
 #include "tools/proof/box.h"
 
 /* Where the checker searches
- * =======================
+ * ==========================
  * Everything is drawn from a seed, so that a result can be reproduced. Boxes: see
  * tools/proof/box.h. */
 

@@ -8,7 +8,7 @@
 #include "tools/proof/formula.h"
 
 /* The formula of a surface or map, if it is stated
- * ======================================================
+ * ================================================
  * It is stated by the user, "X; Y; Z", or by the surface itself: if a type has texts as parameters
  * x, y and z, these are its formula. This code does not name a type.
  *

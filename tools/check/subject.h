@@ -10,7 +10,7 @@
 #include "tools/check/sampling.h"
 
 /* The tested surface or map, as a function of n numbers
- * =======================================================================
+ * =====================================================
  * A surface is a function of (u, v, t), a map of (x, y, z, t), and both have three coordinates and
  * a rate for each of the numbers. Every call into the plugin is made here, and is recorded in the
  * answer first. */
@@ -21,13 +21,12 @@ typedef struct subject {
     const imp_instance *twin; /* another of the same parameters */
     const imp_registry *registry;
     const imp_type_info *type;
-    const char *stage;       /* what it was made from: "sphere radius=2" */
+    const char *stage;       /* its stage: "sphere radius=2" */
     const char *formula;     /* stated by the user, or NULL */
     const char *said_domain; /* the same of its domain */
     check_answer *answer;
-    int n;      /* 3: u, v, t. 4: x, y, z, t */
-    box domain; /* where it is examined: infinite times are cut to a few units, and space to [-2,2]
-                 */
+    int n;          /* 3: u, v, t. 4: x, y, z, t */
+    box domain;     /* examined: infinite times are cut to a few units, space to [-2,2] */
     double ends[2]; /* of its times, as it states them: may be infinite */
 } subject;
 

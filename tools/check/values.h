@@ -6,7 +6,7 @@
 #include <impinge/impinge.h>
 #include <jansson.h>
 
-/* What a stage, "sphere radius=2", gives its parameters, as the host reads it. */
+/* The parameters' values in a stage, "sphere radius=2", as the host reads them. */
 
 /* All of it: {"type": "sphere", "radius": 2}. NULL: it cannot be read, or no memory. */
 json_t *stage_values(const imp_registry *registry, imp_type_kind kind, const char *stage);
