@@ -369,7 +369,8 @@ static void write_key(const void *of, int order, size_t key, size_t lane, const 
     }
 }
 
-/* The path's lanes are named a0 ..., positions first; the quaternion is w, e0, e1, e2. */
+/* The path's lanes are named a0 ..., positions first; the quaternion is w, e0, e1, e2. |q| > 0.64
+ * by the lemma above, so 0.4 is never reached; intervals of long times know it by this. */
 static void write_rotation(const keyframes_instance *s, const imp_text_sink *to)
 {
     static const char *const name[4] = {"w = a", "e0 = a", "e1 = a", "e2 = a"};
@@ -378,9 +379,10 @@ static void write_rotation(const keyframes_instance *s, const imp_text_sink *to)
         imp_add_whole(to, s->position + j);
         imp_add_text(to, "; ");
     }
-    imp_add_text(to, "n = 2/(w^2 + e0^2 + e1^2 + e2^2); c0 = e1*z - e2*y; c1 = e2*x - e0*z; "
-                     "c2 = e0*y - e1*x; r0 = x + n*(w*c0 + e1*c2 - e2*c1); "
-                     "r1 = y + n*(w*c1 + e2*c0 - e0*c2); r2 = z + n*(w*c2 + e0*c1 - e1*c0); ");
+    imp_add_text(to,
+                 "n = 2/max(0.4, w^2 + e0^2 + e1^2 + e2^2); c0 = e1*z - e2*y; c1 = e2*x - e0*z; "
+                 "c2 = e0*y - e1*x; r0 = x + n*(w*c0 + e1*c2 - e2*c1); "
+                 "r1 = y + n*(w*c1 + e2*c0 - e0*c2); r2 = z + n*(w*c2 + e0*c1 - e1*c0); ");
 }
 
 static imp_status keyframes_write_formula(const void *self, const imp_text_sink *to)

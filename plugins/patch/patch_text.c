@@ -5,6 +5,8 @@
 
 #include "plugins/patch/bernstein.h"
 
+#include <impinge/interval.h>
+
 /* --- Words ------------------------------------------------------------------------------------ */
 
 void patch_add_name(const imp_text_sink *to, char letter, size_t number, const char *after)
@@ -81,13 +83,27 @@ static void add_sum(const imp_text_sink *to, const given_points *g, const point_
     }
 }
 
+/* "max(LEAST, ": W is a mean of the weights, so no less than the least of them; intervals of large
+ * regions know it by this. */
+static void begin_weight(const imp_text_sink *to, const given_points *g, const point_grid *grid)
+{
+    double least = g->weights[grid->first];
+    for (size_t i = 0; i < grid->rows; ++i)
+        for (size_t j = 0; j < grid->columns; ++j)
+            least = imp_smaller(least, g->weights[grid->first + i * grid->row + j]);
+    imp_add_text(to, "max(");
+    imp_add_number(to, least);
+    imp_add_text(to, ", ");
+}
+
 /* The three coordinates, with ';' between them. */
 static void add_coordinates(const imp_text_sink *to, const given_points *g, const point_grid *grid)
 {
     if (g->weights != NULL) {
         imp_add_text(to, "W = ");
+        begin_weight(to, g, grid);
         add_sum(to, g, grid, WEIGHTS);
-        imp_add_text(to, "; ");
+        imp_add_text(to, "); ");
     }
     for (size_t axis = 0; axis < 3; ++axis) {
         imp_add_text(to, axis > 0 ? "; (" : "(");
@@ -133,7 +149,8 @@ void curve_write(const patch *f, char letter, char variable, const imp_text_sink
         patch_add_name(to, letter, axis, " = (");
         add_sum(to, &g, &grid, axis);
         imp_add_text(to, ")");
-        if (g.weights != NULL) imp_add_text(to, "/(");
+        if (g.weights != NULL) imp_add_text(to, "/");
+        if (g.weights != NULL) begin_weight(to, &g, &grid);
         if (g.weights != NULL) add_sum(to, &g, &grid, WEIGHTS);
         imp_add_text(to, g.weights != NULL ? "); " : "; ");
     }
@@ -170,9 +187,11 @@ void triangle_write(const patch *f, const imp_text_sink *to)
     imp_add_text(to, "u in [0, 1]; v in [0, 1]; ");
     bernstein_define(to, 'a', f->degree[0], 'u');
     if (g.weights != NULL) {
+        const size_t side = (size_t)f->degree[0] + 1;
         imp_add_text(to, "W = ");
+        begin_weight(to, &g, &(point_grid){.rows = side, .columns = side, .row = side});
         add_rows(to, &g, f->degree[0], WEIGHTS);
-        imp_add_text(to, "; ");
+        imp_add_text(to, "); ");
     }
     for (size_t axis = 0; axis < 3; ++axis) {
         imp_add_text(to, axis > 0 ? "; (" : "(");

@@ -62,12 +62,15 @@ static const imp_surface_type superellipsoid = {
                 "(w) = (cos w, sin w) / (|cos w|^p + |sin w|^p)^(1/p), p = 2 / exponents_k, "
                 "u in [0,2pi], v in [-pi/2,pi/2]",
     .source = "A. H. Barr, Superquadrics and angle-preserving transformations, IEEE CG&A 1 (1981)",
+    /* No superellipse with p >= 1 is nearer to its centre than 1/sqrt(2): 0.5 is never reached, but
+     * intervals of large regions know it by this. */
     .formula = "u in [0, 2*pi]; v in [-pi/2, pi/2]; meridian_power = 2/exponents0; meridian = "
-               "(abs(cos(v))^meridian_power + abs(sin(v))^meridian_power)^(1/meridian_power); "
-               "parallel_power = 2/exponents1; parallel = (abs(cos(u))^parallel_power + "
-               "abs(sin(u))^parallel_power)^(1/parallel_power); center0 + "
-               "radii0*cos(v)*cos(u)/(meridian*parallel); center1 + "
-               "radii1*cos(v)*sin(u)/(meridian*parallel); center2 + radii2*sin(v)/meridian",
+               "max(0.5, (abs(cos(v))^meridian_power + "
+               "abs(sin(v))^meridian_power)^(1/meridian_power)); parallel_power = "
+               "2/exponents1; parallel = max(0.5, (abs(cos(u))^parallel_power + "
+               "abs(sin(u))^parallel_power)^(1/parallel_power)); center0 + "
+               "radii0*(cos(v)/meridian)*(cos(u)/parallel); center1 + "
+               "radii1*(cos(v)/meridian)*(sin(u)/parallel); center2 + radii2*sin(v)/meridian",
     .example = "superellipsoid radii=1,1,2 exponents=0.3,1.5",
 };
 

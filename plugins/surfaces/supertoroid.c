@@ -70,10 +70,12 @@ static const imp_surface_type supertoroid = {
         "r = minor_radius, (X_k, Y_k)(w) = (cos w, sin w) / (|cos w|^p + |sin w|^p)^(1/p), "
         "p = 2 / exponents_k, u and v in [0,2pi]",
     .source = "A. H. Barr, Superquadrics and angle-preserving transformations, IEEE CG&A 1 (1981)",
-    .formula = "u in [0, 2*pi]; v in [0, 2*pi]; tube_power = 2/exponents0; tube = "
-               "(abs(cos(v))^tube_power + abs(sin(v))^tube_power)^(1/tube_power); ring_power = "
-               "2/exponents1; ring = (abs(cos(u))^ring_power + "
-               "abs(sin(u))^ring_power)^(1/ring_power); width = major_radius + "
+    /* No superellipse with p >= 1 is nearer to its centre than 1/sqrt(2): 0.5 is never reached, but
+     * intervals of large regions know it by this. */
+    .formula = "u in [0, 2*pi]; v in [0, 2*pi]; tube_power = 2/exponents0; tube = max(0.5, "
+               "(abs(cos(v))^tube_power + abs(sin(v))^tube_power)^(1/tube_power)); ring_power "
+               "= 2/exponents1; ring = max(0.5, (abs(cos(u))^ring_power + "
+               "abs(sin(u))^ring_power)^(1/ring_power)); width = major_radius + "
                "minor_radius*cos(v)/tube; center0 + width*cos(u)/ring; center1 + "
                "width*sin(u)/ring; center2 + minor_radius*sin(v)/tube",
     .example = "supertoroid major_radius=1 minor_radius=0.3 exponents=0.5,1",
