@@ -627,10 +627,13 @@ EXTRA_DIST += \
     tests/fuzz/proof.d/composed.txt \
     tests/fuzz/proof.d/constants.txt \
     tests/fuzz/proof.d/deep.txt \
+    tests/fuzz/proof.d/definitions.txt \
     tests/fuzz/proof.d/divisor_small.txt \
     tests/fuzz/proof.d/edges.txt \
     tests/fuzz/proof.d/kinks.txt \
     tests/fuzz/proof.d/overflow.txt \
+    tests/fuzz/proof.d/parts.txt \
+    tests/fuzz/proof.d/parts_bad.txt \
     tests/fuzz/proof.d/powers.txt \
     tests/fuzz/proof.d/signs.txt \
     tests/fuzz/proof.d/smooth.txt \

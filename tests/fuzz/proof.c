@@ -14,7 +14,8 @@
 
 /* The checker's reader takes or refuses any three texts; what it says of a box holds for points of
  * it: values and slopes, as the language of formulas evaluates them, which shares no code with it.
- * The texts are the input's first three lines; where a line is missing, "v" and "t". */
+ * The texts are the input's first three lines; where a line is missing, "v" and "t". And the input
+ * as a whole may be a text in parts, as types state it. */
 
 const char fuzz_target[] = "proof";
 
@@ -120,17 +121,35 @@ static expression_program *compile(const char *const texts[3])
     return expression_compile(&scope, texts, &program, &error) == IMP_STATUS_OK ? program : NULL;
 }
 
+/* The whole input as a text of a type: whatever part is taken is computed, and its ranges are
+ * numbers in order. */
+static void read_parts(const formula_scope *scope, const char *text)
+{
+    char fault[240];
+    formula_range range[BOX_DIMS];
+    for (const char *at = text; at != NULL; at = formula_next_part(at)) {
+        formula *part = formula_read_part(scope, at, range, fault, sizeof fault);
+        FUZZ_REQUIRE((part == NULL) == (fault[0] != '\0'));
+        for (int j = 0; j < BOX_DIMS && part != NULL; ++j)
+            FUZZ_REQUIRE(!range[j].is_said || range[j].lo.lo <= range[j].hi.hi);
+        if (part != NULL) compute(part);
+        formula_free(part);
+        if (part == NULL) return;
+    }
+}
+
 int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t length)
 {
     char *text = strndup((const char *)bytes, length);
     if (text == NULL) return 0;
+    const formula_scope scope = {"uvt", CONSTANTS, constant_names, constant_values};
+    read_parts(&scope, text);
     const char *texts[3] = {text, "v", "t"};
     char *next = text;
     for (int i = 1; i < 3 && (next = strchr(next, '\n')) != NULL; ++i) {
         *next++ = '\0';
         texts[i] = next;
     }
-    const formula_scope scope = {"uvt", CONSTANTS, constant_names, constant_values};
     char fault[240] = "";
     formula *proof = formula_read(&scope, texts, fault, sizeof fault);
     FUZZ_REQUIRE((proof == NULL) == (fault[0] != '\0'));

@@ -61,6 +61,73 @@ START_TEST(isolated_types_print_what_they_print_here)
 }
 END_TEST
 
+/* A patch of 21 by 21 moving points, whose formula is longer than what a worker sends at once. */
+static char *long_patch(void)
+{
+    char *text = malloc(65536);
+    size_t used = (size_t)sprintf(text, "bezier degree=20,20 points=[");
+    for (int list = 0; list < 2; ++list) {
+        for (int k = 0; k < 441; ++k)
+            used += (size_t)sprintf(text + used, "%s[%d.1,%d.2,0.3]", k > 0 ? "," : "", k, k % 21);
+        used += (size_t)sprintf(text + used, list == 0 ? "] velocities=[" : "]");
+    }
+    return text;
+}
+
+START_TEST(callbacks_of_isolated_types_print_all_they_print_here)
+{
+    imp_error error = {IMP_SUCCESS, ""};
+    char *stage = long_patch(), *here[2], *there[2];
+    imp_scene *scene = scene_of(stage);
+    ck_assert_int_eq(imp_piece_formula(scene, (imp_place){0, 0, 0}, 0, &here[0], &error),
+                     IMP_SUCCESS);
+    ck_assert_uint_gt(strlen(here[0]), 1 << 16);
+    imp_scene *box = scene_of("box ! rotate rate=2");
+    ck_assert_int_eq(imp_piece_formula(box, (imp_place){0, 0, 5}, 1, &here[1], &error),
+                     IMP_SUCCESS);
+    imp_scene_free(scene);
+    imp_scene_free(box);
+    ck_assert_int_eq(imp_registry_isolate(registry, NULL, &error), IMP_SUCCESS);
+    scene = scene_of(stage);
+    check_text(scene, 0, here[0]);
+    box = scene_of("box ! rotate rate=2");
+    ck_assert_int_eq(imp_piece_formula(box, (imp_place){0, 0, 5}, 1, &there[1], &error),
+                     IMP_SUCCESS);
+    ck_assert_str_eq(there[1], here[1]);
+    ck_assert_int_eq(imp_piece_formula(box, (imp_place){0, 0, 5}, 0, &there[0], &error),
+                     IMP_SUCCESS);
+    ck_assert_ptr_nonnull(strstr(there[0], "corner2 = 0.5; "));
+    imp_scene_free(scene);
+    imp_scene_free(box);
+    for (int k = 0; k < 2; ++k) {
+        free(here[k]);
+        free(there[k]);
+    }
+    free(stage);
+}
+END_TEST
+
+/* What a type cannot say is no error. */
+START_TEST(what_has_no_formula_is_null)
+{
+    imp_error error = {IMP_SUCCESS, ""};
+    char *text = NULL;
+    imp_scene *scene = scene_of("sphere ! bend curvature=[0,1]");
+    ck_assert_int_eq(imp_piece_formula(scene, (imp_place){0, 0, 0}, 1, &text, &error), IMP_SUCCESS);
+    ck_assert_ptr_null(text);
+    imp_scene_free(scene);
+}
+END_TEST
+
+/* A name that the text defines itself is not a parameter's. */
+START_TEST(a_definition_hides_a_parameter)
+{
+    imp_scene *scene = scene_of("formula x=time0*u constants={\"time0\":3} time=0,1");
+    check_text(scene, 0, "time0 = 3; u in [0, 1]; v in [0, 1]; t in [0, 1]; time0*u; v; 0");
+    imp_scene_free(scene);
+}
+END_TEST
+
 START_TEST(stages_are_the_type_and_its_maps)
 {
     imp_stage stage, other;
@@ -163,6 +230,9 @@ int main(void)
 {
     const TTest *const tests[] = {numbers_are_bound_to_the_names_of_parameters,
                                   isolated_types_print_what_they_print_here,
+                                  callbacks_of_isolated_types_print_all_they_print_here,
+                                  what_has_no_formula_is_null,
+                                  a_definition_hides_a_parameter,
                                   stages_are_the_type_and_its_maps,
                                   misuse_is_answered,
                                   short_numbers_are_decimal,
