@@ -749,7 +749,7 @@ EXTRA_DIST += \
     tests/python/test_robot_files.py \
     tests/python/test_text.py \
     tests/python/typed.py
-EXTRA_DIST += tests/distributions tests/support/timed
+EXTRA_DIST += tests/variants tests/distributions tests/support/timed
 EXTRA_DIST += $(bats_suites) $(script_suites) $(release_suites) tests/support/include_order \
     tests/support/cli_helper.bash \
     tests/support/comma_locale \

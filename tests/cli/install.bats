@@ -121,6 +121,16 @@ build_plugin() {
     grep -q "elsewhere" <<<"$(make -n V=1 core/plugin/registry.lo)"
 }
 
+@test "configure refuses machines of 32 bits or of the other order of bytes, with the reason" {
+    unset PKG_CONFIG_PATH
+    local answer
+    for answer in impinge_cv_64_bits=no ac_cv_c_bigendian=yes; do
+        grep -v "^${answer%=*}=" "$build/config.cache" >config.cache
+        run ! "$top_srcdir"/configure -q -C CC="$CC" CFLAGS=-O0 "$answer"
+        [[ $output == *"Impinge needs a "*processor* ]]
+    done
+}
+
 # --- Programs and plugins of others -------------------------------------------------------------
 
 @test "a program builds with impinge.pc and finds the installed types" {
