@@ -12,6 +12,7 @@ core_common = \
     core/common/child_process.c core/common/child_process.h \
     core/common/clock.h \
     core/common/fp_control.h \
+    core/common/sha256.c core/common/sha256.h \
     core/common/spelling.c core/common/spelling.h \
     core/common/random.h \
     core/common/system_error.h \
@@ -152,6 +153,11 @@ core_broad_phase = \
     core/broad_phase/examined_times.c core/broad_phase/examined_times.h \
     core/broad_phase/parallel.c core/broad_phase/parallel.h
 
+core_proof = \
+    core/proof/proof_file.c core/proof/proof_file.h \
+    core/proof/proof_log.c core/proof/proof_log.h \
+    core/proof/proof_tree.c core/proof/proof_tree.h
+
 core_solver = \
     core/solver/clearance.c core/solver/clearance.h \
     core/solver/contradiction.c core/solver/contradiction.h \
@@ -164,6 +170,7 @@ core_solver = \
     core/solver/query_inside.c \
     core/solver/min_distance.c core/solver/min_distance.h \
     core/solver/pair_heap.c core/solver/pair_heap.h \
+    core/solver/pair_note.h \
     core/solver/pair_step.c core/solver/pair_step.h \
     core/solver/pair_test.c core/solver/pair_test.h \
     core/solver/query.c \
@@ -172,6 +179,7 @@ core_solver = \
     core/solver/query_divide.c \
     core/solver/query_explain.c \
     core/solver/query_internal.h \
+    core/solver/query_proof.c \
     core/solver/subdivision.c core/solver/subdivision.h \
     core/solver/time_of_impact.c core/solver/time_of_impact.h \
     core/solver/upper_time.c core/solver/upper_time.h \
@@ -200,7 +208,8 @@ core_libcommon_la_SOURCES = $(core_common)
 # Everything, internal symbols included: what the Check suites link.
 noinst_LTLIBRARIES += core/libcore.la
 core_libcore_la_SOURCES = $(core_base) $(core_surface) $(core_tree) $(core_plugin) $(core_scene) \
-    $(core_solid) $(core_bounds) $(core_witness) $(core_broad_phase) $(core_solver) $(core_reader)
+    $(core_solid) $(core_bounds) $(core_witness) $(core_broad_phase) $(core_proof) \
+    $(core_solver) $(core_reader)
 core_libcore_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 core_libcore_la_LIBADD = core/libcommon.la $(JANSSON_LIBS) -lm
 
@@ -247,4 +256,4 @@ $(cmake_DATA): %: %.in Makefile
 CLEANFILES += $(cmake_DATA)
 EXTRA_DIST += $(cmake_DATA:%=%.in)
 
-EXTRA_DIST += core/MEASUREMENTS.md core/PROOF.md core/README core/libimpinge.map
+EXTRA_DIST += core/CERTIFICATE.md core/MEASUREMENTS.md core/PROOF.md core/README core/libimpinge.map

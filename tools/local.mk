@@ -12,6 +12,7 @@ tools_libproof_la_SOURCES = \
     tools/proof/formula.c tools/proof/formula.h \
     tools/proof/jet.c tools/proof/jet.h \
     tools/proof/jet_functions.c \
+    tools/proof/ld_ends.c \
     tools/proof/ld_interval.c tools/proof/ld_interval.h \
     tools/proof/polynomial.c tools/proof/polynomial.h \
     tools/proof/reader.c \
@@ -115,6 +116,7 @@ tools_cli = \
     tools/cli/program.c tools/cli/program.h \
     tools/cli/progress.c tools/cli/progress.h \
     tools/cli/project.c tools/cli/project.h \
+    tools/cli/proof_output.c tools/cli/proof_output.h \
     tools/cli/query.c tools/cli/query.h \
     tools/cli/result.h \
     tools/cli/result_json.c \
@@ -225,6 +227,36 @@ bin_PROGRAMS += tools/impinge
 tools_impinge_SOURCES = tools/cli/main.c
 tools_impinge_LDADD = $(tools_libs)
 
+# The verifier of certificates, whose interval arithmetic is MPFI's; of the checker's proofs it shares
+# formulas and jets.
+dist_man_MANS =
+if HAVE_MPFI
+noinst_LTLIBRARIES += tools/libverify.la
+bin_PROGRAMS += tools/impinge-verify
+dist_man_MANS += tools/impinge-verify.1
+else
+EXTRA_DIST += tools/impinge-verify.1
+endif
+tools_impinge_verify_SOURCES = tools/verify/main.c
+tools_impinge_verify_LDADD = tools/libverify.la
+tools_libverify_la_SOURCES = \
+    core/common/array.h \
+    core/common/sha256.c core/common/sha256.h \
+    tools/proof/box.h \
+    tools/proof/formula.c tools/proof/formula.h \
+    tools/proof/jet.c tools/proof/jet.h \
+    tools/proof/jet_functions.c \
+    tools/proof/ld_ends.c tools/proof/ld_interval.h \
+    tools/proof/reader.c \
+    tools/proof/steps.h \
+    tools/verify/apart.c tools/verify/apart.h \
+    tools/verify/enclose.c tools/verify/enclose.h \
+    tools/verify/input.c tools/verify/input.h \
+    tools/verify/mpfi_interval.c \
+    tools/verify/statement.c tools/verify/statement.h \
+    tools/verify/walk.c tools/verify/walk.h
+tools_libverify_la_LIBADD = $(MPFI_LIBS) -lm
+
 # The command for `bench --tune`, whose tuning constants are variables: built by name only. The library
 # is linked in as one object, whose internal symbols are local. Positive variables stand for
 # constants there, so that changes of sign are harmless.
@@ -255,7 +287,7 @@ tools_impinge_mpi_SOURCES = \
 tools_impinge_mpi_CFLAGS = $(AM_CFLAGS) $(MPI_CFLAGS)
 tools_impinge_mpi_LDADD = $(tools_libs) $(MPI_LIBS)
 
-dist_man_MANS = tools/impinge.1
+dist_man_MANS += tools/impinge.1
 pkgdata_DATA = \
     tools/data/arm.csv \
     tools/data/arm.json \

@@ -628,6 +628,23 @@ typedef struct imp_pending {
  * stats.pairs is 0 nothing is known: a limit may have ended the query before its first pair. */
 IMP_EXPORT bool imp_query_pending(const imp_query *query, size_t index, imp_pending *pending);
 
+/* Has the query keep what a certificate needs: the proof of its answer, which impinge-verify checks
+ * without the library (core/CERTIFICATE.md). Call it before the first step. The search then keeps a
+ * sixteenth of what lies between gamma_clear and gamma, or between D (1 - 1e-6) and D, as room for
+ * the verifier. Such a query is not divided, refined or passed. IMP_ERROR_USAGE: it was stepped
+ * already, or asks for more than one clearance. */
+IMP_EXPORT imp_code imp_query_keep_proof(imp_query *query, imp_error *error);
+
+/* Takes bytes of a certificate, in order; called by the thread that writes it. */
+typedef void (*imp_proof_sink)(void *context, const void *bytes, size_t size);
+
+/* Writes the certificate of a query that keeps a proof and has ended; of an undecided one up to
+ * t_lower. `stated` (NULL: nothing) are lines of text, each with its end, that name what was asked:
+ * "scene HASH", "type NAME HASH"; the verifier compares, and trusts none. IMP_ERROR_PLUGIN: a type
+ * failed to tell its formula; then what was written is no certificate. */
+IMP_EXPORT imp_code imp_query_write_proof(const imp_query *query, const char *stated,
+                                          imp_proof_sink write, void *context, imp_error *error);
+
 /* Makes the tolerances finer: gamma and gamma_clear (< 0: gamma / 2) may not be larger than now.
  * The work done so far is kept; continue with imp_query_step. Surfaces that turn within themselves
  * but for a little, at most 2^-12 of the first gamma_clear, are searched at one moment, with room

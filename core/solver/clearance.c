@@ -21,11 +21,18 @@
  * right. */
 static double relaxed(const clearance_search *c) { return c->asked.required * (1 - 1e-6); }
 
+/* Returns the distance at which the verdict is that it holds: where a proof is kept, half way to
+ * what is required, so that the verifier, whose bounds differ, has room. */
+static double kept(const clearance_search *c)
+{
+    return c->proof != NULL ? 0.5 * relaxed(c) + 0.5 * c->asked.required : relaxed(c);
+}
+
 /* Returns the distance that the searches have to prove: the required one, plus the slip of pairs
  * that are searched at one moment. */
 static double searched(const clearance_search *c)
 {
-    return c->list->slip > 0 ? sum_upper(relaxed(c), 2 * c->list->slip) : relaxed(c);
+    return c->list->slip > 0 ? sum_upper(kept(c), 2 * c->list->slip) : kept(c);
 }
 
 static const clearance_group *group_of(const clearance_search *c)
@@ -89,7 +96,8 @@ static imp_code begin_search(clearance_search *c, const clearance_group *group, 
         .relaxed = searched(c),
         .slip = c->list->slip,
         .candidates = c->list->pairs,
-        .stats = c->stats};
+        .stats = c->stats,
+        .proof = c->proof != NULL ? &c->proof->distance : NULL};
     const imp_code code = min_distance_begin(&c->distance, group->first, group->count, error);
     if (code == IMP_SUCCESS)
         c->stage = STAGE_DISTANCE;
@@ -138,7 +146,7 @@ static imp_requirement requirement_of(const clearance_search *c, double lower, d
 {
     if (!(c->asked.required > 0)) return IMP_REQUIREMENT_NONE;
     if (upper <= c->asked.required) return IMP_REQUIREMENT_VIOLATED;
-    return lower >= relaxed(c) ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_UNDECIDED;
+    return lower >= kept(c) ? IMP_REQUIREMENT_HOLDS : IMP_REQUIREMENT_UNDECIDED;
 }
 
 /* Takes the witness of candidate k at time t, which gives `upper`. */
@@ -238,6 +246,7 @@ static void begin_violation(clearance_search *c)
                             .baseline = IMP_BASELINE_NONE,
                             .candidate_pairs = c->list->pairs,
                             .stats = c->stats,
+                            .proof = c->proof != NULL ? &c->proof->contact : NULL,
                             .t_lower = answer->t_start};
     c->tested = 0;
     c->turn_from = c->stats->pairs;
@@ -346,11 +355,13 @@ static imp_code conclude_violation(clearance_search *c, impact_state state, imp_
         *reason = IMP_REASON_MEMORY;
         return code;
     case IMPACT_CONTACT:
+        c->by_violation = true;
         code = take_violation(c, answer, error);
         if (code == IMP_SUCCESS) code = check_witness(c, answer, answer->lower, INFINITY, error);
         break;
     case IMPACT_CLEAR: /* between `relaxed` and `required` both verdicts are right */
         answer->verdict = IMP_REQUIREMENT_HOLDS;
+        c->by_violation = true;
         if (answer->lower < relaxed(c)) answer->lower = relaxed(c);
         code = check_witness(c, answer, answer->lower, INFINITY, error);
         break;
@@ -443,4 +454,39 @@ imp_code clearance_answer(const clearance_search *c, size_t index, imp_reason re
         answer->verdict = IMP_REQUIREMENT_UNDECIDED; /* not begun */
     answer->reason = reason;
     return code;
+}
+
+/* --- Proofs ----------------------------------------------------------------------------------- */
+
+imp_code clearance_keep_proof(clearance_search *c, proof_logs *logs, imp_error *error)
+{
+    if (c->asked.each || c->asked.slices != 1)
+        return error_set(error, IMP_ERROR_USAGE,
+                         "proof: got a clearance with %s, must be one with a single answer",
+                         c->asked.each ? "`each`" : "slices");
+    c->proof = logs;
+    return IMP_SUCCESS;
+}
+
+/* The verifier is given room by what it is asked to prove: a part of the bracket, unless a
+ * requirement is kept, for which the search had room. */
+enum { PART_OF_BRACKET = 16 };
+
+clearance_proved clearance_what_is_proved(const clearance_search *c)
+{
+    const imp_clearance *answer = &c->answers[0];
+    const bool fails = answer->t_violated >= answer->t_start;
+    clearance_proved proved = {c->by_violation, 0, answer->t_start,
+                               fails ? answer->t_violated : answer->t_end};
+    if (c->by_violation) {
+        proved.apart = relaxed(c);
+        return proved;
+    }
+    const double room =
+        answer->has_witness ? answer->upper - answer->lower : 0.0625 * answer->lower;
+    proved.apart = answer->lower - room / PART_OF_BRACKET;
+    if (answer->verdict == IMP_REQUIREMENT_HOLDS && proved.apart < relaxed(c))
+        proved.apart = relaxed(c);
+    if (!(proved.apart > 0)) proved.apart = 0;
+    return proved;
 }

@@ -51,4 +51,16 @@ size_t clearance_count(const clearance_search *c);
 imp_code clearance_answer(const clearance_search *c, size_t index, imp_reason reason,
                           imp_clearance *answer, imp_error *error);
 
+/* Keeps what a certificate needs in `logs`, from the first step on. IMP_ERROR_USAGE: there is more
+ * than one answer. */
+imp_code clearance_keep_proof(clearance_search *c, proof_logs *logs, imp_error *error);
+
+/* Tells what the answer, which is there, proves: `contact` whether by the search for a violation,
+ * else by that for the minimum distance. */
+typedef struct clearance_proved {
+    bool contact;
+    double apart, from, to; /* nothing is nearer than `apart` then */
+} clearance_proved;
+clearance_proved clearance_what_is_proved(const clearance_search *c);
+
 #endif

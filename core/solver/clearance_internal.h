@@ -35,7 +35,9 @@ struct clearance_search {
     uint64_t shared_bytes; /* stats->bytes without the trees of `own`, */
     uint64_t fresh_bytes;  /* and with them, when they were new */
     imp_stats *stats;
-    imp_stats before; /* stats when the current task began; seconds: clock time */
+    proof_logs *proof; /* NULL: none is kept */
+    bool by_violation; /* the search for a violation decided the last task */
+    imp_stats before;  /* stats when the current task began; seconds: clock time */
     min_distance distance;
     impact violation;
     size_t tested; /* candidates of the current task that the search for a violation has tested */

@@ -7,6 +7,7 @@
 #include "core/bounds/separation.h"
 #include "core/bounds/tuning.h"
 #include "core/solver/explanation.h"
+#include "core/solver/pair_note.h"
 #include "core/solver/pair_step.h"
 #include "core/witness/contact_estimate.h"
 #include "core/witness/newton.h"
@@ -56,6 +57,7 @@ static imp_code split(impact *im, const pair *p, cut c, const net_halves *halves
         imp_code code = IMP_SUCCESS;
         if (near[half])
             code = cut_take(&c, half, candidate_pair_of(im, p), &child, &some, im->stats, error);
+        if (code == IMP_SUCCESS && some) pair_note_cut(im->proof, &child, &c, half);
         if (code == IMP_SUCCESS && some)
             code = is_cut ? push_cut(im, &child, error) : test_and_push(im, &child, error);
         if (code == IMP_ERROR_PLUGIN) return code;
@@ -79,6 +81,11 @@ static imp_code leave_out_halves(impact *im, pair *p, net_halves *halves, bool *
     if (count == 0 || !*some) return IMP_SUCCESS;
     p->wait -= p->wait < (uint32_t)count ? p->wait : (uint32_t)count;
     const imp_code code = pair_take_halves(p, halves->found, count, both, im->stats, error);
+    for (int k = 0; k < count && code == IMP_SUCCESS; ++k) {
+        const net_half *h = &halves->found[k];
+        pair_note_cut(im->proof, p, &(cut){h->side, h->along, 0}, h->half);
+        pair_note_test(im->proof, p, true);
+    }
     return code == IMP_SUCCESS ? pair_test_ask_for_nets(im, p, &im->stats->bytes, error) : code;
 }
 
@@ -239,10 +246,12 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
         explanation_count_as(im, p, IMP_OBSTACLE_SIZE);
         return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
     }
+    const time_window before = p->window;
     distance_outcome from_each;
     trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
     imp_code code = pair_look(p, candidate_pair_of(im, p), im->gamma_clear, GOAL_CONTACT, sliding,
                               &from_each, error);
+    if (code == IMP_SUCCESS && from_each.is_apart) pair_note_test(im->proof, p, false);
     if (code != IMP_SUCCESS || from_each.is_apart) return code;
     if (witness_is_likely(im, p, &from_each)) {
         witness seen;
@@ -260,6 +269,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     p->slides = p->slides || from_each.side >= 0;
     p->window = from_each.left; /* only now: other pairs may start earlier */
     const pair whole = *p;
+    pair_note_look(im->proof, p, before);
     bool some;
     cut c;
     net_halves halves;

@@ -4,6 +4,7 @@
 
 #include "core/solver/impact.h"
 
+#include "core/solver/pair_note.h"
 #include "core/solver/pair_step.h"
 
 void impact_push(impact *im, pair_test *t)
@@ -11,6 +12,7 @@ void impact_push(impact *im, pair_test *t)
     im->stats->pairs += 1;
     im->stats->bytes += t->bytes;
     if (im->explained != NULL) im->explained[t->p.candidate_pair].tested += 1;
+    pair_note_test(im->proof, &t->p, t->near);
     if (!t->near) return;
     pair *p = &t->p;
     p->key[0] = p->window.lo;

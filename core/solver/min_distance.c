@@ -11,6 +11,7 @@
 #include "core/bounds/separation.h"
 #include "core/bounds/tuning.h"
 #include "core/solver/contradiction.h"
+#include "core/solver/pair_note.h"
 #include "core/solver/pair_step.h"
 
 /* --- Bounds and limits ------------------------------------------------------------------------ */
@@ -73,7 +74,8 @@ static imp_code add_start(min_distance *m, uint32_t index, imp_error *error)
     pair p = {.a = tree_root(both->side[0]->tree),
               .b = tree_root(both->side[1]->tree),
               .serial = index,
-              .candidate_pair = index};
+              .candidate_pair = index,
+              .proof = index};
     p.window = window_common(m->window, pair_times(p.a, p.b));
     if (p.window.lo > p.window.hi) return IMP_SUCCESS;
     imp_code code = descend_in_time(m, both, &p, 0, error);
@@ -115,7 +117,9 @@ static void test_and_push(min_distance *m, pair p)
 {
     approach near = {0, p.moment};
     m->stats->pairs += 1;
-    if (!separation_approach(p.a, p.b, enough(m), &p.window, &p.axis, &near)) return;
+    const bool some = separation_approach(p.a, p.b, enough(m), &p.window, &p.axis, &near);
+    pair_note_test(m->proof, &p, some);
+    if (!some) return;
     p.moment = near.moment < p.window.lo   ? p.window.lo
                : near.moment > p.window.hi ? p.window.hi
                                            : near.moment;
@@ -165,7 +169,9 @@ static imp_code split(min_distance *m, const pair *p, cut c, imp_error *error)
         const imp_code code =
             cut_take(&c, half, &m->candidates[p->candidate_pair], &child, &some, m->stats, error);
         if (code != IMP_SUCCESS) return code;
-        if (some) test_and_push(m, child);
+        if (!some) continue;
+        pair_note_cut(m->proof, &child, &c, half);
+        test_and_push(m, child);
     }
     return IMP_SUCCESS;
 }
@@ -186,7 +192,9 @@ static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error
 {
     const imp_code code = pair_look(p, &m->candidates[p->candidate_pair], enough(m), GOAL_DISTANCE,
                                     NULL, seen, error);
+    const time_window before = p->window;
     p->window = seen->left;
+    pair_note_look(m->proof, p, before);
     p->slides = p->slides || seen->side >= 0;
     if (seen->lower > p->key[0]) p->key[0] = seen->lower;
     return code;

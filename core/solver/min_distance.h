@@ -3,6 +3,7 @@
 #ifndef CORE_SOLVER_MIN_DISTANCE_H
 #define CORE_SOLVER_MIN_DISTANCE_H
 
+#include "core/proof/proof_log.h"
 #include "core/solver/subdivision.h"
 #include "core/witness/witness.h"
 
@@ -24,6 +25,7 @@ typedef struct min_distance {
     double slip; /* distances of candidates and of their surfaces differ by at most this; length */
     candidate_pair *candidates; /* the caller's */
     imp_stats *stats;           /* the caller's; bytes: of the trees, without the heap */
+    proof_log *proof;           /* the caller's; NULL: none is kept */
     /* set by the search */
     pair *starts; /* candidates not tested yet, farthest first */
     size_t start_count, start_capacity;

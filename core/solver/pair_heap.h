@@ -22,7 +22,9 @@ typedef struct pair {
     uint32_t wait;           /* generations until a witness is sought again */
     bool is_seen_only;       /* only separation_first_look has tested it */
     bool lacks_nets;         /* nets of its nodes were not requested yet */
-    bool slides; /* a distance chose one node, of it or an ancestor, to be split alone */
+    bool slides;    /* a distance chose one node, of it or an ancestor, to be split alone */
+    uint8_t step;   /* proof_step by which it was made of `proof`, a record (pair_note.h) */
+    uint32_t proof; /* where a proof is kept */
 } pair;
 
 /* The keys of a pair, and the index of the pair itself, which never moves. */

@@ -106,6 +106,7 @@ void imp_query_free(imp_query *query)
     inside_free(query->insides);
     clearance_free(query->clearance);
     candidates_clear(&query->candidates);
+    query_forget_proof(query);
     free(query->parts);
     free(query);
 }
@@ -199,6 +200,9 @@ static void note_bytes(imp_query *query, uint64_t of_candidates)
 {
     uint64_t bytes = query->scene_bytes + query->stats.bytes + sizeof *query +
                      query->impact.heap.capacity * PAIR_HEAP_BYTES + of_candidates;
+    if (query->proof != NULL)
+        bytes += (query->proof->contact.capacity + query->proof->distance.capacity) *
+                 sizeof(proof_record);
     if (query->clearance != NULL) bytes += clearance_look(query->clearance).bytes;
     if (bytes > query->peak_bytes) query->peak_bytes = bytes;
 }
@@ -330,6 +334,7 @@ static bool limit_is_near(void *context, uint64_t bytes, uint64_t pairs)
 static double searched_gamma_clear(const imp_query *query, double gamma_clear)
 {
     const double slip = query->candidates.slip;
+    gamma_clear += query_proof_room(query);
     return slip > 0 ? sum_upper(gamma_clear, slip) : gamma_clear;
 }
 
@@ -413,6 +418,8 @@ FP_APART static imp_code refine(imp_query *query, double gamma, double gamma_cle
 {
     if (query->clearance != NULL)
         return error_set(error, IMP_ERROR_USAGE, "refine: this query asks for a minimum distance");
+    if (query->proof != NULL)
+        return error_set(error, IMP_ERROR_USAGE, "refine: this query keeps a proof");
     const imp_code code = tolerances_check(gamma, gamma_clear, NULL, error);
     if (code != IMP_SUCCESS) return code;
     gamma_clear = tolerances_clear(gamma, gamma_clear);
@@ -450,6 +457,8 @@ imp_code imp_query_exclude_pair(imp_query *query, imp_error *error)
     if (!found || query->clearance != NULL)
         return error_set(error, IMP_ERROR_USAGE,
                          "pass: this query has found no contact, and nothing that is unresolved");
+    if (query->proof != NULL)
+        return error_set(error, IMP_ERROR_USAGE, "pass: this query keeps a proof");
     if (!impact_pass(&query->impact, query->candidates.pair_count)) return error_set_memory(error);
     query->insides_next = 0;
     query_finish(query, IMP_VERDICT_UNDECIDED, IMP_REASON_RUNNING);

@@ -46,6 +46,8 @@ FP_APART static imp_code divide(imp_query *query, imp_error *error)
 {
     if (query->candidates.complete || query->failed)
         return error_set(error, IMP_ERROR_USAGE, "divide: this query has been stepped already");
+    if (query->proof != NULL)
+        return error_set(error, IMP_ERROR_USAGE, "divide: this query keeps a proof");
     if (query->clearance != NULL && clearance_is_each(query->clearance))
         return error_set(error, IMP_ERROR_USAGE,
                          "divide: got a clearance with `each`, must be one without: its parts are "

@@ -26,6 +26,7 @@ struct imp_query {
     double next_report; /* seconds spent when options.progress is called next */
     bool failed;
     imp_verdict verdict;
+    proof_logs *proof;     /* NULL: none is kept */
     bool at_rest;          /* CONTACT of two surfaces that do not move, */
     world_witness contact; /* found here */
     imp_reason reason;
@@ -47,6 +48,12 @@ struct imp_query {
     size_t part_count; /* and, at this index, where the last ones end */
     double divided;    /* seconds of the clock when it was */
 };
+
+/* What is added to gamma_clear where a proof is kept, so that the verifier, whose bounds differ,
+ * has room; length. */
+double query_proof_room(const imp_query *query);
+
+void query_forget_proof(imp_query *query);
 
 /* Ends the query, or the step, with this verdict. */
 void query_finish(imp_query *query, imp_verdict verdict, imp_reason reason);

@@ -9,6 +9,7 @@
 
 #include "core/solver/contradiction.h"
 #include "core/solver/expand_pair.h"
+#include "core/solver/pair_note.h"
 
 /* Reserve heap space for half of the remaining candidate pairs, but at most this many: most are
  * pushed. */
@@ -125,7 +126,9 @@ static imp_code ask_before_test(impact *im, pair *p, imp_error *error)
 static bool is_first_when_tested(impact *im, pair *p)
 {
     if (!p->is_seen_only) return true;
-    if (!pair_test_fully(im, p)) return false;
+    const bool near = pair_test_fully(im, p);
+    pair_note_test(im->proof, p, near);
+    if (!near) return false;
     const bool first = im->heap.count == 0 || !(p->window.lo > pair_heap_top(&im->heap)->key[0]);
     if (first && !(im->upper.is_known && p->window.lo >= im->upper.t)) {
         if (p->window.lo > im->t_lower) im->t_lower = p->window.lo;
@@ -185,6 +188,10 @@ static void postpone(impact *im, pair *p)
     later.window = behind;
     later.serial = im->serial++;
     later.key[0] = later.window.lo;
+    const uint32_t whole = p->proof;
+    pair_note_span(im->proof, p);
+    later.proof = whole;
+    pair_note_span(im->proof, &later);
     pair_heap_push(&im->heap, &later);
 }
 

@@ -242,6 +242,8 @@ void hierarchy_free(hierarchy *h)
 
 const cluster *hierarchy_root(const hierarchy *h) { return h->clusters; }
 
+const uint32_t *hierarchy_order(const hierarchy *h) { return h->order; }
+
 const surface *hierarchy_surface(const hierarchy *h) { return h->surface; }
 
 size_t hierarchy_bytes(const hierarchy *h)

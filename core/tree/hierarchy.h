@@ -36,6 +36,10 @@ imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy
 void hierarchy_free(hierarchy *h); /* h may be NULL */
 
 const cluster *hierarchy_root(const hierarchy *h);
+
+/* Returns the numbers of the pieces in an order in which those of each cluster stand together: of n
+ * of them the first n / 2 are those of the first half. */
+const uint32_t *hierarchy_order(const hierarchy *h);
 const surface *hierarchy_surface(const hierarchy *h);
 size_t hierarchy_bytes(const hierarchy *h);
 

@@ -16,6 +16,7 @@
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/progress.h"
+#include "tools/cli/proof_output.h"
 #include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
 
@@ -259,11 +260,14 @@ static exit_status answer(imp_scene *scene, const arguments *args)
     imp_code code = query != NULL ? IMP_SUCCESS : error.code;
     if (code == IMP_SUCCESS && arguments_option(args, "explain") != NULL)
         code = imp_query_explain(query, &error);
+    if (code == IMP_SUCCESS && arguments_option(args, "proof") != NULL)
+        code = imp_query_keep_proof(query, &error);
     if (code == IMP_SUCCESS) code = query_run(query, &result, &error);
     if (code != IMP_SUCCESS) {
         status = complain_of(&error, args->verb->name);
     } else {
-        status = query_print(scene, query, &result, args);
+        status = proof_output_write(query, scene, args);
+        if (status == EXIT_ANSWERED) status = query_print(scene, query, &result, args);
         if (status == EXIT_ANSWERED) status = query_status(&result, args);
     }
     imp_query_free(query);

@@ -50,6 +50,9 @@ exit_status series_check(const arguments *args)
     if ((each || refine != NULL) && arguments_option(args, "explain") != NULL)
         return complain(EXIT_USAGE, speaker, "--%s and --explain exclude each other",
                         each ? "each" : "refine");
+    if (arguments_option(args, "proof") != NULL && (each || refine != NULL))
+        return complain(EXIT_USAGE, speaker, "--proof and --%s exclude each other",
+                        each ? "each" : "refine");
     if (refine == NULL) return EXIT_ANSWERED;
     if (each) return complain(EXIT_USAGE, speaker, "--each and --refine exclude each other");
     const char *const excluded[] = {"gamma", "gamma-clear"};

@@ -11,6 +11,7 @@
 #include "tools/cli/clearance.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
+#include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
 #include "tools/cli/result.h"
 #include "tools/cli/verbs.h"
@@ -54,6 +55,10 @@ static exit_status check(const arguments *args)
     if (profile != NULL && profile->count == 0)
         return complain(EXIT_USAGE, args->verb->name, "--profile must be at least 1, not '%s'",
                         profile->text);
+    if (arguments_option(args, "proof") != NULL &&
+        (profile != NULL || arguments_option(args, "each") != NULL))
+        return complain(EXIT_USAGE, args->verb->name, "--proof and --%s exclude each other",
+                        profile != NULL ? "profile" : "each");
     if (profile != NULL && arguments_option(args, "each") != NULL)
         return complain(EXIT_USAGE, args->verb->name, "--each and --profile exclude each other");
     if (arguments_option(args, "threads") != NULL && arguments_option(args, "each") == NULL)
@@ -274,6 +279,7 @@ static exit_status measure(measuring *m)
     if (m->profile && !m->json) clearance_print_csv_head();
     exit_status status = run_query(m);
     m->stats = imp_query_result(m->query).stats;
+    if (status == EXIT_ANSWERED) status = proof_output_write(m->query, m->scene, m->args);
     return status == EXIT_ANSWERED ? conclude(m, &m->table) : status;
 }
 
@@ -293,7 +299,8 @@ static exit_status measure_scene(imp_scene *scene, const arguments *args)
     m.query = imp_clearance_new(scene, &options, &m.asked, &error);
     if (m.query == NULL) return complain_of(&error, args->verb->name);
     m.table = (clearance_table){.scene = scene, .query = m.query, .ended = IMP_REASON_RUNNING};
-    const exit_status status = m.each ? measure_each(&m) : measure(&m);
+    exit_status status = proof_output_begin(m.query, args);
+    if (status == EXIT_ANSWERED) status = m.each ? measure_each(&m) : measure(&m);
     imp_query_free(m.query);
     return status;
 }
@@ -345,8 +352,8 @@ static const option clearance_options[] = {
      .help = "measure N equal slices of time, as CSV or, with --json, JSON lines"},
     {.name = NULL}};
 
-static const option *const tables[] = {clearance_options, options_search, options_registry,
-                                       options_always, NULL};
+static const option *const tables[] = {clearance_options, options_proof,  options_search,
+                                       options_registry,  options_always, NULL};
 
 const verb verb_clearance = {
     .name = "clearance",

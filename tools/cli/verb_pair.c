@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
 
@@ -19,8 +20,9 @@ static exit_status run(const arguments *args)
     return status;
 }
 
-static const option *const tables[] = {options_explain,  options_search, options_query,
-                                       options_registry, options_always, NULL};
+static const option *const tables[] = {
+    options_explain, options_proof, options_search, options_query, options_registry,
+    options_always,  NULL};
 
 const verb verb_pair = {
     .name = "pair",

@@ -4,6 +4,7 @@
 
 #include "tools/cli/each.h"
 #include "tools/cli/interrupt.h"
+#include "tools/cli/proof_output.h"
 #include "tools/cli/query.h"
 #include "tools/cli/series.h"
 #include "tools/cli/verbs.h"
@@ -34,13 +35,9 @@ static exit_status run(const arguments *args)
     return status;
 }
 
-static const option *const tables[] = {options_series,
-                                       options_explain,
-                                       options_search,
-                                       options_query,
-                                       options_registry,
-                                       options_always,
-                                       NULL};
+static const option *const tables[] = {
+    options_series, options_explain,  options_proof,  options_search,
+    options_query,  options_registry, options_always, NULL};
 
 const verb verb_solve = {
     .name = "solve",

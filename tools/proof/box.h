@@ -3,9 +3,9 @@
 #ifndef TOOLS_PROOF_BOX_H
 #define TOOLS_PROOF_BOX_H
 
-/* A box of 3 or 4 parameters. Points and boxes have n numbers each; those beyond n are 0. */
+/* A box of 3 to 5 parameters. Points and boxes have n numbers each; those beyond n are 0. */
 
-enum { BOX_DIMS = 4 };
+enum { BOX_DIMS = 5 };
 
 typedef struct box {
     double lo[BOX_DIMS], hi[BOX_DIMS]; /* lo <= hi, finite */

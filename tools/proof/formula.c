@@ -4,6 +4,7 @@
 
 #include "tools/proof/formula.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,9 @@
  * not. */
 static formula *finished(formula *f, bool read, char *fault, size_t size)
 {
+    formula *fitting =
+        read ? realloc(f, offsetof(formula, steps) + (size_t)f->count * sizeof *f->steps) : NULL;
+    if (fitting != NULL) f = fitting;
     if (read) f->value = calloc((size_t)f->count, sizeof *f->value);
     if (read && f->value != NULL) return f;
     if (f == NULL || read) snprintf(fault, size, "memory ran out");
@@ -74,10 +78,10 @@ static jet joined(const step *s, const jet *x, const jet *y)
     }
 }
 
-static jet computed(const formula *f, const step *s, int n)
+static jet computed(const jet *value, const step *s, int n)
 {
     const jet *a[3];
-    for (int k = 0; k < 3; ++k) a[k] = &f->value[k < s->count ? s->operand[k] : 0];
+    for (int k = 0; k < 3; ++k) a[k] = &value[k < s->count ? s->operand[k] : 0];
     switch (s->kind) {
     case STEP_NUMBER:
         return jet_constant(n, ld_interval_of(s->number));
@@ -96,14 +100,27 @@ static jet computed(const formula *f, const step *s, int n)
     }
 }
 
-void formula_jets(formula *f, const jet *variables, jet out[3])
+int formula_steps(const formula *f) { return f->count; }
+
+void formula_drop_values(formula *f)
+{
+    free(f->value);
+    f->value = NULL;
+}
+
+void formula_jets_in(const formula *f, const jet *variables, jet *value, jet out[3])
 {
     for (int k = 0; k < f->count; ++k) {
         const step *s = &f->steps[k];
-        f->value[k] =
-            s->kind == STEP_VARIABLE ? variables[s->operand[0]] : computed(f, s, variables[0].n);
+        value[k] = s->kind == STEP_VARIABLE ? variables[s->operand[0]]
+                                            : computed(value, s, variables[0].n);
     }
-    for (int i = 0; i < 3; ++i) out[i] = f->value[f->out[i]];
+    for (int i = 0; i < 3; ++i) out[i] = value[f->out[i]];
+}
+
+void formula_jets(formula *f, const jet *variables, jet out[3])
+{
+    formula_jets_in(f, variables, f->value, out);
 }
 
 bool formula_constant(formula *f, int which, ld_interval *value)
@@ -117,7 +134,7 @@ bool formula_constant(formula *f, int which, ld_interval *value)
         has_variable[k] = s->kind == STEP_VARIABLE;
         for (int i = 0; i < s->count; ++i)
             has_variable[k] = has_variable[k] || has_variable[s->operand[i]];
-        if (!has_variable[k]) all[k] = computed(f, s, 0);
+        if (!has_variable[k]) all[k] = computed(all, s, 0);
     }
     is_known = is_known && !has_variable[which];
     if (is_known) *value = all[which].v;

@@ -54,4 +54,9 @@ formula *formula_read_part(const formula_scope *scope, const char *text,
 /* x, y, z from jets of the variables. Not thread-safe: the formula stores intermediate values. */
 void formula_jets(formula *f, const jet *variables, jet out[3]);
 
+/* Like formula_jets, with room for the values of all formula_steps(f) steps. */
+int formula_steps(const formula *f);
+void formula_drop_values(formula *f); /* formula_jets may not be called after it */
+void formula_jets_in(const formula *f, const jet *variables, jet *value, jet out[3]);
+
 #endif

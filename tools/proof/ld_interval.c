@@ -78,16 +78,7 @@ static long double product_up(long double a, long double b)
     return product_error(a, b, a * b) <= 0 ? a * b : up(a * b);
 }
 
-/* --- Construction and queries ----------------------------------------------------------------- */
-
-ld_interval ld_interval_make(long double lo, long double hi)
-{
-    return (ld_interval){lo > -INFINITY ? lo : -INFINITY, hi < INFINITY ? hi : INFINITY};
-}
-
-ld_interval ld_interval_of(long double x) { return ld_interval_make(x, x); }
-
-ld_interval ld_interval_entire(void) { return (ld_interval){-INFINITY, INFINITY}; }
+/* --- Constants -------------------------------------------------------------------------------- */
 
 /* The constants are the nearest long doubles, so down and up enclose the exact values. */
 ld_interval ld_interval_pi(void)
@@ -102,37 +93,9 @@ ld_interval ld_interval_e(void)
     return (ld_interval){down(e), up(e)};
 }
 
-bool ld_interval_is_within(ld_interval x, ld_interval limits)
-{
-    return x.lo >= limits.lo && x.hi <= limits.hi;
-}
-
-bool ld_interval_is(ld_interval x, long double value) { return x.lo == value && x.hi == value; }
-
-long double ld_interval_mag(ld_interval x) { return larger(fabsl(x.lo), fabsl(x.hi)); }
-
 static long double ld_interval_mig(ld_interval x) { return larger(larger(x.lo, -x.hi), 0); }
 
-long double ld_interval_mid(ld_interval x)
-{
-    return smaller(larger(0.5L * x.lo + 0.5L * x.hi, x.lo), x.hi);
-}
-
-ld_interval ld_interval_hull(ld_interval x, ld_interval y)
-{
-    return ld_interval_make(smaller(x.lo, y.lo), larger(x.hi, y.hi));
-}
-
-ld_interval ld_interval_intersect(ld_interval x, ld_interval y)
-{
-    return ld_interval_make(larger(x.lo, y.lo), smaller(x.hi, y.hi));
-}
-
-ld_interval ld_interval_plus_minus(long double size) { return ld_interval_make(-size, size); }
-
 /* --- Arithmetic ------------------------------------------------------------------------------- */
-
-ld_interval ld_interval_neg(ld_interval x) { return (ld_interval){-x.hi, -x.lo}; }
 
 ld_interval ld_interval_add(ld_interval x, ld_interval y)
 {
@@ -201,21 +164,6 @@ ld_interval ld_interval_sqr(ld_interval x)
 {
     const long double lo = ld_interval_mig(x), hi = ld_interval_mag(x);
     return ld_interval_make(larger(product_down(lo, lo), 0), product_up(hi, hi));
-}
-
-ld_interval ld_interval_abs(ld_interval x)
-{
-    return ld_interval_make(ld_interval_mig(x), ld_interval_mag(x));
-}
-
-ld_interval ld_interval_min(ld_interval x, ld_interval y)
-{
-    return ld_interval_make(smaller(x.lo, y.lo), smaller(x.hi, y.hi));
-}
-
-ld_interval ld_interval_max(ld_interval x, ld_interval y)
-{
-    return ld_interval_make(larger(x.lo, y.lo), larger(x.hi, y.hi));
 }
 
 /* --- Functions that grow ---------------------------------------------------------------------- */

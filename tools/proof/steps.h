@@ -38,8 +38,8 @@ typedef struct step {
 
 struct formula {
     int count, out[3];
-    step steps[STEPS_MAX];
-    jet *value; /* of each step */
+    jet *value;            /* of each step */
+    step steps[STEPS_MAX]; /* while it is read; then only `count` of them are there */
 };
 
 /* Computes a step that depends on no variable. False: it depends on one. */

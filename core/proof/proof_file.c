@@ -1,0 +1,250 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "core/proof/proof_file.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/base/status.h"
+#include "core/common/array.h"
+#include "core/common/sha256.h"
+#include "core/surface/formula_text.h"
+
+typedef struct file {
+    const imp_scene *scene;
+    const proof_search *search;
+    const proof_claim *claim;
+    const proof_sink *to;
+    sha256 hash;
+    size_t *first_chain;             /* number of each body's first surface among all surfaces */
+    const shared_instance **written; /* instances, in the order of their numbers */
+    size_t count, capacity;
+} file;
+
+/* --- Bytes and lines -------------------------------------------------------------------------- */
+
+static void put_bytes(void *context, const void *bytes, size_t size)
+{
+    file *f = context;
+    sha256_add(&f->hash, bytes, size);
+    f->to->write(f->to->context, bytes, size);
+}
+
+__attribute__((format(printf, 2, 3))) static void put(file *f, const char *format, ...)
+{
+    char text[1000];
+    va_list arguments;
+    va_start(arguments, format);
+    const int size = vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (size > 0) put_bytes(f, text, (size_t)size < sizeof text ? (size_t)size : sizeof text - 1);
+}
+
+/* Seven bits a byte, the lowest first; all but the last with the high bit. */
+static void put_count(file *f, size_t n)
+{
+    for (; n >= 128; n >>= 7) put_bytes(f, &(uint8_t){(uint8_t)(n | 128)}, 1);
+    put_bytes(f, &(uint8_t){(uint8_t)n}, 1);
+}
+
+static size_t chain_of(const file *f, size_t body, size_t at) { return f->first_chain[body] + at; }
+
+/* --- What is claimed -------------------------------------------------------------------------- */
+
+static void put_claim(file *f, const char *stated)
+{
+    const proof_claim *c = f->claim;
+    put(f, "impinge certificate 1\nprogram impinge %s\n", PACKAGE_VERSION);
+    if (stated != NULL) put_bytes(f, stated, strlen(stated));
+    put(f, "verdict %s\napart %a\nfrom %a\nto %a\n", c->verdict, c->apart, c->from, c->to);
+    if (!c->has_points) return;
+    put(f, "within %a at %a\n", c->within, c->t);
+    for (int side = 0; side < 2; ++side) {
+        const proof_point *p = &c->point[side];
+        put(f, "point %zu %zu %a %a\n", chain_of(f, p->body, p->surface), p->piece, p->u, p->v);
+    }
+}
+
+/* --- Formulas --------------------------------------------------------------------------------- */
+
+/* Writes the formula of a stage of a surface, or of its piece, on one line; an empty one if it has
+ * none. */
+static imp_code put_formula(file *f, const surface *s, size_t stage, imp_error *error)
+{
+    char *text;
+    const imp_status status = surface_formula(s, stage, &text);
+    if (status != IMP_STATUS_OK) {
+        surface_fault(s, error, ": %s", surface_status_told(s, status).text);
+        return surface_set_code(status, error);
+    }
+    for (char *at = text; at != NULL && *at != '\0'; ++at)
+        if (*at == '\n') *at = ' ';
+    if (text != NULL) put_bytes(f, text, strlen(text));
+    put(f, "\n");
+    free(text);
+    return IMP_SUCCESS;
+}
+
+/* Writes an instance that was not written yet: each of its formulas is a line; one that cannot be
+ * said is empty. */
+static imp_code put_stage(file *f, const surface *s, size_t stage, imp_error *error)
+{
+    const shared_instance *p = surface_origin(s, stage);
+    for (size_t k = 0; k < f->count; ++k)
+        if (f->written[k] == p) return IMP_SUCCESS;
+    const shared_instance **grown =
+        array_reserve(f->written, f->count, &f->capacity, sizeof *grown);
+    if (grown == NULL) return error_set_memory(error);
+    f->written = grown;
+    f->written[f->count++] = p;
+    const size_t pieces = stage == 0 ? surface_piece_count(s) : 0;
+    put(f, "%s %zu %s\n", stage == 0 ? "shape" : "map", pieces > 0 ? pieces : 1,
+        stage == 0 ? p->surface->name : p->map->name);
+    if (pieces == 0) return put_formula(f, s, stage, error);
+    imp_code code = IMP_SUCCESS;
+    for (size_t k = 0; k < pieces && code == IMP_SUCCESS; ++k)
+        code = put_formula(f, surface_piece(s, k), stage, error);
+    return code;
+}
+
+static size_t number_of(const file *f, const shared_instance *p)
+{
+    size_t k = 0;
+    while (f->written[k] != p) ++k;
+    return k;
+}
+
+/* A chain is a surface: its type's instance, then its maps' in order. */
+static imp_code put_chain(file *f, size_t body, const surface *s, imp_error *error)
+{
+    const size_t maps = surface_map_count(s);
+    imp_code code = IMP_SUCCESS;
+    for (size_t k = 0; k <= maps && code == IMP_SUCCESS; ++k) code = put_stage(f, s, k, error);
+    if (code != IMP_SUCCESS) return code;
+    put(f, "surface %zu", body);
+    for (size_t k = 0; k <= maps; ++k) put(f, " %zu", number_of(f, surface_origin(s, k)));
+    put(f, "\n");
+    return IMP_SUCCESS;
+}
+
+static imp_code put_scene(file *f, imp_error *error)
+{
+    const size_t bodies = scene_body_count(f->scene);
+    imp_code code = IMP_SUCCESS;
+    for (size_t b = 0; b < bodies; ++b) {
+        put(f, "body %s\n", imp_scene_body_name(f->scene, b));
+        for (size_t k = 0; k < scene_surface_count(f->scene, b) && code == IMP_SUCCESS; ++k)
+            code = put_chain(f, b, scene_surface(f->scene, b, k), error);
+    }
+    for (size_t a = 0; a < bodies; ++a)
+        for (size_t b = a + 1; b < bodies; ++b)
+            if (scene_ignores(f->scene, a, b)) put(f, "ignore %zu %zu\n", a, b);
+    return code;
+}
+
+/* --- Trees ------------------------------------------------------------------------------------ */
+
+/* The order of the pieces in the candidate's clusters; 0: none. */
+static void put_order(file *f, const candidate *c)
+{
+    const node *root = c != NULL ? tree_root(c->tree) : NULL;
+    const bool has_order = root != NULL && root->many != NULL;
+    put_count(f, has_order);
+    if (!has_order) return;
+    const size_t count = surface_piece_count(hierarchy_surface(root->many->of));
+    for (size_t k = 0; k < count; ++k) put_count(f, hierarchy_order(root->many->of)[k]);
+}
+
+/* Whether the candidate's tree holds one moment in place of all times. */
+static bool rests(const file *f, const candidate_pair *both)
+{
+    const imp_region *r = &tree_root(both->side[0]->tree)->region;
+    return f->search->list->slip > 0 && r->lo[2] == r->hi[2];
+}
+
+static void put_pair(file *f, const proof_trees *trees, const size_t body[2], const size_t at[2],
+                     size_t index)
+{
+    const candidate_list *list = f->search->list;
+    const candidate_pair *both = index < list->pair_count ? &list->pairs[index] : NULL;
+    const surface *s[2];
+    for (int side = 0; side < 2; ++side) {
+        s[side] = scene_surface(f->scene, body[side], at[side]);
+        put_count(f, chain_of(f, body[side], at[side]));
+    }
+    put_count(f, both != NULL ? both->side[0]->left_out : surface_common_motion(s[0], s[1]));
+    for (int side = 0; side < 2; ++side)
+        if (surface_piece_count(s[side]) > 1) put_order(f, both != NULL ? both->side[side] : NULL);
+    const proof_sink own = {put_bytes, f};
+    proof_trees_write(trees, both != NULL ? (uint32_t)index : UINT32_MAX, f->claim->from,
+                      f->claim->to, both != NULL && rests(f, both), &own);
+}
+
+static bool is_pair(const candidate_pair *p, const size_t body[2], const size_t at[2])
+{
+    return p->side[0]->body == body[0] && p->side[1]->body == body[1] &&
+           p->side[0]->surface == at[0] && p->side[1]->surface == at[1];
+}
+
+/* Candidate pairs stand in the order of the scene. */
+static void put_trees(file *f, const proof_trees *trees)
+{
+    const candidate_list *list = f->search->list;
+    const size_t bodies = scene_body_count(f->scene);
+    size_t next = 0, body[2], at[2];
+    for (body[0] = 0; body[0] < bodies; ++body[0])
+        for (body[1] = body[0] + 1; body[1] < bodies; ++body[1])
+            for (at[0] = 0; at[0] < scene_surface_count(f->scene, body[0]); ++at[0])
+                for (at[1] = 0; at[1] < scene_surface_count(f->scene, body[1]); ++at[1]) {
+                    if (scene_ignores(f->scene, body[0], body[1])) continue;
+                    const bool found =
+                        next < list->pair_count && is_pair(&list->pairs[next], body, at);
+                    put_pair(f, trees, body, at, found ? next : SIZE_MAX);
+                    next += found;
+                }
+}
+
+/* --- The file --------------------------------------------------------------------------------- */
+
+static size_t *number_chains(const imp_scene *scene)
+{
+    const size_t bodies = scene_body_count(scene);
+    size_t *first = malloc((bodies + 1) * sizeof *first), count = 0;
+    for (size_t b = 0; first != NULL && b < bodies; ++b) {
+        first[b] = count;
+        count += scene_surface_count(scene, b);
+    }
+    return first;
+}
+
+imp_code proof_file_write(const imp_scene *scene, const proof_search *search,
+                          const proof_claim *claim, const char *stated, const proof_sink *to,
+                          imp_error *error)
+{
+    file f = {.scene = scene, .search = search, .claim = claim, .to = to};
+    sha256_begin(&f.hash);
+    f.first_chain = number_chains(scene);
+    proof_trees *trees = proof_trees_new(search->log);
+    imp_code code = IMP_SUCCESS;
+    if (f.first_chain == NULL || trees == NULL) code = error_set_memory(error);
+    if (code == IMP_SUCCESS) {
+        put_claim(&f, stated);
+        code = put_scene(&f, error);
+    }
+    if (code == IMP_SUCCESS) {
+        uint8_t digest[SHA256_BYTES];
+        put(&f, "trees\n");
+        put_trees(&f, trees);
+        sha256_end(&f.hash, digest);
+        to->write(to->context, digest, sizeof digest);
+    }
+    proof_trees_free(trees);
+    free(f.written);
+    free(f.first_chain);
+    return code;
+}

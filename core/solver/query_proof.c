@@ -1,0 +1,149 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/base/fp_mode.h"
+#include "core/base/status.h"
+#include "core/proof/proof_file.h"
+#include "core/solver/query_internal.h"
+
+/* --- Keeping ---------------------------------------------------------------------------------- */
+
+/* Part of what is between gamma and gamma_clear that the search leaves to the verifier. */
+enum { ROOM_SHARE = 16 };
+
+double query_proof_room(const imp_query *query)
+{
+    const double room = query->impact.gamma - query->gamma_clear;
+    return query->proof != NULL && query->clearance == NULL ? room / ROOM_SHARE : 0;
+}
+
+imp_code imp_query_keep_proof(imp_query *query, imp_error *error)
+{
+    if (query == NULL) return error_set_missing(error, "imp_query_keep_proof");
+    if (query->candidates.complete || query->failed || query->parts != NULL)
+        return error_set(error, IMP_ERROR_USAGE, "proof: this query has been stepped already");
+    if (scene_has_solids(query->scene))
+        return error_set(error, IMP_ERROR_USAGE,
+                         "proof: a body is solid; certificates are about surfaces alone");
+    if (query->proof != NULL) return IMP_SUCCESS;
+    proof_logs *logs = calloc(1, sizeof *logs);
+    if (logs == NULL) return error_set_memory(error);
+    imp_code code = IMP_SUCCESS;
+    if (query->clearance != NULL) code = clearance_keep_proof(query->clearance, logs, error);
+    if (code != IMP_SUCCESS) return free(logs), code;
+    query->proof = logs;
+    query->impact.proof = &logs->contact;
+    return IMP_SUCCESS;
+}
+
+void query_forget_proof(imp_query *query)
+{
+    if (query->proof == NULL) return;
+    proof_log_clear(&query->proof->contact);
+    proof_log_clear(&query->proof->distance);
+    free(query->proof);
+}
+
+/* --- What is claimed -------------------------------------------------------------------------- */
+
+static proof_point point_of(const imp_side *side)
+{
+    return (proof_point){side->body, side->surface, side->piece, side->u, side->v};
+}
+
+static void take_points(proof_claim *claim, const imp_side *a, const imp_side *b, double t,
+                        double within)
+{
+    claim->has_points = true;
+    claim->point[0] = point_of(a);
+    claim->point[1] = point_of(b);
+    claim->t = t;
+    claim->within = within;
+}
+
+static proof_claim claim_of_contact(const imp_query *query)
+{
+    const impact *im = &query->impact;
+    proof_claim claim = {.verdict = query->verdict == IMP_VERDICT_CONTACT ? "contact"
+                                    : query->verdict == IMP_VERDICT_CLEAR ? "clear"
+                                                                          : "undecided",
+                         .apart = query->gamma_clear,
+                         .from = query->options.t_start,
+                         .to = im->t_lower};
+    if (query->verdict == IMP_VERDICT_CONTACT)
+        take_points(&claim, &query->contact.side[0], &query->contact.side[1], im->t_lower,
+                    im->gamma);
+    return claim;
+}
+
+static const char *word_of(imp_requirement verdict)
+{
+    switch (verdict) {
+    case IMP_REQUIREMENT_HOLDS:
+        return "holds";
+    case IMP_REQUIREMENT_VIOLATED:
+        return "violated";
+    default:
+        return "distance";
+    }
+}
+
+static imp_code claim_of_clearance(const imp_query *query, proof_claim *claim, bool *contact,
+                                   imp_error *error)
+{
+    imp_clearance answer;
+    const imp_code code = clearance_answer(query->clearance, 0, query->reason, &answer, error);
+    if (code != IMP_SUCCESS) return code;
+    const clearance_proved proved = clearance_what_is_proved(query->clearance);
+    *contact = proved.contact;
+    *claim = (proof_claim){.verdict = word_of(answer.verdict),
+                           .apart = proved.apart,
+                           .from = proved.from,
+                           .to = proved.to};
+    if (answer.t_violated >= proved.from)
+        take_points(claim, &answer.a_violated, &answer.b_violated, answer.t_violated,
+                    answer.required);
+    else if (answer.has_witness)
+        take_points(claim, &answer.a, &answer.b, answer.t, answer.upper);
+    return IMP_SUCCESS;
+}
+
+/* --- Writing ---------------------------------------------------------------------------------- */
+
+static bool has_ended(const imp_query *query)
+{
+    if (query->clearance != NULL) return query->reason == IMP_REASON_NONE;
+    return query->candidates.complete && query->reason != IMP_REASON_RUNNING;
+}
+
+FP_APART static imp_code write_proof(const imp_query *query, const char *stated,
+                                     const proof_sink *to, imp_error *error)
+{
+    if (query->proof == NULL || !has_ended(query))
+        return error_set(error, IMP_ERROR_USAGE, "proof: this query %s",
+                         query->proof == NULL ? "keeps none" : "has not ended");
+    proof_claim claim = claim_of_contact(query);
+    bool contact = true;
+    imp_code code = IMP_SUCCESS;
+    if (query->clearance != NULL) code = claim_of_clearance(query, &claim, &contact, error);
+    if (code != IMP_SUCCESS) return code;
+    const proof_log *log = contact ? &query->proof->contact : &query->proof->distance;
+    if (log->failed) return error_set_memory(error);
+    return proof_file_write(query->scene, &(proof_search){&query->candidates, log}, &claim, stated,
+                            to, error);
+}
+
+imp_code imp_query_write_proof(const imp_query *query, const char *stated, imp_proof_sink write,
+                               void *context, imp_error *error)
+{
+    if (query == NULL || write == NULL) return error_set_missing(error, "imp_query_write_proof");
+    const fp_environment environment = fp_environment_enter();
+    const proof_sink to = {write, context};
+    const imp_code code = write_proof(query, stated, &to, error);
+    fp_environment_leave(&environment);
+    return code;
+}

@@ -1,0 +1,287 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/support/suite.h"
+#include "tools/verify/walk.h"
+
+/* impinge-verify on certificates that are made here, and on thousands of changes of them: whatever
+ * is accepted must be true, as points of the formulas show. */
+
+enum { BYTES_MAX = 4096, EFFORT = 300, EFFORT_OF_CHANGES = 24 };
+
+typedef struct certificate {
+    uint8_t bytes[BYTES_MAX];
+    size_t size; /* without the checksum */
+} certificate;
+
+static const char bowl[] =
+    "impinge certificate 1\nprogram impinge 0\nverdict contact\napart 0x1p-4\nfrom 0\nto 0.5\n"
+    "within 0.6 at 0.5\npoint 0 0 0 0\npoint 1 0 0 0\n"
+    "body bowl\nshape 1 formula\nu in [-1, 1]; v in [-1, 1]; u; v; 0.1*(u^2 + v^2)\nsurface 0 0\n"
+    "body lid\nshape 1 formula\nh = 1; u in [-1, 1]; v in [-1, 1]; u; v; h - 0.05*u*v\n"
+    "map 1 translate\nx; y; z - t\nsurface 1 1 2\ntrees\n";
+
+static const uint8_t bowl_tree[] = {0, 1, 0, 4, 0x80, 0, 5, 0, 0, 0, 0, 0x7f, 0xff, 0, 6, 7};
+
+/* Two balls that turn together about z, from which that is left out. */
+static const char balls[] =
+    "impinge certificate 1\nprogram impinge 0\nverdict clear\napart 0.25\nfrom 0\nto 1\n"
+    "body a\nshape 1 sphere\nu in [0, 2*pi]; v in [-pi/2, pi/2]; cos(v)*cos(u); cos(v)*sin(u); "
+    "sin(v)\nmap 1 rotate\nx*cos(2*t) - y*sin(2*t); x*sin(2*t) + y*cos(2*t); z\nsurface 0 0 1\n"
+    "body b\nshape 1 sphere\nu in [0, 2*pi]; v in [-pi/2, pi/2]; 4 + cos(v)*cos(u); cos(v)*sin(u); "
+    "sin(v)\nsurface 1 2 1\ntrees\n";
+
+static const uint8_t balls_tree[] = {0, 1, 1, 7};
+
+static certificate made(const char *text, const uint8_t *tree, size_t size)
+{
+    certificate c = {.size = strlen(text) + size};
+    memcpy(c.bytes, text, strlen(text));
+    memcpy(c.bytes + strlen(text), tree, size);
+    return c;
+}
+
+static certificate bowl_made(void) { return made(bowl, bowl_tree, sizeof bowl_tree); }
+static certificate balls_made(void) { return made(balls, balls_tree, sizeof balls_tree); }
+
+/* Replaces the first `from` by `to`. */
+static void replace(certificate *c, const char *from, const char *to)
+{
+    uint8_t *at = memmem(c->bytes, c->size, from, strlen(from));
+    ck_assert_ptr_nonnull(at);
+    const size_t behind = c->size - (size_t)(at - c->bytes) - strlen(from);
+    memmove(at + strlen(to), at + strlen(from), behind);
+    memcpy(at, to, strlen(to));
+    c->size = c->size - strlen(from) + strlen(to);
+}
+
+/* --- Verifying -------------------------------------------------------------------------------- */
+
+static bool verify_bytes(const uint8_t *bytes, size_t size, unsigned long effort, statement *s,
+                         char fault[1400], bool *assumes)
+{
+    FILE *file = fmemopen((void *)(uintptr_t)bytes, size, "rb");
+    ck_assert_ptr_nonnull(file);
+    input in;
+    input_begin(&in, file);
+    walk w = {.in = &in, .says = s, .effort = effort, .shares = 1};
+    bool good = statement_read(s, &in);
+    w.assumed = calloc(s->stage_count + 1, sizeof *w.assumed);
+    good = good && walk_points(&w) && walk_trees(&w);
+    *assumes = false;
+    for (size_t k = 0; k < s->stage_count; ++k) *assumes = *assumes || w.assumed[k];
+    memcpy(fault, in.fault, sizeof in.fault);
+    free(w.assumed);
+    fclose(file);
+    return good;
+}
+
+/* Verifies with the checksum that belongs to the bytes. */
+static bool verify(const certificate *c, unsigned long effort, statement *s, char fault[1400],
+                   bool *assumes)
+{
+    uint8_t all[BYTES_MAX + SHA256_BYTES];
+    sha256 h;
+    memcpy(all, c->bytes, c->size);
+    sha256_begin(&h);
+    sha256_add(&h, all, c->size);
+    sha256_end(&h, all + c->size);
+    return verify_bytes(all, c->size + SHA256_BYTES, effort, s, fault, assumes);
+}
+
+static void require(const certificate *c, const char *why)
+{
+    statement s;
+    char fault[1400];
+    bool assumes;
+    const bool good = verify(c, EFFORT, &s, fault, &assumes);
+    if (why == NULL) {
+        ck_assert_msg(good && !assumes, "%s", fault);
+    } else {
+        ck_assert_msg(!good, "accepted: %s", why);
+        ck_assert_msg(strstr(fault, why) != NULL, "%s", fault);
+    }
+    statement_free(&s);
+}
+
+START_TEST(true_certificates_hold)
+{
+    const certificate a = bowl_made(), b = balls_made();
+    require(&a, NULL);
+    require(&b, NULL);
+}
+END_TEST
+
+START_TEST(false_certificates_are_refused)
+{
+    static const struct {
+        bool is_balls;
+        const char *from, *to, *why;
+    } changes[] = {
+        {false, "apart 0x1p-4", "apart 0.6", "apart"},
+        {false, "to 0.5", "to 1.5", "apart"},
+        {false, "0.1*(u^2", "0.6*(u^2", "apart"},
+        {false, "h = 1", "h = 0", "apart"},
+        {false, "z - t", "z - 2*t", "apart"},
+        {false, "within 0.6", "within 0.4", "claimed within"},
+        {false, "within 0.6 at 0.5", "within 0.9 at 0.75", "another time"},
+        {false, "point 1 0 0 0", "point 0 0 0 0", "not tested"},
+        {false, "point 1 0 0 0", "point 1 0 2 0", "outside"},
+        {false, "u in [-1, 1]; v", "v", "no finite domain"},
+        {false, "surface 1 1 2", "surface 1 1 7", "number"},
+        {false, "apart 0x1p-4", "apart nan", "finite"},
+        {false, "apart 0x1p-4", "apart -1", "nothing"},
+        {false, "impinge certificate 1", "impinge certificate 2", "begins"},
+        {true, "apart 0.25", "apart 2.25", "apart"},
+        {true, "4 + cos", "1 + cos", "apart"},
+        {true, "x*cos(2*t) - y", "x*cos(2*t) - 0.1*y", "rigid"},
+        {true, "; z\nsurface", "; z*z\nsurface", "rigid"},
+        {true, "; z\nsurface 0", "; t in [0, 0.5]; z\nsurface 0", "a formula"},
+        {true, "rotate\nx", "rotate\nt in [0, 0.5]; x", "rigid"},
+        {true, "surface 1 2 1", "surface 1 2", "left out"},
+    };
+    for (size_t k = 0; k < sizeof changes / sizeof *changes; ++k) {
+        certificate c = changes[k].is_balls ? balls_made() : bowl_made();
+        replace(&c, changes[k].from, changes[k].to);
+        require(&c, changes[k].why);
+    }
+}
+END_TEST
+
+START_TEST(trees_that_leave_out_cells_are_refused)
+{
+    certificate c = bowl_made();
+    c.size -= 1; /* a leaf */
+    require(&c, "");
+    c = bowl_made();
+    c.bytes[c.size++] = 7; /* one too many */
+    require(&c, "checksum");
+    c = bowl_made();
+    c.bytes[c.size - 1] = 9;
+    require(&c, "unknown");
+    c = bowl_made();
+    c.bytes[strlen(bowl) + 1] = 0; /* surfaces 0 and 0 */
+    require(&c, "not here");
+}
+END_TEST
+
+START_TEST(bad_axes_cost_time_and_no_verdict)
+{
+    certificate c = bowl_made();
+    c.bytes[c.size - 5] = 0x80, c.bytes[c.size - 4] = 1; /* the axis points the other way */
+    require(&c, NULL);
+}
+END_TEST
+
+START_TEST(what_cannot_be_said_is_assumed)
+{
+    certificate c = bowl_made();
+    replace(&c, "x; y; z - t\n", "\n");
+    statement s;
+    char fault[1400];
+    bool assumes;
+    ck_assert_msg(verify(&c, EFFORT, &s, fault, &assumes), "%s", fault);
+    ck_assert(assumes);
+    statement_free(&s);
+}
+END_TEST
+
+/* --- Changes at random ------------------------------------------------------------------------ */
+
+static bool point_of(const statement *s, size_t chain_index, jet *room, const double p[3],
+                     double x[3])
+{
+    const place of = {s, &s->chains[chain_index], 0, s->chains[chain_index].count - 1, room};
+    const box3 where = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+    jet out[3];
+    split unused;
+    if (enclose(&of, &where, out, &unused) != ENCLOSED) return false;
+    for (int i = 0; i < 3; ++i) {
+        if (!(out[i].v.hi - out[i].v.lo < 1e-9L)) return false;
+        x[i] = (double)out[i].v.lo;
+    }
+    return true;
+}
+
+/* Whether points are found that are clearly nearer than is stated. Each draw that is nearer draws
+ * the next ones to it. */
+static bool is_false(const statement *s, uint64_t *seed)
+{
+    jet *room = malloc(((size_t)s->steps + 1) * sizeof *room);
+    double best = INFINITY, at[5] = {0, 0, 0, 0, s->from}, size = 1;
+    box3 all[2];
+    for (size_t k = 0; k < 2; ++k) {
+        const place of = {s, &s->chains[k], 0, 0, room};
+        piece_box(&of, &all[k]);
+    }
+    for (int draw = 0; draw < 200; ++draw) {
+        double p[5], x[2][3];
+        for (int j = 0; j < 5; ++j) {
+            const double lo = j < 4 ? all[j / 2].lo[j % 2] : s->from;
+            const double hi = j < 4 ? all[j / 2].hi[j % 2] : s->to;
+            const double r = lo + (hi - lo) * random_between(seed, 0, 1);
+            p[j] = draw < 60 ? r : at[j] + size * (r - at[j]);
+        }
+        const double a[3] = {p[0], p[1], p[4]}, b[3] = {p[2], p[3], p[4]};
+        if (draw > 60) size *= 0.93;
+        if (!point_of(s, 0, room, a, x[0]) || !point_of(s, 1, room, b, x[1])) continue;
+        const double gap = hypot(hypot(x[0][0] - x[1][0], x[0][1] - x[1][1]), x[0][2] - x[1][2]);
+        if (gap < best) best = gap, memcpy(at, p, sizeof at);
+    }
+    free(room);
+    return best < s->apart * (1 - 1e-9);
+}
+
+static void change(certificate *c, uint64_t *seed)
+{
+    static const char marks[] = "0123456789+-*/().;,uvtxyz ";
+    const size_t at = (size_t)(random_between(seed, 0, 1) * (double)c->size);
+    const double kind = random_between(seed, 0, 1);
+    const char mark = marks[(size_t)(random_between(seed, 0, 1) * (double)(sizeof marks - 1))];
+    if (kind < 0.5)
+        c->bytes[at] = (uint8_t)mark;
+    else if (kind < 0.7)
+        c->bytes[at] ^= (uint8_t)(1u << (unsigned)(random_between(seed, 0, 1) * 8));
+    else if (kind < 0.85) {
+        memmove(c->bytes + at, c->bytes + at + 1, c->size - at - 1);
+        c->size -= 1;
+    } else {
+        memmove(c->bytes + at + 1, c->bytes + at, c->size - at);
+        c->bytes[at] = (uint8_t)mark;
+        c->size += 1;
+    }
+}
+
+START_TEST(no_change_makes_a_false_statement_hold)
+{
+    uint64_t seed = suite_seed();
+    const int count = suite_times(300);
+    int accepted = 0;
+    for (int k = 0; k < count; ++k) {
+        certificate c = k % 2 == 0 ? bowl_made() : balls_made();
+        for (int n = 1 + k % 3; n > 0; --n) change(&c, &seed);
+        statement s;
+        char fault[1400];
+        bool assumes;
+        const bool good = verify(&c, EFFORT_OF_CHANGES, &s, fault, &assumes);
+        accepted += good;
+        if (good && !assumes && s.chain_count >= 2 && !statement_ignores(&s, 0, 1))
+            ck_assert_msg(!is_false(&s, &seed), "change %d: false, and accepted: %.*s", k,
+                          (int)c.size, (const char *)c.bytes);
+        statement_free(&s);
+    }
+    ck_assert_int_gt(accepted, 0); /* names and hints may change */
+    ck_assert_int_lt(accepted, count);
+}
+END_TEST
+
+SUITE_MAIN("certificates", true_certificates_hold, false_certificates_are_refused,
+           trees_that_leave_out_cells_are_refused, bad_axes_cost_time_and_no_verdict,
+           what_cannot_be_said_is_assumed, no_change_makes_a_false_statement_hold)

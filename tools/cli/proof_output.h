@@ -1,0 +1,19 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_CLI_PROOF_OUTPUT_H
+#define TOOLS_CLI_PROOF_OUTPUT_H
+
+#include "tools/cli/arguments.h"
+
+/* Certificates, written where --proof says */
+
+extern const option options_proof[];
+
+/* Has the query keep a proof if --proof asks for one. */
+exit_status proof_output_begin(imp_query *query, const arguments *args);
+
+/* Writes the proof of a query that has ended, if --proof asks for one. */
+exit_status proof_output_write(const imp_query *query, const imp_scene *scene,
+                               const arguments *args);
+
+#endif

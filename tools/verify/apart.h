@@ -1,0 +1,61 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_VERIFY_APART_H
+#define TOOLS_VERIFY_APART_H
+
+#include "tools/verify/enclose.h"
+
+/* Cells in which two surfaces are proved to be apart */
+
+/* Pieces of either surface, by their places in the order of the pair; of a single piece a box of u
+ * and v; and times. */
+typedef struct cell {
+    size_t first[2], count[2];
+    double lo[2][2], hi[2][2]; /* only where count is 1 */
+    double t[2];
+} cell;
+
+enum { KEPT = 8 };
+
+/* An enclosure that was computed last, of one side. */
+typedef struct kept {
+    bool is_set;
+    size_t piece;
+    box3 where;
+    enclosed result;
+    split divide;
+    double c[3];
+    jet box[3], centre[3]; /* about the point c */
+} kept;
+
+typedef struct prover {
+    place side[2];
+    const uint32_t *order[2]; /* NULL: the pieces' own */
+    double apart; /* what is to be proved, a little enlarged for maps left out; length */
+    unsigned long tests, tests_most; /* of this leaf */
+    double axis[3];                  /* hint; 0: none */
+    kept kept[2][KEPT];
+    unsigned next[2];
+    cell worst;      /* where it ended, and */
+    double found;    /* what was found there: two points so near, or INFINITY: nothing but */
+    const char *why; /* this */
+} prover;
+
+/* Makes `c` all of both pieces, if they are single. */
+void cell_begin(const prover *p, cell *c);
+
+/* How a cell is divided: side 0 or 1 along u (0) or v (1), or its pieces; or, side 2, time. NAN: at
+ * the middle. */
+typedef struct cut {
+    int side, along;
+    double at;
+} cut;
+
+/* False: there is nothing to divide. */
+bool cell_split(const prover *p, const cell *c, const cut *by, cell half[2]);
+
+/* Proves that no two points of the cell at one time are nearer than p->apart. False: p->worst,
+ * found and why tell. */
+bool prove_apart(prover *p, const cell *c);
+
+#endif

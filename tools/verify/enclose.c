@@ -1,0 +1,189 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/verify/enclose.h"
+
+#include <math.h>
+
+enum { U, V, T, VARIABLES };
+
+/* --- Parts ------------------------------------------------------------------------------------ */
+
+static bool holds(const part *p, const box3 *b)
+{
+    for (int j = 0; j < VARIABLES; ++j)
+        if (!(p->lo[j] <= b->lo[j] && b->hi[j] <= p->hi[j])) return false;
+    return true;
+}
+
+/* Whether an end of the part is strictly inside of the box. */
+static bool divides(const part *p, const box3 *b, split *divide)
+{
+    for (int j = 0; j < VARIABLES; ++j) {
+        const double ends[2] = {p->lo[j], p->hi[j]};
+        for (int k = 0; k < 2; ++k) {
+            *divide = (split){j, ends[k]};
+            if (b->lo[j] < ends[k] && ends[k] < b->hi[j]) return true;
+        }
+    }
+    return false;
+}
+
+/* Finds the part of a piece in which the whole box is. Lemma. Where there is none and no end of a
+ * part is inside of the box, each part has at most a face in common with it; then neighbouring
+ * boxes hold that face, or nothing is there. */
+static enclosed choose(const piece *p, const box3 *b, const part **found, split *divide)
+{
+    for (size_t k = 0; k < p->count; ++k)
+        if (holds(&p->parts[k], b)) return *found = &p->parts[k], ENCLOSED;
+    for (size_t k = 0; k < p->count; ++k)
+        if (divides(&p->parts[k], b, divide)) return ENCLOSED_SPLIT;
+    return ENCLOSED_EMPTY;
+}
+
+/* --- Chains ----------------------------------------------------------------------------------- */
+
+static const piece *piece_of(const place *p, size_t stage_index)
+{
+    const stage *g = &p->of->stages[p->chain->stages[stage_index]];
+    return &g->pieces[stage_index == 0 ? p->piece : 0];
+}
+
+static enclosed composed(const place *p, const box3 *where, const jet variables[VARIABLES],
+                         jet out[3], split *divide)
+{
+    const part *found;
+    enclosed result = choose(piece_of(p, 0), where, &found, divide);
+    if (result != ENCLOSED) return result;
+    formula_jets_in(found->f, variables, p->room, out);
+    const box3 times = {{-INFINITY, -INFINITY, where->lo[T]}, {INFINITY, INFINITY, where->hi[T]}};
+    for (size_t k = 1; k <= p->maps; ++k) {
+        const jet moved[4] = {out[0], out[1], out[2], variables[T]};
+        result = choose(piece_of(p, k), &times, &found, divide);
+        if (result != ENCLOSED) return result == ENCLOSED_EMPTY ? ENCLOSED_UNSAID : result;
+        formula_jets_in(found->f, moved, p->room, out);
+    }
+    return ENCLOSED;
+}
+
+enclosed enclose(const place *p, const box3 *where, jet out[3], split *divide)
+{
+    jet variables[VARIABLES];
+    for (int j = 0; j < VARIABLES; ++j)
+        variables[j] = jet_variable(VARIABLES, j, ld_interval_make(where->lo[j], where->hi[j]));
+    return composed(p, where, variables, out, divide);
+}
+
+enclosed enclose_at(const place *p, const box3 *where, const double at[3], jet out[3])
+{
+    jet variables[VARIABLES];
+    split unused;
+    for (int j = 0; j < VARIABLES; ++j)
+        variables[j] = jet_variable(VARIABLES, j, ld_interval_of(at[j]));
+    return composed(p, where, variables, out, &unused);
+}
+
+void piece_box(const place *p, box3 *all)
+{
+    const piece *whole = piece_of(p, 0);
+    for (int j = 0; j < T; ++j) {
+        all->lo[j] = INFINITY, all->hi[j] = -INFINITY;
+        for (size_t k = 0; k < whole->count; ++k) {
+            if (whole->parts[k].lo[j] < all->lo[j]) all->lo[j] = whole->parts[k].lo[j];
+            if (whole->parts[k].hi[j] > all->hi[j]) all->hi[j] = whole->parts[k].hi[j];
+        }
+    }
+}
+
+/* --- Rigid maps ------------------------------------------------------------------------------- */
+
+/* Lemma. A second derivative by two of x, y and z that is exactly 0 for all x, y and z (the whole
+ * line) makes the map affine in them. */
+static bool is_affine(const part *p, ld_interval t, jet room[])
+{
+    jet variables[4], out[3];
+    bool affine = true;
+    for (int k = 0; k < 4; ++k) variables[k] = jet_variable(4, k, k < 3 ? ld_interval_entire() : t);
+    formula_jets_in(p->f, variables, room, out);
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            for (int l = k; l < 3; ++l) affine = affine && ld_interval_is(out[i].h[k][l], 0);
+    return affine;
+}
+
+/* The columns of J as jets of t: where an affine map takes the unit vectors, less where it takes
+ * 0. */
+static void columns(const part *p, ld_interval t, jet room[], jet j[3][3])
+{
+    jet origin[3];
+    for (int k = -1; k < 3; ++k) {
+        jet variables[4], *out = k < 0 ? origin : j[k];
+        for (int i = 0; i < 3; ++i) variables[i] = jet_constant(1, ld_interval_of(i == k));
+        variables[3] = jet_variable(1, 0, t);
+        formula_jets_in(p->f, variables, room, out);
+        for (int i = 0; i < 3 && k >= 0; ++i) out[i] = jet_sub(&out[i], &origin[i]);
+    }
+}
+
+/* The element i, k of J^T J - 1. */
+static jet gram(jet j[3][3], int i, int k)
+{
+    jet sum = jet_constant(1, ld_interval_of(i == k ? -1 : 0));
+    for (int l = 0; l < 3; ++l) {
+        const jet both = jet_mul(&j[i][l], &j[k][l]);
+        sum = jet_add(&sum, &both);
+    }
+    return sum;
+}
+
+/* Lemma. The largest sum of a row bounds the norm of a symmetric matrix. */
+static long double deviation(const part *p, double lo, double hi, jet room[])
+{
+    jet wide[3][3], narrow[3][3];
+    const ld_interval t = ld_interval_make(lo, hi), at = ld_interval_of(lo + 0.5 * (hi - lo));
+    const ld_interval offset[BOX_DIMS] = {ld_interval_sub(t, at)};
+    if (!is_affine(p, t, room)) return INFINITY;
+    columns(p, t, room, wide);
+    columns(p, at, room, narrow);
+    long double most = 0;
+    for (int i = 0; i < 3; ++i) {
+        ld_interval row = ld_interval_of(0);
+        for (int k = 0; k < 3; ++k) {
+            const jet over = gram(wide, i, k), middle = gram(narrow, i, k);
+            row = ld_interval_add(row, ld_interval_abs(jet_values(&over, &middle, offset)));
+        }
+        if (!(row.hi <= most)) most = row.hi;
+    }
+    return most;
+}
+
+/* Times are halved until d is small or this deep. */
+enum { HALVINGS = 14 };
+#define DEVIATION_SMALL 0x1p-26L
+
+static long double worst(const piece *p, double lo, double hi, int depth, jet room[])
+{
+    const part *found;
+    split divide;
+    const box3 times = {{-INFINITY, -INFINITY, lo}, {INFINITY, INFINITY, hi}};
+    const enclosed result = choose(p, &times, &found, &divide);
+    double at = lo + 0.5 * (hi - lo);
+    if (result != ENCLOSED && result != ENCLOSED_SPLIT) return INFINITY;
+    if (result == ENCLOSED) {
+        const long double d = deviation(found, lo, hi, room);
+        if (d <= DEVIATION_SMALL || depth >= HALVINGS || !(lo < at && at < hi) || isinf(d))
+            return d;
+    } else {
+        at = divide.at;
+    }
+    depth += result == ENCLOSED;
+    const long double first = worst(p, lo, at, depth, room);
+    const long double second = worst(p, at, hi, depth, room);
+    return !(first <= second) ? first : second;
+}
+
+long double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room)
+{
+    return worst(&s->stages[map].pieces[0], lo, hi, 0, room);
+}

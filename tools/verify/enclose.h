@@ -1,0 +1,51 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_VERIFY_ENCLOSE_H
+#define TOOLS_VERIFY_ENCLOSE_H
+
+#include "tools/verify/statement.h"
+
+/* Points of a surface over a box of u, v and t
+ * ============================================
+ * The formulas of a chain, composed, as jets of u, v and t. A formula may consist of parts with
+ * domains of their own: a box in none of them is divided where a part begins or ends. */
+
+typedef enum enclosed {
+    ENCLOSED,
+    ENCLOSED_EMPTY, /* the surface does not exist there */
+    ENCLOSED_SPLIT, /* divide the box at `at` of variable `along` */
+    ENCLOSED_UNSAID /* a map does not say where it takes the point */
+} enclosed;
+
+typedef struct box3 {
+    double lo[3], hi[3]; /* u, v, t */
+} box3;
+
+typedef struct split {
+    int along;
+    double at;
+} split;
+
+typedef struct place {
+    const statement *of;
+    const chain *chain;
+    size_t piece, maps; /* maps that are applied: the first ones */
+    jet *room;          /* for the steps of any formula */
+} place;
+
+/* Computes x, y and z over the box. */
+enclosed enclose(const place *p, const box3 *where, jet out[3], split *divide);
+
+/* Computes them at a point of the box, whose parts are chosen for the box. Derivatives of second
+ * order are not computed. */
+enclosed enclose_at(const place *p, const box3 *where, const double at[3], jet out[3]);
+
+/* Returns the least box of u and v that holds the piece; t is left. */
+void piece_box(const place *p, box3 *all);
+
+/* An upper bound d of |J^T J - 1| for the Jacobian J of a map, at all times from lo to hi: it is
+ * x -> R(t) x + c(t), and shrinks no length by more than the root of 1 - d. INFINITY: it may not
+ * be. */
+long double map_deviation_upper(const statement *s, size_t map, double lo, double hi, jet *room);
+
+#endif

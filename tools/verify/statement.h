@@ -1,0 +1,76 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_VERIFY_STATEMENT_H
+#define TOOLS_VERIFY_STATEMENT_H
+
+#include "tools/proof/formula.h"
+#include "tools/verify/input.h"
+
+/* What a certificate states
+ * =========================
+ * The lines before the trees (core/CERTIFICATE.md): the claim, each instance of a type by its
+ * formulas, and the surfaces as chains of instances. */
+
+/* A part of a formula and where it holds: u, v and t, or of a map t alone (the others infinite). A
+ * little more than the exact ends, since these are rounded outward to doubles. */
+typedef struct part {
+    double lo[3], hi[3];
+    formula *f;
+} part;
+
+/* A piece of an instance: its parts; none: it was not said what it is. */
+typedef struct piece {
+    part *parts;
+    size_t count;
+} piece;
+
+typedef struct stage {
+    bool is_map;
+    char type[64];
+    piece *pieces;
+    size_t count;
+} stage;
+
+/* A surface of a body: its type's instance, then its maps'. */
+typedef struct chain {
+    size_t body;
+    size_t *stages; /* indices */
+    size_t count;
+} chain;
+
+typedef struct point {
+    uint64_t chain, piece;
+    double u, v;
+} point;
+
+typedef struct source {
+    char kind[8], type[64], hash[SHA256_TEXT]; /* "scene", "" or "type", its name */
+} source;
+
+typedef struct statement {
+    char program[64], verdict[16];
+    double apart, from, to;
+    bool has_points;
+    point point[2];
+    double within, t;
+    source *sources;
+    stage *stages;
+    chain *chains;
+    char **bodies;
+    size_t (*ignored)[2];
+    size_t source_count, stage_count, chain_count, body_count, ignored_count;
+    size_t source_room, stage_room, chain_room, body_room, ignored_room;
+    int steps; /* most of any formula */
+} statement;
+
+/* Reads the lines up to "trees". */
+bool statement_read(statement *s, input *in);
+void statement_free(statement *s);
+
+/* Whether the two bodies are never tested. */
+bool statement_ignores(const statement *s, size_t a, size_t b);
+
+/* Whether each of its stages has formulas. */
+bool statement_is_said(const statement *s, const chain *c);
+
+#endif

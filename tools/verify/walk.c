@@ -1,0 +1,277 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#include <config.h>
+
+#include "tools/verify/walk.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { OP_TIME = 4, OP_AXIS, OP_SAME, OP_ALONE, DEPTH_MAX = 4000, LEAVES_A_SHARE = 16 };
+
+typedef struct pair {
+    walk *w;
+    const chain *chain[2];
+    prover prover;
+    uint32_t *order[2];
+    bool is_said;
+    bool has_axis; /* of a leaf before in this tree */
+    double axis[3];
+} pair;
+
+/* --- Leaves ----------------------------------------------------------------------------------- */
+
+static void say_side(const pair *p, const cell *c, int side, char *text, size_t size)
+{
+    const statement *s = p->w->says;
+    const char *name = s->bodies[p->chain[side]->body];
+    if (c->count[side] > 1)
+        snprintf(text, size, "'%.60s', %zu pieces", name, c->count[side]);
+    else
+        snprintf(text, size, "'%.60s' piece %zu, u [%.9g, %.9g], v [%.9g, %.9g]", name,
+                 (size_t)(p->order[side] != NULL ? p->order[side][c->first[side]] : c->first[side]),
+                 c->lo[side][0], c->hi[side][0], c->lo[side][1], c->hi[side][1]);
+}
+
+static bool refuse(pair *p)
+{
+    const prover *q = &p->prover;
+    char a[300], b[300], found[80] = "";
+    say_side(p, &q->worst, 0, a, sizeof a);
+    say_side(p, &q->worst, 1, b, sizeof b);
+    if (q->found < INFINITY) snprintf(found, sizeof found, ": %.9g apart", q->found);
+    return input_refuse(p->w->in, "%s and %s, t [%.17g, %.17g], claimed apart by %.9g: %s%s", a, b,
+                        q->worst.t[0], q->worst.t[1], p->w->says->apart, q->why, found);
+}
+
+static bool take_leaf(pair *p, const cell *c, unsigned op)
+{
+    walk *w = p->w;
+    prover *q = &p->prover;
+    if (op == OP_AXIS) {
+        for (int i = 0; i < 3; ++i) p->axis[i] = (int16_t)input_16(w->in);
+        p->has_axis = true;
+    }
+    if (op == OP_SAME && !p->has_axis) return input_refuse(w->in, "a leaf before had no axis");
+    if (w->text != NULL && op == OP_ALONE) fprintf(w->text, "leaf\n");
+    if (w->text != NULL && op != OP_ALONE)
+        fprintf(w->text, "leaf axis %g %g %g\n", p->axis[0], p->axis[1], p->axis[2]);
+    for (int i = 0; i < 3; ++i) q->axis[i] = op == OP_ALONE ? 0 : p->axis[i];
+    const bool mine = w->leaves++ / LEAVES_A_SHARE % w->shares == w->share;
+    if (w->progress != NULL) w->progress(w->in->at);
+    if (!mine || !p->is_said || input_is_refused(w->in)) return !input_is_refused(w->in);
+    const bool proved = prove_apart(q, c);
+    w->tests += q->tests;
+    return proved || refuse(p);
+}
+
+/* --- Trees ------------------------------------------------------------------------------------ */
+
+static void say_split(const pair *p, const cell *c, const cut *by)
+{
+    if (p->w->text == NULL) return;
+    if (by->side == 2)
+        fprintf(p->w->text, "split t %a\n", by->at);
+    else if (c->count[by->side] > 1)
+        fprintf(p->w->text, "split %c pieces\n", "AB"[by->side]);
+    else
+        fprintf(p->w->text, "split %c %c\n", "AB"[by->side], "uv"[by->along]);
+}
+
+static bool take_entry(pair *p, const cell *c, int depth)
+{
+    input *in = p->w->in;
+    cell half[2];
+    const unsigned op = input_byte(in);
+    if (op > OP_ALONE || depth > DEPTH_MAX)
+        return input_refuse(in, op > OP_ALONE ? "an entry is unknown" : "the tree is too deep");
+    if (input_is_refused(in)) return false;
+    if (op > OP_TIME) return take_leaf(p, c, op);
+    cut by = {(int)op / 2, (int)op % 2, NAN};
+    if (op == OP_TIME) by.at = c->t[0] + (c->t[1] - c->t[0]) * (input_16(in) / 65536.0);
+    say_split(p, c, &by);
+    const bool is_pieces = op < OP_TIME && c->count[by.side] > 1;
+    if (is_pieces && by.along != 0) return input_refuse(in, "pieces are divided along v");
+    /* A half that is not smaller covers the same again. */
+    cell_split(&p->prover, c, &by, half);
+    if (op == OP_TIME && !(c->t[0] <= by.at && by.at <= c->t[1]))
+        return input_refuse(in, "time is divided outside of the cell");
+    return take_entry(p, &half[0], depth + 1) && take_entry(p, &half[1], depth + 1);
+}
+
+/* --- Pairs ------------------------------------------------------------------------------------ */
+
+/* Reads an order of all pieces. */
+static bool read_order(pair *p, int side, size_t count)
+{
+    input *in = p->w->in;
+    p->order[side] = NULL;
+    if (count < 2 || input_count(in, 1) == 0) return !input_is_refused(in);
+    uint32_t *order = malloc(count * sizeof *order);
+    bool *seen = calloc(count, sizeof *seen);
+    if (order == NULL || seen == NULL) input_refuse(in, "memory ran out");
+    for (size_t k = 0; k < count && !input_is_refused(in); ++k) {
+        order[k] = (uint32_t)input_count(in, count - 1);
+        if (seen[order[k]]) input_refuse(in, "an order names piece %u twice", order[k]);
+        seen[order[k]] = true;
+    }
+    free(seen);
+    p->order[side] = order;
+    return !input_is_refused(in);
+}
+
+/* Lemma. Maps that both chains end with, each of which shrinks no length by more than the root of 1
+ * - d, leave two points at one time farther apart than c wherever they are farther apart than c /
+ * sqrt(1 - d) ... before them. */
+static bool leave_out(pair *p, size_t count)
+{
+    const statement *s = p->w->says;
+    input *in = p->w->in;
+    const chain *a = p->chain[0], *b = p->chain[1];
+    ld_interval shrunk = ld_interval_of(1);
+    if (count >= a->count || count >= b->count)
+        return input_refuse(in, "more maps are left out than there are");
+    for (size_t k = 1; k <= count; ++k) {
+        const size_t map = a->stages[a->count - k];
+        if (map != b->stages[b->count - k])
+            return input_refuse(in, "maps are left out that the surfaces do not share");
+        if (!p->is_said) continue;
+        const long double d = map_deviation_upper(s, map, s->from, s->to, p->prover.side[0].room);
+        if (!(d < 0.5L))
+            return input_refuse(in, "map %zu (%s), left out, is not proved to be rigid", map,
+                                s->stages[map].type);
+        const ld_interval square = ld_interval_sub(ld_interval_of(1), ld_interval_of(d));
+        shrunk = ld_interval_mul(shrunk, ld_interval_sqrt(square));
+    }
+    const ld_interval apart = ld_interval_div(ld_interval_of(s->apart), shrunk);
+    p->prover.apart = nextafter((double)apart.hi, INFINITY);
+    if (s->apart == 0) p->prover.apart = 0;
+    for (int side = 0; side < 2; ++side)
+        p->prover.side[side].maps = p->chain[side]->count - 1 - count;
+    return true;
+}
+
+static void note_assumed(walk *w, const chain *c)
+{
+    for (size_t k = 0; k < c->count; ++k) {
+        const stage *g = &w->says->stages[c->stages[k]];
+        for (size_t i = 0; i < g->count; ++i)
+            if (g->pieces[i].count == 0) w->assumed[c->stages[k]] = true;
+    }
+}
+
+static bool take_pair(walk *w, size_t a, size_t b, jet *room)
+{
+    const statement *s = w->says;
+    pair p = {.w = w, .chain = {&s->chains[a], &s->chains[b]}};
+    cell c = {.t = {s->from, s->to}};
+    p.is_said = statement_is_said(s, p.chain[0]) && statement_is_said(s, p.chain[1]);
+    p.prover.tests_most = w->effort;
+    w->pairs += 1;
+    if (input_count(w->in, s->chain_count) != a || input_count(w->in, s->chain_count) != b)
+        return input_refuse(w->in, "the tree of surfaces %zu and %zu is not here", a, b);
+    for (int side = 0; side < 2; ++side) {
+        p.prover.side[side] = (place){.of = s, .chain = p.chain[side], .room = room};
+        c.count[side] = s->stages[p.chain[side]->stages[0]].count;
+        if (!p.is_said) note_assumed(w, p.chain[side]);
+        if (c.count[side] == 0) return input_refuse(w->in, "a surface has no pieces");
+    }
+    if (w->text != NULL)
+        fprintf(w->text, "pair %zu %zu: '%s' and '%s'\n", a, b, s->bodies[p.chain[0]->body],
+                s->bodies[p.chain[1]->body]);
+    bool good = leave_out(&p, input_count(w->in, UINT32_MAX));
+    for (int side = 0; side < 2 && good; ++side) {
+        good = read_order(&p, side, c.count[side]);
+        p.prover.order[side] = p.order[side];
+    }
+    if (good && p.is_said) cell_begin(&p.prover, &c);
+    good = good && take_entry(&p, &c, 0);
+    free(p.order[0]);
+    free(p.order[1]);
+    return good;
+}
+
+/* All surfaces of two bodies, in the order of the scene. */
+static bool take_bodies(walk *w, size_t a, size_t b, const size_t *first, jet *room)
+{
+    for (size_t i = first[a]; i < first[a + 1]; ++i)
+        for (size_t j = first[b]; j < first[b + 1]; ++j)
+            if (!take_pair(w, i, j, room)) return false;
+    return true;
+}
+
+static bool find_first(walk *w, size_t *first)
+{
+    const statement *s = w->says;
+    size_t k = 0;
+    for (size_t b = 0; b <= s->body_count; ++b) {
+        first[b] = k;
+        while (b < s->body_count && k < s->chain_count && s->chains[k].body == b) ++k;
+    }
+    return k == s->chain_count || input_refuse(w->in, "surfaces are not in the order of bodies");
+}
+
+bool walk_trees(walk *w)
+{
+    const statement *s = w->says;
+    size_t *first = malloc((s->body_count + 1) * sizeof *first);
+    jet *room = malloc(((size_t)s->steps + 1) * sizeof *room);
+    bool good = first != NULL && room != NULL;
+    if (!good) input_refuse(w->in, "memory ran out");
+    good = good && find_first(w, first);
+    for (size_t a = 0; a < s->body_count && good; ++a)
+        for (size_t b = a + 1; b < s->body_count && good; ++b)
+            if (!statement_ignores(s, a, b)) good = take_bodies(w, a, b, first, room);
+    free(first);
+    free(room);
+    return good && input_end(w->in);
+}
+
+/* --- Points ----------------------------------------------------------------------------------- */
+
+static bool find_point(walk *w, int k, jet *room, ld_interval x[3])
+{
+    const statement *s = w->says;
+    const point *q = &s->point[k];
+    if (q->chain >= s->chain_count) return input_refuse(w->in, "a point is on no surface");
+    const chain *c = &s->chains[q->chain];
+    if (q->piece >= s->stages[c->stages[0]].count)
+        return input_refuse(w->in, "a point is on no piece");
+    const place p = {s, c, q->piece, c->count - 1, room};
+    const box3 where = {{q->u, q->v, s->t}, {q->u, q->v, s->t}};
+    jet out[3];
+    split unused;
+    if (enclose(&p, &where, out, &unused) != ENCLOSED)
+        return input_refuse(w->in, "a point is outside of its surface");
+    for (int i = 0; i < 3; ++i) x[i] = out[i].v;
+    return true;
+}
+
+bool walk_points(walk *w)
+{
+    const statement *s = w->says;
+    ld_interval x[2][3], sum = ld_interval_of(0);
+    bool said = true;
+    if (!s->has_points) return true;
+    for (int k = 0; k < 2 && s->point[k].chain < s->chain_count; ++k) {
+        const chain *c = &s->chains[s->point[k].chain];
+        if (!statement_is_said(s, c)) note_assumed(w, c), said = false;
+    }
+    if (!said) return true;
+    jet *room = malloc(((size_t)s->steps + 1) * sizeof *room);
+    bool good = room != NULL || input_refuse(w->in, "memory ran out");
+    for (int k = 0; k < 2 && good; ++k) good = find_point(w, k, room, x[k]);
+    free(room);
+    if (!good) return false;
+    if (statement_ignores(s, s->chains[s->point[0].chain].body, s->chains[s->point[1].chain].body))
+        return input_refuse(w->in, "the points are of bodies that are not tested");
+    if (!(s->from <= s->t && s->t <= s->to))
+        return input_refuse(w->in, "the points are of another time");
+    for (int i = 0; i < 3; ++i)
+        sum = ld_interval_add(sum, ld_interval_sqr(ld_interval_sub(x[1][i], x[0][i])));
+    const ld_interval gap = ld_interval_sqrt(sum);
+    if (gap.hi <= s->within) return true;
+    return input_refuse(w->in, "the points stated are %.9Lg apart, claimed within %.9g", gap.hi,
+                        s->within);
+}

@@ -1,0 +1,28 @@
+/* SPDX-FileCopyrightText: The Impinge authors
+ * SPDX-License-Identifier: Apache-2.0 */
+#ifndef TOOLS_VERIFY_WALK_H
+#define TOOLS_VERIFY_WALK_H
+
+#include "tools/verify/apart.h"
+
+/* The trees of a certificate, read and proved leaf by leaf */
+
+typedef struct walk {
+    input *in;
+    const statement *says;
+    unsigned long effort;             /* tests a leaf may take */
+    unsigned share, shares;           /* this process proves every shares-th group of leaves */
+    FILE *text;                       /* takes the tree, a line for each entry; NULL: none */
+    void (*progress)(uint64_t bytes); /* called now and then; NULL: not */
+    uint64_t leaves, pairs, tests;
+    bool *assumed; /* of each stage: whether it was needed and not said what it is */
+} walk;
+
+/* Reads all trees and the end of the file, and proves what this process has a share in. False: the
+ * input tells why. */
+bool walk_trees(walk *w);
+
+/* Proves that the points stated are so near. False: the input tells why. */
+bool walk_points(walk *w);
+
+#endif
