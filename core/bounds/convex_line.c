@@ -106,8 +106,8 @@ static void seek_least(const convex_form *p, double y[2])
  *   p(y), grad                 64: fewer than 8 operations on sums of at most 8 size
  *   their sum                  64: 8 operations on at most 8 size
  *   squares taken off        1600: quotient, product, difference of at most 2 size, 3 rounds; 25 in
- *                                  all of apart_i apart_j, so 25 * 3 * (4 * 2 + 2) and as much again
- *                                  for the rows with which the next rounds go on
+ *                                  all of apart_i apart_j, so 25 * 3 * (4 * 2 + 2), and as much
+ *                                  again for the rows with which the next rounds go on
  *   the sum of what is left   512: 20 operations on at most 25 size */
 enum { CONVEX_ROUNDING = 4096 };
 _Static_assert(48 + 24 + 64 + 64 + 1600 + 512 <= CONVEX_ROUNDING, "rounding of a convex line");

@@ -19,7 +19,8 @@
  *
  * h: with a model of the stretch, |c_i - (a + b s + q s^2)| <= e, and the chord's ends are within
  * e + m' of the polynomial's, m' the error of the points. The polynomial is off its own chord by
- * |q (1 - s^2)| <= |q|: h_i = |q| + 2 e + m'. L = sum over the parameter's width of the models' rate.
+ * |q (1 - s^2)| <= |q|: h_i = |q| + 2 e + m'. L = sum over the parameter's width of the models'
+ * rate.
  *
  * Patches of a shell meet along their rims within `slack`: ribbons of that width, ruled between two
  * rims, close it. Half of each ribbon's area is at most slack L of one rim: the rims of whole

@@ -121,7 +121,8 @@ IMP_QUAD_INLINE imp_quad bow_upper(imp_quad b, imp_quad q)
  *              (8 + 3 + 1) 16
  *   constant   two sums of 3.25 at most, and one with the place: 7 + 4
  *   middle     lo + hi is 2 c, so only d is rounded, up by 7 units at most: s differs from the
- *              net's by at most 7 u |s|; a cubic within M has a slope of 3 M: both directions 2 * 21
+ *              net's by at most 7 u |s|; a cubic within M has a slope of 3 M: both directions
+ *              2 * 21
  *
  * Numbers of a net that was halved are within 2 `most` (net.c). Of |place| + |t - time| |drift|:
  * products and sums 8, twice for the range. Each of 16 coefficients passes at most 8 products,

@@ -80,7 +80,7 @@ typedef struct course {
     spline table;
     bool hold;
     void *memory;
-    /* Of a table: its numbers, row by row, before their units are converted, and its velocities and
+    /* The numbers of a table, row by row, before their units are converted, and its velocities and
      * accelerations or NULL. */
     const double *given[COURSE_ORDERS];
     unit from[COURSE_WIDTH_MAX], to[COURSE_WIDTH_MAX]; /* units of the columns that they are from */

@@ -88,7 +88,7 @@ static imp_model across_near(imp_model p, imp_model s)
     return imp_mul(q, imp_between(1 - 0x1p-50, 1 + 0x1p-50));
 }
 
-/* The same where points stay on one side of the axis and of the apex; false: they do not. */
+/* Like cone_beyond, for points that stay on one side of axis and apex. False: they do not. */
 static bool cone_near(const capped *s, const imp_model m[3], imp_model *gap)
 {
     const double h = s->height, r = s->radius;

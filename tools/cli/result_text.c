@@ -64,7 +64,7 @@ static int wider(const char *a, const char *b)
     return m > n ? m : n;
 }
 
-/* Of a body that is solid, the other side's point is what there is to tell. */
+/* The line of a body that is solid: the point of the other body that it holds. */
 static void print_solid(const imp_scene *scene, const char *label, const imp_side *side)
 {
     result_print_label(label);
