@@ -13,6 +13,7 @@ plugin_LTLIBRARIES = \
     plugins/cylinder.la \
     plugins/disc.la \
     plugins/ellipsoid.la \
+    plugins/extrusion.la \
     plugins/ffd.la \
     plugins/formula.la \
     plugins/keyframes.la \
@@ -70,6 +71,8 @@ plugins_disc_la_SOURCES = plugins/surfaces/disc.c
 plugins_disc_la_LDFLAGS = $(plugin_ldflags)
 plugins_ellipsoid_la_SOURCES = plugins/surfaces/ellipsoid.c
 plugins_ellipsoid_la_LDFLAGS = $(plugin_ldflags)
+plugins_extrusion_la_SOURCES = plugins/surfaces/extrusion.c
+plugins_extrusion_la_LDFLAGS = $(plugin_ldflags)
 plugins_ffd_la_SOURCES = plugins/maps/ffd.c
 plugins_ffd_la_LDFLAGS = $(plugin_ldflags)
 plugins_formula_la_SOURCES = plugins/surfaces/formula.c
@@ -193,6 +196,7 @@ plugins_libpatch_la_SOURCES = \
     plugins/patch/knots.c plugins/patch/knots.h \
     plugins/patch/lattice.c plugins/patch/lattice.h \
     plugins/patch/nurbs_cells.c plugins/patch/nurbs_cells.h \
+    plugins/patch/nurbs_surface.c plugins/patch/nurbs_surface.h \
     plugins/patch/patch.c plugins/patch/patch.h \
     plugins/patch/patch_include.c plugins/patch/patch_include.h \
     plugins/patch/patch_net.c plugins/patch/patch_net.h \
@@ -207,6 +211,7 @@ plugins_libpatch_la_CFLAGS = $(AM_CFLAGS) $(UNROLL_CFLAGS)
 plugins_libpatch_la_LDFLAGS =
 plugins_bezier_la_LIBADD = plugins/libpatch.la
 plugins_bezier_triangle_la_LIBADD = plugins/libpatch.la
+plugins_extrusion_la_LIBADD = plugins/libpatch.la
 plugins_ffd_la_LIBADD = plugins/libpatch.la
 plugins_nurbs_la_LIBADD = plugins/libpatch.la
 plugins_product_la_LIBADD = plugins/libpatch.la

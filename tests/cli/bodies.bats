@@ -81,7 +81,45 @@ misses() {
 
 @test "check finds nothing to refute in these types" {
     for type in box capsule disc cylinder cone 'cylinder ends=true' 'cone ends=true height=-2' \
+        'extrusion ends=true' \
         'capsule from=1,2,3 to=1,2,3' 'disc axis=0,-2,0'; do
         run -0 "$IMPINGE" check "$type" --effort 0.1 --json
     done
+}
+
+@test "an extrusion is met at its side and at both ends, and holds what is in it" {
+    local bar='extrusion profile=[[1,0],[1,1],[-1,1],[-1,-1],[1,-1],[1,0]] degree=1 vector=0,0,4 ends=true'
+    meets "$bar" 5,0,2 -1,0,0 3.9 0
+    meets "$bar" 0,0,-3 0,0,1 2.9 1
+    meets "$bar" 0,0,7 0,0,-1 2.9 2
+    misses "$bar" 5,1.11,2 -1,0,0
+}
+
+@test "who is inside a solid body at the start is in contact, for each verb" {
+    scene='{"bodies": [{"name": "pot", "solid": true, "surfaces": [{"type": "box", "size": [4,4,4]}]},
+        {"name": "pea", "surfaces": [{"type": "sphere", "radius": 0.1, "center": [1,0,0]}]}]}'
+    echo "$scene" >scene.json
+    run -0 "$IMPINGE" solve scene.json
+    [[ $output == *'"pea" is inside "pot"'* && $output == *'"pot", which is solid, holds'* ]]
+    run -0 "$IMPINGE" solve scene.json --json
+    json '.verdict == "contact" and .kind == "inside" and .t == 0 and .gap == 0 and .a.surface == null
+        and .a.u == null and .b.surface == 0 and .a.point == .b.point and .normal == null'
+    run -0 "$IMPINGE" solve scene.json --each --json
+    json '.kind == "inside" and .bodies == ["pot", "pea"]'
+    run -0 "$IMPINGE" clearance scene.json --json
+    json '.lower == 0 and .upper == 0 and .kind == "inside"'
+    run -0 "$IMPINGE" clearance scene.json --each
+    run -1 "$IMPINGE" clearance scene.json --require 0.1 --json
+    json '.verdict == "violated" and .t_violated == 0'
+    run -0 "$IMPINGE" clearance scene.json --profile 2 --json
+    json '[.slices[] | .lower == 0 and .upper == 0] | all'
+    tr -d '\n' <scene.json | run -0 "$IMPINGE" batch -
+    json '.kind == "inside"'
+    run -0 "$IMPINGE" view scene.json -o scene.obj
+    jq '.bodies[1] += {"mass": 1}' scene.json >heavy.json
+    run -4 "$IMPINGE" simulate heavy.json -o motion.json
+    [[ $output == *'one is inside the other, which is solid'* ]]
+    sed 's/true/1/' scene.json >wrong.json
+    run -4 "$IMPINGE" solve wrong.json
+    [[ $output == *'/bodies/0/solid: got 1, must be true or false'* ]]
 }

@@ -318,3 +318,19 @@ def test_everything_public_is_documented_and_typed():
             if callable(member) and not name.startswith("_"):
                 assert member.__doc__ and "return" in member.__annotations__, name
     assert (pathlib.Path(impinge.__file__).parent / "py.typed").exists()
+
+
+def test_who_is_inside_a_solid_body_is_in_contact_at_the_start() -> None:
+    builder = impinge.Builder()
+    builder.body("pot", solid=True).surface("box", size=[4, 4, 4])
+    builder.body("pea").surface("sphere", radius=0.1)
+    scene = builder.build()
+    for asked in (scene, impinge.Scene.from_json(scene.to_json())):
+        result, clearance = asked.solve(), asked.clearance()
+        assert result.kind == "inside" and result.t == 0 and result.gap == 0
+        assert result.a is not None and result.b is not None and result.a.point == result.b.point
+        assert clearance.kind == "inside" and clearance.lower == clearance.upper == 0
+    builder = impinge.Builder()
+    builder.body("pot").surface("box", size=[4, 4, 4])
+    builder.body("pea").surface("sphere", radius=0.1)
+    assert builder.build().solve().kind is None

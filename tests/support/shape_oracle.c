@@ -432,3 +432,34 @@ void nurbs_oracle(const type_arguments *arguments, const number p[3], number x[3
     }
     patch_oracle(arguments, along, p[2], x);
 }
+
+/* Points of the curve and, at v = 1, these plus the vector, each rounded to doubles. */
+void extrusion_oracle(const type_arguments *arguments, const number p[3], number x[3])
+{
+    enum { KNOTS_MOST = 64 };
+    const imp_value *profile = argument(arguments, "profile");
+    const imp_value *degree = argument(arguments, "degree"), *knots = argument(arguments, "knots");
+    const double *weights = argument(arguments, "weights")->number;
+    const double *vector = argument(arguments, "vector")->number;
+    weighting along;
+    double made[KNOTS_MOST];
+    knot_list k = {.at = knots->count > 0 ? knots->number : made, .count = profile->extent[0]};
+    k.degree = degree->count > 0 ? (size_t)degree->number[0] : k.count - 1;
+    k.length = k.count + k.degree + 1;
+    for (size_t i = 0; i < k.length; ++i)
+        made[i] = i <= k.degree ? 0 : (double)((i < k.count ? i : k.count) - k.degree);
+    b_splines(&k, p[0], along.of);
+    number sum[3] = {num(0), num(0), num(0)}, total = num(0);
+    for (size_t i = 0; i < k.count; ++i) {
+        const number weight = num_mul(along.of[i], num(weights != NULL ? weights[i] : 1));
+        total = num_add(total, weight);
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const double from = axis < 2 ? profile->number[2 * i + axis] : 0;
+            const double to = from + vector[axis];
+            const number at =
+                num_add(num_mul(num_sub(num(1), p[1]), num(from)), num_mul(p[1], num(to)));
+            sum[axis] = num_add(sum[axis], num_mul(weight, at));
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) x[axis] = num_div(sum[axis], total);
+}

@@ -32,6 +32,7 @@ surface_oracle revolution_oracle;
 surface_oracle sweep_oracle;
 surface_oracle product_oracle;
 surface_oracle nurbs_oracle;
+surface_oracle extrusion_oracle; /* its first piece */
 
 /* What the control points along one parameter weigh. */
 typedef struct weighting {
