@@ -114,7 +114,8 @@ static jet spread(const jet *x, int side)
 typedef struct difference {
     jet box[3], centre[3];
     ld_interval offset[DIMS];
-    double half[DIMS]; /* about half of the cell's size; only to choose by */
+    double half[DIMS];  /* about half of the cell's size, */
+    double width[2][3]; /* and of each side's box: only to choose by */
 } difference;
 
 static void subtract(const kept *const k[2], difference *d)
@@ -124,6 +125,8 @@ static void subtract(const kept *const k[2], difference *d)
         const jet c = spread(&k[0]->centre[i], 0), e = spread(&k[1]->centre[i], 1);
         d->box[i] = jet_sub(&b, &a);
         d->centre[i] = jet_sub(&e, &c);
+        d->width[0][i] = (double)(a.v.hi - a.v.lo);
+        d->width[1][i] = (double)(b.v.hi - b.v.lo);
     }
     for (int side = 0; side < 2; ++side)
         for (int j = 0; j < 3; ++j) {
@@ -193,18 +196,34 @@ static void normal(const difference *d, int side, double n[3])
     for (int i = 0; i < 3 && sign < 0; ++i) n[i] = -n[i];
 }
 
-/* The variable that n.(B - A) depends on most, for what can be divided; -1: none. */
-static int widest(const difference *d, const jet *over, const jet *at)
+/* How much n.(B - A) depends on a variable, about: by its derivatives, and no more than what values
+ * of the sides it moves say, since derivatives may have no bounds. */
+static double dependence(const difference *d, const double n[3], const jet *over, const jet *at,
+                         int j)
+{
+    double size = fabs(value_of(at->d[j])) * d->half[j], most = 0;
+    for (int k = 0; k < DIMS; ++k) {
+        const ld_interval bend = j <= k ? over->h[j][k] : over->h[k][j];
+        const double both = d->half[j] * d->half[k];
+        if (both > 0) size += 0.5 * (double)ld_interval_mag(bend) * both;
+    }
+    for (int side = 0; side < 2; ++side)
+        for (int i = 0; i < 3 && (j == TIME || j / 2 == side); ++i)
+            most += fabs(n[i]) * d->width[side][i];
+    return size < most ? size : most;
+}
+
+/* The variable that n.(B - A) depends on most, for what can be divided, the widest of equals; -1:
+ * none. */
+static int widest(const difference *d, const double n[3], const jet *over, const jet *at)
 {
     int best = -1;
     double most = -1;
     for (int j = 0; j < DIMS; ++j) {
-        double size = fabs(value_of(at->d[j])) * d->half[j];
-        for (int k = 0; k < DIMS; ++k) {
-            const ld_interval bend = j <= k ? over->h[j][k] : over->h[k][j];
-            size += 0.5 * (double)ld_interval_mag(bend) * d->half[j] * d->half[k];
-        }
-        if (!(size <= most) && d->half[j] > 0) best = j, most = size;
+        if (!(d->half[j] > 0)) continue;
+        const double size = dependence(d, n, over, at, j);
+        const bool is_wider = best >= 0 && size == most && d->half[j] > d->half[best];
+        if (is_wider || !(size <= most)) best = j, most = size;
     }
     return best;
 }
@@ -264,7 +283,7 @@ static outcome test_pieces(prover *p, const cell *c, cut *by)
         if (left >= 0) return APART;
         if (left <= best && wide >= 0) continue;
         best = left;
-        wide = widest(&d, &over, &at);
+        wide = widest(&d, axes[n], &over, &at);
     }
     if (wide < 0)
         for (int j = 0; j < DIMS; ++j)
