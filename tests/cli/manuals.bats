@@ -34,7 +34,7 @@ pages() { grep -L '^\.so ' "$manuals"/man[1357]/*.[1357]; }
     command -v lexgrog >/dev/null || skip "no man-db"
     cp -R "$manuals" man
     mandb --quiet --create "$PWD/man" >log 2>&1 || { cat log; false; }
-    man -M "$PWD/man" -k imp >found
+    apropos -M "$PWD/man" imp >found # what man -k runs
     [ "$(wc -l <found)" -ge 90 ]
     local name
     for name in 'impinge (1)' 'impinge (7)' 'impinge-scene (5)' 'impinge-plugin (7)' 'libimpinge (3)' \
