@@ -176,6 +176,7 @@ bats_suites = \
     tests/cli/bodies.bats \
     tests/cli/check.bats \
     tests/cli/cli.bats \
+    tests/cli/certificates.bats \
     tests/cli/clearance.bats \
     tests/cli/completion.bats \
     tests/cli/cli_batch.bats \
@@ -251,6 +252,7 @@ check_LTLIBRARIES = \
     tests/plugins/hostile.la \
     tests/plugins/include_inverted.la \
     tests/plugins/include_lies.la \
+    tests/plugins/include_sinks.la \
     tests/plugins/include_negative.la \
     tests/plugins/include_rounds.la \
     tests/plugins/kit.la \
@@ -352,6 +354,7 @@ tests_plugins_half_bad_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_hostile_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_include_inverted_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_include_lies_la_LDFLAGS = $(test_plugin_ldflags)
+tests_plugins_include_sinks_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_include_negative_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_include_rounds_la_LDFLAGS = $(test_plugin_ldflags)
 tests_plugins_kit_la_LDFLAGS = $(test_plugin_ldflags)

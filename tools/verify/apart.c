@@ -196,8 +196,8 @@ static void normal(const difference *d, int side, double n[3])
     for (int i = 0; i < 3 && sign < 0; ++i) n[i] = -n[i];
 }
 
-/* How much n.(B - A) depends on a variable, about: by its derivatives, and no more than what values
- * of the sides it moves say, since derivatives may have no bounds. */
+/* How much n.(B - A) depends on a variable, about: by its derivatives, and no more than its part,
+ * by size, of the values of the sides that it moves, since derivatives may have no bounds. */
 static double dependence(const difference *d, const double n[3], const jet *over, const jet *at,
                          int j)
 {
@@ -210,7 +210,9 @@ static double dependence(const difference *d, const double n[3], const jet *over
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < 3 && (j == TIME || j / 2 == side); ++i)
             most += fabs(n[i]) * d->width[side][i];
-    return size < most ? size : most;
+    if (size <= most) return size;
+    const int of = j == TIME ? 0 : 2 * (j / 2);
+    return most * d->half[j] / (d->half[of] + d->half[of + 1] + d->half[TIME]);
 }
 
 /* The variable that n.(B - A) depends on most, for what can be divided, the widest of equals; -1:

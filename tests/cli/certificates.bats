@@ -1,0 +1,86 @@
+#!/usr/bin/env bats
+# SPDX-FileCopyrightText: The Impinge authors
+# SPDX-License-Identifier: Apache-2.0
+
+# --proof writes certificates, and impinge-verify proves them again.
+
+load ../support/cli_helper
+
+verify() { "$top_builddir"/tools/impinge-verify "$@"; }
+
+setup_file() {
+    [ -x "$top_builddir"/tools/impinge-verify ] || skip "impinge-verify needs MPFI"
+}
+
+near='sphere center=2.01,0.1,0.2'
+
+@test "a certificate of contact holds, of the whole time before it and of its points" {
+    run -0 "$IMPINGE" pair "$left" "$right" --gamma 1e-2 --proof contact.proof
+    [[ $output == contact* ]]
+    run -0 verify contact.proof
+    [ "${lines[0]}" = holds ]
+    [[ ${lines[1]} == "contact: no two points nearer than 0.005 from t = 0 to 0.49"* ]]
+    [[ ${lines[2]} == "two points within 0.01 at t = 0.49"* ]]
+}
+
+@test "certificates of clear, of a distance and of one that is required hold" {
+    "$IMPINGE" pair sphere "$near" --gamma 1e-2 --proof clear.proof
+    "$IMPINGE" clearance sphere "$near" --tolerance 0.1 --proof distance.proof
+    "$IMPINGE" clearance sphere "$near" --require 0.015 --proof required.proof
+    for kind in clear distance required; do
+        run -0 verify "$kind.proof" --threads 2 --quiet
+        [ "$output" = holds ]
+    done
+}
+
+@test "motions that both surfaces share are left out" {
+    local turn='rotate axis=0,0,1 rate=2'
+    "$IMPINGE" pair "sphere ! $turn" "sphere center=4,0,0 ! $turn" --proof shared.proof
+    run -0 verify shared.proof
+    [ "${lines[0]}" = holds ]
+    [[ ${lines[2]} == "1 pairs of surfaces, 1 leaves,"* ]]
+}
+
+@test "what a changed file states is not believed" {
+    "$IMPINGE" clearance sphere "$near" --tolerance 0.1 --proof distance.proof
+    sed 's/^apart .*/apart 1/' distance.proof >larger.proof
+    run -1 verify larger.proof
+    [[ $output == "refused at byte "*": "*"'a' piece 0, u ["*"claimed apart by 1: "* ]]
+    head -c -5 distance.proof >shorter.proof
+    run -1 verify shorter.proof
+    [[ $output == "refused at byte "*": it ends too early" ]]
+    printf x >>distance.proof
+    run -1 verify distance.proof
+    [[ $output == "refused at byte "*": bytes follow the checksum" ]]
+}
+
+@test "a type whose bounds lie makes no certificate that holds" {
+    mkdir plugins
+    cp "$top_builddir"/tests/plugins/.libs/include_sinks.so plugins
+    run -0 "$IMPINGE" pair include_sinks 'sphere radius=0.1 center=0,0,0.5' --gamma 1e-3 \
+        --plugin-path plugins --proof lie.proof
+    [[ $output == clear* ]]
+    run -1 verify lie.proof
+    [[ $output == "refused at byte "*": 'a' piece 0, "*"claimed apart by 0.0005: "* ]]
+}
+
+@test "a certificate is a receipt for its scene" {
+    scene >scene.json
+    "$IMPINGE" solve scene.json --gamma 1e-2 --proof receipt
+    run -0 verify receipt scene.json --quiet
+    [ "$output" = holds ]
+    scene '"id": 7,' >scene.json
+    run -3 verify receipt scene.json
+    [ "$output" = "stale: the scene has changed" ]
+}
+
+@test "--text prints the tree, and bad usage is told" {
+    "$IMPINGE" pair sphere "$near" --gamma 1e-2 --proof clear.proof
+    run -0 verify --text clear.proof
+    [[ $output == "pair 0 1: 'a' and 'b'"*leaf*holds* ]]
+    run -2 verify
+    run -2 verify missing.proof
+    [[ $output == *"missing.proof: No such file or directory" ]]
+    run -2 "$IMPINGE" solve missing.json --each --proof f
+    [[ $output == *"--proof and --each exclude each other"* ]]
+}
