@@ -40,7 +40,7 @@ typedef struct proof_log {
     bool failed; /* memory ran out: nothing can be written */
 } proof_log;     /* begins as {0}; proof_log_clear frees */
 
-/* Of a query: of the search for contact or a violation, and of that for the minimum distance. */
+/* The logs of a query: for the contact or a violation, and for the minimum distance. */
 typedef struct proof_logs {
     proof_log contact, distance;
 } proof_logs;

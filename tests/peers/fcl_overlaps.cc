@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Finds the shapes that overlap in given poses, by FCL. Reads from standard input: the number of
-// shapes and each of them (box X Y Z | sphere R | cylinder R LENGTH | capsule R LENGTH | mesh POINTS
-// TRIANGLES, their numbers); the number of pairs and each of them; the number of poses, and of each
-// the matrices of all shapes, three rows of four. Prints for each pose the pairs that overlap, on
-// one line.
+// shapes and each of them (box X Y Z | sphere R | cylinder R LENGTH | capsule R LENGTH | mesh
+// POINTS TRIANGLES, their numbers); the number of pairs and each of them; the number of poses, and
+// of each the matrices of all shapes, three rows of four. Prints for each pose the pairs that
+// overlap, on one line.
 
 #include <fcl/fcl.h>
 
