@@ -8,7 +8,8 @@ load ../support/cli_helper
 
 verify() { "$top_builddir"/tools/impinge-verify "$@"; }
 
-setup_file() {
+setup() {
+    cd "$BATS_TEST_TMPDIR" || return
     [ -x "$top_builddir"/tools/impinge-verify ] || skip "impinge-verify needs MPFI"
 }
 
