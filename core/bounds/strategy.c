@@ -160,15 +160,17 @@ bool strategy_slides_on_face(const node *own, const node *other)
 }
 
 /* Axes separate approaching surfaces from the start of their times: no distance is computed then. A
- * search for the minimum distance computes it wherever no axis separates the pair. */
+ * search for the minimum distance computes it wherever no axis separates the pair, or it slides on
+ * a face; both do for two whole surfaces. */
 bool strategy_takes_distances(const node *a, const node *b, const slide_signs *of,
                               strategy_goal goal)
 {
     if (of->is_whole) return true;
-    if (goal == GOAL_DISTANCE) return of->slides || !of->is_parted;
-    if (!of->is_parted) return of->slides || !(of->start > pair_times(a, b).lo);
-    const bool may_slide =
-        of->slides || strategy_slides_on_face(a, b) || strategy_slides_on_face(b, a);
+    if (goal == GOAL_CONTACT && !of->is_parted)
+        return of->slides || !(of->start > pair_times(a, b).lo);
+    const bool may_slide = of->slides || !of->is_parted || strategy_slides_on_face(a, b) ||
+                           strategy_slides_on_face(b, a);
+    if (goal == GOAL_DISTANCE) return may_slide;
     return may_slide && trial_rate_take(of->sliding, TUNING_DISTANCE_SHARE, TUNING_DISTANCE_WAIT);
 }
 

@@ -99,6 +99,17 @@ static void undo(const motion *m, long double t, long double x[3])
     for (int j = 0; j < 3; ++j) x[j] = m->pivot[j] + found[j];
 }
 
+static imp_status move(const void *self, size_t n, const double *p, double *x, double *error)
+{
+    for (size_t k = 0; k < n; ++k) {
+        long double y[3] = {p[4 * k], p[4 * k + 1], p[4 * k + 2]};
+        apply(self, p[4 * k + 3], y);
+        for (size_t i = 0; i < 3; ++i) x[3 * k + i] = (double)y[i];
+        for (size_t i = 0; i < 3 && error != NULL; ++i) error[3 * k + i] = INFINITY;
+    }
+    return IMP_STATUS_OK;
+}
+
 /* --- Types ------------------------------------------------------------------------------------ */
 
 /* A ball, a torus, a cylinder and a plane, of radius 1 where they have one; the line is along z. */
@@ -153,12 +164,14 @@ static const imp_map_type nearly = {.struct_size = sizeof(imp_map_type),
                                     .name = "nearly",
                                     .time_domain = always,
                                     .destroy = keep,
+                                    .eval = move,
                                     .rigid = pose_of};
 static const imp_map_type exactly = {.struct_size = sizeof(imp_map_type),
                                      .flags = IMP_FLAG_TURNS_EXACTLY,
                                      .name = "exactly",
                                      .time_domain = always,
                                      .destroy = keep,
+                                     .eval = move,
                                      .rigid = pose_of};
 
 /* --- Trials ----------------------------------------------------------------------------------- */

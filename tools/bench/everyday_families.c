@@ -77,7 +77,7 @@ const everyday_family everyday_families[] = {
      TURN(Z_AXIS, "2"), BOND_PARENT, 0, false, FIVE, 50, "", ""},
     /* faces */
     {"door above the floor", FLOOR, PLACE, BOX("1,0.1,2", "0.6,0,@1"),
-     TURN(Z_AXIS, "1.5") "," SAME_PLACE, BOND_NONE, 0, false, FIVE, 500, "", "12"},
+     TURN(Z_AXIS, "1.5") "," SAME_PLACE, BOND_NONE, 0, false, FIVE, 500, "", ""},
     {"door between floor and lintel", BOX("4,4,1", "0,0,-0.5") "," BOX("4,0.2,1", "0,0,2.5"), "",
      BOX("1,0.1,~2", "0.6,0,1"), TURN(Z_AXIS, "1.5"), BOND_NONE, 0, false, FIVE, 1000, "", ""},
     {"lid that turns on a box", BOX("1,1,1", "0,0,-0.5"), PLACE, DISC("1", "0,0,@0"),
@@ -88,7 +88,7 @@ const everyday_family everyday_families[] = {
     {"sheet that turns above a table", FLOOR, PLACE, SHEET, TURN(Z_AXIS, "2") "," SAME_PLACE,
      BOND_NONE, 0, false, FIVE, 500, "", ""},
     {"box that turns on an inclined table", LATHE("pi 4 4:-1 4:0"), "", LATHE("pi 4 0.7:@0 0.7:1"),
-     TURN("-1,2,2", "2"), BOND_NONE, 0, false, FIVE, 2000, "", "123"},
+     TURN("-1,2,2", "2"), BOND_NONE, 0, false, FIVE, 2000, "", ""},
     {"box that slides down a table", LATHE("pi 4 4:-1 4:0"), "", LATHE("pi 4 0.7:@0 0.7:1"),
      MOVE("1.5,1.5,-0.75"), BOND_NONE, 0, false, FIVE, 500, "", ""},
     /* symmetries */
