@@ -23,6 +23,7 @@ tools_check = \
     tools/check/allocations.c tools/check/allocations.h \
     tools/check/answer.c tools/check/answer.h \
     tools/check/arguments.c tools/check/arguments.h \
+    tools/check/badge.c tools/check/badge.h \
     tools/check/buffers.c tools/check/buffers.h \
     tools/check/calls.c tools/check/calls.h \
     tools/check/closed.c tools/check/closed.h \
@@ -302,6 +303,7 @@ pkgdata_DATA = \
     tools/data/pebble.json \
     tools/data/recoil.json \
     tools/data/teapot.json \
+    tools/schema/badge.schema.json \
     tools/schema/bench.schema.json \
     tools/schema/check.schema.json \
     tools/schema/clearance.schema.json \

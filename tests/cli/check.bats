@@ -612,3 +612,31 @@ missed() {
     run -0 "$IMPINGE" check pieces_of_shapeless --plugin-path .
     [[ $output != *FAIL* && $output == *'pass  arguments'* ]]
 }
+
+# --- Badges ------------------------------------------------------------------------------------------
+
+@test "a badge holds what was checked, and --require holds the label against it" {
+    run -0 "$IMPINGE" check "$liars/liar_truthful.so" --effort 0.05 --badge badge.json --require tested
+    [[ $output == *passed* ]]
+    output=$(<badge.json)
+    valid badge
+    json '.message == "tested" and .color == "green" and .abi.major == 1 and .seed == 1'
+    json '.checks.load == "pass" and .types[0].checks.rates == "pass" and .types[0].tightness.rates[0] >= 1'
+    fails_check 'the plugin is tested, not proved; state its formula' liar_truthful --require proved
+    fails_check 'the plugin is refuted' liar_spot --badge refuted.json --require tested
+    jq -e '.message == "refuted" and .verdict == "fail"' refuted.json
+    run -2 "$IMPINGE" check "$liars/liar_spot.so" --only rates --badge no.json
+    [[ $output == *"leave out --only"* && ! -e no.json ]]
+}
+
+fails_check() { # TEXT LIAR OPTION...
+    run -6 "$IMPINGE" check "$liars/$2.so" --effort 0.05 "${@:3}"
+    [[ $output == *"$1"* ]]
+}
+
+@test "a type whose formula is known earns a proved badge" {
+    run -0 "$IMPINGE" check 'formula x=u y=v z=u*v' --effort 0.05 --badge - --require proved
+    output=$(tail -n 1 <<<"$output")
+    valid badge
+    json '.message == "proved" and .color == "brightgreen" and .types[0].proof.claims > 100'
+}

@@ -39,7 +39,9 @@ def faults($s; $where):
             | $rule[.key] as $r | .value | faults($r; $at) end
       elif $key == "additionalProperties" then
         if type != "object" then empty
-        else (keys - ($s.properties | keys))[] as $k | fault("has no key \($k)") end
+        else (keys - ($s.properties // {} | keys))[] as $k
+            | if $rule == false then fault("has no key \($k)")
+              else $value[$k] | faults($rule; "\($where)/\($k)") end end
       elif $key == "oneOf" or $key == "anyOf" then
         [$rule[] as $r | [$value | faults($r; $where)]] as $tries
         | ($tries | map(select(length == 0)) | length) as $fits

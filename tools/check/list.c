@@ -270,6 +270,8 @@ static void survey_work(void *result, const void *data)
     }
     if (s->count > 0)
         snprintf(s->plugin, sizeof s->plugin, "%s %s, %s", info.plugin, info.version, info.license);
+    snprintf(s->name, sizeof s->name, "%s", info.plugin);
+    snprintf(s->version, sizeof s->version, "%s", info.version);
     s->is_taken = true;
     imp_registry_free(registry);
 }

@@ -69,6 +69,7 @@ typedef struct survey {
     bool is_taken;     /* the host accepts the file */
     char reason[1000]; /* why not */
     char plugin[200];  /* name, version, licence */
+    char name[80], version[80];
     size_t count;
     survey_type type[SURVEY_TYPES];
 } survey;

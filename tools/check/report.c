@@ -27,10 +27,7 @@ static void print_line(const char *before, const char *between, const char *text
 
 bool report_begin(check_report *r, const char *file, double effort)
 {
-    if (!r->as_json) {
-        print_line("", "", file);
-        return true;
-    }
+    if (!r->as_json) print_line("", "", file);
     r->types = json_array();
     r->checks = json_array();
     r->root =
@@ -51,7 +48,6 @@ void report_type(check_report *r, imp_type_kind kind, const char *name,
         print_line(catalogue_kind_name(kind), " ", name);
         for (int k = 0; k < CHECK_STAGES && stage[k] != NULL; ++k)
             print_line("  as: ", "", stage[k]);
-        return;
     }
     json_t *stages = json_array();
     for (int k = 0; k < CHECK_STAGES && stage[k] != NULL; ++k)
@@ -173,10 +169,8 @@ void report_add(check_report *r, const char *check, bool of_bounds, const check_
     if (a->verdict == CHECK_FAIL)
         *(of_bounds && a->tests > 0 ? &r->type_refuted : &r->type_failed) = true;
     const bool echo = is_echo(r, check, a);
-    if (r->as_json) {
-        add_json(r, check, a, &c, echo);
-        return;
-    }
+    add_json(r, check, a, &c, echo);
+    if (r->as_json) return;
     if (a->said[0] != '\0' && (echo || a->verdict != CHECK_FAIL)) note_spoke(r, check);
     if (echo) return;
     char label[40];
@@ -211,12 +205,10 @@ void report_type_end(check_report *r)
     tell_spoke(r);
     const char *label = type_label(r);
     const unsigned long long seed = r->seed;
-    if (r->as_json) {
-        json_object_set_new(r->type, "label", json_string(label));
-        json_object_set_new(r->type, "tests", json_integer((json_int_t)r->type_tests));
-        r->type = NULL;
-        return;
-    }
+    json_object_set_new(r->type, "label", json_string(label));
+    json_object_set_new(r->type, "tests", json_integer((json_int_t)r->type_tests));
+    r->type = NULL;
+    if (r->as_json) return;
     if (r->type_echoes[0] != '\0')
         printf("  FAIL  also %s, possibly for the same reason; --only NAME shows each\n",
                r->type_echoes);
@@ -235,6 +227,10 @@ void report_type_end(check_report *r)
 exit_status report_end(check_report *r, const char *verb)
 {
     const exit_status found = r->verdicts[CHECK_FAIL] > 0 ? EXIT_CONFORMANCE : EXIT_ANSWERED;
+    json_object_set_new(r->root, "verdict",
+                        json_string(r->verdicts[CHECK_FAIL] > 0 ? "fail" : "pass"));
+    json_decref(r->checks);
+    json_decref(r->types);
     if (!r->as_json) {
         printf("%zu passed, %zu failed, %zu skipped", r->verdicts[CHECK_PASS],
                r->verdicts[CHECK_FAIL], r->verdicts[CHECK_SKIP]);
@@ -242,10 +238,12 @@ exit_status report_end(check_report *r, const char *verb)
         putchar('\n');
         return found;
     }
-    json_object_set_new(r->root, "verdict",
-                        json_string(r->verdicts[CHECK_FAIL] > 0 ? "fail" : "pass"));
-    json_decref(r->checks);
-    json_decref(r->types);
-    const exit_status written = output_json(r->root, verb);
+    const exit_status written = output_json(json_incref(r->root), verb);
     return written != EXIT_ANSWERED ? written : found;
+}
+
+void report_free(check_report *r)
+{
+    json_decref(r->root);
+    r->root = NULL;
 }

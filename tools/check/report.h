@@ -9,7 +9,7 @@
 #include "tools/cli/message.h"
 
 /* The report, as text while it is made or as one JSON object at the end (schema in
- * tools/schema/check.schema.json). */
+ * tools/schema/check.schema.json). The object is made in both cases, for badges (badge.h). */
 
 typedef struct check_report {
     bool as_json;
@@ -41,7 +41,8 @@ void report_add(check_report *r, const char *check, bool of_bounds, const check_
  * formula is known and every tested claim follows from it; else `tested`. */
 void report_type_end(check_report *r);
 
-/* Totals; prints the object. */
+/* Prints the totals, or the object, which report->root then is until report_free. */
 exit_status report_end(check_report *r, const char *verb);
+void report_free(check_report *r);
 
 #endif

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/check/badge.h"
 #include "tools/check/list.h"
 #include "tools/check/operand.h"
 #include "tools/check/report.h"
@@ -14,6 +15,10 @@
 #include "tools/cli/progress.h"
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
+
+/* Choices of --require, in their order. */
+enum { REQUIRE_TESTED, REQUIRE_PROVED };
+static const char *const required_labels[] = {"tested", "proved", NULL};
 
 /* --- How -------------------------------------------------------------------------------------- */
 
@@ -177,6 +182,24 @@ static exit_status read_asked(job *j)
     return EXIT_ANSWERED;
 }
 
+/* Writes the badge, and holds the label against the one that is required. */
+static exit_status publish(const job *j)
+{
+    const char *speaker = j->args->verb->name;
+    const option_value *badge = arguments_option(j->args, "badge");
+    const option_value *required = arguments_option(j->args, "require");
+    const badge_facts facts = {j->survey->name, j->survey->version, text_or_null(j->formula)};
+    const char *label = badge_label(j->report.root);
+    exit_status status = EXIT_ANSWERED;
+    if (badge != NULL) status = badge_write(badge->text, j->report.root, &facts, speaker);
+    if (status != EXIT_ANSWERED || required == NULL || strcmp(label, "proved") == 0) return status;
+    if (required->choice == REQUIRE_TESTED && strcmp(label, "tested") == 0) return status;
+    return complain(
+        EXIT_CONFORMANCE, speaker, "--require %s: the plugin is %s%s", required->text, label,
+        strcmp(label, "tested") == 0 ? ", not proved; state its formula with --formula 'X; Y; Z'"
+                                     : "");
+}
+
 static exit_status run_all(job *j)
 {
     if (!report_begin(&j->report, j->file->file, j->effort))
@@ -188,7 +211,10 @@ static exit_status run_all(job *j)
             if (j->type.name[0] == '\0' || strcmp(j->type.name, j->survey->type[k].name) == 0)
                 run_type(j, &j->survey->type[k]);
     }
-    return report_end(&j->report, j->args->verb->name);
+    const exit_status found = report_end(&j->report, j->args->verb->name);
+    const exit_status published = publish(j);
+    report_free(&j->report);
+    return found > published ? found : published;
 }
 
 static exit_status find_and_run(job *j)
@@ -207,6 +233,7 @@ static exit_status find_and_run(job *j)
 
 static exit_status run(const arguments *args)
 {
+    static const char *const of_all[] = {"badge", "require"};
     const option_value *stop_at = arguments_option(args, "call");
     job j = {.args = args, .operand = args->operands[0], .type = {.args = args}};
     j.seconds = arguments_number(args, "max-seconds", 60);
@@ -220,6 +247,10 @@ static exit_status run(const arguments *args)
     if (stop_at != NULL && j.only == NULL)
         return complain(EXIT_USAGE, args->verb->name,
                         "--call counts the calls of one check: add --only CHECK");
+    for (int k = 0; k < 2 && j.only != NULL; ++k)
+        if (arguments_option(args, of_all[k]) != NULL)
+            return complain(EXIT_USAGE, args->verb->name,
+                            "--%s is about all checks: leave out --only", of_all[k]);
     j.file = child_memory(sizeof *j.file);
     j.survey = child_memory(sizeof *j.survey);
     j.answer = child_memory(sizeof *j.answer);
@@ -264,6 +295,15 @@ static const option options_check[] = {
      .argument = "CHECK",
      .choices = check_names,
      .help = "run this check alone"},
+    {.name = "badge",
+     .kind = OPTION_TEXT,
+     .argument = "FILE",
+     .help = "write what a repository can publish: verdicts and tightness, as JSON"},
+    {.name = "require",
+     .kind = OPTION_CHOICE,
+     .argument = "LABEL",
+     .choices = required_labels,
+     .help = "exit with status 6 unless all types earn that label"},
     {.name = "in-process",
      .kind = OPTION_FLAG,
      .help = "run the checks in this process, for debuggers and sanitizers: a crash ends it"},
@@ -305,7 +345,7 @@ const verb verb_check = {
         "Exit status: 0 nothing failed, 2 the formula or domain cannot be read, 4 no such file or "
         "type or "
         "wrong\n"
-        "parameters, 6 a check failed.\n",
+        "parameters, 6 a check failed, or --require is not met.\n",
     .example = "impinge check sphere",
     .operand_min = 1,
     .operand_max = 1,
