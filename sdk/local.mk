@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 
 # What plugin authors get: headers, impinge-sdk.pc, impinge.m4, the template that `impinge new`
-# fills in, the guide and its examples. Nothing here is compiled.
+# fills in, the guide and its examples; and, for other languages, the page of the layout and the
+# arithmetic of models as a static library.
 
 pkginclude_HEADERS = \
     sdk/impinge/formula.h \
@@ -13,12 +14,16 @@ pkginclude_HEADERS = \
     sdk/impinge/model_angles.h \
     sdk/impinge/model_arithmetic.h \
     sdk/impinge/model_functions.h \
+    sdk/impinge/model_link.h \
     sdk/impinge/model_series.h \
     sdk/impinge/plugin.h \
     sdk/impinge/quad.h \
     sdk/impinge/surface.h
 
 pkgconfig_DATA += sdk/impinge-sdk.pc
+
+sdkcmakedir = $(libdir)/cmake/ImpingeSDK
+sdkcmake_DATA = sdk/cmake/ImpingeSDKConfig.cmake sdk/cmake/ImpingeSDKConfigVersion.cmake
 
 aclocaldir = $(datadir)/aclocal
 dist_aclocal_DATA = sdk/impinge.m4
@@ -28,26 +33,51 @@ dist_aclocal_DATA = sdk/impinge.m4
 templatedir = $(pkgdatadir)/template
 dist_template_DATA = \
     sdk/impinge.m4 \
+    sdk/template/CMakeLists.txt \
     sdk/template/Makefile.am \
     sdk/template/README \
     sdk/template/check.sh \
     sdk/template/configure.ac \
+    sdk/template/github.yml \
+    sdk/template/gitlab.yml \
     sdk/template/map.c \
-    sdk/template/surface.c
+    sdk/template/meson.build \
+    sdk/template/meson_options.txt \
+    sdk/template/surface.c \
+    sdk/template/surface.cc
 
 sdkdocdir = $(docdir)/sdk
 dist_sdkdoc_DATA = sdk/README
+nodist_sdkdoc_DATA = sdk/guide.html sdk/layout.txt
+CLEANFILES += sdk/guide.html sdk/layout.txt
+EXTRA_DIST += sdk/guide_html.awk sdk/LAYOUT
+sdk/layout.txt: sdk/LAYOUT tests/abi/layout_1.txt
+	$(AM_V_GEN)$(MKDIR_P) sdk && cat $(top_srcdir)/sdk/LAYOUT \
+	  $(top_srcdir)/tests/abi/layout_1.txt >$@.part && mv $@.part $@
+sdk/guide.html: sdk/README sdk/guide_html.awk
+	$(AM_V_GEN)$(MKDIR_P) sdk && LC_ALL=C $(AWK) -f $(top_srcdir)/sdk/guide_html.awk \
+	  $(top_srcdir)/sdk/README >$@.part && mv $@.part $@
 
 examplesdir = $(sdkdocdir)/examples
 dist_examples_DATA = \
+    sdk/examples/gear.c \
     sdk/examples/hand_rates.c \
     sdk/examples/puddle.cc \
     sdk/examples/seashell.c \
     sdk/examples/twirl.c \
     sdk/examples/waves.cc
 
+rustdocdir = $(sdkdocdir)/gear-rs
+dist_rustdoc_DATA = sdk/examples/gear-rs/Cargo.toml sdk/examples/gear-rs/build.rs
+rustsrcdir = $(rustdocdir)/src
+dist_rustsrc_DATA = sdk/examples/gear-rs/src/abi.rs sdk/examples/gear-rs/src/lib.rs
+
+lib_LIBRARIES = sdk/libimpinge-model.a
+sdk_libimpinge_model_a_SOURCES = sdk/model_link.c
+sdk_libimpinge_model_a_CFLAGS = $(AM_CFLAGS) -fPIC -fvisibility=hidden
+
 # Innermost first.
-sdk_folders = $(templatedir) $(examplesdir) $(sdkdocdir) $(hostexamplesdir) $(docdir)
+sdk_folders = $(rustsrcdir) $(rustdocdir) $(sdkcmakedir) $(libdir)/cmake $(templatedir) $(examplesdir) $(sdkdocdir) $(hostexamplesdir) $(docdir)
 
 # The Python module, also installed by pip from here. Installed by make it knows its library.
 python_module = \

@@ -135,9 +135,11 @@ tools_cli = \
     tools/cli/verb_new.c \
     tools/cli/verb_pair.c \
     tools/cli/verb_solve.c \
+    tools/cli/verb_watch.c \
     tools/cli/verb_why.c \
     tools/cli/verbs.c tools/cli/verbs.h \
-    tools/cli/version.c tools/cli/version.h
+    tools/cli/version.c tools/cli/version.h \
+    tools/cli/watched_files.c tools/cli/watched_files.h
 
 tools_view = \
     tools/view/animation.h \

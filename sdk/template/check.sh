@@ -2,13 +2,14 @@
 # SPDX-FileCopyrightText: @author@
 # SPDX-License-Identifier: MIT
 
-# Run by `make check`: loads the plugin just built, checks it, and tests a pair with another surface.
+# Run by the tests of the build: loads the plugin just built, checks it, and tests a pair with another surface.
 
 set -e
-impinge() { "${IMPINGE-impinge}" "$@" --plugin-path .libs; }
+plugins=${PLUGINS-.libs}
+impinge() { "${IMPINGE-impinge}" "$@" --plugin-path "$plugins"; }
 fail() { echo "check.sh: $*" >&2; exit 1; }
 
-built=`pwd -P`/.libs/@name@.so
+built=`cd "$plugins" && pwd -P`/@name@.so
 impinge list --refused
 told=`impinge info @name@`
 echo "$told"

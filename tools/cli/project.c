@@ -110,18 +110,20 @@ static exit_status open_folder(const char *folder, bool *made, int *at, const ch
 
 /* --- The files -------------------------------------------------------------------------------- */
 
-/* Returns the folder part of a path in the project, or "". */
-static void folder_of(const char *path, char folder[64])
+/* Writes the part of a path in the project up to its k-th slash; false: it has fewer. */
+static bool folder_of(const char *path, int k, char folder[64])
 {
     const char *slash = strchr(path, '/');
+    while (slash != NULL && k-- > 0) slash = strchr(slash + 1, '/');
     snprintf(folder, 64, "%.*s", slash != NULL ? (int)(slash - path) : 0, path);
+    return slash != NULL;
 }
 
 static bool write_text(int at, const project_file *file, const char *text)
 {
     char folder[64];
-    folder_of(file->path, folder);
-    if (folder[0] != '\0' && mkdirat(at, folder, 0777) != 0 && errno != EEXIST) return false;
+    for (int k = 0; folder_of(file->path, k, folder); ++k)
+        if (mkdirat(at, folder, 0777) != 0 && errno != EEXIST) return false;
     const int fd = openat(at, file->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
                           file->executable ? 0777 : 0666);
     FILE *stream = fd >= 0 ? fdopen(fd, "w") : NULL;
@@ -131,15 +133,16 @@ static bool write_text(int at, const project_file *file, const char *text)
     return fclose(stream) == 0 && written;
 }
 
+enum { FOLDERS_DEEP = 4 };
+
 /* Removes the first `count` files that write_text wrote; the folder was empty before. */
 static void remove_files(int at, const project_file *files, size_t count)
 {
     char folder[64];
     for (size_t i = 0; i < count; ++i) unlinkat(at, files[i].path, 0);
-    for (size_t i = 0; i < count; ++i) {
-        folder_of(files[i].path, folder);
-        if (folder[0] != '\0') unlinkat(at, folder, AT_REMOVEDIR);
-    }
+    for (int k = FOLDERS_DEEP - 1; k >= 0; --k)
+        for (size_t i = 0; i < count; ++i)
+            if (folder_of(files[i].path, k, folder)) unlinkat(at, folder, AT_REMOVEDIR);
 }
 
 static exit_status write_files(const char *folder, const project_file *files, char *const *texts,

@@ -17,7 +17,7 @@ typedef struct project_word {
 
 typedef struct project_file {
     const char *template; /* file in the package's folder "template" */
-    const char *path;     /* in the project; at most one folder deep */
+    const char *path;     /* in the project; at most four folders deep */
     bool executable;
 } project_file;
 

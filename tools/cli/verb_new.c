@@ -26,6 +26,57 @@ typedef struct project_kind {
     const char *called, *source, *before, *b, *formula;
 } project_kind;
 
+#define USER_FOLDER "\"${XDG_DATA_HOME:-$HOME/.local/share}/impinge/1\""
+
+/* How the project is built: commands that configure it, and that build, test and install it for one
+ * user. `where` names the SDK to the first, before a folder; `tools` are packages of Debian. */
+typedef struct project_build {
+    const char *configure, *make, *where, *tools;
+    project_file files[4]; /* templates, and the places they go to */
+} project_build;
+
+static const project_build by_autotools = {"autoreconf -fi && ./configure --with-user-plugins",
+                                           "make check install",
+                                           "PKG_CONFIG_PATH=",
+                                           "",
+                                           {{"configure.ac", "configure.ac", false},
+                                            {"Makefile.am", "Makefile.am", false},
+                                            {"impinge.m4", "m4/impinge.m4", false},
+                                            {NULL, NULL, false}}};
+static const project_build by_cmake = {
+    "cmake -S . -B build -DIMPINGE_USER_PLUGINS=ON",
+    "cmake --build build && (cd build && ctest --output-on-failure) && cmake --install build",
+    "-DImpingeSDK_DIR=",
+    "cmake",
+    {{"CMakeLists.txt", "CMakeLists.txt", false}, {NULL, NULL, false}}};
+static const project_build by_meson = {
+    "meson setup build -Dplugindir=" USER_FOLDER,
+    "meson test -C build --print-errorlogs && meson install -C build",
+    "--pkg-config-path=",
+    "meson",
+    {{"meson.build", "meson.build", false},
+     {"meson_options.txt", "meson_options.txt", false},
+     {NULL, NULL, false}}};
+
+/* What depends on the language. */
+typedef struct project_language {
+    const char *ending, *cmake, *meson, *standard, *args, *autoconf;
+} project_language;
+
+static const project_language in_c = {"c", "C", "c", "c_std=c11", "c_args", ""};
+static const project_language in_cxx = {"cc",       "CXX",          "cpp", "cpp_std=c++17",
+                                        "cpp_args", "\nAC_PROG_CXX"};
+
+/* The project asked for. */
+typedef struct project_plan {
+    const project_kind *kind;
+    const project_build *build;
+    const project_language *language;
+    const char *name, *folder;
+    char *a; /* the pipeline that ends with NAME */
+    char source[NAME_SIZE + 3];
+} project_plan;
+
 static const project_kind surface_project = {
     IMP_TYPE_SURFACE,
     "surface",
@@ -95,29 +146,43 @@ static void find_author(char author[128])
     json_decref(text);
 }
 
-static exit_status write_project(const project_kind *kind, const char *folder, const char *a,
-                                 const arguments *args)
+static exit_status write_project(const project_plan *plan, const arguments *args)
 {
-    const char *name = args->operands[0];
-    char author[128], id[NAME_SIZE], source[NAME_SIZE + 2];
+    enum { SHARED = 5, OF_BUILD = 4 };
+    const project_kind *kind = plan->kind;
+    const project_build *build = plan->build;
+    const project_language *language = plan->language;
+    char author[128], id[NAME_SIZE];
     find_author(author);
-    snprintf(id, sizeof id, "%s", name);
+    snprintf(id, sizeof id, "%s", plan->name);
     for (char *c = id; *c != '\0'; ++c)
         if (*c == '-') *c = '_';
-    snprintf(source, sizeof source, "%s.c", name);
-    const project_word words[] = {{"name", name},       {"id", id},
-                                  {"author", author},   {"a", a},
-                                  {"b", kind->b},       {"kind", kind->called},
-                                  {"guide", SDKDOCDIR}, {"formula", kind->formula},
+    const project_word words[] = {{"name", plan->name},
+                                  {"id", id},
+                                  {"author", author},
+                                  {"a", plan->a},
+                                  {"b", kind->b},
+                                  {"kind", kind->called},
+                                  {"guide", SDKDOCDIR},
+                                  {"formula", kind->formula},
+                                  {"source", plan->source},
+                                  {"configure", build->configure},
+                                  {"make", build->make},
+                                  {"tools", build->tools},
+                                  {"cxx", language->autoconf},
+                                  {"language", language->cmake},
+                                  {"meson_language", language->meson},
+                                  {"standard", language->standard},
+                                  {"args", language->args},
                                   {NULL, NULL}};
-    const project_file files[] = {{"README", "README", false},
-                                  {"configure.ac", "configure.ac", false},
-                                  {"Makefile.am", "Makefile.am", false},
-                                  {kind->source, source, false},
-                                  {"check.sh", "check.sh", true},
-                                  {"impinge.m4", "m4/impinge.m4", false},
-                                  {NULL, NULL, false}};
-    return project_write(folder, files, words, args->verb->name);
+    project_file files[SHARED + OF_BUILD] = {
+        {"README", "README", false},
+        {language == &in_c ? kind->source : "surface.cc", plan->source, false},
+        {"check.sh", "check.sh", true},
+        {"github.yml", ".github/workflows/check.yml", false},
+        {"gitlab.yml", ".gitlab-ci.yml", false}};
+    memcpy(files + SHARED, build->files, sizeof build->files);
+    return project_write(plan->folder, files, words, args->verb->name);
 }
 
 /* --- What to do with it ----------------------------------------------------------------------- */
@@ -148,57 +213,87 @@ static bool pkg_config_finds_us(void)
     return ours;
 }
 
-/* Returns " PKG_CONFIG_PATH=..." for configure if it is needed, else "". NULL: no memory. */
-static char *configure_rest(void)
+/* Returns what names the SDK to the configuring command, " PKG_CONFIG_PATH=...", or "" if it is not
+ * needed. NULL: no memory. */
+static char *configure_rest(const project_build *build)
 {
-    if (pkg_config_finds_us()) return strdup("");
-    char *word = output_shell_word("PKG_CONFIG_PATH=" PKGCONFIGDIR), *rest = NULL;
+    const char *folder = build == &by_cmake ? CMAKEDIR "/ImpingeSDK" : PKGCONFIGDIR;
+    char *whole = NULL, *rest = NULL;
+    if (build != &by_cmake && pkg_config_finds_us()) return strdup("");
+    if (asprintf(&whole, "%s%s", build->where, folder) < 0) return NULL;
+    char *word = output_shell_word(whole);
     if (word != NULL && asprintf(&rest, " %s", word) < 0) rest = NULL;
-    free(word);
+    free(word), free(whole);
     return rest;
 }
 
-static exit_status print_commands(const project_kind *kind, const char *folder, const char *a,
-                                  const arguments *args)
+static exit_status print_commands(const project_plan *plan, const arguments *args)
 {
-    char *at = output_shell_word(folder), *command = command_word(), *rest = configure_rest();
-    char *word_a = output_shell_word(a), *word_b = output_shell_word(kind->b);
+    char *at = output_shell_word(plan->folder), *command = command_word();
+    char *rest = configure_rest(plan->build);
+    char *word_a = output_shell_word(plan->a), *word_b = output_shell_word(plan->kind->b);
     const bool known =
         at != NULL && command != NULL && rest != NULL && word_a != NULL && word_b != NULL;
     if (known)
         printf("%s holds a %s that works. To build, install, check and try it:\n\n"
-               "  cd %s && autoreconf -fi && ./configure --with-user-plugins%s\n"
-               "  make check install\n"
+               "  cd %s && %s%s\n"
+               "  %s\n"
                "  %s check %s\n"
                "  %s pair %s %s\n\n"
-               "Its mathematics is in %s.c. The guide: " SDKDOCDIR "/README\n",
-               message_shown(folder).text, kind->called, at, rest, command, args->operands[0],
-               command, word_a, word_b, args->operands[0]);
+               "Its mathematics is in %s. The guide: " SDKDOCDIR "/README\n",
+               message_shown(plan->folder).text, plan->kind->called, at, plan->build->configure,
+               rest, plan->build->make, command, plan->name, command, word_a, word_b, plan->source);
     if (build_tree_data() != NULL)
         puts("First install Impinge itself: this command runs from the folder it was built in.");
     free(at), free(command), free(rest), free(word_a), free(word_b);
     return known ? EXIT_ANSWERED : complain_of_memory(args->verb->name);
 }
 
+/* Reads what is asked for; plan->a is to be freed. */
+static exit_status read_plan(const arguments *args, project_plan *plan)
+{
+    const bool is_map = arguments_option(args, "map") != NULL;
+    const bool is_cxx = arguments_option(args, "cxx") != NULL;
+    const bool cmake = arguments_option(args, "cmake") != NULL;
+    const bool meson = arguments_option(args, "meson") != NULL;
+    *plan = (project_plan){.kind = is_map ? &map_project : &surface_project,
+                           .build = cmake   ? &by_cmake
+                                    : meson ? &by_meson
+                                            : &by_autotools,
+                           .language = is_cxx ? &in_cxx : &in_c,
+                           .name = args->operands[0]};
+    plan->folder = args->operand_count > 1 ? args->operands[1] : plan->name;
+    if (cmake && meson)
+        return complain(EXIT_USAGE, args->verb->name, "--cmake and --meson exclude each other");
+    if (is_map && is_cxx)
+        return complain(EXIT_USAGE, args->verb->name,
+                        "--cxx is about surfaces: <impinge/model.hpp> makes no maps, which are "
+                        "written in C");
+    const exit_status status = check_name(plan->name, args->verb->name);
+    if (status != EXIT_ANSWERED) return status;
+    snprintf(plan->source, sizeof plan->source, "%s.%s", plan->name, plan->language->ending);
+    if (asprintf(&plan->a, "%s%s", plan->kind->before, plan->name) >= 0) return EXIT_ANSWERED;
+    plan->a = NULL;
+    return complain_of_memory(args->verb->name);
+}
+
 static exit_status run(const arguments *args)
 {
-    const char *name = args->operands[0];
-    const char *folder = args->operand_count > 1 ? args->operands[1] : name;
-    const project_kind *kind =
-        arguments_option(args, "map") != NULL ? &map_project : &surface_project;
-    char *a = NULL;
-    exit_status status = check_name(name, args->verb->name);
-    if (status == EXIT_ANSWERED) status = check_is_free(kind, args);
-    if (status != EXIT_ANSWERED) return status;
-    if (asprintf(&a, "%s%s", kind->before, name) < 0) return complain_of_memory(args->verb->name);
-    status = write_project(kind, folder, a, args);
-    if (status == EXIT_ANSWERED) status = print_commands(kind, folder, a, args);
-    free(a);
+    project_plan plan;
+    exit_status status = read_plan(args, &plan);
+    if (status == EXIT_ANSWERED) status = check_is_free(plan.kind, args);
+    if (status == EXIT_ANSWERED) status = write_project(&plan, args);
+    if (status == EXIT_ANSWERED) status = print_commands(&plan, args);
+    free(plan.a);
     return status;
 }
 
-static const option new_options[] = {{.name = "map", .help = "a map instead of a surface type"},
-                                     {.name = NULL}};
+static const option new_options[] = {
+    {.name = "map", .help = "a map instead of a surface type"},
+    {.name = "cxx", .help = "a class in C++17 instead of C; surfaces only"},
+    {.name = "cmake", .help = "build it with CMake"},
+    {.name = "meson", .help = "build it with Meson"},
+    {.name = NULL}};
 
 static const option *const tables[] = {new_options, options_always, NULL};
 
@@ -209,8 +304,11 @@ const verb verb_new = {
     .details =
         "Writes a small project into the folder DIR (NAME unless given), which must be new or\n"
         "empty: a surface type, or with --map a map, called NAME, that works and is yours to\n"
-        "change. It builds against the installed headers with autoconf, automake and libtool.\n"
-        "Four commands are printed that build, install, check and try it.\n",
+        "change. It builds against the installed headers with autoconf, automake and libtool, or "
+        "as\n"
+        "--cmake and --meson say, in C or, with --cxx, in C++. Four commands are printed that\n"
+        "build, install, check and try it. Files for GitHub and GitLab demand in CI that every\n"
+        "claim of it is proved.\n",
     .example = "impinge new wobble",
     .operand_min = 1,
     .operand_max = 2,

@@ -26,6 +26,7 @@
     ROW(build)                                                                                     \
     ROW(check)                                                                                     \
     ROW(complete)                                                                                  \
+    ROW(watch)                                                                                     \
     ROW(help)
 
 #define DECLARE(NAME) extern const verb verb_##NAME;
