@@ -38,10 +38,10 @@ enum {
                     "instead: of a table, increasing, two or more")
 
 #define COURSE_ROW_FILE                                                                            \
-    IMP_ROW_OF(IMP_KIND_STRING, "file", "1", NULL, IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_FILE, 0, \
-               0, 0, -INFINITY, INFINITY,                                                          \
-               "instead: a table of numbers between commas, or semicolons, or tabs; times in its " \
-               "first column, in s if a head has a unit ('t [ms]'); relative to the scene file")
+    IMP_ROW_FILE(                                                                                  \
+        "file", IMP_PARAMETER_OPTIONAL,                                                            \
+        "instead: a table of numbers between commas, or semicolons, or tabs; times in its "        \
+        "first column, in s if a head has a unit ('t [ms]'); relative to the scene file")
 
 #define COURSE_ROW_COLUMNS(NAME, COUNT, FLAGS, DOC)                                                \
     IMP_ROW_OF(IMP_KIND_STRING, NAME, "1", NULL, IMP_PARAMETER_OPTIONAL | (FLAGS), 1, COUNT, 0,    \

@@ -10,9 +10,7 @@
 
 enum { MESH_FILE, MESH_POINTS, MESH_FACES, MESH_VELOCITIES, MESH_SCALE, MESH_ROWS };
 
-#define ROW_MESH_FILE(DOC)                                                                         \
-    IMP_ROW_OF(IMP_KIND_STRING, "file", "1", NULL, IMP_PARAMETER_OPTIONAL | IMP_PARAMETER_FILE, 0, \
-               0, 0, -INFINITY, INFINITY, DOC)
+#define ROW_MESH_FILE(DOC) IMP_ROW_FILE("file", IMP_PARAMETER_OPTIONAL, DOC)
 #define ROW_MESH_POINTS                                                                            \
     IMP_ROW("points", "length", NULL, IMP_PARAMETER_OPTIONAL, 2, 0, 3, -TRIANGLES_FAR,             \
             TRIANGLES_FAR, "points [x,y,z] at t = 0, in place of a file")

@@ -20,8 +20,7 @@ enum { DEGREE, POINTS, WEIGHTS, VELOCITIES, FACES };
 #define TRIANGLES_MAX 0x1p30
 
 static const imp_parameter parameters[] = {
-    [DEGREE] = IMP_ROW_OF(IMP_KIND_INTEGER, "degree", "1", "2", 0, 0, 0, 0, 1, TRIANGLE_DEGREE_MAX,
-                          "polynomial degree n"),
+    [DEGREE] = IMP_ROW_INTEGER("degree", "1", "2", 1, TRIANGLE_DEGREE_MAX, "polynomial degree n"),
     [POINTS] = ROW_PATCH_POINTS(
         "points", "length", "[[0,0,0],[0.5,0,0.3],[0,0.5,0.3],[1,0,0],[0.5,0.5,0.3],[0,1,0]]", 3, 0,
         "control points [x,y,z], row by row from the first corner to the opposite edge: point j of "

@@ -81,6 +81,16 @@ extern "C" {
 #define IMP_ROW_BOOLEAN(NAME, DEFAULT, DOC)                                                        \
     IMP_ROW_OF(IMP_KIND_BOOLEAN, NAME, "1", DEFAULT, 0, 0, 0, 0, -INFINITY, INFINITY, DOC)
 
+/* A whole number from MIN to MAX. */
+#define IMP_ROW_INTEGER(NAME, UNIT, DEFAULT, MIN, MAX, DOC)                                        \
+    IMP_ROW_OF(IMP_KIND_INTEGER, NAME, UNIT, DEFAULT, 0, 0, 0, 0, MIN, MAX, DOC)
+
+/* A text, and the name of a file: create gets one that is relative with the scene's folder in
+ * front. A text's DEFAULT is JSON, "\"linear\""; FLAGS: 0 or IMP_PARAMETER_OPTIONAL. */
+#define IMP_ROW_STRING(NAME, DEFAULT, FLAGS, DOC)                                                  \
+    IMP_ROW_OF(IMP_KIND_STRING, NAME, "1", DEFAULT, FLAGS, 0, 0, 0, -INFINITY, INFINITY, DOC)
+#define IMP_ROW_FILE(NAME, FLAGS, DOC) IMP_ROW_STRING(NAME, NULL, (FLAGS) | IMP_PARAMETER_FILE, DOC)
+
 /* --- In create -------------------------------------------------------------------------------- */
 
 /* Was the value of a row with IMP_PARAMETER_OPTIONAL given? */
