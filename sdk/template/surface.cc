@@ -47,9 +47,9 @@ class drum
 /* --- The plugin ------------------------------------------------------------------------------- */
 
 constexpr imp_surface_type type = impinge::surface_of<drum>(
-    rows, {"@name@", "square drumhead that swings",
-           "(u, v, height (1 - u^2) (1 - v^2) sin(rate t)), u and v in [-1,1]",
-           "@name@ height=0.5"});
+    rows,
+    {"@name@", "square drumhead that swings",
+     "(u, v, height (1 - u^2) (1 - v^2) sin(rate t)), u and v in [-1,1]", "@name@ height=0.5"});
 
 } // namespace
 
