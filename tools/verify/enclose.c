@@ -17,17 +17,21 @@ static bool holds(const part *p, const box3 *b)
     return true;
 }
 
-/* Whether an end of the part is strictly inside of the box. */
-static bool divides(const part *p, const box3 *b, split *divide)
+/* Finds the end of a part that is strictly inside of the box and nearest to its middle, so that a
+ * table of many parts is divided in halves; false: there is none. */
+static bool divides(const piece *p, const box3 *b, split *divide)
 {
-    for (int j = 0; j < VARIABLES; ++j) {
-        const double ends[2] = {p->lo[j], p->hi[j]};
-        for (int k = 0; k < 2; ++k) {
-            *divide = (split){j, ends[k]};
-            if (b->lo[j] < ends[k] && ends[k] < b->hi[j]) return true;
-        }
-    }
-    return false;
+    double best = INFINITY;
+    for (size_t k = 0; k < p->count; ++k)
+        for (int j = 0; j < VARIABLES; ++j)
+            for (int side = 0; side < 2; ++side) {
+                const double end = side == 0 ? p->parts[k].lo[j] : p->parts[k].hi[j];
+                const double off = fabs(0.5 * b->lo[j] + 0.5 * b->hi[j] - end);
+                if (!(b->lo[j] < end && end < b->hi[j]) || !(off < best)) continue;
+                *divide = (split){j, end};
+                best = off;
+            }
+    return best < INFINITY;
 }
 
 /* Finds the part of a piece in which the whole box is. Lemma. Where there is none and no end of a
@@ -37,9 +41,7 @@ static enclosed choose(const piece *p, const box3 *b, const part **found, split 
 {
     for (size_t k = 0; k < p->count; ++k)
         if (holds(&p->parts[k], b)) return *found = &p->parts[k], ENCLOSED;
-    for (size_t k = 0; k < p->count; ++k)
-        if (divides(&p->parts[k], b, divide)) return ENCLOSED_SPLIT;
-    return ENCLOSED_EMPTY;
+    return divides(p, b, divide) ? ENCLOSED_SPLIT : ENCLOSED_EMPTY;
 }
 
 /* --- Chains ----------------------------------------------------------------------------------- */
