@@ -123,3 +123,16 @@ misses() {
     run -4 "$IMPINGE" solve wrong.json
     [[ $output == *'/bodies/0/solid: got 1, must be true or false'* ]]
 }
+
+@test "info tells which bodies of a scene are closed" {
+    scene='{"bodies": [{"name": "pot", "solid": true, "surfaces": [{"type": "box"}]},
+        {"name": "pipe", "surfaces": [{"type": "cylinder"}]}, {"name": "frame"}]}'
+    echo "$scene" >scene.json
+    run -0 "$IMPINGE" info scene.json
+    [[ ${lines[0]} == 'pot: 1 surface of 6 pieces, solid, closed' ]]
+    [[ ${lines[1]} == 'pipe: 1 surface, open at ('*'), an edge of surface 0, piece 0' ]]
+    [[ ${lines[2]} == 'frame: 0 surfaces, empty' ]]
+    run -0 "$IMPINGE" info scene.json --json
+    json '[.bodies[].closure] == ["closed", "open", "empty"] and .bodies[0].solid'
+    run -4 "$IMPINGE" info nothing.json
+}

@@ -10,6 +10,7 @@
 #include "tools/cli/catalogue.h"
 #include "tools/cli/output.h"
 #include "tools/cli/query.h"
+#include "tools/cli/scene_info.h"
 #include "tools/cli/verbs.h"
 #include "tools/view/view.h"
 
@@ -187,9 +188,12 @@ static exit_status run(const arguments *args)
     if (checked != EXIT_ANSWERED) return checked;
     imp_registry *registry = query_registry(args);
     if (registry == NULL) return EXIT_DATA;
-    exit_status status =
-        is_known(registry, args->operands[0]) ? print_all(registry, args) : unknown(registry, args);
-    if (status == EXIT_ANSWERED && arguments_option(args, "view") != NULL)
+    const bool known = is_known(registry, args->operands[0]);
+    const bool scene = !known && scene_info_is_asked(args->operands[0]);
+    exit_status status = scene   ? scene_info_print(registry, args)
+                         : known ? print_all(registry, args)
+                                 : unknown(registry, args);
+    if (status == EXIT_ANSWERED && !scene && arguments_option(args, "view") != NULL)
         status = draw_first(registry, args);
     query_registry_free(registry);
     return status;
@@ -206,11 +210,13 @@ static const option *const tables[] = {info_options, options_registry, options_a
 
 const verb verb_info = {
     .name = "info",
-    .operands = "TYPE",
-    .summary = "Describe a surface type or map",
+    .operands = "TYPE|SCENE.json",
+    .summary = "Describe a surface type or map, or the bodies of a scene",
     .details =
         "Prints summary, equation, parameters (shape, range, unit, default), an example, and the\n"
-        "plugin the type comes from. Where a surface and a map share the name, both.\n",
+        "plugin the type comes from. Where a surface and a map share the name, both.\n"
+        "Of a scene it prints the bodies, and which of them are closed, so that they may be "
+        "solid.\n",
     .example = "impinge info sphere",
     .operand_min = 1,
     .operand_max = 1,
