@@ -85,3 +85,22 @@ near='sphere center=2.01,0.1,0.2'
     run -2 "$IMPINGE" solve missing.json --each --proof f
     [[ $output == *"--proof and --each exclude each other"* ]]
 }
+
+# Each type beside, or each map under, a ball that passes by.
+@test "certificates of every type and map hold, or say whose formula is missing" {
+    local kind name example a
+    "$IMPINGE" list --json | jq -r '.types[] | "\(.kind) \(.name)"' >types
+    [ "$(wc -l <types)" -ge 38 ]
+    while read -r kind name; do
+        example=$("$IMPINGE" info "$name" --json |
+            jq -r --arg kind "$kind" '.types[] | select(.kind == $kind).example')
+        a=$example
+        [ "$kind" = surface ] || a="cylinder radius=0.5 height=1 ! $example"
+        "$IMPINGE" pair "$a" 'sphere radius=0.4 center=3.5,3,7 ! translate velocity=0.2,0,-1' \
+            --time 0,1 --gamma 1e-3 --proof "$name.proof" >/dev/null
+        run verify "$name.proof" --quiet
+        echo "$kind $name: $output" | tee -a verdicts
+    done <types
+    [ "$(grep -v ': holds$' verdicts | sort)" = 'map bend: holds assuming bend
+surface subdivision: holds assuming subdivision' ]
+}
