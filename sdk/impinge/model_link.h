@@ -15,8 +15,8 @@ extern "C" {
  * The operations of <impinge/model.h> are inline, which languages other than C and C++ cannot use.
  * The small static library libimpinge-model.a has each of them as a function whose name begins with
  * impinge_ in place of imp_: same arguments, same results to the last bit. Structs go by value as
- * the C ABI of the machine has it. Plugins that link it need nothing else of Impinge; C and C++ need
- * only the headers. */
+ * the C ABI of the machine has it. Plugins that link it need nothing else of Impinge; C and C++
+ * need only the headers. */
 
 imp_model impinge_num(double k);
 imp_model impinge_known(double a, double e);
@@ -59,8 +59,8 @@ imp_model impinge_sinh(imp_model x);
 imp_model impinge_cosh(imp_model x);
 imp_model impinge_tanh(imp_model x);
 
-/* What IMP_SURFACE_FORMULA, IMP_MAP_FORMULA and IMP_DISTANCE_FORMULA make of a formula: bodies of the
- * callbacks eval, rate, include, apply and distance. */
+/* What IMP_SURFACE_FORMULA, IMP_MAP_FORMULA and IMP_DISTANCE_FORMULA make of a formula: bodies of
+ * the callbacks eval, rate, include, apply and distance. */
 imp_status impinge_surface_eval(imp_surface_formula f, const void *self, size_t n, const double *p,
                                 double *x, double *error);
 imp_status impinge_surface_rate(imp_surface_formula f, const void *self, const imp_region *region,

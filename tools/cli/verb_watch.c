@@ -243,7 +243,8 @@ const verb verb_watch = {
         "quickly\n"
         "and solves SCENE with it, now and whenever one of the two files is written; prints what\n"
         "changed in the answer and its pairs. SIGINT (^C) ends it.\n",
-    .example = "impinge watch bubble.c scene.json",
+    .example = "echo '{\"bodies\": [{\"surfaces\": [{\"type\": \"gong\"}]}]}' >gong.json\n"
+               "  impinge new gong && impinge watch gong/gong.c gong.json --rounds 1",
     .operand_min = 2,
     .operand_max = 2,
     .options = tables,
