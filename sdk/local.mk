@@ -155,4 +155,5 @@ dist_hostexamples_DATA = \
     sdk/examples/arm.py \
     sdk/examples/linked_in.c \
     sdk/examples/profile.py \
+    sdk/examples/robot.py \
     sdk/examples/steps.c

@@ -296,6 +296,7 @@ pkgdata_DATA = \
     tools/data/arm.csv \
     tools/data/arm.json \
     tools/data/arm.urdf \
+    tools/data/arm_shelf.yaml \
     tools/data/bicubic_moving_100.jsonl \
     tools/data/blade.json \
     tools/data/bolt.json \

@@ -51,8 +51,9 @@ static imp_code measure(candidate *c, imp_error *error)
     const size_t samples = root->many != NULL ? PIECES_MEASURED : 1;
     double largest = 0;
     for (size_t k = 0; k < samples; ++k) {
-        const surface *s = root->many != NULL ? hierarchy_sample(root->many->of, k, PIECES_MEASURED)
-                                              : root->surface;
+        const surface *s = root->surface;
+        if (root->many != NULL)
+            s = surface_piece(s, hierarchy_sample(root->many->of, k, PIECES_MEASURED));
         bool moves;
         const imp_code code = measure_surface(s, root, &largest, &moves, error);
         if (code != IMP_SUCCESS) return code;

@@ -301,6 +301,15 @@ IMP_EXPORT imp_code imp_builder_surface_map(imp_builder *builder, size_t body, s
                                             const char *type, const imp_argument *arguments,
                                             size_t count, imp_error *error);
 
+/* Adds a surface to a body: that of a body of another scene, without its maps. Both scenes then
+ * share what create made of its parameters and files, and what queries find out about all of its
+ * pieces, such as a mesh's hierarchy of boxes: for many scenes of the same parts. `scene` may be
+ * freed before the scene that is built; other threads may ask it meanwhile. IMP_ERROR_USAGE: there
+ * is no such surface, or the builder's registry does not have its type. */
+IMP_EXPORT imp_code imp_builder_surface_of(imp_builder *builder, size_t body,
+                                           const imp_scene *scene, size_t its_body,
+                                           size_t its_surface, imp_error *error);
+
 /* The parent's maps come after the body's. Circles are refused by imp_builder_finish. */
 IMP_EXPORT imp_code imp_builder_parent(imp_builder *builder, size_t body, size_t parent,
                                        imp_error *error);

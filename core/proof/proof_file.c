@@ -156,7 +156,7 @@ static void put_order(file *f, const candidate *c)
     const bool has_order = root != NULL && root->many != NULL;
     put_count(f, has_order);
     if (!has_order) return;
-    const size_t count = surface_piece_count(hierarchy_surface(root->many->of));
+    const size_t count = surface_piece_count(root->surface);
     for (size_t k = 0; k < count; ++k) put_count(f, hierarchy_order(root->many->of)[k]);
 }
 

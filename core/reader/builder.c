@@ -163,6 +163,31 @@ imp_code imp_builder_surface(imp_builder *b, size_t body, const char *type,
     return code;
 }
 
+imp_code imp_builder_surface_of(imp_builder *b, size_t body, const imp_scene *scene,
+                                size_t its_body, size_t its_surface, imp_error *error)
+{
+    imp_code code = enter(b, error);
+    if (code == IMP_SUCCESS) code = check_body(b, body, error);
+    if (code != IMP_SUCCESS) return code;
+    if (scene == NULL) return error_set(error, IMP_ERROR_USAGE, "the scene is NULL");
+    const surface *s =
+        its_body < scene_body_count(scene) ? scene_surface(scene, its_body, its_surface) : NULL;
+    if (s == NULL)
+        return error_set(error, IMP_ERROR_USAGE, "the scene has no surface %zu of a body %zu",
+                         its_surface, its_body);
+    shared_instance *shared = surface_share(s);
+    const instance_list no_maps = {.count = 0};
+    if (registry_find_surface(b->registry, shared->surface->name) != shared->surface)
+        code = error_set(error, IMP_ERROR_USAGE,
+                         "the scene's surface is of a type '%s' that the builder's registry does "
+                         "not have",
+                         shared->surface->name);
+    else if (!shape_list_add(&b->bodies.assembly.bodies[body].shapes, shared, &no_maps))
+        code = error_set_memory(error);
+    instance_release(shared);
+    return code;
+}
+
 /* On top of the maps in the list, which are of what `whose` says. */
 static FP_APART imp_code add_map(imp_builder *b, size_t body, const char *whose,
                                  instance_list *maps, const char *type,

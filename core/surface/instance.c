@@ -77,6 +77,16 @@ static bool take_pieces(shared_instance *p)
     return true;
 }
 
+/* False: no memory. */
+static bool add_shelf(shared_instance *p)
+{
+    if (p->piece_count < 2) return true;
+    p->shelf = malloc(sizeof *p->shelf);
+    if (p->shelf == NULL) return false;
+    *p->shelf = (instance_shelf){.lock = PTHREAD_MUTEX_INITIALIZER};
+    return true;
+}
+
 static void set_span(shared_instance *p, double lo, double hi)
 {
     p->span[0] = lo;
@@ -116,7 +126,7 @@ shared_instance *instance_of_surface(const imp_surface_type *type, void *self)
     *p = (shared_instance){.surface = type, .self = self, .holders = 1};
     if (!IMP_OFFERS(type, piece)) {
         p->breach = instance_domain(type, self, p->lo, p->hi);
-    } else if (!take_pieces(p)) {
+    } else if (!take_pieces(p) || !add_shelf(p)) {
         instance_release(p);
         return NULL;
     }
@@ -145,15 +155,33 @@ size_t instance_bytes(const shared_instance *p)
 
 shared_instance *instance_hold(shared_instance *p)
 {
-    p->holders += 1;
+    atomic_fetch_add_explicit(&p->holders, 1, memory_order_relaxed);
     return p;
+}
+
+void instance_shelf_add(instance_shelf *shelf, instance_kept one)
+{
+    const instance_kept last = shelf->kept[INSTANCE_KEPT_MAX - 1];
+    if (last.what != NULL) last.release(last.what);
+    memmove(shelf->kept + 1, shelf->kept, (INSTANCE_KEPT_MAX - 1) * sizeof *shelf->kept);
+    shelf->kept[0] = one;
+}
+
+static void shelf_free(instance_shelf *shelf)
+{
+    if (shelf == NULL) return;
+    for (int k = 0; k < INSTANCE_KEPT_MAX && shelf->kept[k].what != NULL; ++k)
+        shelf->kept[k].release(shelf->kept[k].what);
+    pthread_mutex_destroy(&shelf->lock);
+    free(shelf);
 }
 
 void instance_release(shared_instance *p)
 {
     if (p == NULL) return;
     assert(p->holders > 0);
-    if (--p->holders > 0) return;
+    if (atomic_fetch_sub_explicit(&p->holders, 1, memory_order_acq_rel) > 1) return;
+    shelf_free(p->shelf);
     if (p->surface != NULL)
         destroy(p->surface->name, p->surface->destroy, p->self);
     else

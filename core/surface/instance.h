@@ -3,14 +3,18 @@
 #ifndef CORE_SURFACE_INSTANCE_H
 #define CORE_SURFACE_INSTANCE_H
 
+#include <pthread.h>
+#include <stdatomic.h>
+
 #include <impinge/impinge.h>
 
 /* Instances of types, shared
  * ==========================
  * An instance is what one call of a type's create made: a surface without maps, or a map. Surfaces
- * are composed of instances; one instance may be in many surfaces, and is destroyed with its last
- * holder. It is immutable once in use, except for the reference count, which belongs to one
- * thread. */
+ * are composed of instances; one instance may be in many surfaces, of several scenes, and is
+ * destroyed with its last holder. What other parts make of it once for all holders is on its shelf.
+ * It is immutable once in use, except for the shelf and the reference count; several threads may
+ * hold, release and use it at once. */
 
 enum { INSTANCE_LABEL_MAX = 240 };
 
@@ -23,11 +27,23 @@ typedef struct fixed_numbers {
     double *number;
 } fixed_numbers;
 
+/* What was made of an instance for all of its holders, each under a hold of its own: the last few,
+ * the newest first. They are released with the instance, or when newer ones take their places. */
+enum { INSTANCE_KEPT_MAX = 4 };
+typedef struct instance_kept {
+    void *what; /* NULL: no more */
+    void (*release)(void *what);
+} instance_kept;
+typedef struct instance_shelf {
+    pthread_mutex_t lock; /* guards all of it */
+    instance_kept kept[INSTANCE_KEPT_MAX];
+} instance_shelf;
+
 typedef struct shared_instance {
     const imp_surface_type *surface; /* NULL: it is a map */
     const imp_map_type *map;         /* NULL: it is a surface */
     void *self;
-    size_t holders;
+    _Atomic(size_t) holders;
     double lo[3], hi[3]; /* a surface's domain; of a map only the times, [2] */
     double span[2];      /* times it is made for; -INFINITY, INFINITY: not stated */
     const void **pieces; /* instances that `self` owns and that replace it; NULL: one surface */
@@ -39,6 +55,7 @@ typedef struct shared_instance {
     uint64_t note_count;   /* number of items that create left out or reinterpreted; 0: no note */
     char *note;            /* the items, with the parameter's name; NULL: none */
     fixed_numbers numbers; /* for its formula */
+    instance_shelf *shelf; /* of a surface of several pieces; else NULL */
 } shared_instance;
 
 /* Take ownership of the instance `self` and get its domain, or those of its pieces, which have the
@@ -77,6 +94,10 @@ enum {
     INSTANCE_PIECE = 96  /* bytes that a type keeps of one piece, as mesh does in growing arrays */
 };
 size_t instance_bytes(const shared_instance *p);
+
+/* Puts what the caller holds onto the shelf, which takes over that hold. The lock is the
+ * caller's. */
+void instance_shelf_add(instance_shelf *shelf, instance_kept one);
 
 shared_instance *instance_hold(shared_instance *p);
 void instance_release(shared_instance *p); /* p may be NULL */

@@ -112,6 +112,8 @@ size_t surface_bytes(const surface *s)
     return bytes;
 }
 
+shared_instance *surface_share(const surface *s) { return instance_hold(s->origin); }
+
 const shared_instance *surface_origin(const surface *s, size_t k)
 {
     assert(k <= s->map_count);

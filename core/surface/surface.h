@@ -247,6 +247,9 @@ size_t surface_common_motion(const surface *a, const surface *b);
 /* Applies the maps after the first `maps` to a point at time t, in place. */
 imp_status surface_move_outward(const surface *s, size_t maps, double t, double x[3]);
 
+/* Holds the instance of its type for the caller, who puts it into a surface of another scene. */
+shared_instance *surface_share(const surface *s);
+
 size_t surface_map_count(const surface *s);
 
 /* Returns an instance that the surface is composed of: its type's (k = 0), then its maps'. k <=

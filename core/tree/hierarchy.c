@@ -15,7 +15,7 @@
 #include "core/surface/region.h"
 
 struct hierarchy {
-    const surface *surface;
+    _Atomic(size_t) holders;
     double lo, hi, c, d; /* the times, as in imp_region */
     uint32_t *order;     /* the pieces; those of a cluster are adjacent */
     cluster *clusters; /* count - 1 of them, a parent before its children; the root is the first */
@@ -60,9 +60,10 @@ static bool is_bound(const cluster_bound *b)
     return sum < INFINITY;
 }
 
-static imp_code take_piece(const hierarchy *h, size_t k, cluster_bound *b, imp_error *error)
+static imp_code take_piece(const hierarchy *h, const surface *s, size_t k, cluster_bound *b,
+                           imp_error *error)
 {
-    const surface *piece = surface_piece(h->surface, k);
+    const surface *piece = surface_piece(s, k);
     double lo[3], hi[3];
     imp_model model[3];
     surface_domain(piece, lo, hi);
@@ -190,10 +191,11 @@ static cluster *build(const building *b, spot *spots, size_t count)
 
 /* --- Hierarchies ------------------------------------------------------------------------------ */
 
-static imp_code fill(hierarchy *h, cluster_bound *pieces, spot *spots, imp_error *error)
+static imp_code fill(hierarchy *h, const surface *s, cluster_bound *pieces, spot *spots,
+                     imp_error *error)
 {
     for (size_t k = 0; k < h->count; ++k) {
-        const imp_code code = take_piece(h, k, &pieces[k], error);
+        const imp_code code = take_piece(h, s, k, &pieces[k], error);
         if (code != IMP_SUCCESS) return code;
         memcpy(spots[k].at, pieces[k].a, sizeof pieces[k].a);
         spots[k].at[PIECE] = (double)k;
@@ -203,14 +205,14 @@ static imp_code fill(hierarchy *h, cluster_bound *pieces, spot *spots, imp_error
     return IMP_SUCCESS;
 }
 
-imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy **made,
-                       imp_error *error)
+/* The caller holds it. */
+static imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy **made,
+                              imp_error *error)
 {
-    assert(surface_piece_count(s) >= 2);
     const imp_region times = region_make((double[3]){0, 0, t_start}, (double[3]){0, 0, t_end});
     hierarchy *h = calloc(1, sizeof *h);
     if (h == NULL) return error_set_memory(error);
-    *h = (hierarchy){.surface = s,
+    *h = (hierarchy){.holders = 1,
                      .lo = t_start,
                      .hi = t_end,
                      .c = times.c[2],
@@ -222,38 +224,79 @@ imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy
     spot *spots = malloc(h->count * sizeof *spots);
     imp_code code = h->order == NULL || h->clusters == NULL || pieces == NULL || spots == NULL
                         ? error_set_memory(error)
-                        : fill(h, pieces, spots, error);
+                        : fill(h, s, pieces, spots, error);
     free(spots);
     free(pieces);
     if (code == IMP_SUCCESS)
         *made = h;
     else
-        hierarchy_free(h);
+        hierarchy_release(h);
     return code;
 }
 
-void hierarchy_free(hierarchy *h)
+static hierarchy *hold(hierarchy *h)
+{
+    atomic_fetch_add_explicit(&h->holders, 1, memory_order_relaxed);
+    return h;
+}
+
+void hierarchy_release(hierarchy *h)
 {
     if (h == NULL) return;
+    if (atomic_fetch_sub_explicit(&h->holders, 1, memory_order_acq_rel) > 1) return;
     free(h->order);
     free(h->clusters);
     free(h);
+}
+
+static void release_kept(void *h) { hierarchy_release(h); }
+
+/* The hierarchy over these times on the shelf, held for the caller; NULL: none. The shelf is
+ * locked. */
+static hierarchy *find_kept(instance_shelf *shelf, double t_start, double t_end)
+{
+    for (int k = 0; k < INSTANCE_KEPT_MAX && shelf->kept[k].what != NULL; ++k) {
+        hierarchy *h = shelf->kept[k].what;
+        if (h->lo == t_start && h->hi == t_end) return hold(h);
+    }
+    return NULL;
+}
+
+/* Two threads may make it at once; both are equal, and the first one stays. */
+imp_code hierarchy_of(const surface *s, double t_start, double t_end, hierarchy **found,
+                      imp_error *error)
+{
+    assert(surface_piece_count(s) >= 2);
+    instance_shelf *shelf = surface_origin(s, 0)->shelf;
+    pthread_mutex_lock(&shelf->lock);
+    *found = find_kept(shelf, t_start, t_end);
+    pthread_mutex_unlock(&shelf->lock);
+    if (*found != NULL) return IMP_SUCCESS;
+    hierarchy *made = NULL;
+    const imp_code code = hierarchy_new(s, t_start, t_end, &made, error);
+    if (code != IMP_SUCCESS) return code;
+    pthread_mutex_lock(&shelf->lock);
+    *found = find_kept(shelf, t_start, t_end);
+    if (*found == NULL)
+        instance_shelf_add(shelf, (instance_kept){hold(*found = made), release_kept});
+    else
+        hierarchy_release(made);
+    pthread_mutex_unlock(&shelf->lock);
+    return IMP_SUCCESS;
 }
 
 const cluster *hierarchy_root(const hierarchy *h) { return h->clusters; }
 
 const uint32_t *hierarchy_order(const hierarchy *h) { return h->order; }
 
-const surface *hierarchy_surface(const hierarchy *h) { return h->surface; }
-
 size_t hierarchy_bytes(const hierarchy *h)
 {
     return sizeof *h + h->count * sizeof *h->order + (h->count - 1) * sizeof *h->clusters;
 }
 
-const surface *hierarchy_sample(const hierarchy *h, size_t k, size_t n)
+size_t hierarchy_sample(const hierarchy *h, size_t k, size_t n)
 {
-    return surface_piece(h->surface, h->order[h->count * k / n]);
+    return h->order[h->count * k / n];
 }
 
 /* Lemma. t = c' + d' s', so s = (c' - c) / d + (d' / d) s', both at most about 1 in magnitude: a'

@@ -13,7 +13,8 @@
  *   | x_i - (a_i + b_i s) | <= e_i
  *
  * Clusters are halved at the median of the longest axis, down to single pieces. A hierarchy is
- * immutable once built. */
+ * immutable once built. It depends on the instance and the times alone: all surfaces of an instance
+ * share it, in all scenes, and the instance keeps the last few on its shelf. */
 
 typedef struct cluster_bound {
     double a[3], b[3], e[3]; /* length; e is infinite if there are no bounds */
@@ -29,22 +30,22 @@ typedef struct cluster {
     uint32_t piece[2];              /* with this index */
 } cluster;
 
-/* Makes the hierarchy over the times t_start..t_end, finite and within the domain. Precondition:
- * `s` has two pieces or more. Errors are those of node_child. */
-imp_code hierarchy_new(const surface *s, double t_start, double t_end, hierarchy **made,
-                       imp_error *error);
-void hierarchy_free(hierarchy *h); /* h may be NULL */
+/* Finds or makes the hierarchy over the times t_start..t_end, finite and within the domain, and
+ * holds it for the caller. Precondition: `s` has two pieces or more. Errors are those of
+ * node_child. Any thread. */
+imp_code hierarchy_of(const surface *s, double t_start, double t_end, hierarchy **found,
+                      imp_error *error);
+void hierarchy_release(hierarchy *h); /* h may be NULL */
 
 const cluster *hierarchy_root(const hierarchy *h);
 
 /* Returns the numbers of the pieces in an order in which those of each cluster stand together: of n
  * of them the first n / 2 are those of the first half. */
 const uint32_t *hierarchy_order(const hierarchy *h);
-const surface *hierarchy_surface(const hierarchy *h);
 size_t hierarchy_bytes(const hierarchy *h);
 
-/* Returns the k-th of n pieces that are spread over the whole hierarchy. */
-const surface *hierarchy_sample(const hierarchy *h, size_t k, size_t n);
+/* Returns the k-th of n pieces that are spread over the whole hierarchy, by index. */
+size_t hierarchy_sample(const hierarchy *h, size_t k, size_t n);
 
 /* Makes models of a cluster, before any map, over a region whose times are part of the hierarchy's.
  * The region's u stands for the points of the cluster. */

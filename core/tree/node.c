@@ -139,12 +139,10 @@ node_place node_place_of_surface(const surface *s, double t_start, double t_end)
     return place;
 }
 
-node_place node_place_of_cluster(const cluster *many, double t_start, double t_end)
+node_place node_place_of_cluster(const surface *s, const cluster *many, double t_start,
+                                 double t_end)
 {
-    return (node_place){.lo = {-1, 0, t_start},
-                        .hi = {1, 0, t_end},
-                        .surface = hierarchy_surface(many->of),
-                        .many = many};
+    return (node_place){.lo = {-1, 0, t_start}, .hi = {1, 0, t_end}, .surface = s, .many = many};
 }
 
 /* Returns which points and times a half of a node is to bound. */
@@ -154,7 +152,7 @@ static node_place points_of_half(const node *parent, parameter j, int side)
     const cluster *many = parent->many;
     if (many != NULL && j == PARAMETER_U) {
         const cluster *half = many->child[side];
-        if (half != NULL) return node_place_of_cluster(half, r->lo[2], r->hi[2]);
+        if (half != NULL) return node_place_of_cluster(parent->surface, half, r->lo[2], r->hi[2]);
         return node_place_of_surface(surface_piece(parent->surface, many->piece[side]), r->lo[2],
                                      r->hi[2]);
     }

@@ -24,7 +24,7 @@ static imp_code make_hierarchy(tree *t, tree_growth *growth, imp_error *error)
 {
     if (surface_piece_count(t->surface) <= 1 || t->pieces != NULL) return IMP_SUCCESS;
     const imp_code code =
-        hierarchy_new(t->surface, t->plan.t_start, t->plan.t_end, &t->pieces, error);
+        hierarchy_of(t->surface, t->plan.t_start, t->plan.t_end, &t->pieces, error);
     if (code == IMP_SUCCESS) growth->bytes += hierarchy_bytes(t->pieces);
     return code;
 }
@@ -32,7 +32,8 @@ static imp_code make_hierarchy(tree *t, tree_growth *growth, imp_error *error)
 static node_place place_of_root(const tree *t)
 {
     const double from = t->plan.t_start, to = t->plan.t_end;
-    if (t->pieces != NULL) return node_place_of_cluster(hierarchy_root(t->pieces), from, to);
+    if (t->pieces != NULL)
+        return node_place_of_cluster(t->surface, hierarchy_root(t->pieces), from, to);
     node_place place = node_place_of_surface(t->surface, from, to);
     if (surface_piece_count(t->surface) == 1) place.surface = surface_piece(t->surface, 0);
     return place;
@@ -148,7 +149,7 @@ void tree_free(tree *t)
 {
     if (t == NULL) return;
     arena_clear(&t->nodes);
-    hierarchy_free(t->pieces);
+    hierarchy_release(t->pieces);
     arena_clear(&t->nets);
     arena_clear(&t->posing.memory);
     pthread_mutex_destroy(&t->lock);

@@ -37,9 +37,11 @@ typedef struct node_place {
     int side;
 } node_place;
 
-/* Return the place of the whole of one surface, or of a cluster, during these times. */
+/* Return the place of the whole of one surface, or of a cluster of its pieces, during these
+ * times. */
 node_place node_place_of_surface(const surface *s, double t_start, double t_end);
-node_place node_place_of_cluster(const cluster *many, double t_start, double t_end);
+node_place node_place_of_cluster(const surface *s, const cluster *many, double t_start,
+                                 double t_end);
 
 /* Whether the node bounds a part of its parent's surface, not the whole of another piece. */
 static inline bool node_is_part(const node *n)

@@ -52,6 +52,15 @@ needs_python() {
     [[ ${lines[0]} == '0.00 to 0.08: '*'holds' && ${lines[-1]} == 'tightest in slice 11, 0.158'* && ${lines[10]} == *violated ]]
 }
 
+@test "edges of a robot in joint space, and a picture" {
+    needs_python
+    IMPINGE_COMMAND=$IMPINGE PYTHONPATH=$top_srcdir/sdk/python run -0 "$PYTHON3" "$examples/robot.py" \
+        "$top_srcdir/tools/data/arm.urdf" arm.png
+    [ "${#lines[@]}" -eq 3 ]
+    [[ ${lines[0]} == 'to lift = -0.4: clear, '*' mm apart' && ${lines[2]} == 'to lift = 0.8: '*' touches shelf at t = 0.'* ]]
+    [ -s arm.png ]
+}
+
 @test "the Python module keeps its tests" {
     needs_python
     PYTHONPATH=$top_srcdir/sdk/python run "$PYTHON3" -m pytest -q -p no:cacheprovider \

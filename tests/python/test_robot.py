@@ -3,6 +3,10 @@
 
 """Robots from URDF, against kinematics of their own in NumPy."""
 
+import concurrent.futures
+import multiprocessing
+import pickle
+
 import impinge
 import numpy
 import pytest
@@ -168,6 +172,47 @@ def test_a_scene_is_the_same_by_its_text():
     ours, theirs = scene.solve(), again.solve()
     assert (ours.verdict, ours.t, ours.a, ours.pairs) == (theirs.verdict, theirs.t, theirs.a, theirs.pairs)
     assert ours.verdict == "contact" and again.bodies == scene.bodies
+
+
+MESHED = """<robot name="r">
+  <link name="base"><collision><geometry><mesh filename="t.obj"/></geometry></collision></link>
+  <link name="ball"><collision><origin xyz="3 0 0"/><geometry><mesh filename="t.obj"/></geometry></collision></link>
+  <joint name="j" type="continuous"><parent link="base"/><child link="ball"/><axis xyz="0 0 1"/></joint></robot>"""
+
+
+def test_a_robot_reads_its_meshes_once(tmp_path):
+    (tmp_path / "r.urdf").write_text(MESHED)
+    (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+    wall = {"name": "wall", "surfaces": [{"type": "box", "center": [-3, 0, 0]}]}
+    r = robot.load(tmp_path / "r.urdf")
+    scenes = [r.scene([0, 1], [[0], [k]], world=[wall]) for k in (1, 4)]
+    text = scenes[1].to_json()
+    expected = impinge.Scene.from_json(text).solve()
+    again = pickle.loads(pickle.dumps(r)).scene([0, 1], [[0], [4]], world=[wall]).solve()
+    (tmp_path / "t.obj").unlink()
+    scenes += [r.scene([0, 1], [[0], [4]], world=[wall]) for _ in range(3)]
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        results = list(pool.map(lambda scene: scene.solve(), scenes))
+    assert results[0].verdict == "clear" and expected.verdict == "contact"
+    for result in (*results[1:], again):
+        assert (result.t, result.a, result.pairs) == (expected.t, expected.a, expected.pairs)
+    with pytest.raises(impinge.SceneError, match="r.urdf: link 'base': .*t.obj"):
+        pickle.loads(pickle.dumps(r)).scene([0, 1], [[0], [4]])
+    del r, scenes[:2]
+    assert scenes[0].solve().t == expected.t
+
+
+def test_a_copy_of_the_process_makes_scenes_of_its_own():
+    arm = robot.load(ARM)
+    ours = arm.scene([0, 1], POSITIONS[:2]).solve()
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        theirs = pool.apply(_in_a_copy, (arm,))
+    assert (ours.verdict, ours.t_lower, ours.pairs) == theirs
+
+
+def _in_a_copy(arm):
+    found = arm.scene([0, 1], POSITIONS[:2]).solve()
+    return found.verdict, found.t_lower, found.pairs
 
 
 def test_a_planar_and_a_floating_joint_have_several_positions(tmp_path):

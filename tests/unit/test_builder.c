@@ -208,6 +208,58 @@ START_TEST(a_builder_that_is_done_takes_nothing_more)
 }
 END_TEST
 
+START_TEST(a_surface_of_another_scene_is_shared)
+{
+    imp_builder *b = begin();
+    const imp_argument kit[] = {imp_argument_number("radius", 1),
+                                imp_argument_list("center", center, 3)};
+    const imp_argument sideways = imp_argument_list("by", by, 3);
+    size_t body;
+    good(imp_builder_body(b, "part", &body, &error));
+    good(imp_builder_surface(b, body, "kit", kit, 2, &error));
+    good(imp_builder_map(b, body, "nudge", &sideways, 1, &error));
+    imp_scene *part = finish(b);
+    b = begin();
+    good(imp_builder_body(b, "first", &body, &error));
+    refused(imp_builder_surface_of(b, 7, part, 0, 0, &error), IMP_ERROR_USAGE, "body 7");
+    refused(imp_builder_surface_of(b, body, NULL, 0, 0, &error), IMP_ERROR_USAGE, "is NULL");
+    refused(imp_builder_surface_of(b, body, part, 1, 0, &error), IMP_ERROR_USAGE, "no surface 0");
+    refused(imp_builder_surface_of(b, body, part, 0, 1, &error), IMP_ERROR_USAGE, "no surface 1");
+    good(imp_builder_surface_of(b, body, part, 0, 0, &error));
+    good(imp_builder_body(b, "second", &body, &error));
+    good(imp_builder_surface_of(b, body, part, 0, 0, &error));
+    good(imp_builder_surface_map(b, body, 0, "nudge", &sideways, 1, &error));
+    imp_scene *scene = finish(b);
+    const surface *own[] = {scene_surface(part, 0, 0), scene_surface(scene, 0, 0),
+                            scene_surface(scene, 1, 0)};
+    ck_assert_ptr_eq(surface_origin(own[0], 0), surface_origin(own[1], 0));
+    ck_assert_ptr_eq(surface_origin(own[0], 0), surface_origin(own[2], 0));
+    imp_scene_free(part);
+    assert_point(scene, 0, 0, 1, 2, 3); /* the maps are not shared */
+    assert_point(scene, 1, 0, 2, 2, 3);
+    imp_scene_free(scene);
+}
+END_TEST
+
+START_TEST(a_surface_of_a_type_that_the_registry_lacks_is_refused)
+{
+    imp_builder *b = begin();
+    add_body(b, "a");
+    imp_scene *scene = finish(b);
+    sandbox box = sandbox_new();
+    imp_registry *other = imp_registry_new(box.path); /* a folder without plugins */
+    b = imp_builder_new(other);
+    size_t body;
+    good(imp_builder_body(b, "b", &body, &error));
+    refused(imp_builder_surface_of(b, body, scene, 0, 0, &error), IMP_ERROR_USAGE,
+            "is of a type 'kit' that the builder's registry does not have");
+    imp_builder_free(b);
+    imp_scene_free(scene);
+    imp_registry_free(other);
+    sandbox_remove(&box);
+}
+END_TEST
+
 START_TEST(time_left_is_the_papers_h)
 {
     imp_result r = {.verdict = IMP_VERDICT_CONTACT, .t = 0.75, .t_lower = 0.75};
@@ -222,4 +274,5 @@ END_TEST
 SUITE_MAIN("builder", a_scene_built_is_the_scene_that_is_written, values_of_every_kind_are_taken,
            errors_name_body_and_parameter, tables_and_names_that_cannot_be_are_refused,
            calls_out_of_order_are_refused, a_builder_that_is_done_takes_nothing_more,
-           time_left_is_the_papers_h)
+           a_surface_of_another_scene_is_shared,
+           a_surface_of_a_type_that_the_registry_lacks_is_refused, time_left_is_the_papers_h)

@@ -6,7 +6,7 @@ arguments once."""
 
 import ctypes as c
 import os
-from typing import Any, Dict, Mapping, Optional, Tuple
+from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple
 
 from . import _arguments as arguments
 from . import _document as document
@@ -20,11 +20,24 @@ from .scene import Scene
 _BODY_KEYS = {"name", "surfaces", "maps", "parent", "group"}
 
 
+class Source(NamedTuple):
+    """A surface of a scene that this process has made."""
+
+    handle: Handle
+    process: int
+    body: int
+    surface: int
+
+
 class Stage(Dict[str, Any]):
     """A surface or a map of a document that may be in many documents, and is not changed any more. What the
-    library takes for it is made once."""
+    library takes for it is made once; a surface with a source is that one of another scene, shared."""
 
     packed: Optional[Tuple[bytes, arguments.Packed]] = None
+    source: Optional[Source] = None
+
+    def __reduce__(self) -> Any:
+        return Stage, (dict(self),)
 
 
 def _packed(stage: Mapping[str, Any]) -> Tuple[bytes, arguments.Packed]:
@@ -61,10 +74,18 @@ class _Assembly:
         name, packed = _packed(stage)
         self.call(function, *where, name, packed.array, packed.size)
 
+    def surface(self, index: int, surface: Mapping[str, Any]) -> None:
+        source = surface.source if isinstance(surface, Stage) else None
+        if source is None or source.process != os.getpid():  # a fork may have left it half-made
+            self.add(lib.library.imp_builder_surface, surface, index)
+        else:
+            self.call(lib.library.imp_builder_surface_of, index, source.handle.address, source.body,
+                      source.surface)
+
     def body(self, index: int, body: Mapping[str, Any]) -> None:
         self.call(lib.library.imp_builder_body, values.text("name", body["name"]), None)
         for k, surface in enumerate(body.get("surfaces", ())):
-            self.add(lib.library.imp_builder_surface, surface, index)
+            self.surface(index, surface)
             for stage in surface.get("maps", ()):
                 self.add(lib.library.imp_builder_surface_map, stage, index, k)
         for stage in body.get("maps", ()):
@@ -111,3 +132,18 @@ def scene_of(made: document.Document, name: str) -> Scene:
         for x, y in made["ignore"]:
             assembly.call(lib.library.imp_builder_ignore, values.text("ignore", x), values.text("ignore", y))
         return Scene._made(Handle(assembly.finish(), lambda: document.resolved(made, folder)))
+
+
+def share(surfaces: Iterable[Stage]) -> None:
+    """Makes these surfaces once for all scenes of this process: what their files hold is read, and what
+    queries find out about all of their pieces is kept, as long as they live."""
+    listed: List[Stage] = list(surfaces)
+    with _Assembly() as assembly:
+        assembly.call(lib.library.imp_builder_time, 0.0, 1.0)
+        assembly.call(lib.library.imp_builder_body, None, None)
+        for surface in listed:
+            assembly.add(lib.library.imp_builder_surface, surface, 0)
+        made: document.Document = {"bodies": [{"surfaces": listed}]}
+        handle = Handle(assembly.finish(), lambda: made)
+    for k, surface in enumerate(listed):
+        surface.source = Source(handle, os.getpid(), 0, k)

@@ -224,6 +224,7 @@ _FUNCTIONS = {
     "imp_builder_solid": (c.c_int, _P, _N, c.c_bool, _E),
     "imp_builder_surface": (c.c_int, _P, _N, _S, _A, _N, _E),
     "imp_builder_map": (c.c_int, _P, _N, _S, _A, _N, _E),
+    "imp_builder_surface_of": (c.c_int, _P, _N, _P, _N, _N, _E),
     "imp_builder_surface_map": (c.c_int, _P, _N, _N, _S, _A, _N, _E),
     "imp_builder_parent": (c.c_int, _P, _N, _N, _E),
     "imp_builder_group": (c.c_int, _P, _N, _S, _E),

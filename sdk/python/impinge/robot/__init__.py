@@ -17,7 +17,7 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Set, 
 
 from .. import _document as document
 from .. import _values as values
-from .._assembly import scene_of
+from .._assembly import scene_of, share
 from ..errors import SceneError, UsageError
 from ..scene import Scene
 from ._course import Course, maps_of_joint
@@ -54,6 +54,7 @@ class Robot:
         self._frames = self._frames_at_rest()
         self._surfaces = {link: [surface_at(shape, self._frames[link]) for shape in shapes]
                           for link, shapes in model.links.items()}
+        self._process = 0  # the one that has the surfaces
         self._joined = {pair for link in model.links for pair in self._pair_above(link)}
 
     def __repr__(self) -> str:
@@ -72,6 +73,7 @@ class Robot:
         with a name; one whose "parent" is a link moves with it. Others are not tested with each other. Links
         that a joint connects are never tested with each other; nor are the pairs `allowed`, which are those
         of the planning scene's matrix if it has one, else those that the SRDF file disables."""
+        self._share()
         around = self._around(world)
         courses = self._variables.courses(times, positions, velocities, accelerations, interpolation)
         bodies: List[Mapping[str, Any]] = [self._body(link, courses) for link in self.links]
@@ -111,6 +113,19 @@ class Robot:
         return self._variables.own(named, where)
 
     # --- Bodies -----------------------------------------------------------------------------------
+
+    def _share(self) -> None:
+        """Reads the meshes once for all scenes; once more in a copy of the process."""
+        if self._process != os.getpid():
+            for link, surfaces in self._surfaces.items():
+                try:
+                    share(surfaces)
+                except SceneError as error:
+                    raise SceneError(f"{self._model.file}: link {link!r}: {error}") from None
+            self._process = os.getpid()
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "_process": 0}
 
     def _states(self) -> Dict[str, Dict[str, float]]:
         found: Dict[str, Dict[str, float]] = {}

@@ -105,8 +105,9 @@ class Course:
         line = self.line()
         if line == [0.0]:
             return []
-        about: Dict[str, Any] = {"axis": list(axis), "center": list(center)}
-        return [Stage({"type": "rotate", **about, **(self.table("angles") if line is None else {"angle": line})})]
+        about: Dict[str, Any] = {"type": "rotate", "axis": list(axis), "center": list(center)}
+        about.update(self.table("angles") if line is None else {"angle": line})
+        return [Stage(about)]
 
     def shifted(self, axis: Sequence[float]) -> List[Stage]:
         """The maps of a joint that slides along an axis."""
