@@ -14,7 +14,7 @@
 /* impinge-verify on certificates that are made here, and on thousands of changes of them: whatever
  * is accepted must be true, as points of the formulas show. */
 
-enum { BYTES_MAX = 4096, EFFORT = 300, EFFORT_OF_CHANGES = 24 };
+enum { BYTES_MAX = 4096, EFFORT = 200, EFFORT_OF_CHANGES = 24 };
 
 typedef struct certificate {
     uint8_t bytes[BYTES_MAX];
@@ -262,7 +262,7 @@ static void change(certificate *c, uint64_t *seed)
 START_TEST(no_change_makes_a_false_statement_hold)
 {
     uint64_t seed = suite_seed();
-    const int count = suite_times(300);
+    const int count = suite_times(800);
     int accepted = 0;
     for (int k = 0; k < count; ++k) {
         certificate c = k % 2 == 0 ? bowl_made() : balls_made();

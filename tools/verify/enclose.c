@@ -176,6 +176,7 @@ static long double worst(const piece *p, double lo, double hi, int depth, jet ro
         const long double d = deviation(found, lo, hi, room);
         if (d <= DEVIATION_SMALL || depth >= HALVINGS || !(lo < at && at < hi) || isinf(d))
             return d;
+        if (deviation(found, at, at, room) > 0.5L * d) return d; /* it is no smaller there */
     } else {
         at = divide.at;
     }
