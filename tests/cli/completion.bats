@@ -57,7 +57,9 @@ offers_no() {
     offers_no "impinge clearance sphere 'torus major_radius=1 ! " 'torus major_radius=1 ! sphere'
     offers "impinge pair 'torus ! rotate a" 'torus ! rotate axis='
     offers 'impinge --gamma 1e-3 pair "sphere radius=2" to' torus
-    offers 'impinge info ' torus rotate
+    offers 'impinge info ' torus rotate :files
+    offers 'impinge check ' torus rotate :files
+    offers "impinge check 'rotate " 'rotate axis='
     offers 'impinge pair --isolate t' torus translate
     # A plugin of the user's own.
     build_twin

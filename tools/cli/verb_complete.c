@@ -84,6 +84,7 @@ static void offer_values(const completion *c, const option *row)
 /* The last stage of a pipeline, and the parameters that it has already. */
 typedef struct stage {
     imp_type_kind kind;
+    bool is_any;      /* a type of either kind may stand here, for verbs about types */
     char type[64];    /* "": not given yet */
     char given[1024]; /* "name=..." and so on, each behind a blank */
 } stage;
@@ -120,8 +121,8 @@ static void offer_parameters(const completion *c, const stage *s)
 {
     imp_type_info info;
     for (size_t i = 0; imp_registry_type(c->registry, i, &info); ++i) {
-        if (info.kind != s->kind || info.shadowed_by != NULL || strcmp(info.name, s->type) != 0)
-            continue;
+        const bool fits = info.kind == s->kind || s->is_any;
+        if (!fits || info.shadowed_by != NULL || strcmp(info.name, s->type) != 0) continue;
         for (size_t k = 0; k < info.parameter_count; ++k) {
             const imp_parameter *row = catalogue_parameter(&info, k);
             if (!is_given(s, row->name)) offer(c, row->name, "=", row->doc);
@@ -133,9 +134,9 @@ static void offer_parameters(const completion *c, const stage *s)
 /* Offers types, or the parameters of the type that the word, or words before it, name. Pipelines
  * are one word, in quotes; those that are typed without are completed all the same, and a type may
  * follow, the second surface. */
-static void offer_pipeline(completion *c)
+static void offer_pipeline(completion *c, bool is_any)
 {
-    stage s = {.kind = IMP_TYPE_SURFACE};
+    stage s = {.kind = IMP_TYPE_SURFACE, .is_any = is_any};
     const char *blank = strrchr(c->word, ' ');
     bool has_words = false;
     c->kept = blank != NULL ? (size_t)(blank + 1 - c->word) : 0;
@@ -146,11 +147,12 @@ static void offer_pipeline(completion *c)
             if (has_words)
                 stage_text(&s, word, strlen(word));
             else
-                s = (stage){.kind = IMP_TYPE_SURFACE};
+                s = (stage){.kind = IMP_TYPE_SURFACE, .is_any = is_any};
         }
     stage_text(&s, c->word, c->kept);
     if (s.type[0] != '\0') offer_parameters(c, &s);
     if (s.type[0] == '\0' || (has_words && s.kind == IMP_TYPE_SURFACE)) offer_types(c, s.kind);
+    if (s.type[0] == '\0' && s.is_any) offer_types(c, IMP_TYPE_MAP);
 }
 
 /* --- Operands --------------------------------------------------------------------------------- */
@@ -171,12 +173,8 @@ static void offer_operands(completion *c)
         for (const help_topic *t = help_topics; t->name != NULL; ++t)
             offer(c, t->name, "", t->summary);
     }
-    if (strcmp(operands, "TYPE") == 0) {
-        offer_types(c, IMP_TYPE_SURFACE);
-        offer_types(c, IMP_TYPE_MAP);
-    } else if (strstr(operands, "A B") != NULL || strstr(operands, "TYPE") != NULL) {
-        offer_pipeline(c);
-    }
+    const bool is_any = strstr(operands, "TYPE") != NULL;
+    if (is_any || strstr(operands, "A B") != NULL) offer_pipeline(c, is_any);
     offer_files(operands);
 }
 
