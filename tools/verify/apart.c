@@ -267,7 +267,7 @@ static outcome test_pieces(prover *p, const cell *c, cut *by)
         if (k[side]->result == ENCLOSED_EMPTY) return APART;
         if (k[side]->result == ENCLOSED_SPLIT) return divide_parts(k[side], side, by);
         if (k[side]->result == ENCLOSED_UNSAID)
-            return fail(p, c, INFINITY, "the formula of a map says nothing of these times");
+            return fail(p, c, INFINITY, "a formula leaves open what is there at these times");
     }
     subtract(k, &d);
     if (is_refuted(p, &d, &found)) return fail(p, c, found, "two points of it are nearer");
@@ -417,7 +417,7 @@ static outcome test_many(prover *p, const cell *c, cut *by)
         support s[2];
         if (!is_axis(axes[n])) continue;
         if (!support_of(p, c, 0, axes[n], &s[0]) || !support_of(p, c, 1, axes[n], &s[1]))
-            return fail(p, c, INFINITY, "the formula of a map says nothing of these times");
+            return fail(p, c, INFINITY, "a formula leaves open what is there at these times");
         if (margin_of_many(p, c, axes[n], s) >= 0) return APART;
         divide_many(c, s, by);
     }

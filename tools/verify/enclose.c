@@ -36,12 +36,27 @@ static bool divides(const piece *p, const box3 *b, split *divide)
 
 /* Finds the part of a piece in which the whole box is. Lemma. Where there is none and no end of a
  * part is inside of the box, each part has at most a face in common with it; then neighbouring
- * boxes hold that face, or nothing is there. */
+ * boxes hold that face, since parts have a size (statement.c), or it is an end of the claim's times
+ * (touches_end), or nothing is there. */
 static enclosed choose(const piece *p, const box3 *b, const part **found, split *divide)
 {
     for (size_t k = 0; k < p->count; ++k)
         if (holds(&p->parts[k], b)) return *found = &p->parts[k], ENCLOSED;
     return divides(p, b, divide) ? ENCLOSED_SPLIT : ENCLOSED_EMPTY;
+}
+
+/* Whether a part of a surface begins when the claim ends, or ends when it begins, and the box has a
+ * face in common with it: no neighbouring box holds that face. */
+static bool touches_end(const place *p, const piece *all, const box3 *b)
+{
+    for (size_t k = 0; k < all->count; ++k) {
+        const part *q = &all->parts[k];
+        bool meets = q->lo[T] == p->of->to || q->hi[T] == p->of->from;
+        for (int j = 0; j < VARIABLES; ++j)
+            meets = meets && q->lo[j] <= b->hi[j] && b->lo[j] <= q->hi[j];
+        if (meets) return true;
+    }
+    return false;
 }
 
 /* --- Chains ----------------------------------------------------------------------------------- */
@@ -57,6 +72,7 @@ static enclosed composed(const place *p, const box3 *where, const jet variables[
 {
     const part *found;
     enclosed result = choose(piece_of(p, 0), where, &found, divide);
+    if (result == ENCLOSED_EMPTY && touches_end(p, piece_of(p, 0), where)) return ENCLOSED_UNSAID;
     if (result != ENCLOSED) return result;
     formula_jets_in(found->f, variables, p->room, out);
     const box3 times = {{-INFINITY, -INFINITY, where->lo[T]}, {INFINITY, INFINITY, where->hi[T]}};

@@ -14,7 +14,7 @@ typedef enum enclosed {
     ENCLOSED,
     ENCLOSED_EMPTY, /* the surface does not exist there */
     ENCLOSED_SPLIT, /* divide the box at `at` of variable `along` */
-    ENCLOSED_UNSAID /* a map does not say where it takes the point */
+    ENCLOSED_UNSAID /* a formula leaves open what is there */
 } enclosed;
 
 typedef struct box3 {

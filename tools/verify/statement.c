@@ -90,6 +90,19 @@ static bool take_part(input *in, bool is_map, const formula_range said[BOX_DIMS]
     return true;
 }
 
+/* Refuses a part of no size beside others, such as a curve at the edge of a surface, or at one
+ * time: no box that is looked at would hold it. */
+static bool check_sizes(input *in, const piece *p)
+{
+    bool good = !input_is_refused(in);
+    for (size_t k = 0; k < p->count && good; ++k)
+        for (int j = 0; j < 3; ++j)
+            for (size_t i = 0; i < p->count && p->parts[k].lo[j] == p->parts[k].hi[j]; ++i)
+                good = good && j < 2 && p->parts[i].lo[j] == p->parts[k].lo[j] &&
+                       p->parts[i].hi[j] == p->parts[k].hi[j];
+    return good || input_refuse(in, "a part of a formula has no size");
+}
+
 static bool read_piece(statement *s, input *in, bool is_map, piece *p)
 {
     const formula_scope scope = {.variables = is_map ? "xyzt" : "uvt"};
@@ -111,7 +124,7 @@ static bool read_piece(statement *s, input *in, bool is_map, piece *p)
         text = formula_next_part(text);
     }
     free(line);
-    return !input_is_refused(in);
+    return check_sizes(in, p);
 }
 
 static bool read_stage(statement *s, input *in, bool is_map, char **rest)
