@@ -112,11 +112,11 @@ static imp_code add_carry(const distance_sides *of, int side, const time_window 
 }
 
 /* Lets one point stand for its orbit, if that is one of the other's symmetry nearly enough. Pieces
- * have orbits of their own. */
+ * of either side have orbits and symmetries of their own: nothing is kept of theirs. */
 static imp_code add_orbit(const distance_sides *of, int side, const time_window *times,
                           distance_question *q, imp_error *error)
 {
-    const bool is_piece = of->root[side]->many != NULL;
+    const bool is_piece = of->root[0]->many != NULL || of->root[1]->many != NULL;
     unsigned held = of->held[side];
     double slip = of->orbit[side];
     if (is_piece || slip == 0) {

@@ -68,6 +68,16 @@ misses() {
     json '.a | has("piece") | not'
 }
 
+@test "a ring that one piece of a cylinder is concentric to meets another piece" {
+    local ring='torus major_radius=2 minor_radius=0.25' at
+    for at in -0.3 0.1 0.3; do
+        run -0 "$IMPINGE" pair "$ring" "cylinder ends=true height=1 center=0.76,0,$at" --time 0,0 --json
+        json '.verdict == "contact"'
+        run -0 "$IMPINGE" clearance "$ring" "cylinder ends=true height=1 center=0.76,0,$at" --time 0,0 --json
+        json '.lower == 0 and .upper < 1e-6'
+    done
+}
+
 @test "the answers of isolated types are the same" {
     local type
     for type in cylinder 'cylinder ends=true' 'box size=2,2,2'; do
