@@ -15,11 +15,11 @@
 #include "core/surface/region.h"
 
 /* Lemma. Let no point of body b be nearer than gamma_clear to a point of the solid a at time t. The
- * ribbons that close a's seams are no farther from a than half of their width, gamma, so that b
- * does not meet them either. Then each connected part of b is wholly inside or wholly outside of a,
- * as the winding number is constant along a path that avoids the surface. So it is if two patches
- * of b have points nearer to each other than gamma_clear: the segment between these does not meet
- * a. */
+ * ribbons that close a's seams are no farther from a than half of their width, which is at most
+ * twice gamma_clear, so that b does not meet them either. Then each connected part of b is wholly
+ * inside or wholly outside of a, as the winding number is constant along a path that avoids the
+ * surface. So it is if two patches of b have points nearer to each other than gamma_clear: the
+ * segment between these does not meet a. */
 
 struct inside_search {
     inside_plan plan;
@@ -138,10 +138,11 @@ static imp_code make_solid(const holding *h, solid **made)
     if (!(s->t == h->t)) forget_solids(s);
     s->t = h->t;
     solid **slot = &s->solids[h->solid];
+    const double passed = 2 * s->plan.gamma_clear;
+    const double slack = s->plan.gamma < passed ? s->plan.gamma : passed;
     imp_code code = IMP_SUCCESS;
     if (*slot == NULL)
-        code =
-            solid_new(s->plan.scene, h->solid, h->t, s->plan.gamma, s->plan.watch, slot, h->error);
+        code = solid_new(s->plan.scene, h->solid, h->t, slack, s->plan.watch, slot, h->error);
     *made = *slot;
     return code;
 }

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <impinge/model.h>
 #include <stdlib.h>
 
 #include "core/base/status.h"
@@ -9,19 +10,21 @@
 #include "core/surface/region.h"
 
 /* Lemma. If no point of one shell is on another, the first is wholly on one side of the second,
- * that of any of its points; where that cannot be shown, they count as intersecting, which fills
- * cavities and never makes one. */
+ * that of any of its points; and a shell with a point outside of another is not wholly inside of
+ * it. Where neither can be shown, nothing is told of points in both: whether the one is a cavity of
+ * the other is not known. */
 
 /* --- Do shells intersect? --------------------------------------------------------------------- */
 
-/* Regions looked at for two patches, and pairs of patches of two shells, before they count as
- * intersecting. */
-enum { REGIONS_MAX = 1 << 12 };
+/* Regions looked at for two patches, and pairs of patches of two shells, before it counts as
+ * unknown whether they intersect. */
+enum { REGIONS_MAX = 1 << 15 };
 #define PATCH_PAIRS_MAX 1e9
 
 typedef struct piece_of {
     const patch *p;
     imp_region region;
+    imp_model model[3];
     solid_box box;
 } piece_of;
 
@@ -51,10 +54,36 @@ static bool parameter_of(const piece_of *x, parameter *j)
     return region_can_split(&x->region, *j);
 }
 
+static imp_code bound_piece(const parting *w, piece_of *x)
+{
+    const imp_code code = solid_include(w->s, x->p, &x->region, x->model, w->error);
+    if (code == IMP_SUCCESS) solid_box_around(x->model, &x->box);
+    return code;
+}
+
+/* Whether heights of all points of one piece along the normal of either differ from all of the
+ * other's: between walls that run along each other, boxes would have to be as small as the wall is
+ * thin. A NaN parts nothing. */
+static bool planes_part(const piece_of *a, const piece_of *b)
+{
+    for (int side = 0; side < 2; ++side) {
+        const imp_model *m = side == 0 ? a->model : b->model;
+        imp_model n[3];
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            n[i] = imp_num(m[j].b[0] * m[k].b[1] - m[k].b[0] * m[j].b[1]);
+        }
+        const imp_model height[2] = {imp_dot3(n, a->model), imp_dot3(n, b->model)};
+        const imp_interval x = imp_model_range(&height[0]), y = imp_model_range(&height[1]);
+        if (x.hi < y.lo || y.hi < x.lo) return true;
+    }
+    return false;
+}
+
 /* *apart stays true where all points of both are shown to differ. */
 static imp_code part_pieces(parting *w, const piece_of *a, const piece_of *b, bool *apart)
 {
-    if (!*apart || solid_boxes_apart(&a->box, &b->box)) return IMP_SUCCESS;
+    if (!*apart || solid_boxes_apart(&a->box, &b->box) || planes_part(a, b)) return IMP_SUCCESS;
     const piece_of *larger = size_of(&a->box) >= size_of(&b->box) ? a : b;
     const piece_of *other = larger == a ? b : a;
     parameter j;
@@ -65,20 +94,21 @@ static imp_code part_pieces(parting *w, const piece_of *a, const piece_of *b, bo
     for (int side = 0; side < 2; ++side) {
         piece_of half = *larger;
         region_set_half(&half.region, &larger->region, j, side);
-        imp_code code = solid_box_of(w->s, half.p, &half.region, &half.box, w->error);
+        imp_code code = bound_piece(w, &half);
         if (code == IMP_SUCCESS) code = part_pieces(w, &half, other, apart);
         if (code != IMP_SUCCESS) return code;
     }
     return IMP_SUCCESS;
 }
 
-static piece_of whole_of(const solid *s, size_t index)
+static imp_code whole_of(const parting *w, size_t index, piece_of *x)
 {
-    const patch *p = &s->patches.patch[index];
-    return (piece_of){p,
-                      region_make((double[3]){p->lo[0], p->lo[1], s->patches.t},
-                                  (double[3]){p->hi[0], p->hi[1], s->patches.t}),
-                      s->boxes[index]};
+    const patches *all = &w->s->patches;
+    const patch *p = &all->patch[index];
+    *x = (piece_of){.p = p,
+                    .region = region_make((double[3]){p->lo[0], p->lo[1], all->t},
+                                          (double[3]){p->hi[0], p->hi[1], all->t})};
+    return bound_piece(w, x);
 }
 
 static imp_code part_shells(const solid *s, size_t x, size_t y, bool *apart, bool *stopped,
@@ -90,42 +120,77 @@ static imp_code part_shells(const solid *s, size_t x, size_t y, bool *apart, boo
         if (s->shells.facing[i].shell != x) continue;
         *stopped = !patch_watch_goes_on(s->watch);
         if (*stopped) return IMP_SUCCESS;
-        const piece_of a = whole_of(s, i);
-        for (size_t k = 0; k < n && *apart; ++k) {
+        parting w = {s, 0, error};
+        piece_of a, b;
+        imp_code code = whole_of(&w, i, &a);
+        for (size_t k = 0; k < n && *apart && code == IMP_SUCCESS; ++k) {
             if (s->shells.facing[k].shell != y || solid_boxes_apart(&a.box, &s->boxes[k])) continue;
-            const piece_of b = whole_of(s, k);
-            parting w = {s, 0, error};
-            const imp_code code = part_pieces(&w, &a, &b, apart);
-            if (code != IMP_SUCCESS) return code;
+            w.work = 0;
+            code = whole_of(&w, k, &b);
+            if (code == IMP_SUCCESS) code = part_pieces(&w, &a, &b, apart);
         }
+        if (code != IMP_SUCCESS) return code;
     }
     return IMP_SUCCESS;
 }
 
 /* --- Which shell is inside which? ------------------------------------------------------------- */
 
-static imp_code point_of(const solid *s, size_t shell, vec3 *x, double *off, imp_error *error)
-{
-    size_t k = 0;
-    while (s->shells.facing[k].shell != shell) ++k;
-    const patch *p = &s->patches.patch[k];
-    double uv[1][2];
-    patch_corner(p, 0, uv[0]);
-    return patch_eval(p, s->patches.t, 1, (const double(*)[2])uv, x, off, error);
-}
+/* Whether a shell is wholly inside another. */
+typedef enum nesting { NESTING_UNKNOWN, NESTING_INSIDE, NESTING_NOT } nesting;
 
-/* *inside: shell x is wholly inside shell y. */
-static imp_code is_inside(const solid *s, size_t x, size_t y, bool *inside, bool *stopped,
-                          imp_error *error)
+/* Points of each patch, in rows, and of a shell, that are held against another shell. */
+enum { ROWS = 5, POINTS_MAX = 1000 };
+
+/* What points of one shell tell about their place in another. */
+typedef struct comparison {
+    const solid *s;
+    size_t x, y; /* shells */
+    bool tried;  /* to part the two */
+    int points;  /* looked at */
+    nesting found;
+} comparison;
+
+/* Point k of the patch decides if it is outside of the other shell, or inside where the two are
+ * apart. */
+static imp_code compare_point(comparison *c, const patch *p, int k, bool *stopped, imp_error *error)
 {
+    const double uv[1][2] = {{patch_between(p->lo[0], p->hi[0], k / ROWS, ROWS - 1),
+                              patch_between(p->lo[1], p->hi[1], k % ROWS, ROWS - 1)}};
     vec3 at;
     double off[1];
-    winding_number found;
-    *inside = false;
-    imp_code code = point_of(s, x, &at, off, error);
-    if (code == IMP_SUCCESS) code = solid_wind(s, y, at, off[0], &found, error);
-    if (code != IMP_SUCCESS || found.is_near || found.times == 0) return code;
-    return part_shells(s, x, y, inside, stopped, error);
+    winding_number wound;
+    bool apart;
+    c->points += 1;
+    imp_code code = patch_eval(p, c->s->patches.t, 1, uv, &at, off, error);
+    if (code == IMP_SUCCESS) code = solid_wind(c->s, c->y, at, off[0], &wound, error);
+    if (code != IMP_SUCCESS || wound.is_near || !wound.is_whole) return code;
+    if (wound.times == 0) return c->found = NESTING_NOT, code;
+    if (c->tried) return code;
+    c->tried = true;
+    code = part_shells(c->s, c->x, c->y, &apart, stopped, error);
+    if (code == IMP_SUCCESS && !*stopped && apart) c->found = NESTING_INSIDE;
+    return code;
+}
+
+/* Finds out whether shell x is wholly inside shell y. */
+static imp_code is_inside(const solid *s, size_t x, size_t y, nesting *found, bool *stopped,
+                          imp_error *error)
+{
+    comparison c = {.s = s, .x = x, .y = y};
+    imp_code code = IMP_SUCCESS;
+    for (size_t i = 0; i < s->patches.count; ++i) {
+        if (s->shells.facing[i].shell != x) continue;
+        for (int k = 0; k < ROWS * ROWS; ++k) {
+            *stopped = *stopped || !patch_watch_goes_on(s->watch);
+            if (code != IMP_SUCCESS || *stopped || c.found != NESTING_UNKNOWN ||
+                c.points >= POINTS_MAX)
+                break;
+            code = compare_point(&c, &s->patches.patch[i], k, stopped, error);
+        }
+    }
+    *found = c.found;
+    return code;
 }
 
 /* Lengthens chains until none grows: no shell is inside itself. */
@@ -142,16 +207,20 @@ static void measure_chains(const bool *inside, size_t count, size_t *depth)
     }
 }
 
-imp_code solid_depths(const solid *s, const size_t *shell, size_t count, size_t *depth,
+imp_code solid_depths(const solid *s, const size_t *shell, size_t count, size_t *depth, bool *known,
                       bool *stopped, imp_error *error)
 {
     bool *inside = calloc(count * count, sizeof *inside);
     if (inside == NULL) return error_set_memory(error);
     imp_code code = IMP_SUCCESS;
-    for (size_t x = 0; x < count && code == IMP_SUCCESS && !*stopped; ++x)
-        for (size_t y = 0; y < count && code == IMP_SUCCESS && !*stopped; ++y)
-            if (x != y)
-                code = is_inside(s, shell[x], shell[y], &inside[x * count + y], stopped, error);
+    *known = true;
+    for (size_t k = 0; k < count * count && code == IMP_SUCCESS && !*stopped && *known; ++k) {
+        nesting found = NESTING_NOT;
+        const size_t x = k / count, y = k % count;
+        if (x != y) code = is_inside(s, shell[x], shell[y], &found, stopped, error);
+        inside[k] = found == NESTING_INSIDE;
+        *known = found != NESTING_UNKNOWN;
+    }
     measure_chains(inside, count, depth);
     free(inside);
     return code;

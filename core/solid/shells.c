@@ -55,6 +55,7 @@ typedef struct joining {
     size_t *partner;
     imp_closure *closure;
     const patch_watch *watch;
+    bool shares_edges; /* more than two patches share an edge */
 } joining;
 
 /* Keeps the first fault, at point k of edge i. */
@@ -110,6 +111,7 @@ static void join_all(joining *j)
     for (size_t i = 0; i < e->count; ++i) {
         const size_t partner = j->partner[i];
         const int middle = e->steps / 2;
+        j->shares_edges = j->shares_edges || partner == SEAM_EVEN;
         if (partner == SEAM_EVEN || edge_is_point(e, i)) continue;
         if (partner == SEAM_ODD)
             note_fault(j, IMP_CLOSURE_OPEN, i, middle);
@@ -156,6 +158,7 @@ static imp_code find_within(shells *s, const patches *p, double slack, const pat
     if (code == IMP_SUCCESS && e.bounded) join_all(&j);
     if (code == IMP_SUCCESS) number_shells(s, &j.l, n);
     s->slack = slack;
+    s->is_doubtful = j.shares_edges;
     edges_free(&e);
     free(j.l.up);
     free(j.l.sign);

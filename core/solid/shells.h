@@ -19,7 +19,8 @@
 typedef struct shells {
     imp_facing *facing; /* by patch */
     size_t count;
-    double slack; /* within which edges are the same; length */
+    double slack;     /* within which edges are the same; length */
+    bool is_doubtful; /* more than two patches share an edge: shells may lack some and be open */
 } shells;
 
 /* Tries edges within 1e-9 of the body's size first, then within `slack` if that is larger: small

@@ -40,21 +40,24 @@ void solid_free(solid *s)
 
 /* --- Boxes ------------------------------------------------------------------------------------ */
 
-imp_code solid_box_of(const solid *s, const patch *p, const imp_region *region, solid_box *box,
-                      imp_error *error)
+imp_code solid_include(const solid *s, const patch *p, const imp_region *region, imp_model model[3],
+                       imp_error *error)
 {
-    imp_model model[3];
     const imp_status status = surface_include(p->surface, region, model);
     if (status != IMP_STATUS_OK && status != IMP_STATUS_UNBOUNDED) {
         surface_fault(p->surface, error, "at t = %.17g: %s", s->patches.t,
                       surface_status_told(p->surface, status).text);
         return surface_set_code(status, error);
     }
+    return IMP_SUCCESS;
+}
+
+void solid_box_around(const imp_model model[3], solid_box *box)
+{
     for (int i = 0; i < 3; ++i) {
         box->lo[i] = model[i].lo > -INFINITY ? model[i].lo : -INFINITY;
         box->hi[i] = model[i].hi < INFINITY ? model[i].hi : INFINITY;
     }
-    return IMP_SUCCESS;
 }
 
 static void add_box(solid_box *to, const solid_box *box)
@@ -77,8 +80,10 @@ static imp_code make_boxes(solid *s, imp_error *error)
         const patch *one = &p->patch[k];
         const imp_region region = region_make((double[3]){one->lo[0], one->lo[1], p->t},
                                               (double[3]){one->hi[0], one->hi[1], p->t});
-        const imp_code code = solid_box_of(s, one, &region, &s->boxes[k], error);
+        imp_model model[3];
+        const imp_code code = solid_include(s, one, &region, model, error);
         if (code != IMP_SUCCESS) return code;
+        solid_box_around(model, &s->boxes[k]);
         add_box(&s->boxes[p->count + s->shells.facing[k].shell], &s->boxes[k]);
     }
     return IMP_SUCCESS;
@@ -118,13 +123,16 @@ enum { FINER = 16, ATTEMPTS = 3 };
 
 /* Lemma. A closed shell winds around x an integer number of times, which is in number -+ error: if
  * that is an interval of less than 1 around one integer, it is that one. It winds as often around
- * all points nearer to x than the shell is. */
+ * all points nearer to x than the shell is, and not at all around points out of its box. Where it
+ * may not be closed, as edges that more than two patches share leave open, only its number shows
+ * that: no integer. */
 imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_number *found,
                     imp_error *error)
 {
     winding_view view = {.t = s->patches.t, .x = x, .slack = s->shells.slack, .fineness = 0x1p-10};
     *found = (winding_number){.is_whole = true};
-    if (solid_box_excludes(solid_shell_box(s, shell), x, off)) return IMP_SUCCESS;
+    if (!s->shells.is_doubtful && solid_box_excludes(solid_shell_box(s, shell), x, off))
+        return IMP_SUCCESS;
     for (int k = 0; k < ATTEMPTS; ++k, view.fineness /= FINER) {
         winding_sum sum;
         const imp_code code = sum_up(s, shell, &view, &sum, error);
@@ -228,13 +236,17 @@ static imp_code count_walls(const solid *s, enclosing *around, solid_side *side,
                             imp_error *error)
 {
     long outer = 0;
+    bool known = true;
     imp_code code = IMP_SUCCESS;
     around->depth[0] = 0;
     if (around->count > 1)
-        code = solid_depths(s, around->shell, around->count, around->depth, stopped, error);
+        code = solid_depths(s, around->shell, around->count, around->depth, &known, stopped, error);
     for (size_t k = 0; code == IMP_SUCCESS && !*stopped && k < around->count; ++k)
         outer += around->depth[k] % 2 == 0 ? 1 : -1;
-    if (outer > 0) *side = SOLID_INSIDE;
+    if (!known)
+        *side = SOLID_TOO_NEAR;
+    else if (outer > 0)
+        *side = SOLID_INSIDE;
     return code;
 }
 

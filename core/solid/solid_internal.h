@@ -36,13 +36,17 @@ imp_code solid_wind(const solid *s, size_t shell, vec3 x, double off, winding_nu
                     imp_error *error);
 
 /* How many shells of the list each one of them is wholly inside of, counted along the longest
- * chain; `depth` has room for `count` numbers. */
-imp_code solid_depths(const solid *s, const size_t *shell, size_t count, size_t *depth,
+ * chain; `depth` has room for `count` numbers. *known false: of some two that cannot be told. */
+imp_code solid_depths(const solid *s, const size_t *shell, size_t count, size_t *depth, bool *known,
                       bool *stopped, imp_error *error);
 
-/* Bounds a part of a patch; infinite where there are no models. Fails as the plugin does. */
-imp_code solid_box_of(const solid *s, const patch *p, const imp_region *region, solid_box *box,
-                      imp_error *error);
+/* Computes the models of a part of a patch; infinite where there are none. Fails as the plugin
+ * does. */
+imp_code solid_include(const solid *s, const patch *p, const imp_region *region, imp_model model[3],
+                       imp_error *error);
+
+/* The box that holds what has these models. */
+void solid_box_around(const imp_model model[3], solid_box *box);
 
 static inline bool solid_boxes_apart(const solid_box *a, const solid_box *b)
 {

@@ -338,6 +338,22 @@ START_TEST(bodies_that_are_not_closed_are_refused_with_the_place_and_the_number)
 }
 END_TEST
 
+#define CUBE "{\"type\": \"box\", \"size\": [2, 2, 2]}"
+
+START_TEST(shells_that_share_all_edges_with_others_are_never_taken_for_empty)
+{
+    static const char box[] = "{\"type\": \"box\", \"size\": [1, 1, 1], \"center\": [%d, %d, %d]}";
+    char text[8192] = "", *end = text;
+    const scene_words twice = words(CUBE ", " CUBE);
+    check_refused(twice.text, "bound no volume");
+    for (int k = 0; k < 27; ++k) {
+        end += sprintf(end, "%s", k > 0 ? ", " : "");
+        end += sprintf(end, box, k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    }
+    check_refused(text, "bound no volume");
+}
+END_TEST
+
 START_TEST(gaps_up_to_gamma_are_closed)
 {
     static const char box[] =
@@ -355,6 +371,47 @@ START_TEST(gaps_up_to_gamma_are_closed)
     check_clear(with_ball(text, (const double[3]){0.5, 0.25, 1.02}, 0.01).text);
     snprintf(text, sizeof text, box, 1 + 1e-5);
     check_refused(text, "not closed");
+}
+END_TEST
+
+#define TURN "{\"type\": \"rotate\", \"axis\": [1, 2, 3], \"angle\": 1}"
+
+/* A ball in the cavity, and one in the wall at x = `at`. */
+static void try_tank(const scene_words *tank, double at, double wall)
+{
+    check_clear(with_ball(tank->text, (double[3]){0.1, 0, 0}, 0.3).text);
+    check_inside(with_ball(tank->text, (double[3]){at, 0, 0}, 0.2 * wall).text);
+}
+
+START_TEST(what_a_thin_wall_holds_is_not_in_it)
+{
+    static const double walls[] = {0.2, 0.1, 0.02};
+    for (size_t k = 0; k < sizeof walls / sizeof *walls; ++k) {
+        const double w = walls[k], at = 1 - 0.5 * w;
+        const scene_words
+            round = words(SPHERE("1", "0") ", " SPHERE("%.17g", "0"), 1 - w),
+            can = words("{\"type\": \"cylinder\", \"ends\": true}, {\"type\": \"cylinder\", "
+                        "\"radius\": %.17g, \"height\": %.17g, \"ends\": true}",
+                        1 - w, 2 - 2 * w),
+            turned = words(
+                "{\"type\": \"box\", \"size\": [2, 2, 2], \"maps\": [" TURN
+                "]}, {\"type\": \"box\", \"size\": [%.17g, %.17g, %.17g], \"maps\": [" TURN "]}",
+                2 - 2 * w, 2 - 2 * w, 2 - 2 * w);
+        try_tank(&round, at, w);
+        try_tank(&can, at, w);
+        check_clear(with_ball(turned.text, (double[3]){0.1, 0, 0}, 0.3).text);
+    }
+}
+END_TEST
+
+START_TEST(of_shells_that_touch_nothing_is_claimed)
+{
+    const scene_words ball =
+        with_ball(SPHERE("1", "0") ", " SPHERE("0.5", "0.5"), (double[3]){0.5, 0, 0}, 0.1);
+    const imp_result r = solve(ball.text);
+    ck_assert_int_eq(r.verdict, IMP_VERDICT_UNDECIDED);
+    ck_assert_int_eq(r.reason, IMP_REASON_RESOLUTION);
+    ck_assert(r.t_lower == 0);
 }
 END_TEST
 
@@ -580,7 +637,10 @@ int main(void)
         one_part_of_a_body_inside_is_enough,
         only_the_outer_body_has_to_be_solid,
         bodies_that_are_not_closed_are_refused_with_the_place_and_the_number,
+        shells_that_share_all_edges_with_others_are_never_taken_for_empty,
         gaps_up_to_gamma_are_closed,
+        what_a_thin_wall_holds_is_not_in_it,
+        of_shells_that_touch_nothing_is_claimed,
         closure_tells_shells_and_holes,
         excluding_a_pair_finds_the_next_one_inside,
         parts_of_a_query_tell_who_is_inside,
