@@ -69,7 +69,8 @@ typedef struct distance_sides {
     float *carry; /* likewise surface_carry_slip of the other, for all points of each */
     float *orbit; /* likewise surface_orbit_slip of each along the other, with the parameters */
     unsigned char *held;
-    bool *is_bare; /* whether `carry` counts from before the other's maps */
+    bool takes_orbits; /* whether one point may stand for others */
+    bool *is_bare;     /* whether `carry` counts from before the other's maps */
     bool is_audited;
 } distance_sides;
 

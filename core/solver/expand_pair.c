@@ -249,8 +249,8 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     const time_window before = p->window;
     distance_outcome from_each;
     trial_rate *sliding = im->trials != NULL ? &im->trials[p->candidate_pair].sliding : NULL;
-    imp_code code = pair_look(p, candidate_pair_of(im, p), im->gamma_clear, GOAL_CONTACT, sliding,
-                              &from_each, error);
+    imp_code code = pair_look(p, candidate_pair_of(im, p), im->gamma_clear, GOAL_CONTACT,
+                              im->proof != NULL, sliding, &from_each, error);
     if (code == IMP_SUCCESS && from_each.is_apart) pair_note_test(im->proof, p, false);
     if (code != IMP_SUCCESS || from_each.is_apart) return code;
     if (witness_is_likely(im, p, &from_each)) {

@@ -191,7 +191,7 @@ static cut choose_cut(const min_distance *m, const pair *p, const distance_outco
 static imp_code look(min_distance *m, pair *p, distance_outcome *seen, imp_error *error)
 {
     const imp_code code = pair_look(p, &m->candidates[p->candidate_pair], enough(m), GOAL_DISTANCE,
-                                    NULL, seen, error);
+                                    m->proof != NULL, NULL, seen, error);
     const time_window before = p->window;
     p->window = seen->left;
     pair_note_look(m->proof, p, before);

@@ -5,7 +5,7 @@
 #include "core/solver/pair_step.h"
 
 /* Returns the input of distance_cut_sides; the slips are stored in the candidate pair. */
-static distance_sides sides_of(const pair *p, candidate_pair *both)
+static distance_sides sides_of(const pair *p, candidate_pair *both, bool keeps_proof)
 {
     const candidate *a = both->side[0], *b = both->side[1];
     return (distance_sides){.node = {p->a, p->b},
@@ -16,11 +16,12 @@ static distance_sides sides_of(const pair *p, candidate_pair *both)
                             .orbit = both->orbit,
                             .held = both->held,
                             .is_bare = both->is_bare,
+                            .takes_orbits = !keeps_proof,
                             .is_audited = tree_is_audited(a->tree)};
 }
 
 imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
-                   trial_rate *sliding, distance_outcome *seen, imp_error *error)
+                   bool keeps_proof, trial_rate *sliding, distance_outcome *seen, imp_error *error)
 {
     const slide_signs signs = {.start = p->window.lo,
                                .is_whole = surface_is_whole(p->a->surface, &p->a->region) &&
@@ -31,7 +32,7 @@ imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_g
     *seen = distance_outcome_none(&p->window);
     if (!p->a->bounded || !p->b->bounded || pair_has_cluster(p)) return IMP_SUCCESS;
     if (!strategy_takes_distances(p->a, p->b, &signs, goal)) return IMP_SUCCESS;
-    const distance_sides sides = sides_of(p, both);
+    const distance_sides sides = sides_of(p, both, keeps_proof);
     const imp_code code = distance_cut_sides(&sides, limit, seen, error);
     strategy_note_distances(&signs, seen->is_apart || seen->side >= 0);
     return code;

@@ -27,9 +27,11 @@ static inline resolution resolution_of(double near, double far)
 
 /* Computes the distances of the pair's nodes from each other's whole surfaces, if
  * strategy_takes_distances. Nodes farther apart than `limit` do not matter; `sliding` is the
- * candidate pair's count of trials. IMP_ERROR_PLUGIN: a callback breaks the ABI. */
+ * candidate pair's count of trials. IMP_ERROR_PLUGIN: a callback breaks the ABI. `keeps_proof`:
+ * each pair is to be proved again by one who believes no type's claims of symmetry, so that no
+ * point stands for others. */
 imp_code pair_look(const pair *p, candidate_pair *both, double limit, strategy_goal goal,
-                   trial_rate *sliding, distance_outcome *seen, imp_error *error);
+                   bool keeps_proof, trial_rate *sliding, distance_outcome *seen, imp_error *error);
 
 /* Returns the cut of the node that pair_look chose to be split alone; CUT_NONE: it chose none, or
  * the node's remainder is too small to matter. */

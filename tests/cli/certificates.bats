@@ -42,6 +42,13 @@ near='sphere center=2.01,0.1,0.2'
     [[ ${lines[2]} == "1 pairs of surfaces, 1 leaves,"* ]]
 }
 
+@test "a ball that turns in its socket is proved by parts, none of which stands for others" {
+    run -0 "$IMPINGE" pair 'sphere radius=.9 ! rotate axis=1,2,3 rate=2' sphere --gamma 0.01 --proof socket.proof --json
+    json '.verdict == "clear" and .stats.pairs > 1'
+    run -0 "$IMPINGE" pair 'sphere radius=.9 ! rotate axis=1,2,3 rate=2' sphere --gamma 0.01 --json
+    json '.verdict == "clear" and .stats.pairs == 1'
+}
+
 @test "what a changed file states is not believed" {
     "$IMPINGE" clearance sphere "$near" --tolerance 0.1 --proof distance.proof
     sed 's/^apart .*/apart 1/' distance.proof >larger.proof
