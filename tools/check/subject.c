@@ -135,8 +135,8 @@ static imp_status surface_rate(const subject *s, const box *where, double rate[3
     memset(&m, 0xff, sizeof m); /* NaN again */
     const imp_status status = s->instance->surface->rate(s->instance->self, &region, &m);
     for (int i = 0; i < 3; ++i) {
+        memset(rate[i], 0, BOX_DIMS * sizeof *rate[i]);
         memcpy(rate[i], m.m[i], sizeof m.m[i]);
-        rate[i][3] = 0;
     }
     return status;
 }
@@ -149,7 +149,10 @@ static imp_status map_rate(const subject *s, const box *where, double rate[3][BO
     memcpy(space.lo, where->lo, sizeof space.lo);
     memcpy(space.hi, where->hi, sizeof space.hi);
     const imp_status status = s->instance->map->rate(s->instance->self, &space, &m);
-    memcpy(rate, m.m, sizeof m.m);
+    for (int i = 0; i < 3; ++i) {
+        memset(rate[i], 0, BOX_DIMS * sizeof *rate[i]);
+        memcpy(rate[i], m.m[i], sizeof m.m[i]);
+    }
     return status;
 }
 
