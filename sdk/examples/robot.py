@@ -8,7 +8,8 @@ import sys
 from impinge import robot
 
 arm = robot.load(sys.argv[1])
-shelf = {"name": "shelf", "surfaces": [{"type": "box", "size": [0.3, 0.8, 0.02], "center": [0.55, 0, 0.75]}]}
+board = {"type": "box", "size": [0.3, 0.8, 0.02], "center": [0.55, 0, 0.75]}
+shelf = {"name": "shelf", "surfaces": [board]}
 start = {"lift": -1.0, "bend": -0.3}
 
 # A planner would ask this of each edge; the robot's files are read once.
@@ -17,7 +18,8 @@ for lift in (-0.4, 0.2, 0.8):
     scene = arm.scene([0, 1], edge, world=[shelf])  # or world="scene.yaml", as MoveIt writes it
     answer = scene.solve()
     if answer.verdict == "contact":
-        print(f"to lift = {lift}: {' touches '.join(answer.bodies)} at t = {answer.t:.6f}, not before")
+        a, b = answer.bodies
+        print(f"to lift = {lift}: {a} touches {b} at t = {answer.t:.6f}, not before")
     else:
         print(f"to lift = {lift}: {answer.verdict}, {scene.clearance().lower * 1000:.1f} mm apart")
 if len(sys.argv) > 2:
