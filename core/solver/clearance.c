@@ -12,6 +12,7 @@
 #include "core/bounds/tuning.h"
 #include "core/common/array.h"
 #include "core/common/clock.h"
+#include "core/scene/tolerances.h"
 #include "core/solver/contradiction.h"
 #include "core/solver/world.h"
 
@@ -220,8 +221,9 @@ static void finish_task(clearance_search *c, imp_reason reason)
         if (c->answer.verdict == IMP_REQUIREMENT_HOLDS)
             c->answer.verdict = IMP_REQUIREMENT_UNDECIDED;
     }
-    c->known_outside =
-        c->answer.lower > 0 && scene_is_defined(c->scene, c->options.t_start, c->options.t_end);
+    const double clear = tolerances_clear(c->options.gamma, c->options.gamma_clear);
+    c->known_outside = c->answer.lower > 0 && c->answer.lower >= clear &&
+                       scene_is_defined(c->scene, c->options.t_start, c->options.t_end);
     c->answer.reason = reason;
     c->answer.stats = cost(c);
     c->answers[c->current++] = c->answer;

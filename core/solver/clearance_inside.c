@@ -8,8 +8,9 @@
 
 /* Bodies inside solid ones, asked before the distance of a task is searched for. */
 
-/* Lemma. Bodies whose surfaces are proved to keep a distance in one slice, and one of which was not
- * inside the other when it began, are not inside each other when it ends. */
+/* Lemma. Bodies whose surfaces are proved to keep at least gamma_clear in one slice, and one of
+ * which was not inside the other when it began, are not inside each other when it ends: a smaller
+ * one may pass a gap that counts as closed (inside.c). */
 static bool is_known(clearance_search *c)
 {
     const bool is_next_slice = c->current % c->asked.slices != 0;

@@ -557,6 +557,36 @@ START_TEST(slices_of_time_that_begin_inside_have_no_distance)
 }
 END_TEST
 
+/* A box whose lid is 0.018 too high, which gamma closes: a ball passes the gap. */
+START_TEST(a_slice_that_begins_behind_a_gap_begins_inside)
+{
+    imp_scene *scene = scene_of(
+        "{\"solid\": true, \"surfaces\": ["
+        "{\"type\": \"plane\", \"origin\": [-1,-1,-1], \"edge_u\": [2,0,0], \"edge_v\": [0,2,0]}, "
+        "{\"type\": \"plane\", \"origin\": [-1,-1,1.018], \"edge_u\": [2,0,0], \"edge_v\": "
+        "[0,2,0]}, "
+        "{\"type\": \"plane\", \"origin\": [-1,-1,-1], \"edge_u\": [2,0,0], \"edge_v\": [0,0,2]}, "
+        "{\"type\": \"plane\", \"origin\": [-1,1,-1], \"edge_u\": [2,0,0], \"edge_v\": [0,0,2]}, "
+        "{\"type\": \"plane\", \"origin\": [-1,-1,-1], \"edge_u\": [0,0,2], \"edge_v\": [0,2,0]}, "
+        "{\"type\": \"plane\", \"origin\": [1,-1,-1], \"edge_u\": [0,2,0], \"edge_v\": [0,0,2]}]}, "
+        "{\"surfaces\": [{\"type\": \"sphere\", \"radius\": 0.001, \"center\": [1.4, 0, 1.209]}], "
+        "\"maps\": [{\"type\": \"translate\", \"velocity\": [-1.2, 0, -0.6]}]}");
+    imp_options options = imp_options_default(scene);
+    imp_clearance_options asked = imp_clearance_options_default();
+    imp_clearance a[2] = {{.struct_size = sizeof *a}, {.struct_size = sizeof *a}};
+    options.gamma = 0.02;
+    asked.slices = 2;
+    imp_query *query = imp_clearance_new(scene, &options, &asked, NULL);
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    for (size_t k = 0; k < 2; ++k)
+        ck_assert_int_eq(imp_clearance_get(query, k, &a[k], NULL), IMP_SUCCESS);
+    ck_assert(a[0].lower > 0);
+    ck_assert(a[1].lower == 0 && a[1].kind == IMP_CONTACT_INSIDE);
+    imp_query_free(query);
+    imp_scene_free(scene);
+}
+END_TEST
+
 START_TEST(a_limit_of_time_ends_the_look_inside)
 {
     imp_scene *scene = scene_of(crowd);
@@ -646,6 +676,7 @@ int main(void)
         parts_of_a_query_tell_who_is_inside,
         clearances_are_zero_inside,
         slices_of_time_that_begin_inside_have_no_distance,
+        a_slice_that_begins_behind_a_gap_begins_inside,
         a_limit_of_time_ends_the_look_inside,
         the_solid_angle_of_a_triangle_is_within_its_error};
     return suite_main_with("solids", tests, sizeof tests / sizeof tests[0], open_registry,
