@@ -45,6 +45,11 @@ static void ignore_finding(void *context, const char *check, imp_finding finding
     (void)context, (void)check, (void)finding, (void)text;
 }
 
+static void ignore_bytes(void *context, const void *bytes, size_t size)
+{
+    (void)context, (void)bytes, (void)size;
+}
+
 static bool never_go_on(void *context)
 {
     (void)context;
@@ -81,6 +86,7 @@ static void *const of_char_p_p[] = {NULL, &text_place}; /* of const char or char
 static double *const of_double_p[] = {NULL, numbers};
 static size_t *const of_size_t_p[] = {NULL, size_place};
 static void *const of_void_p[] = {NULL, numbers};
+static const imp_proof_sink of_imp_proof_sink[] = {NULL, ignore_bytes};
 static const imp_go_on of_imp_go_on[] = {NULL, never_go_on};
 static const imp_finding_sink of_imp_finding_sink[] = {NULL, ignore_finding};
 static const double of_double[] = {0, -1, 1e-9, NAN, INFINITY};
