@@ -3,7 +3,8 @@
 
 //! The surface ABI, as far as this example uses it; layout.txt beside the guide lists all of it.
 
-use std::ffi::{c_char, c_void};
+use std::ffi::c_void;
+use std::os::raw::c_char;
 use std::ops::{Add, Mul, Neg, Sub};
 
 pub type Status = u32;

@@ -12,10 +12,15 @@
 mod abi;
 
 use abi::*;
-use std::ffi::{c_char, c_void, CStr};
+use std::ffi::{c_void, CStr};
+use std::os::raw::c_char;
 
-const NAME: &CStr = c"gear-rs";
-const VERSION: &CStr = c"0.1.0";
+/// A text of C.
+macro_rules! c {
+    ($text:literal) => {
+        concat!($text, "\0").as_ptr() as *const c_char
+    };
+}
 
 /* --- Parameters ------------------------------------------------------------------------------- */
 
@@ -25,20 +30,29 @@ const ROLL: usize = 2;
 const WIDTH: usize = 3;
 
 const fn row(
-    name: &'static CStr, unit: &'static CStr, doc: &'static CStr, default: &'static CStr,
+    name: *const c_char, unit: *const c_char, doc: *const c_char, default_value: *const c_char,
     kind: u32, flags: u32, min: f64, max: f64,
 ) -> Parameter {
-    Parameter {
-        name: name.as_ptr(), unit: unit.as_ptr(), doc: doc.as_ptr(),
-        default_value: default.as_ptr(), kind, flags, rank: 0, extent: [0; 3], min, max,
-    }
+    Parameter { name, unit, doc, default_value, kind, flags, rank: 0, extent: [0; 3], min, max }
 }
 
 static PARAMETERS: Shared<[Parameter; 4]> = Shared([
-    row(c"teeth", c"1", c"how many teeth it has", c"12", KIND_INTEGER, 0, 3.0, 1000.0),
-    row(c"base", c"length", c"radius of the base circle", c"1", KIND_NUMBER, MIN_OPEN, 0.0, 1e6),
-    row(c"roll", c"rad", c"how far a flank unrolls", c"0.6", KIND_NUMBER, MIN_OPEN, 0.0, 3.0),
-    row(c"width", c"length", c"along the z axis", c"0.5", KIND_NUMBER, MIN_OPEN, 0.0, 1e6),
+    row(
+        c!("teeth"), c!("1"), c!("how many teeth it has"), c!("12"), KIND_INTEGER, 0,
+        3.0, 1000.0,
+    ),
+    row(
+        c!("base"), c!("length"), c!("radius of the base circle"), c!("1"), KIND_NUMBER, MIN_OPEN,
+        0.0, 1e6,
+    ),
+    row(
+        c!("roll"), c!("rad"), c!("how far a flank unrolls"), c!("0.6"), KIND_NUMBER, MIN_OPEN,
+        0.0, 3.0,
+    ),
+    row(
+        c!("width"), c!("length"), c!("along the z axis"), c!("0.5"), KIND_NUMBER, MIN_OPEN,
+        0.0, 1e6,
+    ),
 ]);
 
 /* --- Instances -------------------------------------------------------------------------------- */
@@ -141,12 +155,13 @@ static TYPE: Shared<SurfaceType> = Shared(SurfaceType {
     parameter_count: 4,
     parameter_size: std::mem::size_of::<Parameter>() as u32,
     flags: 0,
-    name: NAME.as_ptr(),
-    summary: c"flanks of an involute gear".as_ptr(),
-    equation: c"phi = angle + s u: (base (cos phi + s u sin phi), base (sin phi - s u cos phi), v)"
-        .as_ptr(),
+    name: c!("gear-rs"),
+    summary: c!("flanks of an involute gear"),
+    equation: c!(
+        "phi = angle + s u: (base (cos phi + s u sin phi), base (sin phi - s u cos phi), v)"
+    ),
     source: std::ptr::null(),
-    example: c"gear-rs teeth=20 roll=0.5".as_ptr(),
+    example: c!("gear-rs teeth=20 roll=0.5"),
     parameters: &PARAMETERS.0 as *const Parameter,
     create, destroy, domain, eval, rate, include,
     net: None,
@@ -164,7 +179,7 @@ static FACTORY: Shared<SurfaceFactory> = Shared(SurfaceFactory {
 });
 
 unsafe extern "C" fn get_factory(id: *const c_char) -> *const c_void {
-    if CStr::from_ptr(id) == c"impinge.surface/1" {
+    if CStr::from_ptr(id).to_bytes() == b"impinge.surface/1" {
         return &FACTORY.0 as *const SurfaceFactory as *const c_void;
     }
     std::ptr::null()
@@ -177,10 +192,10 @@ pub static impinge_plugin: Shared<Plugin> = Shared(Plugin {
     struct_size: std::mem::size_of::<Plugin>() as u32,
     abi_major: 1,
     abi_minor: 0,
-    name: NAME.as_ptr(),
-    version: VERSION.as_ptr(),
-    license: c"MIT".as_ptr(),
-    author: c"The Impinge authors".as_ptr(),
+    name: c!("gear-rs"),
+    version: c!("0.1.0"),
+    license: c!("MIT"),
+    author: c!("The Impinge authors"),
     get_factory,
 });
 
