@@ -263,7 +263,7 @@ verbs() { "$IMPINGE" help | sed -n 's/^  \([a-z]*\) .*/\1/p'; }
     run --separate-stderr "$IMPINGE" pair "${endless[@]}" --max-seconds 1.3
     [ -z "$stderr" ]
     export IMPINGE near
-    run script -qec '"$IMPINGE" pair sphere "$near" --gamma 1e-9 --max-bytes 0 --max-seconds 1.8' /dev/null
+    run script -qec '"$IMPINGE" pair superellipsoid "$near" --gamma 1e-9 --max-bytes 0 --max-seconds 1.8' /dev/null
     [[ $output == *' pairs, '*' wait, clear until t = 0'*$'\e[K'* ]]
 }
 

@@ -103,8 +103,8 @@ options=()
 
 @test "a signal ends the line at work with what is proved, and reads no further" {
     { scene '"id": 1,' && echo '{"id": 2, "gamma": 1e-9, "bodies": [
-        {"name": "a", "surfaces": [{"type": "sphere"}]},
-        {"name": "b", "surfaces": [{"type": "sphere", "radius": 1.000000002}]}]}' | tr -d '\n'
+        {"name": "a", "surfaces": [{"type": "superellipsoid"}]},
+        {"name": "b", "surfaces": [{"type": "superellipsoid", "radii": [1.000000002,1.000000002,1.000000002]}]}]}' | tr -d '\n'
         echo && scene '"id": 3,'; } >scenes.jsonl
     interrupted 3 INT "$IMPINGE" batch scenes.jsonl --max-bytes 0
     valid result
@@ -230,8 +230,8 @@ without_seconds() { jq -c 'if .stats then del(.stats.seconds) else . end'; }
 
 @test "what a signal has cut short is solved again by a resumed run" {
     { scene '"id": 1,' && echo '{"id": 2, "gamma": 1e-9, "bodies": [
-        {"name": "a", "surfaces": [{"type": "sphere"}]},
-        {"name": "b", "surfaces": [{"type": "sphere", "radius": 1.000000002}]}]}' | tr -d '\n'
+        {"name": "a", "surfaces": [{"type": "superellipsoid"}]},
+        {"name": "b", "surfaces": [{"type": "superellipsoid", "radii": [1.000000002,1.000000002,1.000000002]}]}]}' | tr -d '\n'
         echo && scene '"id": 3,'; } >scenes.jsonl
     interrupted 3 INT "$IMPINGE" batch scenes.jsonl --max-bytes 0 --resume out
     [ "$(jq -s -c 'map(.id)' out)" = '[1]' ]

@@ -89,10 +89,10 @@ many() {
     jq -s -e '.[300].error | contains("eval_crashes")' out
 }
 
-# Two balls that never touch, too near to each other to prove it in a lifetime.
+# Two nested surfaces that never touch, too near to each other to prove it in a lifetime.
 endless_scene() {
-    echo '{"id": 700, "gamma": 1e-9, "bodies": [{"surfaces": [{"type": "sphere"}]},
-        {"surfaces": [{"type": "sphere", "radius": 1.000000002}]}]}' | tr -d '\n'
+    echo '{"id": 700, "gamma": 1e-9, "bodies": [{"surfaces": [{"type": "superellipsoid"}]},
+        {"surfaces": [{"type": "superellipsoid", "radii": [1.000000002,1.000000002,1.000000002]}]}]}' | tr -d '\n'
     echo
 }
 

@@ -189,8 +189,9 @@ oblique() {
 }
 
 @test "a signal ends a search that would take a lifetime" {
-    local gap='{"name": "b", "mass": 1, "surfaces": [{"type": "sphere", "radius": 1.000000002}]}'
-    echo "{\"gamma\": 1e-9, \"bodies\": [{\"name\": \"a\", \"surfaces\": [{\"type\": \"sphere\"}]}, $gap]}" >near.json
+    local gap='{"name": "b", "mass": 1,
+        "surfaces": [{"type": "superellipsoid", "radii": [1.000000002,1.000000002,1.000000002]}]}'
+    echo "{\"gamma\": 1e-9, \"bodies\": [{\"name\": \"a\", \"surfaces\": [{\"type\": \"superellipsoid\"}]}, $gap]}" >near.json
     interrupted 3 TERM "$IMPINGE" simulate near.json -o out.json --json --max-bytes 0
     valid simulate
     json '.reason == "cancelled" and .time == [0, 0] and .events == []'

@@ -36,4 +36,5 @@ def crowd() -> impinge.Scene:
 
 def endless() -> impinge.Scene:
     """A search that only a budget ends."""
-    return impinge.Scene.from_pair("sphere radius=1", "sphere radius=1.000000002")
+    return impinge.Scene.from_pair("superellipsoid",
+                                   "superellipsoid radii=1.000000002,1.000000002,1.000000002")

@@ -96,9 +96,9 @@ valid() {
     [ -z "$faults" ]
 }
 
-# Two balls that never touch, too near to each other to prove it in a lifetime.
-near='sphere radius=1.000000002'
-endless=('sphere' "$near" --gamma 1e-9 --max-bytes 0)
+# Two nested surfaces that never touch, too near to each other to prove it in a lifetime.
+near='superellipsoid radii=1.000000002,1.000000002,1.000000002'
+endless=(superellipsoid "$near" --gamma 1e-9 --max-bytes 0)
 
 # twin.so: a surface and a map, both called twin, that fail at every call; the surface is defined
 # for t from LOW to HIGH, else always: build_twin [LOW HIGH].
