@@ -166,8 +166,12 @@ static imp_code question_of(const distance_sides *of, int side, double gamma_cle
     if (!surface_has_symmetry(other->surface)) return IMP_SUCCESS;
     const time_window times = pair_times(of->root[side], of->root[!side]);
     const bool at_once = times.lo == times.hi, turned = is_turned(of, side);
-    const bool has_orbits = of->takes_orbits && surface_has_orbits(own->surface),
-               turns = own->still != NULL || turned;
+    const bool turns = own->still != NULL || turned;
+    bool has_orbits = false;
+    if (of->takes_orbits) {
+        const imp_status status = surface_has_orbits(own->surface, &has_orbits);
+        if (status != IMP_STATUS_OK) return fault_of(own->surface, status, error);
+    }
     q->moment = 0.5 * times.lo + 0.5 * times.hi;
     if (turns || has_orbits) code = add_slip(of, side, &times, q, error);
     const bool slides = distance_slides(q);

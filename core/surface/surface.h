@@ -153,8 +153,9 @@ bool surface_has_distance(const surface *s);
 /* Whether surface_has_distance, and the type offers a symmetry. */
 bool surface_has_symmetry(const surface *s);
 
-/* Whether one point of it may stand for others (surface_orbit_slip). */
-bool surface_has_orbits(const surface *s);
+/* *has: one point of it may stand for others (surface_orbit_slip). A status other than OK is a
+ * fault of its symmetry. */
+imp_status surface_has_orbits(const surface *s, bool *has);
 
 /* Bounds the distance, as in imp_surface_type, of a point with these models over the region from
  * the whole surface under its first `maps` maps. The models' rates are not used. The bound also

@@ -185,11 +185,12 @@ static double orbit_slip_upper(const feature *a, const feature *b, const double 
     return padded_upper(2 * s, 16);
 }
 
-bool surface_has_orbits(const surface *s)
+imp_status surface_has_orbits(const surface *s, bool *has)
 {
     imp_symmetry found;
-    return surface_has_symmetry(s) && surface_symmetry(s, &found) == IMP_STATUS_OK &&
-           found.is_closed > IMP_SYMMETRY_CLOSED;
+    const imp_status status = surface_symmetry(s, &found);
+    *has = status == IMP_STATUS_OK && found.is_closed > IMP_SYMMETRY_CLOSED;
+    return status == IMP_STATUS_UNBOUNDED ? IMP_STATUS_OK : status;
 }
 
 imp_status surface_orbit_slip(const surface *a, const surface *b, const double lo[3],

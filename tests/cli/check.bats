@@ -561,7 +561,7 @@ missed() {
 @test "check --json is as its schema says, for a pass and for a failure" {
     run -0 "$IMPINGE" check torus --json --effort 0.05
     valid check
-    json '.verdict == "pass" and .types[0].label == "tested" and .types[0].tests > 1000
+    json '.verdict == "pass" and .types[0].label == "proved" and .types[0].tests > 1000
           and (.types[0].cost.eval_ns > 0) and .types[0].cost.pairs[1] < 200 and (.types[0].tightness.rates[0] >= 1)'
     run -6 "$IMPINGE" check "$liars/liar_time.so" --json --effort 0.05 --only rates
     valid check

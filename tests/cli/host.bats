@@ -607,8 +607,8 @@ whole='over u [-1, 1], v [-1, 1], t [0, 1]'
 
 @test "distances that break the ABI end the query, and --audit finds those that points refute" {
     takes distance_nan distance_infinite liar_distance liar_distance_remainder liar_truthful_distance
-    # It turns off its own axis, so that its own distance is not asked for.
-    local type within='cylinder radius=.98 height=1 center=.01,0,1 ! rotate rate=3'
+    # Its type gives no distance, so that the other's is asked for.
+    local type within='superellipsoid radii=.98,.97,.5 exponents=1,1 center=0,0,1 ! rotate rate=3'
     for type in distance_nan distance_infinite; do
         fails 5 "type '$type': a distance from it has a remainder that is negative or NaN, or" \
             pair $type "$within" --gamma 1e-3
