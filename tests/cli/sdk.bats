@@ -250,7 +250,7 @@ examples=share/doc/impinge/sdk/examples
     for file in "$prefix/$examples"/*; do
         run -0 --separate-stderr impinge build "$file"
         [ -z "$stderr" ] # no warning
-        name=$(sed -nE 's/^(surface|map) ([a-z]+): .*/\2/p' <<<"$output")
+        name=$(sed -nE 's/^(surface|map) ([a-z-]+): .*/\2/p' <<<"$output")
         [[ ${lines[-1]} == "in $PWD/"*.so ]]
         eval "$(impinge info "$name" --plugin-path . | sed -n 's/^  try  *//p') --plugin-path ."
         if has_verb check; then impinge check "$name" --plugin-path .; fi
