@@ -123,7 +123,7 @@ START_TEST(unknown_keys_are_refused_with_the_nearest)
                  "id, reference, note, gravity, events, plugins");
     assert_wrong("{'bodies':[{'surface':[" KIT "]}]}",
                  "s.json: /bodies/0/surface: unknown key, did you mean 'surfaces'? Valid keys "
-                 "are name, surfaces, maps, parent, group, mass, inertia, center, "
+                 "are name, surfaces, maps, parent, group, solid, mass, inertia, center, "
                  "friction, restitution, velocity, spin");
     assert_wrong(SCENE(",'comment':1"),
                  "s.json: /comment: unknown key; valid keys are time, gamma, gamma_clear, "
