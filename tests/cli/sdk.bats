@@ -253,7 +253,7 @@ examples=share/doc/impinge/sdk/examples
         name=$(sed -nE 's/^(surface|map) ([a-z-]+): .*/\2/p' <<<"$output")
         [[ ${lines[-1]} == "in $PWD/"*.so ]]
         eval "$(impinge info "$name" --plugin-path . | sed -n 's/^  try  *//p') --plugin-path ."
-        if has_verb check; then impinge check "$name" --plugin-path .; fi
+        if has_verb check; then impinge check "$name" --plugin-path . --effort 0.2; fi
     done
 }
 
