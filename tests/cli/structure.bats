@@ -407,10 +407,24 @@ dangling_comments() { # FOLDER
 
 exports_of() { nm -D --defined-only "$1" | awk '{ print $3 }'; }
 
+# Functions that the public headers declare, and those that the Debian package names.
+declared_functions() { sed -n 's/^IMP_EXPORT.*[ *]\(imp_[a-z_0-9]*\)(.*/\1/p' "$1"/core/impinge/*.h | sort; }
+packaged_symbols() { sed -n 's/^ \([^ @]*\)@Base .*/\1/p' "$1/tools/debian/libimpinge0.symbols" | sort; }
+
 @test "libimpinge exports what its headers declare and nothing else" {
-    declared=$(sed -n 's/^IMP_EXPORT.*[ *]\(imp_[a-z_]*\)(.*/\1/p' \
-        "$top_srcdir"/core/impinge/*.h | sort)
-    [ "$(exports_of "$top_builddir"/.libs/libimpinge.so | sort)" = "$declared" ]
+    [ "$(exports_of "$top_builddir"/.libs/libimpinge.so | sort)" = "$(declared_functions "$top_srcdir")" ]
+}
+
+@test "the symbols file of the Debian package names each public function and nothing else" {
+    [ "$(packaged_symbols "$top_srcdir" | wc -l)" -ge 70 ]
+    diff <(declared_functions "$top_srcdir") <(packaged_symbols "$top_srcdir")
+}
+
+@test "a public function that the symbols file lacks is found" {
+    copy_sources
+    echo 'IMP_EXPORT double imp_sum(double x, double y);' >>"$copy/core/impinge/examine.h"
+    run diff <(declared_functions "$copy") <(packaged_symbols "$copy")
+    [[ $output == *'< imp_sum' ]]
 }
 
 @test "each plugin exports one symbol and needs nothing of core" {
