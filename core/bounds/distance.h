@@ -60,17 +60,23 @@ imp_code distance_cut(const distance_question *q, time_window *window, distance_
 
 /* --- Both sides ------------------------------------------------------------------------------- */
 
+/* What is kept of two surfaces, for each of them, so that it is computed once; begins as zeros. The
+ * slips are over their common times and rounded up; 0: not computed yet. */
+typedef struct distance_slips {
+    float slip[2];         /* surface_slip along the other */
+    float carry[2];        /* surface_carry_slip of the other, for all points of this one */
+    float orbit[2];        /* surface_orbit_slip along the other, */
+    unsigned char held[2]; /* with the parameters that need not vary then */
+    bool is_bare[2];       /* whether `carry` counts from before the other's maps */
+    signed char orbits[2]; /* surface_has_orbits: 1 true, -1 false, 0 not known yet */
+} distance_slips;
+
 /* Two nodes, each of which may be separated from the other's whole surface. */
 typedef struct distance_sides {
     const node *node[2], *root[2];
-    size_t still_maps[2]; /* surface_still_maps of each surface */
-    float *slip;  /* the caller's two numbers: surface_slip of each surface along the other over
-                             their common times, rounded up; 0: not computed yet */
-    float *carry; /* likewise surface_carry_slip of the other, for all points of each */
-    float *orbit; /* likewise surface_orbit_slip of each along the other, with the parameters */
-    unsigned char *held;
-    bool takes_orbits; /* whether one point may stand for others */
-    bool *is_bare;     /* whether `carry` counts from before the other's maps */
+    size_t still_maps[2];  /* surface_still_maps of each surface */
+    distance_slips *slips; /* the caller's, of the two surfaces */
+    bool takes_orbits;     /* whether one point may stand for others */
     bool is_audited;
 } distance_sides;
 

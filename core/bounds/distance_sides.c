@@ -14,33 +14,6 @@ distance_outcome distance_outcome_none(const time_window *window)
     return (distance_outcome){*window, false, 0, -1, {0, 0, 0}};
 }
 
-/* Bounds how far one surface slides along the other over their common times: along `plane`, or, if
- * that is NULL, modulo the other's symmetry. INFINITY: no bound is known, as where the other has
- * many pieces, each with its own symmetry. */
-static imp_code find_slip(const node *own, const node *other, const surface_plane *plane,
-                          const time_window *times, double moment, double *slip, imp_error *error)
-{
-    imp_model bare[3];
-    *slip = INFINITY;
-    if ((plane == NULL && other->many != NULL) || !node_bare_models(own, bare)) return IMP_SUCCESS;
-    const imp_region all = region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
-    const surface *a = own->surface, *b = other->surface;
-    const imp_status status = plane == NULL
-                                  ? surface_slip(a, b, bare, &all, moment, slip)
-                                  : surface_slip_along(a, b, plane, bare, &all, moment, slip);
-    if (status == IMP_STATUS_OK) return IMP_SUCCESS;
-    surface_fault(other->surface, error, ": %s", surface_status_told(other->surface, status).text);
-    return surface_set_code(status, error);
-}
-
-/* Whether maps of the other side rotate its surface, so that distances hold only with a slip. */
-static bool is_turned(const distance_sides *of, int side)
-{
-    const surface *own = of->node[side]->surface, *other = of->node[!side]->surface;
-    const size_t common = surface_common_maps(own, other);
-    return surface_map_count(other) - common > of->still_maps[!side];
-}
-
 static imp_code fault_of(const surface *s, imp_status status, imp_error *error)
 {
     surface_fault(s, error, ": %s", surface_status_told(s, status).text);
@@ -50,6 +23,31 @@ static imp_code fault_of(const surface *s, imp_status status, imp_error *error)
 static imp_region all_of(const time_window *times)
 {
     return region_make((double[3]){0, 0, times->lo}, (double[3]){0, 0, times->hi});
+}
+
+/* Bounds how far one surface slides along the other over their common times: along `plane`, or, if
+ * that is NULL, modulo the other's symmetry. INFINITY: no bound is known, as where the other has
+ * many pieces, each with its own symmetry. */
+static imp_code find_slip(const node *own, const node *other, const surface_plane *plane,
+                          const time_window *times, double moment, double *slip, imp_error *error)
+{
+    imp_model bare[3];
+    *slip = INFINITY;
+    if ((plane == NULL && other->many != NULL) || !node_bare_models(own, bare)) return IMP_SUCCESS;
+    const imp_region all = all_of(times);
+    const surface *a = own->surface, *b = other->surface;
+    const imp_status status = plane == NULL
+                                  ? surface_slip(a, b, bare, &all, moment, slip)
+                                  : surface_slip_along(a, b, plane, bare, &all, moment, slip);
+    return status == IMP_STATUS_OK ? IMP_SUCCESS : fault_of(b, status, error);
+}
+
+/* Whether maps of the other side rotate its surface, so that distances hold only with a slip. */
+static bool is_turned(const distance_sides *of, int side)
+{
+    const surface *own = of->node[side]->surface, *other = of->node[!side]->surface;
+    const size_t common = surface_common_maps(own, other);
+    return surface_map_count(other) - common > of->still_maps[!side];
 }
 
 /* A slip below this part of the points' distance is rounding. */
@@ -70,9 +68,9 @@ static imp_code find_carry(const distance_sides *of, int side, const time_window
     for (int i = 0; i < 3; ++i) size += own->hi[i] - own->lo[i];
     carry_base base = {moment, true};
     imp_status status = surface_carry_slip(other, own->lo, own->hi, &all, &base, slip);
-    of->is_bare[side] = *slip <= MERE_ROUNDING * size;
+    of->slips->is_bare[side] = *slip <= MERE_ROUNDING * size;
     base.is_bare = false;
-    if (status == IMP_STATUS_OK && !of->is_bare[side])
+    if (status == IMP_STATUS_OK && !of->slips->is_bare[side])
         status = surface_carry_slip(other, own->lo, own->hi, &all, &base, slip);
     return status == IMP_STATUS_OK ? IMP_SUCCESS : fault_of(other, status, error);
 }
@@ -97,7 +95,7 @@ static float float_upper(double x) { return nextafterf((float)x, INFINITY); }
 static imp_code add_carry(const distance_sides *of, int side, const time_window *times,
                           distance_question *q, imp_error *error)
 {
-    float *known = &of->carry[side];
+    float *known = &of->slips->carry[side];
     if (*known == 0) {
         double found;
         const imp_code code = find_carry(of, side, times, q->moment, &found, error);
@@ -106,7 +104,7 @@ static imp_code add_carry(const distance_sides *of, int side, const time_window 
     }
     if (!distance_slip_is_small(*known, q->gamma_clear)) return IMP_SUCCESS;
     q->is_carried = true;
-    q->is_bare = of->is_bare[side];
+    q->is_bare = of->slips->is_bare[side];
     q->slip = *known;
     return IMP_SUCCESS;
 }
@@ -117,16 +115,16 @@ static imp_code add_orbit(const distance_sides *of, int side, const time_window 
                           distance_question *q, imp_error *error)
 {
     const bool is_piece = of->root[0]->many != NULL || of->root[1]->many != NULL;
-    unsigned held = of->held[side];
-    double slip = of->orbit[side];
+    unsigned held = of->slips->held[side];
+    double slip = of->slips->orbit[side];
     if (is_piece || slip == 0) {
         const imp_code code = find_orbit(of, side, times, &held, &slip, error);
         if (code != IMP_SUCCESS) return code;
         slip = float_upper(slip);
     }
     if (!is_piece) {
-        of->orbit[side] = (float)slip;
-        of->held[side] = (unsigned char)held;
+        of->slips->orbit[side] = (float)slip;
+        of->slips->held[side] = (unsigned char)held;
     }
     const double all = sum_upper(q->slip, slip);
     if (!distance_slip_is_small(all, q->gamma_clear)) return IMP_SUCCESS;
@@ -139,7 +137,7 @@ static imp_code add_orbit(const distance_sides *of, int side, const time_window 
 static imp_code add_slip(const distance_sides *of, int side, const time_window *times,
                          distance_question *q, imp_error *error)
 {
-    float *slip = &of->slip[side];
+    float *slip = &of->slips->slip[side];
     if (*slip == 0) {
         double found;
         const imp_code code =
@@ -148,6 +146,20 @@ static imp_code add_slip(const distance_sides *of, int side, const time_window *
         *slip = float_upper(found);
     }
     q->slip = *slip;
+    return IMP_SUCCESS;
+}
+
+/* Finds out whether one point of a side may stand for its orbit. Each piece has a symmetry of its
+ * own. */
+static imp_code find_orbits(const distance_sides *of, int side, bool *has, imp_error *error)
+{
+    const surface *own = of->node[side]->surface;
+    signed char *known = &of->slips->orbits[side];
+    *has = of->takes_orbits && *known > 0;
+    if (!of->takes_orbits || *known != 0) return IMP_SUCCESS;
+    const imp_status status = surface_has_orbits(own, has);
+    if (status != IMP_STATUS_OK) return fault_of(own, status, error);
+    if (of->root[side]->many == NULL) *known = *has ? 1 : -1;
     return IMP_SUCCESS;
 }
 
@@ -167,11 +179,9 @@ static imp_code question_of(const distance_sides *of, int side, double gamma_cle
     const time_window times = pair_times(of->root[side], of->root[!side]);
     const bool at_once = times.lo == times.hi, turned = is_turned(of, side);
     const bool turns = own->still != NULL || turned;
-    bool has_orbits = false;
-    if (of->takes_orbits) {
-        const imp_status status = surface_has_orbits(own->surface, &has_orbits);
-        if (status != IMP_STATUS_OK) return fault_of(own->surface, status, error);
-    }
+    bool has_orbits;
+    code = find_orbits(of, side, &has_orbits, error);
+    if (code != IMP_SUCCESS) return code;
     q->moment = 0.5 * times.lo + 0.5 * times.hi;
     if (turns || has_orbits) code = add_slip(of, side, &times, q, error);
     const bool slides = distance_slides(q);

@@ -3,6 +3,7 @@
 #ifndef CORE_BROAD_PHASE_CANDIDATE_H
 #define CORE_BROAD_PHASE_CANDIDATE_H
 
+#include "core/bounds/distance.h"
 #include "core/scene/scene.h"
 #include "core/tree/node.h"
 
@@ -22,12 +23,7 @@ typedef struct candidate {
 /* Two candidates of different bodies that may come near each other. */
 typedef struct candidate_pair {
     candidate *side[2];
-    /* >= surface_slip of either along the other over their common times; 0: not computed yet */
-    float slip[2];
-    float carry[2];        /* like surface_carry_slip of the other, for points of either */
-    float orbit[2];        /* like surface_orbit_slip of either along the other */
-    unsigned char held[2]; /* the parameters that need not vary then */
-    bool is_bare[2];       /* whether `carry` counts from before the other's maps */
+    distance_slips slips;
 } candidate_pair;
 
 static inline bool candidate_pairs_same_bodies(const candidate_pair *p, const candidate_pair *q)

@@ -11,11 +11,7 @@ static distance_sides sides_of(const pair *p, candidate_pair *both, bool keeps_p
     return (distance_sides){.node = {p->a, p->b},
                             .root = {tree_root(a->tree), tree_root(b->tree)},
                             .still_maps = {a->still_maps, b->still_maps},
-                            .slip = both->slip,
-                            .carry = both->carry,
-                            .orbit = both->orbit,
-                            .held = both->held,
-                            .is_bare = both->is_bare,
+                            .slips = &both->slips,
                             .takes_orbits = !keeps_proof,
                             .is_audited = tree_is_audited(a->tree)};
 }
