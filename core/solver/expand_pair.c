@@ -158,7 +158,7 @@ static imp_code expand_unbounded(impact *im, const pair *p, impact_state *state,
     const int side = p->a->bounded ? 1 : 0;
     cut c;
     const imp_code code = cut_unbounded(im, p, side, &c, error);
-    explanation_count(im, p);
+    explanation_count(im, p, explanation_if_asked(im, p));
     if (code != IMP_SUCCESS) return code;
     if (c.side >= 0) return split(im, p, c, NULL, state, error);
     return node_unbounded_fault(candidate_pair_of(im, p)->side[side]->tree, side == 0 ? p->a : p->b,
@@ -236,14 +236,14 @@ static imp_code choose_cut_after_free(impact *im, pair *p, const distance_outcom
 
 static impact_state resolution_ends(impact *im, const pair *p)
 {
-    explanation_count_as(im, p, IMP_OBSTACLE_RESOLUTION);
+    explanation_count(im, p, IMP_OBSTACLE_RESOLUTION);
     return IMPACT_RESOLUTION;
 }
 
 static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_error *error)
 {
     if (pair_has_cluster(p)) {
-        explanation_count_as(im, p, IMP_OBSTACLE_SIZE);
+        explanation_count(im, p, IMP_OBSTACLE_SIZE);
         return split(im, p, cut_by_spread(p, im->gamma, false), NULL, state, error);
     }
     const time_window before = p->window;
@@ -268,7 +268,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     }
     p->slides = p->slides || from_each.side >= 0;
     p->window = from_each.left; /* only now: other pairs may start earlier */
-    const pair whole = *p;
+    const imp_obstacle obstacle = explanation_if_asked(im, p);
     pair_note_look(im->proof, p, before);
     bool some;
     cut c;
@@ -282,7 +282,7 @@ static imp_code expand_by_models(impact *im, pair *p, impact_state *state, imp_e
     if (code == IMP_ERROR_PLUGIN) return code;
     if (code != IMP_SUCCESS) return *state = IMPACT_NO_MEMORY, IMP_SUCCESS;
     if (c.side < 0) return *state = resolution_ends(im, p), IMP_SUCCESS;
-    explanation_count(im, &whole);
+    explanation_count(im, p, obstacle);
     return split(im, p, c, &halves, state, error);
 }
 

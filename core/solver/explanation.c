@@ -115,18 +115,17 @@ imp_obstacle explanation_of(const pair *p, const candidate_pair *both, double ga
     return !knows_distance(both) && lie_along(p) ? IMP_OBSTACLE_DISTANCE : IMP_OBSTACLE_SIZE;
 }
 
-void explanation_count_as(impact *im, const pair *p, imp_obstacle obstacle)
+imp_obstacle explanation_if_asked(const impact *im, const pair *p)
+{
+    if (im->explained == NULL) return IMP_OBSTACLE_SIZE;
+    return explanation_of(p, &im->candidate_pairs[p->candidate_pair], im->gamma_clear);
+}
+
+void explanation_count(impact *im, const pair *p, imp_obstacle obstacle)
 {
     if (im->explained == NULL) return;
     im->explained[p->candidate_pair].divided += 1;
     im->explained[p->candidate_pair].by[obstacle] += 1;
-}
-
-void explanation_count(impact *im, const pair *p)
-{
-    if (im->explained == NULL) return;
-    const candidate_pair *both = &im->candidate_pairs[p->candidate_pair];
-    explanation_count_as(im, p, explanation_of(p, both, im->gamma_clear));
 }
 
 /* --- What types leave out --------------------------------------------------------------------- */

@@ -16,9 +16,11 @@
 /* Returns what kept this pair of nodes from being parted. `both`: its surfaces. */
 imp_obstacle explanation_of(const pair *p, const candidate_pair *both, double gamma_clear);
 
+/* Returns explanation_of if im->explained is not NULL; else IMP_OBSTACLE_SIZE, without a test. */
+imp_obstacle explanation_if_asked(const impact *im, const pair *p);
+
 /* Counts a divided pair, or one that ended the search, where im->explained is not NULL. */
-void explanation_count(impact *im, const pair *p);
-void explanation_count_as(impact *im, const pair *p, imp_obstacle obstacle);
+void explanation_count(impact *im, const pair *p, imp_obstacle obstacle);
 
 /* Fills in what does not depend on counts: the surfaces, and what their types leave out. */
 void explanation_describe(const candidate_pair *both, imp_explanation *row);
