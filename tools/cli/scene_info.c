@@ -23,7 +23,7 @@ bool scene_info_is_asked(const char *operand)
 
 /* --- One body --------------------------------------------------------------------------------- */
 
-static size_t count_pieces(const imp_scene *scene, size_t body)
+size_t scene_info_pieces(const imp_scene *scene, size_t body)
 {
     size_t count = 0;
     for (size_t k = 0; k < imp_scene_surface_count(scene, body); ++k)
@@ -56,7 +56,7 @@ static json_t *body_json(const imp_scene *scene, size_t body, const imp_closure 
     return json_pack("{s:o, s:I, s:I, s:b, s:s, s:I, s:o*, s:o*, s:o*}", "name",
                      output_json_text(imp_scene_body_name(scene, body)), "surfaces",
                      (json_int_t)imp_scene_surface_count(scene, body), "pieces",
-                     (json_int_t)count_pieces(scene, body), "solid",
+                     (json_int_t)scene_info_pieces(scene, body), "solid",
                      imp_scene_is_solid(scene, body), "closure", verdict_name(c->verdict), "shells",
                      (json_int_t)c->shells, "surface",
                      has_place(c) ? json_integer((json_int_t)c->at.surface) : NULL, "piece",
@@ -67,7 +67,7 @@ static json_t *body_json(const imp_scene *scene, size_t body, const imp_closure 
 static void print_body(const imp_scene *scene, size_t body, const imp_closure *c)
 {
     const size_t surfaces = imp_scene_surface_count(scene, body);
-    const size_t pieces = count_pieces(scene, body);
+    const size_t pieces = scene_info_pieces(scene, body);
     printf("%s: %zu surface%s", imp_scene_body_name(scene, body), surfaces,
            surfaces == 1 ? "" : "s");
     if (pieces != surfaces) printf(" of %zu pieces", pieces);

@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-#include "tools/simulate/patches.h"
+#include "tools/cli/scene_info.h"
 
 static const vec_box everything = {{{-INFINITY, -INFINITY, -INFINITY}},
                                    {{INFINITY, INFINITY, INFINITY}}};
@@ -36,7 +36,7 @@ bool outline_read(outline *o, const imp_scene *still, const imp_options *options
                   size_t body)
 {
     *o = (outline){.box = vec_box_empty()};
-    o->patch = calloc(patches_count(still, body) + 1, sizeof *o->patch);
+    o->patch = calloc(scene_info_pieces(still, body) + 1, sizeof *o->patch);
     if (o->patch == NULL) return false;
     bool stopped = false;
     for (size_t k = 0; k < imp_scene_surface_count(still, body); ++k)

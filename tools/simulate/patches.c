@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tools/cli/scene_info.h"
+
 #define COORDINATE_MAX 1e50 /* so that fifth powers do not overflow */
 
 /* 0 and 1 are met exactly. */
@@ -44,14 +46,6 @@ shape_verdict patch_grid(const patches *p, size_t index, int cells, vec *at, imp
         if (verdict != SHAPE_FOUND) return verdict;
     }
     return SHAPE_FOUND;
-}
-
-size_t patches_count(const imp_scene *scene, size_t body)
-{
-    size_t count = 0;
-    for (size_t s = 0; s < imp_scene_surface_count(scene, body); ++s)
-        count += imp_scene_piece_count(scene, body, s);
-    return count;
 }
 
 static shape_verdict read_domain(patches *p, imp_place place)
@@ -92,7 +86,7 @@ shape_verdict patches_read(patches *p, const imp_scene *scene, size_t body, doub
                            const limits *end, imp_error *why)
 {
     *p = (patches){.scene = scene, .t = t, .limits = end};
-    p->patch = calloc(patches_count(scene, body) + 1, sizeof *p->patch);
+    p->patch = calloc(scene_info_pieces(scene, body) + 1, sizeof *p->patch);
     if (p->patch == NULL) return SHAPE_NO_MEMORY;
     for (size_t s = 0; s < imp_scene_surface_count(scene, body); ++s)
         for (size_t k = 0; k < imp_scene_piece_count(scene, body, s); ++k) {

@@ -46,9 +46,6 @@ shape_verdict patches_read(patches *p, const imp_scene *scene, size_t body, doub
                            const limits *end, imp_error *why);
 void patches_free(patches *p);
 
-/* How many patches a body has: the pieces of its surfaces. */
-size_t patches_count(const imp_scene *scene, size_t body);
-
 /* Most points that one call evaluates. */
 enum { PATCH_POINTS_MAX = 129 };
 

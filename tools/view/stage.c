@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "tools/cli/scene_info.h"
+
 vec stage_spot_point(const stage *s)
 {
     return vec_scale(0.5, vec_add(s->spot.point[0], s->spot.point[1]));
@@ -27,19 +29,11 @@ static size_t surfaces_of(const stage *s)
     return count;
 }
 
-static size_t pieces_of(const stage *s, size_t body)
-{
-    size_t count = 0;
-    for (size_t k = 0; k < imp_scene_surface_count(s->scene, body); ++k)
-        count += imp_scene_piece_count(s->scene, body, k);
-    return count;
-}
-
 /* Marked lines: some 16 across a body of one piece, fewer across each of many; an even number of
  * steps, so that one line is in the middle, by which patches that join are known. */
 static size_t lines_across(const stage *s, size_t body)
 {
-    const double n = 8 / sqrt((double)pieces_of(s, body));
+    const double n = 8 / sqrt((double)scene_info_pieces(s->scene, body));
     return n < 1 ? 2 : 2 * (size_t)n;
 }
 
@@ -56,7 +50,7 @@ static imp_code measure(stage *s, imp_error *error)
 static imp_code make_body(stage *s, size_t body, mesh_plan *plan, size_t max_cells,
                           imp_error *error)
 {
-    const size_t first = s->count, pieces = pieces_of(s, body);
+    const size_t first = s->count, pieces = scene_info_pieces(s->scene, body);
     imp_code code = IMP_SUCCESS;
     plan->lines = lines_across(s, body);
     plan->max_cells = max_cells / (pieces + (pieces == 0)) + 16;
