@@ -5,7 +5,6 @@
 #include "tools/check/formulas.h"
 
 #include <fenv.h>
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -105,7 +104,7 @@ static bool joined_range(const own_formula *f, int j, long double *lo, long doub
 
 static bool is_near(long double said, double end, double size)
 {
-    return said == end || fabsl(said - end) <= 4 * DBL_EPSILON * (long double)size;
+    return said == end || fabsl(said - end) <= own_end_slack(size);
 }
 
 /* Space is not restricted for maps; times may be infinite. */

@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/common/array.h"
+
 enum { PARTS_MOST = 1 << 16 };
 
 /* --- Its text --------------------------------------------------------------------------------- */
@@ -62,11 +64,12 @@ static char *text_of(const imp_instance *i, check_answer *answer, char *fault, s
 static bool add_part(own_formula *f, const stated_scope *scope, const char *text, char *fault,
                      size_t size)
 {
-    if (f->count % 64 == 0) {
-        own_part *grown = realloc(f->parts, (f->count + 64) * sizeof *grown);
-        if (grown == NULL) return snprintf(fault, size, "memory ran out") < 0;
-        f->parts = grown;
+    own_part *grown = array_reserve(f->parts, f->count, &f->capacity, sizeof *grown);
+    if (grown == NULL) {
+        snprintf(fault, size, "memory ran out");
+        return false;
     }
+    f->parts = grown;
     own_part *part = &f->parts[f->count];
     part->f = stated_scope_read(scope, text, part->range, fault, size);
     f->count += part->f != NULL;
@@ -96,12 +99,13 @@ void own_formula_free(own_formula *f)
     *f = (own_formula){.count = 0};
 }
 
-/* Ends are computed in double precision: those of a domain may differ by this many doubles. */
 #define END_ULPS 4
+
+long double own_end_slack(double size) { return END_ULPS * DBL_EPSILON * (long double)size; }
 
 bool own_range_holds(const formula_range *range, double x, double size)
 {
-    const long double slack = END_ULPS * DBL_EPSILON * (long double)size;
+    const long double slack = own_end_slack(size);
     return !range->is_said || (x >= range->lo.lo - slack && x <= range->hi.hi + slack);
 }
 

@@ -19,7 +19,7 @@ typedef struct own_part {
 
 typedef struct own_formula {
     own_part *parts;
-    size_t count;
+    size_t count, capacity;
 } own_formula;
 
 /* Reads what the instance's type states. count 0: it states nothing, and
@@ -28,6 +28,10 @@ own_formula own_formula_read(const imp_registry *registry, const imp_type_info *
                              const char *stage, const imp_instance *instance, check_answer *answer,
                              char *fault, size_t size);
 void own_formula_free(own_formula *f);
+
+/* By how much ends of a domain may be off: they are computed in double precision. `size`: of the
+ * variable's numbers. */
+long double own_end_slack(double size);
 
 /* Whether the range holds x, ends included; a little beyond them where the ends of the domain are
  * rounded, for a variable whose numbers are of that size. */
