@@ -49,7 +49,6 @@ int edge_passes(const edges *e, size_t i, int k, size_t j);
 #define SEAM_NONE SIZE_MAX
 #define SEAM_EVEN (SIZE_MAX - 1)
 #define SEAM_ODD (SIZE_MAX - 2)
-static inline bool seam_is_pair(size_t partner) { return partner < SEAM_ODD; }
 bool edges_match(const edges *e, size_t *partner);
 
 #endif

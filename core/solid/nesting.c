@@ -11,7 +11,7 @@
 
 /* Lemma. If no point of one shell is on another, the first is wholly on one side of the second,
  * that of any of its points; and a shell with a point outside of another is not wholly inside of
- * it. Where neither can be shown, nothing is told of points in both: whether the one is a cavity of
+ * it. Where neither can be shown, a point in both is not classified: whether the one is a cavity of
  * the other is not known. */
 
 /* --- Do shells intersect? --------------------------------------------------------------------- */

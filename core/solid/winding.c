@@ -33,7 +33,7 @@ typedef struct part {
     int sign;
     unsigned work; /* regions looked at, in this patch */
     imp_error *error;
-    /* of the part at hand: */
+    /* of the current part: */
     double margin; /* points of its polygon are evaluated within this; length */
     bool begun;
     vec3 first, last; /* of the polygon */

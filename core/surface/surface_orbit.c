@@ -10,7 +10,7 @@
 #include "core/surface/region.h"
 
 /* What a symmetry makes of motion and of whole orbits. All maps here are exact rotations and
- * shifts; of others nothing is told. */
+ * shifts; other motions are not bounded. */
 
 /* A symmetry's center and axis as the surface's maps carry them. */
 typedef struct feature {

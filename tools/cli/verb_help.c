@@ -135,9 +135,9 @@ static const option *const tables[] = {options_always, NULL};
 const verb verb_help = {.name = "help",
                         .operands = "[VERB|TOPIC]",
                         .summary = "Show how to use the command, one verb, or a topic",
-                        .details = "Prints the verbs; with VERB, its options and an example that "
-                                   "can be run; with TOPIC, what\n"
-                                   "stands in the list of topics.\n",
+                        .details = "Prints the verbs and the topics; with VERB, its options and an "
+                                   "example that can\n"
+                                   "be run; with TOPIC, that topic.\n",
                         .example = "impinge help pair",
                         .operand_max = 1,
                         .options = tables,

@@ -74,7 +74,7 @@ static void plugin_path(const watching *w, char *path, size_t size)
     snprintf(path, size, "%s/%.*s.so", w->folder, stem, base);
 }
 
-/* Prints the first failure; the rest is told by `impinge check`. */
+/* Prints the first failure; `impinge check` prints all. */
 static void print_failure(const json_t *report)
 {
     const json_t *types = json_object_get(report, "types");
