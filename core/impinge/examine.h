@@ -89,8 +89,9 @@ typedef struct imp_explanation {
 IMP_EXPORT imp_code imp_query_explain(imp_query *query, imp_error *error);
 
 /* Fills *row with the surfaces at `index`, in the order of the scene; false past the last. Of a
- * query that was not asked to count, `tested` is 0 and the obstacles are those of up to 1000 pairs
- * that wait to be searched. */
+ * query that was not asked to count, also of a clearance, `tested` is 0 and the obstacles are those
+ * of up to 1000 pairs that wait to be searched: of a clearance those of the answer that a limit
+ * ended, none once all answers are there. */
 IMP_EXPORT bool imp_query_explanation(const imp_query *query, size_t index, imp_explanation *row);
 
 /* --- Formulas --------------------------------------------------------------------------------- */

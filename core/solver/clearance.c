@@ -440,6 +440,21 @@ clearance_state clearance_look(const clearance_search *c)
                  (m->heap.capacity + c->violation.heap.capacity) * PAIR_HEAP_BYTES};
 }
 
+const pair_heap *clearance_waiting(const clearance_search *c, double *apart)
+{
+    switch (c->stage) {
+    case STAGE_DISTANCE:
+        *apart = min_distance_enough(&c->distance);
+        return &c->distance.heap;
+    case STAGE_VIOLATION:
+        *apart = c->violation.gamma_clear;
+        return &c->violation.heap;
+    case STAGE_NEXT:
+        break;
+    }
+    return NULL;
+}
+
 imp_code clearance_answer(const clearance_search *c, size_t index, imp_reason reason,
                           imp_clearance *answer, imp_error *error)
 {

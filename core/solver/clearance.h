@@ -44,6 +44,10 @@ typedef struct clearance_state {
 } clearance_state;
 clearance_state clearance_look(const clearance_search *c);
 
+/* Returns the pairs of nodes that the current task still has to search, and the distance that would
+ * part them; NULL: no task has begun, or the last has ended. */
+const pair_heap *clearance_waiting(const clearance_search *c, double *apart);
+
 /* Returns the number of tasks; with `each` and `within` it is 0 before clearance_begin. */
 size_t clearance_count(const clearance_search *c);
 

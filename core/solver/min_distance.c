@@ -26,6 +26,8 @@ static double enough(const min_distance *m)
     return m->upper > m->required && part < m->relaxed ? m->relaxed : part;
 }
 
+double min_distance_enough(const min_distance *m) { return enough(m); }
+
 static resolution resolved(const min_distance *m) { return resolution_of(m->upper, enough(m)); }
 
 /* Returns a lower bound of the distances of all pairs that are not on the heap. */

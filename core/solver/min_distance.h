@@ -52,6 +52,9 @@ imp_code min_distance_begin(min_distance *m, size_t first, size_t count, imp_err
 /* Pops one pair and expands it. */
 imp_code min_distance_advance(min_distance *m, min_distance_state *state, imp_error *error);
 
+/* Returns the distance above which pairs are pruned; INFINITY while there is no witness. */
+double min_distance_enough(const min_distance *m);
+
 /* Returns the lower bound proved so far for the surfaces; INFINITY if there are no candidates. */
 double min_distance_lower(const min_distance *m);
 

@@ -22,18 +22,28 @@ imp_code imp_query_explain(imp_query *query, imp_error *error)
 
 enum { PENDING_MOST = 1000 };
 
+/* Returns the pairs that wait, and the distance that would part them; NULL: there is no search. */
+static const pair_heap *waiting(const imp_query *query, double *apart)
+{
+    if (query->clearance != NULL) return clearance_waiting(query->clearance, apart);
+    *apart = query->impact.gamma_clear;
+    return &query->impact.heap;
+}
+
 /* Adds the obstacles of waiting pairs of these two surfaces: of all, or of 1000 spread over the
  * heap. */
 static void explain_pending(const imp_query *query, size_t index, imp_explanation *row)
 {
-    const pair_heap *heap = &query->impact.heap;
+    double apart;
+    const pair_heap *heap = waiting(query, &apart);
+    if (heap == NULL) return;
     const size_t every = heap->count / PENDING_MOST + 1;
     for (size_t k = 0; k < heap->count; k += every) {
         const pair *p = pair_heap_at(heap, k);
         if (p->candidate_pair != index) continue;
         const candidate_pair *both = &query->candidates.pairs[index];
         row->divided += 1;
-        row->by[explanation_of(p, both, query->impact.gamma_clear)] += 1;
+        row->by[explanation_of(p, both, apart)] += 1;
     }
 }
 
@@ -47,7 +57,7 @@ FP_APART static void explain(const imp_query *query, size_t index, imp_explanati
 
 bool imp_query_explanation(const imp_query *query, size_t index, imp_explanation *row)
 {
-    if (query == NULL || row == NULL || query->clearance != NULL) return false;
+    if (query == NULL || row == NULL) return false;
     if (index >= query->candidates.pair_count || !query->candidates.complete) return false;
     const fp_environment environment = fp_environment_enter();
     explain(query, index, row);

@@ -235,6 +235,32 @@ END
     [[ $output == "nearest distance so far "*"the limit of pairs is reached: raise --max-pairs, or --tolerance"* ]]
 }
 
+@test "what a limit ends comes with advice: alone, with a requirement, and of each pair" {
+    eggs=(sphere 'ellipsoid radii=0.97,0.98,0.99 ! rotate axis=1,1,1 rate=0.1')
+    limits=(--max-pairs 200 --tolerance 1e-6)
+    run -3 "$IMPINGE" clearance "${eggs[@]}" "${limits[@]}" --json
+    valid clearance
+    json ".advice | test(\"'ellipsoid'\")"
+    run -3 "$IMPINGE" clearance "${eggs[@]}" "${limits[@]}"
+    [[ ${lines[-1]} == "  advice   "*"'ellipsoid'"* ]]
+    run -3 "$IMPINGE" clearance "${eggs[@]}" --max-pairs 200 --require 0.009999 --json
+    json '.verdict == "undecided" and (.advice | length > 20)'
+    run -3 "$IMPINGE" clearance "${eggs[@]}" "${limits[@]}" --each --json
+    valid clearance
+    json '(has("advice") | not) and (.pairs[0].advice | length > 20)'
+    run -3 "$IMPINGE" clearance "${eggs[@]}" "${limits[@]}" --each
+    [[ ${lines[-1]} == "  advice   a, b: "*"'ellipsoid'"* ]]
+    run -0 "$IMPINGE" clearance "${passing[@]}" --json
+    json 'has("advice") | not'
+}
+
+@test "bodies that are all beyond what was asked for are an answer" {
+    run -0 "$IMPINGE" clearance 'sphere' 'sphere center=9,0,0' --each --within 0.1
+    [[ $output == *'never within 0.1: 1 pairs of bodies'* ]]
+    run -0 "$IMPINGE" clearance 'sphere' 'sphere center=9,0,0' --each --within 0.1 --json
+    json '.reason == "decided" and .beyond == 1'
+}
+
 @test "an interrupt ends it with the bracket so far" {
     interrupted 3 INT "$IMPINGE" clearance "${endless[@]:0:2}" --gamma 1e-12 \
         --tolerance 1e-9 --max-bytes 0 --json

@@ -280,6 +280,22 @@ inside='formula x=0.99*cos(u)*cos(v) y=0.99*sin(u)*cos(v) z=0.99*sin(v) domain=[
     [[ $output == *"nothing to mend"* ]]
 }
 
+@test "undecided pairs of --each, and lines of a batch, come with advice" {
+    formula() { printf '{"type": "formula", "x": "%s*cos(u)*cos(v)", "y": "%s*sin(u)*cos(v)",
+        "z": "%s*sin(v)", "domain": [[0,6.3],[-1.5,1.5]]}' "$1" "$1" "$1" | tr -d '\n'; }
+    printf '{"bodies": [{"name": "a", "surfaces": [%s]}, {"name": "b", "surfaces": [%s]},
+        {"name": "far", "surfaces": [{"type": "sphere", "center": [9,0,0]}]}], "time": [0,1]}' \
+        "$(formula 1)" "$(formula 0.99)" | tr -d '\n' >nested.json
+    limits=(--gamma 1e-3 --max-pairs 300)
+    run -3 "$IMPINGE" solve nested.json --each --json "${limits[@]}"
+    jq -se '(.[0].advice | length > 20) and (.[1:] | all(has("advice") | not))' <<<"$output"
+    run -3 "$IMPINGE" solve nested.json --each "${limits[@]}"
+    [[ ${lines[0]} == undecided* && ${lines[1]} == "  advice   "* && ${lines[2]} == clear* ]]
+    run -3 "$IMPINGE" batch - "${limits[@]}" <nested.json
+    valid result
+    json '.advice | length > 20'
+}
+
 @test "--explain is of one search by models" {
     fails 2 '--explain belongs to --method models' \
         "$IMPINGE" pair "$left" "$right" --explain --method paper

@@ -53,6 +53,18 @@ many() {
     ranks 4 "$mpi" solve crowd.json --each --json | without_seconds | cmp - whole
 }
 
+@test "advice about undecided pairs comes from the rank that has searched them" {
+    egg() { printf '{"name": "%s", "surfaces": [{"type": "ellipsoid", "radii": [1,1,%s]}]}' "$@"; }
+    printf '{"time": [0,1], "bodies": [%s, %s, %s, %s]}' "$(egg a 1)" "$(egg b 0.999)" \
+        "$(egg c 0.998)" "$(egg d 0.997)" >eggs.json
+    limits=(--each --json --gamma 1e-7 --max-pairs 200)
+    run -3 "$IMPINGE" solve eggs.json "${limits[@]}" --threads 1
+    without_seconds <<<"$output" >whole
+    jq -se 'any(.advice)' whole
+    run -3 --separate-stderr ranks 4 "$mpi" solve eggs.json "${limits[@]}"
+    without_seconds <<<"$output" | cmp - whole
+}
+
 @test "a batch by four ranks has the same bytes as by one process, and goes on where it was cut" {
     many 600 >scenes.jsonl # more than two blocks
     run -4 "$IMPINGE" batch scenes.jsonl --resume whole

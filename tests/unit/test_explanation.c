@@ -117,6 +117,49 @@ START_TEST(what_was_not_counted_is_told_of_pairs_that_wait)
 }
 END_TEST
 
+START_TEST(what_a_limit_ends_of_a_clearance_is_told_of_pairs_that_wait)
+{
+    imp_surface_type rates_only = ball_type;
+    rates_only.include = NULL;
+    imp_scene *scene = spheres_scene(&rates_only, &at_rest, &ball_type, &inner);
+    imp_options options = imp_options_default(scene);
+    options.gamma = 1e-9;
+    options.max_pairs = 5000;
+    for (int requires = 0; requires < 2; ++requires) {
+        imp_clearance_options asked = imp_clearance_options_default();
+        imp_explanation row;
+        asked.required = requires * 9.999e-3;
+        asked.decide = requires;
+        imp_query *query = imp_clearance_new(scene, &options, &asked, NULL);
+        ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+        ck_assert_int_eq(imp_query_result(query).reason, IMP_REASON_PAIRS);
+        ck_assert(imp_query_explanation(query, 0, &row));
+        ck_assert(!imp_query_explanation(query, 1, &row));
+        ck_assert(imp_query_explanation(query, 0, &row));
+        ck_assert_uint_eq(row.tested, 0);
+        ck_assert(row.divided > 10 && row.divided <= 1000);
+        ck_assert_uint_eq(sum_of(&row), row.divided);
+        ck_assert_uint_gt(2 * row.by[IMP_OBSTACLE_REMAINDER_A], row.divided);
+        imp_query_free(query);
+    }
+    imp_scene_free(scene);
+}
+END_TEST
+
+START_TEST(nothing_waits_once_a_clearance_is_known)
+{
+    imp_explanation row;
+    imp_scene *scene = spheres_scene(&ball_type, &at_rest, &ball_type, &flying);
+    imp_options options = imp_options_default(scene);
+    imp_query *query = imp_clearance_new(scene, &options, NULL, NULL);
+    ck_assert_int_eq(imp_query_step(query, 0, NULL), IMP_SUCCESS);
+    ck_assert(imp_query_explanation(query, 0, &row));
+    ck_assert_uint_eq(row.divided, 0);
+    imp_query_free(query);
+    imp_scene_free(scene);
+}
+END_TEST
+
 START_TEST(only_a_new_query_for_a_contact_by_models_is_explained)
 {
     imp_error why;
@@ -143,4 +186,6 @@ SUITE_MAIN("explanation", explaining_changes_neither_the_answer_nor_what_it_cost
            a_type_without_inclusions_is_blamed_on_its_side, good_inclusions_are_not_blamed,
            surfaces_that_lie_along_each_other_lack_a_distance,
            what_was_not_counted_is_told_of_pairs_that_wait,
+           what_a_limit_ends_of_a_clearance_is_told_of_pairs_that_wait,
+           nothing_waits_once_a_clearance_is_known,
            only_a_new_query_for_a_contact_by_models_is_explained)

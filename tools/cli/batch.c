@@ -44,7 +44,7 @@ static json_t *error_json(batch_item *item, const imp_error *error)
 
 static json_t *solve_line(const batch *b, batch_item *item)
 {
-    char *name = NULL;
+    char *name = NULL, *advice = NULL;
     imp_error error = {.code = IMP_ERROR_MEMORY};
     imp_result result;
     json_t *answer = NULL;
@@ -53,17 +53,19 @@ static json_t *solve_line(const batch *b, batch_item *item)
         scene = imp_scene_from_json(b->registry, item->text.text, item->text.length, name, &error);
         free(name);
     }
-    if (scene == NULL || query_solve(scene, b->args, &result, &error) != IMP_SUCCESS) {
+    if (scene == NULL || query_solve(scene, b->args, &result, &advice, &error) != IMP_SUCCESS) {
         answer = error_json(item, &error);
     } else {
         item->status = query_status(&result, b->args);
         item->interrupted = result.reason == IMP_REASON_CANCELLED;
         answer = result_json(scene, &result);
-        if (answer != NULL && !result_set_warnings(answer, scene)) {
+        if (answer != NULL &&
+            !(result_set_advice(answer, advice) && result_set_warnings(answer, scene))) {
             json_decref(answer);
             answer = NULL;
         }
     }
+    free(advice);
     imp_scene_free(scene);
     return answer;
 }

@@ -10,9 +10,17 @@
 
 /* Minimum distances, for people and for programs: tools/schema/clearance.schema.json. */
 
+/* Advice about two bodies whose search a limit ended. */
+typedef struct clearance_advice {
+    size_t body[2];
+    char *text;
+} clearance_advice;
+
 /* Answers of one kind: slices, or pairs of bodies; or one. */
 typedef struct clearance_table {
     const imp_scene *scene;
+    const clearance_advice *advice; /* about pairs of bodies, in the order of the scene */
+    size_t advice_count;
     const imp_clearance *answers; /* NULL: they are read from */
     const imp_query *query;       /* this, */
     imp_reason ended;             /* reason of unfinished answers; RUNNING: they continue */
@@ -23,6 +31,9 @@ typedef struct clearance_table {
 
 /* Returns answer k, below the count. */
 imp_clearance clearance_table_get(const clearance_table *table, size_t k);
+
+/* Returns the advice about the answer's bodies; NULL: there is none. */
+const char *clearance_table_advice(const clearance_table *table, const imp_clearance *answer);
 
 /* --each: an answer for each pair of bodies that do not ignore each other, by several threads. */
 typedef struct clearance_each {
@@ -36,16 +47,19 @@ typedef struct clearance_each {
 } clearance_each;
 
 typedef struct clearance_answers {
-    imp_clearance *list; /* in any order; the caller frees it */
+    imp_clearance *list; /* in any order */
     size_t count;
+    clearance_advice *advice; /* in the order of the scene */
+    size_t advice_count;
     size_t beyond;       /* pairs of bodies that never come within `within` */
     size_t not_examined; /* pairs of bodies, because of a limit or a signal */
     bool has_rest;       /* list[count] is for pairs that are not listed */
     imp_stats stats;     /* of all together */
 } clearance_answers;
 
-/* Measures each pair. found->list is freed after an error, too. */
+/* Measures each pair. The caller frees the answers, after an error, too. */
 imp_code clearance_each_run(const clearance_each *of, clearance_answers *found, imp_error *error);
+void clearance_answers_free(clearance_answers *found);
 
 /* "holds", "violated", "undecided"; NULL: nothing was required. */
 const char *clearance_verdict_name(imp_requirement verdict);
@@ -56,6 +70,9 @@ imp_clearance clearance_summary(const clearance_table *table);
 
 /* Whether a limit or a signal ended a search. */
 bool clearance_is_ended(imp_reason reason);
+
+/* Whether it ended before the answer was known. */
+bool clearance_is_undecided(const imp_clearance *answer);
 
 /* Orders answers by their lower bound, the least first; equal ones in the order of the scene. */
 void clearance_sort(imp_clearance *answers, size_t count);

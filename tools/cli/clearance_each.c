@@ -6,17 +6,20 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/common/array.h"
 #include "core/common/clock.h"
 #include "tools/cli/clearance.h"
+#include "tools/cli/explain.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/parts.h"
 
 typedef struct filling {
     const clearance_each *of;
     clearance_answers *found; /* in any order; changed with the lock held */
-    size_t capacity;          /* of its list */
+    size_t capacity;          /* of its list, */
+    size_t advice_capacity;   /* and of its advice */
     pthread_mutex_t lock;
     uint64_t bytes_before;    /* of the divided query */
     atomic_size_t bytes;      /* of the answers that are there */
@@ -44,6 +47,23 @@ static bool add(filling *f, const imp_clearance *answer)
     return true;
 }
 
+/* Adds advice about the bodies of an answer, and takes over its text. Without memory for it there
+ * is no advice. */
+static void add_advice(filling *f, const imp_clearance *answer, char *text)
+{
+    clearance_answers *found = f->found;
+    clearance_advice *grown =
+        array_reserve(found->advice, found->advice_count, &f->advice_capacity, sizeof *grown);
+    if (grown == NULL) {
+        free(text);
+        return;
+    }
+    found->advice = grown;
+    found->advice[found->advice_count++] =
+        (clearance_advice){{answer->body[0], answer->body[1]}, text};
+    atomic_fetch_add(&f->bytes, sizeof *grown + strlen(text) + 1);
+}
+
 static void take(void *context, size_t index, imp_query *part)
 {
     filling *f = context;
@@ -51,7 +71,11 @@ static void take(void *context, size_t index, imp_query *part)
     (void)index;
     imp_clearance_get(part, 0, &answer, NULL);
     const bool is_beyond = f->of->within > 0 && answer.lower >= f->of->within;
+    char *advice = clearance_is_undecided(&answer) && !is_beyond
+                       ? explain_advice(part, answer.reason, explain_goal_of(answer.verdict))
+                       : NULL;
     pthread_mutex_lock(&f->lock);
+    if (advice != NULL) add_advice(f, &answer, advice);
     add_stats(&f->found->stats, &answer.stats);
     if (is_beyond)
         f->found->beyond += 1;
@@ -158,6 +182,30 @@ static imp_code conclude(filling *f, size_t parts)
     return done ? IMP_SUCCESS : IMP_ERROR_MEMORY;
 }
 
+static int by_bodies(const void *x, const void *y)
+{
+    const clearance_advice *a = x, *b = y;
+    const int side = a->body[0] != b->body[0] ? 0 : 1;
+    return a->body[side] < b->body[side] ? -1 : a->body[side] > b->body[side];
+}
+
+const char *clearance_table_advice(const clearance_table *table, const imp_clearance *answer)
+{
+    const clearance_advice key = {{answer->body[0], answer->body[1]}, NULL};
+    if (table->advice_count == 0) return NULL;
+    const clearance_advice *found =
+        bsearch(&key, table->advice, table->advice_count, sizeof key, by_bodies);
+    return found != NULL ? found->text : NULL;
+}
+
+void clearance_answers_free(clearance_answers *found)
+{
+    for (size_t k = 0; k < found->advice_count; ++k) free(found->advice[k].text);
+    free(found->advice);
+    free(found->list);
+    *found = (clearance_answers){.list = NULL};
+}
+
 imp_code clearance_each_run(const clearance_each *of, clearance_answers *found, imp_error *error)
 {
     filling f = {
@@ -174,5 +222,7 @@ imp_code clearance_each_run(const clearance_each *of, clearance_answers *found, 
     f.bytes_before = found->stats.bytes;
     code = parts_run(&plan, error);
     if (code == IMP_SUCCESS) code = error->code = conclude(&f, plan.count);
+    if (found->advice_count > 0)
+        qsort(found->advice, found->advice_count, sizeof *found->advice, by_bodies);
     return code;
 }

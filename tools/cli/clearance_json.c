@@ -95,6 +95,13 @@ json_t *clearance_slice_json(const imp_scene *scene, const imp_clearance *r)
     return checked(object, failed);
 }
 
+static json_t *answer_json(const clearance_table *table, const imp_clearance *answer)
+{
+    json_t *object = clearance_json(table->scene, answer);
+    const char *advice = clearance_table_advice(table, answer);
+    return checked(object, object == NULL || !result_set_advice(object, advice));
+}
+
 exit_status clearance_print_json(json_t *object, const clearance_table *table, bool slices,
                                  const char *verb)
 {
@@ -106,7 +113,7 @@ exit_status clearance_print_json(json_t *object, const clearance_table *table, b
     for (size_t k = 0; k < table->count && !interrupt_came(); ++k) {
         const imp_clearance answer = clearance_table_get(table, k);
         line = output_json_line(slices ? clearance_slice_json(table->scene, &answer)
-                                       : clearance_json(table->scene, &answer));
+                                       : answer_json(table, &answer));
         if (line == NULL) return output_line(line, verb);
         printf("%s%s", k > 0 ? "," : "", line);
         free(line);

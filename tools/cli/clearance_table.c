@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "tools/cli/output.h"
+#include "tools/cli/result.h"
 
 imp_clearance clearance_table_get(const clearance_table *table, size_t k)
 {
@@ -68,6 +69,25 @@ static int verdict_width(const clearance_table *table)
     return width;
 }
 
+/* Prints advice about the first pairs that have some, and how many more have. */
+static void print_advice(const clearance_table *table)
+{
+    enum { ADVICE_PRINTED = 8 };
+    size_t printed = 0;
+    for (size_t k = 0; k < table->count && printed < ADVICE_PRINTED; ++k) {
+        const imp_clearance *r = &table->answers[k];
+        const char *advice = clearance_table_advice(table, r);
+        if (advice == NULL) continue;
+        result_print_label("advice");
+        printf("%s, %s: %s\n", imp_scene_body_name(table->scene, r->body[0]),
+               imp_scene_body_name(table->scene, r->body[1]), advice);
+        printed += 1;
+    }
+    if (printed < table->advice_count)
+        printf("           and about %zu more pairs of bodies (--json)\n",
+               table->advice_count - printed);
+}
+
 /* Columns are padded to the widest text in them; without a requirement there is no verdict. */
 void clearance_print_pairs(const clearance_table *table)
 {
@@ -89,6 +109,7 @@ void clearance_print_pairs(const clearance_table *table)
         printf("%s, %s\n", imp_scene_body_name(table->scene, r->body[0]),
                imp_scene_body_name(table->scene, r->body[1]));
     }
+    print_advice(table);
 }
 
 void clearance_print_csv_head(void) { puts("t0,t1,lower,upper,t,verdict,a,b"); }

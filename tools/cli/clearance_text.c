@@ -40,6 +40,12 @@ bool clearance_is_ended(imp_reason reason)
            result_reason_of_none(reason) == NULL;
 }
 
+bool clearance_is_undecided(const imp_clearance *r)
+{
+    return r->verdict == IMP_REQUIREMENT_UNDECIDED ||
+           (r->verdict == IMP_REQUIREMENT_NONE && clearance_is_ended(r->reason));
+}
+
 static bool is_decided_only(const imp_clearance *r) { return r->reason == IMP_REASON_DECIDED; }
 
 static bool is_first_violation_known(const imp_clearance *r) { return !isnan(r->t_violated); }

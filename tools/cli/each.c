@@ -23,6 +23,7 @@ static void take(void *context, size_t index, imp_query *part)
 {
     const each *e = context;
     e->answers[index] = imp_query_result(part);
+    e->advice[index] = query_advice(part);
 }
 
 static bool is_over(void *context)
@@ -51,13 +52,17 @@ exit_status each_begin(each *e, imp_scene *scene, const arguments *args, size_t 
         imp_query_divide(e->plan.whole, &e->plan.count, &error) != IMP_SUCCESS)
         return complain_of(&error, args->verb->name);
     e->answers = calloc(e->plan.count + 1, sizeof *e->answers);
-    return e->answers != NULL ? EXIT_ANSWERED : complain_of_memory(args->verb->name);
+    e->advice = calloc(e->plan.count + 1, sizeof *e->advice);
+    return e->answers != NULL && e->advice != NULL ? EXIT_ANSWERED
+                                                   : complain_of_memory(args->verb->name);
 }
 
 void each_end(each *e)
 {
-    imp_query_free(e->plan.whole);
+    for (size_t k = 0; e->advice != NULL && k < e->plan.count; ++k) free(e->advice[k]);
+    free(e->advice);
     free(e->answers);
+    imp_query_free(e->plan.whole);
 }
 
 /* --- Lines ------------------------------------------------------------------------------------ */
@@ -76,12 +81,20 @@ struct printing {
     imp_result unknown; /* of a part that was not examined */
     char **names;       /* of bodies, as JSON */
     char *head, *tail;
-    size_t *waiting; /* parts whose answers have not come */
-    timed *order;    /* answers that are not clear, by time; the first `shown` are printed */
+    const char *advised; /* the last advice printed as text */
+    size_t *waiting;     /* parts whose answers have not come */
+    timed *order;        /* answers that are not clear, by time; the first `shown` are printed */
     size_t waiting_count, count, shown, lines;
     size_t clear, unexamined; /* pairs of bodies without a line */
     exit_status worst, status;
 };
+
+/* Returns the advice about the part that has this answer, or NULL. */
+static const char *advice_of(const each *e, const imp_result *r)
+{
+    const printing *p = e->printing;
+    return r != &p->rest && r != &p->unknown ? e->advice[r - e->answers] : NULL;
+}
 
 static json_t *line_json(const each *e, const imp_result *r, json_t *names)
 {
@@ -89,6 +102,7 @@ static json_t *line_json(const each *e, const imp_result *r, json_t *names)
     int failed = json_object_set_new(object, "scene", query_scene_json(e->args));
     failed |= json_object_set_new(object, "bodies", names);
     failed |= json_object_set_new(object, "at_rest", json_boolean(r->at_rest));
+    failed |= object == NULL || !result_set_advice(object, advice_of(e, r));
     if (!failed) return object;
     json_decref(object);
     return NULL;
@@ -120,18 +134,29 @@ static void print_text(const imp_scene *scene, const imp_result *r, size_t a, si
     printf(": %s, %s\n", imp_scene_body_name(scene, a), imp_scene_body_name(scene, b));
 }
 
+/* Prints advice under its line, once where lines that follow each other have the same. */
+static void print_advice(printing *p, const char *advice)
+{
+    if (advice == NULL || (p->advised != NULL && strcmp(p->advised, advice) == 0)) return;
+    result_print_label("advice");
+    puts(advice);
+    p->advised = advice;
+}
+
 static exit_status print_line(printing *p, const imp_result *r, size_t a, size_t b)
 {
     enum { LINES_TO_FLUSH = 256 };
     exit_status status = query_status(r, p->e->args);
     if (status > p->worst) p->worst = status;
     status = EXIT_ANSWERED;
-    if (!p->json)
+    if (!p->json) {
         print_text(p->e->scene, r, a, b);
-    else if (r == &p->rest)
+        print_advice(p, advice_of(p->e, r));
+    } else if (r == &p->rest) {
         printf("%s[%s,%s]%s\n", p->head, p->names[a], p->names[b], p->tail);
-    else
+    } else {
         status = print_json(p, r, a, b);
+    }
     if (status == EXIT_ANSWERED && ++p->lines % LINES_TO_FLUSH == 0)
         status = output_flush(p->e->args->verb->name);
     return status;

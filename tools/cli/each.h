@@ -23,6 +23,7 @@ typedef struct each {
     double until; /* seconds of the clock: the limit of time; INFINITY: none */
     parts_plan plan;
     imp_result *answers; /* of the parts; all bytes 0: not there yet */
+    char **advice;       /* about undecided ones; NULL: there is none */
     printing *printing;  /* while it lasts */
 } each;
 

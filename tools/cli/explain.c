@@ -60,7 +60,22 @@ static void advise_on_remainder(const imp_explanation *row, int side, int part, 
                  type, part, type);
 }
 
-static void advise_on(const imp_explanation *row, imp_obstacle worst, explanation *e)
+/* What helps if no surface can be improved. */
+static const struct resort {
+    const char *resolution, *size;
+} resorts[] = {
+    [EXPLAIN_CONTACT] = {"raise --gamma, or lower --gamma-clear: the room between the two is near "
+                         "the rounding errors",
+                         "a larger --gamma takes fewer pairs"},
+    [EXPLAIN_DISTANCE] = {"raise --tolerance: the bracket is near the rounding errors",
+                          "a larger --tolerance takes fewer pairs"},
+    [EXPLAIN_REQUIREMENT] = {"require a little more or less: the distance is within rounding "
+                             "errors of what is required",
+                             "a smaller --require takes fewer pairs"},
+};
+
+static void advise_on(const imp_explanation *row, imp_obstacle worst, explain_goal goal,
+                      explanation *e)
 {
     const int side = kinds[worst].side;
     const bool is_one_type = strcmp(row->type[0], row->type[1]) == 0;
@@ -90,14 +105,14 @@ static void advise_on(const imp_explanation *row, imp_obstacle worst, explanatio
                  is_one_type ? "" : "'");
         break;
     case CAUSE_RESOLUTION:
-        snprintf(e->advice, sizeof e->advice,
-                 "raise --gamma, or lower --gamma-clear: the room between the two is near the "
-                 "rounding errors");
+        snprintf(e->advice, sizeof e->advice, "%s", resorts[goal].resolution);
         break;
     case CAUSE_SIZE:
         snprintf(e->advice, sizeof e->advice,
-                 "no bound is to blame: the surfaces come near each other in many places; a larger "
-                 "--gamma takes fewer pairs");
+                 "no bound of '%s'%s%s%s is to blame: the surfaces come near each other in many "
+                 "places; %s",
+                 row->type[0], is_one_type ? "" : " or '", is_one_type ? "" : row->type[1],
+                 is_one_type ? "" : "'", resorts[goal].size);
         break;
     }
 }
@@ -117,15 +132,19 @@ static imp_obstacle worst_of(const imp_explanation *row)
 /* Fewer pairs than these are no cost, or too few to judge by. */
 enum { TESTED_FEW = 200, WAITING_FEW = 16 };
 
-static void advise(imp_reason why, explanation *e)
+static void advise(imp_reason why, explain_goal goal, explanation *e)
 {
     const imp_explanation *row = &e->row[0];
     const bool is_resolution = why == IMP_REASON_RESOLUTION;
+    if (is_resolution && goal != EXPLAIN_CONTACT) { /* whose pairs are not kept */
+        snprintf(e->advice, sizeof e->advice, "%s", resorts[goal].resolution);
+        return;
+    }
     if (e->count == 0 || (!is_resolution && !e->is_counted && row->divided < WAITING_FEW)) return;
     if (!is_resolution && e->is_counted && row->tested < TESTED_FEW)
         snprintf(e->advice, sizeof e->advice, "these are few pairs: there is nothing to mend");
     else
-        advise_on(row, is_resolution ? IMP_OBSTACLE_RESOLUTION : worst_of(row), e);
+        advise_on(row, is_resolution ? IMP_OBSTACLE_RESOLUTION : worst_of(row), goal, e);
 }
 
 /* --- Reading ---------------------------------------------------------------------------------- */
@@ -143,7 +162,7 @@ static int by_divided(const void *x, const void *y)
     return 0;
 }
 
-bool explain_query(const imp_query *query, imp_reason why, explanation *e)
+bool explain_query(const imp_query *query, imp_reason why, explain_goal goal, explanation *e)
 {
     imp_explanation row;
     size_t room = 0;
@@ -160,7 +179,7 @@ bool explain_query(const imp_query *query, imp_reason why, explanation *e)
         e->row[e->count++] = row;
     }
     if (e->count > 0) qsort(e->row, e->count, sizeof *e->row, by_divided);
-    advise(why, e);
+    advise(why, goal, e);
     return true;
 }
 
@@ -168,6 +187,20 @@ void explain_free(explanation *e)
 {
     free(e->row);
     *e = (explanation){.row = NULL};
+}
+
+char *explain_advice(const imp_query *query, imp_reason why, explain_goal goal)
+{
+    explanation e;
+    if (!explain_query(query, why, goal, &e)) return NULL;
+    char *advice = e.advice[0] != '\0' ? strdup(e.advice) : NULL;
+    explain_free(&e);
+    return advice;
+}
+
+explain_goal explain_goal_of(imp_requirement verdict)
+{
+    return verdict == IMP_REQUIREMENT_NONE ? EXPLAIN_DISTANCE : EXPLAIN_REQUIREMENT;
 }
 
 /* --- For people ------------------------------------------------------------------------------- */
@@ -243,8 +276,7 @@ bool explain_set_json(json_t *object, const imp_scene *scene, const explanation 
     for (size_t k = 0; kept && k < e->count; ++k)
         kept = json_array_append_new(list, row_json(scene, &e->row[k])) == 0;
     if (kept && e->is_counted) kept = json_object_set(object, "explanation", list) == 0;
-    if (kept && e->advice[0] != '\0')
-        kept = json_object_set_new(object, "advice", output_json_text(e->advice)) == 0;
+    kept = kept && result_set_advice(object, e->advice[0] != '\0' ? e->advice : NULL);
     json_decref(list);
     return kept;
 }

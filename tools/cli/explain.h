@@ -9,16 +9,32 @@
 /* Where the pairs of a search went, and what would help
  * ===================================================== */
 
+/* What a query asks for, which decides what else would help. */
+typedef enum explain_goal {
+    EXPLAIN_CONTACT,
+    EXPLAIN_DISTANCE,   /* a bracket */
+    EXPLAIN_REQUIREMENT /* a verdict about a distance */
+} explain_goal;
+
+enum { EXPLAIN_ADVICE_BYTES = 512 };
+
 typedef struct explanation {
     imp_explanation *row; /* surfaces whose pairs were divided, those with most first */
     size_t count;
-    bool is_counted; /* of the whole search; else of pairs that wait */
-    char advice[512];
-} explanation; /* explain_free frees */
+    bool is_counted;                   /* of the whole search; else of pairs that wait */
+    char advice[EXPLAIN_ADVICE_BYTES]; /* one sentence; empty: nothing is known to help */
+} explanation;                         /* explain_free frees */
 
 /* Reads a query's counts; `why` is its result's reason. False: no memory. */
-bool explain_query(const imp_query *query, imp_reason why, explanation *e);
+bool explain_query(const imp_query *query, imp_reason why, explain_goal goal, explanation *e);
 void explain_free(explanation *e);
+
+/* Returns the advice about a query, which the caller frees; NULL: there is none, or no memory. [any
+ * thread] */
+char *explain_advice(const imp_query *query, imp_reason why, explain_goal goal);
+
+/* Returns what the clearance asks for: its answers have this verdict. */
+explain_goal explain_goal_of(imp_requirement verdict);
 
 /* Prints the table, then the advice, each with a label. Without counts there is no table. */
 void explain_print(const imp_scene *scene, const explanation *e);

@@ -164,19 +164,23 @@ void query_lend_threads(imp_options *options, crew *c)
     options->parallel_context = c;
 }
 
-static imp_code solve(imp_scene *scene, const imp_options *options, imp_result *result,
-                      imp_error *error)
+imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result, char **advice,
+                     imp_error *error)
 {
-    *result = (imp_result){.struct_size = (uint32_t)sizeof *result};
-    const imp_code code = imp_scene_solve(scene, options, result, error);
-    progress_wipe();
+    const imp_options options = query_options(scene, args);
+    imp_query *query = imp_query_new(scene, &options, error);
+    if (query == NULL) return error->code;
+    const imp_code code = query_run(query, result, error);
+    if (code == IMP_SUCCESS && advice != NULL) *advice = query_advice(query);
+    imp_query_free(query);
     return code;
 }
 
-imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result, imp_error *error)
+char *query_advice(const imp_query *query)
 {
-    const imp_options options = query_options(scene, args);
-    return solve(scene, &options, result, error);
+    const imp_result result = imp_query_result(query);
+    if (result.verdict != IMP_VERDICT_UNDECIDED) return NULL;
+    return explain_advice(query, result.reason, EXPLAIN_CONTACT);
 }
 
 size_t query_threads_asked(const arguments *args)
@@ -242,7 +246,8 @@ exit_status query_print(const imp_scene *scene, const imp_query *query, const im
     explanation why;
     if (!is_asked && result->verdict != IMP_VERDICT_UNDECIDED)
         return print(scene, result, NULL, args);
-    if (!explain_query(query, result->reason, &why)) return complain_of_memory(args->verb->name);
+    if (!explain_query(query, result->reason, EXPLAIN_CONTACT, &why))
+        return complain_of_memory(args->verb->name);
     const exit_status status = print(scene, result, &why, args);
     explain_free(&why);
     return status;

@@ -37,8 +37,13 @@ exit_status query_check_times(const imp_scene *scene, const imp_options *options
 imp_code query_run(imp_query *query, imp_result *result, imp_error *error);
 
 /* Solves the scene with these options, which override the scene's. A signal ends it early: then the
- * result is UNDECIDED, CANCELLED. */
-imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result, imp_error *error);
+ * result is UNDECIDED, CANCELLED. *advice is set to query_advice; `advice` may be NULL. */
+imp_code query_solve(imp_scene *scene, const arguments *args, imp_result *result, char **advice,
+                     imp_error *error);
+
+/* Returns a sentence of advice about an undecided query for contact, which the caller frees; NULL:
+ * there is none, or no memory. [any thread] */
+char *query_advice(const imp_query *query);
 
 /* Returns the number of --threads; without it, or with 0, the number of processors that this
  * process may use. */

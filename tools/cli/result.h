@@ -15,6 +15,9 @@ void result_print(const imp_scene *scene, const imp_result *result);
 /* Returns one object that follows tools/schema/result.schema.json. NULL: no memory. */
 json_t *result_json(const imp_scene *scene, const imp_result *result);
 
+/* Adds "advice" unless it is NULL. False: no memory. */
+bool result_set_advice(json_t *object, const char *advice);
+
 /* Adds "warnings", the remarks of types (imp_scene_remark), if there are any. False: no memory. */
 bool result_set_warnings(json_t *object, const imp_scene *scene);
 

@@ -91,6 +91,11 @@ static json_t *remark_json(const imp_scene *scene, const imp_remark *r)
                      "count", (json_int_t)r->count, "text", output_json_text(r->text));
 }
 
+bool result_set_advice(json_t *object, const char *advice)
+{
+    return advice == NULL || json_object_set_new(object, "advice", output_json_text(advice)) == 0;
+}
+
 bool result_set_warnings(json_t *object, const imp_scene *scene)
 {
     imp_remark r = {.struct_size = (uint32_t)sizeof r};

@@ -9,6 +9,7 @@
 
 #include "core/common/clock.h"
 #include "tools/cli/clearance.h"
+#include "tools/cli/explain.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/output.h"
 #include "tools/cli/proof_output.h"
@@ -30,6 +31,7 @@ typedef struct measuring {
     double printing; /* seconds that slices have taken to print */
     clearance_table table;
     size_t beyond, not_examined; /* pairs of bodies of --each */
+    explanation why;             /* of one search that is undecided; else empty */
     imp_stats stats;
 } measuring;
 
@@ -203,6 +205,7 @@ static json_t *whole_json(const measuring *m, const imp_clearance *all)
         failed |=
             json_object_set_new(object, "not_examined", json_integer((json_int_t)m->not_examined));
     if (object != NULL) failed |= !result_set_warnings(object, m->scene);
+    if (object != NULL) failed |= !explain_set_json(object, m->scene, &m->why);
     if (!failed) return object;
     json_decref(object);
     return NULL;
@@ -210,19 +213,8 @@ static json_t *whole_json(const measuring *m, const imp_clearance *all)
 
 static exit_status status_of(const imp_clearance *all)
 {
-    switch (all->verdict) {
-    case IMP_REQUIREMENT_VIOLATED:
-        return EXIT_CONTACT;
-    case IMP_REQUIREMENT_UNDECIDED:
-        return EXIT_UNDECIDED;
-    case IMP_REQUIREMENT_HOLDS:
-        return EXIT_ANSWERED;
-    case IMP_REQUIREMENT_NONE:
-        break;
-    }
-    const bool answered = all->reason == IMP_REASON_NONE || all->reason == IMP_REASON_NO_PAIRS ||
-                          all->reason == IMP_REASON_NO_TIME;
-    return answered ? EXIT_ANSWERED : EXIT_UNDECIDED;
+    if (all->verdict == IMP_REQUIREMENT_VIOLATED) return EXIT_CONTACT;
+    return clearance_is_undecided(all) ? EXIT_UNDECIDED : EXIT_ANSWERED;
 }
 
 static exit_status print(const measuring *m, const imp_clearance *all)
@@ -233,6 +225,7 @@ static exit_status print(const measuring *m, const imp_clearance *all)
     if (m->json) return output_json(whole_json(m, all), speaker);
     if (m->profile) return EXIT_ANSWERED;
     clearance_print(m->scene, all, m->options.gamma);
+    explain_print(m->scene, &m->why);
     if (m->each && m->table.count > 0) clearance_print_pairs(&m->table);
     if (m->beyond > 0)
         printf("never within %.10g: %zu pairs of bodies\n", m->asked.within, m->beyond);
@@ -266,12 +259,24 @@ static exit_status measure_each(measuring *m)
     m->beyond = found.beyond, m->not_examined = found.not_examined, m->stats = found.stats;
     clearance_sort(found.list, found.count);
     m->table.answers = found.list, m->table.count = found.count;
+    m->table.advice = found.advice, m->table.advice_count = found.advice_count;
     clearance_table told = m->table;
     told.count += found.has_rest;
     const exit_status status =
         code == IMP_SUCCESS ? conclude(m, &told) : complain_of(&error, m->args->verb->name);
-    free(found.list);
+    clearance_answers_free(&found);
     return status;
+}
+
+/* Keeps the advice about a search that a limit ended. */
+static exit_status explain(measuring *m)
+{
+    const imp_clearance all = m->table.count > 0 ? clearance_summary(&m->table) : nothing(m);
+    const explain_goal goal = explain_goal_of(all.verdict);
+    if (!clearance_is_undecided(&all)) return EXIT_ANSWERED;
+    return explain_query(m->query, all.reason, goal, &m->why)
+               ? EXIT_ANSWERED
+               : complain_of_memory(m->args->verb->name);
 }
 
 static exit_status measure(measuring *m)
@@ -280,7 +285,10 @@ static exit_status measure(measuring *m)
     exit_status status = run_query(m);
     m->stats = imp_query_result(m->query).stats;
     if (status == EXIT_ANSWERED) status = proof_output_write(m->query, m->scene, m->args);
-    return status == EXIT_ANSWERED ? conclude(m, &m->table) : status;
+    if (status == EXIT_ANSWERED) status = explain(m);
+    if (status == EXIT_ANSWERED) status = conclude(m, &m->table);
+    explain_free(&m->why);
+    return status;
 }
 
 static exit_status measure_scene(imp_scene *scene, const arguments *args)

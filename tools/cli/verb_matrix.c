@@ -79,7 +79,8 @@ static void solve(matrix *m, const char *a, const char *b, tally *t)
     imp_error error = {0};
     imp_result result;
     imp_scene *scene = imp_scene_from_pair(m->registry, a, b, &error);
-    const bool good = scene != NULL && query_solve(scene, m->args, &result, &error) == IMP_SUCCESS;
+    const bool good =
+        scene != NULL && query_solve(scene, m->args, &result, NULL, &error) == IMP_SUCCESS;
     if (good) {
         count(t, &result);
         tell_cell(m, a, b, &result);

@@ -2,9 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 #include <config.h>
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "tools/cli/each.h"
+#include "tools/cli/explain.h"
 #include "tools/cli/interrupt.h"
 #include "tools/cli/query.h"
 #include "tools/cli/verbs.h"
@@ -22,16 +25,45 @@ static int64_t solve_parts(const each *e, ranks_counter *counter, imp_error *err
     return count;
 }
 
-/* Each answer is there on one rank, and all bytes 0 on the others. */
-static void gather(each *e)
+/* Gathers on the first rank bytes that are 0 on all ranks but one. */
+static void gather_bytes(void *bytes, size_t count)
+{
+    const bool first = ranks_own() == FIRST_RANK;
+    MPI_Reduce(first ? MPI_IN_PLACE : bytes, first ? bytes : NULL, (int)count, MPI_BYTE, MPI_BOR,
+               FIRST_RANK, MPI_COMM_WORLD);
+}
+
+static void gather_answers(each *e)
 {
     enum { AT_ONCE = 4096 };
-    const bool first = ranks_own() == FIRST_RANK;
     for (size_t k = 0; k < e->plan.count; k += AT_ONCE) {
         const size_t left = e->plan.count - k;
-        const size_t bytes = (left < AT_ONCE ? left : AT_ONCE) * sizeof *e->answers;
-        MPI_Reduce(first ? MPI_IN_PLACE : e->answers + k, first ? e->answers + k : NULL, (int)bytes,
-                   MPI_BYTE, MPI_BOR, FIRST_RANK, MPI_COMM_WORLD);
+        gather_bytes(e->answers + k, (left < AT_ONCE ? left : AT_ONCE) * sizeof *e->answers);
+    }
+}
+
+static bool is_any_advised(const each *e)
+{
+    int own = 0, any = 0;
+    for (size_t k = 0; k < e->plan.count; ++k) own = own || e->advice[k] != NULL;
+    MPI_Allreduce(&own, &any, 1, MPI_INT, MPI_LOR, MPI_COMM_WORLD);
+    return any;
+}
+
+static void gather_advice(each *e)
+{
+    enum { AT_ONCE = 128 };
+    char texts[AT_ONCE][EXPLAIN_ADVICE_BYTES];
+    if (!is_any_advised(e)) return;
+    for (size_t from = 0; from < e->plan.count; from += AT_ONCE) {
+        const size_t left = e->plan.count - from, count = left < AT_ONCE ? left : AT_ONCE;
+        char **advice = e->advice + from;
+        memset(texts, 0, sizeof texts);
+        for (size_t k = 0; k < count; ++k)
+            if (advice[k] != NULL) snprintf(texts[k], sizeof texts[k], "%s", advice[k]);
+        gather_bytes(texts, count * sizeof *texts);
+        for (size_t k = 0; k < count; ++k)
+            if (advice[k] == NULL && texts[k][0] != '\0') advice[k] = strdup(texts[k]);
     }
 }
 
@@ -67,7 +99,8 @@ static exit_status solve_and_print(each *e)
     ranks_counter_close(&counter);
     const exit_status status = complain_of_first(e, failed, &error);
     if (status != EXIT_ANSWERED) return status;
-    gather(e);
+    gather_answers(e);
+    gather_advice(e);
     return ranks_own() == FIRST_RANK ? each_print(e) : EXIT_ANSWERED;
 }
 
