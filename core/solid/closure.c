@@ -24,12 +24,12 @@ FP_APART static imp_code find_closure(const imp_scene *scene, size_t body, doubl
 {
     patches p;
     shells found = {0};
-    imp_code code = patches_read(&p, scene, body, t, error);
-    if (code == IMP_SUCCESS) code = shells_find(&found, &p, slack, watch, closure, error);
+    imp_code code = solid_patches_read(&p, scene, body, t, error);
+    if (code == IMP_SUCCESS) code = solid_shells_find(&found, &p, slack, watch, closure, error);
     if (code == IMP_SUCCESS && facing != NULL && closure->verdict == IMP_CLOSURE_CLOSED)
         memcpy(facing, found.facing, p.count * sizeof *facing);
-    shells_free(&found);
-    patches_free(&p);
+    solid_shells_free(&found);
+    solid_patches_free(&p);
     return code;
 }
 

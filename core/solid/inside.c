@@ -207,12 +207,12 @@ static imp_code look_into(inside_search *s, size_t outer, size_t inner, double t
 {
     patches p;
     components parts = {0};
-    imp_code code = patches_read(&p, s->plan.scene, inner, t, error);
+    imp_code code = solid_patches_read(&p, s->plan.scene, inner, t, error);
     if (code == IMP_SUCCESS) code = components_find(&parts, &p, s->plan.gamma_clear, error);
     const holding h = {s, outer, inner, t, &p, &parts, error};
     if (code == IMP_SUCCESS) code = judge_components(&h, box, answer);
     components_free(&parts);
-    patches_free(&p);
+    solid_patches_free(&p);
     return code;
 }
 

@@ -101,7 +101,8 @@ static imp_code measure(patches *p, imp_error *error)
     return IMP_SUCCESS;
 }
 
-imp_code patches_read(patches *p, const imp_scene *scene, size_t body, double t, imp_error *error)
+imp_code solid_patches_read(patches *p, const imp_scene *scene, size_t body, double t,
+                            imp_error *error)
 {
     const size_t surfaces = scene_surface_count(scene, body);
     size_t count = 0;
@@ -124,7 +125,7 @@ imp_code patches_read(patches *p, const imp_scene *scene, size_t body, double t,
     return p->bounded ? measure(p, error) : IMP_SUCCESS;
 }
 
-void patches_free(patches *p)
+void solid_patches_free(patches *p)
 {
     free(p->patch);
     *p = (patches){0};

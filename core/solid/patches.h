@@ -37,8 +37,9 @@ typedef struct patches {
 } patches;
 
 /* Lists the patches; free them in any case. Fails with IMP_ERROR_MEMORY, or as surface_eval. */
-imp_code patches_read(patches *p, const imp_scene *scene, size_t body, double t, imp_error *error);
-void patches_free(patches *p);
+imp_code solid_patches_read(patches *p, const imp_scene *scene, size_t body, double t,
+                            imp_error *error);
+void solid_patches_free(patches *p);
 
 /* Evaluates n points (u, v) of a patch, at most PATCH_POINTS_MAX. `errors` may be NULL, or takes
  * bounds of each point's distance from the exact one; length. Fails as the plugin does. */

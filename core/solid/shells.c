@@ -168,8 +168,8 @@ static imp_code find_within(shells *s, const patches *p, double slack, const pat
 
 #define FINE_SLACK 1e-9 /* part of the body's size within which points are the same */
 
-imp_code shells_find(shells *s, const patches *p, double slack, const patch_watch *watch,
-                     imp_closure *closure, imp_error *error)
+imp_code solid_shells_find(shells *s, const patches *p, double slack, const patch_watch *watch,
+                           imp_closure *closure, imp_error *error)
 {
     const double fine = FINE_SLACK * p->size;
     *s = (shells){.facing = calloc(p->count + 1, sizeof *s->facing)};
@@ -184,7 +184,7 @@ imp_code shells_find(shells *s, const patches *p, double slack, const patch_watc
     return code;
 }
 
-void shells_free(shells *s)
+void solid_shells_free(shells *s)
 {
     free(s->facing);
     *s = (shells){0};

@@ -25,9 +25,10 @@ typedef struct shells {
 
 /* Tries edges within 1e-9 of the body's size first, then within `slack` if that is larger: small
  * patches keep their edges where a fine slack closes the body. *closure becomes the answer; if it
- * is not CLOSED, shells are known as far as edges were found. Call shells_free in any case. */
-imp_code shells_find(shells *s, const patches *p, double slack, const patch_watch *watch,
-                     imp_closure *closure, imp_error *error);
-void shells_free(shells *s);
+ * is not CLOSED, shells are known as far as edges were found. Call solid_shells_free in any
+ * case. */
+imp_code solid_shells_find(shells *s, const patches *p, double slack, const patch_watch *watch,
+                           imp_closure *closure, imp_error *error);
+void solid_shells_free(shells *s);
 
 #endif

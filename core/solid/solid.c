@@ -22,7 +22,7 @@ imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
     *made = s;
     if (s == NULL) return error_set_memory(error);
     *s = (solid){.scene = scene, .body = body, .watch = watch, .slack = slack};
-    const imp_code code = patches_read(&s->patches, scene, body, t, error);
+    const imp_code code = solid_patches_read(&s->patches, scene, body, t, error);
     if (code == IMP_SUCCESS && s->patches.count > 0) return code;
     solid_free(s);
     *made = NULL;
@@ -32,8 +32,8 @@ imp_code solid_new(const imp_scene *scene, size_t body, double t, double slack,
 void solid_free(solid *s)
 {
     if (s == NULL) return;
-    patches_free(&s->patches);
-    shells_free(&s->shells);
+    solid_patches_free(&s->patches);
+    solid_shells_free(&s->shells);
     free(s->boxes);
     free(s);
 }
@@ -93,10 +93,11 @@ static imp_code make_boxes(solid *s, imp_error *error)
 static imp_code read_shells(solid *s, imp_error *error)
 {
     if (s->is_read) return IMP_SUCCESS;
-    shells_free(&s->shells);
+    solid_shells_free(&s->shells);
     free(s->boxes);
     s->boxes = NULL;
-    imp_code code = shells_find(&s->shells, &s->patches, s->slack, s->watch, &s->closure, error);
+    imp_code code =
+        solid_shells_find(&s->shells, &s->patches, s->slack, s->watch, &s->closure, error);
     if (code == IMP_SUCCESS && s->patches.bounded) code = make_boxes(s, error);
     s->is_read = code == IMP_SUCCESS && s->closure.verdict != IMP_CLOSURE_STOPPED;
     return code;

@@ -427,6 +427,15 @@ packaged_symbols() { sed -n 's/^ \([^ @]*\)@Base .*/\1/p' "$1/tools/debian/libim
     [[ $output == *'< imp_sum' ]]
 }
 
+# The programs of tests/fuzz link the library and the command as archives.
+@test "no function of the command has the name of one of the library" {
+    functions_of() { nm -g --defined-only "$@" | awk '$2 == "T" { print $3 }' | sort; }
+    [ "$(functions_of "$top_builddir"/tools/libtools.a | wc -l)" -ge 100 ]
+    run comm -12 <(functions_of "$top_builddir"/core/.libs/libcore.a) \
+        <(functions_of "$top_builddir"/tools/libtools.a "$top_builddir"/tools/.libs/libproof.a)
+    [ -z "$output" ]
+}
+
 @test "each plugin exports one symbol and needs nothing of core" {
     local so count=0
     for so in "$top_builddir"/plugins/.libs/*.so; do
